@@ -1,1 +1,34 @@
-//! placeholder until the next commit
+//! The numerics of motiform: scalars, vector fields, steppers, events, outcomes.
+//!
+//! Nothing here knows a model, a file or a command line. The layers inside, from the bottom:
+//! * [`scalar`]: one equation, three scalars (`f64`, lanes, duals);
+//! * [`vector_field`], [`model`]: what moves;
+//! * [`steppers`]: explicit Runge-Kutta methods as data, and the one step that runs them all;
+//! * [`Orbit`]: one initial-value problem, step by step, with error control, dense output and exact re-steps;
+//! * [`drive`]: the loop with samples, [`section`]s, a budget and an escape bound, ending in an [`Outcome`].
+
+pub mod conformance;
+mod control;
+pub mod drive;
+mod error;
+pub mod escape;
+mod interpolant;
+pub mod model;
+pub mod orbit;
+mod outcome;
+pub mod scalar;
+pub mod section;
+pub mod steppers;
+mod trajectory;
+pub mod vector_field;
+
+pub use control::StepControl;
+pub use drive::{Request, Sink};
+pub use error::Error;
+pub use model::{InPlane, Model, Outline, Shape};
+pub use orbit::Orbit;
+pub use outcome::Outcome;
+pub use scalar::{Complex, Dual, Lanes, Scalar};
+pub use section::{Direction, Section};
+pub use trajectory::{CrossingPoint, Trajectory};
+pub use vector_field::{Semilinear, System, VectorField};

@@ -1,0 +1,114 @@
+//! Checks that every vector field and model must pass; called for every implementation by the tests.
+//!
+//! Each returns the largest defect found, so that the caller states the tolerance.
+
+use crate::{Dual, Lanes, Model, Semilinear, VectorField};
+
+/// Largest difference between `eval` on clean and on dirty output, and between two calls: a field must be pure.
+pub fn purity_defect<F: VectorField<f64> + ?Sized>(field: &F, u: &[f64]) -> f64 {
+    let (mut first, mut second) = (vec![0.0; u.len()], vec![f64::NAN; u.len()]);
+    field.eval(0.0, u, &mut first);
+    field.eval(0.0, u, &mut second);
+    largest_difference(&first, &second)
+}
+
+/// Number of lanes whose bits differ from the `f64` evaluation of the same state.
+pub fn lane_mismatches<const N: usize, F, G>(field: &F, lanes_field: &G, states: &[Vec<f64>; N]) -> usize
+where
+    F: VectorField<f64>,
+    G: VectorField<Lanes<N>>,
+{
+    let dim = field.dim();
+    let bundle: Vec<Lanes<N>> =
+        (0..dim).map(|i| Lanes(std::array::from_fn(|lane| states[lane][i]))).collect();
+    let mut rates = bundle.clone();
+    lanes_field.eval(Lanes::splat(0.0), &bundle, &mut rates);
+    let mut rate = vec![0.0; dim];
+    let mut mismatches = 0;
+    for (lane, state) in states.iter().enumerate() {
+        field.eval(0.0, state, &mut rate);
+        let differs = rate.iter().zip(&rates).any(|(x, bundle)| x.to_bits() != bundle[lane].to_bits());
+        mismatches += usize::from(differs);
+    }
+    mismatches
+}
+
+/// Largest relative difference between the dual Jacobian-vector product along `w` and central differences of step
+/// `1e-5`, and between the dual's value and the plain evaluation.
+pub fn derivative_defect<F: VectorField<f64> + VectorField<Dual<f64, 1>>>(
+    field: &F,
+    u: &[f64],
+    w: &[f64],
+) -> f64 {
+    let lifted: Vec<Dual<f64, 1>> =
+        u.iter().zip(w).map(|(&value, &slope)| Dual { value, derivative: [slope] }).collect();
+    let mut tangent = lifted.clone();
+    field.eval(0.0, &lifted, &mut tangent);
+    let h = 1e-5;
+    let shifted = |sign: f64| {
+        let state: Vec<f64> = u.iter().zip(w).map(|(x, dx)| x + sign * h * dx).collect();
+        let mut rate = state.clone();
+        field.eval(0.0, &state, &mut rate);
+        rate
+    };
+    let (ahead, behind) = (shifted(1.0), shifted(-1.0));
+    let mut value = u.to_vec();
+    field.eval(0.0, u, &mut value);
+    let scale = tangent.iter().map(|d| d.derivative[0].abs().max(d.value.abs())).fold(1.0, f64::max);
+    let mut defect: f64 = 0.0;
+    for i in 0..u.len() {
+        defect = defect.max(((ahead[i] - behind[i]) / (2.0 * h) - tangent[i].derivative[0]).abs());
+        defect = defect.max((value[i] - tangent[i].value).abs());
+    }
+    defect / scale
+}
+
+/// Largest difference between `Lambda u + N(u)` and `f(u)`, relative to the largest entry of `f`.
+pub fn semilinear_defect<F: Semilinear<f64>>(field: &F, u: &[f64]) -> f64 {
+    let (mut lambda, mut split, mut whole) = (u.to_vec(), u.to_vec(), u.to_vec());
+    field.linear(&mut lambda);
+    field.nonlinear(0.0, u, &mut split);
+    field.eval(0.0, u, &mut whole);
+    for ((x, &l), &u) in split.iter_mut().zip(&lambda).zip(u) {
+        *x += l * u;
+    }
+    largest_difference(&split, &whole) / whole.iter().fold(1.0, |scale: f64, x| scale.max(x.abs()))
+}
+
+/// How far a model's flow and velocity are from commuting with a rotation by `angle` (relative).
+pub fn rotation_defect<M: Model + ?Sized>(model: &M, shape: &[f64], angle: f64) -> f64 {
+    let (sin, cos) = libm::sincos(angle);
+    let turn = |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
+    symmetry_defect(model, shape, &|state: &mut [f64]| model.rotate(angle, state), &turn)
+}
+
+/// How far a model's flow and velocity are from commuting with the mirror y -> -y (relative).
+pub fn mirror_defect<M: Model + ?Sized>(model: &M, shape: &[f64]) -> f64 {
+    symmetry_defect(model, shape, &|state: &mut [f64]| model.mirror(state), &|[x, y]| [x, -y])
+}
+
+/// The defect of `f(g u) = g f(u)` and `v(g u) = g v(u)` for a linear symmetry `g` of shapes and of the plane.
+fn symmetry_defect<M: Model + ?Sized>(
+    model: &M,
+    shape: &[f64],
+    act: &dyn Fn(&mut [f64]),
+    act_plane: &dyn Fn([f64; 2]) -> [f64; 2],
+) -> f64 {
+    let mut moved = shape.to_vec();
+    act(&mut moved);
+    let (mut rate, mut rate_moved) = (shape.to_vec(), shape.to_vec());
+    VectorField::<f64>::eval(model, 0.0, shape, &mut rate);
+    VectorField::<f64>::eval(model, 0.0, &moved, &mut rate_moved);
+    act(&mut rate);
+    let scale = rate.iter().fold(1.0, |scale: f64, x| scale.max(x.abs()));
+    let expected = act_plane(crate::model::velocity(model, shape));
+    let got = crate::model::velocity(model, &moved);
+    largest_difference(&rate, &rate_moved).max(largest_difference(&expected, &got)) / scale
+}
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter()
+        .zip(b)
+        .map(|(x, y)| (x - y).abs())
+        .fold(0.0, |m: f64, d| if d.is_nan() { f64::INFINITY } else { m.max(d) })
+}

@@ -1,0 +1,215 @@
+//! The driver: one run from start to end, with samples, sections, a step budget and an escape bound.
+
+use crate::escape::{GrowthLaw, norm};
+use crate::orbit::{Orbit, StepFailure};
+use crate::section::{Crossing, Section, Watcher, polish};
+use crate::{Error, Outcome, VectorField};
+use std::ops::ControlFlow;
+
+/// What a run is asked to do.
+pub struct Request<'g> {
+    /// End of the time span.
+    pub t_end: f64,
+    /// Time between samples, the first at the start; `None` for no samples.
+    pub sample_every: Option<f64>,
+    /// Most steps (accepted and rejected) the run may take: bounds every run.
+    pub max_steps: u64,
+    /// The run has escaped when the norm of the watched part of the state exceeds this.
+    pub escape_norm: f64,
+    /// How many leading entries of the state are watched for escape (a position may travel far).
+    pub watched: usize,
+    /// Sections to locate.
+    pub sections: &'g [Section<'g>],
+}
+
+impl Request<'_> {
+    /// A plain run to `t_end` on a state with `dim` entries: no samples, no sections, generous bounds.
+    #[must_use]
+    pub fn until(t_end: f64, dim: usize) -> Self {
+        Self {
+            t_end,
+            sample_every: None,
+            max_steps: 1_000_000_000,
+            escape_norm: 1e8,
+            watched: dim,
+            sections: &[],
+        }
+    }
+
+    fn validate(&self, t: f64) -> Result<(), Error> {
+        let check = |name, value: f64, ok: bool, range| {
+            if ok && value.is_finite() { Ok(()) } else { Err(Error::OutOfRange { name, value, range }) }
+        };
+        check("t_end", self.t_end, self.t_end >= t, "not before the start")?;
+        check("escape norm", self.escape_norm, self.escape_norm > 0.0, "above 0")?;
+        let every = self.sample_every.unwrap_or(1.0);
+        check("sampling interval", every, every > 0.0, "above 0")
+    }
+}
+
+/// Where a run puts its results as it goes. Every method has a default that does nothing.
+pub trait Sink {
+    /// A state of the sampling grid.
+    fn sample(&mut self, _t: f64, _u: &[f64]) {}
+
+    /// A crossing of a section.
+    fn crossing(&mut self, _crossing: &Crossing<'_>) {}
+
+    /// After every step: time reached. `Break` ends the run as interrupted.
+    fn tick(&mut self, _t: f64) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+/// Nothing is kept but the final state.
+impl Sink for () {}
+
+/// Runs `orbit` as `request` says, handing results to `sink`. The final state stays in `orbit`.
+///
+/// # Errors
+/// [`Error::OutOfRange`] for a request that makes no sense; everything that happens on the way is an [`Outcome`].
+pub fn drive<F: VectorField<f64> + ?Sized>(
+    orbit: &mut Orbit<'_, F>,
+    request: &Request<'_>,
+    sink: &mut dyn Sink,
+) -> Result<Outcome, Error> {
+    request.validate(orbit.t())?;
+    Ok(Run::new(orbit, request).finish(orbit, request, sink))
+}
+
+/// The state of a run between steps.
+struct Run {
+    start: f64,
+    next_sample: u64,
+    watchers: Vec<Watcher>,
+    growth: GrowthLaw,
+    state: Vec<f64>,
+    found: Vec<(f64, usize, bool)>,
+}
+
+impl Run {
+    fn new<F: VectorField<f64> + ?Sized>(orbit: &Orbit<'_, F>, request: &Request<'_>) -> Self {
+        let watcher = |section| Watcher::new(section, orbit.t(), orbit.state());
+        Self {
+            start: orbit.t(),
+            next_sample: 0,
+            watchers: request.sections.iter().map(watcher).collect(),
+            growth: GrowthLaw::default(),
+            state: orbit.state().to_vec(),
+            found: Vec::with_capacity(16),
+        }
+    }
+
+    fn finish<F: VectorField<f64> + ?Sized>(
+        mut self,
+        orbit: &mut Orbit<'_, F>,
+        request: &Request<'_>,
+        sink: &mut dyn Sink,
+    ) -> Outcome {
+        if request.sample_every.is_some() {
+            sink.sample(orbit.t(), orbit.state());
+            self.next_sample = 1;
+        }
+        while orbit.t() < request.t_end {
+            let work = orbit.counters();
+            if work.steps + work.rejected >= request.max_steps {
+                return Outcome::StepBudget { t: orbit.t(), steps: work.steps };
+            }
+            match orbit.advance(request.t_end) {
+                Ok(()) => {}
+                Err(StepFailure::Underflow { step }) => {
+                    return self
+                        .escaped(orbit, request)
+                        .unwrap_or(Outcome::StepUnderflow { t: orbit.t(), step });
+                }
+                Err(StepFailure::NotFinite) => return self.left(orbit, request),
+            }
+            if let Some(t) = self.cross(orbit, request, sink) {
+                return Outcome::Stopped { t };
+            }
+            self.sample(orbit, request, sink, orbit.t());
+            let watched = ..request.watched;
+            self.growth.observe(orbit.t(), &orbit.state()[watched], &orbit.slope()[watched]);
+            if norm(&orbit.state()[watched]) > request.escape_norm {
+                return self.left(orbit, request);
+            }
+            if sink.tick(orbit.t()).is_break() {
+                return Outcome::Interrupted { t: orbit.t() };
+            }
+        }
+        Outcome::Completed { t: orbit.t() }
+    }
+
+    /// Hands over the samples of the last step up to time `until`.
+    fn sample<F: VectorField<f64> + ?Sized>(
+        &mut self,
+        orbit: &mut Orbit<'_, F>,
+        request: &Request<'_>,
+        sink: &mut dyn Sink,
+        until: f64,
+    ) {
+        let Some(every) = request.sample_every else { return };
+        let end = orbit.t();
+        loop {
+            let mut t = self.start + every * self.next_sample as f64;
+            if (t - end).abs() <= 1e-9 * every {
+                t = end; // the grid meets the end of the step up to rounding
+            }
+            if t > until {
+                return;
+            }
+            orbit.dense().at(t, &mut self.state);
+            sink.sample(t, &self.state);
+            self.next_sample += 1;
+        }
+    }
+
+    /// Finds, polishes and hands over the crossings of the last step; the time of a terminal one ends the run.
+    fn cross<F: VectorField<f64> + ?Sized>(
+        &mut self,
+        orbit: &mut Orbit<'_, F>,
+        request: &Request<'_>,
+        sink: &mut dyn Sink,
+    ) -> Option<f64> {
+        if request.sections.is_empty() {
+            return None;
+        }
+        self.found.clear();
+        let step = orbit.dense();
+        for (index, (section, watcher)) in request.sections.iter().zip(&mut self.watchers).enumerate() {
+            watcher.scan(section, &step, &mut self.state, |t, rising| self.found.push((t, index, rising)));
+        }
+        self.found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for event in 0..self.found.len() {
+            let (guess, index, rising) = self.found[event];
+            let section = &request.sections[index];
+            let t = polish(section, orbit, guess, &mut self.state);
+            sink.crossing(&Crossing { section: index, t, state: &self.state, rising });
+            if section.terminal {
+                self.sample(orbit, request, sink, t);
+                orbit.end_step_at(t);
+                return Some(t);
+            }
+        }
+        None
+    }
+
+    /// The outcome of a run that left its bounds.
+    fn left<F: VectorField<f64> + ?Sized>(&self, orbit: &Orbit<'_, F>, request: &Request<'_>) -> Outcome {
+        let t_last = orbit.t();
+        let norm = norm(&orbit.state()[..request.watched]);
+        self.escaped(orbit, request).unwrap_or(Outcome::Escaped { t: t_last, norm, singular: false, t_last })
+    }
+
+    /// The blow-up that the growth of the last states points to, if they grow like a singularity that is near.
+    fn escaped<F: VectorField<f64> + ?Sized>(
+        &self,
+        orbit: &Orbit<'_, F>,
+        request: &Request<'_>,
+    ) -> Option<Outcome> {
+        let t_last = orbit.t();
+        let norm = norm(&orbit.state()[..request.watched]);
+        let singularity = self.growth.singularity().filter(|found| found.t >= t_last)?;
+        (norm > 1e3).then_some(Outcome::Escaped { t: singularity.t, norm, singular: true, t_last })
+    }
+}

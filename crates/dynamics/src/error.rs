@@ -1,0 +1,33 @@
+//! What a caller can get wrong.
+
+/// An input that cannot be computed with. Failures of the mathematics are an [`crate::Outcome`] instead.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// An array has the wrong length.
+    #[error("{what} has {got} entries, expected {expected}")]
+    Shape {
+        /// What was passed.
+        what: &'static str,
+        /// The length it needs.
+        expected: usize,
+        /// The length it has.
+        got: usize,
+    },
+    /// A number lies outside what the method can use.
+    #[error("{name} = {value} is out of range: give a number {range}")]
+    OutOfRange {
+        /// Name of the number.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// The range in words, e.g. `above 0`.
+        range: &'static str,
+    },
+    /// A fixed-step method was asked to control its step.
+    #[error("stepper {stepper} has no error estimate: give it a fixed step, or choose an adaptive stepper")]
+    NoErrorEstimate {
+        /// Name of the method.
+        stepper: &'static str,
+    },
+}

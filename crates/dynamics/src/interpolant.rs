@@ -1,0 +1,58 @@
+//! The state inside a step, without computing the step again.
+
+use crate::steppers::Tableau;
+use crate::steppers::runge_kutta::Slopes;
+
+/// The coefficients of one step's interpolant (see [`crate::steppers::tableau::Dense`]), over `f64`.
+#[derive(Clone, Debug)]
+pub(crate) struct Interpolant {
+    dim: usize,
+    coefficients: Vec<f64>,
+}
+
+/// The two ends of a step.
+#[derive(Clone, Copy)]
+pub(crate) struct Ends<'u> {
+    pub(crate) h: f64,
+    pub(crate) old: &'u [f64],
+    pub(crate) new: &'u [f64],
+}
+
+impl Interpolant {
+    pub(crate) fn new(tableau: &Tableau, dim: usize) -> Self {
+        Self { dim, coefficients: vec![0.0; tableau.dense.terms() * dim] }
+    }
+
+    /// Fills the coefficients; all slopes of the step must be there, the extra stages included.
+    pub(crate) fn prepare(&mut self, tableau: &Tableau, slopes: &Slopes<f64>, ends: &Ends<'_>) {
+        let (first, last) = (slopes.get(0), slopes.get(tableau.stages()));
+        let (difference, rest) = self.coefficients.split_at_mut(self.dim);
+        let (tangent, rest) = rest.split_at_mut(self.dim);
+        let (curvature, rest) = rest.split_at_mut(self.dim);
+        for i in 0..self.dim {
+            difference[i] = ends.new[i] - ends.old[i];
+            tangent[i] = ends.h * first[i] - difference[i];
+            curvature[i] = 2.0 * difference[i] - ends.h * (first[i] + last[i]);
+        }
+        for (row, weights) in rest.chunks_exact_mut(self.dim).zip(tableau.dense.weights) {
+            slopes.combine(weights, row);
+            for x in row {
+                *x *= ends.h;
+            }
+        }
+    }
+
+    /// Writes the state at the fraction `x` of the step, `0 <= x <= 1`.
+    pub(crate) fn evaluate(&self, old: &[f64], x: f64, out: &mut [f64]) {
+        out.fill(0.0);
+        for (term, row) in self.coefficients.chunks_exact(self.dim).enumerate().rev() {
+            let factor = if term % 2 == 0 { x } else { 1.0 - x };
+            for (value, f) in out.iter_mut().zip(row) {
+                *value = (*value + f) * factor;
+            }
+        }
+        for (value, u) in out.iter_mut().zip(old) {
+            *value += u;
+        }
+    }
+}

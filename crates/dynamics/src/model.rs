@@ -1,0 +1,136 @@
+//! Shape and drift: what every deformable body has in common.
+
+use crate::{Dual, Scalar, System, VectorField};
+
+/// A shape state that evolves by itself, and the velocity read off it: `x' = v(shape)`.
+///
+/// Written once over the scalar, like the field.
+pub trait Shape<T: Scalar>: VectorField<T> {
+    /// Velocity `(vx, vy)` of the centre of mass for this shape state (model length per model time).
+    fn velocity(&self, shape: &[T]) -> [T; 2];
+}
+
+/// One named number of a state as people type and read it, e.g. `s11`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Coordinate {
+    /// Name on the command line and in files, ASCII.
+    pub name: &'static str,
+    /// One clause that says what it is.
+    pub meaning: &'static str,
+}
+
+/// A scalar read off the shape for people to look at, e.g. `|S|`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Observable {
+    /// Column name in files, ASCII.
+    pub name: &'static str,
+    /// How figures write it (`*` around italic letters).
+    pub symbol: &'static str,
+    /// What it is, with its formula.
+    pub meaning: &'static str,
+}
+
+/// The drawn boundary of a body, centred on the origin.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outline {
+    /// Points of a closed curve, anticlockwise, first point not repeated.
+    Curve(Vec<[f64; 2]>),
+    /// The shape is no curve: the radius would be `radius <= 0` in the direction `angle` (rad).
+    NotACurve {
+        /// Smallest value of `R(theta)`.
+        radius: f64,
+        /// Direction where it occurs (rad).
+        angle: f64,
+    },
+}
+
+/// A deformable self-propelled body: shape dynamics, drift, symmetry, names and a boundary.
+///
+/// Everything that motiform asks of a body works for any implementation. The trait is object-safe, so studies hold
+/// a `Box<dyn Model>`; kernels use the concrete type.
+///
+/// # Symmetry
+/// The flow on shapes must commute with [`Model::rotate`] and [`Model::mirror`], and the velocity must turn with
+/// them: [`crate::conformance`] checks every model.
+pub trait Model: Shape<f64> + Shape<Dual<f64, 1>> + Send + Sync {
+    /// Turns the shape by `angle` (rad, anticlockwise), in place.
+    fn rotate(&self, angle: f64, shape: &mut [f64]);
+
+    /// Mirrors the shape at the x axis (y -> -y), in place.
+    fn mirror(&self, shape: &mut [f64]);
+
+    /// The numbers that people type and read for the shape, in file order.
+    fn coordinates(&self) -> &[Coordinate];
+
+    /// Coordinates (as in [`Model::coordinates`]) to the state that is computed with.
+    fn encode(&self, coordinates: &[f64], shape: &mut [f64]);
+
+    /// The inverse of [`Model::encode`].
+    fn decode(&self, shape: &[f64], coordinates: &mut [f64]);
+
+    /// The scalars that figures show, beside speed and turning rate.
+    fn observables(&self) -> &[Observable];
+
+    /// Writes the observables of a shape.
+    fn observe(&self, shape: &[f64], out: &mut [f64]);
+
+    /// The boundary for this shape: `points` points around a body of undeformed radius `radius` (model length).
+    fn outline(&self, shape: &[f64], radius: f64, points: usize) -> Outline;
+
+    /// Largest deviation of the boundary from the circle, over all directions (model length).
+    fn deformation(&self, shape: &[f64]) -> f64;
+}
+
+/// Velocity and its time derivative along the flow, exactly (duals): `(v, v')`.
+#[must_use]
+pub fn velocity_and_acceleration<M: Model + ?Sized>(model: &M, shape: &[f64]) -> ([f64; 2], [f64; 2]) {
+    let mut rate = vec![0.0; shape.len()];
+    VectorField::<f64>::eval(model, 0.0, shape, &mut rate);
+    let lifted: Vec<Dual<f64, 1>> =
+        shape.iter().zip(&rate).map(|(&value, &slope)| Dual { value, derivative: [slope] }).collect();
+    let [vx, vy] = Shape::<Dual<f64, 1>>::velocity(model, &lifted);
+    ([vx.value, vy.value], [vx.derivative[0], vy.derivative[0]])
+}
+
+/// Turning rate `(vx vy' - vy vx') / |v|^2` (rad per model time); `None` where the body is at rest.
+#[must_use]
+pub fn turning_rate(velocity: [f64; 2], acceleration: [f64; 2]) -> Option<f64> {
+    let speed_squared = velocity[0] * velocity[0] + velocity[1] * velocity[1];
+    let rate = (velocity[0] * acceleration[1] - velocity[1] * acceleration[0]) / speed_squared;
+    rate.is_finite().then_some(rate)
+}
+
+/// A body in the plane: the shape state followed by the position `x, y` of its centre of mass.
+///
+/// The derived system satisfies the same traits: `u = (shape, x, y)`, `u' = (f(shape), v(shape))`.
+#[derive(Clone, Copy, Debug)]
+pub struct InPlane<M>(pub M);
+
+impl<M: System> System for InPlane<M> {
+    fn dim(&self) -> usize {
+        self.0.dim() + 2
+    }
+}
+
+impl<T: Scalar, M: Shape<T>> VectorField<T> for InPlane<M> {
+    #[inline]
+    fn eval(&self, t: T::Real, u: &[T], du: &mut [T]) {
+        let (shape, _) = u.split_at(u.len() - 2);
+        let (rate, drift) = du.split_at_mut(u.len() - 2);
+        self.0.eval(t, shape, rate);
+        drift.copy_from_slice(&self.0.velocity(shape));
+    }
+}
+
+impl<T: Scalar, M: Shape<T> + ?Sized> Shape<T> for &M {
+    #[inline(always)]
+    fn velocity(&self, shape: &[T]) -> [T; 2] {
+        (**self).velocity(shape)
+    }
+}
+
+/// The velocity over `f64`, without spelling the scalar out.
+#[must_use]
+pub fn velocity<M: Model + ?Sized>(model: &M, shape: &[f64]) -> [f64; 2] {
+    Shape::<f64>::velocity(model, shape)
+}

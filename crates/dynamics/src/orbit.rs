@@ -1,0 +1,335 @@
+//! One orbit, step by step: the loop belongs to the caller.
+
+use crate::control::{Controller, Tolerance};
+use crate::interpolant::{Ends, Interpolant};
+use crate::steppers::Tableau;
+use crate::steppers::runge_kutta::{self, Slopes, Step};
+use crate::{Error, StepControl, VectorField};
+
+/// An initial-value problem in progress. [`Orbit::advance`] takes one accepted step and allocates nothing.
+///
+/// ```
+/// use motiform_dynamics::{Orbit, Scalar, StepControl, System, VectorField, steppers::DOP853};
+/// struct Decay;
+/// impl System for Decay { fn dim(&self) -> usize { 1 } }
+/// impl<T: Scalar> VectorField<T> for Decay {
+///     fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) { du[0] = -u[0]; }
+/// }
+/// let control = StepControl::Adaptive { rtol: 1e-12, atol: 1e-14 };
+/// let mut orbit = Orbit::new(&Decay, &DOP853, control, 0.0, &[1.0])?;
+/// while orbit.t() < 1.0 {
+///     orbit.advance(1.0).expect("the exponential is smooth");
+/// }
+/// assert!((orbit.state()[0] - (-1.0_f64).exp()).abs() < 1e-12);
+/// # Ok::<(), motiform_dynamics::Error>(())
+/// ```
+pub struct Orbit<'f, F: ?Sized> {
+    field: &'f F,
+    tableau: &'static Tableau,
+    control: StepControl,
+    controller: Controller,
+    t: f64,
+    t_old: f64,
+    u: Vec<f64>,
+    u_old: Vec<f64>,
+    scratch: Vec<f64>,
+    errors: Vec<f64>,
+    slopes: Slopes<f64>,
+    restep: Slopes<f64>,
+    interpolant: Interpolant,
+    /// Size of the next step to try (adaptive), or the fixed step.
+    h: f64,
+    /// Fixed steps count from here, so that times carry no accumulated rounding.
+    origin: (f64, u64),
+    /// Whether the current state's slope is the end slope of the step just accepted.
+    accepted: bool,
+    /// Whether the interpolant is that of the last step.
+    prepared: bool,
+    counters: Counters,
+}
+
+/// The work done so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+}
+
+/// Why a step could not be taken. The orbit stays at the last accepted state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StepFailure {
+    /// The step that error control asks for is below the resolution of time.
+    Underflow {
+        /// That step.
+        step: f64,
+    },
+    /// A fixed step led to a state that is not finite.
+    NotFinite,
+}
+
+impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
+    /// An orbit of `field` from `u` at time `t`.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if `u` is not the field's dimension, [`Error::OutOfRange`] for a time or state that is not
+    /// finite, and what [`StepControl::validate`] refuses.
+    pub fn new(
+        field: &'f F,
+        tableau: &'static Tableau,
+        control: StepControl,
+        t: f64,
+        u: &[f64],
+    ) -> Result<Self, Error> {
+        control.validate(tableau)?;
+        if u.len() != field.dim() {
+            return Err(Error::Shape { what: "the initial state", expected: field.dim(), got: u.len() });
+        }
+        for (name, value) in std::iter::once(("t", t)).chain(u.iter().map(|&x| ("initial state", x))) {
+            if !value.is_finite() {
+                return Err(Error::OutOfRange { name, value, range: "that is finite" });
+            }
+        }
+        let mut slopes = Slopes::new(tableau, u);
+        field.eval(t, u, slopes.get_mut(tableau.stages()));
+        let mut orbit = Self {
+            field,
+            tableau,
+            control,
+            controller: Controller::new(tableau),
+            t,
+            t_old: t,
+            u: u.to_vec(),
+            u_old: u.to_vec(),
+            scratch: vec![0.0; u.len()],
+            errors: vec![0.0; u.len()],
+            restep: slopes.clone(),
+            slopes,
+            interpolant: Interpolant::new(tableau, u.len()),
+            h: 0.0,
+            origin: (t, 0),
+            accepted: true,
+            prepared: false,
+            counters: Counters::default(),
+        };
+        orbit.h = match control {
+            StepControl::Fixed { step } => step,
+            StepControl::Adaptive { rtol, atol } => orbit.first_step(Tolerance { rtol, atol }),
+        };
+        Ok(orbit)
+    }
+
+    /// A first step that suits the field near the start (Hairer, Norsett, Wanner, II.4).
+    fn first_step(&mut self, tolerance: Tolerance) -> f64 {
+        let slope = self.slopes.get(self.tableau.stages());
+        let d0 = tolerance.norm(&self.u, &self.u, &self.u);
+        let d1 = tolerance.norm(slope, &self.u, &self.u);
+        let tiny = |d: f64| d < 1e-5 || !d.is_finite();
+        let h0 = if tiny(d0) || tiny(d1) { 1e-6 } else { 0.01 * d0 / d1 };
+        for ((x, &u), &k) in self.scratch.iter_mut().zip(&self.u).zip(slope) {
+            *x = u + h0 * k;
+        }
+        self.field.eval(self.t + h0, &self.scratch, self.restep.get_mut(0));
+        for (x, (&k0, &k1)) in self.scratch.iter_mut().zip(slope.iter().zip(self.restep.get(0))) {
+            *x = k1 - k0;
+        }
+        let d2 = tolerance.norm(&self.scratch, &self.u, &self.u) / h0;
+        let steepest = d1.max(d2);
+        let order = f64::from(self.tableau.order);
+        let h1 = if steepest <= 1e-15 || !steepest.is_finite() {
+            (h0 * 1e-3).max(1e-6)
+        } else {
+            libm::pow(0.01 / steepest, 1.0 / order)
+        };
+        h1.min(100.0 * h0)
+    }
+
+    /// Takes one step, ending at `limit` (later than [`Orbit::t`]) at the latest.
+    ///
+    /// # Errors
+    /// [`StepFailure`], with the orbit where it was.
+    pub fn advance(&mut self, limit: f64) -> Result<(), StepFailure> {
+        match self.control {
+            StepControl::Fixed { step } => self.advance_fixed(step, limit),
+            StepControl::Adaptive { rtol, atol } => self.advance_adaptive(Tolerance { rtol, atol }, limit),
+        }
+    }
+
+    fn advance_fixed(&mut self, step: f64, limit: f64) -> Result<(), StepFailure> {
+        let (start, count) = self.origin;
+        let grid = start + step * (count + 1) as f64;
+        let t_new = if grid > limit - 1e-9 * step { limit } else { grid };
+        let h = if (t_new - self.t - step).abs() < 1e-9 * step { step } else { t_new - self.t };
+        self.begin();
+        self.try_step(h);
+        if self.scratch.iter().any(|x| !x.is_finite()) {
+            return Err(StepFailure::NotFinite);
+        }
+        self.evaluate_end(h);
+        self.accept(t_new);
+        self.origin = if t_new == limit { (limit, 0) } else { (start, count + 1) };
+        Ok(())
+    }
+
+    fn advance_adaptive(&mut self, tolerance: Tolerance, limit: f64) -> Result<(), StepFailure> {
+        self.begin();
+        loop {
+            let remaining = limit - self.t;
+            let last = self.h >= remaining;
+            // Two equal steps to the end rather than a full one and a crumb.
+            let h = if last { remaining } else { self.h.min(0.5 * remaining) };
+            if h <= 16.0 * f64::EPSILON * self.t.abs() && !last || h < f64::MIN_POSITIVE {
+                return Err(StepFailure::Underflow { step: h });
+            }
+            self.try_step(h);
+            let needs_end = self.tableau.error_needs_end();
+            if needs_end {
+                self.evaluate_end(h);
+            }
+            let error = {
+                let ends = (&self.u[..], &self.scratch[..]);
+                tolerance.step_error(self.tableau, &self.slopes, h, ends, &mut self.errors)
+            };
+            match self.controller.judge(error) {
+                Ok(factor) => {
+                    if !needs_end {
+                        self.evaluate_end(h);
+                    }
+                    // A step cut short by the limit says little about the next one.
+                    self.h = if last { self.h.max(h * factor) } else { h * factor };
+                    self.accept(if last { limit } else { self.t + h });
+                    return Ok(());
+                }
+                Err(factor) => {
+                    self.counters.rejected += 1;
+                    self.h = h * factor;
+                }
+            }
+        }
+    }
+
+    /// The end slope of the last step is the first slope of the next one.
+    fn begin(&mut self) {
+        if self.accepted {
+            self.slopes.copy(self.tableau.stages(), 0);
+            self.accepted = false;
+        }
+        self.t_old = self.t; // until a step is accepted, the last step is empty
+        self.prepared = false;
+    }
+
+    /// Computes the stages and the new state (into `scratch`) for a step of size `h` from the current state.
+    fn try_step(&mut self, h: f64) {
+        let at = Step { t: self.t, h, u: &self.u };
+        runge_kutta::step(self.tableau, self.field, &at, &mut self.slopes, &mut self.scratch);
+    }
+
+    fn evaluate_end(&mut self, h: f64) {
+        let at = Step { t: self.t, h, u: &self.u };
+        runge_kutta::end_slope(self.tableau, self.field, &at, &mut self.slopes, &self.scratch);
+    }
+
+    fn accept(&mut self, t_new: f64) {
+        std::mem::swap(&mut self.u_old, &mut self.u);
+        std::mem::swap(&mut self.u, &mut self.scratch);
+        self.t_old = self.t;
+        self.t = t_new;
+        self.accepted = true;
+        self.counters.steps += 1;
+    }
+
+    /// The last step as a function of time (computes the extra stages of dense output where the method has any).
+    pub fn dense(&mut self) -> DenseStep<'_> {
+        if !self.prepared {
+            let h = self.t - self.t_old;
+            let at = Step { t: self.t_old, h, u: &self.u_old };
+            runge_kutta::extra_stages(self.tableau, self.field, &at, &mut self.slopes);
+            let ends = Ends { h, old: &self.u_old, new: &self.u };
+            self.interpolant.prepare(self.tableau, &self.slopes, &ends);
+            self.prepared = true;
+        }
+        DenseStep {
+            t_old: self.t_old,
+            t: self.t,
+            old: &self.u_old,
+            new: &self.u,
+            interpolant: &self.interpolant,
+        }
+    }
+
+    /// Writes the state at `t` inside the last step by a true step of the method from its start: as accurate as the
+    /// orbit itself. Must follow a successful [`Orbit::advance`].
+    pub fn step_to(&mut self, t: f64, out: &mut [f64]) {
+        self.restep.get_mut(0).copy_from_slice(self.slopes.get(0));
+        let at = Step { t: self.t_old, h: t - self.t_old, u: &self.u_old };
+        runge_kutta::step(self.tableau, self.field, &at, &mut self.restep, out);
+    }
+
+    /// Moves the end of the last step back to `t` (by a true step from its start): the orbit goes on from there.
+    pub fn end_step_at(&mut self, t: f64) {
+        let mut state = std::mem::take(&mut self.scratch);
+        self.step_to(t, &mut state);
+        self.scratch = std::mem::replace(&mut self.u, state);
+        self.t = t;
+        self.origin = (t, 0);
+        self.field.eval(t, &self.u, self.slopes.get_mut(self.tableau.stages()));
+        self.prepared = false;
+    }
+
+    /// Current time.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.t
+    }
+
+    /// Time at the start of the last step.
+    #[must_use]
+    pub fn t_old(&self) -> f64 {
+        self.t_old
+    }
+
+    /// Current state.
+    #[must_use]
+    pub fn state(&self) -> &[f64] {
+        &self.u
+    }
+
+    /// `f(t, u)` at the current state.
+    #[must_use]
+    pub fn slope(&self) -> &[f64] {
+        self.slopes.get(if self.accepted { self.tableau.stages() } else { 0 })
+    }
+
+    /// The work done so far.
+    #[must_use]
+    pub fn counters(&self) -> Counters {
+        self.counters
+    }
+}
+
+/// The last step of an orbit as a function of time.
+pub struct DenseStep<'o> {
+    t_old: f64,
+    t: f64,
+    old: &'o [f64],
+    new: &'o [f64],
+    interpolant: &'o Interpolant,
+}
+
+impl DenseStep<'_> {
+    /// Start and end of the step.
+    #[must_use]
+    pub fn span(&self) -> (f64, f64) {
+        (self.t_old, self.t)
+    }
+
+    /// Writes the state at time `t` within the span (outside it the interpolant is extrapolated).
+    pub fn at(&self, t: f64, out: &mut [f64]) {
+        if t == self.t {
+            out.copy_from_slice(self.new);
+        } else {
+            self.interpolant.evaluate(self.old, (t - self.t_old) / (self.t - self.t_old), out);
+        }
+    }
+}

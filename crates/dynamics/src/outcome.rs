@@ -1,0 +1,87 @@
+//! How a run ended: a value that every result carries.
+
+use serde::{Deserialize, Serialize};
+
+/// The end of a run. Only [`Outcome::Completed`] reached its end; every other one says when and why not.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Outcome {
+    /// Reached the end of the time span.
+    Completed {
+        /// End time.
+        t: f64,
+    },
+    /// Left every bound.
+    Escaped {
+        /// The blow-up time `t*` where `singular`, else the time at which the norm passed the bound.
+        t: f64,
+        /// Norm of the last finite state.
+        norm: f64,
+        /// Whether the growth was that of a finite-time singularity (see [`crate::escape`]).
+        singular: bool,
+        /// Time of the last finite state; `t - t_last` is the extrapolated part.
+        t_last: f64,
+    },
+    /// The error control asked for steps below the resolution of time: the field is not smooth here, or not finite.
+    StepUnderflow {
+        /// Time reached.
+        t: f64,
+        /// The step it could not take.
+        step: f64,
+    },
+    /// The budget of steps was used up.
+    StepBudget {
+        /// Time reached.
+        t: f64,
+        /// Steps taken.
+        steps: u64,
+    },
+    /// Stopped at a terminal section.
+    Stopped {
+        /// Time of the crossing.
+        t: f64,
+    },
+    /// Stopped from outside (Ctrl-C).
+    Interrupted {
+        /// Time reached.
+        t: f64,
+    },
+}
+
+impl Outcome {
+    /// Whether the run reached what was asked for.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        matches!(self, Self::Completed { .. } | Self::Stopped { .. })
+    }
+
+    /// The time that goes with the outcome.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        match *self {
+            Self::Completed { t }
+            | Self::Escaped { t, .. }
+            | Self::StepUnderflow { t, .. }
+            | Self::StepBudget { t, .. }
+            | Self::Stopped { t }
+            | Self::Interrupted { t } => t,
+        }
+    }
+}
+
+impl std::fmt::Display for Outcome {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match *self {
+            Self::Completed { t } => write!(f, "completed at t = {t}"),
+            Self::Escaped { t, singular: true, .. } => write!(f, "blew up at t* = {t:.9}"),
+            Self::Escaped { t, norm, .. } => write!(f, "left every bound at t = {t:.9} (norm {norm:.3e})"),
+            Self::StepUnderflow { t, step } => {
+                write!(f, "step size fell to {step:.3e} at t = {t:.9}: the solution is not smooth there")
+            }
+            Self::StepBudget { t, steps } => write!(f, "step budget of {steps} used up at t = {t:.9}"),
+            Self::Stopped { t } => write!(f, "stopped at a section at t = {t:.9}"),
+            Self::Interrupted { t } => write!(f, "interrupted at t = {t:.9}"),
+        }
+    }
+}

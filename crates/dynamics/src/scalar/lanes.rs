@@ -1,0 +1,116 @@
+//! `N` numbers that move together.
+
+use super::Scalar;
+use std::ops::{Add, AddAssign, Div, Index, Mul, Neg, Sub, SubAssign};
+
+/// `N` independent `f64`, one orbit in each lane.
+///
+/// Every operation is the plain IEEE operation lane by lane, without fused multiply-add, so lane `i` holds exactly
+/// the bits that the same computation gives over `f64`, for any `N`. The fixed-size loops compile to vector
+/// instructions of whatever width the build targets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(transparent)]
+pub struct Lanes<const N: usize>(pub [f64; N]);
+
+impl<const N: usize> Lanes<N> {
+    /// The same `value` in every lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn splat(value: f64) -> Self {
+        Self([value; N])
+    }
+
+    /// Lane by lane `operation(self, other)`.
+    #[inline(always)]
+    fn zip(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
+        let mut out = self.0;
+        for lane in 0..N {
+            out[lane] = operation(out[lane], other.0[lane]);
+        }
+        Self(out)
+    }
+}
+
+impl<const N: usize> Index<usize> for Lanes<N> {
+    type Output = f64;
+
+    fn index(&self, lane: usize) -> &f64 {
+        &self.0[lane]
+    }
+}
+
+impl<const N: usize> Scalar for Lanes<N> {
+    type Real = Self;
+
+    #[inline(always)]
+    fn constant(self, value: f64) -> Self {
+        Self::splat(value)
+    }
+
+    #[inline(always)]
+    fn scale(self, real: Self) -> Self {
+        real * self
+    }
+}
+
+impl<const N: usize> Add for Lanes<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+}
+
+impl<const N: usize> Sub for Lanes<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.zip(other, |a, b| a - b)
+    }
+}
+
+impl<const N: usize> Mul for Lanes<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.zip(other, |a, b| a * b)
+    }
+}
+
+impl<const N: usize> Div for Lanes<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.zip(other, |a, b| a / b)
+    }
+}
+
+impl<const N: usize> Mul<f64> for Lanes<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Self {
+        self.zip(Self::splat(factor), |a, b| a * b)
+    }
+}
+
+impl<const N: usize> Neg for Lanes<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.map(|a| -a))
+    }
+}
+
+impl<const N: usize> AddAssign for Lanes<N> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<const N: usize> SubAssign for Lanes<N> {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}

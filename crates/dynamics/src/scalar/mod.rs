@@ -1,0 +1,68 @@
+//! The numbers a model is written over: one equation, three scalars.
+//!
+//! A vector field is written once for any [`Scalar`]. Evaluated over
+//! * `f64` it moves one orbit,
+//! * [`Lanes`] it moves `N` orbits at once (each lane with its own parameters and its own time),
+//! * [`Dual`] it carries exact derivatives (Jacobians, tangent flows) along.
+//!
+//! Without fused multiply-add every lane computes the same bits as `f64` does: tested in `tests/scalars.rs`.
+
+mod complex;
+mod dual;
+mod lanes;
+
+pub use complex::Complex;
+pub use dual::Dual;
+pub use lanes::Lanes;
+
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// A number that a vector field can be evaluated over.
+///
+/// A constant is made *from a value at hand* ([`Scalar::constant`]), never from nothing, so that a lane type may
+/// carry what only a value knows (the CPU features it was made for).
+pub trait Scalar:
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + Mul<f64, Output = Self>
+{
+    /// The number without its derivative part: the type of parameters, times and step sizes.
+    type Real: Scalar<Real = Self::Real>;
+
+    /// The constant `value`, of the same kind as `self` (same lanes; derivative zero).
+    fn constant(self, value: f64) -> Self;
+
+    /// `real * self`, for a parameter, a time or a step size.
+    fn scale(self, real: Self::Real) -> Self;
+
+    /// Zero, of the same kind as `self`.
+    #[inline(always)]
+    fn zero(self) -> Self {
+        self.constant(0.0)
+    }
+}
+
+impl Scalar for f64 {
+    type Real = f64;
+
+    #[inline(always)]
+    fn constant(self, value: f64) -> f64 {
+        value
+    }
+
+    #[inline(always)]
+    fn scale(self, real: f64) -> f64 {
+        real * self
+    }
+}

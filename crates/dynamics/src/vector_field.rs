@@ -1,0 +1,63 @@
+//! What moves: `u' = f(t, u)`.
+
+use crate::Scalar;
+
+/// Anything with a state of fixed length.
+pub trait System {
+    /// Number of scalars in the state.
+    fn dim(&self) -> usize;
+}
+
+/// An ordinary differential equation `u' = f(t, u)` over one scalar type.
+///
+/// The trait has one method; write it once for all scalars:
+///
+/// ```
+/// use motiform_dynamics::{Scalar, System, VectorField};
+///
+/// /// u'' = -u
+/// struct Oscillator;
+/// impl System for Oscillator {
+///     fn dim(&self) -> usize { 2 }
+/// }
+/// impl<T: Scalar> VectorField<T> for Oscillator {
+///     fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+///         du[0] = u[1];
+///         du[1] = -u[0];
+///     }
+/// }
+/// let mut du = [0.0; 2];
+/// Oscillator.eval(0.0, &[1.0, 2.0], &mut du);
+/// assert_eq!(du, [2.0, -1.0]);
+/// ```
+pub trait VectorField<T: Scalar>: System {
+    /// Writes `f(t, u)` into `du`; must not read `du`, allocate or keep state.
+    ///
+    /// # Shapes
+    /// `u` and `du` have length [`System::dim`].
+    fn eval(&self, t: T::Real, u: &[T], du: &mut [T]);
+}
+
+/// A field split as `u' = Lambda u + N(t, u)` with a diagonal, real `Lambda`: what exponential steppers need.
+///
+/// `eval` must equal `Lambda u + N(t, u)`; [`crate::conformance::semilinear_defect`] checks it.
+pub trait Semilinear<T: Scalar>: VectorField<T> {
+    /// Writes the diagonal of `Lambda` (inverse model time).
+    fn linear(&self, lambda: &mut [T::Real]);
+
+    /// Writes `N(t, u)` into `du`.
+    fn nonlinear(&self, t: T::Real, u: &[T], du: &mut [T]);
+}
+
+impl<S: System + ?Sized> System for &S {
+    fn dim(&self) -> usize {
+        (**self).dim()
+    }
+}
+
+impl<T: Scalar, F: VectorField<T> + ?Sized> VectorField<T> for &F {
+    #[inline(always)]
+    fn eval(&self, t: T::Real, u: &[T], du: &mut [T]) {
+        (**self).eval(t, u, du);
+    }
+}

@@ -1,0 +1,58 @@
+//! No allocation inside a step: counted by the allocator itself.
+
+mod common;
+
+use common::Oscillator;
+use motiform_dynamics::steppers::STEPPERS;
+use motiform_dynamics::{Orbit, StepControl};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+struct Counting;
+
+thread_local! {
+    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+}
+
+#[allow(unsafe_code, reason = "an allocator cannot be written without; it only counts and passes on")]
+// SAFETY: every call is passed on unchanged to the system allocator.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.with(|count| count.set(count.get() + 1));
+        // SAFETY: the caller's contract is the system allocator's.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: the pointer came from the system allocator with this layout.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+#[test]
+fn a_step_allocates_nothing() {
+    for tableau in STEPPERS {
+        let fixed = StepControl::Fixed { step: 1e-2 };
+        let adaptive = StepControl::Adaptive { rtol: 1e-9, atol: 1e-9 };
+        for control in [fixed, adaptive] {
+            let Ok(mut orbit) = Orbit::new(&Oscillator, tableau, control, 0.0, &[1.0, 0.0]) else { continue };
+            let mut state = vec![0.0; 2];
+            let before = ALLOCATIONS.with(Cell::get);
+            for _ in 0..1000 {
+                orbit.advance(1e9).expect("the oscillator is smooth");
+                let middle = 0.5 * (orbit.t_old() + orbit.t());
+                orbit.dense().at(middle, &mut state);
+                orbit.step_to(middle, &mut state);
+            }
+            let allocations = ALLOCATIONS.with(Cell::get) - before;
+            assert_eq!(allocations, 0, "{} {control:?}", tableau.name);
+        }
+    }
+    // The counter does count.
+    let before = ALLOCATIONS.with(Cell::get);
+    drop(std::hint::black_box(vec![0_u8; 100]));
+    assert!(ALLOCATIONS.with(Cell::get) > before);
+}
