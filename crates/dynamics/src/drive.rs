@@ -30,7 +30,7 @@ impl Request<'_> {
             t_end,
             sample_every: None,
             max_steps: 1_000_000_000,
-            escape_norm: 1e8,
+            escape_norm: 1e6,
             watched: dim,
             sections: &[],
         }

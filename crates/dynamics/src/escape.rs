@@ -1,20 +1,22 @@
 //! When a solution blows up: the time of the singularity, from the law of its growth.
 //!
-//! For `N(t) ~ C (t* - t)^-q` the ratio `r = N / N'` is `(t* - t) / q`: a straight line in time. Two values of it give
-//! the exponent `q` and the time `t*`, whatever `C` and `q` are. Near the singularity of a polynomial field the
-//! corrections are of relative order `(t* - t)^2`, so `t*` is far more accurate than the last step's time.
+//! For `N(t) ~ C (t* - t)^-q` the ratio `r = N / N'` is `(t* - t) / q`: near the singularity time is a smooth function
+//! of `r`, and `t*` is its value at `r = 0`, whatever `C` and `q` are. Four states give it by polynomial
+//! extrapolation in `r` (Neville), far more accurately than the last step's time. They are taken where `r` has shrunk
+//! by a fixed factor since the last one: a stiff approach takes steps much shorter than `t* - t`.
+
+/// How many states the extrapolation uses.
+const POINTS: usize = 4;
+
+/// A state is recorded when its ratio is below this multiple of the last recorded one.
+const SPACING: f64 = 0.8;
 
 /// Follows `r = N / N'` along a run, with `N` the Euclidean norm.
 #[derive(Clone, Debug, Default)]
 pub struct GrowthLaw {
-    last: Option<Point>,
-    before: Option<Point>,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Point {
-    t: f64,
-    ratio: f64,
+    /// `(r, t)` of the recorded states, newest last; `count` of them.
+    points: [(f64, f64); POINTS],
+    count: usize,
 }
 
 /// A finite-time singularity.
@@ -27,29 +29,48 @@ pub struct Singularity {
 }
 
 impl GrowthLaw {
-    /// Takes in a state and its slope. States that do not grow reset the record.
+    /// Takes in a state and its slope. Where the ratio grows again, the record begins anew.
     pub fn observe(&mut self, t: f64, u: &[f64], slope: &[f64]) {
         let norm_squared: f64 = u.iter().map(|x| x * x).sum();
         let growth: f64 = u.iter().zip(slope).map(|(x, dx)| x * dx).sum();
         let ratio = norm_squared / growth;
-        if growth > 0.0 && ratio.is_finite() {
-            self.before = self.last;
-            self.last = Some(Point { t, ratio });
-        } else {
-            *self = Self::default();
+        let last = self.points[..self.count].last().map_or(f64::INFINITY, |point| point.0);
+        if growth <= 0.0 || !ratio.is_finite() || ratio > 1.01 * last {
+            self.count = 0;
+        } else if ratio <= SPACING * last {
+            if self.count == POINTS {
+                self.points.rotate_left(1);
+                self.count -= 1;
+            }
+            self.points[self.count] = (ratio, t);
+            self.count += 1;
         }
     }
 
-    /// The singularity that the last two states point to, if their growth is faster than exponential.
+    /// The singularity that the recorded states point to, if their growth is faster than exponential.
     ///
-    /// `None` for exponents outside 0.05..20 (slower growth shows as a ratio that does not shrink).
+    /// `None` for fewer than two of them, and for exponents outside 0.05..20 (slower growth shows as a ratio that
+    /// hardly shrinks).
     #[must_use]
     pub fn singularity(&self) -> Option<Singularity> {
-        let (last, before) = (self.last?, self.before?);
-        let exponent = (last.t - before.t) / (before.ratio - last.ratio);
-        let t = last.t + exponent * last.ratio;
+        let points = &self.points[..self.count];
+        let [.., before, last] = points else { return None };
+        let exponent = (last.1 - before.1) / (before.0 - last.0);
+        let t = extrapolate_to_zero(points);
         ((0.05..20.0).contains(&exponent) && t.is_finite()).then_some(Singularity { t, exponent })
     }
+}
+
+/// The value at `x = 0` of the polynomial through the points `(x, y)`: Neville's scheme.
+fn extrapolate_to_zero(points: &[(f64, f64)]) -> f64 {
+    let mut values: [f64; POINTS] = std::array::from_fn(|i| points.get(i).map_or(0.0, |point| point.1));
+    for level in 1..points.len() {
+        for i in 0..points.len() - level {
+            let (x, y) = (points[i].0, points[i + level].0);
+            values[i] = values[i + 1] + (values[i + 1] - values[i]) * y / (x - y);
+        }
+    }
+    values[0]
 }
 
 /// Euclidean norm.

@@ -1,1 +1,12 @@
-//! placeholder until the next commit
+//! The models of motiform: what moves. Every model is a shape state with a drift (see `motiform_dynamics::Model`).
+//!
+//! Adding a model is one folder beside [`tensor`] and one entry in [`registry::MODELS`].
+
+mod error;
+pub mod parameters;
+pub mod registry;
+pub mod tensor;
+
+pub use error::{Error, nearest};
+pub use parameters::{ParameterSpec, Parameters};
+pub use registry::{MODELS, ModelInfo};

@@ -1,7 +1,7 @@
 //! Complex numbers over any scalar: the Fourier amplitudes z_n of the models.
 
 use super::Scalar;
-use std::ops::{Add, AddAssign, Mul};
+use std::ops::{Add, AddAssign, Mul, Neg};
 
 /// `re + i im` over a [`Scalar`]. Only what polynomial mode equations need.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,6 +45,14 @@ impl<T: Scalar> Add for Complex<T> {
     #[inline(always)]
     fn add(self, other: Self) -> Self {
         Self::new(self.re + other.re, self.im + other.im)
+    }
+}
+
+impl<T: Scalar> Neg for Complex<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::new(-self.re, -self.im)
     }
 }
 

@@ -1,0 +1,67 @@
+//! What a caller can get wrong about models.
+
+/// An input that names no model, parameter or coordinate, or a value that cannot be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// No model of this name.
+    #[error("unknown model {name:?}{}: the models are {}", hint(.nearest), .known.join(", "))]
+    UnknownModel {
+        /// The name given.
+        name: String,
+        /// The most similar known name, if any is similar.
+        nearest: Option<&'static str>,
+        /// All known names.
+        known: Vec<&'static str>,
+    },
+    /// The model has no such parameter.
+    #[error("unknown parameter {name:?} of model {model}{}: `motiform models {model}` lists them", hint(.nearest))]
+    UnknownParameter {
+        /// The name given.
+        name: String,
+        /// The model.
+        model: &'static str,
+        /// The most similar known name, if any is similar.
+        nearest: Option<&'static str>,
+    },
+    /// The model has no such coordinate.
+    #[error("unknown initial value {name:?} of model {model}{}: the names are {}", hint(.nearest), .known.join(", "))]
+    UnknownCoordinate {
+        /// The name given.
+        name: String,
+        /// The model.
+        model: &'static str,
+        /// The most similar known name, if any is similar.
+        nearest: Option<&'static str>,
+        /// All known names.
+        known: Vec<&'static str>,
+    },
+    /// A number that is not finite, or outside what the model allows.
+    #[error("{name} = {value} is out of range: give a number from {min} to {max}")]
+    OutOfRange {
+        /// Name of the number.
+        name: String,
+        /// Its value.
+        value: f64,
+        /// Smallest allowed value.
+        min: f64,
+        /// Largest allowed value.
+        max: f64,
+    },
+}
+
+fn hint(nearest: &Option<&'static str>) -> String {
+    nearest.map_or_else(String::new, |name| format!(" (did you mean {name}?)"))
+}
+
+/// The candidate most similar to `name`, if it is similar enough to be a slip of the finger.
+#[must_use]
+pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+    let lower = name.to_lowercase();
+    candidates
+        .into_iter()
+        .map(|candidate| (strsim::damerau_levenshtein(&lower, &candidate.to_lowercase()), candidate))
+        .filter(|&(distance, candidate)| distance <= (candidate.len().max(name.len()) + 1) / 3)
+        .min_by_key(|&(distance, _)| distance)
+        .map(|(_, candidate)| candidate)
+}

@@ -1,0 +1,119 @@
+//! The registry of parameters: one declaration drives the struct, the study schema, `--help` and the documentation.
+
+use crate::error::{Error, nearest};
+
+/// One parameter of a model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParameterSpec {
+    /// The paper's name in ASCII, used everywhere.
+    pub name: &'static str,
+    /// How figures write it: letters between `*` are italic, `_` starts a subscript.
+    pub symbol: &'static str,
+    /// Value when nothing is given.
+    pub default: f64,
+    /// Where interesting things happen (axes and sliders).
+    pub range: (f64, f64),
+    /// Values that the model can be computed with.
+    pub allowed: (f64, f64),
+    /// The equation it stands in.
+    pub equation: &'static str,
+    /// The term it multiplies and what it does, in one sentence.
+    pub meaning: &'static str,
+}
+
+/// The parameters of a model, with their registry.
+pub trait Parameters: Copy + Default {
+    /// Name of the model, for messages.
+    const MODEL: &'static str;
+
+    /// The registry, in the order of [`Parameters::values`].
+    fn specs() -> &'static [ParameterSpec];
+
+    /// All values, in registry order.
+    fn values(&self) -> Vec<f64>;
+
+    /// Sets the value at a registry index, unchecked.
+    fn set_at(&mut self, index: usize, value: f64);
+
+    /// Sets a parameter by name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownParameter`] with the nearest name, [`Error::OutOfRange`].
+    fn set(&mut self, name: &str, value: f64) -> Result<(), Error> {
+        let index = index_of(Self::specs(), Self::MODEL, name)?;
+        let (min, max) = Self::specs()[index].allowed;
+        if !(min..=max).contains(&value) {
+            return Err(Error::OutOfRange { name: name.to_owned(), value, min, max });
+        }
+        self.set_at(index, value);
+        Ok(())
+    }
+}
+
+/// Place of a parameter in a registry.
+///
+/// # Errors
+/// [`Error::UnknownParameter`] with the nearest name.
+pub fn index_of(specs: &[ParameterSpec], model: &'static str, name: &str) -> Result<usize, Error> {
+    specs.iter().position(|spec| spec.name == name).ok_or_else(|| Error::UnknownParameter {
+        name: name.to_owned(),
+        model,
+        nearest: nearest(name, specs.iter().map(|spec| spec.name))
+            .and_then(|found| specs.iter().map(|spec| spec.name).find(|&known| known == found)),
+    })
+}
+
+/// Declares a parameter struct together with its registry.
+macro_rules! parameters {
+    (
+        $(#[$doc:meta])* $name:ident for $model:literal {
+            $( $field:ident = $default:literal in $low:literal .. $high:literal,
+               $symbol:literal, $equation:literal, $meaning:literal; )*
+        }
+    ) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $name {
+            $( #[doc = $meaning] pub $field: f64, )*
+        }
+
+        impl Default for $name {
+            fn default() -> Self {
+                Self { $( $field: $default, )* }
+            }
+        }
+
+        impl $crate::parameters::Parameters for $name {
+            const MODEL: &'static str = $model;
+
+            fn specs() -> &'static [$crate::parameters::ParameterSpec] {
+                const SPECS: &[$crate::parameters::ParameterSpec] = &[ $(
+                    $crate::parameters::ParameterSpec {
+                        name: stringify!($field),
+                        symbol: $symbol,
+                        default: $default,
+                        range: ($low, $high),
+                        allowed: (-1e6, 1e6),
+                        equation: $equation,
+                        meaning: $meaning,
+                    },
+                )* ];
+                SPECS
+            }
+
+            fn values(&self) -> Vec<f64> {
+                vec![ $( self.$field, )* ]
+            }
+
+            fn set_at(&mut self, index: usize, value: f64) {
+                let fields = [ $( &mut self.$field, )* ];
+                for (place, field) in fields.into_iter().enumerate() {
+                    if place == index {
+                        *field = value;
+                    }
+                }
+            }
+        }
+    };
+}
+pub(crate) use parameters;

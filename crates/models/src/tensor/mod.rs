@@ -1,0 +1,147 @@
+//! The tensor model: velocity v, ellipse S and triangle U of one domain, coupled by symmetry alone.
+//!
+//! Source: paper, eqs. (V), (S), (U); Ohta and Ohkuma (2009), Phys. Rev. Lett. 102, 154101.
+
+pub mod fourier;
+pub mod indices;
+pub mod outline;
+mod parameters;
+
+pub use fourier::{Coefficients, FourierField};
+pub use parameters::TensorParameters;
+
+use motiform_dynamics::model::{Coordinate, Observable};
+use motiform_dynamics::{Dual, Model, Outline, Scalar, Shape, System, VectorField};
+
+/// The tensor model for one set of parameters.
+///
+/// ```
+/// use motiform_dynamics::{InPlane, Orbit, Request, StepControl, drive::drive, steppers::DOP853};
+/// use motiform_models::tensor::{Tensor, TensorParameters};
+///
+/// // A circle with gamma = 1 accelerates to speed 1 and swims straight.
+/// let body = InPlane(Tensor::new(&TensorParameters::default()));
+/// let control = StepControl::Adaptive { rtol: 1e-10, atol: 1e-12 };
+/// let start = [0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]; // z1, z2, z3, x, y
+/// let mut orbit = Orbit::new(&body, &DOP853, control, 0.0, &start)?;
+/// drive(&mut orbit, &Request::until(20.0, 8), &mut ())?;
+/// assert!((orbit.state()[0] - 1.0).abs() < 1e-9);
+/// # Ok::<(), motiform_dynamics::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tensor {
+    field: FourierField<f64>,
+}
+
+impl Tensor {
+    /// The model with these parameters.
+    #[must_use]
+    pub fn new(parameters: &TensorParameters) -> Self {
+        Self { field: FourierField(Coefficients::from(parameters)) }
+    }
+
+    /// The shape field, for kernels over other scalars.
+    #[must_use]
+    pub fn field(&self) -> &FourierField<f64> {
+        &self.field
+    }
+}
+
+/// The names of the state, in file order.
+pub const COORDINATES: [Coordinate; 6] = [
+    Coordinate { name: "v1", meaning: "velocity along x" },
+    Coordinate { name: "v2", meaning: "velocity along y" },
+    Coordinate { name: "s11", meaning: "elliptic deformation along x (S11 = -S22)" },
+    Coordinate { name: "s12", meaning: "elliptic deformation along the diagonal (S12 = S21)" },
+    Coordinate { name: "u111", meaning: "three-fold deformation with a corner along x (U111)" },
+    Coordinate { name: "u222", meaning: "three-fold deformation with a corner along y (U222)" },
+];
+
+const OBSERVABLES: [Observable; 2] = [
+    Observable {
+        name: "s_norm",
+        symbol: "|*S*|",
+        meaning: "size of the elliptic deformation, sqrt(S_ij S_ij)",
+    },
+    Observable {
+        name: "u_norm",
+        symbol: "|*U*|",
+        meaning: "size of the three-fold deformation, sqrt(U_ijk U_ijk)",
+    },
+];
+
+impl System for Tensor {
+    fn dim(&self) -> usize {
+        fourier::DIM
+    }
+}
+
+impl<T: Scalar<Real = f64>> VectorField<T> for Tensor {
+    #[inline]
+    fn eval(&self, t: f64, u: &[T], du: &mut [T]) {
+        self.field.eval(t, u, du);
+    }
+}
+
+impl<T: Scalar<Real = f64>> Shape<T> for Tensor {
+    #[inline]
+    fn velocity(&self, shape: &[T]) -> [T; 2] {
+        self.field.velocity(shape)
+    }
+}
+
+impl Model for Tensor {
+    /// `z_n -> exp(-i n angle) z_n`.
+    fn rotate(&self, angle: f64, shape: &mut [f64]) {
+        for (z, n) in shape.chunks_exact_mut(2).zip(1..) {
+            let (sin, cos) = libm::sincos(f64::from(n) * angle);
+            (z[0], z[1]) = (cos * z[0] + sin * z[1], cos * z[1] - sin * z[0]);
+        }
+    }
+
+    /// `z_n -> conj(z_n)`.
+    fn mirror(&self, shape: &mut [f64]) {
+        for z in shape.chunks_exact_mut(2) {
+            z[1] = -z[1];
+        }
+    }
+
+    fn coordinates(&self) -> &[Coordinate] {
+        &COORDINATES
+    }
+
+    /// `z1 = v1 - i v2`, `z2 = (S11 - i S12)/2`, `z3 = (U111 + i U222)/2`.
+    fn encode(&self, c: &[f64], shape: &mut [f64]) {
+        shape.copy_from_slice(&[c[0], -c[1], 0.5 * c[2], -0.5 * c[3], 0.5 * c[4], 0.5 * c[5]]);
+    }
+
+    fn decode(&self, z: &[f64], c: &mut [f64]) {
+        c.copy_from_slice(&[z[0], -z[1], 2.0 * z[2], -2.0 * z[3], 2.0 * z[4], 2.0 * z[5]]);
+    }
+
+    fn observables(&self) -> &[Observable] {
+        &OBSERVABLES
+    }
+
+    /// `|S| = sqrt(8) |z2|`, `|U| = 4 |z3|`.
+    fn observe(&self, z: &[f64], out: &mut [f64]) {
+        out[0] = 8.0_f64.sqrt() * libm::hypot(z[2], z[3]);
+        out[1] = 4.0 * libm::hypot(z[4], z[5]);
+    }
+
+    fn outline(&self, shape: &[f64], radius: f64, points: usize) -> Outline {
+        outline::outline(shape, radius, points)
+    }
+
+    fn deformation(&self, shape: &[f64]) -> f64 {
+        outline::deformation(shape)
+    }
+}
+
+/// Lanes and duals come for free; this line fails to compile if they ever stop.
+const _: fn() = || {
+    fn takes<T: Scalar, F: VectorField<T>>() {}
+    takes::<Dual<f64, 6>, Tensor>();
+    takes::<motiform_dynamics::Lanes<8>, FourierField<motiform_dynamics::Lanes<8>>>();
+    takes::<Dual<motiform_dynamics::Lanes<8>, 6>, FourierField<motiform_dynamics::Lanes<8>>>();
+};

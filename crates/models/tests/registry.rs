@@ -1,0 +1,43 @@
+//! The registry is complete, consistent and helpful.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use motiform_models::{Error, MODELS, ModelInfo, nearest};
+use std::collections::HashSet;
+
+#[test]
+fn every_model_builds_from_its_defaults_and_agrees_with_its_names() {
+    for info in MODELS {
+        let specs = info.parameters();
+        let names: HashSet<_> = specs.iter().map(|spec| spec.name).collect();
+        assert_eq!(names.len(), specs.len(), "{}: a name twice", info.name);
+        for spec in specs {
+            assert!(spec.range.0 <= spec.default && spec.default <= spec.range.1, "{}", spec.name);
+            assert!(spec.allowed.0 <= spec.range.0 && spec.range.1 <= spec.allowed.1, "{}", spec.name);
+            assert!(spec.meaning.ends_with('.') && info.equations.contains(spec.name), "{}", spec.name);
+        }
+        let defaults: Vec<f64> = specs.iter().map(|spec| spec.default).collect();
+        let model = info.build(&defaults).unwrap();
+        assert_eq!(model.coordinates(), info.coordinates);
+    }
+}
+
+#[test]
+fn slips_of_the_finger_get_the_nearest_name() {
+    let tensor = ModelInfo::find("tensor").unwrap();
+    assert!(matches!(ModelInfo::find("tenser"), Err(Error::UnknownModel { nearest: Some("tensor"), .. })));
+    assert!(matches!(tensor.coordinate("S11x"), Err(Error::UnknownCoordinate { nearest: Some("s11"), .. })));
+    assert_eq!(nearest("kapa2", tensor.parameters().iter().map(|p| p.name)), Some("kappa2"));
+    assert_eq!(nearest("viscosity", tensor.parameters().iter().map(|p| p.name)), None);
+    assert_eq!(tensor.coordinate("y").unwrap(), 7);
+}
+
+#[test]
+fn values_that_cannot_be_computed_with_are_refused() {
+    let tensor = ModelInfo::find("tensor").unwrap();
+    let mut values: Vec<f64> = tensor.parameters().iter().map(|spec| spec.default).collect();
+    for bad in [f64::NAN, f64::INFINITY, 1e300] {
+        values[0] = bad;
+        assert!(matches!(tensor.build(&values), Err(Error::OutOfRange { ref name, .. }) if name == "gamma"));
+    }
+}
