@@ -7,8 +7,8 @@ use std::path::Path;
 
 use motiform_study::figures::palette::{BLUE, CATEGORIES, GREEN, VERMILION};
 use motiform_study::figures::{
-    Curve, DEFAULT_SCALE, OutlineStamp, Panel, PathFigure, PathPoint, ReturnMapFigure, SectionLine,
-    SeriesFigure, png,
+    Animation, Camera, Curve, DEFAULT_SCALE, Frame, OutlineStamp, Panel, PathFigure, PathPoint,
+    ReturnMapFigure, SectionLine, SeriesFigure, png,
 };
 
 /// Drawing may fail, writing may fail: an example just says which.
@@ -24,7 +24,8 @@ fn main() -> Outcome {
     paths(folder)?;
     save(folder, "series", &series().svg()?)?;
     save(folder, "return_map_dense", &return_map(20_000).svg()?)?;
-    save(folder, "return_map_sparse", &return_map(60).svg()?)
+    save(folder, "return_map_sparse", &return_map(60).svg()?)?;
+    films(folder)
 }
 
 fn save(folder: &Path, name: &str, svg: &str) -> Outcome {
@@ -82,6 +83,28 @@ fn path_figure(name: &str, orbit: Orbit, t_end: f64, count: usize, stamps: usize
         outlines: (0..stamps).map(|i| stamp(time(i, stamps))).collect(),
         ..PathFigure::default()
     }
+}
+
+fn films(folder: &Path) -> Outcome {
+    let zigzag: Orbit = |t| [0.3 * t, 2.0 * (t / 6.0).sin()];
+    let circle: Orbit = |t| [3.0 * (0.2 * t).cos(), 3.0 * (0.2 * t).sin()];
+    let cases = [
+        ("zigzag", zigzag, Camera::Auto),
+        ("zigzag_follow", zigzag, Camera::Follow),
+        ("circle", circle, Camera::Auto),
+    ];
+    for (name, orbit, camera) in cases {
+        let time = |i: usize| 0.5 * i as f64;
+        let frame =
+            |t| Frame { t, centre: orbit(t), outline: outline(orbit(t), heading(orbit, t), 1.0, 128) };
+        let film =
+            Animation { frames: (0..200).map(|i| frame(time(i))).collect(), camera, ..Animation::default() };
+        let start = std::time::Instant::now();
+        let apng = film.apng()?;
+        println!("film {name}: 200 frames, {} kB in {:.0?}", apng.len() / 1000, start.elapsed());
+        std::fs::write(folder.join(format!("film_{name}.png")), apng)?;
+    }
+    Ok(())
 }
 
 fn heading(orbit: Orbit, t: f64) -> f64 {

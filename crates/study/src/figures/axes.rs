@@ -11,6 +11,8 @@ pub(crate) const TICK_SIZE: f64 = 12.0;
 /// Font size of axis labels, in pixels.
 pub(crate) const LABEL_SIZE: f64 = 13.0;
 const TICK_LENGTH: f64 = 5.0;
+/// Least distance of ticks, in pixels; one for both axes, so that equal axes get equal steps.
+const SPACING: f64 = 60.0;
 const LINE: f64 = LABEL_SIZE * 1.25;
 
 /// Room for tick labels and axis label below the frame, in pixels.
@@ -64,8 +66,8 @@ impl Axes {
     pub fn new(scale: Scale, x_label: Option<&str>, y_label: &str) -> Self {
         let width = |text: &str| Label::parse(text).width(TICK_SIZE);
         let Rect { w, h, .. } = scale.frame;
-        let x_ticks = Ticks::fitting(scale.x, w, 80.0, width);
-        let y_ticks = Ticks::fitting(scale.y, h, 45.0, |_| TICK_SIZE);
+        let x_ticks = Ticks::fitting(scale.x, w, SPACING, width);
+        let y_ticks = Ticks::fitting(scale.y, h, SPACING, |_| TICK_SIZE);
         let x_label = x_label.map(|label| Label::parse(&x_ticks.scaled_label(label)));
         let y_label = Label::parse(&y_ticks.scaled_label(y_label)).wrap(LABEL_SIZE, h + 10.0);
         Self { scale, x_ticks, y_ticks, x_label, y_label }

@@ -97,8 +97,8 @@ fn draw_mark(svg: &mut Svg, mark: Mark, [x, y]: Point) {
     match mark {
         Mark::Line(paint) => svg.line(left, right, &paint),
         Mark::Arrow(paint, colour) => {
-            svg.line(left, right, &paint);
-            draw_arrow(svg, [x + 3.0, y], [1.0, 0.0], colour);
+            svg.line(left, [x + 3.0, y], &paint);
+            draw_arrow(svg, [x + 5.0, y], [1.0, 0.0], colour);
         }
         Mark::Outline(paint) => {
             let point = |i: u32| {

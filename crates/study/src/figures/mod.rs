@@ -1,9 +1,10 @@
 //! Drawing: plain data in, SVG text out. Knows no model, no study file, no solver.
 //!
 //! Three figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`]) return SVG text that stands alone (its fonts
-//! are inside); [`png`] and, under the feature `pdf`, `pdf` turn that text into files. The same data give the same
+//! are inside); [`Animation`] returns an animated PNG; [`png`] and, under the feature `pdf`, `pdf` turn that text into files. The same data give the same
 //! bytes: numbers are rounded to 0.01 pixel and no system font is used. All texts are markup, see [`Label`].
 
+mod animation;
 pub mod axes;
 mod block;
 mod colour_bar;
@@ -23,6 +24,7 @@ pub mod svg;
 mod text;
 pub mod ticks;
 
+pub use animation::{Animation, Camera, Frame};
 pub use error::{FigureError, Result};
 pub use path::{OutlineStamp, PathFigure, PathPoint, SectionLine};
 #[cfg(feature = "pdf")]

@@ -72,7 +72,7 @@ impl ReturnMapFigure {
     }
 
     fn legend(&self) -> Vec<Entry> {
-        let (radius, paint) = self.dot();
+        let (radius, paint) = (self.dot().0, Paint::fill(BLUE));
         let pair = format!("({}, {}): {} points", self.x_label, self.y_label, self.points.len());
         let diagonal = format!("{} = {}", self.y_label, self.x_label);
         vec![

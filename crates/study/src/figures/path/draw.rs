@@ -8,8 +8,12 @@ use crate::figures::palette::{BLACK, Colour, INK, VERMILION, WHITE, time_colour_
 use crate::figures::simplify::simplify;
 use crate::figures::svg::{Paint, Svg};
 
-/// Tolerance of a decimated curve, in pixels.
-const TOLERANCE: f64 = 0.2;
+/// Tolerance of a decimated curve, in pixels: no corner shows at twice the size.
+const FINE: f64 = 0.04;
+/// Tolerance of a curve so long that its single turns are lost in the crowd.
+const COARSE: f64 = 0.2;
+/// Length of a path, in pixels, from which it counts as crowded.
+const CROWDED: f64 = 20_000.0;
 /// Distance of arrow heads along the path, in pixels, unless that makes too many.
 const ARROW_DISTANCE: f64 = 140.0;
 const MOST_ARROWS: f64 = 10.0;
@@ -56,13 +60,17 @@ impl PathFigure {
         let range = self.time_range().unwrap_or(Range { min: 0.0, max: 0.0 });
         for outline in &self.outlines {
             let points: Vec<_> = outline.points.iter().map(|p| scale.map(*p)).collect();
-            svg.polyline(&simplify(&points, 0.5 * TOLERANCE), true, &outline_paint(outline.t, range));
+            svg.polyline(&simplify(&points, FINE), true, &outline_paint(outline.t, range));
         }
-        let curves: Vec<Vec<Point>> = self.segments.iter().map(|s| pixels(s, scale)).collect();
+        let mut curves: Vec<Vec<Point>> = self.segments.iter().map(|s| pixels(s, scale)).collect();
         let length: f64 = curves.iter().map(|c| path_length(c)).sum();
-        let width = if length > 20_000.0 { 0.6 } else { 1.2 };
+        let mut paint = Paint::stroke(PATH_COLOUR, 1.2);
+        if length > CROWDED {
+            curves = curves.iter().map(|c| simplify(c, COARSE)).collect();
+            paint = Paint::stroke(PATH_COLOUR.mix(WHITE, 0.4), 0.6);
+        }
         for curve in &curves {
-            svg.polyline(curve, false, &Paint::stroke(PATH_COLOUR, width));
+            svg.polyline(curve, false, &paint);
         }
         if let Some(section) = &self.section {
             draw_section(svg, scale, section);
@@ -105,19 +113,21 @@ fn draw_section(svg: &mut Svg, scale: &Scale, section: &SectionLine) {
 /// A piece of the path in pixels, decimated.
 fn pixels(segment: &[PathPoint], scale: &Scale) -> Vec<Point> {
     let points: Vec<_> = segment.iter().map(|p| scale.map([p.x, p.y])).collect();
-    simplify(&points, TOLERANCE)
+    simplify(&points, FINE)
 }
 
 fn path_length(curve: &[Point]) -> f64 {
     curve.windows(2).map(|w| distance(w[0], w[1])).sum()
 }
 
-/// Arrow heads at equal distances along the whole path; none on a path too short for one.
+/// Arrow heads at equal distances along the whole path, clear of its two ends; none on a path too short for one.
 fn draw_arrows(svg: &mut Svg, curves: &[Vec<Point>], length: f64) {
     let count = (length / ARROW_DISTANCE).round().clamp(1.0, MOST_ARROWS);
     if length < 25.0 {
         return;
     }
+    let ends: Vec<Point> =
+        [curves[0].first(), curves[curves.len() - 1].last()].into_iter().flatten().copied().collect();
     let (spacing, mut walked) = (length / count, 0.0);
     let mut next = 0.5 * spacing;
     for step in curves.iter().flat_map(|curve| curve.windows(2)) {
@@ -126,7 +136,10 @@ fn draw_arrows(svg: &mut Svg, curves: &[Vec<Point>], length: f64) {
         while long > 0.0 && next <= walked + long {
             let way = [(to[0] - from[0]) / long, (to[1] - from[1]) / long];
             let ahead = next - walked;
-            draw_arrow(svg, [from[0] + ahead * way[0], from[1] + ahead * way[1]], way, PATH_COLOUR);
+            let at = [from[0] + ahead * way[0], from[1] + ahead * way[1]];
+            if ends.iter().all(|end| distance(*end, at) > 14.0) {
+                draw_arrow(svg, at, way, PATH_COLOUR);
+            }
             next += spacing;
         }
         walked += long;
