@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use png::{BitDepth, BlendOp, ColorType, Compression, Encoder, Filter, Writer};
+use png::{BitDepth, BlendOp, ColorType, DeflateCompression, Encoder, Filter, Writer};
 use resvg::tiny_skia::Pixmap;
 
 use super::colours::{KEEP, Palette};
@@ -34,7 +34,7 @@ impl<'a> Film<'a> {
         encoder.set_depth(BitDepth::Eight);
         encoder.set_palette(palette.rgb());
         encoder.set_trns(vec![0]); // KEEP is transparent, the rest opaque
-        encoder.set_compression(Compression::Fast);
+        encoder.set_deflate_compression(DeflateCompression::Level(1));
         encoder.set_filter(Filter::NoFilter);
         encoder.set_animated(u32::try_from(frames).unwrap_or(u32::MAX), 0)?;
         encoder.set_frame_delay(100, (100.0 * fps).round() as u16)?;

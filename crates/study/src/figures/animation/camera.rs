@@ -86,7 +86,7 @@ fn following(film: &Animation, side: f64) -> View {
     let caps = ends.map(|[x, y]| [[x, y - 4.0], [x, y + 4.0]]);
     svg.lines(&[ends, caps[0], caps[1]], &Paint::stroke(INK, 1.4));
     let power = if ticks.exponent == 0 { String::new() } else { format!(" × 10^{{{}}}", ticks.exponent) };
-    let label = Label::parse(&format!("{}{power} {}", ticks.labels[1], film.unit));
+    let label = Label::parse(&format!("{}{power} ({})", ticks.labels[1], film.unit));
     svg.text([ends[1][0] + 10.0, y + 4.5], 13.0, Anchor::Start, &label);
     View { scale, follow: true, grid, ground: svg.finish() }
 }

@@ -34,7 +34,6 @@ impl Palette {
                 colours.extend((1..STEPS).map(|k| ink.mix(*other, f64::from(k) / f64::from(STEPS))));
             }
         }
-        colours.dedup();
         let nearest = (0..1 << 15).map(|code| nearest(&colours, code)).collect();
         Self { colours, nearest }
     }
