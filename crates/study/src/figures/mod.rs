@@ -21,6 +21,8 @@ mod return_map;
 mod series;
 mod simplify;
 pub mod svg;
+#[cfg(test)]
+mod tests;
 mod text;
 pub mod ticks;
 

@@ -56,10 +56,10 @@ impl Ticks {
         let range = if range.span() > 0.0 { range } else { range.padded(0.0) };
         let target = target.clamp(FEWEST, MOST);
         let mut step = Step { mantissa: 1, power: range.span().log10().ceil() as i32 };
-        let count = |s: Step| s.multiples(range).1 - s.multiples(range).0 + 1;
+        let count = |s: Step| usize::try_from(s.multiples(range).1 - s.multiples(range).0 + 1).unwrap_or(0);
         loop {
             let finer = step.finer();
-            if count(step) >= FEWEST as i64 && count(finer) > target as i64 {
+            if count(step) >= FEWEST && count(finer) > target {
                 break;
             }
             step = finer;

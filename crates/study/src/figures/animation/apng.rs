@@ -1,7 +1,5 @@
 //! Writes pictures as an animated PNG, each as the rectangle of what changed.
 
-use std::ops::Range;
-
 use png::{BitDepth, BlendOp, ColorType, DeflateCompression, Encoder, Filter, Writer};
 use resvg::tiny_skia::Pixmap;
 
@@ -19,10 +17,29 @@ pub(super) struct Film<'a> {
     painted: Vec<u8>,
 }
 
-/// A rectangle of pixels.
+/// The smallest rectangle that holds some pixels; ends are exclusive.
+#[derive(Debug, Clone, Copy)]
 struct Patch {
-    rows: Range<usize>,
-    columns: Range<usize>,
+    left: usize,
+    right: usize,
+    top: usize,
+    bottom: usize,
+}
+
+impl Patch {
+    /// Holds no pixel.
+    const NONE: Self = Self { left: usize::MAX, right: 0, top: usize::MAX, bottom: 0 };
+
+    /// Takes in a pixel.
+    fn grow(&mut self, x: usize, y: usize) {
+        (self.left, self.right) = (self.left.min(x), self.right.max(x + 1));
+        (self.top, self.bottom) = (self.top.min(y), self.bottom.max(y + 1));
+    }
+
+    /// The rectangle, or the top left pixel if it is empty: a frame of a film cannot be.
+    fn or_one(self) -> Self {
+        if self.right == 0 { Self { left: 0, right: 1, top: 0, bottom: 1 } } else { self }
+    }
 }
 
 impl<'a> Film<'a> {
@@ -49,10 +66,11 @@ impl<'a> Film<'a> {
             self.writer.write_image_data(&self.shown)?;
         } else {
             let (patch, data) = self.difference(picture.data());
-            let [w, h] = [patch.columns.len(), patch.rows.len()].map(|n| n as u32);
+            let [x, y] = [patch.left, patch.top].map(|n| n as u32);
+            let [w, h] = [patch.right - patch.left, patch.bottom - patch.top].map(|n| n as u32);
             self.writer.reset_frame_position()?;
             self.writer.set_frame_dimension(w, h)?;
-            self.writer.set_frame_position(patch.columns.start as u32, patch.rows.start as u32)?;
+            self.writer.set_frame_position(x, y)?;
             self.writer.set_blend_op(BlendOp::Over)?;
             self.writer.write_image_data(&data)?;
         }
@@ -73,7 +91,7 @@ impl<'a> Film<'a> {
     /// Takes over the new picture; returns the rectangle that changed, with [`KEEP`] where it did not.
     fn difference(&mut self, rgba: &[u8]) -> (Patch, Vec<u8>) {
         let mut change = vec![KEEP; self.shown.len()];
-        let (mut rows, mut columns) = (usize::MAX..0, usize::MAX..0);
+        let mut patch = Patch::NONE;
         for y in 0..self.shown.len() / self.width {
             let row = y * self.width..(y + 1) * self.width;
             let bytes = 4 * row.start..4 * row.end;
@@ -85,15 +103,13 @@ impl<'a> Film<'a> {
             for (x, ((shown, change), new)) in pixels.enumerate() {
                 if *shown != new {
                     (*shown, *change) = (new, new);
-                    rows = rows.start.min(y)..y + 1;
-                    columns = columns.start.min(x)..columns.end.max(x + 1);
+                    patch.grow(x, y);
                 }
             }
         }
-        let patch =
-            if rows.is_empty() { Patch { rows: 0..1, columns: 0..1 } } else { Patch { rows, columns } };
-        let lines = patch.rows.clone().map(|y| y * self.width + patch.columns.start);
-        let data = lines.flat_map(|i| change[i..i + patch.columns.len()].iter().copied()).collect();
+        let patch = patch.or_one();
+        let lines = change.chunks_exact(self.width).take(patch.bottom).skip(patch.top);
+        let data = lines.flat_map(|line| &line[patch.left..patch.right]).copied().collect();
         (patch, data)
     }
 }

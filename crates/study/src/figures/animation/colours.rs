@@ -51,8 +51,8 @@ impl Palette {
     }
 }
 
-fn nearest(colours: &[Colour], code: u32) -> u8 {
-    let wanted = [code >> 10, code >> 5, code].map(|v| ((v & 31) * 255 / 31) as i32);
+fn nearest(colours: &[Colour], code: i32) -> u8 {
+    let wanted = [code >> 10, code >> 5, code].map(|v| (v & 31) * 255 / 31);
     let off = |c: &Colour| {
         let d = [i32::from(c.0) - wanted[0], i32::from(c.1) - wanted[1], i32::from(c.2) - wanted[2]];
         2 * d[0] * d[0] + 4 * d[1] * d[1] + d[2] * d[2] // the eye weighs green most
