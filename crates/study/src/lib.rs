@@ -1,1 +1,3 @@
-//! placeholder until the next commit
+//! Studies: from study file to plan to dataset to figure.
+
+pub mod figures;

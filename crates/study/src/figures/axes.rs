@@ -1,0 +1,172 @@
+//! A framed plot: data to pixels, ticks, labels.
+
+use super::geometry::{Point, Range, Rect};
+use super::palette::{INK, PALE};
+use super::svg::{Anchor, Paint, Svg};
+use super::text::Label;
+use super::ticks::Ticks;
+
+/// Font size of tick labels, in pixels.
+pub(crate) const TICK_SIZE: f64 = 12.0;
+/// Font size of axis labels, in pixels.
+pub(crate) const LABEL_SIZE: f64 = 13.0;
+const TICK_LENGTH: f64 = 5.0;
+/// Least distance of ticks, in pixels; one for both axes, so that equal axes get equal steps.
+const SPACING: f64 = 60.0;
+const LINE: f64 = LABEL_SIZE * 1.25;
+
+/// Room for tick labels and axis label below the frame, in pixels.
+pub(crate) const BELOW: f64 = TICK_LENGTH + TICK_SIZE + LINE + 12.0;
+
+/// Maps data to the pixels of a frame.
+#[derive(Debug, Clone, Copy)]
+pub struct Scale {
+    /// The frame, in pixels.
+    pub frame: Rect,
+    /// Data range across.
+    pub x: Range,
+    /// Data range upwards.
+    pub y: Range,
+}
+
+impl Scale {
+    /// Pixel position of a data point.
+    #[must_use]
+    pub fn map(&self, [x, y]: Point) -> Point {
+        [
+            self.frame.x + (x - self.x.min) / self.x.span() * self.frame.w,
+            self.frame.bottom() - (y - self.y.min) / self.y.span() * self.frame.h,
+        ]
+    }
+
+    /// A scale with one unit for both axes that shows at least `x` and `y`: the shorter axis is widened.
+    #[must_use]
+    pub fn equal(frame: Rect, x: Range, y: Range) -> Self {
+        let unit = (x.span() / frame.w).max(y.span() / frame.h);
+        Self { frame, x: x.with_span(unit * frame.w), y: y.with_span(unit * frame.h) }
+    }
+}
+
+/// The axes of a plot: what [`Scale`] maps, with ticks and labels.
+#[derive(Debug, Clone)]
+pub struct Axes {
+    /// Data to pixels.
+    pub scale: Scale,
+    x_ticks: Ticks,
+    y_ticks: Ticks,
+    x_label: Option<Label>,
+    y_label: Vec<Label>,
+}
+
+impl Axes {
+    /// Chooses the ticks. Without `x_label` the x axis has ticks but no text (panels that share an axis).
+    ///
+    /// The y label is wrapped to the height of the frame.
+    #[must_use]
+    pub fn new(scale: Scale, x_label: Option<&str>, y_label: &str) -> Self {
+        let width = |text: &str| Label::parse(text).width(TICK_SIZE);
+        let Rect { w, h, .. } = scale.frame;
+        let x_ticks = Ticks::fitting(scale.x, w, SPACING, width);
+        let y_ticks = Ticks::fitting(scale.y, h, SPACING, |_| TICK_SIZE);
+        let x_label = x_label.map(|label| Label::parse(&x_ticks.scaled_label(label)));
+        let y_label = Label::parse(&y_ticks.scaled_label(y_label)).wrap(LABEL_SIZE, h + 10.0);
+        Self { scale, x_ticks, y_ticks, x_label, y_label }
+    }
+
+    /// Pixels that the y axis needs to the left of its frame.
+    #[must_use]
+    pub fn left_margin(&self) -> f64 {
+        self.tick_label_width() + TICK_LENGTH + 12.0 + LINE * self.y_label.len() as f64
+    }
+
+    /// The same axes with the frame moved to a left edge.
+    #[must_use]
+    pub fn moved_to(mut self, x: f64) -> Self {
+        self.scale.frame.x = x;
+        self
+    }
+
+    fn tick_label_width(&self) -> f64 {
+        let widths = self.y_ticks.labels.iter().map(|l| Label::parse(l).width(TICK_SIZE));
+        widths.fold(0.0, f64::max)
+    }
+
+    /// Draws grid lines, to be called before the data.
+    pub fn draw_grid(&self, svg: &mut Svg) {
+        let Rect { x, y, .. } = self.scale.frame;
+        let (right, bottom) = (self.scale.frame.right(), self.scale.frame.bottom());
+        let mut lines: Vec<_> = self.x_positions().map(|px| [[px, y], [px, bottom]]).collect();
+        lines.extend(self.y_positions().map(|py| [[x, py], [right, py]]));
+        svg.lines(&lines, &Paint::stroke(PALE, 1.0));
+    }
+
+    /// Draws frame, ticks and labels, to be called after the data.
+    pub fn draw(&self, svg: &mut Svg) {
+        self.draw_with_margin(svg, self.left_margin());
+    }
+
+    /// [`Axes::draw`] with the y label at the left end of a given margin, so that stacked panels line up.
+    pub fn draw_with_margin(&self, svg: &mut Svg, margin: f64) {
+        let Rect { x, y, w, h } = self.scale.frame;
+        self.draw_ticks(svg);
+        svg.rect(self.scale.frame, &Paint::stroke(INK, 1.0));
+        if let Some(label) = &self.x_label {
+            svg.text([x + 0.5 * w, y + h + BELOW - 8.0], LABEL_SIZE, Anchor::Middle, label);
+        }
+        for (i, line) in self.y_label.iter().enumerate() {
+            let at = [x - margin + LINE * (i as f64 + 0.8), y + 0.5 * h];
+            svg.upward_text(at, LABEL_SIZE, Anchor::Middle, line);
+        }
+    }
+
+    fn draw_ticks(&self, svg: &mut Svg) {
+        let Rect { x, .. } = self.scale.frame;
+        let bottom = self.scale.frame.bottom();
+        let mut lines = Vec::new();
+        for (px, label) in self.x_positions().zip(&self.x_ticks.labels) {
+            lines.push([[px, bottom], [px, bottom + TICK_LENGTH]]);
+            if self.x_label.is_some() && !label.is_empty() {
+                let at = [px, bottom + TICK_LENGTH + TICK_SIZE + 2.0];
+                svg.text(at, TICK_SIZE, Anchor::Middle, &Label::parse(label));
+            }
+        }
+        for (py, label) in self.y_positions().zip(&self.y_ticks.labels) {
+            lines.push([[x - TICK_LENGTH, py], [x, py]]);
+            if !label.is_empty() {
+                let at = [x - TICK_LENGTH - 4.0, py + 0.36 * TICK_SIZE];
+                svg.text(at, TICK_SIZE, Anchor::End, &Label::parse(label));
+            }
+        }
+        svg.lines(&lines, &Paint::stroke(INK, 1.0));
+    }
+
+    fn x_positions(&self) -> impl Iterator<Item = f64> {
+        let (scale, y) = (self.scale, self.scale.y.min);
+        self.x_ticks.values.iter().map(move |x| scale.map([*x, y])[0])
+    }
+
+    fn y_positions(&self) -> impl Iterator<Item = f64> {
+        let (scale, x) = (self.scale, self.scale.x.min);
+        self.y_ticks.values.iter().map(move |y| scale.map([x, *y])[1])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_axes_map_a_circle_to_a_circle() {
+        let frame = Rect { x: 50.0, y: 20.0, w: 600.0, h: 250.0 };
+        let scale = Scale::equal(frame, Range { min: -3.0, max: 1.0 }, Range { min: 0.0, max: 7.0 });
+        let centre = scale.map([-1.0, 3.5]);
+        assert_eq!(centre, [350.0, 145.0]);
+        for i in 0..12 {
+            let (s, c) = f64::from(i).sin_cos();
+            let p = scale.map([-1.0 + 2.0 * c, 3.5 + 2.0 * s]);
+            let radius = (p[0] - centre[0]).hypot(p[1] - centre[1]);
+            assert!((radius - 2.0 * 250.0 / 7.0).abs() < 1e-9);
+        }
+        assert!(scale.map([0.0, 7.0])[1] < centre[1], "y points up");
+    }
+}

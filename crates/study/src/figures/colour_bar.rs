@@ -1,0 +1,50 @@
+//! The bar that tells which colour is which time.
+
+use super::axes::{LABEL_SIZE, TICK_SIZE};
+use super::geometry::{Point, Range, Rect};
+use super::palette::{Colour, INK, time_colour};
+use super::svg::{Anchor, Paint, Svg};
+use super::text::Label;
+use super::ticks::Ticks;
+
+const BAR: f64 = 12.0;
+const HEAD: f64 = 22.0;
+
+/// A vertical bar of time colours with ticks at its right.
+#[derive(Debug, Clone)]
+pub(crate) struct ColourBar {
+    range: Range,
+    ticks: Ticks,
+    label: Label,
+    height: f64,
+}
+
+impl ColourBar {
+    /// A bar of a total height in pixels, its label included.
+    pub(crate) fn new(range: Range, label: &str, height: f64) -> Self {
+        let ticks = Ticks::fitting(range, height - HEAD, 40.0, |_| TICK_SIZE);
+        let label = Label::parse(&ticks.scaled_label(label));
+        Self { range, ticks, label, height }
+    }
+
+    /// Width in pixels.
+    pub(crate) fn width(&self) -> f64 {
+        let labels = self.ticks.labels.iter().map(|l| Label::parse(l).width(TICK_SIZE));
+        (BAR + 8.0 + labels.fold(0.0, f64::max)).max(self.label.width(LABEL_SIZE))
+    }
+
+    /// Draws with the top left corner at `at`.
+    pub(crate) fn draw(&self, svg: &mut Svg, [x, y]: Point) {
+        svg.text([x, y + 11.0], LABEL_SIZE, Anchor::Start, &self.label);
+        let bar = Rect { x, y: y + HEAD, w: BAR, h: self.height - HEAD };
+        let colours: Vec<Colour> = (0..=8).map(|i| time_colour(f64::from(i) / 8.0)).collect();
+        svg.gradient(bar, &colours);
+        svg.rect(bar, &Paint::stroke(INK, 0.8));
+        for (value, label) in self.ticks.values.iter().zip(&self.ticks.labels) {
+            let py = bar.bottom() - (value - self.range.min) / self.range.span() * bar.h;
+            svg.line([bar.right(), py], [bar.right() + 4.0, py], &Paint::stroke(INK, 1.0));
+            let at = [bar.right() + 7.0, py + 0.36 * TICK_SIZE];
+            svg.text(at, TICK_SIZE, Anchor::Start, &Label::parse(label));
+        }
+    }
+}

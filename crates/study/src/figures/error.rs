@@ -1,0 +1,109 @@
+//! What can be wrong with the data of a figure.
+
+/// Why a figure cannot be drawn. Every message names the datum and the remedy.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FigureError {
+    /// There is nothing to draw.
+    #[error("{what} is empty; give at least one value")]
+    Empty {
+        /// The list in question.
+        what: &'static str,
+    },
+    /// A number is NaN or infinite.
+    #[error("{what} number {index} is {value}; leave undefined values out (or `None`) instead")]
+    NotFinite {
+        /// The list in question.
+        what: &'static str,
+        /// Position in the list, from 0.
+        index: usize,
+        /// The offending value.
+        value: f64,
+    },
+    /// A number is finite, but its figure has no sensible axes.
+    #[error("{what} number {index} is {value:e}; cut the data where it exceeds {limit:e}")]
+    TooLarge {
+        /// The list in question.
+        what: &'static str,
+        /// Position in the list, from 0.
+        index: usize,
+        /// The offending value.
+        value: f64,
+        /// The largest magnitude that is drawn.
+        limit: f64,
+    },
+    /// Two lists that belong together differ in length.
+    #[error("{what} has {got} values for {expected} times; give one value (or `None`) per time")]
+    Shape {
+        /// The list in question.
+        what: String,
+        /// Length it must have.
+        expected: usize,
+        /// Length it has.
+        got: usize,
+    },
+    /// Times do not increase.
+    #[error("{what} number {index} is smaller than the one before it; sort the data by time")]
+    Unsorted {
+        /// The list in question.
+        what: &'static str,
+        /// Position in the list, from 0.
+        index: usize,
+    },
+    /// A size in pixels or a rate is out of range.
+    #[error("{what} is {value}; choose it between {min} and {max}")]
+    OutOfRange {
+        /// The setting in question.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// Smallest allowed value.
+        min: f64,
+        /// Largest allowed value.
+        max: f64,
+    },
+    /// The text handed to the rasteriser is no SVG document.
+    #[error("cannot read the svg: {source}; give the text that a figure's `svg` returned")]
+    Svg {
+        /// What the parser found.
+        #[from]
+        source: resvg::usvg::Error,
+    },
+    /// The PNG encoder failed.
+    #[error("cannot encode the png: {source}; try a smaller image")]
+    Png {
+        /// What the encoder found.
+        #[from]
+        source: png::EncodingError,
+    },
+    /// The PDF writer failed.
+    #[error("cannot write the pdf: {why}; keep the svg, which holds the same drawing")]
+    Pdf {
+        /// What the writer found.
+        why: String,
+    },
+}
+
+/// Result of a drawing function.
+pub type Result<T> = std::result::Result<T, FigureError>;
+
+/// Largest magnitude drawn: beyond it the products of a layout could overflow.
+const LIMIT: f64 = 1e100;
+
+/// Refuses values that are not finite, or too large for an axis.
+pub(crate) fn check_finite(what: &'static str, values: impl IntoIterator<Item = f64>) -> Result<()> {
+    for (index, value) in values.into_iter().enumerate() {
+        if !value.is_finite() {
+            return Err(FigureError::NotFinite { what, index, value });
+        }
+        if value.abs() > LIMIT {
+            return Err(FigureError::TooLarge { what, index, value, limit: LIMIT });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a setting outside its range.
+pub(crate) fn check_range(what: &'static str, value: f64, min: f64, max: f64) -> Result<()> {
+    if (min..=max).contains(&value) { Ok(()) } else { Err(FigureError::OutOfRange { what, value, min, max }) }
+}

@@ -1,0 +1,83 @@
+//! Points, boxes and ranges, in pixels (y down) or in data units (y up).
+
+/// A point or vector of the plane.
+pub type Point = [f64; 2];
+
+/// A box in pixels: left, top, width, height.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rect {
+    /// Left edge.
+    pub x: f64,
+    /// Top edge.
+    pub y: f64,
+    /// Width, at least 0.
+    pub w: f64,
+    /// Height, at least 0.
+    pub h: f64,
+}
+
+impl Rect {
+    /// Right edge.
+    #[must_use]
+    pub fn right(&self) -> f64 {
+        self.x + self.w
+    }
+
+    /// Bottom edge.
+    #[must_use]
+    pub fn bottom(&self) -> f64 {
+        self.y + self.h
+    }
+}
+
+/// A closed interval of data values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// Lower end.
+    pub min: f64,
+    /// Upper end.
+    pub max: f64,
+}
+
+impl Range {
+    /// Smallest range that holds all values; `None` without values.
+    #[must_use]
+    pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
+        values.into_iter().fold(None, |range: Option<Self>, v| {
+            Some(range.map_or(Self { min: v, max: v }, |r| Self { min: r.min.min(v), max: r.max.max(v) }))
+        })
+    }
+
+    /// Length of the interval.
+    #[must_use]
+    pub fn span(&self) -> f64 {
+        self.max - self.min
+    }
+
+    /// Centre of the interval.
+    #[must_use]
+    pub fn middle(&self) -> f64 {
+        0.5 * self.min + 0.5 * self.max
+    }
+
+    /// The range of the given length about the same centre.
+    #[must_use]
+    pub fn with_span(&self, span: f64) -> Self {
+        Self { min: self.middle() - 0.5 * span, max: self.middle() + 0.5 * span }
+    }
+
+    /// The range widened on both sides by `fraction` of its length, and enough to be an axis: an empty range
+    /// becomes one of length 1 (or 20 % of the value, if that is more), one too narrow for distinct
+    /// double-precision ticks is widened to 1e-9 of the value.
+    #[must_use]
+    pub fn padded(&self, fraction: f64) -> Self {
+        let size = self.min.abs().max(self.max.abs());
+        let span = if self.span() > 0.0 { self.span() } else { (0.2 * size).max(1.0) };
+        self.with_span((span * (1.0 + 2.0 * fraction)).max(1e-9 * size).max(1e-100))
+    }
+}
+
+/// Distance of two points.
+pub(crate) fn distance(a: Point, b: Point) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}

@@ -1,0 +1,135 @@
+//! The key of a figure: a mark and a word each, in rows, always outside the data.
+
+use super::geometry::Point;
+use super::palette::{BLACK, Colour, WHITE};
+use super::svg::{Anchor, Paint, Svg};
+use super::text::Label;
+
+const SIZE: f64 = 12.0;
+const MARK: f64 = 22.0;
+const GAP: f64 = 18.0;
+/// Height of a row, in pixels.
+pub(crate) const ROW: f64 = 19.0;
+
+/// What stands before the word.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Mark {
+    /// A line.
+    Line(Paint),
+    /// A line with an arrow head.
+    Arrow(Paint, Colour),
+    /// A filled closed curve.
+    Outline(Paint),
+    /// A disc of a radius in pixels.
+    Dot(Paint, f64),
+    /// The mark of the first point.
+    Start,
+    /// The mark of the last point.
+    End,
+}
+
+/// A mark and its word.
+#[derive(Debug, Clone)]
+pub(crate) struct Entry {
+    mark: Mark,
+    label: Label,
+}
+
+impl Entry {
+    /// An entry; `label` is markup.
+    pub(crate) fn new(mark: Mark, label: &str) -> Self {
+        Self { mark, label: Label::parse(label) }
+    }
+
+    fn width(&self) -> f64 {
+        MARK + 6.0 + self.label.width(SIZE)
+    }
+}
+
+/// Entries with their places.
+#[derive(Debug, Clone)]
+pub(crate) struct Legend {
+    placed: Vec<(Point, Entry)>,
+    width: f64,
+    height: f64,
+}
+
+impl Legend {
+    /// Flows the entries into rows of at most `width` pixels; one a row if the width is 0.
+    pub(crate) fn flowed(entries: Vec<Entry>, width: f64) -> Self {
+        let mut legend = Self { placed: Vec::new(), width: 0.0, height: 0.0 };
+        let (mut x, mut y) = (0.0, 0.0);
+        for entry in entries {
+            if x > 0.0 && x + entry.width() > width {
+                (x, y) = (0.0, y + ROW);
+            }
+            legend.width = legend.width.max(x + entry.width());
+            legend.height = y + ROW;
+            let next = x + entry.width() + GAP;
+            legend.placed.push(([x, y], entry));
+            x = next;
+        }
+        legend
+    }
+
+    /// Width in pixels.
+    pub(crate) fn width(&self) -> f64 {
+        self.width
+    }
+
+    /// Height in pixels; 0 without entries.
+    pub(crate) fn height(&self) -> f64 {
+        self.height
+    }
+
+    /// Draws with the top left corner at `at`.
+    pub(crate) fn draw(&self, svg: &mut Svg, at: Point) {
+        for ([x, y], entry) in &self.placed {
+            let (left, middle) = (at[0] + x, at[1] + y + 0.5 * ROW);
+            draw_mark(svg, entry.mark, [left + 0.5 * MARK, middle]);
+            svg.text([left + MARK + 6.0, middle + 0.36 * SIZE], SIZE, Anchor::Start, &entry.label);
+        }
+    }
+}
+
+fn draw_mark(svg: &mut Svg, mark: Mark, [x, y]: Point) {
+    let (left, right) = ([x - 0.5 * MARK, y], [x + 0.5 * MARK, y]);
+    match mark {
+        Mark::Line(paint) => svg.line(left, right, &paint),
+        Mark::Arrow(paint, colour) => {
+            svg.line(left, [x + 3.0, y], &paint);
+            draw_arrow(svg, [x + 5.0, y], [1.0, 0.0], colour);
+        }
+        Mark::Outline(paint) => {
+            let point = |i: u32| {
+                let (s, c) = (f64::from(i) * std::f64::consts::TAU / 24.0).sin_cos();
+                [x + 0.42 * MARK * c, y + 0.26 * MARK * s]
+            };
+            svg.polyline(&(0..24).map(point).collect::<Vec<_>>(), true, &paint);
+        }
+        Mark::Dot(paint, radius) => svg.circle([x, y], radius, &paint),
+        Mark::Start => draw_start(svg, [x, y]),
+        Mark::End => draw_end(svg, [x, y]),
+    }
+}
+
+/// The first point: a white disc with a black edge.
+pub(crate) fn draw_start(svg: &mut Svg, at: Point) {
+    svg.circle(at, 4.2, &Paint::fill(WHITE).edge(BLACK, 1.6));
+}
+
+/// The last point: a black square with a white edge.
+pub(crate) fn draw_end(svg: &mut Svg, [x, y]: Point) {
+    let corners =
+        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[u, v]| [x + 4.0 * u, y + 4.0 * v]);
+    svg.polyline(&corners, true, &Paint::fill(BLACK).edge(WHITE, 1.0));
+}
+
+/// An arrow head whose centre is `at`, along the unit vector `way`.
+pub(crate) fn draw_arrow(svg: &mut Svg, at: Point, way: Point, colour: Colour) {
+    let corner = |ahead: f64, aside: f64| {
+        [at[0] + ahead * way[0] - aside * way[1], at[1] + ahead * way[1] + aside * way[0]]
+    };
+    let corners = [corner(6.0, 0.0), corner(-4.0, 3.8), corner(-2.2, 0.0), corner(-4.0, -3.8)];
+    svg.polyline(&corners, true, &Paint::fill(colour).edge(WHITE, 0.7));
+}

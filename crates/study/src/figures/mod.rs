@@ -1,0 +1,38 @@
+//! Drawing: plain data in, SVG text out. Knows no model, no study file, no solver.
+//!
+//! Three figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`]) return SVG text that stands alone (its fonts
+//! are inside); [`Animation`] returns an animated PNG; [`png`] and, under the feature `pdf`, `pdf` turn that text into files. The same data give the same
+//! bytes: numbers are rounded to 0.01 pixel and no system font is used. All texts are markup, see [`Label`].
+
+mod animation;
+pub mod axes;
+mod block;
+mod colour_bar;
+mod error;
+mod fonts;
+pub mod geometry;
+mod legend;
+pub mod palette;
+mod path;
+#[cfg(feature = "pdf")]
+mod pdf;
+mod raster;
+mod return_map;
+mod series;
+mod simplify;
+pub mod svg;
+#[cfg(test)]
+mod tests;
+mod text;
+pub mod ticks;
+
+pub use animation::{Animation, Camera, Frame};
+pub use error::{FigureError, Result};
+pub use path::{OutlineStamp, PathFigure, PathPoint, SectionLine};
+#[cfg(feature = "pdf")]
+pub use pdf::pdf;
+pub use raster::{DEFAULT_SCALE, png};
+pub use return_map::ReturnMapFigure;
+pub use series::{Curve, Panel, SeriesFigure};
+pub use simplify::simplify;
+pub use text::{Label, literal};

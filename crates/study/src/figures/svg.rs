@@ -1,0 +1,291 @@
+//! A small writer of SVG: shapes and labels in pixels, rounded to 0.01, always the same bytes.
+
+use std::fmt::{self, Display, Write as _};
+
+use super::fonts::{self, Face};
+use super::geometry::{Point, Rect};
+use super::palette::{Colour, INK};
+use super::text::Label;
+
+/// A number rounded to 0.01, without trailing zeros and without "-0".
+#[derive(Debug, Clone, Copy)]
+pub struct Num(pub f64);
+
+impl Display for Num {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let cents = (self.0 * 100.0).round() as i64; // saturates; figures refuse what is not finite
+        let (whole, cents, sign) = (cents.abs() / 100, cents.abs() % 100, if cents < 0 { "-" } else { "" });
+        match cents {
+            0 => write!(f, "{sign}{whole}"),
+            c if c % 10 == 0 => write!(f, "{sign}{whole}.{}", c / 10),
+            c => write!(f, "{sign}{whole}.{c:02}"),
+        }
+    }
+}
+
+/// `text` with the characters that XML reserves replaced; control characters are dropped.
+#[must_use]
+pub fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => {}
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// How a shape is painted.
+#[derive(Debug, Clone, Copy)]
+pub struct Paint {
+    fill: Option<(Colour, f64)>,
+    stroke: Option<(Colour, f64)>,
+    dash: Option<&'static str>,
+    opacity: f64,
+}
+
+impl Paint {
+    /// Filled, no edge.
+    #[must_use]
+    pub fn fill(colour: Colour) -> Self {
+        Self { fill: Some((colour, 1.0)), stroke: None, dash: None, opacity: 1.0 }
+    }
+
+    /// A line of a width in pixels, no filling.
+    #[must_use]
+    pub fn stroke(colour: Colour, width: f64) -> Self {
+        Self { fill: None, stroke: Some((colour, width)), dash: None, opacity: 1.0 }
+    }
+
+    /// Adds an edge of a width in pixels.
+    #[must_use]
+    pub fn edge(self, colour: Colour, width: f64) -> Self {
+        Self { stroke: Some((colour, width)), ..self }
+    }
+
+    /// Adds a filling of an opacity between 0 and 1.
+    #[must_use]
+    pub fn tint(self, colour: Colour, opacity: f64) -> Self {
+        Self { fill: Some((colour, opacity)), ..self }
+    }
+
+    /// Dashes the line: lengths in pixels, as SVG writes them.
+    #[must_use]
+    pub fn dashed(self, dash: &'static str) -> Self {
+        Self { dash: Some(dash), ..self }
+    }
+
+    /// Opacity of the whole shape, between 0 and 1.
+    #[must_use]
+    pub fn opacity(self, opacity: f64) -> Self {
+        Self { opacity, ..self }
+    }
+}
+
+impl Display for Paint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.fill {
+            Some((colour, opacity)) if opacity < 1.0 => {
+                write!(f, " fill=\"{colour}\" fill-opacity=\"{}\"", Num(opacity))?;
+            }
+            Some((colour, _)) => write!(f, " fill=\"{colour}\"")?,
+            None => f.write_str(" fill=\"none\"")?,
+        }
+        if let Some((colour, width)) = self.stroke {
+            write!(f, " stroke=\"{colour}\" stroke-width=\"{}\"", Num(width))?;
+            write!(
+                f,
+                " stroke-linejoin=\"round\" stroke-linecap=\"{}\"",
+                if self.dash.is_some() { "butt" } else { "round" }
+            )?;
+        }
+        if let Some(dash) = self.dash {
+            write!(f, " stroke-dasharray=\"{dash}\"")?;
+        }
+        if self.opacity < 1.0 {
+            write!(f, " opacity=\"{}\"", Num(self.opacity))?;
+        }
+        Ok(())
+    }
+}
+
+/// Which point of a label is put at the given place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Anchor {
+    /// Its left end.
+    Start,
+    /// Its middle.
+    Middle,
+    /// Its right end.
+    End,
+}
+
+/// An SVG document under construction; y points down, the unit is the pixel.
+#[derive(Debug)]
+pub struct Svg {
+    width: f64,
+    height: f64,
+    body: String,
+    ids: u32,
+}
+
+// `write!` into a String cannot fail, so its result is dropped below.
+impl Svg {
+    /// An empty white sheet.
+    #[must_use]
+    pub fn new(width: f64, height: f64) -> Self {
+        Self { width, height, body: String::new(), ids: 0 }
+    }
+
+    /// A polyline, or a polygon if `closed`. Fewer than two points draw nothing.
+    pub fn polyline(&mut self, points: &[Point], closed: bool, paint: &Paint) {
+        if points.len() < 2 {
+            return;
+        }
+        self.body.push_str("<path d=\"");
+        for (i, p) in points.iter().enumerate() {
+            let command = if i == 0 { 'M' } else { 'L' };
+            let _ = write!(self.body, "{command}{} {}", Num(p[0]), Num(p[1]));
+        }
+        let _ = writeln!(self.body, "{}\"{paint}/>", if closed { "Z" } else { "" });
+    }
+
+    /// A straight line.
+    pub fn line(&mut self, from: Point, to: Point, paint: &Paint) {
+        self.polyline(&[from, to], false, paint);
+    }
+
+    /// Several separate straight lines as one shape.
+    pub fn lines(&mut self, lines: &[[Point; 2]], paint: &Paint) {
+        if lines.is_empty() {
+            return;
+        }
+        self.body.push_str("<path d=\"");
+        for [a, b] in lines {
+            let _ = write!(self.body, "M{} {}L{} {}", Num(a[0]), Num(a[1]), Num(b[0]), Num(b[1]));
+        }
+        let _ = writeln!(self.body, "\"{paint}/>");
+    }
+
+    /// A disc or circle.
+    pub fn circle(&mut self, centre: Point, radius: f64, paint: &Paint) {
+        let [x, y] = centre.map(Num);
+        let _ = writeln!(self.body, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{}\"{paint}/>", Num(radius));
+    }
+
+    /// An upright rectangle.
+    pub fn rect(&mut self, rect: Rect, paint: &Paint) {
+        let _ = writeln!(self.body, "<rect {}{paint}/>", Box(rect));
+    }
+
+    /// A rectangle filled by a vertical gradient, `colours` from bottom to top at equal distances.
+    pub fn gradient(&mut self, rect: Rect, colours: &[Colour]) {
+        let id = self.id();
+        let _ = write!(self.body, "<linearGradient id=\"i{id}\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">");
+        for (i, colour) in colours.iter().enumerate() {
+            let offset = Num(100.0 * i as f64 / (colours.len() - 1).max(1) as f64);
+            let _ = write!(self.body, "<stop offset=\"{offset}%\" stop-color=\"{colour}\"/>");
+        }
+        let _ = writeln!(self.body, "</linearGradient><rect {} fill=\"url(#i{id})\"/>", Box(rect));
+    }
+
+    /// Draws with everything outside `rect` cut off.
+    pub fn clipped(&mut self, rect: Rect, draw: impl FnOnce(&mut Self)) {
+        let id = self.id();
+        let _ = write!(self.body, "<clipPath id=\"i{id}\"><rect {}/></clipPath>", Box(rect));
+        let _ = writeln!(self.body, "<g clip-path=\"url(#i{id})\">");
+        draw(self);
+        self.body.push_str("</g>\n");
+    }
+
+    /// A label with its baseline at `at`; `size` in pixels.
+    pub fn text(&mut self, at: Point, size: f64, anchor: Anchor, label: &Label) {
+        let [x, y] = at.map(Num);
+        self.write_text(&format!("x=\"{x}\" y=\"{y}\""), size, anchor, label);
+    }
+
+    /// A label that reads upward, baseline at `at`.
+    pub fn upward_text(&mut self, at: Point, size: f64, anchor: Anchor, label: &Label) {
+        let [x, y] = at.map(Num);
+        self.write_text(&format!("transform=\"translate({x} {y}) rotate(-90)\""), size, anchor, label);
+    }
+
+    fn write_text(&mut self, place: &str, size: f64, anchor: Anchor, label: &Label) {
+        let anchor = match anchor {
+            Anchor::Start => "",
+            Anchor::Middle => " text-anchor=\"middle\"",
+            Anchor::End => " text-anchor=\"end\"",
+        };
+        let _ = write!(self.body, "<text {place} font-size=\"{}\"{anchor} fill=\"{INK}\">", Num(size));
+        let mut drop = 0.0;
+        for run in label.runs() {
+            self.body.push_str("<tspan");
+            if run.face == Face::Italic {
+                self.body.push_str(" font-style=\"italic\"");
+            }
+            if run.script.scale() < 1.0 {
+                let _ = write!(self.body, " font-size=\"{}\"", Num(size * run.script.scale()));
+            }
+            if run.script.drop() != drop {
+                let _ = write!(self.body, " dy=\"{}\"", Num(size * (run.script.drop() - drop)));
+                drop = run.script.drop();
+            }
+            let _ = write!(self.body, ">{}</tspan>", escape(&run.text));
+        }
+        self.body.push_str("</text>\n");
+    }
+
+    fn id(&mut self) -> u32 {
+        self.ids += 1;
+        self.ids
+    }
+
+    /// The document. It stands alone: the fonts are inside.
+    #[must_use]
+    pub fn finish(self) -> String {
+        let (w, h) = (Num(self.width), Num(self.height));
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
+             font-family=\"{}\" xml:space=\"preserve\">\n<style>{}</style>\n\
+             <rect width=\"{w}\" height=\"{h}\" fill=\"#fff\"/>\n{}</svg>\n",
+            fonts::FAMILY,
+            fonts::css(),
+            self.body
+        )
+    }
+}
+
+/// A rectangle as attributes.
+struct Box(Rect);
+
+impl Display for Box {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Rect { x, y, w, h } = self.0;
+        write!(f, "x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"", Num(x), Num(y), Num(w), Num(h))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let all = [0.0, -0.001, 1.5, -2.25, 3.999, 12.0, -0.05].map(|x| Num(x).to_string());
+        assert_eq!(all, ["0", "0", "1.5", "-2.25", "4", "12", "-0.05"]);
+    }
+
+    #[test]
+    fn reserved_characters_are_escaped() {
+        assert_eq!(escape("a<b & \"c\" > 'd'\u{1}"), "a&lt;b &amp; &quot;c&quot; &gt; &#39;d&#39;");
+        let mut svg = Svg::new(10.0, 10.0);
+        svg.text([0.0, 0.0], 12.0, Anchor::Start, &Label::parse("|S| < 1 & 2"));
+        assert!(resvg::usvg::Tree::from_str(&svg.finish(), &resvg::usvg::Options::default()).is_ok());
+    }
+}

@@ -1,0 +1,214 @@
+//! Labels: a line of text with italic symbols, subscripts and superscripts.
+//!
+//! Markup: `*x*` italic; `_2` or `_{max}` subscript; `^2` or `^{-1}` superscript; a backslash takes the next
+//! character literally. A hyphen before a digit becomes a true minus, unless it follows a letter or digit on the line.
+
+use super::fonts::{self, Face};
+
+/// Where a character stands on the line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Script {
+    /// On the line.
+    Base,
+    /// Lowered and smaller.
+    Sub,
+    /// Raised and smaller.
+    Super,
+}
+
+impl Script {
+    /// Font size relative to the line's.
+    pub(crate) fn scale(self) -> f64 {
+        if self == Self::Base { 1.0 } else { 0.72 }
+    }
+
+    /// Baseline, in font sizes below the line's.
+    pub(crate) fn drop(self) -> f64 {
+        match self {
+            Self::Base => 0.0,
+            Self::Sub => 0.2,
+            Self::Super => -0.36,
+        }
+    }
+}
+
+/// A character and how it is set.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Set {
+    character: char,
+    face: Face,
+    script: Script,
+}
+
+impl Set {
+    /// Width in font sizes of the line.
+    fn width(self) -> f64 {
+        fonts::advance(self.face, self.character) * self.script.scale()
+    }
+
+    fn is_break(self) -> bool {
+        self.character == ' ' && self.script == Script::Base
+    }
+}
+
+/// A run of characters set alike.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Run {
+    /// The characters.
+    pub(crate) text: String,
+    /// Upright or italic.
+    pub(crate) face: Face,
+    /// Height on the line.
+    pub(crate) script: Script,
+}
+
+/// One line of rich text.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Label(Vec<Set>);
+
+/// `text` with its markup characters taken literally: for file names and identifiers.
+#[must_use]
+pub fn literal(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        if matches!(c, '*' | '_' | '^' | '\\') {
+            out.push('\\');
+        }
+        out.push(c);
+    }
+    out
+}
+
+impl Label {
+    /// Reads the markup. Never fails: a mark without partner is dropped, control characters become spaces.
+    #[must_use]
+    pub fn parse(markup: &str) -> Self {
+        let mut out = Vec::new();
+        let (mut face, mut script, mut braced) = (Face::Regular, Script::Base, false);
+        let mut characters = markup.chars().peekable();
+        while let Some(mut c) = characters.next() {
+            match c {
+                '*' => {
+                    face = if face == Face::Regular { Face::Italic } else { Face::Regular };
+                    continue;
+                }
+                '_' | '^' if script == Script::Base => {
+                    script = if c == '_' { Script::Sub } else { Script::Super };
+                    braced = characters.next_if_eq(&'{').is_some();
+                    continue;
+                }
+                '}' if braced => {
+                    (script, braced) = (Script::Base, false);
+                    continue;
+                }
+                '\\' => c = characters.next().unwrap_or('\\'),
+                '-' if is_minus(&out, script, characters.peek()) => c = '\u{2212}',
+                _ => {}
+            }
+            out.push(Set { character: if c.is_control() { ' ' } else { c }, face, script });
+            if !braced {
+                script = Script::Base;
+            }
+        }
+        Self(out)
+    }
+
+    /// Width in pixels at a font size in pixels.
+    #[must_use]
+    pub fn width(&self, size: f64) -> f64 {
+        size * self.0.iter().map(|s| s.width()).sum::<f64>()
+    }
+
+    /// Whether there is no character.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Breaks at spaces into lines of at most `width` pixels; a longer word keeps a line of its own.
+    #[must_use]
+    pub fn wrap(&self, size: f64, width: f64) -> Vec<Self> {
+        let mut lines: Vec<Vec<Set>> = Vec::new();
+        for word in self.0.split(|s| s.is_break()).filter(|word| !word.is_empty()) {
+            let space = Set { character: ' ', face: Face::Regular, script: Script::Base };
+            let long = |line: &[Set]| {
+                let em: f64 = line.iter().chain([&space]).chain(word).map(|s| s.width()).sum();
+                em * size > width
+            };
+            match lines.last_mut() {
+                Some(line) if !long(line) => {
+                    line.push(space);
+                    line.extend_from_slice(word);
+                }
+                _ => lines.push(word.to_vec()),
+            }
+        }
+        lines.into_iter().map(Self).collect()
+    }
+
+    /// The text as runs of equal setting.
+    pub(crate) fn runs(&self) -> Vec<Run> {
+        let mut runs: Vec<Run> = Vec::new();
+        for set in &self.0 {
+            match runs.last_mut() {
+                Some(run) if run.face == set.face && run.script == set.script => run.text.push(set.character),
+                _ => runs.push(Run { text: set.character.into(), face: set.face, script: set.script }),
+            }
+        }
+        runs
+    }
+}
+
+/// Whether a hyphen after `before` is a minus sign: in "x = -2" and in any script, but not in "1e-3" or "7-12".
+fn is_minus(before: &[Set], script: Script, next: Option<&char>) -> bool {
+    let free = script != Script::Base || before.last().is_none_or(|s| !s.character.is_alphanumeric());
+    free && next.is_some_and(|c| c.is_ascii_digit() || *c == '.')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plain(markup: &str) -> String {
+        Label::parse(markup).runs().into_iter().map(|r| r.text).collect()
+    }
+
+    #[test]
+    fn markup_becomes_runs() {
+        let runs = Label::parse("*κ*_2 = -0.9, *x*_{*n*+1}^2").runs();
+        let seen: Vec<_> = runs.iter().map(|r| (r.text.as_str(), r.face, r.script)).collect();
+        use Face::{Italic, Regular};
+        use Script::{Base, Sub, Super};
+        assert_eq!(
+            seen,
+            [
+                ("κ", Italic, Base),
+                ("2", Regular, Sub),
+                (" = \u{2212}0.9, ", Regular, Base),
+                ("x", Italic, Base),
+                ("n", Italic, Sub),
+                ("+1", Regular, Sub),
+                ("2", Regular, Super),
+            ]
+        );
+    }
+
+    #[test]
+    fn hyphens_stay_where_they_are_no_minus() {
+        assert_eq!(plain("1e-3, 7-12, 2026-11-21, a-b"), "1e-3, 7-12, 2026-11-21, a-b");
+        assert_eq!(plain("10^{-3} (-2) -.5"), "10\u{2212}3 (\u{2212}2) \u{2212}.5");
+    }
+
+    #[test]
+    fn literal_text_survives() {
+        assert_eq!(plain(&literal("run_2*a^b\\c.toml")), "run_2*a^b\\c.toml");
+    }
+
+    #[test]
+    fn wrapped_lines_fit_and_lose_no_word() {
+        let label = Label::parse("one two three four five six seven eight nine ten");
+        let lines = label.wrap(12.0, 90.0);
+        assert!(lines.len() > 2 && lines.iter().all(|l| l.width(12.0) <= 90.0));
+        assert_eq!(lines.iter().map(|l| l.0.len() + 1).sum::<usize>(), label.0.len() + 1);
+    }
+}

@@ -1,0 +1,157 @@
+//! Round numbers along an axis: steps of 1, 2 or 5 times a power of ten.
+
+use super::geometry::Range;
+
+/// Fewest ticks an axis gets.
+pub const FEWEST: usize = 3;
+/// Most ticks an axis gets.
+pub const MOST: usize = 10;
+
+/// Ticks inside a range, with labels that share their decimals.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ticks {
+    /// Positions in data units, increasing.
+    pub values: Vec<f64>,
+    /// Label of each tick, with a true minus sign; to be multiplied by ten to the `exponent`.
+    pub labels: Vec<String>,
+    /// Power of ten taken out of the labels; 0 for numbers of ordinary size.
+    pub exponent: i32,
+}
+
+/// The step `mantissa` * 10^`power`.
+#[derive(Debug, Clone, Copy)]
+struct Step {
+    mantissa: i64,
+    power: i32,
+}
+
+impl Step {
+    /// `k` steps; correctly rounded, since powers of ten up to 10^22 are exact.
+    fn times(self, k: i64, shift: i32) -> f64 {
+        let (whole, power) = ((k * self.mantissa) as f64, self.power - shift);
+        if power < 0 { whole / 10f64.powi(-power) } else { whole * 10f64.powi(power) }
+    }
+
+    fn finer(self) -> Self {
+        match self.mantissa {
+            1 => Self { mantissa: 5, power: self.power - 1 },
+            5 => Self { mantissa: 2, ..self },
+            _ => Self { mantissa: 1, ..self },
+        }
+    }
+
+    /// First and last multiple inside the range, a rounding error beyond its ends allowed.
+    fn multiples(self, range: Range) -> (i64, i64) {
+        let (step, slack) = (self.times(1, 0), 1e-9);
+        ((range.min / step - slack).ceil() as i64, (range.max / step + slack).floor() as i64)
+    }
+}
+
+impl Ticks {
+    /// At most `target` ticks (clamped to 3..=10), as many as round steps allow; at least three.
+    ///
+    /// A range that is empty or reversed is first widened as [`Range::padded`] does.
+    #[must_use]
+    pub fn new(range: Range, target: usize) -> Self {
+        let range = if range.span() > 0.0 { range } else { range.padded(0.0) };
+        let target = target.clamp(FEWEST, MOST);
+        let mut step = Step { mantissa: 1, power: range.span().log10().ceil() as i32 };
+        let count = |s: Step| usize::try_from(s.multiples(range).1 - s.multiples(range).0 + 1).unwrap_or(0);
+        loop {
+            let finer = step.finer();
+            if count(step) >= FEWEST && count(finer) > target {
+                break;
+            }
+            step = finer;
+        }
+        Self::with_step(step, range)
+    }
+
+    fn with_step(step: Step, range: Range) -> Self {
+        let (first, last) = step.multiples(range);
+        let values: Vec<_> = (first..=last).map(|k| step.times(k, 0)).collect();
+        let largest = values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        let exponent = if (1e-3..1e5).contains(&largest) { 0 } else { largest.log10().floor() as i32 };
+        let decimals = (exponent - step.power).max(0) as usize;
+        let label = |k| {
+            let text = format!("{:.decimals$}", step.times(k, exponent));
+            text.replace('-', "\u{2212}")
+        };
+        Self { labels: (first..=last).map(label).collect(), values, exponent }
+    }
+
+    /// As many ticks as fit: neighbouring labels, `extent` pixels long each, keep their distance on an axis of
+    /// `pixels`.
+    #[must_use]
+    pub fn fitting(range: Range, pixels: f64, spacing: f64, extent: impl Fn(&str) -> f64) -> Self {
+        let most = (pixels / spacing).clamp(FEWEST as f64, 8.0) as usize;
+        let fits = |ticks: &Self| {
+            let widest = ticks.labels.iter().map(|l| extent(l)).fold(0.0, f64::max);
+            let gap = (ticks.values[1] - ticks.values[0]) / range.span() * pixels;
+            gap >= widest + 0.3 * spacing.min(30.0)
+        };
+        let mut best = (FEWEST..=most).rev().map(|n| Self::new(range, n));
+        let ticks = best.find(fits).unwrap_or_else(|| Self::new(range, FEWEST));
+        if fits(&ticks) { ticks } else { ticks.thinned() }
+    }
+
+    /// Only every other label, for an axis too short for three.
+    fn thinned(mut self) -> Self {
+        for label in self.labels.iter_mut().skip(1).step_by(2) {
+            label.clear();
+        }
+        self
+    }
+
+    /// `label` with the power of ten of these ticks put before its unit: "*x* (10^{4} model length)".
+    #[must_use]
+    pub fn scaled_label(&self, label: &str) -> String {
+        let power = format!("10^{{{}}}", self.exponent);
+        match (self.exponent, label.find(" (")) {
+            (0, _) => label.to_owned(),
+            (_, Some(unit)) => format!("{} ({power} {}", &label[..unit], &label[unit + 2..]),
+            (_, None) => format!("{label} ({power})"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn ticks_cover_the_range(a in -1.0..1.0f64, span in 1e-3..1.0f64, power in -12..12i32, target in 0..20usize) {
+            let scale = 10f64.powi(power);
+            let range = Range { min: a * scale, max: (a + span) * scale };
+            let Ticks { values, labels, .. } = Ticks::new(range, target);
+            prop_assert!((FEWEST..=MOST).contains(&values.len()), "{values:?}");
+            let step = values[1] - values[0];
+            prop_assert!(values.windows(2).all(|w| w[0] < w[1] && ((w[1] - w[0]) / step - 1.0).abs() < 1e-6));
+            // inside, and no further tick would be
+            prop_assert!(values[0] >= range.min - 1e-6 * step && values[0] - step < range.min);
+            prop_assert!(values[values.len() - 1] <= range.max + 1e-6 * step);
+            prop_assert!(values[values.len() - 1] + step > range.max);
+            prop_assert!(labels.iter().all(|l| !l.contains('-') && l.trim_matches(['\u{2212}', '0', '.']) != "" || !l.contains('\u{2212}')));
+            let mut seen = labels.clone();
+            seen.dedup();
+            prop_assert_eq!(seen, labels);
+        }
+    }
+
+    #[test]
+    fn labels_are_what_one_would_write() {
+        let labels = |min, max| Ticks::new(Range { min, max }, 6).labels.join(" ");
+        assert_eq!(labels(-0.26, 0.21), "\u{2212}0.2 \u{2212}0.1 0.0 0.1 0.2");
+        assert_eq!(labels(0.0, 150.0), "0 50 100 150");
+        assert_eq!(labels(0.0, 3e-5), "0 1 2 3");
+    }
+
+    #[test]
+    fn the_power_of_ten_goes_to_the_unit() {
+        let ticks = Ticks::new(Range { min: 0.0, max: 2e6 }, 5);
+        assert_eq!(ticks.scaled_label("*x* (model length)"), "*x* (10^{6} model length)");
+        assert_eq!(ticks.scaled_label("*x*"), "*x* (10^{6})");
+    }
+}
