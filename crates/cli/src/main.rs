@@ -1,1 +1,27 @@
-fn main() {}
+//! `motiform`: the laboratory for deformable self-propelled domains, on the command line.
+//!
+//! Parses, calls the study layer, shows. No physics and no time loop here.
+
+mod args;
+mod commands;
+mod output;
+mod progress;
+
+use args::{Arguments, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let done = match arguments.command {
+        Command::Models(options) => commands::models::run(&options),
+        Command::Simulate(options) => commands::simulate::run(&options),
+        Command::Check(options) => commands::check::run(&options),
+        Command::Figure(options) => commands::figure::run(&options),
+        Command::Completions(options) => commands::completions::run(&options),
+    };
+    match done {
+        Ok(end) => end.into(),
+        Err(error) => output::report(&error),
+    }
+}

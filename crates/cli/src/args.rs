@@ -1,0 +1,205 @@
+//! The command line: one place for its words.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// The laboratory for deformable self-propelled domains: cells, droplets and other bodies whose shape and motion
+/// drive each other.
+#[derive(Parser)]
+#[command(name = "motiform", version, max_term_width = 100, arg_required_else_help = true, after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXAMPLES: &str = "\
+Start here:
+  motiform simulate tensor --preset fig5a       a zigzagging domain: numbers, figures, animation
+  motiform models tensor                        its equations, parameters and presets
+
+Exit codes: 0 done; 1 finished, but some result is not what was asked (a run escaped, a disk is full);
+2 bad input; 130 interrupted (what was computed until then is kept).";
+
+#[derive(Subcommand)]
+pub(crate) enum Command {
+    /// List the models, or one model's equations, parameters and presets
+    Models(ModelsOptions),
+    /// Move one body: write its path, shape and figures
+    #[command(after_help = SIMULATE_HELP)]
+    Simulate(Box<SimulateOptions>),
+    /// Check a study file and print the plan it stands for, without computing
+    Check(CheckOptions),
+    /// Draw the figures of datasets again, without computing
+    Figure(FigureOptions),
+    /// Print shell completions
+    #[command(after_help = "Example: motiform completions bash > ~/.local/share/bash-completion/completions/motiform")]
+    Completions(CompletionsOptions),
+}
+
+const SIMULATE_HELP: &str = "\
+Examples:
+  motiform simulate tensor --preset fig5b --t-end 600
+  motiform simulate tensor --preset fig4 --set kappa2=0.2 --set kappa3=0.1 --seed 7
+  motiform simulate tensor --set gamma=1 --set a1=-1 --initial v1=0.1 --out run.csv
+  motiform simulate my-study.toml --json
+
+The output folder holds manifest.json (plan, hash, version, seed, outcome), trajectory.parquet, path.svg/.png,
+series.svg/.png, motion.png (animated) and, with a return map, crossings.parquet and return-map.svg/.png.";
+
+#[derive(Args)]
+pub(crate) struct ModelsOptions {
+    /// Show this model whole
+    pub(crate) model: Option<String>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct SimulateOptions {
+    /// A model (`motiform models` lists them) or a study file ending in .toml
+    #[arg(value_name = "MODEL|STUDY.toml")]
+    pub(crate) subject: String,
+    /// Start from a preset of the model, e.g. fig5a
+    #[arg(long, value_name = "NAME")]
+    pub(crate) preset: Option<String>,
+    /// Set a parameter (repeatable)
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, f64)>,
+    /// Set an initial value (repeatable); values not given are 0. Without any, the start is small and random
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) initial: Vec<(String, f64)>,
+    /// Model time to record
+    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
+    pub(crate) t_end: Option<f64>,
+    /// Model time to run before recording
+    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
+    pub(crate) transient: Option<f64>,
+    /// Model time between recorded states (default: t-end / 2000)
+    #[arg(long, value_name = "D", value_parser = number, allow_negative_numbers = true)]
+    pub(crate) dt_out: Option<f64>,
+    /// euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive)
+    #[arg(long, value_name = "NAME")]
+    pub(crate) stepper: Option<String>,
+    /// Step of fixed-step steppers
+    #[arg(long, value_name = "H", value_parser = number, allow_negative_numbers = true)]
+    pub(crate) step: Option<f64>,
+    /// Relative tolerance of adaptive steppers
+    #[arg(long, value_name = "R", value_parser = number, allow_negative_numbers = true)]
+    pub(crate) rtol: Option<f64>,
+    /// Absolute tolerance of adaptive steppers
+    #[arg(long, value_name = "A", value_parser = number, allow_negative_numbers = true)]
+    pub(crate) atol: Option<f64>,
+    /// Seed of the random start
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+    /// Most steps to take
+    #[arg(long, value_name = "N")]
+    pub(crate) max_steps: Option<u64>,
+    /// Output folder (default: MODEL-PRESET here), or one table if it ends in .parquet or .csv
+    #[arg(long, value_name = "DIR|FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace an earlier dataset
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Print the result as one JSON object; writes files only with --out
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Format of the tables in an output folder
+    #[arg(long, value_enum, default_value_t = TableFormat::Parquet)]
+    pub(crate) format: TableFormat,
+    /// Write the tables without drawing
+    #[arg(long)]
+    pub(crate) no_figures: bool,
+    #[command(flatten)]
+    pub(crate) drawing: DrawingOptions,
+}
+
+#[derive(Args)]
+pub(crate) struct DrawingOptions {
+    /// Do not draw the animation
+    #[arg(long)]
+    pub(crate) no_animation: bool,
+    /// Radius R0 of the undeformed body (default: so that the deformation is seen)
+    #[arg(long, value_name = "R0", value_parser = number, allow_negative_numbers = true)]
+    pub(crate) radius: Option<f64>,
+    /// Size of the drawn outlines against the path (default: readable)
+    #[arg(long, value_name = "F", value_parser = number, allow_negative_numbers = true)]
+    pub(crate) scale: Option<f64>,
+    /// Number of outlines along the path
+    #[arg(long, value_name = "N")]
+    pub(crate) outlines: Option<u64>,
+    /// Draw the path and the animation from this time
+    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
+    pub(crate) from: Option<f64>,
+    /// Draw the path and the animation to this time
+    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
+    pub(crate) to: Option<f64>,
+    /// Also write PDF figures
+    #[cfg(feature = "pdf")]
+    #[arg(long)]
+    pub(crate) pdf: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct CheckOptions {
+    /// The study file
+    #[arg(value_name = "STUDY.toml", required_unless_present = "schema")]
+    pub(crate) study: Option<PathBuf>,
+    /// Print the plan as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Print the JSON schema of study files
+    #[arg(long)]
+    pub(crate) schema: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct FigureOptions {
+    /// Dataset folders written by `motiform simulate`
+    #[arg(value_name = "DATASET", required = true)]
+    pub(crate) datasets: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) drawing: DrawingOptions,
+}
+
+#[derive(Args)]
+pub(crate) struct CompletionsOptions {
+    /// The shell
+    pub(crate) shell: clap_complete::Shell,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum TableFormat {
+    Parquet,
+    Csv,
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| format!("{text:?} is no number: write it like 0.5 or 1e-9"))?;
+    if value.is_finite() { Ok(value) } else { Err(format!("{text} is not finite: give a finite number")) }
+}
+
+fn assignment(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, e.g. kappa2=0.9")?;
+    Ok((name.trim().to_owned(), number(value.trim())?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn assignments_need_a_name_and_a_finite_number() {
+        assert_eq!(assignment("kappa2 = -0.1"), Ok(("kappa2".to_owned(), -0.1)));
+        for bad in ["kappa2", "kappa2=", "kappa2=a", "kappa2=nan", "kappa2=inf", "kappa2=1e999"] {
+            assert!(assignment(bad).is_err(), "{bad}");
+        }
+    }
+}

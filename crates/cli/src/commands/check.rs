@@ -1,0 +1,36 @@
+//! `motiform check`.
+
+use crate::args::CheckOptions;
+use crate::output::{End, print};
+use motiform_study::plan::Control;
+use motiform_study::{Plan, Study, study};
+use std::fmt::Write;
+
+pub(crate) fn run(options: &CheckOptions) -> anyhow::Result<End> {
+    let Some(path) = options.study.as_ref().filter(|_| !options.schema) else {
+        print(&serde_json::to_string_pretty(&study::schema())?)?;
+        return Ok(End::Done);
+    };
+    let plan = Plan::new(&Study::read(path)?)?;
+    let text = if options.json { serde_json::to_string_pretty(&plan)? } else { summary(&plan)? };
+    print(&text)?;
+    Ok(End::Done)
+}
+
+fn summary(plan: &Plan) -> anyhow::Result<String> {
+    let c = &plan.computation;
+    let mut text = format!("{}: {}\nmodel       {}\n", plan.name, plan.title, c.model);
+    let set: Vec<String> =
+        c.parameters.0.iter().filter(|entry| entry.1 != 0.0).map(|(name, value)| format!("{name}={value}")).collect();
+    writeln!(text, "parameters  {} (others 0)", set.join(" "))?;
+    let start: Vec<String> = c.initial.0.iter().map(|(name, value)| format!("{name}={value}")).collect();
+    writeln!(text, "start       {}", start.join(" "))?;
+    writeln!(text, "time        transient {}, recorded {}, every {}", c.transient, c.t_end, c.dt_out)?;
+    let control = match c.control {
+        Control::Adaptive { rtol, atol } => format!("rtol {rtol:e}, atol {atol:e}"),
+        Control::Fixed { step } => format!("step {step}"),
+    };
+    writeln!(text, "stepper     {}, {control}, at most {} steps", c.stepper, c.max_steps)?;
+    write!(text, "plan        {}", plan.hash())?;
+    Ok(text)
+}

@@ -1,0 +1,45 @@
+//! `motiform figure`, and the drawing that `simulate` shares with it.
+
+use crate::args::{DrawingOptions, FigureOptions};
+use crate::output::{End, print};
+use motiform_study::draw::{Picture, draw};
+use motiform_study::files::{read_dataset, replace_file};
+use motiform_study::study::FigureSettings;
+use motiform_study::{Dataset, Error, plan};
+
+pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
+    for folder in &options.datasets {
+        let mut dataset = read_dataset(folder)?;
+        apply(&options.drawing, &mut dataset.manifest.plan.figure);
+        plan::check_figure(&dataset.manifest.plan.figure)?;
+        let mut names = Vec::new();
+        for picture in pictures(&dataset, &options.drawing)? {
+            replace_file(&folder.join(&picture.name), &picture.bytes)?;
+            names.push(picture.name);
+        }
+        print(&format!("{}: {}", folder.display(), names.join(" ")))?;
+    }
+    Ok(End::Done)
+}
+
+/// Puts what was given on the command line over the study's settings.
+pub(crate) fn apply(options: &DrawingOptions, settings: &mut FigureSettings) {
+    settings.radius = options.radius.unwrap_or(settings.radius);
+    settings.scale = options.scale.unwrap_or(settings.scale);
+    settings.outlines = options.outlines.unwrap_or(settings.outlines);
+    settings.from = options.from.unwrap_or(settings.from);
+    settings.to = options.to.unwrap_or(settings.to);
+    settings.animation &= !options.no_animation;
+}
+
+/// Every picture of a dataset.
+pub(crate) fn pictures(dataset: &Dataset, options: &DrawingOptions) -> Result<Vec<Picture>, Error> {
+    #[cfg(feature = "pdf")]
+    let pdf = options.pdf;
+    #[cfg(not(feature = "pdf"))]
+    let pdf = {
+        let _ = options;
+        false
+    };
+    draw(dataset, pdf)
+}

@@ -1,0 +1,82 @@
+//! `motiform models`.
+
+use crate::args::ModelsOptions;
+use crate::output::{End, print};
+use motiform_models::{MODELS, ModelInfo};
+use motiform_study::presets;
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+pub(crate) fn run(options: &ModelsOptions) -> anyhow::Result<End> {
+    let text = match &options.model {
+        None if options.json => pretty(&MODELS.iter().map(short).collect::<Vec<_>>().into())?,
+        None => list()?,
+        Some(name) => {
+            let info = ModelInfo::find(name)?;
+            if options.json { pretty(&whole(info)?)? } else { page(info)? }
+        }
+    };
+    print(text.trim_end())?;
+    Ok(End::Done)
+}
+
+fn pretty(value: &Value) -> anyhow::Result<String> {
+    Ok(serde_json::to_string_pretty(value)?)
+}
+
+fn list() -> anyhow::Result<String> {
+    let mut text = String::new();
+    for info in MODELS {
+        writeln!(text, "{:<8} {}", info.name, info.title)?;
+        writeln!(text, "{:<8} presets: {}", "", presets::names_of(info.name).join(" "))?;
+    }
+    writeln!(text, "\n`motiform models MODEL` shows equations, parameters and presets.")?;
+    Ok(text)
+}
+
+fn page(info: &'static ModelInfo) -> anyhow::Result<String> {
+    let mut text = format!("{}: {}\nSource: {}\n\n{}\n\n", info.name, info.title, info.source, info.equations);
+    writeln!(text, "Parameters (dimensionless; --set NAME=VALUE)")?;
+    for spec in info.parameters() {
+        writeln!(text, "  {:<7} {:>5}  {:<4} {}", spec.name, spec.default, spec.equation, spec.meaning)?;
+    }
+    writeln!(text, "\nInitial values (--initial NAME=VALUE)")?;
+    for coordinate in info.coordinates {
+        writeln!(text, "  {:<7} {}", coordinate.name, coordinate.meaning)?;
+    }
+    writeln!(text, "  {:<7} position of the centre of mass\n\nPresets (--preset NAME)", "x, y")?;
+    for name in presets::names_of(info.name) {
+        let study = presets::find(info, name)?;
+        let free = if study.free.is_empty() { String::new() } else { format!(" [free: {}]", study.free.join(", ")) };
+        writeln!(text, "  {name:<7} {}{free}", study.about)?;
+    }
+    Ok(text)
+}
+
+fn short(info: &ModelInfo) -> Value {
+    json!({ "name": info.name, "title": info.title, "presets": presets::names_of(info.name) })
+}
+
+fn whole(info: &'static ModelInfo) -> anyhow::Result<Value> {
+    let parameters: Vec<Value> = info
+        .parameters()
+        .iter()
+        .map(|spec| {
+            json!({
+                "name": spec.name, "default": spec.default, "range": [spec.range.0, spec.range.1],
+                "allowed": [spec.allowed.0, spec.allowed.1], "equation": spec.equation, "meaning": spec.meaning,
+            })
+        })
+        .collect();
+    let coordinates: Vec<Value> =
+        info.coordinates.iter().map(|c| json!({ "name": c.name, "meaning": c.meaning })).collect();
+    let mut studies = Vec::new();
+    for name in presets::names_of(info.name) {
+        let study = presets::find(info, name)?;
+        studies.push(json!({ "name": name, "title": study.title, "about": study.about, "free": study.free }));
+    }
+    Ok(json!({
+        "name": info.name, "title": info.title, "source": info.source, "equations": info.equations,
+        "parameters": parameters, "coordinates": coordinates, "presets": studies,
+    }))
+}

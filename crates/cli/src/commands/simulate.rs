@@ -1,0 +1,175 @@
+//! `motiform simulate`.
+
+use crate::args::{SimulateOptions, TableFormat};
+use crate::commands::figure;
+use crate::output::{End, print};
+use crate::progress::Watch;
+use motiform_models::ModelInfo;
+use motiform_study::files::{Format, Staging, write_dataset, write_table};
+use motiform_study::simulate::simulate;
+use motiform_study::{Dataset, Error, Plan, Study, presets};
+use serde_json::json;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
+    let plan = Plan::new(&study(options)?)?;
+    let target = Target::prepare(options, &plan)?;
+    let c = &plan.computation;
+    let watch = Watch::new(c.transient + c.t_end);
+    let dataset = simulate(&plan, &watch);
+    watch.finish();
+    let dataset = dataset?;
+    let written = target.write(options, &dataset)?;
+    let text = if options.json { json(&dataset)? } else { summary(&dataset, written.as_deref())? };
+    print(&text)?;
+    Ok(End::from(&dataset.manifest.outcome))
+}
+
+/// The study that the options describe: a file or a model, a preset, then what is set by hand.
+fn study(options: &SimulateOptions) -> Result<Study, Error> {
+    let subject = Path::new(&options.subject);
+    let mut study = if subject.extension().is_some_and(|extension| extension == "toml") {
+        if options.preset.is_some() {
+            return Err(Error::Setting {
+                key: "--preset",
+                value: options.preset.clone().unwrap_or_default(),
+                remedy: "a study file names its own preset: write preset = \"...\" in it",
+            });
+        }
+        Study::read(subject)?
+    } else {
+        let info = ModelInfo::find(&options.subject)?;
+        match &options.preset {
+            Some(name) => presets::find(info, name)?,
+            None => Study::of_model(info),
+        }
+    };
+    for (name, value) in &options.set {
+        study.set(name, *value)?;
+    }
+    for (name, value) in &options.initial {
+        study.set_initial(name, *value)?;
+    }
+    let run = &mut study.run;
+    let numbers = [
+        (options.t_end, &mut run.t_end),
+        (options.transient, &mut run.transient),
+        (options.dt_out, &mut run.dt_out),
+        (options.step, &mut run.step),
+        (options.rtol, &mut run.rtol),
+        (options.atol, &mut run.atol),
+    ];
+    for (given, place) in numbers {
+        if let Some(value) = given {
+            *place = value;
+        }
+    }
+    if options.dt_out == Some(0.0) {
+        return Err(Error::Setting { key: "dt_out", value: "0".into(), remedy: "give a time above 0" });
+    }
+    run.seed = options.seed.unwrap_or(run.seed);
+    run.max_steps = options.max_steps.unwrap_or(run.max_steps);
+    if let Some(stepper) = &options.stepper {
+        run.stepper.clone_from(stepper);
+    }
+    figure::apply(&options.drawing, &mut study.figure);
+    Ok(study)
+}
+
+/// Where the result goes.
+enum Target {
+    Nowhere,
+    Folder(Staging),
+    Table(Staging, Format),
+}
+
+impl Target {
+    /// Prepared before any computing, so that a wrong --out costs nothing.
+    fn prepare(options: &SimulateOptions, plan: &Plan) -> Result<Self, Error> {
+        let out = match &options.out {
+            Some(path) => path.clone(),
+            None if options.json => return Ok(Self::Nowhere),
+            None => PathBuf::from(default_folder(plan)),
+        };
+        Ok(match Format::of_path(&out) {
+            Some(format) => Self::Table(Staging::new(&out, false, options.force)?, format),
+            None => Self::Folder(Staging::new(&out, true, options.force)?),
+        })
+    }
+
+    /// Writes everything and gives it its name; returns what was written.
+    fn write(self, options: &SimulateOptions, dataset: &Dataset) -> anyhow::Result<Option<String>> {
+        match self {
+            Self::Nowhere => Ok(None),
+            Self::Table(staging, format) => {
+                write_table(&dataset.trajectory, &dataset.manifest, format, staging.path())?;
+                Ok(Some(staging.commit()?.display().to_string()))
+            }
+            Self::Folder(staging) => {
+                let format = match options.format {
+                    TableFormat::Parquet => Format::Parquet,
+                    TableFormat::Csv => Format::Csv,
+                };
+                write_dataset(dataset, format, &staging)?;
+                if !options.no_figures {
+                    for picture in figure::pictures(dataset, &options.drawing)? {
+                        staging.write(&picture.name, &picture.bytes)?;
+                    }
+                }
+                let mut names: Vec<String> = std::fs::read_dir(staging.path())?
+                    .map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()))
+                    .collect::<std::io::Result<_>>()?;
+                names.sort();
+                Ok(Some(format!("{}: {}", staging.commit()?.display(), names.join(" "))))
+            }
+        }
+    }
+}
+
+fn default_folder(plan: &Plan) -> String {
+    let model = &plan.computation.model;
+    if plan.name == *model { model.clone() } else { format!("{model}-{}", plan.name) }
+}
+
+fn json(dataset: &Dataset) -> anyhow::Result<String> {
+    let manifest = &dataset.manifest;
+    let object = json!({
+        "model": manifest.plan.computation.model,
+        "parameters": manifest.plan.computation.parameters,
+        "outcome": manifest.outcome,
+        "t": t_reached(dataset),
+        "state": manifest.state,
+        "position": manifest.position,
+        "steps": manifest.steps,
+        "manifest": manifest,
+    });
+    Ok(serde_json::to_string(&object)?)
+}
+
+/// The time of the state that is reported: for a run that escaped, that of its last finite state.
+fn t_reached(dataset: &Dataset) -> f64 {
+    match dataset.manifest.outcome {
+        motiform_dynamics::Outcome::Escaped { t_last, .. } => t_last,
+        other => other.t(),
+    }
+}
+
+fn summary(dataset: &Dataset, written: Option<&str>) -> anyhow::Result<String> {
+    let manifest = &dataset.manifest;
+    let plan = &manifest.plan;
+    let mut text = format!("{} ({}, {})\n", plan.title, plan.computation.model, plan.name);
+    writeln!(text, "outcome   {}", manifest.outcome)?;
+    let (steps, rejected) = (manifest.steps, manifest.rejected_steps);
+    writeln!(text, "steps     {steps} accepted, {rejected} rejected ({})", plan.computation.stepper)?;
+    let state: Vec<String> = manifest.state.0.iter().map(|(name, value)| format!("{name} = {value:.6}")).collect();
+    writeln!(text, "state     {}", state.join("  "))?;
+    writeln!(text, "position  x = {:.6}  y = {:.6}", manifest.position[0], manifest.position[1])?;
+    if let Some(crossings) = &dataset.crossings {
+        writeln!(text, "crossings {}", crossings.rows())?;
+    }
+    if let Some(written) = written {
+        writeln!(text, "written   {written}")?;
+    }
+    Ok(text.trim_end().to_owned())
+}

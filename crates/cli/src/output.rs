@@ -1,0 +1,67 @@
+//! What the user reads, and the exit code.
+
+use motiform_dynamics::Outcome;
+use motiform_study::Error;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// How a command ended that did not fail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum End {
+    /// Everything is as asked.
+    Done,
+    /// Finished, but some result is not what was asked.
+    NotAsAsked,
+    /// Interrupted by the user.
+    Interrupted,
+}
+
+impl From<End> for ExitCode {
+    fn from(end: End) -> Self {
+        Self::from(match end {
+            End::Done => 0,
+            End::NotAsAsked => 1,
+            End::Interrupted => 130,
+        })
+    }
+}
+
+impl From<&Outcome> for End {
+    fn from(outcome: &Outcome) -> Self {
+        match outcome {
+            Outcome::Interrupted { .. } => Self::Interrupted,
+            outcome if outcome.is_complete() => Self::Done,
+            _ => Self::NotAsAsked,
+        }
+    }
+}
+
+/// Prints `text` and a line end on standard output. A reader that went away is no error; a full disk is one.
+pub(crate) fn print(text: &str) -> anyhow::Result<()> {
+    let mut out = io::stdout().lock();
+    match writeln!(out, "{text}").and_then(|()| out.flush()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        Err(error) => Err(StdoutFailed(error).into()),
+        Ok(()) => Ok(()),
+    }
+}
+
+/// Standard output could not be written.
+#[derive(Debug)]
+struct StdoutFailed(io::Error);
+
+impl std::fmt::Display for StdoutFailed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "writing standard output failed: {}", self.0)
+    }
+}
+
+impl std::error::Error for StdoutFailed {}
+
+/// Says what went wrong on standard error: exit code 1 if the machine failed, 2 if the input cannot be used.
+pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
+    // Standard error is the last resort: nothing is left to say if it fails too.
+    let _ = writeln!(io::stderr(), "error: {error:#}");
+    let machine = error.is::<StdoutFailed>() || error.downcast_ref::<Error>().is_some_and(Error::is_machine_failure);
+    ExitCode::from(if machine { 1 } else { 2 })
+}

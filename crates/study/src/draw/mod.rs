@@ -1,0 +1,57 @@
+//! Dataset to figures: what is drawn, and with what words. The drawing itself is in [`crate::figures`].
+
+mod body;
+mod film;
+mod path;
+mod return_map;
+mod series;
+mod words;
+
+use crate::figures::{DEFAULT_SCALE, png};
+use crate::{Dataset, Error};
+use body::Body;
+
+/// A file ready to be written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// File name.
+    pub name: String,
+    /// Content.
+    pub bytes: Vec<u8>,
+}
+
+/// Draws every figure of a dataset: `path`, `series`, `return-map` (as SVG and PNG, and PDF if asked and built in) and
+/// the animation `motion.png`.
+///
+/// A dataset whose shown window has fewer than two rows gives no pictures.
+///
+/// # Errors
+/// An unknown model, or numbers that no axis can hold.
+pub fn draw(dataset: &Dataset, pdf: bool) -> Result<Vec<Picture>, Error> {
+    let body = Body::new(dataset)?;
+    if body.rows().len() < 2 {
+        return Ok(Vec::new());
+    }
+    let mut pictures = Vec::new();
+    add(&mut pictures, "path", &path::figure(&body).svg()?, pdf)?;
+    add(&mut pictures, "series", &series::figure(&body).svg()?, pdf)?;
+    if let Some(figure) = return_map::figure(&body) {
+        add(&mut pictures, "return-map", &figure.svg()?, pdf)?;
+    }
+    if dataset.manifest.plan.figure.animation {
+        pictures.push(Picture { name: "motion.png".to_owned(), bytes: film::animation(&body).apng()? });
+    }
+    Ok(pictures)
+}
+
+fn add(pictures: &mut Vec<Picture>, name: &str, svg: &str, pdf: bool) -> Result<(), Error> {
+    pictures.push(Picture { name: format!("{name}.svg"), bytes: svg.as_bytes().to_vec() });
+    pictures.push(Picture { name: format!("{name}.png"), bytes: png(svg, DEFAULT_SCALE, &[])? });
+    #[cfg(feature = "pdf")]
+    if pdf {
+        pictures.push(Picture { name: format!("{name}.pdf"), bytes: crate::figures::pdf(svg)? });
+    }
+    #[cfg(not(feature = "pdf"))]
+    let _ = pdf;
+    Ok(())
+}

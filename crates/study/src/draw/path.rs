@@ -1,0 +1,71 @@
+//! The path with the body drawn along it.
+
+use super::body::Body;
+use super::words;
+use crate::figures::{OutlineStamp, PathFigure, PathPoint, SectionLine};
+
+/// Points of a drawn outline.
+const OUTLINE_POINTS: usize = 96;
+
+/// Outlines per path: their distance is about this many of their radii.
+const SPACING_RADII: f64 = 3.2;
+
+pub(super) fn figure(body: &Body<'_>) -> PathFigure {
+    let (stamps, missing) = outlines(body);
+    let mut caption = vec![words::parameters(body), words::method(body), words::outlines(body)];
+    if missing > 0 {
+        caption.push(format!("{missing} outlines are left out: *R*(*θ*) is not positive there."));
+    }
+    caption.extend(words::section(body));
+    PathFigure {
+        title: body.dataset.manifest.plan.title.clone(),
+        caption,
+        segments: vec![points(body)],
+        outlines: stamps,
+        section: section(body),
+        ..PathFigure::default()
+    }
+}
+
+/// The shown path.
+pub(super) fn points(body: &Body<'_>) -> Vec<PathPoint> {
+    body.rows()
+        .map(|row| {
+            let [x, y] = body.position(row);
+            PathPoint { t: body.time(row), x, y }
+        })
+        .collect()
+}
+
+/// The outlines, and how many shapes are no curve.
+fn outlines(body: &Body<'_>) -> (Vec<OutlineStamp>, usize) {
+    let rows = body.rows_along(count(body));
+    let stamp = |&row: &usize| {
+        Some(OutlineStamp { t: body.time(row), points: body.outline(row, OUTLINE_POINTS)? })
+    };
+    let stamps: Vec<OutlineStamp> = rows.iter().filter_map(stamp).collect();
+    let missing = rows.len() - stamps.len();
+    (stamps, missing)
+}
+
+fn count(body: &Body<'_>) -> usize {
+    let wanted = body.dataset.manifest.plan.figure.outlines;
+    if wanted > 0 {
+        return usize::try_from(wanted).unwrap_or(usize::MAX);
+    }
+    let drawn = body.scale * body.radius;
+    (body.length() / (SPACING_RADII * drawn)).clamp(2.0, 32.0) as usize
+}
+
+fn section(body: &Body<'_>) -> Option<SectionLine> {
+    let map = body.dataset.manifest.plan.computation.return_map.as_ref()?;
+    let shown = body.time(body.rows().start)..=body.time(body.rows().end - 1);
+    let crossings = body.dataset.crossings.as_ref()?;
+    let (times, xs) = (crossings.get("t")?, crossings.get("x")?);
+    let points: Vec<[f64; 2]> =
+        times.iter().zip(xs).filter(|(t, _)| shown.contains(t)).map(|(_, &x)| [x, map.y]).collect();
+    let extent = body.extent();
+    let left = map.x_min.max(-extent);
+    let right = map.x_max.min(extent);
+    Some(SectionLine { from: [left, map.y], to: [right, map.y], label: "section".to_owned(), crossings: points })
+}

@@ -1,0 +1,23 @@
+//! The return map: where the path crosses the section next, against where it crosses it now.
+
+use super::body::Body;
+use super::words;
+use crate::figures::ReturnMapFigure;
+
+/// `None` without a return map, or with fewer than two crossings.
+pub(super) fn figure(body: &Body<'_>) -> Option<ReturnMapFigure> {
+    let xs = body.dataset.crossings.as_ref()?.get("x")?;
+    let points: Vec<[f64; 2]> = xs.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    if points.is_empty() {
+        return None;
+    }
+    let mut caption = vec![words::parameters(body)];
+    caption.extend(words::section(body));
+    caption.push(format!("{} crossings; the line is *x*_{{n+1}} = *x*_n.", xs.len()));
+    Some(ReturnMapFigure {
+        title: format!("{}: return map", body.dataset.manifest.plan.title),
+        caption,
+        points,
+        ..ReturnMapFigure::default()
+    })
+}

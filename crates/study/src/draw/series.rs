@@ -1,0 +1,41 @@
+//! Speed, turning rate and the sizes of the deformations against time.
+
+use super::body::Body;
+use super::words;
+use crate::figures::palette::CATEGORIES;
+use crate::figures::{Curve, Panel, SeriesFigure};
+
+/// An observable below this throughout is not drawn but mentioned.
+const NEGLIGIBLE: f64 = 1e-9;
+
+pub(super) fn figure(body: &Body<'_>) -> SeriesFigure {
+    let mut notes = Vec::new();
+    let mut panels = vec![panel(body, "speed", "speed |***v***|", 0)];
+    let turning = panel(body, "turning_rate", "turning rate (rad/time)", 1);
+    if turning.curves[0].values.iter().any(Option::is_none) {
+        notes.push("The turning rate is undefined where the body is at rest.".to_owned());
+    }
+    panels.push(turning);
+    for (index, observable) in body.model.observables().iter().enumerate() {
+        let largest = body.column(observable.name)[body.rows()].iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        if largest < NEGLIGIBLE {
+            notes.push(format!("{} stays below {}.", observable.symbol, words::number(NEGLIGIBLE)));
+        } else {
+            panels.push(panel(body, observable.name, observable.symbol, 2 + index));
+        }
+    }
+    SeriesFigure {
+        title: body.dataset.manifest.plan.title.clone(),
+        times: body.column("t")[body.rows()].to_vec(),
+        panels,
+        notes,
+        caption: vec![words::parameters(body), words::method(body)],
+        ..SeriesFigure::default()
+    }
+}
+
+fn panel(body: &Body<'_>, name: &str, label: &str, colour: usize) -> Panel {
+    let values = body.column(name)[body.rows()].iter().map(|&x| x.is_finite().then_some(x)).collect();
+    let colour = CATEGORIES[colour % CATEGORIES.len()];
+    Panel { label: label.to_owned(), curves: vec![Curve { label: label.to_owned(), colour, values }] }
+}

@@ -1,0 +1,90 @@
+//! Captions: the parameter set, the method, the scale of what is drawn. All of it from the manifest.
+
+use super::body::Body;
+use crate::plan::Control;
+use motiform_dynamics::Outcome;
+
+/// A number as people write it: `0.9`, `-1`, `10^{-9}`, `2.5×10^{6}`.
+pub(super) fn number(x: f64) -> String {
+    if x == 0.0 || (1e-3..1e5).contains(&x.abs()) {
+        let text = format!("{x:.6}");
+        return text.trim_end_matches('0').trim_end_matches('.').to_owned();
+    }
+    let text = format!("{x:.3e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let mantissa = mantissa.trim_end_matches('0').trim_end_matches('.');
+    match mantissa {
+        "1" => format!("10^{{{exponent}}}"),
+        "-1" => format!("-10^{{{exponent}}}"),
+        _ => format!("{mantissa}×10^{{{exponent}}}"),
+    }
+}
+
+/// `Tensor model: γ = 1, κ_2 = 0.9, ...; all others 0.`
+pub(super) fn parameters(body: &Body<'_>) -> String {
+    let values = &body.dataset.manifest.plan.computation.parameters;
+    let specs = body.info.parameters();
+    let set: Vec<String> = specs
+        .iter()
+        .filter_map(|spec| Some((spec, values.get(spec.name).filter(|&value| value != 0.0)?)))
+        .map(|(spec, value)| format!("{} = {}", spec.symbol, number(value)))
+        .collect();
+    let others = if set.len() < specs.len() { "; all other parameters 0" } else { "" };
+    format!("{} model: {}{others}.", capital(body.info.name), set.join(", "))
+}
+
+fn capital(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// How it was computed, and how the run ended if it did not complete.
+pub(super) fn method(body: &Body<'_>) -> String {
+    let manifest = &body.dataset.manifest;
+    let c = &manifest.plan.computation;
+    let title = manifest.plan.tableau().map_or(c.stepper.as_str(), |tableau| tableau.title);
+    let title = title.split(',').next().unwrap_or(title);
+    let control = match c.control {
+        Control::Adaptive { rtol, .. } => format!("relative tolerance {}", number(rtol)),
+        Control::Fixed { step } => format!("step {}", number(step)),
+    };
+    let transient = if c.transient > 0.0 {
+        format!(" The first {} time units are not shown.", number(c.transient))
+    } else {
+        String::new()
+    };
+    let end = match manifest.outcome {
+        Outcome::Completed { .. } => String::new(),
+        Outcome::Escaped { t, singular: true, .. } => format!(" The solution blows up at *t** = {}.", number(t)),
+        other => format!(" The run ended early: {other}."),
+    };
+    let end = end.replace("*t** =", "*t*\\* =");
+    format!("Computed by {title}, {control}.{transient}{end}")
+}
+
+/// R0 and the size of the drawn outlines.
+pub(super) fn outlines(body: &Body<'_>) -> String {
+    let size = match body.scale {
+        1.0 => "drawn to the scale of the path".to_owned(),
+        larger if larger > 1.0 => format!("drawn {} times larger than the scale of the path", number(larger)),
+        smaller => format!("drawn at {} of the scale of the path", number(smaller)),
+    };
+    format!("Outlines: *R*_0 = {}, {size}; deformation not exaggerated.", number(body.radius))
+}
+
+/// Where the return map's section lies and what was put on the origin.
+pub(super) fn section(body: &Body<'_>) -> Option<String> {
+    let manifest = &body.dataset.manifest;
+    let map = manifest.plan.computation.return_map.as_ref()?;
+    let ends = if map.x_min > -1e300 || map.x_max < 1e300 {
+        format!(", {} < *x* < {}", number(map.x_min), number(map.x_max))
+    } else {
+        String::new()
+    };
+    let centre = if manifest.centre.is_some() {
+        " The centre of the annulus (the time average of the path) was put on the origin."
+    } else {
+        ""
+    };
+    Some(format!("Section: the segment *y* = {}{ends}, crossed in either direction.{centre}", number(map.y)))
+}

@@ -1,0 +1,127 @@
+//! What can go wrong between a study file and a figure.
+
+use motiform_models::nearest;
+use std::path::{Path, PathBuf};
+
+/// An input that cannot be used, or a file that cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The numerics refused an input.
+    #[error(transparent)]
+    Dynamics(#[from] motiform_dynamics::Error),
+    /// The models refused a name or a value.
+    #[error(transparent)]
+    Models(#[from] motiform_models::Error),
+    /// A study file is wrong at a place.
+    #[error("{file}:{line}:{column}: {problem}\n{excerpt}")]
+    Study {
+        /// The file, or the preset.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// What is wrong and how to mend it.
+        problem: String,
+        /// The line with a mark under the place.
+        excerpt: String,
+    },
+    /// No preset of this name.
+    #[error("unknown preset {name:?} of model {model}{}: the presets are {}", hint(.nearest), .known.join(", "))]
+    UnknownPreset {
+        /// The name given.
+        name: String,
+        /// The model.
+        model: &'static str,
+        /// The most similar name.
+        nearest: Option<&'static str>,
+        /// All presets of the model.
+        known: Vec<&'static str>,
+    },
+    /// No stepper of this name.
+    #[error("unknown stepper {name:?}{}: the steppers are {}", hint(.nearest), .known.join(", "))]
+    UnknownStepper {
+        /// The name given.
+        name: String,
+        /// The most similar name.
+        nearest: Option<&'static str>,
+        /// All steppers.
+        known: Vec<&'static str>,
+    },
+    /// A setting that does not fit.
+    #[error("{key} = {value}: {remedy}")]
+    Setting {
+        /// The key.
+        key: &'static str,
+        /// Its value, as text.
+        value: String,
+        /// What would be right.
+        remedy: &'static str,
+    },
+    /// The output exists.
+    #[error("{} exists: choose another --out, or --force to replace it", .path.display())]
+    Exists {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The output exists and is not one of ours.
+    #[error("{} exists and is no motiform dataset: --force does not replace it, choose another --out", .path.display())]
+    NotOurs {
+        /// The path.
+        path: PathBuf,
+    },
+    /// A folder that cannot be written into.
+    #[error("cannot write {}: {source}; choose an --out in a folder that exists and that you may write to", .path.display())]
+    Unwritable {
+        /// The path.
+        path: PathBuf,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// Writing broke off (a full disk, say). Nothing half-written is left.
+    #[error("writing {} failed: {reason}; nothing was left behind, make room and run again", .path.display())]
+    WriteFailed {
+        /// The path.
+        path: PathBuf,
+        /// The reason.
+        reason: String,
+    },
+    /// A file that cannot be read.
+    #[error("cannot read {}: {reason}", .path.display())]
+    Unreadable {
+        /// The path.
+        path: PathBuf,
+        /// The reason.
+        reason: String,
+    },
+    /// A figure could not be drawn.
+    #[error(transparent)]
+    Figure(#[from] crate::figures::FigureError),
+}
+
+impl Error {
+    /// Whether the input was fine and the machine failed (exit code 1 rather than 2).
+    #[must_use]
+    pub fn is_machine_failure(&self) -> bool {
+        matches!(self, Self::WriteFailed { .. } | Self::Figure(_))
+    }
+
+    pub(crate) fn unreadable(path: &Path, reason: impl std::fmt::Display) -> Self {
+        Self::Unreadable { path: path.to_owned(), reason: reason.to_string() }
+    }
+
+    pub(crate) fn write_failed(path: &Path, reason: impl std::fmt::Display) -> Self {
+        Self::WriteFailed { path: path.to_owned(), reason: reason.to_string() }
+    }
+}
+
+/// ` (did you mean NAME?)`, where there is one.
+pub(crate) fn hint(nearest: &Option<&'static str>) -> String {
+    nearest.map_or_else(String::new, |name| format!(" (did you mean {name}?)"))
+}
+
+/// The registered name most similar to `name`.
+pub(crate) fn nearest_of(name: &str, known: &[&'static str]) -> Option<&'static str> {
+    nearest(name, known.iter().copied())
+}

@@ -1,0 +1,43 @@
+//! Tables as CSV: a header line, shortest round-trip numbers, an empty field where a value is undefined.
+
+use crate::Error;
+use crate::table::{Column, Table};
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+pub(super) fn write(table: &Table, path: &Path) -> Result<(), Error> {
+    let failed = |error: std::io::Error| Error::write_failed(path, error);
+    let mut out = BufWriter::new(std::fs::File::create(path).map_err(failed)?);
+    let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
+    writeln!(out, "{}", names.join(",")).map_err(failed)?;
+    for row in 0..table.rows() {
+        for (place, column) in table.columns.iter().enumerate() {
+            let comma = if place == 0 { "" } else { "," };
+            let value = column.values[row];
+            if value.is_nan() { write!(out, "{comma}") } else { write!(out, "{comma}{value:?}") }.map_err(failed)?;
+        }
+        writeln!(out).map_err(failed)?;
+    }
+    out.into_inner().map_err(|error| failed(error.into_error()))?.sync_all().map_err(failed)
+}
+
+pub(super) fn read(path: &Path) -> Result<Table, Error> {
+    let unreadable = |error: csv::Error| Error::unreadable(path, error);
+    let mut reader = csv::Reader::from_path(path).map_err(unreadable)?;
+    let names = reader.headers().map_err(unreadable)?.clone();
+    let mut columns: Vec<Column> = names
+        .iter()
+        .map(|name| Column { name: name.to_owned(), meaning: String::new(), values: Vec::new() })
+        .collect();
+    for (row, record) in reader.records().enumerate() {
+        let record = record.map_err(unreadable)?;
+        for (column, field) in columns.iter_mut().zip(&record) {
+            let value = if field.is_empty() { Ok(f64::NAN) } else { field.parse() };
+            let value = value.map_err(|_| {
+                Error::unreadable(path, format!("row {}, column {}: {field:?} is no number", row + 2, column.name))
+            })?;
+            column.values.push(value);
+        }
+    }
+    Ok(Table { columns })
+}

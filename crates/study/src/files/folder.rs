@@ -1,0 +1,96 @@
+//! The folder of a dataset: `manifest.json`, `trajectory.*`, `crossings.*`, figures beside them.
+
+use super::staging::{MANIFEST, Staging};
+use super::{csv_table, parquet_table};
+use crate::Error;
+use crate::dataset::{Dataset, Manifest};
+use crate::table::Table;
+use std::path::Path;
+
+/// The file format of tables.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Format {
+    /// Parquet: compact, typed, with the manifest inside.
+    #[default]
+    Parquet,
+    /// Comma-separated text.
+    Csv,
+}
+
+impl Format {
+    /// The format that a file name asks for by its extension.
+    #[must_use]
+    pub fn of_path(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()? {
+            "parquet" => Some(Self::Parquet),
+            "csv" => Some(Self::Csv),
+            _ => None,
+        }
+    }
+
+    fn extension(self) -> &'static str {
+        match self {
+            Self::Parquet => "parquet",
+            Self::Csv => "csv",
+        }
+    }
+}
+
+/// Writes one table to `path` in the given format, the manifest inside where the format has room for it.
+///
+/// # Errors
+/// [`Error::WriteFailed`].
+pub fn write_table(table: &Table, manifest: &Manifest, format: Format, path: &Path) -> Result<(), Error> {
+    match format {
+        Format::Csv => csv_table::write(table, path),
+        Format::Parquet => {
+            let metadata = serde_json::to_string(manifest).map_err(|error| Error::write_failed(path, error))?;
+            parquet_table::write(table, &metadata, path)
+        }
+    }
+}
+
+/// Writes the tables and the manifest of a dataset into a staged folder.
+///
+/// # Errors
+/// [`Error::WriteFailed`].
+pub fn write_dataset(dataset: &Dataset, format: Format, staging: &Staging) -> Result<(), Error> {
+    let manifest = &dataset.manifest;
+    let tables = [("trajectory", Some(&dataset.trajectory)), ("crossings", dataset.crossings.as_ref())];
+    for (name, table) in tables.into_iter().filter_map(|(name, table)| Some((name, table?))) {
+        let file = format!("{name}.{}", format.extension());
+        write_table(table, manifest, format, &staging.path().join(file))?;
+    }
+    let mut json =
+        serde_json::to_vec_pretty(manifest).map_err(|error| Error::write_failed(staging.target(), error))?;
+    json.push(b'\n');
+    staging.write(MANIFEST, &json)
+}
+
+/// Reads a dataset folder back.
+///
+/// # Errors
+/// [`Error::Unreadable`] for a folder without a manifest, or files that are missing or damaged.
+pub fn read_dataset(folder: &Path) -> Result<Dataset, Error> {
+    let path = folder.join(MANIFEST);
+    let text = std::fs::read_to_string(&path)
+        .map_err(|error| Error::unreadable(&path, format!("{error}; a dataset is a folder written by `motiform simulate`")))?;
+    let manifest: Manifest = serde_json::from_str(&text).map_err(|error| Error::unreadable(&path, error))?;
+    let trajectory = read_table(folder, "trajectory")?
+        .ok_or_else(|| Error::unreadable(folder, "it has no trajectory.parquet or trajectory.csv"))?;
+    Ok(Dataset { manifest, trajectory, crossings: read_table(folder, "crossings")? })
+}
+
+fn read_table(folder: &Path, name: &str) -> Result<Option<Table>, Error> {
+    for format in [Format::Parquet, Format::Csv] {
+        let path = folder.join(format!("{name}.{}", format.extension()));
+        if path.is_file() {
+            return match format {
+                Format::Parquet => parquet_table::read(&path),
+                Format::Csv => csv_table::read(&path),
+            }
+            .map(Some);
+        }
+    }
+    Ok(None)
+}

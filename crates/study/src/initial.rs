@@ -1,0 +1,48 @@
+//! Where a run starts: given values, or a small random state.
+
+use crate::Error;
+use crate::plan::Named;
+use crate::study::Study;
+use motiform_models::ModelInfo;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+/// The complete start: if any shape value is given, the others are 0; if none is, each is drawn uniformly from
+/// `-random .. random` by a counter-based generator. The position is `x = y = 0` unless given.
+pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
+    let given = |name: &str| study.initial.iter().find(|(known, _)| known == name).map(|entry| entry.1);
+    for (name, value) in &study.initial {
+        info.coordinate(name)?;
+        if !value.is_finite() {
+            return Err(Error::Setting { key: "initial", value: format!("{name}={value}"), remedy: "give a finite number" });
+        }
+    }
+    let draw = !info.coordinates.iter().any(|coordinate| given(coordinate.name).is_some());
+    let mut random = Uniform::new(study.run.seed, 0);
+    let mut entries: Vec<(String, f64)> = Vec::new();
+    for coordinate in info.coordinates {
+        let value = if draw { study.random * random.next() } else { given(coordinate.name).unwrap_or(0.0) };
+        entries.push((coordinate.name.to_owned(), value));
+    }
+    for name in ["x", "y"] {
+        entries.push((name.to_owned(), given(name).unwrap_or(0.0)));
+    }
+    Ok(Named(entries))
+}
+
+/// Uniform numbers in -1..1 from ChaCha8, addressed by (seed, stream): the same on every machine.
+pub(crate) struct Uniform(ChaCha8Rng);
+
+impl Uniform {
+    pub(crate) fn new(seed: u64, stream: u64) -> Self {
+        let mut key = [0; 32];
+        key[..8].copy_from_slice(&seed.to_le_bytes());
+        let mut generator = ChaCha8Rng::from_seed(key);
+        generator.set_stream(stream);
+        Self(generator)
+    }
+
+    pub(crate) fn next(&mut self) -> f64 {
+        (self.0.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}

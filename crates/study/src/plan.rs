@@ -1,0 +1,238 @@
+//! A plan: a study made explicit. Every number that a run depends on stands in it; nothing else does.
+
+use crate::error::nearest_of;
+use crate::study::{FigureSettings, ReturnMapSettings, Study};
+use crate::{Error, initial};
+use motiform_dynamics::StepControl;
+use motiform_dynamics::steppers::{self, STEPPERS, Tableau};
+use motiform_models::ModelInfo;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+/// Version of the meaning of a plan; part of the hash.
+pub const PLAN_FORMAT: u32 = 1;
+
+/// Most rows a trajectory may have (about 2 GB in memory).
+const MOST_ROWS: f64 = 2e7;
+
+/// What will be computed, and how it is called and drawn.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Plan {
+    /// Short name of the study.
+    pub name: String,
+    /// Title of the figures.
+    pub title: String,
+    /// What is computed: the hash covers this.
+    pub computation: Computation,
+    /// How it is drawn.
+    pub figure: FigureSettings,
+}
+
+/// Everything that the numbers depend on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Computation {
+    /// [`PLAN_FORMAT`].
+    pub format: u32,
+    /// The model.
+    pub model: String,
+    /// All parameters, in registry order.
+    pub parameters: Named,
+    /// The complete start, position included.
+    pub initial: Named,
+    /// Seed (the start above was drawn with it, if drawn).
+    pub seed: u64,
+    /// Time before the recording.
+    pub transient: f64,
+    /// Time recorded.
+    pub t_end: f64,
+    /// Time between rows.
+    pub dt_out: f64,
+    /// Stepper.
+    pub stepper: String,
+    /// Step control.
+    pub control: Control,
+    /// Most steps (transient and recording each).
+    pub max_steps: u64,
+    /// A shape beyond this norm has escaped.
+    pub escape_norm: f64,
+    /// The return map.
+    pub return_map: Option<ReturnMapSettings>,
+}
+
+/// [`StepControl`] as it is written to files.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+#[allow(missing_docs, reason = "as in StepControl")]
+pub enum Control {
+    Adaptive { rtol: f64, atol: f64 },
+    Fixed { step: f64 },
+}
+
+impl From<Control> for StepControl {
+    fn from(control: Control) -> Self {
+        match control {
+            Control::Adaptive { rtol, atol } => Self::Adaptive { rtol, atol },
+            Control::Fixed { step } => Self::Fixed { step },
+        }
+    }
+}
+
+/// Named numbers in a fixed order; a JSON object in files.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Named(pub Vec<(String, f64)>);
+
+impl Named {
+    /// The values alone.
+    #[must_use]
+    pub fn values(&self) -> Vec<f64> {
+        self.0.iter().map(|entry| entry.1).collect()
+    }
+
+    /// The value of a name.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<f64> {
+        self.0.iter().find(|entry| entry.0 == name).map(|entry| entry.1)
+    }
+}
+
+impl Serialize for Named {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
+
+impl<'de> Deserialize<'de> for Named {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Entries;
+        impl<'de> serde::de::Visitor<'de> for Entries {
+            type Value = Named;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("an object of numbers")
+            }
+
+            fn visit_map<A: serde::de::MapAccess<'de>>(self, mut map: A) -> Result<Named, A::Error> {
+                let mut entries = Vec::new();
+                while let Some(entry) = map.next_entry()? {
+                    entries.push(entry);
+                }
+                Ok(Named(entries))
+            }
+        }
+        deserializer.deserialize_map(Entries)
+    }
+}
+
+impl Plan {
+    /// Makes a study explicit and checks every number.
+    ///
+    /// # Errors
+    /// [`Error`] naming the key, the value and the remedy.
+    pub fn new(study: &Study) -> Result<Self, Error> {
+        let info = study.info()?;
+        let tableau = stepper(&study.run.stepper)?;
+        let run = &study.run;
+        check("t_end", run.t_end, run.t_end > 0.0, "give a time above 0")?;
+        check("transient", run.transient, run.transient >= 0.0, "give a time of at least 0")?;
+        let dt_out = if run.dt_out == 0.0 { run.t_end / 2000.0 } else { run.dt_out };
+        check("dt_out", dt_out, dt_out > 0.0, "give a time above 0")?;
+        check("dt_out", dt_out, run.t_end / dt_out <= MOST_ROWS, "that is over 20 million rows: give a longer time")?;
+        check("escape_norm", run.escape_norm, run.escape_norm > 0.0, "give a number above 0")?;
+        check("random", study.random, study.random >= 0.0, "give a size of at least 0")?;
+        if run.max_steps == 0 {
+            return Err(Error::Setting { key: "max_steps", value: "0".into(), remedy: "give at least 1" });
+        }
+        if let Some(map) = &study.return_map {
+            check("return_map.x_max", map.x_max, map.x_min < map.x_max, "give a number above x_min")?;
+        }
+        check_figure(&study.figure)?;
+        let control = control(study, tableau)?;
+        let parameters = parameters(study, info);
+        info.build(&parameters.values())?;
+        let computation = Computation {
+            format: PLAN_FORMAT,
+            model: info.name.to_owned(),
+            parameters,
+            initial: initial::resolve(study, info)?,
+            seed: run.seed,
+            transient: run.transient,
+            t_end: run.t_end,
+            dt_out,
+            stepper: tableau.name.to_owned(),
+            control,
+            max_steps: run.max_steps,
+            escape_norm: run.escape_norm,
+            return_map: study.return_map.clone(),
+        };
+        let title = if study.title.is_empty() { info.name.to_owned() } else { study.title.clone() };
+        Ok(Self { name: study.name.clone(), title, computation, figure: study.figure.clone() })
+    }
+
+    /// SHA-256 of the computation as compact JSON, in hexadecimal: equal hashes mean equal numbers.
+    #[must_use]
+    pub fn hash(&self) -> String {
+        let json = serde_json::to_vec(&self.computation).unwrap_or_default();
+        Sha256::digest(&json).iter().fold(String::new(), |hex, byte| hex + &format!("{byte:02x}"))
+    }
+
+    /// The registry entry of its model.
+    ///
+    /// # Errors
+    /// An unknown model (a plan read from a newer program's file, say).
+    pub fn info(&self) -> Result<&'static ModelInfo, Error> {
+        Ok(ModelInfo::find(&self.computation.model)?)
+    }
+
+    /// Its stepper.
+    ///
+    /// # Errors
+    /// An unknown stepper.
+    pub fn tableau(&self) -> Result<&'static Tableau, Error> {
+        stepper(&self.computation.stepper)
+    }
+}
+
+fn check(key: &'static str, value: f64, ok: bool, remedy: &'static str) -> Result<(), Error> {
+    if ok && value.is_finite() { Ok(()) } else { Err(Error::Setting { key, value: value.to_string(), remedy }) }
+}
+
+/// Checks settings of figures that were changed after the plan was made.
+///
+/// # Errors
+/// [`Error::Setting`] naming the key, the value and the remedy.
+pub fn check_figure(figure: &FigureSettings) -> Result<(), Error> {
+    check("figure.radius", figure.radius, figure.radius >= 0.0, "give a radius above 0, or 0 to choose it")?;
+    check("figure.scale", figure.scale, figure.scale >= 0.0, "give a factor above 0, or 0 to choose it")?;
+    check("figure.from", figure.from, figure.from >= 0.0, "give a time of at least 0")?;
+    let after = figure.to == 0.0 || figure.to > figure.from;
+    check("figure.to", figure.to, after, "give a time after figure.from, or 0 for the end")?;
+    if figure.outlines > 2000 {
+        let value = figure.outlines.to_string();
+        return Err(Error::Setting { key: "figure.outlines", value, remedy: "give at most 2000" });
+    }
+    Ok(())
+}
+
+fn stepper(name: &str) -> Result<&'static Tableau, Error> {
+    steppers::find(name).ok_or_else(|| {
+        let known: Vec<&'static str> = STEPPERS.iter().map(|stepper| stepper.name).collect();
+        Error::UnknownStepper { name: name.to_owned(), nearest: nearest_of(name, &known), known }
+    })
+}
+
+fn control(study: &Study, tableau: &'static Tableau) -> Result<Control, Error> {
+    let run = &study.run;
+    let control = if tableau.is_adaptive() {
+        Control::Adaptive { rtol: run.rtol, atol: run.atol }
+    } else {
+        Control::Fixed { step: run.step }
+    };
+    StepControl::from(control).validate(tableau)?;
+    Ok(control)
+}
+
+fn parameters(study: &Study, info: &ModelInfo) -> Named {
+    let given = |name: &str| study.parameters.iter().find(|(known, _)| known == name).map(|entry| entry.1);
+    let specs = info.parameters().iter();
+    Named(specs.map(|spec| (spec.name.to_owned(), given(spec.name).unwrap_or(spec.default))).collect())
+}

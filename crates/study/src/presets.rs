@@ -1,0 +1,60 @@
+//! The presets: study files that come with the program.
+
+use crate::error::nearest_of;
+use crate::{Error, Study};
+use motiform_models::{MODELS, ModelInfo};
+
+/// A preset: a study file of the folder `presets/`.
+#[derive(Debug)]
+pub struct Preset {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// Its model.
+    pub model: &'static str,
+    /// The study file.
+    pub text: &'static str,
+}
+
+macro_rules! presets {
+    ($($model:literal: $($name:literal),*;)*) => {
+        /// All presets, in the order of the paper's figures.
+        pub static PRESETS: &[Preset] = &[$($(
+            Preset {
+                name: $name,
+                model: $model,
+                text: include_str!(concat!("../../../presets/", $name, ".toml")),
+            },
+        )*)*];
+    };
+}
+
+presets! {
+    "tensor": "fig1", "fig2", "fig3", "fig4", "fig5a", "fig5b";
+}
+
+/// The names of a model's presets.
+#[must_use]
+pub fn names_of(model: &str) -> Vec<&'static str> {
+    PRESETS.iter().filter(|preset| preset.model == model).map(|preset| preset.name).collect()
+}
+
+/// The study of a preset.
+///
+/// # Errors
+/// [`Error::UnknownPreset`] with the nearest name.
+pub fn find(info: &'static ModelInfo, name: &str) -> Result<Study, Error> {
+    let preset = PRESETS.iter().find(|preset| preset.model == info.name && preset.name == name);
+    let Some(preset) = preset else {
+        let known = names_of(info.name);
+        let nearest = nearest_of(name, &known);
+        return Err(Error::UnknownPreset { name: name.to_owned(), model: info.name, nearest, known });
+    };
+    Study::parse(preset.text, &format!("preset {name}"), name)
+}
+
+/// The model that a preset belongs to.
+#[must_use]
+pub fn model_of(name: &str) -> Option<&'static ModelInfo> {
+    let preset = PRESETS.iter().find(|preset| preset.name == name)?;
+    MODELS.iter().find(|info| info.name == preset.model)
+}

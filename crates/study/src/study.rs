@@ -1,0 +1,357 @@
+//! A study as typed: everything optional, nothing computed yet.
+
+use crate::toml_reader::{Source, Table, Value};
+use crate::{Error, presets};
+use motiform_models::{MODELS, ModelInfo};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// A study: a model with its parameters, a start, a run, and how to look at it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Study {
+    /// The model.
+    pub model: &'static str,
+    /// Short name: the preset's, or the file's stem. Names the default output folder.
+    pub name: String,
+    /// Title of the figures.
+    pub title: String,
+    /// One sentence on what to look at.
+    pub about: String,
+    /// The parameters that span the paper's diagram, where this study stands for one.
+    pub free: Vec<String>,
+    /// Parameters that differ from the model's defaults.
+    pub parameters: Vec<(String, f64)>,
+    /// Initial values that are given; the others are 0, or random if none is given.
+    pub initial: Vec<(String, f64)>,
+    /// Size of the random start.
+    pub random: f64,
+    /// The run.
+    pub run: RunSettings,
+    /// The return map, if one is wanted.
+    pub return_map: Option<ReturnMapSettings>,
+    /// How to draw.
+    pub figure: FigureSettings,
+}
+
+/// How to run.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct RunSettings {
+    /// Time that is recorded (model time), above 0.
+    pub t_end: f64,
+    /// Time before the recording starts; the position is put back to the start after it.
+    pub transient: f64,
+    /// Time between recorded states; 0 chooses t_end / 2000.
+    pub dt_out: f64,
+    /// Stepper: euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive).
+    pub stepper: String,
+    /// Relative tolerance of adaptive steppers, 1e-14 to 0.1.
+    pub rtol: f64,
+    /// Absolute tolerance of adaptive steppers.
+    pub atol: f64,
+    /// Step of fixed-step steppers.
+    pub step: f64,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// Most steps a run may take.
+    pub max_steps: u64,
+    /// A shape whose norm exceeds this has escaped.
+    pub escape_norm: f64,
+}
+
+impl Default for RunSettings {
+    fn default() -> Self {
+        Self {
+            t_end: 200.0,
+            transient: 0.0,
+            dt_out: 0.0,
+            stepper: "dop853".to_owned(),
+            rtol: 1e-9,
+            atol: 1e-12,
+            step: 1e-3,
+            seed: 1,
+            max_steps: 100_000_000,
+            escape_norm: 1e6,
+        }
+    }
+}
+
+/// A return map: x at each crossing of a horizontal segment by the path.
+#[derive(Clone, Debug, PartialEq, Serialize, serde::Deserialize, JsonSchema)]
+pub struct ReturnMapSettings {
+    /// The segment lies at this y.
+    pub y: f64,
+    /// Left end.
+    pub x_min: f64,
+    /// Right end.
+    pub x_max: f64,
+    /// Put the centre of the path (its time average) on the origin first.
+    pub centre: bool,
+}
+
+/// How to draw a dataset. Nothing here changes a number.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, serde::Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct FigureSettings {
+    /// Radius R0 of the undeformed body (model length); 0 chooses it so that the deformation is seen.
+    pub radius: f64,
+    /// Size of the drawn outlines against the path; 0 chooses a readable size.
+    pub scale: f64,
+    /// Number of outlines along the path; 0 chooses.
+    pub outlines: u64,
+    /// Path, series and animation show the recording from this time ...
+    pub from: f64,
+    /// ... to this time; 0 is the end.
+    pub to: f64,
+    /// Draw the animation.
+    pub animation: bool,
+}
+
+impl Study {
+    /// A study of `model` with its defaults and nothing else.
+    #[must_use]
+    pub fn of_model(info: &'static ModelInfo) -> Self {
+        Self {
+            model: info.name,
+            name: info.name.to_owned(),
+            title: String::new(),
+            about: String::new(),
+            free: Vec::new(),
+            parameters: Vec::new(),
+            initial: Vec::new(),
+            random: 0.01,
+            run: RunSettings::default(),
+            return_map: None,
+            figure: FigureSettings { animation: true, ..FigureSettings::default() },
+        }
+    }
+
+    /// Reads a study from TOML text; `file` names it in messages, `name` becomes its short name.
+    ///
+    /// # Errors
+    /// [`Error::Study`] with line, column and remedy for malformed TOML, unknown keys (with the nearest name), wrong
+    /// types, numbers that are not finite, unknown models, parameters and presets.
+    pub fn parse(text: &str, file: &str, name: &str) -> Result<Self, Error> {
+        let mut top = Source { file, text }.parse()?;
+        let mut study = read_model(&mut top, file)?;
+        name.clone_into(&mut study.name);
+        for (key, place) in [("title", &mut study.title), ("about", &mut study.about)] {
+            if let Some(text) = top.text(key)? {
+                *place = text;
+            }
+        }
+        if let Some(free) = top.take("free") {
+            study.free = read_free(&study, &free)?;
+        }
+        if let Some(mut table) = top.table("initial")? {
+            table.number("random", &mut study.random)?;
+            read_initial(&mut study, table)?;
+        }
+        if let Some(table) = top.table("run")? {
+            read_run(&mut study.run, table)?;
+        }
+        if let Some(table) = top.table("return_map")? {
+            study.return_map = Some(read_return_map(table)?);
+        }
+        if let Some(table) = top.table("figure")? {
+            read_figure(&mut study.figure, table)?;
+        }
+        top.finish()?;
+        Ok(study)
+    }
+
+    /// Reads a study file.
+    ///
+    /// # Errors
+    /// [`Error::Unreadable`], and what [`Study::parse`] refuses.
+    pub fn read(path: &std::path::Path) -> Result<Self, Error> {
+        let text = std::fs::read_to_string(path).map_err(|error| Error::unreadable(path, error))?;
+        let stem = path.file_stem().map_or_else(|| "study".to_owned(), |stem| stem.to_string_lossy().into_owned());
+        Self::parse(&text, &path.display().to_string(), &stem)
+    }
+
+    /// The registry entry of its model.
+    ///
+    /// # Errors
+    /// [`motiform_models::Error::UnknownModel`] if the model was renamed by hand.
+    pub fn info(&self) -> Result<&'static ModelInfo, Error> {
+        Ok(ModelInfo::find(self.model)?)
+    }
+
+    /// Sets a parameter, replacing an earlier value.
+    ///
+    /// # Errors
+    /// An unknown name (with the nearest one).
+    pub fn set(&mut self, name: &str, value: f64) -> Result<(), Error> {
+        let info = self.info()?;
+        motiform_models::parameters::index_of(info.parameters(), info.name, name)?;
+        replace(&mut self.parameters, name, value);
+        Ok(())
+    }
+
+    /// Sets an initial value, replacing an earlier one.
+    ///
+    /// # Errors
+    /// An unknown name (with the nearest one).
+    pub fn set_initial(&mut self, name: &str, value: f64) -> Result<(), Error> {
+        self.info()?.coordinate(name)?;
+        replace(&mut self.initial, name, value);
+        Ok(())
+    }
+}
+
+fn replace(list: &mut Vec<(String, f64)>, name: &str, value: f64) {
+    list.retain(|(known, _)| known != name);
+    list.push((name.to_owned(), value));
+}
+
+/// `[model.NAME]` with parameters, on top of `preset = "..."` if given.
+fn read_model(top: &mut Table<'_>, file: &str) -> Result<Study, Error> {
+    let preset = top.take("preset");
+    let Some(mut models) = top.table("model")? else {
+        let preset = preset.ok_or_else(|| Error::Study {
+            file: file.to_owned(),
+            line: 1,
+            column: 1,
+            problem: format!("a study needs a table [model.NAME]: NAME is {}", names().join(" or ")),
+            excerpt: String::new(),
+        })?;
+        return from_preset(&preset, None);
+    };
+    let mut found = None;
+    for info in MODELS {
+        if let Some(table) = models.table(info.name)? {
+            found = Some((info, table));
+        }
+    }
+    models.finish()?;
+    let Some((info, mut table)) = found else {
+        return Err(Error::Study {
+            file: file.to_owned(),
+            line: 1,
+            column: 1,
+            problem: format!("[model] names no model: write [model.{}]", names().join("] or [model.")),
+            excerpt: String::new(),
+        });
+    };
+    let mut study = match &preset {
+        Some(value) => from_preset(value, Some(info))?,
+        None => Study::of_model(info),
+    };
+    for (name, value) in table.drain() {
+        let number = value.number()?;
+        study.set(&name, number).map_err(|error| value.error(error))?;
+    }
+    Ok(study)
+}
+
+fn names() -> Vec<&'static str> {
+    MODELS.iter().map(|info| info.name).collect()
+}
+
+fn from_preset(value: &Value<'_>, info: Option<&'static ModelInfo>) -> Result<Study, Error> {
+    let name = value.text()?;
+    let model = info.or_else(|| presets::model_of(&name)).unwrap_or(&MODELS[0]);
+    presets::find(model, &name).map_err(|error| value.error(error))
+}
+
+fn read_free(study: &Study, value: &Value<'_>) -> Result<Vec<String>, Error> {
+    let names = value.texts()?;
+    let info = study.info()?;
+    for name in &names {
+        motiform_models::parameters::index_of(info.parameters(), info.name, name)
+            .map_err(|error| value.error(error))?;
+    }
+    Ok(names)
+}
+
+fn read_initial(study: &mut Study, mut table: Table<'_>) -> Result<(), Error> {
+    for (name, value) in table.drain() {
+        let number = value.number()?;
+        study.set_initial(&name, number).map_err(|error| value.error(error))?;
+    }
+    Ok(())
+}
+
+fn read_run(run: &mut RunSettings, mut table: Table<'_>) -> Result<(), Error> {
+    table.number("t_end", &mut run.t_end)?;
+    table.number("transient", &mut run.transient)?;
+    table.number("dt_out", &mut run.dt_out)?;
+    if let Some(stepper) = table.text("stepper")? {
+        run.stepper = stepper;
+    }
+    table.number("rtol", &mut run.rtol)?;
+    table.number("atol", &mut run.atol)?;
+    table.number("step", &mut run.step)?;
+    table.whole("seed", &mut run.seed)?;
+    table.whole("max_steps", &mut run.max_steps)?;
+    table.number("escape_norm", &mut run.escape_norm)?;
+    table.finish()
+}
+
+fn read_return_map(mut table: Table<'_>) -> Result<ReturnMapSettings, Error> {
+    let mut settings = ReturnMapSettings { y: 0.0, x_min: -1e300, x_max: 1e300, centre: false };
+    table.number("y", &mut settings.y)?;
+    table.number("x_min", &mut settings.x_min)?;
+    table.number("x_max", &mut settings.x_max)?;
+    table.switch("centre", &mut settings.centre)?;
+    table.finish()?;
+    Ok(settings)
+}
+
+fn read_figure(figure: &mut FigureSettings, mut table: Table<'_>) -> Result<(), Error> {
+    table.number("radius", &mut figure.radius)?;
+    table.number("scale", &mut figure.scale)?;
+    table.whole("outlines", &mut figure.outlines)?;
+    table.number("from", &mut figure.from)?;
+    table.number("to", &mut figure.to)?;
+    table.switch("animation", &mut figure.animation)?;
+    table.finish()
+}
+
+/// The JSON schema of study files.
+#[must_use]
+pub fn schema() -> serde_json::Value {
+    let numbers = |names: Vec<(&str, String)>| {
+        let entries = names.into_iter().map(|(name, text)| {
+            (name.to_owned(), serde_json::json!({ "type": "number", "description": text }))
+        });
+        let properties: serde_json::Map<String, serde_json::Value> = entries.collect();
+        serde_json::json!({ "type": "object", "additionalProperties": false, "properties": properties })
+    };
+    let mut models = serde_json::Map::new();
+    let mut initial = vec![("random", "size of the random start".to_owned())];
+    for info in MODELS {
+        let meanings = info.parameters().iter().map(|spec| (spec.name, spec.meaning.to_owned())).collect();
+        models.insert(info.name.to_owned(), numbers(meanings));
+        initial.extend(info.coordinates.iter().map(|c| (c.name, c.meaning.to_owned())));
+    }
+    initial.extend(["x", "y"].map(|name| (name, "position of the centre of mass".to_owned())));
+    serde_json::json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "motiform study",
+        "type": "object",
+        "additionalProperties": false,
+        "properties": {
+            "title": { "type": "string", "description": "title of the figures" },
+            "about": { "type": "string", "description": "one sentence on what to look at" },
+            "preset": { "type": "string", "description": "the preset to start from" },
+            "free": { "type": "array", "items": { "type": "string" }, "description": "parameters to vary" },
+            "model": { "type": "object", "additionalProperties": false, "properties": models },
+            "initial": numbers(initial),
+            "run": section::<RunSettings>(),
+            "return_map": section::<ReturnMapSettings>(),
+            "figure": section::<FigureSettings>(),
+        },
+    })
+}
+
+/// The schema of one table; every key may be left out.
+fn section<T: JsonSchema>() -> serde_json::Value {
+    let mut schema = schemars::schema_for!(T).to_value();
+    if let Some(object) = schema.as_object_mut() {
+        object.remove("$schema");
+        object.remove("required");
+        object.insert("additionalProperties".to_owned(), false.into());
+    }
+    schema
+}

@@ -1,0 +1,180 @@
+//! Reading TOML tables key by key, so that every complaint has a line, a column and a remedy.
+
+use crate::Error;
+use motiform_models::nearest;
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// A document and its name, for messages.
+#[derive(Clone, Copy)]
+pub(crate) struct Source<'i> {
+    pub(crate) file: &'i str,
+    pub(crate) text: &'i str,
+}
+
+impl<'i> Source<'i> {
+    /// Parses the document.
+    pub(crate) fn parse(self) -> Result<Table<'i>, Error> {
+        let parsed = DeTable::parse(self.text)
+            .map_err(|error| self.error(error.span().unwrap_or(0..0), error.message().to_owned()))?;
+        Ok(Table { source: self, path: String::new(), entries: parsed.into_inner(), known: Vec::new() })
+    }
+
+    /// A complaint about the text at `span`.
+    pub(crate) fn error(self, span: Range<usize>, problem: String) -> Error {
+        let before = &self.text[..span.start.min(self.text.len())];
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let line = before.matches('\n').count() + 1;
+        let column = before[line_start..].chars().count() + 1;
+        let text = self.text[line_start..].lines().next().unwrap_or("");
+        let gutter = format!("{line:4} | ");
+        let marks = span.len().clamp(1, text.chars().count().saturating_sub(column - 1).max(1));
+        let pointer = format!("{:>1$}{2}", "", gutter.len() + column - 1, "^".repeat(marks));
+        Error::Study { file: self.file.to_owned(), line, column, problem, excerpt: format!("{gutter}{text}\n{pointer}") }
+    }
+}
+
+/// A table whose keys are taken one by one; [`Table::finish`] refuses what is left.
+pub(crate) struct Table<'i> {
+    source: Source<'i>,
+    /// Dotted name of the table, with a trailing dot; empty at the top.
+    path: String,
+    entries: DeTable<'i>,
+    known: Vec<String>,
+}
+
+/// A value with its place.
+pub(crate) struct Value<'i> {
+    source: Source<'i>,
+    key: String,
+    value: Spanned<DeValue<'i>>,
+}
+
+impl<'i> Table<'i> {
+    /// Takes the value of `key`, if it is there.
+    pub(crate) fn take(&mut self, key: &str) -> Option<Value<'i>> {
+        self.known.push(key.to_owned());
+        let (_, value) = self.entries.remove_entry(key)?;
+        Some(Value { source: self.source, key: format!("{}{key}", self.path), value })
+    }
+
+    /// Takes a number into `place`, if it is there.
+    pub(crate) fn number(&mut self, key: &str, place: &mut f64) -> Result<(), Error> {
+        if let Some(value) = self.take(key) {
+            *place = value.number()?;
+        }
+        Ok(())
+    }
+
+    /// Takes a whole number of at least 0 into `place`, if it is there.
+    pub(crate) fn whole(&mut self, key: &str, place: &mut u64) -> Result<(), Error> {
+        if let Some(value) = self.take(key) {
+            *place = value.whole()?;
+        }
+        Ok(())
+    }
+
+    /// Takes a switch into `place`, if it is there.
+    pub(crate) fn switch(&mut self, key: &str, place: &mut bool) -> Result<(), Error> {
+        if let Some(value) = self.take(key) {
+            *place = value.switch()?;
+        }
+        Ok(())
+    }
+
+    /// Takes a text, if it is there.
+    pub(crate) fn text(&mut self, key: &str) -> Result<Option<String>, Error> {
+        self.take(key).map(|value| value.text()).transpose()
+    }
+
+    /// Takes a table, if it is there.
+    pub(crate) fn table(&mut self, key: &str) -> Result<Option<Table<'i>>, Error> {
+        self.take(key).map(Value::table).transpose()
+    }
+
+    /// All remaining keys, in the order of the file, with their values.
+    pub(crate) fn drain(&mut self) -> Vec<(String, Value<'i>)> {
+        let (source, path) = (self.source, self.path.clone());
+        let mut all: Vec<_> = std::mem::take(&mut self.entries).into_iter().collect();
+        all.sort_by_key(|(key, _)| key.span().start);
+        all.into_iter()
+            .map(|(key, value)| {
+                let name = key.into_inner().into_owned();
+                let value = Value { source, key: format!("{path}{name}"), value };
+                (name, value)
+            })
+            .collect()
+    }
+
+    /// Refuses keys that nobody took, with the nearest known name.
+    pub(crate) fn finish(self) -> Result<(), Error> {
+        let Some((key, _)) = self.entries.iter().min_by_key(|(key, _)| key.span().start) else { return Ok(()) };
+        let name: &str = key.get_ref();
+        let known: Vec<&str> = self.known.iter().map(String::as_str).collect();
+        let meant = nearest(name, known.iter().copied())
+            .map_or_else(String::new, |found| format!(" (did you mean {found}?)"));
+        let problem =
+            format!("unknown key {}{name}{meant}: the keys here are {}", self.path, known.join(", "));
+        Err(self.source.error(key.span(), problem))
+    }
+}
+
+impl<'i> Value<'i> {
+    /// A complaint about this value.
+    pub(crate) fn error(&self, problem: impl std::fmt::Display) -> Error {
+        self.source.error(self.value.span(), problem.to_string())
+    }
+
+    fn wrong(&self, expected: &str) -> Error {
+        let found = self.value.get_ref().type_str();
+        self.error(format!("{} must be {expected}, not this {found}", self.key))
+    }
+
+    /// A finite number.
+    pub(crate) fn number(&self) -> Result<f64, Error> {
+        let number = match self.value.get_ref() {
+            DeValue::Float(float) => float.as_str().replace('_', "").parse::<f64>().ok(),
+            DeValue::Integer(integer) => {
+                i64::from_str_radix(&integer.as_str().replace('_', ""), integer.radix()).ok().map(|n| n as f64)
+            }
+            _ => return Err(self.wrong("a number")),
+        };
+        number.filter(|x| x.is_finite()).ok_or_else(|| self.error(format!("{} must be a finite number", self.key)))
+    }
+
+    /// A whole number of at least 0.
+    pub(crate) fn whole(&self) -> Result<u64, Error> {
+        let DeValue::Integer(integer) = self.value.get_ref() else {
+            return Err(self.wrong("a whole number"));
+        };
+        u64::from_str_radix(&integer.as_str().replace('_', ""), integer.radix())
+            .map_err(|_| self.error(format!("{} must be a whole number from 0 to {}", self.key, u64::MAX)))
+    }
+
+    /// `true` or `false`.
+    pub(crate) fn switch(&self) -> Result<bool, Error> {
+        self.value.get_ref().as_bool().ok_or_else(|| self.wrong("true or false"))
+    }
+
+    /// A text.
+    pub(crate) fn text(&self) -> Result<String, Error> {
+        self.value.get_ref().as_str().map(str::to_owned).ok_or_else(|| self.wrong("a text in quotes"))
+    }
+
+    /// A list of texts.
+    pub(crate) fn texts(&self) -> Result<Vec<String>, Error> {
+        let array = self.value.get_ref().as_array().ok_or_else(|| self.wrong("a list of texts"))?;
+        let text = |item: &Spanned<DeValue<'_>>| item.get_ref().as_str().map(str::to_owned);
+        array.iter().map(text).collect::<Option<_>>().ok_or_else(|| self.wrong("a list of texts"))
+    }
+
+    /// A table.
+    pub(crate) fn table(self) -> Result<Table<'i>, Error> {
+        if !self.value.get_ref().is_table() {
+            return Err(self.wrong("a table"));
+        }
+        let DeValue::Table(entries) = self.value.into_inner() else { unreachable!("just checked") };
+        Ok(Table { source: self.source, path: format!("{}.", self.key), entries, known: Vec::new() })
+    }
+}
