@@ -184,17 +184,6 @@ impl Svg {
         let _ = writeln!(self.body, "<rect {}{paint}/>", Box(rect));
     }
 
-    /// A rectangle filled by a vertical gradient, `colours` from bottom to top at equal distances.
-    pub fn gradient(&mut self, rect: Rect, colours: &[Colour]) {
-        let id = self.id();
-        let _ = write!(self.body, "<linearGradient id=\"i{id}\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">");
-        for (i, colour) in colours.iter().enumerate() {
-            let offset = Num(100.0 * i as f64 / (colours.len() - 1).max(1) as f64);
-            let _ = write!(self.body, "<stop offset=\"{offset}%\" stop-color=\"{colour}\"/>");
-        }
-        let _ = writeln!(self.body, "</linearGradient><rect {} fill=\"url(#i{id})\"/>", Box(rect));
-    }
-
     /// Draws with everything outside `rect` cut off.
     pub fn clipped(&mut self, rect: Rect, draw: impl FnOnce(&mut Self)) {
         let id = self.id();
