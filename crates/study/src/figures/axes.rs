@@ -1,8 +1,9 @@
 //! A framed plot: data to pixels, ticks, labels.
 
 use super::geometry::{Point, Range, Rect};
+use super::paint::Paint;
 use super::palette::{INK, PALE};
-use super::svg::{Anchor, Paint, Svg};
+use super::svg::{Anchor, Svg};
 use super::text::Label;
 use super::ticks::Ticks;
 

@@ -2,8 +2,9 @@
 
 use super::axes::{LABEL_SIZE, TICK_SIZE};
 use super::geometry::{Point, Range, Rect};
+use super::paint::Paint;
 use super::palette::{INK, time_colour};
-use super::svg::{Anchor, Paint, Svg};
+use super::svg::{Anchor, Svg};
 use super::text::Label;
 use super::ticks::Ticks;
 

@@ -12,6 +12,7 @@ mod error;
 mod fonts;
 pub mod geometry;
 mod legend;
+pub mod paint;
 pub mod palette;
 mod path;
 #[cfg(feature = "pdf")]

@@ -3,8 +3,9 @@
 use super::{Animation, Camera};
 use crate::figures::axes::{Axes, BELOW, Scale};
 use crate::figures::geometry::{Point, Range, Rect};
+use crate::figures::paint::Paint;
 use crate::figures::palette::INK;
-use crate::figures::svg::{Anchor, Paint, Svg};
+use crate::figures::svg::{Anchor, Svg};
 use crate::figures::text::Label;
 use crate::figures::ticks::Ticks;
 

@@ -4,9 +4,10 @@ use super::{PathFigure, PathPoint, SectionLine};
 use crate::figures::axes::Scale;
 use crate::figures::geometry::{Point, Range, distance};
 use crate::figures::legend::{Entry, Mark, draw_arrow, draw_end, draw_start};
+use crate::figures::paint::Paint;
 use crate::figures::palette::{BLACK, Colour, INK, VERMILION, WHITE, time_colour_in};
 use crate::figures::simplify::simplify;
-use crate::figures::svg::{Paint, Svg};
+use crate::figures::svg::Svg;
 
 /// Tolerance of a decimated curve, in pixels: no corner shows at twice the size.
 const FINE: f64 = 0.04;
