@@ -1,8 +1,9 @@
 //! A framed plot: data to pixels, ticks, labels.
 
 use super::geometry::{Point, Range, Rect};
+use super::paint::Paint;
 use super::palette::{INK, PALE};
-use super::svg::{Anchor, Paint, Svg};
+use super::svg::{Anchor, Svg};
 use super::text::Label;
 use super::ticks::Ticks;
 
@@ -66,8 +67,11 @@ impl Axes {
     pub fn new(scale: Scale, x_label: Option<&str>, y_label: &str) -> Self {
         let width = |text: &str| Label::parse(text).width(TICK_SIZE);
         let Rect { w, h, .. } = scale.frame;
-        let x_ticks = Ticks::fitting(scale.x, w, SPACING, width);
-        let y_ticks = Ticks::fitting(scale.y, h, SPACING, |_| TICK_SIZE);
+        let mut x_ticks = Ticks::fitting(scale.x, w, SPACING, width);
+        let mut y_ticks = Ticks::fitting(scale.y, h, SPACING, |_| TICK_SIZE);
+        if (scale.x.span() * h / (scale.y.span() * w) - 1.0).abs() < 1e-6 {
+            Ticks::share_step((&mut x_ticks, scale.x), (&mut y_ticks, scale.y));
+        }
         let x_label = x_label.map(|label| Label::parse(&x_ticks.scaled_label(label)));
         let y_label = Label::parse(&y_ticks.scaled_label(y_label)).wrap(LABEL_SIZE, h + 10.0);
         Self { scale, x_ticks, y_ticks, x_label, y_label }

@@ -2,13 +2,15 @@
 
 use super::axes::{LABEL_SIZE, TICK_SIZE};
 use super::geometry::{Point, Range, Rect};
-use super::palette::{Colour, INK, time_colour};
-use super::svg::{Anchor, Paint, Svg};
+use super::paint::Paint;
+use super::palette::{INK, time_colour};
+use super::svg::{Anchor, Svg};
 use super::text::Label;
 use super::ticks::Ticks;
 
 const BAR: f64 = 12.0;
 const HEAD: f64 = 22.0;
+const STEPS: u32 = 48;
 
 /// A vertical bar of time colours with ticks at its right.
 #[derive(Debug, Clone)]
@@ -37,8 +39,12 @@ impl ColourBar {
     pub(crate) fn draw(&self, svg: &mut Svg, [x, y]: Point) {
         svg.text([x, y + 11.0], LABEL_SIZE, Anchor::Start, &self.label);
         let bar = Rect { x, y: y + HEAD, w: BAR, h: self.height - HEAD };
-        let colours: Vec<Colour> = (0..=8).map(|i| time_colour(f64::from(i) / 8.0)).collect();
-        svg.gradient(bar, &colours);
+        for i in 0..STEPS {
+            // each step reaches to the top, under the next ones: no seams, and no gradient, which the PDF writer bends
+            let h = bar.h * f64::from(STEPS - i) / f64::from(STEPS);
+            let colour = time_colour((f64::from(i) + 0.5) / f64::from(STEPS));
+            svg.rect(Rect { h, ..bar }, &Paint::fill(colour));
+        }
         svg.rect(bar, &Paint::stroke(INK, 0.8));
         for (value, label) in self.ticks.values.iter().zip(&self.ticks.labels) {
             let py = bar.bottom() - (value - self.range.min) / self.range.span() * bar.h;

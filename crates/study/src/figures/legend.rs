@@ -1,8 +1,9 @@
 //! The key of a figure: a mark and a word each, in rows, always outside the data.
 
 use super::geometry::Point;
+use super::paint::Paint;
 use super::palette::{BLACK, Colour, WHITE};
-use super::svg::{Anchor, Paint, Svg};
+use super::svg::{Anchor, Svg};
 use super::text::Label;
 
 const SIZE: f64 = 12.0;

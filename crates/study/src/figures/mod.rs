@@ -1,8 +1,9 @@
 //! Drawing: plain data in, SVG text out. Knows no model, no study file, no solver.
 //!
 //! Three figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`]) return SVG text that stands alone (its fonts
-//! are inside); [`Animation`] returns an animated PNG; [`png`] and, under the feature `pdf`, `pdf` turn that text into files. The same data give the same
-//! bytes: numbers are rounded to 0.01 pixel and no system font is used. All texts are markup, see [`Label`].
+//! are inside); [`png()`] and, under the feature `pdf`, `pdf` turn that text into files; [`Animation`] returns an
+//! animated PNG. The same data give the same bytes: numbers are rounded to 0.01 pixel and no system font is used. All
+//! texts are markup, see [`Label`].
 
 mod animation;
 pub mod axes;
@@ -12,6 +13,7 @@ mod error;
 mod fonts;
 pub mod geometry;
 mod legend;
+pub mod paint;
 pub mod palette;
 mod path;
 #[cfg(feature = "pdf")]

@@ -7,8 +7,9 @@ use super::block::Block;
 use super::error::{FigureError, Result, check_finite};
 use super::geometry::{Point, Range, Rect};
 use super::legend::{Entry, Legend, Mark};
+use super::paint::Paint;
 use super::palette::{BLUE, GREY};
-use super::svg::{Paint, Svg};
+use super::svg::Svg;
 
 const SIDE: f64 = 420.0;
 const MARGIN: f64 = 14.0;

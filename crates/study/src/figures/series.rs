@@ -5,9 +5,10 @@ use super::block::Block;
 use super::error::{FigureError, Result, check_finite};
 use super::geometry::{Point, Range, Rect};
 use super::legend::{Entry, Legend, Mark};
+use super::paint::Paint;
 use super::palette::{Colour, PALE};
 use super::simplify::simplify;
-use super::svg::{Paint, Svg};
+use super::svg::Svg;
 
 const WIDTH: f64 = 600.0;
 const HEIGHT: f64 = 120.0;

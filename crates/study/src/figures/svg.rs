@@ -4,7 +4,8 @@ use std::fmt::{self, Display, Write as _};
 
 use super::fonts::{self, Face};
 use super::geometry::{Point, Rect};
-use super::palette::{Colour, INK};
+use super::paint::Paint;
+use super::palette::INK;
 use super::text::Label;
 
 /// A number rounded to 0.01, without trailing zeros and without "-0".
@@ -39,80 +40,6 @@ pub fn escape(text: &str) -> String {
         }
     }
     out
-}
-
-/// How a shape is painted.
-#[derive(Debug, Clone, Copy)]
-pub struct Paint {
-    fill: Option<(Colour, f64)>,
-    stroke: Option<(Colour, f64)>,
-    dash: Option<&'static str>,
-    opacity: f64,
-}
-
-impl Paint {
-    /// Filled, no edge.
-    #[must_use]
-    pub fn fill(colour: Colour) -> Self {
-        Self { fill: Some((colour, 1.0)), stroke: None, dash: None, opacity: 1.0 }
-    }
-
-    /// A line of a width in pixels, no filling.
-    #[must_use]
-    pub fn stroke(colour: Colour, width: f64) -> Self {
-        Self { fill: None, stroke: Some((colour, width)), dash: None, opacity: 1.0 }
-    }
-
-    /// Adds an edge of a width in pixels.
-    #[must_use]
-    pub fn edge(self, colour: Colour, width: f64) -> Self {
-        Self { stroke: Some((colour, width)), ..self }
-    }
-
-    /// Adds a filling of an opacity between 0 and 1.
-    #[must_use]
-    pub fn tint(self, colour: Colour, opacity: f64) -> Self {
-        Self { fill: Some((colour, opacity)), ..self }
-    }
-
-    /// Dashes the line: lengths in pixels, as SVG writes them.
-    #[must_use]
-    pub fn dashed(self, dash: &'static str) -> Self {
-        Self { dash: Some(dash), ..self }
-    }
-
-    /// Opacity of the whole shape, between 0 and 1.
-    #[must_use]
-    pub fn opacity(self, opacity: f64) -> Self {
-        Self { opacity, ..self }
-    }
-}
-
-impl Display for Paint {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.fill {
-            Some((colour, opacity)) if opacity < 1.0 => {
-                write!(f, " fill=\"{colour}\" fill-opacity=\"{}\"", Num(opacity))?;
-            }
-            Some((colour, _)) => write!(f, " fill=\"{colour}\"")?,
-            None => f.write_str(" fill=\"none\"")?,
-        }
-        if let Some((colour, width)) = self.stroke {
-            write!(f, " stroke=\"{colour}\" stroke-width=\"{}\"", Num(width))?;
-            write!(
-                f,
-                " stroke-linejoin=\"round\" stroke-linecap=\"{}\"",
-                if self.dash.is_some() { "butt" } else { "round" }
-            )?;
-        }
-        if let Some(dash) = self.dash {
-            write!(f, " stroke-dasharray=\"{dash}\"")?;
-        }
-        if self.opacity < 1.0 {
-            write!(f, " opacity=\"{}\"", Num(self.opacity))?;
-        }
-        Ok(())
-    }
 }
 
 /// Which point of a label is put at the given place.
@@ -182,17 +109,6 @@ impl Svg {
     /// An upright rectangle.
     pub fn rect(&mut self, rect: Rect, paint: &Paint) {
         let _ = writeln!(self.body, "<rect {}{paint}/>", Box(rect));
-    }
-
-    /// A rectangle filled by a vertical gradient, `colours` from bottom to top at equal distances.
-    pub fn gradient(&mut self, rect: Rect, colours: &[Colour]) {
-        let id = self.id();
-        let _ = write!(self.body, "<linearGradient id=\"i{id}\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">");
-        for (i, colour) in colours.iter().enumerate() {
-            let offset = Num(100.0 * i as f64 / (colours.len() - 1).max(1) as f64);
-            let _ = write!(self.body, "<stop offset=\"{offset}%\" stop-color=\"{colour}\"/>");
-        }
-        let _ = writeln!(self.body, "</linearGradient><rect {} fill=\"url(#i{id})\"/>", Box(rect));
     }
 
     /// Draws with everything outside `rect` cut off.

@@ -16,10 +16,11 @@ pub struct Ticks {
     pub labels: Vec<String>,
     /// Power of ten taken out of the labels; 0 for numbers of ordinary size.
     pub exponent: i32,
+    step: Step,
 }
 
 /// The step `mantissa` * 10^`power`.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 struct Step {
     mantissa: i64,
     power: i32,
@@ -45,6 +46,12 @@ impl Step {
         let (step, slack) = (self.times(1, 0), 1e-9);
         ((range.min / step - slack).ceil() as i64, (range.max / step + slack).floor() as i64)
     }
+
+    /// Number of multiples inside the range.
+    fn count(self, range: Range) -> usize {
+        let (first, last) = self.multiples(range);
+        usize::try_from(last - first + 1).unwrap_or(0)
+    }
 }
 
 impl Ticks {
@@ -56,10 +63,9 @@ impl Ticks {
         let range = if range.span() > 0.0 { range } else { range.padded(0.0) };
         let target = target.clamp(FEWEST, MOST);
         let mut step = Step { mantissa: 1, power: range.span().log10().ceil() as i32 };
-        let count = |s: Step| usize::try_from(s.multiples(range).1 - s.multiples(range).0 + 1).unwrap_or(0);
         loop {
             let finer = step.finer();
-            if count(step) >= FEWEST && count(finer) > target {
+            if step.count(range) >= FEWEST && finer.count(range) > target {
                 break;
             }
             step = finer;
@@ -70,14 +76,14 @@ impl Ticks {
     fn with_step(step: Step, range: Range) -> Self {
         let (first, last) = step.multiples(range);
         let values: Vec<_> = (first..=last).map(|k| step.times(k, 0)).collect();
-        let largest = values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        let largest = values.iter().fold(step.times(1, 0), |m, v| m.max(v.abs()));
         let exponent = if (1e-3..1e5).contains(&largest) { 0 } else { largest.log10().floor() as i32 };
         let decimals = (exponent - step.power).max(0) as usize;
         let label = |k| {
             let text = format!("{:.decimals$}", step.times(k, exponent));
             text.replace('-', "\u{2212}")
         };
-        Self { labels: (first..=last).map(label).collect(), values, exponent }
+        Self { labels: (first..=last).map(label).collect(), values, exponent, step }
     }
 
     /// As many ticks as fit: neighbouring labels, `extent` pixels long each, keep their distance on an axis of
@@ -93,6 +99,18 @@ impl Ticks {
         let mut best = (FEWEST..=most).rev().map(|n| Self::new(range, n));
         let ticks = best.find(fits).unwrap_or_else(|| Self::new(range, FEWEST));
         if fits(&ticks) { ticks } else { ticks.thinned() }
+    }
+
+    /// Gives two axes of one unit the coarser of their steps, unless one of them would be left with fewer than three
+    /// ticks.
+    pub fn share_step(first: (&mut Self, Range), second: (&mut Self, Range)) {
+        let coarser =
+            if first.0.step.times(1, 0) > second.0.step.times(1, 0) { first.0.step } else { second.0.step };
+        for (ticks, range) in [first, second] {
+            if ticks.step != coarser && coarser.count(range) >= FEWEST {
+                *ticks = Self::with_step(coarser, range);
+            }
+        }
     }
 
     /// Only every other label, for an axis too short for three.
@@ -133,7 +151,9 @@ mod tests {
             prop_assert!(values[0] >= range.min - 1e-6 * step && values[0] - step < range.min);
             prop_assert!(values[values.len() - 1] <= range.max + 1e-6 * step);
             prop_assert!(values[values.len() - 1] + step > range.max);
-            prop_assert!(labels.iter().all(|l| !l.contains('-') && l.trim_matches(['\u{2212}', '0', '.']) != "" || !l.contains('\u{2212}')));
+            let minus_zero = |l: &String| l.starts_with('\u{2212}') && l[3..].chars().all(|c| "0.".contains(c));
+            let bad = labels.iter().any(|l| l.contains('-') || minus_zero(l));
+            prop_assert!(!bad, "{:?}", labels);
             let mut seen = labels.clone();
             seen.dedup();
             prop_assert_eq!(seen, labels);
@@ -146,6 +166,19 @@ mod tests {
         assert_eq!(labels(-0.26, 0.21), "\u{2212}0.2 \u{2212}0.1 0.0 0.1 0.2");
         assert_eq!(labels(0.0, 150.0), "0 50 100 150");
         assert_eq!(labels(0.0, 3e-5), "0 1 2 3");
+    }
+
+    #[test]
+    fn axes_of_one_unit_share_a_step_where_it_leaves_ticks() {
+        let steps = |min, max| {
+            let (long, short) = (Range { min: 0.0, max: 150.0 }, Range { min, max });
+            let (mut a, mut b) = (Ticks::new(long, 4), Ticks::new(short, 4));
+            Ticks::share_step((&mut a, long), (&mut b, short));
+            (a.values[1] - a.values[0], b.values[1] - b.values[0])
+        };
+        assert_eq!(steps(-60.0, 60.0), (50.0, 50.0));
+        assert_eq!(steps(-1.0, 1.0), (50.0, 1.0));
+        assert_eq!(steps(3.0, 4.0).0, 50.0);
     }
 
     #[test]

@@ -3,8 +3,9 @@
 use super::{Animation, Camera};
 use crate::figures::axes::{Axes, BELOW, Scale};
 use crate::figures::geometry::{Point, Range, Rect};
+use crate::figures::paint::Paint;
 use crate::figures::palette::INK;
-use crate::figures::svg::{Anchor, Paint, Svg};
+use crate::figures::svg::{Anchor, Svg};
 use crate::figures::text::Label;
 use crate::figures::ticks::Ticks;
 
@@ -58,17 +59,22 @@ fn fixed(film: &Animation, x: Range, y: Range) -> View {
     let extent =
         if extent > 0.0 { extent.max(1e-9 * size) } else { x.padded(0.0).span().max(y.padded(0.0).span()) };
     let (x, y) = (x.with_span(x.span() + 0.12 * extent), y.with_span(y.span() + 0.12 * extent));
-    let aspect = (x.span() / y.span()).clamp(0.5, 2.0);
-    let longest = f64::from(film.size);
-    let w = (longest - LEFT - RIGHT).min((longest - HEAD - BELOW) * aspect).floor();
-    let frame = Rect { x: 0.0, y: HEAD + 0.5, w, h: (w / aspect).floor() };
-    let axes = Axes::new(Scale::equal(frame, x, y), Some(&film.x_label), &film.y_label);
-    let left = (axes.left_margin() + 8.0).ceil() + 0.5;
-    let axes = axes.moved_to(left);
-    let mut svg = Svg::new(left + w + RIGHT, HEAD + frame.h + BELOW);
+    let left = (fixed_axes(film, x, y, LEFT).left_margin() + 8.0).ceil() + 0.5;
+    let axes = fixed_axes(film, x, y, left).moved_to(left);
+    let Rect { w, h, .. } = axes.scale.frame;
+    let mut svg = Svg::new(left + w + RIGHT, HEAD + h + BELOW);
     axes.draw_grid(&mut svg);
     axes.draw(&mut svg);
     View { scale: axes.scale, follow: false, grid: 0.0, ground: svg.finish() }
+}
+
+/// Axes whose frame fits into the picture when its left edge is at `left`.
+fn fixed_axes(film: &Animation, x: Range, y: Range, left: f64) -> Axes {
+    let aspect = (x.span() / y.span()).clamp(0.5, 2.0);
+    let longest = f64::from(film.size);
+    let w = (longest - left - RIGHT).min((longest - HEAD - BELOW) * aspect).floor();
+    let frame = Rect { x: 0.0, y: HEAD + 0.5, w, h: (w / aspect).floor() };
+    Axes::new(Scale::equal(frame, x, y), Some(&film.x_label), &film.y_label)
 }
 
 fn following(film: &Animation, side: f64) -> View {

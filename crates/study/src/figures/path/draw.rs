@@ -4,9 +4,10 @@ use super::{PathFigure, PathPoint, SectionLine};
 use crate::figures::axes::Scale;
 use crate::figures::geometry::{Point, Range, distance};
 use crate::figures::legend::{Entry, Mark, draw_arrow, draw_end, draw_start};
+use crate::figures::paint::Paint;
 use crate::figures::palette::{BLACK, Colour, INK, VERMILION, WHITE, time_colour_in};
 use crate::figures::simplify::simplify;
-use crate::figures::svg::{Paint, Svg};
+use crate::figures::svg::Svg;
 
 /// Tolerance of a decimated curve, in pixels: no corner shows at twice the size.
 const FINE: f64 = 0.04;
@@ -18,6 +19,7 @@ const CROWDED: f64 = 20_000.0;
 const ARROW_DISTANCE: f64 = 140.0;
 const MOST_ARROWS: f64 = 10.0;
 const PATH_COLOUR: Colour = INK;
+const NO_TIME: Range = Range { min: 0.0, max: 0.0 };
 
 impl PathFigure {
     /// Times of the outlines; `None` if there are fewer than two.
@@ -36,10 +38,7 @@ impl PathFigure {
             ));
         }
         if !self.outlines.is_empty() {
-            entries.push(Entry::new(
-                Mark::Outline(outline_paint(0.4, Range { min: 0.0, max: 1.0 })),
-                "domain outline",
-            ));
+            entries.push(Entry::new(Mark::Outline(self.sample_outline()), "domain outline"));
         }
         if let Some(section) = &self.section {
             entries.push(Entry::new(Mark::Line(section_paint()), &section.label));
@@ -55,9 +54,14 @@ impl PathFigure {
         entries
     }
 
+    /// The outline of the legend: the colour of the middle of the run, or of the only outline.
+    fn sample_outline(&self) -> Paint {
+        self.time_range().map_or(outline_paint(0.0, NO_TIME), |range| outline_paint(range.middle(), range))
+    }
+
     /// Draws everything that lies inside the frame.
     pub(super) fn draw_data(&self, svg: &mut Svg, scale: &Scale) {
-        let range = self.time_range().unwrap_or(Range { min: 0.0, max: 0.0 });
+        let range = self.time_range().unwrap_or(NO_TIME);
         for outline in &self.outlines {
             let points: Vec<_> = outline.points.iter().map(|p| scale.map(*p)).collect();
             svg.polyline(&simplify(&points, FINE), true, &outline_paint(outline.t, range));

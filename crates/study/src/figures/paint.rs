@@ -1,0 +1,80 @@
+//! Fill, edge, dash and opacity of a shape.
+
+use std::fmt::{self, Display};
+
+use super::palette::Colour;
+use super::svg::Num;
+
+/// How a shape is painted.
+#[derive(Debug, Clone, Copy)]
+pub struct Paint {
+    fill: Option<(Colour, f64)>,
+    stroke: Option<(Colour, f64)>,
+    dash: Option<&'static str>,
+    opacity: f64,
+}
+
+impl Paint {
+    /// Filled, no edge.
+    #[must_use]
+    pub fn fill(colour: Colour) -> Self {
+        Self { fill: Some((colour, 1.0)), stroke: None, dash: None, opacity: 1.0 }
+    }
+
+    /// A line of a width in pixels, no filling.
+    #[must_use]
+    pub fn stroke(colour: Colour, width: f64) -> Self {
+        Self { fill: None, stroke: Some((colour, width)), dash: None, opacity: 1.0 }
+    }
+
+    /// Adds an edge of a width in pixels.
+    #[must_use]
+    pub fn edge(self, colour: Colour, width: f64) -> Self {
+        Self { stroke: Some((colour, width)), ..self }
+    }
+
+    /// Adds a filling of an opacity between 0 and 1.
+    #[must_use]
+    pub fn tint(self, colour: Colour, opacity: f64) -> Self {
+        Self { fill: Some((colour, opacity)), ..self }
+    }
+
+    /// Dashes the line: lengths in pixels, as SVG writes them.
+    #[must_use]
+    pub fn dashed(self, dash: &'static str) -> Self {
+        Self { dash: Some(dash), ..self }
+    }
+
+    /// Opacity of the whole shape, between 0 and 1.
+    #[must_use]
+    pub fn opacity(self, opacity: f64) -> Self {
+        Self { opacity, ..self }
+    }
+}
+
+impl Display for Paint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.fill {
+            Some((colour, opacity)) if opacity < 1.0 => {
+                write!(f, " fill=\"{colour}\" fill-opacity=\"{}\"", Num(opacity))?;
+            }
+            Some((colour, _)) => write!(f, " fill=\"{colour}\"")?,
+            None => f.write_str(" fill=\"none\"")?,
+        }
+        if let Some((colour, width)) = self.stroke {
+            write!(f, " stroke=\"{colour}\" stroke-width=\"{}\"", Num(width))?;
+            write!(
+                f,
+                " stroke-linejoin=\"round\" stroke-linecap=\"{}\"",
+                if self.dash.is_some() { "butt" } else { "round" }
+            )?;
+        }
+        if let Some(dash) = self.dash {
+            write!(f, " stroke-dasharray=\"{dash}\"")?;
+        }
+        if self.opacity < 1.0 {
+            write!(f, " opacity=\"{}\"", Num(self.opacity))?;
+        }
+        Ok(())
+    }
+}
