@@ -32,7 +32,9 @@ pub(crate) enum Command {
     /// Draw the figures of datasets again, without computing
     Figure(FigureOptions),
     /// Print shell completions
-    #[command(after_help = "Example: motiform completions bash > ~/.local/share/bash-completion/completions/motiform")]
+    #[command(
+        after_help = "Example: motiform completions bash > ~/.local/share/bash-completion/completions/motiform"
+    )]
     Completions(CompletionsOptions),
 }
 

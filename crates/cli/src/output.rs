@@ -62,6 +62,7 @@ impl std::error::Error for StdoutFailed {}
 pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     // Standard error is the last resort: nothing is left to say if it fails too.
     let _ = writeln!(io::stderr(), "error: {error:#}");
-    let machine = error.is::<StdoutFailed>() || error.downcast_ref::<Error>().is_some_and(Error::is_machine_failure);
+    let machine =
+        error.is::<StdoutFailed>() || error.downcast_ref::<Error>().is_some_and(Error::is_machine_failure);
     ExitCode::from(if machine { 1 } else { 2 })
 }

@@ -29,7 +29,9 @@ impl Watch {
         });
         let bar = ProgressBar::with_draw_target(Some(total.ceil() as u64), ProgressDrawTarget::hidden());
         let template = "{bar:32} {percent:>3}%  {per_sec} model time  {eta} left";
-        bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
+        bar.set_style(
+            ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()),
+        );
         Self { bar, started: Instant::now(), total }
     }
 

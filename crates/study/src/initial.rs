@@ -14,7 +14,11 @@ pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
     for (name, value) in &study.initial {
         info.coordinate(name)?;
         if !value.is_finite() {
-            return Err(Error::Setting { key: "initial", value: format!("{name}={value}"), remedy: "give a finite number" });
+            return Err(Error::Setting {
+                key: "initial",
+                value: format!("{name}={value}"),
+                remedy: "give a finite number",
+            });
         }
     }
     let draw = !info.coordinates.iter().any(|coordinate| given(coordinate.name).is_some());

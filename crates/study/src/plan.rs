@@ -136,7 +136,12 @@ impl Plan {
         check("transient", run.transient, run.transient >= 0.0, "give a time of at least 0")?;
         let dt_out = if run.dt_out == 0.0 { run.t_end / 2000.0 } else { run.dt_out };
         check("dt_out", dt_out, dt_out > 0.0, "give a time above 0")?;
-        check("dt_out", dt_out, run.t_end / dt_out <= MOST_ROWS, "that is over 20 million rows: give a longer time")?;
+        check(
+            "dt_out",
+            dt_out,
+            run.t_end / dt_out <= MOST_ROWS,
+            "that is over 20 million rows: give a longer time",
+        )?;
         check("escape_norm", run.escape_norm, run.escape_norm > 0.0, "give a number above 0")?;
         check("random", study.random, study.random >= 0.0, "give a size of at least 0")?;
         if run.max_steps == 0 {
@@ -193,7 +198,11 @@ impl Plan {
 }
 
 fn check(key: &'static str, value: f64, ok: bool, remedy: &'static str) -> Result<(), Error> {
-    if ok && value.is_finite() { Ok(()) } else { Err(Error::Setting { key, value: value.to_string(), remedy }) }
+    if ok && value.is_finite() {
+        Ok(())
+    } else {
+        Err(Error::Setting { key, value: value.to_string(), remedy })
+    }
 }
 
 /// Checks settings of figures that were changed after the plan was made.

@@ -1,10 +1,10 @@
 //! Plan to dataset: the run itself.
 
+use crate::Error;
 use crate::dataset::{Dataset, Manifest, VERSION};
 use crate::plan::{Computation, Named, Plan};
 use crate::study::ReturnMapSettings;
 use crate::table::Table;
-use crate::Error;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::model::{turning_rate, velocity_and_acceleration};
 use motiform_dynamics::section::Crossing;
@@ -95,7 +95,14 @@ impl Run<'_> {
         }
         let mut orbit = Orbit::new(self.body, self.plan.tableau()?, c.control.into(), -c.transient, &u)?;
         let total = c.transient + passes * c.t_end;
-        let mut sink = Watched { trajectory: None, monitor: self.monitor, start: -c.transient, done: 0.0, total, ticks: 0 };
+        let mut sink = Watched {
+            trajectory: None,
+            monitor: self.monitor,
+            start: -c.transient,
+            done: 0.0,
+            total,
+            ticks: 0,
+        };
         let request = Request { t_end: 0.0, ..self.request(&[]) };
         let outcome = drive(&mut orbit, &request, &mut sink)?;
         let shape = ..u.len() - 2;
@@ -133,8 +140,14 @@ impl Run<'_> {
         let request = Request { sample_every: Some(c.dt_out), ..self.request(wanted) };
         let total = c.transient + passes * c.t_end;
         let done = c.transient + pass * c.t_end;
-        let mut sink =
-            Watched { trajectory: Some(&mut trajectory), monitor: self.monitor, start: 0.0, done, total, ticks: 0 };
+        let mut sink = Watched {
+            trajectory: Some(&mut trajectory),
+            monitor: self.monitor,
+            start: 0.0,
+            done,
+            total,
+            ticks: 0,
+        };
         let outcome = drive(&mut orbit, &request, &mut sink)?;
         let counters = orbit.counters();
         let last = orbit.state().to_vec();
@@ -244,7 +257,11 @@ fn motion(model: &dyn Model, trajectory: &Trajectory) -> Table {
         table.push(coordinate.name, coordinate.meaning, values);
     }
     table.push("speed", "|v| (model length per model time)", speed);
-    table.push("turning_rate", "d(heading)/dt (rad per model time); undefined where the body is at rest", turning);
+    table.push(
+        "turning_rate",
+        "d(heading)/dt (rad per model time); undefined where the body is at rest",
+        turning,
+    );
     for (observable, values) in model.observables().iter().zip(observed) {
         table.push(observable.name, observable.meaning, values);
     }
@@ -254,12 +271,27 @@ fn motion(model: &dyn Model, trajectory: &Trajectory) -> Table {
 /// The crossings of the segment, in order.
 fn crossings(trajectory: &Trajectory, map: &ReturnMapSettings) -> Table {
     let inside = |x: f64| map.x_min < x && x < map.x_max;
-    let kept: Vec<_> =
-        trajectory.crossings().iter().filter(|crossing| inside(crossing.state[crossing.state.len() - 2])).collect();
+    let kept: Vec<_> = trajectory
+        .crossings()
+        .iter()
+        .filter(|crossing| inside(crossing.state[crossing.state.len() - 2]))
+        .collect();
     let mut table = Table::default();
     table.push("t", "time of the crossing", kept.iter().map(|c| c.t).collect());
-    table.push("x", "x where the path crosses the segment", kept.iter().map(|c| c.state[c.state.len() - 2]).collect());
-    table.push("y", "y of the segment, to round-off", kept.iter().map(|c| c.state[c.state.len() - 1]).collect());
-    table.push("rising", "1 where y grows, 0 where it falls", kept.iter().map(|c| f64::from(u8::from(c.rising))).collect());
+    table.push(
+        "x",
+        "x where the path crosses the segment",
+        kept.iter().map(|c| c.state[c.state.len() - 2]).collect(),
+    );
+    table.push(
+        "y",
+        "y of the segment, to round-off",
+        kept.iter().map(|c| c.state[c.state.len() - 1]).collect(),
+    );
+    table.push(
+        "rising",
+        "1 where y grows, 0 where it falls",
+        kept.iter().map(|c| f64::from(u8::from(c.rising))).collect(),
+    );
     table
 }

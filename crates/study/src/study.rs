@@ -165,7 +165,8 @@ impl Study {
     /// [`Error::Unreadable`], and what [`Study::parse`] refuses.
     pub fn read(path: &std::path::Path) -> Result<Self, Error> {
         let text = std::fs::read_to_string(path).map_err(|error| Error::unreadable(path, error))?;
-        let stem = path.file_stem().map_or_else(|| "study".to_owned(), |stem| stem.to_string_lossy().into_owned());
+        let stem =
+            path.file_stem().map_or_else(|| "study".to_owned(), |stem| stem.to_string_lossy().into_owned());
         Self::parse(&text, &path.display().to_string(), &stem)
     }
 

@@ -41,7 +41,11 @@ impl Table {
 #[must_use]
 pub fn same_bits(a: &Table, b: &Table) -> bool {
     let bits = |table: &Table| -> Vec<(String, Vec<u64>)> {
-        table.columns.iter().map(|c| (c.name.clone(), c.values.iter().map(|x| x.to_bits()).collect())).collect()
+        table
+            .columns
+            .iter()
+            .map(|c| (c.name.clone(), c.values.iter().map(|x| x.to_bits()).collect()))
+            .collect()
     };
     bits(a) == bits(b)
 }

@@ -31,7 +31,13 @@ impl<'i> Source<'i> {
         let gutter = format!("{line:4} | ");
         let marks = span.len().clamp(1, text.chars().count().saturating_sub(column - 1).max(1));
         let pointer = format!("{:>1$}{2}", "", gutter.len() + column - 1, "^".repeat(marks));
-        Error::Study { file: self.file.to_owned(), line, column, problem, excerpt: format!("{gutter}{text}\n{pointer}") }
+        Error::Study {
+            file: self.file.to_owned(),
+            line,
+            column,
+            problem,
+            excerpt: format!("{gutter}{text}\n{pointer}"),
+        }
     }
 }
 
@@ -109,7 +115,9 @@ impl<'i> Table<'i> {
 
     /// Refuses keys that nobody took, with the nearest known name.
     pub(crate) fn finish(self) -> Result<(), Error> {
-        let Some((key, _)) = self.entries.iter().min_by_key(|(key, _)| key.span().start) else { return Ok(()) };
+        let Some((key, _)) = self.entries.iter().min_by_key(|(key, _)| key.span().start) else {
+            return Ok(());
+        };
         let name: &str = key.get_ref();
         let known: Vec<&str> = self.known.iter().map(String::as_str).collect();
         let meant = nearest(name, known.iter().copied())
@@ -136,11 +144,15 @@ impl<'i> Value<'i> {
         let number = match self.value.get_ref() {
             DeValue::Float(float) => float.as_str().replace('_', "").parse::<f64>().ok(),
             DeValue::Integer(integer) => {
-                i64::from_str_radix(&integer.as_str().replace('_', ""), integer.radix()).ok().map(|n| n as f64)
+                i64::from_str_radix(&integer.as_str().replace('_', ""), integer.radix())
+                    .ok()
+                    .map(|n| n as f64)
             }
             _ => return Err(self.wrong("a number")),
         };
-        number.filter(|x| x.is_finite()).ok_or_else(|| self.error(format!("{} must be a finite number", self.key)))
+        number
+            .filter(|x| x.is_finite())
+            .ok_or_else(|| self.error(format!("{} must be a finite number", self.key)))
     }
 
     /// A whole number of at least 0.

@@ -20,8 +20,13 @@ pub(crate) fn run(options: &CheckOptions) -> anyhow::Result<End> {
 fn summary(plan: &Plan) -> anyhow::Result<String> {
     let c = &plan.computation;
     let mut text = format!("{}: {}\nmodel       {}\n", plan.name, plan.title, c.model);
-    let set: Vec<String> =
-        c.parameters.0.iter().filter(|entry| entry.1 != 0.0).map(|(name, value)| format!("{name}={value}")).collect();
+    let set: Vec<String> = c
+        .parameters
+        .0
+        .iter()
+        .filter(|entry| entry.1 != 0.0)
+        .map(|(name, value)| format!("{name}={value}"))
+        .collect();
     writeln!(text, "parameters  {} (others 0)", set.join(" "))?;
     let start: Vec<String> = c.initial.0.iter().map(|(name, value)| format!("{name}={value}")).collect();
     writeln!(text, "start       {}", start.join(" "))?;

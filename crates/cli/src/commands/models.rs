@@ -35,7 +35,8 @@ fn list() -> anyhow::Result<String> {
 }
 
 fn page(info: &'static ModelInfo) -> anyhow::Result<String> {
-    let mut text = format!("{}: {}\nSource: {}\n\n{}\n\n", info.name, info.title, info.source, info.equations);
+    let mut text =
+        format!("{}: {}\nSource: {}\n\n{}\n\n", info.name, info.title, info.source, info.equations);
     writeln!(text, "Parameters (dimensionless; --set NAME=VALUE)")?;
     for spec in info.parameters() {
         writeln!(text, "  {:<7} {:>5}  {:<4} {}", spec.name, spec.default, spec.equation, spec.meaning)?;
@@ -47,7 +48,8 @@ fn page(info: &'static ModelInfo) -> anyhow::Result<String> {
     writeln!(text, "  {:<7} position of the centre of mass\n\nPresets (--preset NAME)", "x, y")?;
     for name in presets::names_of(info.name) {
         let study = presets::find(info, name)?;
-        let free = if study.free.is_empty() { String::new() } else { format!(" [free: {}]", study.free.join(", ")) };
+        let free =
+            if study.free.is_empty() { String::new() } else { format!(" [free: {}]", study.free.join(", ")) };
         writeln!(text, "  {name:<7} {}{free}", study.about)?;
     }
     Ok(text)

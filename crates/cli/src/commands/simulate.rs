@@ -162,7 +162,8 @@ fn summary(dataset: &Dataset, written: Option<&str>) -> anyhow::Result<String> {
     writeln!(text, "outcome   {}", manifest.outcome)?;
     let (steps, rejected) = (manifest.steps, manifest.rejected_steps);
     writeln!(text, "steps     {steps} accepted, {rejected} rejected ({})", plan.computation.stepper)?;
-    let state: Vec<String> = manifest.state.0.iter().map(|(name, value)| format!("{name} = {value:.6}")).collect();
+    let state: Vec<String> =
+        manifest.state.0.iter().map(|(name, value)| format!("{name} = {value:.6}")).collect();
     writeln!(text, "state     {}", state.join("  "))?;
     writeln!(text, "position  x = {:.6}  y = {:.6}", manifest.position[0], manifest.position[1])?;
     if let Some(crossings) = &dataset.crossings {

@@ -32,7 +32,7 @@ impl<'d> Body<'d> {
         let rows = window(&dataset.trajectory, plan.figure.from, plan.figure.to);
         let mut body = Self { dataset, info, model, rows, radius: 1.0, scale: 1.0 };
         body.radius = if plan.figure.radius > 0.0 { plan.figure.radius } else { body.fitting_radius() };
-        body.scale = if plan.figure.scale > 0.0 { plan.figure.scale } else { body.readable_scale() };
+        body.scale = if plan.figure.scale > 0.0 { plan.figure.scale } else { body.readable_scale(TARGET) };
         Ok(body)
     }
 
@@ -60,12 +60,12 @@ impl<'d> Body<'d> {
         shape
     }
 
-    /// The outline at a row, in the plane, at the drawn size; `None` where the shape is no curve.
-    pub(super) fn outline(&self, row: usize, points: usize) -> Option<Vec<[f64; 2]>> {
+    /// The outline at a row, in the plane, at `scale` times its size; `None` where the shape is no curve.
+    pub(super) fn outline(&self, row: usize, scale: f64, points: usize) -> Option<Vec<[f64; 2]>> {
         let [x, y] = self.position(row);
         match self.model.outline(&self.shape(row), self.radius, points) {
             Outline::Curve(curve) => {
-                Some(curve.iter().map(|p| [x + self.scale * p[0], y + self.scale * p[1]]).collect())
+                Some(curve.iter().map(|p| [x + scale * p[0], y + scale * p[1]]).collect())
             }
             Outline::NotACurve { .. } => None,
         }
@@ -111,13 +111,14 @@ impl<'d> Body<'d> {
         if deformation < 1e-6 || !deformation.is_finite() { 1.0 } else { round_up(deformation / DEFORMATION) }
     }
 
-    /// 1 where an outline at its true size is readable, else a round factor that makes it so.
-    fn readable_scale(&self) -> f64 {
+    /// 1 where an undeformed outline at its true size is about `target` of the longer side of the path, else a round
+    /// factor that makes it so.
+    pub(super) fn readable_scale(&self, target: f64) -> f64 {
         let share = self.radius / self.extent();
-        if !share.is_finite() || (0.5 * TARGET..=1.6 * TARGET).contains(&share) {
+        if !share.is_finite() || (0.5 * target..=1.6 * target).contains(&share) {
             1.0
         } else {
-            round_up(TARGET / share / 1.3)
+            round_up(target / share / 1.3)
         }
     }
 }

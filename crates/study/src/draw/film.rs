@@ -1,8 +1,8 @@
 //! The body in motion.
 
 use super::body::Body;
-use super::path;
-use crate::figures::{Animation, Frame};
+use super::{path, words};
+use crate::figures::{Animation, Camera, Frame};
 
 /// Frames of the film (8 seconds at 25 frames per second).
 const FRAMES: usize = 200;
@@ -10,15 +10,44 @@ const FRAMES: usize = 200;
 /// Points of an outline in the film.
 const OUTLINE_POINTS: usize = 64;
 
+/// The body's radius R0 against the longer side of the path: large enough to see its shape in a small picture.
+const TARGET: f64 = 0.045;
+
+/// Where the body would have to be drawn larger than this, the camera goes along with it instead.
+const LARGEST: f64 = 4.0;
+
 /// Equal steps of time, so that the film shows the pace of the motion.
 pub(super) fn animation(body: &Body<'_>) -> Animation {
     let rows = body.rows();
     let last = rows.len() - 1;
     let count = FRAMES.min(rows.len());
+    let (scale, camera) = scale(body);
     let frame = |index: usize| {
         let row = rows.start + (index * last + (count - 1) / 2) / (count - 1);
-        let outline = body.outline(row, OUTLINE_POINTS).unwrap_or_default();
+        let outline = body.outline(row, scale, OUTLINE_POINTS).unwrap_or_default();
         Frame { t: body.time(row), centre: body.position(row), outline }
     };
-    Animation { frames: (0..count).map(frame).collect(), path: path::points(body), ..Animation::default() }
+    let size = if scale == 1.0 {
+        "true size".to_owned()
+    } else {
+        format!("{} times true size", words::number(scale))
+    };
+    Animation {
+        frames: (0..count).map(frame).collect(),
+        path: path::points(body),
+        camera,
+        note: format!("*R*_0 = {}, {size}", words::number(body.radius)),
+        ..Animation::default()
+    }
+}
+
+/// The size of the body in the film, and the camera for it.
+fn scale(body: &Body<'_>) -> (f64, Camera) {
+    match body.dataset.manifest.plan.figure.scale {
+        given if given > 0.0 => (given, Camera::Auto),
+        _ => match body.readable_scale(TARGET) {
+            scale if scale > LARGEST => (1.0, Camera::Follow),
+            scale => (scale, Camera::Fixed),
+        },
+    }
 }

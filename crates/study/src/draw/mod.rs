@@ -32,14 +32,25 @@ pub fn draw(dataset: &Dataset, pdf: bool) -> Result<Vec<Picture>, Error> {
     if body.rows().len() < 2 {
         return Ok(Vec::new());
     }
+    let animated = dataset.manifest.plan.figure.animation;
+    // The film takes about as long as the rest: one thread each.
+    let (film, stills) = std::thread::scope(|scope| {
+        let film = scope.spawn(|| animated.then(|| film::animation(&body).apng()).transpose());
+        let stills = stills(&body, pdf);
+        (film.join(), stills)
+    });
+    let mut pictures = stills?;
+    let film = film.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+    pictures.extend(film.map(|bytes| Picture { name: "motion.png".to_owned(), bytes }));
+    Ok(pictures)
+}
+
+fn stills(body: &Body<'_>, pdf: bool) -> Result<Vec<Picture>, Error> {
     let mut pictures = Vec::new();
-    add(&mut pictures, "path", &path::figure(&body).svg()?, pdf)?;
-    add(&mut pictures, "series", &series::figure(&body).svg()?, pdf)?;
-    if let Some(figure) = return_map::figure(&body) {
+    add(&mut pictures, "path", &path::figure(body).svg()?, pdf)?;
+    add(&mut pictures, "series", &series::figure(body).svg()?, pdf)?;
+    if let Some(figure) = return_map::figure(body) {
         add(&mut pictures, "return-map", &figure.svg()?, pdf)?;
-    }
-    if dataset.manifest.plan.figure.animation {
-        pictures.push(Picture { name: "motion.png".to_owned(), bytes: film::animation(&body).apng()? });
     }
     Ok(pictures)
 }

@@ -41,7 +41,7 @@ pub(super) fn points(body: &Body<'_>) -> Vec<PathPoint> {
 fn outlines(body: &Body<'_>) -> (Vec<OutlineStamp>, usize) {
     let rows = body.rows_along(count(body));
     let stamp = |&row: &usize| {
-        Some(OutlineStamp { t: body.time(row), points: body.outline(row, OUTLINE_POINTS)? })
+        Some(OutlineStamp { t: body.time(row), points: body.outline(row, body.scale, OUTLINE_POINTS)? })
     };
     let stamps: Vec<OutlineStamp> = rows.iter().filter_map(stamp).collect();
     let missing = rows.len() - stamps.len();
@@ -67,5 +67,10 @@ fn section(body: &Body<'_>) -> Option<SectionLine> {
     let extent = body.extent();
     let left = map.x_min.max(-extent);
     let right = map.x_max.min(extent);
-    Some(SectionLine { from: [left, map.y], to: [right, map.y], label: "section".to_owned(), crossings: points })
+    Some(SectionLine {
+        from: [left, map.y],
+        to: [right, map.y],
+        label: "section".to_owned(),
+        crossings: points,
+    })
 }

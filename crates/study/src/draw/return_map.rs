@@ -13,7 +13,7 @@ pub(super) fn figure(body: &Body<'_>) -> Option<ReturnMapFigure> {
     }
     let mut caption = vec![words::parameters(body)];
     caption.extend(words::section(body));
-    caption.push(format!("{} crossings; the line is *x*_{{n+1}} = *x*_n.", xs.len()));
+    caption.push(format!("{} crossings.", xs.len()));
     Some(ReturnMapFigure {
         title: format!("{}: return map", body.dataset.manifest.plan.title),
         caption,

@@ -4,6 +4,9 @@ use super::body::Body;
 use crate::plan::Control;
 use motiform_dynamics::Outcome;
 
+/// A space at which no line breaks.
+const SPACE: char = '\u{a0}';
+
 /// A number as people write it: `0.9`, `-1`, `10^{-9}`, `2.5×10^{6}`.
 pub(super) fn number(x: f64) -> String {
     if x == 0.0 || (1e-3..1e5).contains(&x.abs()) {
@@ -27,9 +30,10 @@ pub(super) fn parameters(body: &Body<'_>) -> String {
     let set: Vec<String> = specs
         .iter()
         .filter_map(|spec| Some((spec, values.get(spec.name).filter(|&value| value != 0.0)?)))
-        .map(|(spec, value)| format!("{} = {}", spec.symbol, number(value)))
+        .map(|(spec, value)| format!("{}{SPACE}={SPACE}{}", spec.symbol, number(value)))
         .collect();
-    let others = if set.len() < specs.len() { "; all other parameters 0" } else { "" };
+    let others =
+        if set.len() < specs.len() { format!("; all other parameters{SPACE}0") } else { String::new() };
     format!("{} model: {}{others}.", capital(body.info.name), set.join(", "))
 }
 
@@ -43,7 +47,7 @@ pub(super) fn method(body: &Body<'_>) -> String {
     let manifest = &body.dataset.manifest;
     let c = &manifest.plan.computation;
     let title = manifest.plan.tableau().map_or(c.stepper.as_str(), |tableau| tableau.title);
-    let title = title.split(',').next().unwrap_or(title);
+    let title = title.rsplit_once(", ").map_or(title, |(name, _)| name);
     let control = match c.control {
         Control::Adaptive { rtol, .. } => format!("relative tolerance {}", number(rtol)),
         Control::Fixed { step } => format!("step {}", number(step)),
@@ -55,7 +59,9 @@ pub(super) fn method(body: &Body<'_>) -> String {
     };
     let end = match manifest.outcome {
         Outcome::Completed { .. } => String::new(),
-        Outcome::Escaped { t, singular: true, .. } => format!(" The solution blows up at *t** = {}.", number(t)),
+        Outcome::Escaped { t, singular: true, .. } => {
+            format!(" The solution blows up at *t** = {}.", number(t))
+        }
         other => format!(" The run ended early: {other}."),
     };
     let end = end.replace("*t** =", "*t*\\* =");
@@ -64,12 +70,15 @@ pub(super) fn method(body: &Body<'_>) -> String {
 
 /// R0 and the size of the drawn outlines.
 pub(super) fn outlines(body: &Body<'_>) -> String {
-    let size = match body.scale {
-        1.0 => "drawn to the scale of the path".to_owned(),
-        larger if larger > 1.0 => format!("drawn {} times larger than the scale of the path", number(larger)),
-        smaller => format!("drawn at {} of the scale of the path", number(smaller)),
+    let size = if body.scale == 1.0 {
+        "drawn at true size against the path".to_owned()
+    } else {
+        format!("drawn at {} times true size against the path", number(body.scale))
     };
-    format!("Outlines: *R*_0 = {}, {size}; deformation not exaggerated.", number(body.radius))
+    format!(
+        "Outlines: *R*_0{SPACE}={SPACE}{}, {size}; the deformation itself is not exaggerated.",
+        number(body.radius)
+    )
 }
 
 /// Where the return map's section lies and what was put on the origin.

@@ -14,7 +14,8 @@ pub(super) fn write(table: &Table, path: &Path) -> Result<(), Error> {
         for (place, column) in table.columns.iter().enumerate() {
             let comma = if place == 0 { "" } else { "," };
             let value = column.values[row];
-            if value.is_nan() { write!(out, "{comma}") } else { write!(out, "{comma}{value:?}") }.map_err(failed)?;
+            if value.is_nan() { write!(out, "{comma}") } else { write!(out, "{comma}{value:?}") }
+                .map_err(failed)?;
         }
         writeln!(out).map_err(failed)?;
     }
@@ -34,7 +35,10 @@ pub(super) fn read(path: &Path) -> Result<Table, Error> {
         for (column, field) in columns.iter_mut().zip(&record) {
             let value = if field.is_empty() { Ok(f64::NAN) } else { field.parse() };
             let value = value.map_err(|_| {
-                Error::unreadable(path, format!("row {}, column {}: {field:?} is no number", row + 2, column.name))
+                Error::unreadable(
+                    path,
+                    format!("row {}, column {}: {field:?} is no number", row + 2, column.name),
+                )
             })?;
             column.values.push(value);
         }

@@ -44,7 +44,8 @@ pub fn write_table(table: &Table, manifest: &Manifest, format: Format, path: &Pa
     match format {
         Format::Csv => csv_table::write(table, path),
         Format::Parquet => {
-            let metadata = serde_json::to_string(manifest).map_err(|error| Error::write_failed(path, error))?;
+            let metadata =
+                serde_json::to_string(manifest).map_err(|error| Error::write_failed(path, error))?;
             parquet_table::write(table, &metadata, path)
         }
     }
@@ -73,8 +74,9 @@ pub fn write_dataset(dataset: &Dataset, format: Format, staging: &Staging) -> Re
 /// [`Error::Unreadable`] for a folder without a manifest, or files that are missing or damaged.
 pub fn read_dataset(folder: &Path) -> Result<Dataset, Error> {
     let path = folder.join(MANIFEST);
-    let text = std::fs::read_to_string(&path)
-        .map_err(|error| Error::unreadable(&path, format!("{error}; a dataset is a folder written by `motiform simulate`")))?;
+    let text = std::fs::read_to_string(&path).map_err(|error| {
+        Error::unreadable(&path, format!("{error}; a dataset is a folder written by `motiform simulate`"))
+    })?;
     let manifest: Manifest = serde_json::from_str(&text).map_err(|error| Error::unreadable(&path, error))?;
     let trajectory = read_table(folder, "trajectory")?
         .ok_or_else(|| Error::unreadable(folder, "it has no trajectory.parquet or trajectory.csv"))?;

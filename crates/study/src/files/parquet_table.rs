@@ -92,14 +92,17 @@ fn try_read(path: &Path) -> Result<Table> {
         let group = reader.get_row_group(group)?;
         let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
         for (index, column) in columns.iter_mut().enumerate() {
-            let parquet::column::reader::ColumnReader::DoubleColumnReader(mut input) = group.get_column_reader(index)?
+            let parquet::column::reader::ColumnReader::DoubleColumnReader(mut input) =
+                group.get_column_reader(index)?
             else {
                 return Err(ParquetError::General(format!("column {} does not hold numbers", column.name)));
             };
             let (mut levels, mut values) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
             input.read_records(rows, Some(&mut levels), None, &mut values)?;
             let mut defined = values.into_iter();
-            let filled = levels.iter().map(|&level| if level == 0 { f64::NAN } else { defined.next().unwrap_or(f64::NAN) });
+            let filled = levels
+                .iter()
+                .map(|&level| if level == 0 { f64::NAN } else { defined.next().unwrap_or(f64::NAN) });
             column.values.extend(filled);
         }
     }

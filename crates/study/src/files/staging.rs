@@ -36,7 +36,8 @@ impl Staging {
         let name = target.file_name().ok_or_else(|| {
             unwritable(std::io::Error::new(std::io::ErrorKind::InvalidInput, "the path has no last part"))
         })?;
-        let partial = target.with_file_name(format!(".{}.{}.partial", name.to_string_lossy(), std::process::id()));
+        let partial =
+            target.with_file_name(format!(".{}.{}.partial", name.to_string_lossy(), std::process::id()));
         if folder {
             fs::create_dir(&partial).map_err(unwritable)?;
         } else {
@@ -62,7 +63,8 @@ impl Staging {
     /// # Errors
     /// [`Error::WriteFailed`], naming the file as it would have been called.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Error> {
-        fs::write(self.partial.join(name), bytes).map_err(|error| Error::write_failed(&self.target.join(name), error))
+        fs::write(self.partial.join(name), bytes)
+            .map_err(|error| Error::write_failed(&self.target.join(name), error))
     }
 
     /// Gives the output its name, replacing what was there if that was allowed.
@@ -103,7 +105,8 @@ impl Drop for Staging {
     fn drop(&mut self) {
         if !self.committed {
             // Nothing to be done about a failure here: the partial name says what it is.
-            let _ = if self.folder { fs::remove_dir_all(&self.partial) } else { fs::remove_file(&self.partial) };
+            let _ =
+                if self.folder { fs::remove_dir_all(&self.partial) } else { fs::remove_file(&self.partial) };
         }
     }
 }

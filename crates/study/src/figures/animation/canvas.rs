@@ -17,6 +17,9 @@ use crate::figures::text::Label;
 /// Font size of the time, in pixels.
 const TIME_SIZE: f64 = 15.0;
 
+/// Font size of the note, in pixels.
+const NOTE_SIZE: f64 = 12.0;
+
 /// The canvas between two pictures.
 pub(super) struct Stage {
     view: View,
@@ -33,7 +36,10 @@ impl Stage {
     /// Sets the stage.
     pub(super) fn new(film: &Animation) -> Result<Self> {
         let view = View::of(film);
-        let ground = raster::pixmap(&view.ground, 1.0)?;
+        let mut ground = raster::pixmap(&view.ground, 1.0)?;
+        let note = Label::parse(&film.note);
+        let start = view.scale.frame.right() - note.width(NOTE_SIZE);
+        write(&mut ground, &note, [start, HEAD - 10.0], NOTE_SIZE);
         let decimals = (-film.time_step().log10()).ceil().clamp(0.0, 4.0) as usize;
         Ok(Self { view, screen: ground.clone(), ground, trail: film.trail(), passed: 0, decimals })
     }

@@ -54,6 +54,8 @@ pub struct Animation {
     pub y_label: String,
     /// Unit behind the number at the scale bar.
     pub unit: String,
+    /// A few words above the frame on the right, such as the scale of the body.
+    pub note: String,
 }
 
 impl Default for Animation {
@@ -67,6 +69,7 @@ impl Default for Animation {
             x_label: "*x* (model length)".to_owned(),
             y_label: "*y* (model length)".to_owned(),
             unit: "model length".to_owned(),
+            note: String::new(),
         }
     }
 }
