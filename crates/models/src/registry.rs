@@ -28,7 +28,7 @@ pub static MODELS: &[ModelInfo] = &[ModelInfo {
     name: "tensor",
     title: "velocity, ellipse and triangle of one domain, coupled by symmetry (6 unknowns, 21 parameters)",
     equations: TENSOR_EQUATIONS,
-    source: "Hiraiwa, Ohkuma, Ohta, Matsuo, Sano (2010), EPL 91, 20001, eqs. (V), (S), (U)",
+    source: "Hiraiwa, Ohkuma, Ohta, Matsuo, Sano, EPL (2010), eqs. (V), (S), (U)",
     coordinates: &tensor::COORDINATES,
     parameters: TensorParameters::specs,
     build: |values| {

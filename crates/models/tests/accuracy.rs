@@ -150,7 +150,10 @@ fn large_states_of_fig4_blow_up_at_a_definite_time() {
     let outcome = drive(&mut orbit, &request, &mut ()).unwrap();
     assert!((outcome.t() - times[2]).abs() < 1e-7, "{outcome} {times:?}");
 
-    // |z1| ~ 5.6 / (t* - t): the value measured in physics.md section 1.2.
+    // |z1| ~ c / (t* - t)
+    let reference: toml::Table = include_str!("../../../reference/tensor.toml").parse().unwrap();
+    let number = |key: &str| reference["blow_up"][key].as_float().unwrap();
     let z1 = libm::hypot(orbit.state()[0], orbit.state()[1]);
-    assert!((z1 * (outcome.t() - orbit.t()) - 5.6).abs() < 0.1, "{}", z1 * (outcome.t() - orbit.t()));
+    let product = z1 * (outcome.t() - orbit.t());
+    assert!((product - number("z1_times_distance")).abs() < number("tolerance"), "{product}");
 }
