@@ -13,7 +13,10 @@ usage: cargo xtask COMMAND
 /// Lints and documentation are checked with every feature on, so that optional parts cannot rot.
 const STEPS: &[(&str, &[&str])] = &[
     ("format", &["fmt", "--all", "--check"]),
-    ("lints", &["clippy", "--release", "--workspace", "--all-targets", "--all-features", "--", "-D", "warnings"]),
+    (
+        "lints",
+        &["clippy", "--release", "--workspace", "--all-targets", "--all-features", "--", "-D", "warnings"],
+    ),
     ("documentation", &["doc", "--release", "--workspace", "--no-deps", "--document-private-items"]),
     ("tests", TESTS),
 ];

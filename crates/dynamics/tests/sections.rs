@@ -103,7 +103,8 @@ fn every_stepper_locates_on_its_own_orbit() {
 #[test]
 fn arenstorf_orbit_returns() {
     let reference: toml::Table = include_str!("../../../reference/arenstorf.toml").parse().unwrap();
-    let start: Vec<f64> = reference["start"].as_array().unwrap().iter().map(|x| x.as_float().unwrap()).collect();
+    let start: Vec<f64> =
+        reference["start"].as_array().unwrap().iter().map(|x| x.as_float().unwrap()).collect();
     let period = reference["period"].as_float().unwrap();
     for (tableau, rtol, tolerance) in [(&DOP853, 1e-14, 2e-8), (&DOPRI5, 1e-13, 1e-6)] {
         let control = StepControl::Adaptive { rtol, atol: 1e-14 };
