@@ -1,5 +1,6 @@
 //! Points around the boundary, and the waves on them.
 
+use super::kkt::MAX_UNKNOWNS;
 use motiform_dynamics::Scalar;
 
 /// Most points of a boundary that velocities are computed from.
@@ -12,7 +13,13 @@ pub(super) struct Circle {
     /// Row `n` holds `cos(k_n s_j)`, `n = 0 ..= order`.
     cosines: Vec<f64>,
     sines: Vec<f64>,
+    /// Entry `[j][n]` holds `cos(k_n s_j)`, `n <` [`MOMENTS`].
+    across: Vec<[f64; MOMENTS]>,
+    across_sines: Vec<[f64; MOMENTS]>,
 }
+
+/// How many moments are taken at once: as many as the matrix of the closure needs.
+pub(super) const MOMENTS: usize = MAX_UNKNOWNS;
 
 impl Circle {
     /// Points that resolve `exp(i theta)` for a boundary of `modes` modes, with waves up to `order`.
@@ -23,7 +30,10 @@ impl Circle {
         };
         let rows = (0..=order).flat_map(|row| (0..points).map(move |point| (row, point)));
         let (sines, cosines) = rows.map(|(row, point)| wave(row, point)).unzip();
-        Self { points, cosines, sines }
+        let across = |pick: fn((f64, f64)) -> f64| {
+            (0..points).map(|point| std::array::from_fn(|row| pick(wave(row, point)))).collect()
+        };
+        Self { points, cosines, sines, across: across(|w| w.1), across_sines: across(|w| w.0) }
     }
 
     pub(super) fn points(&self) -> usize {
@@ -55,14 +65,30 @@ impl Circle {
         }
     }
 
-    /// Means over the points of `f cos(k_n s)` and `f sin(k_n s)`.
+    /// Means over the points of `f cos(k_n s)` and `f sin(k_n s)`, for all `n < count`, at once: no sum waits for another.
     #[inline]
-    pub(super) fn moments<T: Scalar>(&self, n: usize, f: &[T]) -> [T; 2] {
-        let mut sums = [f[0].zero(); 2];
-        for ((&x, &cos), &sin) in f.iter().zip(self.cosine(n)).zip(self.sine(n)) {
-            sums[0] += x * cos;
-            sums[1] += x * sin;
+    pub(super) fn moments<T: Scalar>(&self, count: usize, f: &[T]) -> [[T; 2]; MOMENTS] {
+        let mut sums = [[f[0].zero(); MOMENTS]; 2];
+        let [cosines, sines] = &mut sums;
+        for ((&x, cos), sin) in f.iter().zip(&self.across).zip(&self.across_sines) {
+            for (sum, &c) in cosines[..count].iter_mut().zip(cos) {
+                *sum += x * c;
+            }
+            for (sum, &s) in sines[..count].iter_mut().zip(sin) {
+                *sum += x * s;
+            }
         }
-        sums.map(|sum| sum * (1.0 / self.points as f64))
+        let scale = 1.0 / self.points as f64;
+        std::array::from_fn(|n| [sums[0][n] * scale, sums[1][n] * scale])
+    }
+
+    /// Mean over the points.
+    #[inline]
+    pub(super) fn mean<T: Scalar>(&self, f: &[T]) -> T {
+        let mut sum = f[0].zero();
+        for &x in f {
+            sum += x;
+        }
+        sum * (1.0 / self.points as f64)
     }
 }

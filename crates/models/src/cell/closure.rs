@@ -27,9 +27,9 @@ const STEPS: usize = 30;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Closure {
     /// Number of modes `m` of the error function; 0 for the bare normal.
-    pub(super) modes: usize,
-    /// Exponent `p` of the prior.
-    pub(super) prior: f64,
+    modes: usize,
+    /// Widths `tau_n = n^-p` of the prior, `n = 1 ..= MAX_CLOSURE_MODES`.
+    widths: [f64; MAX_CLOSURE_MODES],
 }
 
 /// The normals `n = (cos theta, sin theta)` at the points of the boundary.
@@ -74,14 +74,24 @@ impl<T: Scalar> Normals<T> {
     #[inline]
     fn mean(&self, circle: &Circle) -> [T; 2] {
         let points = ..circle.points();
-        [circle.moments(0, &self.cos[points])[0], circle.moments(0, &self.sin[points])[0]]
+        [circle.mean(&self.cos[points]), circle.mean(&self.sin[points])]
     }
 }
 
 impl Closure {
-    /// `tau_n = n^-p`.
+    /// An error function of `modes` modes with prior widths `tau_n = n^-prior`.
+    pub(super) fn new(modes: usize, prior: f64) -> Self {
+        Self { modes, widths: std::array::from_fn(|i| libm::pow(i as f64 + 1.0, -prior)) }
+    }
+
+    /// Number of modes.
+    pub(super) fn modes(self) -> usize {
+        self.modes
+    }
+
+    /// `tau_n`.
     fn width(self, n: usize) -> f64 {
-        libm::pow(n as f64, -self.prior)
+        self.widths[n - 1]
     }
 
     /// Number of unknowns: coefficients and multipliers.
@@ -178,10 +188,10 @@ impl Closure {
         for ((x, &cos), &sin) in pull[..points].iter_mut().zip(&normals.cos).zip(&normals.sin) {
             *x = ly * cos - lx * sin;
         }
+        let moments = circle.moments(self.modes + 1, &pull[..points]);
         for n in 1..=self.modes {
-            let moments = circle.moments(n, &pull[..points]);
-            defect[2 * n - 2] += moments[0] * self.width(n);
-            defect[2 * n - 1] += moments[1] * self.width(n);
+            defect[2 * n - 2] += moments[n][0] * self.width(n);
+            defect[2 * n - 1] += moments[n][1] * self.width(n);
         }
         let mean = normals.mean(circle);
         (defect[2 * self.modes], defect[2 * self.modes + 1]) = (mean[0], mean[1]);
@@ -192,11 +202,8 @@ impl Closure {
     fn matrix(self, circle: &Circle, normals: &Normals<f64>, unknowns: &Unknowns<f64>) -> Matrix {
         let (m, points) = (self.modes, circle.points());
         let (lx, ly) = (unknowns[2 * m], unknowns[2 * m + 1]);
-        let (mut x, mut y) = ([[0.0; 2]; MAX_UNKNOWNS], [[0.0; 2]; MAX_UNKNOWNS]);
-        for n in 0..=2 * m {
-            x[n] = circle.moments(n, &normals.cos[..points]);
-            y[n] = circle.moments(n, &normals.sin[..points]);
-        }
+        let x = circle.moments(2 * m + 1, &normals.cos[..points]);
+        let y = circle.moments(2 * m + 1, &normals.sin[..points]);
         // moments of lambda . d2n/d theta2 = -(lambda . n)
         let bend = |n: usize| [-(lx * x[n][0] + ly * y[n][0]), -(lx * x[n][1] + ly * y[n][1])];
         let mut matrix = [[0.0; MAX_UNKNOWNS]; MAX_UNKNOWNS];

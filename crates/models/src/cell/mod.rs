@@ -71,8 +71,8 @@ impl Cell {
         if modes < p.fewest_modes() {
             return Err(Error::TooFewModes { modes, length: p.length, needed: p.fewest_modes() });
         }
-        let closure = Closure { modes: whole("closure_modes", p.closure_modes)?, prior: p.prior };
-        let circle = Circle::new(modes, modes.max(2 * closure.modes));
+        let closure = Closure::new(whole("closure_modes", p.closure_modes)?, p.prior);
+        let circle = Circle::new(modes, modes.max(2 * closure.modes()));
         Ok(Self { parameters: p, field: CellField::new(&p, modes), mean: 0.0, closure, circle })
     }
 
