@@ -21,6 +21,7 @@ pub mod orbit;
 mod outcome;
 pub mod scalar;
 pub mod section;
+pub mod simd;
 mod step_sizes;
 pub mod steppers;
 mod trajectory;

@@ -49,7 +49,7 @@ impl Circle {
     }
 
     /// `out_j += c cos(k_n s_j) + s sin(k_n s_j)`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn add_wave<T: Scalar>(&self, n: usize, [c, s]: [T; 2], out: &mut [T]) {
         for ((x, &cos), &sin) in out.iter_mut().zip(self.cosine(n)).zip(self.sine(n)) {
             *x += c * cos + s * sin;
@@ -57,7 +57,7 @@ impl Circle {
     }
 
     /// `f(n)` times the waves of the state `(Re phi_n, Im phi_n, ..)`: a derivative of phi at the points, added to `out`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn add_modes<T: Scalar>(&self, u: &[T], factor: impl Fn(f64) -> f64, out: &mut [T]) {
         for (i, mode) in u.chunks_exact(2).enumerate() {
             let weight = 2.0 * factor(i as f64 + 1.0);
@@ -66,7 +66,7 @@ impl Circle {
     }
 
     /// Means over the points of `f cos(k_n s)` and `f sin(k_n s)`, for all `n < count`, at once: no sum waits for another.
-    #[inline]
+    #[inline(always)]
     pub(super) fn moments<T: Scalar>(&self, count: usize, f: &[T]) -> [[T; 2]; MOMENTS] {
         let mut sums = [[f[0].zero(); MOMENTS]; 2];
         let [cosines, sines] = &mut sums;
@@ -83,7 +83,7 @@ impl Circle {
     }
 
     /// Mean over the points.
-    #[inline]
+    #[inline(always)]
     pub(super) fn mean<T: Scalar>(&self, f: &[T]) -> T {
         let mut sum = f[0].zero();
         for &x in f {

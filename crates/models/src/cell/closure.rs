@@ -54,7 +54,7 @@ type Unknowns<T> = [T; MAX_UNKNOWNS];
 
 impl<T: Scalar> Normals<T> {
     /// The normals at angles `theta_j + sum_n a_n cos + b_n sin`; the coefficients are `unknowns` times `tau`.
-    #[inline]
+    #[inline(always)]
     fn new(closure: Closure, circle: &Circle, theta: &[T], unknowns: &Unknowns<T>) -> Self {
         let mut angles = [theta[0]; MAX_POINTS];
         let angles = &mut angles[..theta.len()];
@@ -71,7 +71,7 @@ impl<T: Scalar> Normals<T> {
     }
 
     /// `(CLOSE)`: the mean normal.
-    #[inline]
+    #[inline(always)]
     fn mean(&self, circle: &Circle) -> [T; 2] {
         let points = ..circle.points();
         [circle.mean(&self.cos[points]), circle.mean(&self.sin[points])]
@@ -104,6 +104,7 @@ impl Closure {
     ///
     /// # Errors
     /// The residual, where Newton's method does not converge.
+    #[inline(always)]
     pub(super) fn solve<T: Scalar<Real = f64>>(
         self,
         circle: &Circle,
@@ -126,6 +127,7 @@ impl Closure {
     }
 
     /// Newton's method over the numbers alone; leaves the factors of the last matrix.
+    #[inline(always)]
     fn newton(
         self,
         circle: &Circle,
@@ -154,6 +156,7 @@ impl Closure {
 
     /// One more step with the converged matrix, over the scalar of the shape: exact derivatives by the implicit
     /// function theorem (first ones; nested duals would need a step each).
+    #[inline(always)]
     fn lift<T: Scalar<Real = f64>>(
         self,
         circle: &Circle,
@@ -179,6 +182,7 @@ impl Closure {
     }
 
     /// The optimality conditions: `y + tau (lambda . dC/d eps)` for each coefficient, then `C = <n>`.
+    #[inline(always)]
     fn defect<T: Scalar>(self, circle: &Circle, normals: &Normals<T>, unknowns: &Unknowns<T>) -> Unknowns<T> {
         let points = circle.points();
         let mut defect = *unknowns;
@@ -199,6 +203,7 @@ impl Closure {
     }
 
     /// The derivative of [`Closure::defect`].
+    #[inline(always)]
     fn matrix(self, circle: &Circle, normals: &Normals<f64>, unknowns: &Unknowns<f64>) -> Matrix {
         let (m, points) = (self.modes, circle.points());
         let (lx, ly) = (unknowns[2 * m], unknowns[2 * m + 1]);

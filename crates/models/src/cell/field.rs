@@ -10,6 +10,7 @@
 //! Source: paper, the equation for phi_t with g1 .. g5.
 
 use super::CellParameters;
+use motiform_dynamics::simd::{self, Kernel};
 use motiform_dynamics::{Lanes, Scalar, Semilinear, System, VectorField};
 
 /// Most modes that can be computed (a convolution keeps its operands on the stack).
@@ -86,6 +87,7 @@ struct Rows<T> {
 }
 
 impl<T: Scalar> Rows<T> {
+    #[inline(always)]
     fn zero(like: T) -> Self {
         Self { re: [like.zero(); MAX_MODES], im: [like.zero(); MAX_MODES] }
     }
@@ -100,6 +102,16 @@ impl<T: Scalar> Rows<T> {
             rows.im[i] = mode[1] * factor;
         }
         rows
+    }
+
+    /// `rate_n += factor i n rows_n`.
+    #[inline(always)]
+    fn add_derivative(&self, factor: T::Real, du: &mut [T]) {
+        for (i, rate) in du.chunks_exact_mut(2).enumerate() {
+            let n = i as f64 + 1.0;
+            rate[0] += (self.im[i] * -n).scale(factor);
+            rate[1] += (self.re[i] * n).scale(factor);
+        }
     }
 }
 
@@ -161,20 +173,31 @@ impl<T: Scalar<Real = P>, P: Scalar<Real = P>> Semilinear<T> for CellField<P> {
 
     #[inline]
     fn nonlinear(&self, _t: P, u: &[T], du: &mut [T]) {
-        let modes = self.modes();
-        let square = convolve(&Rows::derivative(u, 2), modes, 1.0); // phi_ss^2
-        for (i, rate) in du.chunks_exact_mut(2).enumerate() {
-            let n = i as f64 + 1.0;
-            rate[0] = (square.im[i] * -n).scale(self.bending); // (C), g5
-            rate[1] = (square.re[i] * n).scale(self.bending);
+        simd::run(Quadratic { field: self, u, du });
+    }
+}
+
+/// The quadratic terms of (C).
+struct Quadratic<'a, T, P> {
+    field: &'a CellField<P>,
+    u: &'a [T],
+    du: &'a mut [T],
+}
+
+impl<T: Scalar<Real = P>, P: Scalar<Real = P>> Kernel for Quadratic<'_, T, P> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let modes = self.field.modes();
+        let square = convolve(&Rows::derivative(self.u, 2), modes, 1.0); // phi_ss^2
+        for x in self.du.iter_mut() {
+            *x = x.zero();
         }
-        if let Some(stretching) = self.stretching {
-            let square = convolve(&Rows::derivative(u, 1), modes, -1.0); // phi_s^2
-            for (i, rate) in du.chunks_exact_mut(2).enumerate() {
-                let n = i as f64 + 1.0;
-                rate[0] += (square.im[i] * -n).scale(stretching); // (C), g4
-                rate[1] += (square.re[i] * n).scale(stretching);
-            }
+        square.add_derivative(self.field.bending, self.du); // (C), g5
+        if let Some(stretching) = self.field.stretching {
+            let square = convolve(&Rows::derivative(self.u, 1), modes, -1.0); // phi_s^2
+            square.add_derivative(stretching, self.du); // (C), g4
         }
     }
 }

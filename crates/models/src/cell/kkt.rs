@@ -18,6 +18,7 @@ pub(super) struct Factors {
 
 impl Factors {
     /// Factors the leading `n` rows and columns; `None` where the matrix is singular or not finite.
+    #[inline(always)]
     pub(super) fn new(mut rows: Matrix, n: usize) -> Option<Self> {
         let mut exchanges = [0; MAX_UNKNOWNS];
         for column in 0..n {
@@ -41,6 +42,7 @@ impl Factors {
     }
 
     /// Solves for a right-hand side over any scalar, in place.
+    #[inline(always)]
     pub(super) fn solve<T: Scalar>(&self, b: &mut [T]) {
         for row in 0..self.n {
             b.swap(row, self.exchanges[row]);

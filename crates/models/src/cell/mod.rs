@@ -22,10 +22,12 @@ use crate::parameters::Parameters as _;
 use circle::Circle;
 use closure::Closure;
 use motiform_dynamics::model::{Coordinate, Observable};
+use motiform_dynamics::simd;
 use motiform_dynamics::{
     Dual, Lanes, Model, Obstacle, Outline, Scalar, Semilinear, Shape, System, VectorField,
 };
 use names::OBSERVABLES;
+use velocity::Push;
 
 /// The active cell model for one set of parameters.
 ///
@@ -167,7 +169,7 @@ impl<T: Scalar<Real = f64>> Semilinear<T> for Cell {
 
 impl<T: Scalar<Real = f64>> Shape<T> for Cell {
     fn velocity(&self, shape: &[T]) -> [T; 2] {
-        self.push(shape)
+        simd::run(Push { cell: self, shape })
     }
 }
 

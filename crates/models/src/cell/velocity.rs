@@ -4,13 +4,14 @@ use super::Cell;
 use super::circle::MAX_POINTS;
 use super::closure::Closed;
 use motiform_dynamics::Scalar;
+use motiform_dynamics::simd::Kernel;
 
 impl Cell {
     /// The closed boundary of a shape.
     ///
     /// # Errors
     /// The residual of (CLOSE), where it could not be closed.
-    #[inline]
+    #[inline(always)]
     pub(super) fn close<T: Scalar<Real = f64>>(&self, shape: &[T]) -> Result<Closed<T>, f64> {
         let points = self.circle.points();
         let k = self.parameters.wavenumber();
@@ -26,23 +27,16 @@ impl Cell {
 
     /// `v = ((2 pi)^2 / L^3) int (alpha2 phi_s^2 + alpha3 phi_ss^2) n ds`, with the normals of the closed boundary; not a
     /// number where it cannot be closed (see `obstacle`).
-    #[inline]
+    #[inline(always)]
     pub(super) fn push<T: Scalar<Real = f64>>(&self, shape: &[T]) -> [T; 2] {
         let Ok(closed) = self.close(shape) else { return [shape[0].constant(f64::NAN); 2] };
         let points = self.circle.points();
         let (p, k) = (&self.parameters, self.parameters.wavenumber());
         let mut push = [shape[0].zero(); MAX_POINTS];
-        let mut add_square = |power: i32, alpha: f64| {
-            let mut wave = [shape[0].zero(); MAX_POINTS];
-            self.derivative(shape, power, &mut wave[..points]);
-            for (x, &w) in push[..points].iter_mut().zip(&wave) {
-                *x += w * w * alpha;
-            }
-        };
         if p.alpha2 != 0.0 {
-            add_square(1, p.alpha2); // (VEL), alpha2
+            self.add_square(shape, 1, p.alpha2, &mut push[..points]); // (VEL), alpha2
         }
-        add_square(2, p.alpha3_total()); // (VEL), alpha3
+        self.add_square(shape, 2, p.alpha3_total(), &mut push[..points]); // (VEL), alpha3
         let mut v = [shape[0].zero(); 2];
         for (j, &w) in push[..points].iter().enumerate() {
             v[0] += w * closed.normals.cos[j];
@@ -51,8 +45,18 @@ impl Cell {
         v.map(|sum| sum * (k * k / points as f64))
     }
 
+    /// `out_j += alpha (d^power phi / ds^power)^2`.
+    #[inline(always)]
+    fn add_square<T: Scalar>(&self, shape: &[T], power: i32, alpha: f64, out: &mut [T]) {
+        let mut wave = [shape[0].zero(); MAX_POINTS];
+        self.derivative(shape, power, &mut wave[..out.len()]);
+        for (x, &w) in out.iter_mut().zip(&wave) {
+            *x += w * w * alpha;
+        }
+    }
+
     /// `d^power phi / ds^power` at the points, for power 1 or 2.
-    #[inline]
+    #[inline(always)]
     fn derivative<T: Scalar>(&self, shape: &[T], power: i32, out: &mut [T]) {
         let k = self.parameters.wavenumber();
         for (i, mode) in shape.chunks_exact(2).enumerate() {
@@ -65,5 +69,20 @@ impl Cell {
             };
             self.circle.add_wave(i + 1, waves, out);
         }
+    }
+}
+
+/// [`Cell::push`] as a kernel.
+pub(super) struct Push<'a, T> {
+    pub(super) cell: &'a Cell,
+    pub(super) shape: &'a [T],
+}
+
+impl<T: Scalar<Real = f64>> Kernel for Push<'_, T> {
+    type Output = [T; 2];
+
+    #[inline(always)]
+    fn run(self) -> [T; 2] {
+        self.cell.push(self.shape)
     }
 }
