@@ -27,14 +27,17 @@ impl StepControl {
     /// # Errors
     /// [`Error::OutOfRange`], [`Error::NoErrorEstimate`].
     pub fn validate(&self, tableau: &Tableau) -> Result<(), Error> {
+        self.validate_for(tableau.name, tableau.is_adaptive())
+    }
+
+    /// Checks the numbers, and that the method `stepper` can do what is asked.
+    pub(crate) fn validate_for(&self, stepper: &'static str, is_adaptive: bool) -> Result<(), Error> {
         let in_range = |name, value: f64, ok: bool, range| {
             if ok && value.is_finite() { Ok(()) } else { Err(Error::OutOfRange { name, value, range }) }
         };
         match *self {
             Self::Fixed { step } => in_range("step", step, step > 0.0, "above 0"),
-            Self::Adaptive { .. } if !tableau.is_adaptive() => {
-                Err(Error::NoErrorEstimate { stepper: tableau.name })
-            }
+            Self::Adaptive { .. } if !is_adaptive => Err(Error::NoErrorEstimate { stepper }),
             Self::Adaptive { rtol, atol } => {
                 in_range("rtol", rtol, (1e-14..=0.1).contains(&rtol), "between 1e-14 and 0.1")?;
                 in_range("atol", atol, atol >= 0.0, "of at least 0")

@@ -1,9 +1,9 @@
 //! The driver: one run from start to end, with samples, sections, a step budget and an escape bound.
 
 use crate::escape::{GrowthLaw, norm};
-use crate::orbit::{Orbit, StepFailure};
+use crate::orbit::StepFailure;
 use crate::section::{Crossing, Section, Watcher, polish};
-use crate::{Error, Outcome, VectorField};
+use crate::{Error, Integration, Obstacle, Outcome};
 use std::ops::ControlFlow;
 
 /// What a run is asked to do.
@@ -68,8 +68,8 @@ impl Sink for () {}
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a request that makes no sense; everything that happens on the way is an [`Outcome`].
-pub fn drive<F: VectorField<f64> + ?Sized>(
-    orbit: &mut Orbit<'_, F>,
+pub fn drive<O: Integration + ?Sized>(
+    orbit: &mut O,
     request: &Request<'_>,
     sink: &mut dyn Sink,
 ) -> Result<Outcome, Error> {
@@ -88,7 +88,7 @@ struct Run {
 }
 
 impl Run {
-    fn new<F: VectorField<f64> + ?Sized>(orbit: &Orbit<'_, F>, request: &Request<'_>) -> Self {
+    fn new<O: Integration + ?Sized>(orbit: &O, request: &Request<'_>) -> Self {
         let watcher = |section| Watcher::new(section, orbit.t(), orbit.state());
         Self {
             start: orbit.t(),
@@ -100,9 +100,9 @@ impl Run {
         }
     }
 
-    fn finish<F: VectorField<f64> + ?Sized>(
+    fn finish<O: Integration + ?Sized>(
         mut self,
-        orbit: &mut Orbit<'_, F>,
+        orbit: &mut O,
         request: &Request<'_>,
         sink: &mut dyn Sink,
     ) -> Outcome {
@@ -123,6 +123,9 @@ impl Run {
                         .unwrap_or(Outcome::StepUnderflow { t: orbit.t(), step });
                 }
                 Err(StepFailure::NotFinite) => return self.left(orbit, request),
+                Err(StepFailure::Obstacle(Obstacle::Closure { residual })) => {
+                    return Outcome::ClosureFailed { t: orbit.t(), residual };
+                }
             }
             if let Some(t) = self.cross(orbit, request, sink) {
                 return Outcome::Stopped { t };
@@ -141,9 +144,9 @@ impl Run {
     }
 
     /// Hands over the samples of the last step up to time `until`.
-    fn sample<F: VectorField<f64> + ?Sized>(
+    fn sample<O: Integration + ?Sized>(
         &mut self,
-        orbit: &mut Orbit<'_, F>,
+        orbit: &mut O,
         request: &Request<'_>,
         sink: &mut dyn Sink,
         until: f64,
@@ -165,9 +168,9 @@ impl Run {
     }
 
     /// Finds, polishes and hands over the crossings of the last step; the time of a terminal one ends the run.
-    fn cross<F: VectorField<f64> + ?Sized>(
+    fn cross<O: Integration + ?Sized>(
         &mut self,
-        orbit: &mut Orbit<'_, F>,
+        orbit: &mut O,
         request: &Request<'_>,
         sink: &mut dyn Sink,
     ) -> Option<f64> {
@@ -195,18 +198,14 @@ impl Run {
     }
 
     /// The outcome of a run that left its bounds.
-    fn left<F: VectorField<f64> + ?Sized>(&self, orbit: &Orbit<'_, F>, request: &Request<'_>) -> Outcome {
+    fn left<O: Integration + ?Sized>(&self, orbit: &O, request: &Request<'_>) -> Outcome {
         let t_last = orbit.t();
         let norm = norm(&orbit.state()[..request.watched]);
         self.escaped(orbit, request).unwrap_or(Outcome::Escaped { t: t_last, norm, singular: false, t_last })
     }
 
     /// The blow-up that the growth of the last states points to, if they grow like a singularity that is near.
-    fn escaped<F: VectorField<f64> + ?Sized>(
-        &self,
-        orbit: &Orbit<'_, F>,
-        request: &Request<'_>,
-    ) -> Option<Outcome> {
+    fn escaped<O: Integration + ?Sized>(&self, orbit: &O, request: &Request<'_>) -> Option<Outcome> {
         let t_last = orbit.t();
         let norm = norm(&orbit.state()[..request.watched]);
         let singularity = self.growth.singularity().filter(|found| found.t >= t_last)?;

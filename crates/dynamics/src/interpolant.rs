@@ -23,22 +23,31 @@ impl Interpolant {
         Self { dim, coefficients: vec![0.0; tableau.dense.terms() * dim] }
     }
 
+    /// Cubic Hermite interpolation.
+    pub(crate) fn hermite(dim: usize) -> Self {
+        Self { dim, coefficients: vec![0.0; 3 * dim] }
+    }
+
     /// Fills the coefficients; all slopes of the step must be there, the extra stages included.
     pub(crate) fn prepare(&mut self, tableau: &Tableau, slopes: &Slopes<f64>, ends: &Ends<'_>) {
-        let (first, last) = (slopes.get(0), slopes.get(tableau.stages()));
-        let (difference, rest) = self.coefficients.split_at_mut(self.dim);
-        let (tangent, rest) = rest.split_at_mut(self.dim);
-        let (curvature, rest) = rest.split_at_mut(self.dim);
-        for i in 0..self.dim {
-            difference[i] = ends.new[i] - ends.old[i];
-            tangent[i] = ends.h * first[i] - difference[i];
-            curvature[i] = 2.0 * difference[i] - ends.h * (first[i] + last[i]);
-        }
+        self.prepare_hermite((slopes.get(0), slopes.get(tableau.stages())), ends);
+        let rest = &mut self.coefficients[3 * self.dim..];
         for (row, weights) in rest.chunks_exact_mut(self.dim).zip(tableau.dense.weights) {
             slopes.combine(weights, row);
             for x in row {
                 *x *= ends.h;
             }
+        }
+    }
+
+    /// Fills the first three coefficients, from the slopes at the two ends.
+    pub(crate) fn prepare_hermite(&mut self, (first, last): (&[f64], &[f64]), ends: &Ends<'_>) {
+        let (difference, rest) = self.coefficients.split_at_mut(self.dim);
+        let (tangent, rest) = rest.split_at_mut(self.dim);
+        for i in 0..self.dim {
+            difference[i] = ends.new[i] - ends.old[i];
+            tangent[i] = ends.h * first[i] - difference[i];
+            rest[i] = 2.0 * difference[i] - ends.h * (first[i] + last[i]);
         }
     }
 

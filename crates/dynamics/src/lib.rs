@@ -3,8 +3,9 @@
 //! Nothing here knows a model, a file or a command line. The layers inside, from the bottom:
 //! * [`scalar`]: one equation, three scalars (`f64`, lanes, duals);
 //! * [`vector_field`], [`model`]: what moves;
-//! * [`steppers`]: explicit Runge-Kutta methods as data, and the one step that runs them all;
-//! * [`Orbit`]: one initial-value problem, step by step, with error control, dense output and exact re-steps;
+//! * [`steppers`]: explicit and exponential Runge-Kutta methods as data, and the step that runs each kind;
+//! * [`Orbit`], [`ExponentialOrbit`]: one initial-value problem, step by step, with error control, dense output and
+//!   exact re-steps; [`Integration`] is what they have in common;
 //! * [`drive`]: the loop with samples, [`section`]s, a budget and an escape bound, ending in an [`Outcome`].
 
 pub mod conformance;
@@ -12,12 +13,16 @@ mod control;
 pub mod drive;
 mod error;
 pub mod escape;
+pub mod exponential_orbit;
+pub mod integration;
 mod interpolant;
 pub mod model;
 pub mod orbit;
 mod outcome;
 pub mod scalar;
 pub mod section;
+pub mod simd;
+mod step_sizes;
 pub mod steppers;
 mod trajectory;
 pub mod vector_field;
@@ -25,9 +30,11 @@ pub mod vector_field;
 pub use control::StepControl;
 pub use drive::{Request, Sink};
 pub use error::Error;
+pub use exponential_orbit::ExponentialOrbit;
+pub use integration::Integration;
 pub use model::{InPlane, Model, Outline, Shape};
 pub use orbit::Orbit;
-pub use outcome::Outcome;
+pub use outcome::{Obstacle, Outcome};
 pub use scalar::{Complex, Dual, Lanes, Scalar};
 pub use section::{Direction, Section};
 pub use trajectory::{CrossingPoint, Trajectory};

@@ -1,6 +1,6 @@
 //! Shape and drift: what every deformable body has in common.
 
-use crate::{Dual, Scalar, System, VectorField};
+use crate::{Dual, Obstacle, Scalar, Semilinear, System, VectorField};
 
 /// A shape state that evolves by itself, and the velocity read off it: `x' = v(shape)`.
 ///
@@ -42,17 +42,23 @@ pub enum Outline {
         /// Direction where it occurs (rad).
         angle: f64,
     },
+    /// The boundary could not be closed.
+    NotClosed {
+        /// What is left of the closing condition, relative to the boundary's length.
+        residual: f64,
+    },
 }
 
 /// A deformable self-propelled body: shape dynamics, drift, symmetry, names and a boundary.
 ///
 /// Everything that motiform asks of a body works for any implementation. The trait is object-safe, so studies hold
-/// a `Box<dyn Model>`; kernels use the concrete type.
+/// a `Box<dyn Model>`; kernels use the concrete type. [`Semilinear`] says which part of the flow is stiff, for the
+/// exponential steppers (a model without one says `Lambda = 0`).
 ///
 /// # Symmetry
 /// The flow on shapes must commute with [`Model::rotate`] and [`Model::mirror`], and the velocity must turn with
 /// them: [`crate::conformance`] checks every model.
-pub trait Model: Shape<f64> + Shape<Dual<f64, 1>> + Send + Sync {
+pub trait Model: Semilinear<f64> + Shape<f64> + Shape<Dual<f64, 1>> + Send + Sync {
     /// Turns the shape by `angle` (rad, anticlockwise), in place.
     fn rotate(&self, angle: f64, shape: &mut [f64]);
 
@@ -86,9 +92,33 @@ pub trait Model: Shape<f64> + Shape<Dual<f64, 1>> + Send + Sync {
 pub fn velocity_and_acceleration<M: Model + ?Sized>(model: &M, shape: &[f64]) -> ([f64; 2], [f64; 2]) {
     let mut rate = vec![0.0; shape.len()];
     VectorField::<f64>::eval(model, 0.0, shape, &mut rate);
-    let lifted: Vec<Dual<f64, 1>> =
-        shape.iter().zip(&rate).map(|(&value, &slope)| Dual { value, derivative: [slope] }).collect();
-    let [vx, vy] = Shape::<Dual<f64, 1>>::velocity(model, &lifted);
+    drift(model, shape, &rate)
+}
+
+/// States up to this length are lifted to duals without allocating.
+const LIFTED: usize = 256;
+
+/// Velocity and its derivative along `rate`, exactly (duals): `(v, v')`. Allocates nothing for states of up to 256
+/// entries.
+#[must_use]
+pub fn drift<M: Shape<Dual<f64, 1>> + ?Sized>(
+    model: &M,
+    shape: &[f64],
+    rate: &[f64],
+) -> ([f64; 2], [f64; 2]) {
+    let lift = |(&value, &slope): (&f64, &f64)| Dual { value, derivative: [slope] };
+    let mut small = [Dual { value: 0.0, derivative: [0.0] }; LIFTED];
+    let large: Vec<Dual<f64, 1>>;
+    let lifted = if shape.len() <= LIFTED {
+        for (place, pair) in small.iter_mut().zip(shape.iter().zip(rate)) {
+            *place = lift(pair);
+        }
+        &small[..shape.len()]
+    } else {
+        large = shape.iter().zip(rate).map(lift).collect();
+        &large
+    };
+    let [vx, vy] = model.velocity(lifted);
     ([vx.value, vy.value], [vx.derivative[0], vy.derivative[0]])
 }
 
@@ -110,6 +140,10 @@ impl<M: System> System for InPlane<M> {
     fn dim(&self) -> usize {
         self.0.dim() + 2
     }
+
+    fn obstacle(&self, u: &[f64]) -> Option<Obstacle> {
+        self.0.obstacle(&u[..u.len() - 2])
+    }
 }
 
 impl<T: Scalar, M: Shape<T>> VectorField<T> for InPlane<M> {
@@ -118,6 +152,26 @@ impl<T: Scalar, M: Shape<T>> VectorField<T> for InPlane<M> {
         let (shape, _) = u.split_at(u.len() - 2);
         let (rate, drift) = du.split_at_mut(u.len() - 2);
         self.0.eval(t, shape, rate);
+        drift.copy_from_slice(&self.0.velocity(shape));
+    }
+}
+
+/// The position has no linear part. An exponential stepper needs the velocity at every stage this way;
+/// [`crate::ExponentialOrbit::in_plane`] needs it once per step.
+impl<T: Scalar, M: Shape<T> + Semilinear<T>> Semilinear<T> for InPlane<M> {
+    fn linear(&self, lambda: &mut [T::Real]) {
+        let (shape, position) = lambda.split_at_mut(self.0.dim());
+        self.0.linear(shape);
+        for rate in position {
+            *rate = rate.zero();
+        }
+    }
+
+    #[inline]
+    fn nonlinear(&self, t: T::Real, u: &[T], du: &mut [T]) {
+        let (shape, _) = u.split_at(u.len() - 2);
+        let (rate, drift) = du.split_at_mut(u.len() - 2);
+        self.0.nonlinear(t, shape, rate);
         drift.copy_from_slice(&self.0.velocity(shape));
     }
 }

@@ -4,7 +4,7 @@ use crate::control::{Controller, Tolerance};
 use crate::interpolant::{Ends, Interpolant};
 use crate::steppers::Tableau;
 use crate::steppers::runge_kutta::{self, Slopes, Step};
-use crate::{Error, StepControl, VectorField};
+use crate::{Error, Integration, Obstacle, StepControl, VectorField};
 
 /// An initial-value problem in progress. [`Orbit::advance`] takes one accepted step and allocates nothing.
 ///
@@ -67,6 +67,31 @@ pub enum StepFailure {
     },
     /// A fixed step led to a state that is not finite.
     NotFinite,
+    /// The model says why there is no step: the state it would lead to has no rates.
+    Obstacle(Obstacle),
+}
+
+/// Checks an initial time and state.
+pub(crate) fn check_start(dim: usize, t: f64, u: &[f64]) -> Result<(), Error> {
+    if u.len() != dim {
+        return Err(Error::Shape { what: "the initial state", expected: dim, got: u.len() });
+    }
+    for (name, value) in std::iter::once(("t", t)).chain(u.iter().map(|&x| ("initial state", x))) {
+        if !value.is_finite() {
+            return Err(Error::OutOfRange { name, value, range: "that is finite" });
+        }
+    }
+    Ok(())
+}
+
+/// End and size of the fixed step number `count + 1` from `start`, ending at `limit` at the latest.
+///
+/// Times are multiples of the step from the start, so that they carry no accumulated rounding.
+pub(crate) fn fixed_step(step: f64, t: f64, (start, count): (f64, u64), limit: f64) -> (f64, f64) {
+    let grid = start + step * (count + 1) as f64;
+    let t_new = if grid > limit - 1e-9 * step { limit } else { grid };
+    let h = if (t_new - t - step).abs() < 1e-9 * step { step } else { t_new - t };
+    (t_new, h)
 }
 
 impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
@@ -83,14 +108,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         u: &[f64],
     ) -> Result<Self, Error> {
         control.validate(tableau)?;
-        if u.len() != field.dim() {
-            return Err(Error::Shape { what: "the initial state", expected: field.dim(), got: u.len() });
-        }
-        for (name, value) in std::iter::once(("t", t)).chain(u.iter().map(|&x| ("initial state", x))) {
-            if !value.is_finite() {
-                return Err(Error::OutOfRange { name, value, range: "that is finite" });
-            }
-        }
+        check_start(field.dim(), t, u)?;
         let mut slopes = Slopes::new(tableau, u);
         field.eval(t, u, slopes.get_mut(tableau.stages()));
         let mut orbit = Self {
@@ -158,13 +176,11 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
 
     fn advance_fixed(&mut self, step: f64, limit: f64) -> Result<(), StepFailure> {
         let (start, count) = self.origin;
-        let grid = start + step * (count + 1) as f64;
-        let t_new = if grid > limit - 1e-9 * step { limit } else { grid };
-        let h = if (t_new - self.t - step).abs() < 1e-9 * step { step } else { t_new - self.t };
+        let (t_new, h) = fixed_step(step, self.t, self.origin, limit);
         self.begin();
         self.try_step(h);
         if self.scratch.iter().any(|x| !x.is_finite()) {
-            return Err(StepFailure::NotFinite);
+            return Err(self.explain(StepFailure::NotFinite));
         }
         self.evaluate_end(h);
         self.accept(t_new);
@@ -180,7 +196,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
             // Two equal steps to the end rather than a full one and a crumb.
             let h = if last { remaining } else { self.h.min(0.5 * remaining) };
             if h <= 16.0 * f64::EPSILON * self.t.abs() && !last || h < f64::MIN_POSITIVE {
-                return Err(StepFailure::Underflow { step: h });
+                return Err(self.explain(StepFailure::Underflow { step: h }));
             }
             self.try_step(h);
             let needs_end = self.tableau.error_needs_end();
@@ -207,6 +223,11 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
                 }
             }
         }
+    }
+
+    /// The model's own reason for a failed step, if it has one.
+    fn explain(&self, failure: StepFailure) -> StepFailure {
+        self.field.obstacle(&self.scratch).map_or(failure, StepFailure::Obstacle)
     }
 
     /// The end slope of the last step is the first slope of the next one.
@@ -308,13 +329,51 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
     }
 }
 
+impl<F: VectorField<f64> + ?Sized> Integration for Orbit<'_, F> {
+    fn advance(&mut self, limit: f64) -> Result<(), StepFailure> {
+        self.advance(limit)
+    }
+
+    fn dense(&mut self) -> DenseStep<'_> {
+        self.dense()
+    }
+
+    fn step_to(&mut self, t: f64, out: &mut [f64]) {
+        self.step_to(t, out);
+    }
+
+    fn end_step_at(&mut self, t: f64) {
+        self.end_step_at(t);
+    }
+
+    fn t(&self) -> f64 {
+        self.t
+    }
+
+    fn t_old(&self) -> f64 {
+        self.t_old
+    }
+
+    fn state(&self) -> &[f64] {
+        &self.u
+    }
+
+    fn slope(&self) -> &[f64] {
+        self.slope()
+    }
+
+    fn counters(&self) -> Counters {
+        self.counters
+    }
+}
+
 /// The last step of an orbit as a function of time.
 pub struct DenseStep<'o> {
-    t_old: f64,
-    t: f64,
-    old: &'o [f64],
-    new: &'o [f64],
-    interpolant: &'o Interpolant,
+    pub(crate) t_old: f64,
+    pub(crate) t: f64,
+    pub(crate) old: &'o [f64],
+    pub(crate) new: &'o [f64],
+    pub(crate) interpolant: &'o Interpolant,
 }
 
 impl DenseStep<'_> {

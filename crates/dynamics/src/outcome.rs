@@ -2,6 +2,17 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Why a state has no rates (see [`crate::System::obstacle`]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Obstacle {
+    /// The boundary could not be closed, so the body has no velocity.
+    Closure {
+        /// What is left of the closing condition, relative to the boundary's length.
+        residual: f64,
+    },
+}
+
 /// The end of a run. Only [`Outcome::Completed`] reached its end; every other one says when and why not.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
@@ -29,6 +40,13 @@ pub enum Outcome {
         t: f64,
         /// The step it could not take.
         step: f64,
+    },
+    /// The boundary of the body could not be closed: the shape has no velocity there.
+    ClosureFailed {
+        /// Time of the last state that has one.
+        t: f64,
+        /// What is left of the closing condition, relative to the boundary's length.
+        residual: f64,
     },
     /// The budget of steps was used up.
     StepBudget {
@@ -63,6 +81,7 @@ impl Outcome {
             Self::Completed { t }
             | Self::Escaped { t, .. }
             | Self::StepUnderflow { t, .. }
+            | Self::ClosureFailed { t, .. }
             | Self::StepBudget { t, .. }
             | Self::Stopped { t }
             | Self::Interrupted { t } => t,
@@ -78,6 +97,9 @@ impl std::fmt::Display for Outcome {
             Self::Escaped { t, norm, .. } => write!(f, "left every bound at t = {t:.9} (norm {norm:.3e})"),
             Self::StepUnderflow { t, step } => {
                 write!(f, "step size fell to {step:.3e} at t = {t:.9}: the solution is not smooth there")
+            }
+            Self::ClosureFailed { t, residual } => {
+                write!(f, "the boundary could not be closed at t = {t:.9} (residual {residual:.3e})")
             }
             Self::StepBudget { t, steps } => write!(f, "step budget of {steps} used up at t = {t:.9}"),
             Self::Stopped { t } => write!(f, "stopped at a section at t = {t:.9}"),

@@ -4,8 +4,8 @@
 //! and found on the interpolant, and then polished with true steps of the method from the start of the step: the
 //! crossing has the accuracy of the orbit itself, not that of the interpolant.
 
-use crate::VectorField;
-use crate::orbit::{DenseStep, Orbit};
+use crate::Integration;
+use crate::orbit::DenseStep;
 
 /// The sense in which a section counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,9 +99,9 @@ fn value_in(section: &Section<'_>, step: &DenseStep<'_>, t: f64, state: &mut [f6
 }
 
 /// Polishes a crossing time with true steps of the method; leaves the state of the crossing in `state`.
-pub(crate) fn polish<F: VectorField<f64> + ?Sized>(
+pub(crate) fn polish<O: Integration + ?Sized>(
     section: &Section<'_>,
-    orbit: &mut Orbit<'_, F>,
+    orbit: &mut O,
     guess: f64,
     state: &mut [f64],
 ) -> f64 {

@@ -1,11 +1,17 @@
 //! What moves: `u' = f(t, u)`.
 
-use crate::Scalar;
+use crate::{Obstacle, Scalar};
 
 /// Anything with a state of fixed length.
 pub trait System {
     /// Number of scalars in the state.
     fn dim(&self) -> usize;
+
+    /// Why this state has no rates, where it has none. A rate that is not a number must have its reason here;
+    /// asked only after one was met, so it may be slow.
+    fn obstacle(&self, _u: &[f64]) -> Option<Obstacle> {
+        None
+    }
 }
 
 /// An ordinary differential equation `u' = f(t, u)` over one scalar type.
@@ -53,11 +59,26 @@ impl<S: System + ?Sized> System for &S {
     fn dim(&self) -> usize {
         (**self).dim()
     }
+
+    fn obstacle(&self, u: &[f64]) -> Option<Obstacle> {
+        (**self).obstacle(u)
+    }
 }
 
 impl<T: Scalar, F: VectorField<T> + ?Sized> VectorField<T> for &F {
     #[inline(always)]
     fn eval(&self, t: T::Real, u: &[T], du: &mut [T]) {
         (**self).eval(t, u, du);
+    }
+}
+
+impl<T: Scalar, F: Semilinear<T> + ?Sized> Semilinear<T> for &F {
+    fn linear(&self, lambda: &mut [T::Real]) {
+        (**self).linear(lambda);
+    }
+
+    #[inline(always)]
+    fn nonlinear(&self, t: T::Real, u: &[T], du: &mut [T]) {
+        (**self).nonlinear(t, u, du);
     }
 }

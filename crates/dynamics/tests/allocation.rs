@@ -2,9 +2,9 @@
 
 mod common;
 
-use common::Oscillator;
-use motiform_dynamics::steppers::STEPPERS;
-use motiform_dynamics::{Orbit, StepControl};
+use common::{Oscillator, StuartLandau};
+use motiform_dynamics::steppers::{EXPONENTIAL_STEPPERS, STEPPERS};
+use motiform_dynamics::{ExponentialOrbit, Integration, Orbit, StepControl};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -55,4 +55,32 @@ fn a_step_allocates_nothing() {
     let before = ALLOCATIONS.with(Cell::get);
     drop(std::hint::black_box(vec![0_u8; 100]));
     assert!(ALLOCATIONS.with(Cell::get) > before);
+}
+
+/// An exponential step allocates only when it meets a new step size.
+#[test]
+fn an_exponential_step_of_a_known_size_allocates_nothing() {
+    for tableau in EXPONENTIAL_STEPPERS {
+        let fixed = StepControl::Fixed { step: 1e-2 };
+        let adaptive = StepControl::Adaptive { rtol: 1e-9, atol: 1e-9 };
+        for control in [fixed, adaptive] {
+            let Ok(mut orbit) = ExponentialOrbit::new(&StuartLandau, tableau, control, 0.0, &[0.5, 0.0])
+            else {
+                continue;
+            };
+            let mut state = vec![0.0; 2];
+            let mut steps = |orbit: &mut ExponentialOrbit<'_, StuartLandau>| {
+                let before = ALLOCATIONS.with(Cell::get);
+                for _ in 0..1000 {
+                    orbit.advance(1e9).expect("the field is smooth");
+                    let middle = 0.5 * (orbit.t_old() + orbit.t());
+                    orbit.dense().at(middle, &mut state);
+                    orbit.step_to(middle, &mut state);
+                }
+                ALLOCATIONS.with(Cell::get) - before
+            };
+            assert!(steps(&mut orbit) < 50, "{} {control:?}: one table per size", tableau.name);
+            assert_eq!(steps(&mut orbit), 0, "{} {control:?}", tableau.name);
+        }
+    }
 }

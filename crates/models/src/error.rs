@@ -48,6 +48,24 @@ pub enum Error {
         /// Largest allowed value.
         max: f64,
     },
+    /// A number of modes with a fraction.
+    #[error("{name} = {value} is no whole number: give how many modes there are")]
+    NotWhole {
+        /// Name of the number.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The modes do not resolve the boundary.
+    #[error("modes = {modes} do not resolve a boundary of length {length}: give at least {needed}")]
+    TooFewModes {
+        /// The number given.
+        modes: usize,
+        /// Length of the boundary.
+        length: f64,
+        /// The number it needs.
+        needed: usize,
+    },
 }
 
 fn hint(nearest: &Option<&'static str>) -> String {

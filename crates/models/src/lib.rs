@@ -1,7 +1,8 @@
 //! The models of motiform: what moves. Every model is a shape state with a drift (see `motiform_dynamics::Model`).
 //!
-//! Adding a model is one folder beside [`tensor`] and one entry in [`registry::MODELS`].
+//! Adding a model is one folder beside [`tensor`] and [`cell`] and one entry in [`registry::MODELS`].
 
+pub mod cell;
 mod error;
 pub mod parameters;
 pub mod registry;

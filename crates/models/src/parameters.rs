@@ -63,11 +63,21 @@ pub fn index_of(specs: &[ParameterSpec], model: &'static str, name: &str) -> Res
     })
 }
 
-/// Declares a parameter struct together with its registry.
+/// The range given after `within`, or any number of sensible size.
+pub(crate) const fn allowed(within: &[(f64, f64)]) -> (f64, f64) {
+    match within {
+        [range, ..] => *range,
+        [] => (-1e6, 1e6),
+    }
+}
+
+/// Declares a parameter struct together with its registry: `name = default in low .. high`, the range of interest, and
+/// where the model allows less than any number `within smallest .. largest`.
 macro_rules! parameters {
     (
         $(#[$doc:meta])* $name:ident for $model:literal {
-            $( $field:ident = $default:literal in $low:literal .. $high:literal,
+            $( $field:ident = $default:literal in $low:literal .. $high:literal
+               $( within $smallest:literal .. $largest:literal )?,
                $symbol:literal, $equation:literal, $meaning:literal; )*
         }
     ) => {
@@ -93,7 +103,7 @@ macro_rules! parameters {
                         symbol: $symbol,
                         default: $default,
                         range: ($low, $high),
-                        allowed: (-1e6, 1e6),
+                        allowed: $crate::parameters::allowed(&[$( ($smallest, $largest) )?]),
                         equation: $equation,
                         meaning: $meaning,
                     },

@@ -1,5 +1,6 @@
 //! Every model by name: what the front ends list, and how a model is made from named values.
 
+use crate::cell::{Cell, CellParameters};
 use crate::error::{Error, nearest};
 use crate::parameters::{ParameterSpec, Parameters};
 use crate::tensor::{self, Tensor, TensorParameters};
@@ -17,28 +18,51 @@ pub struct ModelInfo {
     pub equations: &'static str,
     /// Where it comes from.
     pub source: &'static str,
-    /// The names of its shape state.
-    pub coordinates: &'static [Coordinate],
     parameters: fn() -> &'static [ParameterSpec],
-    build: fn(&[f64]) -> Box<dyn Model>,
+    coordinates: fn(&[f64]) -> &'static [Coordinate],
+    build: Build,
 }
 
+/// Makes a model from parameter values in registry order.
+type Build = fn(&[f64]) -> Result<Box<dyn Model>, Error>;
+
 /// All models.
-pub static MODELS: &[ModelInfo] = &[ModelInfo {
-    name: "tensor",
-    title: "velocity, ellipse and triangle of one domain, coupled by symmetry (6 unknowns, 21 parameters)",
-    equations: TENSOR_EQUATIONS,
-    source: "Hiraiwa, Ohkuma, Ohta, Matsuo, Sano, EPL (2010), eqs. (V), (S), (U)",
-    coordinates: &tensor::COORDINATES,
-    parameters: TensorParameters::specs,
-    build: |values| {
-        let mut parameters = TensorParameters::default();
-        for (index, &value) in values.iter().enumerate() {
-            parameters.set_at(index, value);
-        }
-        Box::new(Tensor::new(&parameters))
+pub static MODELS: &[ModelInfo] = &[
+    ModelInfo {
+        name: "tensor",
+        title: "velocity, ellipse and triangle of one domain, coupled by symmetry (6 unknowns, 21 parameters)",
+        equations: TENSOR_EQUATIONS,
+        source: "Hiraiwa, Ohkuma, Ohta, Matsuo, Sano, EPL (2010), eqs. (V), (S), (U)",
+        parameters: TensorParameters::specs,
+        coordinates: |_| &tensor::COORDINATES,
+        build: |values| Ok(Box::new(Tensor::new(&from_values::<TensorParameters>(values)))),
     },
-}];
+    ModelInfo {
+        name: "cell",
+        title: "active cell: a closed boundary that deforms by itself and moves by its deformation",
+        equations: CELL_EQUATIONS,
+        source: "Hiraiwa, Ohkuma, Ohta, Matsuo, Sano, EPL (2010), eqs. (C), (VEL), (CLOSE)",
+        parameters: CellParameters::specs,
+        coordinates: |values| from_values::<CellParameters>(values).coordinates(),
+        build: |values| Ok(Box::new(Cell::new(&from_values::<CellParameters>(values))?)),
+    },
+];
+
+/// The parameters with these values, in registry order; those left out have their defaults.
+fn from_values<P: Parameters>(values: &[f64]) -> P {
+    let mut parameters = P::default();
+    for (index, &value) in values.iter().enumerate() {
+        parameters.set_at(index, value);
+    }
+    parameters
+}
+
+const CELL_EQUATIONS: &str = "\
+(C)     phi_t = g1 phi_ss + g2 phi_ssss + g3 phi_ssssss + g4 phi_s phi_ss + g5 phi_ss phi_sss
+        on 0 <= s < length, in modes n = 1 .. modes; normal angle (2 pi / length) (s + phi)
+(VEL)   v = ((2 pi)^2 / length^3) int (alpha2 phi_s^2 + A phi_ss^2) n ds,   A = alpha3 + alpha3_per_length length
+(CLOSE) int n ds = 0, by the most likely error function: closure_modes modes of width n^-prior
+        dx/dt = v";
 
 const TENSOR_EQUATIONS: &str = "\
 (V) dv/dt = gamma v - v^2 v - a1 S v - a2 U v v - a3 U S - a4 (S:S) v - a5 (U:U) v + a6 S S U
@@ -67,12 +91,19 @@ impl ModelInfo {
         (self.parameters)()
     }
 
-    /// Place of a coordinate (`x` and `y` come after the shape's own).
+    /// The names of its shape state, for parameters with these values (in registry order; the number of modes is one).
+    #[must_use]
+    pub fn coordinates(&self, values: &[f64]) -> &'static [Coordinate] {
+        (self.coordinates)(values)
+    }
+
+    /// Place of a coordinate (`x` and `y` come after the shape's own), for parameters with these values.
     ///
     /// # Errors
     /// [`Error::UnknownCoordinate`] with the nearest name.
-    pub fn coordinate(&self, name: &str) -> Result<usize, Error> {
-        let known: Vec<&'static str> = self.coordinates.iter().map(|c| c.name).chain(["x", "y"]).collect();
+    pub fn coordinate(&self, values: &[f64], name: &str) -> Result<usize, Error> {
+        let names = self.coordinates(values).iter().map(|c| c.name);
+        let known: Vec<&'static str> = names.chain(["x", "y"]).collect();
         known.iter().position(|&c| c == name).ok_or_else(|| Error::UnknownCoordinate {
             name: name.to_owned(),
             model: self.name,
@@ -84,7 +115,8 @@ impl ModelInfo {
     /// The model with these values, in registry order.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a value the model cannot be computed with (or that is not finite).
+    /// [`Error::OutOfRange`] for a value the model cannot be computed with (or that is not finite), and what the model
+    /// itself refuses.
     pub fn build(&self, values: &[f64]) -> Result<Box<dyn Model>, Error> {
         for (spec, &value) in self.parameters().iter().zip(values) {
             let (min, max) = spec.allowed;
@@ -92,6 +124,6 @@ impl ModelInfo {
                 return Err(Error::OutOfRange { name: spec.name.to_owned(), value, min, max });
             }
         }
-        Ok((self.build)(values))
+        (self.build)(values)
     }
 }

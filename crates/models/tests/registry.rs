@@ -18,7 +18,8 @@ fn every_model_builds_from_its_defaults_and_agrees_with_its_names() {
         }
         let defaults: Vec<f64> = specs.iter().map(|spec| spec.default).collect();
         let model = info.build(&defaults).unwrap();
-        assert_eq!(model.coordinates(), info.coordinates);
+        assert_eq!(model.coordinates(), info.coordinates(&defaults));
+        assert_eq!(model.coordinates().len(), model.dim());
     }
 }
 
@@ -26,10 +27,13 @@ fn every_model_builds_from_its_defaults_and_agrees_with_its_names() {
 fn slips_of_the_finger_get_the_nearest_name() {
     let tensor = ModelInfo::find("tensor").unwrap();
     assert!(matches!(ModelInfo::find("tenser"), Err(Error::UnknownModel { nearest: Some("tensor"), .. })));
-    assert!(matches!(tensor.coordinate("S11x"), Err(Error::UnknownCoordinate { nearest: Some("s11"), .. })));
+    assert!(matches!(
+        tensor.coordinate(&[], "S11x"),
+        Err(Error::UnknownCoordinate { nearest: Some("s11"), .. })
+    ));
     assert_eq!(nearest("kapa2", tensor.parameters().iter().map(|p| p.name)), Some("kappa2"));
     assert_eq!(nearest("viscosity", tensor.parameters().iter().map(|p| p.name)), None);
-    assert_eq!(tensor.coordinate("y").unwrap(), 7);
+    assert_eq!(tensor.coordinate(&[], "y").unwrap(), 7);
 }
 
 #[test]

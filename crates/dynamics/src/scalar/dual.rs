@@ -71,6 +71,18 @@ impl<T: Scalar, const K: usize> Scalar for Dual<T, K> {
     fn scale(self, real: T::Real) -> Self {
         self.map(self.value.scale(real), |d| d.scale(real))
     }
+
+    #[inline(always)]
+    fn real(self) -> T::Real {
+        self.value.real()
+    }
+
+    /// `(sin x)' = cos x x'`, `(cos x)' = -sin x x'`.
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        let (sin, cos) = self.value.sin_cos();
+        (self.map(sin, |d| cos * d), self.map(cos, |d| -(sin * d)))
+    }
 }
 
 impl<T: Scalar, const K: usize> Add for Dual<T, K> {

@@ -51,6 +51,20 @@ impl<const N: usize> Scalar for Lanes<N> {
     fn scale(self, real: Self) -> Self {
         real * self
     }
+
+    #[inline(always)]
+    fn real(self) -> Self {
+        self
+    }
+
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        let (mut sin, mut cos) = (self, self);
+        for lane in 0..N {
+            (sin.0[lane], cos.0[lane]) = libm::sincos(self.0[lane]);
+        }
+        (sin, cos)
+    }
 }
 
 impl<const N: usize> Add for Lanes<N> {

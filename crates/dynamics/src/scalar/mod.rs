@@ -46,6 +46,12 @@ pub trait Scalar:
     /// `real * self`, for a parameter, a time or a step size.
     fn scale(self, real: Self::Real) -> Self;
 
+    /// The number without its derivative part.
+    fn real(self) -> Self::Real;
+
+    /// Sine and cosine (`self` in rad), by `libm` lane by lane: the same bits on every machine.
+    fn sin_cos(self) -> (Self, Self);
+
     /// Zero, of the same kind as `self`.
     #[inline(always)]
     fn zero(self) -> Self {
@@ -64,5 +70,15 @@ impl Scalar for f64 {
     #[inline(always)]
     fn scale(self, real: f64) -> f64 {
         real * self
+    }
+
+    #[inline(always)]
+    fn real(self) -> f64 {
+        self
+    }
+
+    #[inline]
+    fn sin_cos(self) -> (f64, f64) {
+        libm::sincos(self)
     }
 }

@@ -1,25 +1,43 @@
-//! The steppers: one file each, and the registry that enrols them in every test.
+//! The steppers: one file each, and the registries that enrol them in every test.
 
 mod dop853;
 mod dopri5;
+mod etdrk4;
 mod euler;
+pub mod exponential;
 mod heun;
+mod ifrk4;
+mod krogstad4;
+pub mod phi_functions;
 mod rk4;
 pub mod runge_kutta;
 pub mod tableau;
 
 pub use dop853::DOP853;
 pub use dopri5::DOPRI5;
+pub use etdrk4::ETDRK4;
 pub use euler::EULER;
+pub use exponential::ExponentialTableau;
 pub use heun::HEUN;
+pub use ifrk4::IFRK4;
+pub use krogstad4::KROGSTAD4;
 pub use rk4::RK4;
 pub use tableau::Tableau;
 
-/// Every stepper, from the simplest to the one to use by default.
+/// Every explicit stepper, from the simplest to the one to use by default.
 pub static STEPPERS: [&Tableau; 5] = [&EULER, &HEUN, &RK4, &DOPRI5, &DOP853];
 
-/// The stepper of this name, if there is one.
+/// Every exponential stepper (for fields with a stiff linear part), the one to use by default last.
+pub static EXPONENTIAL_STEPPERS: [&ExponentialTableau; 3] = [&IFRK4, &ETDRK4, &KROGSTAD4];
+
+/// The explicit stepper of this name, if there is one.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static Tableau> {
     STEPPERS.into_iter().find(|stepper| stepper.name == name)
+}
+
+/// The exponential stepper of this name, if there is one.
+#[must_use]
+pub fn find_exponential(name: &str) -> Option<&'static ExponentialTableau> {
+    EXPONENTIAL_STEPPERS.into_iter().find(|stepper| stepper.name == name)
 }

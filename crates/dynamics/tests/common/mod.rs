@@ -1,7 +1,7 @@
 //! Problems with known solutions, shared by the tests of this crate.
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part")]
 
-use motiform_dynamics::{Scalar, System, VectorField};
+use motiform_dynamics::{Scalar, Semilinear, System, VectorField};
 
 macro_rules! field {
     ($(#[$doc:meta])* $name:ident, $dim:expr, |$t:ident, $u:ident, $du:ident| $body:block) => {
@@ -87,4 +87,64 @@ pub fn slope(points: &[(f64, f64)]) -> f64 {
     let (mx, my) = (logs.iter().map(|p| p.0).sum::<f64>() / n, logs.iter().map(|p| p.1).sum::<f64>() / n);
     let covariance: f64 = logs.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum();
     covariance / logs.iter().map(|p| (p.0 - mx).powi(2)).sum::<f64>()
+}
+
+/// The part of [`StuartLandau`] that is linear and real: growth with rate 1.
+impl<T: Scalar> Semilinear<T> for StuartLandau {
+    fn linear(&self, lambda: &mut [T::Real]) {
+        for rate in lambda {
+            *rate = rate.constant(1.0);
+        }
+    }
+
+    fn nonlinear(&self, t: T::Real, u: &[T], du: &mut [T]) {
+        self.eval(t, u, du);
+        for (rate, &x) in du.iter_mut().zip(u) {
+            *rate -= x;
+        }
+    }
+}
+
+/// Sine modes of `u_t = -u u_x` with damping `-n^4/50`: stiff, coupled by a quadratic term, energy conserved by it.
+pub struct Modes;
+
+impl Modes {
+    pub const COUNT: usize = 8;
+}
+
+impl System for Modes {
+    fn dim(&self) -> usize {
+        Self::COUNT
+    }
+}
+
+impl<T: Scalar> VectorField<T> for Modes {
+    fn eval(&self, t: T::Real, u: &[T], du: &mut [T]) {
+        self.nonlinear(t, u, du);
+        for (i, (rate, &x)) in du.iter_mut().zip(u).enumerate() {
+            *rate -= x * ((i as f64 + 1.0).powi(4) / 50.0);
+        }
+    }
+}
+
+impl<T: Scalar> Semilinear<T> for Modes {
+    fn linear(&self, lambda: &mut [T::Real]) {
+        for (i, rate) in lambda.iter_mut().enumerate() {
+            *rate = rate.constant(-(i as f64 + 1.0).powi(4) / 50.0);
+        }
+    }
+
+    /// `u = sum a_n sin(n x)`: `a_n' = -(n/4) sum_{p+q=n} a_p a_q + (n/2) sum_q a_{n+q} a_q`.
+    fn nonlinear(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+        for n in 1..=u.len() {
+            let mut sum = u[0].zero();
+            for q in 1..n {
+                sum -= u[q - 1] * u[n - q - 1] * (0.25 * n as f64);
+            }
+            for q in 1..=u.len() - n {
+                sum += u[q - 1] * u[n + q - 1] * (0.5 * n as f64);
+            }
+            du[n - 1] = sum;
+        }
+    }
 }

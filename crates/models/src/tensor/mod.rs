@@ -11,7 +11,7 @@ pub use fourier::{Coefficients, FourierField};
 pub use parameters::TensorParameters;
 
 use motiform_dynamics::model::{Coordinate, Observable};
-use motiform_dynamics::{Dual, Model, Outline, Scalar, Shape, System, VectorField};
+use motiform_dynamics::{Dual, Model, Outline, Scalar, Semilinear, Shape, System, VectorField};
 
 /// The tensor model for one set of parameters.
 ///
@@ -80,6 +80,17 @@ impl<T: Scalar<Real = f64>> VectorField<T> for Tensor {
     #[inline]
     fn eval(&self, t: f64, u: &[T], du: &mut [T]) {
         self.field.eval(t, u, du);
+    }
+}
+
+impl<T: Scalar<Real = f64>> Semilinear<T> for Tensor {
+    fn linear(&self, lambda: &mut [f64]) {
+        Semilinear::<T>::linear(&self.field, lambda);
+    }
+
+    #[inline]
+    fn nonlinear(&self, t: f64, u: &[T], du: &mut [T]) {
+        self.field.nonlinear(t, u, du);
     }
 }
 

@@ -1,0 +1,365 @@
+//! One orbit of a stiff semilinear field, step by step.
+
+use crate::control::Tolerance;
+use crate::interpolant::{Ends, Interpolant};
+use crate::model::drift;
+use crate::orbit::{Counters, DenseStep, StepFailure, check_start, fixed_step};
+use crate::step_sizes::StepTables;
+use crate::steppers::ExponentialTableau;
+use crate::steppers::exponential::{self, Stages, StepTable};
+use crate::{Dual, Error, Integration, Semilinear, Shape, StepControl};
+
+/// An initial-value problem `u' = Lambda u + N(t, u)` in progress, by an exponential method.
+///
+/// Adaptive steps have sizes `2^(k/4)`, so that the coefficients of a size are computed once:
+/// [`Integration::advance`] allocates only when a size is met for the first time. Dense output is cubic Hermite.
+///
+/// The position of a body ([`ExponentialOrbit::in_plane`]) drives nothing, so it is no stage of the method but a
+/// quadrature: `x_new = x + h (v + v_new)/2 + h^2 (v' - v_new')/12`, order 4 like the method, for one evaluation of
+/// the velocity per step instead of four. (Source: Euler-Maclaurin; Hairer, Norsett, Wanner, I, II.1.)
+///
+/// ```
+/// use motiform_dynamics::{ExponentialOrbit, Integration, Scalar, Semilinear, StepControl, System, VectorField};
+/// use motiform_dynamics::steppers::KROGSTAD4;
+/// /// u' = -1000 u + 1000
+/// struct Stiff;
+/// impl System for Stiff { fn dim(&self) -> usize { 1 } }
+/// impl<T: Scalar> VectorField<T> for Stiff {
+///     fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) { du[0] = u[0].constant(1e3) - u[0] * 1e3; }
+/// }
+/// impl<T: Scalar> Semilinear<T> for Stiff {
+///     fn linear(&self, lambda: &mut [T::Real]) { lambda[0] = lambda[0].constant(-1e3); }
+///     fn nonlinear(&self, _t: T::Real, u: &[T], du: &mut [T]) { du[0] = u[0].constant(1e3); }
+/// }
+/// let mut orbit = ExponentialOrbit::new(&Stiff, &KROGSTAD4, StepControl::Fixed { step: 0.1 }, 0.0, &[0.0])?;
+/// orbit.advance(0.1).expect("the field is smooth");
+/// assert!((orbit.state()[0] - 1.0).abs() < 1e-15);
+/// # Ok::<(), motiform_dynamics::Error>(())
+/// ```
+pub struct ExponentialOrbit<'f, F: ?Sized> {
+    field: &'f F,
+    drift: Option<DriftOf<'f, F>>,
+    tableau: &'static ExponentialTableau,
+    control: StepControl,
+    lambda: Vec<f64>,
+    tables: StepTables,
+    stages: Stages,
+    restep: Stages,
+    t: f64,
+    t_old: f64,
+    new: End,
+    old: End,
+    trial: End,
+    errors: Vec<f64>,
+    interpolant: Interpolant,
+    origin: (f64, u64),
+    /// Whether `N` at the current state is the end stage of the step just accepted.
+    accepted: bool,
+    prepared: bool,
+    counters: Counters,
+}
+
+/// Steps below this (model time) are no steps.
+const SMALLEST: f64 = 1e-18;
+
+/// Velocity and its derivative along the flow: `(shape, rate) -> (v, v')`, with the field they belong to.
+type DriftOf<'f, F> = fn(&'f F, &[f64], &[f64]) -> ([f64; 2], [f64; 2]);
+
+/// State, rates and acceleration at one end of a step.
+#[derive(Clone, Debug)]
+struct End {
+    state: Vec<f64>,
+    slope: Vec<f64>,
+    acceleration: [f64; 2],
+}
+
+impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
+    /// An orbit of `field` from `u` at time `t`.
+    ///
+    /// # Errors
+    /// As [`crate::Orbit::new`].
+    pub fn new(
+        field: &'f F,
+        tableau: &'static ExponentialTableau,
+        control: StepControl,
+        t: f64,
+        u: &[f64],
+    ) -> Result<Self, Error> {
+        check_start(field.dim(), t, u)?;
+        Self::start(field, None, tableau, control, t, u)
+    }
+
+    /// An orbit of a body in the plane: `u` is the shape followed by the position `x, y`.
+    ///
+    /// # Errors
+    /// As [`crate::Orbit::new`].
+    pub fn in_plane(
+        model: &'f F,
+        tableau: &'static ExponentialTableau,
+        control: StepControl,
+        t: f64,
+        u: &[f64],
+    ) -> Result<Self, Error>
+    where
+        F: Shape<Dual<f64, 1>>,
+    {
+        check_start(model.dim() + 2, t, u)?;
+        Self::start(model, Some(drift::<F>), tableau, control, t, u)
+    }
+
+    fn start(
+        field: &'f F,
+        drift: Option<DriftOf<'f, F>>,
+        tableau: &'static ExponentialTableau,
+        control: StepControl,
+        t: f64,
+        u: &[f64],
+    ) -> Result<Self, Error> {
+        control.validate_for(tableau.name, tableau.is_adaptive())?;
+        let dim = field.dim();
+        let mut lambda = vec![0.0; dim];
+        field.linear(&mut lambda);
+        let end = End { state: u.to_vec(), slope: vec![0.0; u.len()], acceleration: [0.0; 2] };
+        let stages = Stages::new(tableau, dim);
+        let mut orbit = Self {
+            field,
+            drift,
+            tableau,
+            control,
+            tables: StepTables::new(tableau, dim),
+            lambda,
+            restep: stages.clone(),
+            stages,
+            t,
+            t_old: t,
+            old: end.clone(),
+            trial: end.clone(),
+            new: end,
+            errors: vec![0.0; dim],
+            interpolant: Interpolant::hermite(u.len()),
+            origin: (t, 0),
+            accepted: true,
+            prepared: false,
+            counters: Counters::default(),
+        };
+        let problem = Problem { field, drift, lambda: &orbit.lambda };
+        problem.evaluate(t, orbit.stages.get_mut(tableau.stages()), &mut orbit.new);
+        orbit.choose_first_step();
+        Ok(orbit)
+    }
+
+    /// A first step on which the state changes by about its tolerance's square root; control does the rest.
+    fn choose_first_step(&mut self) {
+        let StepControl::Adaptive { rtol, atol } = self.control else { return };
+        let tolerance = Tolerance { rtol: rtol.sqrt(), atol: atol.sqrt() };
+        let shape = ..self.lambda.len();
+        let state = &self.new.state[shape];
+        let rate = tolerance.norm(&self.new.slope[shape], state, state);
+        self.tables.set_size((0.1 / rate).clamp(1e-6, 1.0));
+    }
+
+    fn advance_fixed(&mut self, step: f64, limit: f64) -> Result<(), StepFailure> {
+        let (start, count) = self.origin;
+        let (t_new, h) = fixed_step(step, self.t, self.origin, limit);
+        self.begin();
+        if h == step {
+            self.tables.select_fixed(self.tableau, &self.lambda, h);
+        } else {
+            self.tables.select_odd(self.tableau, &self.lambda, h);
+        }
+        self.try_step(h);
+        self.check()?;
+        self.accept(t_new);
+        self.origin = if t_new == limit { (limit, 0) } else { (start, count + 1) };
+        Ok(())
+    }
+
+    fn advance_adaptive(&mut self, tolerance: Tolerance, limit: f64) -> Result<(), StepFailure> {
+        self.begin();
+        loop {
+            let remaining = limit - self.t;
+            let last = self.tables.size() >= remaining;
+            let h = if last { remaining } else { self.tables.size() };
+            if h <= 16.0 * f64::EPSILON * self.t.abs() && !last || h < SMALLEST {
+                return Err(StepFailure::Underflow { step: h });
+            }
+            if last {
+                self.tables.select_odd(self.tableau, &self.lambda, h);
+            } else {
+                self.tables.select_size(self.tableau, &self.lambda);
+            }
+            self.try_step(h);
+            let error = self.error(tolerance);
+            if self.tables.judge(error, h, self.tableau.order, last) {
+                self.check()?;
+                self.accept(if last { limit } else { self.t + h });
+                return Ok(());
+            }
+            self.counters.rejected += 1;
+        }
+    }
+
+    /// The norm of the estimated error of the step tried, on the shape.
+    fn error(&mut self, tolerance: Tolerance) -> f64 {
+        let shape = ..self.lambda.len();
+        exponential::error(self.tableau, self.tables.selected(), &self.stages, &mut self.errors);
+        tolerance.norm(&self.errors, &self.new.state[shape], &self.trial.state[shape])
+    }
+
+    /// The end stage of the last step is the first stage of the next one.
+    fn begin(&mut self) {
+        if self.accepted {
+            self.stages.copy(self.tableau.stages(), 0);
+            self.accepted = false;
+        }
+        self.t_old = self.t;
+        self.prepared = false;
+    }
+
+    /// Takes a trial step of size `h` from the current state with the selected coefficients.
+    fn try_step(&mut self, h: f64) {
+        let at = Start { t: self.t, h, end: &self.new };
+        let problem = Problem { field: self.field, drift: self.drift, lambda: &self.lambda };
+        problem.step(self.tableau, self.tables.selected(), &at, &mut self.stages, &mut self.trial);
+    }
+
+    /// Takes the last step again, but to `t`, into the trial end and the spare stages.
+    fn restep_to(&mut self, t: f64) {
+        let h = t - self.t_old;
+        self.stages.copy_to(0, &mut self.restep);
+        self.tables.select_odd(self.tableau, &self.lambda, h);
+        let at = Start { t: self.t_old, h, end: &self.old };
+        let problem = Problem { field: self.field, drift: self.drift, lambda: &self.lambda };
+        problem.step(self.tableau, self.tables.selected(), &at, &mut self.restep, &mut self.trial);
+    }
+
+    /// Whether the trial step led to a state that can be gone on from.
+    fn check(&self) -> Result<(), StepFailure> {
+        let ends = [&self.new, &self.trial];
+        if ends.iter().all(|end| end.state.iter().chain(&end.slope).all(|x| x.is_finite())) {
+            return Ok(());
+        }
+        let reason = ends.iter().find_map(|end| self.field.obstacle(&end.state[..self.lambda.len()]));
+        Err(reason.map_or(StepFailure::NotFinite, StepFailure::Obstacle))
+    }
+
+    fn accept(&mut self, t_new: f64) {
+        std::mem::swap(&mut self.old, &mut self.new);
+        std::mem::swap(&mut self.new, &mut self.trial);
+        self.t_old = self.t;
+        self.t = t_new;
+        self.accepted = true;
+        self.counters.steps += 1;
+    }
+}
+
+/// The start of a step and its size.
+struct Start<'e> {
+    t: f64,
+    h: f64,
+    end: &'e End,
+}
+
+/// The equations: shape, and drift if there is a position.
+struct Problem<'p, 'f, F: ?Sized> {
+    field: &'f F,
+    drift: Option<DriftOf<'f, F>>,
+    lambda: &'p [f64],
+}
+
+impl<F: Semilinear<f64> + ?Sized> Problem<'_, '_, F> {
+    /// One step of shape and position, with the rates at its end.
+    fn step(
+        &self,
+        tableau: &ExponentialTableau,
+        table: &StepTable,
+        at: &Start<'_>,
+        stages: &mut Stages,
+        out: &mut End,
+    ) {
+        let dim = self.lambda.len();
+        let from = (at.t, &at.end.state[..dim]);
+        exponential::step(tableau, self.field, from, table, stages, &mut out.state[..dim]);
+        self.evaluate(at.t + at.h, stages.get_mut(tableau.stages()), out);
+        out.travel(at.end, at.h, dim);
+    }
+
+    /// The rates at `end`: `N` into `nonlinear`, `Lambda u + N` and the velocity into its slope.
+    fn evaluate(&self, t: f64, nonlinear: &mut [f64], end: &mut End) {
+        let dim = self.lambda.len();
+        self.field.nonlinear(t, &end.state[..dim], nonlinear);
+        let (slope, velocity) = end.slope.split_at_mut(dim);
+        for (((x, &l), &n), &u) in slope.iter_mut().zip(self.lambda).zip(&*nonlinear).zip(&end.state) {
+            *x = l * u + n;
+        }
+        if let Some(drift) = self.drift {
+            let (v, acceleration) = drift(self.field, &end.state[..dim], slope);
+            velocity.copy_from_slice(&v);
+            end.acceleration = acceleration;
+        }
+    }
+}
+
+impl End {
+    /// Sets the entries from `dim` on, the position, from those at the step's start: Euler-Maclaurin.
+    fn travel(&mut self, start: &Self, h: f64, dim: usize) {
+        for (axis, place) in (dim..self.state.len()).enumerate() {
+            let mean = 0.5 * (start.slope[place] + self.slope[place]);
+            let bend = (start.acceleration[axis] - self.acceleration[axis]) / 12.0;
+            self.state[place] = start.state[place] + h * (mean + h * bend);
+        }
+    }
+}
+
+impl<F: Semilinear<f64> + ?Sized> Integration for ExponentialOrbit<'_, F> {
+    fn advance(&mut self, limit: f64) -> Result<(), StepFailure> {
+        match self.control {
+            StepControl::Fixed { step } => self.advance_fixed(step, limit),
+            StepControl::Adaptive { rtol, atol } => self.advance_adaptive(Tolerance { rtol, atol }, limit),
+        }
+    }
+
+    fn dense(&mut self) -> DenseStep<'_> {
+        if !self.prepared {
+            let ends = Ends { h: self.t - self.t_old, old: &self.old.state, new: &self.new.state };
+            self.interpolant.prepare_hermite((&self.old.slope, &self.new.slope), &ends);
+            self.prepared = true;
+        }
+        let (old, new) = (&self.old.state[..], &self.new.state[..]);
+        DenseStep { t_old: self.t_old, t: self.t, old, new, interpolant: &self.interpolant }
+    }
+
+    fn step_to(&mut self, t: f64, out: &mut [f64]) {
+        self.restep_to(t);
+        out.copy_from_slice(&self.trial.state);
+    }
+
+    fn end_step_at(&mut self, t: f64) {
+        self.restep_to(t);
+        self.restep.copy_to(self.tableau.stages(), &mut self.stages);
+        std::mem::swap(&mut self.new, &mut self.trial);
+        self.t = t;
+        self.origin = (t, 0);
+        self.prepared = false;
+    }
+
+    fn t(&self) -> f64 {
+        self.t
+    }
+
+    fn t_old(&self) -> f64 {
+        self.t_old
+    }
+
+    fn state(&self) -> &[f64] {
+        &self.new.state
+    }
+
+    fn slope(&self) -> &[f64] {
+        &self.new.slope
+    }
+
+    fn counters(&self) -> Counters {
+        self.counters
+    }
+}

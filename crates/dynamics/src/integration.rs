@@ -1,0 +1,36 @@
+//! What every integration has in common: all that the driver and the sections ask of an orbit.
+
+use crate::orbit::{Counters, DenseStep, StepFailure};
+
+/// An initial-value problem in progress, one accepted step at a time.
+pub trait Integration {
+    /// Takes one step, ending at `limit` (later than [`Integration::t`]) at the latest.
+    ///
+    /// # Errors
+    /// [`StepFailure`], with the orbit where it was.
+    fn advance(&mut self, limit: f64) -> Result<(), StepFailure>;
+
+    /// The last step as a function of time.
+    fn dense(&mut self) -> DenseStep<'_>;
+
+    /// Writes the state at `t` inside the last step by a true step of the method from its start.
+    fn step_to(&mut self, t: f64, out: &mut [f64]);
+
+    /// Moves the end of the last step back to `t` (by a true step from its start): the orbit goes on from there.
+    fn end_step_at(&mut self, t: f64);
+
+    /// Current time.
+    fn t(&self) -> f64;
+
+    /// Time at the start of the last step.
+    fn t_old(&self) -> f64;
+
+    /// Current state.
+    fn state(&self) -> &[f64];
+
+    /// Rates at the current state.
+    fn slope(&self) -> &[f64];
+
+    /// The work done so far.
+    fn counters(&self) -> Counters;
+}

@@ -1,0 +1,203 @@
+//! The shape equation (C) in Fourier modes: the form that is computed.
+//!
+//! `phi(s) = sum_n phi_n exp(i k_n s)` with `phi_{-n} = conj(phi_n)`: only `n >= 1` is kept, so phi is real by
+//! construction and no anti-Hermitian part can grow. The mean `phi_0` is constant in time, because every term of (C)
+//! is a derivative: it is no unknown (see [`super::Cell::with_mean`]). With `k = k_1`, exactly dealiased:
+//!
+//! `phi_n' = sigma_n phi_n + (i n/2) sum_{p+q=n} (g5 k^5 p^2 q^2 - g4 k^3 p q) phi_p phi_q`,
+//! `sigma_n = -g1 k_n^2 + g2 k_n^4 - g3 k_n^6`.
+//!
+//! Source: paper, the equation for phi_t with g1 .. g5.
+
+use super::CellParameters;
+use motiform_dynamics::simd::{self, Kernel};
+use motiform_dynamics::{Lanes, Scalar, Semilinear, System, VectorField};
+
+/// Most modes that can be computed (a convolution keeps its operands on the stack).
+pub const MAX_MODES: usize = 128;
+
+/// The shape field: state `(Re phi_1, Im phi_1, Re phi_2, Im phi_2, ...)`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellField<P> {
+    /// `sigma_n`, `n = 1 ..`.
+    rates: Vec<P>,
+    /// `g5 k^5 / 2`.
+    bending: P,
+    /// `-g4 k^3 / 2`, if the term is there.
+    stretching: Option<P>,
+}
+
+impl CellField<f64> {
+    /// The field with `modes` modes.
+    #[must_use]
+    pub fn new(p: &CellParameters, modes: usize) -> Self {
+        let k = p.wavenumber();
+        let rate = |n: usize| {
+            let square = (n as f64 * k) * (n as f64 * k);
+            -p.g1 * square + p.g2 * square * square - p.g3 * square * square * square
+        };
+        let cube = k * k * k;
+        Self {
+            rates: (1..=modes).map(rate).collect(),
+            bending: 0.5 * p.g5 * cube * k * k,
+            stretching: (p.g4 != 0.0).then_some(-0.5 * p.g4 * cube),
+        }
+    }
+}
+
+impl<const N: usize> CellField<Lanes<N>> {
+    /// One field per lane; all must have the same number of modes.
+    #[must_use]
+    pub fn bundle(each: &[CellField<f64>; N]) -> Self {
+        let gather =
+            |get: &dyn Fn(&CellField<f64>) -> f64| Lanes(std::array::from_fn(|lane| get(&each[lane])));
+        let stretched = each.iter().any(|field| field.stretching.is_some());
+        Self {
+            rates: (0..each[0].rates.len()).map(|n| gather(&|field| field.rates[n])).collect(),
+            bending: gather(&|field| field.bending),
+            stretching: stretched.then(|| gather(&|field| field.stretching.unwrap_or(0.0))),
+        }
+    }
+}
+
+impl<P> CellField<P> {
+    /// Number of modes.
+    #[must_use]
+    pub fn modes(&self) -> usize {
+        self.rates.len()
+    }
+
+    /// Growth rates `sigma_n` of the modes, `n = 1 ..` (inverse model time).
+    #[must_use]
+    pub fn rates(&self) -> &[P] {
+        &self.rates
+    }
+}
+
+impl<P> System for CellField<P> {
+    fn dim(&self) -> usize {
+        2 * self.rates.len()
+    }
+}
+
+/// Complex numbers of the modes in two rows; index `n - 1` holds mode `n`.
+struct Rows<T> {
+    re: [T; MAX_MODES],
+    im: [T; MAX_MODES],
+}
+
+impl<T: Scalar> Rows<T> {
+    #[inline(always)]
+    fn zero(like: T) -> Self {
+        Self { re: [like.zero(); MAX_MODES], im: [like.zero(); MAX_MODES] }
+    }
+
+    /// `n^power phi_n`.
+    #[inline(always)]
+    fn derivative(u: &[T], power: i32) -> Self {
+        let mut rows = Self::zero(u[0]);
+        for (i, mode) in u.chunks_exact(2).enumerate() {
+            let factor = (i as f64 + 1.0).powi(power);
+            rows.re[i] = mode[0] * factor;
+            rows.im[i] = mode[1] * factor;
+        }
+        rows
+    }
+
+    /// `rate_n += factor i n rows_n`.
+    #[inline(always)]
+    fn add_derivative(&self, factor: T::Real, du: &mut [T]) {
+        for (i, rate) in du.chunks_exact_mut(2).enumerate() {
+            let n = i as f64 + 1.0;
+            rate[0] += (self.im[i] * -n).scale(factor);
+            rate[1] += (self.re[i] * n).scale(factor);
+        }
+    }
+}
+
+/// `sum_{p+q=n} a_p a_q` over all `p, q` of either sign, for `n = 1 ..= modes`; `a_{-p} = sign conj(a_p)`.
+///
+/// Sums run over whole rows, so that they become vector instructions without changing their order.
+#[inline(always)]
+fn convolve<T: Scalar>(a: &Rows<T>, modes: usize, sign: f64) -> Rows<T> {
+    let mut out = Rows::zero(a.re[0]);
+    for p in 1..modes {
+        // a_p a_q, p < q, at n = p + q
+        let (re, im) = (a.re[p - 1], a.im[p - 1]);
+        if 2 * p < modes {
+            let (to, from) = (2 * p..modes, p..modes - p);
+            let target = out.re[to.clone()].iter_mut().zip(&mut out.im[to]);
+            let source = a.re[from.clone()].iter().zip(&a.im[from]);
+            for ((x, y), (&q_re, &q_im)) in target.zip(source) {
+                *x += q_re * re - q_im * im;
+                *y += q_re * im + q_im * re;
+            }
+        }
+        // a_{n+p} a_{-p}
+        let (re, im) = (re * sign, im * -sign);
+        let target = out.re[..modes - p].iter_mut().zip(&mut out.im[..modes - p]);
+        let source = a.re[p..modes].iter().zip(&a.im[p..modes]);
+        for ((x, y), (&q_re, &q_im)) in target.zip(source) {
+            *x += q_re * re - q_im * im;
+            *y += q_re * im + q_im * re;
+        }
+    }
+    for n in 0..modes {
+        (out.re[n], out.im[n]) = (out.re[n] * 2.0, out.im[n] * 2.0);
+    }
+    for p in 1..=modes / 2 {
+        let (re, im) = (a.re[p - 1], a.im[p - 1]);
+        out.re[2 * p - 1] += re * re - im * im;
+        out.im[2 * p - 1] += re * im * 2.0;
+    }
+    out
+}
+
+impl<T: Scalar<Real = P>, P: Scalar<Real = P>> VectorField<T> for CellField<P> {
+    #[inline]
+    fn eval(&self, t: P, u: &[T], du: &mut [T]) {
+        self.nonlinear(t, u, du);
+        for ((rates, modes), &sigma) in du.chunks_exact_mut(2).zip(u.chunks_exact(2)).zip(&self.rates) {
+            rates[0] += modes[0].scale(sigma); // (C), g1, g2, g3
+            rates[1] += modes[1].scale(sigma);
+        }
+    }
+}
+
+impl<T: Scalar<Real = P>, P: Scalar<Real = P>> Semilinear<T> for CellField<P> {
+    fn linear(&self, lambda: &mut [P]) {
+        for (pair, &sigma) in lambda.chunks_exact_mut(2).zip(&self.rates) {
+            pair.fill(sigma);
+        }
+    }
+
+    #[inline]
+    fn nonlinear(&self, _t: P, u: &[T], du: &mut [T]) {
+        simd::run(Quadratic { field: self, u, du });
+    }
+}
+
+/// The quadratic terms of (C).
+struct Quadratic<'a, T, P> {
+    field: &'a CellField<P>,
+    u: &'a [T],
+    du: &'a mut [T],
+}
+
+impl<T: Scalar<Real = P>, P: Scalar<Real = P>> Kernel for Quadratic<'_, T, P> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let modes = self.field.modes();
+        let square = convolve(&Rows::derivative(self.u, 2), modes, 1.0); // phi_ss^2
+        for x in self.du.iter_mut() {
+            *x = x.zero();
+        }
+        square.add_derivative(self.field.bending, self.du); // (C), g5
+        if let Some(stretching) = self.field.stretching {
+            let square = convolve(&Rows::derivative(self.u, 1), modes, -1.0); // phi_s^2
+            square.add_derivative(stretching, self.du); // (C), g4
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! The boundary as a curve: integrated from its normals, measured, and checked for crossing itself.
+
+use super::Cell;
+use super::circle::Circle;
+use std::f64::consts::TAU;
+
+/// A closed boundary with its centroid (of the area) at the origin.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Boundary {
+    /// Points at equal arc length, anticlockwise, the first (at s = 0) not repeated.
+    pub points: Vec<[f64; 2]>,
+    /// Length of the curve, from its own tangents; equal to the parameter `length` up to the closure residual.
+    pub length: f64,
+    /// Enclosed area (negative parts of a curve that crosses itself count negative).
+    pub area: f64,
+    /// `|int n ds| / L` that closing left.
+    pub closure_residual: f64,
+    /// Root mean square of the error function in angles, `k_1 eps` (rad): how far the free solution was from closed.
+    pub correction: f64,
+    /// Newton steps that closing took.
+    pub steps: usize,
+    /// Where the curve crosses itself first, if it does.
+    pub crossing: Option<[f64; 2]>,
+}
+
+/// The curve in complex Fourier modes: `X = sum_m X_m exp(i k_m s)`, `x + i y`; entry `m + half`.
+struct Curve {
+    half: usize,
+    modes: Vec<[f64; 2]>,
+}
+
+impl Cell {
+    /// The boundary of a shape, with `points` points.
+    ///
+    /// `dX/ds = t = -i n`: the paper's n points inwards (`dt/ds = kappa n`, kappa > 0 on a circle run anticlockwise).
+    ///
+    /// # Errors
+    /// The residual of (CLOSE), where the boundary could not be closed.
+    pub fn boundary(&self, shape: &[f64], points: usize) -> Result<Boundary, f64> {
+        let closed = self.close(shape)?;
+        let curve =
+            Curve::new(&self.circle, &closed.normals.cos, &closed.normals.sin, self.parameters.length);
+        let k = self.parameters.wavenumber();
+        let area = 0.5 * self.parameters.length * curve.sum(|m, [x, y]| m * k * (x * x + y * y));
+        let fine = curve.points(4 * self.circle.points());
+        let centre = centroid(&fine);
+        let speed = |j: usize| curve.tangent(k, self.parameters.length * j as f64 / fine.len() as f64);
+        let length = (0..fine.len()).map(speed).sum::<f64>() * self.parameters.length / fine.len() as f64;
+        let drawn: Vec<[f64; 2]> =
+            curve.points(points).iter().map(|p| [p[0] - centre[0], p[1] - centre[1]]).collect();
+        Ok(Boundary {
+            crossing: first_crossing(&drawn),
+            points: drawn,
+            length,
+            area,
+            closure_residual: closed.residual,
+            correction: closed.correction,
+            steps: closed.steps,
+        })
+    }
+}
+
+impl Curve {
+    /// `X_m = -n_m / k_m` for `m != 0`, from the modes of `n` at the points.
+    fn new(circle: &Circle, cos: &[f64], sin: &[f64], length: f64) -> Self {
+        let points = circle.points();
+        let half = points / 2 - 1;
+        let mode = |index: usize| {
+            if index == half {
+                return [0.0; 2];
+            }
+            let mut sum = [0.0; 2];
+            let m = (index + points - half) % points; // m modulo the number of points
+            for j in 0..points {
+                let (s, c) = libm::sincos(-TAU * ((m * j) % points) as f64 / points as f64);
+                sum[0] += cos[j] * c - sin[j] * s;
+                sum[1] += cos[j] * s + sin[j] * c;
+            }
+            let scale = -length / (TAU * (index as f64 - half as f64) * points as f64);
+            sum.map(|x| x * scale)
+        };
+        Self { half, modes: (0..=2 * half).map(mode).collect() }
+    }
+
+    /// The sum over modes of `term(m, X_m)`.
+    fn sum(&self, term: impl Fn(f64, [f64; 2]) -> f64) -> f64 {
+        self.modes.iter().enumerate().map(|(i, &x)| term(i as f64 - self.half as f64, x)).sum()
+    }
+
+    /// `points` points at equal arc length.
+    fn points(&self, points: usize) -> Vec<[f64; 2]> {
+        (0..points).map(|j| self.at(TAU * j as f64 / points as f64, |_| 1.0)).collect()
+    }
+
+    /// `sum_m factor(m) X_m exp(i m angle)`.
+    fn at(&self, angle: f64, factor: impl Fn(f64) -> f64) -> [f64; 2] {
+        let (sin, cos) = libm::sincos(angle);
+        let (mut s, mut c) = libm::sincos(-angle * self.half as f64);
+        let mut sum = [0.0; 2];
+        for (i, x) in self.modes.iter().enumerate() {
+            let f = factor(i as f64 - self.half as f64);
+            sum[0] += f * (x[0] * c - x[1] * s);
+            sum[1] += f * (x[0] * s + x[1] * c);
+            (s, c) = (s * cos + c * sin, c * cos - s * sin);
+        }
+        sum
+    }
+
+    /// `|dX/ds|` at arc length `s`.
+    fn tangent(&self, k: f64, s: f64) -> f64 {
+        let [x, y] = self.at(k * s, |m| k * m);
+        libm::hypot(x, y)
+    }
+}
+
+/// Centroid of the area inside a polygon.
+fn centroid(points: &[[f64; 2]]) -> [f64; 2] {
+    let next = points.iter().cycle().skip(1);
+    let (mut area, mut x, mut y) = (0.0, 0.0, 0.0);
+    for (p, q) in points.iter().zip(next) {
+        let cross = p[0] * q[1] - p[1] * q[0];
+        area += cross;
+        x += cross * (p[0] + q[0]);
+        y += cross * (p[1] + q[1]);
+    }
+    [x / (3.0 * area), y / (3.0 * area)]
+}
+
+/// Where a closed polygon crosses itself first, looking along it from its first point.
+#[must_use]
+pub fn first_crossing(points: &[[f64; 2]]) -> Option<[f64; 2]> {
+    let n = points.len();
+    let edge = |i: usize| (points[i], points[(i + 1) % n]);
+    (0..n)
+        .flat_map(|i| (i + 2..n).filter(move |&j| (j + 1) % n != i).map(move |j| (i, j)))
+        .find_map(|(i, j)| crossing(edge(i), edge(j)))
+}
+
+/// Where two segments cross, if they do.
+fn crossing((a, b): ([f64; 2], [f64; 2]), (c, d): ([f64; 2], [f64; 2])) -> Option<[f64; 2]> {
+    let (u, v) = ([b[0] - a[0], b[1] - a[1]], [d[0] - c[0], d[1] - c[1]]);
+    let w = [c[0] - a[0], c[1] - a[1]];
+    let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
+    let denominator = cross(u, v);
+    let (along, across) = (cross(w, v) / denominator, cross(w, u) / denominator);
+    let inside = |x: f64| (0.0..=1.0).contains(&x);
+    (inside(along) && inside(across)).then(|| [a[0] + along * u[0], a[1] + along * u[1]])
+}

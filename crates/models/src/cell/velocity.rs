@@ -1,0 +1,88 @@
+//! The velocity (VEL): the closed boundary pushes along its normals.
+
+use super::Cell;
+use super::circle::MAX_POINTS;
+use super::closure::Closed;
+use motiform_dynamics::Scalar;
+use motiform_dynamics::simd::Kernel;
+
+impl Cell {
+    /// The closed boundary of a shape.
+    ///
+    /// # Errors
+    /// The residual of (CLOSE), where it could not be closed.
+    #[inline(always)]
+    pub(super) fn close<T: Scalar<Real = f64>>(&self, shape: &[T]) -> Result<Closed<T>, f64> {
+        let points = self.circle.points();
+        let k = self.parameters.wavenumber();
+        // normal angle k_1 (s + phi)
+        let mut theta = [shape[0].zero(); MAX_POINTS];
+        for (j, angle) in theta[..points].iter_mut().enumerate() {
+            *angle = angle.constant(std::f64::consts::TAU * j as f64 / points as f64 + k * self.mean);
+        }
+        self.circle.add_modes(shape, |_| k, &mut theta[..points]);
+        let first = [2.0 * k * shape[0].real(), -2.0 * k * shape[1].real()];
+        self.closure.solve(&self.circle, &theta[..points], first)
+    }
+
+    /// `v = ((2 pi)^2 / L^3) int (alpha2 phi_s^2 + alpha3 phi_ss^2) n ds`, with the normals of the closed boundary; not a
+    /// number where it cannot be closed (see `obstacle`).
+    #[inline(always)]
+    pub(super) fn push<T: Scalar<Real = f64>>(&self, shape: &[T]) -> [T; 2] {
+        let Ok(closed) = self.close(shape) else { return [shape[0].constant(f64::NAN); 2] };
+        let points = self.circle.points();
+        let (p, k) = (&self.parameters, self.parameters.wavenumber());
+        let mut push = [shape[0].zero(); MAX_POINTS];
+        if p.alpha2 != 0.0 {
+            self.add_square(shape, 1, p.alpha2, &mut push[..points]); // (VEL), alpha2
+        }
+        self.add_square(shape, 2, p.alpha3_total(), &mut push[..points]); // (VEL), alpha3
+        let mut v = [shape[0].zero(); 2];
+        for (j, &w) in push[..points].iter().enumerate() {
+            v[0] += w * closed.normals.cos[j];
+            v[1] += w * closed.normals.sin[j];
+        }
+        v.map(|sum| sum * (k * k / points as f64))
+    }
+
+    /// `out_j += alpha (d^power phi / ds^power)^2`.
+    #[inline(always)]
+    fn add_square<T: Scalar>(&self, shape: &[T], power: i32, alpha: f64, out: &mut [T]) {
+        let mut wave = [shape[0].zero(); MAX_POINTS];
+        self.derivative(shape, power, &mut wave[..out.len()]);
+        for (x, &w) in out.iter_mut().zip(&wave) {
+            *x += w * w * alpha;
+        }
+    }
+
+    /// `d^power phi / ds^power` at the points, for power 1 or 2.
+    #[inline(always)]
+    fn derivative<T: Scalar>(&self, shape: &[T], power: i32, out: &mut [T]) {
+        let k = self.parameters.wavenumber();
+        for (i, mode) in shape.chunks_exact(2).enumerate() {
+            let wave = k * (i as f64 + 1.0);
+            let waves = if power == 2 {
+                let factor = -2.0 * wave * wave;
+                [mode[0] * factor, mode[1] * -factor]
+            } else {
+                [mode[1] * (-2.0 * wave), mode[0] * (-2.0 * wave)]
+            };
+            self.circle.add_wave(i + 1, waves, out);
+        }
+    }
+}
+
+/// [`Cell::push`] as a kernel.
+pub(super) struct Push<'a, T> {
+    pub(super) cell: &'a Cell,
+    pub(super) shape: &'a [T],
+}
+
+impl<T: Scalar<Real = f64>> Kernel for Push<'_, T> {
+    type Output = [T; 2];
+
+    #[inline(always)]
+    fn run(self) -> [T; 2] {
+        self.cell.push(self.shape)
+    }
+}
