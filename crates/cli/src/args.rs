@@ -80,7 +80,8 @@ pub(crate) struct SimulateOptions {
     /// Model time between recorded states (default: t-end / 2000)
     #[arg(long, value_name = "D", value_parser = number, allow_negative_numbers = true)]
     pub(crate) dt_out: Option<f64>,
-    /// euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive)
+    /// euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for the stiff cell model ifrk4, etdrk4 (fixed step),
+    /// krogstad4 (adaptive)
     #[arg(long, value_name = "NAME")]
     pub(crate) stepper: Option<String>,
     /// Step of fixed-step steppers

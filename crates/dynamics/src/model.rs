@@ -80,6 +80,25 @@ pub trait Model: Semilinear<f64> + Shape<f64> + Shape<Dual<f64, 1>> + Send + Syn
     /// Writes the observables of a shape.
     fn observe(&self, shape: &[f64], out: &mut [f64]);
 
+    /// Quantities of the boundary that a run reports beside the shape (length, area, ...); none by default.
+    fn measures(&self) -> &[Observable] {
+        &[]
+    }
+
+    /// Writes the measures of a shape; not a number where the boundary does not exist.
+    fn measure(&self, _shape: &[f64], _out: &mut [f64]) {}
+
+    /// A scalar on the boundary (phi of the active cell, mean included) at `points` points of equal arc length;
+    /// `None` for models without one.
+    fn profile(&self, _shape: &[f64], _points: usize) -> Option<Vec<f64>> {
+        None
+    }
+
+    /// Radius of the undeformed body, where the model fixes it; otherwise it is a choice of whoever draws.
+    fn radius(&self) -> Option<f64> {
+        None
+    }
+
     /// The boundary for this shape: `points` points around a body of undeformed radius `radius` (model length).
     fn outline(&self, shape: &[f64], radius: f64, points: usize) -> Outline;
 

@@ -18,6 +18,10 @@ pub struct ModelInfo {
     pub equations: &'static str,
     /// Where it comes from.
     pub source: &'static str,
+    /// The stepper to use by default.
+    pub stepper: &'static str,
+    /// The relative and the absolute tolerance to use by default.
+    pub tolerances: (f64, f64),
     parameters: fn() -> &'static [ParameterSpec],
     coordinates: fn(&[f64]) -> &'static [Coordinate],
     build: Build,
@@ -33,6 +37,8 @@ pub static MODELS: &[ModelInfo] = &[
         title: "velocity, ellipse and triangle of one domain, coupled by symmetry (6 unknowns, 21 parameters)",
         equations: TENSOR_EQUATIONS,
         source: "Hiraiwa, Ohkuma, Ohta, Matsuo, Sano, EPL (2010), eqs. (V), (S), (U)",
+        stepper: "dop853",
+        tolerances: (1e-9, 1e-12),
         parameters: TensorParameters::specs,
         coordinates: |_| &tensor::COORDINATES,
         build: |values| Ok(Box::new(Tensor::new(&from_values::<TensorParameters>(values)))),
@@ -42,6 +48,8 @@ pub static MODELS: &[ModelInfo] = &[
         title: "active cell: a closed boundary that deforms by itself and moves by its deformation",
         equations: CELL_EQUATIONS,
         source: "Hiraiwa, Ohkuma, Ohta, Matsuo, Sano, EPL (2010), eqs. (C), (VEL), (CLOSE)",
+        stepper: "krogstad4",
+        tolerances: (1e-6, 1e-7), // high modes are tiny: their digits do not matter
         parameters: CellParameters::specs,
         coordinates: |values| from_values::<CellParameters>(values).coordinates(),
         build: |values| Ok(Box::new(Cell::new(&from_values::<CellParameters>(values))?)),

@@ -55,7 +55,8 @@ fn run(cell: &Cell, seed: u64, transient: f64, span: f64, every: f64) -> Traject
 }
 
 fn measure(cell: &Cell, path: &Trajectory) -> Measures {
-    let (mut speeds, mut turns, mut sizes) = ((f64::INFINITY, 0.0_f64), (f64::INFINITY, f64::NEG_INFINITY), vec![]);
+    let (mut speeds, mut turns, mut sizes) =
+        ((f64::INFINITY, 0.0_f64), (f64::INFINITY, f64::NEG_INFINITY), vec![]);
     for (_, shape) in path.iter() {
         let (v, a) = velocity_and_acceleration(cell, shape);
         let speed = v[0].hypot(v[1]);
@@ -80,7 +81,10 @@ fn measure(cell: &Cell, path: &Trajectory) -> Measures {
 
 #[test]
 fn explore() {
-    for length in [6.2, 6.5, 9.0, 12.0, 12.5, 12.8, 13.2, 14.0, 14.5, 15.5, 18.0, 20.5, 21.3, 21.6, 21.8, 22.2, 24.0, 28.0, 29.2, 29.6, 30.5] {
+    for length in [
+        6.2, 6.5, 9.0, 12.0, 12.5, 12.8, 13.2, 14.0, 14.5, 15.5, 18.0, 20.5, 21.3, 21.6, 21.8, 22.2, 24.0,
+        28.0, 29.2, 29.6, 30.5,
+    ] {
         let cell = cell(length);
         for seed in 1..=2 {
             let clock = std::time::Instant::now();

@@ -37,6 +37,11 @@ pub struct Manifest {
     pub state: Named,
     /// The position at the end.
     pub position: [f64; 2],
+    /// The velocity at the end.
+    pub velocity: [f64; 2],
+    /// What the model measures of its boundary at the end (length, area, ...).
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub measures: Named,
     /// The centre that was put on the origin, where the return map asked for that.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub centre: Option<[f64; 2]>,

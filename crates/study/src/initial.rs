@@ -10,9 +10,11 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 /// The complete start: if any shape value is given, the others are 0; if none is, each is drawn uniformly from
 /// `-random .. random` by a counter-based generator. The position is `x = y = 0` unless given.
 pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
+    let values = study.values()?;
+    let coordinates = info.coordinates(&values);
     let given = |name: &str| study.initial.iter().find(|(known, _)| known == name).map(|entry| entry.1);
     for (name, value) in &study.initial {
-        info.coordinate(name)?;
+        info.coordinate(&values, name)?;
         if !value.is_finite() {
             return Err(Error::Setting {
                 key: "initial",
@@ -21,10 +23,10 @@ pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
             });
         }
     }
-    let draw = !info.coordinates.iter().any(|coordinate| given(coordinate.name).is_some());
+    let draw = !coordinates.iter().any(|coordinate| given(coordinate.name).is_some());
     let mut random = Uniform::new(study.run.seed, 0);
     let mut entries: Vec<(String, f64)> = Vec::new();
-    for coordinate in info.coordinates {
+    for coordinate in coordinates {
         let value = if draw { study.random * random.next() } else { given(coordinate.name).unwrap_or(0.0) };
         entries.push((coordinate.name.to_owned(), value));
     }

@@ -4,7 +4,7 @@ use crate::error::nearest_of;
 use crate::study::{FigureSettings, ReturnMapSettings, Study};
 use crate::{Error, initial};
 use motiform_dynamics::StepControl;
-use motiform_dynamics::steppers::{self, STEPPERS, Tableau};
+use motiform_dynamics::steppers::Method;
 use motiform_models::ModelInfo;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -88,6 +88,12 @@ impl Named {
         self.0.iter().map(|entry| entry.1).collect()
     }
 
+    /// Whether there is nothing in it.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// The value of a name.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<f64> {
@@ -130,7 +136,7 @@ impl Plan {
     /// [`Error`] naming the key, the value and the remedy.
     pub fn new(study: &Study) -> Result<Self, Error> {
         let info = study.info()?;
-        let tableau = stepper(&study.run.stepper)?;
+        let method = stepper(&study.run.stepper)?;
         let run = &study.run;
         check("t_end", run.t_end, run.t_end > 0.0, "give a time above 0")?;
         check("transient", run.transient, run.transient >= 0.0, "give a time of at least 0")?;
@@ -151,8 +157,9 @@ impl Plan {
             check("return_map.x_max", map.x_max, map.x_min < map.x_max, "give a number above x_min")?;
         }
         check_figure(&study.figure)?;
-        let control = control(study, tableau)?;
-        let parameters = parameters(study, info);
+        let control = control(study, method)?;
+        let names = info.parameters().iter().map(|spec| spec.name.to_owned());
+        let parameters = Named(names.zip(study.values()?).collect());
         info.build(&parameters.values())?;
         let computation = Computation {
             format: PLAN_FORMAT,
@@ -163,7 +170,7 @@ impl Plan {
             transient: run.transient,
             t_end: run.t_end,
             dt_out,
-            stepper: tableau.name.to_owned(),
+            stepper: method.name().to_owned(),
             control,
             max_steps: run.max_steps,
             escape_norm: run.escape_norm,
@@ -192,7 +199,7 @@ impl Plan {
     ///
     /// # Errors
     /// An unknown stepper.
-    pub fn tableau(&self) -> Result<&'static Tableau, Error> {
+    pub fn method(&self) -> Result<Method, Error> {
         stepper(&self.computation.stepper)
     }
 }
@@ -222,26 +229,20 @@ pub fn check_figure(figure: &FigureSettings) -> Result<(), Error> {
     Ok(())
 }
 
-fn stepper(name: &str) -> Result<&'static Tableau, Error> {
-    steppers::find(name).ok_or_else(|| {
-        let known: Vec<&'static str> = STEPPERS.iter().map(|stepper| stepper.name).collect();
+fn stepper(name: &str) -> Result<Method, Error> {
+    Method::find(name).ok_or_else(|| {
+        let known = Method::names();
         Error::UnknownStepper { name: name.to_owned(), nearest: nearest_of(name, &known), known }
     })
 }
 
-fn control(study: &Study, tableau: &'static Tableau) -> Result<Control, Error> {
+fn control(study: &Study, method: Method) -> Result<Control, Error> {
     let run = &study.run;
-    let control = if tableau.is_adaptive() {
+    let control = if method.is_adaptive() {
         Control::Adaptive { rtol: run.rtol, atol: run.atol }
     } else {
         Control::Fixed { step: run.step }
     };
-    StepControl::from(control).validate(tableau)?;
+    method.validate(control.into())?;
     Ok(control)
-}
-
-fn parameters(study: &Study, info: &ModelInfo) -> Named {
-    let given = |name: &str| study.parameters.iter().find(|(known, _)| known == name).map(|entry| entry.1);
-    let specs = info.parameters().iter();
-    Named(specs.map(|spec| (spec.name.to_owned(), given(spec.name).unwrap_or(spec.default))).collect())
 }

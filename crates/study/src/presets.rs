@@ -30,6 +30,7 @@ macro_rules! presets {
 
 presets! {
     "tensor": "fig1", "fig2", "fig3", "fig4", "fig5a", "fig5b";
+    "cell": "fig6a", "fig6b", "fig6c", "fig6d";
 }
 
 /// The names of a model's presets.

@@ -6,9 +6,9 @@ use crate::plan::{Computation, Named, Plan};
 use crate::study::ReturnMapSettings;
 use crate::table::Table;
 use motiform_dynamics::drive::drive;
-use motiform_dynamics::model::{turning_rate, velocity_and_acceleration};
+use motiform_dynamics::model::{turning_rate, velocity, velocity_and_acceleration};
 use motiform_dynamics::section::Crossing;
-use motiform_dynamics::{Direction, InPlane, Model, Orbit, Outcome, Request, Section, Sink, Trajectory};
+use motiform_dynamics::{Direction, InPlane, Model, Outcome, Request, Section, Sink, Trajectory};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -93,7 +93,7 @@ impl Run<'_> {
         if c.transient == 0.0 {
             return Ok((None, u));
         }
-        let mut orbit = Orbit::new(self.body, self.plan.tableau()?, c.control.into(), -c.transient, &u)?;
+        let mut orbit = self.plan.method()?.orbit(self.body, c.control.into(), -c.transient, &u)?;
         let total = c.transient + passes * c.t_end;
         let mut sink = Watched {
             trajectory: None,
@@ -104,7 +104,7 @@ impl Run<'_> {
             ticks: 0,
         };
         let request = Request { t_end: 0.0, ..self.request(&[]) };
-        let outcome = drive(&mut orbit, &request, &mut sink)?;
+        let outcome = drive(orbit.as_mut(), &request, &mut sink)?;
         let shape = ..u.len() - 2;
         u[shape].copy_from_slice(&orbit.state()[shape]);
         Ok(((!outcome.is_complete()).then_some(outcome), u))
@@ -131,7 +131,7 @@ impl Run<'_> {
 
     fn record(&self, start: &[f64], passes: f64, pass: f64) -> Result<Recording, Error> {
         let c = self.computation;
-        let mut orbit = Orbit::new(self.body, self.plan.tableau()?, c.control.into(), 0.0, start)?;
+        let mut orbit = self.plan.method()?.orbit(self.body, c.control.into(), 0.0, start)?;
         let mut trajectory = Trajectory::new(start.len());
         let height = c.return_map.as_ref().map_or(0.0, |map| map.y);
         let above = |_t: f64, u: &[f64]| u[u.len() - 1] - height;
@@ -148,7 +148,7 @@ impl Run<'_> {
             total,
             ticks: 0,
         };
-        let outcome = drive(&mut orbit, &request, &mut sink)?;
+        let outcome = drive(orbit.as_mut(), &request, &mut sink)?;
         let counters = orbit.counters();
         let last = orbit.state().to_vec();
         Ok(Recording { outcome, trajectory, last, steps: counters.steps, rejected: counters.rejected })
@@ -169,6 +169,8 @@ impl Run<'_> {
             rejected_steps: recording.rejected,
             state: Named(names.zip(values).collect()),
             position: [position[0], position[1]],
+            velocity: velocity(self.model, shape),
+            measures: measures(self.model, shape),
             centre,
         };
         let map = self.computation.return_map.as_ref();
@@ -241,12 +243,16 @@ fn motion(model: &dyn Model, trajectory: &Trajectory) -> Table {
     table.push("y", "position of the centre of mass (model length)", read(&|u| u[u.len() - 1]));
     let mut coordinates = vec![Vec::with_capacity(rows); model.coordinates().len()];
     let mut observed = vec![Vec::with_capacity(rows); model.observables().len()];
+    let mut measured = vec![Vec::with_capacity(rows); model.measures().len()];
     let (mut named, mut seen) = (vec![0.0; coordinates.len()], vec![0.0; observed.len()]);
+    let mut boundary = vec![0.0; measured.len()];
     let (mut speed, mut turning) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
     for (_, u) in trajectory.iter() {
         model.decode(&u[shape], &mut named);
         model.observe(&u[shape], &mut seen);
-        for (column, &value) in coordinates.iter_mut().zip(&named).chain(observed.iter_mut().zip(&seen)) {
+        model.measure(&u[shape], &mut boundary);
+        let columns = coordinates.iter_mut().chain(&mut observed).chain(&mut measured);
+        for (column, &value) in columns.zip(named.iter().chain(&seen).chain(&boundary)) {
             column.push(value);
         }
         let (v, a) = velocity_and_acceleration(model, &u[shape]);
@@ -265,7 +271,18 @@ fn motion(model: &dyn Model, trajectory: &Trajectory) -> Table {
     for (observable, values) in model.observables().iter().zip(observed) {
         table.push(observable.name, observable.meaning, values);
     }
+    for (measure, values) in model.measures().iter().zip(measured) {
+        table.push(measure.name, measure.meaning, values);
+    }
     table
+}
+
+/// The measures of a shape that are defined, by name.
+fn measures(model: &dyn Model, shape: &[f64]) -> Named {
+    let mut values = vec![0.0; model.measures().len()];
+    model.measure(shape, &mut values);
+    let names = model.measures().iter().map(|measure| measure.name.to_owned());
+    Named(names.zip(values).filter(|entry| !entry.1.is_nan()).collect())
 }
 
 /// The crossings of the segment, in order.

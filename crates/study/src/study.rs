@@ -42,7 +42,8 @@ pub struct RunSettings {
     pub transient: f64,
     /// Time between recorded states; 0 chooses t_end / 2000.
     pub dt_out: f64,
-    /// Stepper: euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive).
+    /// Stepper: euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for stiff models ifrk4, etdrk4 (fixed step),
+    /// krogstad4 (adaptive).
     pub stepper: String,
     /// Relative tolerance of adaptive steppers, 1e-14 to 0.1.
     pub rtol: f64,
@@ -119,7 +120,12 @@ impl Study {
             parameters: Vec::new(),
             initial: Vec::new(),
             random: 0.01,
-            run: RunSettings::default(),
+            run: RunSettings {
+                stepper: info.stepper.to_owned(),
+                rtol: info.tolerances.0,
+                atol: info.tolerances.1,
+                ..RunSettings::default()
+            },
             return_map: None,
             figure: FigureSettings { animation: true, ..FigureSettings::default() },
         }
@@ -178,6 +184,16 @@ impl Study {
         Ok(ModelInfo::find(self.model)?)
     }
 
+    /// All parameter values, in registry order.
+    ///
+    /// # Errors
+    /// An unknown model.
+    pub fn values(&self) -> Result<Vec<f64>, Error> {
+        let given = |name: &str| self.parameters.iter().find(|(known, _)| known == name).map(|entry| entry.1);
+        let specs = self.info()?.parameters().iter();
+        Ok(specs.map(|spec| given(spec.name).unwrap_or(spec.default)).collect())
+    }
+
     /// Sets a parameter, replacing an earlier value.
     ///
     /// # Errors
@@ -194,7 +210,7 @@ impl Study {
     /// # Errors
     /// An unknown name (with the nearest one).
     pub fn set_initial(&mut self, name: &str, value: f64) -> Result<(), Error> {
-        self.info()?.coordinate(name)?;
+        self.info()?.coordinate(&self.values()?, name)?;
         replace(&mut self.initial, name, value);
         Ok(())
     }
@@ -324,7 +340,8 @@ pub fn schema() -> serde_json::Value {
     for info in MODELS {
         let meanings = info.parameters().iter().map(|spec| (spec.name, spec.meaning.to_owned())).collect();
         models.insert(info.name.to_owned(), numbers(meanings));
-        initial.extend(info.coordinates.iter().map(|c| (c.name, c.meaning.to_owned())));
+        let defaults: Vec<f64> = info.parameters().iter().map(|spec| spec.default).collect();
+        initial.extend(info.coordinates(&defaults).iter().map(|c| (c.name, c.meaning.to_owned())));
     }
     initial.extend(["x", "y"].map(|name| (name, "position of the centre of mass".to_owned())));
     serde_json::json!({

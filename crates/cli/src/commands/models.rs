@@ -2,6 +2,7 @@
 
 use crate::args::ModelsOptions;
 use crate::output::{End, print};
+use motiform_dynamics::model::Coordinate;
 use motiform_models::{MODELS, ModelInfo};
 use motiform_study::presets;
 use serde_json::{Value, json};
@@ -39,11 +40,16 @@ fn page(info: &'static ModelInfo) -> anyhow::Result<String> {
         format!("{}: {}\nSource: {}\n\n{}\n\n", info.name, info.title, info.source, info.equations);
     writeln!(text, "Parameters (dimensionless; --set NAME=VALUE)")?;
     for spec in info.parameters() {
-        writeln!(text, "  {:<7} {:>5}  {:<4} {}", spec.name, spec.default, spec.equation, spec.meaning)?;
+        writeln!(text, "  {:<17} {:>6}  {:<7} {}", spec.name, spec.default, spec.equation, spec.meaning)?;
     }
     writeln!(text, "\nInitial values (--initial NAME=VALUE)")?;
-    for coordinate in info.coordinates {
+    let coordinates = coordinates(info);
+    for coordinate in coordinates.iter().take(SHOWN) {
         writeln!(text, "  {:<7} {}", coordinate.name, coordinate.meaning)?;
+    }
+    if coordinates.len() > SHOWN {
+        let last = coordinates.last().map_or("", |coordinate| coordinate.name);
+        writeln!(text, "  ...     and so on up to {last}")?;
     }
     writeln!(text, "  {:<7} position of the centre of mass\n\nPresets (--preset NAME)", "x, y")?;
     for name in presets::names_of(info.name) {
@@ -53,6 +59,15 @@ fn page(info: &'static ModelInfo) -> anyhow::Result<String> {
         writeln!(text, "  {name:<7} {}{free}", study.about)?;
     }
     Ok(text)
+}
+
+/// Most coordinates that a page lists.
+const SHOWN: usize = 8;
+
+/// The coordinates for the default parameters.
+fn coordinates(info: &ModelInfo) -> &'static [Coordinate] {
+    let defaults: Vec<f64> = info.parameters().iter().map(|spec| spec.default).collect();
+    info.coordinates(&defaults)
 }
 
 fn short(info: &ModelInfo) -> Value {
@@ -71,7 +86,7 @@ fn whole(info: &'static ModelInfo) -> anyhow::Result<Value> {
         })
         .collect();
     let coordinates: Vec<Value> =
-        info.coordinates.iter().map(|c| json!({ "name": c.name, "meaning": c.meaning })).collect();
+        coordinates(info).iter().map(|c| json!({ "name": c.name, "meaning": c.meaning })).collect();
     let mut studies = Vec::new();
     for name in presets::names_of(info.name) {
         let study = presets::find(info, name)?;

@@ -134,7 +134,7 @@ fn default_folder(plan: &Plan) -> String {
 
 fn json(dataset: &Dataset) -> anyhow::Result<String> {
     let manifest = &dataset.manifest;
-    let object = json!({
+    let mut object = json!({
         "model": manifest.plan.computation.model,
         "parameters": manifest.plan.computation.parameters,
         "outcome": manifest.outcome,
@@ -144,6 +144,12 @@ fn json(dataset: &Dataset) -> anyhow::Result<String> {
         "steps": manifest.steps,
         "manifest": manifest,
     });
+    if let Some(object) = object.as_object_mut().filter(|_| !manifest.measures.is_empty()) {
+        object.insert("velocity".to_owned(), json!(manifest.velocity));
+        for (name, value) in &manifest.measures.0 {
+            object.insert(name.clone(), json!(value));
+        }
+    }
     Ok(serde_json::to_string(&object)?)
 }
 

@@ -8,6 +8,7 @@ pub mod exponential;
 mod heun;
 mod ifrk4;
 mod krogstad4;
+mod method;
 pub mod phi_functions;
 mod rk4;
 pub mod runge_kutta;
@@ -21,6 +22,7 @@ pub use exponential::ExponentialTableau;
 pub use heun::HEUN;
 pub use ifrk4::IFRK4;
 pub use krogstad4::KROGSTAD4;
+pub use method::Method;
 pub use rk4::RK4;
 pub use tableau::Tableau;
 

@@ -26,7 +26,7 @@ use motiform_dynamics::simd;
 use motiform_dynamics::{
     Dual, Lanes, Model, Obstacle, Outline, Scalar, Semilinear, Shape, System, VectorField,
 };
-use names::OBSERVABLES;
+use names::{MEASURES, OBSERVABLES};
 use velocity::Push;
 
 /// The active cell model for one set of parameters.
@@ -214,6 +214,28 @@ impl Model for Cell {
         for (x, mode) in out.iter_mut().zip(shape.chunks_exact(2)) {
             *x = 2.0 * libm::hypot(mode[0], mode[1]);
         }
+    }
+
+    fn measures(&self) -> &[Observable] {
+        &MEASURES
+    }
+
+    fn measure(&self, shape: &[f64], out: &mut [f64]) {
+        match self.boundary(shape, 4 * self.modes()) {
+            Ok(boundary) => {
+                let crosses = f64::from(u8::from(boundary.crossing.is_some()));
+                out.copy_from_slice(&[boundary.length, boundary.area, boundary.closure_residual, crosses]);
+            }
+            Err(residual) => out.copy_from_slice(&[f64::NAN, f64::NAN, residual, f64::NAN]),
+        }
+    }
+
+    fn profile(&self, shape: &[f64], points: usize) -> Option<Vec<f64>> {
+        Some(self.phi(shape, points))
+    }
+
+    fn radius(&self) -> Option<f64> {
+        Some(1.0 / self.parameters.wavenumber())
     }
 
     /// The boundary has its own size (its length is a parameter): `radius` is not used.

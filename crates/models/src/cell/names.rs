@@ -21,6 +21,25 @@ pub(super) fn coordinates(modes: usize) -> &'static [Coordinate] {
     &COORDINATES[..2 * modes.min(MAX_MODES)]
 }
 
+pub(super) const MEASURES: [Observable; 4] = [
+    Observable {
+        name: "length",
+        symbol: "length",
+        meaning: "length of the closed boundary, from its tangents",
+    },
+    Observable { name: "area", symbol: "area", meaning: "area inside the closed boundary" },
+    Observable {
+        name: "closure_residual",
+        symbol: "closure residual",
+        meaning: "|int n ds| / L that closing the boundary left",
+    },
+    Observable {
+        name: "self_intersecting",
+        symbol: "number of self-intersecting outlines",
+        meaning: "1 where the closed boundary crosses itself, else 0",
+    },
+];
+
 pub(super) const OBSERVABLES: [Observable; 4] = [
     Observable { name: "mode1", symbol: "2|*φ*_1|", meaning: "amplitude of mode 1 of phi, 2 |phi_1|" },
     Observable { name: "mode2", symbol: "2|*φ*_2|", meaning: "amplitude of mode 2 of phi, 2 |phi_2|" },

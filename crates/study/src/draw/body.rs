@@ -31,7 +31,11 @@ impl<'d> Body<'d> {
         let model = info.build(&plan.computation.parameters.values())?;
         let rows = window(&dataset.trajectory, plan.figure.from, plan.figure.to);
         let mut body = Self { dataset, info, model, rows, radius: 1.0, scale: 1.0 };
-        body.radius = if plan.figure.radius > 0.0 { plan.figure.radius } else { body.fitting_radius() };
+        body.radius = match body.model.radius() {
+            Some(fixed) => fixed,
+            None if plan.figure.radius > 0.0 => plan.figure.radius,
+            None => body.fitting_radius(),
+        };
         body.scale = if plan.figure.scale > 0.0 { plan.figure.scale } else { body.readable_scale(TARGET) };
         Ok(body)
     }
@@ -54,7 +58,7 @@ impl<'d> Body<'d> {
     }
 
     fn shape(&self, row: usize) -> Vec<f64> {
-        let named: Vec<f64> = self.info.coordinates.iter().map(|c| self.column(c.name)[row]).collect();
+        let named: Vec<f64> = self.model.coordinates().iter().map(|c| self.column(c.name)[row]).collect();
         let mut shape = named.clone();
         self.model.encode(&named, &mut shape);
         shape
@@ -67,7 +71,7 @@ impl<'d> Body<'d> {
             Outline::Curve(curve) => {
                 Some(curve.iter().map(|p| [x + scale * p[0], y + scale * p[1]]).collect())
             }
-            Outline::NotACurve { .. } => None,
+            Outline::NotACurve { .. } | Outline::NotClosed { .. } => None,
         }
     }
 

@@ -36,7 +36,10 @@ pub(super) fn animation(body: &Body<'_>) -> Animation {
         frames: (0..count).map(frame).collect(),
         path: path::points(body),
         camera,
-        note: format!("*R*_0 = {}, {size}", words::number(body.radius)),
+        note: match body.model.radius() {
+            Some(_) => size,
+            None => format!("*R*_0 = {}, {size}", words::number(body.radius)),
+        },
         ..Animation::default()
     }
 }

@@ -14,7 +14,7 @@ pub(super) fn figure(body: &Body<'_>) -> PathFigure {
     let (stamps, missing) = outlines(body);
     let mut caption = vec![words::parameters(body), words::method(body), words::outlines(body)];
     if missing > 0 {
-        caption.push(format!("{missing} outlines are left out: *R*(*θ*) is not positive there."));
+        caption.push(format!("{missing} outlines are left out: the shape is no closed curve there."));
     }
     caption.extend(words::section(body));
     PathFigure {

@@ -8,6 +8,9 @@ use crate::figures::{Curve, Panel, SeriesFigure};
 /// An observable below this throughout is not drawn but mentioned.
 const NEGLIGIBLE: f64 = 1e-9;
 
+/// A measure that varies by less than this part of itself is called steady.
+const STEADY: f64 = 1e-6;
+
 pub(super) fn figure(body: &Body<'_>) -> SeriesFigure {
     let mut notes = Vec::new();
     let mut panels = vec![panel(body, "speed", "speed |***v***|", 0)];
@@ -24,6 +27,7 @@ pub(super) fn figure(body: &Body<'_>) -> SeriesFigure {
             panels.push(panel(body, observable.name, observable.symbol, 2 + index));
         }
     }
+    measures(body, &mut panels, &mut notes);
     SeriesFigure {
         title: body.dataset.manifest.plan.title.clone(),
         times: body.column("t")[body.rows()].to_vec(),
@@ -31,6 +35,22 @@ pub(super) fn figure(body: &Body<'_>) -> SeriesFigure {
         notes,
         caption: vec![words::parameters(body), words::method(body)],
         ..SeriesFigure::default()
+    }
+}
+
+/// The measures of the boundary: those that vary as panels, those that stay as notes.
+fn measures(body: &Body<'_>, panels: &mut Vec<Panel>, notes: &mut Vec<String>) {
+    for measure in body.model.measures() {
+        let shown = &body.column(measure.name)[body.rows()];
+        let defined = shown.iter().filter(|x| !x.is_nan());
+        let (low, high) = defined.fold((f64::MAX, f64::MIN), |(low, high), &x| (low.min(x), high.max(x)));
+        if high - low > STEADY * high.abs().max(1e-6) {
+            panels.push(panel(body, measure.name, measure.symbol, 2 + panels.len()));
+        } else if high > 1e-9 {
+            notes.push(format!("The {} stays at {}.", measure.symbol, words::number(high)));
+        } else {
+            notes.push(format!("The {} stays below {}.", measure.symbol, words::number(NEGLIGIBLE)));
+        }
     }
 }
 

@@ -46,8 +46,11 @@ fn capital(name: &str) -> String {
 pub(super) fn method(body: &Body<'_>) -> String {
     let manifest = &body.dataset.manifest;
     let c = &manifest.plan.computation;
-    let title = manifest.plan.tableau().map_or(c.stepper.as_str(), |tableau| tableau.title);
-    let title = title.rsplit_once(", ").map_or(title, |(name, _)| name);
+    let title = manifest.plan.method().map_or(c.stepper.as_str(), |method| method.title());
+    let title = [", fixed step", ", adaptive"]
+        .iter()
+        .find_map(|kind| title.find(kind))
+        .map_or(title, |at| &title[..at]);
     let control = match c.control {
         Control::Adaptive { rtol, .. } => format!("relative tolerance {}", number(rtol)),
         Control::Fixed { step } => format!("step {}", number(step)),
@@ -75,10 +78,11 @@ pub(super) fn outlines(body: &Body<'_>) -> String {
     } else {
         format!("drawn at {} times true size against the path", number(body.scale))
     };
-    format!(
-        "Outlines: *R*_0{SPACE}={SPACE}{}, {size}; the deformation itself is not exaggerated.",
-        number(body.radius)
-    )
+    if body.model.radius().is_some() {
+        return format!("Outlines: the closed boundary, {size}.");
+    }
+    let radius = number(body.radius);
+    format!("Outlines: *R*_0{SPACE}={SPACE}{radius}, {size}; the deformation itself is not exaggerated.")
 }
 
 /// Where the return map's section lies and what was put on the origin.

@@ -1,0 +1,82 @@
+//! Any stepper by name: explicit or exponential.
+
+use super::{EXPONENTIAL_STEPPERS, ExponentialTableau, STEPPERS, Tableau, find, find_exponential};
+use crate::{Error, ExponentialOrbit, InPlane, Integration, Model, Orbit, StepControl};
+
+/// A stepper of either kind, as a study names it.
+#[derive(Clone, Copy, Debug)]
+pub enum Method {
+    /// An explicit Runge-Kutta method.
+    Explicit(&'static Tableau),
+    /// An exponential method, for fields with a stiff linear part.
+    Exponential(&'static ExponentialTableau),
+}
+
+impl Method {
+    /// The stepper of this name.
+    #[must_use]
+    pub fn find(name: &str) -> Option<Self> {
+        find(name).map(Self::Explicit).or_else(|| find_exponential(name).map(Self::Exponential))
+    }
+
+    /// All names.
+    #[must_use]
+    pub fn names() -> Vec<&'static str> {
+        let explicit = STEPPERS.iter().map(|tableau| tableau.name);
+        explicit.chain(EXPONENTIAL_STEPPERS.iter().map(|tableau| tableau.name)).collect()
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Explicit(tableau) => tableau.name,
+            Self::Exponential(tableau) => tableau.name,
+        }
+    }
+
+    /// Its name for people.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Explicit(tableau) => tableau.title,
+            Self::Exponential(tableau) => tableau.title,
+        }
+    }
+
+    /// Whether it can control its step.
+    #[must_use]
+    pub fn is_adaptive(self) -> bool {
+        match self {
+            Self::Explicit(tableau) => tableau.is_adaptive(),
+            Self::Exponential(tableau) => tableau.is_adaptive(),
+        }
+    }
+
+    /// Checks that the method can do what `control` asks.
+    ///
+    /// # Errors
+    /// As [`StepControl::validate`].
+    pub fn validate(self, control: StepControl) -> Result<(), Error> {
+        control.validate_for(self.name(), self.is_adaptive())
+    }
+
+    /// An orbit of `body` (a model in the plane: shape, then x, y) from `u` at time `t`.
+    ///
+    /// # Errors
+    /// As [`Orbit::new`].
+    pub fn orbit<'b>(
+        self,
+        body: &'b InPlane<&'b dyn Model>,
+        control: StepControl,
+        t: f64,
+        u: &[f64],
+    ) -> Result<Box<dyn Integration + 'b>, Error> {
+        Ok(match self {
+            Self::Explicit(tableau) => Box::new(Orbit::new(body, tableau, control, t, u)?),
+            Self::Exponential(tableau) => {
+                Box::new(ExponentialOrbit::in_plane(body.0, tableau, control, t, u)?)
+            }
+        })
+    }
+}
