@@ -26,10 +26,10 @@ impl ByTransform {
         let size = (3 * modes + 1..).find(|&n| {
             let mut rest = n;
             while rest % 2 == 0 {
-                rest /= 2
+                rest /= 2;
             }
             while rest % 3 == 0 {
-                rest /= 3
+                rest /= 3;
             }
             rest == 1 && n % 2 == 0
         });
