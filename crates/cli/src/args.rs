@@ -94,10 +94,10 @@ pub(crate) struct SimulateOptions {
     #[arg(long, value_name = "A", value_parser = number, allow_negative_numbers = true)]
     pub(crate) atol: Option<f64>,
     /// Seed of the random start
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
     pub(crate) seed: Option<u64>,
     /// Most steps to take
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
     pub(crate) max_steps: Option<u64>,
     /// Output folder (default: MODEL-PRESET here), or one table if it ends in .parquet or .csv
     #[arg(long, value_name = "DIR|FILE")]
@@ -130,7 +130,7 @@ pub(crate) struct DrawingOptions {
     #[arg(long, value_name = "F", value_parser = number, allow_negative_numbers = true)]
     pub(crate) scale: Option<f64>,
     /// Number of outlines along the path
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
     pub(crate) outlines: Option<u64>,
     /// Draw the path and the animation from this time
     #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
@@ -181,6 +181,10 @@ pub(crate) enum TableFormat {
 fn number(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| format!("{text:?} is no number: write it like 0.5 or 1e-9"))?;
     if value.is_finite() { Ok(value) } else { Err(format!("{text} is not finite: give a finite number")) }
+}
+
+fn whole(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("{text:?} is no whole number from 0 to {}: write it like 7", u64::MAX))
 }
 
 fn assignment(text: &str) -> Result<(String, f64), String> {

@@ -72,12 +72,12 @@ pub enum Error {
         path: PathBuf,
     },
     /// A folder that cannot be written into.
-    #[error("cannot write {}: {source}; choose an --out in a folder that exists and that you may write to", .path.display())]
+    #[error("cannot write {}: {reason}; choose an --out in a folder that exists and that you may write to", .path.display())]
     Unwritable {
         /// The path.
         path: PathBuf,
-        /// The system's reason.
-        source: std::io::Error,
+        /// The system's reason. (Not a `source`: the message says it already, and once is enough.)
+        reason: std::io::Error,
     },
     /// Writing broke off (a full disk, say). Nothing half-written is left.
     #[error("writing {} failed: {reason}; nothing was left behind, make room and run again", .path.display())]

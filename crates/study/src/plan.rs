@@ -208,7 +208,9 @@ fn check(key: &'static str, value: f64, ok: bool, remedy: &'static str) -> Resul
     if ok && value.is_finite() {
         Ok(())
     } else {
-        Err(Error::Setting { key, value: value.to_string(), remedy })
+        // Debug, for it writes 1e-300 and not 300 zeros.
+        let value = format!("{value:?}").trim_end_matches(".0").to_owned();
+        Err(Error::Setting { key, value, remedy })
     }
 }
 

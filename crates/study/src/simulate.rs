@@ -164,7 +164,7 @@ impl Run<'_> {
             plan: self.plan.clone(),
             plan_hash: self.plan.hash(),
             seed: self.computation.seed,
-            outcome: recording.outcome,
+            outcome: finite(recording.outcome),
             steps: recording.steps,
             rejected_steps: recording.rejected,
             state: Named(names.zip(values).collect()),
@@ -179,6 +179,16 @@ impl Run<'_> {
             trajectory: motion(self.model, &recording.trajectory),
             crossings: map.map(|map| crossings(&recording.trajectory, map)),
         }
+    }
+}
+
+/// The norm of a finite state may overflow. Files hold no infinity: it becomes the largest number.
+fn finite(outcome: Outcome) -> Outcome {
+    match outcome {
+        Outcome::Escaped { t, norm, singular, t_last } => {
+            Outcome::Escaped { t, norm: norm.min(f64::MAX), singular, t_last }
+        }
+        other => other,
     }
 }
 

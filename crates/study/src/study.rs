@@ -156,7 +156,8 @@ impl Study {
             read_run(&mut study.run, table)?;
         }
         if let Some(table) = top.table("return_map")? {
-            study.return_map = Some(read_return_map(table)?);
+            let preset = study.return_map.take();
+            study.return_map = Some(read_return_map(preset, table)?);
         }
         if let Some(table) = top.table("figure")? {
             read_figure(&mut study.figure, table)?;
@@ -305,8 +306,12 @@ fn read_run(run: &mut RunSettings, mut table: Table<'_>) -> Result<(), Error> {
     table.finish()
 }
 
-fn read_return_map(mut table: Table<'_>) -> Result<ReturnMapSettings, Error> {
-    let mut settings = ReturnMapSettings { y: 0.0, x_min: -1e300, x_max: 1e300, centre: false };
+fn read_return_map(
+    preset: Option<ReturnMapSettings>,
+    mut table: Table<'_>,
+) -> Result<ReturnMapSettings, Error> {
+    let whole_line = ReturnMapSettings { y: 0.0, x_min: -1e300, x_max: 1e300, centre: false };
+    let mut settings = preset.unwrap_or(whole_line);
     table.number("y", &mut settings.y)?;
     table.number("x_min", &mut settings.x_min)?;
     table.number("x_max", &mut settings.x_max)?;

@@ -29,7 +29,8 @@ impl<'i> Source<'i> {
         let column = before[line_start..].chars().count() + 1;
         let text = self.text[line_start..].lines().next().unwrap_or("");
         let gutter = format!("{line:4} | ");
-        let marks = span.len().clamp(1, text.chars().count().saturating_sub(column - 1).max(1));
+        let marked = self.text.get(span).map_or(1, |text| text.chars().count());
+        let marks = marked.clamp(1, text.chars().count().saturating_sub(column - 1).max(1));
         let pointer = format!("{:>1$}{2}", "", gutter.len() + column - 1, "^".repeat(marks));
         Error::Study {
             file: self.file.to_owned(),

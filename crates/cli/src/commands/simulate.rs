@@ -20,9 +20,12 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     let dataset = simulate(&plan, &watch);
     watch.finish();
     let dataset = dataset?;
-    let written = target.write(options, &dataset)?;
+    let (written, undrawn) = target.write(options, &dataset)?;
     let text = if options.json { json(&dataset)? } else { summary(&dataset, written.as_deref())? };
     print(&text)?;
+    if let Some(error) = undrawn {
+        return Err(anyhow::Error::new(error).context("the tables are written, the figures are not"));
+    }
     Ok(End::from(&dataset.manifest.outcome))
 }
 
@@ -98,13 +101,18 @@ impl Target {
         })
     }
 
-    /// Writes everything and gives it its name; returns what was written.
-    fn write(self, options: &SimulateOptions, dataset: &Dataset) -> anyhow::Result<Option<String>> {
+    /// Writes everything and gives it its name; returns what was written, and why there are no figures: numbers that
+    /// no axis can hold are no reason to lose the numbers.
+    fn write(
+        self,
+        options: &SimulateOptions,
+        dataset: &Dataset,
+    ) -> anyhow::Result<(Option<String>, Option<Error>)> {
         match self {
-            Self::Nowhere => Ok(None),
+            Self::Nowhere => Ok((None, None)),
             Self::Table(staging, format) => {
                 write_table(&dataset.trajectory, &dataset.manifest, format, staging.path())?;
-                Ok(Some(staging.commit()?.display().to_string()))
+                Ok((Some(staging.commit()?.display().to_string()), None))
             }
             Self::Folder(staging) => {
                 let format = match options.format {
@@ -112,16 +120,25 @@ impl Target {
                     TableFormat::Csv => Format::Csv,
                 };
                 write_dataset(dataset, format, &staging)?;
-                if !options.no_figures {
-                    for picture in figure::pictures(dataset, &options.drawing)? {
-                        staging.write(&picture.name, &picture.bytes)?;
-                    }
+                let drawn = if options.no_figures {
+                    Ok(Vec::new())
+                } else {
+                    figure::pictures(dataset, &options.drawing)
+                };
+                let (pictures, undrawn) = match drawn {
+                    Ok(pictures) => (pictures, None),
+                    Err(error @ Error::Figure(_)) => (Vec::new(), Some(error)),
+                    Err(error) => return Err(error.into()),
+                };
+                for picture in pictures {
+                    staging.write(&picture.name, &picture.bytes)?;
                 }
                 let mut names: Vec<String> = std::fs::read_dir(staging.path())?
                     .map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()))
                     .collect::<std::io::Result<_>>()?;
                 names.sort();
-                Ok(Some(format!("{}: {}", staging.commit()?.display(), names.join(" "))))
+                let written = format!("{}: {}", staging.commit()?.display(), names.join(" "));
+                Ok((Some(written), undrawn))
             }
         }
     }

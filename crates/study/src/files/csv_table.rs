@@ -10,11 +10,13 @@ pub(super) fn write(table: &Table, path: &Path) -> Result<(), Error> {
     let mut out = BufWriter::new(std::fs::File::create(path).map_err(failed)?);
     let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
     writeln!(out, "{}", names.join(",")).map_err(failed)?;
+    // Readers skip an empty line, so the only field of a row is quoted where it is empty.
+    let undefined = if table.columns.len() == 1 { "\"\"" } else { "" };
     for row in 0..table.rows() {
         for (place, column) in table.columns.iter().enumerate() {
             let comma = if place == 0 { "" } else { "," };
             let value = column.values[row];
-            if value.is_nan() { write!(out, "{comma}") } else { write!(out, "{comma}{value:?}") }
+            if value.is_nan() { write!(out, "{comma}{undefined}") } else { write!(out, "{comma}{value:?}") }
                 .map_err(failed)?;
         }
         writeln!(out).map_err(failed)?;

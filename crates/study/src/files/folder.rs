@@ -5,7 +5,7 @@ use super::{csv_table, parquet_table};
 use crate::Error;
 use crate::dataset::{Dataset, Manifest};
 use crate::table::Table;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The file format of tables.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -78,20 +78,38 @@ pub fn read_dataset(folder: &Path) -> Result<Dataset, Error> {
         Error::unreadable(&path, format!("{error}; a dataset is a folder written by `motiform simulate`"))
     })?;
     let manifest: Manifest = serde_json::from_str(&text).map_err(|error| Error::unreadable(&path, error))?;
-    let trajectory = read_table(folder, "trajectory")?
+    let (path, trajectory) = read_table(folder, "trajectory")?
         .ok_or_else(|| Error::unreadable(folder, "it has no trajectory.parquet or trajectory.csv"))?;
-    Ok(Dataset { manifest, trajectory, crossings: read_table(folder, "crossings")? })
+    let c = &manifest.plan.computation;
+    let model = manifest.plan.info()?.build(&c.parameters.values())?;
+    let observables = model.observables().iter().map(|observable| observable.name);
+    let coordinates = model.coordinates().iter().map(|coordinate| coordinate.name);
+    let derived = ["t", "x", "y", "speed", "turning_rate"].into_iter();
+    require(&trajectory, &path, derived.chain(coordinates).chain(observables))?;
+    let Some((path, crossings)) = read_table(folder, "crossings")? else {
+        return Ok(Dataset { manifest, trajectory, crossings: None });
+    };
+    require(&crossings, &path, ["t", "x", "y", "rising"])?;
+    Ok(Dataset { manifest, trajectory, crossings: Some(crossings) })
 }
 
-fn read_table(folder: &Path, name: &str) -> Result<Option<Table>, Error> {
+/// Refuses a table that lacks one of the columns `names`.
+fn require(table: &Table, path: &Path, names: impl IntoIterator<Item = &'static str>) -> Result<(), Error> {
+    match names.into_iter().find(|name| table.get(name).is_none()) {
+        Some(missing) => Err(Error::unreadable(path, format!("it has no column {missing}"))),
+        None => Ok(()),
+    }
+}
+
+fn read_table(folder: &Path, name: &str) -> Result<Option<(PathBuf, Table)>, Error> {
     for format in [Format::Parquet, Format::Csv] {
         let path = folder.join(format!("{name}.{}", format.extension()));
         if path.is_file() {
-            return match format {
+            let table = match format {
                 Format::Parquet => parquet_table::read(&path),
                 Format::Csv => csv_table::read(&path),
-            }
-            .map(Some);
+            }?;
+            return Ok(Some((path, table)));
         }
     }
     Ok(None)

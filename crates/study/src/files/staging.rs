@@ -27,12 +27,12 @@ impl Staging {
             if !force {
                 return Err(Error::Exists { path: target.to_owned() });
             }
-            let ours = if folder { target.join(MANIFEST).is_file() } else { target.is_file() };
+            let ours = if folder { is_dataset(target) } else { target.is_file() };
             if !ours {
                 return Err(Error::NotOurs { path: target.to_owned() });
             }
         }
-        let unwritable = |source| Error::Unwritable { path: target.to_owned(), source };
+        let unwritable = |reason| Error::Unwritable { path: target.to_owned(), reason };
         let name = target.file_name().ok_or_else(|| {
             unwritable(std::io::Error::new(std::io::ErrorKind::InvalidInput, "the path has no last part"))
         })?;
@@ -80,7 +80,10 @@ impl Staging {
         if there && self.folder {
             let old = self.partial.with_extension("replaced");
             fs::rename(&self.target, &old).map_err(failed)?;
-            fs::rename(&self.partial, &self.target).map_err(failed)?;
+            if let Err(error) = fs::rename(&self.partial, &self.target) {
+                let _ = fs::rename(&old, &self.target); // what was there is better than nothing
+                return Err(failed(error));
+            }
             fs::remove_dir_all(&old).map_err(failed)?;
         } else {
             fs::rename(&self.partial, &self.target).map_err(failed)?;
@@ -88,6 +91,13 @@ impl Staging {
         self.committed = true;
         Ok(self.target.clone())
     }
+}
+
+/// Whether a folder is one of ours. Many programs call a file `manifest.json`: it must say that motiform wrote it.
+fn is_dataset(folder: &Path) -> bool {
+    let manifest = fs::read(folder.join(MANIFEST)).unwrap_or_default();
+    let manifest: serde_json::Value = serde_json::from_slice(&manifest).unwrap_or_default();
+    manifest["motiform"].is_string() && manifest["plan_hash"].is_string()
 }
 
 /// Writes a file whole or not at all, replacing an earlier one.
