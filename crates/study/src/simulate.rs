@@ -93,7 +93,9 @@ impl Run<'_> {
         if c.transient == 0.0 {
             return Ok((None, u));
         }
-        let mut orbit = self.plan.method()?.orbit(self.body, c.control.into(), -c.transient, &u)?;
+        let shape = ..u.len() - 2;
+        let mut orbit =
+            self.plan.method()?.shape_orbit(self.model, c.control.into(), -c.transient, &u[shape])?;
         let total = c.transient + passes * c.t_end;
         let mut sink = Watched {
             trajectory: None,
@@ -105,8 +107,7 @@ impl Run<'_> {
         };
         let request = Request { t_end: 0.0, ..self.request(&[]) };
         let outcome = drive(orbit.as_mut(), &request, &mut sink)?;
-        let shape = ..u.len() - 2;
-        u[shape].copy_from_slice(&orbit.state()[shape]);
+        u[shape].copy_from_slice(orbit.state());
         Ok(((!outcome.is_complete()).then_some(outcome), u))
     }
 

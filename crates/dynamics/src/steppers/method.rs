@@ -61,6 +61,23 @@ impl Method {
         control.validate_for(self.name(), self.is_adaptive())
     }
 
+    /// An orbit of the shape alone, from `shape` at time `t`: for a stretch whose path nobody asks for.
+    ///
+    /// # Errors
+    /// As [`Orbit::new`].
+    pub fn shape_orbit<'b>(
+        self,
+        model: &'b dyn Model,
+        control: StepControl,
+        t: f64,
+        shape: &[f64],
+    ) -> Result<Box<dyn Integration + 'b>, Error> {
+        Ok(match self {
+            Self::Explicit(tableau) => Box::new(Orbit::new(model, tableau, control, t, shape)?),
+            Self::Exponential(tableau) => Box::new(ExponentialOrbit::new(model, tableau, control, t, shape)?),
+        })
+    }
+
     /// An orbit of `body` (a model in the plane: shape, then x, y) from `u` at time `t`.
     ///
     /// # Errors
