@@ -42,7 +42,7 @@ impl Cell {
             Curve::new(&self.circle, &closed.normals.cos, &closed.normals.sin, self.parameters.length);
         let k = self.parameters.wavenumber();
         let area = 0.5 * self.parameters.length * curve.sum(|m, [x, y]| m * k * (x * x + y * y));
-        let fine = curve.points(4 * self.circle.points());
+        let fine = curve.points(2 * self.circle.points());
         let centre = centroid(&fine);
         let speed = |j: usize| curve.tangent(k, self.parameters.length * j as f64 / fine.len() as f64);
         let length = (0..fine.len()).map(speed).sum::<f64>() * self.parameters.length / fine.len() as f64;
@@ -65,6 +65,8 @@ impl Curve {
     fn new(circle: &Circle, cos: &[f64], sin: &[f64], length: f64) -> Self {
         let points = circle.points();
         let half = points / 2 - 1;
+        let waves: Vec<(f64, f64)> =
+            (0..points).map(|i| libm::sincos(-TAU * i as f64 / points as f64)).collect();
         let mode = |index: usize| {
             if index == half {
                 return [0.0; 2];
@@ -72,7 +74,7 @@ impl Curve {
             let mut sum = [0.0; 2];
             let m = (index + points - half) % points; // m modulo the number of points
             for j in 0..points {
-                let (s, c) = libm::sincos(-TAU * ((m * j) % points) as f64 / points as f64);
+                let (s, c) = waves[(m * j) % points];
                 sum[0] += cos[j] * c - sin[j] * s;
                 sum[1] += cos[j] * s + sin[j] * c;
             }
