@@ -61,8 +61,7 @@ impl Default for SpectrumFigure {
 impl SpectrumFigure {
     /// Draws the figure.
     ///
-    /// # Errors   nothing to draw above 0, a number that is not finite, frequencies that decrease, or a curve of
-    ///            another length
+    /// # Errors   nothing above 0, a number that is not finite, frequencies that decrease, or a curve of another length
     pub fn svg(&self) -> Result<String> {
         self.check()?;
         let axes = Axes::logarithmic(self.scale()?, &self.x_label, &self.y_label);
