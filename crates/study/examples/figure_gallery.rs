@@ -8,7 +8,7 @@ use std::path::Path;
 use motiform_study::figures::palette::{BLUE, CATEGORIES, GREEN, VERMILION};
 use motiform_study::figures::{
     Animation, Camera, Curve, DEFAULT_SCALE, Frame, OutlineStamp, Panel, PathFigure, PathPoint,
-    ReturnMapFigure, SectionLine, SeriesFigure, png,
+    ReturnMapFigure, SectionLine, SeriesFigure, SpaceTimeFigure, SpectrumCurve, SpectrumFigure, png,
 };
 
 /// Drawing may fail, writing may fail: an example just says which.
@@ -25,6 +25,8 @@ fn main() -> Outcome {
     save(folder, "series", &series().svg()?)?;
     save(folder, "return_map_dense", &return_map(20_000).svg()?)?;
     save(folder, "return_map_sparse", &return_map(60).svg()?)?;
+    fields(folder)?;
+    spectra(folder)?;
     films(folder)
 }
 
@@ -173,6 +175,79 @@ fn series() -> SeriesFigure {
         times,
         ..SeriesFigure::default()
     }
+}
+
+fn fields(folder: &Path) -> Outcome {
+    type Field = fn(f64, f64) -> f64;
+    type Case = (&'static str, Field, (f64, f64), usize, usize);
+    let wave: Field = |t, s| {
+        let slow = (0.021 * t).sin() + 0.3 * (0.055 * t).cos();
+        0.9 * slow * (TAU * s).cos() + 0.6 * (2.0 * TAU * s + 0.02 * t).sin()
+    };
+    let cases: [Case; 6] = [
+        ("field", wave, (1000.0, 1600.0), 3000, 128),
+        ("field_coarse", wave, (0.0, 300.0), 40, 16),
+        ("field_wide", |t, s| 1e-5 * wave_packet(t, s), (0.0, 2e5), 20_000, 64),
+        ("field_flat", |_, _| 0.0, (0.0, 100.0), 200, 64),
+        ("field_positive", |t, s| 3e4 * (2.0 + (0.1 * t).sin() * (TAU * s).sin()), (0.0, 100.0), 400, 64),
+        ("field_instant", |_, s| (TAU * s).sin(), (5.0, 5.0), 1, 64),
+    ];
+    for (name, field, times, columns, rows) in cases {
+        let time = |i: usize| times.0 + (times.1 - times.0) * i as f64 / columns as f64;
+        let value = |i: usize| field(time(i % columns), (i / columns) as f64 / rows as f64);
+        let figure = SpaceTimeFigure {
+            title: format!("Active cell model, *L* = 21.6: {}", name.replace('_', " ")),
+            caption: vec!["ETDRK4, 48 modes, d*t* = 0.05.".into()],
+            times,
+            places: (0.0, 21.6),
+            columns,
+            rows,
+            values: (0..columns * rows).map(value).collect(),
+            ..SpaceTimeFigure::default()
+        };
+        save(folder, name, &figure.svg()?)?;
+    }
+    Ok(())
+}
+
+fn wave_packet(t: f64, s: f64) -> f64 {
+    (-((t - 1e5) / 3e4).powi(2)).exp() * (TAU * s + 5e-4 * t).sin()
+}
+
+/// Like white noise, a function of the index.
+fn noise(i: usize) -> f64 {
+    (1e4 * (12.9898 * i as f64).sin()).fract().abs() + 0.05
+}
+
+fn spectra(folder: &Path) -> Outcome {
+    type Power = fn(usize, f64) -> f64;
+    let line: Power = |i, f| noise(i) * 1e-4 / (1.0 + (30.0 * f).powi(4)) + 1e-6 / ((f - 0.1).powi(2) + 1e-6);
+    let red: Power = |i, f| noise(i) / (1.0 + (100.0 * f).powi(2));
+    let weak: Power = |i, f| 1e-3 * noise(i + 7) / (1.0 + (20.0 * f).powi(2));
+    let cases: [(&str, usize, f64, Vec<Power>); 5] = [
+        ("spectrum", 4096, 10.0, vec![line]),
+        ("spectrum_eight_decades", 100_000, 50.0, vec![red, weak]),
+        ("spectrum_single_peak", 256, 5.0, vec![|i, _| if i == 31 { 3.0 } else { 0.0 }]),
+        ("spectrum_flat", 4, 3.0, vec![|_, _| 2e-5]),
+        ("spectrum_deep", 2000, 100.0, vec![|i, f| noise(i) * ((-f).exp() + 1e-32)]),
+    ];
+    for (name, count, last, curves) in cases {
+        let frequencies: Vec<f64> = (0..count).map(|i| last * i as f64 / (count - 1) as f64).collect();
+        let curve = |(n, f): (usize, &Power)| SpectrumCurve {
+            label: format!("|*v*|, *κ*_2 = 0.{n}"),
+            colour: CATEGORIES[n],
+            power: frequencies.iter().enumerate().map(|(i, x)| f(i, *x)).collect(),
+        };
+        let figure = SpectrumFigure {
+            title: name.replace('_', " "),
+            caption: vec!["Welch's method: Hann window, 8192 samples a segment, half overlapping.".into()],
+            curves: curves.iter().enumerate().map(curve).collect(),
+            frequencies,
+            ..SpectrumFigure::default()
+        };
+        save(folder, name, &figure.svg()?)?;
+    }
+    Ok(())
 }
 
 fn return_map(count: usize) -> ReturnMapFigure {

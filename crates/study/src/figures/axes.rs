@@ -12,6 +12,7 @@ pub(crate) const TICK_SIZE: f64 = 12.0;
 /// Font size of axis labels, in pixels.
 pub(crate) const LABEL_SIZE: f64 = 13.0;
 const TICK_LENGTH: f64 = 5.0;
+const MINOR_LENGTH: f64 = 3.0;
 /// Least distance of ticks, in pixels; one for both axes, so that equal axes get equal steps.
 const SPACING: f64 = 60.0;
 const LINE: f64 = LABEL_SIZE * 1.25;
@@ -77,6 +78,19 @@ impl Axes {
         Self { scale, x_ticks, y_ticks, x_label, y_label }
     }
 
+    /// Logarithmic axes: the scale is in log10 of both quantities, each over at least one decade.
+    ///
+    /// Ticks: [`Ticks::decades`]. The y label is wrapped to the height of the frame.
+    #[must_use]
+    pub fn logarithmic(scale: Scale, x_label: &str, y_label: &str) -> Self {
+        let width = |text: &str| Label::parse(text).width(TICK_SIZE);
+        let Rect { w, h, .. } = scale.frame;
+        let x_ticks = Ticks::decades(scale.x, w, width);
+        let y_ticks = Ticks::decades(scale.y, h, |_| TICK_SIZE);
+        let y_label = Label::parse(y_label).wrap(LABEL_SIZE, h + 10.0);
+        Self { scale, x_ticks, y_ticks, x_label: Some(Label::parse(x_label)), y_label }
+    }
+
     /// Pixels that the y axis needs to the left of its frame.
     #[must_use]
     pub fn left_margin(&self) -> f64 {
@@ -127,6 +141,8 @@ impl Axes {
         let Rect { x, .. } = self.scale.frame;
         let bottom = self.scale.frame.bottom();
         let mut lines = Vec::new();
+        lines.extend(self.x_minor().map(|px| [[px, bottom], [px, bottom + MINOR_LENGTH]]));
+        lines.extend(self.y_minor().map(|py| [[x - MINOR_LENGTH, py], [x, py]]));
         for (px, label) in self.x_positions().zip(&self.x_ticks.labels) {
             lines.push([[px, bottom], [px, bottom + TICK_LENGTH]]);
             if self.x_label.is_some() && !label.is_empty() {
@@ -145,14 +161,28 @@ impl Axes {
     }
 
     fn x_positions(&self) -> impl Iterator<Item = f64> {
-        let (scale, y) = (self.scale, self.scale.y.min);
-        self.x_ticks.values.iter().map(move |x| scale.map([*x, y])[0])
+        across(self.scale, &self.x_ticks.values)
+    }
+
+    fn x_minor(&self) -> impl Iterator<Item = f64> {
+        across(self.scale, &self.x_ticks.minor)
     }
 
     fn y_positions(&self) -> impl Iterator<Item = f64> {
-        let (scale, x) = (self.scale, self.scale.x.min);
-        self.y_ticks.values.iter().map(move |y| scale.map([x, *y])[1])
+        upwards(self.scale, &self.y_ticks.values)
     }
+
+    fn y_minor(&self) -> impl Iterator<Item = f64> {
+        upwards(self.scale, &self.y_ticks.minor)
+    }
+}
+
+fn across(scale: Scale, values: &[f64]) -> impl Iterator<Item = f64> {
+    values.iter().map(move |x| scale.map([*x, scale.y.min])[0])
+}
+
+fn upwards(scale: Scale, values: &[f64]) -> impl Iterator<Item = f64> {
+    values.iter().map(move |y| scale.map([scale.x.min, *y])[1])
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
-//! The bar that tells which colour is which time.
+//! The bar that tells which colour is which value.
 
 use super::axes::{LABEL_SIZE, TICK_SIZE};
 use super::geometry::{Point, Range, Rect};
 use super::paint::Paint;
-use super::palette::{INK, time_colour};
+use super::palette::{Colour, INK};
 use super::svg::{Anchor, Svg};
 use super::text::Label;
 use super::ticks::Ticks;
@@ -12,21 +12,22 @@ const BAR: f64 = 12.0;
 const HEAD: f64 = 22.0;
 const STEPS: u32 = 48;
 
-/// A vertical bar of time colours with ticks at its right.
+/// A vertical bar of colours with ticks at its right.
 #[derive(Debug, Clone)]
 pub(crate) struct ColourBar {
     range: Range,
+    colour: fn(f64) -> Colour,
     ticks: Ticks,
     label: Label,
     height: f64,
 }
 
 impl ColourBar {
-    /// A bar of a total height in pixels, its label included.
-    pub(crate) fn new(range: Range, label: &str, height: f64) -> Self {
+    /// A bar of a total height in pixels, its label included; `colour` takes 0 at its lower end, 1 at its upper one.
+    pub(crate) fn new(range: Range, colour: fn(f64) -> Colour, label: &str, height: f64) -> Self {
         let ticks = Ticks::fitting(range, height - HEAD, 40.0, |_| TICK_SIZE);
         let label = Label::parse(&ticks.scaled_label(label));
-        Self { range, ticks, label, height }
+        Self { range, colour, ticks, label, height }
     }
 
     /// Width in pixels.
@@ -42,7 +43,7 @@ impl ColourBar {
         for i in 0..STEPS {
             // each step reaches to the top, under the next ones: no seams, and no gradient, which the PDF writer bends
             let h = bar.h * f64::from(STEPS - i) / f64::from(STEPS);
-            let colour = time_colour((f64::from(i) + 0.5) / f64::from(STEPS));
+            let colour = (self.colour)((f64::from(i) + 0.5) / f64::from(STEPS));
             svg.rect(Rect { h, ..bar }, &Paint::fill(colour));
         }
         svg.rect(bar, &Paint::stroke(INK, 0.8));

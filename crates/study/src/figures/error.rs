@@ -42,6 +42,28 @@ pub enum FigureError {
         /// Length it has.
         got: usize,
     },
+    /// A spectrum differs in length from its frequencies.
+    #[error("spectrum '{curve}' has {got} values for {expected} frequencies; give one value per frequency")]
+    Powers {
+        /// Label of the curve.
+        curve: String,
+        /// Number of frequencies.
+        expected: usize,
+        /// Number of values.
+        got: usize,
+    },
+    /// A field does not fill its grid.
+    #[error(
+        "the field has {got} values for {columns} times and {rows} places; give {columns} x {rows} values"
+    )]
+    Cells {
+        /// Number of times.
+        columns: usize,
+        /// Number of places.
+        rows: usize,
+        /// Number of values.
+        got: usize,
+    },
     /// Times do not increase.
     #[error("{what} number {index} is smaller than the one before it; sort the data by time")]
     Unsorted {

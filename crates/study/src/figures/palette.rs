@@ -1,7 +1,7 @@
 //! Colours that survive colour blindness, grey printing and a white page.
 //!
 //! Categories: Okabe & Ito (2008), *Color Universal Design*. Time: viridis (Smith & van der Walt 2015, CC0),
-//! cut at 0.88 because its yellow end vanishes on white.
+//! cut at 0.88 because its yellow end vanishes on white. Signed values: our own ramp, see [`signed_colour`].
 
 use std::fmt;
 
@@ -63,6 +63,28 @@ const TIME: [Colour; 9] = [
     Colour(122, 209, 81),
 ];
 
+/// Colours of negative values, from 0 outwards: CIELAB lightness 97, 88, 77, 65, 53, 41, 29 at the hue of [`BLUE`].
+const NEGATIVE: [Colour; 7] = [
+    Colour(246, 246, 246),
+    Colour(206, 222, 245),
+    Colour(155, 193, 239),
+    Colour(93, 163, 229),
+    Colour(3, 132, 205),
+    Colour(2, 101, 159),
+    Colour(1, 72, 115),
+];
+
+/// Colours of positive values: the same lightness at the hue of [`VERMILION`].
+const POSITIVE: [Colour; 7] = [
+    Colour(246, 246, 246),
+    Colour(243, 215, 201),
+    Colour(232, 179, 150),
+    Colour(212, 141, 100),
+    Colour(189, 105, 53),
+    Colour(153, 75, 24),
+    Colour(111, 52, 12),
+];
+
 impl Colour {
     /// The colour at `fraction` (0 to 1, clamped) of the way to `other`.
     #[must_use]
@@ -76,9 +98,23 @@ impl Colour {
 /// Colour of time: `fraction` 0 is the start (dark violet), 1 the end (light green). Clamped.
 #[must_use]
 pub fn time_colour(fraction: f64) -> Colour {
-    let position = fraction.clamp(0.0, 1.0) * (TIME.len() - 1) as f64;
-    let i = (position as usize).min(TIME.len() - 2);
-    TIME[i].mix(TIME[i + 1], position - i as f64)
+    along(&TIME, fraction)
+}
+
+/// Colour of a signed value: -1 dark blue, 0 nearly white, 1 dark orange. Clamped.
+///
+/// Sign is hue, magnitude is lightness, equal for both signs; blue and orange stay apart for every kind of colour
+/// blindness (Okabe & Ito 2008).
+#[must_use]
+pub fn signed_colour(value: f64) -> Colour {
+    along(if value < 0.0 { &NEGATIVE } else { &POSITIVE }, value.abs())
+}
+
+/// The colour at `fraction` (0 to 1, clamped) of a ramp of equal steps.
+fn along(ramp: &[Colour], fraction: f64) -> Colour {
+    let position = fraction.clamp(0.0, 1.0) * (ramp.len() - 1) as f64;
+    let i = (position as usize).min(ramp.len() - 2);
+    ramp[i].mix(ramp[i + 1], position - i as f64)
 }
 
 /// Colour of time `t` within `range`; the start colour if the range is empty.
@@ -100,5 +136,27 @@ mod tests {
         let all: Vec<_> = (0..=50).map(|i| luminance(time_colour(f64::from(i) / 50.0))).collect();
         assert!(all.windows(2).all(|w| w[0] < w[1]));
         assert!(all[50] < 0.75 * luminance(WHITE));
+    }
+
+    /// As a deuteranope sees it. Source: Machado, Oliveira & Fernandes (2009), IEEE TVCG 15, 1291, severity 1.0
+    /// (matrix applied to sRGB values, which is enough to tell colours apart).
+    fn deuteranope(Colour(r, g, b): Colour) -> [f64; 3] {
+        let rows = [[0.367, 0.861, -0.228], [0.280, 0.673, 0.047], [-0.012, 0.043, 0.969]];
+        rows.map(|m: [f64; 3]| m[0] * f64::from(r) + m[1] * f64::from(g) + m[2] * f64::from(b))
+    }
+
+    #[test]
+    fn signed_values_darken_alike_and_keep_their_sign_apart() {
+        let of = |i: i32| signed_colour(f64::from(i) / 20.0);
+        for i in 1..=20 {
+            assert!(luminance(of(i)) < luminance(of(i - 1)) && luminance(of(-i)) < luminance(of(1 - i)));
+            assert!((luminance(of(i)) - luminance(of(-i))).abs() < 12.0, "{i}");
+        }
+        for i in 4..=20 {
+            let (plus, minus) = (deuteranope(of(i)), deuteranope(of(-i)));
+            let distance = plus.iter().zip(minus).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+            assert!(distance > 30.0, "{i}: {distance}");
+        }
+        assert_eq!((of(0), of(-99)), (Colour(246, 246, 246), of(-20)));
     }
 }

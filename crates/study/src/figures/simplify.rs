@@ -31,6 +31,23 @@ pub fn simplify(points: &[Point], tolerance: f64) -> Vec<Point> {
     points.iter().zip(keep).filter_map(|(p, keep)| keep.then_some(*p)).collect()
 }
 
+/// First, lowest, highest and last point of every column of a width, in their order: for a curve with many points per
+/// column the same picture.
+///
+/// # Units     of the points, whose x does not decrease
+pub(crate) fn envelope(points: &[Point], width: f64) -> Vec<Point> {
+    let mut out = Vec::with_capacity(points.len().min(4096));
+    for column in points.chunk_by(|a, b| (a[0] / width).floor() == (b[0] / width).floor()) {
+        let by_height = |a: &usize, b: &usize| column[*a][1].total_cmp(&column[*b][1]);
+        let (low, high) = ((0..column.len()).min_by(by_height), (0..column.len()).max_by(by_height));
+        let mut kept = vec![0, low.unwrap_or(0), high.unwrap_or(0), column.len() - 1];
+        kept.sort_unstable();
+        kept.dedup();
+        out.extend(kept.into_iter().map(|i| column[i]));
+    }
+    out
+}
+
 /// Index and distance of the point farthest from the chord `first`-`last`.
 fn farthest(points: &[Point], first: usize, last: usize) -> (usize, f64) {
     (first + 1..last)
@@ -75,5 +92,18 @@ mod tests {
     fn a_straight_line_of_many_points_needs_few() {
         let line: Vec<_> = (0..100_000).map(|i| [f64::from(i) * 0.01, f64::from(i) * 0.02]).collect();
         assert!(simplify(&line, 0.25).len() < 102);
+    }
+
+    #[test]
+    fn the_envelope_keeps_extremes_ends_and_order() {
+        let points: Vec<Point> =
+            (0..1000u32).map(|i| [f64::from(i) * 0.01, f64::from(i * 7919 % 1000)]).collect();
+        let few = envelope(&points, 0.5);
+        assert!(few.len() <= 80 && few.windows(2).all(|w| w[0][0] < w[1][0]));
+        assert_eq!((few[0], few[few.len() - 1]), (points[0], points[999]));
+        for height in [0.0, 999.0] {
+            assert!(few.iter().any(|p| p[1] == height));
+        }
+        assert_eq!(envelope(&points, 1e-6), points);
     }
 }

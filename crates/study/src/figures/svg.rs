@@ -2,6 +2,9 @@
 
 use std::fmt::{self, Display, Write as _};
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD as BASE64;
+
 use super::fonts::{self, Face};
 use super::geometry::{Point, Rect};
 use super::paint::Paint;
@@ -109,6 +112,17 @@ impl Svg {
     /// An upright rectangle.
     pub fn rect(&mut self, rect: Rect, paint: &Paint) {
         let _ = writeln!(self.body, "<rect {}{paint}/>", Box(rect));
+    }
+
+    /// A PNG picture stretched over a rectangle, its pixels as sharp boxes.
+    pub fn image(&mut self, rect: Rect, png: &[u8]) {
+        let data = BASE64.encode(png);
+        let _ = writeln!(
+            self.body,
+            "<image {} preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" \
+             href=\"data:image/png;base64,{data}\"/>",
+            Box(rect)
+        );
     }
 
     /// Draws with everything outside `rect` cut off.

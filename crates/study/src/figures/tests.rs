@@ -40,6 +40,18 @@ fn series(values: Vec<Option<f64>>) -> SeriesFigure {
     SeriesFigure { times, panels: vec![panel.clone(), panel], ..SeriesFigure::default() }
 }
 
+fn field(columns: usize, rows: usize, f: fn(f64, f64) -> f64) -> SpaceTimeFigure {
+    let value = |i: usize| f((i % columns) as f64 / columns as f64, (i / columns) as f64 / rows as f64);
+    let values = (0..columns * rows).map(value).collect();
+    SpaceTimeFigure { columns, rows, values, ..SpaceTimeFigure::default() }
+}
+
+fn spectrum(power: &[f64]) -> SpectrumFigure {
+    let frequencies = (0..power.len()).map(|i| i as f64).collect();
+    let curve = SpectrumCurve { label: "*x*".into(), colour: BLUE, power: power.to_vec() };
+    SpectrumFigure { frequencies, curves: vec![curve.clone(), curve], ..SpectrumFigure::default() }
+}
+
 fn film(count: usize, camera: Camera) -> Animation {
     let frame = |p: &PathPoint| Frame { t: p.t, centre: [p.x, p.y], outline: ellipse([p.x, p.y]) };
     let frames = wave(count).iter().map(frame).collect();
@@ -69,6 +81,10 @@ fn no_figure_holds_a_number_that_is_none() {
         map(vec![[0.0, 0.0]]).svg(),
         map(vec![[1e-30, 2e-30], [-3e-30, 0.0]]).svg(),
         map(vec![[1e90, -1e90]]).svg(),
+        field(1, 1, |_, _| 0.0).svg(),
+        SpaceTimeFigure { times: (3.0, 3.0), ..field(5, 3, |t, s| 1e99 * (t - s)) }.svg(),
+        spectrum(&[0.0, 1.0]).svg(),
+        spectrum(&[1e-320, 1e-320, 0.0, 1e99, -1.0, 2.0, 3.0]).svg(),
     ];
     for svg in all {
         let svg = svg.expect("a figure");
@@ -98,6 +114,17 @@ fn bad_data_are_refused_with_the_place() {
         Animation { fps: 0.0, ..film(3, Camera::Auto) }.apng(),
         Err(FigureError::OutOfRange { .. })
     ));
+    assert!(matches!(SpaceTimeFigure::default().svg(), Err(FigureError::Empty { .. })));
+    assert!(matches!(
+        SpaceTimeFigure { rows: 3, ..field(5, 4, |_, _| 1.0) }.svg(),
+        Err(FigureError::Cells { columns: 5, rows: 3, got: 20 })
+    ));
+    assert!(matches!(field(2, 2, |t, _| 1.0 / t).svg(), Err(FigureError::NotFinite { index: 0, .. })));
+    assert!(matches!(spectrum(&[1.0]).svg(), Err(FigureError::Empty { .. })));
+    assert!(matches!(spectrum(&[1.0, 0.0, -1.0]).svg(), Err(FigureError::Empty { .. })));
+    let mut long = spectrum(&[1.0; 4]);
+    long.curves[1].power.push(1.0);
+    assert!(matches!(long.svg(), Err(FigureError::Powers { expected: 4, got: 5, .. })));
     let mut backwards = film(3, Camera::Auto);
     backwards.frames.reverse();
     assert!(matches!(backwards.apng(), Err(FigureError::Unsorted { index: 1, .. })));
@@ -120,6 +147,43 @@ fn a_long_path_is_decimated() {
         (0..100_000).map(|i| 1e-4 * f64::from(i)).map(|t| PathPoint { t, x: t, y: t.sin() }).collect();
     let svg = PathFigure { segments: vec![long], ..PathFigure::default() }.svg().expect("a figure");
     assert!(drawing(&svg).len() < 20_000, "{}", drawing(&svg).len());
+}
+
+#[test]
+fn large_data_give_small_drawings() {
+    let noise = |t: f64, s: f64| (1e4 * (12.9898 * t + 78.233 * s).sin()).fract();
+    let svg = field(5000, 300, noise).svg().expect("a figure");
+    assert!(drawing(&svg).len() < 250_000, "{}", drawing(&svg).len());
+    let svg = spectrum(&(0..200_000).map(|i| 1.0 + noise(f64::from(i), 0.0)).collect::<Vec<_>>()).svg();
+    let svg = svg.expect("a figure");
+    assert!(drawing(&svg).len() < 150_000, "{}", drawing(&svg).len());
+}
+
+#[test]
+fn the_heat_map_is_drawn_with_its_first_row_and_column_at_the_lower_left() {
+    // one positive cell at the origin, one negative cell at the opposite corner
+    let corner = |t: f64, s: f64| {
+        if t == 0.0 && s == 0.0 {
+            1.0
+        } else if t * s > 0.2 {
+            -1.0
+        } else {
+            0.0
+        }
+    };
+    let svg = field(2, 2, corner).svg().expect("a figure");
+    let picture = raster::pixmap(&svg, 1.0).expect("a picture");
+    let seen = |c: palette::Colour| {
+        let hits = picture.pixels().iter().enumerate();
+        let hits = hits.filter(|(_, p)| (p.red(), p.green(), p.blue()) == (c.0, c.1, c.2)).map(|(i, _)| i);
+        let places: Vec<_> =
+            hits.map(|i| (i % picture.width() as usize, i / picture.width() as usize)).collect();
+        let n = places.len();
+        assert!(n > 29_000, "{n} of 300 x 100 pixels have the colour {c}");
+        (places.iter().map(|p| p.0).sum::<usize>() / n, places.iter().map(|p| p.1).sum::<usize>() / n)
+    };
+    let (plus, minus) = (seen(palette::signed_colour(1.0)), seen(palette::signed_colour(-1.0)));
+    assert!((295..=305).contains(&(minus.0 - plus.0)) && (95..=105).contains(&(plus.1 - minus.1)));
 }
 
 #[test]
@@ -159,7 +223,9 @@ fn films_decode_frame_by_frame() {
 #[cfg(feature = "pdf")]
 #[test]
 fn pdf_is_one() {
-    let bytes = pdf(&path(wave(100)).svg().expect("a figure")).expect("a pdf");
-    assert!(bytes.starts_with(b"%PDF-"));
+    for svg in [path(wave(100)).svg(), field(9, 9, |t, s| t - s).svg()] {
+        let bytes = pdf(&svg.expect("a figure")).expect("a pdf");
+        assert!(bytes.starts_with(b"%PDF-"));
+    }
     assert!(pdf("no svg").is_err());
 }

@@ -14,16 +14,18 @@ pub struct Ticks {
     pub values: Vec<f64>,
     /// Label of each tick, with a true minus sign; to be multiplied by ten to the `exponent`.
     pub labels: Vec<String>,
+    /// Positions of short ticks without label, between the others; only logarithmic axes have them.
+    pub minor: Vec<f64>,
     /// Power of ten taken out of the labels; 0 for numbers of ordinary size.
     pub exponent: i32,
-    step: Step,
+    pub(super) step: Step,
 }
 
 /// The step `mantissa` * 10^`power`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Step {
-    mantissa: i64,
-    power: i32,
+pub(super) struct Step {
+    pub(super) mantissa: i64,
+    pub(super) power: i32,
 }
 
 impl Step {
@@ -42,7 +44,7 @@ impl Step {
     }
 
     /// First and last multiple inside the range, a rounding error beyond its ends allowed.
-    fn multiples(self, range: Range) -> (i64, i64) {
+    pub(super) fn multiples(self, range: Range) -> (i64, i64) {
         let (step, slack) = (self.times(1, 0), 1e-9);
         ((range.min / step - slack).ceil() as i64, (range.max / step + slack).floor() as i64)
     }
@@ -83,7 +85,8 @@ impl Ticks {
             let text = format!("{:.decimals$}", step.times(k, exponent));
             text.replace('-', "\u{2212}")
         };
-        Self { labels: (first..=last).map(label).collect(), values, exponent, step }
+        let labels = (first..=last).map(label).collect();
+        Self { labels, values, minor: Vec::new(), exponent, step }
     }
 
     /// As many ticks as fit: neighbouring labels, `extent` pixels long each, keep their distance on an axis of

@@ -2,8 +2,10 @@
 
 mod csv_table;
 mod folder;
+mod hdf5;
 mod parquet_table;
 mod staging;
 
 pub use folder::{Format, read_dataset, write_dataset, write_table};
+pub use hdf5::{Fields, write_fields};
 pub use staging::{Staging, replace_file};

@@ -6,6 +6,7 @@ use crate::figures::block::Block;
 use crate::figures::colour_bar::ColourBar;
 use crate::figures::geometry::{Range, Rect};
 use crate::figures::legend::Legend;
+use crate::figures::palette::time_colour;
 use crate::figures::svg::Svg;
 
 /// Longest side of the frame, in pixels.
@@ -50,7 +51,9 @@ impl Layout {
         let scale = Scale::equal(Rect { x: 0.0, y: 0.0, w, h }, x, y);
         let axes = Axes::new(scale, Some(&figure.x_label), &figure.y_label);
         let left = MARGIN + axes.left_margin();
-        let bar = figure.time_range().map(|range| ColourBar::new(range, &figure.time_label, h.min(210.0)));
+        let bar = figure
+            .time_range()
+            .map(|range| ColourBar::new(range, time_colour, &figure.time_label, h.min(210.0)));
         let beside = w < TEXT;
         let mut legend = Legend::flowed(figure.legend(), if beside { 0.0 } else { w });
         if !beside && legend.width() > w {
