@@ -72,32 +72,32 @@ pub(crate) struct SimulateOptions {
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) initial: Vec<(String, f64)>,
     /// Model time to record
-    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) t_end: Option<f64>,
     /// Model time to run before recording
-    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) transient: Option<f64>,
     /// Model time between recorded states (default: t-end / 2000)
-    #[arg(long, value_name = "D", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "D", value_parser = number, allow_hyphen_values = true)]
     pub(crate) dt_out: Option<f64>,
     /// euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for the stiff cell model ifrk4, etdrk4 (fixed step),
     /// krogstad4 (adaptive)
     #[arg(long, value_name = "NAME")]
     pub(crate) stepper: Option<String>,
     /// Step of fixed-step steppers
-    #[arg(long, value_name = "H", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", value_parser = number, allow_hyphen_values = true)]
     pub(crate) step: Option<f64>,
     /// Relative tolerance of adaptive steppers
-    #[arg(long, value_name = "R", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "R", value_parser = number, allow_hyphen_values = true)]
     pub(crate) rtol: Option<f64>,
     /// Absolute tolerance of adaptive steppers
-    #[arg(long, value_name = "A", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "A", value_parser = number, allow_hyphen_values = true)]
     pub(crate) atol: Option<f64>,
     /// Seed of the random start
-    #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) seed: Option<u64>,
     /// Most steps to take
-    #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) max_steps: Option<u64>,
     /// Output folder (default: MODEL-PRESET here), or one table if it ends in .parquet or .csv
     #[arg(long, value_name = "DIR|FILE")]
@@ -124,19 +124,19 @@ pub(crate) struct DrawingOptions {
     #[arg(long)]
     pub(crate) no_animation: bool,
     /// Radius R0 of the undeformed body (default: so that the deformation is seen)
-    #[arg(long, value_name = "R0", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "R0", value_parser = number, allow_hyphen_values = true)]
     pub(crate) radius: Option<f64>,
     /// Size of the drawn outlines against the path (default: readable)
-    #[arg(long, value_name = "F", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "F", value_parser = number, allow_hyphen_values = true)]
     pub(crate) scale: Option<f64>,
     /// Number of outlines along the path
-    #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) outlines: Option<u64>,
     /// Draw the path and the animation from this time
-    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) from: Option<f64>,
     /// Draw the path and the animation to this time
-    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) to: Option<f64>,
     /// Also write PDF figures
     #[cfg(feature = "pdf")]

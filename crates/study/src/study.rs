@@ -257,7 +257,7 @@ fn read_model(top: &mut Table<'_>, file: &str) -> Result<Study, Error> {
     };
     for (name, value) in table.drain() {
         let number = value.number()?;
-        study.set(&name, number).map_err(|error| value.error(error))?;
+        study.set(&name, number).map_err(|error| value.name_error(error))?;
     }
     Ok(study)
 }
@@ -285,7 +285,7 @@ fn read_free(study: &Study, value: &Value<'_>) -> Result<Vec<String>, Error> {
 fn read_initial(study: &mut Study, mut table: Table<'_>) -> Result<(), Error> {
     for (name, value) in table.drain() {
         let number = value.number()?;
-        study.set_initial(&name, number).map_err(|error| value.error(error))?;
+        study.set_initial(&name, number).map_err(|error| value.name_error(error))?;
     }
     Ok(())
 }

@@ -55,6 +55,7 @@ pub(crate) struct Table<'i> {
 pub(crate) struct Value<'i> {
     source: Source<'i>,
     key: String,
+    key_span: Range<usize>,
     value: Spanned<DeValue<'i>>,
 }
 
@@ -62,8 +63,9 @@ impl<'i> Table<'i> {
     /// Takes the value of `key`, if it is there.
     pub(crate) fn take(&mut self, key: &str) -> Option<Value<'i>> {
         self.known.push(key.to_owned());
-        let (_, value) = self.entries.remove_entry(key)?;
-        Some(Value { source: self.source, key: format!("{}{key}", self.path), value })
+        let (found, value) = self.entries.remove_entry(key)?;
+        let key = format!("{}{key}", self.path);
+        Some(Value { source: self.source, key, key_span: found.span(), value })
     }
 
     /// Takes a number into `place`, if it is there.
@@ -107,8 +109,9 @@ impl<'i> Table<'i> {
         all.sort_by_key(|(key, _)| key.span().start);
         all.into_iter()
             .map(|(key, value)| {
+                let key_span = key.span();
                 let name = key.into_inner().into_owned();
-                let value = Value { source, key: format!("{path}{name}"), value };
+                let value = Value { source, key: format!("{path}{name}"), key_span, value };
                 (name, value)
             })
             .collect()
@@ -133,6 +136,11 @@ impl<'i> Value<'i> {
     /// A complaint about this value.
     pub(crate) fn error(&self, problem: impl std::fmt::Display) -> Error {
         self.source.error(self.value.span(), problem.to_string())
+    }
+
+    /// A complaint about its name.
+    pub(crate) fn name_error(&self, problem: impl std::fmt::Display) -> Error {
+        self.source.error(self.key_span.clone(), problem.to_string())
     }
 
     fn wrong(&self, expected: &str) -> Error {
