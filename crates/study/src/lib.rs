@@ -4,6 +4,7 @@
 pub mod dataset;
 pub mod draw;
 mod error;
+pub mod fields;
 pub mod figures;
 pub mod files;
 mod initial;

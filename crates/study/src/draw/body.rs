@@ -57,7 +57,8 @@ impl<'d> Body<'d> {
         [self.column("x")[row], self.column("y")[row]]
     }
 
-    fn shape(&self, row: usize) -> Vec<f64> {
+    /// The shape at a row.
+    pub(super) fn shape(&self, row: usize) -> Vec<f64> {
         let named: Vec<f64> = self.model.coordinates().iter().map(|c| self.column(c.name)[row]).collect();
         let mut shape = named.clone();
         self.model.encode(&named, &mut shape);
@@ -73,6 +74,16 @@ impl<'d> Body<'d> {
             }
             Outline::NotACurve { .. } | Outline::NotClosed { .. } => None,
         }
+    }
+
+    /// The boundary's field at a row, for models that have one.
+    pub(super) fn profile(&self, row: usize, points: usize) -> Option<Vec<f64>> {
+        self.model.profile(&self.shape(row), points)
+    }
+
+    /// Length of the undeformed boundary.
+    pub(super) fn arc_length(&self) -> f64 {
+        std::f64::consts::TAU * self.radius
     }
 
     /// Longer side of the box around the shown path.

@@ -5,6 +5,8 @@ mod film;
 mod path;
 mod return_map;
 mod series;
+mod space_time;
+mod spectrum;
 mod words;
 
 use crate::figures::{DEFAULT_SCALE, png};
@@ -20,8 +22,8 @@ pub struct Picture {
     pub bytes: Vec<u8>,
 }
 
-/// Draws every figure of a dataset: `path`, `series`, `return-map` (as SVG and PNG, and PDF if asked and built in) and
-/// the animation `motion.png`.
+/// Draws every figure of a dataset: `path`, `series`, and where the model or the plan has them `return-map`, `phi` and
+/// `spectrum` (as SVG and PNG, and PDF if asked and built in), and the animation `motion.png`.
 ///
 /// A dataset whose shown window has fewer than two rows gives no pictures.
 ///
@@ -51,6 +53,12 @@ fn stills(body: &Body<'_>, pdf: bool) -> Result<Vec<Picture>, Error> {
     add(&mut pictures, "series", &series::figure(body).svg()?, pdf)?;
     if let Some(figure) = return_map::figure(body) {
         add(&mut pictures, "return-map", &figure.svg()?, pdf)?;
+    }
+    if let Some(figure) = space_time::figure(body) {
+        add(&mut pictures, "phi", &figure.svg()?, pdf)?;
+    }
+    if let Some(figure) = spectrum::figure(body) {
+        add(&mut pictures, "spectrum", &figure.svg()?, pdf)?;
     }
     Ok(pictures)
 }

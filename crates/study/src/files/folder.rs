@@ -62,6 +62,9 @@ pub fn write_dataset(dataset: &Dataset, format: Format, staging: &Staging) -> Re
         let file = format!("{name}.{}", format.extension());
         write_table(table, manifest, format, &staging.path().join(file))?;
     }
+    if let Some(fields) = crate::fields::fields(dataset)? {
+        super::write_fields(&staging.path().join("fields.h5"), &fields)?;
+    }
     let mut json =
         serde_json::to_vec_pretty(manifest).map_err(|error| Error::write_failed(staging.target(), error))?;
     json.push(b'\n');

@@ -1,0 +1,53 @@
+//! Power spectra of the deformation modes.
+
+use super::body::Body;
+use super::words;
+use crate::figures::palette::CATEGORIES;
+use crate::figures::{SpectrumCurve, SpectrumFigure};
+use motiform_analysis::{Spectrum, welch};
+
+/// Modes whose spectra are drawn.
+const MODES: usize = 4;
+
+/// Fewest samples a spectrum is made of.
+const FEWEST: usize = 256;
+
+/// The spectra of modes 1 to 4 of phi over the whole recording; `None` for models without such modes, and for short
+/// recordings.
+pub(super) fn figure(body: &Body<'_>) -> Option<SpectrumFigure> {
+    body.model.profile(&body.shape(body.rows().start), 8)?;
+    let spectra: Vec<Spectrum> = (1..=MODES).map(|n| mode(body, n)).collect::<Option<_>>()?;
+    let first = spectra.first()?;
+    let curves = spectra.iter().enumerate().map(|(index, spectrum)| SpectrumCurve {
+        label: format!("mode {}", index + 1),
+        colour: CATEGORIES[index % CATEGORIES.len()],
+        power: spectrum.power.clone(),
+    });
+    let method = format!(
+        "Welch's method: {} segments, Hann window, half overlapping; each curve is the sum over the two components of a mode.",
+        first.segments
+    );
+    Some(SpectrumFigure {
+        title: format!("{}: power spectrum", body.dataset.manifest.plan.title),
+        caption: vec![words::parameters(body), method],
+        y_label: "power spectral density (length^2 × time)".to_owned(),
+        frequencies: first.frequencies.clone(),
+        curves: curves.collect(),
+        ..SpectrumFigure::default()
+    })
+}
+
+/// The sum of the spectra of `c_n` and `s_n`, which does not depend on where s = 0 lies.
+fn mode(body: &Body<'_>, n: usize) -> Option<Spectrum> {
+    let dt = body.dataset.manifest.plan.computation.dt_out;
+    let component = |letter: char| {
+        let samples = body.column(&format!("{letter}{n}"));
+        let segment = (samples.len() / 4).max(FEWEST);
+        welch(samples, dt, segment).ok()
+    };
+    let (mut cosine, sine) = (component('c')?, component('s')?);
+    for (power, other) in cosine.power.iter_mut().zip(&sine.power) {
+        *power += other;
+    }
+    Some(cosine)
+}
