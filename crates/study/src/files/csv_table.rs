@@ -47,3 +47,19 @@ pub(super) fn read(path: &Path) -> Result<Table, Error> {
     }
     Ok(Table { columns })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::same_bits;
+
+    /// Tables of one column need care: a line with an empty field is an empty line, and readers skip those.
+    #[test]
+    fn an_undefined_value_in_a_single_column_is_kept() {
+        let mut table = Table::default();
+        table.push("rest_time", "", vec![1.0, f64::NAN, -0.0, f64::NAN]);
+        let file = tempfile::NamedTempFile::new().expect("a temporary file");
+        write(&table, file.path()).expect("written");
+        assert!(same_bits(&table, &read(file.path()).expect("read")));
+    }
+}
