@@ -192,7 +192,7 @@ fn what_is_not_committed_leaves_nothing() {
         }
         assert!(!listing(place.path()).is_empty());
         drop(staging);
-        assert_eq!(listing(place.path()), [PathBuf::new(); 0]);
+        assert!(listing(place.path()).is_empty(), "{:?}", listing(place.path()));
     }
 }
 

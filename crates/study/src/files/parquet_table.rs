@@ -5,7 +5,7 @@ use crate::table::{Column, Table};
 use parquet::basic::{Compression, Repetition, Type as PhysicalType, ZstdLevel};
 use parquet::data_type::DoubleType;
 use parquet::errors::{ParquetError, Result};
-use parquet::file::metadata::KeyValue;
+use parquet::file::metadata::{KeyValue, RowGroupMetaData};
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
@@ -83,7 +83,7 @@ fn try_read(path: &Path) -> Result<Table> {
         .and_then(|entries| entries.iter().find(|entry| entry.key == "motiform.columns"))
         .and_then(|entry| serde_json::from_str::<serde_json::Value>(entry.value.as_deref()?).ok());
     // The library asserts these; a damaged file may break them.
-    for chunk in reader.metadata().row_groups().iter().flat_map(|group| group.columns()) {
+    for chunk in reader.metadata().row_groups().iter().flat_map(RowGroupMetaData::columns) {
         let start = chunk.dictionary_page_offset().unwrap_or(chunk.data_page_offset());
         if start < 0 || chunk.compressed_size() < 0 {
             return Err(ParquetError::General("a column lies outside the file".to_owned()));
