@@ -5,6 +5,7 @@ use super::{csv_table, parquet_table};
 use crate::Error;
 use crate::dataset::{Dataset, Manifest};
 use crate::table::Table;
+use motiform_dynamics::Model;
 use std::path::{Path, PathBuf};
 
 /// The file format of tables.
@@ -81,10 +82,9 @@ pub fn read_dataset(folder: &Path) -> Result<Dataset, Error> {
         Error::unreadable(&path, format!("{error}; a dataset is a folder written by `motiform simulate`"))
     })?;
     let manifest: Manifest = serde_json::from_str(&text).map_err(|error| Error::unreadable(&path, error))?;
+    let model = model_of(&manifest).map_err(|error| Error::unreadable(&path, error))?;
     let (path, trajectory) = read_table(folder, "trajectory")?
         .ok_or_else(|| Error::unreadable(folder, "it has no trajectory.parquet or trajectory.csv"))?;
-    let c = &manifest.plan.computation;
-    let model = manifest.plan.info()?.build(&c.parameters.values())?;
     let observables = model.observables().iter().map(|observable| observable.name);
     let coordinates = model.coordinates().iter().map(|coordinate| coordinate.name);
     let derived = ["t", "x", "y", "speed", "turning_rate"].into_iter();
@@ -94,6 +94,11 @@ pub fn read_dataset(folder: &Path) -> Result<Dataset, Error> {
     };
     require(&crossings, &path, ["t", "x", "y", "rising"])?;
     Ok(Dataset { manifest, trajectory, crossings: Some(crossings) })
+}
+
+fn model_of(manifest: &Manifest) -> Result<Box<dyn Model>, Error> {
+    let plan = &manifest.plan;
+    Ok(plan.info()?.build(&plan.computation.parameters.values())?)
 }
 
 /// Refuses a table that lacks one of the columns `names`.

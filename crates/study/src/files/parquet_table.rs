@@ -5,7 +5,7 @@ use crate::table::{Column, Table};
 use parquet::basic::{Compression, Repetition, Type as PhysicalType, ZstdLevel};
 use parquet::data_type::DoubleType;
 use parquet::errors::{ParquetError, Result};
-use parquet::file::metadata::KeyValue;
+use parquet::file::metadata::{KeyValue, RowGroupMetaData};
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
@@ -82,6 +82,13 @@ fn try_read(path: &Path) -> Result<Table> {
         .key_value_metadata()
         .and_then(|entries| entries.iter().find(|entry| entry.key == "motiform.columns"))
         .and_then(|entry| serde_json::from_str::<serde_json::Value>(entry.value.as_deref()?).ok());
+    // The library asserts these; a damaged file may break them.
+    for chunk in reader.metadata().row_groups().iter().flat_map(RowGroupMetaData::columns) {
+        let start = chunk.dictionary_page_offset().unwrap_or(chunk.data_page_offset());
+        if start < 0 || chunk.compressed_size() < 0 {
+            return Err(ParquetError::General("a column lies outside the file".to_owned()));
+        }
+    }
     let mut columns: Vec<Column> = Vec::new();
     for field in file.schema_descr().columns() {
         let name = field.name().to_owned();
