@@ -46,6 +46,12 @@ pub(crate) fn print(text: &str) -> anyhow::Result<()> {
     }
 }
 
+/// Says on standard error what the user should know about a result.
+pub(crate) fn warn(text: &str) {
+    // Nothing is lost if nobody listens.
+    let _ = writeln!(io::stderr(), "warning: {text}");
+}
+
 /// Standard output could not be written.
 #[derive(Debug)]
 struct StdoutFailed(io::Error);

@@ -42,6 +42,9 @@ pub struct Manifest {
     /// What the model measures of its boundary at the end (length, area, ...).
     #[serde(default, skip_serializing_if = "Named::is_empty")]
     pub measures: Named,
+    /// For fixed steps: how far the last shape moves when one more step is made in two halves, relative to its size.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub step_error: Option<f64>,
     /// The centre that was put on the origin, where the return map asked for that.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub centre: Option<[f64; 2]>,

@@ -59,6 +59,28 @@ pub enum Error {
         /// What would be right.
         remedy: &'static str,
     },
+    /// A fixed step that an explicit method cannot take on this model.
+    #[error(
+        "step = {step:?}: {stepper} is unstable above {largest:.1e} for this model; give a smaller step, or take an \
+         exponential stepper (krogstad4)"
+    )]
+    UnstableStep {
+        /// The step.
+        step: f64,
+        /// The stepper.
+        stepper: &'static str,
+        /// The largest step that it can take.
+        largest: f64,
+    },
+    /// A start whose boundary cannot be closed.
+    #[error(
+        "the initial values describe no closed boundary (closing it leaves {residual:.1e} of its length): give \
+         smaller ones, or another prior or closure_modes"
+    )]
+    NotClosed {
+        /// What is left of the closing condition, relative to the boundary's length.
+        residual: f64,
+    },
     /// The output exists.
     #[error("{} exists: choose another --out, or --force to replace it", .path.display())]
     Exists {

@@ -3,8 +3,8 @@
 use crate::error::nearest_of;
 use crate::study::{FigureSettings, ReturnMapSettings, Study};
 use crate::{Error, initial};
-use motiform_dynamics::StepControl;
 use motiform_dynamics::steppers::Method;
+use motiform_dynamics::{Model, Obstacle, StepControl};
 use motiform_models::ModelInfo;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -160,12 +160,15 @@ impl Plan {
         let control = control(study, method)?;
         let names = info.parameters().iter().map(|spec| spec.name.to_owned());
         let parameters = Named(names.zip(study.values()?).collect());
-        info.build(&parameters.values())?;
+        let model = info.build(&parameters.values())?;
+        check_stability(model.as_ref(), method, control)?;
+        let initial = initial::resolve(study, info)?;
+        check_start(model.as_ref(), &initial)?;
         let computation = Computation {
             format: PLAN_FORMAT,
             model: info.name.to_owned(),
             parameters,
-            initial: initial::resolve(study, info)?,
+            initial,
             seed: run.seed,
             transient: run.transient,
             t_end: run.t_end,
@@ -211,6 +214,28 @@ fn check(key: &'static str, value: f64, ok: bool, remedy: &'static str) -> Resul
         // Debug, for it writes 1e-300 and not 300 zeros.
         let value = format!("{value:?}").trim_end_matches(".0").to_owned();
         Err(Error::Setting { key, value, remedy })
+    }
+}
+
+/// An explicit method is stable where its step times every rate of the linear part is small.
+fn check_stability(model: &dyn Model, method: Method, control: Control) -> Result<(), Error> {
+    let (Method::Explicit(tableau), Control::Fixed { step }) = (method, control) else { return Ok(()) };
+    let mut rates = vec![0.0; model.dim()];
+    model.linear(&mut rates);
+    let fastest = rates.iter().fold(0.0, |fastest: f64, rate| fastest.max(-rate));
+    // The real stability intervals: 2 for orders 1 and 2, 2.785 for the classical method of order 4.
+    let largest = if tableau.order < 4 { 2.0 } else { 2.785 } / fastest;
+    if step > largest { Err(Error::UnstableStep { step, stepper: tableau.name, largest }) } else { Ok(()) }
+}
+
+/// A start must be a body.
+fn check_start(model: &dyn Model, initial: &Named) -> Result<(), Error> {
+    let values = initial.values();
+    let mut shape = vec![0.0; model.dim()];
+    model.encode(&values[..model.dim()], &mut shape);
+    match model.obstacle(&shape) {
+        Some(Obstacle::Closure { residual }) => Err(Error::NotClosed { residual }),
+        _ => Ok(()),
     }
 }
 

@@ -2,13 +2,16 @@
 
 use crate::Error;
 use crate::dataset::{Dataset, Manifest, VERSION};
-use crate::plan::{Computation, Named, Plan};
+use crate::plan::{Computation, Control, Named, Plan};
 use crate::study::ReturnMapSettings;
 use crate::table::Table;
 use motiform_dynamics::drive::drive;
+use motiform_dynamics::escape::norm;
 use motiform_dynamics::model::{turning_rate, velocity, velocity_and_acceleration};
 use motiform_dynamics::section::Crossing;
-use motiform_dynamics::{Direction, InPlane, Model, Outcome, Request, Section, Sink, Trajectory};
+use motiform_dynamics::{
+    Direction, InPlane, Model, Outcome, Request, Section, Sink, StepControl, Trajectory,
+};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -155,6 +158,25 @@ impl Run<'_> {
         Ok(Recording { outcome, trajectory, last, steps: counters.steps, rejected: counters.rejected })
     }
 
+    /// The local error of a fixed step at the end of the run, by halving it; `None` for adaptive steps, and where the
+    /// step cannot be made.
+    fn step_error(&self, shape: &[f64]) -> Option<f64> {
+        let Control::Fixed { step } = self.computation.control else { return None };
+        let method = self.plan.method().ok()?;
+        let after = |h: f64| {
+            let mut orbit =
+                method.shape_orbit(self.model, StepControl::Fixed { step: h }, 0.0, shape).ok()?;
+            while orbit.t() < step {
+                orbit.advance(step).ok()?;
+            }
+            Some(orbit.state().to_vec())
+        };
+        let (whole, halves) = (after(step)?, after(0.5 * step)?);
+        let difference: Vec<f64> = whole.iter().zip(&halves).map(|(a, b)| a - b).collect();
+        let relative = norm(&difference) / norm(&halves);
+        relative.is_finite().then_some(relative)
+    }
+
     fn dataset(&self, recording: &Recording, centre: Option<[f64; 2]>) -> Dataset {
         let (shape, position) = recording.last.split_at(recording.last.len() - 2);
         let mut values = shape.to_vec();
@@ -172,6 +194,7 @@ impl Run<'_> {
             position: [position[0], position[1]],
             velocity: velocity(self.model, shape),
             measures: measures(self.model, shape),
+            step_error: self.step_error(shape),
             centre,
         };
         let map = self.computation.return_map.as_ref();

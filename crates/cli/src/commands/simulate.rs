@@ -2,7 +2,7 @@
 
 use crate::args::{SimulateOptions, TableFormat};
 use crate::commands::figure;
-use crate::output::{End, print};
+use crate::output::{End, print, warn};
 use crate::progress::Watch;
 use motiform_models::ModelInfo;
 use motiform_study::files::{Format, Staging, write_dataset, write_table};
@@ -23,11 +23,19 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     let (written, undrawn) = target.write(options, &dataset)?;
     let text = if options.json { json(&dataset)? } else { summary(&dataset, written.as_deref())? };
     print(&text)?;
+    if let Some(error) = dataset.manifest.step_error.filter(|&error| error > COARSE) {
+        warn(&format!(
+            "the step loses accuracy: halving it changes one step by {error:.1e} of the state; give a smaller --step"
+        ));
+    }
     if let Some(error) = undrawn {
         return Err(anyhow::Error::new(error).context("the tables are written, the figures are not"));
     }
     Ok(End::from(&dataset.manifest.outcome))
 }
+
+/// A fixed step whose own error is a larger part of the state than this deserves a word.
+const COARSE: f64 = 1e-4;
 
 /// The study that the options describe: a file or a model, a preset, then what is set by hand.
 fn study(options: &SimulateOptions) -> Result<Study, Error> {
