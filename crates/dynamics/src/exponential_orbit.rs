@@ -18,6 +18,10 @@ use crate::{Dual, Error, Integration, Semilinear, Shape, StepControl};
 /// quadrature: `x_new = x + h (v + v_new)/2 + h^2 (v' - v_new')/12`, order 4 like the method, for one evaluation of
 /// the velocity per step instead of four. (Source: Euler-Maclaurin; Hairer, Norsett, Wanner, I, II.1.)
 ///
+/// Where the field corrects the end of a step ([`crate::System::project`]), the next step has its first stage and its
+/// first velocity at the corrected state. Inside a step dense output and position are those of the flow: at its end the
+/// shape jumps, the position does not.
+///
 /// ```
 /// use motiform_dynamics::{ExponentialOrbit, Integration, Scalar, Semilinear, StepControl, System, VectorField};
 /// use motiform_dynamics::steppers::KROGSTAD4;
@@ -50,6 +54,9 @@ pub struct ExponentialOrbit<'f, F: ?Sized> {
     new: End,
     old: End,
     trial: End,
+    /// Where the last step ended before the field corrected it, if it did: `jumped`.
+    landed: End,
+    jumped: bool,
     errors: Vec<f64>,
     interpolant: Interpolant,
     origin: (f64, u64),
@@ -134,6 +141,8 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
             t_old: t,
             old: end.clone(),
             trial: end.clone(),
+            landed: end.clone(),
+            jumped: false,
             new: end,
             errors: vec![0.0; dim],
             interpolant: Interpolant::hermite(u.len()),
@@ -168,8 +177,7 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
             self.tables.select_odd(self.tableau, &self.lambda, h);
         }
         self.try_step(h);
-        self.check()?;
-        self.accept(t_new);
+        self.accept(t_new)?;
         self.origin = if t_new == limit { (limit, 0) } else { (start, count + 1) };
         Ok(())
     }
@@ -191,9 +199,7 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
             self.try_step(h);
             let error = self.error(tolerance);
             if self.tables.judge(error, h, self.tableau.order, last) {
-                self.check()?;
-                self.accept(if last { limit } else { self.t + h });
-                return Ok(());
+                return self.accept(if last { limit } else { self.t + h });
             }
             self.counters.rejected += 1;
         }
@@ -213,6 +219,7 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
             self.accepted = false;
         }
         self.t_old = self.t;
+        self.jumped = false;
         self.prepared = false;
     }
 
@@ -243,13 +250,31 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
         Err(reason.map_or(StepFailure::NotFinite, StepFailure::Obstacle))
     }
 
-    fn accept(&mut self, t_new: f64) {
+    /// Has the field correct the trial step's end, if it does that, and evaluates it anew.
+    fn project(&mut self, t_new: f64) -> Result<(), StepFailure> {
+        let dim = self.lambda.len();
+        let (shape, position) = self.landed.state.split_at_mut(dim);
+        if !self.field.project(&self.trial.state[..dim], shape).map_err(StepFailure::Obstacle)? {
+            return Ok(());
+        }
+        position.copy_from_slice(&self.trial.state[dim..]);
+        std::mem::swap(&mut self.trial, &mut self.landed);
+        self.jumped = true;
+        let problem = Problem { field: self.field, drift: self.drift, lambda: &self.lambda };
+        problem.evaluate(t_new, self.stages.get_mut(self.tableau.stages()), &mut self.trial);
+        self.check()
+    }
+
+    fn accept(&mut self, t_new: f64) -> Result<(), StepFailure> {
+        self.check()?;
+        self.project(t_new)?;
         std::mem::swap(&mut self.old, &mut self.new);
         std::mem::swap(&mut self.new, &mut self.trial);
         self.t_old = self.t;
         self.t = t_new;
         self.accepted = true;
         self.counters.steps += 1;
+        Ok(())
     }
 }
 
@@ -321,8 +346,9 @@ impl<F: Semilinear<f64> + ?Sized> Integration for ExponentialOrbit<'_, F> {
 
     fn dense(&mut self) -> DenseStep<'_> {
         if !self.prepared {
-            let ends = Ends { h: self.t - self.t_old, old: &self.old.state, new: &self.new.state };
-            self.interpolant.prepare_hermite((&self.old.slope, &self.new.slope), &ends);
+            let new = if self.jumped { &self.landed } else { &self.new };
+            let ends = Ends { h: self.t - self.t_old, old: &self.old.state, new: &new.state };
+            self.interpolant.prepare_hermite((&self.old.slope, &new.slope), &ends);
             self.prepared = true;
         }
         let (old, new) = (&self.old.state[..], &self.new.state[..]);
@@ -340,6 +366,7 @@ impl<F: Semilinear<f64> + ?Sized> Integration for ExponentialOrbit<'_, F> {
         std::mem::swap(&mut self.new, &mut self.trial);
         self.t = t;
         self.origin = (t, 0);
+        self.jumped = false;
         self.prepared = false;
     }
 

@@ -10,13 +10,15 @@ pub trait Integration {
     /// [`StepFailure`], with the orbit where it was.
     fn advance(&mut self, limit: f64) -> Result<(), StepFailure>;
 
-    /// The last step as a function of time.
+    /// The last step as a function of time. Where the field corrects its states ([`crate::System::project`]) it is the
+    /// flow before the correction, which is a jump at the very end of the step.
     fn dense(&mut self) -> DenseStep<'_>;
 
     /// Writes the state at `t` inside the last step by a true step of the method from its start.
     fn step_to(&mut self, t: f64, out: &mut [f64]);
 
-    /// Moves the end of the last step back to `t` (by a true step from its start): the orbit goes on from there.
+    /// Moves the end of the last step back to `t` (by a true step from its start): the orbit goes on from there. The
+    /// state there lies inside the step, so it is not corrected ([`crate::System::project`]); the next step's end is.
     fn end_step_at(&mut self, t: f64);
 
     /// Current time.

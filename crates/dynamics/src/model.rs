@@ -163,6 +163,17 @@ impl<M: System> System for InPlane<M> {
     fn obstacle(&self, u: &[f64]) -> Option<Obstacle> {
         self.0.obstacle(&u[..u.len() - 2])
     }
+
+    /// That of the shape; the position stays.
+    fn project(&self, u: &[f64], projected: &mut [f64]) -> Result<bool, Obstacle> {
+        let (shape, position) = u.split_at(u.len() - 2);
+        let (projected, place) = projected.split_at_mut(shape.len());
+        let changed = self.0.project(shape, projected)?;
+        if changed {
+            place.copy_from_slice(position);
+        }
+        Ok(changed)
+    }
 }
 
 impl<T: Scalar, M: Shape<T>> VectorField<T> for InPlane<M> {

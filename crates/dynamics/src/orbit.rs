@@ -43,6 +43,10 @@ pub struct Orbit<'f, F: ?Sized> {
     origin: (f64, u64),
     /// Whether the current state's slope is the end slope of the step just accepted.
     accepted: bool,
+    /// Whether the field corrected the end of the last step: `landed` is that end, `corrected` the slope after it.
+    jumped: bool,
+    landed: Vec<f64>,
+    corrected: Vec<f64>,
     /// Whether the interpolant is that of the last step.
     prepared: bool,
     counters: Counters,
@@ -128,6 +132,9 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
             h: 0.0,
             origin: (t, 0),
             accepted: true,
+            jumped: false,
+            landed: vec![0.0; u.len()],
+            corrected: vec![0.0; u.len()],
             prepared: false,
             counters: Counters::default(),
         };
@@ -183,7 +190,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
             return Err(self.explain(StepFailure::NotFinite));
         }
         self.evaluate_end(h);
-        self.accept(t_new);
+        self.accept(t_new)?;
         self.origin = if t_new == limit { (limit, 0) } else { (start, count + 1) };
         Ok(())
     }
@@ -214,8 +221,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
                     }
                     // A step cut short by the limit says little about the next one.
                     self.h = if last { self.h.max(h * factor) } else { h * factor };
-                    self.accept(if last { limit } else { self.t + h });
-                    return Ok(());
+                    return self.accept(if last { limit } else { self.t + h });
                 }
                 Err(factor) => {
                     self.counters.rejected += 1;
@@ -233,7 +239,12 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
     /// The end slope of the last step is the first slope of the next one.
     fn begin(&mut self) {
         if self.accepted {
-            self.slopes.copy(self.tableau.stages(), 0);
+            if self.jumped {
+                self.slopes.get_mut(0).copy_from_slice(&self.corrected);
+                self.jumped = false;
+            } else {
+                self.slopes.copy(self.tableau.stages(), 0);
+            }
             self.accepted = false;
         }
         self.t_old = self.t; // until a step is accepted, the last step is empty
@@ -251,22 +262,30 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         runge_kutta::end_slope(self.tableau, self.field, &at, &mut self.slopes, &self.scratch);
     }
 
-    fn accept(&mut self, t_new: f64) {
+    fn accept(&mut self, t_new: f64) -> Result<(), StepFailure> {
+        if self.field.project(&self.scratch, &mut self.landed).map_err(StepFailure::Obstacle)? {
+            std::mem::swap(&mut self.scratch, &mut self.landed);
+            self.field.eval(t_new, &self.scratch, &mut self.corrected);
+            self.jumped = true;
+        }
         std::mem::swap(&mut self.u_old, &mut self.u);
         std::mem::swap(&mut self.u, &mut self.scratch);
         self.t_old = self.t;
         self.t = t_new;
         self.accepted = true;
         self.counters.steps += 1;
+        Ok(())
     }
 
-    /// The last step as a function of time (computes the extra stages of dense output where the method has any).
+    /// The last step as a function of time (computes the extra stages of dense output where the method has any); a
+    /// correction by the field is a jump at its very end.
     pub fn dense(&mut self) -> DenseStep<'_> {
         if !self.prepared {
             let h = self.t - self.t_old;
             let at = Step { t: self.t_old, h, u: &self.u_old };
             runge_kutta::extra_stages(self.tableau, self.field, &at, &mut self.slopes);
-            let ends = Ends { h, old: &self.u_old, new: &self.u };
+            let new = if self.jumped { &self.landed } else { &self.u };
+            let ends = Ends { h, old: &self.u_old, new };
             self.interpolant.prepare(self.tableau, &self.slopes, &ends);
             self.prepared = true;
         }
@@ -287,7 +306,8 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         runge_kutta::step(self.tableau, self.field, &at, &mut self.restep, out);
     }
 
-    /// Moves the end of the last step back to `t` (by a true step from its start): the orbit goes on from there.
+    /// Moves the end of the last step back to `t` (by a true step from its start): the orbit goes on from there, and the
+    /// field does not correct it.
     pub fn end_step_at(&mut self, t: f64) {
         let mut state = std::mem::take(&mut self.scratch);
         self.step_to(t, &mut state);
@@ -295,6 +315,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         self.t = t;
         self.origin = (t, 0);
         self.field.eval(t, &self.u, self.slopes.get_mut(self.tableau.stages()));
+        self.jumped = false;
         self.prepared = false;
     }
 
@@ -319,7 +340,11 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
     /// `f(t, u)` at the current state.
     #[must_use]
     pub fn slope(&self) -> &[f64] {
-        self.slopes.get(if self.accepted { self.tableau.stages() } else { 0 })
+        match (self.accepted, self.jumped) {
+            (false, _) => self.slopes.get(0),
+            (true, false) => self.slopes.get(self.tableau.stages()),
+            (true, true) => &self.corrected,
+        }
     }
 
     /// The work done so far.

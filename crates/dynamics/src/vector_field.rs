@@ -12,6 +12,20 @@ pub trait System {
     fn obstacle(&self, _u: &[f64]) -> Option<Obstacle> {
         None
     }
+
+    /// Corrects the state at the end of an accepted step: writes the corrected one into `projected` and says `true`,
+    /// or says `false` and leaves it alone, which is the default. [`crate::Orbit`] and [`crate::ExponentialOrbit`] go
+    /// on from the corrected state. Errors are controlled on the flow alone, which knows nothing of the correction:
+    /// a result may depend on the step size, to first order.
+    ///
+    /// # Shapes
+    /// `u` and `projected` have length [`System::dim`].
+    ///
+    /// # Errors
+    /// The [`Obstacle`], where the state has no correction: the step fails.
+    fn project(&self, _u: &[f64], _projected: &mut [f64]) -> Result<bool, Obstacle> {
+        Ok(false)
+    }
 }
 
 /// An ordinary differential equation `u' = f(t, u)` over one scalar type.
@@ -62,6 +76,10 @@ impl<S: System + ?Sized> System for &S {
 
     fn obstacle(&self, u: &[f64]) -> Option<Obstacle> {
         (**self).obstacle(u)
+    }
+
+    fn project(&self, u: &[f64], projected: &mut [f64]) -> Result<bool, Obstacle> {
+        (**self).project(u, projected)
     }
 }
 

@@ -48,8 +48,8 @@ pub enum Error {
         /// Largest allowed value.
         max: f64,
     },
-    /// A number of modes with a fraction.
-    #[error("{name} = {value} is no whole number: give how many modes there are")]
+    /// A number that counts or switches, with a fraction.
+    #[error("{name} = {value} is no whole number: give it without a fraction")]
     NotWhole {
         /// Name of the number.
         name: &'static str,
@@ -65,6 +65,16 @@ pub enum Error {
         length: f64,
         /// The number it needs.
         needed: usize,
+    },
+    /// The error function is to be added to a shape with fewer modes.
+    #[error(
+        "modes = {modes} cannot take up the feedback of closure_modes = {closure_modes}: give as many modes, or feedback = 0"
+    )]
+    NoRoomForFeedback {
+        /// Number of modes of the shape.
+        modes: usize,
+        /// Number of modes of the error function.
+        closure_modes: usize,
     },
 }
 

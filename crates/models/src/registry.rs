@@ -70,6 +70,7 @@ const CELL_EQUATIONS: &str = "\
         on 0 <= s < length, in modes n = 1 .. modes; normal angle (2 pi / length) (s + phi)
 (VEL)   v = ((2 pi)^2 / length^3) int (alpha2 phi_s^2 + A phi_ss^2) n ds,   A = alpha3 + alpha3_per_length length
 (CLOSE) int n ds = 0, by the most likely error function: closure_modes modes of width n^-prior
+        feedback = 1 adds it to phi after every step
         dx/dt = v";
 
 const TENSOR_EQUATIONS: &str = "\

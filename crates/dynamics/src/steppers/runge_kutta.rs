@@ -125,7 +125,7 @@ pub fn extra_stages<T: Scalar, F: VectorField<T> + ?Sized>(
 
 /// Marches `steps` fixed steps of size `h` from `(t, u)`, in place: the plain loop, for ensembles in lanes.
 ///
-/// Allocates its work space once, nothing per step.
+/// Allocates its work space once, nothing per step. States are not corrected ([`crate::System::project`]).
 pub fn march<T: Scalar, F: VectorField<T> + ?Sized>(
     tableau: &Tableau,
     field: &F,

@@ -5,7 +5,7 @@
 //! (CLOSE) for `phi + eps`, by full Newton steps on the optimality (KKT) system from `eps = -(mode 1 of phi)`. With the
 //! smooth prior `p = 4` that start lies near the one solution that continues from the circle; flat priors have several.
 //! The start depends on phi alone, never on an earlier time, so the estimate is a function of the shape. The error
-//! function is not fed back into phi.
+//! function is not fed back into phi, unless `feedback = 1` asks for it.
 //!
 //! Source: paper, Simulations III; the prior is ours (the paper does not give one).
 //! Unknowns are in angles, `k_1 eps(s) = sum_n a_n cos(k_n s) + b_n sin(k_n s)`, divided by `tau_n`.
@@ -120,10 +120,38 @@ impl Closure {
         for (x, angle) in angles.iter_mut().zip(theta) {
             *x = angle.real();
         }
-        let mut unknowns = [0.0; MAX_UNKNOWNS];
-        (unknowns[0], unknowns[1]) = (-first[0], -first[1]);
+        let mut unknowns = Self::guess(first);
         let (factors, steps) = self.newton(circle, &angles[..theta.len()], &mut unknowns)?;
         Ok(self.lift(circle, theta, &unknowns, &factors, steps))
+    }
+
+    /// The error function that closes the boundary, `a_1, b_1, a_2, ..` of `k_1 eps`; arguments as for
+    /// [`Closure::solve`]. There is none of no modes.
+    ///
+    /// # Errors
+    /// The residual, where Newton's method does not converge.
+    pub(super) fn estimate(
+        self,
+        circle: &Circle,
+        theta: &[f64],
+        first: [f64; 2],
+    ) -> Result<[f64; 2 * MAX_CLOSURE_MODES], f64> {
+        let mut waves = [0.0; 2 * MAX_CLOSURE_MODES];
+        if self.modes > 0 {
+            let mut unknowns = Self::guess(first);
+            self.newton(circle, theta, &mut unknowns)?;
+            for (i, wave) in waves[..2 * self.modes].iter_mut().enumerate() {
+                *wave = unknowns[i] * self.width(i / 2 + 1);
+            }
+        }
+        Ok(waves)
+    }
+
+    /// Where Newton's method starts: `eps = -(mode 1 of phi)`, a width of 1.
+    fn guess(first: [f64; 2]) -> Unknowns<f64> {
+        let mut unknowns = [0.0; MAX_UNKNOWNS];
+        (unknowns[0], unknowns[1]) = (-first[0], -first[1]);
+        unknowns
     }
 
     /// Newton's method over the numbers alone; leaves the factors of the last matrix.

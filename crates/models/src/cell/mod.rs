@@ -56,13 +56,15 @@ pub struct Cell {
     mean: f64,
     closure: Closure,
     circle: Circle,
+    feedback: bool,
 }
 
 impl Cell {
     /// The model with these parameters.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`], [`Error::NotWhole`], and [`Error::TooFewModes`] with the number that this length needs.
+    /// [`Error::OutOfRange`], [`Error::NotWhole`], [`Error::TooFewModes`] with the number that this length needs, and
+    /// [`Error::NoRoomForFeedback`].
     pub fn new(parameters: &CellParameters) -> Result<Self, Error> {
         let p = *parameters;
         let mut checked = p;
@@ -74,8 +76,12 @@ impl Cell {
             return Err(Error::TooFewModes { modes, length: p.length, needed: p.fewest_modes() });
         }
         let closure = Closure::new(whole("closure_modes", p.closure_modes)?, p.prior);
+        let feedback = whole("feedback", p.feedback)? == 1;
+        if feedback && closure.modes() > modes {
+            return Err(Error::NoRoomForFeedback { modes, closure_modes: closure.modes() });
+        }
         let circle = Circle::new(modes, modes.max(2 * closure.modes()));
-        Ok(Self { parameters: p, field: CellField::new(&p, modes), mean: 0.0, closure, circle })
+        Ok(Self { parameters: p, field: CellField::new(&p, modes), mean: 0.0, closure, circle, feedback })
     }
 
     /// The same body with the mean of phi at `mean`: a normal-angle offset, which turns it by `2 pi mean / L` while the
@@ -146,6 +152,14 @@ impl System for Cell {
         let finite = shape.iter().all(|x| x.is_finite());
         let residual = self.close(shape).err().filter(|_| finite)?;
         Some(Obstacle::Closure { residual })
+    }
+
+    /// With `feedback = 1`, phi becomes `phi + eps`.
+    fn project(&self, shape: &[f64], projected: &mut [f64]) -> Result<bool, Obstacle> {
+        if self.feedback {
+            self.feed_back(shape, projected).map_err(|residual| Obstacle::Closure { residual })?;
+        }
+        Ok(self.feedback)
     }
 }
 

@@ -7,7 +7,7 @@ use motiform_dynamics::model::Coordinate;
 parameters! {
     /// Parameters of the active cell model, named as in the paper, eqs. (C) and (VEL). All dimensionless.
     ///
-    /// The default is the paper's irregular motion, `length = 21.6`. The last three say how finely it is computed and
+    /// The default is the paper's irregular motion, `length = 21.6`. The last four say how finely it is computed and
     /// how the boundary is closed; they are parameters so that every result carries them.
     CellParameters for "cell" {
         length = 21.6 in 6.0 .. 32.0 within 0.01 .. 200.0, "*L*", "(C)", "length of the closed boundary; mode n of the shape is unstable for length > 2 pi n.";
@@ -22,6 +22,7 @@ parameters! {
         modes = 21.0 in 8.0 .. 64.0 within 1.0 .. 128.0, "*M*", "modes", "number of modes of phi that are computed (a whole number): 21 are a grid of 64 points, 42 one of 128.";
         closure_modes = 8.0 in 0.0 .. 12.0 within 0.0 .. 12.0, "*m*", "(CLOSE)", "number of modes of the error function that closes the boundary (a whole number); 0 leaves it open, 1 changes mode 1 alone.";
         prior = 4.0 in 0.0 .. 6.0 within 0.0 .. 8.0, "*p*", "(CLOSE)", "how smooth the error function is expected to be: prior width n^-prior of its mode n; 0 is a flat prior.";
+        feedback = 0.0 in 0.0 .. 1.0 within 0.0 .. 1.0, "*f*", "(CLOSE)", "1 adds the error function to phi after every step (a whole number); then nothing moves up to a length of about 15 (measured: 16), which is why it is off.";
     }
 }
 

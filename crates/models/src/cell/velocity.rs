@@ -13,16 +13,37 @@ impl Cell {
     /// The residual of (CLOSE), where it could not be closed.
     #[inline(always)]
     pub(super) fn close<T: Scalar<Real = f64>>(&self, shape: &[T]) -> Result<Closed<T>, f64> {
+        let (theta, first) = self.normal_angles(shape);
+        self.closure.solve(&self.circle, &theta[..self.circle.points()], first)
+    }
+
+    /// The normal angles `k_1 (s + phi)` at the points, and mode 1 of `k_1 phi` as `c cos(k_1 s) + s sin(k_1 s)`.
+    #[inline(always)]
+    fn normal_angles<T: Scalar<Real = f64>>(&self, shape: &[T]) -> ([T; MAX_POINTS], [f64; 2]) {
         let points = self.circle.points();
         let k = self.parameters.wavenumber();
-        // normal angle k_1 (s + phi)
         let mut theta = [shape[0].zero(); MAX_POINTS];
         for (j, angle) in theta[..points].iter_mut().enumerate() {
             *angle = angle.constant(std::f64::consts::TAU * j as f64 / points as f64 + k * self.mean);
         }
         self.circle.add_modes(shape, |_| k, &mut theta[..points]);
-        let first = [2.0 * k * shape[0].real(), -2.0 * k * shape[1].real()];
-        self.closure.solve(&self.circle, &theta[..points], first)
+        (theta, [2.0 * k * shape[0].real(), -2.0 * k * shape[1].real()])
+    }
+
+    /// `phi + eps`: a shape that is closed without an error function.
+    ///
+    /// # Errors
+    /// The residual of (CLOSE), where it could not be closed.
+    pub(super) fn feed_back(&self, shape: &[f64], closed: &mut [f64]) -> Result<(), f64> {
+        let (theta, first) = self.normal_angles(shape);
+        let waves = self.closure.estimate(&self.circle, &theta[..self.circle.points()], first)?;
+        let k = self.parameters.wavenumber();
+        closed.copy_from_slice(shape);
+        for (mode, wave) in closed.chunks_exact_mut(2).zip(waves.chunks_exact(2)) {
+            mode[0] += wave[0] / (2.0 * k); // phi_n = (c_n - i s_n) / 2
+            mode[1] -= wave[1] / (2.0 * k);
+        }
+        Ok(())
     }
 
     /// `v = ((2 pi)^2 / L^3) int (alpha2 phi_s^2 + alpha3 phi_ss^2) n ds`, with the normals of the closed boundary; not a
