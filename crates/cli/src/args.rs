@@ -84,7 +84,7 @@ pub(crate) struct SimulateOptions {
     /// krogstad4 (adaptive)
     #[arg(long, value_name = "NAME")]
     pub(crate) stepper: Option<String>,
-    /// Step of fixed-step steppers
+    /// Fixed step (without it, adaptive steppers control their own; the others take 1e-3)
     #[arg(long, value_name = "H", value_parser = number, allow_hyphen_values = true)]
     pub(crate) step: Option<f64>,
     /// Relative tolerance of adaptive steppers

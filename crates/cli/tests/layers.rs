@@ -5,11 +5,12 @@
 use cargo_metadata::{DependencyKind, MetadataCommand};
 
 /// Each crate, and the crates below it that it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &[&str]); 5] = [
+const LAYERS: [(&str, &[&str]); 6] = [
     ("motiform-dynamics", &[]),
     ("motiform-models", &["motiform-dynamics"]),
-    ("motiform-study", &["motiform-dynamics", "motiform-models"]),
-    ("motiform", &["motiform-dynamics", "motiform-models", "motiform-study"]),
+    ("motiform-analysis", &["motiform-dynamics"]),
+    ("motiform-study", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
+    ("motiform", &["motiform-analysis", "motiform-dynamics", "motiform-models", "motiform-study"]),
     ("xtask", &[]),
 ];
 

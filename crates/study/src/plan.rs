@@ -15,6 +15,9 @@ pub const PLAN_FORMAT: u32 = 1;
 /// Most rows a trajectory may have (about 2 GB in memory).
 const MOST_ROWS: f64 = 2e7;
 
+/// Step of steppers that cannot control it, where none is given: the paper's.
+const DEFAULT_STEP: f64 = 1e-3;
+
 /// What will be computed, and how it is called and drawn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
@@ -265,10 +268,9 @@ fn stepper(name: &str) -> Result<Method, Error> {
 
 fn control(study: &Study, method: Method) -> Result<Control, Error> {
     let run = &study.run;
-    let control = if method.is_adaptive() {
-        Control::Adaptive { rtol: run.rtol, atol: run.atol }
-    } else {
-        Control::Fixed { step: run.step }
+    let control = match run.step {
+        None if method.is_adaptive() => Control::Adaptive { rtol: run.rtol, atol: run.atol },
+        step => Control::Fixed { step: step.unwrap_or(DEFAULT_STEP) },
     };
     method.validate(control.into())?;
     Ok(control)

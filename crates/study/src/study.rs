@@ -49,8 +49,9 @@ pub struct RunSettings {
     pub rtol: f64,
     /// Absolute tolerance of adaptive steppers.
     pub atol: f64,
-    /// Step of fixed-step steppers.
-    pub step: f64,
+    /// Fixed step. Without it adaptive steppers control their step, and the others take 1e-3.
+    #[schemars(with = "f64")]
+    pub step: Option<f64>,
     /// Seed of everything random.
     pub seed: u64,
     /// Most steps a run may take.
@@ -68,7 +69,7 @@ impl Default for RunSettings {
             stepper: "dop853".to_owned(),
             rtol: 1e-9,
             atol: 1e-12,
-            step: 1e-3,
+            step: None,
             seed: 1,
             max_steps: 100_000_000,
             escape_norm: 1e6,
@@ -299,7 +300,9 @@ fn read_run(run: &mut RunSettings, mut table: Table<'_>) -> Result<(), Error> {
     }
     table.number("rtol", &mut run.rtol)?;
     table.number("atol", &mut run.atol)?;
-    table.number("step", &mut run.step)?;
+    if let Some(step) = table.take("step") {
+        run.step = Some(step.number()?);
+    }
     table.whole("seed", &mut run.seed)?;
     table.whole("max_steps", &mut run.max_steps)?;
     table.number("escape_norm", &mut run.escape_norm)?;

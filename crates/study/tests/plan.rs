@@ -51,7 +51,6 @@ const SHOWING: &[Change] = &[
     ("from", |s| s.figure.from = 1.0),
     ("to", |s| s.figure.to = 2.0),
     ("animation", |s| s.figure.animation = false),
-    ("step of a fixed stepper, not in use", |s| s.run.step = 0.5),
     ("size of a random start, not in use", |s| s.random = 0.5),
     ("a value set to what it is", |s| s.set("kappa2", 0.9).unwrap()),
 ];
@@ -71,7 +70,7 @@ fn the_hash_covers_what_is_computed_and_nothing_else() {
     let fixed = |step: f64| {
         hash(&preset("fig5a", |s| {
             s.run.stepper = "rk4".into();
-            s.run.step = step;
+            s.run.step = Some(step);
         }))
     };
     assert_ne!(fixed(1e-3), fixed(2e-3));

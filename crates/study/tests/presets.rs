@@ -25,7 +25,7 @@ fn every_preset_plans_says_what_it_is_and_runs() {
         assert_eq!(dataset.trajectory.rows(), 2001, "{}", known.name);
         Plan::new(&preset(known.name, |_| {})).unwrap();
     }
-    assert_eq!(PRESETS.len(), 6);
+    assert_eq!(PRESETS.len(), 10);
 }
 
 /// Times at which the turning rate rises through zero (the heading is at its lowest), by linear interpolation.
@@ -168,7 +168,7 @@ fn fig5b_forgets_its_start() {
     let mut near = study.clone();
     near.set_initial("v1", study.initial[0].1 + 1e-8).unwrap();
     let (one, other) = (run(&study), run(&near));
-    let names = tensor().coordinates.iter().map(|c| c.name);
+    let names = tensor().coordinates(&[]).iter().map(|c| c.name);
     let apart = |row: usize| -> f64 {
         let differences = names.clone().map(|name| column(&one, name)[row] - column(&other, name)[row]);
         differences.map(|d| d * d).sum::<f64>().sqrt()

@@ -67,7 +67,6 @@ fn study(options: &SimulateOptions) -> Result<Study, Error> {
         (options.t_end, &mut run.t_end),
         (options.transient, &mut run.transient),
         (options.dt_out, &mut run.dt_out),
-        (options.step, &mut run.step),
         (options.rtol, &mut run.rtol),
         (options.atol, &mut run.atol),
     ];
@@ -79,6 +78,7 @@ fn study(options: &SimulateOptions) -> Result<Study, Error> {
     if options.dt_out == Some(0.0) {
         return Err(Error::Setting { key: "dt_out", value: "0".into(), remedy: "give a time above 0" });
     }
+    run.step = options.step.or(run.step);
     run.seed = options.seed.unwrap_or(run.seed);
     run.max_steps = options.max_steps.unwrap_or(run.max_steps);
     if let Some(stepper) = &options.stepper {

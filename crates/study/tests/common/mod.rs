@@ -12,7 +12,8 @@ pub fn tensor() -> &'static ModelInfo {
 
 /// A preset, changed.
 pub fn preset(name: &str, change: impl FnOnce(&mut Study)) -> Study {
-    let mut study = presets::find(tensor(), name).unwrap();
+    let info = presets::model_of(name).unwrap();
+    let mut study = presets::find(info, name).unwrap();
     change(&mut study);
     study
 }
