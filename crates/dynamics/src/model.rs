@@ -80,6 +80,12 @@ pub trait Model: Semilinear<f64> + Shape<f64> + Shape<Dual<f64, 1>> + Send + Syn
     /// Writes the observables of a shape.
     fn observe(&self, shape: &[f64], out: &mut [f64]);
 
+    /// Speeds below this are round-off for this shape, or below what a run with absolute tolerance `atol` resolves: the
+    /// body is at rest and has no heading. 0 where the velocity is itself an unknown, with digits of its own.
+    fn speed_resolution(&self, _shape: &[f64], _atol: f64) -> f64 {
+        0.0
+    }
+
     /// Quantities of the boundary that a run reports beside the shape (length, area, ...); none by default.
     fn measures(&self) -> &[Observable] {
         &[]

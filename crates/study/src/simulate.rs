@@ -200,7 +200,7 @@ impl Run<'_> {
         let map = self.computation.return_map.as_ref();
         Dataset {
             manifest,
-            trajectory: motion(self.model, &recording.trajectory),
+            trajectory: motion(self.model, &recording.trajectory, self.computation.control),
             crossings: map.map(|map| crossings(&recording.trajectory, map)),
         }
     }
@@ -267,7 +267,8 @@ fn centre_of(trajectory: &Trajectory) -> [f64; 2] {
 }
 
 /// The trajectory as a table, with what is read off it.
-fn motion(model: &dyn Model, trajectory: &Trajectory) -> Table {
+fn motion(model: &dyn Model, trajectory: &Trajectory, control: Control) -> Table {
+    let atol = if let Control::Adaptive { atol, .. } = control { atol } else { 0.0 };
     let shape = ..model.dim();
     let rows = trajectory.len();
     let read = |of: &dyn Fn(&[f64]) -> f64| -> Vec<f64> { trajectory.iter().map(|(_, u)| of(u)).collect() };
@@ -290,8 +291,10 @@ fn motion(model: &dyn Model, trajectory: &Trajectory) -> Table {
             column.push(value);
         }
         let (v, a) = velocity_and_acceleration(model, &u[shape]);
-        speed.push(libm::hypot(v[0], v[1]));
-        turning.push(turning_rate(v, a).unwrap_or(f64::NAN));
+        let size = libm::hypot(v[0], v[1]);
+        speed.push(size);
+        let moves = size > model.speed_resolution(&u[shape], atol);
+        turning.push(turning_rate(v, a).filter(|_| moves).unwrap_or(f64::NAN));
     }
     for (coordinate, values) in model.coordinates().iter().zip(coordinates) {
         table.push(coordinate.name, coordinate.meaning, values);

@@ -230,6 +230,20 @@ impl Model for Cell {
         }
     }
 
+    /// `(1e-13 + atol / |phi|) (2 pi)^2 / L^2` times the mean of `|alpha2| phi_s^2 + |alpha3| phi_ss^2`: what the
+    /// integral of (VEL) leaves where it vanishes by cancellation, for modes known to `atol`.
+    fn speed_resolution(&self, shape: &[f64], atol: f64) -> f64 {
+        let (p, k1) = (&self.parameters, self.parameters.wavenumber());
+        let power = |(mode, n): (&[f64], u32)| {
+            let k2 = (k1 * f64::from(n)) * (k1 * f64::from(n));
+            2.0 * (mode[0] * mode[0] + mode[1] * mode[1])
+                * (p.alpha2.abs() * k2 + p.alpha3_total().abs() * k2 * k2)
+        };
+        let size = 2.0 * shape.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let relative = if size > 0.0 { 1e-13 + atol / size } else { 0.0 };
+        relative * k1 * k1 * shape.chunks_exact(2).zip(1..).map(power).sum::<f64>()
+    }
+
     fn measures(&self) -> &[Observable] {
         &MEASURES
     }

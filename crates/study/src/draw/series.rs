@@ -46,6 +46,8 @@ fn measures(body: &Body<'_>, panels: &mut Vec<Panel>, notes: &mut Vec<String>) {
         let (low, high) = defined.fold((f64::MAX, f64::MIN), |(low, high), &x| (low.min(x), high.max(x)));
         if high - low > STEADY * high.abs().max(1e-6) {
             panels.push(panel(body, measure.name, measure.symbol, 2 + panels.len()));
+        } else if low == 0.0 && high == 0.0 {
+            notes.push(format!("The {} is 0 throughout.", measure.symbol));
         } else if high > 1e-9 {
             notes.push(format!("The {} stays at {}.", measure.symbol, words::number(high)));
         } else {
