@@ -45,11 +45,10 @@ pub fn fields(dataset: &Dataset) -> Result<Option<Fields>, Error> {
         let Some(phi) = model.profile(&shape, POINTS) else { return Ok(None) };
         fields.times.push(times[row]);
         fields.phi.extend(phi);
-        match model.outline(&shape, radius, POINTS) {
-            Outline::Curve(points) => {
-                fields.outlines.extend(points.iter().flat_map(|p| [x[row] + p[0], y[row] + p[1]]))
-            }
-            _ => fields.outlines.extend(std::iter::repeat_n(f64::NAN, 2 * POINTS)),
+        if let Outline::Curve(points) = model.outline(&shape, radius, POINTS) {
+            fields.outlines.extend(points.iter().flat_map(|p| [x[row] + p[0], y[row] + p[1]]));
+        } else {
+            fields.outlines.extend(std::iter::repeat_n(f64::NAN, 2 * POINTS));
         }
     }
     Ok(Some(fields))
