@@ -1,6 +1,7 @@
 //! One orbit, step by step: the loop belongs to the caller.
 
 use crate::control::{Controller, Tolerance};
+pub use crate::interpolant::DenseStep;
 use crate::interpolant::{Ends, Interpolant};
 use crate::steppers::Tableau;
 use crate::steppers::runge_kutta::{self, Slopes, Step};
@@ -389,31 +390,5 @@ impl<F: VectorField<f64> + ?Sized> Integration for Orbit<'_, F> {
 
     fn counters(&self) -> Counters {
         self.counters
-    }
-}
-
-/// The last step of an orbit as a function of time.
-pub struct DenseStep<'o> {
-    pub(crate) t_old: f64,
-    pub(crate) t: f64,
-    pub(crate) old: &'o [f64],
-    pub(crate) new: &'o [f64],
-    pub(crate) interpolant: &'o Interpolant,
-}
-
-impl DenseStep<'_> {
-    /// Start and end of the step.
-    #[must_use]
-    pub fn span(&self) -> (f64, f64) {
-        (self.t_old, self.t)
-    }
-
-    /// Writes the state at time `t` within the span (outside it the interpolant is extrapolated).
-    pub fn at(&self, t: f64, out: &mut [f64]) {
-        if t == self.t {
-            out.copy_from_slice(self.new);
-        } else {
-            self.interpolant.evaluate(self.old, (t - self.t_old) / (self.t - self.t_old), out);
-        }
     }
 }
