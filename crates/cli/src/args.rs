@@ -43,10 +43,15 @@ Examples:
   motiform simulate tensor --preset fig5b --t-end 600
   motiform simulate tensor --preset fig4 --set kappa2=0.2 --set kappa3=0.1 --seed 7
   motiform simulate tensor --set gamma=1 --set a1=-1 --initial v1=0.1 --out run.csv
+  motiform simulate cell --set length=13.2 --transient 4000 --t-end 4000
   motiform simulate my-study.toml --json
 
-The output folder holds manifest.json (plan, hash, version, seed, outcome), trajectory.parquet, path.svg/.png,
-series.svg/.png, motion.png (animated) and, with a return map, crossings.parquet and return-map.svg/.png.";
+The output folder holds
+  manifest.json        plan, hash, version, seed, outcome
+  trajectory.parquet   time, position, shape, speed, turning rate
+  path, series         figures, as .svg and .png; motion.png is the animation
+  crossings.parquet    and the figure return-map, for studies with a return map
+  fields.h5            phi(s, t) and outlines, and the figures phi and spectrum, for the cell";
 
 #[derive(Args)]
 pub(crate) struct ModelsOptions {
@@ -80,8 +85,8 @@ pub(crate) struct SimulateOptions {
     /// Model time between recorded states (default: t-end / 2000)
     #[arg(long, value_name = "D", value_parser = number, allow_hyphen_values = true)]
     pub(crate) dt_out: Option<f64>,
-    /// euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for the stiff cell model ifrk4, etdrk4 (fixed step),
-    /// krogstad4 (adaptive)
+    /// euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for the stiff cell model ifrk4 (fixed step), etdrk4,
+    /// krogstad4 (adaptive). Default: dop853 for tensor, krogstad4 for cell
     #[arg(long, value_name = "NAME")]
     pub(crate) stepper: Option<String>,
     /// Fixed step (without it, adaptive steppers control their own; the others take 1e-3)
@@ -132,10 +137,10 @@ pub(crate) struct DrawingOptions {
     /// Number of outlines along the path
     #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) outlines: Option<u64>,
-    /// Draw the path and the animation from this time
+    /// Draw from this time
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) from: Option<f64>,
-    /// Draw the path and the animation to this time
+    /// Draw to this time
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) to: Option<f64>,
     /// Also write PDF figures

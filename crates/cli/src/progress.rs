@@ -1,6 +1,6 @@
 //! A progress bar with rate and remaining time for what takes longer than two seconds, and Ctrl-C.
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use motiform_study::simulate::Monitor;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -28,10 +28,12 @@ impl Watch {
             }
         });
         let bar = ProgressBar::with_draw_target(Some(total.ceil() as u64), ProgressDrawTarget::hidden());
-        let template = "{bar:32} {percent:>3}%  {per_sec} model time  {eta} left";
-        bar.set_style(
-            ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()),
-        );
+        let template = "{bar:32} {percent:>3}%  {rate}  {eta} left";
+        let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+        let rate = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+            let _ = write!(out, "{:.2e} model time/s", state.per_sec()); // a bar that cannot be written is no loss
+        };
+        bar.set_style(style.with_key("rate", rate));
         Self { bar, started: Instant::now(), total }
     }
 

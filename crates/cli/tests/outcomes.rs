@@ -92,7 +92,7 @@ fn the_step_budget_bounds_a_run() {
     assert!(json["outcome"]["steps"].as_u64().unwrap() <= 50);
     assert_no_nan(&json, "");
     let table = folder.run("simulate tensor --preset fig5a --transient 0 --max-steps 50 --out run").expect(1);
-    assert!(table.stdout.contains("step budget of "), "{}", table.stdout);
+    assert!(table.stdout.contains("step budget used up at t = "), "{}", table.stdout);
     folder.run("figure run").expect(0);
 }
 

@@ -101,7 +101,9 @@ impl std::fmt::Display for Outcome {
             Self::ClosureFailed { t, residual } => {
                 write!(f, "the boundary could not be closed at t = {t:.9} (residual {residual:.3e})")
             }
-            Self::StepBudget { t, steps } => write!(f, "step budget of {steps} used up at t = {t:.9}"),
+            Self::StepBudget { t, steps } => {
+                write!(f, "step budget used up at t = {t:.9} ({steps} steps accepted)")
+            }
             Self::Stopped { t } => write!(f, "stopped at a section at t = {t:.9}"),
             Self::Interrupted { t } => write!(f, "interrupted at t = {t:.9}"),
         }
