@@ -2,7 +2,7 @@
 //!
 //! Each returns the largest defect found, so that the caller states the tolerance.
 
-use crate::{Dual, Lanes, Model, Semilinear, VectorField};
+use crate::{Dual, Equivariant, Lanes, Semilinear, VectorField};
 
 /// Largest difference between `eval` on clean and on dirty output, and between two calls: a field must be pure.
 pub fn purity_defect<F: VectorField<f64> + ?Sized>(field: &F, u: &[f64]) -> f64 {
@@ -76,19 +76,38 @@ pub fn semilinear_defect<F: Semilinear<f64>>(field: &F, u: &[f64]) -> f64 {
 }
 
 /// How far a model's flow and velocity are from commuting with a rotation by `angle` (relative).
-pub fn rotation_defect<M: Model + ?Sized>(model: &M, shape: &[f64], angle: f64) -> f64 {
+pub fn rotation_defect<M: Equivariant + ?Sized>(model: &M, shape: &[f64], angle: f64) -> f64 {
     let (sin, cos) = libm::sincos(angle);
     let turn = |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
     symmetry_defect(model, shape, &|state: &mut [f64]| model.rotate(angle, state), &turn)
 }
 
+/// How far [`Equivariant::spin`] is from the derivative of [`Equivariant::rotate`] (central differences of step 1e-5), and
+/// rotations from keeping the length of a state.
+pub fn spin_defect<M: Equivariant + ?Sized>(model: &M, shape: &[f64]) -> f64 {
+    let h = 1e-5;
+    let turned = |angle: f64| {
+        let mut state = shape.to_vec();
+        model.rotate(angle, &mut state);
+        state
+    };
+    let (ahead, behind) = (turned(h), turned(-h));
+    let difference: Vec<f64> = ahead.iter().zip(&behind).map(|(a, b)| (a - b) / (2.0 * h)).collect();
+    let mut spin = shape.to_vec();
+    model.spin(shape, &mut spin);
+    let scale = spin.iter().fold(1.0, |scale: f64, x| scale.max(x.abs()));
+    let length = |state: &[f64]| state.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let stretched = (length(&turned(1.0)) - length(shape)).abs();
+    largest_difference(&spin, &difference).max(stretched) / scale
+}
+
 /// How far a model's flow and velocity are from commuting with the mirror y -> -y (relative).
-pub fn mirror_defect<M: Model + ?Sized>(model: &M, shape: &[f64]) -> f64 {
+pub fn mirror_defect<M: Equivariant + ?Sized>(model: &M, shape: &[f64]) -> f64 {
     symmetry_defect(model, shape, &|state: &mut [f64]| model.mirror(state), &|[x, y]| [x, -y])
 }
 
 /// The defect of `f(g u) = g f(u)` and `v(g u) = g v(u)` for a linear symmetry `g` of shapes and of the plane.
-fn symmetry_defect<M: Model + ?Sized>(
+fn symmetry_defect<M: Equivariant + ?Sized>(
     model: &M,
     shape: &[f64],
     act: &dyn Fn(&mut [f64]),

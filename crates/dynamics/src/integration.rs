@@ -21,6 +21,10 @@ pub trait Integration {
     /// state there lies inside the step, so it is not corrected ([`crate::System::project`]); the next step's end is.
     fn end_step_at(&mut self, t: f64);
 
+    /// Goes on from the state `u` at the current time, with the step size kept: for states that are changed between
+    /// steps (renormalised tangent vectors, kicks of noise).
+    fn restart(&mut self, u: &[f64]);
+
     /// Current time.
     fn t(&self) -> f64;
 

@@ -11,6 +11,7 @@
 pub mod conformance;
 mod control;
 pub mod drive;
+pub mod equivariant;
 mod error;
 pub mod escape;
 pub mod exponential_orbit;
@@ -29,6 +30,7 @@ pub mod vector_field;
 
 pub use control::StepControl;
 pub use drive::{Request, Sink};
+pub use equivariant::Equivariant;
 pub use error::Error;
 pub use exponential_orbit::ExponentialOrbit;
 pub use integration::Integration;

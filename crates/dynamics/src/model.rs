@@ -1,6 +1,6 @@
 //! Shape and drift: what every deformable body has in common.
 
-use crate::{Dual, Obstacle, Scalar, Semilinear, System, VectorField};
+use crate::{Dual, Equivariant, Obstacle, Scalar, Semilinear, System, VectorField};
 
 /// A shape state that evolves by itself, and the velocity read off it: `x' = v(shape)`.
 ///
@@ -49,22 +49,12 @@ pub enum Outline {
     },
 }
 
-/// A deformable self-propelled body: shape dynamics, drift, symmetry, names and a boundary.
+/// A deformable self-propelled body: its dynamics, and what people type, read and see of it.
 ///
 /// Everything that motiform asks of a body works for any implementation. The trait is object-safe, so studies hold
 /// a `Box<dyn Model>`; kernels use the concrete type. [`Semilinear`] says which part of the flow is stiff, for the
 /// exponential steppers (a model without one says `Lambda = 0`).
-///
-/// # Symmetry
-/// The flow on shapes must commute with [`Model::rotate`] and [`Model::mirror`], and the velocity must turn with
-/// them: [`crate::conformance`] checks every model.
-pub trait Model: Semilinear<f64> + Shape<f64> + Shape<Dual<f64, 1>> + Send + Sync {
-    /// Turns the shape by `angle` (rad, anticlockwise), in place.
-    fn rotate(&self, angle: f64, shape: &mut [f64]);
-
-    /// Mirrors the shape at the x axis (y -> -y), in place.
-    fn mirror(&self, shape: &mut [f64]);
-
+pub trait Model: Equivariant {
     /// The numbers that people type and read for the shape, in file order.
     fn coordinates(&self) -> &[Coordinate];
 
@@ -79,12 +69,6 @@ pub trait Model: Semilinear<f64> + Shape<f64> + Shape<Dual<f64, 1>> + Send + Syn
 
     /// Writes the observables of a shape.
     fn observe(&self, shape: &[f64], out: &mut [f64]);
-
-    /// Speeds below this are round-off for this shape, or below what a run with absolute tolerance `atol` resolves: the
-    /// body is at rest and has no heading. 0 where the velocity is itself an unknown, with digits of its own.
-    fn speed_resolution(&self, _shape: &[f64], _atol: f64) -> f64 {
-        0.0
-    }
 
     /// Quantities of the boundary that a run reports beside the shape (length, area, ...); none by default.
     fn measures(&self) -> &[Observable] {
@@ -114,7 +98,10 @@ pub trait Model: Semilinear<f64> + Shape<f64> + Shape<Dual<f64, 1>> + Send + Syn
 
 /// Velocity and its time derivative along the flow, exactly (duals): `(v, v')`.
 #[must_use]
-pub fn velocity_and_acceleration<M: Model + ?Sized>(model: &M, shape: &[f64]) -> ([f64; 2], [f64; 2]) {
+pub fn velocity_and_acceleration<M: Shape<f64> + Shape<Dual<f64, 1>> + ?Sized>(
+    model: &M,
+    shape: &[f64],
+) -> ([f64; 2], [f64; 2]) {
     let mut rate = vec![0.0; shape.len()];
     VectorField::<f64>::eval(model, 0.0, shape, &mut rate);
     drift(model, shape, &rate)
@@ -221,6 +208,6 @@ impl<T: Scalar, M: Shape<T> + ?Sized> Shape<T> for &M {
 
 /// The velocity over `f64`, without spelling the scalar out.
 #[must_use]
-pub fn velocity<M: Model + ?Sized>(model: &M, shape: &[f64]) -> [f64; 2] {
+pub fn velocity<M: Shape<f64> + ?Sized>(model: &M, shape: &[f64]) -> [f64; 2] {
     Shape::<f64>::velocity(model, shape)
 }

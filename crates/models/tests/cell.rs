@@ -4,6 +4,7 @@
 
 use motiform_dynamics::conformance::{
     derivative_defect, lane_mismatches, mirror_defect, purity_defect, rotation_defect, semilinear_defect,
+    spin_defect,
 };
 use motiform_dynamics::model::{velocity, velocity_and_acceleration};
 use motiform_dynamics::{Dual, Lanes, Model, Outline, Shape, System, VectorField};
@@ -90,6 +91,7 @@ proptest! {
         prop_assume!(cell.boundary(&u, 8).is_ok());
         prop_assert!(rotation_defect(&cell, &u, angle) < 1e-9);
         prop_assert!(mirror_defect(&cell, &u) < 1e-9);
+        prop_assert!(spin_defect(&cell, &u) < 1e-7); // differences of mode 16
     }
 
     #[test]

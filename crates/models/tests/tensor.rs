@@ -4,9 +4,10 @@
 
 use motiform_dynamics::conformance::{
     derivative_defect, lane_mismatches, mirror_defect, purity_defect, rotation_defect, semilinear_defect,
+    spin_defect,
 };
 use motiform_dynamics::model::{turning_rate, velocity_and_acceleration};
-use motiform_dynamics::{Lanes, Model, Outline, VectorField};
+use motiform_dynamics::{Equivariant, Lanes, Model, Outline, VectorField};
 use motiform_models::parameters::Parameters;
 use motiform_models::tensor::indices::{Tensors, rate};
 use motiform_models::tensor::outline::radius_change;
@@ -53,6 +54,7 @@ proptest! {
         let model = Tensor::new(&p);
         prop_assert!(rotation_defect(&model, &shape, angle) < 1e-13);
         prop_assert!(mirror_defect(&model, &shape) < 1e-13);
+        prop_assert!(spin_defect(&model, &shape) < 1e-9);
     }
 
     #[test]

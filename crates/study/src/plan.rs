@@ -4,7 +4,7 @@ use crate::error::nearest_of;
 use crate::study::{FigureSettings, ReturnMapSettings, Study};
 use crate::{Error, initial};
 use motiform_dynamics::steppers::Method;
-use motiform_dynamics::{Model, Obstacle, StepControl};
+use motiform_dynamics::{Model, Obstacle, Semilinear, StepControl};
 use motiform_models::ModelInfo;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -224,7 +224,7 @@ fn check(key: &'static str, value: f64, ok: bool, remedy: &'static str) -> Resul
 fn check_stability(model: &dyn Model, method: Method, control: Control) -> Result<(), Error> {
     let (Method::Explicit(tableau), Control::Fixed { step }) = (method, control) else { return Ok(()) };
     let mut rates = vec![0.0; model.dim()];
-    model.linear(&mut rates);
+    Semilinear::<f64>::linear(model, &mut rates);
     let fastest = rates.iter().fold(0.0, |fastest: f64, rate| fastest.max(-rate));
     // The real stability intervals: 2 for orders 1 and 2, 2.785 for the classical method of order 4.
     let largest = if tableau.order < 4 { 2.0 } else { 2.785 } / fastest;

@@ -1,7 +1,7 @@
 //! Any stepper by name: explicit or exponential.
 
 use super::{EXPONENTIAL_STEPPERS, ExponentialTableau, STEPPERS, Tableau, find, find_exponential};
-use crate::{Error, ExponentialOrbit, InPlane, Integration, Model, Orbit, StepControl};
+use crate::{Error, ExponentialOrbit, InPlane, Integration, Model, Orbit, Semilinear, StepControl};
 
 /// A stepper of either kind, as a study names it.
 #[derive(Clone, Copy, Debug)]
@@ -61,13 +61,13 @@ impl Method {
         control.validate_for(self.name(), self.is_adaptive())
     }
 
-    /// An orbit of the shape alone, from `shape` at time `t`: for a stretch whose path nobody asks for.
+    /// An orbit of a field alone, from `shape` at time `t`: for a stretch whose path nobody asks for.
     ///
     /// # Errors
     /// As [`Orbit::new`].
-    pub fn shape_orbit<'b>(
+    pub fn shape_orbit<'b, F: Semilinear<f64> + ?Sized>(
         self,
-        model: &'b dyn Model,
+        model: &'b F,
         control: StepControl,
         t: f64,
         shape: &[f64],

@@ -24,7 +24,7 @@ use closure::Closure;
 use motiform_dynamics::model::{Coordinate, Observable};
 use motiform_dynamics::simd;
 use motiform_dynamics::{
-    Dual, Lanes, Model, Obstacle, Outline, Scalar, Semilinear, Shape, System, VectorField,
+    Dual, Equivariant, Lanes, Model, Obstacle, Outline, Scalar, Semilinear, Shape, System, VectorField,
 };
 use names::{MEASURES, OBSERVABLES};
 use velocity::Push;
@@ -86,7 +86,7 @@ impl Cell {
 
     /// The same body with the mean of phi at `mean`: a normal-angle offset, which turns it by `2 pi mean / L` while the
     /// points keep their labels s. The mean is constant in time, so it is no unknown of the state (it would add a
-    /// neutral direction that means nothing); [`Model::rotate`] turns by a shift of s instead. [`Model::mirror`] is then
+    /// neutral direction that means nothing); [`Equivariant::rotate`] turns by a shift of s instead. [`Equivariant::mirror`] is then
     /// the mirror at the axis turned with the body.
     #[must_use]
     pub fn with_mean(mut self, mean: f64) -> Self {
@@ -187,7 +187,11 @@ impl<T: Scalar<Real = f64>> Shape<T> for Cell {
     }
 }
 
-impl Model for Cell {
+impl Equivariant for Cell {
+    fn is_symmetric(&self) -> bool {
+        true
+    }
+
     /// A shift of s, `phi_n -> exp(-i n angle) phi_n`: the normal that was at s is now at `s + L angle / 2 pi`.
     fn rotate(&self, angle: f64, shape: &mut [f64]) {
         for (mode, n) in shape.chunks_exact_mut(2).zip(1_u32..) {
@@ -203,6 +207,29 @@ impl Model for Cell {
         }
     }
 
+    /// `-i n phi_n`.
+    fn spin(&self, shape: &[f64], out: &mut [f64]) {
+        for ((mode, rate), n) in shape.chunks_exact(2).zip(out.chunks_exact_mut(2)).zip(1_u32..) {
+            (rate[0], rate[1]) = (f64::from(n) * mode[1], -f64::from(n) * mode[0]);
+        }
+    }
+
+    /// `(1e-13 + atol / |phi|) (2 pi)^2 / L^2` times the mean of `|alpha2| phi_s^2 + |alpha3| phi_ss^2`: what the
+    /// integral of (VEL) leaves where it vanishes by cancellation, for modes known to `atol`.
+    fn speed_resolution(&self, shape: &[f64], atol: f64) -> f64 {
+        let (p, k1) = (&self.parameters, self.parameters.wavenumber());
+        let power = |(mode, n): (&[f64], u32)| {
+            let k2 = (k1 * f64::from(n)) * (k1 * f64::from(n));
+            2.0 * (mode[0] * mode[0] + mode[1] * mode[1])
+                * (p.alpha2.abs() * k2 + p.alpha3_total().abs() * k2 * k2)
+        };
+        let size = 2.0 * shape.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let relative = if size > 0.0 { 1e-13 + atol / size } else { 0.0 };
+        relative * k1 * k1 * shape.chunks_exact(2).zip(1..).map(power).sum::<f64>()
+    }
+}
+
+impl Model for Cell {
     fn coordinates(&self) -> &[Coordinate] {
         names::coordinates(self.modes())
     }
@@ -228,20 +255,6 @@ impl Model for Cell {
         for (x, mode) in out.iter_mut().zip(shape.chunks_exact(2)) {
             *x = 2.0 * libm::hypot(mode[0], mode[1]);
         }
-    }
-
-    /// `(1e-13 + atol / |phi|) (2 pi)^2 / L^2` times the mean of `|alpha2| phi_s^2 + |alpha3| phi_ss^2`: what the
-    /// integral of (VEL) leaves where it vanishes by cancellation, for modes known to `atol`.
-    fn speed_resolution(&self, shape: &[f64], atol: f64) -> f64 {
-        let (p, k1) = (&self.parameters, self.parameters.wavenumber());
-        let power = |(mode, n): (&[f64], u32)| {
-            let k2 = (k1 * f64::from(n)) * (k1 * f64::from(n));
-            2.0 * (mode[0] * mode[0] + mode[1] * mode[1])
-                * (p.alpha2.abs() * k2 + p.alpha3_total().abs() * k2 * k2)
-        };
-        let size = 2.0 * shape.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let relative = if size > 0.0 { 1e-13 + atol / size } else { 0.0 };
-        relative * k1 * k1 * shape.chunks_exact(2).zip(1..).map(power).sum::<f64>()
     }
 
     fn measures(&self) -> &[Observable] {

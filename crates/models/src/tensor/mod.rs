@@ -11,7 +11,7 @@ pub use fourier::{Coefficients, FourierField};
 pub use parameters::TensorParameters;
 
 use motiform_dynamics::model::{Coordinate, Observable};
-use motiform_dynamics::{Dual, Model, Outline, Scalar, Semilinear, Shape, System, VectorField};
+use motiform_dynamics::{Dual, Equivariant, Model, Outline, Scalar, Semilinear, Shape, System, VectorField};
 
 /// The tensor model for one set of parameters.
 ///
@@ -101,7 +101,11 @@ impl<T: Scalar<Real = f64>> Shape<T> for Tensor {
     }
 }
 
-impl Model for Tensor {
+impl Equivariant for Tensor {
+    fn is_symmetric(&self) -> bool {
+        true
+    }
+
     /// `z_n -> exp(-i n angle) z_n`.
     fn rotate(&self, angle: f64, shape: &mut [f64]) {
         for (z, n) in shape.chunks_exact_mut(2).zip(1..) {
@@ -117,6 +121,15 @@ impl Model for Tensor {
         }
     }
 
+    /// `-i n z_n`.
+    fn spin(&self, shape: &[f64], out: &mut [f64]) {
+        for ((z, w), n) in shape.chunks_exact(2).zip(out.chunks_exact_mut(2)).zip(1..) {
+            (w[0], w[1]) = (f64::from(n) * z[1], f64::from(-n) * z[0]);
+        }
+    }
+}
+
+impl Model for Tensor {
     fn coordinates(&self) -> &[Coordinate] {
         &COORDINATES
     }

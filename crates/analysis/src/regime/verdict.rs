@@ -1,0 +1,184 @@
+//! What a classification says: the regime, the evidence for it, and how sure it is.
+
+use serde::{Deserialize, Serialize};
+
+/// The motions, defined by the reduced dynamics and the drift of the group (never by eye).
+///
+/// 'Reduced' means: shapes that differ by a rotation count as one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Regime {
+    /// A fixed shape at rest: a circle, or a deformed body.
+    Motionless,
+    /// A fixed shape that moves without turning.
+    Straight,
+    /// A fixed shape that turns at a constant rate.
+    Circular,
+    /// A heteroclinic cycle between motionless shapes: rests, and turns in between.
+    Rectangular,
+    /// A shape that repeats up to a rotation, with a net rotation per period (a 2-torus in the plane); or a torus of
+    /// reduced shapes.
+    QuasiPeriodic,
+    /// A shape that repeats up to a rotation without net rotation: the body travels on.
+    Zigzag,
+    /// The largest Lyapunov exponent is positive.
+    Chaotic,
+    /// The shape leaves every bound in finite time.
+    BlowUp,
+    /// The evidence does not decide.
+    Undetermined,
+}
+
+impl Regime {
+    /// All of them, in the order of legends.
+    pub const ALL: [Self; 9] = [
+        Self::Motionless,
+        Self::Straight,
+        Self::Circular,
+        Self::Rectangular,
+        Self::QuasiPeriodic,
+        Self::Zigzag,
+        Self::Chaotic,
+        Self::BlowUp,
+        Self::Undetermined,
+    ];
+
+    /// Its name in files and on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Motionless => "motionless",
+            Self::Straight => "straight",
+            Self::Circular => "circular",
+            Self::Rectangular => "rectangular",
+            Self::QuasiPeriodic => "quasi-periodic",
+            Self::Zigzag => "zigzag",
+            Self::Chaotic => "chaotic",
+            Self::BlowUp => "blow-up",
+            Self::Undetermined => "undetermined",
+        }
+    }
+
+    /// The regime of this name.
+    #[must_use]
+    pub fn find(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|regime| regime.name() == name)
+    }
+}
+
+impl std::fmt::Display for Regime {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The kind of set that the reduced orbit ends on: what the mathematics decides, before it is called a motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Attractor {
+    /// A relative equilibrium: a fixed point of the reduced dynamics.
+    Equilibrium,
+    /// A relative periodic orbit.
+    Periodic,
+    /// A torus of the reduced dynamics.
+    Torus,
+    /// A cycle of saddles and the orbits that connect them.
+    Heteroclinic,
+    /// A chaotic set.
+    Chaotic,
+    /// None: the orbit leaves every bound.
+    Escape,
+    /// Not decided.
+    Unknown,
+}
+
+/// A value with the half width of its 95 % confidence interval.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// The value.
+    pub value: f64,
+    /// Half width of the 95 % confidence interval.
+    pub error: f64,
+}
+
+/// Mean and extremes of a quantity over the motion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Spread {
+    /// Time average.
+    pub mean: f64,
+    /// Smallest value.
+    pub min: f64,
+    /// Largest value.
+    pub max: f64,
+}
+
+/// A classified motion. What has no meaning for the regime is absent.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Verdict {
+    /// The motion.
+    pub regime: Regime,
+    /// The kind of reduced attractor.
+    pub attractor: Attractor,
+    /// The evidence in one sentence, with its numbers.
+    pub why: String,
+    /// How far the deciding number lies from where the decision would change, in units of its own uncertainty or
+    /// tolerance: 1 and less is weak, 10 is clear. Absent where nothing was decided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub margin: Option<f64>,
+    /// Speed of the centre of mass (model length per model time).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed: Option<Spread>,
+    /// Mean turning rate (rad per model time): the heading's, over the motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turning_rate: Option<f64>,
+    /// Period of the reduced motion (model time).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub period: Option<f64>,
+    /// Net rotation of the body per period (rad, in -pi..pi).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub net_rotation: Option<f64>,
+    /// Distance travelled per period (model length), for motions that repeat.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drift: Option<f64>,
+    /// Lyapunov exponents, largest first (inverse model time): of the equilibrium, of the periodic orbit, or measured.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub exponents: Vec<Estimate>,
+    /// Turns from leg to leg (rad, in -pi..pi).
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub legs: Vec<f64>,
+    /// Peak-to-peak swing of the heading over one period (rad), where it does not turn on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub swing: Option<f64>,
+    /// Durations of the rests (model time), in order.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub rests: Vec<f64>,
+    /// The blow-up time t*.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub escape_time: Option<f64>,
+    /// Model time that the decision took.
+    pub time: f64,
+}
+
+impl Verdict {
+    /// A verdict without evidence beyond `why`.
+    #[must_use]
+    pub fn new(regime: Regime, attractor: Attractor, why: String, time: f64) -> Self {
+        Self {
+            regime,
+            attractor,
+            why,
+            margin: None,
+            speed: None,
+            turning_rate: None,
+            period: None,
+            net_rotation: None,
+            drift: None,
+            exponents: Vec::new(),
+            legs: Vec::new(),
+            swing: None,
+            rests: Vec::new(),
+            escape_time: None,
+            time,
+        }
+    }
+}
