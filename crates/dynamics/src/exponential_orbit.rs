@@ -370,6 +370,17 @@ impl<F: Semilinear<f64> + ?Sized> Integration for ExponentialOrbit<'_, F> {
         self.prepared = false;
     }
 
+    fn restart(&mut self, u: &[f64]) {
+        self.new.state.copy_from_slice(u);
+        let problem = Problem { field: self.field, drift: self.drift, lambda: &self.lambda };
+        problem.evaluate(self.t, self.stages.get_mut(self.tableau.stages()), &mut self.new);
+        self.old.clone_from(&self.new);
+        self.t_old = self.t;
+        self.accepted = true;
+        self.jumped = false;
+        self.prepared = false;
+    }
+
     fn t(&self) -> f64 {
         self.t
     }

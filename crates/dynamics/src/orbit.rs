@@ -320,6 +320,17 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         self.prepared = false;
     }
 
+    /// Goes on from the state `u` (of the same length) at the same time; see [`Integration::restart`].
+    pub fn restart(&mut self, u: &[f64]) {
+        self.u.copy_from_slice(u);
+        self.u_old.copy_from_slice(u);
+        self.t_old = self.t;
+        self.field.eval(self.t, u, self.slopes.get_mut(self.tableau.stages()));
+        self.accepted = true;
+        self.jumped = false;
+        self.prepared = false;
+    }
+
     /// Current time.
     #[must_use]
     pub fn t(&self) -> f64 {
@@ -370,6 +381,10 @@ impl<F: VectorField<f64> + ?Sized> Integration for Orbit<'_, F> {
 
     fn end_step_at(&mut self, t: f64) {
         self.end_step_at(t);
+    }
+
+    fn restart(&mut self, u: &[f64]) {
+        self.restart(u);
     }
 
     fn t(&self) -> f64 {
