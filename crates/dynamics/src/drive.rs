@@ -55,6 +55,9 @@ pub trait Sink {
     /// A crossing of a section.
     fn crossing(&mut self, _crossing: &Crossing<'_>) {}
 
+    /// The end of every accepted step: state and rates.
+    fn step(&mut self, _t: f64, _u: &[f64], _slope: &[f64]) {}
+
     /// After every step: time reached. `Break` ends the run as interrupted.
     fn tick(&mut self, _t: f64) -> ControlFlow<()> {
         ControlFlow::Continue(())
@@ -130,6 +133,7 @@ impl Run {
             if let Some(t) = self.cross(orbit, request, sink) {
                 return Outcome::Stopped { t };
             }
+            sink.step(orbit.t(), orbit.state(), orbit.slope());
             self.sample(orbit, request, sink, orbit.t());
             let watched = ..request.watched;
             self.growth.observe(orbit.t(), &orbit.state()[watched], &orbit.slope()[watched]);

@@ -374,6 +374,7 @@ impl<F: Semilinear<f64> + ?Sized> Integration for ExponentialOrbit<'_, F> {
         self.new.state.copy_from_slice(u);
         let problem = Problem { field: self.field, drift: self.drift, lambda: &self.lambda };
         problem.evaluate(self.t, self.stages.get_mut(self.tableau.stages()), &mut self.new);
+        self.old.clone_from(&self.new);
         self.t_old = self.t;
         self.accepted = true;
         self.jumped = false;

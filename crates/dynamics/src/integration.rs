@@ -21,8 +21,11 @@ pub trait Integration {
     /// state there lies inside the step, so it is not corrected ([`crate::System::project`]); the next step's end is.
     fn end_step_at(&mut self, t: f64);
 
-    /// Goes on from the state `u` at the current time, with the step size kept: for states that are changed between
-    /// steps (renormalised tangent vectors, kicks of noise).
+    /// Goes on from the state `u` at the same time: a jump after the last step. Step size, step grid and counters are
+    /// kept, the last step is empty, and the field does not correct the state.
+    ///
+    /// # Shapes
+    /// `u` has the length of [`Integration::state`].
     fn restart(&mut self, u: &[f64]);
 
     /// Current time.

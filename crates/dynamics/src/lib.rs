@@ -25,6 +25,7 @@ pub mod section;
 pub mod simd;
 mod step_sizes;
 pub mod steppers;
+pub mod tangent;
 mod trajectory;
 pub mod vector_field;
 
@@ -39,5 +40,6 @@ pub use orbit::Orbit;
 pub use outcome::{Obstacle, Outcome};
 pub use scalar::{Complex, Dual, Lanes, Scalar};
 pub use section::{Direction, Section};
+pub use tangent::Tangent;
 pub use trajectory::{CrossingPoint, Trajectory};
 pub use vector_field::{Semilinear, System, VectorField};

@@ -320,11 +320,12 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         self.prepared = false;
     }
 
-    /// Goes on from the state `u` at the current time, with the step size kept.
+    /// Goes on from the state `u` (of the same length) at the same time; see [`Integration::restart`].
     pub fn restart(&mut self, u: &[f64]) {
         self.u.copy_from_slice(u);
-        self.field.eval(self.t, &self.u, self.slopes.get_mut(self.tableau.stages()));
+        self.u_old.copy_from_slice(u);
         self.t_old = self.t;
+        self.field.eval(self.t, u, self.slopes.get_mut(self.tableau.stages()));
         self.accepted = true;
         self.jumped = false;
         self.prepared = false;

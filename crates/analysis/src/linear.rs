@@ -1,0 +1,125 @@
+//! The little linear algebra that analyses need; sums in a fixed order, so that results depend on no machine.
+
+use nalgebra::{DMatrix, DVector};
+
+/// A complex number `(re, im)`.
+pub type ComplexPair = (f64, f64);
+
+/// `sum_i a_i b_i`.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+/// Euclidean length.
+pub(crate) fn norm(a: &[f64]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// `a += factor b`.
+pub(crate) fn add(a: &mut [f64], factor: f64, b: &[f64]) {
+    for (x, y) in a.iter_mut().zip(b) {
+        *x += factor * y;
+    }
+}
+
+/// Makes the vectors orthonormal in order (Gram-Schmidt, twice is enough) and returns the lengths that were divided
+/// out: the diagonal of R. A vector that depends on the earlier ones becomes 0, with length 0.
+pub(crate) fn orthonormalise(vectors: &mut [&mut [f64]]) -> Vec<f64> {
+    let mut lengths = Vec::with_capacity(vectors.len());
+    for k in 0..vectors.len() {
+        let (done, rest) = vectors.split_at_mut(k);
+        let vector = &mut *rest[0];
+        let before = norm(vector);
+        for _ in 0..2 {
+            for other in &*done {
+                let along = dot(other, vector);
+                add(vector, -along, other);
+            }
+        }
+        let length = norm(vector);
+        let kept = if length > 1e-14 * before { length } else { 0.0 };
+        let factor = if kept > 0.0 { 1.0 / length } else { 0.0 };
+        vector.iter_mut().for_each(|x| *x *= factor);
+        lengths.push(kept);
+    }
+    lengths
+}
+
+/// An orthonormal basis of what the columns span (those that depend on earlier ones are left out).
+pub(crate) fn basis(columns: &[&[f64]], least: f64) -> Vec<Vec<f64>> {
+    let mut out: Vec<Vec<f64>> = Vec::new();
+    for column in columns {
+        let mut vector = column.to_vec();
+        let before = norm(&vector);
+        for _ in 0..2 {
+            for other in &out {
+                let along = dot(other, &vector);
+                add(&mut vector, -along, other);
+            }
+        }
+        let length = norm(&vector);
+        if length > least * before && length > 0.0 {
+            vector.iter_mut().for_each(|x| *x /= length);
+            out.push(vector);
+        }
+    }
+    out
+}
+
+/// The smallest `x` that minimises `|sum_j columns_j x_j - rhs|`, by singular values above `1e-10` of the largest.
+/// `None` where a number is not finite.
+pub(crate) fn least_squares(columns: &[Vec<f64>], rhs: &[f64]) -> Option<Vec<f64>> {
+    let matrix = DMatrix::from_fn(rhs.len(), columns.len(), |i, j| columns[j][i]);
+    if !matrix.iter().chain(rhs).all(|x| x.is_finite()) {
+        return None;
+    }
+    let svd = matrix.try_svd(true, true, f64::EPSILON, 1000)?;
+    let largest = svd.singular_values.iter().fold(0.0, |m: f64, &s| m.max(s));
+    let x = svd.solve(&DVector::from_column_slice(rhs), 1e-10 * largest).ok()?;
+    Some(x.iter().copied().collect())
+}
+
+/// The eigenvalues of a matrix given by its columns, largest real part first (then largest imaginary part). `None`
+/// where a number is not finite or the iteration does not end.
+pub(crate) fn eigenvalues(columns: &[Vec<f64>]) -> Option<Vec<ComplexPair>> {
+    let dim = columns.len();
+    if dim == 0 {
+        return Some(Vec::new());
+    }
+    let matrix = DMatrix::from_fn(dim, dim, |i, j| columns[j][i]);
+    if !matrix.iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    let schur = nalgebra::linalg::Schur::try_new(matrix, f64::EPSILON, 100 * dim.max(10))?;
+    let mut values: Vec<ComplexPair> = schur.complex_eigenvalues().iter().map(|z| (z.re, z.im)).collect();
+    values.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1)));
+    Some(values)
+}
+
+/// `basis^T A basis`, with the columns of `A` applied by `act`.
+pub(crate) fn restrict(basis: &[Vec<f64>], act: impl Fn(&[f64]) -> Vec<f64>) -> Vec<Vec<f64>> {
+    basis
+        .iter()
+        .map(|column| {
+            let image = act(column);
+            basis.iter().map(|row| dot(row, &image)).collect()
+        })
+        .collect()
+}
+
+/// `A x` for a matrix stored column by column.
+pub(crate) fn apply(matrix: &[f64], x: &[f64]) -> Vec<f64> {
+    let mut out = vec![0.0; x.len()];
+    for (column, &factor) in matrix.chunks_exact(x.len()).zip(x) {
+        add(&mut out, factor, column);
+    }
+    out
+}
+
+/// Unit vectors that complete `fixed` (orthonormal) to a basis of the whole space.
+pub(crate) fn complement(fixed: &[Vec<f64>], dim: usize) -> Vec<Vec<f64>> {
+    let unit = |i: usize| (0..dim).map(|j| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
+    let units: Vec<Vec<f64>> = (0..dim).map(unit).collect();
+    let columns: Vec<&[f64]> = fixed.iter().chain(&units).map(Vec::as_slice).collect();
+    basis(&columns, 1e-6).split_off(fixed.len().min(dim))
+}

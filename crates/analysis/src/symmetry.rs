@@ -1,0 +1,144 @@
+//! The plane's rotations divided out.
+//!
+//! Two shapes that differ by a rotation are one reduced shape. Two tools do this without any point where they break down:
+//! * a **distance** between reduced shapes, by the best alignment ([`align`]): a metric, whatever the shapes are (v = 0,
+//!   pure modes, circles);
+//! * a **moving frame** along an orbit ([`MovingFrame`]): the frame that turns exactly as fast as the shape does, in the
+//!   sense of least motion. It is regular wherever the shape is not a circle, and for a circle every frame is right.
+//!
+//! Source: the frame is the mechanical connection; Marsden, Montgomery, Ratiu (1990), Mem. AMS 436; for pattern-forming
+//! systems Rowley, Kevrekidis, Marsden, Lust (2003), Nonlinearity 16, 1257.
+
+use crate::linear::{dot, norm};
+use motiform_dynamics::{Equivariant, System, VectorField};
+use std::f64::consts::TAU;
+
+/// How one shape is best turned (and mirrored) onto another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alignment {
+    /// The rotation (rad, in -pi..pi), applied after the mirror.
+    pub angle: f64,
+    /// What remains: `min_angle |reference - R(angle) [M] shape|`.
+    pub distance: f64,
+}
+
+/// The rotation of `shape` (mirrored first, if `mirrored`) that comes closest to `reference`.
+///
+/// `|reference - R(a) u|^2 = |reference|^2 + |u|^2 - 2 c(a)`, `c(a) = reference . R(a) u` a trigonometric polynomial: its
+/// largest value on a grid fine enough for every mode of the state, then Newton steps on `c'`.
+#[must_use]
+pub fn align<B: Equivariant + ?Sized>(
+    body: &B,
+    reference: &[f64],
+    shape: &[f64],
+    mirrored: bool,
+) -> Alignment {
+    let mut base = shape.to_vec();
+    if mirrored {
+        body.mirror(&mut base);
+    }
+    let points = if body.is_symmetric() { (4 * shape.len()).clamp(32, 512) } else { 1 };
+    let mut turned = base.clone();
+    let (mut best, mut angle) = (f64::NEG_INFINITY, 0.0);
+    for point in 0..points {
+        let candidate = TAU * point as f64 / points as f64;
+        turned.copy_from_slice(&base);
+        body.rotate(candidate, &mut turned);
+        let overlap = dot(reference, &turned);
+        if overlap > best {
+            (best, angle) = (overlap, candidate);
+        }
+    }
+    if points > 1 {
+        angle = refine(body, reference, &base, angle, TAU / points as f64);
+    }
+    turned.copy_from_slice(&base);
+    body.rotate(angle, &mut turned);
+    let rest: f64 = reference.iter().zip(&turned).map(|(a, b)| (a - b) * (a - b)).sum();
+    Alignment { angle: wrap(angle), distance: rest.sqrt() }
+}
+
+/// Newton's method on `c'(a) = reference . R(a) G u`, `c''(a) = reference . R(a) G G u`, within one grid cell.
+fn refine<B: Equivariant + ?Sized>(body: &B, reference: &[f64], base: &[f64], start: f64, cell: f64) -> f64 {
+    let (mut first, mut second) = (base.to_vec(), base.to_vec());
+    let mut angle = start;
+    for _ in 0..8 {
+        let mut turned = base.to_vec();
+        body.rotate(angle, &mut turned);
+        body.spin(&turned, &mut first);
+        body.spin(&first, &mut second);
+        let (slope, bend) = (dot(reference, &first), dot(reference, &second));
+        let step = if bend < 0.0 { -slope / bend } else { 0.0 };
+        let next = (angle + step).clamp(start - cell, start + cell);
+        let done = (next - angle).abs() < 1e-15;
+        angle = next;
+        if done {
+            break;
+        }
+    }
+    angle
+}
+
+/// The same angle in -pi..pi.
+#[must_use]
+pub fn wrap(angle: f64) -> f64 {
+    angle - TAU * (angle / TAU).round()
+}
+
+/// How fast the shape turns: `omega = Gu . f / |Gu|^2` makes `|f - omega Gu|` least; 0 for a circle.
+#[must_use]
+pub fn turning_of_shape<B: Equivariant + ?Sized>(body: &B, shape: &[f64], rate: &[f64]) -> f64 {
+    let mut spin = vec![0.0; shape.len()];
+    body.spin(shape, &mut spin);
+    let size = dot(&spin, &spin);
+    if size > 0.0 { dot(&spin, rate) / size } else { 0.0 }
+}
+
+/// `|f - omega Gu|` with the best omega: how fast the reduced shape changes.
+#[must_use]
+pub fn reduced_speed<B: Equivariant + ?Sized>(body: &B, shape: &[f64], rate: &[f64]) -> f64 {
+    let omega = turning_of_shape(body, shape, rate);
+    let mut spin = vec![0.0; shape.len()];
+    body.spin(shape, &mut spin);
+    let rest: Vec<f64> = rate.iter().zip(&spin).map(|(f, g)| f - omega * g).collect();
+    norm(&rest)
+}
+
+/// The flow seen from a frame that turns with the shape, and what it takes to come back: state `(w, theta, x, y)` with
+/// `w' = f(w) - omega(w) G w`, `theta' = omega(w)`, `(x, y)' = R(theta) v(w)`.
+///
+/// The shape is `R(theta) w`, the position `(x, y)`: heading and path are reconstructed from the reduced orbit.
+#[derive(Clone, Copy, Debug)]
+pub struct MovingFrame<'b, B: ?Sized>(pub &'b B);
+
+impl<B: Equivariant + ?Sized> System for MovingFrame<'_, B> {
+    fn dim(&self) -> usize {
+        self.0.dim() + 3
+    }
+}
+
+impl<B: Equivariant + ?Sized> VectorField<f64> for MovingFrame<'_, B> {
+    fn eval(&self, t: f64, u: &[f64], du: &mut [f64]) {
+        let (shape, place) = u.split_at(self.0.dim());
+        let (rate, moves) = du.split_at_mut(shape.len());
+        VectorField::<f64>::eval(self.0, t, shape, rate);
+        let mut spin = vec![0.0; shape.len()];
+        self.0.spin(shape, &mut spin);
+        let omega = turning_of_shape(self.0, shape, rate);
+        for (r, g) in rate.iter_mut().zip(&spin) {
+            *r -= omega * g;
+        }
+        let [vx, vy] = motiform_dynamics::model::velocity(self.0, shape);
+        let (sin, cos) = place[0].sin_cos();
+        moves.copy_from_slice(&[omega, cos * vx - sin * vy, sin * vx + cos * vy]);
+    }
+}
+
+/// `d/dt |u|^2 / 2 = u . f(u)`: zero at the extremes of the shape's size. Unchanged by rotations and the mirror, smooth
+/// everywhere: the section that every reduced orbit crosses unless its size is constant.
+#[must_use]
+pub fn growth<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> f64 {
+    let mut rate = vec![0.0; shape.len()];
+    VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
+    dot(shape, &rate)
+}
