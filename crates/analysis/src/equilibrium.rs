@@ -89,7 +89,8 @@ impl RelativeEquilibrium {
         let eigenvalues = eigenvalues(&restrict(&rest, |x| apply(&matrix, x)))?;
         let velocity = model::velocity(body, &shape);
         let neutral = neutral.len();
-        Some(Self { shape, turning_rate: omega, velocity, residual, eigenvalues, neutral, scale })
+        let turning_rate = if neutral == 0 { 0.0 } else { omega }; // a circle does not turn
+        Some(Self { shape, turning_rate, velocity, residual, eigenvalues, neutral, scale })
     }
 
     /// The largest real part of an eigenvalue: negative if stable. `-inf` without any eigenvalue.

@@ -1,8 +1,7 @@
 //! Lyapunov exponents, from the exact tangent flow.
 
 use crate::linear::{basis, norm, orthonormalise};
-use crate::regime::Estimate;
-use crate::{Result, batch_means};
+use crate::{Estimate, Result, batch_means};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{

@@ -1,5 +1,17 @@
 //! Which motion is it? The decision, with its evidence.
 
+mod chaos;
+mod classify;
+mod heteroclinic;
+mod legs;
+mod look;
+mod motion;
+mod recurrence;
+mod returns;
+mod settings;
 mod verdict;
+mod words;
 
-pub use verdict::{Attractor, Estimate, Regime, Spread, Verdict};
+pub use classify::classify;
+pub use settings::Settings;
+pub use verdict::{Attractor, Regime, Spread, Verdict};

@@ -1,5 +1,6 @@
 //! What a classification says: the regime, the evidence for it, and how sure it is.
 
+use crate::Estimate;
 use serde::{Deserialize, Serialize};
 
 /// The motions, defined by the reduced dynamics and the drift of the group (never by eye).
@@ -90,15 +91,6 @@ pub enum Attractor {
     Escape,
     /// Not decided.
     Unknown,
-}
-
-/// A value with the half width of its 95 % confidence interval.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Estimate {
-    /// The value.
-    pub value: f64,
-    /// Half width of the 95 % confidence interval.
-    pub error: f64,
 }
 
 /// Mean and extremes of a quantity over the motion.

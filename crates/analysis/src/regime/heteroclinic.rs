@@ -1,0 +1,55 @@
+//! Is it a heteroclinic cycle? Rests near saddles that attract as a cycle.
+
+use super::look::{Look, Rest};
+use super::settings::Settings;
+use crate::equilibrium::{RelativeEquilibrium, Saddle};
+use crate::linear::norm;
+use motiform_dynamics::Equivariant;
+
+/// The evidence for a cycle.
+#[derive(Clone, Debug)]
+pub(super) struct Cycle {
+    /// The saddle of the last rest.
+    pub(super) equilibrium: RelativeEquilibrium,
+    /// Its rates.
+    pub(super) saddle: Saddle,
+    /// Durations of the rests.
+    pub(super) rests: Vec<f64>,
+    /// Closest approach to a saddle, against the size of the shape.
+    pub(super) closest: f64,
+}
+
+/// Rests that must be seen.
+const LEAST_RESTS: usize = 3;
+
+/// A rest that comes closer than this (against the shape's size) is ruled by the saddle alone.
+const CLOSE: f64 = 1e-3;
+
+/// Finds a cycle of saddles that attracts: every rest of the look is near a motionless saddle with one growing direction,
+/// orbits leave it slower than they arrive (`lambda_+ + lambda_- < 0`), and the rests last as long as the closeness
+/// explains. `None` where any of this does not hold.
+pub(super) fn cycle<B: Equivariant + ?Sized>(body: &B, look: &Look, settings: &Settings) -> Option<Cycle> {
+    let rests: Vec<&Rest> = look.rests.iter().rev().take(6).collect();
+    if rests.len() < LEAST_RESTS {
+        return None;
+    }
+    let mut closest = f64::INFINITY;
+    let mut found: Option<(RelativeEquilibrium, Saddle)> = None;
+    for rest in &rests {
+        let equilibrium = RelativeEquilibrium::find(body, &rest.shape)?;
+        let size = norm(&equilibrium.shape);
+        let distance = equilibrium.distance(body, &rest.shape) / size.max(f64::MIN_POSITIVE);
+        let still = equilibrium.speed()
+            <= body.speed_resolution(&equilibrium.shape, settings.atol()).max(1e-9)
+            && equilibrium.turning_rate.abs() <= equilibrium.resolution().max(1e-9 * equilibrium.scale);
+        let saddle = equilibrium.saddle(body)?;
+        if !(still && distance < CLOSE && saddle.out + saddle.inward < 0.0) {
+            return None;
+        }
+        closest = closest.min(distance);
+        found.get_or_insert((equilibrium, saddle));
+    }
+    let (equilibrium, saddle) = found?;
+    let durations = look.rests.iter().map(|rest| rest.end - rest.start).collect();
+    Some(Cycle { equilibrium, saddle, rests: durations, closest })
+}

@@ -1,0 +1,175 @@
+//! A stretch of an orbit, watched: its extremes in size, its rests, its end.
+
+use crate::linear::norm;
+use crate::symmetry::{align, growth, reduced_speed};
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::section::Crossing;
+use motiform_dynamics::{Direction, Equivariant, Integration, Outcome, Request, Section, Sink};
+use std::ops::ControlFlow;
+
+/// An extreme of the shape's size `|u|`: where a reduced orbit meets the section `u . f(u) = 0`.
+#[derive(Clone, Debug)]
+pub(super) struct Extreme {
+    pub(super) t: f64,
+    pub(super) minimum: bool,
+    pub(super) size: f64,
+    pub(super) shape: Vec<f64>,
+}
+
+/// A stretch in which the reduced shape hardly changes.
+#[derive(Clone, Debug)]
+pub(super) struct Rest {
+    pub(super) start: f64,
+    pub(super) end: f64,
+    /// The shape where it was slowest, and how slow.
+    pub(super) shape: Vec<f64>,
+    pub(super) speed: f64,
+}
+
+/// What a look saw.
+#[derive(Debug)]
+pub(super) struct Look {
+    pub(super) start: f64,
+    pub(super) end: f64,
+    pub(super) outcome: Outcome,
+    /// Alternating minima and maxima of the size; flutter below the resolution is left out.
+    pub(super) extremes: Vec<Extreme>,
+    /// Complete rests.
+    pub(super) rests: Vec<Rest>,
+    /// Reduced speed: fastest in this look, and at its end.
+    pub(super) fastest: f64,
+    pub(super) last_speed: f64,
+    /// Whether the look ended in a rest.
+    pub(super) resting: bool,
+    /// Smallest and largest size.
+    pub(super) sizes: (f64, f64),
+}
+
+/// A reduced shape that changes slower than this, against its fastest, rests.
+const RESTS: f64 = 0.01;
+
+/// Most extremes that are kept, the latest.
+const KEPT: usize = 4096;
+
+impl Look {
+    /// Follows `orbit` for `time`.
+    pub(super) fn take<B: Equivariant + ?Sized>(
+        body: &B,
+        orbit: &mut dyn Integration,
+        time: f64,
+        request: &Request<'_>,
+        stop: &mut dyn Sink,
+    ) -> Result<Self, motiform_dynamics::Error> {
+        let start = orbit.t();
+        let size_growth = |_t: f64, u: &[f64]| growth(body, u);
+        let sections = [Section { g: &size_growth, direction: Direction::Either, terminal: false }];
+        let request = Request { t_end: start + time, sections: &sections, ..*request };
+        let size = norm(orbit.state());
+        let mut watcher = Watcher {
+            body,
+            extremes: Vec::new(),
+            rests: Vec::new(),
+            rest: None,
+            fastest: 0.0,
+            last_speed: 0.0,
+            sizes: (size, size),
+            stop,
+        };
+        let outcome = drive(orbit, &request, &mut watcher)?;
+        let Watcher { extremes, rests, rest, fastest, last_speed, sizes, .. } = watcher;
+        let flutter = 1e-7 * (sizes.1 - sizes.0) + 1e-12 * sizes.1;
+        Ok(Self {
+            start,
+            end: orbit.t(),
+            outcome,
+            extremes: significant(extremes, flutter),
+            rests,
+            fastest,
+            last_speed,
+            resting: rest.is_some(),
+            sizes,
+        })
+    }
+
+    /// The minima of the size.
+    pub(super) fn minima(&self) -> Vec<&Extreme> {
+        self.extremes.iter().filter(|extreme| extreme.minimum).collect()
+    }
+
+    /// The largest distance between reduced shapes that the look met, from the last extreme to the earlier ones.
+    pub(super) fn diameter<B: Equivariant + ?Sized>(&self, body: &B) -> f64 {
+        let Some(last) = self.extremes.last() else { return 0.0 };
+        let others = self.extremes.iter().rev().skip(1).take(40);
+        others.map(|other| align(body, &last.shape, &other.shape, false).distance).fold(0.0, f64::max)
+    }
+}
+
+/// Extremes that differ from their neighbours by more than `flutter`, alternating.
+fn significant(extremes: Vec<Extreme>, flutter: f64) -> Vec<Extreme> {
+    let mut kept: Vec<Extreme> = Vec::with_capacity(extremes.len());
+    for extreme in extremes {
+        match kept.last() {
+            Some(last) if last.minimum == extreme.minimum => {
+                let better =
+                    if extreme.minimum { extreme.size < last.size } else { extreme.size > last.size };
+                if better {
+                    kept.pop();
+                    kept.push(extreme);
+                }
+            }
+            Some(last) if (last.size - extreme.size).abs() <= flutter => {}
+            _ => kept.push(extreme),
+        }
+    }
+    kept
+}
+
+struct Watcher<'w, B: ?Sized> {
+    body: &'w B,
+    extremes: Vec<Extreme>,
+    rests: Vec<Rest>,
+    /// The rest under way; its start is not known where the look began in it.
+    rest: Option<(Option<f64>, Vec<f64>, f64)>,
+    fastest: f64,
+    last_speed: f64,
+    sizes: (f64, f64),
+    stop: &'w mut dyn Sink,
+}
+
+impl<B: Equivariant + ?Sized> Sink for Watcher<'_, B> {
+    fn crossing(&mut self, crossing: &Crossing<'_>) {
+        if self.extremes.len() >= 2 * KEPT {
+            self.extremes.drain(..KEPT);
+        }
+        self.extremes.push(Extreme {
+            t: crossing.t,
+            minimum: crossing.rising,
+            size: norm(crossing.state),
+            shape: crossing.state.to_vec(),
+        });
+    }
+
+    fn step(&mut self, t: f64, u: &[f64], slope: &[f64]) {
+        let size = norm(u);
+        self.sizes = (self.sizes.0.min(size), self.sizes.1.max(size));
+        let speed = reduced_speed(self.body, u, slope);
+        self.last_speed = speed;
+        self.fastest = self.fastest.max(speed);
+        if speed < RESTS * self.fastest {
+            let started = (!self.rests.is_empty() || self.fastest > 0.0).then_some(t);
+            let rest = self.rest.get_or_insert_with(|| (started, u.to_vec(), speed));
+            if speed < rest.2 {
+                rest.1.copy_from_slice(u);
+                rest.2 = speed;
+            }
+        } else if let Some((start, shape, slowest)) = self.rest.take()
+            && let Some(start) = start
+        {
+            self.rests.push(Rest { start, end: t, shape, speed: slowest });
+        }
+    }
+
+    fn tick(&mut self, t: f64) -> ControlFlow<()> {
+        self.stop.tick(t)
+    }
+}

@@ -1,0 +1,117 @@
+//! What the centre of mass does while the shape moves: speed, heading, drift.
+
+use super::settings::Settings;
+use super::verdict::Spread;
+use crate::symmetry::wrap;
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::model::velocity;
+use motiform_dynamics::{Equivariant, Request, Sink};
+
+/// Samples of a path, equally spaced in time; the path starts at the origin.
+#[derive(Clone, Debug)]
+pub(super) struct Path {
+    pub(super) times: Vec<f64>,
+    pub(super) positions: Vec<[f64; 2]>,
+    pub(super) velocities: Vec<[f64; 2]>,
+    /// The largest speed that is round-off.
+    pub(super) resolution: f64,
+}
+
+impl Path {
+    /// The path from `shape` for `time`, in `steps` steps; shorter where the run ends early or a velocity is undefined.
+    pub(super) fn follow<B: Equivariant + ?Sized>(
+        body: &B,
+        shape: &[f64],
+        time: f64,
+        steps: usize,
+        settings: &Settings,
+    ) -> Result<Self, motiform_dynamics::Error> {
+        let mut sampler = Sampler { body, atol: settings.atol(), path: Self::empty() };
+        let mut orbit = settings.method.shape_orbit(body, settings.control, 0.0, shape)?;
+        let request =
+            Request { sample_every: Some(time / steps as f64), ..settings.request(time, shape.len()) };
+        drive(orbit.as_mut(), &request, &mut sampler)?;
+        let mut path = sampler.path;
+        let defined = path.velocities.iter().take_while(|v| v.iter().all(|x| x.is_finite())).count();
+        path.times.truncate(defined);
+        path.velocities.truncate(defined);
+        path.integrate();
+        Ok(path)
+    }
+
+    fn empty() -> Self {
+        Self { times: Vec::new(), positions: Vec::new(), velocities: Vec::new(), resolution: 0.0 }
+    }
+
+    /// Positions from velocities, by the trapezoidal rule.
+    fn integrate(&mut self) {
+        let mut at = [0.0; 2];
+        self.positions = Vec::with_capacity(self.times.len());
+        for (i, v) in self.velocities.iter().enumerate() {
+            if let Some(before) = i.checked_sub(1) {
+                let h = 0.5 * (self.times[i] - self.times[before]);
+                at = [0, 1].map(|k| at[k] + h * (v[k] + self.velocities[before][k]));
+            }
+            self.positions.push(at);
+        }
+    }
+
+    /// Speeds.
+    pub(super) fn speeds(&self) -> Vec<f64> {
+        self.velocities.iter().map(|v| libm::hypot(v[0], v[1])).collect()
+    }
+
+    /// Whether the body ever moves.
+    pub(super) fn moves(&self) -> bool {
+        self.speeds().iter().any(|&speed| speed > self.resolution.max(1e-12))
+    }
+
+    /// Mean and extremes of the speed.
+    pub(super) fn speed(&self) -> Option<Spread> {
+        let speeds = self.speeds();
+        let mean = speeds.iter().sum::<f64>() / speeds.len() as f64;
+        let min = speeds.iter().copied().fold(f64::INFINITY, f64::min);
+        let max = speeds.iter().copied().fold(0.0, f64::max);
+        (!speeds.is_empty()).then_some(Spread { mean, min, max })
+    }
+
+    /// Mean turning rate of the heading (rad per model time); `None` where the body stops on the way.
+    pub(super) fn turning_rate(&self) -> Option<f64> {
+        let heading = self.heading()?;
+        let time = self.times.last()? - self.times.first()?;
+        Some((heading.last()? - heading.first()?) / time)
+    }
+
+    /// The heading without jumps (rad); `None` where the body stops.
+    pub(super) fn heading(&self) -> Option<Vec<f64>> {
+        let least = self.resolution.max(1e-6 * self.speed()?.max);
+        let mut out: Vec<f64> = Vec::with_capacity(self.velocities.len());
+        for v in &self.velocities {
+            if libm::hypot(v[0], v[1]) <= least {
+                return None;
+            }
+            let angle = libm::atan2(v[1], v[0]);
+            out.push(out.last().map_or(angle, |&last| last + wrap(angle - last)));
+        }
+        Some(out)
+    }
+
+    /// Distance from start to end.
+    pub(super) fn drift(&self) -> f64 {
+        self.positions.last().map_or(0.0, |p| libm::hypot(p[0], p[1]))
+    }
+}
+
+struct Sampler<'b, B: ?Sized> {
+    body: &'b B,
+    atol: f64,
+    path: Path,
+}
+
+impl<B: Equivariant + ?Sized> Sink for Sampler<'_, B> {
+    fn sample(&mut self, t: f64, u: &[f64]) {
+        self.path.times.push(t);
+        self.path.velocities.push(velocity(self.body, u));
+        self.path.resolution = self.path.resolution.max(self.body.speed_resolution(u, self.atol));
+    }
+}

@@ -1,0 +1,145 @@
+//! Does the shape come back? Recurrences of the reduced orbit, polished by Newton's method.
+
+use super::look::{Extreme, Look};
+use super::settings::Settings;
+use crate::linear::norm;
+use crate::periodic::{PeriodicGuess, PeriodicOrbit};
+use crate::symmetry::align;
+use motiform_dynamics::Equivariant;
+
+/// Most returns to the section per period.
+const LONGEST: usize = 48;
+
+/// Recurrences closer than this part of the motion's diameter are worth a try.
+const CLOSE: f64 = 0.005;
+
+/// The orbit found must be this near to the latest return, against the latest swing from minimum to maximum.
+const NEAR: f64 = 0.2;
+
+/// Most recurrences that are tried.
+const TRIES: usize = 2;
+
+/// A return of the reduced orbit to where it was.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Recurrence {
+    /// Returns to the section.
+    pub(super) returns: usize,
+    pub(super) mirrored: bool,
+    pub(super) time: f64,
+    pub(super) angle: f64,
+    /// Distance, against the motion's diameter.
+    pub(super) distance: f64,
+}
+
+/// The recurrences of the last minimum that are close, shortest first.
+pub(super) fn recurrences<B: Equivariant + ?Sized>(
+    body: &B,
+    minima: &[&Extreme],
+    diameter: f64,
+) -> Vec<Recurrence> {
+    let Some((last, earlier)) = minima.split_last() else { return Vec::new() };
+    let mut found: Vec<Recurrence> = Vec::new();
+    let images = if body.is_symmetric() { &[true, false][..] } else { &[false] };
+    for (returns, before) in earlier.iter().rev().take(LONGEST).enumerate() {
+        if (before.size - last.size).abs() > CLOSE * diameter {
+            continue; // sizes differ by no more than the distance
+        }
+        for &mirrored in images {
+            let near = align(body, &last.shape, &before.shape, mirrored);
+            let distance = near.distance / diameter;
+            if distance < CLOSE
+                && settles(body, minima, returns + 1, mirrored, near.distance, 1e-5 * diameter)
+            {
+                let time = last.t - before.t;
+                found.push(Recurrence { returns: returns + 1, mirrored, time, angle: near.angle, distance });
+            }
+        }
+    }
+    found
+}
+
+/// Whether the same recurrence a period earlier was no closer: an orbit that others approach is approached. `true` where the
+/// look is too short to tell, or both are at the resolution.
+fn settles<B: Equivariant + ?Sized>(
+    body: &B,
+    minima: &[&Extreme],
+    returns: usize,
+    mirrored: bool,
+    now: f64,
+    resolution: f64,
+) -> bool {
+    let at = |back: usize| minima.len().checked_sub(1 + back).map(|index| minima[index]);
+    let (Some(middle), Some(early)) = (at(returns), at(2 * returns)) else { return true };
+    let before = align(body, &middle.shape, &early.shape, mirrored).distance;
+    now <= 1.05 * before.max(resolution)
+}
+
+/// A stable periodic orbit that the look ends on, with the recurrence that led to it.
+pub(super) fn periodic<B: Equivariant + ?Sized>(
+    body: &B,
+    look: &Look,
+    settings: &Settings,
+) -> Option<(PeriodicOrbit, Recurrence)> {
+    let minima = look.minima();
+    let diameter = look.diameter(body);
+    let last = minima.last()?;
+    let maximum = look.extremes.iter().rev().find(|extreme| !extreme.minimum)?;
+    let swing = align(body, &maximum.shape, &last.shape, false).distance;
+    for recurrence in recurrences(body, &minima, diameter).into_iter().take(TRIES) {
+        let guess = PeriodicGuess {
+            shape: &last.shape,
+            time: recurrence.time,
+            angle: recurrence.angle,
+            mirrored: recurrence.mirrored,
+        };
+        let Some(orbit) = PeriodicOrbit::find(body, &guess, &settings.flow()) else { continue };
+        // Against the latest swing: an equilibrium, approached in a spiral, is a periodic orbit of no size.
+        let away = align(body, &orbit.shape, &last.shape, false).distance / swing;
+        if orbit.growth() < 1.0 && away < NEAR {
+            return Some(shortest(body, orbit, recurrence, settings));
+        }
+    }
+    None
+}
+
+/// The same orbit with its shortest period: more returns than one may have been tried first.
+fn shortest<B: Equivariant + ?Sized>(
+    body: &B,
+    orbit: PeriodicOrbit,
+    recurrence: Recurrence,
+    settings: &Settings,
+) -> (PeriodicOrbit, Recurrence) {
+    if recurrence.returns == 1 && (recurrence.mirrored || !body.is_symmetric()) {
+        return (orbit, recurrence);
+    }
+    let found = || -> Option<(PeriodicOrbit, Recurrence)> {
+        let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape).ok()?;
+        let request = settings.request(orbit.time, body.dim());
+        let look = Look::take(body, flow.as_mut(), 1.001 * orbit.time, &request, &mut ()).ok()?;
+        let start = Extreme { t: 0.0, minimum: true, size: norm(&orbit.shape), shape: orbit.shape.clone() };
+        let diameter = look.diameter(body);
+        let images = if body.is_symmetric() { &[true, false][..] } else { &[false] };
+        for (returns, minimum) in look.minima().into_iter().enumerate() {
+            for &mirrored in images {
+                let near = align(body, &minimum.shape, &start.shape, mirrored);
+                let shorter = minimum.t < 0.75 * orbit.time || mirrored && !orbit.mirrored;
+                if near.distance < 1e-2 * diameter && shorter && minimum.t > 0.01 * orbit.time {
+                    let guess =
+                        PeriodicGuess { shape: &orbit.shape, time: minimum.t, angle: near.angle, mirrored };
+                    let distance = near.distance / diameter;
+                    let recurrence = Recurrence {
+                        returns: returns + 1,
+                        mirrored,
+                        time: minimum.t,
+                        angle: near.angle,
+                        distance,
+                    };
+                    let found = PeriodicOrbit::find(body, &guess, &settings.flow())?;
+                    return (found.growth() < 1.0).then_some((found, recurrence));
+                }
+            }
+        }
+        None
+    };
+    found().unwrap_or((orbit, recurrence))
+}

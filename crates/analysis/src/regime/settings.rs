@@ -1,0 +1,70 @@
+//! How long to look, and with what.
+
+use crate::periodic::Flow;
+use motiform_dynamics::steppers::Method;
+use motiform_dynamics::{Outcome, Request, StepControl};
+
+/// How a motion is classified.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    /// Stepper of the shape.
+    pub method: Method,
+    /// Its control.
+    pub control: StepControl,
+    /// Length of the first look (model time): some tens of the slowest ordinary time scale. Each further look is twice
+    /// as long.
+    pub first_look: f64,
+    /// Most model time to spend on one motion.
+    pub budget: f64,
+    /// A shape beyond this norm has escaped.
+    pub escape_norm: f64,
+    /// Most steps in all.
+    pub max_steps: u64,
+}
+
+impl Settings {
+    /// A run to `t_end` on a state whose first `watched` entries are the shape.
+    pub(super) fn request(&self, t_end: f64, watched: usize) -> Request<'static> {
+        Request {
+            max_steps: self.max_steps,
+            escape_norm: self.escape_norm,
+            watched,
+            ..Request::until(t_end, watched)
+        }
+    }
+
+    /// The flow over one period.
+    pub(super) fn flow(&self) -> Flow {
+        Flow { method: self.method, control: self.control, max_steps: self.max_steps }
+    }
+
+    /// The relative accuracy of states that these settings give.
+    pub(super) fn accuracy(&self) -> f64 {
+        match self.control {
+            StepControl::Adaptive { rtol, .. } => 1e3 * rtol,
+            StepControl::Fixed { .. } => 1e-6,
+        }
+    }
+
+    /// How near (against its size) to a stable equilibrium an orbit of these settings hovers: nearer than this it has
+    /// arrived.
+    pub(super) fn hovering(&self) -> f64 {
+        match self.control {
+            StepControl::Adaptive { rtol, .. } => (100.0 * rtol).max(1e-8),
+            StepControl::Fixed { .. } => 1e-8,
+        }
+    }
+
+    /// Absolute tolerance of the states.
+    pub(super) fn atol(&self) -> f64 {
+        match self.control {
+            StepControl::Adaptive { atol, .. } => atol,
+            StepControl::Fixed { .. } => 0.0,
+        }
+    }
+}
+
+/// What became of a look or a test.
+pub(super) fn ended(outcome: &Outcome) -> Option<Outcome> {
+    (!outcome.is_complete()).then_some(*outcome)
+}
