@@ -39,9 +39,76 @@ pub enum Error {
         segment: usize,
     },
     /// The squares of the samples overflow.
-    #[error("the spectrum overflows, the largest sample is {largest:e}; cut the run where it escapes")]
+    #[error("the squares of the samples overflow, the largest is {largest:e}; cut the run where it escapes")]
     Overflow {
         /// Largest magnitude of a sample.
+        largest: f64,
+    },
+    /// Fewer samples than the method can do with.
+    #[error("{what} needs at least {least}, there are {got}; sample a longer run")]
+    TooFew {
+        /// What is asked for, and what it counts.
+        what: &'static str,
+        /// The least number.
+        least: usize,
+        /// Number there are.
+        got: usize,
+    },
+    /// All samples are the same number.
+    #[error("all samples are {value}; the question is void for a constant, choose another quantity")]
+    Constant {
+        /// That number.
+        value: f64,
+    },
+    /// An argument lies outside what the method can use.
+    #[error("{name} = {value} is out of range: give a number {range}")]
+    OutOfRange {
+        /// Name of the argument.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// The range in words.
+        range: &'static str,
+    },
+    /// Two lists that belong together have different lengths, or points have different dimensions.
+    #[error("{what} has {got} entries, expected {expected}")]
+    Shape {
+        /// The list.
+        what: &'static str,
+        /// The length it needs.
+        expected: usize,
+        /// The length it has.
+        got: usize,
+    },
+    /// Times that do not grow.
+    #[error("time number {index} is {t}, not after the one before it; give samples in the order of time")]
+    Order {
+        /// Position in the list, from 0.
+        index: usize,
+        /// That time.
+        t: f64,
+    },
+    /// Nothing moves.
+    #[error("the speed is 0 at every sample; a body at rest has no heading and no legs")]
+    AtRest,
+    /// A leg without a direction.
+    #[error("the leg from t = {t_start} to {t_end} ends where it began and has no direction; use the swing")]
+    ClosedLeg {
+        /// Its start.
+        t_start: f64,
+        /// Its end.
+        t_end: f64,
+    },
+    /// Too few points for a range of scales.
+    #[error(
+        "{points} points leave scales from {smallest:e} to {largest:e} only; give more points of the section"
+    )]
+    Scales {
+        /// Number of points.
+        points: usize,
+        /// Smallest distance with enough pairs below it.
+        smallest: f64,
+        /// Largest distance that is small against the whole.
         largest: f64,
     },
     /// The Fourier transform refused its buffers.
