@@ -3,8 +3,14 @@
 mod batch_means;
 mod checks;
 mod error;
+mod escape;
+mod rests;
 mod spectrum;
+mod zero_one;
 
 pub use batch_means::{Estimate, batch_means};
 pub use error::{Error, Result};
+pub use escape::{EscapeRate, Stay, SurvivalStep, escape_rate, survival};
+pub use rests::{Rest, Rests, rests};
 pub use spectrum::{Spectrum, welch};
+pub use zero_one::{ZeroOne, zero_one};
