@@ -5,6 +5,7 @@ mod checks;
 mod error;
 mod escape;
 mod rests;
+mod returns;
 mod spectrum;
 mod zero_one;
 
@@ -12,5 +13,6 @@ pub use batch_means::{Estimate, batch_means};
 pub use error::{Error, Result};
 pub use escape::{EscapeRate, Stay, SurvivalStep, escape_rate, survival};
 pub use rests::{Rest, Rests, rests};
+pub use returns::{Dimension, correlation_dimension, return_pairs};
 pub use spectrum::{Spectrum, welch};
 pub use zero_one::{ZeroOne, zero_one};
