@@ -17,7 +17,7 @@ pub struct Stay {
     pub escaped: bool,
 }
 
-/// A step of a [`Survival`] curve: the values hold from `time` up to the next step.
+/// A step of a [`survival`] curve: the values hold from `time` up to the next step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurvivalStep {
     /// A time at which runs escaped.

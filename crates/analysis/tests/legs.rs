@@ -143,6 +143,13 @@ fn a_full_reversal_turns_by_pi_and_does_not_blow_up() {
         }
         assert!(seen.legs.iter().all(|leg| (leg.length - 2.0).abs() < 1e-5));
     }
+    // headings a little beside the line, now on one side and now on the other: still to and fro
+    for seed in 1..20 {
+        let rate = 0.37 * f64::from(seed);
+        let fro = path(20.0 * TAU, 12_000, |t| [t.cos(), 1e-4 * t.cos() * (rate * t).sin()]);
+        let seen = legs(&fro, OPEN).expect("legs");
+        assert!((seen.swing - PI).abs() < 1e-3, "{rate}: {}", seen.swing);
+    }
 }
 
 #[test]

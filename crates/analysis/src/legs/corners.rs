@@ -1,6 +1,7 @@
 //! Where a path has its corners.
 
 use super::path::{PathSample, wrapped};
+use std::f64::consts::TAU;
 
 /// A speed below this part of the top speed is rest: no heading is taken from it and no corner is seen inside it.
 pub(super) const REST: f64 = 1e-6;
@@ -16,24 +17,34 @@ const REVERSAL: f64 = 2.356;
 
 /// Headings along a path, unwrapped, with their times; samples at rest are left out.
 ///
-/// A reversal between two samples is taken in the sense that leads back towards the first heading.
+/// A reversal between two samples is taken back into the range of headings seen so far.
 pub(super) fn headings(path: &[PathSample]) -> Vec<(f64, f64)> {
     let rest = REST * top_speed(path);
     let mut all: Vec<(f64, f64)> = Vec::with_capacity(path.len());
+    let mut range = None;
     for sample in path.iter().filter(|sample| sample.speed() > rest) {
-        let heading = match (all.first(), all.last()) {
-            (Some(first), Some(last)) => {
-                let turn = wrapped(sample.heading() - last.1);
-                let back = turn.abs() > REVERSAL && turn * (last.1 - first.1) > 0.0;
-                let positive = turn.abs() > REVERSAL && last.1 == first.1; // no sense to go back: counter-clockwise
-                let turn = if back { turn - std::f64::consts::TAU * turn.signum() } else { turn };
-                last.1 + if positive { turn.rem_euclid(std::f64::consts::TAU) } else { turn }
+        let heading = match (range, all.last()) {
+            (Some((low, high)), Some(last)) => {
+                let counter_clockwise = last.1 <= 0.5 * (low + high);
+                last.1 + turn_between(last.1, sample.heading(), counter_clockwise)
             }
             _ => sample.heading(),
         };
+        let (low, high) = range.unwrap_or((heading, heading));
+        range = Some((heading.min(low), heading.max(high)));
         all.push((sample.t, heading));
     }
     all
+}
+
+/// The turn from one heading to the next: the shorter way, or for a reversal the way asked for.
+fn turn_between(from: f64, to: f64, counter_clockwise: bool) -> f64 {
+    let turn = wrapped(to - from);
+    match turn.abs() > REVERSAL {
+        true if counter_clockwise && turn < 0.0 => turn + TAU,
+        true if !counter_clockwise && turn > 0.0 => turn - TAU,
+        _ => turn,
+    }
 }
 
 pub(super) fn top_speed(path: &[PathSample]) -> f64 {

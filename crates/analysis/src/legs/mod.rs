@@ -55,14 +55,14 @@ pub struct Legs {
 /// Turning angles and legs of a path.
 ///
 /// * *Heading*: angle of the velocity. *Heading swing*: peak to peak of the unwrapped heading over the stretch. Where the
-///   body reverses (the heading jumps by more than 3 pi/4 between two samples) the sense of the jump is round-off: it is taken
-///   back towards the first heading, so that going to and fro has the swing pi however long it goes on.
+///   body reverses (the heading jumps by more than 3 pi/4 between two samples) the sense of the jump is round-off: it is
+///   taken back into the range of headings seen so far, so that going to and fro has the swing pi however long it goes on.
 /// * *Corner*: a minimum of the speed below half of the smaller of the maxima beside it (stop and go). Where the
-///   speed has none: the largest |turning rate| between two zeros of the turning rate (below 1 % of its maximum is zero). Motion on
-///   a circle has no corner.
+///   speed has none: the largest |turning rate| between two zeros of the turning rate (below 1 % of its maximum it is
+///   zero). Motion on a circle has no corner.
 /// * *Leg*: path between consecutive corners. *Direction*: that of its chord. *Turn*: signed change of direction from one
-///   leg to the next, counter-clockwise positive. *Heading turn*, for stops: change of the heading at top
-///   speed, which is the angle the paper gives for turns.
+///   leg to the next, counter-clockwise positive. *Heading turn*, for stops: change of the heading at top speed, which is
+///   the angle the paper gives for turns.
 ///
 /// The zigzag of a sine-like path with heading amplitude A has the swing 2 A, and turns that are smaller: the slope of
 /// the chord against that of the path. That is why angles read off a picture differ from the swing.
@@ -116,7 +116,7 @@ fn swing(path: &[PathSample]) -> f64 {
     ends.1 - ends.0
 }
 
-/// Keeps the corners of the second period and the two after it (for the last leg and its turn); how many are the period's.
+/// Keeps the corners of the second period and the two after it (for the last leg and its turn); the number of the former.
 fn one_period(times: &mut Vec<f64>, start: f64, period: f64) -> usize {
     let first = times.partition_point(|&t| t < start + period * (1.0 - 1e-9));
     times.drain(..first);
