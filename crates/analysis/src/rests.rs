@@ -21,11 +21,24 @@ pub struct Rests {
 }
 
 impl Rests {
-    /// Duration of each rest over that of the one before it: constant, > 1, near an attracting heteroclinic cycle
-    /// without noise; about 1 on average with noise or for a periodic motion.
+    /// Duration of each rest over that of the one before it: about 1 for a periodic motion or with noise; above 1 near an
+    /// attracting heteroclinic cycle without noise, where it falls slowly to [`Rests::growth`].
     #[must_use]
     pub fn ratios(&self) -> Vec<f64> {
         self.rests.windows(2).map(|pair| pair[1].duration / pair[0].duration).collect()
+    }
+
+    /// (T_3 - T_2)/(T_2 - T_1) for every three rests in a row that grow.
+    ///
+    /// Near an attracting heteroclinic cycle T_(n+1) = |lambda_-|/lambda_+ T_n + const: this is the ratio of the
+    /// eigenvalues. The constant, which holds the choice of the threshold and the passage between rests, drops out.
+    ///
+    /// Source: Armbruster, Guckenheimer and Holmes (1988), Physica D 29, 257 (the law); the quotient: Aitken (1926).
+    #[must_use]
+    pub fn growth(&self) -> Vec<f64> {
+        let steps: Vec<f64> = self.rests.windows(2).map(|pair| pair[1].duration - pair[0].duration).collect();
+        let growing = steps.windows(2).filter(|pair| pair[0] > 0.0 && pair[1] > 0.0);
+        growing.map(|pair| pair[1] / pair[0]).collect()
     }
 }
 
@@ -33,12 +46,13 @@ impl Rests {
 ///
 /// The ends of a stretch are where the straight line between two samples meets the threshold. A stretch that is under
 /// way at the first or at the last sample is incomplete and left out. The threshold is a choice: near a saddle a rest is
-/// longer by ln(f/f')/lambda_+ + ln(f/f')/|lambda_-| for f > f', so differences and late ratios do not depend on it.
+/// longer by ln(f/f') (1/lambda_+ + 1/|lambda_-|) for a fraction f > f': see [`Rests::growth`].
 ///
 /// # Shapes    as many times as sizes, at least 3
 /// # Errors    [`Error::Shape`], [`Error::TooFew`], [`Error::Order`] and [`Error::NotFinite`] for the samples;
 /// [`Error::OutOfRange`] for a negative size or a fraction that is not between 0 and 1; [`Error::Constant`]
-/// # Checked by  tests/rests.rs: sawtooth (exact), growing rests (exact), incomplete ends, a heteroclinic cycle
+/// # Checked by  tests/rests.rs: sawtooth (exact), growing rests, incomplete ends; tests/heteroclinic.rs and
+/// tests/bodies.rs: ratios of eigenvalues, with and without noise
 pub fn rests(times: &[f64], sizes: &[f64], fraction: f64) -> Result<Rests> {
     check(times, sizes, fraction)?;
     let threshold = fraction * sizes.iter().fold(0.0, |m: f64, x| m.max(*x));

@@ -35,11 +35,11 @@ fn without_noise_rests_grow_by_the_ratio_of_the_eigenvalues() {
     let control = StepControl::Adaptive { rtol: 1e-13, atol: 1e-100 }; // small components matter
     let mut orbit = Orbit::new(&field, &DOP853, control, 0.0, &[0.9, 0.2, 0.1]).unwrap();
     let seen = rests_of(&mut orbit, 3000.0, 0.05);
-    let ratios = seen.ratios();
-    println!("{ratios:?}");
-    // rests differ from a geometric series by a constant: the ratio converges like the rests grow
-    let [.., last] = ratios[..] else { panic!("no rests") };
-    assert!((last - ratio()).abs() < 0.01, "{last}");
+    let (ratios, growth) = (seen.ratios(), seen.growth());
+    println!("{ratios:?} {growth:?}");
+    let ([.., last], [.., increments]) = (&ratios[..], &growth[..]) else { panic!("no rests") };
+    assert!((last - ratio()).abs() < 0.01, "{last}"); // converges like the rests grow
+    assert!((increments - ratio()).abs() < 1e-3, "{increments}");
 }
 
 /// Mean rest = -ln(eta)/lambda_+ + const, lambda_+ = 1 - b = 0.45. Source: Stone and Holmes (1990), SIAM J. Appl. Math.

@@ -16,6 +16,7 @@ fn a_sawtooth_rests_half_the_time() {
     let want: Vec<Rest> = (1..5).map(|n| Rest { start: 4.0 * f64::from(n) - 1.0, duration: 2.0 }).collect();
     assert_eq!((seen.threshold, &seen.rests), (1.0, &want));
     assert_eq!(seen.ratios(), [1.0; 3]);
+    assert!(seen.growth().is_empty());
 }
 
 #[test]
@@ -43,6 +44,7 @@ fn growing_rests_have_their_ratio() {
         assert!((rest.duration - (1.5_f64.powi(n) - 0.1)).abs() < 3e-3, "{rest:?}");
     }
     assert!((seen.ratios()[7] - 1.5).abs() < 1e-2);
+    assert!(seen.growth().iter().skip(2).all(|growth| (growth - 1.5).abs() < 1e-2), "{:?}", seen.growth());
 }
 
 #[test]
