@@ -1,8 +1,6 @@
 //! Relative equilibria: shapes that do not change but for a steady rotation.
 
-use crate::linear::{
-    ComplexPair, add, apply, basis, complement, dot, eigenvalues, least_squares, norm, restrict,
-};
+use crate::linear::{add, apply, basis, complement, dot, eigenvalues, least_squares, norm, restrict};
 use crate::symmetry::{align, turning_of_shape};
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField, model};
@@ -21,7 +19,7 @@ pub struct RelativeEquilibrium {
     pub residual: f64,
     /// Eigenvalues of the reduced linearisation, largest real part first (inverse model time). The neutral direction of
     /// the rotations is removed exactly.
-    pub eigenvalues: Vec<ComplexPair>,
+    pub eigenvalues: Vec<(f64, f64)>,
     /// How many neutral directions were removed (0 for a circle, which no rotation changes).
     pub neutral: usize,
     /// Size of the linearisation's entries: what its eigenvalues are small against.

@@ -1,20 +1,34 @@
-//! Analysis: numbers that say what an orbit is. Samples in, values out; knows no model, no solver, no file.
+//! Analysis: what a motion is, decided by mathematics. Knows no model by name, and no file.
+//!
+//! Two kinds of question. Those asked of a **body** ([`motiform_dynamics::Equivariant`]): [`symmetry`], [`equilibrium`],
+//! [`periodic`], [`mod@lyapunov`], and [`regime`], which asks them all and names the motion. And those asked of **samples**:
+//! spectra, means with errors, legs, rests, returns, escapes.
 
 mod batch_means;
 mod checks;
 pub mod equilibrium;
 mod error;
+mod escape;
+mod legs;
 mod linear;
 pub mod lyapunov;
 pub mod periodic;
 pub mod regime;
+mod rests;
+mod returns;
 mod spectrum;
 pub mod symmetry;
+mod zero_one;
 
 pub use batch_means::{Estimate, batch_means};
 pub use equilibrium::RelativeEquilibrium;
 pub use error::{Error, Result};
+pub use escape::{EscapeRate, Stay, SurvivalStep, escape_rate, survival};
+pub use legs::{CornerKind, Ends, Leg, Legs, PathSample, legs};
 pub use lyapunov::{Lyapunov, LyapunovSettings, lyapunov};
 pub use periodic::PeriodicOrbit;
-pub use regime::{Attractor, Regime, Spread, Verdict};
+pub use regime::{Attractor, Regime, Settings, Spread, Verdict, classify};
+pub use rests::{Rest, Rests, rests};
+pub use returns::{Dimension, correlation_dimension, return_pairs};
 pub use spectrum::{Spectrum, welch};
+pub use zero_one::{ZeroOne, zero_one};

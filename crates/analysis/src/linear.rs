@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 /// A complex number `(re, im)`.
-pub type ComplexPair = (f64, f64);
+pub(crate) type ComplexPair = (f64, f64);
 
 /// `sum_i a_i b_i`.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {

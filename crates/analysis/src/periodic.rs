@@ -1,7 +1,7 @@
 //! Relative periodic orbits: shapes that come back turned (and mirrored), after a period.
 
 use crate::equilibrium::neutral_direction;
-use crate::linear::{ComplexPair, add, basis, dot, eigenvalues, least_squares, norm, orthonormalise};
+use crate::linear::{add, basis, dot, eigenvalues, least_squares, norm, orthonormalise};
 use crate::lyapunov::SplitMix;
 use crate::symmetry::wrap;
 use motiform_dynamics::drive::drive;
@@ -23,7 +23,7 @@ pub struct PeriodicOrbit {
     pub residual: f64,
     /// Floquet multipliers over T, largest modulus first, the neutral ones (time, rotations) removed: all of them for
     /// small systems, the leading ones for large ones.
-    pub multipliers: Vec<ComplexPair>,
+    pub multipliers: Vec<(f64, f64)>,
 }
 
 /// Where Newton's method starts.

@@ -1,6 +1,6 @@
 //! Power spectral density of evenly spaced samples.
 
-use crate::{Error, Result};
+use crate::{Error, Result, checks};
 use realfft::RealFftPlanner;
 use std::f64::consts::TAU;
 
@@ -71,7 +71,7 @@ pub fn welch(samples: &[f64], dt: f64, segment: usize) -> Result<Spectrum> {
         *sum *= if alone { density } else { 2.0 * density };
     }
     if !power.iter().all(|p| p.is_finite()) {
-        return Err(Error::Overflow { largest: samples.iter().fold(0.0, |m, x| x.abs().max(m)) });
+        return Err(checks::overflow(samples));
     }
     let frequencies = (0..power.len()).map(|k| k as f64 / (segment as f64 * dt)).collect();
     Ok(Spectrum { frequencies, power, segments })
@@ -114,8 +114,5 @@ fn check(samples: &[f64], dt: f64, segment: usize) -> Result<()> {
     if samples.len() < segment {
         return Err(Error::TooShort { samples: samples.len(), segment });
     }
-    match samples.iter().position(|x| !x.is_finite()) {
-        Some(index) => Err(Error::NotFinite { index, value: samples[index] }),
-        None => Ok(()),
-    }
+    checks::finite(samples)
 }

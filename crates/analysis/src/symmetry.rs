@@ -134,11 +134,27 @@ impl<B: Equivariant + ?Sized> VectorField<f64> for MovingFrame<'_, B> {
     }
 }
 
-/// `d/dt |u|^2 / 2 = u . f(u)`: zero at the extremes of the shape's size. Unchanged by rotations and the mirror, smooth
-/// everywhere: the section that every reduced orbit crosses unless its size is constant.
+/// A size of the reduced shape, whose extremes are the section that reduced orbits are watched on.
+///
+/// For a body with symmetry `|u|`, which no rotation and no mirror changes. Without symmetry `l . u` with a fixed unit
+/// vector `l` in general position, for `|u|` may be constant on an orbit. Two shapes differ in it by no more than their
+/// distance.
 #[must_use]
-pub fn growth<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> f64 {
+pub fn gauge<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> f64 {
+    if body.is_symmetric() { norm(shape) } else { general(shape) }
+}
+
+/// A function that vanishes where the [`gauge`] of an orbit has its extremes, smooth everywhere: `u . f(u)`, or `l . f(u)`.
+#[must_use]
+pub fn gauge_rate<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> f64 {
     let mut rate = vec![0.0; shape.len()];
     VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
-    dot(shape, &rate)
+    if body.is_symmetric() { dot(shape, &rate) } else { general(&rate) }
+}
+
+/// `l . u` with `l_i` proportional to `1 / (1 + 0.618 i)`.
+fn general(u: &[f64]) -> f64 {
+    let weight = |i: usize| 1.0 / (1.0 + 0.618 * i as f64);
+    let length = (0..u.len()).map(|i| weight(i) * weight(i)).sum::<f64>().sqrt();
+    u.iter().enumerate().map(|(i, x)| weight(i) * x).sum::<f64>() / length
 }

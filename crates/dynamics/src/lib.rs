@@ -6,6 +6,7 @@
 //! * [`steppers`]: explicit and exponential Runge-Kutta methods as data, and the step that runs each kind;
 //! * [`Orbit`], [`ExponentialOrbit`]: one initial-value problem, step by step, with error control, dense output and
 //!   exact re-steps; [`Integration`] is what they have in common;
+//! * [`noise`]: an integration with explicit noise is an integration;
 //! * [`drive`]: the loop with samples, [`section`]s, a budget and an escape bound, ending in an [`Outcome`].
 
 pub mod conformance;
@@ -18,6 +19,7 @@ pub mod exponential_orbit;
 pub mod integration;
 mod interpolant;
 pub mod model;
+pub mod noise;
 pub mod orbit;
 mod outcome;
 pub mod scalar;
@@ -36,6 +38,7 @@ pub use error::Error;
 pub use exponential_orbit::ExponentialOrbit;
 pub use integration::Integration;
 pub use model::{InPlane, Model, Outline, Shape};
+pub use noise::{Noise, NoisyOrbit, Normal};
 pub use orbit::Orbit;
 pub use outcome::{Obstacle, Outcome};
 pub use scalar::{Complex, Dual, Lanes, Scalar};

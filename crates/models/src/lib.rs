@@ -7,6 +7,7 @@ mod error;
 pub mod parameters;
 pub mod registry;
 pub mod tensor;
+pub mod zoo;
 
 pub use error::{Error, nearest};
 pub use parameters::{ParameterSpec, Parameters};

@@ -1,6 +1,7 @@
 //! Do neighbours part exponentially? The largest exponent, and what the returns say.
 
 use super::look::Look;
+use super::returns;
 use super::settings::Settings;
 use super::verdict::{Attractor, Regime, Verdict};
 use crate::lyapunov::{Lyapunov, LyapunovSettings, lyapunov};
@@ -42,8 +43,7 @@ pub(super) struct Witness {
 impl Witness {
     pub(super) fn of(look: &Look) -> Self {
         let minima = look.minima();
-        let sizes: Vec<f64> = minima.iter().map(|minimum| minimum.size).collect();
-        Self { zero_one: super::returns::zero_one(&sizes), dimension: super::returns::dimension(&sizes) }
+        Self { zero_one: returns::chaos(&minima), dimension: returns::dimension(&minima) }
     }
 }
 

@@ -1,13 +1,13 @@
 //! A stretch of an orbit, watched: its extremes in size, its rests, its end.
 
 use crate::linear::norm;
-use crate::symmetry::{align, growth, reduced_speed};
+use crate::symmetry::{align, gauge, gauge_rate, reduced_speed};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::section::Crossing;
 use motiform_dynamics::{Direction, Equivariant, Integration, Outcome, Request, Section, Sink};
 use std::ops::ControlFlow;
 
-/// An extreme of the shape's size `|u|`: where a reduced orbit meets the section `u . f(u) = 0`.
+/// An extreme of the shape's size ([`gauge`]): where a reduced orbit meets the section that it is watched on.
 #[derive(Clone, Debug)]
 pub(super) struct Extreme {
     pub(super) t: f64,
@@ -21,9 +21,8 @@ pub(super) struct Extreme {
 pub(super) struct Rest {
     pub(super) start: f64,
     pub(super) end: f64,
-    /// The shape where it was slowest, and how slow.
+    /// The shape where it was slowest.
     pub(super) shape: Vec<f64>,
-    pub(super) speed: f64,
 }
 
 /// What a look saw.
@@ -41,7 +40,7 @@ pub(super) struct Look {
     pub(super) last_speed: f64,
     /// Whether the look ended in a rest.
     pub(super) resting: bool,
-    /// Smallest and largest size.
+    /// Smallest and largest `|u|`.
     pub(super) sizes: (f64, f64),
 }
 
@@ -61,8 +60,8 @@ impl Look {
         stop: &mut dyn Sink,
     ) -> Result<Self, motiform_dynamics::Error> {
         let start = orbit.t();
-        let size_growth = |_t: f64, u: &[f64]| growth(body, u);
-        let sections = [Section { g: &size_growth, direction: Direction::Either, terminal: false }];
+        let rate = |_t: f64, u: &[f64]| gauge_rate(body, u);
+        let sections = [Section { g: &rate, direction: Direction::Either, terminal: false }];
         let request = Request { t_end: start + time, sections: &sections, ..*request };
         let size = norm(orbit.state());
         let mut watcher = Watcher {
@@ -77,7 +76,10 @@ impl Look {
         };
         let outcome = drive(orbit, &request, &mut watcher)?;
         let Watcher { extremes, rests, rest, fastest, last_speed, sizes, .. } = watcher;
-        let flutter = 1e-7 * (sizes.1 - sizes.0) + 1e-12 * sizes.1;
+        let (low, high) = extremes
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (x.size.min(low), x.size.max(high)));
+        let flutter = 1e-7 * (high - low) + 1e-12 * sizes.1;
         Ok(Self {
             start,
             end: orbit.t(),
@@ -144,7 +146,7 @@ impl<B: Equivariant + ?Sized> Sink for Watcher<'_, B> {
         self.extremes.push(Extreme {
             t: crossing.t,
             minimum: crossing.rising,
-            size: norm(crossing.state),
+            size: gauge(self.body, crossing.state),
             shape: crossing.state.to_vec(),
         });
     }
@@ -162,10 +164,10 @@ impl<B: Equivariant + ?Sized> Sink for Watcher<'_, B> {
                 rest.1.copy_from_slice(u);
                 rest.2 = speed;
             }
-        } else if let Some((start, shape, slowest)) = self.rest.take()
+        } else if let Some((start, shape, _)) = self.rest.take()
             && let Some(start) = start
         {
-            self.rests.push(Rest { start, end: t, shape, speed: slowest });
+            self.rests.push(Rest { start, end: t, shape });
         }
     }
 

@@ -2,9 +2,8 @@
 
 use super::look::{Extreme, Look};
 use super::settings::Settings;
-use crate::linear::norm;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
-use crate::symmetry::align;
+use crate::symmetry::{align, gauge};
 use motiform_dynamics::Equivariant;
 
 /// Most returns to the section per period.
@@ -27,8 +26,6 @@ pub(super) struct Recurrence {
     pub(super) mirrored: bool,
     pub(super) time: f64,
     pub(super) angle: f64,
-    /// Distance, against the motion's diameter.
-    pub(super) distance: f64,
 }
 
 /// The recurrences of the last minimum that are close, shortest first.
@@ -46,12 +43,11 @@ pub(super) fn recurrences<B: Equivariant + ?Sized>(
         }
         for &mirrored in images {
             let near = align(body, &last.shape, &before.shape, mirrored);
-            let distance = near.distance / diameter;
             if distance < CLOSE
                 && settles(body, minima, returns + 1, mirrored, near.distance, 1e-5 * diameter)
             {
                 let time = last.t - before.t;
-                found.push(Recurrence { returns: returns + 1, mirrored, time, angle: near.angle, distance });
+                found.push(Recurrence { returns: returns + 1, mirrored, time, angle: near.angle });
             }
         }
     }
@@ -116,7 +112,8 @@ fn shortest<B: Equivariant + ?Sized>(
         let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape).ok()?;
         let request = settings.request(orbit.time, body.dim());
         let look = Look::take(body, flow.as_mut(), 1.001 * orbit.time, &request, &mut ()).ok()?;
-        let start = Extreme { t: 0.0, minimum: true, size: norm(&orbit.shape), shape: orbit.shape.clone() };
+        let start =
+            Extreme { t: 0.0, minimum: true, size: gauge(body, &orbit.shape), shape: orbit.shape.clone() };
         let diameter = look.diameter(body);
         let images = if body.is_symmetric() { &[true, false][..] } else { &[false] };
         for (returns, minimum) in look.minima().into_iter().enumerate() {
@@ -126,14 +123,8 @@ fn shortest<B: Equivariant + ?Sized>(
                 if near.distance < 1e-2 * diameter && shorter && minimum.t > 0.01 * orbit.time {
                     let guess =
                         PeriodicGuess { shape: &orbit.shape, time: minimum.t, angle: near.angle, mirrored };
-                    let distance = near.distance / diameter;
-                    let recurrence = Recurrence {
-                        returns: returns + 1,
-                        mirrored,
-                        time: minimum.t,
-                        angle: near.angle,
-                        distance,
-                    };
+                    let recurrence =
+                        Recurrence { returns: returns + 1, mirrored, time: minimum.t, angle: near.angle };
                     let found = PeriodicOrbit::find(body, &guess, &settings.flow())?;
                     return (found.growth() < 1.0).then_some((found, recurrence));
                 }
