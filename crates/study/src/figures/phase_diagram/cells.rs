@@ -116,7 +116,7 @@ impl Axis {
 fn shares(index: usize, cell: &Cell) -> Result<Shares> {
     let sum: f64 = cell.shares.iter().map(|(_, share)| share).sum();
     let negative = cell.shares.iter().any(|(_, share)| *share < 0.0);
-    if negative || !((sum - 1.0).abs() <= SLACK) {
+    if negative || !(1.0 - SLACK..=1.0 + SLACK).contains(&sum) {
         return Err(FigureError::Shares { index, sum });
     }
     let mut totals = [0.0; REGIMES.len()]; // two names may mean one mark

@@ -1,6 +1,7 @@
 //! Which motion occurs where: regimes over one or two parameters.
 
 mod cells;
+mod labels;
 mod mosaic;
 mod strip;
 mod tiles;
@@ -43,7 +44,8 @@ pub struct BoundaryLine {
     pub points: Vec<Point>,
 }
 
-/// A phase diagram. Up to 40 x 40 cells carry markers on a pale ground; finer ones are coloured. Where several motions
+/// A phase diagram. Up to 40 x 40 cells carry markers on a pale ground; finer ones are coloured, with
+/// one marker in each wide region. Where several motions
 /// occur, stripes show their shares, and the two most frequent ones have their markers side by side.
 ///
 /// With at most one value of `y` the diagram is a strip: over each `x` stands a bar of the shares, the markers above.
@@ -78,11 +80,7 @@ impl PhaseDiagram {
         check_finite("boundary line value", self.lines.iter().flat_map(|l| &l.points).flatten().copied())?;
         let strip = self.y.len() < 2;
         let cells = Cells::new(&self.x, if strip { &[] } else { &self.y }, &self.cells)?;
-        let look = match cells.size() {
-            _ if strip => Look::Strip,
-            (columns, rows) if columns <= TILES && rows <= TILES => Look::Tiles,
-            _ => Look::Mosaic,
-        };
+        let look = Look::of(strip, cells.size());
         let (w, h) = look.frame(cells.size());
         let [x, y] = cells.ranges();
         let scale = Scale { frame: Rect { x: 0.0, y: 0.0, w, h }, x, y };
@@ -95,18 +93,22 @@ impl PhaseDiagram {
             grid: false,
             head: if strip { strip::HEAD } else { 0.0 },
         };
-        sheet.svg(|svg, scale| {
-            match look {
-                Look::Strip => strip::draw(svg, scale, &cells),
-                Look::Tiles => tiles::draw_grounds(svg, scale, &cells),
-                Look::Mosaic => svg.image(scale.frame, &mosaic::png(scale, &cells)?),
-            }
-            self.draw_lines(svg, scale);
-            if look == Look::Tiles {
-                tiles::draw_markers(svg, scale, &cells);
-            }
-            Ok(())
-        })
+        sheet.svg(|svg, scale| self.draw(svg, scale, &cells, look))
+    }
+
+    fn draw(&self, svg: &mut Svg, scale: &Scale, cells: &Cells, look: Look) -> Result<()> {
+        match look {
+            Look::Strip => strip::draw(svg, scale, cells),
+            Look::Tiles => tiles::draw_grounds(svg, scale, cells),
+            Look::Mosaic => svg.image(scale.frame, &mosaic::png(scale, cells)?),
+        }
+        self.draw_lines(svg, scale);
+        match look {
+            Look::Tiles => tiles::draw_markers(svg, scale, cells),
+            Look::Mosaic => labels::draw(svg, scale, cells),
+            Look::Strip => {}
+        }
+        Ok(())
     }
 
     fn legend(&self, cells: &Cells, look: Look) -> Vec<Entry> {
@@ -143,6 +145,14 @@ enum Look {
 }
 
 impl Look {
+    fn of(strip: bool, (columns, rows): (usize, usize)) -> Self {
+        match strip {
+            true => Self::Strip,
+            false if columns <= TILES && rows <= TILES => Self::Tiles,
+            false => Self::Mosaic,
+        }
+    }
+
     /// Size of the frame in pixels: cells of a handy size, whole half-pixels where there are many.
     fn frame(self, (columns, rows): (usize, usize)) -> (f64, f64) {
         let snapped = |cell: f64| if cell > 0.5 { (2.0 * cell).round() / 2.0 } else { cell };
