@@ -10,6 +10,7 @@ pub mod files;
 mod initial;
 pub mod plan;
 pub mod presets;
+pub mod report;
 pub mod simulate;
 pub mod study;
 pub mod table;

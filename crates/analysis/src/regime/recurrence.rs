@@ -3,7 +3,7 @@
 use super::look::{Extreme, Look};
 use super::settings::Settings;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
-use crate::symmetry::{align, gauge};
+use crate::symmetry::align;
 use motiform_dynamics::Equivariant;
 
 /// Most returns to the section per period.
@@ -43,7 +43,7 @@ pub(super) fn recurrences<B: Equivariant + ?Sized>(
         }
         for &mirrored in images {
             let near = align(body, &last.shape, &before.shape, mirrored);
-            if distance < CLOSE
+            if near.distance < CLOSE * diameter
                 && settles(body, minima, returns + 1, mirrored, near.distance, 1e-5 * diameter)
             {
                 let time = last.t - before.t;
@@ -110,22 +110,21 @@ fn shortest<B: Equivariant + ?Sized>(
     }
     let found = || -> Option<(PeriodicOrbit, Recurrence)> {
         let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape).ok()?;
-        let request = settings.request(orbit.time, body.dim());
-        let look = Look::take(body, flow.as_mut(), 1.001 * orbit.time, &request, &mut ()).ok()?;
-        let start =
-            Extreme { t: 0.0, minimum: true, size: gauge(body, &orbit.shape), shape: orbit.shape.clone() };
+        let request = settings.request(2.2 * orbit.time, body.dim());
+        let look = Look::take(body, flow.as_mut(), 2.2 * orbit.time, &request, &mut ()).ok()?;
         let diameter = look.diameter(body);
+        let minima = look.minima();
+        let (start, later) = minima.split_first()?;
         let images = if body.is_symmetric() { &[true, false][..] } else { &[false] };
-        for (returns, minimum) in look.minima().into_iter().enumerate() {
+        for (returns, minimum) in later.iter().enumerate() {
             for &mirrored in images {
                 let near = align(body, &minimum.shape, &start.shape, mirrored);
-                let shorter = minimum.t < 0.75 * orbit.time || mirrored && !orbit.mirrored;
-                if near.distance < 1e-2 * diameter && shorter && minimum.t > 0.01 * orbit.time {
-                    let guess =
-                        PeriodicGuess { shape: &orbit.shape, time: minimum.t, angle: near.angle, mirrored };
-                    let recurrence =
-                        Recurrence { returns: returns + 1, mirrored, time: minimum.t, angle: near.angle };
+                let time = minimum.t - start.t;
+                let shorter = time < 0.75 * orbit.time || mirrored && !orbit.mirrored;
+                if near.distance < 1e-2 * diameter && shorter {
+                    let guess = PeriodicGuess { shape: &start.shape, time, angle: near.angle, mirrored };
                     let found = PeriodicOrbit::find(body, &guess, &settings.flow())?;
+                    let recurrence = Recurrence { returns: returns + 1, mirrored, time, angle: near.angle };
                     return (found.growth() < 1.0).then_some((found, recurrence));
                 }
             }

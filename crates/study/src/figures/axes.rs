@@ -49,6 +49,36 @@ impl Scale {
     }
 }
 
+/// How an axis is divided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AxisKind {
+    /// Equal differences are equally far apart.
+    Linear,
+    /// Equal ratios are equally far apart.
+    Logarithmic,
+}
+
+impl AxisKind {
+    /// The place of a value along the axis; `None` if it has none.
+    #[must_use]
+    pub fn place(self, value: f64) -> Option<f64> {
+        match self {
+            Self::Linear => Some(value),
+            Self::Logarithmic => (value > 0.0).then(|| libm::log10(value)),
+        }
+    }
+
+    /// The range of an axis that shows all places, with some room at its ends; `None` without places.
+    #[must_use]
+    pub fn range(self, places: impl IntoIterator<Item = f64>, room: f64) -> Option<Range> {
+        let range = Range::of(places)?;
+        Some(match self {
+            Self::Linear => range.padded(room),
+            Self::Logarithmic => range.with_span((range.span() * (1.0 + 2.0 * room)).max(1.0)),
+        })
+    }
+}
+
 /// The axes of a plot: what [`Scale`] maps, with ticks and labels.
 #[derive(Debug, Clone)]
 pub struct Axes {
@@ -83,12 +113,24 @@ impl Axes {
     /// Ticks: [`Ticks::decades`]. The y label is wrapped to the height of the frame.
     #[must_use]
     pub fn logarithmic(scale: Scale, x_label: &str, y_label: &str) -> Self {
+        Self::of_kinds(scale, [AxisKind::Logarithmic; 2], x_label, y_label)
+    }
+
+    /// Axes across and upwards of a kind each; along a logarithmic one the scale is in log10 of its quantity.
+    #[must_use]
+    pub fn of_kinds(scale: Scale, kinds: [AxisKind; 2], x_label: &str, y_label: &str) -> Self {
         let width = |text: &str| Label::parse(text).width(TICK_SIZE);
+        let mut axes = Self::new(scale, Some(x_label), y_label);
         let Rect { w, h, .. } = scale.frame;
-        let x_ticks = Ticks::decades(scale.x, w, width);
-        let y_ticks = Ticks::decades(scale.y, h, |_| TICK_SIZE);
-        let y_label = Label::parse(y_label).wrap(LABEL_SIZE, h + 10.0);
-        Self { scale, x_ticks, y_ticks, x_label: Some(Label::parse(x_label)), y_label }
+        if kinds[0] == AxisKind::Logarithmic {
+            axes.x_ticks = Ticks::decades(scale.x, w, width);
+            axes.x_label = Some(Label::parse(x_label));
+        }
+        if kinds[1] == AxisKind::Logarithmic {
+            axes.y_ticks = Ticks::decades(scale.y, h, |_| TICK_SIZE);
+            axes.y_label = Label::parse(y_label).wrap(LABEL_SIZE, h + 10.0);
+        }
+        axes
     }
 
     /// Pixels that the y axis needs to the left of its frame.

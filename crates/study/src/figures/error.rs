@@ -72,6 +72,38 @@ pub enum FigureError {
         /// Position in the list, from 0.
         index: usize,
     },
+    /// Values that must increase do not.
+    #[error("{what} number {index} is not above the one before it; sort the values and give each once")]
+    NotIncreasing {
+        /// The list in question.
+        what: &'static str,
+        /// Position in the list, from 0.
+        index: usize,
+    },
+    /// A cell of a phase diagram is not at a cell centre.
+    #[error("cell number {index} lies at ({x}, {y}), which is no cell centre; give it a value of each axis")]
+    OffGrid {
+        /// Position in the list of cells, from 0.
+        index: usize,
+        /// Its place across.
+        x: f64,
+        /// Its place upwards.
+        y: f64,
+    },
+    /// Two cells of a phase diagram are at one place.
+    #[error("cell number {index} lies where an earlier one does; merge their shares")]
+    SameCell {
+        /// Position in the list of cells, from 0.
+        index: usize,
+    },
+    /// The shares of a cell are not those of a whole.
+    #[error("the shares of cell number {index} add up to {sum}; give shares of at least 0 that add up to 1")]
+    Shares {
+        /// Position in the list of cells, from 0.
+        index: usize,
+        /// Their sum.
+        sum: f64,
+    },
     /// A size in pixels or a rate is out of range.
     #[error("{what} is {value}; choose it between {min} and {max}")]
     OutOfRange {

@@ -1,7 +1,8 @@
 //! A grid of signed numbers as a small PNG.
 
 use super::error::Result;
-use super::palette::{Colour, signed_colour};
+use super::palette::signed_colour;
+use super::picture::indexed_png;
 
 /// Colours of a picture on either side of zero; with zero they fill a palette of 8 bits.
 const LEVELS: u8 = 127;
@@ -52,23 +53,16 @@ impl Cells {
     /// The PNG, lowest row at the bottom; `limit` and beyond take the ends of the colours.
     pub(super) fn png(&self, limit: f64) -> Result<Vec<u8>> {
         let colours = (0..=2 * LEVELS).map(|i| signed_colour(f64::from(i) / f64::from(LEVELS) - 1.0));
-        let mut out = Vec::new();
-        let mut encoder = png::Encoder::new(&mut out, self.columns as u32, self.rows as u32);
-        encoder.set_color(png::ColorType::Indexed);
-        encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_palette(colours.flat_map(|Colour(r, g, b)| [r, g, b]).collect::<Vec<_>>());
         let index = |v: &f64| ((v / limit).clamp(-1.0, 1.0) * f64::from(LEVELS)).round() as i16;
         let pixel = |v: &f64| (index(v) + i16::from(LEVELS)) as u8;
         let pixels: Vec<u8> = self.values.rchunks(self.columns).flatten().map(pixel).collect();
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(&pixels)?;
-        writer.finish()?;
-        Ok(out)
+        indexed_png(self.columns, &colours.collect::<Vec<_>>(), &pixels)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::palette::Colour;
     use super::*;
 
     #[test]

@@ -1,8 +1,11 @@
 //! The key of a figure: a mark and a word each, in rows, always outside the data.
 
-use super::geometry::Point;
+use super::geometry::{Point, Rect};
+use super::glyph::Glyph;
+use super::marks::RegimeMark;
 use super::paint::Paint;
-use super::palette::{BLACK, Colour, WHITE};
+use super::palette::{BLACK, Colour, GREY, WHITE};
+use super::stripes::{draw_bands, draw_hatch};
 use super::svg::{Anchor, Svg};
 use super::text::Label;
 
@@ -27,6 +30,16 @@ pub(crate) enum Mark {
     Start,
     /// The mark of the last point.
     End,
+    /// A marker, on a line if its points are joined.
+    Point(Glyph, Colour, bool),
+    /// A regime: its marker on its ground of the given colour.
+    Regime(RegimeMark, Colour),
+    /// A regime: its marker beside the colour of its areas.
+    Area(RegimeMark),
+    /// Stripes of two colours.
+    Stripes(Colour, Colour),
+    /// A line on a band of the same colour.
+    Band(Colour),
 }
 
 /// A mark and its word.
@@ -111,7 +124,46 @@ fn draw_mark(svg: &mut Svg, mark: Mark, [x, y]: Point) {
         Mark::Dot(paint, radius) => svg.circle([x, y], radius, &paint),
         Mark::Start => draw_start(svg, [x, y]),
         Mark::End => draw_end(svg, [x, y]),
+        Mark::Point(glyph, colour, joined) => {
+            if joined {
+                svg.line(left, right, &Paint::stroke(colour, 1.4));
+            }
+            glyph.draw(svg, [x, y], 3.6, colour);
+        }
+        Mark::Regime(mark, ground) => {
+            draw_swatch(svg, swatch([x, y], 20.0), &mark, ground);
+            mark.draw(svg, [x, y], 4.2);
+        }
+        Mark::Area(mark) => {
+            draw_swatch(svg, swatch([x + 5.5, y], 11.0), &mark, mark.area);
+            mark.draw(svg, [x - 6.5, y], 4.0);
+        }
+        Mark::Stripes(one, other) => {
+            let swatch = swatch([x, y], 20.0);
+            draw_bands(svg, swatch, &[(one, 0.5), (other, 0.5)], 2);
+            svg.rect(swatch, &Paint::stroke(GREY, 0.8));
+        }
+        Mark::Band(colour) => {
+            let band = Rect { x: x - 0.5 * MARK, y: y - 5.0, w: MARK, h: 10.0 };
+            svg.rect(band, &Paint::fill(colour).opacity(BAND));
+            svg.line(left, right, &Paint::stroke(colour, 1.6));
+        }
     }
+}
+
+/// Opacity of the band about a curve.
+pub(crate) const BAND: f64 = 0.22;
+
+fn swatch([x, y]: Point, w: f64) -> Rect {
+    Rect { x: x - 0.5 * w, y: y - 7.0, w, h: 14.0 }
+}
+
+fn draw_swatch(svg: &mut Svg, rect: Rect, mark: &RegimeMark, ground: Colour) {
+    svg.rect(rect, &Paint::fill(ground));
+    if mark.is_undetermined() {
+        draw_hatch(svg, rect);
+    }
+    svg.rect(rect, &Paint::stroke(GREY, 0.8));
 }
 
 /// The first point: a white disc with a black edge.

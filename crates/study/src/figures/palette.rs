@@ -124,7 +124,7 @@ pub fn time_colour_in(t: f64, range: Range) -> Colour {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
     fn luminance(c: Colour) -> f64 {
@@ -140,8 +140,16 @@ mod tests {
 
     /// As a deuteranope sees it. Source: Machado, Oliveira & Fernandes (2009), IEEE TVCG 15, 1291, severity 1.0
     /// (matrix applied to sRGB values, which is enough to tell colours apart).
-    fn deuteranope(Colour(r, g, b): Colour) -> [f64; 3] {
-        let rows = [[0.367, 0.861, -0.228], [0.280, 0.673, 0.047], [-0.012, 0.043, 0.969]];
+    pub(in super::super) fn deuteranope(colour: Colour) -> [f64; 3] {
+        seen(colour, [[0.367, 0.861, -0.228], [0.280, 0.673, 0.047], [-0.012, 0.043, 0.969]])
+    }
+
+    /// As a protanope sees it, from the same source.
+    pub(in super::super) fn protanope(colour: Colour) -> [f64; 3] {
+        seen(colour, [[0.152, 1.053, -0.205], [0.115, 0.786, 0.099], [-0.004, -0.048, 1.052]])
+    }
+
+    fn seen(Colour(r, g, b): Colour, rows: [[f64; 3]; 3]) -> [f64; 3] {
         rows.map(|m: [f64; 3]| m[0] * f64::from(r) + m[1] * f64::from(g) + m[2] * f64::from(b))
     }
 

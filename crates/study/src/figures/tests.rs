@@ -59,7 +59,7 @@ fn film(count: usize, camera: Camera) -> Animation {
 }
 
 /// The text of the document without its fonts.
-fn drawing(svg: &str) -> &str {
+pub(super) fn drawing(svg: &str) -> &str {
     svg.split_once("</style>").map_or("", |(_, drawing)| drawing)
 }
 

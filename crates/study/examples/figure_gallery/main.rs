@@ -2,6 +2,9 @@
 //!
 //! `cargo run --release -p motiform-study --example figure_gallery -- FOLDER`
 
+mod diagrams;
+mod report;
+
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -27,6 +30,8 @@ fn main() -> Outcome {
     save(folder, "return_map_sparse", &return_map(60).svg()?)?;
     fields(folder)?;
     spectra(folder)?;
+    diagrams::draw(folder)?;
+    report::write(folder)?;
     films(folder)
 }
 

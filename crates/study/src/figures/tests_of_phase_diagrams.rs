@@ -1,0 +1,148 @@
+//! Phase diagrams: what is drawn for which grid, and what is refused.
+
+use super::tests::drawing;
+use super::*;
+
+fn cell(x: f64, y: f64, shares: &[(&str, f64)]) -> Cell {
+    Cell { x, y, shares: shares.iter().map(|(name, share)| ((*name).to_owned(), *share)).collect() }
+}
+
+/// A grid of one motion, with two of them in the first cell.
+fn diagram(columns: usize, rows: usize) -> PhaseDiagram {
+    let (x, y) = ((0..columns).map(|i| i as f64).collect(), (0..rows).map(|i| 0.1 * i as f64).collect());
+    let mut diagram = PhaseDiagram { x, y, x_label: "*κ*_2".into(), ..PhaseDiagram::default() };
+    let places = diagram.y.iter().flat_map(|y| diagram.x.iter().map(move |x| (*x, *y)));
+    diagram.cells = places.map(|(x, y)| cell(x, y, &[("zigzag", 1.0)])).collect();
+    diagram.cells[0] = cell(0.0, 0.0, &[("circular", 0.75), ("straight", 0.25)]);
+    diagram
+}
+
+fn strip(columns: usize) -> PhaseDiagram {
+    PhaseDiagram { y: Vec::new(), ..diagram(columns, 1) }
+}
+
+fn text(diagram: &PhaseDiagram) -> String {
+    diagram.svg().expect("a figure")
+}
+
+#[test]
+fn no_diagram_holds_a_number_that_is_none() {
+    let line = |points| BoundaryLine { label: "far".into(), style: LineStyle::Dotted, points };
+    let mut far = diagram(3, 3);
+    far.lines = vec![line(vec![[-1e99, -1e99], [1e99, 1e99]]), line(vec![[1.0, 1.0]]), line(vec![])];
+    let all = [far, diagram(1, 2), diagram(2, 1), diagram(300, 2), strip(1), strip(130), diagram(50, 50)];
+    for diagram in all {
+        let svg = text(&diagram);
+        for bad in ["NaN", "inf", "9223372"] {
+            assert!(!drawing(&svg).contains(bad), "{bad} in {}", drawing(&svg));
+        }
+        assert_eq!(svg, text(&diagram), "same data, same bytes");
+    }
+}
+
+#[test]
+fn the_legend_names_what_is_present() {
+    for mut diagram in [diagram(4, 3), diagram(64, 3)] {
+        diagram.lines = vec![BoundaryLine { label: "Hopf".into(), style: LineStyle::Dashed, points: vec![] }];
+        let svg = text(&diagram);
+        for word in ["zigzag", "circular", "straight", "more than one motion", "Hopf"] {
+            assert!(svg.contains(word), "{word}");
+        }
+        assert!(!svg.contains("chaotic") && !svg.contains("undetermined"));
+        diagram.cells[0].shares = vec![("breathing".into(), 1.0)];
+        let svg = text(&diagram);
+        assert!(svg.contains("undetermined") && !svg.contains("more than one motion"));
+    }
+}
+
+#[test]
+fn small_grids_have_a_marker_a_cell_and_large_ones_a_picture() {
+    let small = text(&diagram(40, 40));
+    // one disc in the legend, one in the cell of two motions
+    assert_eq!(drawing(&small).matches("<circle").count(), 2);
+    assert!(!drawing(&small).contains("<image"));
+    let large = text(&diagram(200, 200));
+    assert!(
+        drawing(&large).contains("<image") && drawing(&large).len() < 60_000,
+        "{}",
+        drawing(&large).len()
+    );
+}
+
+#[test]
+fn colours_take_their_share_of_the_area() {
+    let count = |svg: &str, c: palette::Colour| {
+        let picture = raster::pixmap(svg, 1.0).expect("a picture");
+        picture.pixels().iter().filter(|p| (p.red(), p.green(), p.blue()) == (c.0, c.1, c.2)).count()
+    };
+    let all = |n| PhaseDiagram {
+        cells: diagram(n, n)
+            .cells
+            .iter()
+            .map(|c| cell(c.x, c.y, &[("circular", 0.75), ("straight", 0.25)]))
+            .collect(),
+        ..diagram(n, n)
+    };
+    // a picture of 500 x 450 or 500 x 500 pixels
+    let svg = text(&all(50));
+    let (circular, straight) =
+        (count(&svg, regime_mark("circular").area), count(&svg, regime_mark("straight").area));
+    let share = straight as f64 / (circular + straight) as f64;
+    assert!(
+        circular + straight > 200_000 && (share - 0.25).abs() < 0.02,
+        "{share} of {}",
+        circular + straight
+    );
+    let mut svg = strip(10);
+    svg.cells.iter_mut().for_each(|c| c.shares = vec![("circular".into(), 0.75), ("straight".into(), 0.25)]);
+    let svg = text(&svg);
+    let (circular, straight) =
+        (count(&svg, regime_mark("circular").area), count(&svg, regime_mark("straight").area));
+    let share = straight as f64 / (circular + straight) as f64;
+    assert!((share - 0.25).abs() < 0.02, "{share}");
+}
+
+#[test]
+fn the_first_cell_is_at_the_lower_left() {
+    let mut diagram = diagram(50, 50);
+    diagram.cells[0] = cell(0.0, 0.0, &[("chaotic", 1.0)]);
+    let picture = raster::pixmap(&text(&diagram), 1.0).expect("a picture");
+    let area = regime_mark("chaotic").area;
+    let width = picture.width() as usize;
+    let hits = picture.pixels().iter().enumerate();
+    let hits = hits.filter(|(_, p)| (p.red(), p.green(), p.blue()) == (area.0, area.1, area.2));
+    // beneath the legend
+    let places: Vec<_> = hits.map(|(i, _)| (i % width, i / width)).filter(|(_, y)| *y > 100).collect();
+    assert!(places.len() > 50 && places.iter().all(|(x, y)| *x < 100 && *y > 400), "{places:?}");
+}
+
+#[test]
+fn bad_diagrams_are_refused_with_the_place() {
+    let with = |change: fn(&mut PhaseDiagram)| {
+        let mut diagram = diagram(3, 2);
+        change(&mut diagram);
+        diagram.svg().expect_err("bad data")
+    };
+    assert!(matches!(with(|d| d.cells.clear()), FigureError::Empty { .. }));
+    assert!(matches!(with(|d| d.x.clear()), FigureError::Empty { .. }));
+    assert!(matches!(with(|d| d.x[1] = f64::NAN), FigureError::NotFinite { index: 1, .. }));
+    assert!(matches!(with(|d| d.x[2] = 1.0), FigureError::NotIncreasing { index: 2, .. }));
+    assert!(matches!(with(|d| d.cells[4].x = 1.4), FigureError::OffGrid { index: 4, .. }));
+    assert!(matches!(with(|d| d.cells[4].x = f64::NAN), FigureError::OffGrid { index: 4, .. }));
+    assert!(matches!(with(|d| d.cells[4].x = 0.0), FigureError::SameCell { index: 4 }));
+    assert!(matches!(with(|d| d.cells[5].shares.clear()), FigureError::Shares { index: 5, .. }));
+    assert!(matches!(with(|d| d.cells[5].shares[0].1 = f64::NAN), FigureError::Shares { index: 5, .. }));
+    let negative = with(|d| d.cells[0].shares = vec![("zigzag".into(), 1.5), ("chaotic".into(), -0.5)]);
+    assert_eq!(
+        negative.to_string(),
+        "the shares of cell number 0 add up to 1; give shares of at least 0 that add up to 1"
+    );
+    let line = |d: &mut PhaseDiagram| {
+        d.lines = vec![BoundaryLine {
+            label: String::new(),
+            style: LineStyle::Solid,
+            points: vec![[0.0, f64::INFINITY]],
+        }];
+    };
+    assert!(matches!(with(line), FigureError::NotFinite { .. }));
+}

@@ -1,0 +1,93 @@
+//! What holds for every report.
+
+use super::*;
+use crate::figures::{ReturnMapFigure, png};
+
+fn claim(verdict: Verdict) -> Claim {
+    Claim {
+        says: "*κ*_2 < 0.5 & <script>alert(1)</script>".into(),
+        finds: "*λ*_1 = -0.02 \"within\" 10^{-3}".into(),
+        how: "mean of 20 runs".into(),
+        verdict,
+    }
+}
+
+fn report() -> Report {
+    let svg =
+        ReturnMapFigure { points: vec![[0.0, 1.0]], ..ReturnMapFigure::default() }.svg().expect("a figure");
+    let bytes = png(&svg, 0.5, &[]).expect("a png");
+    let figure = |picture| ReportFigure { caption: "a \"quoted\" *x*_1".into(), picture };
+    let explanation = || "the paper's *a*_1 is rounded".to_owned();
+    let first = Section {
+        title: "Phase diagram, *κ*_2 > 0".into(),
+        about: "One.\n\nTwo <b>.".into(),
+        parameters: vec![("*a*_1".into(), "-1".into())],
+        figures: vec![figure(Picture::Svg(svg)), figure(Picture::Png(bytes))],
+        claims: vec![claim(Verdict::Holds), claim(Verdict::Differs { explanation: explanation() })],
+    };
+    let second = Section {
+        title: "Chaos".into(),
+        claims: vec![claim(Verdict::Holds), claim(Verdict::Fails { explanation: explanation() })],
+        ..Section::default()
+    };
+    let third = Section { title: "Outlook".into(), ..Section::default() };
+    Report { title: "Report <1> *x*".into(), about: String::new(), sections: vec![first, second, third] }
+}
+
+#[test]
+fn texts_are_escaped_and_markup_is_set() {
+    let html = report().html();
+    assert!(!html.contains("<script>") && !html.contains("Two <b>"));
+    assert!(html.contains("<i>κ</i><sub>2</sub> &lt; 0.5 &amp; &lt;script&gt;"));
+    assert!(html.contains("<title>Report &lt;1&gt; x</title>"));
+    assert!(html.contains("alt=\"a &quot;quoted&quot; x1\""));
+    assert!(html.contains("<p>One.</p>\n<p>Two &lt;b&gt;.</p>"));
+}
+
+#[test]
+fn counts_are_those_of_the_claims() {
+    let report = report();
+    assert_eq!(report.counts(), Counts { hold: 2, differ: 1, fail: 1 });
+    let html = report.html();
+    assert!(html.contains("4 claims: ") && html.contains("✓ 2 held"));
+    for counts in [">1 held, 1 differs<", ">1 held, 1 failed<", ">no claim<"] {
+        assert!(html.contains(counts), "{counts}");
+    }
+    assert_eq!(html.matches("✗ fails").count(), 2, "in the summary and at the claim");
+}
+
+#[test]
+fn only_a_failure_spoils_the_whole() {
+    let mut report = report();
+    assert!(!report.all_hold());
+    report.sections[1].claims.pop();
+    assert!(report.all_hold(), "one claim still differs");
+    assert!(Report::default().all_hold());
+}
+
+#[test]
+fn the_page_needs_nothing_else() {
+    let html = report().html();
+    assert!(!html.contains("http") && !html.contains("url(") && !html.contains("@import"));
+    assert!(!html.contains("<link") && !html.contains("<script"));
+    let sources = html.matches("src=\"").count();
+    assert_eq!((sources, html.matches("src=\"data:image/").count()), (2, 2));
+}
+
+#[test]
+fn every_link_leads_somewhere_and_names_are_given_once() {
+    let html = report().html();
+    let after = |mark: &str| -> Vec<String> {
+        html.split(mark).skip(1).filter_map(|rest| Some(rest.split_once('"')?.0.to_owned())).collect()
+    };
+    let (targets, names) = (after("href=\"#"), after(" id=\""));
+    assert!(targets.len() == 7 && targets.iter().all(|t| names.contains(t)), "{targets:?} in {names:?}");
+    let once: std::collections::HashSet<_> = names.iter().collect();
+    assert_eq!(once.len(), names.len());
+}
+
+#[test]
+fn an_empty_report_is_a_page() {
+    let html = Report::default().html();
+    assert!(html.starts_with("<!DOCTYPE html>") && !html.contains("Summary") && !html.contains("Contents"));
+}
