@@ -67,20 +67,15 @@ impl ScanPlan {
         let info = study.info()?;
         let method = stepper(&study.run.stepper)?;
         let (run, scan) = (&study.run, &study.scan);
-        check("escape_norm", run.escape_norm, run.escape_norm > 0.0, "give a number above 0")?;
-        check("random", study.random, study.random >= 0.0, "give a size of at least 0")?;
-        check("budget", scan.budget, scan.budget >= 0.0, "give a model time above 0, or 0 for the default")?;
-        let counts = [("samples", scan.samples, MOST.1), ("max_steps", run.max_steps, u64::MAX)];
-        for (key, value, most) in counts {
-            if !(1..=most).contains(&value) {
-                let remedy = if value == 0 { "give at least 1" } else { "give at most 100000" };
-                return Err(Error::Setting { key, value: value.to_string(), remedy });
-            }
-        }
+        check_settings(study)?;
         check_axes(study, info)?;
         let free = |name: &str| scan.axes.iter().any(|axis| axis.name == name);
         let names = info.parameters().iter().map(|spec| spec.name.to_owned());
         let fixed = names.zip(study.values()?).filter(|(name, _)| !free(name)).collect();
+        // Nothing that a row tells depends on the position.
+        let shape = |entry: &&(String, f64)| !["x", "y"].contains(&entry.0.as_str());
+        let mut initial: Vec<_> = study.initial.iter().filter(shape).cloned().collect();
+        initial.sort_by(|a, b| a.0.cmp(&b.0)); // the order of typing changes no number
         let computation = ScanComputation {
             format: SCAN_FORMAT,
             model: info.name.to_owned(),
@@ -89,14 +84,7 @@ impl ScanPlan {
             samples: usize::try_from(scan.samples).unwrap_or(usize::MAX),
             seed: run.seed,
             random: study.random,
-            initial: Named(
-                study
-                    .initial
-                    .iter()
-                    .filter(|(name, _)| !["x", "y"].contains(&name.as_str()))
-                    .cloned()
-                    .collect(),
-            ),
+            initial: Named(initial),
             stepper: method.name().to_owned(),
             control: control(study, method)?,
             max_steps: run.max_steps,
@@ -203,6 +191,25 @@ impl ScanPlan {
     pub fn method(&self) -> Result<Method, Error> {
         stepper(&self.computation.stepper)
     }
+}
+
+/// The numbers that a scan uses beside its axes.
+fn check_settings(study: &Study) -> Result<(), Error> {
+    let (run, scan) = (&study.run, &study.scan);
+    check("escape_norm", run.escape_norm, run.escape_norm > 0.0, "give a number above 0")?;
+    check("random", study.random, study.random >= 0.0, "give a size of at least 0")?;
+    check("budget", scan.budget, scan.budget >= 0.0, "give a model time above 0, or 0 for the default")?;
+    let counts = [("samples", scan.samples, MOST.1), ("max_steps", run.max_steps, u64::MAX)];
+    for (key, value, most) in counts {
+        if !(1..=most).contains(&value) {
+            let remedy = if value == 0 { "give at least 1" } else { "give at most 100000" };
+            return Err(Error::Setting { key, value: value.to_string(), remedy });
+        }
+    }
+    for (_, value) in &study.initial {
+        check("initial", *value, true, "give finite numbers")?;
+    }
+    Ok(())
 }
 
 /// One or two different axes with known names and not too many cells.
