@@ -27,6 +27,12 @@ pub(crate) enum Command {
     /// Move one body: write its path, shape and figures
     #[command(after_help = SIMULATE_HELP)]
     Simulate(Box<SimulateOptions>),
+    /// Map the motions over one or two parameters, several initial states per cell, on all cores
+    #[command(after_help = SCAN_HELP)]
+    Scan(Box<ScanOptions>),
+    /// Put folders with shards of one scan together
+    #[command(after_help = "Example: motiform merge shard1 shard2 shard3 --out whole")]
+    Merge(MergeOptions),
     /// Check a study file and print the plan it stands for, without computing
     Check(CheckOptions),
     /// Draw the figures of datasets again, without computing
@@ -52,6 +58,18 @@ The output folder holds
   path, series         figures, as .svg and .png; motion.png is the animation
   crossings.parquet    and the figure return-map, for studies with a return map
   fields.h5            phi(s, t) and outlines, and the figures phi and spectrum, for the cell";
+
+const SCAN_HELP: &str = "\
+Examples:
+  motiform scan tensor --preset fig1 --axis kappa2=0.1:1.6:64 --axis gamma=0.1:1.5:64 --samples 4
+  motiform scan tensor --preset fig4 --axis kappa2=0.1,0.2,0.5 --resume
+  motiform scan my-study.toml --shard 1/3 --out shard1
+
+The output folder holds
+  _manifest.json       plan, hash, version
+  part-*.parquet       one row per cell and initial state; pandas.read_parquet(DIR) reads them all
+A scan that was interrupted or killed goes on with --resume. The numbers are the same for any number of threads, any
+shards and any interruption. Exit code 1: some cells are undetermined.";
 
 #[derive(Args)]
 pub(crate) struct ModelsOptions {
@@ -121,6 +139,65 @@ pub(crate) struct SimulateOptions {
     pub(crate) no_figures: bool,
     #[command(flatten)]
     pub(crate) drawing: DrawingOptions,
+}
+
+#[derive(Args)]
+pub(crate) struct ScanOptions {
+    /// A model (`motiform models` lists them) or a study file ending in .toml
+    #[arg(value_name = "MODEL|STUDY.toml")]
+    pub(crate) subject: String,
+    /// Start from a preset of the model, e.g. fig4
+    #[arg(long, value_name = "NAME")]
+    pub(crate) preset: Option<String>,
+    /// Set a parameter (repeatable); axes win over it
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, f64)>,
+    /// Vary a parameter (once or twice): NAME=LOW:HIGH:COUNT, both ends included, or NAME=v1,v2,v3
+    #[arg(long = "axis", value_name = "NAME=LOW:HIGH:COUNT")]
+    pub(crate) axes: Vec<String>,
+    /// Initial states per cell (default: 1)
+    #[arg(long, value_name = "M", value_parser = whole, allow_hyphen_values = true)]
+    pub(crate) samples: Option<u64>,
+    /// Seed of the random initial states
+    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
+    pub(crate) seed: Option<u64>,
+    /// Most model time that naming one motion may take; 0 is the model's default
+    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) budget: Option<f64>,
+    /// Output folder (default: MODEL-PRESET-scan here)
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Go on with the scan in the output folder (start it, if there is none)
+    #[arg(long, conflicts_with = "force")]
+    pub(crate) resume: bool,
+    /// Compute one of N shares; `motiform merge` puts the folders together
+    #[arg(long, value_name = "I/N")]
+    pub(crate) shard: Option<String>,
+    /// Threads (default: all cores); changes no number
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
+    pub(crate) threads: Option<u16>,
+    /// Replace an earlier scan
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Print the summary as one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct MergeOptions {
+    /// Folders written by `motiform scan` with the same plan
+    #[arg(value_name = "DIR", required = true)]
+    pub(crate) folders: Vec<PathBuf>,
+    /// Output folder
+    #[arg(long, value_name = "DIR", required = true)]
+    pub(crate) out: PathBuf,
+    /// Replace an earlier scan
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Print the summary as one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Args)]

@@ -16,6 +16,8 @@ fn main() -> ExitCode {
     let done = match arguments.command {
         Command::Models(options) => commands::models::run(&options),
         Command::Simulate(options) => commands::simulate::run(&options),
+        Command::Scan(options) => commands::scan::run(&options),
+        Command::Merge(options) => commands::merge::run(&options),
         Command::Check(options) => commands::check::run(&options),
         Command::Figure(options) => commands::figure::run(&options),
         Command::Completions(options) => commands::completions::run(&options),

@@ -14,13 +14,13 @@ static STOPPED: AtomicBool = AtomicBool::new(false);
 pub(crate) struct Watch {
     bar: ProgressBar,
     started: Instant,
-    /// Model time in all.
+    /// The work in all.
     total: f64,
 }
 
 impl Watch {
-    /// A watch over `total` model time. The first Ctrl-C asks the run to stop, the second ends the program.
-    pub(crate) fn new(total: f64) -> Self {
+    /// A watch over `total` of `unit` (model time, cells). The first Ctrl-C asks the run to stop, the second ends the program.
+    pub(crate) fn new(total: f64, unit: &'static str) -> Self {
         // Fails only if a handler is set already: then the first one still works.
         let _ = ctrlc::set_handler(|| {
             if STOPPED.swap(true, Ordering::Relaxed) {
@@ -30,8 +30,14 @@ impl Watch {
         let bar = ProgressBar::with_draw_target(Some(total.ceil() as u64), ProgressDrawTarget::hidden());
         let template = "{bar:32} {percent:>3}%  {rate}  {eta} left";
         let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-        let rate = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
-            let _ = write!(out, "{:.2e} model time/s", state.per_sec()); // a bar that cannot be written is no loss
+        let rate = move |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+            let per_second = state.per_sec();
+            // A bar that cannot be written is no loss.
+            let _ = if (0.1..1e4).contains(&per_second) {
+                write!(out, "{per_second:.1} {unit}/s")
+            } else {
+                write!(out, "{per_second:.2e} {unit}/s")
+            };
         };
         bar.set_style(style.with_key("rate", rate));
         Self { bar, started: Instant::now(), total }
@@ -48,7 +54,12 @@ impl Monitor for Watch {
         if self.bar.is_hidden() && self.started.elapsed() > QUIET {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
-        self.bar.set_position((done * self.total) as u64);
+        // Never back: threads may report out of order.
+        let done = (done * self.total) as u64;
+        if done <= self.bar.position() {
+            return;
+        }
+        self.bar.set_position(done);
     }
 
     fn stopped(&self) -> bool {

@@ -182,6 +182,60 @@ fn nothing_is_overwritten_without_force_and_only_datasets_with_it() {
     assert_eq!(folder.names(), ["app", "notes.txt", "run", "run.csv", "thesis"]);
 }
 
+#[test]
+fn scans() {
+    let folder = Folder::new();
+    folder.write("study.toml", "preset = \"fig1\"\n[scan]\naxes = [\"kapa2=0.1:1:5\"]\n");
+    folder.write("file", "mine");
+    std::fs::create_dir(folder.path("thesis")).unwrap();
+    let small = "scan tensor --preset fig1 --axis gamma=-1,-0.5";
+    folder.run(&format!("{small} --out run")).expect(0);
+    folder.run(&format!("{small} --out other --seed 2")).expect(0);
+    let read = refused(
+        &folder,
+        &[
+            "scan tensor",
+            "scan tensor --preset fig1",
+            "scan tensor --axis kapa2=0.1:1:5",
+            "scan tensor --axis kappa2",
+            "scan tensor --axis kappa2=0.1:1:0",
+            "scan tensor --axis kappa2=0.1:1",
+            "scan tensor --axis kappa2=0.1:1:2.5",
+            "scan tensor --axis kappa2=0.1:nan:5",
+            "scan tensor --axis kappa2=0.1,,0.2",
+            "scan tensor --axis kappa2=0.1,0.1",
+            "scan tensor --axis kappa2=1:1:5",
+            "scan tensor --axis kappa2=0:1:1000000",
+            "scan tensor --axis kappa2=0:1:3 --axis kappa2=1:2:3",
+            "scan tensor --axis kappa2=0:1:3 --axis kappa3=1:2:3 --axis gamma=1",
+            "scan tensor --axis kappa2=0:1:100000 --axis kappa3=1:2:100000",
+            "scan tensor --axis kappa2=0:2e6:3",
+            "scan cell --axis modes=20,20.5",
+            "scan tensor --axis kappa2=0:1:3 --samples 0",
+            "scan tensor --axis kappa2=0:1:3 --samples 1000000",
+            "scan tensor --axis kappa2=0:1:3 --budget -1",
+            "scan tensor --axis kappa2=0:1:3 --shard 4/3",
+            "scan tensor --axis kappa2=0:1:3 --threads 0",
+            "scan tensor --axis kappa2=0:1:3 --resume --force",
+            "scan study.toml",
+            "check study.toml",
+            "scan tensor --axis kappa2=0:1:3 --out file",
+            "scan tensor --axis kappa2=0:1:3 --out thesis --force",
+            "scan tensor --axis kappa2=0:1:3 --out thesis --resume",
+            "scan tensor --axis kappa2=0:1:3 --out missing/run",
+            "scan tensor --preset fig1 --axis gamma=-1,-0.5 --out run",
+            "scan tensor --preset fig1 --axis gamma=-1,-0.6 --set a1=2 --seed 3 --out run --resume",
+            "simulate tensor --t-end 1 --out run --force",
+            "merge run",
+            "merge run missing --out all",
+            "merge run thesis --out all",
+            "merge run other --out all",
+            "merge run --out other",
+        ],
+    );
+    insta::assert_snapshot!("scans", read);
+}
+
 /// A limit on the size of files stands in for a full disk: writing fails in the middle, as it does there.
 #[test]
 fn a_full_disk() {

@@ -22,6 +22,10 @@ pub struct ModelInfo {
     pub stepper: &'static str,
     /// The relative and the absolute tolerance to use by default.
     pub tolerances: (f64, f64),
+    /// Some tens of its slowest ordinary time scale (model time): how long to look at a motion first.
+    pub look: f64,
+    /// Most model time to spend on naming a motion, by default.
+    pub budget: f64,
     parameters: fn() -> &'static [ParameterSpec],
     coordinates: fn(&[f64]) -> &'static [Coordinate],
     build: Build,
@@ -39,6 +43,8 @@ pub static MODELS: &[ModelInfo] = &[
         source: "Hiraiwa, Ohkuma, Ohta, Matsuo, Sano, EPL (2010), eqs. (V), (S), (U)",
         stepper: "dop853",
         tolerances: (1e-9, 1e-12),
+        look: 200.0,
+        budget: 4e4,
         parameters: TensorParameters::specs,
         coordinates: |_| &tensor::COORDINATES,
         build: |values| Ok(Box::new(Tensor::new(&from_values::<TensorParameters>(values)))),
@@ -50,6 +56,8 @@ pub static MODELS: &[ModelInfo] = &[
         source: "Hiraiwa, Ohkuma, Ohta, Matsuo, Sano, EPL (2010), eqs. (C), (VEL), (CLOSE)",
         stepper: "krogstad4",
         tolerances: (1e-6, 1e-7), // high modes are tiny: their digits do not matter
+        look: 1500.0,
+        budget: 1e5,
         parameters: CellParameters::specs,
         coordinates: |values| from_values::<CellParameters>(values).coordinates(),
         build: |values| Ok(Box::new(Cell::new(&from_values::<CellParameters>(values))?)),

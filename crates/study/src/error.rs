@@ -10,6 +10,17 @@ pub enum Error {
     /// The numerics refused an input.
     #[error(transparent)]
     Dynamics(#[from] motiform_dynamics::Error),
+    /// An analysis refused its input.
+    #[error(transparent)]
+    Analysis(#[from] motiform_analysis::Error),
+    /// More exponents than there are, or none.
+    #[error("count = {count}: this model has {dim} exponents; ask for 1 to {dim}")]
+    Count {
+        /// The number asked for.
+        count: usize,
+        /// Dimension of the shape.
+        dim: usize,
+    },
     /// The models refused a name or a value.
     #[error(transparent)]
     Models(#[from] motiform_models::Error),
@@ -58,6 +69,84 @@ pub enum Error {
         value: String,
         /// What would be right.
         remedy: &'static str,
+    },
+    /// An axis of a scan that cannot be used.
+    #[error("axis {text:?}: {problem}")]
+    Axis {
+        /// The axis as given, or its parameter.
+        text: String,
+        /// What is wrong and how to mend it.
+        problem: String,
+    },
+    /// A scan without an axis.
+    #[error(
+        "nothing to vary: give --axis NAME=LOW:HIGH:COUNT with a parameter of the model{free}, or axes in [scan]"
+    )]
+    NoAxis {
+        /// The parameters that the study leaves free, in brackets.
+        free: String,
+    },
+    /// A scan folder that is there already.
+    #[error(
+        "{} exists: --resume goes on with the scan in it, --force replaces it; or choose another --out", .path.display()
+    )]
+    ScanExists {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A folder that is no scan.
+    #[error("{} is no folder written by `motiform scan`: {reason}; choose another --out", .path.display())]
+    NoScan {
+        /// The folder.
+        path: PathBuf,
+        /// Why not.
+        reason: String,
+    },
+    /// A folder that holds the scan of another plan.
+    #[error(
+        "{} holds another scan than the one asked for ({differences}): choose another --out, or --force to replace it",
+        .path.display()
+    )]
+    OtherScan {
+        /// The folder.
+        path: PathBuf,
+        /// What differs: each key with the value there and the value asked for.
+        differences: String,
+    },
+    /// Another process computes in the folder.
+    #[error("another motiform computes in {}: wait until it is done, or choose another --out", .path.display())]
+    Busy {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Folders of different scans cannot be merged.
+    #[error("{} and {} hold different scans ({differences}): merge the shards of one scan", .first.display(), .second.display())]
+    Unmergeable {
+        /// A folder.
+        first: PathBuf,
+        /// Another one.
+        second: PathBuf,
+        /// What differs.
+        differences: String,
+    },
+    /// Two folders hold the same part with different numbers.
+    #[error(
+        "{} and {} hold different numbers for the same rows: one of them comes from another version of motiform; leave          one folder out",
+        .first.display(), .second.display()
+    )]
+    Conflict {
+        /// A part.
+        first: PathBuf,
+        /// The other one.
+        second: PathBuf,
+    },
+    /// Writing a part broke off (a full disk, say).
+    #[error("writing {} failed: {reason}; whole parts are kept: make room, and --resume goes on", .path.display())]
+    PartFailed {
+        /// The part.
+        path: PathBuf,
+        /// The reason.
+        reason: String,
     },
     /// A fixed step that an explicit method cannot take on this model.
     #[error(
@@ -126,7 +215,7 @@ impl Error {
     /// Whether the input was fine and the machine failed (exit code 1 rather than 2).
     #[must_use]
     pub fn is_machine_failure(&self) -> bool {
-        matches!(self, Self::WriteFailed { .. } | Self::Figure(_))
+        matches!(self, Self::WriteFailed { .. } | Self::PartFailed { .. } | Self::Figure(_))
     }
 
     pub(crate) fn unreadable(path: &Path, reason: impl std::fmt::Display) -> Self {

@@ -1,6 +1,7 @@
 //! Studies: file -> [`Study`] -> [`Plan`] -> [`Dataset`] -> figure. One function per arrow; the same verbs serve the
 //! command line, Python and the explorer.
 
+pub mod analyse;
 pub mod dataset;
 pub mod draw;
 mod error;
@@ -11,6 +12,7 @@ mod initial;
 pub mod plan;
 pub mod presets;
 pub mod report;
+pub mod scan;
 pub mod simulate;
 pub mod study;
 pub mod table;
@@ -19,4 +21,5 @@ mod toml_reader;
 pub use dataset::{Dataset, Manifest};
 pub use error::Error;
 pub use plan::Plan;
+pub use scan::ScanPlan;
 pub use study::Study;

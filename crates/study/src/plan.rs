@@ -189,8 +189,7 @@ impl Plan {
     /// SHA-256 of the computation as compact JSON, in hexadecimal: equal hashes mean equal numbers.
     #[must_use]
     pub fn hash(&self) -> String {
-        let json = serde_json::to_vec(&self.computation).unwrap_or_default();
-        Sha256::digest(&json).iter().fold(String::new(), |hex, byte| hex + &format!("{byte:02x}"))
+        sha256_hex(&serde_json::to_vec(&self.computation).unwrap_or_default())
     }
 
     /// The registry entry of its model.
@@ -210,7 +209,12 @@ impl Plan {
     }
 }
 
-fn check(key: &'static str, value: f64, ok: bool, remedy: &'static str) -> Result<(), Error> {
+/// SHA-256 in hexadecimal.
+pub(crate) fn sha256_hex(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().fold(String::new(), |hex, byte| hex + &format!("{byte:02x}"))
+}
+
+pub(crate) fn check(key: &'static str, value: f64, ok: bool, remedy: &'static str) -> Result<(), Error> {
     if ok && value.is_finite() {
         Ok(())
     } else {
@@ -221,7 +225,7 @@ fn check(key: &'static str, value: f64, ok: bool, remedy: &'static str) -> Resul
 }
 
 /// An explicit method is stable where its step times every rate of the linear part is small.
-fn check_stability(model: &dyn Model, method: Method, control: Control) -> Result<(), Error> {
+pub(crate) fn check_stability(model: &dyn Model, method: Method, control: Control) -> Result<(), Error> {
     let (Method::Explicit(tableau), Control::Fixed { step }) = (method, control) else { return Ok(()) };
     let mut rates = vec![0.0; model.dim()];
     Semilinear::<f64>::linear(model, &mut rates);
@@ -236,7 +240,12 @@ fn check_start(model: &dyn Model, initial: &Named) -> Result<(), Error> {
     let values = initial.values();
     let mut shape = vec![0.0; model.dim()];
     model.encode(&values[..model.dim()], &mut shape);
-    match model.obstacle(&shape) {
+    check_closed(model, &shape)
+}
+
+/// A shape must be a body.
+pub(crate) fn check_closed(model: &dyn Model, shape: &[f64]) -> Result<(), Error> {
+    match model.obstacle(shape) {
         Some(Obstacle::Closure { residual }) => Err(Error::NotClosed { residual }),
         _ => Ok(()),
     }
@@ -259,14 +268,14 @@ pub fn check_figure(figure: &FigureSettings) -> Result<(), Error> {
     Ok(())
 }
 
-fn stepper(name: &str) -> Result<Method, Error> {
+pub(crate) fn stepper(name: &str) -> Result<Method, Error> {
     Method::find(name).ok_or_else(|| {
         let known = Method::names();
         Error::UnknownStepper { name: name.to_owned(), nearest: nearest_of(name, &known), known }
     })
 }
 
-fn control(study: &Study, method: Method) -> Result<Control, Error> {
+pub(crate) fn control(study: &Study, method: Method) -> Result<Control, Error> {
     let run = &study.run;
     let control = match run.step {
         None if method.is_adaptive() => Control::Adaptive { rtol: run.rtol, atol: run.atol },

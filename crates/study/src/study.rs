@@ -1,5 +1,6 @@
 //! A study as typed: everything optional, nothing computed yet.
 
+use crate::scan::Axis;
 use crate::toml_reader::{Source, Table, Value};
 use crate::{Error, presets};
 use motiform_models::{MODELS, ModelInfo};
@@ -27,6 +28,8 @@ pub struct Study {
     pub random: f64,
     /// The run.
     pub run: RunSettings,
+    /// The scan.
+    pub scan: ScanSettings,
     /// The return map, if one is wanted.
     pub return_map: Option<ReturnMapSettings>,
     /// How to draw.
@@ -74,6 +77,25 @@ impl Default for RunSettings {
             max_steps: 100_000_000,
             escape_norm: 1e6,
         }
+    }
+}
+
+/// What a scan varies.
+#[derive(Clone, Debug, PartialEq, JsonSchema)]
+pub struct ScanSettings {
+    /// One or two axes: "kappa2=0.1:1.6:64" is 64 values from 0.1 to 1.6, both ends included; "kappa2=0.1,0.2" lists
+    /// them.
+    #[schemars(with = "Vec<String>")]
+    pub axes: Vec<Axis>,
+    /// Initial states per cell: all random, but the first one is [initial] where that is given.
+    pub samples: u64,
+    /// Most model time that naming one motion may take; 0 chooses the model's default.
+    pub budget: f64,
+}
+
+impl Default for ScanSettings {
+    fn default() -> Self {
+        Self { axes: Vec::new(), samples: 1, budget: 0.0 }
     }
 }
 
@@ -127,6 +149,7 @@ impl Study {
                 atol: info.tolerances.1,
                 ..RunSettings::default()
             },
+            scan: ScanSettings::default(),
             return_map: None,
             figure: FigureSettings { animation: true, ..FigureSettings::default() },
         }
@@ -155,6 +178,9 @@ impl Study {
         }
         if let Some(table) = top.table("run")? {
             read_run(&mut study.run, table)?;
+        }
+        if let Some(table) = top.table("scan")? {
+            study.scan = read_scan(&study, table)?;
         }
         if let Some(table) = top.table("return_map")? {
             let preset = study.return_map.take();
@@ -309,6 +335,23 @@ fn read_run(run: &mut RunSettings, mut table: Table<'_>) -> Result<(), Error> {
     table.finish()
 }
 
+fn read_scan(study: &Study, mut table: Table<'_>) -> Result<ScanSettings, Error> {
+    let (info, mut scan) = (study.info()?, study.scan.clone());
+    if let Some(value) = table.take("axes") {
+        let axis = |text: &String| {
+            let axis = Axis::parse(text)?;
+            motiform_models::parameters::index_of(info.parameters(), info.name, &axis.name)?;
+            Ok::<_, Error>(axis)
+        };
+        let axes = value.texts()?.iter().map(axis).collect::<Result<_, Error>>();
+        scan.axes = axes.map_err(|error| value.error(error))?;
+    }
+    table.whole("samples", &mut scan.samples)?;
+    table.number("budget", &mut scan.budget)?;
+    table.finish()?;
+    Ok(scan)
+}
+
 fn read_return_map(
     preset: Option<ReturnMapSettings>,
     mut table: Table<'_>,
@@ -365,6 +408,7 @@ pub fn schema() -> serde_json::Value {
             "model": { "type": "object", "additionalProperties": false, "properties": models },
             "initial": numbers(initial),
             "run": section::<RunSettings>(),
+            "scan": section::<ScanSettings>(),
             "return_map": section::<ReturnMapSettings>(),
             "figure": section::<FigureSettings>(),
         },

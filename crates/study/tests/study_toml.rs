@@ -46,6 +46,10 @@ fn complaints_have_a_place_and_a_remedy() {
         "[model.tensor]\n[run]\nseed = 1.5\n",
         "[model.tensor]\n[run]\nmax_steps = \"many\"\n",
         "[model.tensor]\n[return_map]\ncenter = true\n",
+        "[model.tensor]\n[scan]\naxes = [\"gamma=0:1:5\", \"kapa2=0:1:5\"]\n",
+        "[model.tensor]\n[scan]\naxes = \"gamma=0:1:5\"\n",
+        "[model.tensor]\n[scan]\naxes = [\"gamma=0:1:0\"]\n",
+        "[model.tensor]\n[scan]\nsample = 4\n",
         "[model.tensor]\n[figure]\nanimation = \"no\"\n",
         "[model.tensor]\n[figures]\nscale = 1\n",
         "run = 5\n[model.tensor]\n",
@@ -155,6 +159,7 @@ fn the_reader_accepts_every_key_of_the_schema() {
             "number" => "0.5",
             "integer" => "3",
             "boolean" => "true",
+            "array" if key == "scan.axes" => "[\"gamma=0:1:3\"]",
             "array" => "[\"gamma\"]",
             other => panic!("{key}: {other}"),
         };
@@ -181,13 +186,13 @@ fn keys_that_the_reader_knows(info: &ModelInfo) -> BTreeSet<String> {
         let list = complaint.lines().next().unwrap().rsplit_once(" are ").unwrap().1;
         list.split(", ").map(str::to_owned).collect()
     };
-    for table in ["run", "return_map", "figure"] {
+    for table in ["run", "scan", "return_map", "figure"] {
         let keys = listed(&complaint(&format!("[{model}]\n[{table}]\nzzz = 1\n")));
         known.extend(keys.iter().map(|key| format!("{table}.{key}")));
     }
     let initial = listed(&complaint(&format!("[{model}]\n[initial]\nzzz = 1\n")));
     known.extend(initial.iter().chain([&"random".to_owned()]).map(|key| format!("initial.{key}")));
-    let tables = ["model", "initial", "run", "return_map", "figure"];
+    let tables = ["model", "initial", "run", "scan", "return_map", "figure"];
     let top = listed(&complaint(&format!("zzz = 1\n[{model}]\n")));
     known.extend(top.into_iter().filter(|key| !tables.contains(&key.as_str())));
     known

@@ -3,7 +3,7 @@
 use crate::args::CheckOptions;
 use crate::output::{End, print};
 use motiform_study::plan::Control;
-use motiform_study::{Plan, Study, study};
+use motiform_study::{Plan, ScanPlan, Study, study};
 use std::fmt::Write;
 
 pub(crate) fn run(options: &CheckOptions) -> anyhow::Result<End> {
@@ -11,8 +11,19 @@ pub(crate) fn run(options: &CheckOptions) -> anyhow::Result<End> {
         print(&serde_json::to_string_pretty(&study::schema())?)?;
         return Ok(End::Done);
     };
-    let plan = Plan::new(&Study::read(path)?)?;
-    let text = if options.json { serde_json::to_string_pretty(&plan)? } else { summary(&plan)? };
+    let study = Study::read(path)?;
+    let plan = Plan::new(&study)?;
+    let scan = if study.scan.axes.is_empty() { None } else { Some(ScanPlan::new(&study)?) };
+    let text = match (options.json, &scan) {
+        (false, None) => summary(&plan)?,
+        (false, Some(scan)) => format!("{}\n{}", summary(&plan)?, of_scan(scan)),
+        (true, None) => serde_json::to_string_pretty(&plan)?,
+        (true, Some(scan)) => {
+            let mut json = serde_json::to_value(&plan)?;
+            json["scan"] = serde_json::to_value(&scan.computation)?;
+            serde_json::to_string_pretty(&json)?
+        }
+    };
     print(&text)?;
     Ok(End::Done)
 }
@@ -38,4 +49,16 @@ fn summary(plan: &Plan) -> anyhow::Result<String> {
     writeln!(text, "stepper     {}, {control}, at most {} steps", c.stepper, c.max_steps)?;
     write!(text, "plan        {}", plan.hash())?;
     Ok(text)
+}
+
+fn of_scan(plan: &ScanPlan) -> String {
+    let c = &plan.computation;
+    let axes: Vec<String> = c.axes.iter().map(ToString::to_string).collect();
+    let (cells, parts) = (plan.cells(), plan.parts());
+    format!(
+        "scan        {}: {cells} cells with {} initial states each, in {parts} parts\nscan plan   {}",
+        axes.join(" x "),
+        c.samples,
+        plan.hash()
+    )
 }

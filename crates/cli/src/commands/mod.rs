@@ -3,5 +3,8 @@
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod figure;
+pub(crate) mod merge;
 pub(crate) mod models;
+pub(crate) mod scan;
 pub(crate) mod simulate;
+pub(crate) mod subject;

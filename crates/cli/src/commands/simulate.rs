@@ -1,22 +1,21 @@
 //! `motiform simulate`.
 
 use crate::args::{SimulateOptions, TableFormat};
-use crate::commands::figure;
+use crate::commands::{figure, subject};
 use crate::output::{End, print, warn};
 use crate::progress::Watch;
-use motiform_models::ModelInfo;
 use motiform_study::files::{Format, Staging, write_dataset, write_table};
 use motiform_study::simulate::simulate;
-use motiform_study::{Dataset, Error, Plan, Study, presets};
+use motiform_study::{Dataset, Error, Plan, Study};
 use serde_json::json;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     let plan = Plan::new(&study(options)?)?;
     let target = Target::prepare(options, &plan)?;
     let c = &plan.computation;
-    let watch = Watch::new(c.transient + c.t_end);
+    let watch = Watch::new(c.transient + c.t_end, "model time");
     let dataset = simulate(&plan, &watch);
     watch.finish();
     let dataset = dataset?;
@@ -39,26 +38,7 @@ const COARSE: f64 = 1e-4;
 
 /// The study that the options describe: a file or a model, a preset, then what is set by hand.
 fn study(options: &SimulateOptions) -> Result<Study, Error> {
-    let subject = Path::new(&options.subject);
-    let mut study = if subject.extension().is_some_and(|extension| extension == "toml") {
-        if options.preset.is_some() {
-            return Err(Error::Setting {
-                key: "--preset",
-                value: options.preset.clone().unwrap_or_default(),
-                remedy: "a study file names its own preset: write preset = \"...\" in it",
-            });
-        }
-        Study::read(subject)?
-    } else {
-        let info = ModelInfo::find(&options.subject)?;
-        match &options.preset {
-            Some(name) => presets::find(info, name)?,
-            None => Study::of_model(info),
-        }
-    };
-    for (name, value) in &options.set {
-        study.set(name, *value)?;
-    }
+    let mut study = subject::study(&options.subject, options.preset.as_deref(), &options.set)?;
     for (name, value) in &options.initial {
         study.set_initial(name, *value)?;
     }

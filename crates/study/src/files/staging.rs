@@ -23,12 +23,23 @@ impl Staging {
     /// # Errors
     /// [`Error::Exists`] without `force`; [`Error::NotOurs`] for a folder that is no dataset; [`Error::Unwritable`].
     pub fn new(target: &Path, folder: bool, force: bool) -> Result<Self, Error> {
+        Self::prepare(target, folder, force, if folder { is_dataset } else { Path::is_file })
+    }
+
+    /// Prepares a folder at `target` that may replace, with `force`, one that is `ours`.
+    ///
+    /// # Errors
+    /// As [`Staging::new`].
+    pub fn replacing(target: &Path, force: bool, ours: fn(&Path) -> bool) -> Result<Self, Error> {
+        Self::prepare(target, true, force, ours)
+    }
+
+    fn prepare(target: &Path, folder: bool, force: bool, ours: fn(&Path) -> bool) -> Result<Self, Error> {
         if target.symlink_metadata().is_ok() {
             if !force {
                 return Err(Error::Exists { path: target.to_owned() });
             }
-            let ours = if folder { is_dataset(target) } else { target.is_file() };
-            if !ours {
+            if !ours(target) {
                 return Err(Error::NotOurs { path: target.to_owned() });
             }
         }

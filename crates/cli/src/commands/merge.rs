@@ -1,0 +1,27 @@
+//! `motiform merge`.
+
+use crate::args::MergeOptions;
+use crate::commands::scan::show;
+use crate::output::{End, warn};
+use motiform_study::scan::{ScanFolder, Totals, merge};
+
+pub(crate) fn run(options: &MergeOptions) -> anyhow::Result<End> {
+    let merged = merge(&options.folders, &options.out, options.force)?;
+    for damaged in &merged.damaged {
+        warn(&format!("{damaged}; it was left out"));
+    }
+    let folder = ScanFolder::read(&options.out)?;
+    let totals = Totals::of(&folder)?;
+    show(&folder, &totals, options.json)?;
+    if merged.missing > 0 {
+        let parts = folder.plan().parts();
+        warn(&format!(
+            "{} of {parts} parts ({} cells) are in none of these folders: `motiform scan` with --resume --out {} \
+             computes them",
+            merged.missing,
+            totals.missing,
+            options.out.display()
+        ));
+    }
+    Ok(if merged.missing > 0 || totals.undetermined > 0 { End::NotAsAsked } else { End::Done })
+}

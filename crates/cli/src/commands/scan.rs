@@ -1,0 +1,104 @@
+//! `motiform scan`.
+
+use crate::args::ScanOptions;
+use crate::commands::subject;
+use crate::output::{End, print, warn};
+use crate::progress::Watch;
+use motiform_study::scan::{Axis, Opening, Scan, ScanFolder, Classify, Shard, Totals, default_folder};
+use motiform_study::{Error, ScanPlan, Study};
+use serde_json::json;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
+    let plan = ScanPlan::new(&study(options)?)?;
+    let shard = options.shard.as_deref().map_or(Ok(Shard::WHOLE), Shard::parse)?;
+    let out = options.out.clone().unwrap_or_else(|| PathBuf::from(default_folder(&plan)));
+    let opening = match (options.resume, options.force) {
+        (true, _) => Opening::Resume,
+        (_, true) => Opening::Replace,
+        _ => Opening::New,
+    };
+    let scan = Scan::open(&out, &plan, shard, opening)?;
+    for damaged in scan.damaged() {
+        warn(&format!("{damaged}; its cells are computed again"));
+    }
+    let left = scan.cells_left();
+    let watch = Watch::new(left as f64, "cells");
+    let ended = scan.run(&Classify, threads(options), &watch);
+    watch.finish();
+    let ended = ended?;
+    let totals = Totals::of(scan.folder())?;
+    show(scan.folder(), &totals, options.json)?;
+    if !ended.complete {
+        let done = ended.cells;
+        warn(&format!(
+            "interrupted: {done} of {left} cells are done; the same `motiform scan` with --resume goes on"
+        ));
+        return Ok(End::Interrupted);
+    }
+    Ok(if totals.undetermined > 0 { End::NotAsAsked } else { End::Done })
+}
+
+/// The study that the options describe.
+fn study(options: &ScanOptions) -> Result<Study, Error> {
+    let mut study = subject::study(&options.subject, options.preset.as_deref(), &options.set)?;
+    let scan = &mut study.scan;
+    if !options.axes.is_empty() {
+        scan.axes = options.axes.iter().map(|text| Axis::parse(text)).collect::<Result<_, _>>()?;
+    }
+    scan.samples = options.samples.unwrap_or(scan.samples);
+    scan.budget = options.budget.unwrap_or(scan.budget);
+    study.run.seed = options.seed.unwrap_or(study.run.seed);
+    Ok(study)
+}
+
+fn threads(options: &ScanOptions) -> usize {
+    let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    options.threads.map_or_else(all, usize::from)
+}
+
+/// Prints what a folder holds.
+pub(crate) fn show(folder: &ScanFolder, totals: &Totals, as_json: bool) -> anyhow::Result<()> {
+    print(&if as_json { json(folder, totals)? } else { summary(folder, totals)? })
+}
+
+fn json(folder: &ScanFolder, totals: &Totals) -> anyhow::Result<String> {
+    let regimes: serde_json::Map<String, serde_json::Value> =
+        totals.regimes().map(|(regime, rows)| (regime.name().to_owned(), rows.into())).collect();
+    Ok(serde_json::to_string(&json!({
+        "plan_hash": folder.manifest().plan_hash,
+        "cells": folder.plan().cells(),
+        "rows": totals.rows,
+        "regimes": regimes,
+        "multistable": totals.multistable,
+        "undetermined": totals.undetermined,
+        "escaped": totals.escaped,
+        "missing": totals.missing,
+        "folder": folder.path(),
+    }))?)
+}
+
+fn summary(folder: &ScanFolder, totals: &Totals) -> anyhow::Result<String> {
+    let plan = folder.plan();
+    let mut text = format!("{} ({}, {})\n", plan.title, plan.computation.model, plan.name);
+    for axis in &plan.computation.axes {
+        writeln!(text, "axis      {axis}")?;
+    }
+    let (cells, samples) = (totals.cells, plan.computation.samples);
+    writeln!(text, "cells     {cells} of {}, {samples} initial states each", plan.cells())?;
+    for (regime, rows) in totals.regimes() {
+        let share = 100.0 * rows as f64 / totals.rows as f64;
+        writeln!(text, "          {:14} {rows} rows ({share:.1} %)", regime.name())?;
+    }
+    let special = [
+        (totals.multistable, "with more than one motion"),
+        (totals.undetermined, "undetermined"),
+        (totals.escaped, "with an escape"),
+    ];
+    for (count, what) in special.into_iter().filter(|entry| entry.0 > 0) {
+        writeln!(text, "          {count} cells {what}")?;
+    }
+    write!(text, "folder    {}", folder.path().display())?;
+    Ok(text)
+}

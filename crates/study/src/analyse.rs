@@ -1,0 +1,106 @@
+//! A plan, and a question about its motion: which one is it, and do neighbours part?
+
+use crate::simulate::Monitor;
+use crate::{Error, Plan};
+use motiform_analysis::regime::{Settings, Verdict};
+use motiform_analysis::{Lyapunov, LyapunovSettings};
+use motiform_dynamics::{Model, Sink};
+use std::ops::ControlFlow;
+
+/// Names the motion that starts from the plan's initial state, spending at most `budget` model time (the model's
+/// default, if 0); `None` if the monitor asked to stop. The plan's transient and recording do not matter.
+///
+/// # Errors
+/// Input that only the numerics can refuse.
+pub fn classify(plan: &Plan, budget: f64, monitor: &dyn Monitor) -> Result<Option<Verdict>, Error> {
+    let (model, shape) = start(plan)?;
+    let settings = settings(plan, budget)?;
+    Ok(motiform_analysis::classify(model.as_ref(), &shape, &settings, &mut Stop::new(monitor))?)
+}
+
+/// The classifier's settings for a plan.
+///
+/// # Errors
+/// A budget below 0, an unknown model or stepper.
+pub fn settings(plan: &Plan, budget: f64) -> Result<Settings, Error> {
+    let (info, c) = (plan.info()?, &plan.computation);
+    if budget < 0.0 {
+        return Err(Error::Setting {
+            key: "budget",
+            value: format!("{budget:?}"),
+            remedy: "give a model time above 0, or 0 for the model's default",
+        });
+    }
+    Ok(Settings {
+        method: plan.method()?,
+        control: c.control.into(),
+        first_look: info.look,
+        budget: if budget > 0.0 { budget } else { info.budget },
+        escape_norm: c.escape_norm,
+        max_steps: c.max_steps,
+    })
+}
+
+/// The `count` largest Lyapunov exponents of the plan's motion, averaged over `t_end` after `transient` (0 and below: four
+/// looks of the model, and twenty).
+///
+/// # Errors
+/// A count the model does not have; input that only the numerics can refuse.
+pub fn lyapunov(
+    plan: &Plan,
+    count: usize,
+    (transient, t_end): (Option<f64>, Option<f64>),
+    monitor: &dyn Monitor,
+) -> Result<Lyapunov, Error> {
+    let (model, shape) = start(plan)?;
+    if count == 0 || count > shape.len() {
+        return Err(Error::Count { count, dim: shape.len() });
+    }
+    let (info, c) = (plan.info()?, &plan.computation);
+    let settings = LyapunovSettings {
+        count,
+        method: plan.method()?,
+        control: c.control.into(),
+        transient: transient.unwrap_or(4.0 * info.look),
+        span: t_end.unwrap_or(20.0 * info.look),
+        escape_norm: c.escape_norm,
+        max_steps: c.max_steps,
+    };
+    let mut stop = Stop { total: settings.transient + settings.span, ..Stop::new(monitor) };
+    Ok(motiform_analysis::lyapunov(model.as_ref(), &shape, &settings, &mut stop)?)
+}
+
+/// The model of a plan, and its initial shape.
+fn start(plan: &Plan) -> Result<(Box<dyn Model>, Vec<f64>), Error> {
+    let model = plan.info()?.build(&plan.computation.parameters.values())?;
+    let mut shape = vec![0.0; model.dim()];
+    model.encode(&plan.computation.initial.values()[..model.dim()], &mut shape);
+    Ok((model, shape))
+}
+
+/// Listens for the stop, and tells the monitor how far a run of known length is.
+pub(crate) struct Stop<'m> {
+    monitor: &'m dyn Monitor,
+    ticks: u32,
+    /// Length of the run; 0 where it is not known.
+    total: f64,
+}
+
+impl<'m> Stop<'m> {
+    pub(crate) fn new(monitor: &'m dyn Monitor) -> Self {
+        Self { monitor, ticks: 0, total: 0.0 }
+    }
+}
+
+impl Sink for Stop<'_> {
+    fn tick(&mut self, t: f64) -> ControlFlow<()> {
+        self.ticks = self.ticks.wrapping_add(1);
+        if !self.ticks.is_multiple_of(64) {
+            return ControlFlow::Continue(());
+        }
+        if self.total > 0.0 {
+            self.monitor.progress(t / self.total);
+        }
+        if self.monitor.stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}

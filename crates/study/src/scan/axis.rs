@@ -1,0 +1,174 @@
+//! An axis of a scan: a parameter and the values it takes.
+
+use crate::Error;
+use serde::{Deserialize, Serialize};
+
+/// Most values of one axis.
+const MOST_VALUES: usize = 100_000;
+
+/// A parameter that a scan varies, with its values in the order of the cells.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Axis {
+    /// The parameter.
+    pub name: String,
+    /// Its values, at least one, all different and finite.
+    pub values: Vec<f64>,
+}
+
+impl Axis {
+    /// Reads `NAME=LOW:HIGH:COUNT` (COUNT values, evenly spaced, both ends included; COUNT = 1 gives LOW) or
+    /// `NAME=v1,v2,v3`.
+    ///
+    /// # Errors
+    /// [`Error::Axis`] with the remedy.
+    pub fn parse(text: &str) -> Result<Self, Error> {
+        let wrong = |problem: String| Error::Axis { text: text.to_owned(), problem };
+        let form = "write NAME=LOW:HIGH:COUNT, e.g. kappa2=0.1:1.6:64, or NAME=v1,v2,v3";
+        let (name, rest) = text.split_once('=').ok_or_else(|| wrong(form.to_owned()))?;
+        let (name, rest) = (name.trim(), rest.trim());
+        if name.is_empty() || rest.is_empty() {
+            return Err(wrong(form.to_owned()));
+        }
+        let values = if rest.contains(':') { range(rest, form) } else { listed(rest) }.map_err(wrong)?;
+        let axis = Self { name: name.to_owned(), values };
+        axis.check()?;
+        Ok(axis)
+    }
+
+    /// Refuses an axis without values, with too many, or with one that is not finite or stands there twice.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let wrong = |problem: String| Error::Axis { text: self.name.clone(), problem };
+        if self.values.is_empty() {
+            return Err(wrong("it has no points: give at least one value".to_owned()));
+        }
+        if self.values.len() > MOST_VALUES {
+            return Err(wrong(format!(
+                "{} points are too many: give at most {MOST_VALUES}",
+                self.values.len()
+            )));
+        }
+        if let Some(value) = self.values.iter().find(|value| !value.is_finite()) {
+            return Err(wrong(format!("{value} is not finite: give finite numbers")));
+        }
+        let mut sorted = self.values.clone();
+        sorted.sort_by(f64::total_cmp);
+        match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
+            Some(twice) => {
+                Err(wrong(format!("the value {} stands there twice: give different ones", twice[0])))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// What people read: `kappa2 = 0.1 to 1.6 (64 values)`, or the values where they are few.
+impl std::fmt::Display for Axis {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.values.as_slice() {
+            few if few.len() <= 5 => {
+                let values: Vec<String> = few.iter().map(f64::to_string).collect();
+                write!(f, "{} = {}", self.name, values.join(", "))
+            }
+            [first, .., last] => {
+                write!(f, "{} = {first} to {last} ({} values)", self.name, self.values.len())
+            }
+            _ => f.write_str(&self.name),
+        }
+    }
+}
+
+/// The values of `LOW:HIGH:COUNT`.
+fn range(text: &str, form: &str) -> Result<Vec<f64>, String> {
+    let fields: Vec<&str> = text.split(':').map(str::trim).collect();
+    let [low, high, count] = fields[..] else { return Err(form.to_owned()) };
+    let (low, high) = (number(low)?, number(high)?);
+    let count: usize = count
+        .parse()
+        .map_err(|_| format!("COUNT = {count:?} is no whole number: give the number of points, e.g. 64"))?;
+    if count > MOST_VALUES {
+        return Err(format!("COUNT = {count} is too many: give at most {MOST_VALUES}"));
+    }
+    if count == 0 {
+        return Err("COUNT = 0 leaves no points: give at least 1".to_owned());
+    }
+    if count > 1 && low == high {
+        return Err(format!("LOW and HIGH are both {low}: give different ones, or COUNT = 1"));
+    }
+    let last = count - 1;
+    // Weights of the two ends: exact at both, and no overflow between them.
+    let value = |i: usize| match i {
+        0 => low,
+        i if i == last => high,
+        i => {
+            let part = i as f64 / last as f64;
+            low * (1.0 - part) + high * part
+        }
+    };
+    Ok((0..count).map(value).collect())
+}
+
+/// The values of `v1,v2,v3`.
+fn listed(text: &str) -> Result<Vec<f64>, String> {
+    text.split(',').map(|value| number(value.trim())).collect()
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| format!("{text:?} is no number: write it like 0.5 or 1e-9"))?;
+    if value.is_finite() { Ok(value) } else { Err(format!("{text} is not finite: give a finite number")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn values(text: &str) -> Vec<f64> {
+        Axis::parse(text).unwrap().values
+    }
+
+    #[test]
+    fn ranges_hold_both_ends_and_lists_their_order() {
+        assert_eq!(
+            values("kappa2=0.1:1.6:4"),
+            [0.1, 0.1 * (2.0 / 3.0) + 1.6 / 3.0, values("a=0.1:1.6:4")[2], 1.6]
+        );
+        assert_eq!(values("kappa2 = 0 : 1 : 5"), [0.0, 0.25, 0.5, 0.75, 1.0]);
+        assert_eq!(values("kappa2=2:1:3"), [2.0, 1.5, 1.0]);
+        assert_eq!(values("kappa2=0.3:9:1"), [0.3]);
+        assert_eq!(values("kappa2=0.3,-1, 2e-3"), [0.3, -1.0, 2e-3]);
+        assert_eq!(values("kappa2=0.3"), [0.3]);
+        assert!(values("kappa2=-1.7e308:1.7e308:9").iter().all(|value| value.is_finite()));
+    }
+
+    #[test]
+    fn what_is_no_axis_is_refused() {
+        for bad in [
+            "",
+            "kappa2",
+            "=1:2:3",
+            "kappa2=",
+            "kappa2=1:2",
+            "kappa2=1:2:3:4",
+            "kappa2=1:2:0",
+            "kappa2=1:2:-1",
+            "kappa2=1:2:1.5",
+            "kappa2=a:2:3",
+            "kappa2=1:inf:3",
+            "kappa2=1,,2",
+            "kappa2=1,nan",
+            "kappa2=1,2,1",
+            "kappa2=1:1:2",
+            "kappa2=1:2:100001",
+            "kappa2=0,-0",
+        ] {
+            assert!(Axis::parse(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn the_error_in_a_value_is_one_rounding() {
+        for (i, value) in values("kappa2=0.1:1.6:64").into_iter().enumerate() {
+            let exact = 0.1 + 1.5 * i as f64 / 63.0;
+            assert!((value - exact).abs() <= 4.0 * f64::EPSILON * exact, "{i}"); // three operations each
+        }
+    }
+}

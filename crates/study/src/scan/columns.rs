@@ -1,0 +1,131 @@
+//! Typed columns as the bytes of one Parquet file, and back: whole numbers, numbers (null where undefined), texts.
+
+use parquet::basic::{Compression, LogicalType, Repetition, Type as PhysicalType, ZstdLevel};
+use parquet::column::reader::ColumnReader;
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::errors::{ParquetError, Result};
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::schema::types::Type;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A column of a part.
+pub(super) struct Column {
+    name: String,
+    meaning: &'static str,
+    pub(super) values: Values,
+}
+
+/// The values of a column.
+pub(super) enum Values {
+    Whole(Vec<i64>),
+    /// NaN is written as null.
+    Number(Vec<f64>),
+    Text(Vec<String>),
+}
+
+impl Column {
+    pub(super) fn new(name: &str, meaning: &'static str, values: Values) -> Self {
+        Self { name: name.to_owned(), meaning, values }
+    }
+
+    fn schema(&self) -> Result<Arc<Type>> {
+        let (physical, repetition, logical) = match self.values {
+            Values::Whole(_) => (PhysicalType::INT64, Repetition::REQUIRED, None),
+            Values::Number(_) => (PhysicalType::DOUBLE, Repetition::OPTIONAL, None),
+            Values::Text(_) => (PhysicalType::BYTE_ARRAY, Repetition::REQUIRED, Some(LogicalType::String)),
+        };
+        let field = Type::primitive_type_builder(&self.name, physical).with_repetition(repetition);
+        field.with_logical_type(logical).build().map(Arc::new)
+    }
+
+    fn write(&self, group: &mut SerializedRowGroupWriter<'_, Vec<u8>>) -> Result<()> {
+        let Some(mut out) = group.next_column()? else { return Ok(()) };
+        match &self.values {
+            Values::Whole(values) => out.typed::<Int64Type>().write_batch(values, None, None)?,
+            Values::Number(values) => {
+                let levels: Vec<i16> = values.iter().map(|value| i16::from(!value.is_nan())).collect();
+                let defined: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
+                out.typed::<DoubleType>().write_batch(&defined, Some(&levels), None)?
+            }
+            Values::Text(values) => {
+                let texts: Vec<ByteArray> =
+                    values.iter().map(|text| ByteArray::from(text.as_str())).collect();
+                out.typed::<ByteArrayType>().write_batch(&texts, None, None)?
+            }
+        };
+        out.close()
+    }
+}
+
+/// The file, with these entries in its metadata. The same columns give the same bytes.
+pub(super) fn encode(columns: &[Column], mut metadata: Vec<(&str, String)>) -> Result<Vec<u8>> {
+    let fields = columns.iter().map(Column::schema).collect::<Result<Vec<_>>>()?;
+    let schema = Type::group_type_builder("schema").with_fields(fields).build()?;
+    let meanings: serde_json::Map<String, serde_json::Value> =
+        columns.iter().map(|column| (column.name.clone(), column.meaning.into())).collect();
+    metadata.push(("motiform.columns", serde_json::Value::Object(meanings).to_string()));
+    let entry = |(key, value): (&str, String)| KeyValue::new(key.to_owned(), value);
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
+        .set_dictionary_enabled(false)
+        .set_created_by("motiform".to_owned()) // the manifest knows the version
+        .set_key_value_metadata(Some(metadata.into_iter().map(entry).collect()))
+        .build();
+    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
+    let mut group = writer.next_row_group()?;
+    for column in columns {
+        column.write(&mut group)?;
+    }
+    group.close()?;
+    writer.into_inner()
+}
+
+/// The metadata entries of a file.
+pub(super) fn metadata(path: &Path) -> Result<Vec<(String, String)>> {
+    let reader = SerializedFileReader::new(std::fs::File::open(path)?)?;
+    let entries = reader.metadata().file_metadata().key_value_metadata().cloned().unwrap_or_default();
+    Ok(entries.into_iter().filter_map(|entry| Some((entry.key, entry.value?))).collect())
+}
+
+/// The columns of a file; meanings are not read back.
+pub(super) fn decode(path: &Path) -> Result<Vec<Column>> {
+    let reader = SerializedFileReader::new(std::fs::File::open(path)?)?;
+    if reader.num_row_groups() != 1 {
+        return Err(ParquetError::General("a part has one row group".to_owned()));
+    }
+    let group = reader.get_row_group(0)?;
+    let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
+    let read = |(place, field): (usize, &Arc<parquet::schema::types::ColumnDescriptor>)| {
+        Ok(Column::new(field.name(), "", read_values(group.get_column_reader(place)?, rows)?))
+    };
+    reader.metadata().file_metadata().schema_descr().columns().iter().enumerate().map(read).collect()
+}
+
+fn read_values(reader: ColumnReader, rows: usize) -> Result<Values> {
+    let (values, read) = match reader {
+        ColumnReader::Int64ColumnReader(mut input) => {
+            let mut values = Vec::with_capacity(rows);
+            let read = input.read_records(rows, None, None, &mut values)?.0;
+            (Values::Whole(values), read)
+        }
+        ColumnReader::DoubleColumnReader(mut input) => {
+            let (mut levels, mut values) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
+            let read = input.read_records(rows, Some(&mut levels), None, &mut values)?.0;
+            let mut defined = values.into_iter();
+            let fill = |&level: &i16| if level == 0 { f64::NAN } else { defined.next().unwrap_or(f64::NAN) };
+            (Values::Number(levels.iter().map(fill).collect()), read)
+        }
+        ColumnReader::ByteArrayColumnReader(mut input) => {
+            let mut values: Vec<ByteArray> = Vec::with_capacity(rows);
+            let read = input.read_records(rows, None, None, &mut values)?.0;
+            let text = |bytes: &ByteArray| bytes.as_utf8().map(str::to_owned);
+            (Values::Text(values.iter().map(text).collect::<Result<_>>()?), read)
+        }
+        _ => return Err(ParquetError::General("a column has an unexpected type".to_owned())),
+    };
+    if read == rows { Ok(values) } else { Err(ParquetError::General("a column is too short".to_owned())) }
+}

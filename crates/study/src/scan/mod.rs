@@ -1,0 +1,32 @@
+//! Scans: a model over one or two axes of parameters, several initial states per cell, each evaluated to a verdict.
+//!
+//! [`ScanPlan`] -> [`Scan`] (a folder being computed) -> [`ScanFolder`] (read) -> [`Totals`], [`CellSummary`].
+//!
+//! A scan is a list of *rows*, one per cell and initial state. Everything about a row follows from the plan and its
+//! number alone, so threads, shards, kills and resumes change no bit. Rows are stored in *parts*: whole files, fixed by
+//! the plan, each carrying the hash of the plan and a digest of its own bytes.
+
+mod axis;
+mod columns;
+mod evaluate;
+mod folder;
+mod merge;
+mod part;
+mod plan;
+mod queue;
+mod rows;
+mod run;
+mod shard;
+mod start;
+mod summary;
+
+pub use axis::Axis;
+pub use evaluate::{Evaluate, Classify};
+pub use folder::{ScanFolder, ScanManifest, default_folder};
+pub use merge::{Merged, merge};
+pub use part::{PartError, Parts, read_part};
+pub use plan::{ScanComputation, ScanPlan};
+pub use rows::{NUMBERS, Row};
+pub use run::{Ended, Opening, Scan};
+pub use shard::Shard;
+pub use summary::{CellSummary, Motion, Totals, cells, for_each_part};

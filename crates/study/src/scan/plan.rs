@@ -1,0 +1,240 @@
+//! A plan of a scan: every number that its rows depend on, and nothing else.
+
+use super::Axis;
+use crate::plan::{Control, Named, check, check_stability, control, sha256_hex, stepper};
+use crate::{Error, Study};
+use motiform_dynamics::steppers::Method;
+use motiform_models::{ModelInfo, parameters};
+use serde::{Deserialize, Serialize};
+
+/// Version of the meaning of a scan's plan; part of the hash.
+pub(super) const SCAN_FORMAT: u32 = 1;
+
+/// Most cells of a scan, and most initial states per cell.
+const MOST: (usize, u64) = (100_000_000, 100_000);
+
+/// Most cells and rows of a part: a kill loses little, and memory is bounded. About 256 parts if there are fewer cells.
+const PART: (usize, usize, usize) = (64, 4096, 256);
+
+/// What will be computed, and how it is called.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ScanPlan {
+    /// Short name of the study.
+    pub name: String,
+    /// Title of the figures.
+    pub title: String,
+    /// What is computed: the hash covers this.
+    pub computation: ScanComputation,
+}
+
+/// Everything that the rows depend on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ScanComputation {
+    /// [`SCAN_FORMAT`].
+    pub format: u32,
+    /// The model.
+    pub model: String,
+    /// The parameters that no axis varies, in registry order.
+    pub parameters: Named,
+    /// One or two axes; the first runs fastest.
+    pub axes: Vec<Axis>,
+    /// Initial states per cell.
+    pub samples: usize,
+    /// Seed of the random starts.
+    pub seed: u64,
+    /// Size of the random starts.
+    pub random: f64,
+    /// The start of sample 0 where given (values not named are 0); empty if that one is random too.
+    pub initial: Named,
+    /// Stepper.
+    pub stepper: String,
+    /// Step control.
+    pub control: Control,
+    /// Most steps of one run.
+    pub max_steps: u64,
+    /// A shape beyond this norm has escaped.
+    pub escape_norm: f64,
+    /// Most model time that one evaluation may take; 0 is the evaluation's default.
+    pub budget: f64,
+}
+
+impl ScanPlan {
+    /// Makes the scan of a study explicit and checks every number.
+    ///
+    /// # Errors
+    /// [`Error`] naming the key, the value and the remedy; what a model refuses at the values of an axis.
+    pub fn new(study: &Study) -> Result<Self, Error> {
+        let info = study.info()?;
+        let method = stepper(&study.run.stepper)?;
+        let (run, scan) = (&study.run, &study.scan);
+        check_settings(study)?;
+        check_axes(study, info)?;
+        let free = |name: &str| scan.axes.iter().any(|axis| axis.name == name);
+        let names = info.parameters().iter().map(|spec| spec.name.to_owned());
+        let fixed = names.zip(study.values()?).filter(|(name, _)| !free(name)).collect();
+        // Nothing that a row tells depends on the position.
+        let shape = |entry: &&(String, f64)| !["x", "y"].contains(&entry.0.as_str());
+        let mut initial: Vec<_> = study.initial.iter().filter(shape).cloned().collect();
+        initial.sort_by(|a, b| a.0.cmp(&b.0)); // the order of typing changes no number
+        let computation = ScanComputation {
+            format: SCAN_FORMAT,
+            model: info.name.to_owned(),
+            parameters: Named(fixed),
+            axes: scan.axes.clone(),
+            samples: usize::try_from(scan.samples).unwrap_or(usize::MAX),
+            seed: run.seed,
+            random: study.random,
+            initial: Named(initial),
+            stepper: method.name().to_owned(),
+            control: control(study, method)?,
+            max_steps: run.max_steps,
+            escape_norm: run.escape_norm,
+            budget: scan.budget,
+        };
+        let title = if study.title.is_empty() { info.name.to_owned() } else { study.title.clone() };
+        let plan = Self { name: study.name.clone(), title, computation };
+        plan.check_cells()?;
+        Ok(plan)
+    }
+
+    /// Builds the model and its start at every value of each axis (the other axis at its ends): what one of them
+    /// refuses is said before anything is computed.
+    fn check_cells(&self) -> Result<(), Error> {
+        let axes = &self.computation.axes;
+        let first = axes.first().map_or(1, |axis| axis.values.len());
+        let second = self.cells() / first;
+        let edges = (0..first).flat_map(|i| [i, i + first * (second - 1)]);
+        let sides = (0..second).flat_map(|j| [j * first, j * first + first - 1]);
+        for cell in edges.chain(sides) {
+            let model = self.model_of(cell)?;
+            check_stability(model.as_ref(), self.method()?, self.computation.control)?;
+            self.start(cell, 0, model.as_ref())?;
+        }
+        Ok(())
+    }
+
+    /// SHA-256 of the computation as compact JSON, in hexadecimal: equal hashes mean equal numbers.
+    #[must_use]
+    pub fn hash(&self) -> String {
+        sha256_hex(&serde_json::to_vec(&self.computation).unwrap_or_default())
+    }
+
+    /// Number of cells.
+    #[must_use]
+    pub fn cells(&self) -> usize {
+        self.computation.axes.iter().map(|axis| axis.values.len()).product()
+    }
+
+    /// Number of rows: cells times samples.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.cells() * self.computation.samples
+    }
+
+    /// Cells of a part (the last one may have fewer). The plan alone decides it.
+    #[must_use]
+    pub fn cells_per_part(&self) -> usize {
+        let (cells, rows, parts) = PART;
+        self.cells().div_ceil(parts).min(cells).min(rows / self.computation.samples).max(1)
+    }
+
+    /// Number of parts.
+    #[must_use]
+    pub fn parts(&self) -> usize {
+        self.cells().div_ceil(self.cells_per_part())
+    }
+
+    /// The cells of a part.
+    #[must_use]
+    pub fn cells_of(&self, part: usize) -> std::ops::Range<usize> {
+        let first = part * self.cells_per_part();
+        first..(first + self.cells_per_part()).min(self.cells())
+    }
+
+    /// The values of the axes in a cell: `cell = i1 + n1 i2`.
+    #[must_use]
+    pub fn axis_values(&self, cell: usize) -> Vec<f64> {
+        let mut rest = cell;
+        let value = |axis: &Axis| {
+            let value = axis.values[rest % axis.values.len()];
+            rest /= axis.values.len();
+            value
+        };
+        self.computation.axes.iter().map(value).collect()
+    }
+
+    /// All parameters in a cell, in registry order.
+    ///
+    /// # Errors
+    /// An unknown model.
+    pub fn parameters_of(&self, cell: usize) -> Result<Vec<f64>, Error> {
+        let (axes, values) = (&self.computation.axes, self.axis_values(cell));
+        let free = |name: &str| axes.iter().position(|axis| axis.name == name).map(|place| values[place]);
+        let value = |spec: &parameters::ParameterSpec| {
+            free(spec.name).or_else(|| self.computation.parameters.get(spec.name)).unwrap_or(spec.default)
+        };
+        Ok(self.info()?.parameters().iter().map(value).collect())
+    }
+
+    /// The registry entry of its model.
+    ///
+    /// # Errors
+    /// An unknown model (a plan read from a newer program's file, say).
+    pub fn info(&self) -> Result<&'static ModelInfo, Error> {
+        Ok(ModelInfo::find(&self.computation.model)?)
+    }
+
+    /// Its stepper.
+    ///
+    /// # Errors
+    /// An unknown stepper.
+    pub fn method(&self) -> Result<Method, Error> {
+        stepper(&self.computation.stepper)
+    }
+}
+
+/// The numbers that a scan uses beside its axes.
+fn check_settings(study: &Study) -> Result<(), Error> {
+    let (run, scan) = (&study.run, &study.scan);
+    check("escape_norm", run.escape_norm, run.escape_norm > 0.0, "give a number above 0")?;
+    check("random", study.random, study.random >= 0.0, "give a size of at least 0")?;
+    check("budget", scan.budget, scan.budget >= 0.0, "give a model time above 0, or 0 for the default")?;
+    let counts = [("samples", scan.samples, MOST.1), ("max_steps", run.max_steps, u64::MAX)];
+    for (key, value, most) in counts {
+        if !(1..=most).contains(&value) {
+            let remedy = if value == 0 { "give at least 1" } else { "give at most 100000" };
+            return Err(Error::Setting { key, value: value.to_string(), remedy });
+        }
+    }
+    for (_, value) in &study.initial {
+        check("initial", *value, true, "give finite numbers")?;
+    }
+    Ok(())
+}
+
+/// One or two different axes with known names and not too many cells.
+fn check_axes(study: &Study, info: &'static ModelInfo) -> Result<(), Error> {
+    let axes = &study.scan.axes;
+    let wrong = |text: String, problem: &str| Error::Axis { text, problem: problem.to_owned() };
+    let free = if study.free.is_empty() { String::new() } else { format!(" ({})", study.free.join(", ")) };
+    match axes.len() {
+        0 => return Err(Error::NoAxis { free }),
+        1 | 2 => {}
+        n => return Err(wrong(axes[n - 1].name.clone(), "a scan has one or two axes: leave one out")),
+    }
+    for axis in axes {
+        parameters::index_of(info.parameters(), info.name, &axis.name)?;
+        axis.check()?;
+    }
+    if axes.len() == 2 && axes[0].name == axes[1].name {
+        return Err(wrong(axes[1].name.clone(), "both axes vary it: give two different parameters"));
+    }
+    let cells: usize = axes.iter().map(|axis| axis.values.len()).product();
+    if cells > MOST.0 {
+        return Err(wrong(
+            axes[0].name.clone(),
+            &format!("{cells} cells are too many: give fewer points, at most {} in all", MOST.0),
+        ));
+    }
+    Ok(())
+}

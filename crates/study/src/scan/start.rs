@@ -1,0 +1,43 @@
+//! The model and the start of one row: functions of the plan and the row's place alone.
+
+use super::ScanPlan;
+use crate::Error;
+use crate::initial::Uniform;
+use crate::plan::check_closed;
+use motiform_dynamics::Model;
+
+impl ScanPlan {
+    /// The model of a cell.
+    ///
+    /// # Errors
+    /// What the model refuses of its parameters.
+    pub fn model_of(&self, cell: usize) -> Result<Box<dyn Model>, Error> {
+        Ok(self.info()?.build(&self.parameters_of(cell)?)?)
+    }
+
+    /// The initial shape of a row, as `model` computes with it: the given values for sample 0, if any are; else each
+    /// coordinate uniform in `-random..random` from the generator's stream `cell * samples + sample + 1` (stream 0 is
+    /// that of a single run).
+    ///
+    /// # Errors
+    /// [`Error::NotClosed`] for given values that are no body; a given name that the model does not have here.
+    pub fn start(&self, cell: usize, sample: usize, model: &dyn Model) -> Result<Vec<f64>, Error> {
+        let c = &self.computation;
+        let mut shape = vec![0.0; model.dim()];
+        if sample == 0 && !c.initial.is_empty() {
+            let parameters = self.parameters_of(cell)?;
+            let mut named = vec![0.0; model.coordinates().len()];
+            for (name, value) in &c.initial.0 {
+                named[self.info()?.coordinate(&parameters, name)?] = *value;
+            }
+            model.encode(&named, &mut shape);
+            check_closed(model, &shape)?;
+        } else {
+            let stream = cell as u64 * c.samples as u64 + sample as u64 + 1;
+            let mut random = Uniform::new(c.seed, stream);
+            let named: Vec<f64> = model.coordinates().iter().map(|_| c.random * random.next()).collect();
+            model.encode(&named, &mut shape);
+        }
+        Ok(shape)
+    }
+}
