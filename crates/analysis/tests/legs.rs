@@ -1,6 +1,7 @@
 //! Corners, legs and turns of paths that are known in closed form.
 
 use motiform_analysis::{CornerKind, Ends, Error, Legs, PathSample, legs};
+use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 const OPEN: Ends = Ends::Open;
@@ -63,7 +64,7 @@ fn a_square_with_stops_turns_by_right_angles() {
 
 #[test]
 fn one_side_of_a_square_is_a_period_with_net_rotation() {
-    for cut in [0.0, 0.25, 0.5] {
+    for cut in [0.0, 0.003, 0.25, 0.5, 0.997] {
         // wherever the period is cut, at the stop as well
         let side = path(1.0, 200, |t| square(t + cut));
         let seen = legs(&side, Ends::Periodic { rotation: FRAC_PI_2 }).expect("legs");
@@ -71,7 +72,8 @@ fn one_side_of_a_square_is_a_period_with_net_rotation() {
         all_near(&seen.heading_turns, &[FRAC_PI_2], 1e-6);
         assert_eq!((seen.corners.len(), seen.legs.len()), (1, 1), "{seen:?}");
         assert!((seen.legs[0].length - 0.5).abs() < 1e-6);
-        assert!((seen.corners[0] - (1.0 - cut).fract()).abs() < 1e-3, "{cut}: {:?}", seen.corners);
+        let off = (seen.corners[0] + cut).fract(); // from a whole time
+        assert!(off.min(1.0 - off) < 6e-3, "{cut}: {:?}", seen.corners);
     }
 }
 
@@ -197,4 +199,34 @@ fn bad_input_is_refused() {
         [speed * angle.cos(), speed * angle.sin()]
     });
     assert!(matches!(legs(&loops, OPEN), Err(Error::ClosedLeg { .. })));
+}
+
+proptest! {
+    /// Whatever the samples are, rests and jumps included: numbers, angles in (-pi, pi], lists that belong together.
+    #[test]
+    fn any_path_has_finite_angles_or_an_error(
+        values in prop::collection::vec((0..4_u8, -1.0..1.0f64, -1.0..1.0f64, -5.0..5.0f64, -5.0..5.0f64), 8..60),
+        rotation in prop::option::of(-4.0..4.0f64),
+    ) {
+        let sample = |(j, &(kind, vx, vy, x, y)): (usize, &(u8, f64, f64, f64, f64))| {
+            let scale = [0.0, 1e-9, 1.0, 1.0][usize::from(kind)];
+            PathSample { t: j as f64, x, y, vx: scale * vx, vy: scale * vy }
+        };
+        let path: Vec<PathSample> = values.iter().enumerate().map(sample).collect();
+        let ends = rotation.map_or(OPEN, |rotation| Ends::Periodic { rotation });
+        if let Ok(seen) = legs(&path, ends) {
+            prop_assert!(seen.swing.is_finite() && seen.swing >= 0.0);
+            if rotation.is_none() {
+                prop_assert_eq!(seen.legs.len(), seen.corners.len().saturating_sub(1));
+                prop_assert_eq!(seen.turns.len(), seen.legs.len().saturating_sub(1));
+            } else {
+                // as many of each, where the samples are fine enough for the sense of every turn to be known
+                prop_assert!(seen.turns.len() <= seen.legs.len() && seen.legs.len() <= seen.corners.len());
+            }
+            prop_assert!(seen.corners.windows(2).all(|pair| pair[0] <= pair[1]));
+            for angle in seen.turns.iter().chain(&seen.heading_turns) {
+                prop_assert!((-PI..=PI).contains(angle));
+            }
+        }
+    }
 }

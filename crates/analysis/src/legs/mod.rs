@@ -8,8 +8,9 @@ use corners::{REST, bends, headings, stops, top_speed};
 pub use path::{Ends, PathSample};
 use path::{check, continued, place, wrapped};
 
-/// Periods that are looked at for one: corners are taken from the second, so that those beside them are there.
-const COPIES: usize = 4;
+/// Periods that are looked at for one. Its corners are those of the second; a single corner needs its leg to the third and
+/// that one's leg to the fourth, and a stop at the end of the fourth is known to be one only when the body moves again.
+const COPIES: usize = 5;
 
 /// What makes the corners of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

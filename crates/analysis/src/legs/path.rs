@@ -91,7 +91,7 @@ pub(super) fn check(path: &[PathSample], ends: Ends) -> Result<()> {
     let times: Vec<f64> = path.iter().map(|sample| sample.t).collect();
     checks::growing(&times)?;
     for (index, sample) in path.iter().enumerate() {
-        let values = [sample.x, sample.y, sample.vx, sample.vy];
+        let values = [sample.x, sample.y, sample.vx, sample.vy, sample.speed()];
         if let Some(value) = values.into_iter().find(|x| !x.is_finite()) {
             return Err(Error::NotFinite { index, value });
         }
