@@ -33,6 +33,12 @@ pub(crate) enum Command {
     /// Put folders with shards of one scan together
     #[command(after_help = "Example: motiform merge shard1 shard2 shard3 --out whole")]
     Merge(MergeOptions),
+    /// Name a motion: the regime, the evidence for it, and how sure it is
+    #[command(after_help = CLASSIFY_HELP)]
+    Classify(Box<ClassifyOptions>),
+    /// Lyapunov exponents with errors: do neighbouring motions part?
+    #[command(after_help = LYAPUNOV_HELP)]
+    Lyapunov(Box<LyapunovOptions>),
     /// Check a study file and print the plan it stands for, without computing
     Check(CheckOptions),
     /// Draw the figures of datasets again, without computing
@@ -70,6 +76,30 @@ The output folder holds
   part-*.parquet       one row per cell and initial state; pandas.read_parquet(DIR) reads them all
 A scan that was interrupted or killed goes on with --resume. The numbers are the same for any number of threads, any
 shards and any interruption. Exit code 1: some cells are undetermined.";
+
+const CLASSIFY_HELP: &str = "\
+Examples:
+  motiform classify tensor --preset fig5a
+  motiform classify cell --set length=21.6 --json
+  motiform classify tensor --preset fig4 --set kappa2=0.2 --set kappa3=0.1 --seed 7
+
+Regimes, by the dynamics of the shape with rotations divided out:
+  motionless, straight, circular   a fixed shape (at rest, moving, turning), stable by its eigenvalues
+  zigzag, quasi-periodic           a shape that comes back after a period, without or with a net rotation
+  rectangular                      rests near motionless shapes, along a heteroclinic cycle that attracts
+  chaotic                          the largest Lyapunov exponent is positive beyond its error
+  blow-up                          the shape leaves every bound in finite time
+  undetermined                     the evidence does not decide; it says what is missing (exit code 1)
+The transient of a preset does not matter here: looks at the motion get longer until the evidence decides.";
+
+const LYAPUNOV_HELP: &str = "\
+Examples:
+  motiform lyapunov tensor --preset fig5b
+  motiform lyapunov cell --set length=21.6 --count 3
+  motiform lyapunov tensor --preset fig4 --set kappa2=0.3 --set kappa3=0.1 --saddle 200
+
+Errors are half widths of 95 % confidence intervals. The exponents that must be zero (the flow's own direction and
+the rotations') are a self-check. A run that escapes has no exponents: ask for the chaotic saddle's.";
 
 #[derive(Args)]
 pub(crate) struct ModelsOptions {
@@ -139,6 +169,69 @@ pub(crate) struct SimulateOptions {
     pub(crate) no_figures: bool,
     #[command(flatten)]
     pub(crate) drawing: DrawingOptions,
+}
+
+/// What a command is about, for commands that ask about one motion.
+#[derive(Args)]
+pub(crate) struct MotionOptions {
+    /// A model (`motiform models` lists them) or a study file ending in .toml
+    #[arg(value_name = "MODEL|STUDY.toml")]
+    pub(crate) subject: String,
+    /// Start from a preset of the model, e.g. fig5a
+    #[arg(long, value_name = "NAME")]
+    pub(crate) preset: Option<String>,
+    /// Set a parameter (repeatable)
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, f64)>,
+    /// Set an initial value (repeatable); values not given are 0. Without any, the start is small and random
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) initial: Vec<(String, f64)>,
+    /// Stepper (default: dop853 for tensor, krogstad4 for cell)
+    #[arg(long, value_name = "NAME")]
+    pub(crate) stepper: Option<String>,
+    /// Fixed step (without it, adaptive steppers control their own; the others take 1e-3)
+    #[arg(long, value_name = "H", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) step: Option<f64>,
+    /// Relative tolerance of adaptive steppers
+    #[arg(long, value_name = "R", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) rtol: Option<f64>,
+    /// Absolute tolerance of adaptive steppers
+    #[arg(long, value_name = "A", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) atol: Option<f64>,
+    /// Seed of the random start
+    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
+    pub(crate) seed: Option<u64>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct ClassifyOptions {
+    #[command(flatten)]
+    pub(crate) motion: MotionOptions,
+    /// Most model time to spend; 0 is the model's default
+    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) budget: Option<f64>,
+}
+
+#[derive(Args)]
+pub(crate) struct LyapunovOptions {
+    #[command(flatten)]
+    pub(crate) motion: MotionOptions,
+    /// How many exponents, from the largest (default: all, but at most 6)
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u16), allow_hyphen_values = true)]
+    pub(crate) count: Option<u16>,
+    /// Model time to run before averaging (default: 800 for tensor, 6000 for cell)
+    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) transient: Option<f64>,
+    /// Model time to average over (default: 4000 for tensor, 30000 for cell)
+    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) t_end: Option<f64>,
+    /// For chaos that does not last: the exponent of the chaotic saddle, from this many initial states, with the rate at
+    /// which they escape
+    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u16).range(2..), allow_hyphen_values = true)]
+    pub(crate) saddle: Option<u16>,
 }
 
 #[derive(Args)]

@@ -18,6 +18,8 @@ fn main() -> ExitCode {
         Command::Simulate(options) => commands::simulate::run(&options),
         Command::Scan(options) => commands::scan::run(&options),
         Command::Merge(options) => commands::merge::run(&options),
+        Command::Classify(options) => commands::classify::run(&options),
+        Command::Lyapunov(options) => commands::lyapunov::run(&options),
         Command::Check(options) => commands::check::run(&options),
         Command::Figure(options) => commands::figure::run(&options),
         Command::Completions(options) => commands::completions::run(&options),

@@ -1,8 +1,10 @@
 //! One file per command.
 
 pub(crate) mod check;
+pub(crate) mod classify;
 pub(crate) mod completions;
 pub(crate) mod figure;
+pub(crate) mod lyapunov;
 pub(crate) mod merge;
 pub(crate) mod models;
 pub(crate) mod scan;

@@ -4,7 +4,7 @@ use crate::args::ScanOptions;
 use crate::commands::subject;
 use crate::output::{End, print, warn};
 use crate::progress::Watch;
-use motiform_study::scan::{Axis, Opening, Scan, ScanFolder, Classify, Shard, Totals, default_folder};
+use motiform_study::scan::{Axis, Classify, Opening, Scan, ScanFolder, Shard, Totals, default_folder};
 use motiform_study::{Error, ScanPlan, Study};
 use serde_json::json;
 use std::fmt::Write;

@@ -1,8 +1,26 @@
 //! What a command is about: a file or a model, a preset, then what is set by hand.
 
+use crate::args::MotionOptions;
 use motiform_models::ModelInfo;
-use motiform_study::{Error, Study, presets};
+use motiform_study::{Error, Plan, Study, presets};
 use std::path::Path;
+
+/// The plan of a command about one motion.
+pub(crate) fn plan(options: &MotionOptions) -> Result<Plan, Error> {
+    let mut study = study(&options.subject, options.preset.as_deref(), &options.set)?;
+    for (name, value) in &options.initial {
+        study.set_initial(name, *value)?;
+    }
+    let run = &mut study.run;
+    run.rtol = options.rtol.unwrap_or(run.rtol);
+    run.atol = options.atol.unwrap_or(run.atol);
+    run.step = options.step.or(run.step);
+    run.seed = options.seed.unwrap_or(run.seed);
+    if let Some(stepper) = &options.stepper {
+        run.stepper.clone_from(stepper);
+    }
+    Plan::new(&study)
+}
 
 /// The study of a model's name or a study file, with a preset and parameters.
 pub(crate) fn study(subject: &str, preset: Option<&str>, set: &[(String, f64)]) -> Result<Study, Error> {

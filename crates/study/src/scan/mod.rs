@@ -21,7 +21,7 @@ mod start;
 mod summary;
 
 pub use axis::Axis;
-pub use evaluate::{Evaluate, Classify};
+pub use evaluate::{Classify, Evaluate};
 pub use folder::{ScanFolder, ScanManifest, default_folder};
 pub use merge::{Merged, merge};
 pub use part::{PartError, Parts, read_part};

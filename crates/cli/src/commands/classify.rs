@@ -1,0 +1,80 @@
+//! `motiform classify`.
+
+use crate::args::ClassifyOptions;
+use crate::commands::subject;
+use crate::output::{End, print};
+use crate::progress::Watch;
+use motiform_analysis::{Regime, Verdict};
+use motiform_study::{Plan, analyse};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+pub(crate) fn run(options: &ClassifyOptions) -> anyhow::Result<End> {
+    let plan = subject::plan(&options.motion)?;
+    let budget = options.budget.unwrap_or(0.0);
+    let watch = Watch::new(analyse::settings(&plan, budget)?.budget, "model time");
+    let verdict = analyse::classify(&plan, budget, &watch);
+    watch.finish();
+    let Some(verdict) = verdict? else { return Ok(End::Interrupted) };
+    print(&if options.motion.json { json(&plan, &verdict)? } else { summary(&plan, &verdict)? })?;
+    Ok(if verdict.regime == Regime::Undetermined { End::NotAsAsked } else { End::Done })
+}
+
+/// The verdict as an object, with what it is about.
+fn json(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
+    let computation = &plan.computation;
+    let mut object = json!({
+        "model": computation.model,
+        "parameters": computation.parameters,
+        "seed": computation.seed,
+        "initial": computation.initial,
+    });
+    if let (Value::Object(all), Value::Object(evidence)) = (&mut object, serde_json::to_value(verdict)?) {
+        all.extend(evidence);
+    }
+    Ok(serde_json::to_string(&object)?)
+}
+
+fn summary(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
+    let mut text = format!("{}\n", verdict.regime);
+    writeln!(text, "because        {}", verdict.why)?;
+    if let Some(margin) = verdict.margin {
+        let sure = if margin < 3.0 { "weak" } else { "clear" };
+        writeln!(text, "margin         {margin:.1} times the uncertainty of the deciding number ({sure})")?;
+    }
+    if let Some(speed) = verdict.speed {
+        writeln!(text, "speed          {:.6} (from {:.6} to {:.6})", speed.mean, speed.min, speed.max)?;
+    }
+    let numbers = [
+        ("turning rate", verdict.turning_rate, "rad per model time"),
+        ("period", verdict.period, "model time"),
+        ("net rotation", verdict.net_rotation, "rad per period"),
+        ("drift", verdict.drift, "model length per period"),
+        ("escape", verdict.escape_time, "model time t*"),
+    ];
+    for (name, value, unit) in numbers {
+        if let Some(value) = value {
+            writeln!(text, "{name:14} {value:.6} {unit}")?;
+        }
+    }
+    if !verdict.legs.is_empty() {
+        let turns: Vec<String> =
+            verdict.legs.iter().take(8).map(|turn| format!("{:.1}", turn.to_degrees())).collect();
+        writeln!(text, "turns          {} degrees, from leg to leg", turns.join(", "))?;
+    }
+    if let Some(swing) = verdict.swing {
+        writeln!(text, "heading swing  {:.1} degrees, peak to peak", swing.to_degrees())?;
+    }
+    if !verdict.rests.is_empty() {
+        let rests: Vec<String> =
+            verdict.rests.iter().rev().take(6).rev().map(|rest| format!("{rest:.1}")).collect();
+        writeln!(text, "rests          ... {} model time", rests.join(", "))?;
+    }
+    if !verdict.exponents.is_empty() {
+        let exponents: Vec<String> =
+            verdict.exponents.iter().take(6).map(|e| format!("{:.5} +- {:.1e}", e.value, e.error)).collect();
+        writeln!(text, "exponents      {}", exponents.join(", "))?;
+    }
+    write!(text, "time spent     {:.0} model time, seed {}", verdict.time, plan.computation.seed)?;
+    Ok(text)
+}

@@ -1,0 +1,113 @@
+//! `motiform lyapunov`.
+
+use crate::args::LyapunovOptions;
+use crate::commands::subject;
+use crate::output::{End, print};
+use crate::progress::Watch;
+use motiform_analysis::Lyapunov;
+use motiform_dynamics::Outcome;
+use motiform_study::saddle::{Saddle, saddle as find_saddle};
+use motiform_study::{Error, Plan, analyse};
+use serde_json::json;
+use std::fmt::Write;
+
+/// Exponents that are computed unless more are asked for.
+const COUNT: usize = 6;
+
+pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
+    let plan = subject::plan(&options.motion)?;
+    let info = plan.info()?;
+    for (key, value) in [("t_end", options.t_end), ("transient", options.transient)] {
+        if let Some(value) = value.filter(|&value| value < 0.0 || key == "t_end" && value == 0.0) {
+            return Err(
+                Error::Setting { key, value: value.to_string(), remedy: "give a time above 0" }.into()
+            );
+        }
+    }
+    if let Some(samples) = options.saddle {
+        return saddle(options, &plan, usize::from(samples));
+    }
+    let total = options.transient.unwrap_or(4.0 * info.look) + options.t_end.unwrap_or(20.0 * info.look);
+    let watch = Watch::new(total, "model time");
+    let dim = plan.computation.initial.0.len() - 2;
+    let count = options.count.map_or(COUNT.min(dim), usize::from);
+    let found = analyse::lyapunov(&plan, count, (options.transient, options.t_end), &watch);
+    watch.finish();
+    let found = found?;
+    print(&if options.motion.json { json(&plan, &found)? } else { summary(&found)? })?;
+    Ok(End::from(&found.outcome))
+}
+
+fn json(plan: &Plan, found: &Lyapunov) -> anyhow::Result<String> {
+    Ok(serde_json::to_string(&json!({
+        "model": plan.computation.model,
+        "parameters": plan.computation.parameters,
+        "exponents": found.exponents,
+        "zeros": found.zeros(),
+        "neutral": found.neutral,
+        "time": found.time,
+        "transient": found.transient,
+        "outcome": found.outcome,
+    }))?)
+}
+
+fn summary(found: &Lyapunov) -> anyhow::Result<String> {
+    let mut text = String::new();
+    if found.exponents.is_empty() {
+        write!(text, "no exponents: the run {}", found.outcome)?;
+        if matches!(found.outcome, Outcome::Escaped { .. }) {
+            write!(text, "\nFor the exponent of the chaos before the escape, ask for --saddle 200")?;
+        }
+        return Ok(text);
+    }
+    for (i, exponent) in found.exponents.iter().enumerate() {
+        writeln!(text, "lambda_{}   {:>11.6} +- {:.1e}", i + 1, exponent.value, exponent.error)?;
+    }
+    let zeros = found.zeros();
+    let worst = zeros.iter().map(|zero| zero.value.abs()).fold(0.0, f64::max);
+    if found.neutral > 0 && found.exponents.len() > found.neutral {
+        let fine = zeros.iter().all(|zero| zero.value.abs() <= 3.0 * zero.error);
+        let verdict = if fine { "within their errors" } else { "outside their errors: run longer" };
+        writeln!(
+            text,
+            "self-check {} exponents must be 0: at most {worst:.1e} off, {verdict}",
+            found.neutral
+        )?;
+    }
+    write!(text, "averaged over {:.0} model time after {:.0}", found.time, found.transient)?;
+    Ok(text)
+}
+
+/// `--saddle`: the exponent of chaos that does not last.
+fn saddle(options: &LyapunovOptions, plan: &Plan, samples: usize) -> anyhow::Result<End> {
+    let watch = Watch::new(samples as f64, "runs");
+    let found = find_saddle(plan, samples, (options.transient, options.t_end), &watch);
+    watch.finish();
+    let Some(found) = found? else { return Ok(End::Interrupted) };
+    print(&if options.motion.json { serde_json::to_string(&found)? } else { saddle_summary(&found)? })?;
+    Ok(if found.exponent.is_some() { End::Done } else { End::NotAsAsked })
+}
+
+fn saddle_summary(found: &Saddle) -> anyhow::Result<String> {
+    let mut text = String::new();
+    match found.exponent {
+        Some(exponent) => writeln!(
+            text,
+            "lambda_1 of the chaotic saddle   {:.5} +- {:.1e}",
+            exponent.value, exponent.error
+        )?,
+        None => writeln!(text, "no exponent: {}", found.missing)?,
+    }
+    match found.rate {
+        Some(rate) => writeln!(
+            text,
+            "escape rate                      {:.3e} +- {:.1e} (mean stay {:.0})",
+            rate.value,
+            rate.error,
+            1.0 / rate.value
+        )?,
+        None => writeln!(text, "escape rate                      none: fewer than ten escapes")?,
+    }
+    write!(text, "{} of {} runs escaped within {:.0} model time", found.escaped, found.runs, found.t_end)?;
+    Ok(text)
+}
