@@ -34,7 +34,8 @@ fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 }
 
 fn count_parts(folder: &Path) -> usize {
-    let entries = std::fs::read_dir(folder).map(|entries| entries.flatten().collect()).unwrap_or(Vec::new());
+    let entries: Vec<_> =
+        std::fs::read_dir(folder).map(|entries| entries.flatten().collect()).unwrap_or_default();
     entries.iter().filter(|entry| entry.file_name().to_string_lossy().starts_with("part-")).count()
 }
 
@@ -140,8 +141,8 @@ fn the_json_object_counts_everything() {
     assert_eq!(json["regimes"]["motionless"], 6); // gamma < 0: nothing drives it
     let checked = folder.run("check study.toml").expect(0).stdout;
     assert!(checked.contains(json["plan_hash"].as_str().unwrap()), "{checked}");
-    let other = folder.run("scan study.toml --axis kappa2=0.5:1:2 --samples 3 --out same --json").expect(1);
-    assert_eq!(other.json()["cells"], 2);
+    let other = scan(&folder, "scan study.toml --axis kappa2=0.5:1:3 --samples 1 --out other --json").json();
+    assert_eq!((&other["cells"], &other["rows"]), (&3.into(), &3.into())); // the command line wins
 }
 
 #[test]
@@ -179,12 +180,12 @@ fn two_processes_do_not_share_a_folder() {
     child.wait().unwrap();
 }
 
-/// A limit on the size of files stands in for a full disk: here the parts are larger, the manifest is not.
+/// A limit on the size of files (4 KiB) stands in for a full disk: parts are larger, the manifest is not.
 #[test]
 fn a_full_disk() {
     let folder = Folder::new();
-    let words = "scan tensor --preset fig1 --axis kappa2=0.1:1.6:20 --samples 400 --budget 1 --out run";
-    let full = folder.bash(&format!("trap '' XFSZ; ulimit -f 8; exec $motiform {words}")).expect_error(1);
+    let words = "scan tensor --preset fig1 --axis kappa2=0.1:1.6:20 --samples 4 --budget 30 --out run";
+    let full = folder.bash(&format!("trap '' XFSZ; ulimit -f 4; exec $motiform {words}")).expect_error(1);
     assert!(full.stderr.starts_with("error: writing run/part-000"), "{}", full.stderr);
     assert!(
         full.stderr.contains("File too large") && full.stderr.contains("make room, and --resume goes on")
@@ -196,7 +197,7 @@ fn a_full_disk() {
     let words = words.replace("--out run", "--out none");
     let full = folder.bash(&format!("trap '' XFSZ; ulimit -f 0; exec $motiform {words}")).expect_error(1);
     assert!(full.stderr.contains("_manifest.json failed"), "{}", full.stderr);
-    let full = folder.bash("trap '' XFSZ; ulimit -f 8; exec $motiform merge run --out all").expect_error(1);
+    let full = folder.bash("trap '' XFSZ; ulimit -f 4; exec $motiform merge run --out all").expect_error(1);
     assert!(full.stderr.contains("nothing was left behind"), "{}", full.stderr);
     assert_eq!(folder.names(), ["run"]);
 }

@@ -95,7 +95,7 @@ pub enum Error {
         path: PathBuf,
     },
     /// A folder that is no scan.
-    #[error("{} is no folder written by `motiform scan`: {reason}; choose another --out", .path.display())]
+    #[error("{} holds no scan: {reason}; give a folder written by `motiform scan`", .path.display())]
     NoScan {
         /// The folder.
         path: PathBuf,

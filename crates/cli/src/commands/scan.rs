@@ -30,6 +30,9 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
     let ended = ended?;
     let totals = Totals::of(scan.folder())?;
     show(scan.folder(), &totals, options.json)?;
+    for damaged in &totals.damaged {
+        warn(&format!("{damaged}; it belongs to another shard, which --resume computes again"));
+    }
     if !ended.complete {
         let done = ended.cells;
         warn(&format!(

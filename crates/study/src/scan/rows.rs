@@ -186,7 +186,7 @@ mod tests {
     #[test]
     fn no_parameter_has_the_name_of_a_column() {
         let ours = ["cell", "sample", "regime", "attractor", "why"];
-        for spec in MODELS.iter().flat_map(|info| info.parameters()) {
+        for spec in MODELS.iter().flat_map(motiform_models::ModelInfo::parameters) {
             assert!(!ours.contains(&spec.name) && !NUMBERS.iter().any(|known| known.0 == spec.name));
         }
     }
