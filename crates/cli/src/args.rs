@@ -39,6 +39,9 @@ pub(crate) enum Command {
     /// Lyapunov exponents with errors: do neighbouring motions part?
     #[command(after_help = LYAPUNOV_HELP)]
     Lyapunov(Box<LyapunovOptions>),
+    /// Rebuild the paper: every figure, every claim, one HTML report
+    #[command(after_help = REPRODUCE_HELP)]
+    Reproduce(ReproduceOptions),
     /// Check a study file and print the plan it stands for, without computing
     Check(CheckOptions),
     /// Draw the figures of datasets again, without computing
@@ -91,6 +94,14 @@ Regimes, by the dynamics of the shape with rotations divided out:
   blow-up                          the shape leaves every bound in finite time
   undetermined                     the evidence does not decide; it says what is missing (exit code 1)
 The transient of a preset does not matter here: looks at the motion get longer until the evidence decides.";
+
+const REPRODUCE_HELP: &str = "\
+Examples:
+  motiform reproduce --quick
+  motiform reproduce fig4 fig5 --out paper
+
+The output folder holds report.html (figures, parameters, claim by claim: what the paper says, what we find, how it was
+decided, and why where they differ) and the scans behind it. Exit code 1: a claim failed.";
 
 const LYAPUNOV_HELP: &str = "\
 Examples:
@@ -232,6 +243,25 @@ pub(crate) struct LyapunovOptions {
     /// which they escape
     #[arg(long, value_name = "M", value_parser = clap::value_parser!(u16).range(2..), allow_hyphen_values = true)]
     pub(crate) saddle: Option<u16>,
+}
+
+#[derive(Args)]
+pub(crate) struct ReproduceOptions {
+    /// fig1, fig2, ... fig6, models (what both models have in common); everything if none is given
+    #[arg(value_name = "FIGURE")]
+    pub(crate) figures: Vec<String>,
+    /// Coarser scans and shorter runs: within a minute
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Output folder; a run that was interrupted goes on there
+    #[arg(long, value_name = "DIR", default_value = "reproduction")]
+    pub(crate) out: PathBuf,
+    /// Threads (default: all cores); changes no number
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
+    pub(crate) threads: Option<u16>,
+    /// Print the claims as one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Args)]

@@ -20,6 +20,7 @@ fn main() -> ExitCode {
         Command::Merge(options) => commands::merge::run(&options),
         Command::Classify(options) => commands::classify::run(&options),
         Command::Lyapunov(options) => commands::lyapunov::run(&options),
+        Command::Reproduce(options) => commands::reproduce::run(&options),
         Command::Check(options) => commands::check::run(&options),
         Command::Figure(options) => commands::figure::run(&options),
         Command::Completions(options) => commands::completions::run(&options),

@@ -13,6 +13,17 @@ pub enum Error {
     /// An analysis refused its input.
     #[error(transparent)]
     Analysis(#[from] motiform_analysis::Error),
+    /// No part of the paper of this name.
+    #[error("unknown figure {name:?}: what can be reproduced is {}", .known.join(", "))]
+    UnknownFigure {
+        /// The name given.
+        name: String,
+        /// What there is.
+        known: Vec<&'static str>,
+    },
+    /// The caller asked to stop.
+    #[error("interrupted")]
+    Interrupted,
     /// More exponents than there are, or none.
     #[error("count = {count}: this model has {dim} exponents; ask for 1 to {dim}")]
     Count {

@@ -12,6 +12,7 @@ mod initial;
 pub mod plan;
 pub mod presets;
 pub mod report;
+pub mod reproduction;
 pub mod saddle;
 pub mod scan;
 pub mod simulate;

@@ -7,7 +7,7 @@ mod common;
 use common::preset;
 use motiform_analysis::regime::{Attractor, Regime, Spread, Verdict};
 use motiform_study::scan::{
-    Axis, Ended, Evaluate, Opening, PartError, Row, Scan, ScanFolder, ShapeRun, Shard, Totals, cells,
+    Axis, Classify, Ended, Evaluate, Opening, PartError, Row, Scan, ScanFolder, Shard, Totals, cells,
     for_each_part, merge,
 };
 use motiform_study::simulate::Monitor;
@@ -391,7 +391,7 @@ fn real_orbits_too() {
     .unwrap();
     for threads in [1, 2] {
         let scan = open(&at(&threads.to_string()), &plan, "1/1", Opening::New).unwrap();
-        assert!(scan.run(&ShapeRun, threads, &()).unwrap().complete);
+        assert!(scan.run(&Classify, threads, &()).unwrap().complete);
     }
     assert!(contents(&at("1")) == contents(&at("2")));
 }

@@ -7,6 +7,7 @@ pub(crate) mod figure;
 pub(crate) mod lyapunov;
 pub(crate) mod merge;
 pub(crate) mod models;
+pub(crate) mod reproduce;
 pub(crate) mod scan;
 pub(crate) mod simulate;
 pub(crate) mod subject;

@@ -1,0 +1,81 @@
+//! `motiform reproduce`.
+
+use crate::args::ReproduceOptions;
+use crate::output::{End, print, warn};
+use crate::progress::Watch;
+use motiform_study::Error;
+use motiform_study::files::replace_file;
+use motiform_study::report::{Claim, Report};
+use motiform_study::reproduction::{Options, reproduce};
+use serde_json::json;
+use std::fmt::Write;
+use std::path::Path;
+
+pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
+    let out = &options.out;
+    let unwritable = |reason| Error::Unwritable { path: out.clone(), reason };
+    std::fs::create_dir_all(out).map_err(unwritable)?;
+    let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let wanted = Options {
+        figures: options.figures.clone(),
+        quick: options.quick,
+        threads: options.threads.map_or_else(all, usize::from),
+    };
+    let watch = Watch::new(1000.0, "permille");
+    let report = reproduce(&wanted, out, &watch);
+    watch.finish();
+    let report = match report {
+        Err(Error::Interrupted) => {
+            warn(&format!("interrupted: the same command goes on with what is in {}", out.display()));
+            return Ok(End::Interrupted);
+        }
+        report => report?,
+    };
+    let page = out.join("report.html");
+    replace_file(&page, report.html().as_bytes())?;
+    print(&if options.json { json(&report, &page)? } else { summary(&report, &page)? })?;
+    Ok(if report.all_hold() { End::Done } else { End::NotAsAsked })
+}
+
+fn json(report: &Report, page: &Path) -> anyhow::Result<String> {
+    let claim = |claim: &Claim| {
+        json!({ "says": claim.says, "finds": claim.finds, "how": claim.how, "verdict": claim.verdict.words(),
+                "explanation": claim.verdict.explanation() })
+    };
+    let sections: Vec<_> = report
+        .sections
+        .iter()
+        .map(|section| json!({ "title": section.title, "claims": section.claims.iter().map(claim).collect::<Vec<_>>() }))
+        .collect();
+    let counts = report.counts();
+    Ok(serde_json::to_string(&json!({
+        "report": page, "hold": counts.hold, "differ": counts.differ, "fail": counts.fail, "sections": sections,
+    }))?)
+}
+
+fn summary(report: &Report, page: &Path) -> anyhow::Result<String> {
+    let mut text = String::new();
+    for section in &report.sections {
+        writeln!(text, "{}", plain(&section.title))?;
+        for claim in &section.claims {
+            writeln!(text, "  {:9} {}", claim.verdict.words(), plain(&claim.says))?;
+            if let Some(explanation) = claim.verdict.explanation() {
+                writeln!(text, "            found: {}", plain(&claim.finds))?;
+                writeln!(text, "            {}", plain(explanation))?;
+            }
+        }
+    }
+    let counts = report.counts();
+    writeln!(
+        text,
+        "{} claims hold, {} differ for a known reason, {} fail",
+        counts.hold, counts.differ, counts.fail
+    )?;
+    write!(text, "{}", page.display())?;
+    Ok(text)
+}
+
+/// Markup as plain text.
+fn plain(markup: &str) -> String {
+    motiform_study::figures::Label::parse(markup).plain()
+}

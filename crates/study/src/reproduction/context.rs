@@ -1,0 +1,91 @@
+//! What every chapter needs: studies run, motions named, scans made and kept.
+
+use crate::analyse;
+use crate::scan::{CellSummary, Classify, Opening, Scan, Shard, cells};
+use crate::simulate::{Monitor, simulate};
+use crate::{Dataset, Error, Plan, ScanPlan, Study, presets};
+use motiform_analysis::Verdict;
+use motiform_dynamics::Outcome;
+use std::path::Path;
+
+/// Where and how a chapter works.
+pub(super) struct Context<'c> {
+    /// Scans are kept in folders here.
+    pub(super) out: &'c Path,
+    /// Less evidence in less time.
+    pub(super) quick: bool,
+    pub(super) threads: usize,
+    pub(super) monitor: &'c dyn Monitor,
+}
+
+impl Context<'_> {
+    /// `full`, or `quick` in a quick run.
+    pub(super) fn choose<T>(&self, full: T, quick: T) -> T {
+        if self.quick { quick } else { full }
+    }
+
+    /// The study of a preset with changes.
+    pub(super) fn preset(
+        &self,
+        name: &str,
+        change: impl FnOnce(&mut Study) -> Result<(), Error>,
+    ) -> Result<Study, Error> {
+        let info = presets::model_of(name)
+            .ok_or(Error::UnknownFigure { name: name.to_owned(), known: Vec::new() })?;
+        let mut study = presets::find(info, name)?;
+        change(&mut study)?;
+        Ok(study)
+    }
+
+    /// Runs a study.
+    pub(super) fn simulate(&self, study: &Study) -> Result<Dataset, Error> {
+        let dataset = simulate(&Plan::new(study)?, &Quiet(self.monitor))?;
+        match dataset.manifest.outcome {
+            Outcome::Interrupted { .. } => Err(Error::Interrupted),
+            _ => Ok(dataset),
+        }
+    }
+
+    /// Names the motion of a study.
+    pub(super) fn classify(&self, study: &Study) -> Result<Verdict, Error> {
+        analyse::classify(&Plan::new(study)?, 0.0, &Quiet(self.monitor))?.ok_or(Error::Interrupted)
+    }
+
+    /// Makes a scan (or goes on with it) in the folder `name`, and reads it: its plan, and one summary per cell.
+    pub(super) fn scan(&self, name: &str, study: &Study) -> Result<(ScanPlan, Vec<CellSummary>), Error> {
+        let plan = ScanPlan::new(study)?;
+        let folder = self.out.join(format!("{name}{}-scan", if self.quick { "-quick" } else { "" }));
+        let scan = Scan::open(&folder, &plan, Shard::WHOLE, Opening::Resume)?;
+        if !scan.run(&Classify, self.threads, self.monitor)?.complete {
+            return Err(Error::Interrupted);
+        }
+        let cells = cells(scan.folder())?.into_iter().flatten().collect();
+        Ok((plan, cells))
+    }
+}
+
+/// The part of the whole that a chapter is.
+pub(super) struct Share<'m> {
+    pub(super) monitor: &'m dyn Monitor,
+    pub(super) from: f64,
+    pub(super) part: f64,
+}
+
+impl Monitor for Share<'_> {
+    fn progress(&self, done: f64) {
+        self.monitor.progress(self.from + self.part * done);
+    }
+
+    fn stopped(&self) -> bool {
+        self.monitor.stopped()
+    }
+}
+
+/// Listens for the stop and says nothing.
+struct Quiet<'m>(&'m dyn Monitor);
+
+impl Monitor for Quiet<'_> {
+    fn stopped(&self) -> bool {
+        self.0.stopped()
+    }
+}

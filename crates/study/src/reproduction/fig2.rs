@@ -1,0 +1,9 @@
+//! fig2.
+
+use super::context::Context;
+use crate::Error;
+use crate::report::Section;
+
+pub(super) fn section(_context: &Context<'_>) -> Result<Section, Error> {
+    Ok(Section { title: "fig2".to_owned(), ..Section::default() })
+}

@@ -1,0 +1,9 @@
+//! fig3.
+
+use super::context::Context;
+use crate::Error;
+use crate::report::Section;
+
+pub(super) fn section(_context: &Context<'_>) -> Result<Section, Error> {
+    Ok(Section { title: "fig3".to_owned(), ..Section::default() })
+}

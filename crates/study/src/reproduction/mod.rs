@@ -1,0 +1,87 @@
+//! The paper, rebuilt: every figure computed anew, every claim checked, one report.
+//!
+//! One file per figure; each gives a [`Section`] with its pictures and its claims. What all of them need is in
+//! [`context`].
+
+mod claims;
+mod context;
+mod fig1;
+mod fig2;
+mod fig3;
+mod fig4;
+mod fig5;
+mod fig6;
+mod models;
+
+use crate::Error;
+use crate::report::{Report, Section};
+use crate::simulate::Monitor;
+use context::{Context, Share};
+use std::path::Path;
+
+/// What to rebuild, and how.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The figures, by name (see [`names`]); all of them if empty.
+    pub figures: Vec<String>,
+    /// Coarser scans and shorter runs: the same claims with less evidence.
+    pub quick: bool,
+    /// Threads of the scans; changes no number.
+    pub threads: usize,
+}
+
+/// A part of the paper: its name, the share of the work it is, and what rebuilds it.
+struct Chapter {
+    name: &'static str,
+    work: f64,
+    rebuild: fn(&Context<'_>) -> Result<Section, Error>,
+}
+
+/// In the order of the paper.
+const CHAPTERS: &[Chapter] = &[
+    Chapter { name: "fig1", work: 3.0, rebuild: fig1::section },
+    Chapter { name: "fig2", work: 1.0, rebuild: fig2::section },
+    Chapter { name: "fig3", work: 0.5, rebuild: fig3::section },
+    Chapter { name: "fig4", work: 3.0, rebuild: fig4::section },
+    Chapter { name: "fig5", work: 1.0, rebuild: fig5::section },
+    Chapter { name: "fig6", work: 8.0, rebuild: fig6::section },
+    Chapter { name: "models", work: 0.5, rebuild: models::section },
+];
+
+/// The names of what can be rebuilt.
+#[must_use]
+pub fn names() -> Vec<&'static str> {
+    CHAPTERS.iter().map(|chapter| chapter.name).collect()
+}
+
+/// Rebuilds the paper, or parts of it. Scans are kept in folders inside `out`, so that an interrupted run goes on where it
+/// was; `out` must exist.
+///
+/// # Errors
+/// An unknown name; [`Error::Interrupted`] if the monitor asked to stop; files that cannot be written.
+pub fn reproduce(options: &Options, out: &Path, monitor: &dyn Monitor) -> Result<Report, Error> {
+    for name in &options.figures {
+        if !names().contains(&name.as_str()) {
+            return Err(Error::UnknownFigure { name: name.clone(), known: names() });
+        }
+    }
+    let wanted = |chapter: &&Chapter| {
+        options.figures.is_empty() || options.figures.iter().any(|name| name == chapter.name)
+    };
+    let chapters: Vec<&Chapter> = CHAPTERS.iter().filter(wanted).collect();
+    let total: f64 = chapters.iter().map(|chapter| chapter.work).sum();
+    let mut done = 0.0;
+    let mut sections = Vec::new();
+    for chapter in chapters {
+        let share = Share { monitor, from: done / total, part: chapter.work / total };
+        let context = Context { out, quick: options.quick, threads: options.threads, monitor: &share };
+        sections.push((chapter.rebuild)(&context)?);
+        done += chapter.work;
+        monitor.progress(done / total);
+    }
+    Ok(Report {
+        title: "Dynamics of a deformable self-propelled domain, rebuilt".to_owned(),
+        about: claims::ABOUT.to_owned(),
+        sections,
+    })
+}
