@@ -87,7 +87,7 @@ pub struct ScanSettings {
     /// them.
     #[schemars(with = "Vec<String>")]
     pub axes: Vec<Axis>,
-    /// Initial states per cell: all random, but the first one is [initial] where that is given.
+    /// Initial states per cell: all random, but the first one is that of `initial` where values are given.
     pub samples: u64,
     /// Most model time that naming one motion may take; 0 chooses the model's default.
     pub budget: f64,

@@ -25,7 +25,7 @@ pub use evaluate::{Classify, Evaluate};
 pub use folder::{ScanFolder, ScanManifest, default_folder};
 pub use merge::{Merged, merge};
 pub use part::{PartError, Parts, read_part};
-pub use plan::{ScanComputation, ScanPlan};
+pub use plan::{SCAN_FORMAT, ScanComputation, ScanPlan};
 pub use rows::{NUMBERS, Row};
 pub use run::{Ended, Opening, Scan};
 pub use shard::Shard;

@@ -8,7 +8,7 @@ use motiform_models::{ModelInfo, parameters};
 use serde::{Deserialize, Serialize};
 
 /// Version of the meaning of a scan's plan; part of the hash.
-pub(super) const SCAN_FORMAT: u32 = 1;
+pub const SCAN_FORMAT: u32 = 1;
 
 /// Most cells of a scan, and most initial states per cell.
 const MOST: (usize, u64) = (100_000_000, 100_000);
