@@ -59,6 +59,7 @@ Examples:
   motiform simulate tensor --preset fig4 --set kappa2=0.2 --set kappa3=0.1 --seed 7
   motiform simulate tensor --set gamma=1 --set a1=-1 --initial v1=0.1 --out run.csv
   motiform simulate cell --set length=13.2 --transient 4000 --t-end 4000
+  motiform simulate tensor --preset fig2 --noise 1e-6 --t-end 5000
   motiform simulate my-study.toml --json
 
 The output folder holds
@@ -157,7 +158,10 @@ pub(crate) struct SimulateOptions {
     /// Absolute tolerance of adaptive steppers
     #[arg(long, value_name = "A", value_parser = number, allow_hyphen_values = true)]
     pub(crate) atol: Option<f64>,
-    /// Seed of the random start
+    /// Amplitude of additive white noise on the shape, the same in every direction
+    #[arg(long, value_name = "ETA", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) noise: Option<f64>,
+    /// Seed of the random start, and of the noise
     #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) seed: Option<u64>,
     /// Most steps to take

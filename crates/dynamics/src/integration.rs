@@ -2,6 +2,49 @@
 
 use crate::orbit::{Counters, DenseStep, StepFailure};
 
+/// A boxed integration is one.
+impl<O: Integration + ?Sized> Integration for Box<O> {
+    fn advance(&mut self, limit: f64) -> Result<(), StepFailure> {
+        (**self).advance(limit)
+    }
+
+    fn dense(&mut self) -> DenseStep<'_> {
+        (**self).dense()
+    }
+
+    fn step_to(&mut self, t: f64, out: &mut [f64]) {
+        (**self).step_to(t, out);
+    }
+
+    fn end_step_at(&mut self, t: f64) {
+        (**self).end_step_at(t);
+    }
+
+    fn restart(&mut self, u: &[f64]) {
+        (**self).restart(u);
+    }
+
+    fn t(&self) -> f64 {
+        (**self).t()
+    }
+
+    fn t_old(&self) -> f64 {
+        (**self).t_old()
+    }
+
+    fn state(&self) -> &[f64] {
+        (**self).state()
+    }
+
+    fn slope(&self) -> &[f64] {
+        (**self).slope()
+    }
+
+    fn counters(&self) -> Counters {
+        (**self).counters()
+    }
+}
+
 /// An initial-value problem in progress, one accepted step at a time.
 pub trait Integration {
     /// Takes one step, ending at `limit` (later than [`Integration::t`]) at the latest.

@@ -1,5 +1,6 @@
 //! A plan, and a question about its motion: which one is it, and do neighbours part?
 
+use crate::plan::check_no_noise;
 use crate::simulate::Monitor;
 use crate::{Error, Plan};
 use motiform_analysis::regime::{Settings, Verdict};
@@ -72,6 +73,7 @@ pub fn lyapunov(
 
 /// The model of a plan, and its initial shape.
 fn start(plan: &Plan) -> Result<(Box<dyn Model>, Vec<f64>), Error> {
+    check_no_noise(plan.computation.noise.map_or(0.0, |noise| noise.amplitude))?;
     let model = plan.info()?.build(&plan.computation.parameters.values())?;
     let mut shape = vec![0.0; model.dim()];
     model.encode(&plan.computation.initial.values()[..model.dim()], &mut shape);

@@ -60,6 +60,18 @@ pub struct Computation {
     pub escape_norm: f64,
     /// The return map.
     pub return_map: Option<ReturnMapSettings>,
+    /// Noise on the shape.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub noise: Option<NoiseSettings>,
+}
+
+/// Additive white noise on the shape, as kicks at even times.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NoiseSettings {
+    /// Amplitude eta.
+    pub amplitude: f64,
+    /// Time between kicks; rows lie between them.
+    pub every: f64,
 }
 
 /// [`StepControl`] as it is written to files.
@@ -181,6 +193,7 @@ impl Plan {
             max_steps: run.max_steps,
             escape_norm: run.escape_norm,
             return_map: study.return_map.clone(),
+            noise: noise(run.noise, dt_out, info.look)?,
         };
         let title = if study.title.is_empty() { info.name.to_owned() } else { study.title.clone() };
         Ok(Self { name: study.name.clone(), title, computation, figure: study.figure.clone() })
@@ -222,6 +235,23 @@ pub(crate) fn check(key: &'static str, value: f64, ok: bool, remedy: &'static st
         let value = format!("{value:?}").trim_end_matches(".0").to_owned();
         Err(Error::Setting { key, value, remedy })
     }
+}
+
+/// Kicks at about 2000 per look of the model, a whole number of them between two rows.
+fn noise(amplitude: f64, dt_out: f64, look: f64) -> Result<Option<NoiseSettings>, Error> {
+    check("noise", amplitude, amplitude >= 0.0, "give an amplitude above 0, or 0 for none")?;
+    let every = dt_out / (dt_out / (look / 2000.0)).ceil();
+    Ok((amplitude > 0.0).then_some(NoiseSettings { amplitude, every }))
+}
+
+/// Refuses a study with noise where only the flow without it has an answer.
+pub(crate) fn check_no_noise(amplitude: f64) -> Result<(), Error> {
+    check(
+        "noise",
+        amplitude,
+        amplitude == 0.0,
+        "motions are named, and exponents computed, without noise: set it to 0",
+    )
 }
 
 /// An explicit method is stable where its step times every rate of the linear part is small.

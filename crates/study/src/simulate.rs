@@ -2,15 +2,16 @@
 
 use crate::Error;
 use crate::dataset::{Dataset, Manifest, VERSION};
-use crate::plan::{Computation, Control, Named, Plan};
+use crate::plan::{Computation, Control, Named, NoiseSettings, Plan};
 use crate::study::ReturnMapSettings;
 use crate::table::Table;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::escape::norm;
 use motiform_dynamics::model::{turning_rate, velocity, velocity_and_acceleration};
+use motiform_dynamics::noise::{Noise, NoisyOrbit, Normal};
 use motiform_dynamics::section::Crossing;
 use motiform_dynamics::{
-    Direction, InPlane, Model, Outcome, Request, Section, Sink, StepControl, Trajectory,
+    Direction, InPlane, Integration, Model, Outcome, Request, Section, Sink, StepControl, Trajectory,
 };
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -97,8 +98,8 @@ impl Run<'_> {
             return Ok((None, u));
         }
         let shape = ..u.len() - 2;
-        let mut orbit =
-            self.plan.method()?.shape_orbit(self.model, c.control.into(), -c.transient, &u[shape])?;
+        let orbit = self.plan.method()?.shape_orbit(self.model, c.control.into(), -c.transient, &u[shape])?;
+        let mut orbit = self.noisy(orbit, 0)?;
         let total = c.transient + passes * c.t_end;
         let mut sink = Watched {
             trajectory: None,
@@ -135,7 +136,8 @@ impl Run<'_> {
 
     fn record(&self, start: &[f64], passes: f64, pass: f64) -> Result<Recording, Error> {
         let c = self.computation;
-        let mut orbit = self.plan.method()?.orbit(self.body, c.control.into(), 0.0, start)?;
+        let orbit = self.plan.method()?.orbit(self.body, c.control.into(), 0.0, start)?;
+        let mut orbit = self.noisy(orbit, 1)?;
         let mut trajectory = Trajectory::new(start.len());
         let height = c.return_map.as_ref().map_or(0.0, |map| map.y);
         let above = |_t: f64, u: &[f64]| u[u.len() - 1] - height;
@@ -156,6 +158,19 @@ impl Run<'_> {
         let counters = orbit.counters();
         let last = orbit.state().to_vec();
         Ok(Recording { outcome, trajectory, last, steps: counters.steps, rejected: counters.rejected })
+    }
+
+    /// The orbit with the plan's noise, if it has any; transient (0) and recording (1) have a stream of deviates each, far
+    /// from those of the starts.
+    fn noisy<'o>(
+        &self,
+        orbit: Box<dyn Integration + 'o>,
+        stretch: u64,
+    ) -> Result<Box<dyn Integration + 'o>, Error> {
+        let Some(NoiseSettings { amplitude, every }) = self.computation.noise else { return Ok(orbit) };
+        let noise = Noise { amplitude, every, entries: self.model.dim() };
+        let normal = Normal::new(self.computation.seed, u64::MAX - stretch);
+        Ok(Box::new(NoisyOrbit::new(orbit, noise, normal)?))
     }
 
     /// The local error of a fixed step at the end of the run, by halving it; `None` for adaptive steps, and where the

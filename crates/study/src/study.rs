@@ -61,6 +61,9 @@ pub struct RunSettings {
     pub max_steps: u64,
     /// A shape whose norm exceeds this has escaped.
     pub escape_norm: f64,
+    /// Amplitude eta of additive white noise on the shape, the same in every direction (0 for none): without the flow
+    /// every component of the state would have the variance eta^2 t.
+    pub noise: f64,
 }
 
 impl Default for RunSettings {
@@ -76,6 +79,7 @@ impl Default for RunSettings {
             seed: 1,
             max_steps: 100_000_000,
             escape_norm: 1e6,
+            noise: 0.0,
         }
     }
 }
@@ -332,6 +336,7 @@ fn read_run(run: &mut RunSettings, mut table: Table<'_>) -> Result<(), Error> {
     table.whole("seed", &mut run.seed)?;
     table.whole("max_steps", &mut run.max_steps)?;
     table.number("escape_norm", &mut run.escape_norm)?;
+    table.number("noise", &mut run.noise)?;
     table.finish()
 }
 

@@ -49,6 +49,7 @@ fn study(options: &SimulateOptions) -> Result<Study, Error> {
         (options.dt_out, &mut run.dt_out),
         (options.rtol, &mut run.rtol),
         (options.atol, &mut run.atol),
+        (options.noise, &mut run.noise),
     ];
     for (given, place) in numbers {
         if let Some(value) = given {

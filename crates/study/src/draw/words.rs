@@ -60,6 +60,9 @@ pub(super) fn method(body: &Body<'_>) -> String {
     } else {
         String::new()
     };
+    let noise = c.noise.map_or_else(String::new, |noise| {
+        format!(" White noise of amplitude {} on the shape, seed {}.", number(noise.amplitude), c.seed)
+    });
     let end = match manifest.outcome {
         Outcome::Completed { .. } => String::new(),
         Outcome::Escaped { t, singular: true, .. } => {
@@ -68,7 +71,7 @@ pub(super) fn method(body: &Body<'_>) -> String {
         other => format!(" The run ended early: {other}."),
     };
     let end = end.replace("*t** =", "*t*\\* =");
-    format!("Computed by {title}, {control}.{transient}{end}")
+    format!("Computed by {title}, {control}.{noise}{transient}{end}")
 }
 
 /// R0 and the size of the drawn outlines.

@@ -1,7 +1,7 @@
 //! A plan of a scan: every number that its rows depend on, and nothing else.
 
 use super::Axis;
-use crate::plan::{Control, Named, check, check_stability, control, sha256_hex, stepper};
+use crate::plan::{Control, Named, check, check_no_noise, check_stability, control, sha256_hex, stepper};
 use crate::{Error, Study};
 use motiform_dynamics::steppers::Method;
 use motiform_models::{ModelInfo, parameters};
@@ -68,6 +68,7 @@ impl ScanPlan {
         let method = stepper(&study.run.stepper)?;
         let (run, scan) = (&study.run, &study.scan);
         check_settings(study)?;
+        check_no_noise(run.noise)?;
         check_axes(study, info)?;
         let free = |name: &str| scan.axes.iter().any(|axis| axis.name == name);
         let names = info.parameters().iter().map(|spec| spec.name.to_owned());
