@@ -13,14 +13,15 @@ use std::path::Path;
 
 pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     let out = &options.out;
-    let unwritable = |reason| Error::Unwritable { path: out.clone(), reason };
-    std::fs::create_dir_all(out).map_err(unwritable)?;
     let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let wanted = Options {
         figures: options.figures.clone(),
         quick: options.quick,
         threads: options.threads.map_or_else(all, usize::from),
     };
+    wanted.check()?;
+    let unwritable = |reason| Error::Unwritable { path: out.clone(), reason };
+    std::fs::create_dir_all(out).map_err(unwritable)?;
     let watch = Watch::new(1000.0, "permille");
     let report = reproduce(&wanted, out, &watch);
     watch.finish();

@@ -30,6 +30,19 @@ pub struct Options {
     pub threads: usize,
 }
 
+impl Options {
+    /// Whether every figure asked for is one of the paper's.
+    ///
+    /// # Errors
+    /// [`Error::UnknownFigure`] with all names.
+    pub fn check(&self) -> Result<(), Error> {
+        match self.figures.iter().find(|name| !names().contains(&name.as_str())) {
+            Some(name) => Err(Error::UnknownFigure { name: name.clone(), known: names() }),
+            None => Ok(()),
+        }
+    }
+}
+
 /// A part of the paper: its name, the share of the work it is, and what rebuilds it.
 struct Chapter {
     name: &'static str,
@@ -60,11 +73,7 @@ pub fn names() -> Vec<&'static str> {
 /// # Errors
 /// An unknown name; [`Error::Interrupted`] if the monitor asked to stop; files that cannot be written.
 pub fn reproduce(options: &Options, out: &Path, monitor: &dyn Monitor) -> Result<Report, Error> {
-    for name in &options.figures {
-        if !names().contains(&name.as_str()) {
-            return Err(Error::UnknownFigure { name: name.clone(), known: names() });
-        }
-    }
+    options.check()?;
     let wanted = |chapter: &&Chapter| {
         options.figures.is_empty() || options.figures.iter().any(|name| name == chapter.name)
     };
