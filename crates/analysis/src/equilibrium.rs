@@ -4,6 +4,7 @@ use crate::linear::{add, apply, basis, complement, dot, eigenvalues, least_squar
 use crate::symmetry::{align, turning_of_shape};
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField, model};
+use serde::{Deserialize, Serialize};
 
 /// A solution of `f(u) = omega G u`, with `G` the infinitesimal rotation: at rest or straight (`omega = 0`), or
 /// circular.
@@ -205,7 +206,7 @@ impl RelativeEquilibrium {
 }
 
 /// Rates at a saddle of a cycle.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Saddle {
     /// `lambda_+`: how fast orbits leave.
     pub out: f64,

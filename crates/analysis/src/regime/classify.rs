@@ -15,9 +15,9 @@ use super::recurrence::periodic;
 use super::settings::{Settings, ended};
 use super::verdict::{Attractor, Regime, Verdict};
 use super::{chaos, words};
-use crate::Result;
 use crate::equilibrium::RelativeEquilibrium;
 use crate::linear::norm;
+use crate::{Estimate, Result};
 use motiform_dynamics::{Equivariant, Integration, Outcome, Sink};
 
 /// Classifies the motion that starts from `start`; `None` if `stop` broke off.
@@ -25,7 +25,7 @@ use motiform_dynamics::{Equivariant, Integration, Outcome, Sink};
 /// The evidence and its numbers are in the verdict. Thresholds: an equilibrium counts as reached at 1e-3 of the shape's
 /// size if it is stable by its eigenvalues and the orbit comes closer at the rate they say; a shape comes back if Newton's
 /// method finds a stable orbit within 3 % of the motion's diameter; chaos needs lambda_1 above twice its 95 % error and
-/// growth by more than e^10 in all.
+/// growth by more than e^10, in two consecutive looks, and no veto of the 0-1 test (K < 0.3).
 ///
 /// # Errors
 /// What the numerics refuse (a start of the wrong length, say). Everything that happens to the orbit is a verdict.
@@ -43,6 +43,7 @@ pub fn classify<B: Equivariant + ?Sized>(
         stop,
         time: 0.0,
         fastest: 0.0,
+        parted: None,
         missing: "no motion had established itself".to_owned(),
     };
     let mut orbit = settings.method.shape_orbit(body, settings.control, 0.0, start)?;
@@ -84,6 +85,8 @@ struct Search<'s, B: ?Sized> {
     time: f64,
     /// Fastest change of the reduced shape so far.
     fastest: f64,
+    /// The exponent of the last look, where neighbours parted in it.
+    parted: Option<Estimate>,
     /// What kept the last look from deciding.
     missing: String,
 }
@@ -177,9 +180,12 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
         self.time += run.time + run.transient;
         orbit.restart(&run.shape);
         let witness = chaos::Witness::of(look);
-        if let Some(verdict) = chaos::chaotic(&run, &witness, self.time) {
+        let parted = chaos::parts(&run, &witness);
+        if let (Some(before), Some(now)) = (self.parted, parted) {
+            let verdict = chaos::chaotic(before, now, &run, &witness, self.time);
             return Ok(self.described(verdict, orbit, look)?.into());
         }
+        self.parted = parted;
         if let Some(verdict) = chaos::torus(&run, &witness, self.time) {
             return Ok(self.described(verdict, orbit, look)?.into());
         }

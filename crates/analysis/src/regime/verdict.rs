@@ -1,6 +1,7 @@
 //! What a classification says: the regime, the evidence for it, and how sure it is.
 
 use crate::Estimate;
+use crate::equilibrium::Saddle;
 use serde::{Deserialize, Serialize};
 
 /// The motions, defined by the reduced dynamics and the drift of the group (never by eye).
@@ -135,6 +136,9 @@ pub struct Verdict {
     /// Lyapunov exponents, largest first (inverse model time): of the equilibrium, of the periodic orbit, or measured.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub exponents: Vec<Estimate>,
+    /// The rates of the saddles that a heteroclinic cycle rests at (inverse model time).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub saddle: Option<Saddle>,
     /// Turns from leg to leg (rad, in -pi..pi).
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub legs: Vec<f64>,
@@ -166,6 +170,7 @@ impl Verdict {
             net_rotation: None,
             drift: None,
             exponents: Vec::new(),
+            saddle: None,
             legs: Vec::new(),
             swing: None,
             rests: Vec::new(),

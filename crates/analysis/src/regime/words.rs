@@ -90,12 +90,11 @@ pub(super) fn rectangular<B: Equivariant + ?Sized>(
     let mut verdict = Verdict::new(Regime::Rectangular, Attractor::Heteroclinic, why, time);
     verdict.margin = Some(-(out + inward) / (1e3 * cycle.equilibrium.resolution()));
     verdict.rests.clone_from(&cycle.rests);
-    verdict.exponents =
-        [out, inward].map(|value| Estimate { value, error: cycle.equilibrium.resolution() }).to_vec();
+    verdict.saddle = Some(cycle.saddle);
     let longest = cycle.rests.iter().copied().fold(0.0, f64::max);
     let path = Path::follow(body, shape, 6.0 * longest, 4 * SAMPLES, settings)?;
     verdict.speed = path.speed();
-    super::legs::describe(&mut verdict, &path, None);
+    verdict.legs = super::legs::between_rests(&path);
     Ok(verdict)
 }
 
@@ -139,8 +138,9 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     verdict.exponents = values.into_iter().map(|value| Estimate { value, error }).collect();
     if path.moves() {
         verdict.drift = Some(path.drift());
-        verdict.turning_rate = path.turning_rate();
-        super::legs::describe(&mut verdict, &path, Some(rotation));
+        // exactly 0 where the second half of the period mirrors the first
+        verdict.turning_rate = path.turning_rate().map(|rate| if orbit.mirrored { 0.0 } else { rate });
+        super::legs::describe(&mut verdict, &path, rotation);
     }
     Ok(verdict)
 }

@@ -75,6 +75,9 @@ fn summary(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
             verdict.exponents.iter().take(6).map(|e| format!("{:.5} +- {:.1e}", e.value, e.error)).collect();
         writeln!(text, "exponents      {}", exponents.join(", "))?;
     }
+    if let Some(saddle) = verdict.saddle {
+        writeln!(text, "saddle         lambda_+ {:.5}, lambda_- {:.5}", saddle.out, saddle.inward)?;
+    }
     write!(text, "time spent     {:.0} model time, seed {}", verdict.time, plan.computation.seed)?;
     Ok(text)
 }
