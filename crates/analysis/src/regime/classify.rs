@@ -10,15 +10,16 @@
 //! If nothing is decided the next look is twice as long, until the budget is spent.
 
 use super::heteroclinic::cycle;
-use super::look::Look;
+use super::look::{Look, RESTS};
 use super::recurrence::periodic;
 use super::settings::{Settings, ended};
 use super::verdict::{Attractor, Regime, Verdict};
 use super::{chaos, words};
 use crate::equilibrium::RelativeEquilibrium;
 use crate::linear::norm;
+use crate::symmetry::reduced_speed;
 use crate::{Estimate, Result};
-use motiform_dynamics::{Equivariant, Integration, Outcome, Sink};
+use motiform_dynamics::{Equivariant, Integration, Outcome, Sink, VectorField};
 
 /// Classifies the motion that starts from `start`; `None` if `stop` broke off.
 ///
@@ -179,6 +180,11 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
         }
         self.time += run.time + run.transient;
         orbit.restart(&run.shape);
+        if self.rests(&run.shape) {
+            // At a saddle neighbours part at its own rate: that is no chaos, however long it lasts.
+            "the orbit rested at a saddle while the exponent was measured".clone_into(&mut self.missing);
+            return Ok(Step::Open);
+        }
         let witness = chaos::Witness::of(look);
         let parted = chaos::parts(&run, &witness);
         if let (Some(before), Some(now)) = (self.parted, parted) {
@@ -191,6 +197,13 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
         }
         self.missing = chaos::missing(&run, &witness);
         Ok(Step::Open)
+    }
+
+    /// Whether a shape changes hardly at all, against the fastest change so far.
+    fn rests(&self, shape: &[f64]) -> bool {
+        let mut slope = shape.to_vec();
+        VectorField::<f64>::eval(self.body, 0.0, shape, &mut slope);
+        reduced_speed(self.body, shape, &slope) < RESTS * self.fastest
     }
 
     fn described(&self, mut verdict: Verdict, orbit: &dyn Integration, look: &Look) -> Result<Verdict> {

@@ -45,7 +45,7 @@ pub(super) struct Look {
 }
 
 /// A reduced shape that changes slower than this, against its fastest, rests.
-const RESTS: f64 = 0.01;
+pub(super) const RESTS: f64 = 0.01;
 
 /// Most extremes that are kept, the latest.
 const KEPT: usize = 4096;

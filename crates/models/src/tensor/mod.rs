@@ -6,6 +6,7 @@ pub mod fourier;
 pub mod indices;
 pub mod outline;
 mod parameters;
+pub mod reduced;
 
 pub use fourier::{Coefficients, FourierField};
 pub use parameters::TensorParameters;

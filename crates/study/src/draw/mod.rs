@@ -1,6 +1,7 @@
 //! Dataset to figures: what is drawn, and with what words. The drawing itself is in [`crate::figures`].
 
 mod body;
+mod diagram;
 mod film;
 mod path;
 mod return_map;
@@ -12,6 +13,8 @@ mod words;
 use crate::figures::{DEFAULT_SCALE, png};
 use crate::{Dataset, Error};
 use body::Body;
+pub use diagram::{draw_scan, exponents, phase_diagram};
+pub(crate) use words::number;
 
 /// A file ready to be written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,18 +52,29 @@ pub fn draw(dataset: &Dataset, pdf: bool) -> Result<Vec<Picture>, Error> {
 
 fn stills(body: &Body<'_>, pdf: bool) -> Result<Vec<Picture>, Error> {
     let mut pictures = Vec::new();
-    add(&mut pictures, "path", &path::figure(body).svg()?, pdf)?;
-    add(&mut pictures, "series", &series::figure(body).svg()?, pdf)?;
-    if let Some(figure) = return_map::figure(body) {
-        add(&mut pictures, "return-map", &figure.svg()?, pdf)?;
-    }
-    if let Some(figure) = space_time::figure(body) {
-        add(&mut pictures, "phi", &figure.svg()?, pdf)?;
-    }
-    if let Some(figure) = spectrum::figure(body) {
-        add(&mut pictures, "spectrum", &figure.svg()?, pdf)?;
+    for (name, svg) in drawings(body)? {
+        add(&mut pictures, name, &svg, pdf)?;
     }
     Ok(pictures)
+}
+
+/// The still figures of a dataset as SVG, by name: what [`draw`] makes files of.
+pub(crate) fn stills_as_svg(dataset: &Dataset) -> Result<Vec<(&'static str, String)>, Error> {
+    drawings(&Body::new(dataset)?)
+}
+
+fn drawings(body: &Body<'_>) -> Result<Vec<(&'static str, String)>, Error> {
+    let mut all = vec![("path", path::figure(body).svg()?), ("series", series::figure(body).svg()?)];
+    if let Some(figure) = return_map::figure(body) {
+        all.push(("return-map", figure.svg()?));
+    }
+    if let Some(figure) = space_time::figure(body) {
+        all.push(("phi", figure.svg()?));
+    }
+    if let Some(figure) = spectrum::figure(body) {
+        all.push(("spectrum", figure.svg()?));
+    }
+    Ok(all)
 }
 
 fn add(pictures: &mut Vec<Picture>, name: &str, svg: &str, pdf: bool) -> Result<(), Error> {

@@ -1,14 +1,15 @@
 //! Captions: the parameter set, the method, the scale of what is drawn. All of it from the manifest.
 
 use super::body::Body;
-use crate::plan::Control;
+use crate::plan::{Control, Named};
 use motiform_dynamics::Outcome;
+use motiform_models::ModelInfo;
 
 /// A space at which no line breaks.
 const SPACE: char = '\u{a0}';
 
 /// A number as people write it: `0.9`, `-1`, `10^{-9}`, `2.5×10^{6}`.
-pub(super) fn number(x: f64) -> String {
+pub(crate) fn number(x: f64) -> String {
     if x == 0.0 || (1e-3..1e5).contains(&x.abs()) {
         let text = format!("{x:.6}");
         return text.trim_end_matches('0').trim_end_matches('.').to_owned();
@@ -25,8 +26,12 @@ pub(super) fn number(x: f64) -> String {
 
 /// `Tensor model: γ = 1, κ_2 = 0.9, ...; all others 0.`
 pub(super) fn parameters(body: &Body<'_>) -> String {
-    let values = &body.dataset.manifest.plan.computation.parameters;
-    let specs = body.info.parameters();
+    named(body.info, &body.dataset.manifest.plan.computation.parameters)
+}
+
+/// The same for these values of a model.
+pub(super) fn named(info: &ModelInfo, values: &Named) -> String {
+    let specs = info.parameters();
     let set: Vec<String> = specs
         .iter()
         .filter_map(|spec| Some((spec, values.get(spec.name).filter(|&value| value != 0.0)?)))
@@ -34,7 +39,7 @@ pub(super) fn parameters(body: &Body<'_>) -> String {
         .collect();
     let others =
         if set.len() < specs.len() { format!("; all other parameters{SPACE}0") } else { String::new() };
-    format!("{} model: {}{others}.", capital(body.info.name), set.join(", "))
+    format!("{} model: {}{others}.", capital(info.name), set.join(", "))
 }
 
 fn capital(name: &str) -> String {
@@ -46,15 +51,7 @@ fn capital(name: &str) -> String {
 pub(super) fn method(body: &Body<'_>) -> String {
     let manifest = &body.dataset.manifest;
     let c = &manifest.plan.computation;
-    let title = manifest.plan.method().map_or(c.stepper.as_str(), |method| method.title());
-    let title = [", fixed step", ", adaptive"]
-        .iter()
-        .find_map(|kind| title.find(kind))
-        .map_or(title, |at| &title[..at]);
-    let control = match c.control {
-        Control::Adaptive { rtol, .. } => format!("relative tolerance {}", number(rtol)),
-        Control::Fixed { step } => format!("step {}", number(step)),
-    };
+    let (title, control) = (stepper(&c.stepper), control(c.control));
     let transient = if c.transient > 0.0 {
         format!(" The first {} time units are not shown.", number(c.transient))
     } else {
@@ -72,6 +69,20 @@ pub(super) fn method(body: &Body<'_>) -> String {
     };
     let end = end.replace("*t** =", "*t*\\* =");
     format!("Computed by {title}, {control}.{noise}{transient}{end}")
+}
+
+/// What a stepper is called, without the kind of its control.
+pub(super) fn stepper(name: &str) -> &str {
+    let title = motiform_dynamics::steppers::Method::find(name).map_or(name, |method| method.title());
+    [", fixed step", ", adaptive"].iter().find_map(|kind| title.find(kind)).map_or(title, |at| &title[..at])
+}
+
+/// `relative tolerance 10^-9`, or the step.
+pub(super) fn control(control: Control) -> String {
+    match control {
+        Control::Adaptive { rtol, .. } => format!("relative tolerance {}", number(rtol)),
+        Control::Fixed { step } => format!("step {}", number(step)),
+    }
 }
 
 /// R0 and the size of the drawn outlines.

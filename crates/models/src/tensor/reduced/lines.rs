@@ -1,0 +1,141 @@
+//! The lines of the plane (kappa2, gamma) at which motions lose their stability.
+
+use super::Reduced;
+
+/// A line of Fig. 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Line {
+    /// `gamma = 0`, `kappa2 > 0`: the circle starts to move. The paper's solid line.
+    CircleToStraight,
+    /// `gamma = -2 a1 r2`, `kappa2 = -8 b3 r2^2`: the ellipse starts to move. The paper's solid line.
+    EllipseToStraight,
+    /// `kappa2 = 0`, `gamma < 0`: the circle becomes an ellipse; both are motionless.
+    CircleToEllipse,
+    /// `gamma = (16 a1/b1) s^2 + 2 a1 s`, `kappa2 = 4 a1 s - 8 b3 s^2`, `s > 0`: the path bends. The paper's broken line.
+    StraightToCircular,
+    /// `kappa2 = -(8 b3 s^3 + 12 b3 B s^2)/(s + B/2)`, `gamma = 2 a1 s - kappa2/2 - 12 b3 s^2`, `-B/2 < s < 0`, `B = b1/4`:
+    /// Hopf bifurcation of straight motion, subcritical. The paper's dotted line.
+    StraightHopf,
+    /// Hopf bifurcation of circular motion (of the circle's radius and the ellipse): `c2 c1 = c0` (Routh and Hurwitz). For
+    /// the paper's couplings exactly `gamma = -(2/5) kappa2`.
+    CircularToQuasiPeriodic,
+    /// `gamma = 0`, `kappa2 < 0`: `lambda_+ + lambda_- = 0`, the cycle between ellipses starts to repel.
+    QuasiPeriodicToRectangular,
+}
+
+impl Line {
+    /// All lines.
+    pub const ALL: [Self; 7] = [
+        Self::CircleToStraight,
+        Self::EllipseToStraight,
+        Self::CircleToEllipse,
+        Self::StraightToCircular,
+        Self::StraightHopf,
+        Self::CircularToQuasiPeriodic,
+        Self::QuasiPeriodicToRectangular,
+    ];
+
+    /// What happens on it, in words.
+    #[must_use]
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::CircleToStraight => "circle at rest to straight",
+            Self::EllipseToStraight => "ellipse at rest to straight",
+            Self::CircleToEllipse => "circle to ellipse, both at rest",
+            Self::StraightToCircular => "straight to circular",
+            Self::StraightHopf => "straight motion loses its stability (Hopf)",
+            Self::CircularToQuasiPeriodic => "circular to quasi-periodic",
+            Self::QuasiPeriodicToRectangular => "quasi-periodic to rectangular",
+        }
+    }
+}
+
+/// How far along the open ends of their parameters lines are followed, as parts of their natural units.
+const FAR: f64 = 8.0;
+
+impl Reduced {
+    /// `count` points `[kappa2, gamma]` of a line inside or just outside the box of these ranges, in the order of its
+    /// parameter; empty where the line does not meet the box.
+    #[must_use]
+    pub fn line(&self, line: Line, kappa2: (f64, f64), gamma: (f64, f64), count: usize) -> Vec<[f64; 2]> {
+        let (extent, steps) = (kappa2.0.abs().max(kappa2.1.abs()), count.max(2) - 1);
+        let part = |i: usize| i as f64 / steps as f64;
+        let point = |i: usize| {
+            let x = part(i);
+            match line {
+                Line::CircleToStraight => [x * extent, 0.0],
+                Line::QuasiPeriodicToRectangular => [-x * extent, 0.0],
+                Line::CircleToEllipse => [0.0, -x * gamma.0.abs()],
+                // equal steps in s: dense where the lines turn
+                Line::EllipseToStraight => self.ellipse_to_straight(x * (extent / (8.0 * self.b3)).sqrt()),
+                Line::StraightToCircular => self.straight_to_circular(x * self.a1 / (4.0 * self.b3)),
+                Line::StraightHopf => self.straight_hopf(-x * (1.0 - 1e-3) * 0.5 * self.b()),
+                Line::CircularToQuasiPeriodic => self.circular_hopf(x * FAR * extent / self.unit()),
+            }
+        };
+        let inside = |p: &[f64; 2]| {
+            (kappa2.0..=kappa2.1).contains(&p[0]) && (gamma.0..=gamma.1).contains(&p[1])
+        };
+        let all: Vec<[f64; 2]> = (0..=steps).map(point).filter(|p| p.iter().all(|x| x.is_finite())).collect();
+        let first = all.iter().position(inside);
+        let last = all.iter().rposition(inside);
+        match (first, last) {
+            (Some(first), Some(last)) => {
+                all[first.saturating_sub(1)..(last + 2).min(all.len())].to_vec() // one point beyond each end
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// The point with the ellipse `r2 >= 0` of the line [`Line::EllipseToStraight`].
+    #[must_use]
+    pub fn ellipse_to_straight(&self, r2: f64) -> [f64; 2] {
+        [-8.0 * self.b3 * r2 * r2, -2.0 * self.a1 * r2]
+    }
+
+    /// The point with the ellipse `s > 0` of the line [`Line::StraightToCircular`].
+    #[must_use]
+    pub fn straight_to_circular(&self, s: f64) -> [f64; 2] {
+        let kappa2 = 4.0 * self.a1 * s - 8.0 * self.b3 * s * s;
+        [kappa2, 16.0 * self.a1 / self.b1 * s * s + 2.0 * self.a1 * s]
+    }
+
+    /// The point with the ellipse `-B/2 < s <= 0` of the line [`Line::StraightHopf`].
+    #[must_use]
+    pub fn straight_hopf(&self, s: f64) -> [f64; 2] {
+        let (b3, b) = (self.b3, self.b());
+        let kappa2 = -(8.0 * b3 * s * s * s + 12.0 * b3 * b * s * s) / (s + 0.5 * b);
+        [kappa2, 2.0 * self.a1 * s - 0.5 * kappa2 - 12.0 * b3 * s * s]
+    }
+
+    /// The point with the ellipse `r2^2 = rho >= 0` of the line [`Line::CircularToQuasiPeriodic`]: the root `kappa2` of
+    /// `c2 c1 = c0` next to its tangent at the origin, by the secant method; NaN where the line has ended.
+    #[must_use]
+    pub fn circular_hopf(&self, rho: f64) -> [f64; 2] {
+        if rho <= 0.0 {
+            return [0.0, 0.0];
+        }
+        let (a1, b3, b) = (self.a1, self.b3, self.b());
+        let m = 4.0 * a1 / b;
+        let tangent = 4.0 / 3.0 * (1.0 + b * b3 / a1) * m - 2.0 * m - 24.0 * b3;
+        let (mut last, mut kappa2) = (1.01 * tangent * rho, tangent * rho);
+        let (mut before, mut value) = (self.hurwitz(last, rho), self.hurwitz(kappa2, rho));
+        for _ in 0..40 {
+            let step = value * (kappa2 - last) / (value - before);
+            if value == 0.0 || !step.is_finite() {
+                break;
+            }
+            (last, before) = (kappa2, value);
+            kappa2 -= step;
+            value = self.hurwitz(kappa2, rho);
+        }
+        let cosine = (kappa2 + 8.0 * b3 * rho) / (4.0 * a1 * rho.sqrt());
+        let gamma = m * rho + 0.5 * (kappa2 + 8.0 * b3 * rho);
+        if cosine.abs() < 1.0 { [kappa2, gamma] } else { [f64::NAN, f64::NAN] }
+    }
+
+    /// What divides kappa2 to give the square of an ellipse.
+    fn unit(&self) -> f64 {
+        32.0 * self.a1 / self.b1 + 8.0 * self.b3
+    }
+}

@@ -1,0 +1,146 @@
+//! The formulas of the reduced model against Newton's method and numerical eigenvalues, and against classified motions.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
+
+use motiform_analysis::{RelativeEquilibrium, Settings, classify};
+use motiform_dynamics::StepControl;
+use motiform_dynamics::steppers::Method;
+use motiform_models::tensor::reduced::{Line, Motion, Reduced};
+use motiform_models::tensor::{Tensor, TensorParameters};
+
+/// The paper's couplings, and others of the same signs.
+const COUPLINGS: [Reduced; 3] =
+    [Reduced::PAPER, Reduced { a1: 0.7, b1: 0.9, b3: 1.4 }, Reduced { a1: 1.3, b1: 0.3, b3: 0.6 }];
+
+fn model(reduced: &Reduced, kappa2: f64, gamma: f64) -> Tensor {
+    let Reduced { a1, b1, b3 } = *reduced;
+    Tensor::new(&TensorParameters { kappa2, gamma, kappa3: 10.0, a1, b1, b3, ..TensorParameters::default() })
+}
+
+/// The equilibrium that Newton's method finds from the formula's state: it must be that state.
+fn newton(model: &Tensor, state: [f64; 4]) -> RelativeEquilibrium {
+    let guess = [state[0], state[1], state[2], state[3], 0.0, 0.0];
+    let found = RelativeEquilibrium::find(model, &guess).unwrap();
+    let off = found.shape.iter().zip(guess).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+    assert!(off < 1e-9, "{state:?}: {found:?}");
+    found
+}
+
+fn places() -> impl Iterator<Item = (f64, f64)> {
+    let kappas = (-11..=11).map(|i| 0.0203 * f64::from(i));
+    kappas.flat_map(|kappa2| (-10..=10).map(move |j| (kappa2, 0.0151 * f64::from(j) + 1e-4)))
+}
+
+#[test]
+fn straight_and_circular_states_are_equilibria_with_these_eigenvalues() {
+    let (mut straight, mut circular) = (0, 0);
+    for reduced in &COUPLINGS {
+        for (kappa2, gamma) in places() {
+            let model = model(reduced, kappa2, gamma);
+            for state in reduced.straight(kappa2, gamma).iter().filter(|state| state.speed > 1e-3) {
+                let found = newton(&model, [state.speed, 0.0, state.s, 0.0]);
+                let off = (found.growth() - state.growth).abs();
+                assert!(off < 1e-8, "{reduced:?} {kappa2} {gamma} {state:?}: {found:?}");
+                straight += 1;
+            }
+            let Some(state) = reduced.circular(kappa2, gamma) else { continue };
+            if 1.0 - state.cos_psi.abs() < 1e-3 {
+                continue; // about to merge with the straight motion
+            }
+            let sine = (1.0 - state.cos_psi * state.cos_psi).sqrt();
+            let found = newton(&model, [state.speed, 0.0, state.r2 * state.cos_psi, state.r2 * sine]);
+            assert!((found.turning_rate.abs() - state.turning_rate).abs() < 1e-9);
+            assert_eq!(state.stable, found.growth() < 0.0, "{reduced:?} {kappa2} {gamma}: {found:?}");
+            circular += 1;
+        }
+    }
+    println!("{straight} straight, {circular} circular");
+    assert!(straight > 1000 && circular > 300);
+}
+
+#[test]
+fn the_ellipse_at_rest_has_the_saddle_rates() {
+    for reduced in &COUPLINGS {
+        for (kappa2, gamma) in places().filter(|place| place.0 < 0.0) {
+            let r2 = reduced.ellipse(kappa2).unwrap();
+            let found = newton(&model(reduced, kappa2, gamma), [0.0, 0.0, r2, 0.0]);
+            let [out, inward] = reduced.saddle_rates(kappa2, gamma).unwrap();
+            for rate in [out, inward, 2.0 * kappa2] {
+                let near = found.eigenvalues.iter().map(|value| (value.0 - rate).abs()).fold(1.0, f64::min);
+                assert!(near < 1e-10, "{rate}: {found:?}");
+            }
+        }
+    }
+}
+
+/// On a line the growth rate of what loses its stability is zero.
+#[test]
+fn lines_are_where_growth_rates_vanish() {
+    for reduced in &COUPLINGS {
+        for i in 1..40 {
+            let part = f64::from(i) / 40.0;
+            let [kappa2, gamma] = reduced.straight_to_circular(0.1 * part);
+            let states = reduced.straight(kappa2, gamma);
+            assert!(states.iter().any(|state| state.growth.abs() < 1e-12), "{states:?}");
+            let [kappa2, gamma] = reduced.straight_hopf(-0.5 * 0.25 * reduced.b1 * 0.9 * part);
+            let states = reduced.straight(kappa2, gamma);
+            let along = |s: f64, speed: f64| -2.0 * speed * speed - kappa2 - 24.0 * reduced.b3 * s * s;
+            assert!(states.iter().any(|state| along(state.s, state.speed).abs() < 1e-12), "{states:?}");
+            let [kappa2, gamma] = reduced.circular_hopf(4e-3 * part);
+            let state = reduced.circular(kappa2, gamma).unwrap();
+            let sine = (1.0 - state.cos_psi * state.cos_psi).sqrt();
+            let shape = [state.speed, 0.0, state.r2 * state.cos_psi, state.r2 * sine];
+            let found = newton(&model(reduced, kappa2, gamma), shape);
+            assert!(found.growth().abs() < 1e-9, "{found:?}");
+        }
+    }
+}
+
+#[test]
+fn the_papers_quasi_periodic_line_is_straight() {
+    for i in 1..40 {
+        let [kappa2, gamma] = Reduced::PAPER.circular_hopf(1e-3 * f64::from(i) / 40.0);
+        assert!((gamma + 0.4 * kappa2).abs() < 1e-14, "{kappa2} {gamma}");
+    }
+}
+
+#[test]
+fn lines_stay_near_the_box() {
+    let (kappa2, gamma) = ((-0.22, 0.22), (-0.16, 0.12));
+    for line in Line::ALL {
+        let points = Reduced::PAPER.line(line, kappa2, gamma, 400);
+        println!("{line:?}: {} points, {:?} to {:?}", points.len(), points.first(), points.last());
+        assert!(points.len() > 30);
+    }
+    assert!(Reduced::PAPER.line(Line::CircleToStraight, (-1.0, -0.5), gamma, 50).is_empty());
+}
+
+/// A handful of places of each kind, classified.
+#[test]
+fn classified_motions_are_those_expected() {
+    let settings = Settings {
+        method: Method::find("dop853").unwrap(),
+        control: StepControl::Adaptive { rtol: 1e-9, atol: 1e-12 },
+        first_look: 200.0,
+        budget: 4e4,
+        escape_norm: 1e6,
+        max_steps: 10_000_000,
+    };
+    let places = [
+        (0.1, -0.05, Motion::Motionless),
+        (-0.01, -0.12, Motion::Motionless),
+        (0.18, 0.05, Motion::Straight),
+        (-0.18, -0.1, Motion::Straight),
+        (-0.1, 0.1, Motion::Circular),
+        (-0.06, 0.02, Motion::QuasiPeriodic),
+        (-0.1, -0.04, Motion::Rectangular),
+    ];
+    for (kappa2, gamma, motion) in places {
+        let expected = Reduced::PAPER.expected(kappa2, gamma);
+        assert!(expected.stable.contains(&motion), "{kappa2} {gamma}: {expected:?}");
+        let model = model(&Reduced::PAPER, kappa2, gamma);
+        let start = [0.01, 0.003, 0.008, -0.006, 0.0, 0.0];
+        let verdict = classify(&model, &start, &settings, &mut ()).unwrap().unwrap();
+        assert!(expected.allows(verdict.regime.name()), "{kappa2} {gamma}: {verdict:?}");
+    }
+}
