@@ -12,6 +12,7 @@ mod fig4;
 mod fig5;
 mod fig6;
 mod models;
+mod strip;
 
 use crate::Error;
 use crate::report::{Report, Section};

@@ -1,0 +1,27 @@
+//! A scan over one parameter as a strip.
+
+use crate::Error;
+use crate::figures::{BoundaryLine, Cell, PhaseDiagram};
+use crate::scan::CellSummary;
+
+/// What was found at each value, increasing, and lines in front of it.
+pub(super) fn strip(
+    x_label: &str,
+    points: &[(f64, CellSummary)],
+    lines: Vec<BoundaryLine>,
+    caption: Vec<String>,
+) -> Result<String, Error> {
+    let cell = |(x, summary): &(f64, CellSummary)| {
+        let share = |motion: &crate::scan::Motion| (motion.regime.name().to_owned(), motion.share);
+        Cell { x: *x, y: 0.0, shares: summary.motions.iter().map(share).collect() }
+    };
+    let figure = PhaseDiagram {
+        caption,
+        x_label: x_label.to_owned(),
+        x: points.iter().map(|point| point.0).collect(),
+        cells: points.iter().map(cell).collect(),
+        lines,
+        ..PhaseDiagram::default()
+    };
+    Ok(figure.svg()?)
+}
