@@ -28,7 +28,7 @@ pub fn settings(plan: &Plan, budget: f64) -> Result<Settings, Error> {
     if budget < 0.0 {
         return Err(Error::Setting {
             key: "budget",
-            value: format!("{budget:?}"),
+            value: budget.to_string(),
             remedy: "give a model time above 0, or 0 for the model's default",
         });
     }

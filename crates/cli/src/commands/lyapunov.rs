@@ -19,9 +19,12 @@ pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
     let info = plan.info()?;
     for (key, value) in [("t_end", options.t_end), ("transient", options.transient)] {
         if let Some(value) = value.filter(|&value| value < 0.0 || key == "t_end" && value == 0.0) {
-            return Err(
-                Error::Setting { key, value: value.to_string(), remedy: "give a time above 0" }.into()
-            );
+            return Err(Error::Setting {
+                key,
+                value: value.to_string(),
+                remedy: "give a time above 0 (0 is a transient too)",
+            }
+            .into());
         }
     }
     if let Some(samples) = options.saddle {

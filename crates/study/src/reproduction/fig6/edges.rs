@@ -52,7 +52,9 @@ impl Edges {
         let at_twelve = near(straight, 12.0)?;
         let saddle = near(two_fold, 14.0)?;
         let attracts = |branch: &Branch| {
-            branch.edge(12.0, |cell, found| found.saddle(cell).is_some_and(|rates| rates.out + rates.inward < 0.0))
+            branch.edge(12.0, |cell, found| {
+                found.saddle(cell).is_some_and(|rates| rates.out + rates.inward < 0.0)
+            })
         };
         Ok(Self {
             onsets: [1, 2, 3, 4].map(onset),
