@@ -54,7 +54,8 @@ impl RelativeEquilibrium {
             let size = norm(&residual);
             let columns = linearisation(body, &shape, omega);
             let scale = columns.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
-            let floor = 1e-14 * scale * norm(&shape).max(1e-300);
+            // A circle has no size of its own: what is nothing against the guess is nothing.
+            let floor = 1e-14 * scale * norm(&shape).max(1e-3 * norm(guess)).max(1e-300);
             if !size.is_finite() {
                 return None;
             }

@@ -44,6 +44,7 @@ pub fn classify<B: Equivariant + ?Sized>(
         stop,
         time: 0.0,
         fastest: 0.0,
+        largest: 0.0,
         parted: None,
         missing: "no motion had established itself".to_owned(),
     };
@@ -88,6 +89,8 @@ struct Search<'s, B: ?Sized> {
     fastest: f64,
     /// The exponent of the last look, where neighbours parted in it.
     parted: Option<Estimate>,
+    /// Largest size of the shape so far.
+    largest: f64,
     /// What kept the last look from deciding.
     missing: String,
 }
@@ -142,7 +145,8 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
             "no equilibrium was found where the orbit rests".clone_into(&mut self.missing);
             return Ok(None);
         };
-        let size = norm(&found.shape).max(look.sizes.1);
+        self.largest = self.largest.max(look.sizes.1);
+        let size = norm(&found.shape).max(self.largest);
         let before = found.distance(self.body, orbit.state());
         if found.growth() > -found.resolution() {
             self.missing =
