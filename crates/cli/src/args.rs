@@ -44,7 +44,7 @@ pub(crate) enum Command {
     Reproduce(ReproduceOptions),
     /// Check a study file and print the plan it stands for, without computing
     Check(CheckOptions),
-    /// Draw the figures of datasets again, without computing
+    /// Draw the figures of datasets and scans again, without computing
     Figure(FigureOptions),
     /// Print shell completions
     #[command(
@@ -78,6 +78,7 @@ Examples:
 The output folder holds
   _manifest.json       plan, hash, version
   part-*.parquet       one row per cell and initial state; pandas.read_parquet(DIR) reads them all
+  _diagram             which motion occurs where, as .svg and .png; _exponent with one axis, where exponents are known
 A scan that was interrupted or killed goes on with --resume. The numbers are the same for any number of threads, any
 shards and any interruption. Exit code 1: some cells are undetermined.";
 
@@ -306,6 +307,9 @@ pub(crate) struct ScanOptions {
     /// Replace an earlier scan
     #[arg(long)]
     pub(crate) force: bool,
+    /// Leave the figures out
+    #[arg(long)]
+    pub(crate) no_figures: bool,
     /// Print the summary as one JSON object
     #[arg(long)]
     pub(crate) json: bool,
@@ -368,7 +372,7 @@ pub(crate) struct CheckOptions {
 
 #[derive(Args)]
 pub(crate) struct FigureOptions {
-    /// Dataset folders written by `motiform simulate`
+    /// Folders written by `motiform simulate` or `motiform scan`
     #[arg(value_name = "DATASET", required = true)]
     pub(crate) datasets: Vec<PathBuf>,
     #[command(flatten)]

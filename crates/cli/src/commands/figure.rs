@@ -2,13 +2,19 @@
 
 use crate::args::{DrawingOptions, FigureOptions};
 use crate::output::{End, print};
-use motiform_study::draw::{Picture, draw};
+use motiform_study::draw::{Picture, draw, draw_scan};
 use motiform_study::files::{read_dataset, replace_file};
+use motiform_study::scan::ScanFolder;
 use motiform_study::study::FigureSettings;
 use motiform_study::{Dataset, Error, plan};
 
 pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
     for folder in &options.datasets {
+        if ScanFolder::is_one(folder) {
+            let names = write_scan(&ScanFolder::read(folder)?, pdf(&options.drawing))?;
+            print(&format!("{}: {}", folder.display(), names.join(" ")))?;
+            continue;
+        }
         let mut dataset = read_dataset(folder)?;
         apply(&options.drawing, &mut dataset.manifest.plan.figure);
         plan::check_figure(&dataset.manifest.plan.figure)?;
@@ -32,8 +38,23 @@ pub(crate) fn apply(options: &DrawingOptions, settings: &mut FigureSettings) {
     settings.animation &= !options.no_animation;
 }
 
+/// Draws a scan into its folder; the names of its figures.
+pub(crate) fn write_scan(folder: &ScanFolder, pdf: bool) -> Result<Vec<String>, Error> {
+    let mut names = Vec::new();
+    for picture in draw_scan(folder, pdf)? {
+        replace_file(&folder.path().join(&picture.name), &picture.bytes)?;
+        names.push(picture.name);
+    }
+    Ok(names)
+}
+
 /// Every picture of a dataset.
 pub(crate) fn pictures(dataset: &Dataset, options: &DrawingOptions) -> Result<Vec<Picture>, Error> {
+    draw(dataset, pdf(options))
+}
+
+/// Whether PDF files are asked for.
+fn pdf(options: &DrawingOptions) -> bool {
     #[cfg(feature = "pdf")]
     let pdf = options.pdf;
     #[cfg(not(feature = "pdf"))]
@@ -41,5 +62,5 @@ pub(crate) fn pictures(dataset: &Dataset, options: &DrawingOptions) -> Result<Ve
         let _ = options;
         false
     };
-    draw(dataset, pdf)
+    pdf
 }

@@ -1,6 +1,7 @@
 //! `motiform scan`.
 
 use crate::args::ScanOptions;
+use crate::commands::figure::write_scan;
 use crate::commands::subject;
 use crate::output::{End, print, warn};
 use crate::progress::Watch;
@@ -28,6 +29,9 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
     let ended = scan.run(&Classify, threads(options), &watch);
     watch.finish();
     let ended = ended?;
+    if !options.no_figures {
+        write_scan(scan.folder(), false)?;
+    }
     let totals = Totals::of(scan.folder())?;
     show(scan.folder(), &totals, options.json)?;
     for damaged in &totals.damaged {

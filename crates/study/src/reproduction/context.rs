@@ -24,6 +24,11 @@ impl Context<'_> {
         if self.quick { quick } else { full }
     }
 
+    /// Listens for the stop alone.
+    pub(super) fn quiet(&self) -> impl Monitor + '_ {
+        Quiet(self.monitor)
+    }
+
     /// The study of a preset with changes.
     pub(super) fn preset(
         &self,
