@@ -87,7 +87,7 @@ impl Monitor for Share<'_> {
 }
 
 /// Listens for the stop and says nothing.
-struct Quiet<'m>(&'m dyn Monitor);
+pub(super) struct Quiet<'m>(pub(super) &'m dyn Monitor);
 
 impl Monitor for Quiet<'_> {
     fn stopped(&self) -> bool {

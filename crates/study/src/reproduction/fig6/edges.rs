@@ -28,6 +28,8 @@ pub(super) struct Edges {
     pub(super) two_fold_end: Option<f64>,
     /// Growth rate lambda_+ of the two-fold shape at the paper's edge, 14.4.
     pub(super) leaving: f64,
+    /// Growth rate of the two-fold shape at the paper's edge, 21.0.
+    pub(super) second_leaving: f64,
     /// Circular motion of the second window.
     pub(super) second_circular: (Option<f64>, Option<f64>),
     /// Stable three-fold shapes.
@@ -67,6 +69,7 @@ impl Edges {
             two_fold: two_fold.stable_until(12.0)?,
             two_fold_end: two_fold.stable_until(24.0)?,
             leaving: near(two_fold, 14.4)?.map_or(f64::NAN, |branch| branch.shape.growth()),
+            second_leaving: near(two_fold, 21.0)?.map_or(f64::NAN, |branch| branch.shape.growth()),
             second_circular: (second.stable_until(20.0)?, second.stable_until(25.0)?),
             three_fold: (three_fold.stable_until(20.0)?, three_fold.stable_until(32.0)?),
             four_fold: four_fold.stable_until(27.0)?,

@@ -72,11 +72,6 @@ impl Lengths {
         Ok(Self(points))
     }
 
-    /// The lengths at which some start leads to this motion.
-    pub(super) fn with(&self, regime: Regime) -> Vec<f64> {
-        let has = |summary: &CellSummary| summary.motions.iter().any(|motion| motion.regime == regime);
-        self.0.iter().filter(|point| has(&point.1)).map(|point| point.0).collect()
-    }
 
     /// The points inside a range.
     pub(super) fn inside(&self, from: f64, to: f64) -> impl Iterator<Item = &(f64, CellSummary)> {
@@ -89,9 +84,4 @@ impl Lengths {
         (self.inside(from, to).all(alone), self.inside(from, to).count())
     }
 
-    /// Shortest and longest length inside a range at which some start leads to this motion.
-    pub(super) fn extent(&self, regime: Regime, from: f64, to: f64) -> Option<(f64, f64)> {
-        let found: Vec<f64> = self.with(regime).into_iter().filter(|l| *l > from && *l < to).collect();
-        Some((*found.first()?, *found.last()?))
-    }
 }

@@ -1,0 +1,82 @@
+//! The figures of the chapter.
+
+use super::super::strip::strip;
+use super::exponents::Exponents;
+use super::lengths::Lengths;
+use super::tracks::Track;
+use crate::Error;
+use crate::figures::{BoundaryLine, ErrorBarFigure, ErrorBarSeries, LineStyle, Measured};
+use crate::report::{Picture, ReportFigure};
+use motiform_analysis::Regime;
+use rayon::prelude::*;
+
+/// The paper's windows.
+const WINDOWS: [(f64, f64, LineStyle); 3] =
+    [(12.0, 14.4, LineStyle::Solid), (21.0, 21.9, LineStyle::Dashed), (29.0, 29.9, LineStyle::Dotted)];
+
+/// What moves: the regimes that have a speed.
+const MOVING: [Regime; 6] = [
+    Regime::Straight,
+    Regime::Circular,
+    Regime::Rectangular,
+    Regime::QuasiPeriodic,
+    Regime::Zigzag,
+    Regime::Chaotic,
+];
+
+/// Letters of the figure, and what is seen.
+const TRACKS: [(&str, &str); 4] = [
+    ("a", "irregular motion."),
+    ("b", "quasi-periodic motion."),
+    ("c", "zigzag with turns of about 180 and 41 degrees."),
+    ("d", "zigzag with turns of about 180 and 136 degrees, 45 degrees in all."),
+];
+
+pub(super) fn all(
+    lengths: &Lengths,
+    exponents: &Exponents,
+    tracks: &[Track],
+) -> Result<Vec<ReportFigure>, Error> {
+    let svg = |caption: &str, svg: String| ReportFigure { caption: caption.to_owned(), picture: Picture::Svg(svg) };
+    let mut figures = vec![
+        svg("Which motion random starts lead to, over the length. Brackets: the paper's windows.", windows(lengths)?),
+        svg("Mean speed over the length (motionless shapes are left out).", speeds(lengths)?),
+        svg("Largest Lyapunov exponent in *W*_2.", exponents.svg()?),
+    ];
+    let drawn: Vec<Vec<ReportFigure>> = tracks
+        .par_iter()
+        .zip(&TRACKS[..])
+        .map(|(track, (letter, says))| track.figures(letter, says))
+        .collect::<Result<_, _>>()?;
+    figures.extend(drawn.into_iter().flatten());
+    Ok(figures)
+}
+
+fn windows(lengths: &Lengths) -> Result<String, Error> {
+    let bracket = |(n, (from, to, style)): (usize, (f64, f64, LineStyle))| BoundaryLine {
+        label: format!("*W*_{} of the paper: {from:.1} to {to:.1}", n + 1),
+        style,
+        points: vec![[from, 0.0], [from, 0.97], [to, 0.97], [to, 0.0]],
+    };
+    let lines = WINDOWS.into_iter().enumerate().map(bracket).collect();
+    strip("length *L*", &lengths.0, lines, Vec::new())
+}
+
+fn speeds(lengths: &Lengths) -> Result<String, Error> {
+    let series = |regime: Regime| {
+        let point = |(length, summary): &(f64, crate::scan::CellSummary)| {
+            let motion = summary.motions.iter().find(|motion| motion.regime == regime)?;
+            Some(Measured { x: *length, y: motion.median("speed_mean")?, error: 0.0 })
+        };
+        let points: Vec<Measured> = lengths.0.iter().filter_map(point).collect();
+        ErrorBarSeries { label: regime.name().to_owned(), points, joined: false }
+    };
+    let figure = ErrorBarFigure {
+        x_label: "length *L*".to_owned(),
+        y_label: "mean speed (model length per model time)".to_owned(),
+        series: MOVING.into_iter().map(series).filter(|series| !series.points.is_empty()).collect(),
+        logarithmic_y: true,
+        ..ErrorBarFigure::default()
+    };
+    Ok(figure.svg()?)
+}

@@ -1,0 +1,136 @@
+//! Fig. 6(a) to (d): the four motions that the paper shows.
+
+use super::super::context::Context;
+use super::lengths::modes_for;
+use crate::report::{Picture, ReportFigure};
+use crate::{Dataset, Error, Study, draw};
+use motiform_analysis::{Spread, Verdict, welch};
+use rayon::prelude::*;
+
+/// Rows at which the boundary is measured.
+const MEASURED: usize = 200;
+
+/// Recorded time of a quick run.
+const QUICK: f64 = 1000.0;
+
+/// A preset, run, named and measured.
+pub(in crate::reproduction) struct Track {
+    /// The run.
+    pub(in crate::reproduction) dataset: Dataset,
+    /// Its motion.
+    pub(in crate::reproduction) verdict: Verdict,
+    /// Length of the closed boundary, against the parameter.
+    pub(super) length_error: f64,
+    /// The enclosed area.
+    pub(super) area: Spread,
+    /// Largest `|int n ds| / L`.
+    pub(super) residual: f64,
+}
+
+/// Computes all four.
+pub(super) fn all(context: &Context<'_>) -> Result<Vec<Track>, Error> {
+    ["fig6a", "fig6b", "fig6c", "fig6d"].par_iter().map(|name| Track::of(context, name)).collect()
+}
+
+impl Track {
+    /// Runs a preset of the cell and names its motion, starting where the run ended.
+    pub(in crate::reproduction) fn of(context: &Context<'_>, name: &str) -> Result<Self, Error> {
+        let study = context.preset(name, |study| {
+            let length = study.parameters.iter().find(|entry| entry.0 == "length").map_or(21.6, |e| e.1);
+            study.set("modes", modes_for(length) as f64)?;
+            study.run.t_end = context.choose(study.run.t_end, QUICK);
+            Ok(())
+        })?;
+        let dataset = context.simulate(&study)?;
+        let verdict = context.classify(&continued(&study, &dataset)?)?;
+        let [length_error, residual, mean, min, max] = measures(&dataset)?;
+        Ok(Self { dataset, verdict, length_error, area: Spread { mean, min, max }, residual })
+    }
+
+    /// A parameter of the run.
+    pub(super) fn parameter(&self, name: &str) -> f64 {
+        self.dataset.manifest.plan.computation.parameters.get(name).unwrap_or(f64::NAN)
+    }
+
+    /// The sizes of the turns from leg to leg, in degrees, smallest first, equal ones (to a degree) once.
+    pub(super) fn turns(&self) -> Vec<f64> {
+        let mut turns: Vec<f64> = self.verdict.legs.iter().map(|turn| turn.to_degrees().abs()).collect();
+        turns.sort_by(f64::total_cmp);
+        turns.dedup_by(|a, b| (*a - *b).abs() < 1.0);
+        turns
+    }
+
+    /// The share of the frequencies that holds 90 % of the power of mode 2.
+    pub(super) fn breadth(&self) -> Option<f64> {
+        let dt = self.dataset.manifest.plan.computation.dt_out;
+        let power = |name: &str| {
+            let samples = self.dataset.trajectory.get(name)?;
+            Some(welch(samples, dt, samples.len() / 2).ok()?.power)
+        };
+        let mut sum: Vec<f64> = power("c2")?.iter().zip(power("s2")?).map(|(a, b)| a + b).collect();
+        sum.sort_by(|a, b| b.total_cmp(a));
+        let all: f64 = sum.iter().sum();
+        let mut part = 0.0;
+        let needed = sum.iter().take_while(|power| {
+            part += **power;
+            part < 0.9 * all
+        });
+        Some((needed.count() + 1) as f64 / sum.len() as f64)
+    }
+
+    /// Path, boundary field, spectrum and film.
+    pub(super) fn figures(&self, letter: &str, says: &str) -> Result<Vec<ReportFigure>, Error> {
+        let length = self.parameter("length");
+        let words = [
+            ("path.svg", format!("Fig. 6({letter}), *L* = {length}: {says}")),
+            ("phi.svg", format!("*φ*(*s*, *t*) of the motion above, *L* = {length}.")),
+            ("spectrum.svg", format!("Power spectra of the modes of *φ* at *L* = {length} (inset of Fig. 6(a)).")),
+            ("motion.png", format!("The motion at *L* = {length}, animated.")),
+        ];
+        let pictures = draw::draw(&self.dataset, false)?;
+        let figure = |(name, caption): (&str, String)| {
+            let bytes = &pictures.iter().find(|picture| picture.name == name)?.bytes;
+            let picture = match name.ends_with("svg") {
+                true => Picture::Svg(String::from_utf8_lossy(bytes).into_owned()),
+                false => Picture::Png(bytes.clone()),
+            };
+            Some(ReportFigure { caption, picture })
+        };
+        Ok(words.into_iter().filter_map(figure).collect())
+    }
+}
+
+/// The study that goes on where a run ended.
+pub(super) fn continued(study: &Study, dataset: &Dataset) -> Result<Study, Error> {
+    let mut next = study.clone();
+    for (name, value) in &dataset.manifest.state.0 {
+        next.set_initial(name, *value)?;
+    }
+    Ok(next)
+}
+
+/// Largest relative error of the length, largest closure residual, mean, least and largest area.
+fn measures(dataset: &Dataset) -> Result<[f64; 5], Error> {
+    let plan = &dataset.manifest.plan;
+    let values = &plan.computation.parameters;
+    let model = plan.info()?.build(&values.values())?;
+    let columns: Vec<&[f64]> =
+        model.coordinates().iter().filter_map(|c| dataset.trajectory.get(c.name)).collect();
+    let rows = dataset.trajectory.rows();
+    let length = values.get("length").unwrap_or(f64::NAN);
+    let mut shape = vec![0.0; model.dim()];
+    let mut out = [0.0; 4]; // length, area, residual, crossing
+    let [mut error, mut residual, mut sum, mut min, mut max] = [0.0, 0.0, 0.0, f64::MAX, f64::MIN];
+    let mut count = 0.0;
+    for row in (0..rows).step_by(rows.div_ceil(MEASURED).max(1)) {
+        let named: Vec<f64> = columns.iter().map(|column| column[row]).collect();
+        model.encode(&named, &mut shape);
+        model.measure(&shape, &mut out);
+        error = f64::max(error, (out[0] / length - 1.0).abs());
+        residual = f64::max(residual, out[2]);
+        (min, max) = (f64::min(min, out[1]), f64::max(max, out[1]));
+        sum += out[1];
+        count += 1.0;
+    }
+    Ok([error, residual, sum / count, min, max])
+}

@@ -1,0 +1,143 @@
+//! What the paper says about the windows of length, against edges computed from eigenvalues and scans from random starts.
+
+use super::super::claims::{claim, differs};
+use super::edges::Edges;
+use super::lengths::Lengths;
+use super::zigzags::Zigzags;
+use crate::report::Claim;
+use motiform_analysis::Regime;
+use std::f64::consts::TAU;
+
+/// How far an edge may lie from the paper's, which has three digits and was found by looking: the spacing of the scan.
+const NEAR: f64 = 0.1;
+
+pub(super) fn claims(edges: &Edges, lengths: &Lengths, zigzags: &Zigzags, quasi: &super::quasi::Search) -> Vec<Claim> {
+    let mut claims = vec![onset(edges), fastest(edges), nothing(edges, lengths), straight(edges, lengths)];
+    claims.extend(super::first_window::claims(edges, lengths, quasi));
+    claims.extend([two_fold(edges, lengths), second_start(edges), second_end(edges), three_fold(edges, lengths)]);
+    claims.extend([zigzags.claim(edges), four_fold(edges, lengths)]);
+    claims
+}
+
+/// An edge in words.
+pub(super) fn words(edge: Option<f64>) -> String {
+    edge.map_or_else(|| "not met".to_owned(), |edge| format!("{edge:.3}"))
+}
+
+/// An edge as a number.
+pub(super) fn number(edge: Option<f64>) -> f64 {
+    edge.unwrap_or(f64::NAN)
+}
+
+fn onset(edges: &Edges) -> Claim {
+    let worst = (1..).zip(&edges.onsets).map(|(n, l)| (l - TAU * f64::from(n)).abs()).fold(0.0, f64::max);
+    let found: Vec<String> = edges.onsets.iter().map(|l| format!("{l:.6}")).collect();
+    claim(
+        "Mode *n* becomes unstable at *L* = 2π*n*.",
+        format!("*σ_n* changes sign at *L* = {}; off 2π*n* by at most {worst:.0e}", found.join(", ")),
+        "Bisection of the growth rates that the field itself uses, *n* = 1 to 4.",
+        worst < 1e-9,
+    )
+}
+
+fn fastest(edges: &Edges) -> Claim {
+    let (rate, square) = edges.fastest;
+    claim(
+        "Of *σ* = *k*^4 − *k*^6 the largest value is 4/27, at *k*^2 = 2/3 (follows from the paper's equation).",
+        format!("{rate:.9} at *k*^2 = {square:.6}; 4/27 = {:.9}", 4.0 / 27.0),
+        "Golden-section search over the length with the field's own rate of mode 1.",
+        (rate - 4.0 / 27.0).abs() < 1e-12 && (square - 2.0 / 3.0).abs() < 1e-6,
+    )
+}
+
+fn nothing(edges: &Edges, lengths: &Lengths) -> Claim {
+    let (still, count) = lengths.only(Regime::Motionless, 0.0, edges.onsets[0]);
+    claim(
+        "No shape instability and no motion for *L* < 6.2.",
+        format!("the circle is stable up to *L* = {:.4} = 2π; motionless at all {count} lengths below", edges.onsets[0]),
+        "Growth rate of mode 1, and runs from random starts; the paper gives two digits.",
+        still && count > 0 && (edges.onsets[0] - 6.2).abs() < NEAR,
+    )
+}
+
+fn straight(edges: &Edges, lengths: &Lengths) -> Claim {
+    let end = number(edges.straight);
+    let (all, count) = lengths.only(Regime::Straight, edges.onsets[0], end);
+    let same = (end - number(edges.straight_refined)).abs();
+    differs(
+        "The straight motion is found for 6.2 < *L* < 12.0.",
+        format!("straight at all {count} lengths between 2π and *L* = {end:.3}, where it loses its stability"),
+        "Edge: the leading eigenvalue of the straight shape, followed in length, changes sign. Runs from random starts between.",
+        &format!(
+            "at *L* = 12.0 the leading eigenvalue of the straight motion is still {:.3} (stable); computed with twice as many modes the edge moves by {same:.0e}. The paper's limit is that of its scan.",
+            edges.straight_growth
+        ),
+        all && count > 0 && edges.straight_growth < 0.0 && same < 1e-4 && end > 12.0 && end < 12.5,
+    )
+}
+
+fn two_fold(edges: &Edges, lengths: &Lengths) -> Claim {
+    let (from, to) = (number(edges.two_fold), number(edges.two_fold_end));
+    let (all, count) = lengths.only(Regime::Motionless, from + NEAR, to);
+    claim(
+        "Between *W*_1 and *W*_2 there is no intricate motion.",
+        format!("a motionless two-fold shape, stable from *L* = {from:.3} to {to:.3}; motionless at all {count} lengths between"),
+        "Leading eigenvalue of the shape followed in length; number of folds from its modes; runs from random starts.",
+        all && count > 0 && edges.folds[0] == 2,
+    )
+}
+
+fn second_start(edges: &Edges) -> Claim {
+    let from = number(edges.two_fold_end);
+    differs(
+        "*W*_2 begins at *L* = 21.0.",
+        format!("the two-fold shape loses its stability at *L* = {from:.3}"),
+        "Leading eigenvalue of the two-fold shape, followed in length.",
+        &format!(
+            "up to *L* = 21.0 its growth rate is at most {:.4}: what starts near it rests for thousands of time units and looks motionless.",
+            edges.second_leaving
+        ),
+        from > 20.5 && from < 21.0 && edges.second_leaving > 0.0 && edges.second_leaving < 0.01,
+    )
+}
+
+fn second_end(edges: &Edges) -> Claim {
+    let (from, to) = edges.second_circular;
+    let beyond = to.map_or("beyond 25".to_owned(), |to| format!("to {to:.2}"));
+    claim(
+        "*W*_2, with its quasi-periodic and chaotic motions, ends at *L* = 21.9.",
+        format!(
+            "circular motion becomes stable at *L* = {} and stays so {beyond}; from {} on random starts end on the three-fold shape",
+            words(from),
+            words(edges.three_fold.0)
+        ),
+        "Leading eigenvalues of the circular motion and of the three-fold shape. The paper does not list the circular motion here.",
+        from.is_some_and(|from| (from - 21.9).abs() < NEAR),
+    )
+}
+
+fn three_fold(edges: &Edges, lengths: &Lengths) -> Claim {
+    let (from, to) = edges.three_fold;
+    let (all, count) = lengths.only(Regime::Motionless, number(from) + 3.0 * NEAR, 28.95);
+    claim(
+        "Between *W*_2 and *W*_3 there is no intricate motion.",
+        format!(
+            "a motionless three-fold shape, stable from *L* = {} to {}; motionless at all {count} lengths scanned up to *W*_3",
+            words(from),
+            words(to)
+        ),
+        "As before.",
+        all && count > 0 && edges.folds[1] == 3,
+    )
+}
+
+fn four_fold(edges: &Edges, lengths: &Lengths) -> Claim {
+    let from = number(edges.four_fold);
+    let (all, count) = lengths.only(Regime::Motionless, from + 5.0 * NEAR, 32.0);
+    claim(
+        "Beyond *W*_3 there is no intricate motion (up to *L* = 31).",
+        format!("a motionless four-fold shape, stable from *L* = {from:.3}; motionless at all {count} lengths scanned beyond {:.1}", from + 0.5),
+        "As before.",
+        all && count > 0 && edges.folds[2] == 4,
+    )
+}
