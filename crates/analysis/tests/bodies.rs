@@ -2,11 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
-use motiform_analysis::{CornerKind, Ends, PathSample, batch_means, legs, rests};
+use motiform_analysis::{CornerKind, Ends, PathSample, legs, rests};
 use motiform_dynamics::steppers::DOP853;
 use motiform_dynamics::{
-    InPlane, Integration, Model, Noise, NoisyOrbit, Normal, Orbit, Request, Shape, StepControl, Trajectory,
-    drive::drive,
+    InPlane, Integration, Model, Orbit, Request, Shape, StepControl, Trajectory, drive::drive,
 };
 use motiform_models::tensor::{Tensor, TensorParameters};
 use std::f64::consts::FRAC_PI_2;
@@ -94,37 +93,4 @@ fn rectangular_motion_turns_by_right_angles_and_rests_longer_each_time() {
     // three rests after the start, before round-off ends their growth at about 210
     assert!((growth[1] - number("rectangular", "ratio")).abs() < 2e-3, "{growth:?}");
     assert!(seen.rests.iter().all(|rest| rest.duration < 230.0));
-}
-
-/// Mean rest = -ln(eta)/lambda_+ + const, lambda_+ = gamma + 2 a1 r2, r2^2 = -kappa2/(8 b3); both turns equally likely.
-#[test]
-fn with_noise_rests_are_finite_and_turns_have_no_side() {
-    let p = rectangular();
-    let model = Tensor::new(&p);
-    let body = InPlane(model);
-    let u = start(&model, [0.01, 0.0, 0.01, -0.003, 0.0, 0.0]);
-    let grow = p.gamma + 2.0 * p.a1 * (-p.kappa2 / (8.0 * p.b3)).sqrt();
-    let run = |amplitude: f64, stream: u64| {
-        let control = StepControl::Fixed { step: 0.2 };
-        let orbit = Orbit::new(&body, &motiform_dynamics::steppers::RK4, control, 0.0, &u).unwrap();
-        let noise = Noise { amplitude, every: 0.2, entries: 6 };
-        let mut noisy = NoisyOrbit::new(orbit, noise, Normal::new(2010, stream)).unwrap();
-        let path = path(&mut noisy, &model, 60_000.0, 0.2, 500.0);
-        let speeds: Vec<f64> = path.iter().map(|s| s.vx.hypot(s.vy)).collect();
-        let times: Vec<f64> = path.iter().map(|s| s.t).collect();
-        let rests = rests(&times, &speeds, 0.1).unwrap().rests;
-        let mean = batch_means(&rests.iter().map(|rest| rest.duration).collect::<Vec<f64>>()).unwrap();
-        let turns = legs(&path, Ends::Open).unwrap().heading_turns;
-        let left = turns.iter().filter(|turn| **turn > 0.0).count();
-        (mean, left as f64, turns.len() as f64)
-    };
-    let (more, less) = (run(1e-6, 0), run(1e-9, 1));
-    println!("{more:?} {less:?}, growth {grow}");
-    let expected = 1e3_f64.ln() / grow;
-    let (difference, error) = (less.0.value - more.0.value, more.0.error.hypot(less.0.error));
-    assert!((difference - expected).abs() < 2.0 * error, "{difference} +- {error}, expected {expected}");
-    for (_, left, all) in [more, less] {
-        // a fair coin: four standard errors
-        assert!((left / all - 0.5).abs() < 4.0 * 0.5 / all.sqrt(), "{left} of {all}");
-    }
 }

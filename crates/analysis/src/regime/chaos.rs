@@ -41,34 +41,39 @@ pub(super) struct Witness {
     pub(super) zero_one: Option<f64>,
     /// Dimension of the set of returns; absent for few returns.
     pub(super) dimension: Option<f64>,
+    /// Number of returns.
+    pub(super) returns: usize,
 }
 
 impl Witness {
     pub(super) fn of(look: &Look) -> Self {
         let minima = look.minima();
-        Self { zero_one: returns::chaos(&minima), dimension: returns::dimension(&minima) }
+        Self {
+            zero_one: returns::chaos(&minima),
+            dimension: returns::dimension(&minima),
+            returns: minima.len(),
+        }
     }
 }
 
-/// Whether neighbours part: lambda_1 above twice its 95 % error, growth beyond any power of time, and no veto of the 0-1
-/// test. The look that the test was asked about ends where the run begins: where it saw order, the growth was a transient.
-pub(super) fn parts(run: &Lyapunov, witness: &Witness) -> Option<Estimate> {
+/// Whether neighbours part: lambda_1 above twice its 95 % error, and growth beyond any power of time.
+pub(super) fn parts(run: &Lyapunov) -> Option<Estimate> {
     let first = *run.exponents.first()?;
     let grows = first.value > 2.0 * first.error && first.value * run.time >= GROWN;
-    let ordered = witness.zero_one.is_some_and(|k| k < ORDER);
-    (grows && !ordered).then_some(first)
+    grows.then_some(first)
 }
 
-/// Chaos: neighbours part in two looks, one after the other, the second twice as long. One look alone may see a long
-/// transient, and its error knows nothing of what comes after.
-pub(super) fn chaotic(
-    before: Estimate,
-    now: Estimate,
-    run: &Lyapunov,
-    witness: &Witness,
-    time: f64,
-) -> Verdict {
-    let Estimate { value, error } = now;
+/// Chaos: neighbours part in two looks, one after the other, the second twice as long; in three where the 0-1 test sees
+/// order (it may be right, or blind to weak chaos in narrow bands). `None` for fewer.
+///
+/// One look alone may see a transient, and the error of its exponent knows nothing of what comes after.
+pub(super) fn chaotic(seen: &[Estimate], run: &Lyapunov, witness: &Witness, time: f64) -> Option<Verdict> {
+    let needed = if witness.zero_one.is_some_and(|k| k < ORDER) { 3 } else { 2 };
+    let [.., before, now] = seen else { return None };
+    if seen.len() < needed {
+        return None;
+    }
+    let Estimate { value, error } = *now;
     let second = witness.zero_one.map_or(String::new(), |k| format!("; 0-1 test {k:.2}"));
     let why = format!(
         "lambda_1 = {value:.4} +- {error:.4} over {:.0}, after {:.4} +- {:.4} in the look before{second}",
@@ -77,23 +82,31 @@ pub(super) fn chaotic(
     let mut verdict = Verdict::new(Regime::Chaotic, Attractor::Chaotic, why, time);
     verdict.margin = Some(value / error.max(f64::MIN_POSITIVE));
     verdict.exponents.clone_from(&run.exponents);
-    verdict
+    Some(verdict)
 }
 
-/// A torus of shapes: returns on a curve, and an exponent that is zero within its error and small against what one
-/// return would need.
+/// A torus of shapes: returns on a curve, and an exponent that is zero within its error.
+///
+/// That it is zero and not small is said by the 0-1 test, or by the run itself: where neighbours have not parted by more
+/// than the number of returns, error included, their distance grows like a power of time at most. (The 0-1 test may fail
+/// on a torus: where the number of minima per turn changes, the returns are an exchange of intervals, which wanders.)
 pub(super) fn torus(run: &Lyapunov, witness: &Witness, time: f64) -> Option<Verdict> {
     let Estimate { value, error } = *run.exponents.first()?;
     let (k, dimension) = (witness.zero_one?, witness.dimension?);
     let curve = (0.8..1.2).contains(&dimension);
-    if value > 2.0 * error || value * run.time > GROWN || !curve || k > ORDER {
+    if value > 2.0 * error || value * run.time > GROWN || !curve {
+        return None;
+    }
+    let most = (witness.returns as f64).ln();
+    let growth = (value.abs() + error) * run.time;
+    if k > ORDER && growth > most {
         return None;
     }
     let why = format!(
         "the returns lie on a closed curve (dimension {dimension:.2}), lambda_1 = {value:.1e} +- {error:.1e}, 0-1 test {k:.2}: a torus of shapes"
     );
     let mut verdict = Verdict::new(Regime::QuasiPeriodic, Attractor::Torus, why, time);
-    verdict.margin = Some(ORDER / k.abs().max(0.03));
+    verdict.margin = Some((ORDER / k.abs().max(0.03)).max(most / growth.max(0.1)));
     verdict.exponents.clone_from(&run.exponents);
     Some(verdict)
 }

@@ -45,7 +45,7 @@ pub fn classify<B: Equivariant + ?Sized>(
         time: 0.0,
         fastest: 0.0,
         largest: 0.0,
-        parted: None,
+        parted: Vec::new(),
         missing: "no motion had established itself".to_owned(),
     };
     let mut orbit = settings.method.shape_orbit(body, settings.control, 0.0, start)?;
@@ -87,10 +87,10 @@ struct Search<'s, B: ?Sized> {
     time: f64,
     /// Fastest change of the reduced shape so far.
     fastest: f64,
-    /// The exponent of the last look, where neighbours parted in it.
-    parted: Option<Estimate>,
     /// Largest size of the shape so far.
     largest: f64,
+    /// The exponents of the last looks, as far back as neighbours parted in them.
+    parted: Vec<Estimate>,
     /// What kept the last look from deciding.
     missing: String,
 }
@@ -190,12 +190,13 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
             return Ok(Step::Open);
         }
         let witness = chaos::Witness::of(look);
-        let parted = chaos::parts(&run, &witness);
-        if let (Some(before), Some(now)) = (self.parted, parted) {
-            let verdict = chaos::chaotic(before, now, &run, &witness, self.time);
+        match chaos::parts(&run) {
+            Some(exponent) => self.parted.push(exponent),
+            None => self.parted.clear(),
+        }
+        if let Some(verdict) = chaos::chaotic(&self.parted, &run, &witness, self.time) {
             return Ok(self.described(verdict, orbit, look)?.into());
         }
-        self.parted = parted;
         if let Some(verdict) = chaos::torus(&run, &witness, self.time) {
             return Ok(self.described(verdict, orbit, look)?.into());
         }
