@@ -1,9 +1,7 @@
 //! Scans: which motion occurs where, and the largest exponent along one axis.
 
 use super::{Picture, add, words};
-use crate::figures::{
-    BoundaryLine, Cell, ErrorBarFigure, ErrorBarSeries, LineStyle, Measured, PhaseDiagram,
-};
+use crate::figures::{BoundaryLine, Cell, ErrorBarFigure, ErrorBarSeries, LineStyle, Measured, PhaseDiagram};
 use crate::scan::{Axis, CellSummary, ScanFolder, cells};
 use crate::{Error, ScanPlan};
 use motiform_analysis::regime::Regime;
@@ -110,7 +108,8 @@ fn exponents_of(regime: Regime, plan: &ScanPlan, cells: &[CellSummary]) -> Optio
 fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary]) -> Vec<String> {
     let c = &plan.computation;
     let (count, all) = (cells.len(), plan.cells());
-    let computed = if count < all { format!("{count} of {all} cells are computed") } else { format!("{all} cells") };
+    let computed =
+        if count < all { format!("{count} of {all} cells are computed") } else { format!("{all} cells") };
     let states = match (c.samples, c.initial.is_empty()) {
         (1, false) => "one initial state each, the given one".to_owned(),
         (1, true) => "one initial state each".to_owned(),
@@ -173,7 +172,8 @@ fn lines(plan: &ScanPlan) -> Vec<BoundaryLine> {
         ("circular | quasi-periodic", LineStyle::DashDotted, points(Line::CircularToQuasiPeriodic)),
         ("quasi-periodic | rectangular", LineStyle::LongDashed, points(Line::QuasiPeriodicToRectangular)),
     ];
-    let oriented = |points: Vec<[f64; 2]>| points.into_iter().map(|[k, g]| if swapped { [g, k] } else { [k, g] });
+    let oriented =
+        |points: Vec<[f64; 2]>| points.into_iter().map(|[k, g]| if swapped { [g, k] } else { [k, g] });
     let line = |(label, style, points): (&str, LineStyle, Vec<[f64; 2]>)| BoundaryLine {
         label: label.to_owned(),
         style,

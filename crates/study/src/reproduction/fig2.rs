@@ -38,11 +38,15 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     let noise = noisy::measure(context)?;
     let mut figures = drawn(&shown)?;
     figures.push(noise.figure()?);
-    let mut claims = vec![regime(context)?, right_angles(&long)?, growth(&long)?, by_rounding(&long, &other)?];
+    let mut claims =
+        vec![regime(context)?, right_angles(&long)?, growth(&long)?, by_rounding(&long, &other)?];
     claims.extend(noise.claims()?);
     let parameters = [
         ("parameters", "*κ*_2 = -0.1, *γ* = -0.04, *a*_1 = 1, *b*_1 = 0.5, *b*_3 = 1"),
-        ("method", "dop853, relative tolerance 10^{-12}, no absolute one: small velocities keep their digits"),
+        (
+            "method",
+            "dop853, relative tolerance 10^{-12}, no absolute one: small velocities keep their digits",
+        ),
         ("with noise", "Runge-Kutta of order 4 with Strang splitting, step 0.2"),
     ];
     Ok(Section {
@@ -56,8 +60,12 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
 
 fn drawn(dataset: &Dataset) -> Result<Vec<ReportFigure>, Error> {
     let words = |name: &str| match name {
-        "path" => Some("The path: legs at right angles, and a rest at each corner, where the ellipse turns into its mirror image."),
-        "series" => Some("Speed, turning rate and ellipse against time: the rests grow until round-off ends their growth."),
+        "path" => Some(
+            "The path: legs at right angles, and a rest at each corner, where the ellipse turns into its mirror image.",
+        ),
+        "series" => Some(
+            "Speed, turning rate and ellipse against time: the rests grow until round-off ends their growth.",
+        ),
         _ => None,
     };
     let figure = |(name, svg): (&str, String)| {
@@ -71,7 +79,12 @@ fn regime(context: &Context<'_>) -> Result<Claim, Error> {
     let how = "the classifier: rests near saddles whose rates have a negative sum";
     let says = "The so called rectangular motion, in which the domain repeats a straight motion and stopping, for *γ* = -0.04 and \
                 *κ*_2 = -0.1.";
-    Ok(claim(says, format!("{}: {}", verdict.regime, verdict.why), how, verdict.regime == Regime::Rectangular))
+    Ok(claim(
+        says,
+        format!("{}: {}", verdict.regime, verdict.why),
+        how,
+        verdict.regime == Regime::Rectangular,
+    ))
 }
 
 /// The path of a dataset.
@@ -108,7 +121,11 @@ fn growth(dataset: &Dataset) -> Result<Claim, Error> {
     let (durations, growth) = durations(&path(dataset))?;
     let [out, inward] = rates();
     let ratio = -inward / out;
-    let near = growth.iter().copied().min_by(|a, b| (a - ratio).abs().total_cmp(&(b - ratio).abs())).unwrap_or(f64::NAN);
+    let near = growth
+        .iter()
+        .copied()
+        .min_by(|a, b| (a - ratio).abs().total_cmp(&(b - ratio).abs()))
+        .unwrap_or(f64::NAN);
     let longest = durations.iter().copied().fold(0.0, f64::max);
     let growing = durations.windows(2).take_while(|pair| pair[1] > pair[0]).count();
     let said: Vec<String> = durations.iter().take(growing + 2).map(|x| format!("{x:.1}")).collect();
@@ -136,7 +153,8 @@ fn rates() -> [f64; 2] {
 fn by_rounding(one: &Dataset, other: &Dataset) -> Result<Claim, Error> {
     let turns = |dataset: &Dataset| -> Result<Vec<f64>, Error> { Ok(legs_of(dataset)?.heading_turns) };
     let (one, other) = (turns(one)?, turns(other)?);
-    let letters = |turns: &[f64]| turns.iter().map(|turn| if *turn > 0.0 { 'L' } else { 'R' }).collect::<String>();
+    let letters =
+        |turns: &[f64]| turns.iter().map(|turn| if *turn > 0.0 { 'L' } else { 'R' }).collect::<String>();
     let (first, second) = (letters(&one), letters(&other));
     let shared = first.chars().zip(second.chars()).take_while(|(a, b)| a == b).count();
     let square = |turns: &[f64]| turns.iter().skip(1).all(|turn| (turn.abs() - FRAC_PI_2).abs() < 0.02);

@@ -73,9 +73,8 @@ impl Reduced {
                 Line::CircularToQuasiPeriodic => self.circular_hopf(x * FAR * extent / self.unit()),
             }
         };
-        let inside = |p: &[f64; 2]| {
-            (kappa2.0..=kappa2.1).contains(&p[0]) && (gamma.0..=gamma.1).contains(&p[1])
-        };
+        let inside =
+            |p: &[f64; 2]| (kappa2.0..=kappa2.1).contains(&p[0]) && (gamma.0..=gamma.1).contains(&p[1]);
         let all: Vec<[f64; 2]> = (0..=steps).map(point).filter(|p| p.iter().all(|x| x.is_finite())).collect();
         let first = all.iter().position(inside);
         let last = all.iter().rposition(inside);

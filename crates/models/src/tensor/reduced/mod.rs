@@ -122,8 +122,11 @@ impl Reduced {
     pub fn of(p: &TensorParameters) -> Option<Self> {
         let others = [p.a2, p.a3, p.a4, p.a5, p.a6, p.b2, p.b4, p.b5, p.b6, p.d1, p.d2, p.d6];
         let alone = others.iter().all(|&value| value == 0.0) && p.kappa3 > 0.0 && p.d3 >= 0.0;
-        (alone && p.d4 >= 0.0 && p.d5 >= 0.0 && p.a1 > 0.0 && p.b1 > 0.0 && p.b3 > 0.0)
-            .then_some(Self { a1: p.a1, b1: p.b1, b3: p.b3 })
+        (alone && p.d4 >= 0.0 && p.d5 >= 0.0 && p.a1 > 0.0 && p.b1 > 0.0 && p.b3 > 0.0).then_some(Self {
+            a1: p.a1,
+            b1: p.b1,
+            b3: p.b3,
+        })
     }
 
     /// `B = b1/4`.

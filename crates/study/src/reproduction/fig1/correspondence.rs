@@ -97,7 +97,9 @@ fn modulated_wave(context: &Context<'_>) -> Result<Claim, Error> {
     let study = context.preset("fig3", |_| Ok(()))?;
     let verdict = context.classify(&study)?;
     let (period, rotation) = (verdict.period.unwrap_or(f64::NAN), verdict.net_rotation.unwrap_or(f64::NAN));
-    let finds = format!("the reduced motion is periodic, *T* = {period:.4}, with net rotation {rotation:.4} rad per period");
+    let finds = format!(
+        "the reduced motion is periodic, *T* = {period:.4}, with net rotation {rotation:.4} rad per period"
+    );
     let how = "*κ*_2 = -0.06, *γ* = 0.02: Newton's method on a return of the reduced shape; all multipliers inside the unit circle";
     let holds = verdict.attractor == Attractor::Periodic && verdict.regime == Regime::QuasiPeriodic;
     Ok(claim("Quasi-periodic motion ↔ modulated wave.", finds, how, holds))

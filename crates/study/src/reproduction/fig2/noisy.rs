@@ -39,7 +39,9 @@ pub(super) struct Rests {
 pub(super) fn measure(context: &Context<'_>) -> Result<Rests, Error> {
     let exponents: &[i32] = context.choose(&[-4, -5, -6, -7, -8, -9, -10, -11, -12], &[-5, -7, -9, -11]);
     let time = context.choose(240_000.0, 40_000.0);
-    let run = |(stream, &exponent): (u64, &i32)| measured(context, libm::pow(10.0, f64::from(exponent)), stream, time);
+    let run = |(stream, &exponent): (u64, &i32)| {
+        measured(context, libm::pow(10.0, f64::from(exponent)), stream, time)
+    };
     let runs = (0..).zip(exponents).map(run).collect::<Result<_, _>>()?;
     Ok(Rests { runs, time })
 }
@@ -55,8 +57,15 @@ fn measured(context: &Context<'_>, eta: f64, stream: u64, time: f64) -> Result<R
 /// A path under noise.
 fn path(context: &Context<'_>, eta: f64, stream: u64, time: f64) -> Result<Vec<PathSample>, Error> {
     let Reduced { a1, b1, b3 } = Reduced::PAPER;
-    let parameters =
-        TensorParameters { kappa2: KAPPA2, gamma: GAMMA, kappa3: 1.0, a1, b1, b3, ..TensorParameters::default() };
+    let parameters = TensorParameters {
+        kappa2: KAPPA2,
+        gamma: GAMMA,
+        kappa3: 1.0,
+        a1,
+        b1,
+        b3,
+        ..TensorParameters::default()
+    };
     let model = Tensor::new(&parameters);
     let body = InPlane(model);
     let start = [0.01, 0.0, 0.005, 0.0015, 0.0, 0.0, 0.0, 0.0];
@@ -104,7 +113,8 @@ struct Line {
 impl Rests {
     /// Least squares with weights 1/error^2.
     fn line(&self, theory: f64) -> Line {
-        let terms = || self.runs.iter().map(|run| (libm::log(run.eta), run.mean.value, run.mean.error.powi(-2)));
+        let terms =
+            || self.runs.iter().map(|run| (libm::log(run.eta), run.mean.value, run.mean.error.powi(-2)));
         let weight: f64 = terms().map(|term| term.2).sum();
         let mean = |of: fn((f64, f64, f64)) -> f64| terms().map(of).sum::<f64>() / weight;
         let (x0, y0) = (mean(|(x, _, w)| w * x), mean(|(_, y, w)| w * y));
@@ -167,7 +177,8 @@ impl Rests {
     }
 
     fn sides(&self) -> Claim {
-        let (left, all) = self.runs.iter().fold((0, 0), |(left, all), run| (left + run.left, all + run.turns));
+        let (left, all) =
+            self.runs.iter().fold((0, 0), |(left, all), run| (left + run.left, all + run.turns));
         let share = left as f64 / all.max(1) as f64;
         let error = 0.5 / (all.max(1) as f64).sqrt();
         let finds = format!("{left} of {all} turns go to the left: {share:.3} ± {error:.3}");
