@@ -145,7 +145,7 @@ fn lines(grid: &Grid) -> Vec<Claim> {
         (
             &[CircularToQuasiPeriodic],
             [Motion::Circular, Motion::QuasiPeriodic],
-            "Quasi-periodic motion lies beside circular motion (no line in the paper; *γ* = -(2/5) *κ*_2 exactly).",
+            "Quasi-periodic motion lies beside circular motion (no line in the paper; *γ* = −(2/5) *κ*_2 exactly).",
         ),
         (
             &[QuasiPeriodicToRectangular],

@@ -144,14 +144,14 @@ impl Rests {
                 joined: false,
             }],
             lines: vec![ExpectedLine {
-                label: "-ln *η*/*λ*_+ + const".to_owned(),
+                label: "−ln *η*/*λ*_+ + const".to_owned(),
                 style: LineStyle::Dashed,
                 points: ends.to_vec(),
             }],
             logarithmic_x: true,
             ..ErrorBarFigure::default()
         };
-        let caption = "Mean rest of rectangular motion against the amplitude of explicit noise, with the slope -1/*λ*_+ that the \
+        let caption = "Mean rest of rectangular motion against the amplitude of explicit noise, with the slope −1/*λ*_+ that the \
                        saddle's growth rate gives.";
         Ok(ReportFigure { caption: caption.to_owned(), picture: Picture::Svg(figure.svg()?) })
     }
@@ -164,7 +164,7 @@ impl Rests {
         let theory = -1.0 / rates()[0];
         let slope = self.line(theory).slope;
         let finds = format!(
-            "d(mean rest)/d ln *η* = {:.3} ± {:.3} over {} amplitudes; -1/*λ*_+ = {theory:.3}",
+            "d(mean rest)/d ln *η* = {:.3} ± {:.3} over {} amplitudes; −1/*λ*_+ = {theory:.3}",
             slope.value,
             slope.error,
             self.runs.len()
@@ -172,7 +172,7 @@ impl Rests {
         let how = "weighted least squares on the means, 95 % error from batch means; within twice that error, and within 5 %";
         let off = (slope.value - theory).abs();
         let says = "The turns may depend on noises. (With explicit noise the law of a noisy heteroclinic cycle must hold: mean rest = \
-                    -ln *η*/*λ*_+ + const; Stone and Holmes 1990.)";
+                    −ln *η*/*λ*_+ + const; Stone and Holmes 1990.)";
         claim(says, finds, how, off < 2.0 * slope.error && off < 0.05 * theory.abs())
     }
 
