@@ -16,8 +16,7 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// 300 cells in 150 parts, little to do in each.
-const MANY: &str =
-    "scan tensor --preset fig1 --axis kappa2=0.1:1.6:20 --axis gamma=-1:1:15 --samples 2 --budget 30";
+const MANY: &str = "scan tensor --preset fig1 --axis kappa2=0.1:1.6:20 --axis gamma=-1:1:15 --samples 2 --budget 30 --no-figures";
 
 /// Runs a scan whose motions may be undetermined: exit code 0 or 1.
 fn scan(folder: &Folder, words: &str) -> Done {
@@ -200,4 +199,21 @@ fn a_full_disk() {
     let full = folder.bash("trap '' XFSZ; ulimit -f 4; exec $motiform merge run --out all").expect_error(1);
     assert!(full.stderr.contains("nothing was left behind"), "{}", full.stderr);
     assert_eq!(folder.names(), ["run"]);
+}
+
+/// Figures carry an underscore, so that readers of the whole folder pass them over; `figure` draws them again.
+#[test]
+fn a_scan_has_its_figures() {
+    let folder = Folder::new();
+    scan(&folder, "scan tensor --preset fig1 --axis kappa2=0.5,1 --axis gamma=-1:1:3 --out plane");
+    scan(&folder, "scan tensor --preset fig1 --axis gamma=-1:1:3 --out line");
+    for (name, figures) in [("plane", vec!["_diagram"]), ("line", vec!["_diagram", "_exponent"])] {
+        let svg = |figure: &str| std::fs::read(folder.path(name).join(format!("{figure}.svg"))).unwrap();
+        let before: Vec<_> = figures.iter().map(|figure| svg(figure)).collect();
+        let done = folder.run(&format!("figure {name}")).expect(0);
+        for (figure, before) in figures.iter().zip(before) {
+            assert!(done.stdout.contains(&format!("{figure}.svg {figure}.png")), "{}", done.stdout);
+            assert!(svg(figure) == before);
+        }
+    }
 }

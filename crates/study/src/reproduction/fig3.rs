@@ -32,8 +32,13 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     );
     let how = "the classifier: Newton's method on a return, all multipliers inside the unit circle, a net rotation that is not 0";
     let named = claim(says, finds, how, verdict.regime == Regime::QuasiPeriodic && rotation.abs() > 0.01);
-    let claims =
-        vec![named, annulus(&dataset), anticlockwise(&dataset), return_map(&dataset)?, exponent(context, &study)?];
+    let claims = vec![
+        named,
+        annulus(&dataset),
+        anticlockwise(&dataset),
+        return_map(&dataset)?,
+        exponent(context, &study)?,
+    ];
     let parameters = [
         ("parameters", "*κ*_2 = -0.06, *γ* = 0.02, *a*_1 = 1, *b*_1 = 0.5, *b*_3 = 1".to_owned()),
         ("method", "dop853, relative tolerance 10^{-11}".to_owned()),
@@ -72,8 +77,12 @@ fn annulus(dataset: &Dataset) -> Claim {
     let half = x.len() / 2;
     let [inner, outer] = radii(x, y);
     let halves = [radii(&x[..half], &y[..half]), radii(&x[half..], &y[half..])];
-    let off = halves.iter().flat_map(|[low, high]| [(low - inner).abs(), (high - outer).abs()]).fold(0.0, f64::max);
-    let finds = format!("the path fills an annulus with radii {inner:.4} and {outer:.4}; its halves agree to {:.1e}", off / outer);
+    let off =
+        halves.iter().flat_map(|[low, high]| [(low - inner).abs(), (high - outer).abs()]).fold(0.0, f64::max);
+    let finds = format!(
+        "the path fills an annulus with radii {inner:.4} and {outer:.4}; its halves agree to {:.1e}",
+        off / outer
+    );
     let how = "distances from the time average of the path; both halves of the recording have the same radii to 1 %, and the inner \
                one is not 0";
     let says = "Fig. 3(a): a quasi-periodic path.";

@@ -58,7 +58,7 @@ fn pure_mode(context: &Context<'_>) -> Result<Claim, Error> {
     let Polar { r1, r2, .. } = end(context, -0.02, -0.16)?;
     let exact = Reduced::PAPER.ellipse(-0.02).unwrap_or(f64::NAN);
     let finds = format!("|*z*_1| = {}, |*z*_2| = {r2:.9}; the formula gives {exact:.9}", number(r1));
-    let how = "*κ*_2 = -0.02, *γ* = -0.16: *z*_1 = 0 and |*z*_2|^2 = -*κ*_2/(8 *b*_3), each to 10^{-6}";
+    let how = "*κ*_2 = -0.02, *γ* = -0.16: *z*_1 = 0 and |*z*_2|^2 = −*κ*_2/(8 *b*_3), each to 10^{-6}";
     Ok(claim("Deformed motionless domain ↔ pure mode.", finds, how, r1 < CLOSE && (r2 - exact).abs() < CLOSE))
 }
 
@@ -70,16 +70,16 @@ fn standing_wave(context: &Context<'_>) -> Result<Claim, Error> {
         states.iter().any(|state| (state.s - s).abs() < CLOSE && (state.speed - polar.r1).abs() < CLOSE)
     };
     let finds = format!(
-        "*ψ* = {:.1e} at (0.18, 0.05), where the ellipse lies along the path; |*ψ*| = π {:+.1e} at (-0.18, -0.1), where it lies \
+        "*ψ* = {} at (0.18, 0.05), where the ellipse lies along the path; π − |*ψ*| = {} at (-0.18, -0.1), where it lies \
          across; speed and ellipse as the formulas say",
-        along.psi,
-        across.psi.abs() - PI
+        number(along.psi),
+        number(PI - across.psi.abs())
     );
     let holds = along.psi.abs() < CLOSE
         && (across.psi.abs() - PI).abs() < CLOSE
         && matches(&along, 0.18, 0.05, along.r2)
         && matches(&across, -0.18, -0.1, -across.r2);
-    let how = "*ψ* = arg *z*_2 - 2 arg *z*_1 is 0 or π, |*z*_1| and |*z*_2| solve the cubic of straight motion, each to 10^{-6}";
+    let how = "*ψ* = arg *z*_2 − 2 arg *z*_1 is 0 or π, |*z*_1| and |*z*_2| solve the cubic of straight motion, each to 10^{-6}";
     Ok(claim("Straight motion ↔ standing wave.", finds, how, holds))
 }
 
@@ -97,7 +97,9 @@ fn modulated_wave(context: &Context<'_>) -> Result<Claim, Error> {
     let study = context.preset("fig3", |_| Ok(()))?;
     let verdict = context.classify(&study)?;
     let (period, rotation) = (verdict.period.unwrap_or(f64::NAN), verdict.net_rotation.unwrap_or(f64::NAN));
-    let finds = format!("the reduced motion is periodic, *T* = {period:.4}, with net rotation {rotation:.4} rad per period");
+    let finds = format!(
+        "the reduced motion is periodic, *T* = {period:.4}, with net rotation {rotation:.4} rad per period"
+    );
     let how = "*κ*_2 = -0.06, *γ* = 0.02: Newton's method on a return of the reduced shape; all multipliers inside the unit circle";
     let holds = verdict.attractor == Attractor::Periodic && verdict.regime == Regime::QuasiPeriodic;
     Ok(claim("Quasi-periodic motion ↔ modulated wave.", finds, how, holds))

@@ -93,7 +93,8 @@ impl Grid {
     }
 
     pub(super) fn agreement(&self) -> Agreement {
-        let (known, unknown): (Vec<&Cell>, Vec<&Cell>) = self.cells.iter().partition(|cell| !cell.found.is_empty());
+        let (known, unknown): (Vec<&Cell>, Vec<&Cell>) =
+            self.cells.iter().partition(|cell| !cell.found.is_empty());
         let (far, near): (Vec<&Cell>, Vec<&Cell>) = known.into_iter().partition(|cell| cell.distance > 1.0);
         let count = |cells: &[&Cell]| (cells.iter().filter(|cell| cell.agrees()).count(), cells.len());
         Agreement { far: count(&far), near: count(&near), undetermined: unknown.len() }
@@ -102,11 +103,17 @@ impl Grid {
     /// The most frequent motions of the column nearest to `kappa2`, from below, repetitions left out.
     pub(super) fn upwards(&self, kappa2: f64) -> Vec<&'static str> {
         let off = |cell: &&Cell| (cell.kappa2 - kappa2).abs();
-        let Some(nearest) = self.cells.iter().min_by(|a, b| off(a).total_cmp(&off(b))) else { return Vec::new() };
-        let mut column: Vec<&Cell> =
-            self.cells.iter().filter(|cell| (cell.kappa2 - nearest.kappa2).abs() < 0.5 * self.size[0]).collect();
+        let Some(nearest) = self.cells.iter().min_by(|a, b| off(a).total_cmp(&off(b))) else {
+            return Vec::new();
+        };
+        let mut column: Vec<&Cell> = self
+            .cells
+            .iter()
+            .filter(|cell| (cell.kappa2 - nearest.kappa2).abs() < 0.5 * self.size[0])
+            .collect();
         column.sort_by(|a, b| a.gamma.total_cmp(&b.gamma));
-        let mut names: Vec<&str> = column.iter().filter_map(|cell| Some(cell.found.first()?.name())).collect();
+        let mut names: Vec<&str> =
+            column.iter().filter_map(|cell| Some(cell.found.first()?.name())).collect();
         names.dedup();
         names
     }
@@ -116,7 +123,8 @@ impl Grid {
 /// near.
 pub(super) fn found_line(grid: &Grid, lines: &[Line], sides: [Motion; 2], says: &str) -> Claim {
     let own = grid.lines.iter().filter(|entry| lines.contains(&entry.0)).flat_map(|entry| &entry.1);
-    let inside = |at: &&[f64; 2]| grid.cells.iter().any(|cell| grid.apart([cell.kappa2, cell.gamma], **at) <= 0.5);
+    let inside =
+        |at: &&[f64; 2]| grid.cells.iter().any(|cell| grid.apart([cell.kappa2, cell.gamma], **at) <= 0.5);
     let alone = |at: &&[f64; 2]| grid.distance(**at, |line| !lines.contains(&line)) > 1.5;
     let thinned = own.step_by(POINTS / 400);
     let points: Vec<&[f64; 2]> = thinned.filter(inside).filter(alone).collect();

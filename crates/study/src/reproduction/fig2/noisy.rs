@@ -39,7 +39,9 @@ pub(super) struct Rests {
 pub(super) fn measure(context: &Context<'_>) -> Result<Rests, Error> {
     let exponents: &[i32] = context.choose(&[-4, -5, -6, -7, -8, -9, -10, -11, -12], &[-5, -7, -9, -11]);
     let time = context.choose(240_000.0, 40_000.0);
-    let run = |(stream, &exponent): (u64, &i32)| measured(context, libm::pow(10.0, f64::from(exponent)), stream, time);
+    let run = |(stream, &exponent): (u64, &i32)| {
+        measured(context, libm::pow(10.0, f64::from(exponent)), stream, time)
+    };
     let runs = (0..).zip(exponents).map(run).collect::<Result<_, _>>()?;
     Ok(Rests { runs, time })
 }
@@ -55,8 +57,15 @@ fn measured(context: &Context<'_>, eta: f64, stream: u64, time: f64) -> Result<R
 /// A path under noise.
 fn path(context: &Context<'_>, eta: f64, stream: u64, time: f64) -> Result<Vec<PathSample>, Error> {
     let Reduced { a1, b1, b3 } = Reduced::PAPER;
-    let parameters =
-        TensorParameters { kappa2: KAPPA2, gamma: GAMMA, kappa3: 1.0, a1, b1, b3, ..TensorParameters::default() };
+    let parameters = TensorParameters {
+        kappa2: KAPPA2,
+        gamma: GAMMA,
+        kappa3: 1.0,
+        a1,
+        b1,
+        b3,
+        ..TensorParameters::default()
+    };
     let model = Tensor::new(&parameters);
     let body = InPlane(model);
     let start = [0.01, 0.0, 0.005, 0.0015, 0.0, 0.0, 0.0, 0.0];
@@ -104,7 +113,8 @@ struct Line {
 impl Rests {
     /// Least squares with weights 1/error^2.
     fn line(&self, theory: f64) -> Line {
-        let terms = || self.runs.iter().map(|run| (libm::log(run.eta), run.mean.value, run.mean.error.powi(-2)));
+        let terms =
+            || self.runs.iter().map(|run| (libm::log(run.eta), run.mean.value, run.mean.error.powi(-2)));
         let weight: f64 = terms().map(|term| term.2).sum();
         let mean = |of: fn((f64, f64, f64)) -> f64| terms().map(of).sum::<f64>() / weight;
         let (x0, y0) = (mean(|(x, _, w)| w * x), mean(|(_, y, w)| w * y));
@@ -134,14 +144,14 @@ impl Rests {
                 joined: false,
             }],
             lines: vec![ExpectedLine {
-                label: "-ln *η*/*λ*_+ + const".to_owned(),
+                label: "−ln *η*/*λ*_+ + const".to_owned(),
                 style: LineStyle::Dashed,
                 points: ends.to_vec(),
             }],
             logarithmic_x: true,
             ..ErrorBarFigure::default()
         };
-        let caption = "Mean rest of rectangular motion against the amplitude of explicit noise, with the slope -1/*λ*_+ that the \
+        let caption = "Mean rest of rectangular motion against the amplitude of explicit noise, with the slope −1/*λ*_+ that the \
                        saddle's growth rate gives.";
         Ok(ReportFigure { caption: caption.to_owned(), picture: Picture::Svg(figure.svg()?) })
     }
@@ -154,7 +164,7 @@ impl Rests {
         let theory = -1.0 / rates()[0];
         let slope = self.line(theory).slope;
         let finds = format!(
-            "d(mean rest)/d ln *η* = {:.3} ± {:.3} over {} amplitudes; -1/*λ*_+ = {theory:.3}",
+            "d(mean rest)/d ln *η* = {:.3} ± {:.3} over {} amplitudes; −1/*λ*_+ = {theory:.3}",
             slope.value,
             slope.error,
             self.runs.len()
@@ -162,12 +172,13 @@ impl Rests {
         let how = "weighted least squares on the means, 95 % error from batch means; within twice that error, and within 5 %";
         let off = (slope.value - theory).abs();
         let says = "The turns may depend on noises. (With explicit noise the law of a noisy heteroclinic cycle must hold: mean rest = \
-                    -ln *η*/*λ*_+ + const; Stone and Holmes 1990.)";
+                    −ln *η*/*λ*_+ + const; Stone and Holmes 1990.)";
         claim(says, finds, how, off < 2.0 * slope.error && off < 0.05 * theory.abs())
     }
 
     fn sides(&self) -> Claim {
-        let (left, all) = self.runs.iter().fold((0, 0), |(left, all), run| (left + run.left, all + run.turns));
+        let (left, all) =
+            self.runs.iter().fold((0, 0), |(left, all), run| (left + run.left, all + run.turns));
         let share = left as f64 / all.max(1) as f64;
         let error = 0.5 / (all.max(1) as f64).sqrt();
         let finds = format!("{left} of {all} turns go to the left: {share:.3} ± {error:.3}");
