@@ -5,6 +5,7 @@
 
 mod claims;
 mod context;
+mod diagram;
 mod fig1;
 mod fig2;
 mod fig3;
