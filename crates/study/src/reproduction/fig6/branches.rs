@@ -116,4 +116,3 @@ pub(in crate::reproduction) fn folds(shape: &[f64]) -> usize {
     let fits = |m: &usize| (1..=shape.len() / 2).all(|n| n.is_multiple_of(*m) || absent(n));
     (1..=8).rev().find(fits).unwrap_or(1)
 }
-

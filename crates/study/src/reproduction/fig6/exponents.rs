@@ -28,7 +28,8 @@ impl Exponents {
             let found = analyse::lyapunov(&plan, 1, (Some(transient), Some(span)), &Quiet(context.monitor))?;
             Ok(found.exponents.first().map(|exponent| (length, *exponent)))
         };
-        let found: Vec<Option<(f64, Estimate)>> = lengths.par_iter().map(one).collect::<Result<_, Error>>()?;
+        let found: Vec<Option<(f64, Estimate)>> =
+            lengths.par_iter().map(one).collect::<Result<_, Error>>()?;
         if context.monitor.stopped() {
             return Err(Error::Interrupted);
         }

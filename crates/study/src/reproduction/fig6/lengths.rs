@@ -72,7 +72,6 @@ impl Lengths {
         Ok(Self(points))
     }
 
-
     /// The points inside a range.
     pub(super) fn inside(&self, from: f64, to: f64) -> impl Iterator<Item = &(f64, CellSummary)> {
         self.0.iter().filter(move |point| point.0 > from && point.0 < to)
@@ -83,5 +82,4 @@ impl Lengths {
         let alone = |point: &(f64, CellSummary)| point.1.motions.iter().all(|motion| motion.regime == regime);
         (self.inside(from, to).all(alone), self.inside(from, to).count())
     }
-
 }
