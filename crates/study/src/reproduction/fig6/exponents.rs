@@ -21,7 +21,7 @@ impl Exponents {
     pub(super) fn find(context: &Context<'_>) -> Result<Self, Error> {
         let lengths = context.choose(FULL.to_vec(), QUICK.to_vec());
         let span = context.choose(2e4, 6e3);
-        let transient = context.choose(6e3, 3e3);
+        let transient = context.choose(6e3, 2e3);
         let one = |hundredths: &u32| {
             let length = f64::from(*hundredths) / 100.0;
             let plan = Plan::new(&study(length, modes_for(length))?)?;

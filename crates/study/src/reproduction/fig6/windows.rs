@@ -148,17 +148,24 @@ fn second_end(edges: &Edges) -> Claim {
 
 fn three_fold(edges: &Edges, lengths: &Lengths) -> Claim {
     let (from, to) = edges.three_fold;
+    let circular = number(edges.second_circular.0);
     let (all, count) = lengths.only(Regime::Motionless, number(from) + 3.0 * NEAR, 28.95);
-    claim(
+    let (turning, turned) = lengths.only(Regime::Circular, circular + 0.5 * NEAR, number(from) - 0.5 * NEAR);
+    differs(
         "Between *W*_2 and *W*_3 there is no intricate motion.",
         format!(
-            "a motionless three-fold shape, stable from *L* = {} to {}; motionless at {} up to *W*_3",
+            "a motionless three-fold shape, stable from *L* = {} to {}; motionless at {} up to *W*_3; but circular motion at {} between *W*_2 and the three-fold shape",
             words(from),
             words(to),
-            places(count)
+            places(count),
+            places(turned)
         ),
-        "As before.",
-        all && count > 0 && edges.folds[1] == 3,
+        "Leading eigenvalues of the shapes, followed in length; number of folds from their modes; runs from random starts.",
+        &format!(
+            "the three-fold shape is stable only from *L* = {} on; from {circular:.3} to there the stable motion is circular, which the paper does not mention.",
+            words(from)
+        ),
+        all && count > 0 && edges.folds[1] == 3 && turning && turned > 0,
     )
 }
 
@@ -172,7 +179,7 @@ fn four_fold(edges: &Edges, lengths: &Lengths) -> Claim {
             places(count),
             from + 0.5
         ),
-        "As before.",
+        "Leading eigenvalue of the four-fold shape, followed in length; runs from random starts.",
         all && count > 0 && edges.folds[2] == 4,
     )
 }

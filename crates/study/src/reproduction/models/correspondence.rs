@@ -168,9 +168,9 @@ fn runs(tensor: &Verdict, cell: &Verdict) -> Claim {
         format!("{}, {} rests of {:.0} on average", v.regime, v.rests.len(), sum / v.rests.len() as f64)
     };
     claim(
-        "Straight, circular, quasi-periodic, rectangular, zigzag and chaotic motions are common to both models.",
+        "The rectangular motion is common to both models (straight, circular, quasi-periodic: above; zigzag: below).",
         format!(
-            "all but the last two above, zigzags below, chaos in Fig. 4 and Fig. 6(a); rectangular runs: tensor model at *κ*_2 = {kappa2}, *γ* = {gamma}: {}; active cell at *L* = {length}: {}",
+            "tensor model at *κ*_2 = {kappa2}, *γ* = {gamma}: {}; active cell at *L* = {length}: {}",
             rests(tensor),
             rests(cell)
         ),

@@ -59,7 +59,7 @@ pub(super) fn edges(context: &Context<'_>) -> Result<Vec<Claim>, Error> {
     let two = reduced(Slaved::ThirdAndFourth);
     let three = reduced(Slaved::Fourth);
     Ok(vec![claim(
-        "Higher modes that relax quickly do not matter: the reduced equations show the same motions.",
+        "If the modes higher than *n* = 3 relax rapidly, the modes 1, 2 and 3 may be retained alone.",
         format!(
             "the heteroclinic cycle attracts for *L* = {start:.2} to {end:.2} in the whole model, {:.2} to {:.2} with modes 1 to 3 (mode 4 slaved), {:.2} to {:.2} with modes 1 and 2 (3 and 4 slaved)",
             three.0, three.1, two.0, two.1
