@@ -6,7 +6,6 @@ use crate::Error;
 use motiform_models::cell::{CellField, CellParameters};
 
 /// The lengths at which something changes. `None`: not within the lengths that were looked at.
-#[derive(Debug)]
 pub(super) struct Edges {
     /// Onset of modes 1 to 4: where their growth rates change sign.
     pub(super) onsets: [f64; 4],
@@ -20,6 +19,8 @@ pub(super) struct Edges {
     pub(super) straight_growth: f64,
     /// Circular motion ends.
     pub(super) circular: Option<f64>,
+    /// Leading eigenvalue of circular motion at 12.95, real and imaginary part.
+    pub(super) circular_slow: (f64, f64),
     /// The cycle between two-fold shapes attracts from here ...
     pub(super) cycle: Option<f64>,
     /// ... to here, where the two-fold shape itself becomes stable ...
@@ -65,6 +66,9 @@ impl Edges {
             straight_refined: refined.map(|branch| branch.stable_until(15.0)).transpose()?.flatten(),
             straight_growth: at_twelve.map_or(f64::NAN, |branch| branch.shape.growth()),
             circular: circular.stable_until(15.0)?,
+            circular_slow: near(circular, 12.95)?
+                .and_then(|branch| branch.shape.eigenvalues.first().copied())
+                .unwrap_or((f64::NAN, f64::NAN)),
             cycle: saddle.as_ref().map(attracts).transpose()?.flatten(),
             two_fold: two_fold.stable_until(12.0)?,
             two_fold_end: two_fold.stable_until(24.0)?,

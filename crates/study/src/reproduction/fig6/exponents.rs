@@ -21,14 +21,15 @@ impl Exponents {
     pub(super) fn find(context: &Context<'_>) -> Result<Self, Error> {
         let lengths = context.choose(FULL.to_vec(), QUICK.to_vec());
         let span = context.choose(2e4, 6e3);
-        let transient = context.choose(6e3, 3e3);
+        let transient = context.choose(6e3, 2e3);
         let one = |hundredths: &u32| {
             let length = f64::from(*hundredths) / 100.0;
             let plan = Plan::new(&study(length, modes_for(length))?)?;
             let found = analyse::lyapunov(&plan, 1, (Some(transient), Some(span)), &Quiet(context.monitor))?;
             Ok(found.exponents.first().map(|exponent| (length, *exponent)))
         };
-        let found: Vec<Option<(f64, Estimate)>> = lengths.par_iter().map(one).collect::<Result<_, Error>>()?;
+        let found: Vec<Option<(f64, Estimate)>> =
+            lengths.par_iter().map(one).collect::<Result<_, Error>>()?;
         if context.monitor.stopped() {
             return Err(Error::Interrupted);
         }

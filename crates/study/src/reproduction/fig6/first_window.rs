@@ -4,9 +4,10 @@ use super::super::claims::{claim, differs};
 use super::edges::Edges;
 use super::lengths::Lengths;
 use super::quasi::Search;
-use super::windows::number;
+use super::windows::{number, places};
 use crate::report::Claim;
 use motiform_analysis::Regime;
+use std::f64::consts::TAU;
 
 /// Share of the lengths that must be rectangular: with finite accuracy a run may repeat exactly beside the cycle.
 const MOST: f64 = 0.8;
@@ -20,7 +21,10 @@ fn circular(edges: &Edges, lengths: &Lengths) -> Claim {
     let (all, count) = lengths.only(Regime::Circular, from, number(edges.cycle));
     claim(
         "Circular motion emerges in *W*_1 = [12.0, 14.4].",
-        format!("circular at all {count} lengths scanned between *L* = {from:.3} and {to:.3}, where it loses its stability to an oscillation"),
+        format!(
+            "circular at {} between *L* = {from:.3} and {to:.3}, where it loses its stability to an oscillation",
+            places(count)
+        ),
         "Leading eigenvalue of the turning shape, followed in length; runs from random starts.",
         all && count > 0 && from < to && from > 12.0 && to < 14.4,
     )
@@ -38,9 +42,16 @@ fn quasi_periodic(edges: &Edges, quasi: &Search) -> Claim {
         quasi.words(),
         how,
         &format!(
-            "the cycle of the rectangular motion attracts from *L* = {cycle:.4} on, before the circular motion loses its stability at {circular:.4}: the two coexist in between, and no length is left that needs a third motion. Near the edge the circular motion is left or reached so slowly that a run looks quasi-periodic for thousands of time units."
+            "the cycle of the rectangular motion attracts from *L* = {cycle:.4} on, before the circular motion loses its stability at {circular:.4}: the two coexist in between, and no length is left that needs a third motion. At *L* = 12.95 an oscillation about the circular motion (period {:.0}) decays at {:.1e} only: for {:.0} time units and more the transient looks quasi-periodic.",
+            TAU / edges.circular_slow.1.abs(),
+            -edges.circular_slow.0,
+            1.0 / edges.circular_slow.0.abs()
         ),
-        cycle < circular && circular - cycle < 0.1 && quasi.runs > 0,
+        cycle < circular
+            && circular - cycle < 0.1
+            && quasi.runs > 0
+            && edges.circular_slow.0 < 0.0
+            && edges.circular_slow.0 > -5e-3,
     )
 }
 

@@ -24,12 +24,12 @@ const STRETCHES: [Stretch; 3] = [
     Stretch {
         modes: 15,
         full: &[(1525, 2050, 25), (2060, 2280, 10)],
-        quick: &[15.2, 17.0, 19.0, 20.6, 21.6, 21.8, 22.0, 22.3, 22.6],
+        quick: &[15.2, 17.0, 19.0, 20.6, 21.6, 21.8, 22.0, 22.3, 22.8],
     },
     Stretch {
         modes: 20,
         full: &[(2300, 2875, 25), (2880, 3060, 10), (3080, 3100, 20)],
-        quick: &[24.0, 26.0, 28.8, 29.2, 29.3, 29.7, 30.0, 30.3, 31.0],
+        quick: &[24.0, 26.0, 28.8, 29.2, 29.3, 29.8, 30.3, 31.0],
     },
 ];
 
@@ -72,7 +72,6 @@ impl Lengths {
         Ok(Self(points))
     }
 
-
     /// The points inside a range.
     pub(super) fn inside(&self, from: f64, to: f64) -> impl Iterator<Item = &(f64, CellSummary)> {
         self.0.iter().filter(move |point| point.0 > from && point.0 < to)
@@ -83,5 +82,4 @@ impl Lengths {
         let alone = |point: &(f64, CellSummary)| point.1.motions.iter().all(|motion| motion.regime == regime);
         (self.inside(from, to).all(alone), self.inside(from, to).count())
     }
-
 }

@@ -12,8 +12,8 @@ mod tracks_claims;
 mod windows;
 mod zigzags;
 
-pub(super) use branches::{Branch, folds};
-pub(super) use lengths::study;
+pub(super) use branches::Branch;
+pub(super) use lengths::{modes_for, study};
 pub(super) use tracks::Track;
 
 use super::context::Context;

@@ -24,29 +24,28 @@ const MOVING: [Regime; 6] = [
     Regime::Chaotic,
 ];
 
-/// Letters of the figure, and what is seen.
-const TRACKS: [(&str, &str); 4] = [
-    ("a", "irregular motion."),
-    ("b", "quasi-periodic motion."),
-    ("c", "zigzag with turns of about 180 and 41 degrees."),
-    ("d", "zigzag with turns of about 180 and 136 degrees, 45 degrees in all."),
-];
+/// Letters of the figure.
+const LETTERS: [&str; 4] = ["a", "b", "c", "d"];
 
 pub(super) fn all(
     lengths: &Lengths,
     exponents: &Exponents,
     tracks: &[Track],
 ) -> Result<Vec<ReportFigure>, Error> {
-    let svg = |caption: &str, svg: String| ReportFigure { caption: caption.to_owned(), picture: Picture::Svg(svg) };
+    let svg =
+        |caption: &str, svg: String| ReportFigure { caption: caption.to_owned(), picture: Picture::Svg(svg) };
     let mut figures = vec![
-        svg("Which motion random starts lead to, over the length. Brackets: the paper's windows.", windows(lengths)?),
+        svg(
+            "Which motion random starts lead to, over the length. Brackets: the paper's windows.",
+            windows(lengths)?,
+        ),
         svg("Mean speed over the length (motionless shapes are left out).", speeds(lengths)?),
         svg("Largest Lyapunov exponent in *W*_2.", exponents.svg()?),
     ];
     let drawn: Vec<Vec<ReportFigure>> = tracks
         .par_iter()
-        .zip(&TRACKS[..])
-        .map(|(track, (letter, says))| track.figures(letter, says))
+        .zip(&LETTERS[..])
+        .map(|(track, letter)| track.figures(letter))
         .collect::<Result<_, _>>()?;
     figures.extend(drawn.into_iter().flatten());
     Ok(figures)

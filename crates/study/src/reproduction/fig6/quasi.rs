@@ -24,7 +24,8 @@ impl Search {
     pub(super) fn make(context: &Context<'_>) -> Result<Self, Error> {
         let lengths = context.choose(FULL.to_vec(), QUICK.to_vec());
         let seeds = context.choose(4, 1);
-        let runs: Vec<(f64, u64)> = lengths.iter().flat_map(|l| (1..=seeds).map(move |seed| (*l, seed))).collect();
+        let runs: Vec<(f64, u64)> =
+            lengths.iter().flat_map(|l| (1..=seeds).map(move |seed| (*l, seed))).collect();
         let one = |&(length, seed): &(f64, u64)| {
             let mut study = study(length, 10)?;
             study.run.seed = seed;
@@ -42,7 +43,8 @@ impl Search {
             .filter(|entry| entry.1 > 0)
             .map(|(regime, count)| format!("{count} {regime}"))
             .collect();
-        let [first, last] = [self.lengths.first(), self.lengths.last()].map(|l| l.copied().unwrap_or(f64::NAN));
+        let [first, last] =
+            [self.lengths.first(), self.lengths.last()].map(|l| l.copied().unwrap_or(f64::NAN));
         format!(
             "of {} runs at {} lengths from {first} to {last}, {} quasi-periodic ({})",
             self.runs,

@@ -11,10 +11,20 @@ use std::f64::consts::TAU;
 /// How far an edge may lie from the paper's, which has three digits and was found by looking: the spacing of the scan.
 const NEAR: f64 = 0.1;
 
-pub(super) fn claims(edges: &Edges, lengths: &Lengths, zigzags: &Zigzags, quasi: &super::quasi::Search) -> Vec<Claim> {
+pub(super) fn claims(
+    edges: &Edges,
+    lengths: &Lengths,
+    zigzags: &Zigzags,
+    quasi: &super::quasi::Search,
+) -> Vec<Claim> {
     let mut claims = vec![onset(edges), fastest(edges), nothing(edges, lengths), straight(edges, lengths)];
     claims.extend(super::first_window::claims(edges, lengths, quasi));
-    claims.extend([two_fold(edges, lengths), second_start(edges), second_end(edges), three_fold(edges, lengths)]);
+    claims.extend([
+        two_fold(edges, lengths),
+        second_start(edges),
+        second_end(edges),
+        three_fold(edges, lengths),
+    ]);
     claims.extend([zigzags.claim(edges), four_fold(edges, lengths)]);
     claims
 }
@@ -29,12 +39,24 @@ pub(super) fn number(edge: Option<f64>) -> f64 {
     edge.unwrap_or(f64::NAN)
 }
 
+/// How many lengths, all of them, in words.
+pub(super) fn places(count: usize) -> String {
+    match count {
+        1 => "the one length scanned".to_owned(),
+        _ => format!("all {count} lengths scanned"),
+    }
+}
+
 fn onset(edges: &Edges) -> Claim {
     let worst = (1..).zip(&edges.onsets).map(|(n, l)| (l - TAU * f64::from(n)).abs()).fold(0.0, f64::max);
     let found: Vec<String> = edges.onsets.iter().map(|l| format!("{l:.6}")).collect();
     claim(
         "Mode *n* becomes unstable at *L* = 2π*n*.",
-        format!("*σ_n* changes sign at *L* = {}; off 2π*n* by at most {worst:.0e}", found.join(", ")),
+        format!(
+            "the growth rates change sign at *L* = {}; within {:.0e} of 2π*n*",
+            found.join(", "),
+            worst.max(1e-14)
+        ),
         "Bisection of the growth rates that the field itself uses, *n* = 1 to 4.",
         worst < 1e-9,
     )
@@ -54,7 +76,11 @@ fn nothing(edges: &Edges, lengths: &Lengths) -> Claim {
     let (still, count) = lengths.only(Regime::Motionless, 0.0, edges.onsets[0]);
     claim(
         "No shape instability and no motion for *L* < 6.2.",
-        format!("the circle is stable up to *L* = {:.4} = 2π; motionless at all {count} lengths below", edges.onsets[0]),
+        format!(
+            "the circle is stable up to *L* = {:.4} = 2π; motionless at {} below",
+            edges.onsets[0],
+            places(count)
+        ),
         "Growth rate of mode 1, and runs from random starts; the paper gives two digits.",
         still && count > 0 && (edges.onsets[0] - 6.2).abs() < NEAR,
     )
@@ -66,11 +92,12 @@ fn straight(edges: &Edges, lengths: &Lengths) -> Claim {
     let same = (end - number(edges.straight_refined)).abs();
     differs(
         "The straight motion is found for 6.2 < *L* < 12.0.",
-        format!("straight at all {count} lengths between 2π and *L* = {end:.3}, where it loses its stability"),
+        format!("straight at {} between 2π and *L* = {end:.3}, where it loses its stability", places(count)),
         "Edge: the leading eigenvalue of the straight shape, followed in length, changes sign. Runs from random starts between.",
         &format!(
-            "at *L* = 12.0 the leading eigenvalue of the straight motion is still {:.3} (stable); computed with twice as many modes the edge moves by {same:.0e}. The paper's limit is that of its scan.",
-            edges.straight_growth
+            "at *L* = 12.0 the leading eigenvalue of the straight motion is still {:.3} (stable); computed with twice as many modes the edge moves by less than {:.0e}. The paper's limit is that of its scan.",
+            edges.straight_growth,
+            same.max(1e-5)
         ),
         all && count > 0 && edges.straight_growth < 0.0 && same < 1e-4 && end > 12.0 && end < 12.5,
     )
@@ -81,7 +108,10 @@ fn two_fold(edges: &Edges, lengths: &Lengths) -> Claim {
     let (all, count) = lengths.only(Regime::Motionless, from + NEAR, to);
     claim(
         "Between *W*_1 and *W*_2 there is no intricate motion.",
-        format!("a motionless two-fold shape, stable from *L* = {from:.3} to {to:.3}; motionless at all {count} lengths between"),
+        format!(
+            "a motionless two-fold shape, stable from *L* = {from:.3} to {to:.3}; motionless at {} between",
+            places(count)
+        ),
         "Leading eigenvalue of the shape followed in length; number of folds from its modes; runs from random starts.",
         all && count > 0 && edges.folds[0] == 2,
     )
@@ -118,16 +148,24 @@ fn second_end(edges: &Edges) -> Claim {
 
 fn three_fold(edges: &Edges, lengths: &Lengths) -> Claim {
     let (from, to) = edges.three_fold;
+    let circular = number(edges.second_circular.0);
     let (all, count) = lengths.only(Regime::Motionless, number(from) + 3.0 * NEAR, 28.95);
-    claim(
+    let (turning, turned) = lengths.only(Regime::Circular, circular + 0.5 * NEAR, number(from) - 0.5 * NEAR);
+    differs(
         "Between *W*_2 and *W*_3 there is no intricate motion.",
         format!(
-            "a motionless three-fold shape, stable from *L* = {} to {}; motionless at all {count} lengths scanned up to *W*_3",
+            "a motionless three-fold shape, stable from *L* = {} to {}; motionless at {} up to *W*_3; but circular motion at {} between *W*_2 and the three-fold shape",
             words(from),
-            words(to)
+            words(to),
+            places(count),
+            places(turned)
         ),
-        "As before.",
-        all && count > 0 && edges.folds[1] == 3,
+        "Leading eigenvalues of the shapes, followed in length; number of folds from their modes; runs from random starts.",
+        &format!(
+            "the three-fold shape is stable only from *L* = {} on; from {circular:.3} to there the stable motion is circular, which the paper does not mention.",
+            words(from)
+        ),
+        all && count > 0 && edges.folds[1] == 3 && turning && turned > 0,
     )
 }
 
@@ -136,8 +174,12 @@ fn four_fold(edges: &Edges, lengths: &Lengths) -> Claim {
     let (all, count) = lengths.only(Regime::Motionless, from + 5.0 * NEAR, 32.0);
     claim(
         "Beyond *W*_3 there is no intricate motion (up to *L* = 31).",
-        format!("a motionless four-fold shape, stable from *L* = {from:.3}; motionless at all {count} lengths scanned beyond {:.1}", from + 0.5),
-        "As before.",
+        format!(
+            "a motionless four-fold shape, stable from *L* = {from:.3}; motionless at {} beyond {:.1}",
+            places(count),
+            from + 0.5
+        ),
+        "Leading eigenvalue of the four-fold shape, followed in length; runs from random starts.",
         all && count > 0 && edges.folds[2] == 4,
     )
 }

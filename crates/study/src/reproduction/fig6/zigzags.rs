@@ -12,9 +12,8 @@ use crate::scan::Axis;
 use motiform_analysis::Regime;
 
 /// Lengths at which the zigzag is started, in hundredths.
-const FULL: [u32; 14] =
-    [2890, 2900, 2905, 2910, 2915, 2920, 2940, 2960, 2980, 2990, 3000, 3010, 3020, 3030];
-const QUICK: [u32; 5] = [2900, 2910, 2920, 3000, 3020];
+const FULL: [u32; 14] = [2890, 2900, 2905, 2910, 2915, 2920, 2940, 2960, 2980, 2990, 3000, 3010, 3020, 3030];
+const QUICK: [u32; 4] = [2910, 2920, 3000, 3020];
 
 /// Modes; enough for the longest.
 const MODES: usize = 20;

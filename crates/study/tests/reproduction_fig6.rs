@@ -1,0 +1,18 @@
+//! The quick chapters on the active cell and on both models: no claim fails.
+
+use motiform_study::reproduction::{Options, reproduce};
+
+#[test]
+fn no_claim_about_the_cell_and_both_models_fails() {
+    let out = tempfile::tempdir().unwrap();
+    let figures = vec!["fig6".to_owned(), "models".to_owned()];
+    let options = Options { figures, quick: true, threads: 2 };
+    let report = reproduce(&options, out.path(), &()).unwrap();
+    assert_eq!(report.sections.len(), 2);
+    for section in &report.sections {
+        assert!(!section.claims.is_empty() && !section.figures.is_empty(), "{}", section.title);
+        for claim in &section.claims {
+            assert_ne!(claim.verdict.words(), "✗ fails", "{}: {}", claim.says, claim.finds);
+        }
+    }
+}
