@@ -38,7 +38,7 @@ pub(super) struct Rests {
 
 pub(super) fn measure(context: &Context<'_>) -> Result<Rests, Error> {
     let exponents: &[i32] = context.choose(&[-4, -5, -6, -7, -8, -9, -10, -11, -12], &[-5, -7, -9, -11]);
-    let time = context.choose(240_000.0, 40_000.0);
+    let time = context.choose(80_000.0, 40_000.0);
     let run = |(stream, &exponent): (u64, &i32)| {
         measured(context, libm::pow(10.0, f64::from(exponent)), stream, time)
     };
