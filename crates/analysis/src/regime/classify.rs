@@ -43,6 +43,7 @@ pub fn classify<B: Equivariant + ?Sized>(
         stop,
         time: 0.0,
         fastest: 0.0,
+        largest: norm(start),
         parted: Vec::new(),
         missing: "no motion had established itself".to_owned(),
     };
@@ -85,6 +86,8 @@ struct Search<'s, B: ?Sized> {
     time: f64,
     /// Fastest change of the reduced shape so far.
     fastest: f64,
+    /// Largest `|u|` so far: what distances are small against, for a circle has no size of its own.
+    largest: f64,
     /// The exponents of the last looks, as far back as neighbours parted in them.
     parted: Vec<Estimate>,
     /// What kept the last look from deciding.
@@ -134,6 +137,7 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
     /// Is the orbit about to reach a stable relative equilibrium?
     fn equilibrium(&mut self, orbit: &mut dyn Integration, look: &Look) -> Result<Option<Step>> {
         self.fastest = self.fastest.max(look.fastest);
+        self.largest = self.largest.max(look.sizes.1);
         if look.last_speed > 0.05 * self.fastest {
             return Ok(None);
         }
@@ -141,7 +145,7 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
             "no equilibrium was found where the orbit rests".clone_into(&mut self.missing);
             return Ok(None);
         };
-        let size = norm(&found.shape).max(look.sizes.1);
+        let size = norm(&found.shape).max(self.largest);
         let before = found.distance(self.body, orbit.state());
         if found.growth() > -found.resolution() {
             self.missing =
@@ -153,7 +157,7 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
             return Ok(None);
         }
         let mut after = before;
-        let reached = self.settings.hovering() * size;
+        let reached = (self.settings.hovering() * size).max(100.0 * self.settings.atol());
         if before > reached {
             let wait = (-1.0 / found.growth()).min(self.settings.budget);
             let request = self.settings.request(orbit.t() + wait, self.body.dim());
