@@ -54,8 +54,8 @@ impl RelativeEquilibrium {
             let size = norm(&residual);
             let columns = linearisation(body, &shape, omega);
             let scale = columns.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
-            // A circle has no size of its own: what is nothing against the guess is nothing.
-            let floor = 1e-14 * scale * norm(&shape).max(1e-3 * norm(guess)).max(1e-300);
+            // against the guess too: towards a circle the shape shrinks with its residual
+            let floor = 1e-14 * scale * norm(&shape).max(norm(guess));
             if !size.is_finite() {
                 return None;
             }

@@ -44,7 +44,7 @@ pub fn classify<B: Equivariant + ?Sized>(
         stop,
         time: 0.0,
         fastest: 0.0,
-        largest: 0.0,
+        largest: norm(start),
         parted: Vec::new(),
         missing: "no motion had established itself".to_owned(),
     };
@@ -87,7 +87,7 @@ struct Search<'s, B: ?Sized> {
     time: f64,
     /// Fastest change of the reduced shape so far.
     fastest: f64,
-    /// Largest size of the shape so far.
+    /// Largest `|u|` so far: what distances are small against, for a circle has no size of its own.
     largest: f64,
     /// The exponents of the last looks, as far back as neighbours parted in them.
     parted: Vec<Estimate>,
@@ -138,6 +138,7 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
     /// Is the orbit about to reach a stable relative equilibrium?
     fn equilibrium(&mut self, orbit: &mut dyn Integration, look: &Look) -> Result<Option<Step>> {
         self.fastest = self.fastest.max(look.fastest);
+        self.largest = self.largest.max(look.sizes.1);
         if look.last_speed > 0.05 * self.fastest {
             return Ok(None);
         }
@@ -145,7 +146,6 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
             "no equilibrium was found where the orbit rests".clone_into(&mut self.missing);
             return Ok(None);
         };
-        self.largest = self.largest.max(look.sizes.1);
         let size = norm(&found.shape).max(self.largest);
         let before = found.distance(self.body, orbit.state());
         if found.growth() > -found.resolution() {
@@ -158,7 +158,7 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
             return Ok(None);
         }
         let mut after = before;
-        let reached = self.settings.hovering() * size;
+        let reached = (self.settings.hovering() * size).max(100.0 * self.settings.atol());
         if before > reached {
             let wait = (-1.0 / found.growth()).min(self.settings.budget);
             let request = self.settings.request(orbit.t() + wait, self.body.dim());

@@ -23,11 +23,10 @@ pub(super) struct Cycle {
 const LEAST_RESTS: usize = 3;
 
 /// A rest that comes closer than this (against the shape's size) is ruled by the saddle alone.
-const CLOSE: f64 = 1e-3;
+const CLOSE: f64 = 1e-2;
 
 /// Finds a cycle of saddles that attracts: every rest of the look is near a motionless saddle with one growing direction,
-/// orbits leave it slower than they arrive (`lambda_+ + lambda_- < 0`), and the rests last as long as the closeness
-/// explains. `None` where any of this does not hold.
+/// and orbits leave it slower than they arrive (`lambda_+ + lambda_- < 0`). `None` where any of this does not hold.
 pub(super) fn cycle<B: Equivariant + ?Sized>(body: &B, look: &Look, settings: &Settings) -> Option<Cycle> {
     let rests: Vec<&Rest> = look.rests.iter().rev().take(6).collect();
     if rests.len() < LEAST_RESTS {
@@ -36,20 +35,29 @@ pub(super) fn cycle<B: Equivariant + ?Sized>(body: &B, look: &Look, settings: &S
     let mut closest = f64::INFINITY;
     let mut found: Option<(RelativeEquilibrium, Saddle)> = None;
     for rest in &rests {
-        let equilibrium = RelativeEquilibrium::find(body, &rest.shape)?;
-        let size = norm(&equilibrium.shape);
-        let distance = equilibrium.distance(body, &rest.shape) / size.max(f64::MIN_POSITIVE);
-        let still = equilibrium.speed()
-            <= body.speed_resolution(&equilibrium.shape, settings.atol()).max(1e-9)
-            && equilibrium.turning_rate.abs() <= equilibrium.resolution().max(1e-9 * equilibrium.scale);
-        let saddle = equilibrium.saddle(body)?;
-        if !(still && distance < CLOSE && saddle.out + saddle.inward < 0.0) {
-            return None;
-        }
+        let (equilibrium, saddle, distance) = attracting_saddle(body, &rest.shape, settings)?;
         closest = closest.min(distance);
         found.get_or_insert((equilibrium, saddle));
     }
     let (equilibrium, saddle) = found?;
     let durations = look.rests.iter().map(|rest| rest.end - rest.start).collect();
     Some(Cycle { equilibrium, saddle, rests: durations, closest })
+}
+
+/// The motionless saddle beside `shape` that a cycle could attract by, with the distance to it (against its size).
+///
+/// No periodic orbit passes so near to one: the cycle itself attracts what does (Krupa and Melbourne 1995).
+pub(super) fn attracting_saddle<B: Equivariant + ?Sized>(
+    body: &B,
+    shape: &[f64],
+    settings: &Settings,
+) -> Option<(RelativeEquilibrium, Saddle, f64)> {
+    let equilibrium = RelativeEquilibrium::find(body, shape)?;
+    let size = norm(&equilibrium.shape);
+    let distance = equilibrium.distance(body, shape) / size.max(f64::MIN_POSITIVE);
+    let still = equilibrium.speed() <= body.speed_resolution(&equilibrium.shape, settings.atol()).max(1e-9)
+        && equilibrium.turning_rate.abs() <= equilibrium.resolution().max(1e-9 * equilibrium.scale);
+    let saddle = equilibrium.saddle(body)?;
+    let attracts = still && distance < CLOSE && saddle.out + saddle.inward < 0.0;
+    attracts.then_some((equilibrium, saddle, distance))
 }

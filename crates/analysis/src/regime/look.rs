@@ -42,6 +42,8 @@ pub(super) struct Look {
     pub(super) resting: bool,
     /// Smallest and largest `|u|`.
     pub(super) sizes: (f64, f64),
+    /// The shape where the reduced shape changed most slowly.
+    pub(super) slowest: Vec<f64>,
 }
 
 /// A reduced shape that changes slower than this, against its fastest, rests.
@@ -72,10 +74,11 @@ impl Look {
             fastest: 0.0,
             last_speed: 0.0,
             sizes: (size, size),
+            slowest: (f64::INFINITY, orbit.state().to_vec()),
             stop,
         };
         let outcome = drive(orbit, &request, &mut watcher)?;
-        let Watcher { extremes, rests, rest, fastest, last_speed, sizes, .. } = watcher;
+        let Watcher { extremes, rests, rest, fastest, last_speed, sizes, slowest, .. } = watcher;
         let (low, high) = extremes
             .iter()
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (x.size.min(low), x.size.max(high)));
@@ -90,6 +93,7 @@ impl Look {
             last_speed,
             resting: rest.is_some(),
             sizes,
+            slowest: slowest.1,
         })
     }
 
@@ -135,6 +139,7 @@ struct Watcher<'w, B: ?Sized> {
     fastest: f64,
     last_speed: f64,
     sizes: (f64, f64),
+    slowest: (f64, Vec<f64>),
     stop: &'w mut dyn Sink,
 }
 
@@ -156,6 +161,10 @@ impl<B: Equivariant + ?Sized> Sink for Watcher<'_, B> {
         self.sizes = (self.sizes.0.min(size), self.sizes.1.max(size));
         let speed = reduced_speed(self.body, u, slope);
         self.last_speed = speed;
+        if speed < self.slowest.0 {
+            self.slowest.0 = speed;
+            self.slowest.1.copy_from_slice(u);
+        }
         self.fastest = self.fastest.max(speed);
         if speed < RESTS * self.fastest {
             let started = (!self.rests.is_empty() || self.fastest > 0.0).then_some(t);

@@ -1,5 +1,6 @@
 //! Does the shape come back? Recurrences of the reduced orbit, polished by Newton's method.
 
+use super::heteroclinic::attracting_saddle;
 use super::look::{Extreme, Look};
 use super::settings::Settings;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
@@ -91,11 +92,21 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
         let Some(orbit) = PeriodicOrbit::find(body, &guess, &settings.flow()) else { continue };
         // Against the latest swing: an equilibrium, approached in a spiral, is a periodic orbit of no size.
         let away = align(body, &orbit.shape, &last.shape, false).distance / swing;
-        if orbit.growth() < 1.0 && away < NEAR {
+        if orbit.growth() < 1.0 && away < NEAR && !haunts_a_saddle(body, &orbit, settings) {
             return Some(shortest(body, orbit, recurrence, settings));
         }
     }
     None
+}
+
+/// Whether the orbit passes so near to a saddle that attracts as a cycle does that only the tolerance closes it.
+fn haunts_a_saddle<B: Equivariant + ?Sized>(body: &B, orbit: &PeriodicOrbit, settings: &Settings) -> bool {
+    let Ok(mut flow) = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape) else {
+        return false;
+    };
+    let request = settings.request(orbit.time, body.dim());
+    let Ok(look) = Look::take(body, flow.as_mut(), orbit.time, &request, &mut ()) else { return false };
+    attracting_saddle(body, &look.slowest, settings).is_some()
 }
 
 /// The same orbit with its shortest period: more returns than one may have been tried first.
