@@ -82,7 +82,7 @@ fn run(context: &Context<'_>, (kappa2, seed): (f64, u64), span: f64) -> Result<R
 
 fn left(context: &Context<'_>, kappa2: f64) -> Result<Option<Left>, Error> {
     let plan = Plan::new(&at(context, kappa2, 0.1)?)?;
-    let found = saddle(&plan, context.choose(100, 16), (None, None), &Silent(context.monitor))?
+    let found = saddle(&plan, context.choose(100, 24), (None, None), &Silent(context.monitor))?
         .ok_or(Error::Interrupted)?;
     let of = |exponent| Left { kappa2, exponent, escaped: found.escaped, runs: found.runs };
     Ok(found.exponent.map(of))
@@ -136,8 +136,10 @@ fn chaos_ends(runs: &[Run], saddles: &[Left]) -> Claim {
         saddles.iter().any(|left| left.kappa2 == kappa2)
             || runs.iter().any(|run| run.kappa2 == kappa2 && run.is_chaotic())
     };
+    // where every run escapes early there is no exponent, and nothing to decide
     let mut values: Vec<f64> = runs.iter().map(|run| run.kappa2).collect();
     values.dedup();
+    values.retain(|kappa2| largest(runs, saddles, *kappa2).is_some());
     let below = values.iter().take_while(|kappa2| positive(**kappa2)).last();
     let above = values.iter().find(|kappa2| !positive(**kappa2));
     let finds = match (below, above) {
