@@ -64,12 +64,12 @@ fn rightwards(dataset: &Dataset) -> Claim {
     claim(
         "The domain is travelling from the left to the right.",
         format!(
-            "It moves by ({x:.1}, {y:.1}) within the {:.0} time units shown: to the right, at {:.0}° to the x axis.",
+            "It moves by ({x:.1}, {y:.1}) within the {:.0} time units shown, at {:.0}° to the x axis.",
             dataset.manifest.outcome.t(),
             libm::atan2(y, x).to_degrees()
         ),
-        "the displacement over the recording, more to the right than sideways by a factor of 2; any direction is a solution, and the start, nearly mirror symmetric \
-         about the x axis",
+        "the displacement over the recording, more to the right than sideways by a factor of 2; any direction is a \
+         solution, and the start, nearly mirror symmetric about the x axis, chooses one",
         x > 0.0 && y.abs() < 0.5 * x,
     )
 }
