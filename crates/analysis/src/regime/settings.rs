@@ -51,7 +51,8 @@ impl Settings {
     pub(super) fn hovering(&self) -> f64 {
         match self.control {
             StepControl::Adaptive { rtol, .. } => (100.0 * rtol).max(1e-8),
-            StepControl::Fixed { .. } => 1e-8,
+            // the equilibrium of the scheme is not quite that of the flow
+            StepControl::Fixed { .. } => self.accuracy(),
         }
     }
 

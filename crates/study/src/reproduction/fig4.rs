@@ -52,7 +52,7 @@ fn parameters(study: &Study) -> Result<Vec<(String, String)>, Error> {
     rows.push(("initial states".to_owned(), format!("random, each value within ±{}", study.random)));
     rows.push((
         "method".to_owned(),
-        format!("{}, relative tolerance {:e}", study.run.stepper, study.run.rtol),
+        format!("{}, relative tolerance {}", study.run.stepper, power(study.run.rtol)),
     ));
     Ok(rows)
 }
@@ -68,5 +68,17 @@ pub(super) struct Silent<'m>(pub(super) &'m dyn Monitor);
 impl Monitor for Silent<'_> {
     fn stopped(&self) -> bool {
         self.0.stopped()
+    }
+}
+
+/// A number with two digits and a power of ten, as people write it: `1.5×10^{-4}`, `10^{-9}`.
+pub(super) fn power(x: f64) -> String {
+    let text = format!("{x:.1e}");
+    let Some((mantissa, exponent)) = text.split_once('e') else { return text };
+    match mantissa.trim_end_matches(".0") {
+        "0" => "0".to_owned(),
+        "1" => format!("10^{{{exponent}}}"),
+        "-1" => format!("−10^{{{exponent}}}"),
+        mantissa => format!("{mantissa}×10^{{{exponent}}}"),
     }
 }

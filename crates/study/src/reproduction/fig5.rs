@@ -1,9 +1,59 @@
-//! fig5.
+//! Fig. 5: zigzag and chaos, at two places of the plane of Fig. 4.
+
+mod chaos;
+mod parting;
+mod spectra;
+mod zigzag;
 
 use super::context::Context;
-use crate::Error;
-use crate::report::Section;
+use super::fig4::power;
+use crate::draw::draw;
+use crate::report::{Picture, ReportFigure, Section};
+use crate::{Dataset, Error};
 
-pub(super) fn section(_context: &Context<'_>) -> Result<Section, Error> {
-    Ok(Section { title: "fig5".to_owned(), ..Section::default() })
+pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
+    let mut section = Section {
+        title: "Fig. 5: zigzag and chaotic motion".to_owned(),
+        about: ABOUT.to_owned(),
+        parameters: parameters(context)?,
+        ..Section::default()
+    };
+    zigzag::add(context, &mut section)?;
+    chaos::add(context, &mut section)?;
+    spectra::add(context, &mut section)?;
+    parting::add(context, &mut section)?;
+    Ok(section)
+}
+
+const ABOUT: &str = "Two motions that need the three-fold deformation. (a) At κ_2 = 0.9, κ_3 = 0.1 the body runs on while its \
+heading swings to the left and to the right in turn. (b) At κ_2 = 0.5, κ_3 = 0.1 it loops and turns without a period. Whether \
+a motion is a zigzag is decided by its return: half a period later it must be its own mirror image. Whether it is chaotic is \
+decided by four independent witnesses: the Lyapunov exponent, the parting of neighbours, the 0-1 test and the spectrum.";
+
+/// What both presets set.
+fn parameters(context: &Context<'_>) -> Result<Vec<(String, String)>, Error> {
+    let (a, b) = (context.preset("fig5a", |_| Ok(()))?, context.preset("fig5b", |_| Ok(()))?);
+    let values = a.values()?.into_iter().zip(b.values()?);
+    let set = a.info()?.parameters().iter().zip(values).filter(|(_, (x, y))| *x != 0.0 || *y != 0.0);
+    let words = |(x, y): (f64, f64)| if x == y { x.to_string() } else { format!("{x} in (a), {y} in (b)") };
+    let mut rows: Vec<(String, String)> =
+        set.map(|(spec, pair)| (spec.symbol.to_owned(), words(pair))).collect();
+    rows.push(("all other coefficients".to_owned(), "0".to_owned()));
+    rows.push(("time before the recording".to_owned(), words((a.run.transient, b.run.transient))));
+    rows.push(("method".to_owned(), format!("{}, relative tolerance {}", a.run.stepper, power(a.run.rtol))));
+    Ok(rows)
+}
+
+/// The drawings of a dataset: names of the files, with the words below each.
+fn drawings(dataset: &Dataset, wanted: &[(&str, &str)]) -> Result<Vec<ReportFigure>, Error> {
+    let drawn = draw(dataset, false)?;
+    let figure = |(name, caption): &(&str, &str)| {
+        let file = drawn.iter().find(|picture| picture.name == *name)?;
+        let picture = match name.strip_suffix(".svg") {
+            Some(_) => Picture::Svg(String::from_utf8_lossy(&file.bytes).into_owned()),
+            None => Picture::Png(file.bytes.clone()),
+        };
+        Some(ReportFigure { caption: (*caption).to_owned(), picture })
+    };
+    Ok(wanted.iter().filter_map(figure).collect())
 }

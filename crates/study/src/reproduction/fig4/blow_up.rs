@@ -8,7 +8,7 @@
 use super::super::claims::{claim, differs};
 use super::super::context::Context;
 use super::approach::{Approach, follow};
-use super::{at, figure};
+use super::{at, figure, power};
 use crate::figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use crate::report::{ReportFigure, Section};
 use crate::{Error, Study};
@@ -49,9 +49,10 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
         "In the region × a numerical instability occurs, so that there is no definite conclusion.",
         format!(
             "From one start, {BEFORE} time units before the end, every method blows up at the same time t\\* = {:.9}: {list}. \
-             The largest spread is {spread:.0e}. |z_1| (t\\* − t) → {coefficient:.5}; theory {law:.5}; measured before: 5.6. \
+             The largest spread is {}. |z_1| (t\\* − t) → {coefficient:.5}; theory {law:.5}; measured before: 5.6. \
              |z_2|/|z_1|^2 → {ratio:.6}; theory 0.5.",
-            approach.t_star
+            approach.t_star,
+            power(spread)
         ),
         "the spread of t\\* over two methods and three tolerances, below 10^{-5}; |z_1|(t\\* − t) and |z_2|/|z_1|^2 at \
          t\\* − t < 10^{-4} within 0.1 % of the leading balance of the equations",
@@ -60,7 +61,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
          however small, integrates past it",
         spread < 1e-5 && off < 1e-3 && (ratio - 0.5).abs() < 5e-4,
     ));
-    section.claims.push(paper_steps(&fixed, approach.t_star));
+    section.claims.push(paper_steps(&fixed, approach.t_star, law));
     section.claims.push(bounded(context, &start)?);
     Ok(())
 }
@@ -91,7 +92,7 @@ fn start(context: &Context<'_>) -> Result<Option<Study>, Error> {
 fn law(study: &Study) -> Result<f64, Error> {
     let values = study.values()?;
     let named = |name: &str| {
-        let specs = study.info().map(|info| info.parameters()).unwrap_or_default();
+        let specs = study.info().map(motiform_models::ModelInfo::parameters).unwrap_or_default();
         specs.iter().position(|spec| spec.name == name).map_or(0.0, |place| values[place])
     };
     let (e11, e22, e31, e32) = (-2.0 * named("a1"), named("b2"), named("d1") / 8.0, named("d2") / 2.0);
@@ -115,7 +116,7 @@ fn times(context: &Context<'_>, start: &Study, methods: &[(&str, f64)]) -> Resul
             Outcome::Escaped { t, .. } => Some(t),
             _ => None,
         };
-        Ok((format!("{name} {accuracy:.0e}"), t))
+        Ok((format!("{name} {}", power(*accuracy)), t))
     };
     methods.par_iter().map(one).collect()
 }
@@ -123,24 +124,39 @@ fn times(context: &Context<'_>, start: &Study, methods: &[(&str, f64)]) -> Resul
 /// The largest distance from the best value, and all distances in words.
 fn compare(times: &[Ended], approach: &Approach) -> (f64, String) {
     let off = |t: &Option<f64>| t.map_or(f64::INFINITY, |t| (t - approach.t_star).abs());
-    let words = |(name, t): &Ended| format!("{name}: {:+.0e}", t.map_or(f64::NAN, |t| t - approach.t_star));
+    let words = |(name, t): &Ended| match t {
+        Some(t) => format!("{name}: {}", power(t - approach.t_star)),
+        None => format!("{name}: no escape"),
+    };
     let list: Vec<String> = times.iter().map(words).collect();
     (times.iter().map(|(_, t)| off(t)).fold(0.0, f64::max), list.join(", "))
 }
 
-fn paper_steps(fixed: &[Ended], t_star: f64) -> crate::report::Claim {
-    let words = |(name, t): &Ended| match t {
-        Some(t) => format!("{name}: t = {t:.4} ({:+.0e})", t - t_star),
-        None => format!("{name}: no escape"),
-    };
-    let list: Vec<String> = fixed.iter().map(words).collect();
-    let all = fixed.iter().all(|(_, t)| t.is_some_and(|t| (t - t_star).abs() < 0.1));
+/// An explicit scheme of fixed step breaks down where |z1|^2 dt is about 2, its limit of stability: at
+/// t* - t = C sqrt(dt/2).
+fn paper_steps(fixed: &[Ended], t_star: f64, c: f64) -> crate::report::Claim {
+    let steps: Vec<(&str, f64, f64)> = FIXED
+        .iter()
+        .zip(fixed)
+        .map(|((name, dt), (_, t))| (*name, *dt, t.map_or(f64::NAN, |t| t_star - t)))
+        .collect();
+    let list: Vec<String> = steps
+        .iter()
+        .map(|(name, dt, s)| format!("{name} with dt = {} at t\\* − t = {s:.4}", power(*dt)))
+        .collect();
+    let as_expected = |s: f64, dt: f64| (0.5..2.0).contains(&(s / (c * (0.5 * dt).sqrt())));
+    let all = steps.iter().all(|(_, dt, s)| as_expected(*s, *dt));
+    let closer = steps.windows(2).take(1).all(|pair| pair[1].2 < pair[0].2);
     claim(
-        "With the paper's modified Euler scheme the run breaks down.",
-        format!("{}.", list.join("; ")),
-        "from the same start with fixed steps: the run leaves every bound within 0.1 of t\\*, and a smaller step only moves it \
-         closer",
-        all,
+        "With the modified Euler scheme a numerical instability occurs.",
+        format!(
+            "It does, shortly before the singularity: {}. There |z_1|^2 dt passes the scheme's limit of stability; a smaller step \
+             only comes closer to t\\*.",
+            list.join(", ")
+        ),
+        "from the same start with fixed steps: the end lies within a factor of 2 of t\\* − t = C (dt/2)^{1/2}, and the smaller step \
+         ends later",
+        all && closer,
     )
 }
 

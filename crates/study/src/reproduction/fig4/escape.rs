@@ -2,7 +2,7 @@
 
 use super::super::claims::claim;
 use super::super::context::Context;
-use super::{Silent, at, figure};
+use super::{Silent, at, figure, power};
 use crate::figures::{ExpectedLine, LineStyle, SurvivalCurve, SurvivalFigure, SurvivalStep};
 use crate::report::Section;
 use crate::saddle::{Saddle, saddle};
@@ -14,7 +14,7 @@ const SETTLE: f64 = 100.0;
 
 pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Error> {
     let values: &[f64] = context.choose(&[0.25, 0.3, 0.35], &[0.25, 0.3]);
-    let (runs, t_end) = context.choose((400, 4000.0), (100, 2000.0));
+    let (runs, t_end) = context.choose((400, 4000.0), (80, 1500.0));
     let mut found = Vec::new();
     for kappa2 in values {
         let plan = Plan::new(&at(context, *kappa2, 0.1)?)?;
@@ -47,7 +47,7 @@ fn picture(found: &[(f64, Saddle)], runs: usize) -> Result<String, Error> {
         let rate = one.rate?.value;
         let left = share_at(one, SETTLE);
         let points = [SETTLE, one.t_end].map(|t| [t, left * libm::exp(-rate * (t - SETTLE))]).to_vec();
-        Some(ExpectedLine { label: format!("rate {rate:.2e} at κ_2 = {kappa2}"), style, points })
+        Some(ExpectedLine { label: format!("rate {} at κ_2 = {kappa2}", power(rate)), style, points })
     };
     let styles = [LineStyle::Solid, LineStyle::Dashed, LineStyle::Dotted];
     let figure = SurvivalFigure {
@@ -88,15 +88,16 @@ fn statistics(found: &[(f64, Saddle)]) -> crate::report::Claim {
         if let Some(rate) = one.rate {
             rates += 1;
             text += &format!(
-                ", rate {:.2e} ± {:.1e} (mean stay {:.0})",
-                rate.value,
-                rate.error,
+                ", rate {} ± {} (mean stay {:.0})",
+                power(rate.value),
+                power(rate.error),
                 1.0 / rate.value
             );
             if let Some(late) = late {
                 text += &format!(
-                    ", in the last three quarters {:.2e} ± {:.1e}",
-                    late.rate.value, late.rate.error
+                    ", in the last three quarters {} ± {}",
+                    power(late.rate.value),
+                    power(late.rate.error)
                 );
                 agree &= (late.rate.value - rate.value).abs() <= late.rate.error + rate.error;
             }

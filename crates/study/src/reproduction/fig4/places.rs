@@ -30,12 +30,17 @@ pub(super) struct Extent {
 
 impl Extent {
     pub(super) fn of(places: &[Place], regime: Regime) -> Self {
+        Self::among(places, regime, |_| true)
+    }
+
+    /// Among the places that fulfil a condition.
+    pub(super) fn among(places: &[Place], regime: Regime, that: impl Fn(&Place) -> bool) -> Self {
         let mut extent = Self {
             cells: 0,
             kappa2: (f64::INFINITY, f64::NEG_INFINITY),
             kappa3: (f64::INFINITY, f64::NEG_INFINITY),
         };
-        for place in places.iter().filter(|place| place.regimes.contains(&regime)) {
+        for place in places.iter().filter(|place| place.regimes.contains(&regime) && that(place)) {
             extent.cells += 1;
             extent.kappa2 = (extent.kappa2.0.min(place.kappa2), extent.kappa2.1.max(place.kappa2));
             extent.kappa3 = (extent.kappa3.0.min(place.kappa3), extent.kappa3.1.max(place.kappa3));

@@ -2,7 +2,7 @@
 
 use super::super::claims::claim;
 use super::super::context::Context;
-use super::{Silent, at};
+use super::{Silent, at, power};
 use crate::analyse::classify;
 use crate::report::Section;
 use crate::{Error, Plan, Study};
@@ -29,7 +29,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
         format!("({kappa2}, {kappa3}): {found}")
     };
     let list: Vec<String> = PLACES.iter().zip(&rows).map(words).collect();
-    let names: Vec<String> = steps.iter().map(|step| format!("dt = {step:e}")).collect();
+    let names: Vec<String> = steps.iter().map(|step| format!("dt = {}", power(*step))).collect();
     section.claims.push(claim(
         "The modified Euler method with dt = 10^{-3} or 10^{-4} has been employed.",
         format!("{}.", list.join("; ")),
