@@ -109,7 +109,7 @@ fn heteroclinic_cycle(context: &Context<'_>) -> Result<Claim, Error> {
     let study = context.preset("fig2", |_| Ok(()))?;
     let verdict = context.classify(&study)?;
     let exact = Reduced::PAPER.saddle_rates(-0.1, -0.04).unwrap_or([f64::NAN; 2]);
-    let rates: Vec<f64> = verdict.exponents.iter().map(|rate| rate.value).collect();
+    let rates: Vec<f64> = verdict.saddle.map(|saddle| vec![saddle.out, saddle.inward]).unwrap_or_default();
     let near = rates.len() == 2 && rates.iter().zip(exact).all(|(rate, exact)| (rate - exact).abs() < 1e-9);
     let said: Vec<String> = rates.iter().map(|rate| format!("{rate:.9}")).collect();
     let finds = format!(
