@@ -7,6 +7,7 @@ use crate::{Dataset, Error, Plan, ScanPlan, Study, presets};
 use motiform_analysis::Verdict;
 use motiform_dynamics::Outcome;
 use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Where and how a chapter works.
 pub(super) struct Context<'c> {
@@ -69,20 +70,36 @@ impl Context<'_> {
     }
 }
 
+/// How far chapters are that are rebuilt side by side.
+pub(super) struct Progress<'m> {
+    monitor: &'m dyn Monitor,
+    /// Of each chapter: its share of the work, and the part of it that is done (bits of a number that only grows).
+    parts: Vec<(f64, AtomicU64)>,
+}
+
+impl<'m> Progress<'m> {
+    pub(super) fn new(monitor: &'m dyn Monitor, work: &[f64]) -> Self {
+        let total: f64 = work.iter().sum();
+        Self { monitor, parts: work.iter().map(|work| (work / total, AtomicU64::new(0))).collect() }
+    }
+}
+
 /// The part of the whole that a chapter is.
-pub(super) struct Share<'m> {
-    pub(super) monitor: &'m dyn Monitor,
-    pub(super) from: f64,
-    pub(super) part: f64,
+pub(super) struct Share<'p> {
+    pub(super) progress: &'p Progress<'p>,
+    pub(super) index: usize,
 }
 
 impl Monitor for Share<'_> {
     fn progress(&self, done: f64) {
-        self.monitor.progress(self.from + self.part * done);
+        // The bits of numbers from 0 on are ordered like the numbers.
+        self.progress.parts[self.index].1.fetch_max(done.max(0.0).to_bits(), Ordering::Relaxed);
+        let part = |(share, done): &(f64, AtomicU64)| share * f64::from_bits(done.load(Ordering::Relaxed));
+        self.progress.monitor.progress(self.progress.parts.iter().map(part).sum());
     }
 
     fn stopped(&self) -> bool {
-        self.monitor.stopped()
+        self.progress.monitor.stopped()
     }
 }
 

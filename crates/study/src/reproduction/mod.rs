@@ -18,7 +18,8 @@ mod strip;
 use crate::Error;
 use crate::report::{Report, Section};
 use crate::simulate::Monitor;
-use context::{Context, Share};
+use context::{Context, Progress, Share};
+use rayon::prelude::*;
 use std::path::Path;
 
 /// What to rebuild, and how.
@@ -80,16 +81,22 @@ pub fn reproduce(options: &Options, out: &Path, monitor: &dyn Monitor) -> Result
         options.figures.is_empty() || options.figures.iter().any(|name| name == chapter.name)
     };
     let chapters: Vec<&Chapter> = CHAPTERS.iter().filter(wanted).collect();
-    let total: f64 = chapters.iter().map(|chapter| chapter.work).sum();
-    let mut done = 0.0;
-    let mut sections = Vec::new();
-    for chapter in chapters {
-        let share = Share { monitor, from: done / total, part: chapter.work / total };
+    let progress = Progress::new(monitor, &chapters.iter().map(|chapter| chapter.work).collect::<Vec<_>>());
+    // Much of a chapter is one long run after the other: chapters side by side keep all cores busy.
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(options.threads)
+        .build()
+        .map_err(|error| Error::Threads { threads: options.threads, reason: error.to_string() })?;
+    let rebuild = |(index, chapter): (usize, &&Chapter)| {
+        let share = Share { progress: &progress, index };
         let context = Context { out, quick: options.quick, threads: options.threads, monitor: &share };
-        sections.push((chapter.rebuild)(&context)?);
-        done += chapter.work;
-        monitor.progress(done / total);
-    }
+        let section = (chapter.rebuild)(&context)?;
+        share.progress(1.0);
+        Ok(section)
+    };
+    let sections = pool.install(|| {
+        chapters.par_iter().enumerate().with_max_len(1).map(rebuild).collect::<Result<Vec<_>, Error>>()
+    })?;
     Ok(Report {
         title: "Dynamics of a deformable self-propelled domain, rebuilt".to_owned(),
         about: claims::ABOUT.to_owned(),
