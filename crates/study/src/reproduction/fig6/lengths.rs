@@ -19,11 +19,11 @@ const STRETCHES: [Stretch; 3] = [
     Stretch {
         modes: 10,
         full: &[(600, 1175, 25), (1200, 1500, 10)],
-        quick: &[6.0, 6.4, 7.5, 9.0, 10.5, 12.0, 12.2, 12.4, 12.7, 12.9, 13.2, 13.8, 14.4],
+        quick: &[6.0, 6.4, 7.5, 9.0, 10.5, 12.0, 12.2, 12.4, 12.7, 12.9, 13.4, 13.8, 14.1],
     },
     Stretch {
         modes: 15,
-        full: &[(1525, 2050, 25), (2060, 2280, 10)],
+        full: &[(1525, 2050, 25), (2070, 2090, 20), (2100, 2200, 10), (2220, 2280, 20)],
         quick: &[15.2, 17.0, 19.0, 20.6, 21.6, 21.8, 22.0, 22.3, 22.8],
     },
     Stretch {
@@ -34,7 +34,7 @@ const STRETCHES: [Stretch; 3] = [
 ];
 
 /// Model time that naming one motion may take: in a full, and in a quick run.
-const BUDGET: (f64, f64) = (5e4, 3e4);
+const BUDGET: (f64, f64) = (3e4, 1.2e4);
 
 /// A cell of this length.
 pub(in crate::reproduction) fn study(length: f64, modes: usize) -> Result<Study, Error> {

@@ -10,10 +10,6 @@ use rayon::prelude::*;
 const FULL: [f64; 8] = [12.94, 12.955, 12.965, 12.97, 12.975, 12.98, 13.0, 13.03];
 const QUICK: [f64; 2] = [12.968, 12.98];
 
-/// The circular motion oscillates with a period of some 30. Repeats after longer than this are those of the cycle of
-/// rests, which finite accuracy can close.
-const LONG: f64 = 300.0;
-
 /// What was looked at and found.
 pub(super) struct Search {
     lengths: Vec<f64>,
@@ -33,9 +29,7 @@ impl Search {
         let one = |&(length, seed): &(f64, u64)| {
             let mut study = study(length, 10)?;
             study.run.seed = seed;
-            let verdict = context.classify(&study)?;
-            let rests = verdict.period.is_some_and(|period| period > LONG);
-            Ok(if rests { Regime::Rectangular } else { verdict.regime })
+            Ok(context.classify(&study)?.regime)
         };
         let regimes: Vec<Regime> = runs.par_iter().map(one).collect::<Result<_, Error>>()?;
         let found = regimes.iter().filter(|regime| **regime == Regime::QuasiPeriodic).count();
