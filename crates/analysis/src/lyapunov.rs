@@ -1,6 +1,7 @@
 //! Lyapunov exponents, from the exact tangent flow.
 
 use crate::linear::{basis, norm, orthonormalise};
+use crate::symmetry::reduced_speed;
 use crate::{Estimate, Result, batch_means};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::Method;
@@ -36,6 +37,8 @@ pub struct Lyapunov {
     pub neutral: usize,
     /// Growth rates over the intervals of the run: end times, and for each interval one rate per vector.
     pub history: Vec<(f64, Vec<f64>)>,
+    /// How fast the reduced shape changed at the end of each interval.
+    pub reduced_speeds: Vec<f64>,
     /// Time averaged over.
     pub time: f64,
     /// Time before that.
@@ -54,6 +57,31 @@ impl Lyapunov {
         all.sort_by(|a, b| a.value.abs().total_cmp(&b.value.abs()));
         all.truncate(self.neutral);
         all
+    }
+}
+
+impl Lyapunov {
+    /// The same run without the rests it began and ended in: intervals at whose end the reduced shape changed slower than
+    /// `fraction` of its fastest. In a rest at a saddle neighbours part at the saddle's rate; the approach, in which they came
+    /// together, must be averaged over as well. `None` where less than half of the run, or too little for an error, remains.
+    #[must_use]
+    pub fn awake(&self, fraction: f64) -> Option<Self> {
+        let fastest = self.reduced_speeds.iter().copied().fold(0.0, f64::max);
+        let moves = |speed: &f64| *speed >= fraction * fastest;
+        let first = self.reduced_speeds.iter().position(moves)?;
+        let last = self.reduced_speeds.iter().rposition(moves)?;
+        if first == 0 && last + 1 == self.history.len() {
+            return Some(self.clone());
+        }
+        let before = if first == 0 { self.transient } else { self.history[first - 1].0 };
+        let history = self.history[first..=last].to_vec();
+        let time = history.last()?.0 - before;
+        if time < 0.5 * self.time {
+            return None;
+        }
+        let exponents = means(&history, self.exponents.first()?.error.min(1e-12)).ok()?;
+        let reduced_speeds = self.reduced_speeds[first..=last].to_vec();
+        Some(Self { exponents, history, reduced_speeds, time, ..self.clone() })
     }
 }
 
@@ -93,6 +121,7 @@ pub fn lyapunov<B: Equivariant + ?Sized>(
         neutral: neutral_directions(body, &shape),
         time: run.time(),
         transient: settings.transient,
+        reduced_speeds: run.reduced_speeds,
         history: run.history,
         outcome,
         shape,
@@ -109,6 +138,9 @@ fn neutral_directions<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> usize
     basis(&moving, 1e-6).len()
 }
 
+/// The reduced speed of a body at a shape.
+type SpeedOf<'f> = Box<dyn Fn(&[f64]) -> f64 + 'f>;
+
 /// A tangent flow under way: orbit, vectors and what they have grown.
 pub(crate) struct TangentRun<'f> {
     orbit: Box<dyn Integration + 'f>,
@@ -120,6 +152,9 @@ pub(crate) struct TangentRun<'f> {
     steps_before: u64,
     pub(crate) history: Vec<(f64, Vec<f64>)>,
     durations: Vec<f64>,
+    reduced_speeds: Vec<f64>,
+    /// The reduced speed of the body at a state.
+    speed: SpeedOf<'f>,
 }
 
 /// Vectors are made orthonormal when they have parted by this factor (natural logarithm).
@@ -152,6 +187,12 @@ impl<'f> TangentRun<'f> {
             steps_before: 0,
             history: Vec::new(),
             durations: Vec::new(),
+            reduced_speeds: Vec::new(),
+            speed: Box::new(|shape| {
+                let mut rate = shape.to_vec();
+                VectorField::<f64>::eval(tangent.field(), 0.0, shape, &mut rate);
+                reduced_speed(tangent.field(), shape, &rate)
+            }),
         })
     }
 
@@ -202,6 +243,7 @@ impl<'f> TangentRun<'f> {
             }
             let lasted = self.orbit.t() - before;
             self.durations.push(lasted);
+            self.reduced_speeds.push((self.speed)(self.shape()));
             self.history.push((self.orbit.t(), growth.into_iter().map(|g| g / lasted).collect()));
         }
         Ok(Outcome::Completed { t: self.orbit.t() })
@@ -229,18 +271,23 @@ impl<'f> TangentRun<'f> {
 
     /// The exponents so far.
     pub(crate) fn exponents(&self) -> Result<Vec<Estimate>> {
-        let count = self.history.first().map_or(0, |entry| entry.1.len());
         let steps = (self.orbit.counters().steps - self.steps_before) as f64;
         let numerical = self.rtol * (self.dim as f64).sqrt() * steps / self.time();
-        let exponent = |k: usize| {
-            let rates: Vec<f64> = self.history.iter().map(|entry| entry.1[k]).collect();
-            let mean = batch_means(&rates)?;
-            Ok(Estimate { value: mean.value, error: mean.error.max(numerical) })
-        };
-        let mut exponents = (0..count).map(exponent).collect::<Result<Vec<_>>>()?;
-        exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
-        Ok(exponents)
+        means(&self.history, numerical)
     }
+}
+
+/// Means of the rates in a history, largest first, with errors of at least `numerical`.
+fn means(history: &[(f64, Vec<f64>)], numerical: f64) -> Result<Vec<Estimate>> {
+    let count = history.first().map_or(0, |entry| entry.1.len());
+    let exponent = |k: usize| {
+        let rates: Vec<f64> = history.iter().map(|entry| entry.1[k]).collect();
+        let mean = batch_means(&rates)?;
+        Ok(Estimate { value: mean.value, error: mean.error.max(numerical) })
+    };
+    let mut exponents = (0..count).map(exponent).collect::<Result<Vec<_>>>()?;
+    exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
+    Ok(exponents)
 }
 
 /// Numbers in -1..1 in general position: Steele, Lea, Flood (2014), OOPSLA, 453.

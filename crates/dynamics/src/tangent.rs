@@ -22,6 +22,12 @@ impl<'f, F: System + ?Sized> Tangent<'f, F> {
         Self { field, count }
     }
 
+    /// The field that the vectors are tangent to.
+    #[must_use]
+    pub fn field(&self) -> &'f F {
+        self.field
+    }
+
     /// Calls `eval(lifted state, rates)` once for every tangent vector and sorts what it writes into `du`.
     fn lift(&self, u: &[f64], du: &mut [f64], eval: impl Fn(&[Number], &mut [Number])) {
         match self.field.dim() {

@@ -17,9 +17,8 @@ use super::verdict::{Attractor, Regime, Verdict};
 use super::{chaos, words};
 use crate::equilibrium::RelativeEquilibrium;
 use crate::linear::norm;
-use crate::symmetry::reduced_speed;
 use crate::{Estimate, Result};
-use motiform_dynamics::{Equivariant, Integration, Outcome, Sink, VectorField};
+use motiform_dynamics::{Equivariant, Integration, Outcome, Sink};
 
 /// Classifies the motion that starts from `start`; `None` if `stop` broke off.
 ///
@@ -113,7 +112,7 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
         if let Some((found, recurrence)) = periodic(self.body, &look, self.settings) {
             return Ok(words::periodic(self.body, &found, &recurrence, self.settings, self.time)?.into());
         }
-        if first || look.resting {
+        if first {
             return Ok(Step::Open);
         }
         self.exponent(orbit, &look, span)
@@ -184,11 +183,11 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
         }
         self.time += run.time + run.transient;
         orbit.restart(&run.shape);
-        if self.rests(&run.shape) {
+        let Some(run) = run.awake(RESTS) else {
             // At a saddle neighbours part at its own rate: that is no chaos, however long it lasts.
             "the orbit rested at a saddle while the exponent was measured".clone_into(&mut self.missing);
             return Ok(Step::Open);
-        }
+        };
         let witness = chaos::Witness::of(look);
         match chaos::parts(&run) {
             Some(exponent) => self.parted.push(exponent),
@@ -202,13 +201,6 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
         }
         self.missing = chaos::missing(&run, &witness);
         Ok(Step::Open)
-    }
-
-    /// Whether a shape changes hardly at all, against the fastest change so far.
-    fn rests(&self, shape: &[f64]) -> bool {
-        let mut slope = shape.to_vec();
-        VectorField::<f64>::eval(self.body, 0.0, shape, &mut slope);
-        reduced_speed(self.body, shape, &slope) < RESTS * self.fastest
     }
 
     fn described(&self, mut verdict: Verdict, orbit: &dyn Integration, look: &Look) -> Result<Verdict> {

@@ -38,8 +38,6 @@ pub(super) struct Look {
     /// Reduced speed: fastest in this look, and at its end.
     pub(super) fastest: f64,
     pub(super) last_speed: f64,
-    /// Whether the look ended in a rest.
-    pub(super) resting: bool,
     /// Smallest and largest `|u|`.
     pub(super) sizes: (f64, f64),
     /// The shape where the reduced shape changed most slowly.
@@ -78,7 +76,7 @@ impl Look {
             stop,
         };
         let outcome = drive(orbit, &request, &mut watcher)?;
-        let Watcher { extremes, rests, rest, fastest, last_speed, sizes, slowest, .. } = watcher;
+        let Watcher { extremes, rests, fastest, last_speed, sizes, slowest, .. } = watcher;
         let (low, high) = extremes
             .iter()
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (x.size.min(low), x.size.max(high)));
@@ -91,7 +89,6 @@ impl Look {
             rests,
             fastest,
             last_speed,
-            resting: rest.is_some(),
             sizes,
             slowest: slowest.1,
         })

@@ -124,9 +124,9 @@ fn agreement(grid: &Grid) -> Claim {
 fn lines(grid: &Grid) -> Vec<Claim> {
     use Line::{
         CircleToStraight, CircularToQuasiPeriodic, EllipseToStraight, QuasiPeriodicToRectangular,
-        StraightHopf, StraightToCircular,
+        StraightToCircular,
     };
-    let all: [(&[Line], [Motion; 2], &str); 5] = [
+    let all: [(&[Line], [Motion; 2], &str); 4] = [
         (
             &[CircleToStraight, EllipseToStraight],
             [Motion::Motionless, Motion::Straight],
@@ -136,11 +136,6 @@ fn lines(grid: &Grid) -> Vec<Claim> {
             &[StraightToCircular],
             [Motion::Straight, Motion::Circular],
             "The broken line is the phase boundary between the straight motion and the circular motion.",
-        ),
-        (
-            &[StraightHopf],
-            [Motion::Straight, Motion::Rectangular],
-            "The dotted line indicates the subcritical Hopf bifurcation line from the straight to the rectangular motion.",
         ),
         (
             &[CircularToQuasiPeriodic],
@@ -153,5 +148,6 @@ fn lines(grid: &Grid) -> Vec<Claim> {
             "Quasi-periodic motion has *γ* > 0 (no line in the paper; *γ* = 0 exactly, *κ*_2 < 0).",
         ),
     ];
-    all.into_iter().map(|(lines, sides, says)| found_line(grid, lines, sides, says)).collect()
+    let sharp = all.into_iter().map(|(lines, sides, says)| found_line(grid, lines, sides, says));
+    sharp.chain([grid.hopf()]).collect()
 }
