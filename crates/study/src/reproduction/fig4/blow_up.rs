@@ -2,8 +2,10 @@
 //!
 //! With b3 = d3 = 0 and `z1 ~ C/s`, s = t* - t, the leading terms balance as
 //!
+//! ```text
 //!     (Z1) |z1|^2 = e11 |z2|           (Z2) z2' = e22 z1* z3           (Z3) z3' = e31 z1^3 + e32 z1 z2
 //!     z2 = z1^2/e11                    z3 = 2 C/(e11 e22 s^2)          C^2 = 4 / (e11 e22 (e31 + e32/e11))
+//! ```
 
 use super::super::claims::{claim, differs};
 use super::super::context::Context;
