@@ -1,7 +1,7 @@
 //! The paper, rebuilt: every figure computed anew, every claim checked, one report.
 //!
 //! One file per figure; each gives a [`Section`] with its pictures and its claims. What all of them need is in
-//! [`context`].
+//! `context.rs`.
 
 mod claims;
 mod context;
