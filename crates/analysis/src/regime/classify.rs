@@ -10,7 +10,7 @@
 //! If nothing is decided the next look is twice as long, until the budget is spent.
 
 use super::heteroclinic::cycle;
-use super::look::{Look, RESTS};
+use super::look::{Look, RESTS, Rest};
 use super::recurrence::periodic;
 use super::settings::{Settings, ended};
 use super::verdict::{Attractor, Regime, Verdict};
@@ -44,6 +44,7 @@ pub fn classify<B: Equivariant + ?Sized>(
         time: 0.0,
         fastest: 0.0,
         largest: norm(start),
+        rests: Vec::new(),
         parted: Vec::new(),
         missing: "no motion had established itself".to_owned(),
     };
@@ -88,6 +89,8 @@ struct Search<'s, B: ?Sized> {
     fastest: f64,
     /// Largest `|u|` so far: what distances are small against, for a circle has no size of its own.
     largest: f64,
+    /// Complete rests of all looks.
+    rests: Vec<Rest>,
     /// The exponents of the last looks, as far back as neighbours parted in them.
     parted: Vec<Estimate>,
     /// What kept the last look from deciding.
@@ -98,7 +101,7 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
     /// One look at the orbit, and the questions in their order.
     fn look(&mut self, orbit: &mut dyn Integration, span: f64, first: bool) -> Result<Step> {
         let request = self.settings.request(orbit.t() + span, self.body.dim());
-        let look = Look::take(self.body, orbit, span, &request, self.stop)?;
+        let mut look = Look::take(self.body, orbit, span, &request, self.stop)?;
         if let Some(outcome) = ended(&look.outcome) {
             return Ok(self.ended(&outcome, look.start));
         }
@@ -106,7 +109,8 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
         if let Some(step) = self.equilibrium(orbit, &look)? {
             return Ok(step);
         }
-        if let Some(cycle) = cycle(self.body, &look, self.settings) {
+        self.rests.append(&mut look.rests);
+        if let Some(cycle) = cycle(self.body, &self.rests, self.settings) {
             return Ok(words::rectangular(self.body, &cycle, orbit.state(), self.settings, self.time)?.into());
         }
         if let Some((found, recurrence)) = periodic(self.body, &look, self.settings) {

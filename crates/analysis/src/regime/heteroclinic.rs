@@ -1,6 +1,6 @@
 //! Is it a heteroclinic cycle? Rests near saddles that attract as a cycle.
 
-use super::look::{Look, Rest};
+use super::look::Rest;
 use super::settings::Settings;
 use crate::equilibrium::{RelativeEquilibrium, Saddle};
 use crate::linear::norm;
@@ -25,22 +25,21 @@ const LEAST_RESTS: usize = 3;
 /// A rest that comes closer than this (against the shape's size) is ruled by the saddle alone.
 const CLOSE: f64 = 1e-2;
 
-/// Finds a cycle of saddles that attracts: every rest of the look is near a motionless saddle with one growing direction,
+/// Finds a cycle of saddles that attracts: each of the last rests is near a motionless saddle with one growing direction,
 /// and orbits leave it slower than they arrive (`lambda_+ + lambda_- < 0`). `None` where any of this does not hold.
-pub(super) fn cycle<B: Equivariant + ?Sized>(body: &B, look: &Look, settings: &Settings) -> Option<Cycle> {
-    let rests: Vec<&Rest> = look.rests.iter().rev().take(6).collect();
-    if rests.len() < LEAST_RESTS {
-        return None;
-    }
+///
+/// The rests are those of all looks so far: near the end of a window one rest may be as long as a look.
+pub(super) fn cycle<B: Equivariant + ?Sized>(body: &B, rests: &[Rest], settings: &Settings) -> Option<Cycle> {
+    let latest = &rests[rests.len().checked_sub(LEAST_RESTS)?..];
     let mut closest = f64::INFINITY;
     let mut found: Option<(RelativeEquilibrium, Saddle)> = None;
-    for rest in &rests {
+    for rest in latest.iter().rev() {
         let (equilibrium, saddle, distance) = attracting_saddle(body, &rest.shape, settings)?;
         closest = closest.min(distance);
         found.get_or_insert((equilibrium, saddle));
     }
     let (equilibrium, saddle) = found?;
-    let durations = look.rests.iter().map(|rest| rest.end - rest.start).collect();
+    let durations = rests.iter().map(|rest| rest.end - rest.start).collect();
     Some(Cycle { equilibrium, saddle, rests: durations, closest })
 }
 
