@@ -1,11 +1,13 @@
 //! A plan, and a question about its motion: which one is it, and do neighbours part?
 
-use crate::plan::check_no_noise;
+use crate::plan::{Control, check_no_noise};
 use crate::simulate::Monitor;
 use crate::{Error, Plan};
 use motiform_analysis::regime::{Settings, Verdict};
 use motiform_analysis::{Lyapunov, LyapunovSettings};
+use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Model, Sink};
+use motiform_models::ModelInfo;
 use std::ops::ControlFlow;
 
 /// Names the motion that starts from the plan's initial state, spending at most `budget` model time (the model's
@@ -32,18 +34,24 @@ pub fn settings(plan: &Plan, budget: f64) -> Result<Settings, Error> {
             remedy: "give a model time above 0, or 0 for the model's default",
         });
     }
-    Ok(Settings {
-        method: plan.method()?,
-        control: c.control.into(),
-        first_look: info.look,
-        budget: if budget > 0.0 { budget } else { info.budget },
-        escape_norm: c.escape_norm,
-        max_steps: c.max_steps,
-    })
+    let bounds = (c.escape_norm, c.max_steps);
+    Ok(settings_of(info, plan.method()?, c.control, bounds, budget))
 }
 
-/// The `count` largest Lyapunov exponents of the plan's motion, averaged over `t_end` after `transient` (0 and below: four
-/// looks of the model, and twenty).
+/// The classifier's settings: looks and budget (where that is 0) are the model's, the rest is the plan's.
+pub(crate) fn settings_of(
+    info: &ModelInfo,
+    method: Method,
+    control: Control,
+    (escape_norm, max_steps): (f64, u64),
+    budget: f64,
+) -> Settings {
+    let budget = if budget > 0.0 { budget } else { info.budget };
+    Settings { method, control: control.into(), first_look: info.look, budget, escape_norm, max_steps }
+}
+
+/// The `count` largest Lyapunov exponents of the plan's motion, averaged over `t_end` after `transient` (where not
+/// given: twenty looks of the model after four).
 ///
 /// # Errors
 /// A count the model does not have; input that only the numerics can refuse.
@@ -71,10 +79,15 @@ pub fn lyapunov(
     Ok(motiform_analysis::lyapunov(model.as_ref(), &shape, &settings, &mut stop)?)
 }
 
+/// The model of a plan that has no noise: questions are asked of the flow.
+pub(crate) fn model(plan: &Plan) -> Result<Box<dyn Model>, Error> {
+    check_no_noise(plan.computation.noise.map_or(0.0, |noise| noise.amplitude))?;
+    Ok(plan.info()?.build(&plan.computation.parameters.values())?)
+}
+
 /// The model of a plan, and its initial shape.
 fn start(plan: &Plan) -> Result<(Box<dyn Model>, Vec<f64>), Error> {
-    check_no_noise(plan.computation.noise.map_or(0.0, |noise| noise.amplitude))?;
-    let model = plan.info()?.build(&plan.computation.parameters.values())?;
+    let model = model(plan)?;
     let mut shape = vec![0.0; model.dim()];
     model.encode(&plan.computation.initial.values()[..model.dim()], &mut shape);
     Ok((model, shape))

@@ -3,6 +3,7 @@
 use crate::Error;
 use crate::plan::Named;
 use crate::study::Study;
+use motiform_dynamics::Model;
 use motiform_models::ModelInfo;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -34,6 +35,15 @@ pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
         entries.push((name.to_owned(), given(name).unwrap_or(0.0)));
     }
     Ok(Named(entries))
+}
+
+/// A random shape as the model computes with it: each coordinate uniform in `-size..size`, from this seed and stream.
+pub(crate) fn random_shape(model: &dyn Model, size: f64, seed: u64, stream: u64) -> Vec<f64> {
+    let mut random = Uniform::new(seed, stream);
+    let coordinates: Vec<f64> = model.coordinates().iter().map(|_| size * random.next()).collect();
+    let mut shape = vec![0.0; model.dim()];
+    model.encode(&coordinates, &mut shape);
+    shape
 }
 
 /// Uniform numbers in -1..1 from ChaCha8, addressed by (seed, stream): the same on every machine.

@@ -1,13 +1,13 @@
 //! Chaos that does not last: the exponent of the chaotic saddle, and the rate at which orbits leave it.
 
-use crate::analyse::Stop;
-use crate::initial::Uniform;
+use crate::analyse::{self, Stop};
+use crate::initial::random_shape;
 use crate::simulate::Monitor;
 use crate::{Error, Plan};
 use motiform_analysis::{
     Estimate, Lyapunov, LyapunovSettings, Stay, SurvivalStep, escape_rate, lyapunov, survival,
 };
-use motiform_dynamics::{Model, Outcome};
+use motiform_dynamics::Outcome;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -58,7 +58,7 @@ pub fn saddle(
     monitor: &dyn Monitor,
 ) -> Result<Option<Saddle>, Error> {
     let (info, c) = (plan.info()?, &plan.computation);
-    let model = info.build(&c.parameters.values())?;
+    let model = analyse::model(plan)?;
     let settings = LyapunovSettings {
         count: 1,
         method: plan.method()?,
@@ -70,7 +70,7 @@ pub fn saddle(
     };
     let done = AtomicUsize::new(0);
     let one = |sample: usize| -> Result<Lyapunov, Error> {
-        let start = random_shape(model.as_ref(), c.seed, sample as u64 + 1);
+        let start = random_shape(model.as_ref(), RANDOM, c.seed, sample as u64 + 1);
         let found = lyapunov(model.as_ref(), &start, &settings, &mut Stop::new(monitor))?;
         monitor.progress(done.fetch_add(1, Ordering::Relaxed) as f64 / samples as f64);
         Ok(found)
@@ -80,15 +80,6 @@ pub fn saddle(
         return Ok(None);
     }
     Ok(Some(summarise(&runs, &settings, WAY_OUT * info.look)?))
-}
-
-/// A random shape, addressed by (seed, stream).
-fn random_shape(model: &dyn Model, seed: u64, stream: u64) -> Vec<f64> {
-    let mut random = Uniform::new(seed, stream);
-    let coordinates: Vec<f64> = (0..model.dim()).map(|_| RANDOM * random.next()).collect();
-    let mut shape = vec![0.0; model.dim()];
-    model.encode(&coordinates, &mut shape);
-    shape
 }
 
 fn summarise(runs: &[Lyapunov], settings: &LyapunovSettings, way_out: f64) -> Result<Saddle, Error> {

@@ -42,9 +42,7 @@ pub fn phase_diagram(plan: &ScanPlan, cells: &[CellSummary]) -> Result<PhaseDiag
     let axes = &plan.computation.axes;
     let cell = |cell: &CellSummary| {
         let at = plan.axis_values(cell.cell);
-        let share = |motion: &crate::scan::Motion| (motion.regime.name().to_owned(), motion.share);
-        let shares = cell.motions.iter().map(share).collect();
-        Cell { x: at[0], y: at.get(1).copied().unwrap_or(0.0), shares }
+        Cell { x: at[0], y: at.get(1).copied().unwrap_or(0.0), shares: cell.shares() }
     };
     let label = |axis: Option<&Axis>| axis.map_or_else(String::new, |axis| symbol(info, &axis.name));
     let values = |axis: Option<&Axis>| axis.map_or_else(Vec::new, |axis| sorted(&axis.values));

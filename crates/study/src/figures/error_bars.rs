@@ -8,6 +8,7 @@ use super::framed::Framed;
 use super::geometry::{Point, Rect};
 use super::glyph::{self, Glyph};
 use super::legend::{Entry, Mark};
+use super::marks::REGIMES;
 use super::paint::Paint;
 use super::palette::{CATEGORIES, Colour, GREY};
 use super::svg::Svg;
@@ -31,7 +32,8 @@ pub struct Measured {
 /// Measured values of one kind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ErrorBarSeries {
-    /// Markup for the legend; series without a label have no entry.
+    /// Markup for the legend; series without a label have no entry. The name of a regime gives the series that regime's
+    /// marker and colour.
     pub label: String,
     /// The values, in the order in which a line joins them.
     pub points: Vec<Measured>,
@@ -90,11 +92,21 @@ impl ErrorBarFigure {
             for line in &self.lines {
                 line.draw(svg, scale, self.kinds());
             }
-            for (series, look) in self.series.iter().zip(looks()) {
+            for (series, look) in self.series.iter().zip(self.looks()) {
                 self.draw_series(svg, scale, series, look);
             }
             Ok(())
         })
+    }
+
+    /// Marker and colour of each series: those of its regime, or the next of the usual ones.
+    fn looks(&self) -> impl Iterator<Item = Look> {
+        let usual = glyph::SERIES.into_iter().zip(CATEGORIES).cycle();
+        let regime = |label: &str| REGIMES.into_iter().find(|mark| mark.name == label);
+        let look = move |(series, usual): (&ErrorBarSeries, Look)| {
+            regime(&series.label).map_or(usual, |mark| (mark.glyph, mark.colour))
+        };
+        self.series.iter().zip(usual).map(look)
     }
 
     fn kinds(&self) -> [AxisKind; 2] {
@@ -131,7 +143,7 @@ impl ErrorBarFigure {
     }
 
     fn legend(&self) -> Vec<Entry> {
-        let labelled = self.series.iter().zip(looks()).filter(|(series, _)| !series.label.is_empty());
+        let labelled = self.series.iter().zip(self.looks()).filter(|(series, _)| !series.label.is_empty());
         let key = |(s, (glyph, colour)): (&ErrorBarSeries, _)| {
             Entry::new(Mark::Point(glyph, colour, s.joined), &s.label)
         };
@@ -171,10 +183,6 @@ impl ErrorBarFigure {
 
 /// Marker and colour of a series.
 type Look = (Glyph, Colour);
-
-fn looks() -> impl Iterator<Item = Look> {
-    glyph::SERIES.into_iter().zip(CATEGORIES).cycle()
-}
 
 /// An error bar with its caps; an end without place lies at the lower edge of the frame. Nothing where the marker, whose
 /// radius is that of the caps, hides the bar.

@@ -5,7 +5,6 @@
 
 mod claims;
 mod context;
-mod diagram;
 mod fig1;
 mod fig2;
 mod fig3;

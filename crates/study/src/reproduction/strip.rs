@@ -11,10 +11,7 @@ pub(super) fn strip(
     lines: Vec<BoundaryLine>,
     caption: Vec<String>,
 ) -> Result<String, Error> {
-    let cell = |(x, summary): &(f64, CellSummary)| {
-        let share = |motion: &crate::scan::Motion| (motion.regime.name().to_owned(), motion.share);
-        Cell { x: *x, y: 0.0, shares: summary.motions.iter().map(share).collect() }
-    };
+    let cell = |(x, summary): &(f64, CellSummary)| Cell { x: *x, y: 0.0, shares: summary.shares() };
     let figure = PhaseDiagram {
         caption,
         x_label: x_label.to_owned(),

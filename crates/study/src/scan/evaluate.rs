@@ -2,10 +2,9 @@
 
 use super::ScanPlan;
 use crate::Error;
-use crate::analyse::Stop;
+use crate::analyse::{Stop, settings_of};
 use crate::simulate::Monitor;
-use motiform_analysis::regime::{Settings, Verdict, classify};
-use motiform_models::ModelInfo;
+use motiform_analysis::regime::{Verdict, classify};
 
 /// What is asked of each row.
 pub trait Evaluate: Sync {
@@ -36,17 +35,10 @@ impl Evaluate for Classify {
         stop: &dyn Monitor,
     ) -> Result<Option<Verdict>, Error> {
         let c = &plan.computation;
-        let info = ModelInfo::find(&c.model)?;
         let model = plan.model_of(cell)?;
         let start = plan.start(cell, sample, model.as_ref())?;
-        let settings = Settings {
-            method: plan.method()?,
-            control: c.control.into(),
-            first_look: info.look,
-            budget: if c.budget > 0.0 { c.budget } else { info.budget },
-            escape_norm: c.escape_norm,
-            max_steps: c.max_steps,
-        };
+        let bounds = (c.escape_norm, c.max_steps);
+        let settings = settings_of(plan.info()?, plan.method()?, c.control, bounds, c.budget);
         Ok(classify(model.as_ref(), &start, &settings, &mut Stop::new(stop))?)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::ScanPlan;
 use crate::Error;
-use crate::initial::Uniform;
+use crate::initial::random_shape;
 use crate::plan::check_closed;
 use motiform_dynamics::Model;
 
@@ -23,21 +23,18 @@ impl ScanPlan {
     /// [`Error::NotClosed`] for given values that are no body; a given name that the model does not have here.
     pub fn start(&self, cell: usize, sample: usize, model: &dyn Model) -> Result<Vec<f64>, Error> {
         let c = &self.computation;
-        let mut shape = vec![0.0; model.dim()];
-        if sample == 0 && !c.initial.is_empty() {
-            let parameters = self.parameters_of(cell)?;
-            let mut named = vec![0.0; model.coordinates().len()];
-            for (name, value) in &c.initial.0 {
-                named[self.info()?.coordinate(&parameters, name)?] = *value;
-            }
-            model.encode(&named, &mut shape);
-            check_closed(model, &shape)?;
-        } else {
+        if sample > 0 || c.initial.is_empty() {
             let stream = cell as u64 * c.samples as u64 + sample as u64 + 1;
-            let mut random = Uniform::new(c.seed, stream);
-            let named: Vec<f64> = model.coordinates().iter().map(|_| c.random * random.next()).collect();
-            model.encode(&named, &mut shape);
+            return Ok(random_shape(model, c.random, c.seed, stream));
         }
+        let parameters = self.parameters_of(cell)?;
+        let mut named = vec![0.0; model.coordinates().len()];
+        for (name, value) in &c.initial.0 {
+            named[self.info()?.coordinate(&parameters, name)?] = *value;
+        }
+        let mut shape = vec![0.0; model.dim()];
+        model.encode(&named, &mut shape);
+        check_closed(model, &shape)?;
         Ok(shape)
     }
 }

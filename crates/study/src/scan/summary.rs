@@ -72,6 +72,14 @@ pub struct CellSummary {
     pub motions: Vec<Motion>,
 }
 
+impl CellSummary {
+    /// The motions by name with their shares, as diagrams take them.
+    #[must_use]
+    pub fn shares(&self) -> Vec<(String, f64)> {
+        self.motions.iter().map(|motion| (motion.regime.name().to_owned(), motion.share)).collect()
+    }
+}
+
 /// The initial states of one cell that lead to the same regime.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {

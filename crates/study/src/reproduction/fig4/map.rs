@@ -2,10 +2,11 @@
 
 use super::super::claims::{claim, differs};
 use super::super::context::Context;
-use super::super::diagram::diagram;
 use super::figure;
 use super::places::{Extent, Place, agreement, places};
 use crate::Error;
+use crate::draw::phase_diagram;
+use crate::figures::PhaseDiagram;
 use crate::report::{Claim, Section};
 use crate::scan::Axis;
 use motiform_analysis::Regime;
@@ -35,7 +36,13 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
         "{} random initial states per cell. Blow-up is what the paper marks × and calls a numerical instability.",
         study.scan.samples
     );
-    let svg = diagram(&plan, &cells, "Motions of the full tensor model", &[caption])?;
+    let drawn = phase_diagram(&plan, &cells)?;
+    let svg = PhaseDiagram {
+        title: "Motions of the full tensor model".to_owned(),
+        caption: vec![caption],
+        ..drawn
+    }
+    .svg()?;
     section.figures.push(figure(
         svg,
         "**Fig. 4(a), computed.** Each cell is classified by mathematics, never by eye; cells with more than one motion are \

@@ -112,7 +112,7 @@ fn rate(all: &[Vec<f64>], lambda: Estimate) -> Claim {
              the two rates must agree within their 95 % errors",
             rates.len()
         ),
-        (found.value - lambda.value).abs() <= 1.5 * (found.error + lambda.error) && end.value > -3.0,
+        (found.value - lambda.value).abs() <= (found.error + lambda.error) && end.value > -3.0,
     )
 }
 
