@@ -2,7 +2,7 @@
 //!
 //! Each returns the largest defect found, so that the caller states the tolerance.
 
-use crate::{Dual, Equivariant, Lanes, Semilinear, VectorField};
+use crate::{Bundle as _, Dual, Equivariant, Lanes, Semilinear, VectorField};
 
 /// Largest difference between `eval` on clean and on dirty output, and between two calls: a field must be pure.
 pub fn purity_defect<F: VectorField<f64> + ?Sized>(field: &F, u: &[f64]) -> f64 {

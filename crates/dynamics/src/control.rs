@@ -2,7 +2,7 @@
 
 use crate::steppers::Tableau;
 use crate::steppers::tableau::ErrorEstimate;
-use crate::{Error, steppers::runge_kutta::Slopes};
+use crate::{Bundle, Error, Mask, VectorField, steppers::runge_kutta::Slopes};
 
 /// The choice of step size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,49 +46,69 @@ impl StepControl {
     }
 }
 
-/// Proportional-integral step-size control.
+/// Proportional-integral step-size control, lane by lane.
 ///
 /// `h_new = h * 0.9 * err^-(1/q - 0.75 beta) * err_old^beta`, within fixed factors; `q` is the order of the estimate
-/// plus one. After a rejection the step does not grow at once.
+/// plus one. After a rejection the step does not grow at once. The powers are rough ([`Bundle::rough_power`]): a factor
+/// of step size needs no digits.
 ///
 /// Source: Gustafsson (1991), ACM Trans. Math. Softw. 17, 533; Hairer, Norsett, Wanner, IV.2.
 #[derive(Clone, Debug)]
-pub(crate) struct Controller {
-    exponent: f64,
-    beta: f64,
+pub(crate) struct Controller<B> {
+    /// Exponents of the squared errors, in 256ths.
+    exponent: i64,
+    beta: i64,
     shrink: f64,
     grow: f64,
-    previous: f64,
-    rejected: bool,
+    /// Squared error of the last accepted step.
+    previous: B,
+    rejected: Mask,
 }
 
-impl Controller {
+/// What becomes of a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Judgement<B> {
+    /// Lanes whose step is accepted; the others must repeat it.
+    pub(crate) accepted: Mask,
+    /// What to multiply the step size with.
+    pub(crate) factor: B,
+}
+
+impl<B: Bundle> Controller<B> {
+    #[inline(always)]
     pub(crate) fn new(tableau: &Tableau) -> Self {
-        let (estimate_order, beta, shrink, grow) = match tableau.error {
-            ErrorEstimate::Pair { .. } => (7, 0.0, 1.0 / 3.0, 6.0),
-            ErrorEstimate::Embedded { order, .. } => (order, 0.04, 0.2, 10.0),
-            ErrorEstimate::None => (tableau.order, 0.0, 0.2, 10.0),
+        let (exponent, beta, shrink, grow) = match tableau.error {
+            ErrorEstimate::Pair { .. } => (16, 0, 1.0 / 3.0, 6.0), // 1/8
+            ErrorEstimate::Embedded { order, .. } => {
+                let beta = 5; // 0.039
+                (128 / (i64::from(order) + 1) - 3 * beta / 4, beta, 0.2, 10.0)
+            }
+            ErrorEstimate::None => (0, 0, 0.2, 10.0),
         };
-        let exponent = 1.0 / f64::from(estimate_order + 1) - 0.75 * beta;
-        Self { exponent, beta, shrink, grow, previous: 1e-4, rejected: false }
+        Self { exponent, beta, shrink, grow, previous: B::splat(1e-8), rejected: Mask::default() }
     }
 
-    /// The factor for the step size after a step with this error norm; `Err` when the step must be repeated.
-    pub(crate) fn judge(&mut self, error: f64) -> Result<f64, f64> {
-        if !error.is_finite() {
-            self.rejected = true;
-            return Err(self.shrink);
-        }
-        let factor = 0.9 * libm::pow(error.max(1e-30), -self.exponent);
-        if error > 1.0 {
-            self.rejected = true;
-            return Err(factor.clamp(self.shrink, 1.0));
-        }
-        let grow = if self.rejected { 1.0 } else { self.grow };
-        self.rejected = false;
-        let factor = factor * libm::pow(self.previous, self.beta);
-        self.previous = error.max(1e-4);
-        Ok(factor.clamp(self.shrink, grow))
+    /// Begins anew in the lanes of `mask`.
+    #[inline(always)]
+    pub(crate) fn reset(&mut self, mask: Mask) {
+        self.previous = B::select(mask, B::splat(1e-8), self.previous);
+        self.rejected &= !mask;
+    }
+
+    /// Judges steps by their squared error norms.
+    #[inline(always)]
+    pub(crate) fn judge(&mut self, error: B) -> Judgement<B> {
+        let one = B::splat(1.0);
+        let accepted = error.at_most(one);
+        let factor = B::splat(1e-60).max(error).rough_power(-self.exponent) * 0.9;
+        let down = factor.max(B::splat(self.shrink)).min(one);
+        let down = B::select(error.finite(), down, B::splat(self.shrink));
+        let up = if self.beta == 0 { factor } else { factor * self.previous.rough_power(self.beta) };
+        let grow = B::select(self.rejected, one, B::splat(self.grow));
+        let up = up.max(B::splat(self.shrink)).min(grow);
+        self.previous = B::select(accepted, error.max(B::splat(1e-8)), self.previous);
+        self.rejected = !accepted;
+        Judgement { accepted, factor: B::select(accepted, up, down) }
     }
 }
 
@@ -100,39 +120,94 @@ pub(crate) struct Tolerance {
 }
 
 impl Tolerance {
-    /// `sqrt(mean((e_i / (atol + rtol max(|u_i|, |v_i|)))^2))`. A zero over a zero counts as no error.
-    pub(crate) fn norm(&self, error: &[f64], u: &[f64], v: &[f64]) -> f64 {
-        let mut sum = 0.0;
-        for ((&e, &a), &b) in error.iter().zip(u).zip(v) {
-            if e != 0.0 {
-                let scaled = e / (self.atol + self.rtol * a.abs().max(b.abs()));
-                sum += scaled * scaled;
-            }
-        }
-        (sum / error.len() as f64).sqrt()
+    /// `1 / (atol + rtol max(|u|, |v|))`.
+    #[inline(always)]
+    pub(crate) fn weight<B: Bundle>(&self, u: B, v: B) -> B {
+        B::splat(1.0) / (u.abs().max(v.abs()) * self.rtol + B::splat(self.atol))
     }
 
-    /// The norm of a step's estimated error; `scratch` has the state's length.
-    pub(crate) fn step_error(
+    /// `(weight e)^2`. A zero over a zero counts as no error.
+    #[inline(always)]
+    pub(crate) fn square<B: Bundle>(error: B, weight: B) -> B {
+        let zero = B::splat(0.0);
+        let scaled = B::select(error.abs().at_most(zero), zero, error * weight);
+        scaled * scaled
+    }
+
+    /// `sqrt(mean((e_i / (atol + rtol max(|u_i|, |v_i|)))^2))`.
+    #[inline(always)]
+    pub(crate) fn norm<B: Bundle>(&self, error: &[B], u: &[B], v: &[B]) -> B {
+        self.mean_square(error, u, v).sqrt()
+    }
+
+    #[inline(always)]
+    fn mean_square<B: Bundle>(&self, error: &[B], u: &[B], v: &[B]) -> B {
+        let mut sum = B::splat(0.0);
+        for i in 0..u.len() {
+            sum += Self::square(error[i], self.weight(u[i], v[i]));
+        }
+        sum * (1.0 / u.len() as f64)
+    }
+
+    /// The squared norm of a step's estimated error; `scratch` has the state's length.
+    pub(crate) fn step_error<B: Bundle>(
         &self,
         tableau: &Tableau,
-        slopes: &Slopes<f64>,
-        h: f64,
-        (u, v): (&[f64], &[f64]),
-        scratch: &mut [f64],
-    ) -> f64 {
-        let mut norm_of = |weights| {
+        slopes: &Slopes<B>,
+        h: B,
+        (u, v): (&[B], &[B]),
+        scratch: &mut [B],
+    ) -> B {
+        let mean_square = |weights, scratch: &mut [B]| {
             slopes.combine(weights, scratch);
-            self.norm(scratch, u, v)
+            self.mean_square(scratch, u, v)
         };
         match tableau.error {
-            ErrorEstimate::None => 0.0,
-            ErrorEstimate::Embedded { weights, .. } => h * norm_of(weights),
+            ErrorEstimate::None => B::splat(0.0),
+            ErrorEstimate::Embedded { weights, .. } => h * h * mean_square(weights, scratch),
             ErrorEstimate::Pair { fifth, third } => {
-                let (five, three) = (norm_of(fifth), norm_of(third));
-                let denominator = (five * five + 0.01 * three * three).sqrt();
-                if denominator == 0.0 { 0.0 } else { h * five * five / denominator }
+                let five = mean_square(fifth, scratch);
+                pair_error(h, five, mean_square(third, scratch))
             }
         }
     }
+
+    /// A first step that suits the field near the start (Hairer, Norsett, Wanner, II.4). `slope` is the field at the
+    /// start, `near` and `rate` are room for a state each.
+    #[inline(always)]
+    pub(crate) fn first_step<B: Bundle, F: VectorField<B> + ?Sized>(
+        &self,
+        field: &F,
+        order: u32,
+        (t, u, slope): (B, &[B], &[B]),
+        (near, rate): (&mut [B], &mut [B]),
+    ) -> B {
+        let d0 = self.norm(u, u, u);
+        let d1 = self.norm(slope, u, u);
+        let small = B::splat(1e-5);
+        let usual = small.at_most(d0) & small.at_most(d1) & d0.finite() & d1.finite();
+        let h0 = B::select(usual, d0 * 0.01 / d1, B::splat(1e-6));
+        for i in 0..u.len() {
+            near[i] = u[i] + h0 * slope[i];
+        }
+        field.eval(t + h0, near, rate);
+        for i in 0..u.len() {
+            near[i] = rate[i] - slope[i];
+        }
+        let d2 = self.norm(near, u, u) / h0;
+        let steepest = d1.max(d2);
+        let steep = B::splat(1e-15).less(steepest) & steepest.finite();
+        let h1 = (B::splat(0.01) / steepest).rough_power(256 / i64::from(order));
+        let h1 = B::select(steep, h1, (h0 * 1e-3).max(B::splat(1e-6)));
+        h1.min(h0 * 100.0)
+    }
+}
+
+/// The squared error of DOP853 from the mean squares of its two estimates: `h^2 e5^4 / (e5^2 + 0.01 e3^2)`.
+#[inline(always)]
+pub(crate) fn pair_error<B: Bundle>(h: B, five: B, three: B) -> B {
+    let zero = B::splat(0.0);
+    let denominator = five + three * 0.01;
+    let error = h * h * five * five / denominator;
+    B::select(denominator.abs().at_most(zero), zero, error)
 }

@@ -7,11 +7,13 @@
 //! * [`Orbit`], [`ExponentialOrbit`]: one initial-value problem, step by step, with error control, dense output and
 //!   exact re-steps; [`Integration`] is what they have in common;
 //! * [`noise`]: an integration with explicit noise is an integration;
+//! * [`ensemble`]: many orbits in the lanes of vector registers ([`simd`]);
 //! * [`drive`]: the loop with samples, [`section`]s, a budget and an escape bound, ending in an [`Outcome`].
 
 pub mod conformance;
 mod control;
 pub mod drive;
+pub mod ensemble;
 pub mod equivariant;
 mod error;
 pub mod escape;
@@ -41,7 +43,7 @@ pub use model::{InPlane, Model, Outline, Shape};
 pub use noise::{Noise, NoisyOrbit, Normal};
 pub use orbit::Orbit;
 pub use outcome::{Obstacle, Outcome};
-pub use scalar::{Complex, Dual, Lanes, Scalar};
+pub use scalar::{Bundle, Complex, Dual, Lanes, Mask, Scalar};
 pub use section::{Direction, Section};
 pub use tangent::Tangent;
 pub use trajectory::{CrossingPoint, Trajectory};

@@ -5,7 +5,7 @@ pub use crate::interpolant::DenseStep;
 use crate::interpolant::{Ends, Interpolant};
 use crate::steppers::Tableau;
 use crate::steppers::runge_kutta::{self, Slopes, Step};
-use crate::{Error, Integration, Obstacle, StepControl, VectorField};
+use crate::{Bundle, Error, Integration, Obstacle, StepControl, VectorField};
 
 /// An initial-value problem in progress. [`Orbit::advance`] takes one accepted step and allocates nothing.
 ///
@@ -28,7 +28,7 @@ pub struct Orbit<'f, F: ?Sized> {
     field: &'f F,
     tableau: &'static Tableau,
     control: StepControl,
-    controller: Controller,
+    controller: Controller<f64>,
     t: f64,
     t_old: f64,
     u: Vec<f64>,
@@ -146,29 +146,11 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         Ok(orbit)
     }
 
-    /// A first step that suits the field near the start (Hairer, Norsett, Wanner, II.4).
     fn first_step(&mut self, tolerance: Tolerance) -> f64 {
         let slope = self.slopes.get(self.tableau.stages());
-        let d0 = tolerance.norm(&self.u, &self.u, &self.u);
-        let d1 = tolerance.norm(slope, &self.u, &self.u);
-        let tiny = |d: f64| d < 1e-5 || !d.is_finite();
-        let h0 = if tiny(d0) || tiny(d1) { 1e-6 } else { 0.01 * d0 / d1 };
-        for ((x, &u), &k) in self.scratch.iter_mut().zip(&self.u).zip(slope) {
-            *x = u + h0 * k;
-        }
-        self.field.eval(self.t + h0, &self.scratch, self.restep.get_mut(0));
-        for (x, (&k0, &k1)) in self.scratch.iter_mut().zip(slope.iter().zip(self.restep.get(0))) {
-            *x = k1 - k0;
-        }
-        let d2 = tolerance.norm(&self.scratch, &self.u, &self.u) / h0;
-        let steepest = d1.max(d2);
-        let order = f64::from(self.tableau.order);
-        let h1 = if steepest <= 1e-15 || !steepest.is_finite() {
-            (h0 * 1e-3).max(1e-6)
-        } else {
-            libm::pow(0.01 / steepest, 1.0 / order)
-        };
-        h1.min(100.0 * h0)
+        let start = (self.t, &self.u[..], slope);
+        let room = (&mut self.scratch[..], self.restep.get_mut(0));
+        tolerance.first_step(self.field, self.tableau.order, start, room)
     }
 
     /// Takes one step, ending at `limit` (later than [`Orbit::t`]) at the latest.
@@ -215,20 +197,18 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
                 let ends = (&self.u[..], &self.scratch[..]);
                 tolerance.step_error(self.tableau, &self.slopes, h, ends, &mut self.errors)
             };
-            match self.controller.judge(error) {
-                Ok(factor) => {
-                    if !needs_end {
-                        self.evaluate_end(h);
-                    }
-                    // A step cut short by the limit says little about the next one.
-                    self.h = if last { self.h.max(h * factor) } else { h * factor };
-                    return self.accept(if last { limit } else { self.t + h });
+            let judgement = self.controller.judge(error);
+            if judgement.accepted.has(0) {
+                if !needs_end {
+                    self.evaluate_end(h);
                 }
-                Err(factor) => {
-                    self.counters.rejected += 1;
-                    self.h = h * factor;
-                }
+                // A step cut short by the limit says little about the next one.
+                let next = h * judgement.factor;
+                self.h = if last { Bundle::max(self.h, next) } else { next };
+                return self.accept(if last { limit } else { self.t + h });
             }
+            self.counters.rejected += 1;
+            self.h = h * judgement.factor;
         }
     }
 

@@ -29,7 +29,32 @@ impl<T: Scalar> Complex<T> {
     /// `|z|^2`.
     #[inline(always)]
     pub fn norm_sqr(self) -> T {
-        self.re * self.re + self.im * self.im
+        self.im.mul_add(self.im, self.re * self.re)
+    }
+
+    /// `z^2`.
+    #[inline(always)]
+    #[must_use]
+    pub fn square(self) -> Self {
+        let (re, im) = (self.re, self.im);
+        Self::new((-im).mul_add(im, re * re), (re + re) * im)
+    }
+
+    /// `self + a b`.
+    #[inline(always)]
+    #[must_use]
+    pub fn add_product(self, a: Self, b: Self) -> Self {
+        Self::new(
+            (-a.im).mul_add(b.im, a.re.mul_add(b.re, self.re)),
+            a.im.mul_add(b.re, a.re.mul_add(b.im, self.im)),
+        )
+    }
+
+    /// `self + real z` for a parameter.
+    #[inline(always)]
+    #[must_use]
+    pub fn add_scaled(self, z: Self, real: T::Real) -> Self {
+        Self::new(self.re.add_scaled(z.re, real), self.im.add_scaled(z.im, real))
     }
 
     /// `real * z` for a parameter.
@@ -67,7 +92,10 @@ impl<T: Scalar> Mul for Complex<T> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Self::new(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
+        Self::new(
+            (-self.im).mul_add(other.im, self.re * other.re),
+            self.im.mul_add(other.re, self.re * other.im),
+        )
     }
 }
 

@@ -61,6 +61,7 @@ impl<T: Scalar, const K: usize> Dual<T, K> {
 
 impl<T: Scalar, const K: usize> Scalar for Dual<T, K> {
     type Real = T::Real;
+    const IN_KERNEL: bool = T::IN_KERNEL;
 
     #[inline(always)]
     fn constant(self, value: f64) -> Self {
@@ -75,6 +76,31 @@ impl<T: Scalar, const K: usize> Scalar for Dual<T, K> {
     #[inline(always)]
     fn real(self) -> T::Real {
         self.value.real()
+    }
+
+    #[inline(always)]
+    fn lift(self, real: T::Real) -> Self {
+        Self::constant_of(self.value.lift(real))
+    }
+
+    /// `(a b + c)' = a' b + (a b' + c')`.
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        let (a, b) = (self.value, factor.value);
+        let mut derivative = addend.derivative;
+        for k in 0..K {
+            derivative[k] = self.derivative[k].mul_add(b, a.mul_add(factor.derivative[k], derivative[k]));
+        }
+        Self { value: a.mul_add(b, addend.value), derivative }
+    }
+
+    #[inline(always)]
+    fn add_scaled(self, x: Self, real: T::Real) -> Self {
+        let mut derivative = self.derivative;
+        for k in 0..K {
+            derivative[k] = derivative[k].add_scaled(x.derivative[k], real);
+        }
+        Self { value: self.value.add_scaled(x.value, real), derivative }
     }
 
     /// `(sin x)' = cos x x'`, `(cos x)' = -sin x x'`.
@@ -106,7 +132,7 @@ impl<T: Scalar, const K: usize> Mul for Dual<T, K> {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let (a, b) = (self.value, other.value);
-        self.zip(other, a * b, |da, db| da * b + a * db)
+        self.zip(other, a * b, |da, db| da.mul_add(b, a * db))
     }
 }
 

@@ -1,25 +1,20 @@
 //! `N` numbers that move together.
 
-use super::Scalar;
+use super::{Bundle, Mask, Scalar};
 use std::ops::{Add, AddAssign, Div, Index, Mul, Neg, Sub, SubAssign};
 
 /// `N` independent `f64`, one orbit in each lane.
 ///
-/// Every operation is the plain IEEE operation lane by lane, without fused multiply-add, so lane `i` holds exactly
-/// the bits that the same computation gives over `f64`, for any `N`. The fixed-size loops compile to vector
-/// instructions of whatever width the build targets.
+/// Every operation is the plain IEEE operation lane by lane, so lane `i` holds exactly the bits that the same computation
+/// gives over `f64`, for any `N`; with `FUSED`, those it gives over `f64` with [`Scalar::mul_add`] rounded once.
+///
+/// This is the portable bundle, and the oracle of the others. Where speed matters [`crate::simd`] puts eight lanes into
+/// vector registers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
-pub struct Lanes<const N: usize>(pub [f64; N]);
+pub struct Lanes<const N: usize, const FUSED: bool = false>(pub [f64; N]);
 
-impl<const N: usize> Lanes<N> {
-    /// The same `value` in every lane.
-    #[inline(always)]
-    #[must_use]
-    pub fn splat(value: f64) -> Self {
-        Self([value; N])
-    }
-
+impl<const N: usize, const FUSED: bool> Lanes<N, FUSED> {
     /// Lane by lane `operation(self, other)`.
     #[inline(always)]
     fn zip(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
@@ -31,7 +26,7 @@ impl<const N: usize> Lanes<N> {
     }
 }
 
-impl<const N: usize> Index<usize> for Lanes<N> {
+impl<const N: usize, const FUSED: bool> Index<usize> for Lanes<N, FUSED> {
     type Output = f64;
 
     fn index(&self, lane: usize) -> &f64 {
@@ -39,12 +34,35 @@ impl<const N: usize> Index<usize> for Lanes<N> {
     }
 }
 
-impl<const N: usize> Scalar for Lanes<N> {
+impl<const N: usize, const FUSED: bool> Scalar for Lanes<N, FUSED> {
     type Real = Self;
+    const IN_KERNEL: bool = true;
 
     #[inline(always)]
     fn constant(self, value: f64) -> Self {
         Self::splat(value)
+    }
+
+    #[inline(always)]
+    fn lift(self, real: Self) -> Self {
+        real
+    }
+
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        if !FUSED {
+            return self * factor + addend;
+        }
+        let mut out = self;
+        for lane in 0..N {
+            out.0[lane] = f64::mul_add(self.0[lane], factor.0[lane], addend.0[lane]);
+        }
+        out
+    }
+
+    #[inline(always)]
+    fn add_scaled(self, x: Self, real: Self) -> Self {
+        real.mul_add(x, self)
     }
 
     #[inline(always)]
@@ -67,7 +85,67 @@ impl<const N: usize> Scalar for Lanes<N> {
     }
 }
 
-impl<const N: usize> Add for Lanes<N> {
+impl<const N: usize, const FUSED: bool> Bundle for Lanes<N, FUSED> {
+    const LANES: usize = N;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self([value; N])
+    }
+
+    #[inline(always)]
+    fn load(lanes: &[f64]) -> Self {
+        let mut all = [0.0; N];
+        all.copy_from_slice(&lanes[..N]);
+        Self(all)
+    }
+
+    #[inline(always)]
+    fn store(self, lanes: &mut [f64]) {
+        lanes[..N].copy_from_slice(&self.0);
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.map(f64::sqrt))
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.map(f64::abs))
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> Mask {
+        let mut mask = Mask::default();
+        for lane in 0..N {
+            mask.0 |= u16::from(self.0[lane] < other.0[lane]) << lane;
+        }
+        mask
+    }
+
+    #[inline(always)]
+    fn at_most(self, other: Self) -> Mask {
+        let mut mask = Mask::default();
+        for lane in 0..N {
+            mask.0 |= u16::from(self.0[lane] <= other.0[lane]) << lane;
+        }
+        mask
+    }
+
+    #[inline(always)]
+    fn select(mask: Mask, a: Self, b: Self) -> Self {
+        let mut out = b;
+        for lane in 0..N {
+            if mask.has(lane) {
+                out.0[lane] = a.0[lane];
+            }
+        }
+        out
+    }
+}
+
+impl<const N: usize, const FUSED: bool> Add for Lanes<N, FUSED> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -75,7 +153,7 @@ impl<const N: usize> Add for Lanes<N> {
     }
 }
 
-impl<const N: usize> Sub for Lanes<N> {
+impl<const N: usize, const FUSED: bool> Sub for Lanes<N, FUSED> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -83,7 +161,7 @@ impl<const N: usize> Sub for Lanes<N> {
     }
 }
 
-impl<const N: usize> Mul for Lanes<N> {
+impl<const N: usize, const FUSED: bool> Mul for Lanes<N, FUSED> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -91,7 +169,7 @@ impl<const N: usize> Mul for Lanes<N> {
     }
 }
 
-impl<const N: usize> Div for Lanes<N> {
+impl<const N: usize, const FUSED: bool> Div for Lanes<N, FUSED> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
@@ -99,7 +177,7 @@ impl<const N: usize> Div for Lanes<N> {
     }
 }
 
-impl<const N: usize> Mul<f64> for Lanes<N> {
+impl<const N: usize, const FUSED: bool> Mul<f64> for Lanes<N, FUSED> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
@@ -107,7 +185,7 @@ impl<const N: usize> Mul<f64> for Lanes<N> {
     }
 }
 
-impl<const N: usize> Neg for Lanes<N> {
+impl<const N: usize, const FUSED: bool> Neg for Lanes<N, FUSED> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -115,14 +193,14 @@ impl<const N: usize> Neg for Lanes<N> {
     }
 }
 
-impl<const N: usize> AddAssign for Lanes<N> {
+impl<const N: usize, const FUSED: bool> AddAssign for Lanes<N, FUSED> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<const N: usize> SubAssign for Lanes<N> {
+impl<const N: usize, const FUSED: bool> SubAssign for Lanes<N, FUSED> {
     #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;

@@ -2,15 +2,17 @@
 //!
 //! A vector field is written once for any [`Scalar`]. Evaluated over
 //! * `f64` it moves one orbit,
-//! * [`Lanes`] it moves `N` orbits at once (each lane with its own parameters and its own time),
+//! * a [`Bundle`] it moves several orbits at once (each lane with its own parameters and its own time),
 //! * [`Dual`] it carries exact derivatives (Jacobians, tangent flows) along.
 //!
 //! Without fused multiply-add every lane computes the same bits as `f64` does: tested in `tests/scalars.rs`.
 
+mod bundle;
 mod complex;
 mod dual;
 mod lanes;
 
+pub use bundle::{Bundle, MOST_LANES, Mask};
 pub use complex::Complex;
 pub use dual::Dual;
 pub use lanes::Lanes;
@@ -40,6 +42,9 @@ pub trait Scalar:
     /// The number without its derivative part: the type of parameters, times and step sizes.
     type Real: Scalar<Real = Self::Real>;
 
+    /// Whether a value of this type lives in a kernel that was compiled for the widest instructions already.
+    const IN_KERNEL: bool = false;
+
     /// The constant `value`, of the same kind as `self` (same lanes; derivative zero).
     fn constant(self, value: f64) -> Self;
 
@@ -48,6 +53,19 @@ pub trait Scalar:
 
     /// The number without its derivative part.
     fn real(self) -> Self::Real;
+
+    /// `real` as a constant: derivative zero.
+    fn lift(self, real: Self::Real) -> Self;
+
+    /// `self * factor + addend`. Rounded twice, but once over bundles with fused arithmetic: the one place where the two
+    /// arithmetics differ.
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        self * factor + addend
+    }
+
+    /// `self + real * x`, rounded like [`Scalar::mul_add`].
+    fn add_scaled(self, x: Self, real: Self::Real) -> Self;
 
     /// Sine and cosine (`self` in rad), by `libm` lane by lane: the same bits on every machine.
     fn sin_cos(self) -> (Self, Self);
@@ -75,6 +93,16 @@ impl Scalar for f64 {
     #[inline(always)]
     fn real(self) -> f64 {
         self
+    }
+
+    #[inline(always)]
+    fn lift(self, real: f64) -> f64 {
+        real
+    }
+
+    #[inline(always)]
+    fn add_scaled(self, x: f64, real: f64) -> f64 {
+        real * x + self
     }
 
     #[inline]

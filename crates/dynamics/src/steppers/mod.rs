@@ -13,6 +13,7 @@ pub mod phi_functions;
 mod rk4;
 pub mod runge_kutta;
 pub mod tableau;
+pub mod unrolled;
 
 pub use dop853::DOP853;
 pub use dopri5::DOPRI5;

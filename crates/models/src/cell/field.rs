@@ -154,7 +154,7 @@ fn convolve<T: Scalar>(a: &Rows<T>, modes: usize, sign: f64) -> Rows<T> {
 }
 
 impl<T: Scalar<Real = P>, P: Scalar<Real = P>> VectorField<T> for CellField<P> {
-    #[inline]
+    #[inline(always)]
     fn eval(&self, t: P, u: &[T], du: &mut [T]) {
         self.nonlinear(t, u, du);
         for ((rates, modes), &sigma) in du.chunks_exact_mut(2).zip(u.chunks_exact(2)).zip(&self.rates) {
@@ -171,9 +171,10 @@ impl<T: Scalar<Real = P>, P: Scalar<Real = P>> Semilinear<T> for CellField<P> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn nonlinear(&self, _t: P, u: &[T], du: &mut [T]) {
-        simd::run(Quadratic { field: self, u, du });
+        let quadratic = Quadratic { field: self, u, du };
+        if T::IN_KERNEL { quadratic.run() } else { simd::run(quadratic) }
     }
 }
 

@@ -4,6 +4,7 @@
 
 pub mod fourier;
 pub mod indices;
+mod lanes;
 pub mod outline;
 mod parameters;
 pub mod reduced;
@@ -32,19 +33,48 @@ use motiform_dynamics::{Dual, Equivariant, Model, Outline, Scalar, Semilinear, S
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tensor {
     field: FourierField<f64>,
+    /// The set of terms that its parameters need ([`fourier::terms`]).
+    terms: u32,
+}
+
+/// Calls a method of the field with the terms that the parameters need and no others.
+macro_rules! with_terms {
+    ($model:expr, $field:ident => $call:expr) => {
+        match $model.terms {
+            fourier::terms::REDUCED => {
+                let $field = &FourierField::<f64, { fourier::terms::REDUCED }>($model.field.0);
+                $call
+            }
+            fourier::terms::PAPER => {
+                let $field = &FourierField::<f64, { fourier::terms::PAPER }>($model.field.0);
+                $call
+            }
+            _ => {
+                let $field = &$model.field;
+                $call
+            }
+        }
+    };
 }
 
 impl Tensor {
     /// The model with these parameters.
     #[must_use]
     pub fn new(parameters: &TensorParameters) -> Self {
-        Self { field: FourierField(Coefficients::from(parameters)) }
+        let coefficients = Coefficients::from(parameters);
+        Self { field: FourierField(coefficients), terms: fourier::terms::enclosing(&coefficients) }
     }
 
     /// The shape field, for kernels over other scalars.
     #[must_use]
     pub fn field(&self) -> &FourierField<f64> {
         &self.field
+    }
+
+    /// The set of coupling terms that it is computed with ([`fourier::terms`]).
+    #[must_use]
+    pub fn terms(&self) -> u32 {
+        self.terms
     }
 }
 
@@ -80,7 +110,7 @@ impl System for Tensor {
 impl<T: Scalar<Real = f64>> VectorField<T> for Tensor {
     #[inline]
     fn eval(&self, t: f64, u: &[T], du: &mut [T]) {
-        self.field.eval(t, u, du);
+        with_terms!(self, field => field.eval(t, u, du));
     }
 }
 
@@ -91,7 +121,7 @@ impl<T: Scalar<Real = f64>> Semilinear<T> for Tensor {
 
     #[inline]
     fn nonlinear(&self, t: f64, u: &[T], du: &mut [T]) {
-        self.field.nonlinear(t, u, du);
+        with_terms!(self, field => field.nonlinear(t, u, du));
     }
 }
 

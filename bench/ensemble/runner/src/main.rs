@@ -1,0 +1,19 @@
+//! One measurement of motiform: `motiform-bench TASK key=value ...` prints one JSON object.
+
+mod orbits;
+mod options;
+
+use options::Options;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut words = std::env::args().skip(1);
+    let task = words.next().unwrap_or_default();
+    let options = Options::parse(words)?;
+    let result = match task.as_str() {
+        "rk4" => orbits::rk4(&options)?,
+        "adaptive" | "short" => orbits::adaptive(&options, &task)?,
+        other => return Err(format!("no task {other:?}: rk4, adaptive, short").into()),
+    };
+    println!("{result}");
+    Ok(())
+}

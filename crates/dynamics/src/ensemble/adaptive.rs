@@ -1,0 +1,205 @@
+//! Error control in lanes: each lane accepts, repeats and sizes its own steps.
+
+use super::lane::{Entry, Leaving, Members, Stepped, Turn, Why};
+use crate::control::{Controller, Tolerance, pair_error};
+use crate::steppers::tableau::ErrorEstimate;
+use crate::steppers::unrolled::{LaneStep, Method, StepSlopes};
+use crate::{Bundle, Mask, VectorField as _};
+use std::marker::PhantomData;
+
+/// Runs all members with the adaptive method `M`.
+///
+/// Call it in a [`crate::simd::LaneKernel`]. Nothing is allocated.
+#[inline(always)]
+pub fn run_adaptive<M: Method, B: Bundle, const D: usize, C: Members<B, D>>(
+    members: &mut C,
+    (rtol, atol): (f64, f64),
+) {
+    let mut lanes = Lanes::<B, D>::new::<M>(Tolerance { rtol, atol });
+    let mut slopes = StepSlopes::zero();
+    lanes.fill::<M, C>(members, Mask::first(B::LANES), &mut slopes);
+    while lanes.active.any() {
+        lanes.advance::<M, C>(members, &mut slopes);
+    }
+}
+
+/// The state of the bundle between steps.
+struct Lanes<B, const D: usize> {
+    tolerance: Tolerance,
+    active: Mask,
+    t: B,
+    t_end: B,
+    h: B,
+    u: [B; D],
+    slope: [B; D],
+    controller: Controller<B>,
+    steps: B,
+    rejected: B,
+}
+
+impl<B: Bundle, const D: usize> Lanes<B, D> {
+    #[inline(always)]
+    fn new<M: Method>(tolerance: Tolerance) -> Self {
+        let zero = B::splat(0.0);
+        Self {
+            tolerance,
+            active: Mask::default(),
+            t: zero,
+            t_end: zero,
+            h: zero,
+            u: [zero; D],
+            slope: [zero; D],
+            controller: Controller::new(M::TABLEAU),
+            steps: zero,
+            rejected: zero,
+        }
+    }
+
+    /// Tries one step in every lane.
+    #[inline(always)]
+    fn advance<M: Method, C: Members<B, D>>(&mut self, members: &mut C, slopes: &mut StepSlopes<B, D>) {
+        let remaining = self.t_end - self.t;
+        let last = remaining.at_most(self.h);
+        // Two equal steps to the end rather than a full one and a crumb.
+        let h = B::select(last, remaining, self.h.min(remaining * 0.5));
+        let crumb = h.at_most(self.t.abs() * (16.0 * f64::EPSILON)) & !last;
+        let failed = (crumb | h.less(B::splat(f64::MIN_POSITIVE))) & self.active;
+
+        slopes.k[0] = self.slope;
+        let new = slopes.step::<M, _>(members.field(), &LaneStep { t: self.t, h, u: &self.u });
+        let t_new = B::select(last, self.t_end, self.t + h);
+        slopes.end::<M, _>(members.field(), t_new, &new);
+        let judgement = self.controller.judge(self.error::<M>(slopes, h, &new));
+        let accepted = judgement.accepted & self.active & !failed;
+
+        let next = h * judgement.factor;
+        // A step cut short by the end says little about the next one.
+        let after = B::select(last, self.h.max(next), next);
+        self.h = B::select(judgement.accepted, after, next);
+        let (t_old, u_old) = (self.t, self.u);
+        self.t = B::select(accepted, t_new, self.t);
+        let one = B::splat(1.0);
+        self.steps += B::select(accepted, one, B::splat(0.0));
+        self.rejected += B::select(accepted, B::splat(0.0), one);
+        for i in 0..D {
+            self.u[i] = B::select(accepted, new[i], self.u[i]);
+            self.slope[i] = B::select(accepted, slopes.k[const { M::TABLEAU.stages() }][i], self.slope[i]);
+        }
+        let mut called = members.outside(&self.u);
+        if C::WATCHES {
+            let (t, u, end) = (self.t, &self.u, const { M::TABLEAU.stages() });
+            let mut step =
+                Stepped { accepted, t, t_old, h, u, u_old: &u_old, slopes, end, field: PhantomData };
+            called |= members.stepped(&mut step);
+        }
+        called &= self.active;
+        let arrived = self.t_end.at_most(self.t) & self.active;
+        if (failed | called | arrived).any() {
+            self.turn::<M, C>(members, failed, called, arrived, slopes);
+        }
+    }
+
+    /// The squared error norm of a step.
+    #[inline(always)]
+    fn error<M: Method>(&self, slopes: &StepSlopes<B, D>, h: B, new: &[B; D]) -> B {
+        let [first, third] = slopes.errors::<M>(self.tolerance, &self.u, new);
+        match M::TABLEAU.error {
+            ErrorEstimate::None => B::splat(0.0),
+            ErrorEstimate::Embedded { .. } => h * h * first,
+            ErrorEstimate::Pair { .. } => pair_error(h, first, third),
+        }
+    }
+
+    /// Lets the members of the lanes that have come to a stop say what they do next.
+    #[inline(always)]
+    fn turn<M: Method, C: Members<B, D>>(
+        &mut self,
+        members: &mut C,
+        failed: Mask,
+        called: Mask,
+        arrived: Mask,
+        slopes: &mut StepSlopes<B, D>,
+    ) {
+        let (mut vacant, mut moved) = (Mask::default(), Mask::default());
+        for lane in (failed | called | arrived).lanes() {
+            let why = match (failed.has(lane), called.has(lane)) {
+                (true, _) => Why::Failed,
+                (_, true) => Why::Called,
+                _ => Why::Arrived,
+            };
+            match members.leave(lane, &self.leaving(lane, why)) {
+                Turn::Done => vacant |= Mask::only(lane),
+                Turn::On(t_end) => self.t_end = self.t_end.with_lane(lane, t_end),
+                Turn::Restart(t_end, u) => {
+                    self.t_end = self.t_end.with_lane(lane, t_end);
+                    self.place(lane, &u);
+                    moved |= Mask::only(lane);
+                }
+            }
+        }
+        if moved.any() {
+            self.slopes_of::<M, C>(members, moved);
+        }
+        if vacant.any() {
+            self.active &= !vacant;
+            self.fill::<M, C>(members, vacant, slopes);
+        }
+    }
+
+    #[inline(always)]
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts")]
+    fn leaving(&self, lane: usize, why: Why) -> Leaving<D> {
+        let mut u = [0.0; D];
+        for i in 0..D {
+            u[i] = self.u[i].lane(lane);
+        }
+        let (steps, rejected) = (self.steps.lane(lane) as u64, self.rejected.lane(lane) as u64);
+        Leaving { why, t: self.t.lane(lane), u, h: self.h.lane(lane), steps, rejected }
+    }
+
+    #[inline(always)]
+    fn place(&mut self, lane: usize, u: &[f64; D]) {
+        for i in 0..D {
+            self.u[i] = self.u[i].with_lane(lane, u[i]);
+        }
+    }
+
+    /// Evaluates the slopes of the lanes in `mask`.
+    #[inline(always)]
+    fn slopes_of<M: Method, C: Members<B, D>>(&mut self, members: &C, mask: Mask) {
+        let mut slope = self.slope;
+        members.field().eval(self.t, &self.u, &mut slope);
+        for i in 0..D {
+            self.slope[i] = B::select(mask, slope[i], self.slope[i]);
+        }
+    }
+
+    /// Gives the lanes of `vacant` to the next members.
+    #[inline(always)]
+    fn fill<M: Method, C: Members<B, D>>(
+        &mut self,
+        members: &mut C,
+        vacant: Mask,
+        slopes: &mut StepSlopes<B, D>,
+    ) {
+        let mut entered = Mask::default();
+        for lane in vacant.lanes() {
+            let Some(Entry { t, u, t_end }) = members.enter(lane) else { continue };
+            entered |= Mask::only(lane);
+            (self.t, self.t_end) = (self.t.with_lane(lane, t), self.t_end.with_lane(lane, t_end));
+            self.place(lane, &u);
+        }
+        if !entered.any() {
+            return;
+        }
+        self.active |= entered;
+        self.controller.reset(entered);
+        self.steps = B::select(entered, B::splat(0.0), self.steps);
+        self.rejected = B::select(entered, B::splat(0.0), self.rejected);
+        self.slopes_of::<M, C>(members, entered);
+        let [near, rate, ..] = &mut slopes.k;
+        let start = (self.t, &self.u[..], &self.slope[..]);
+        let h = self.tolerance.first_step(members.field(), M::TABLEAU.order, start, (near, rate));
+        self.h = B::select(entered, h, self.h);
+    }
+}

@@ -1,0 +1,112 @@
+//! What the lanes of an ensemble ask of its members, and tell them.
+
+use crate::steppers::unrolled::StepSlopes;
+use crate::{Bundle, Mask, VectorField};
+
+/// The members of an ensemble: a queue of initial-value problems, and what is done with each.
+///
+/// `D` is the length of the state. Everything called once per step is written over the bundle; what is called for a single
+/// lane happens rarely. Implementations must be `#[inline(always)]` where they are called per step.
+pub trait Members<B: Bundle, const D: usize> {
+    /// The field of all lanes, with each lane's own parameters.
+    type Field: VectorField<B>;
+
+    /// Whether [`Members::stepped`] wants to be called.
+    const WATCHES: bool = false;
+
+    /// The field.
+    fn field(&self) -> &Self::Field;
+
+    /// Puts the parameters of the next member into `lane` of the field and says where it starts; `None` if no member
+    /// is left.
+    fn enter(&mut self, lane: usize) -> Option<Entry<D>>;
+
+    /// After each step of the bundle. Lanes of the returned mask leave as [`Why::Called`], at the end of their step.
+    #[inline(always)]
+    fn stepped(&mut self, _step: &mut Stepped<'_, B, D, Self::Field>) -> Mask {
+        Mask::default()
+    }
+
+    /// Lanes that shall leave as [`Why::Called`] for the state they are in: asked after every adaptive step, and after
+    /// some tens of fixed ones.
+    #[inline(always)]
+    fn outside(&self, _u: &[B; D]) -> Mask {
+        Mask::default()
+    }
+
+    /// The member in `lane` has come to a stop. What it does next.
+    fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Turn<D>;
+}
+
+/// Where a member starts.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry<const D: usize> {
+    /// Time.
+    pub t: f64,
+    /// State.
+    pub u: [f64; D],
+    /// End of the time span.
+    pub t_end: f64,
+}
+
+/// Why a member has come to a stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Why {
+    /// It is at the end of its time span.
+    Arrived,
+    /// Its members asked for it, see [`Members::stepped`].
+    Called,
+    /// It has no next step: the size that error control asks for is below the resolution of time, or a fixed step led to a
+    /// state that is not finite. Where exactly and why, [`crate::drive`] says of a single orbit.
+    Failed,
+}
+
+/// A member that has come to a stop.
+#[derive(Clone, Copy, Debug)]
+pub struct Leaving<const D: usize> {
+    /// Why.
+    pub why: Why,
+    /// Time.
+    pub t: f64,
+    /// State.
+    pub u: [f64; D],
+    /// Size of the next step.
+    pub h: f64,
+    /// Accepted steps so far.
+    pub steps: u64,
+    /// Rejected steps so far.
+    pub rejected: u64,
+}
+
+/// What a member that has come to a stop does next.
+#[derive(Clone, Copy, Debug)]
+pub enum Turn<const D: usize> {
+    /// Goes on to this time, as if it had not stopped.
+    On(f64),
+    /// Goes on to this time from another state ([`crate::Orbit::restart`]).
+    Restart(f64, [f64; D]),
+    /// Makes room for the next member.
+    Done,
+}
+
+/// A step of the bundle, just made.
+pub struct Stepped<'s, B, const D: usize, F> {
+    /// Lanes whose step was accepted; the others stand where they were.
+    pub accepted: Mask,
+    /// Time at the end of the step.
+    pub t: B,
+    /// Time at its start.
+    pub t_old: B,
+    /// Its size.
+    pub h: B,
+    /// State at its end.
+    pub u: &'s [B; D],
+    /// State at its start.
+    pub u_old: &'s [B; D],
+    /// Its slopes; the slope at its end is there, those of dense output are not.
+    pub slopes: &'s mut StepSlopes<B, D>,
+    /// Number of the slope at its end.
+    pub end: usize,
+    /// The field.
+    pub field: std::marker::PhantomData<F>,
+}

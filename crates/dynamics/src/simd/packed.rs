@@ -1,0 +1,279 @@
+//! Numbers in vector registers, as a scalar.
+
+use crate::scalar::{Bundle, MOST_LANES, Mask, Scalar};
+use std::fmt;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// Vector registers and the instructions on them: lane by lane, each rounded as IEEE says.
+///
+/// Values exist only inside a kernel that runs on a machine which has the instructions.
+pub trait Registers: Copy + Send + Sync + 'static {
+    /// Number of lanes, at most [`MOST_LANES`].
+    const LANES: usize;
+    /// Loads the first [`Registers::LANES`] numbers.
+    fn load(lanes: &[f64]) -> Self;
+    /// Stores them to the front of `lanes`.
+    fn store(self, lanes: &mut [f64]);
+    /// `value` in every lane.
+    fn splat(value: f64) -> Self;
+    /// `a + b`.
+    fn add(self, other: Self) -> Self;
+    /// `a - b`.
+    fn sub(self, other: Self) -> Self;
+    /// `a b`.
+    fn mul(self, other: Self) -> Self;
+    /// `a / b`.
+    fn div(self, other: Self) -> Self;
+    /// `a b + c`, rounded once.
+    fn fused(self, factor: Self, addend: Self) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// Absolute value.
+    fn abs(self) -> Self;
+    /// Lanes with `a < b`; never where one is not a number.
+    fn less(self, other: Self) -> u16;
+    /// Lanes with `a <= b`; never where one is not a number.
+    fn at_most(self, other: Self) -> u16;
+    /// `a` where the mask has a bit, else `b`.
+    fn select(mask: u16, a: Self, b: Self) -> Self;
+}
+
+/// Two registers side by side: twice the lanes, and twice the work that does not wait for itself.
+#[derive(Clone, Copy)]
+pub struct Pair<R>(R, R);
+
+impl<R: Registers> Registers for Pair<R> {
+    const LANES: usize = 2 * R::LANES;
+
+    #[inline(always)]
+    fn load(lanes: &[f64]) -> Self {
+        Self(R::load(lanes), R::load(&lanes[R::LANES..]))
+    }
+
+    #[inline(always)]
+    fn store(self, lanes: &mut [f64]) {
+        self.0.store(lanes);
+        self.1.store(&mut lanes[R::LANES..]);
+    }
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self(R::splat(value), R::splat(value))
+    }
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(self.0.add(other.0), self.1.add(other.1))
+    }
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(self.0.sub(other.0), self.1.sub(other.1))
+    }
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self(self.0.mul(other.0), self.1.mul(other.1))
+    }
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        Self(self.0.div(other.0), self.1.div(other.1))
+    }
+
+    #[inline(always)]
+    fn fused(self, factor: Self, addend: Self) -> Self {
+        Self(self.0.fused(factor.0, addend.0), self.1.fused(factor.1, addend.1))
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt(), self.1.sqrt())
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.abs(), self.1.abs())
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> u16 {
+        self.0.less(other.0) | self.1.less(other.1) << R::LANES
+    }
+
+    #[inline(always)]
+    fn at_most(self, other: Self) -> u16 {
+        self.0.at_most(other.0) | self.1.at_most(other.1) << R::LANES
+    }
+
+    #[inline(always)]
+    fn select(mask: u16, a: Self, b: Self) -> Self {
+        Self(R::select(mask, a.0, b.0), R::select(mask >> R::LANES, a.1, b.1))
+    }
+}
+
+/// Orbits side by side in vector registers; `FUSED` says whether [`Scalar::mul_add`] rounds once.
+#[derive(Clone, Copy)]
+#[repr(transparent)]
+pub struct Packed<R, const FUSED: bool>(R);
+
+impl<R: Registers, const FUSED: bool> fmt::Debug for Packed<R, FUSED> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut lanes = [0.0; MOST_LANES];
+        self.0.store(&mut lanes);
+        lanes[..R::LANES].fmt(f)
+    }
+}
+
+impl<R: Registers, const FUSED: bool> Scalar for Packed<R, FUSED> {
+    type Real = Self;
+    const IN_KERNEL: bool = true;
+
+    #[inline(always)]
+    fn constant(self, value: f64) -> Self {
+        Self(R::splat(value))
+    }
+
+    #[inline(always)]
+    fn lift(self, real: Self) -> Self {
+        real
+    }
+
+    #[inline(always)]
+    fn scale(self, real: Self) -> Self {
+        real * self
+    }
+
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        if FUSED { Self(self.0.fused(factor.0, addend.0)) } else { self * factor + addend }
+    }
+
+    #[inline(always)]
+    fn add_scaled(self, x: Self, real: Self) -> Self {
+        real.mul_add(x, self)
+    }
+
+    #[inline(always)]
+    fn real(self) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let mut sin = [0.0; MOST_LANES];
+        self.0.store(&mut sin);
+        let mut cos = sin;
+        for lane in 0..R::LANES {
+            (sin[lane], cos[lane]) = libm::sincos(sin[lane]);
+        }
+        (Self(R::load(&sin)), Self(R::load(&cos)))
+    }
+}
+
+impl<R: Registers, const FUSED: bool> Bundle for Packed<R, FUSED> {
+    const LANES: usize = R::LANES;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self(R::splat(value))
+    }
+
+    #[inline(always)]
+    fn load(lanes: &[f64]) -> Self {
+        Self(R::load(lanes))
+    }
+
+    #[inline(always)]
+    fn store(self, lanes: &mut [f64]) {
+        self.0.store(lanes);
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.abs())
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> Mask {
+        Mask(self.0.less(other.0))
+    }
+
+    #[inline(always)]
+    fn at_most(self, other: Self) -> Mask {
+        Mask(self.0.at_most(other.0))
+    }
+
+    #[inline(always)]
+    fn select(mask: Mask, a: Self, b: Self) -> Self {
+        Self(R::select(mask.0, a.0, b.0))
+    }
+}
+
+impl<R: Registers, const FUSED: bool> Add for Packed<R, FUSED> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(self.0.add(other.0))
+    }
+}
+
+impl<R: Registers, const FUSED: bool> Sub for Packed<R, FUSED> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(self.0.sub(other.0))
+    }
+}
+
+impl<R: Registers, const FUSED: bool> Mul for Packed<R, FUSED> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self(self.0.mul(other.0))
+    }
+}
+
+impl<R: Registers, const FUSED: bool> Div for Packed<R, FUSED> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        Self(self.0.div(other.0))
+    }
+}
+
+impl<R: Registers, const FUSED: bool> Mul<f64> for Packed<R, FUSED> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Self {
+        Self(self.0.mul(R::splat(factor)))
+    }
+}
+
+impl<R: Registers, const FUSED: bool> Neg for Packed<R, FUSED> {
+    type Output = Self;
+    /// `-0 - a`, which is `-a` for every number.
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(R::splat(-0.0).sub(self.0))
+    }
+}
+
+impl<R: Registers, const FUSED: bool> AddAssign for Packed<R, FUSED> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<R: Registers, const FUSED: bool> SubAssign for Packed<R, FUSED> {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
