@@ -69,7 +69,7 @@ def main():
             group(f"adaptive {rtol:g}", f"Adaptive, tolerance {rtol:g}, one core", rows)
     if "lyapunov" in chosen.only:
         group("lyapunov", "Six Lyapunov exponents, one core", tasks.lyapunov(scale, repeats, chosen.quick))
-        block, record["exponents"] = exponents.verify(scale)
+        block, record["exponents"] = exponents.verify(scale, chosen.quick)
         say(block)
     if "short" in chosen.only:
         rows = tasks.orbits("short", tasks.T_SHORT, 1e-9, scale, repeats, per_orbit=True)

@@ -91,8 +91,8 @@ def description():
         "kernel": f"{platform.system()} {platform.release()}",
         "versions": {
             "python": platform.python_version(),
-            "gcc": first_line("gcc", "--version"),
-            "rustc": first_line("rustc", "--version"),
+            "gcc": first_line("gcc", "-dumpfullversion"),
+            "rustc": first_line("rustc", "--version").removeprefix("rustc "),
             "motiform": first_line("git", "-C", str(HERE), "describe", "--always", "--dirty"),
             **{package: version(package) for package in PACKAGES},
             "llvmlite": version("llvmlite"),

@@ -76,7 +76,7 @@ def attempt(contestant, row, run):
 
 def compete(contestants, unit, repeats, patience=2.0):
     """Rows of one group. Runs alternate, because a shared machine is not equally busy all the time."""
-    rows, ready = [], []
+    rows, ready, begun = [], [], time.perf_counter()
     for contestant in contestants:
         row = Row(contestant.name, contestant.unit or unit, limit=contestant.limit)
         rows.append(row)
@@ -90,11 +90,12 @@ def compete(contestants, unit, repeats, patience=2.0):
         if not row.failed:
             slow = first.seconds > patience
             ready.append((contestant, row, run, 2 if slow else repeats))
-        print(f"    {row.name:36} ready in {time.perf_counter() - begin:5.1f} s {row.failed}", flush=True)
+        print(f"    {row.name:40} ready in {time.perf_counter() - begin:5.1f} s {row.failed}", flush=True)
     for turn in range(repeats):
         for contestant, row, run, turns in ready:
             if turn < turns and not row.failed:
                 result = attempt(contestant, row, run)
                 if not row.failed:
                     row.rates.append(contestant.scale * result.work / result.seconds)
+    print(f"    {time.perf_counter() - begun:.0f} s in all", flush=True)
     return rows

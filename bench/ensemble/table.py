@@ -22,14 +22,14 @@ def ratio(row, mine):
 def group(title, rows, notes=()):
     exact, fast = leader(rows, False), leader(rows, True)
     lines = ["", title, "=" * len(title)]
-    lines.append(f"{'':36} {'best':>10} {'median':>10} {'unit':14} {'error':>8}   motiform/this   fast/this")
-    lines.append(f"{'':36} {'':>10} {'':>10} {'':14} {'':>8}    best   med.     best   med.")
+    lines.append(f"{'':40} {'best':>10} {'median':>10} {'unit':14} {'error':>8}   motiform/this   fast/this")
+    lines.append(f"{'':40} {'':>10} {'':>10} {'':14} {'':>8}    best   med.     best   med.")
     for row in rows:
         if row.failed:
-            lines.append(f"{row.name:36} - {row.failed}")
+            lines.append(f"{row.name:40} - {row.failed}")
             continue
         lines.append(
-            f"{row.name:36} {number(row.best):>10} {number(row.median):>10} {row.unit:14} {row.error:8.1e}"
+            f"{row.name:40} {number(row.best):>10} {number(row.median):>10} {row.unit:14} {row.error:8.1e}"
             f"  {ratio(row, exact)}  {ratio(row, fast)}"
         )
     for kind, mine in (("motiform", exact), ("fast", fast)):
@@ -40,13 +40,13 @@ def group(title, rows, notes=()):
 
 def speed_up(title, pairs):
     """Rows (name, one thread, more threads)."""
-    lines = ["", title, "=" * len(title), f"{'':36} {'1 thread':>10} {'2 threads':>10}  speed-up (best, median)"]
+    lines = ["", title, "=" * len(title), f"{'':40} {'1 thread':>10} {'2 threads':>10}  speed-up (best, median)"]
     for name, one, more in pairs:
         if one.failed or more.failed:
-            lines.append(f"{name:36} - {one.failed or more.failed}")
+            lines.append(f"{name:40} - {one.failed or more.failed}")
             continue
         lines.append(
-            f"{name:36} {number(one.best):>10} {number(more.best):>10}"
+            f"{name:40} {number(one.best):>10} {number(more.best):>10}"
             f"  {more.best / one.best:5.2f} {more.median / one.median:5.2f}   {one.unit}"
         )
     return "\n".join(lines)

@@ -115,9 +115,10 @@ def lyapunov(scale, repeats, quick):
     for interval in (1.0, 5.0):
         start = lambda i=interval, **options: heyoka_rival.lyapunov(n(512), T, rtol, i, **options)  # noqa: E731
         list_.append(entry(f"heyoka batch 8, QR every {interval:g}", n(512), start))
-    list_.append(entry("jitcode_lyap dop853, QR every 1", 8, lambda: lyapunov_rivals.jitcode(8, T, rtol, 1.0)))
-    list_.append(total("pynamicalsys RK4 dt 0.01", 8, lambda: lyapunov_rivals.pynamicalsys(8, T), 1e-5))
-    if not quick:
+        start = lambda i=interval: lyapunov_rivals.jitcode(n(64), T, rtol, i)  # noqa: E731
+        list_.append(entry(f"jitcode_lyap dop853, QR every {interval:g}", n(64), start))
+    if not quick:  # it compiles for half a minute
+        list_.append(total("pynamicalsys RK4 dt 0.01", 8, lambda: lyapunov_rivals.pynamicalsys(8, T), 1e-5))
         list_.append(total("pynamicalsys RK45", 8, lambda: lyapunov_rivals.pynamicalsys(8, T, rtol), 1e-5))
     rows = compete(list_, "time units/s", repeats)
     return rows, [
@@ -140,7 +141,7 @@ def cells(scale, repeats):
         return entry(name, 64, steps, cell.LENGTHS, start)
 
     list_ = both("64 members, own lengths", mine)
-    for n in (8, 64):
+    for n in (8, 32, 64):
         start = lambda n=n: cell_rivals.exponax_cell(n, steps)  # noqa: E731
         list_.append(entry(f"exponax vmap of {n}, equal lengths", n, steps, cell.EQUAL, start))
     start = lambda: cell_rivals.numpy_cell(64, few, low, high)  # noqa: E731
@@ -155,25 +156,28 @@ def threads(scale, repeats):
     states, scheme = against(reference.end_states, m, T), against(reference.rk4, m, STEPS, DT)
     motiform = program.motiform
     makers = [
-        ("motiform rk4", scheme, 1e-12, lambda k: motiform("rk4", members=m, steps=STEPS, dt=DT, fast=0, threads=k)),
+        ("motiform rk4", "steps/s", scheme, 1e-12, lambda k: motiform("rk4", members=m, steps=STEPS, dt=DT, fast=0, threads=k)),
         (
-            "motiform dop853, rtol 1e-9", states, ALLOWED * rtol,
+            "motiform dop853, rtol 1e-9", "time units/s", states, ALLOWED * rtol,
             lambda k: motiform("adaptive", members=m, t=T, rtol=rtol, method="dop853", fast=0, threads=k),
         ),
-        ("heyoka batch 8, tol 1e-9", states, ALLOWED * rtol, lambda k: heyoka_rival.adaptive(m, T, rtol, threads=k)),
         (
-            "numba rk4", against(reference.rk4, few, STEPS, DT), 1e-12,
+            "heyoka batch 8, tol 1e-9", "time units/s", states, ALLOWED * rtol,
+            lambda k: heyoka_rival.adaptive(m, T, rtol, threads=k),
+        ),
+        (
+            "numba rk4", "steps/s", against(reference.rk4, few, STEPS, DT), 1e-12,
             lambda k: numba_rival.rk4(few, STEPS, DT, False, threads=k),
         ),
     ]  # fmt: skip
     list_ = [
-        Contestant(f"{name}, {k} threads", lambda make=make, k=k: make(k), error, limit)
-        for name, error, limit, make in makers
+        Contestant(f"{name}, {k} thread{'s' * (k > 1)}", lambda make=make, k=k: make(k), error, limit, unit)
+        for name, unit, error, limit, make in makers
         for k in (1, environment.THREADS)
     ]
     environment.pin(environment.ALL_CORES)
     try:
-        rows = compete(list_, "steps/s or time units/s", repeats)
+        rows = compete(list_, "", repeats)
     finally:
         environment.pin()
     names = [name for name, *_ in makers]
