@@ -43,24 +43,28 @@ def main():
     import tasks
 
     begin = time.perf_counter()
-    scale, repeats = (0.25, 3) if chosen.quick else (1.0, 7)
+    scale, repeats = (0.25, 3) if chosen.quick else (1.0, 11)
     record = {"description": environment.description(), "quick": chosen.quick, "groups": {}}
+    d = record["description"]
+    name = stem(d)
     text = []
 
     def say(block):
+        """Shown, and kept at once: what is measured is not lost if a rival takes the whole process down."""
         text.append(block)
         print(block, flush=True)
+        record["load_at_end"], record["seconds"] = environment.load(), time.perf_counter() - begin
+        name.with_suffix(name.suffix + ".json").write_text(json.dumps(record, indent=1))
+        name.with_suffix(name.suffix + ".txt").write_text("\n".join(text) + "\n")
 
     def group(key, title, unit_rows):
         rows, notes = unit_rows
         record["groups"][key] = {"title": title, "rows": [vars(row) for row in rows]}
         say(table.group(title, rows, notes))
 
-    d = record["description"]
     flags = " ".join(name for name, has in d["flags"].items() if has)
     say(f"{d['processor']}, {d['cores']} cores, {flags}; {d['kernel']}; load {d['load_at_start']}")
     say(", ".join(f"{name} {version}" for name, version in d["versions"].items()))
-    name = stem(d)
     if "rk4" in chosen.only:
         group("rk4", f"Fixed RK4, dt = {tasks.DT}, one core", tasks.rk4(scale, repeats))
     if "adaptive" in chosen.only:
@@ -82,18 +86,14 @@ def main():
         record["groups"]["threads"] = {"title": title, "rows": [vars(row) for row in rows]}
         say(table.speed_up(title, pairs))
     if "precision" in chosen.only:
-        points, failed = precision.measure(scale, 2 if chosen.quick else 3, chosen.quick)
+        points, failed = precision.measure(scale, 2 if chosen.quick else 7, chosen.quick)
         record["precision"] = {"points": points, "failed": failed}
         say(precision.table(points, failed))
         try:
             precision.draw(points, environment.RESULTS / "work_precision")
         except ImportError as error:
             say(f"no figure: {error}")
-    d["load_at_end"] = environment.load()
-    record["seconds"] = time.perf_counter() - begin
-    say(f"\n{record['seconds']:.0f} s; load at the end {d['load_at_end']}")
-    name.with_suffix(name.suffix + ".json").write_text(json.dumps(record, indent=1))
-    name.with_suffix(name.suffix + ".txt").write_text("\n".join(text) + "\n")
+    say(f"\n{time.perf_counter() - begin:.0f} s; load at the end {environment.load()}")
     print(f"written: results/{name.name}.json, .txt")
 
 

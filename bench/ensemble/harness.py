@@ -65,7 +65,8 @@ def attempt(contestant, row, run):
     try:
         result = run()
         error = contestant.error(result.check)
-        row.error = max(row.error, error) if np.isfinite(error) else float("nan")
+        if np.isfinite(error):
+            row.error = max(row.error, error)
         if not error <= contestant.limit:
             row.failed = f"wrong result: error {error:.1e}, allowed {contestant.limit:.1e}"
         return result
@@ -74,7 +75,7 @@ def attempt(contestant, row, run):
         return None
 
 
-def compete(contestants, unit, repeats, patience=2.0):
+def compete(contestants, unit, repeats, patience=2.0, quiet=False):
     """Rows of one group. Runs alternate, because a shared machine is not equally busy all the time."""
     rows, ready, begun = [], [], time.perf_counter()
     for contestant in contestants:
@@ -90,7 +91,8 @@ def compete(contestants, unit, repeats, patience=2.0):
         if not row.failed:
             slow = first.seconds > patience
             ready.append((contestant, row, run, 2 if slow else repeats))
-        print(f"    {row.name:40} ready in {time.perf_counter() - begin:5.1f} s {row.failed}", flush=True)
+        if not quiet:
+            print(f"    {row.name:40} ready in {time.perf_counter() - begin:5.1f} s {row.failed}", flush=True)
     for turn in range(repeats):
         for contestant, row, run, turns in ready:
             if turn < turns and not row.failed:

@@ -43,7 +43,7 @@ def measure(scale, repeats, quick):
                 Contestant(f"{name} {rtol:.0e}", lambda p=prepare, r=rtol: p(r), error, 1e5 * rtol, scale=1e-3 / T)
             )
             where.append((name, rtol))
-    rows = compete(entries, "orbits/ms", repeats)
+    rows = compete(entries, "orbits/ms", repeats, quiet=True)
     points, failed = [], {}
     for (name, rtol), row in zip(where, rows):
         if row.failed:

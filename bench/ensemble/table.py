@@ -1,5 +1,7 @@
 """The table: plain text, aligned."""
 
+import statistics
+
 
 def number(x):
     """Four digits, thousands as powers of ten."""
@@ -12,18 +14,22 @@ def leader(rows, fast):
     return max(mine, key=lambda r: r.best, default=None)
 
 
+def quotients(mine, row):
+    """motiform / this program: of the best runs, and the median of the quotients of neighbouring runs."""
+    return mine.best / row.best, statistics.median(a / b for a, b in zip(mine.rates, row.rates))
+
+
 def ratio(row, mine):
-    """motiform / this program: of the best runs, and of the medians."""
     if mine is None or row.failed or row.unit != mine.unit:
-        return "            -"
-    return f"{mine.best / row.best:7.2f} {mine.median / row.median:5.2f}"
+        return f"{'-':>8} {'-':>8}"
+    return " ".join(f"{x:8.2f}" if x < 1000 else f"{x:8.0f}" for x in quotients(mine, row))
 
 
 def group(title, rows, notes=()):
     exact, fast = leader(rows, False), leader(rows, True)
     lines = ["", title, "=" * len(title)]
-    lines.append(f"{'':40} {'best':>10} {'median':>10} {'unit':14} {'error':>8}   motiform/this   fast/this")
-    lines.append(f"{'':40} {'':>10} {'':>10} {'':14} {'':>8}    best   med.     best   med.")
+    lines.append(f"{'':40} {'best':>10} {'median':>10} {'unit':14} {'error':>8}      motiform/this          fast/this")
+    lines.append(f"{'':40} {'':>10} {'':>10} {'':14} {'':>8}      best     med.      best     med.")
     for row in rows:
         if row.failed:
             lines.append(f"{row.name:40} - {row.failed}")
@@ -45,8 +51,8 @@ def speed_up(title, pairs):
         if one.failed or more.failed:
             lines.append(f"{name:40} - {one.failed or more.failed}")
             continue
+        best, median = quotients(more, one)
         lines.append(
-            f"{name:40} {number(one.best):>10} {number(more.best):>10}"
-            f"  {more.best / one.best:5.2f} {more.median / one.median:5.2f}   {one.unit}"
+            f"{name:40} {number(one.best):>10} {number(more.best):>10}  {best:5.2f} {median:5.2f}   {one.unit}"
         )
     return "\n".join(lines)

@@ -6,6 +6,7 @@ import reference
 import workload as w
 from harness import Contestant, compete, relative
 from rivals import cell_rivals, heyoka_rival, jax_rival, lyapunov_rivals, numba_rival, program, scipy_rival
+from table import quotients
 
 DT, STEPS, T, T_SHORT = 0.01, 1000, 20.0, 10.0
 WIDE = "-mprefer-vector-width=512"
@@ -53,7 +54,9 @@ def rk4(scale, repeats):
         for row in rows[:-1]:
             if not row.failed:
                 used = row.best * flops * 1e-9
-                notes.append(f"{row.name:34} {used:6.1f} GFLOP/s, {100 * used / top.best:5.1f} % of the peak")
+                best, median = (100 * flops * 1e-9 * share for share in quotients(row, top))
+                share = f"{best:5.1f} % of the peak (neighbouring runs {median:.1f} %)"
+                notes.append(f"{row.name:34} {used:6.1f} GFLOP/s, {share}")
     return rows, notes
 
 

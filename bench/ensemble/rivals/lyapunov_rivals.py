@@ -64,8 +64,8 @@ def pynamicalsys(n, t, rtol=None, low=w.KAPPA2[0], high=w.KAPPA2[1]):
     def jacobian(_, u, p):
         a, b, c, d, x, y = u
         J = np.zeros((6, 6))
-        J[0, 0], J[0, 1], J[1, 1] = p_gamma - 3 * a * a - b * b + e11 * c, -2 * a * b + e11 * d, p_gamma - a * a - 3 * b * b - e11 * c
-        J[1, 0] = J[0, 1]
+        J[0, 0], J[1, 1] = p_gamma - 3 * a * a - b * b + e11 * c, p_gamma - a * a - 3 * b * b - e11 * c
+        J[0, 1] = J[1, 0] = -2 * a * b + e11 * d
         J[0, 2], J[0, 3], J[1, 2], J[1, 3] = e11 * a, e11 * b, -e11 * b, e11 * a
         J[2, 0], J[2, 1] = 2 * e21 * a + e22 * x, -2 * e21 * b + e22 * y
         J[3, 0], J[3, 1] = 2 * e21 * b + e22 * y, 2 * e21 * a - e22 * x
