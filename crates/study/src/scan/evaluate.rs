@@ -1,6 +1,6 @@
 //! What is computed for one row.
 
-use super::ScanPlan;
+use super::{ScanPlan, lanes};
 use crate::Error;
 use crate::analyse::{Stop, settings_of};
 use crate::simulate::Monitor;
@@ -20,6 +20,34 @@ pub trait Evaluate: Sync {
         sample: usize,
         stop: &dyn Monitor,
     ) -> Result<Option<Verdict>, Error>;
+
+    /// The verdicts on all rows that `next` gives (cell and sample), on this thread; each is handed to `done` with the row's
+    /// number in that order. Rows may be answered in any order. An implementation may compute many of them together, but
+    /// every verdict must be that of [`Evaluate::evaluate`].
+    fn evaluate_all(
+        &self,
+        plan: &ScanPlan,
+        next: &mut dyn FnMut() -> Option<(usize, usize)>,
+        done: &mut dyn FnMut(usize, Result<Option<Verdict>, Error>),
+        stop: &dyn Monitor,
+    ) {
+        one_by_one(self, plan, next, done, stop);
+    }
+}
+
+/// Each row by itself.
+fn one_by_one<E: Evaluate + ?Sized>(
+    evaluate: &E,
+    plan: &ScanPlan,
+    next: &mut dyn FnMut() -> Option<(usize, usize)>,
+    done: &mut dyn FnMut(usize, Result<Option<Verdict>, Error>),
+    stop: &dyn Monitor,
+) {
+    let mut number = 0;
+    while let Some((cell, sample)) = next() {
+        done(number, evaluate.evaluate(plan, cell, sample, stop));
+        number += 1;
+    }
 }
 
 /// Names the motion of each row.
@@ -40,5 +68,18 @@ impl Evaluate for Classify {
         let bounds = (c.escape_norm, c.max_steps);
         let settings = settings_of(plan.info()?, plan.method()?, c.control, bounds, c.budget);
         Ok(classify(model.as_ref(), &start, &settings, &mut Stop::new(stop))?)
+    }
+
+    /// In the lanes of vector registers, where the model and the method have such kernels.
+    fn evaluate_all(
+        &self,
+        plan: &ScanPlan,
+        next: &mut dyn FnMut() -> Option<(usize, usize)>,
+        done: &mut dyn FnMut(usize, Result<Option<Verdict>, Error>),
+        stop: &dyn Monitor,
+    ) {
+        if !lanes::classify(self, plan, next, done, stop) {
+            one_by_one(self, plan, next, done, stop);
+        }
     }
 }
