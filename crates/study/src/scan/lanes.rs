@@ -33,6 +33,11 @@ pub(super) fn classify(
     true
 }
 
+/// Whether the rows of a plan are classified in lanes.
+pub(super) fn has_kernel(plan: &ScanPlan) -> bool {
+    kernel(plan).is_some()
+}
+
 /// The settings, and the terms that the corners of the plan need; `None` where there is no kernel.
 fn kernel(plan: &ScanPlan) -> Option<(Settings, u32)> {
     let c = &plan.computation;
@@ -66,6 +71,8 @@ impl Work<'_> {
     /// Runs the kernel with these terms; a row that has others is classified by itself.
     fn run<const TERMS: u32>(self) {
         let Self { single, plan, settings, next, done, stop } = self;
+        let fast = plan.computation.fast;
+        let arithmetic = if fast { Arithmetic::Fused } else { Arithmetic::Reproducible };
         let done = RefCell::new(done);
         // Numbers of the rows in lanes, by the numbers that the lanes give them.
         let rows = RefCell::new(BTreeMap::new());
@@ -92,7 +99,7 @@ impl Work<'_> {
         let stopped = || stop.stopped();
         classify_in_lanes::<_, DIM, { 2 * DIM }>(
             &settings,
-            Arithmetic::Reproducible,
+            arithmetic,
             &mut candidate,
             &mut decided,
             &stopped,
