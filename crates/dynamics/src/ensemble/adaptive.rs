@@ -17,8 +17,13 @@ pub fn run_adaptive<M: Method, B: Bundle, const D: usize, C: Members<B, D>>(
 ) {
     let mut lanes = Lanes::<B, D>::new::<M>(Tolerance { rtol, atol });
     let mut slopes = StepSlopes::zero();
-    lanes.fill::<M, C>(members, Mask::first(B::LANES), &mut slopes);
-    while lanes.active.any() {
+    loop {
+        if lanes.vacant.any() {
+            lanes.fill::<M, C>(members, &mut slopes);
+        }
+        if !lanes.active.any() {
+            return;
+        }
         lanes.advance::<M, C>(members, &mut slopes);
     }
 }
@@ -27,6 +32,8 @@ pub fn run_adaptive<M: Method, B: Bundle, const D: usize, C: Members<B, D>>(
 struct Lanes<B, const D: usize> {
     tolerance: Tolerance,
     active: Mask,
+    /// Lanes that the next members shall have.
+    vacant: Mask,
     t: B,
     t_end: B,
     h: B,
@@ -44,6 +51,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         Self {
             tolerance,
             active: Mask::default(),
+            vacant: Mask::first(B::LANES),
             t: zero,
             t_end: zero,
             h: zero,
@@ -66,10 +74,10 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         let failed = (crumb | h.less(B::splat(f64::MIN_POSITIVE))) & self.active;
 
         slopes.k[0] = self.slope;
-        let new = slopes.step::<M, _>(members.field(), &LaneStep { t: self.t, h, u: &self.u });
+        slopes.step::<M, _>(members.field(), &LaneStep { t: self.t, h, u: &self.u });
         let t_new = B::select(last, self.t_end, self.t + h);
-        slopes.end::<M, _>(members.field(), t_new, &new);
-        let judgement = self.controller.judge(self.error::<M>(slopes, h, &new));
+        slopes.end::<M, _>(members.field(), t_new);
+        let judgement = self.controller.judge(self.error::<M>(slopes, h));
         let accepted = judgement.accepted & self.active & !failed;
 
         let next = h * judgement.factor;
@@ -82,7 +90,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         self.steps += B::select(accepted, one, B::splat(0.0));
         self.rejected += B::select(accepted, B::splat(0.0), one);
         for i in 0..D {
-            self.u[i] = B::select(accepted, new[i], self.u[i]);
+            self.u[i] = B::select(accepted, slopes.new()[i], self.u[i]);
             self.slope[i] = B::select(accepted, slopes.k[const { M::TABLEAU.stages() }][i], self.slope[i]);
         }
         let mut called = members.outside(&self.u);
@@ -95,14 +103,14 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         called &= self.active;
         let arrived = self.t_end.at_most(self.t) & self.active;
         if (failed | called | arrived).any() {
-            self.turn::<M, C>(members, failed, called, arrived, slopes);
+            self.turn::<M, C>(members, failed, called, arrived);
         }
     }
 
     /// The squared error norm of a step.
     #[inline(always)]
-    fn error<M: Method>(&self, slopes: &StepSlopes<B, D>, h: B, new: &[B; D]) -> B {
-        let [first, third] = slopes.errors::<M>(self.tolerance, &self.u, new);
+    fn error<M: Method>(&self, slopes: &StepSlopes<B, D>, h: B) -> B {
+        let [first, third] = slopes.errors::<M>(self.tolerance);
         match M::TABLEAU.error {
             ErrorEstimate::None => B::splat(0.0),
             ErrorEstimate::Embedded { .. } => h * h * first,
@@ -118,9 +126,8 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         failed: Mask,
         called: Mask,
         arrived: Mask,
-        slopes: &mut StepSlopes<B, D>,
     ) {
-        let (mut vacant, mut moved) = (Mask::default(), Mask::default());
+        let mut moved = Mask::default();
         for lane in (failed | called | arrived).lanes() {
             let why = match (failed.has(lane), called.has(lane)) {
                 (true, _) => Why::Failed,
@@ -128,7 +135,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
                 _ => Why::Arrived,
             };
             match members.leave(lane, &self.leaving(lane, why)) {
-                Turn::Done => vacant |= Mask::only(lane),
+                Turn::Done => self.vacant |= Mask::only(lane),
                 Turn::On(t_end) => self.t_end = self.t_end.with_lane(lane, t_end),
                 Turn::Restart(t_end, u) => {
                     self.t_end = self.t_end.with_lane(lane, t_end);
@@ -140,10 +147,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         if moved.any() {
             self.slopes_of::<M, C>(members, moved);
         }
-        if vacant.any() {
-            self.active &= !vacant;
-            self.fill::<M, C>(members, vacant, slopes);
-        }
+        self.active &= !self.vacant;
     }
 
     #[inline(always)]
@@ -174,16 +178,11 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         }
     }
 
-    /// Gives the lanes of `vacant` to the next members.
+    /// Gives the vacant lanes to the next members.
     #[inline(always)]
-    fn fill<M: Method, C: Members<B, D>>(
-        &mut self,
-        members: &mut C,
-        vacant: Mask,
-        slopes: &mut StepSlopes<B, D>,
-    ) {
+    fn fill<M: Method, C: Members<B, D>>(&mut self, members: &mut C, slopes: &mut StepSlopes<B, D>) {
         let mut entered = Mask::default();
-        for lane in vacant.lanes() {
+        for lane in std::mem::take(&mut self.vacant).lanes() {
             let Some(Entry { t, u, t_end }) = members.enter(lane) else { continue };
             entered |= Mask::only(lane);
             (self.t, self.t_end) = (self.t.with_lane(lane, t), self.t_end.with_lane(lane, t_end));
