@@ -127,6 +127,17 @@ impl Registers for Zmm {
         unsafe { Self(_mm512_abs_pd(self.0)) }
     }
 
+    // The instruction gives its second operand where neither is larger, or one is not a number.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        unsafe { Self(_mm512_max_pd(other.0, self.0)) }
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        unsafe { Self(_mm512_min_pd(other.0, self.0)) }
+    }
+
     #[inline(always)]
     fn less(self, other: Self) -> u16 {
         unsafe { u16::from(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0)) }
@@ -202,6 +213,17 @@ impl Registers for Ymm {
     #[inline(always)]
     fn abs(self) -> Self {
         unsafe { Self(_mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0)) }
+    }
+
+    // The instruction gives its second operand where neither is larger, or one is not a number.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        unsafe { Self(_mm256_max_pd(other.0, self.0)) }
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        unsafe { Self(_mm256_min_pd(other.0, self.0)) }
     }
 
     #[inline(always)]
