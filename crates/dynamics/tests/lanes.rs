@@ -87,7 +87,18 @@ fn expected(input: &[[f64; MOST_LANES]; 3], lane: usize, fused: bool) -> ([f64; 
         libm::sin(c),
         libm::cos(c),
     ];
-    (numbers, [a < b, a <= b, a.is_finite(), false, !a.is_nan(), a < b || b < a, a.is_nan() || b.is_nan() || a >= b])
+    (
+        numbers,
+        [
+            a < b,
+            a <= b,
+            a.is_finite(),
+            false,
+            !a.is_nan(),
+            a < b || b < a,
+            a.is_nan() || b.is_nan() || a >= b,
+        ],
+    )
 }
 
 fn check(input: &[[f64; MOST_LANES]; 3]) {
@@ -124,8 +135,19 @@ proptest! {
 /// Zeros of both signs, infinities, what is no number, the smallest and the largest.
 #[test]
 fn special_numbers_are_those_of_f64() {
-    let special =
-        [0.0, -0.0, 1.0, -1.5, f64::INFINITY, f64::NEG_INFINITY, f64::NAN, f64::MIN_POSITIVE, 5e-324, f64::MAX, -3.25];
+    let special = [
+        0.0,
+        -0.0,
+        1.0,
+        -1.5,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        f64::NAN,
+        f64::MIN_POSITIVE,
+        5e-324,
+        f64::MAX,
+        -3.25,
+    ];
     for offset in 0..special.len() {
         let a = std::array::from_fn(|lane| special[lane % special.len()]);
         let b = std::array::from_fn(|lane| special[(lane + offset) % special.len()]);

@@ -12,7 +12,11 @@ type Field = FourierField<f64, { terms::PAPER }>;
 const ESCAPE: f64 = 1e6;
 
 /// Members of the full model (paper, Simulations II) with unequal time spans, so that lanes change hands.
-fn members(kappa2: impl Fn(usize) -> f64, span: impl Fn(usize) -> f64, count: usize) -> Vec<Member<Field, DIM>> {
+fn members(
+    kappa2: impl Fn(usize) -> f64,
+    span: impl Fn(usize) -> f64,
+    count: usize,
+) -> Vec<Member<Field, DIM>> {
     let start = [0.5, 0.1, 0.1, -0.2, 0.05, 0.1];
     let member = |i: usize| {
         let parameters = TensorParameters {
@@ -117,12 +121,14 @@ fn how_fixed() -> Propagation {
 fn fused_ends_do_not_depend_on_the_instructions() {
     let fixed = how(&RK4, StepControl::Fixed { step: 0.02 });
     for how in [adaptive(&DOP853, 1e-9), adaptive(&DOPRI5, 1e-6), fixed] {
-        let fused = Propagation { arithmetic: Arithmetic::Fused, instructions: InstructionSet::Portable, ..how };
+        let fused =
+            Propagation { arithmetic: Arithmetic::Fused, instructions: InstructionSet::Portable, ..how };
         let portable = propagate(&mixed(37), &fused).expect("valid");
         assert_ne!(bits(&portable), bits(&propagate(&mixed(37), &how).expect("valid")));
         for instructions in InstructionSet::available() {
             for threads in [1, 2] {
-                let ends = propagate(&mixed(37), &Propagation { instructions, threads, ..fused }).expect("valid");
+                let ends =
+                    propagate(&mixed(37), &Propagation { instructions, threads, ..fused }).expect("valid");
                 assert_eq!(bits(&ends), bits(&portable), "{} {instructions:?}", how.method.name);
                 assert_eq!(ends, portable);
             }

@@ -130,7 +130,11 @@ impl<F: InLanes, const D: usize> Queue<'_, F, D> {
 
     /// The work of one thread.
     fn work<M: Method>(&self, how: &Propagation) {
-        run_lanes_on(how.instructions, how.arithmetic, Run::<F, M, D> { queue: self, how, method: PhantomData });
+        run_lanes_on(
+            how.instructions,
+            how.arithmetic,
+            Run::<F, M, D> { queue: self, how, method: PhantomData },
+        );
     }
 }
 

@@ -59,12 +59,20 @@ pub(super) fn run_lanes<K: LaneKernel>(set: InstructionSet, arithmetic: Arithmet
 
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
 fn avx512<K: LaneKernel, const FUSED: bool>(kernel: K) -> K::Output {
-    if const { K::PAIRED } { kernel.run::<Packed<Pair<Zmm>, FUSED>>() } else { kernel.run::<Packed<Zmm, FUSED>>() }
+    if const { K::PAIRED } {
+        kernel.run::<Packed<Pair<Zmm>, FUSED>>()
+    } else {
+        kernel.run::<Packed<Zmm, FUSED>>()
+    }
 }
 
 #[target_feature(enable = "avx2,fma")]
 fn avx2<K: LaneKernel, const FUSED: bool>(kernel: K) -> K::Output {
-    if const { K::PAIRED } { kernel.run::<Packed<Pair<Ymm>, FUSED>>() } else { kernel.run::<Packed<Ymm, FUSED>>() }
+    if const { K::PAIRED } {
+        kernel.run::<Packed<Pair<Ymm>, FUSED>>()
+    } else {
+        kernel.run::<Packed<Ymm, FUSED>>()
+    }
 }
 
 /// One 512-bit register.

@@ -109,7 +109,10 @@ pub(crate) const fn is_chain(tableau: &'static Tableau) -> bool {
     while chain && stage < stages {
         let (from, factor) = term(tableau, stage, 0);
         let power_of_two = factor.to_bits().trailing_zeros() >= 52;
-        chain = terms(tableau, stage) == 1 && from + 1 == stage && power_of_two && tableau.weights[stage].0 == stage;
+        chain = terms(tableau, stage) == 1
+            && from + 1 == stage
+            && power_of_two
+            && tableau.weights[stage].0 == stage;
         stage += 1;
     }
     chain
