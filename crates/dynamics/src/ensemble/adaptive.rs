@@ -90,7 +90,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         self.steps += B::select(accepted, one, B::splat(0.0));
         self.rejected += B::select(accepted, B::splat(0.0), one);
         for i in 0..D {
-            self.u[i] = B::select(accepted, slopes.new()[i], self.u[i]);
+            self.u[i] = B::select(accepted, slopes.arrival()[i], self.u[i]);
             self.slope[i] = B::select(accepted, slopes.k[const { M::TABLEAU.stages() }][i], self.slope[i]);
         }
         let mut called = members.outside(&self.u);
@@ -103,7 +103,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         called &= self.active;
         let arrived = self.t_end.at_most(self.t) & self.active;
         if (failed | called | arrived).any() {
-            self.turn::<M, C>(members, failed, called, arrived);
+            self.turn::<C>(members, failed, called, arrived);
         }
     }
 
@@ -120,7 +120,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
 
     /// Lets the members of the lanes that have come to a stop say what they do next.
     #[inline(always)]
-    fn turn<M: Method, C: Members<B, D>>(
+    fn turn<C: Members<B, D>>(
         &mut self,
         members: &mut C,
         failed: Mask,
@@ -145,7 +145,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
             }
         }
         if moved.any() {
-            self.slopes_of::<M, C>(members, moved);
+            self.slopes_of::<C>(members, moved);
         }
         self.active &= !self.vacant;
     }
@@ -170,7 +170,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
 
     /// Evaluates the slopes of the lanes in `mask`.
     #[inline(always)]
-    fn slopes_of<M: Method, C: Members<B, D>>(&mut self, members: &C, mask: Mask) {
+    fn slopes_of<C: Members<B, D>>(&mut self, members: &C, mask: Mask) {
         let mut slope = self.slope;
         members.field().eval(self.t, &self.u, &mut slope);
         for i in 0..D {
@@ -195,7 +195,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         self.controller.reset(entered);
         self.steps = B::select(entered, B::splat(0.0), self.steps);
         self.rejected = B::select(entered, B::splat(0.0), self.rejected);
-        self.slopes_of::<M, C>(members, entered);
+        self.slopes_of::<C>(members, entered);
         let [near, rate, ..] = &mut slopes.k;
         let start = (self.t, &self.u[..], &self.slope[..]);
         let h = self.tolerance.first_step(members.field(), M::TABLEAU.order, start, (near, rate));

@@ -166,7 +166,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         let u_old = self.u;
         members.field().eval(t_old, &u_old, &mut slopes.k[0]);
         slopes.step::<M, _>(members.field(), &LaneStep { t: t_old, h, u: &u_old });
-        self.u = *slopes.new();
+        self.u = *slopes.arrival();
         if !C::WATCHES {
             return Mask::default();
         }

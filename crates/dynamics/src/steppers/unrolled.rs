@@ -47,7 +47,7 @@ const ROWS: usize = 18;
 /// Components whose sums are held in registers together: the largest divisor of `dim` up to 8.
 const fn block(dim: usize) -> usize {
     let mut size = if dim < 8 { dim } else { 8 };
-    while size > 1 && dim % size != 0 {
+    while size > 1 && !dim.is_multiple_of(size) {
         size -= 1;
     }
     size
@@ -100,6 +100,11 @@ const fn term(tableau: &'static Tableau, number: usize, index: usize) -> Term {
     if index < row.len() { row[index] } else { (0, 0.0) }
 }
 
+/// The node of a stage; nothing, where there is no such stage.
+const fn node(tableau: &'static Tableau, stage: usize) -> f64 {
+    if stage < tableau.nodes.len() { tableau.nodes[stage] } else { 0.0 }
+}
+
 /// Whether each stage starts from the slope before it alone, times a power of two, and the weights name all slopes in their
 /// order: RK4.
 pub(crate) const fn is_chain(tableau: &'static Tableau) -> bool {
@@ -138,7 +143,7 @@ impl<B: Bundle, const D: usize> StepSlopes<B, D> {
 
     /// The state at the end of the step.
     #[inline(always)]
-    pub fn new(&self) -> &[B; D] {
+    pub fn arrival(&self) -> &[B; D] {
         &self.k[NEW]
     }
 
@@ -209,7 +214,7 @@ impl<B: Bundle, const D: usize> StepSlopes<B, D> {
                     for i in 0..D {
                         argument[i] = at.u[i].add_scaled(slope[i], h);
                     }
-                    field.eval(at.t + at.h * M::TABLEAU.nodes[$stage], &argument, &mut slope);
+                    field.eval(at.t + at.h * const { node(M::TABLEAU, $stage) }, &argument, &mut slope);
                     let weight = B::splat(const { term(M::TABLEAU, WEIGHTS, $stage).1 });
                     for i in 0..D {
                         sum[i] = slope[i].mul_add(weight, sum[i]);
@@ -232,7 +237,7 @@ impl<B: Bundle, const D: usize> StepSlopes<B, D> {
             ($($row:literal)*) => {$(
                 if const { $row < M::TABLEAU.stages() } {
                     this.advance::<M, $row>(at.h);
-                    this.evaluate(field, at.t + at.h * M::TABLEAU.nodes[$row], $row);
+                    this.evaluate(field, at.t + at.h * const { node(M::TABLEAU, $row) }, $row);
                 }
             )*};
         }
