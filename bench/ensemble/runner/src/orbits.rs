@@ -3,6 +3,7 @@
 use crate::options::Options;
 use motiform_dynamics::StepControl;
 use motiform_dynamics::ensemble::{Member, Propagation, propagate};
+use motiform_dynamics::simd::InstructionSet;
 use motiform_dynamics::steppers::{self, DOP853, RK4};
 use motiform_models::tensor::fourier::{Coefficients, FourierField, terms};
 use motiform_models::tensor::TensorParameters;
@@ -51,6 +52,7 @@ pub fn rk4(options: &Options) -> Result<Value, Failure> {
         method: &RK4,
         control: StepControl::Fixed { step: dt },
         arithmetic: options.arithmetic()?,
+        instructions: InstructionSet::widest(),
         escape_norm: 1e6,
         threads: options.get("threads", 1)?,
     };
@@ -66,6 +68,7 @@ pub fn adaptive(options: &Options, task: &str) -> Result<Value, Failure> {
         method,
         control: StepControl::Adaptive { rtol, atol: 1e-2 * rtol },
         arithmetic: options.arithmetic()?,
+        instructions: InstructionSet::widest(),
         escape_norm: 1e6,
         threads: options.get("threads", 1)?,
     };

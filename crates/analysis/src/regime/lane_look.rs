@@ -231,9 +231,9 @@ impl<L: Bundle, const N: usize> LaneSight<L, N> {
         }
         let to = |t: f64, state: &mut [f64]| {
             let at = LaneStep { t: span.0, h: t - span.0, u: &start };
-            let u = slopes.step::<Dop853, _>(field, &at);
-            state.copy_from_slice(&u);
-            size_rate(field, t, &u)
+            slopes.step::<Dop853, _>(field, &at);
+            state.copy_from_slice(slopes.arrival());
+            size_rate(field, t, slopes.arrival())
         };
         let mut state = [0.0; N];
         let t = polished(span, guess, slope, to, &mut state);

@@ -18,8 +18,13 @@ pub fn run_adaptive<M: Method, B: Bundle, const D: usize, C: Members<B, D>>(
 ) {
     let mut lanes = Lanes::<B, D>::new::<M>(Tolerance { rtol, atol });
     let mut slopes = StepSlopes::zero();
-    lanes.fill::<M, C>(members, Mask::first(B::LANES), &mut slopes);
-    while lanes.active.any() {
+    loop {
+        if lanes.vacant.any() {
+            lanes.fill::<M, C>(members, &mut slopes);
+        }
+        if !lanes.active.any() {
+            return;
+        }
         lanes.advance::<M, C>(members, &mut slopes);
     }
 }
@@ -28,6 +33,8 @@ pub fn run_adaptive<M: Method, B: Bundle, const D: usize, C: Members<B, D>>(
 struct Lanes<B, const D: usize> {
     tolerance: Tolerance,
     active: Mask,
+    /// Lanes that the next members shall have.
+    vacant: Mask,
     t: B,
     t_end: B,
     h: B,
@@ -45,6 +52,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         Self {
             tolerance,
             active: Mask::default(),
+            vacant: Mask::first(B::LANES),
             t: zero,
             t_end: zero,
             h: zero,
@@ -67,10 +75,10 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         let failed = (crumb | h.less(B::splat(f64::MIN_POSITIVE))) & self.active;
 
         slopes.k[0] = self.slope;
-        let new = slopes.step::<M, _>(members.field(), &LaneStep { t: self.t, h, u: &self.u });
+        slopes.step::<M, _>(members.field(), &LaneStep { t: self.t, h, u: &self.u });
         let t_new = B::select(last, self.t_end, self.t + h);
-        slopes.end::<M, _>(members.field(), t_new, &new);
-        let judgement = self.controller.judge(self.error::<M>(slopes, h, &new));
+        slopes.end::<M, _>(members.field(), t_new);
+        let judgement = self.controller.judge(self.error::<M>(slopes, h));
         let accepted = judgement.accepted & self.active & !failed;
 
         let next = h * judgement.factor;
@@ -83,7 +91,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         self.steps += B::select(accepted, one, B::splat(0.0));
         self.rejected += B::select(accepted, B::splat(0.0), one);
         for i in 0..D {
-            self.u[i] = B::select(accepted, new[i], self.u[i]);
+            self.u[i] = B::select(accepted, slopes.arrival()[i], self.u[i]);
             self.slope[i] = B::select(accepted, slopes.k[const { M::TABLEAU.stages() }][i], self.slope[i]);
         }
         let mut called = members.outside(&self.u);
@@ -96,14 +104,14 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         called &= self.active;
         let arrived = self.t_end.at_most(self.t) & self.active;
         if (failed | called | arrived).any() {
-            self.turn::<M, C>(members, failed, called, arrived, slopes);
+            self.turn::<C>(members, failed, called, arrived);
         }
     }
 
     /// The squared error norm of a step.
     #[inline(always)]
-    fn error<M: Method>(&self, slopes: &StepSlopes<B, D>, h: B, new: &[B; D]) -> B {
-        let [first, third] = slopes.errors::<M>(self.tolerance, &self.u, new);
+    fn error<M: Method>(&self, slopes: &StepSlopes<B, D>, h: B) -> B {
+        let [first, third] = slopes.errors::<M>(self.tolerance);
         match M::TABLEAU.error {
             ErrorEstimate::None => B::splat(0.0),
             ErrorEstimate::Embedded { .. } => h * h * first,
@@ -113,15 +121,8 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
 
     /// Lets the members of the lanes that have come to a stop say what they do next.
     #[inline(always)]
-    fn turn<M: Method, C: Members<B, D>>(
-        &mut self,
-        members: &mut C,
-        failed: Mask,
-        called: Mask,
-        arrived: Mask,
-        slopes: &mut StepSlopes<B, D>,
-    ) {
-        let (mut vacant, mut moved) = (Mask::default(), Mask::default());
+    fn turn<C: Members<B, D>>(&mut self, members: &mut C, failed: Mask, called: Mask, arrived: Mask) {
+        let mut moved = Mask::default();
         for lane in (failed | called | arrived).lanes() {
             let why = match (failed.has(lane), called.has(lane)) {
                 (true, _) => Why::Failed,
@@ -129,7 +130,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
                 _ => Why::Arrived,
             };
             match members.leave(lane, &self.leaving(lane, why)) {
-                Turn::Done => vacant |= Mask::only(lane),
+                Turn::Done => self.vacant |= Mask::only(lane),
                 Turn::On(t_end) => self.t_end = self.t_end.with_lane(lane, t_end),
                 Turn::Restart(t_end, u) => {
                     self.t_end = self.t_end.with_lane(lane, t_end);
@@ -139,12 +140,9 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
             }
         }
         if moved.any() {
-            self.slopes_of::<M, C>(members, moved);
+            self.slopes_of::<C>(members, moved);
         }
-        if vacant.any() {
-            self.active &= !vacant;
-            self.fill::<M, C>(members, vacant, slopes);
-        }
+        self.active &= !self.vacant;
     }
 
     #[inline(always)]
@@ -168,7 +166,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
 
     /// Evaluates the slopes of the lanes in `mask`.
     #[inline(always)]
-    fn slopes_of<M: Method, C: Members<B, D>>(&mut self, members: &C, mask: Mask) {
+    fn slopes_of<C: Members<B, D>>(&mut self, members: &C, mask: Mask) {
         let mut slope = self.slope;
         members.field().eval(self.t, &self.u, &mut slope);
         for i in 0..D {
@@ -176,16 +174,11 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         }
     }
 
-    /// Gives the lanes of `vacant` to the next members.
+    /// Gives the vacant lanes to the next members.
     #[inline(always)]
-    fn fill<M: Method, C: Members<B, D>>(
-        &mut self,
-        members: &mut C,
-        vacant: Mask,
-        slopes: &mut StepSlopes<B, D>,
-    ) {
+    fn fill<M: Method, C: Members<B, D>>(&mut self, members: &mut C, slopes: &mut StepSlopes<B, D>) {
         let (mut entered, mut paces) = (Mask::default(), [None; MOST_LANES]);
-        for lane in vacant.lanes() {
+        for lane in std::mem::take(&mut self.vacant).lanes() {
             let Some(Entry { t, u, t_end, pace }) = members.enter(lane) else { continue };
             entered |= Mask::only(lane);
             paces[lane] = pace;
@@ -199,7 +192,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         self.controller.reset(entered);
         self.steps = B::select(entered, B::splat(0.0), self.steps);
         self.rejected = B::select(entered, B::splat(0.0), self.rejected);
-        self.slopes_of::<M, C>(members, entered);
+        self.slopes_of::<C>(members, entered);
         let [near, rate, ..] = &mut slopes.k;
         let start = (self.t, &self.u[..], &self.slope[..]);
         let h = self.tolerance.first_step(members.field(), M::TABLEAU.order, start, (near, rate));

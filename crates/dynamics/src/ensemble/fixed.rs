@@ -72,11 +72,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         for lane in self.active.lanes() {
             chunk = chunk.min(self.clocks[lane].whole_steps(step, CHUNK));
         }
-        let called = if chunk == 0 {
-            self.one::<M, C>(members, step, slopes)
-        } else {
-            self.many::<M, C>(members, step, chunk, slopes)
-        };
+        let called = self.steps::<M, C>(members, step, chunk, slopes);
         let called = called | members.outside(&self.u);
         let mut finite = Mask::first(B::LANES);
         for i in 0..D {
@@ -118,53 +114,52 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         }
     }
 
-    /// `chunk` whole steps in every lane.
+    /// `chunk` whole steps in every lane; for 0 one step, shorter where the end is near.
     #[inline(always)]
-    fn many<M: Method, C: Members<B, D>>(
+    fn steps<M: Method, C: Members<B, D>>(
         &mut self,
         members: &mut C,
         step: f64,
         chunk: u64,
         slopes: &mut StepSlopes<B, D>,
     ) -> Mask {
-        let mut starts = [0.0; MOST_LANES];
-        for (start, clock) in starts.iter_mut().zip(&self.clocks) {
-            *start = clock.t;
-        }
-        let (start, h) = (B::load(&starts), B::splat(step));
+        let [start, end, h] = self.next_step(step, chunk);
+        let last = if chunk == 0 { Mask::first(B::LANES) } else { Mask::default() };
         let mut called = Mask::default();
-        for count in 0..chunk {
+        for count in 0..chunk.max(1) {
             let t = start + h * count as f64;
-            called |= self.step::<M, C>(members, (t, start + h * (count + 1) as f64, h), slopes);
+            let t_new = B::select(last, end, start + h * (count + 1) as f64);
+            called |= self.step::<M, C>(members, (t, t_new, h), slopes);
         }
         for lane in self.active.lanes() {
             let clock = &mut self.clocks[lane];
-            clock.origin.1 += chunk;
-            clock.steps += chunk;
-            clock.t = clock.at(step);
+            if chunk == 0 {
+                let (t_new, _) = fixed_step(step, clock.t, clock.origin, clock.t_end);
+                let (start, count) = clock.origin;
+                clock.origin = if t_new == clock.t_end { (clock.t_end, 0) } else { (start, count + 1) };
+                clock.t = t_new;
+            } else {
+                clock.origin.1 += chunk;
+                clock.t = clock.at(step);
+            }
+            clock.steps += chunk.max(1);
         }
         called
     }
 
-    /// One step in every lane, shorter where the end is near.
+    /// Start, end and size of each lane's next step: a whole one if there is a `chunk` of them.
     #[inline(always)]
-    fn one<M: Method, C: Members<B, D>>(
-        &mut self,
-        members: &mut C,
-        step: f64,
-        slopes: &mut StepSlopes<B, D>,
-    ) -> Mask {
-        let (mut t, mut t_new, mut h) = ([0.0; MOST_LANES], [0.0; MOST_LANES], [0.0; MOST_LANES]);
+    fn next_step(&self, step: f64, chunk: u64) -> [B; 3] {
+        let mut out = [[0.0; MOST_LANES]; 3];
         for lane in self.active.lanes() {
-            let clock = &mut self.clocks[lane];
-            t[lane] = clock.t;
-            (t_new[lane], h[lane]) = fixed_step(step, clock.t, clock.origin, clock.t_end);
-            let (start, count) = clock.origin;
-            clock.origin = if t_new[lane] == clock.t_end { (clock.t_end, 0) } else { (start, count + 1) };
-            clock.t = t_new[lane];
-            clock.steps += 1;
+            let clock = &self.clocks[lane];
+            let (t_new, h) = match chunk {
+                0 => fixed_step(step, clock.t, clock.origin, clock.t_end),
+                _ => (clock.t, step),
+            };
+            (out[0][lane], out[1][lane], out[2][lane]) = (clock.t, t_new, h);
         }
-        self.step::<M, C>(members, (B::load(&t), B::load(&t_new), B::load(&h)), slopes)
+        [B::load(&out[0]), B::load(&out[1]), B::load(&out[2])]
     }
 
     /// One step of the method.
@@ -177,11 +172,12 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
     ) -> Mask {
         let u_old = self.u;
         members.field().eval(t_old, &u_old, &mut slopes.k[0]);
-        self.u = slopes.step::<M, _>(members.field(), &LaneStep { t: t_old, h, u: &u_old });
+        slopes.step::<M, _>(members.field(), &LaneStep { t: t_old, h, u: &u_old });
+        self.u = *slopes.arrival();
         if !C::WATCHES {
             return Mask::default();
         }
-        slopes.end::<M, _>(members.field(), t, &self.u);
+        slopes.end::<M, _>(members.field(), t);
         let (accepted, u, end) = (self.active, &self.u, const { M::TABLEAU.stages() });
         members.stepped(&mut Stepped {
             accepted,

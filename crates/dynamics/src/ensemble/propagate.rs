@@ -2,11 +2,13 @@
 
 use super::{Entry, Leaving, Members, Turn, Why, run_adaptive, run_fixed};
 use crate::drive::drive;
+use crate::orbit::check_start;
 use crate::scalar::MOST_LANES;
-use crate::simd::{Arithmetic, LaneKernel, run_lanes};
-use crate::steppers::unrolled::{Dop853, Dopri5, Method, Rk4};
+use crate::simd::{Arithmetic, InstructionSet, LaneKernel, run_lanes_on};
+use crate::steppers::unrolled::{Dop853, Dopri5, Method, Rk4, is_chain};
 use crate::steppers::{DOP853, DOPRI5, RK4, Tableau};
 use crate::{Bundle, Error, Mask, Orbit, Outcome, Request, StepControl, VectorField};
+use std::marker::PhantomData;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -64,6 +66,8 @@ pub struct Propagation {
     pub control: StepControl,
     /// Rounding of products and sums.
     pub arithmetic: Arithmetic,
+    /// The instructions to use, or the widest ones if this machine does not have them.
+    pub instructions: InstructionSet,
     /// A state beyond this norm has escaped.
     pub escape_norm: f64,
     /// Threads to use.
@@ -92,15 +96,14 @@ pub fn propagate<F: InLanes, const D: usize>(
         return Err(Error::NoLanes { stepper: how.method.name });
     }
     for member in members {
-        Orbit::new(&member.field, how.method, how.control, 0.0, &member.start)?;
+        check_start(member.field.dim(), 0.0, &member.start)?;
     }
     let queue = Queue { members, next: AtomicUsize::new(0), ends: Mutex::new(vec![None; members.len()]) };
-    std::thread::scope(|scope| {
-        for _ in 1..how.threads.min(members.len() / 8) {
-            scope.spawn(|| run_lanes(how.arithmetic, Run { queue: &queue, how }));
-        }
-        run_lanes(how.arithmetic, Run { queue: &queue, how });
-    });
+    match how.method.name {
+        "rk4" => queue.work_through::<Rk4>(how),
+        "dopri5" => queue.work_through::<Dopri5>(how),
+        _ => queue.work_through::<Dop853>(how),
+    }
     let ends = queue.ends.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     members.iter().zip(ends).map(|(member, end)| end.map_or_else(|| alone(member, how), Ok)).collect()
 }
@@ -123,14 +126,37 @@ struct Queue<'m, F, const D: usize> {
     ends: Mutex<Vec<Option<End<D>>>>,
 }
 
-/// The work of one thread.
-struct Run<'q, F, const D: usize> {
-    queue: &'q Queue<'q, F, D>,
-    how: &'q Propagation,
+impl<F: InLanes, const D: usize> Queue<'_, F, D> {
+    /// Runs all members with method `M`, on as many threads as asked for.
+    fn work_through<M: Method>(&self, how: &Propagation) {
+        std::thread::scope(|scope| {
+            for _ in 1..how.threads.min(self.members.len() / 8) {
+                scope.spawn(|| self.work::<M>(how));
+            }
+            self.work::<M>(how);
+        });
+    }
+
+    /// The work of one thread.
+    fn work<M: Method>(&self, how: &Propagation) {
+        run_lanes_on(
+            how.instructions,
+            how.arithmetic,
+            Run::<F, M, D> { queue: self, how, method: PhantomData },
+        );
+    }
 }
 
-impl<F: InLanes, const D: usize> LaneKernel for Run<'_, F, D> {
+/// The work of one thread, in lanes.
+struct Run<'q, F, M, const D: usize> {
+    queue: &'q Queue<'q, F, D>,
+    how: &'q Propagation,
+    method: PhantomData<M>,
+}
+
+impl<F: InLanes, M: Method, const D: usize> LaneKernel for Run<'_, F, M, D> {
     type Output = ();
+    const PAIRED: bool = is_chain(M::TABLEAU);
 
     #[inline(always)]
     fn run<B: Bundle>(self) {
@@ -141,15 +167,11 @@ impl<F: InLanes, const D: usize> LaneKernel for Run<'_, F, D> {
             riding: [0; MOST_LANES],
             escape: B::splat(self.how.escape_norm * self.how.escape_norm),
         };
-        match (self.how.control, self.how.method.name) {
-            (StepControl::Fixed { step }, "rk4") => run_fixed::<Rk4, B, D, _>(&mut crew, step),
-            (StepControl::Fixed { step }, "dopri5") => run_fixed::<Dopri5, B, D, _>(&mut crew, step),
-            (StepControl::Fixed { step }, _) => run_fixed::<Dop853, B, D, _>(&mut crew, step),
-            (StepControl::Adaptive { rtol, atol }, name) => {
-                if name == Dopri5::TABLEAU.name {
-                    run_adaptive::<Dopri5, B, D, _>(&mut crew, (rtol, atol));
-                } else {
-                    run_adaptive::<Dop853, B, D, _>(&mut crew, (rtol, atol));
+        match self.how.control {
+            StepControl::Fixed { step } => run_fixed::<M, B, D, _>(&mut crew, step),
+            StepControl::Adaptive { rtol, atol } => {
+                if const { M::TABLEAU.is_adaptive() } {
+                    run_adaptive::<M, B, D, _>(&mut crew, (rtol, atol));
                 }
             }
         }

@@ -2,7 +2,7 @@
 //!
 //! Two kinds of work are compiled once for each instruction set and dispatched here:
 //! * a [`Kernel`] is plain loops over `f64`, left to the compiler;
-//! * a [`LaneKernel`] is written over a [`Bundle`]: eight lanes, one orbit in each; one lane where there are no vector
+//! * a [`LaneKernel`] is written over a [`Bundle`]: one orbit in each lane, as many as a register or two hold; one lane where there are no vector
 //!   registers to speak of.
 //!
 //! [`Arithmetic::Reproducible`] never fuses a multiplication with an addition, so every machine and every width computes
@@ -32,6 +32,10 @@ pub trait LaneKernel {
     /// What it computes.
     type Output;
 
+    /// Whether two registers side by side are faster than one: where the work fits into few registers and waits for
+    /// itself.
+    const PAIRED: bool = false;
+
     /// Does the work with bundles of type `B`.
     fn run<B: Bundle>(self) -> Self::Output;
 }
@@ -51,9 +55,9 @@ pub enum Arithmetic {
 pub enum InstructionSet {
     /// What every processor of this architecture has: one lane.
     Portable,
-    /// 256-bit registers, two for eight lanes.
+    /// 256-bit registers, four lanes each.
     Avx2,
-    /// 512-bit registers.
+    /// 512-bit registers, eight lanes each.
     Avx512,
 }
 
@@ -76,6 +80,13 @@ impl InstructionSet {
     pub fn available() -> Vec<Self> {
         let widest = Self::widest();
         [Self::Portable, Self::Avx2, Self::Avx512].into_iter().filter(|&set| set <= widest).collect()
+    }
+}
+
+impl Default for InstructionSet {
+    /// The widest one of this machine.
+    fn default() -> Self {
+        Self::widest()
     }
 }
 

@@ -30,6 +30,10 @@ pub trait Registers: Copy + Send + Sync + 'static {
     fn sqrt(self) -> Self;
     /// Absolute value.
     fn abs(self) -> Self;
+    /// `b` where `a < b`, else `a`.
+    fn max(self, other: Self) -> Self;
+    /// `b` where `b < a`, else `a`.
+    fn min(self, other: Self) -> Self;
     /// Lanes with `a < b`; never where one is not a number.
     fn less(self, other: Self) -> u16;
     /// Lanes with `a <= b`; never where one is not a number.
@@ -94,6 +98,16 @@ impl<R: Registers> Registers for Pair<R> {
     #[inline(always)]
     fn abs(self) -> Self {
         Self(self.0.abs(), self.1.abs())
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(self.0.max(other.0), self.1.max(other.1))
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(self.0.min(other.0), self.1.min(other.1))
     }
 
     #[inline(always)]
@@ -197,6 +211,16 @@ impl<R: Registers, const FUSED: bool> Bundle for Packed<R, FUSED> {
     #[inline(always)]
     fn abs(self) -> Self {
         Self(self.0.abs())
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(self.0.max(other.0))
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(self.0.min(other.0))
     }
 
     #[inline(always)]

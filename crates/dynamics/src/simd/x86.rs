@@ -59,12 +59,20 @@ pub(super) fn run_lanes<K: LaneKernel>(set: InstructionSet, arithmetic: Arithmet
 
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
 fn avx512<K: LaneKernel, const FUSED: bool>(kernel: K) -> K::Output {
-    kernel.run::<Packed<Pair<Zmm>, FUSED>>()
+    if const { K::PAIRED } {
+        kernel.run::<Packed<Pair<Zmm>, FUSED>>()
+    } else {
+        kernel.run::<Packed<Zmm, FUSED>>()
+    }
 }
 
 #[target_feature(enable = "avx2,fma")]
 fn avx2<K: LaneKernel, const FUSED: bool>(kernel: K) -> K::Output {
-    kernel.run::<Packed<Pair<Ymm>, FUSED>>()
+    if const { K::PAIRED } {
+        kernel.run::<Packed<Pair<Ymm>, FUSED>>()
+    } else {
+        kernel.run::<Packed<Ymm, FUSED>>()
+    }
 }
 
 /// One 512-bit register.
@@ -125,6 +133,17 @@ impl Registers for Zmm {
     #[inline(always)]
     fn abs(self) -> Self {
         unsafe { Self(_mm512_abs_pd(self.0)) }
+    }
+
+    // The instruction gives its second operand where neither is larger, or one is not a number.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        unsafe { Self(_mm512_max_pd(other.0, self.0)) }
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        unsafe { Self(_mm512_min_pd(other.0, self.0)) }
     }
 
     #[inline(always)]
@@ -202,6 +221,17 @@ impl Registers for Ymm {
     #[inline(always)]
     fn abs(self) -> Self {
         unsafe { Self(_mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0)) }
+    }
+
+    // The instruction gives its second operand where neither is larger, or one is not a number.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        unsafe { Self(_mm256_max_pd(other.0, self.0)) }
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        unsafe { Self(_mm256_min_pd(other.0, self.0)) }
     }
 
     #[inline(always)]

@@ -1,8 +1,8 @@
 //! One step of an explicit Runge-Kutta method on states of fixed length, in lanes.
 //!
-//! The same sums in the same order as [`super::runge_kutta`], so the same bits. The terms of a sum are written out by the
-//! compiler, which knows the table; the loops over stages and components are not: a step of DOP853 written out is 15 kB of
-//! instructions, which the processor fetches more slowly than it computes them (docs/lanes.md).
+//! The same sums in the same order as [`super::runge_kutta`], so the same bits. All is written out by the compiler, which
+//! knows the table. Slopes stay in memory and are read where they are needed, some components at a time: left to itself the
+//! compiler keeps them in registers, runs out of these and moves them to and fro (docs/lanes.md).
 
 use super::tableau::{ErrorEstimate, Tableau, Term};
 use super::{DOP853, DOPRI5, RK4};
@@ -39,13 +39,25 @@ impl Method for Dop853 {
 /// Most slopes that a step may hold.
 const SLOPES: usize = 16;
 
+/// After the slopes: the state at the start of the step, and the argument of a stage, at last the new state.
+const START: usize = 16;
+const NEW: usize = 17;
+const ROWS: usize = 18;
+
+/// Components whose sums are held in registers together: the largest divisor of `dim` up to 8.
+const fn block(dim: usize) -> usize {
+    let mut size = if dim < 8 { dim } else { 8 };
+    while size > 1 && !dim.is_multiple_of(size) {
+        size -= 1;
+    }
+    size
+}
+
 /// The slopes of a step. Slope `stages()` is the one at its end.
 #[derive(Clone, Copy, Debug)]
 pub struct StepSlopes<B, const D: usize> {
     /// The slopes.
-    pub k: [[B; D]; SLOPES],
-    /// `D`, kept from the compiler so that it leaves loops over components as they are.
-    dim: usize,
+    pub k: [[B; D]; ROWS],
 }
 
 /// Rows of coefficients: the stages come first, then these.
@@ -88,6 +100,29 @@ const fn term(tableau: &'static Tableau, number: usize, index: usize) -> Term {
     if index < row.len() { row[index] } else { (0, 0.0) }
 }
 
+/// The node of a stage; nothing, where there is no such stage.
+const fn node(tableau: &'static Tableau, stage: usize) -> f64 {
+    if stage < tableau.nodes.len() { tableau.nodes[stage] } else { 0.0 }
+}
+
+/// Whether each stage starts from the slope before it alone, times a power of two, and the weights name all slopes in their
+/// order: RK4.
+pub(crate) const fn is_chain(tableau: &'static Tableau) -> bool {
+    let stages = tableau.stages();
+    let mut chain = stages <= 4 && tableau.weights.len() == stages;
+    let mut stage = 1;
+    while chain && stage < stages {
+        let (from, factor) = term(tableau, stage, 0);
+        let power_of_two = factor.to_bits().trailing_zeros() >= 52;
+        chain = terms(tableau, stage) == 1
+            && from + 1 == stage
+            && power_of_two
+            && tableau.weights[stage].0 == stage;
+        stage += 1;
+    }
+    chain
+}
+
 /// Where a step starts and how long it is, lane by lane.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneStep<'u, B, const D: usize> {
@@ -103,70 +138,135 @@ impl<B: Bundle, const D: usize> StepSlopes<B, D> {
     /// Room for the slopes of a step.
     #[inline(always)]
     pub fn zero() -> Self {
-        Self { k: [[B::splat(0.0); D]; SLOPES], dim: std::hint::black_box(D) }
+        Self { k: [[B::splat(0.0); D]; ROWS] }
     }
 
-    /// `sum_j c_j k_j` of one component over the terms of row `ROW`, in their order.
+    /// The state at the end of the step.
     #[inline(always)]
-    fn sum<M: Method, const ROW: usize>(&self, component: usize) -> B {
+    pub fn arrival(&self) -> &[B; D] {
+        &self.k[NEW]
+    }
+
+    /// `sum_j c_j k_j` over the terms of row `ROW`, in their order, of a block of components from `first` on.
+    #[inline(always)]
+    fn sums<M: Method, const ROW: usize>(&self, first: usize) -> [B; 8] {
+        // Hidden, so that nothing read for another row is kept for this one.
+        let k = std::hint::black_box(self).k.as_flattened();
         let (stage, coefficient) = const { term(M::TABLEAU, ROW, 0) };
-        let mut sum = self.k[stage][component] * coefficient;
+        let mut sums = [B::splat(0.0); 8];
+        for i in 0..const { block(D) } {
+            sums[i] = k[stage * D + first + i] * coefficient;
+        }
         macro_rules! add {
             ($($index:literal)*) => {$(
                 if const { $index < terms(M::TABLEAU, ROW) } {
                     let (stage, coefficient) = const { term(M::TABLEAU, ROW, $index) };
-                    sum = self.k[stage][component].mul_add(B::splat(coefficient), sum);
+                    for i in 0..const { block(D) } {
+                        sums[i] = k[stage * D + first + i].mul_add(B::splat(coefficient), sums[i]);
+                    }
                 }
             )*};
         }
         add!(1 2 3 4 5 6 7 8 9 10 11);
-        sum
+        sums
     }
 
     /// `u + h sum_j c_j k_j` over the terms of row `ROW`.
     #[inline(always)]
-    fn advanced<M: Method, const ROW: usize>(&self, at: &LaneStep<'_, B, D>, new: &mut [B; D]) {
-        for i in 0..self.dim.min(D) {
-            new[i] = at.u[i].add_scaled(self.sum::<M, ROW>(i), at.h);
+    fn advance<M: Method, const ROW: usize>(&mut self, h: B) {
+        for first in (0..D).step_by(const { block(D) }) {
+            let sums = self.sums::<M, ROW>(first);
+            for i in 0..const { block(D) } {
+                self.k[NEW][first + i] = self.k[START][first + i].add_scaled(sums[i], h);
+            }
         }
+    }
+
+    /// Evaluates the field where the last [`Self::advance`] has come.
+    #[inline(always)]
+    fn evaluate<F: VectorField<B>>(&mut self, field: &F, t: B, slope: usize) {
+        let (slopes, states) = self.k.split_at_mut(SLOPES);
+        field.eval(t, &states[NEW - SLOPES], &mut slopes[slope % SLOPES]);
     }
 
     /// One step: `u_new = u + h sum_i b_i k_i`. Slope 0 must hold `f(t, u)`.
     #[inline(always)]
-    pub fn step<M: Method, F: VectorField<B>>(&mut self, field: &F, at: &LaneStep<'_, B, D>) -> [B; D] {
-        let mut new = *at.u;
-        for stage in 1..std::hint::black_box(const { M::TABLEAU.stages() }) {
-            macro_rules! rows {
-                ($($row:literal)*) => {
-                    match stage {
-                        $($row if const { $row < M::TABLEAU.stages() } => self.advanced::<M, $row>(at, &mut new),)*
-                        _ => {}
-                    }
-                };
-            }
-            rows!(1 2 3 4 5 6 7 8 9 10 11);
-            let node = M::TABLEAU.nodes[stage];
-            field.eval(at.t + at.h * node, &new, &mut self.k[stage % SLOPES]);
+    pub fn step<M: Method, F: VectorField<B>>(&mut self, field: &F, at: &LaneStep<'_, B, D>) {
+        if const { is_chain(M::TABLEAU) } {
+            self.chain::<M, F>(field, at);
+        } else {
+            self.rows::<M, F>(field, at);
         }
-        self.advanced::<M, WEIGHTS>(at, &mut new);
-        new
+    }
+
+    /// A step of a method that [`is_chain`]: the new state's sum grows as the slopes come, so one slope is held at a time.
+    #[inline(always)]
+    fn chain<M: Method, F: VectorField<B>>(&mut self, field: &F, at: &LaneStep<'_, B, D>) {
+        let (mut slope, mut sum, mut argument) = (self.k[0], self.k[0], *at.u);
+        for i in 0..D {
+            sum[i] = slope[i] * const { term(M::TABLEAU, WEIGHTS, 0).1 };
+        }
+        macro_rules! stages {
+            ($($stage:literal)*) => {$(
+                if const { $stage < M::TABLEAU.stages() } {
+                    // A power of two: (h a) k is h (a k).
+                    let h = at.h * const { term(M::TABLEAU, $stage, 0).1 };
+                    for i in 0..D {
+                        argument[i] = at.u[i].add_scaled(slope[i], h);
+                    }
+                    field.eval(at.t + at.h * const { node(M::TABLEAU, $stage) }, &argument, &mut slope);
+                    let weight = B::splat(const { term(M::TABLEAU, WEIGHTS, $stage).1 });
+                    for i in 0..D {
+                        sum[i] = slope[i].mul_add(weight, sum[i]);
+                    }
+                }
+            )*};
+        }
+        stages!(1 2 3);
+        for i in 0..D {
+            self.k[NEW][i] = at.u[i].add_scaled(sum[i], at.h);
+        }
+    }
+
+    /// A step of any method, the slopes kept in memory.
+    #[inline(always)]
+    fn rows<M: Method, F: VectorField<B>>(&mut self, field: &F, at: &LaneStep<'_, B, D>) {
+        self.k[START] = *at.u;
+        let this = std::hint::black_box(self);
+        macro_rules! rows {
+            ($($row:literal)*) => {$(
+                if const { $row < M::TABLEAU.stages() } {
+                    this.advance::<M, $row>(at.h);
+                    this.evaluate(field, at.t + at.h * const { node(M::TABLEAU, $row) }, $row);
+                }
+            )*};
+        }
+        rows!(1 2 3 4 5 6 7 8 9 10 11);
+        this.advance::<M, WEIGHTS>(at.h);
     }
 
     /// Evaluates the slope at the end of the step.
     #[inline(always)]
-    pub fn end<M: Method, F: VectorField<B>>(&mut self, field: &F, t: B, new: &[B; D]) {
-        field.eval(t, new, &mut self.k[M::TABLEAU.stages()]);
+    pub fn end<M: Method, F: VectorField<B>>(&mut self, field: &F, t: B) {
+        self.evaluate(field, t, const { M::TABLEAU.stages() });
     }
 
-    /// The mean square of the estimated error, and of the second estimate of a pair, of a step to `new`.
+    /// The mean square of the estimated error, and of the second estimate of a pair.
     #[inline(always)]
-    pub(crate) fn errors<M: Method>(&self, tolerance: Tolerance, u: &[B; D], new: &[B; D]) -> [B; 2] {
+    pub(crate) fn errors<M: Method>(&self, tolerance: Tolerance) -> [B; 2] {
         let (mut first, mut third) = (B::splat(0.0), B::splat(0.0));
-        for i in 0..self.dim.min(D) {
-            let weight = tolerance.weight(u[i], new[i]);
-            first += Tolerance::square(self.sum::<M, ERROR>(i), weight);
+        for start in (0..D).step_by(const { block(D) }) {
+            let fifth = self.sums::<M, ERROR>(start);
+            let mut weights = [B::splat(0.0); 8];
+            for i in 0..const { block(D) } {
+                weights[i] = tolerance.weight(self.k[START][start + i], self.k[NEW][start + i]);
+                first += Tolerance::square(fifth[i], weights[i]);
+            }
             if const { matches!(M::TABLEAU.error, ErrorEstimate::Pair { .. }) } {
-                third += Tolerance::square(self.sum::<M, THIRD>(i), weight);
+                let sums = self.sums::<M, THIRD>(start);
+                for i in 0..const { block(D) } {
+                    third += Tolerance::square(sums[i], weights[i]);
+                }
             }
         }
         [first * (1.0 / D as f64), third * (1.0 / D as f64)]
@@ -176,15 +276,14 @@ impl<B: Bundle, const D: usize> StepSlopes<B, D> {
     #[inline(always)]
     pub(crate) fn extra<M: Method, F: VectorField<B>>(&mut self, field: &F, at: &LaneStep<'_, B, D>) {
         let dense = &M::TABLEAU.dense;
-        let mut argument = *at.u;
+        self.k[START] = *at.u;
         for extra in 0..dense.rows.len() {
             match extra {
-                0 => self.advanced::<M, EXTRA>(at, &mut argument),
-                1 => self.advanced::<M, { EXTRA + 1 }>(at, &mut argument),
-                _ => self.advanced::<M, { EXTRA + 2 }>(at, &mut argument),
+                0 => self.advance::<M, EXTRA>(at.h),
+                1 => self.advance::<M, { EXTRA + 1 }>(at.h),
+                _ => self.advance::<M, { EXTRA + 2 }>(at.h),
             }
-            let to = M::TABLEAU.stages() + 1 + extra;
-            field.eval(at.t + at.h * dense.nodes[extra], &argument, &mut self.k[to % SLOPES]);
+            self.evaluate(field, at.t + at.h * dense.nodes[extra], M::TABLEAU.stages() + 1 + extra);
         }
     }
 
@@ -195,8 +294,11 @@ impl<B: Bundle, const D: usize> StepSlopes<B, D> {
         macro_rules! rows {
             ($($m:literal)*) => {$(
                 if const { $m < M::TABLEAU.dense.weights.len() } {
-                    for i in 0..self.dim.min(D) {
-                        coefficients[$m][i] = self.sum::<M, { DENSE + $m }>(i) * h;
+                    for first in (0..D).step_by(const { block(D) }) {
+                        let sums = self.sums::<M, { DENSE + $m }>(first);
+                        for i in 0..const { block(D) } {
+                            coefficients[$m][first + i] = sums[i] * h;
+                        }
                     }
                 }
             )*};

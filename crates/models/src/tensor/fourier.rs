@@ -19,6 +19,7 @@ macro_rules! coefficients {
 
         impl<P: Copy> Coefficients<P> {
             /// The same coefficients in another number type: `lift` turns each into one number (or one per lane).
+            #[inline(always)]
             pub fn map<Q>(&self, mut lift: impl FnMut(P) -> Q) -> Coefficients<Q> {
                 Coefficients { $($name: lift(self.$name),)* }
             }
@@ -26,6 +27,7 @@ macro_rules! coefficients {
 
         impl<B: Bundle> Coefficients<B> {
             /// Puts one orbit's coefficients into its lane.
+            #[inline(always)]
             pub fn set_lane(&mut self, lane: usize, one: &Coefficients<f64>) {
                 $(self.$name = self.$name.with_lane(lane, one.$name);)*
             }
