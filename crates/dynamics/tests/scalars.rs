@@ -6,7 +6,7 @@ use common::{Arenstorf, Lorentzian, Oscillator};
 use motiform_dynamics::conformance::{derivative_defect, lane_mismatches, purity_defect};
 use motiform_dynamics::steppers::runge_kutta::march;
 use motiform_dynamics::steppers::{RK4, STEPPERS};
-use motiform_dynamics::{Dual, Lanes, Scalar as _, VectorField};
+use motiform_dynamics::{Bundle as _, Dual, Lanes, Scalar as _, VectorField};
 use num_dual::Dual64;
 use proptest::prelude::*;
 

@@ -3,7 +3,7 @@
 //! Times one evaluation of `N(u)` for 8 to 64 modes: direct over f64, direct over 8 lanes (per lane), and `realfft` with
 //! the smallest grid of size 2^a 3^b that the 2/3 rule allows.
 
-use motiform_dynamics::{Lanes, Semilinear};
+use motiform_dynamics::{Bundle as _, Lanes, Semilinear};
 use motiform_models::cell::{CellField, CellParameters};
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};

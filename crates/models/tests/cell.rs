@@ -7,7 +7,7 @@ use motiform_dynamics::conformance::{
     spin_defect,
 };
 use motiform_dynamics::model::{velocity, velocity_and_acceleration};
-use motiform_dynamics::{Dual, Lanes, Model, Outline, Shape, System, VectorField};
+use motiform_dynamics::{Bundle as _, Dual, Lanes, Model, Outline, Shape, System, VectorField};
 use motiform_models::cell::outline::first_crossing;
 use motiform_models::cell::{Cell, CellField, CellParameters};
 use motiform_models::{Error, ModelInfo};

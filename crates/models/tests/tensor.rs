@@ -7,7 +7,7 @@ use motiform_dynamics::conformance::{
     spin_defect,
 };
 use motiform_dynamics::model::{turning_rate, velocity_and_acceleration};
-use motiform_dynamics::{Equivariant, Lanes, Model, Outline, VectorField};
+use motiform_dynamics::{Bundle, Equivariant, Lanes, Model, Outline, VectorField};
 use motiform_models::parameters::Parameters;
 use motiform_models::tensor::indices::{Tensors, rate};
 use motiform_models::tensor::outline::radius_change;
@@ -84,13 +84,13 @@ proptest! {
             index += 1;
             Lanes::<8>(std::array::from_fn(|lane| lane_values[lane][index - 1]))
         });
-        let field = FourierField(bundle);
+        let field = FourierField::all(bundle);
         let u: Vec<Lanes<8>> = (0..6).map(|i| Lanes(std::array::from_fn(|lane| states[lane][i]))).collect();
         let mut du = u.clone();
         field.eval(Lanes::splat(0.0), &u, &mut du);
         for lane in 0..8 {
             let mut single = [0.0; 6];
-            FourierField(each[lane]).eval(0.0, &states[lane], &mut single);
+            FourierField::all(each[lane]).eval(0.0, &states[lane], &mut single);
             for i in 0..6 {
                 prop_assert_eq!(single[i].to_bits(), du[i][lane].to_bits());
             }
@@ -100,7 +100,7 @@ proptest! {
     #[test]
     fn model_conforms(p in parameters(), u in components(), w in components()) {
         let model = Tensor::new(&p);
-        let lanes = FourierField(Coefficients::from(&p).map(Lanes::<4>::splat));
+        let lanes = FourierField::all(Coefficients::from(&p).map(<Lanes<4> as Bundle>::splat));
         prop_assert_eq!(purity_defect(&model, &u), 0.0);
         prop_assert_eq!(lane_mismatches(model.field(), &lanes, &[u.to_vec(), w.to_vec(), u.to_vec(), w.to_vec()]), 0);
         // central differences of a cubic field: error h^2 = 1e-10 times the third derivative

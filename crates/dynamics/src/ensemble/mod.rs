@@ -17,6 +17,6 @@ mod tangent;
 pub use adaptive::run_adaptive;
 pub use dense::LaneDense;
 pub use fixed::run_fixed;
-pub use lane::{Entry, Leaving, Members, Stepped, Turn, Why};
+pub use lane::{Entry, Leaving, Members, Pace, Stepped, Turn, Why};
 pub use propagate::{End, InLanes, Member, Propagation, lane_methods, propagate};
 pub use tangent::LaneTangent;

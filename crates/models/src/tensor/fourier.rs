@@ -117,6 +117,14 @@ pub mod terms {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FourierField<P, const TERMS: u32 = { terms::ALL }>(pub Coefficients<P>);
 
+impl<P> FourierField<P> {
+    /// The field with all terms.
+    #[must_use]
+    pub fn all(coefficients: Coefficients<P>) -> Self {
+        Self(coefficients)
+    }
+}
+
 /// Number of real unknowns of the shape.
 pub const DIM: usize = 6;
 

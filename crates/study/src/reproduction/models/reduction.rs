@@ -22,7 +22,7 @@ pub(super) fn exact() -> Result<Claim, Error> {
     for length in LENGTHS {
         let parameters = CellParameters { length, ..CellParameters::default() };
         let (cell, tensor) =
-            (CellField::new(&parameters, 3), FourierField(reduce(&parameters, Slaved::Nothing)));
+            (CellField::new(&parameters, 3), FourierField::all(reduce(&parameters, Slaved::Nothing)));
         for _ in 0..STATES {
             let shape: [f64; 6] = std::array::from_fn(|_| random.next());
             let (mut rate, mut expected) = ([0.0; 6], [0.0; 6]);
