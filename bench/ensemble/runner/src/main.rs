@@ -1,7 +1,8 @@
 //! One measurement of motiform: `motiform-bench TASK key=value ...` prints one JSON object.
 
-mod orbits;
+mod cell;
 mod options;
+mod orbits;
 
 use options::Options;
 
@@ -12,7 +13,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let result = match task.as_str() {
         "rk4" => orbits::rk4(&options)?,
         "adaptive" | "short" => orbits::adaptive(&options, &task)?,
-        other => return Err(format!("no task {other:?}: rk4, adaptive, short").into()),
+        "cell" => cell::cell(&options)?,
+        other => return Err(format!("no task {other:?}: rk4, adaptive, short, cell").into()),
     };
     println!("{result}");
     Ok(())
