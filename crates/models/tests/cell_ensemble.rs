@@ -29,7 +29,8 @@ fn members(count: usize, modes: usize, span: impl Fn(usize) -> f64) -> Vec<Stiff
 fn alone(member: &StiffMember<CellField<f64>>, how: &StiffPropagation) -> StiffEnd {
     let control = StepControl::Fixed { step: how.step };
     let mut orbit = ExponentialOrbit::new(&member.field, how.method, control, 0.0, &member.start).unwrap();
-    let request = Request { escape_norm: how.escape_norm, ..Request::until(member.t_end, member.start.len()) };
+    let request =
+        Request { escape_norm: how.escape_norm, ..Request::until(member.t_end, member.start.len()) };
     let outcome = drive(&mut orbit, &request, &mut ()).unwrap();
     StiffEnd { outcome, u: orbit.state().to_vec(), steps: orbit.counters().steps }
 }
@@ -86,7 +87,12 @@ fn an_escaped_member_ends_as_a_single_orbit_does() {
         let ends = propagate_stiff(&members, &how).unwrap();
         for (i, (end, member)) in ends.iter().zip(&members).enumerate() {
             let single = alone(member, &how);
-            assert_eq!(matches!(end.outcome, Outcome::Completed { .. }), i != 3 && i != 11, "{i} {}", end.outcome);
+            assert_eq!(
+                matches!(end.outcome, Outcome::Completed { .. }),
+                i != 3 && i != 11,
+                "{i} {}",
+                end.outcome
+            );
             assert_eq!(format!("{end:?}"), format!("{single:?}"));
         }
     }

@@ -1,8 +1,7 @@
 //! Stiff members from start to end: exponential methods with a fixed step, each lane with its own linear part.
 //!
 //! A lane has its own coefficients (functions of `h lambda`), so a table holds one bundle where a single orbit's has one
-//! number. Entries of the state that share their entry of `Lambda` share the coefficients
-//! ([`StiffInLanes::ALIKE`]). The length of the state is known when the program runs: all room is made once per thread.
+//! number. Real and imaginary parts share theirs ([`StiffInLanes::COMPLEX`]). The length of the state is known when the program runs: all room is made once per thread.
 
 use crate::drive::drive;
 use crate::orbit::{check_start, fixed_step};
@@ -10,7 +9,9 @@ use crate::scalar::MOST_LANES;
 use crate::simd::{Arithmetic, InstructionSet, LaneKernel, run_lanes_on};
 use crate::steppers::ExponentialTableau;
 use crate::steppers::exponential::{ExponentialTerm, Node, PhiValues};
-use crate::{Bundle, Error, ExponentialOrbit, Integration as _, Mask, Outcome, Request, Semilinear, StepControl};
+use crate::{
+    Bundle, Error, ExponentialOrbit, Integration as _, Mask, Outcome, Request, Semilinear, StepControl,
+};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -21,8 +22,8 @@ pub trait StiffInLanes: Semilinear<f64> + Sync {
     /// The nonlinear part of a bundle, with the room it needs.
     type Lanes<B: Bundle>: StiffLanes<B>;
 
-    /// How many neighbouring entries of the state share their entry of `Lambda`: 2 where they are complex numbers.
-    const ALIKE: usize = 1;
+    /// Whether the state is complex numbers, two entries each, that share their entry of `Lambda`.
+    const COMPLEX: bool = false;
 
     /// A bundle with this field in every lane.
     fn lanes<B: Bundle>(&self) -> Self::Lanes<B>;
@@ -114,7 +115,8 @@ impl StiffPropagation {
 /// A member as a single orbit: what a lane leaves open, how exactly a run failed, is said here.
 fn alone<F: StiffInLanes>(member: &StiffMember<F>, how: &StiffPropagation) -> Result<StiffEnd, Error> {
     let mut orbit = ExponentialOrbit::new(&member.field, how.method, how.control(), 0.0, &member.start)?;
-    let request = Request { escape_norm: how.escape_norm, ..Request::until(member.t_end, member.start.len()) };
+    let request =
+        Request { escape_norm: how.escape_norm, ..Request::until(member.t_end, member.start.len()) };
     let outcome = drive(&mut orbit, &request, &mut ())?;
     Ok(StiffEnd { outcome, u: orbit.state().to_vec(), steps: orbit.counters().steps })
 }
@@ -292,7 +294,7 @@ impl<B: Bundle, F: StiffInLanes> Lanes<B, F> {
             u: vec![zero; dim],
             argument: vec![zero; dim],
             stages: vec![zero; method.stages() * dim],
-            table: LaneTable::new(method, dim, F::ALIKE),
+            table: LaneTable::new(method, dim, if F::COMPLEX { 2 } else { 1 }),
             t: zero,
             fresh: Mask::default(),
         }
@@ -327,44 +329,43 @@ impl<B: Bundle, F: StiffInLanes> Lanes<B, F> {
         let mut row = 0;
         // One place where N is evaluated: it is inlined, and long.
         for stage in 0..method.stages() {
-            let mut time = start;
-            if stage == 0 {
-                self.argument.copy_from_slice(&self.u);
-            } else {
+            let (mut time, mut argument) = (start, &self.u);
+            if stage > 0 {
                 let (node, terms) = method.rows[stage - 1];
-                self.table.combine(node, terms, row, (&self.u, &self.stages), &mut self.argument);
+                self.table.combine((node, row, terms), (&self.u, &self.stages), &mut self.argument);
                 row += terms.len();
-                time = if node == Node::Full { self.t } else { t + h * 0.5 };
+                (time, argument) = (if node == Node::Full { self.t } else { t + h * 0.5 }, &self.argument);
             }
             let slope = &mut self.stages[stage * dim..(stage + 1) * dim];
-            self.field.nonlinear(time, &self.argument, slope);
+            self.field.nonlinear(time, argument, slope);
         }
-        self.table.combine(Node::Full, method.weights, row, (&self.u, &self.stages), &mut self.argument);
+        self.table.combine((Node::Full, row, method.weights), (&self.u, &self.stages), &mut self.argument);
         std::mem::swap(&mut self.u, &mut self.argument);
     }
 }
 
 /// The coefficients of a method for each lane's step size and linear part.
 struct LaneTable<B> {
-    /// Numbers in a row: one for all entries of the state that are alike.
+    /// Entries of the state that share a number: 1 or 2.
+    parts: usize,
+    /// Numbers in a row.
     width: usize,
-    alike: usize,
     /// Rows: `e^{z/2}`, `e^z`, then `h` times the coefficient of each term.
     values: Vec<B>,
 }
 
 impl<B: Bundle> LaneTable<B> {
     #[inline(always)]
-    fn new(method: &ExponentialTableau, dim: usize, alike: usize) -> Self {
-        let width = dim / alike;
+    fn new(method: &ExponentialTableau, dim: usize, parts: usize) -> Self {
+        let width = dim / parts;
         let rows = 2 + method.step_terms().count();
-        Self { width, alike, values: vec![B::splat(0.0); rows * width] }
+        Self { parts, width, values: vec![B::splat(0.0); rows * width] }
     }
 
     /// Computes the coefficients of one lane.
     #[inline(always)]
     fn fill(&mut self, lane: usize, method: &ExponentialTableau, lambda: &[f64], h: f64) {
-        for (i, &rate) in lambda.iter().step_by(self.alike).enumerate() {
+        for (i, &rate) in lambda.iter().step_by(self.parts).enumerate() {
             let values = PhiValues::at(h * rate);
             self.set(lane, i, values.half[0]);
             self.set(lane, self.width + i, values.full[0]);
@@ -383,23 +384,44 @@ impl<B: Bundle> LaneTable<B> {
     #[inline(always)]
     fn combine(
         &self,
-        node: Node,
-        terms: &[ExponentialTerm],
-        row: usize,
+        (node, row, terms): (Node, usize, &[ExponentialTerm]),
         (u, stages): (&[B], &[B]),
         out: &mut [B],
     ) {
         let propagator = if node == Node::Full { self.width } else { 0 };
-        let first = (2 + row) * self.width;
+        let rows = (propagator, (2 + row) * self.width);
+        if self.parts == 2 {
+            self.combine_parts::<2>(rows, terms, (u, stages), out);
+        } else {
+            self.combine_parts::<1>(rows, terms, (u, stages), out);
+        }
+    }
+
+    #[inline(always)]
+    fn combine_parts<const PARTS: usize>(
+        &self,
+        (propagator, first): (usize, usize),
+        terms: &[ExponentialTerm],
+        (u, stages): (&[B], &[B]),
+        out: &mut [B],
+    ) {
         for i in 0..self.width {
-            for part in i * self.alike..(i + 1) * self.alike {
-                let mut sum = self.values[propagator + i] * u[part];
-                for (place, &(stage, _)) in terms.iter().enumerate() {
-                    let c = self.values[first + place * self.width + i];
-                    sum = c.mul_add(stages[stage * u.len() + part], sum);
-                }
-                out[part] = sum;
+            let place = i * PARTS;
+            let (e, u) = (self.values[propagator + i], &u[place..place + PARTS]);
+            let mut sums = [e; PARTS];
+            for part in 0..PARTS {
+                sums[part] = e * u[part];
             }
+            let mut at = first + i;
+            for &(stage, _) in terms {
+                let c = self.values[at];
+                let slope = &stages[stage * out.len() + place..][..PARTS];
+                for part in 0..PARTS {
+                    sums[part] = c.mul_add(slope[part], sums[part]);
+                }
+                at += self.width;
+            }
+            out[place..place + PARTS].copy_from_slice(&sums);
         }
     }
 }

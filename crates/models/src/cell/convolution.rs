@@ -9,11 +9,7 @@ use motiform_dynamics::{Complex, Scalar};
 
 /// `N(u)` of one orbit into `du`, with the coefficients of `(phi_ss^2)_s` and `(phi_s^2)_s`.
 #[inline(always)]
-pub(super) fn in_rows<T: Scalar>(
-    (bending, stretching): (T::Real, Option<T::Real>),
-    u: &[T],
-    du: &mut [T],
-) {
+pub(super) fn in_rows<T: Scalar>((bending, stretching): (T::Real, Option<T::Real>), u: &[T], du: &mut [T]) {
     let modes = u.len() / 2;
     let square = convolve(&Rows::derivative(u, 2), modes, 1.0); // phi_ss^2
     for x in du.iter_mut() {
@@ -111,14 +107,11 @@ pub(super) fn in_blocks<T: Scalar>(
     u: &[T],
     du: &mut [T],
 ) {
-    for x in du.iter_mut() {
-        *x = x.zero();
-    }
     derivative(u, 2, waves);
-    add_squares::<T, false>(waves, bending, du); // (C), g5: phi_ss^2
+    squares::<T, false>(waves, bending, du); // (C), g5: phi_ss^2
     if let Some(stretching) = stretching {
         derivative(u, 1, waves);
-        add_squares::<T, true>(waves, stretching, du); // (C), g4: phi_s^2
+        squares::<T, true>(waves, stretching, du); // (C), g4: phi_s^2, added
     }
 }
 
@@ -131,10 +124,10 @@ fn derivative<T: Scalar>(u: &[T], power: i32, waves: &mut [Complex<T>]) {
     }
 }
 
-/// `rate_n += factor i n sum_{p+q=n} a_p a_q`; `a_{-p} = conj(a_p)`, or with `ODD` the negative of that.
+/// `rate_n = factor i n sum_{p+q=n} a_p a_q` with `a_{-p} = conj(a_p)`; or with `ODD`, `a_{-p} = -conj(a_p)`, added to the rate.
 #[inline(always)]
-fn add_squares<T: Scalar, const ODD: bool>(a: &[Complex<T>], factor: T::Real, du: &mut [T]) {
-    let modes = du.len() / 2;
+fn squares<T: Scalar, const ODD: bool>(a: &[Complex<T>], factor: T::Real, du: &mut [T]) {
+    let (modes, zero) = (du.len() / 2, a[0].re.zero());
     for first in (1..=modes).step_by(BLOCK) {
         let sums = block::<T, ODD>(a, modes, first);
         for k in 0..BLOCK.min(modes + 1 - first) {
@@ -145,51 +138,59 @@ fn add_squares<T: Scalar, const ODD: bool>(a: &[Complex<T>], factor: T::Real, du
                 sum.re += re * re - im * im;
                 sum.im += re * im * 2.0;
             }
-            du[2 * n - 2] += (sum.im * -(n as f64)).scale(factor);
-            du[2 * n - 1] += (sum.re * n as f64).scale(factor);
+            let rate =
+                if ODD { Complex::new(du[2 * n - 2], du[2 * n - 1]) } else { Complex::new(zero, zero) };
+            du[2 * n - 2] = rate.re + (sum.im * -(n as f64)).scale(factor);
+            du[2 * n - 1] = rate.im + (sum.re * n as f64).scale(factor);
         }
     }
 }
 
-/// Half of `sum_{p+q=n} a_p a_q`, `p != q`, for `n = first ..`, `first` odd: for `p = 1, 2, ..` the term `a_{n-p} a_p` while `p < n - p`,
-/// then `a_{n+p} a_{-p}` while `n + p <= modes` (for a whole block: zeros follow).
+/// Half of `sum_{p+q=n} a_p a_q`, `p != q`, for `n = first ..`, `first` odd: for `p = 1, 2, ..` the term `a_{n-p} a_p`
+/// while `p < n - p`, then `a_{n+p} a_{-p}` while `n + p <= modes` (for the whole block while its first `n` does: zeros
+/// follow).
 #[inline(always)]
 fn block<T: Scalar, const ODD: bool>(a: &[Complex<T>], modes: usize, first: usize) -> [Complex<T>; BLOCK] {
     let zero = a[0].re.zero();
     let mut sums = [Complex::new(zero, zero); BLOCK];
     let (below, above) = ((first - 1) / 2, modes - first);
-    for p in 1..=below.min(above) {
-        add::<T, BLOCK>(&mut sums, 0, &a[first - p - 1..], a[p - 1]);
-        add_conjugate::<T, ODD>(&mut sums, &a[first + p - 1..], a[p - 1]);
+    let both = below.min(above);
+    let before = a[first - 1 - both..first + BLOCK - 2].windows(BLOCK).rev();
+    let behind = a[first..first + both + BLOCK - 1].windows(BLOCK);
+    for ((&z, p), q) in a[..both].iter().zip(before).zip(behind) {
+        add(&mut sums, 0, p, z);
+        add(&mut sums, 0, q, conjugate::<T, ODD>(z));
     }
-    for p in above + 1..=below {
-        add::<T, BLOCK>(&mut sums, 0, &a[first - p - 1..], a[p - 1]);
+    if below > above {
+        let before = a[first - 1 - below..first + BLOCK - 2 - above].windows(BLOCK).rev();
+        for (&z, p) in a[above..below].iter().zip(before) {
+            add(&mut sums, 0, p, z);
+        }
     }
     // The upper half of the block has one more term of the first kind.
-    add::<T, BLOCK>(&mut sums, BLOCK / 2, &a[below + 1..], a[below]);
-    for p in below + 1..=above {
-        add_conjugate::<T, ODD>(&mut sums, &a[first + p - 1..], a[p - 1]);
+    add(&mut sums, BLOCK / 2, &a[below + 1..], a[below]);
+    if above > below {
+        let behind = a[first + below..first + above + BLOCK - 1].windows(BLOCK);
+        for (&z, q) in a[below..above].iter().zip(behind) {
+            add(&mut sums, 0, q, conjugate::<T, ODD>(z));
+        }
     }
     sums
 }
 
 /// `sums_k += q_k z` from `k = from` on; `q` starts there.
 #[inline(always)]
-fn add<T: Scalar, const K: usize>(sums: &mut [Complex<T>; K], from: usize, q: &[Complex<T>], z: Complex<T>) {
-    let q = &q[..K - from];
-    for k in from..K {
+fn add<T: Scalar>(sums: &mut [Complex<T>; BLOCK], from: usize, q: &[Complex<T>], z: Complex<T>) {
+    let q = &q[..BLOCK - from];
+    for k in from..BLOCK {
         let (x, q) = (sums[k], q[k - from]);
         sums[k].re = x.re.add_difference((q.re, z.re), (q.im, z.im));
         sums[k].im = x.im.add_sum((q.re, z.im), (q.im, z.re));
     }
 }
 
-/// `sums_k += q_k conj(z)`, or with `ODD` the negative of that.
+/// `a_{-p}` for `z = a_p`.
 #[inline(always)]
-fn add_conjugate<T: Scalar, const ODD: bool>(
-    sums: &mut [Complex<T>; BLOCK],
-    q: &[Complex<T>],
-    z: Complex<T>,
-) {
-    add(sums, 0, q, if ODD { -z.conj() } else { z.conj() });
+fn conjugate<T: Scalar, const ODD: bool>(z: Complex<T>) -> Complex<T> {
+    if ODD { -z.conj() } else { z.conj() }
 }

@@ -148,7 +148,7 @@ impl<B: Bundle> StiffLanes<B> for CellLanes<B> {
 impl StiffInLanes for CellField<f64> {
     type Lanes<B: Bundle> = CellLanes<B>;
 
-    const ALIKE: usize = 2;
+    const COMPLEX: bool = true;
 
     fn lanes<B: Bundle>(&self) -> CellLanes<B> {
         let zero = B::splat(0.0);
