@@ -1,5 +1,7 @@
 //! Cells in lanes: the ends are those of single orbits, for every instruction set and number of threads.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::ensemble::{StiffEnd, StiffMember, StiffPropagation, propagate_stiff};
 use motiform_dynamics::simd::{Arithmetic, InstructionSet};
@@ -19,7 +21,8 @@ fn members(count: usize, modes: usize, span: impl Fn(usize) -> f64) -> Vec<Stiff
         let g4 = if i % 3 == 1 { 0.3 } else { 0.0 };
         let length = 19.0 + 4.0 * (i as f64 * 0.37).fract();
         let size = 1.0 + 0.1 * (i as f64).sin();
-        let start = (0..2 * modes).map(|j| 0.1 * size * (1.0 + 3.0 * j as f64).cos() / (1 << (j / 2)) as f64);
+        let start =
+            (0..2 * modes).map(|j| 0.1 * size * (1.0 + 3.0 * j as f64).cos() * (-((j / 2) as f64)).exp2());
         let field = CellField::new(&CellParameters { length, g4, ..CellParameters::default() }, modes);
         StiffMember { field, start: start.collect(), t_end: span(i) }
     };
