@@ -95,6 +95,18 @@ impl<B: Bundle> Controller<B> {
         self.rejected &= !mask;
     }
 
+    /// The squared error of the last accepted step.
+    #[inline(always)]
+    pub(crate) fn previous(&self) -> B {
+        self.previous
+    }
+
+    /// Goes on in one lane from an earlier [`Controller::previous`].
+    #[inline(always)]
+    pub(crate) fn remember(&mut self, lane: usize, previous: f64) {
+        self.previous = self.previous.with_lane(lane, previous);
+    }
+
     /// Judges steps by their squared error norms.
     #[inline(always)]
     pub(crate) fn judge(&mut self, error: B) -> Judgement<B> {

@@ -55,6 +55,11 @@ pub enum Outline {
 /// a `Box<dyn Model>`; kernels use the concrete type. [`Semilinear`] says which part of the flow is stiff, for the
 /// exponential steppers (a model without one says `Lambda = 0`).
 pub trait Model: Equivariant {
+    /// The model itself, where there are kernels made for its type.
+    fn as_any(&self) -> Option<&dyn std::any::Any> {
+        None
+    }
+
     /// The numbers that people type and read for the shape, in file order.
     fn coordinates(&self) -> &[Coordinate];
 

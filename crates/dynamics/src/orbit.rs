@@ -1,10 +1,11 @@
 //! One orbit, step by step: the loop belongs to the caller.
 
 use crate::control::{Controller, Tolerance};
+use crate::ensemble::Pace;
 pub use crate::interpolant::DenseStep;
 use crate::interpolant::{Ends, Interpolant};
-use crate::steppers::Tableau;
 use crate::steppers::runge_kutta::{self, Slopes, Step};
+use crate::steppers::{DOP853, Tableau};
 use crate::{Bundle, Error, Integration, Obstacle, StepControl, VectorField};
 
 /// An initial-value problem in progress. [`Orbit::advance`] takes one accepted step and allocates nothing.
@@ -143,6 +144,26 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
             StepControl::Fixed { step } => step,
             StepControl::Adaptive { rtol, atol } => orbit.first_step(Tolerance { rtol, atol }),
         };
+        Ok(orbit)
+    }
+
+    /// An orbit by DOP853 that goes on from `u` at time `t` at the pace of an earlier stretch, or begins there: what a lane
+    /// of an ensemble could not finish.
+    ///
+    /// # Errors
+    /// As [`Orbit::new`].
+    pub fn resume(
+        field: &'f F,
+        control: StepControl,
+        t: f64,
+        u: &[f64],
+        pace: Option<Pace>,
+    ) -> Result<Self, Error> {
+        let mut orbit = Self::new(field, &DOP853, control, t, u)?;
+        if let Some(pace) = pace {
+            orbit.h = pace.h;
+            orbit.controller.remember(0, pace.previous);
+        }
         Ok(orbit)
     }
 

@@ -42,7 +42,7 @@ pub struct Crossing<'u> {
 }
 
 /// How many pieces of a step are looked at for sign changes. Two crossings within one piece are missed.
-const PIECES: usize = 8;
+pub const PIECES: usize = 8;
 
 /// Follows the signs of one section along an orbit.
 #[derive(Clone, Debug)]
@@ -84,7 +84,7 @@ impl Watcher {
                 };
                 if wanted {
                     let g = |t| value_in(section, step, t, state);
-                    found(bisect(t_last.max(start), t, value_last, g), rising);
+                    found(zero_between((t_last.max(start), value_last), (t, value), g), rising);
                 }
             }
             self.last = Some((t, value));
@@ -106,15 +106,34 @@ pub(crate) fn polish<O: Integration + ?Sized>(
     state: &mut [f64],
 ) -> f64 {
     let step = orbit.dense();
-    let (start, end) = step.span();
+    let span = step.span();
+    let slope = slope_at(span, guess, |t| value_in(section, &step, t, state));
+    let to = |t: f64, state: &mut [f64]| {
+        orbit.step_to(t, state);
+        (section.g)(t, state)
+    };
+    polished(span, guess, slope, to, state)
+}
+
+/// The slope of `g` near `guess`, from the interpolant of a step.
+pub fn slope_at((start, end): (f64, f64), guess: f64, mut g: impl FnMut(f64) -> f64) -> f64 {
     let delta = 1e-4 * (end - start);
     let (before, after) = ((guess - delta).max(start), (guess + delta).min(end));
-    let rise = value_in(section, &step, after, state) - value_in(section, &step, before, state);
-    let slope = rise / (after - before);
+    (g(after) - g(before)) / (after - before)
+}
+
+/// The zero of `g` near `guess` by Newton's method with a fixed slope; `to` makes a true step to a time, writes the state
+/// there and says what `g` is.
+pub fn polished(
+    (start, end): (f64, f64),
+    guess: f64,
+    slope: f64,
+    mut to: impl FnMut(f64, &mut [f64]) -> f64,
+    state: &mut [f64],
+) -> f64 {
     let mut t = guess;
     for _ in 0..4 {
-        orbit.step_to(t, state);
-        let next = t - (section.g)(t, state) / slope;
+        let next = t - to(t, state) / slope;
         if !next.is_finite() || next < start || next > end {
             break; // a grazing crossing: the interpolant's time is the best there is
         }
@@ -124,26 +143,45 @@ pub(crate) fn polish<O: Integration + ?Sized>(
             break;
         }
     }
-    orbit.step_to(t, state);
+    to(t, state);
     t
 }
 
-/// The zero of `g` between `left` and `right`, where `g` changes from the sign of `value_left` to the other: bisection
-/// to the last bit (an interpolant costs next to nothing, and a crossing is polished afterwards).
-fn bisect(mut left: f64, mut right: f64, value_left: f64, mut g: impl FnMut(f64) -> f64) -> f64 {
-    loop {
+/// The zero of `g` between `left` and `right`, where `g` changes from the sign of `value_left` to that of `value_right`, to
+/// the last bits: regula falsi in the Illinois form, bisection where that is slow.
+///
+/// Source: Dowell and Jarratt (1971), BIT 11, 168.
+pub fn zero_between(
+    (mut left, mut value_left): (f64, f64),
+    (mut right, mut value_right): (f64, f64),
+    mut g: impl FnMut(f64) -> f64,
+) -> f64 {
+    let (negative, resolution) = (value_left < 0.0, 2.0 * f64::EPSILON * right.abs().max(left.abs()));
+    let mut kept_left = 0;
+    for round in 0..80 {
         let middle = 0.5 * (left + right);
-        if !(middle > left && middle < right) {
-            return right;
+        if right - left <= resolution || !(middle > left && middle < right) {
+            break;
         }
-        let value = g(middle);
+        let secant = right - value_right * (right - left) / (value_right - value_left);
+        let t = if round % 4 == 3 || !(secant > left && secant < right) { middle } else { secant };
+        let value = g(t);
         if value == 0.0 {
-            return middle;
+            return t;
         }
-        if (value < 0.0) == (value_left < 0.0) {
-            left = middle;
+        if (value < 0.0) == negative {
+            (left, value_left) = (t, value);
+            kept_left = kept_left.min(0) - 1;
         } else {
-            right = middle;
+            (right, value_right) = (t, value);
+            kept_left = kept_left.max(0) + 1;
+        }
+        // The end that stays twice is given half its weight.
+        match kept_left {
+            2.. => value_left *= 0.5,
+            ..=-2 => value_right *= 0.5,
+            _ => {}
         }
     }
+    right
 }

@@ -10,15 +10,24 @@ use serde_json::{Value, json};
 use std::time::Instant;
 
 type Field = FourierField<f64, { terms::PAPER }>;
-type Failure = Box<dyn std::error::Error>;
+pub type Failure = Box<dyn std::error::Error>;
 
 /// The members that all programs compute.
 pub fn members(count: usize, t_end: f64) -> Vec<Member<Field, 6>> {
+    members_between(count, t_end, (0.45, 0.65)).into_iter().map(|(_, member)| member).collect()
+}
+
+/// The same with other ends of kappa2, and with their parameters.
+pub fn members_between(
+    count: usize,
+    t_end: f64,
+    (low, high): (f64, f64),
+) -> Vec<(TensorParameters, Member<Field, 6>)> {
     let base = [0.5, 0.1, 0.1, -0.2, 0.05, 0.1];
     let member = |i: usize| {
         let p = TensorParameters {
             gamma: 1.0,
-            kappa2: 0.45 + 0.2 * i as f64 / (count - 1).max(1) as f64,
+            kappa2: low + (high - low) * i as f64 / (count - 1).max(1) as f64,
             kappa3: 0.1,
             a1: -1.0,
             b1: -0.5,
@@ -31,7 +40,7 @@ pub fn members(count: usize, t_end: f64) -> Vec<Member<Field, 6>> {
         let start = std::array::from_fn(|j| {
             base[j] * (1.0 + 0.1 * (1.0 + i as f64 * 0.7 + j as f64 * 1.3).sin())
         });
-        Member { field, start, t_end }
+        (p, Member { field, start, t_end })
     };
     (0..count).map(member).collect()
 }

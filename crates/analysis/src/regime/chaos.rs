@@ -22,7 +22,12 @@ pub(super) fn exponent<B: Equivariant + ?Sized>(
     settings: &Settings,
     stop: &mut dyn Sink,
 ) -> Result<Lyapunov> {
-    let request = LyapunovSettings {
+    lyapunov(body, shape, &exponent_settings(settings, span), stop)
+}
+
+/// The settings of that run.
+pub(super) fn exponent_settings(settings: &Settings, span: f64) -> LyapunovSettings {
+    LyapunovSettings {
         count: 1,
         method: settings.method,
         control: settings.control,
@@ -30,8 +35,7 @@ pub(super) fn exponent<B: Equivariant + ?Sized>(
         span,
         escape_norm: settings.escape_norm,
         max_steps: settings.max_steps,
-    };
-    lyapunov(body, shape, &request, stop)
+    }
 }
 
 /// What the returns of a look say about chaos: witnesses beside the exponent.

@@ -17,8 +17,8 @@ use super::verdict::{Attractor, Regime, Verdict};
 use super::{chaos, words};
 use crate::equilibrium::RelativeEquilibrium;
 use crate::linear::norm;
-use crate::{Estimate, Result};
-use motiform_dynamics::{Equivariant, Integration, Outcome, Sink};
+use crate::{Estimate, Lyapunov, Result};
+use motiform_dynamics::{Equivariant, Outcome, Sink};
 
 /// Classifies the motion that starts from `start`; `None` if `stop` broke off.
 ///
@@ -37,52 +37,52 @@ pub fn classify<B: Equivariant + ?Sized>(
     settings: &Settings,
     stop: &mut dyn Sink,
 ) -> Result<Option<Verdict>> {
-    let mut search = Search {
-        body,
-        settings,
-        stop,
-        time: 0.0,
-        fastest: 0.0,
-        largest: norm(start),
-        rests: Vec::new(),
-        parted: Vec::new(),
-        missing: "no motion had established itself".to_owned(),
-    };
     let mut orbit = settings.method.shape_orbit(body, settings.control, 0.0, start)?;
-    let mut span = settings.first_look.min(settings.budget);
-    let mut first = true;
-    while search.time < settings.budget {
-        match search.look(orbit.as_mut(), span, first)? {
-            Step::Decided(verdict) => return Ok(Some(*verdict)),
-            Step::Interrupted => return Ok(None),
-            Step::Open => {}
-        }
-        first = false;
-        span = (2.0 * span).min((settings.budget - search.time).max(settings.first_look));
+    let (mut search, mut ask) = Search::new(settings, start);
+    loop {
+        ask = match ask {
+            Ask::Look(span) => {
+                let request = settings.request(orbit.t() + span, body.dim());
+                let look = Look::take(body, orbit.as_mut(), span, &request, stop)?;
+                search.looked(body, look)?
+            }
+            Ask::Exponent(span) => {
+                let run = chaos::exponent(body, orbit.state(), span, settings, stop)?;
+                orbit.restart(&run.shape);
+                search.measured(body, run)?
+            }
+            Ask::Nothing(verdict) => return Ok(verdict.map(|verdict| *verdict)),
+        };
     }
-    let why = format!("{} within the budget of {:.0}", search.missing, settings.budget);
-    let mut verdict = Verdict::new(Regime::Undetermined, Attractor::Unknown, why, search.time);
-    words::along(&mut verdict, body, orbit.state(), span.min(settings.first_look), settings)?;
-    Ok(Some(verdict))
 }
 
-/// What a look led to.
-enum Step {
-    Decided(Box<Verdict>),
-    Open,
-    Interrupted,
+/// What a search wants to see next.
+#[derive(Debug)]
+pub(super) enum Ask {
+    /// The orbit, for this long, from where it is.
+    Look(f64),
+    /// The largest exponent over this time, from where the orbit is, which goes on from where that run ends.
+    Exponent(f64),
+    /// Nothing: it has decided, or was interrupted.
+    Nothing(Option<Box<Verdict>>),
 }
 
-impl From<Verdict> for Step {
+impl From<Verdict> for Ask {
     fn from(verdict: Verdict) -> Self {
-        Self::Decided(Box::new(verdict))
+        Self::Nothing(Some(Box::new(verdict)))
     }
 }
 
-struct Search<'s, B: ?Sized> {
-    body: &'s B,
-    settings: &'s Settings,
-    stop: &'s mut dyn Sink,
+/// The decision on one motion, under way. It asks for observations and is told them: who makes them, one orbit or a lane of
+/// many, makes no difference to it.
+#[derive(Debug)]
+pub(super) struct Search {
+    settings: Settings,
+    /// Length of the look under way, and whether it is the first.
+    span: f64,
+    first: bool,
+    /// Where the orbit was last seen.
+    shape: Vec<f64>,
     /// Model time spent.
     time: f64,
     /// Fastest change of the reduced shape so far.
@@ -95,38 +95,73 @@ struct Search<'s, B: ?Sized> {
     parted: Vec<Estimate>,
     /// What kept the last look from deciding.
     missing: String,
+    /// What the next observation is for.
+    pending: Pending,
 }
 
-impl<B: Equivariant + ?Sized> Search<'_, B> {
-    /// One look at the orbit, and the questions in their order.
-    fn look(&mut self, orbit: &mut dyn Integration, span: f64, first: bool) -> Result<Step> {
-        let request = self.settings.request(orbit.t() + span, self.body.dim());
-        let mut look = Look::take(self.body, orbit, span, &request, self.stop)?;
+/// What was asked for.
+#[derive(Debug)]
+enum Pending {
+    /// The next look.
+    Look,
+    /// Whether the orbit comes closer to the equilibrium beside it; the look before.
+    Approach { found: Box<RelativeEquilibrium>, before: f64, reached: f64, size: f64, look: Box<Look> },
+    /// An exponent; the look before.
+    Exponent(Box<Look>),
+}
+
+impl Search {
+    /// A search that begins at `start`.
+    pub(super) fn new(settings: &Settings, start: &[f64]) -> (Self, Ask) {
+        let mut search = Self {
+            settings: *settings,
+            span: settings.first_look.min(settings.budget),
+            first: true,
+            shape: start.to_vec(),
+            time: 0.0,
+            fastest: 0.0,
+            largest: norm(start),
+            rests: Vec::new(),
+            parted: Vec::new(),
+            missing: "no motion had established itself".to_owned(),
+            pending: Pending::Look,
+        };
+        let ask = search.next();
+        (search, ask)
+    }
+
+    /// Asks for the next look, of length `span`.
+    fn next(&mut self) -> Ask {
+        self.pending = Pending::Look;
+        Ask::Look(self.span)
+    }
+
+    /// Takes in a look.
+    pub(super) fn looked<B: Equivariant + ?Sized>(&mut self, body: &B, look: Look) -> Result<Ask> {
         if let Some(outcome) = ended(&look.outcome) {
             return Ok(self.ended(&outcome, look.start));
         }
         self.time += look.end - look.start;
-        if let Some(step) = self.equilibrium(orbit, &look)? {
-            return Ok(step);
+        self.shape.clone_from(&look.last);
+        match std::mem::replace(&mut self.pending, Pending::Look) {
+            Pending::Approach { found, before, reached, size, look } => {
+                let after = found.distance(body, &self.shape);
+                if after > reached && after > 0.7 * before {
+                    "the orbit did not come closer to the equilibrium beside it"
+                        .clone_into(&mut self.missing);
+                    return self.recurs(body, *look);
+                }
+                Ok(words::equilibrium(body, &found, after / size, &self.settings, self.time).into())
+            }
+            _ => self.rests(body, look),
         }
-        self.rests.append(&mut look.rests);
-        if let Some(cycle) = cycle(self.body, &self.rests, self.settings) {
-            return Ok(words::rectangular(self.body, &cycle, orbit.state(), self.settings, self.time)?.into());
-        }
-        if let Some((found, recurrence)) = periodic(self.body, &look, self.settings) {
-            return Ok(words::periodic(self.body, &found, &recurrence, self.settings, self.time)?.into());
-        }
-        if first {
-            return Ok(Step::Open);
-        }
-        self.exponent(orbit, &look, span)
     }
 
     /// The verdict, or the interruption, that a run ended with; the run's own clock showed `start` at its start.
-    fn ended(&mut self, outcome: &Outcome, start: f64) -> Step {
+    fn ended(&mut self, outcome: &Outcome, start: f64) -> Ask {
         let before = self.time;
         match *outcome {
-            Outcome::Interrupted { .. } => Step::Interrupted,
+            Outcome::Interrupted { .. } => Ask::Nothing(None),
             Outcome::Escaped { t, singular, t_last, .. } => {
                 words::blow_up(singular, before + t - start, before + t_last - start).into()
             }
@@ -139,77 +174,102 @@ impl<B: Equivariant + ?Sized> Search<'_, B> {
     }
 
     /// Is the orbit about to reach a stable relative equilibrium?
-    fn equilibrium(&mut self, orbit: &mut dyn Integration, look: &Look) -> Result<Option<Step>> {
+    fn rests<B: Equivariant + ?Sized>(&mut self, body: &B, look: Look) -> Result<Ask> {
         self.fastest = self.fastest.max(look.fastest);
         self.largest = self.largest.max(look.sizes.1);
         if look.last_speed > 0.05 * self.fastest {
-            return Ok(None);
+            return self.recurs(body, look);
         }
-        let Some(found) = RelativeEquilibrium::find(self.body, orbit.state()) else {
+        let Some(found) = RelativeEquilibrium::find(body, &self.shape) else {
             "no equilibrium was found where the orbit rests".clone_into(&mut self.missing);
-            return Ok(None);
+            return self.recurs(body, look);
         };
         let size = norm(&found.shape).max(self.largest);
-        let before = found.distance(self.body, orbit.state());
+        let before = found.distance(body, &self.shape);
         if found.growth() > -found.resolution() {
             self.missing =
                 format!("the orbit rests at an unstable shape (growth rate {:.2e})", found.growth());
-            return Ok(None);
+            return self.recurs(body, look);
         }
         if before > CLOSE * size {
-            self.missing = "the orbit was still on its way to an equilibrium".to_owned();
-            return Ok(None);
+            "the orbit was still on its way to an equilibrium".clone_into(&mut self.missing);
+            return self.recurs(body, look);
         }
-        let mut after = before;
         let reached = (self.settings.hovering() * size).max(100.0 * self.settings.atol());
         if before > reached {
             let wait = (-1.0 / found.growth()).min(self.settings.budget);
-            let request = self.settings.request(orbit.t() + wait, self.body.dim());
-            let look = Look::take(self.body, orbit, wait, &request, self.stop)?;
-            if let Some(outcome) = ended(&look.outcome) {
-                return Ok(Some(self.ended(&outcome, look.start)));
-            }
-            self.time += look.end - look.start;
-            after = found.distance(self.body, orbit.state());
+            let (found, look) = (Box::new(found), Box::new(look));
+            self.pending = Pending::Approach { found, before, reached, size, look };
+            return Ok(Ask::Look(wait));
         }
-        if after > reached && after > 0.7 * before {
-            self.missing = "the orbit did not come closer to the equilibrium beside it".to_owned();
-            return Ok(None);
-        }
-        Ok(Some(words::equilibrium(self.body, &found, after / size, self.settings, self.time).into()))
+        Ok(words::equilibrium(body, &found, before / size, &self.settings, self.time).into())
     }
 
-    /// Do neighbours part? Runs the tangent flow on, as long again as the look.
-    fn exponent(&mut self, orbit: &mut dyn Integration, look: &Look, span: f64) -> Result<Step> {
-        let run = chaos::exponent(self.body, orbit.state(), span, self.settings, self.stop)?;
+    /// Does it rest near saddles, does its shape come back?
+    fn recurs<B: Equivariant + ?Sized>(&mut self, body: &B, mut look: Look) -> Result<Ask> {
+        self.rests.append(&mut look.rests);
+        if let Some(cycle) = cycle(body, &self.rests, &self.settings) {
+            return Ok(words::rectangular(body, &cycle, &self.shape, &self.settings, self.time)?.into());
+        }
+        if let Some((found, recurrence)) = periodic(body, &look, &self.settings) {
+            return Ok(words::periodic(body, &found, &recurrence, &self.settings, self.time)?.into());
+        }
+        if self.first {
+            return self.again(body);
+        }
+        self.pending = Pending::Exponent(Box::new(look));
+        Ok(Ask::Exponent(self.span))
+    }
+
+    /// Takes in an exponent: do neighbours part?
+    pub(super) fn measured<B: Equivariant + ?Sized>(&mut self, body: &B, run: Lyapunov) -> Result<Ask> {
         if let Some(outcome) = ended(&run.outcome) {
             return Ok(self.ended(&outcome, 0.0));
         }
+        let Pending::Exponent(look) = std::mem::replace(&mut self.pending, Pending::Look) else {
+            return self.again(body); // nothing was asked
+        };
         self.time += run.time + run.transient;
-        orbit.restart(&run.shape);
+        self.shape.clone_from(&run.shape);
         let Some(run) = run.awake(RESTS) else {
             // At a saddle neighbours part at its own rate: that is no chaos, however long it lasts.
             "the orbit rested at a saddle while the exponent was measured".clone_into(&mut self.missing);
-            return Ok(Step::Open);
+            return self.again(body);
         };
-        let witness = chaos::Witness::of(look);
+        let witness = chaos::Witness::of(&look);
         match chaos::parts(&run) {
             Some(exponent) => self.parted.push(exponent),
             None => self.parted.clear(),
         }
-        if let Some(verdict) = chaos::chaotic(&self.parted, &run, &witness, self.time) {
-            return Ok(self.described(verdict, orbit, look)?.into());
-        }
-        if let Some(verdict) = chaos::torus(&run, &witness, self.time) {
-            return Ok(self.described(verdict, orbit, look)?.into());
+        let decided = chaos::chaotic(&self.parted, &run, &witness, self.time)
+            .or_else(|| chaos::torus(&run, &witness, self.time));
+        if let Some(verdict) = decided {
+            return Ok(self.described(verdict, body, look.end - look.start)?.into());
         }
         self.missing = chaos::missing(&run, &witness);
-        Ok(Step::Open)
+        self.again(body)
     }
 
-    fn described(&self, mut verdict: Verdict, orbit: &dyn Integration, look: &Look) -> Result<Verdict> {
-        let span = (look.end - look.start).min(self.settings.first_look);
-        words::along(&mut verdict, self.body, orbit.state(), span, self.settings)?;
+    /// Twice as long, or the end of the budget.
+    fn again<B: Equivariant + ?Sized>(&mut self, body: &B) -> Result<Ask> {
+        self.first = false;
+        self.span = (2.0 * self.span).min((self.settings.budget - self.time).max(self.settings.first_look));
+        if self.time < self.settings.budget {
+            return Ok(self.next());
+        }
+        let why = format!("{} within the budget of {:.0}", self.missing, self.settings.budget);
+        let verdict = Verdict::new(Regime::Undetermined, Attractor::Unknown, why, self.time);
+        Ok(self.described(verdict, body, self.span)?.into())
+    }
+
+    fn described<B: Equivariant + ?Sized>(
+        &self,
+        mut verdict: Verdict,
+        body: &B,
+        span: f64,
+    ) -> Result<Verdict> {
+        let span = span.min(self.settings.first_look);
+        words::along(&mut verdict, body, &self.shape, span, &self.settings)?;
         Ok(verdict)
     }
 }

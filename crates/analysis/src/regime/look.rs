@@ -42,6 +42,8 @@ pub(super) struct Look {
     pub(super) sizes: (f64, f64),
     /// The shape where the reduced shape changed most slowly.
     pub(super) slowest: Vec<f64>,
+    /// The shape at its end.
+    pub(super) last: Vec<f64>,
 }
 
 /// A reduced shape that changes slower than this, against its fastest, rests.
@@ -63,35 +65,10 @@ impl Look {
         let rate = |_t: f64, u: &[f64]| gauge_rate(body, u);
         let sections = [Section { g: &rate, direction: Direction::Either, terminal: false }];
         let request = Request { t_end: start + time, sections: &sections, ..*request };
-        let size = norm(orbit.state());
-        let mut watcher = Watcher {
-            body,
-            extremes: Vec::new(),
-            rests: Vec::new(),
-            rest: None,
-            fastest: 0.0,
-            last_speed: 0.0,
-            sizes: (size, size),
-            slowest: (f64::INFINITY, orbit.state().to_vec()),
-            stop,
-        };
+        let mut watcher = Watcher { body, seen: Seen::new(orbit.state()), stop };
         let outcome = drive(orbit, &request, &mut watcher)?;
-        let Watcher { extremes, rests, fastest, last_speed, sizes, slowest, .. } = watcher;
-        let (low, high) = extremes
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (x.size.min(low), x.size.max(high)));
-        let flutter = 1e-7 * (high - low) + 1e-12 * sizes.1;
-        Ok(Self {
-            start,
-            end: orbit.t(),
-            outcome,
-            extremes: significant(extremes, flutter),
-            rests,
-            fastest,
-            last_speed,
-            sizes,
-            slowest: slowest.1,
-        })
+        let Watcher { seen, .. } = watcher;
+        Ok(seen.look((start, orbit.t()), outcome, orbit.state().to_vec()))
     }
 
     /// The minima of the size.
@@ -127,44 +104,54 @@ fn significant(extremes: Vec<Extreme>, flutter: f64) -> Vec<Extreme> {
     kept
 }
 
-struct Watcher<'w, B: ?Sized> {
-    body: &'w B,
+/// What has been seen so far.
+#[derive(Clone, Debug)]
+pub(super) struct Seen {
     extremes: Vec<Extreme>,
     rests: Vec<Rest>,
     /// The rest under way; its start is not known where the look began in it.
     rest: Option<(Option<f64>, Vec<f64>, f64)>,
-    fastest: f64,
-    last_speed: f64,
-    sizes: (f64, f64),
-    slowest: (f64, Vec<f64>),
-    stop: &'w mut dyn Sink,
+    /// Reduced speed: fastest so far, and now.
+    pub(super) fastest: f64,
+    pub(super) last_speed: f64,
+    /// Smallest and largest `|u|`.
+    pub(super) sizes: (f64, f64),
+    /// The slowest reduced speed, and the shape there.
+    pub(super) slowest: (f64, Vec<f64>),
 }
 
-impl<B: Equivariant + ?Sized> Sink for Watcher<'_, B> {
-    fn crossing(&mut self, crossing: &Crossing<'_>) {
+impl Seen {
+    /// Nothing but the start.
+    pub(super) fn new(shape: &[f64]) -> Self {
+        let size = norm(shape);
+        Self {
+            extremes: Vec::new(),
+            rests: Vec::new(),
+            rest: None,
+            fastest: 0.0,
+            last_speed: 0.0,
+            sizes: (size, size),
+            slowest: (f64::INFINITY, shape.to_vec()),
+        }
+    }
+
+    /// An extreme; the oldest ones are forgotten.
+    pub(super) fn extreme(&mut self, extreme: Extreme) {
         if self.extremes.len() >= 2 * KEPT {
             self.extremes.drain(..KEPT);
         }
-        self.extremes.push(Extreme {
-            t: crossing.t,
-            minimum: crossing.rising,
-            size: gauge(self.body, crossing.state),
-            shape: crossing.state.to_vec(),
-        });
+        self.extremes.push(extreme);
     }
 
-    fn step(&mut self, t: f64, u: &[f64], slope: &[f64]) {
-        let size = norm(u);
-        self.sizes = (self.sizes.0.min(size), self.sizes.1.max(size));
-        let speed = reduced_speed(self.body, u, slope);
-        self.last_speed = speed;
-        if speed < self.slowest.0 {
-            self.slowest.0 = speed;
-            self.slowest.1.copy_from_slice(u);
-        }
-        self.fastest = self.fastest.max(speed);
-        if speed < RESTS * self.fastest {
-            let started = (!self.rests.is_empty() || self.fastest > 0.0).then_some(t);
+    /// Whether a rest is under way.
+    pub(super) fn resting(&self) -> bool {
+        self.rest.is_some()
+    }
+
+    /// The reduced speed at the end of a step, and the fastest so far: begins, follows and ends rests.
+    pub(super) fn rests(&mut self, t: f64, u: &[f64], speed: f64, fastest: f64) {
+        if speed < RESTS * fastest {
+            let started = (!self.rests.is_empty() || fastest > 0.0).then_some(t);
             let rest = self.rest.get_or_insert_with(|| (started, u.to_vec(), speed));
             if speed < rest.2 {
                 rest.1.copy_from_slice(u);
@@ -175,6 +162,58 @@ impl<B: Equivariant + ?Sized> Sink for Watcher<'_, B> {
         {
             self.rests.push(Rest { start, end: t, shape });
         }
+    }
+
+    /// All of it as a look over a span that ended like this, at the shape `last`.
+    pub(super) fn look(self, (start, end): (f64, f64), outcome: Outcome, last: Vec<f64>) -> Look {
+        let (low, high) = self
+            .extremes
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (x.size.min(low), x.size.max(high)));
+        let flutter = 1e-7 * (high - low) + 1e-12 * self.sizes.1;
+        Look {
+            start,
+            end,
+            outcome,
+            extremes: significant(self.extremes, flutter),
+            rests: self.rests,
+            fastest: self.fastest,
+            last_speed: self.last_speed,
+            sizes: self.sizes,
+            slowest: self.slowest.1,
+            last,
+        }
+    }
+}
+
+struct Watcher<'w, B: ?Sized> {
+    body: &'w B,
+    seen: Seen,
+    stop: &'w mut dyn Sink,
+}
+
+impl<B: Equivariant + ?Sized> Sink for Watcher<'_, B> {
+    fn crossing(&mut self, crossing: &Crossing<'_>) {
+        self.seen.extreme(Extreme {
+            t: crossing.t,
+            minimum: crossing.rising,
+            size: gauge(self.body, crossing.state),
+            shape: crossing.state.to_vec(),
+        });
+    }
+
+    fn step(&mut self, t: f64, u: &[f64], slope: &[f64]) {
+        let seen = &mut self.seen;
+        let size = norm(u);
+        seen.sizes = (seen.sizes.0.min(size), seen.sizes.1.max(size));
+        let speed = reduced_speed(self.body, u, slope);
+        seen.last_speed = speed;
+        if speed < seen.slowest.0 {
+            seen.slowest.0 = speed;
+            seen.slowest.1.copy_from_slice(u);
+        }
+        seen.fastest = seen.fastest.max(speed);
+        seen.rests(t, u, speed, seen.fastest);
     }
 
     fn tick(&mut self, t: f64) -> ControlFlow<()> {

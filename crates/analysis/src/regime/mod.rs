@@ -3,6 +3,8 @@
 mod chaos;
 mod classify;
 mod heteroclinic;
+mod lane_look;
+mod lanes;
 mod legs;
 mod look;
 mod motion;
@@ -13,5 +15,6 @@ mod verdict;
 mod words;
 
 pub use classify::classify;
+pub use lanes::{Candidate, classifies_in_lanes, classify_in_lanes};
 pub use settings::Settings;
 pub use verdict::{Attractor, Regime, Spread, Verdict};

@@ -56,6 +56,7 @@ fn study(options: &ScanOptions) -> Result<Study, Error> {
     }
     scan.samples = options.samples.unwrap_or(scan.samples);
     scan.budget = options.budget.unwrap_or(scan.budget);
+    scan.fast |= options.fast;
     study.run.seed = options.seed.unwrap_or(study.run.seed);
     Ok(study)
 }

@@ -1,7 +1,8 @@
 //! Error control in lanes: each lane accepts, repeats and sizes its own steps.
 
-use super::lane::{Entry, Leaving, Members, Stepped, Turn, Why};
+use super::lane::{Entry, Leaving, Members, Pace, Stepped, Turn, Why};
 use crate::control::{Controller, Tolerance, pair_error};
+use crate::scalar::MOST_LANES;
 use crate::steppers::tableau::ErrorEstimate;
 use crate::steppers::unrolled::{LaneStep, Method, StepSlopes};
 use crate::{Bundle, Mask, VectorField as _};
@@ -154,7 +155,8 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
             u[i] = self.u[i].lane(lane);
         }
         let (steps, rejected) = (self.steps.lane(lane) as u64, self.rejected.lane(lane) as u64);
-        Leaving { why, t: self.t.lane(lane), u, h: self.h.lane(lane), steps, rejected }
+        let pace = Pace { h: self.h.lane(lane), previous: self.controller.previous().lane(lane) };
+        Leaving { why, t: self.t.lane(lane), u, pace, steps, rejected }
     }
 
     #[inline(always)]
@@ -182,10 +184,11 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         vacant: Mask,
         slopes: &mut StepSlopes<B, D>,
     ) {
-        let mut entered = Mask::default();
+        let (mut entered, mut paces) = (Mask::default(), [None; MOST_LANES]);
         for lane in vacant.lanes() {
-            let Some(Entry { t, u, t_end }) = members.enter(lane) else { continue };
+            let Some(Entry { t, u, t_end, pace }) = members.enter(lane) else { continue };
             entered |= Mask::only(lane);
+            paces[lane] = pace;
             (self.t, self.t_end) = (self.t.with_lane(lane, t), self.t_end.with_lane(lane, t_end));
             self.place(lane, &u);
         }
@@ -201,5 +204,11 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         let start = (self.t, &self.u[..], &self.slope[..]);
         let h = self.tolerance.first_step(members.field(), M::TABLEAU.order, start, (near, rate));
         self.h = B::select(entered, h, self.h);
+        for lane in entered.lanes() {
+            if let Some(Pace { h, previous }) = paces[lane] {
+                self.h = self.h.with_lane(lane, h);
+                self.controller.remember(lane, previous);
+            }
+        }
     }
 }

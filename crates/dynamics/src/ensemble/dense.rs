@@ -17,9 +17,11 @@ impl<B: Bundle, const D: usize> LaneDense<B, D> {
     /// The interpolant of the step just made by method `M`.
     #[inline(always)]
     pub fn of<M: Method, F: VectorField<B>>(step: &mut Stepped<'_, B, D, F>, field: &F) -> Self {
-        let at = LaneStep { t: step.t_old, h: step.h, u: step.u_old };
+        // As a single orbit has it: what the clock shows, which is the size tried up to rounding.
+        let h = step.t - step.t_old;
+        let at = LaneStep { t: step.t_old, h, u: step.u_old };
         step.slopes.extra::<M, F>(field, &at);
-        let (old, new, h) = (*step.u_old, *step.u, step.h);
+        let (old, new) = (*step.u_old, *step.u);
         let mut terms = [[B::splat(0.0); D]; 7];
         for i in 0..D {
             let (first, last) = (step.slopes.k[0][i], step.slopes.k[step.end][i]);

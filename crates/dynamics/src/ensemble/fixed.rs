@@ -1,6 +1,6 @@
 //! Fixed steps in lanes.
 
-use super::lane::{Entry, Leaving, Members, Stepped, Turn, Why};
+use super::lane::{Entry, Leaving, Members, Pace, Stepped, Turn, Why};
 use crate::orbit::fixed_step;
 use crate::scalar::MOST_LANES;
 use crate::steppers::unrolled::{LaneStep, Method, StepSlopes};
@@ -95,7 +95,14 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
             for i in 0..D {
                 u[i] = self.u[i].lane(lane);
             }
-            let leaving = Leaving { why, t: clock.t, u, h: step, steps: clock.steps, rejected: 0 };
+            let leaving = Leaving {
+                why,
+                t: clock.t,
+                u,
+                pace: Pace { h: step, previous: 0.0 },
+                steps: clock.steps,
+                rejected: 0,
+            };
             match members.leave(lane, &leaving) {
                 Turn::Done => vacant |= Mask::only(lane),
                 Turn::On(t_end) => self.clocks[lane].t_end = t_end,
@@ -199,7 +206,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
     #[inline(always)]
     fn fill<C: Members<B, D>>(&mut self, members: &mut C, vacant: Mask) {
         for lane in vacant.lanes() {
-            let Some(Entry { t, u, t_end }) = members.enter(lane) else { continue };
+            let Some(Entry { t, u, t_end, .. }) = members.enter(lane) else { continue };
             self.clocks[lane] = Clock { t, t_end, origin: (t, 0), steps: 0 };
             self.place(lane, &u);
             self.active |= Mask::only(lane);

@@ -30,7 +30,7 @@ pub trait Members<B: Bundle, const D: usize> {
     /// Lanes that shall leave as [`Why::Called`] for the state they are in: asked after every adaptive step, and after
     /// some tens of fixed ones.
     #[inline(always)]
-    fn outside(&self, _u: &[B; D]) -> Mask {
+    fn outside(&mut self, _u: &[B; D]) -> Mask {
         Mask::default()
     }
 
@@ -47,6 +47,15 @@ pub struct Entry<const D: usize> {
     pub u: [f64; D],
     /// End of the time span.
     pub t_end: f64,
+    /// The pace of an earlier stretch, to go on as if it had not been left; `None` to begin.
+    pub pace: Option<Pace>,
+}
+
+/// What step-size control remembers of an orbit.
+#[derive(Clone, Copy, Debug)]
+pub struct Pace {
+    pub(crate) h: f64,
+    pub(crate) previous: f64,
 }
 
 /// Why a member has come to a stop.
@@ -70,8 +79,8 @@ pub struct Leaving<const D: usize> {
     pub t: f64,
     /// State.
     pub u: [f64; D],
-    /// Size of the next step.
-    pub h: f64,
+    /// Its pace.
+    pub pace: Pace,
     /// Accepted steps so far.
     pub steps: u64,
     /// Rejected steps so far.

@@ -15,6 +15,15 @@ pub trait InLanes: VectorField<f64> + Sync {
     /// The field of a bundle.
     type Field<B: Bundle>: VectorField<B>;
 
+    /// The tangent flow of a bundle, with `K` vectors.
+    type Tangent<B: Bundle, const K: usize>: VectorField<B> + AsMut<Self::Field<B>>;
+
+    /// The tangent flow of a field.
+    fn tangent<B: Bundle, const K: usize>(field: Self::Field<B>) -> Self::Tangent<B, K>;
+
+    /// The infinitesimal rotation of a shape ([`crate::Equivariant::spin`]).
+    fn spin<B: Bundle>(shape: &[B], out: &mut [B]);
+
     /// A bundle with this field in every lane.
     fn bundle<B: Bundle>(&self) -> Self::Field<B>;
 
@@ -169,12 +178,12 @@ impl<B: Bundle, F: InLanes, const D: usize> Members<B, D> for Crew<'_, B, F, D> 
         let member = self.queue.members.get(index)?;
         self.riding[lane] = index;
         member.field.put(lane, &mut self.field);
-        Some(Entry { t: 0.0, u: member.start, t_end: member.t_end })
+        Some(Entry { t: 0.0, u: member.start, t_end: member.t_end, pace: None })
     }
 
     /// Lanes beyond the escape norm.
     #[inline(always)]
-    fn outside(&self, u: &[B; D]) -> Mask {
+    fn outside(&mut self, u: &[B; D]) -> Mask {
         let mut norm = B::splat(0.0);
         for i in 0..D {
             norm = u[i].mul_add(u[i], norm);

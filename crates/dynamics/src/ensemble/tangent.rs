@@ -8,6 +8,12 @@ use crate::{Bundle, Dual, System, VectorField};
 #[derive(Clone, Copy, Debug)]
 pub struct LaneTangent<F, const N: usize, const K: usize>(pub F);
 
+impl<F, const N: usize, const K: usize> AsMut<F> for LaneTangent<F, N, K> {
+    fn as_mut(&mut self) -> &mut F {
+        &mut self.0
+    }
+}
+
 impl<F, const N: usize, const K: usize> System for LaneTangent<F, N, K> {
     fn dim(&self) -> usize {
         N * (1 + K)

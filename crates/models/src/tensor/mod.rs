@@ -132,6 +132,16 @@ impl<T: Scalar<Real = f64>> Shape<T> for Tensor {
     }
 }
 
+/// `-i n z_n`.
+#[inline(always)]
+fn spin<T: Scalar>(shape: &[T], out: &mut [T]) {
+    for mode in 0..fourier::DIM / 2 {
+        let n = (mode + 1) as f64;
+        out[2 * mode] = shape[2 * mode + 1] * n;
+        out[2 * mode + 1] = shape[2 * mode] * -n;
+    }
+}
+
 impl Equivariant for Tensor {
     fn is_symmetric(&self) -> bool {
         true
@@ -154,13 +164,15 @@ impl Equivariant for Tensor {
 
     /// `-i n z_n`.
     fn spin(&self, shape: &[f64], out: &mut [f64]) {
-        for ((z, w), n) in shape.chunks_exact(2).zip(out.chunks_exact_mut(2)).zip(1..) {
-            (w[0], w[1]) = (f64::from(n) * z[1], f64::from(-n) * z[0]);
-        }
+        spin(shape, out);
     }
 }
 
 impl Model for Tensor {
+    fn as_any(&self) -> Option<&dyn std::any::Any> {
+        Some(self)
+    }
+
     fn coordinates(&self) -> &[Coordinate] {
         &COORDINATES
     }

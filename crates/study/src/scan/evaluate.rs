@@ -1,6 +1,6 @@
 //! What is computed for one row.
 
-use super::ScanPlan;
+use super::{ScanPlan, lanes};
 use crate::Error;
 use crate::analyse::{Stop, settings_of};
 use crate::simulate::Monitor;
@@ -20,6 +20,48 @@ pub trait Evaluate: Sync {
         sample: usize,
         stop: &dyn Monitor,
     ) -> Result<Option<Verdict>, Error>;
+
+    /// The verdicts on all rows that `next` gives (cell and sample), on this thread; each is handed to `done` with the row's
+    /// number in that order. Rows may be answered in any order. An implementation may compute many of them together, but
+    /// every verdict must be that of [`Evaluate::evaluate`].
+    fn evaluate_all(
+        &self,
+        plan: &ScanPlan,
+        next: &mut dyn FnMut() -> Option<(usize, usize)>,
+        done: &mut dyn FnMut(usize, Result<Option<Verdict>, Error>),
+        stop: &dyn Monitor,
+    ) {
+        one_by_one(self, plan, next, done, stop);
+    }
+}
+
+/// Each row by itself.
+fn one_by_one<E: Evaluate + ?Sized>(
+    evaluate: &E,
+    plan: &ScanPlan,
+    next: &mut dyn FnMut() -> Option<(usize, usize)>,
+    done: &mut dyn FnMut(usize, Result<Option<Verdict>, Error>),
+    stop: &dyn Monitor,
+) {
+    let mut number = 0;
+    while let Some((cell, sample)) = next() {
+        done(number, evaluate.evaluate(plan, cell, sample, stop));
+        number += 1;
+    }
+}
+
+/// One row through the kernel that all rows of the plan go through: fused arithmetic exists only there.
+fn alone_in_lanes(
+    evaluate: &Classify,
+    plan: &ScanPlan,
+    row: (usize, usize),
+    stop: &dyn Monitor,
+) -> Result<Option<Verdict>, Error> {
+    let (mut row, mut verdict) = (Some(row), Ok(None));
+    let mut next = || row.take();
+    let mut done = |_: usize, found| verdict = found;
+    evaluate.evaluate_all(plan, &mut next, &mut done, stop);
+    verdict
 }
 
 /// Names the motion of each row.
@@ -35,10 +77,26 @@ impl Evaluate for Classify {
         stop: &dyn Monitor,
     ) -> Result<Option<Verdict>, Error> {
         let c = &plan.computation;
+        if c.fast {
+            return alone_in_lanes(self, plan, (cell, sample), stop);
+        }
         let model = plan.model_of(cell)?;
         let start = plan.start(cell, sample, model.as_ref())?;
         let bounds = (c.escape_norm, c.max_steps);
         let settings = settings_of(plan.info()?, plan.method()?, c.control, bounds, c.budget);
         Ok(classify(model.as_ref(), &start, &settings, &mut Stop::new(stop))?)
+    }
+
+    /// In the lanes of vector registers, where the model and the method have such kernels.
+    fn evaluate_all(
+        &self,
+        plan: &ScanPlan,
+        next: &mut dyn FnMut() -> Option<(usize, usize)>,
+        done: &mut dyn FnMut(usize, Result<Option<Verdict>, Error>),
+        stop: &dyn Monitor,
+    ) {
+        if !lanes::classify(self, plan, next, done, stop) {
+            one_by_one(self, plan, next, done, stop);
+        }
     }
 }

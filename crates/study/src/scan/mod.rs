@@ -10,6 +10,7 @@ mod axis;
 mod columns;
 mod evaluate;
 mod folder;
+mod lanes;
 mod merge;
 mod part;
 mod plan;

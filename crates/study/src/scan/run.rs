@@ -8,6 +8,8 @@ use super::{Parts, Row, ScanPlan, Shard};
 use crate::Error;
 use crate::simulate::Monitor;
 use motiform_analysis::regime::{Attractor, Regime, Verdict};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::path::Path;
 use std::sync::Mutex;
@@ -196,31 +198,45 @@ struct Work<'w> {
 }
 
 impl Work<'_> {
-    /// One thread: row after row until none is left, or a stop.
+    /// One thread: rows until none is left, or a stop.
     fn compute(&self) {
-        while !self.stopped() {
-            let Some(job) = held(&self.queue).next() else { return };
-            let Some(row) = self.row(&job) else { return };
-            let count = self.held.fetch_add(1, Ordering::Relaxed) + 1;
-            self.most.fetch_max(count, Ordering::Relaxed);
-            if let Some(rows) = job.done(row) {
-                self.write(job.pending.part, &rows);
+        // The rows under way, by their number on this thread.
+        let jobs = RefCell::new(BTreeMap::new());
+        let mut handed_out = 0;
+        let mut next = || {
+            if self.stopped() {
+                return None;
             }
-            let rows = self.rows.fetch_add(1, Ordering::Relaxed) + 1;
-            self.monitor.progress(rows as f64 / self.total as f64);
-        }
+            let job = held(&self.queue).next()?;
+            let row = (job.cell, job.sample);
+            jobs.borrow_mut().insert(handed_out, job);
+            handed_out += 1;
+            Some(row)
+        };
+        let mut done = |number: usize, verdict| {
+            if let Some(job) = jobs.borrow_mut().remove(&number) {
+                self.done(&job, verdict);
+            }
+        };
+        self.evaluate.evaluate_all(self.plan, &mut next, &mut done, self);
     }
 
-    /// The row of a job, or `None` if it was stopped. What the numerics refuse is a row that says so.
-    fn row(&self, job: &Job) -> Option<Row> {
-        let (cell, sample) = (job.cell, job.sample);
-        let verdict = match self.evaluate.evaluate(self.plan, cell, sample, self) {
-            Ok(verdict) => verdict?,
+    /// Takes in the verdict on a row; nothing, if it was stopped. What the numerics refuse is a row that says so.
+    fn done(&self, job: &Job, verdict: Result<Option<Verdict>, Error>) {
+        let verdict = match verdict {
+            Ok(Some(verdict)) => verdict,
+            Ok(None) => return,
             Err(error) => {
                 Verdict::new(Regime::Undetermined, Attractor::Unknown, format!("refused: {error}"), 0.0)
             }
         };
-        Some(Row::new(cell, sample, verdict))
+        let count = self.held.fetch_add(1, Ordering::Relaxed) + 1;
+        self.most.fetch_max(count, Ordering::Relaxed);
+        if let Some(rows) = job.done(Row::new(job.cell, job.sample, verdict)) {
+            self.write(job.pending.part, &rows);
+        }
+        let rows = self.rows.fetch_add(1, Ordering::Relaxed) + 1;
+        self.monitor.progress(rows as f64 / self.total as f64);
     }
 
     fn write(&self, part: usize, rows: &[Row]) {

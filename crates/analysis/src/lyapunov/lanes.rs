@@ -1,0 +1,191 @@
+//! Exponents of many orbits, in lanes.
+
+use super::protocol::Protocol;
+use super::{Lyapunov, LyapunovSettings, first_state, lyapunov};
+use crate::Result;
+use motiform_dynamics::drive::Sink;
+use motiform_dynamics::ensemble::{Entry, InLanes, Leaving, Members, Turn, Why, run_adaptive};
+use motiform_dynamics::simd::{Arithmetic, LaneKernel, run_lanes};
+use motiform_dynamics::steppers::Method;
+use motiform_dynamics::steppers::unrolled::Dop853;
+use motiform_dynamics::{Bundle, Equivariant, Mask, StepControl};
+use std::ops::ControlFlow;
+
+/// One orbit whose exponents are asked for.
+#[derive(Clone, Debug)]
+pub struct TangentMember<B, F, const N: usize> {
+    /// The body.
+    pub body: B,
+    /// Its field.
+    pub field: F,
+    /// Its shape at the start.
+    pub start: [f64; N],
+    /// The averages asked for.
+    pub settings: LyapunovSettings,
+}
+
+/// Whether exponents with these settings are computed in lanes: DOP853 with error control.
+#[must_use]
+pub fn runs_in_lanes(settings: &LyapunovSettings) -> bool {
+    let Method::Explicit(tableau) = settings.method else { return false };
+    tableau.name == "dop853" && matches!(settings.control, StepControl::Adaptive { .. })
+}
+
+/// The `K` largest exponents of every member, each handed to `done` with its number in the order that `next` gave them:
+/// the same bits as [`mod@super::lyapunov`] gives one by one (reproducible arithmetic). `D` must be `N (1 + K)`, the
+/// members' settings must ask for `K` exponents with the same control, see [`runs_in_lanes`].
+///
+/// A member that escapes or fails is run again alone, which says how it ended. When `stopped` says so, the rest is left.
+pub fn lyapunov_in_lanes<B, F, const N: usize, const K: usize, const D: usize>(
+    control: (f64, f64),
+    arithmetic: Arithmetic,
+    next: &mut dyn FnMut() -> Option<TangentMember<B, F, N>>,
+    done: &mut dyn FnMut(usize, Result<Lyapunov>),
+    stopped: &dyn Fn() -> bool,
+) where
+    B: AsRef<dyn Equivariant>,
+    F: InLanes,
+{
+    run_lanes(arithmetic, Run::<B, F, N, K, D> { control, next, done, stopped });
+}
+
+/// The work of one thread.
+struct Run<'r, B, F, const N: usize, const K: usize, const D: usize> {
+    control: (f64, f64),
+    next: &'r mut dyn FnMut() -> Option<TangentMember<B, F, N>>,
+    done: &'r mut dyn FnMut(usize, Result<Lyapunov>),
+    stopped: &'r dyn Fn() -> bool,
+}
+
+impl<B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, const D: usize> LaneKernel
+    for Run<'_, B, F, N, K, D>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Bundle>(self) {
+        let Some(first) = (self.next)() else { return };
+        let mut crew = Crew::<L, B, F, N, K, D> {
+            field: F::tangent(first.field.bundle()),
+            first: Some(first),
+            count: 0,
+            escape: L::splat(0.0),
+            riding: std::array::from_fn(|_| None),
+            steps: 0,
+            next: self.next,
+            done: self.done,
+            stopped: self.stopped,
+        };
+        run_adaptive::<Dop853, L, D, _>(&mut crew, self.control);
+    }
+}
+
+/// A member in its lane.
+struct Rider<B, F, const N: usize> {
+    number: usize,
+    member: TangentMember<B, F, N>,
+    protocol: Protocol,
+}
+
+/// The members in the lanes of one thread.
+struct Crew<'r, L: Bundle, B, F: InLanes, const N: usize, const K: usize, const D: usize> {
+    field: F::Tangent<L, K>,
+    first: Option<TangentMember<B, F, N>>,
+    count: usize,
+    escape: L,
+    riding: [Option<Rider<B, F, N>>; 16],
+    steps: u32,
+    next: &'r mut dyn FnMut() -> Option<TangentMember<B, F, N>>,
+    done: &'r mut dyn FnMut(usize, Result<Lyapunov>),
+    stopped: &'r dyn Fn() -> bool,
+}
+
+impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, const D: usize>
+    Crew<'_, L, B, F, N, K, D>
+{
+    /// A member that its lane cannot finish, as a single orbit.
+    fn alone(&mut self, rider: &Rider<B, F, N>) {
+        let TangentMember { body, start, settings, .. } = &rider.member;
+        let mut stop = Stop(self.stopped);
+        (self.done)(rider.number, lyapunov(body.as_ref(), start, settings, &mut stop));
+    }
+}
+
+impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, const D: usize>
+    Members<L, D> for Crew<'_, L, B, F, N, K, D>
+{
+    type Field = F::Tangent<L, K>;
+
+    #[inline(always)]
+    fn field(&self) -> &Self::Field {
+        &self.field
+    }
+
+    fn enter(&mut self, lane: usize) -> Option<Entry<D>> {
+        loop {
+            if (self.stopped)() {
+                return None;
+            }
+            let member = self.first.take().or_else(|| (self.next)())?;
+            let number = self.count;
+            self.count += 1;
+            let mut rider = Rider { number, protocol: Protocol::new(&member.settings, N), member };
+            let Some(t_end) = rider.protocol.begin(0.0) else {
+                self.alone(&rider);
+                continue;
+            };
+            rider.member.field.put(lane, self.field.as_mut());
+            let norm = rider.member.settings.escape_norm;
+            self.escape = self.escape.with_lane(lane, norm * norm);
+            let mut u = [0.0; D];
+            u.copy_from_slice(&first_state(&rider.member.start, K));
+            self.riding[lane] = Some(rider);
+            return Some(Entry { t: 0.0, u, t_end, pace: None });
+        }
+    }
+
+    /// Lanes whose shape is beyond the escape norm; all of them, now and then, where a stop was asked for.
+    #[inline(always)]
+    fn outside(&mut self, u: &[L; D]) -> Mask {
+        self.steps = self.steps.wrapping_add(1);
+        if self.steps.is_multiple_of(1024) && (self.stopped)() {
+            return Mask::first(L::LANES);
+        }
+        let mut norm = L::splat(0.0);
+        for i in 0..N {
+            norm += u[i] * u[i];
+        }
+        self.escape.less(norm)
+    }
+
+    fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Turn<D> {
+        let Some(mut rider) = self.riding[lane].take() else { return Turn::Done };
+        if (self.stopped)() {
+            return Turn::Done;
+        }
+        let work = leaving.steps + leaving.rejected;
+        if leaving.why != Why::Arrived || work >= rider.member.settings.max_steps {
+            self.alone(&rider);
+            return Turn::Done;
+        }
+        let mut u = leaving.u;
+        let body = rider.member.body.as_ref();
+        if let Some(t_end) = rider.protocol.stretched(body, leaving.t, &mut u, leaving.steps) {
+            self.riding[lane] = Some(rider);
+            return Turn::Restart(t_end, u);
+        }
+        let outcome = motiform_dynamics::Outcome::Completed { t: leaving.t };
+        let result = rider.protocol.result(body, &u[..N], outcome, leaving.steps);
+        (self.done)(rider.number, result);
+        Turn::Done
+    }
+}
+
+/// Listens to `stopped`.
+struct Stop<'s>(&'s dyn Fn() -> bool);
+
+impl Sink for Stop<'_> {
+    fn tick(&mut self, _t: f64) -> ControlFlow<()> {
+        if (self.0)() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}

@@ -1,0 +1,180 @@
+//! Lyapunov exponents, from the exact tangent flow.
+
+mod lanes;
+mod protocol;
+
+use crate::linear::{basis, norm, orthonormalise};
+use crate::{Estimate, Result, batch_means};
+pub use lanes::{TangentMember, lyapunov_in_lanes, runs_in_lanes};
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::steppers::Method;
+use motiform_dynamics::{Equivariant, Outcome, Request, Sink, StepControl, Tangent, VectorField};
+use protocol::Protocol;
+
+/// How to compute exponents.
+#[derive(Clone, Copy, Debug)]
+pub struct LyapunovSettings {
+    /// How many exponents, from the largest.
+    pub count: usize,
+    /// Stepper of orbit and tangent vectors.
+    pub method: Method,
+    /// Its control.
+    pub control: StepControl,
+    /// Time before the averages begin, in which the orbit reaches its attractor and the vectors their directions.
+    pub transient: f64,
+    /// Time averaged over.
+    pub span: f64,
+    /// A shape beyond this norm has escaped.
+    pub escape_norm: f64,
+    /// Most steps.
+    pub max_steps: u64,
+}
+
+/// Exponents of one orbit. An orbit that did not last has none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lyapunov {
+    /// The exponents, largest first (inverse model time), each with its 95 % error; empty unless the run completed.
+    pub exponents: Vec<Estimate>,
+    /// How many exponents must be zero: the flow's own direction, and the rotations'.
+    pub neutral: usize,
+    /// Growth rates over the intervals of the run: end times, and for each interval one rate per vector.
+    pub history: Vec<(f64, Vec<f64>)>,
+    /// How fast the reduced shape changed at the end of each interval.
+    pub reduced_speeds: Vec<f64>,
+    /// Time averaged over.
+    pub time: f64,
+    /// Time before that.
+    pub transient: f64,
+    /// How the run ended.
+    pub outcome: Outcome,
+    /// The shape at the end.
+    pub shape: Vec<f64>,
+}
+
+impl Lyapunov {
+    /// The exponents that must be zero, as computed: those closest to zero. A self-check of the run.
+    #[must_use]
+    pub fn zeros(&self) -> Vec<Estimate> {
+        let mut all = self.exponents.clone();
+        all.sort_by(|a, b| a.value.abs().total_cmp(&b.value.abs()));
+        all.truncate(self.neutral);
+        all
+    }
+}
+
+impl Lyapunov {
+    /// The same run without the rests it began and ended in: intervals at whose end the reduced shape changed slower than
+    /// `fraction` of its fastest. In a rest at a saddle neighbours part at the saddle's rate; the approach, in which they came
+    /// together, must be averaged over as well. `None` where less than half of the run, or too little for an error, remains.
+    #[must_use]
+    pub fn awake(&self, fraction: f64) -> Option<Self> {
+        let fastest = self.reduced_speeds.iter().copied().fold(0.0, f64::max);
+        let moves = |speed: &f64| *speed >= fraction * fastest;
+        let first = self.reduced_speeds.iter().position(moves)?;
+        let last = self.reduced_speeds.iter().rposition(moves)?;
+        if first == 0 && last + 1 == self.history.len() {
+            return Some(self.clone());
+        }
+        let before = if first == 0 { self.transient } else { self.history[first - 1].0 };
+        let history = self.history[first..=last].to_vec();
+        let time = history.last()?.0 - before;
+        if time < 0.5 * self.time {
+            return None;
+        }
+        let exponents = means(&history, self.exponents.first()?.error.min(1e-12)).ok()?;
+        let reduced_speeds = self.reduced_speeds[first..=last].to_vec();
+        Some(Self { exponents, history, reduced_speeds, time, ..self.clone() })
+    }
+}
+
+/// Largest Lyapunov exponents by QR of the tangent flow.
+///
+/// lambda_i = lim 1/T sum ln R_ii
+///
+/// The vectors are made orthonormal whenever the fastest and the slowest have parted by a factor of about e^8: the interval is
+/// chosen in the transient and kept. Errors are 95 % half widths from batch means (honest for correlated rates), at
+/// least the growth that the steps' own tolerance leaves undetermined.
+///
+/// Source: Benettin, Galgani, Giorgilli, Strelcyn (1980), Meccanica 15, 9.
+///
+/// # Shapes    `start`: n = body.dim(); `settings.count` at most n
+/// # Units     inverse model time
+/// # Errors    what the numerics refuse; a run that escapes is an [`Outcome`] without exponents
+/// # Not       not for noise-driven orbits; corrections of the state between steps (feedback of the cell) are not followed
+/// # Checked by  tests/lyapunov.rs: linear flow (exact), Lorenz-63 (published), coverage of the errors, both models
+pub fn lyapunov<B: Equivariant + ?Sized>(
+    body: &B,
+    start: &[f64],
+    settings: &LyapunovSettings,
+    watch: &mut dyn Sink,
+) -> Result<Lyapunov> {
+    let tangent = Tangent::new(body, settings.count);
+    let mut protocol = Protocol::new(settings, start.len());
+    let state = first_state(start, settings.count);
+    let mut orbit = settings.method.shape_orbit(&tangent, settings.control, 0.0, &state)?;
+    let mut goal = protocol.begin(orbit.t());
+    let mut outcome = Outcome::Completed { t: orbit.t() };
+    while let Some(t_end) = goal {
+        let request = Request {
+            max_steps: settings.max_steps,
+            escape_norm: settings.escape_norm,
+            watched: start.len(),
+            ..Request::until(t_end, start.len())
+        };
+        outcome = drive(orbit.as_mut(), &request, watch)?;
+        if !outcome.is_complete() {
+            break;
+        }
+        let mut state = orbit.state().to_vec();
+        goal = protocol.stretched(body, orbit.t(), &mut state, orbit.counters().steps);
+        orbit.restart(&state);
+    }
+    let steps = orbit.counters().steps;
+    protocol.result(body, &orbit.state()[..start.len()], outcome, steps)
+}
+
+/// A start with `count` orthonormal tangent vectors in general position.
+pub(crate) fn first_state(start: &[f64], count: usize) -> Vec<f64> {
+    let dim = start.len();
+    let mut state = start.to_vec();
+    let mut random = SplitMix(1);
+    state.extend((0..dim * count).map(|_| random.next()));
+    orthonormalise(&mut state[dim..].chunks_exact_mut(dim.max(1)).collect::<Vec<_>>());
+    state
+}
+
+/// How many independent neutral directions the flow has at a shape: `f(u)` and the rotation `Gu`.
+fn neutral_directions<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> usize {
+    let (mut rate, mut spin) = (shape.to_vec(), shape.to_vec());
+    VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
+    body.spin(shape, &mut spin);
+    let size = norm(shape);
+    let moving = [&rate[..], &spin[..]].into_iter().filter(|x| norm(x) > 1e-9 * size).collect::<Vec<_>>();
+    basis(&moving, 1e-6).len()
+}
+
+/// Means of the rates in a history, largest first, with errors of at least `numerical`.
+fn means(history: &[(f64, Vec<f64>)], numerical: f64) -> Result<Vec<Estimate>> {
+    let count = history.first().map_or(0, |entry| entry.1.len());
+    let exponent = |k: usize| {
+        let rates: Vec<f64> = history.iter().map(|entry| entry.1[k]).collect();
+        let mean = batch_means(&rates)?;
+        Ok(Estimate { value: mean.value, error: mean.error.max(numerical) })
+    };
+    let mut exponents = (0..count).map(exponent).collect::<Result<Vec<_>>>()?;
+    exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
+    Ok(exponents)
+}
+
+/// Numbers in -1..1 in general position: Steele, Lea, Flood (2014), OOPSLA, 453.
+pub(crate) struct SplitMix(pub(crate) u64);
+
+impl SplitMix {
+    pub(crate) fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}

@@ -1,0 +1,253 @@
+//! A look in lanes: what [`Look`](super::look::Look) sees of one orbit, seen of all lanes at once.
+//!
+//! The same bits as a single look. What happens at every step is computed over the bundle; an extreme of the size, or a step of
+//! a rest, is looked at in its lane alone.
+
+use super::look::{Extreme, RESTS, Seen};
+use crate::linear::norm;
+use crate::symmetry::gauge_rate;
+use motiform_dynamics::ensemble::{InLanes, LaneDense, Stepped};
+use motiform_dynamics::section::{PIECES, polished, slope_at, zero_between};
+use motiform_dynamics::steppers::unrolled::{Dop853, LaneStep, StepSlopes};
+use motiform_dynamics::{Bundle, Equivariant, Mask, VectorField};
+
+/// What the lanes have seen so far.
+pub(super) struct LaneSight<L, const N: usize> {
+    /// The last time and value at which the rate of the size was not zero, in the lanes of `known`.
+    t: L,
+    value: L,
+    known: Mask,
+    fastest: L,
+    speed: L,
+    smallest: L,
+    largest: L,
+    slowest: (L, [L; N]),
+    /// Lanes with a rest under way.
+    resting: Mask,
+    /// What is kept lane by lane; `None` in vacant lanes.
+    pub(super) seen: [Option<Seen>; 16],
+}
+
+/// The rate of the size, `u . f(u)`.
+#[inline(always)]
+fn size_rate<L: Bundle, F: VectorField<L>, const N: usize>(field: &F, t: L, u: &[L; N]) -> L {
+    let mut rate = *u;
+    field.eval(t, u, &mut rate);
+    let mut sum = L::splat(0.0);
+    for i in 0..N {
+        sum += u[i] * rate[i];
+    }
+    sum
+}
+
+#[inline(always)]
+fn length<L: Bundle, const N: usize>(u: &[L; N]) -> L {
+    let mut sum = L::splat(0.0);
+    for i in 0..N {
+        sum += u[i] * u[i];
+    }
+    sum.sqrt()
+}
+
+impl<L: Bundle, const N: usize> LaneSight<L, N> {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        let zero = L::splat(0.0);
+        Self {
+            t: zero,
+            value: zero,
+            known: Mask::default(),
+            fastest: zero,
+            speed: zero,
+            smallest: zero,
+            largest: zero,
+            slowest: (zero, [zero; N]),
+            resting: Mask::default(),
+            seen: std::array::from_fn(|_| None),
+        }
+    }
+
+    /// Begins a look in one lane.
+    pub(super) fn begin<B: Equivariant + ?Sized>(&mut self, lane: usize, body: &B, t: f64, u: &[f64; N]) {
+        let rate = gauge_rate(body, u);
+        self.t = self.t.with_lane(lane, t);
+        self.value = self.value.with_lane(lane, rate);
+        self.known = if rate == 0.0 { self.known & !Mask::only(lane) } else { self.known | Mask::only(lane) };
+        self.fastest = self.fastest.with_lane(lane, 0.0);
+        self.speed = self.speed.with_lane(lane, 0.0);
+        let size = norm(u);
+        self.smallest = self.smallest.with_lane(lane, size);
+        self.largest = self.largest.with_lane(lane, size);
+        self.slowest.0 = self.slowest.0.with_lane(lane, f64::INFINITY);
+        for i in 0..N {
+            self.slowest.1[i] = self.slowest.1[i].with_lane(lane, u[i]);
+        }
+        self.resting &= !Mask::only(lane);
+        self.seen[lane] = Some(Seen::new(u));
+    }
+
+    /// Ends the look in one lane.
+    pub(super) fn end(&mut self, lane: usize) -> Option<Seen> {
+        let mut seen = self.seen[lane].take()?;
+        seen.fastest = self.fastest.lane(lane);
+        seen.last_speed = self.speed.lane(lane);
+        seen.sizes = (self.smallest.lane(lane), self.largest.lane(lane));
+        seen.slowest.0 = self.slowest.0.lane(lane);
+        for i in 0..N {
+            seen.slowest.1[i] = self.slowest.1[i].lane(lane);
+        }
+        Some(seen)
+    }
+
+    /// Takes in a step of the bundle. `single` says which field a lane has.
+    #[inline(always)]
+    pub(super) fn stepped<F: InLanes>(
+        &mut self,
+        step: &mut Stepped<'_, L, N, F::Field<L>>,
+        field: &F::Field<L>,
+        singles: &[Option<F>; 16],
+    ) {
+        self.extremes::<F>(step, field, singles);
+        let mut spin = *step.u;
+        F::spin(step.u, &mut spin);
+        let (mut along, mut square) = (L::splat(0.0), L::splat(0.0));
+        for i in 0..N {
+            along += spin[i] * step.slopes.k[step.end][i];
+            square += spin[i] * spin[i];
+        }
+        let zero = L::splat(0.0);
+        let omega = L::select(zero.less(square), along / square, zero);
+        let mut rest = *step.u;
+        for i in 0..N {
+            rest[i] = step.slopes.k[step.end][i] - omega * spin[i];
+        }
+        let (size, speed, made) = (length(step.u), length(&rest), step.accepted);
+        self.smallest = L::select(made & size.less(self.smallest), size, self.smallest);
+        self.largest = L::select(made & self.largest.less(size), size, self.largest);
+        self.speed = L::select(made, speed, self.speed);
+        let slower = made & speed.less(self.slowest.0);
+        self.slowest.0 = L::select(slower, speed, self.slowest.0);
+        for i in 0..N {
+            self.slowest.1[i] = L::select(slower, step.u[i], self.slowest.1[i]);
+        }
+        self.fastest = L::select(made & self.fastest.less(speed), speed, self.fastest);
+        let slow = speed.less(self.fastest * RESTS);
+        if (made & (slow | self.resting)).any() {
+            self.rests(made & (slow | self.resting), step.t, step.u, speed);
+        }
+    }
+
+    /// Rests of the lanes in `mask`.
+    fn rests(&mut self, mask: Mask, t: L, u: &[L; N], speed: L) {
+        for lane in mask.lanes() {
+            let Some(seen) = &mut self.seen[lane] else { continue };
+            let mut shape = [0.0; N];
+            for i in 0..N {
+                shape[i] = u[i].lane(lane);
+            }
+            seen.rests(t.lane(lane), &shape, speed.lane(lane), self.fastest.lane(lane));
+            self.resting = if seen.resting() {
+                self.resting | Mask::only(lane)
+            } else {
+                self.resting & !Mask::only(lane)
+            };
+        }
+    }
+
+    /// Looks for sign changes of the size's rate at several points of the step.
+    #[inline(always)]
+    fn extremes<F: InLanes>(
+        &mut self,
+        step: &mut Stepped<'_, L, N, F::Field<L>>,
+        field: &F::Field<L>,
+        singles: &[Option<F>; 16],
+    ) {
+        let dense = LaneDense::of::<Dop853, _>(step, field);
+        let (zero, span) = (L::splat(0.0), step.t - step.t_old);
+        let mut found = [(0.0, false, 0_usize); 16 * PIECES];
+        let mut count = 0;
+        for piece in 1..=PIECES {
+            let last = piece == PIECES;
+            let t = if last { step.t } else { step.t_old + span * piece as f64 / L::splat(PIECES as f64) };
+            let state = if last { *step.u } else { dense.at((t - step.t_old) / span) };
+            let value = size_rate(field, t, &state);
+            let (falls, rises) = (value.less(zero), zero.less(value));
+            let before = self.value.less(zero);
+            let counts = (falls | rises) & step.accepted;
+            let changed = counts & self.known & ((before & rises) | (!before & falls));
+            for lane in changed.lanes() {
+                let Some(single) = &singles[lane] else { continue };
+                let guess =
+                    self.locate(lane, (t.lane(lane), value.lane(lane)), step.t_old, &dense, step.t, single);
+                found[count] = (guess, rises.has(lane), lane);
+                count += 1;
+            }
+            self.t = L::select(counts, t, self.t);
+            self.value = L::select(counts, value, self.value);
+            self.known |= counts;
+        }
+        for &(guess, rising, lane) in &found[..count] {
+            if let Some(single) = &singles[lane] {
+                self.record(lane, guess, rising, &dense, step, single);
+            }
+        }
+    }
+
+    /// The time of a sign change, on the interpolant.
+    fn locate<F: VectorField<f64>>(
+        &self,
+        lane: usize,
+        right: (f64, f64),
+        t_old: L,
+        dense: &LaneDense<L, N>,
+        t: L,
+        field: &F,
+    ) -> f64 {
+        let span = (t_old.lane(lane), t.lane(lane));
+        let left = (self.t.lane(lane).max(span.0), self.value.lane(lane));
+        let dense = dense.lane(lane);
+        zero_between(left, right, |t| rate_in(field, &dense, span, t))
+    }
+
+    /// Polishes an extreme and keeps it.
+    fn record<F: VectorField<f64> + InLanes>(
+        &mut self,
+        lane: usize,
+        guess: f64,
+        rising: bool,
+        dense: &LaneDense<L, N>,
+        step: &Stepped<'_, L, N, F::Field<L>>,
+        field: &F,
+    ) {
+        let Some(seen) = &mut self.seen[lane] else { return };
+        let span = (step.t_old.lane(lane), step.t.lane(lane));
+        let dense = dense.lane(lane);
+        let slope = slope_at(span, guess, |t| rate_in(field, &dense, span, t));
+        let mut slopes = StepSlopes::<f64, N>::zero();
+        let mut start = [0.0; N];
+        for i in 0..N {
+            slopes.k[0][i] = step.slopes.k[0][i].lane(lane);
+            start[i] = step.u_old[i].lane(lane);
+        }
+        let to = |t: f64, state: &mut [f64]| {
+            let at = LaneStep { t: span.0, h: t - span.0, u: &start };
+            let u = slopes.step::<Dop853, _>(field, &at);
+            state.copy_from_slice(&u);
+            size_rate(field, t, &u)
+        };
+        let mut state = [0.0; N];
+        let t = polished(span, guess, slope, to, &mut state);
+        seen.extreme(Extreme { t, minimum: rising, size: norm(&state), shape: state.to_vec() });
+    }
+}
+
+/// The size's rate on the interpolant of a step.
+fn rate_in<F: VectorField<f64>, const N: usize>(
+    field: &F,
+    dense: &LaneDense<f64, N>,
+    (start, end): (f64, f64),
+    t: f64,
+) -> f64 {
+    let state = if t == end { *dense.end() } else { dense.at((t - start) / (end - start)) };
+    size_rate(field, t, &state)
+}

@@ -1,0 +1,287 @@
+//! Many motions classified at once: their orbits in lanes, their decisions one by one.
+//!
+//! A [`Search`] asks for looks and exponents. Here a lane of a bundle makes each look; a search that asks for an exponent
+//! leaves its lane and waits until some tens of them can be measured together. Verdicts are those of [`super::classify`], to
+//! the last bit of every number in them (reproducible arithmetic).
+
+use super::chaos::exponent_settings;
+use super::classify::{Ask, Search};
+use super::lane_look::LaneSight;
+use super::look::Look;
+use super::settings::Settings;
+use super::verdict::Verdict;
+use crate::Result;
+use crate::lyapunov::{TangentMember, lyapunov_in_lanes, runs_in_lanes};
+use motiform_dynamics::drive::Sink;
+use motiform_dynamics::ensemble::{Entry, InLanes, Leaving, Members, Pace, Stepped, Turn, Why, run_adaptive};
+use motiform_dynamics::simd::{Arithmetic, LaneKernel, run_lanes};
+use motiform_dynamics::steppers::unrolled::Dop853;
+use motiform_dynamics::{Bundle, Equivariant, Mask, Orbit, Outcome, StepControl};
+use std::collections::VecDeque;
+use std::ops::ControlFlow;
+
+/// A motion to classify.
+pub struct Candidate<F, const N: usize> {
+    /// The body.
+    pub body: Box<dyn Equivariant>,
+    /// Its field.
+    pub field: F,
+    /// Its shape at the start.
+    pub start: [f64; N],
+}
+
+/// Searches that wait for an exponent before they are measured together.
+const WAITING: usize = 48;
+
+/// Whether motions with these settings are classified in lanes.
+#[must_use]
+pub fn classifies_in_lanes(settings: &Settings) -> bool {
+    runs_in_lanes(&exponent_settings(settings, 1.0))
+}
+
+/// Classifies all motions that `next` gives, in lanes on this thread; each verdict is handed to `done` with the motion's
+/// number, as soon as it is there. `settings` must be such that [`classifies_in_lanes`]; `D` is `2 N`. When `stopped` says
+/// so, what is under way is left.
+pub fn classify_in_lanes<F: InLanes + Clone, const N: usize, const D: usize>(
+    settings: &Settings,
+    arithmetic: Arithmetic,
+    next: &mut dyn FnMut() -> Option<Candidate<F, N>>,
+    done: &mut dyn FnMut(usize, Result<Option<Verdict>>),
+    stopped: &dyn Fn() -> bool,
+) {
+    let StepControl::Adaptive { rtol, atol } = settings.control else { return };
+    let mut desk =
+        Desk { settings, next, done, stopped, count: 0, ready: VecDeque::new(), waiting: Vec::new() };
+    loop {
+        run_lanes(arithmetic, Looks::<F, N> { desk: &mut desk });
+        if desk.waiting.is_empty() || (desk.stopped)() {
+            return;
+        }
+        desk.measure::<D>((rtol, atol), arithmetic);
+    }
+}
+
+/// A search whose orbit is in no lane.
+struct Parked<F, const N: usize> {
+    number: usize,
+    candidate: Candidate<F, N>,
+    search: Search,
+    t: f64,
+    u: [f64; N],
+    pace: Option<Pace>,
+    /// How long to look, or to measure.
+    span: f64,
+}
+
+/// Who waits for what.
+struct Desk<'d, F, const N: usize> {
+    settings: &'d Settings,
+    next: &'d mut dyn FnMut() -> Option<Candidate<F, N>>,
+    done: &'d mut dyn FnMut(usize, Result<Option<Verdict>>),
+    stopped: &'d dyn Fn() -> bool,
+    count: usize,
+    /// For a lane.
+    ready: VecDeque<Parked<F, N>>,
+    /// For an exponent.
+    waiting: Vec<Parked<F, N>>,
+}
+
+impl<F: InLanes + Clone, const N: usize> Desk<'_, F, N> {
+    /// The next search for a lane.
+    fn take(&mut self) -> Option<Parked<F, N>> {
+        if (self.stopped)() {
+            return None;
+        }
+        if let Some(parked) = self.ready.pop_front() {
+            return Some(parked);
+        }
+        if self.waiting.len() >= WAITING {
+            return None;
+        }
+        let candidate = (self.next)()?;
+        let number = self.count;
+        self.count += 1;
+        let (search, ask) = Search::new(self.settings, &candidate.start);
+        let span = if let Ask::Look(span) = ask { span } else { 0.0 };
+        Some(Parked { number, u: candidate.start, candidate, search, t: 0.0, pace: None, span })
+    }
+
+    /// Files a search by what it asks for; gives it back if that is a look.
+    fn file(&mut self, mut parked: Parked<F, N>, ask: Result<Ask>) -> Option<Parked<F, N>> {
+        match ask {
+            Ok(Ask::Look(span)) => {
+                parked.span = span;
+                return Some(parked);
+            }
+            Ok(Ask::Exponent(span)) => {
+                parked.span = span;
+                self.waiting.push(parked);
+            }
+            Ok(Ask::Nothing(verdict)) => (self.done)(parked.number, Ok(verdict.map(|verdict| *verdict))),
+            Err(error) => (self.done)(parked.number, Err(error)),
+        }
+        None
+    }
+
+    /// Measures the exponents of all searches that wait for one.
+    fn measure<const D: usize>(&mut self, control: (f64, f64), arithmetic: Arithmetic) {
+        let waiting = std::mem::take(&mut self.waiting);
+        let mut left = waiting.iter();
+        let mut next = || {
+            let parked = left.next()?;
+            Some(TangentMember {
+                body: Borrowed(parked.candidate.body.as_ref()),
+                field: parked.candidate.field.clone(),
+                start: parked.u,
+                settings: exponent_settings(self.settings, parked.span),
+            })
+        };
+        let mut runs: Vec<_> = waiting.iter().map(|_| None).collect();
+        let mut done = |number: usize, run| runs[number] = Some(run);
+        lyapunov_in_lanes::<_, F, N, 1, D>(control, arithmetic, &mut next, &mut done, self.stopped);
+        for (mut parked, run) in waiting.into_iter().zip(runs) {
+            let Some(run) = run else { continue }; // stopped
+            let ask = run.and_then(|run| {
+                parked.u.copy_from_slice(&run.shape);
+                parked.search.measured(parked.candidate.body.as_ref(), run)
+            });
+            let again = self.file(parked, ask);
+            self.ready.extend(again);
+        }
+    }
+
+    /// A look that a lane could not finish, by a single orbit from where it began.
+    fn alone(&mut self, parked: &mut Parked<F, N>, begun: (f64, [f64; N], Option<Pace>)) -> Result<Ask> {
+        let (t, u, pace) = begun;
+        let body = parked.candidate.body.as_ref();
+        let mut orbit = Orbit::resume(body, self.settings.control, t, &u, pace)?;
+        let request = self.settings.request(t + parked.span, N);
+        let look = Look::take(body, &mut orbit, parked.span, &request, &mut Stop(self.stopped))?;
+        parked.search.looked(body, look)
+    }
+}
+
+/// A borrowed body.
+struct Borrowed<'b>(&'b (dyn Equivariant + 'static));
+
+impl AsRef<dyn Equivariant> for Borrowed<'_> {
+    fn as_ref(&self) -> &(dyn Equivariant + 'static) {
+        self.0
+    }
+}
+
+/// The looks of one thread, until all are decided or wait for an exponent.
+struct Looks<'l, 'd, F, const N: usize> {
+    desk: &'l mut Desk<'d, F, N>,
+}
+
+impl<F: InLanes + Clone, const N: usize> LaneKernel for Looks<'_, '_, F, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Bundle>(self) {
+        let StepControl::Adaptive { rtol, atol } = self.desk.settings.control else { return };
+        let Some(first) = self.desk.take() else { return };
+        let norm = self.desk.settings.escape_norm;
+        let mut crew = Crew::<L, F, N> {
+            field: first.candidate.field.bundle(),
+            desk: self.desk,
+            first: Some(first),
+            riding: std::array::from_fn(|_| None),
+            singles: std::array::from_fn(|_| None),
+            sight: LaneSight::new(),
+            escape: L::splat(norm * norm),
+            steps: 0,
+        };
+        run_adaptive::<Dop853, L, N, _>(&mut crew, (rtol, atol));
+    }
+}
+
+/// A search in its lane, and where its look began.
+struct Rider<F, const N: usize> {
+    parked: Parked<F, N>,
+    begun: (f64, [f64; N], Option<Pace>),
+}
+
+/// The searches in the lanes.
+struct Crew<'l, 'd, L: Bundle, F: InLanes, const N: usize> {
+    field: F::Field<L>,
+    desk: &'l mut Desk<'d, F, N>,
+    first: Option<Parked<F, N>>,
+    riding: [Option<Rider<F, N>>; 16],
+    /// The fields of the lanes, one by one.
+    singles: [Option<F>; 16],
+    sight: LaneSight<L, N>,
+    escape: L,
+    steps: u32,
+}
+
+impl<L: Bundle, F: InLanes + Clone, const N: usize> Members<L, N> for Crew<'_, '_, L, F, N> {
+    type Field = F::Field<L>;
+    const WATCHES: bool = true;
+
+    #[inline(always)]
+    fn field(&self) -> &Self::Field {
+        &self.field
+    }
+
+    fn enter(&mut self, lane: usize) -> Option<Entry<N>> {
+        let parked = self.first.take().or_else(|| self.desk.take())?;
+        parked.candidate.field.put(lane, &mut self.field);
+        self.singles[lane] = Some(parked.candidate.field.clone());
+        let Parked { t, u, pace, span, .. } = parked;
+        self.sight.begin(lane, parked.candidate.body.as_ref(), t, &u);
+        self.riding[lane] = Some(Rider { parked, begun: (t, u, pace) });
+        Some(Entry { t, u, t_end: t + span, pace })
+    }
+
+    #[inline(always)]
+    fn outside(&mut self, u: &[L; N]) -> Mask {
+        self.steps = self.steps.wrapping_add(1);
+        if self.steps.is_multiple_of(1024) && (self.desk.stopped)() {
+            return Mask::first(L::LANES);
+        }
+        let mut norm = L::splat(0.0);
+        for i in 0..N {
+            norm += u[i] * u[i];
+        }
+        self.escape.less(norm)
+    }
+
+    #[inline(always)]
+    fn stepped(&mut self, step: &mut Stepped<'_, L, N, F::Field<L>>) -> Mask {
+        self.sight.stepped(step, &self.field, &self.singles);
+        Mask::default()
+    }
+
+    fn leave(&mut self, lane: usize, leaving: &Leaving<N>) -> Turn<N> {
+        let (rider, seen) = (self.riding[lane].take(), self.sight.end(lane));
+        let (Some(Rider { mut parked, begun }), Some(seen)) = (rider, seen) else { return Turn::Done };
+        if (self.desk.stopped)() {
+            return Turn::Done;
+        }
+        let Leaving { why, t, u, pace, .. } = *leaving;
+        let work = leaving.steps + leaving.rejected;
+        let ask = if why != Why::Arrived || work >= self.desk.settings.max_steps {
+            self.desk.alone(&mut parked, begun)
+        } else {
+            let look = seen.look((begun.0, t), Outcome::Completed { t }, u.to_vec());
+            parked.search.looked(parked.candidate.body.as_ref(), look)
+        };
+        (parked.t, parked.u, parked.pace) = (t, u, Some(pace));
+        let Some(parked) = self.desk.file(parked, ask) else { return Turn::Done };
+        let span = parked.span;
+        self.sight.begin(lane, parked.candidate.body.as_ref(), t, &u);
+        self.riding[lane] = Some(Rider { parked, begun: (t, u, Some(pace)) });
+        Turn::On(t + span)
+    }
+}
+
+/// Listens to `stopped`.
+struct Stop<'s>(&'s dyn Fn() -> bool);
+
+impl Sink for Stop<'_> {
+    fn tick(&mut self, _t: f64) -> ControlFlow<()> {
+        if (self.0)() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}

@@ -1,0 +1,101 @@
+//! Exponents of many orbits in lanes: those of single orbits, to the last bit.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use motiform_analysis::lyapunov::{LyapunovSettings, TangentMember, lyapunov_in_lanes};
+use motiform_analysis::{Lyapunov, lyapunov};
+use motiform_dynamics::simd::Arithmetic;
+use motiform_dynamics::steppers::{DOP853, Method};
+use motiform_dynamics::{Equivariant, StepControl};
+use motiform_models::tensor::fourier::{FourierField, terms};
+use motiform_models::tensor::{Tensor, TensorParameters};
+
+struct Body(Tensor);
+
+impl AsRef<dyn Equivariant> for Body {
+    fn as_ref(&self) -> &(dyn Equivariant + 'static) {
+        &self.0
+    }
+}
+
+const TOLERANCES: (f64, f64) = (1e-9, 1e-12);
+
+/// The full model, from chaos to straight motion; the first ones escape, if they are given the time.
+fn tensor(member: usize) -> Tensor {
+    Tensor::new(&TensorParameters {
+        kappa2: 0.15 + 0.1 * member as f64,
+        kappa3: 0.1,
+        a1: -1.0,
+        b1: -0.5,
+        b2: 0.3,
+        d1: 0.1,
+        d2: 0.8,
+        ..TensorParameters::default()
+    })
+}
+
+fn start(member: usize) -> [f64; 6] {
+    std::array::from_fn(|i| 0.3 * (1.0 + member as f64 * 0.7 + i as f64 * 1.3).sin())
+}
+
+fn settings(member: usize, count: usize) -> LyapunovSettings {
+    LyapunovSettings {
+        count,
+        method: Method::Explicit(&DOP853),
+        control: StepControl::Adaptive { rtol: TOLERANCES.0, atol: TOLERANCES.1 },
+        transient: 20.0 + 7.0 * member as f64, // lanes are refilled at different times
+        span: 150.0,
+        escape_norm: if member == 3 { 0.5 } else { 1e6 }, // one leaves its bounds
+        max_steps: 1_000_000,
+    }
+}
+
+fn together<const K: usize, const D: usize>(count: usize, arithmetic: Arithmetic) -> Vec<Lyapunov> {
+    let mut left = 0..count;
+    let mut next = || {
+        let member = left.next()?;
+        let body = tensor(member);
+        let field = FourierField::<f64, { terms::PAPER }>(body.field().0);
+        let settings = settings(member, K);
+        Some(TangentMember { body: Body(body), field, start: start(member), settings })
+    };
+    let mut runs = vec![None; count];
+    let mut done = |number: usize, run: motiform_analysis::Result<Lyapunov>| {
+        runs[number] = Some(run.unwrap());
+    };
+    lyapunov_in_lanes::<_, _, 6, K, D>(TOLERANCES, arithmetic, &mut next, &mut done, &|| false);
+    runs.into_iter().map(Option::unwrap).collect()
+}
+
+fn alone(member: usize, count: usize) -> Lyapunov {
+    lyapunov(&tensor(member), &start(member), &settings(member, count), &mut ()).unwrap()
+}
+
+#[test]
+fn one_exponent_in_lanes_has_the_bits_of_a_single_run() {
+    for (member, run) in together::<1, 12>(19, Arithmetic::Reproducible).iter().enumerate() {
+        assert_eq!(format!("{run:?}"), format!("{:?}", alone(member, 1)), "member {member}");
+    }
+}
+
+#[test]
+fn six_exponents_in_lanes_have_the_bits_of_a_single_run() {
+    let runs = together::<6, 42>(10, Arithmetic::Reproducible);
+    for (member, run) in runs.iter().enumerate() {
+        assert_eq!(format!("{run:?}"), format!("{:?}", alone(member, 6)), "member {member}");
+    }
+    assert!(!runs[3].outcome.is_complete() && runs[3].exponents.is_empty());
+}
+
+/// Other last digits, the same exponents within their errors; two of the regular ones vanish.
+#[test]
+fn fused_exponents_agree_within_their_errors() {
+    let (fused, exact) =
+        (together::<6, 42>(8, Arithmetic::Fused), together::<6, 42>(8, Arithmetic::Reproducible));
+    for (member, (a, b)) in fused.iter().zip(&exact).enumerate() {
+        assert_ne!(format!("{a:?}"), format!("{b:?}"), "fused arithmetic rounds differently");
+        for (a, b) in a.exponents.iter().zip(&b.exponents) {
+            assert!((a.value - b.value).abs() <= 2.0 * (a.error + b.error), "member {member}: {a:?} {b:?}");
+        }
+    }
+}
