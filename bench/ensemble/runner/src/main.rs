@@ -1,5 +1,6 @@
 //! One measurement of motiform: `motiform-bench TASK key=value ...` prints one JSON object.
 
+mod cell;
 mod exponents;
 mod options;
 mod orbits;
@@ -14,7 +15,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "rk4" => orbits::rk4(&options)?,
         "adaptive" | "short" => orbits::adaptive(&options, &task)?,
         "lyapunov" => exponents::spectra(&options)?,
-        other => return Err(format!("no task {other:?}: rk4, adaptive, short, lyapunov").into()),
+        "cell" => cell::cell(&options)?,
+        other => return Err(format!("no task {other:?}: rk4, adaptive, short, lyapunov, cell").into()),
     };
     println!("{result}");
     Ok(())

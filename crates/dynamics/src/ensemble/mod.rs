@@ -9,6 +9,7 @@
 
 mod adaptive;
 mod dense;
+mod exponential;
 mod fixed;
 mod lane;
 mod propagate;
@@ -16,6 +17,7 @@ mod tangent;
 
 pub use adaptive::run_adaptive;
 pub use dense::LaneDense;
+pub use exponential::{StiffEnd, StiffInLanes, StiffLanes, StiffMember, StiffPropagation, propagate_stiff};
 pub use fixed::run_fixed;
 pub use lane::{Entry, Leaving, Members, Pace, Stepped, Turn, Why};
 pub use propagate::{End, InLanes, Member, Propagation, lane_methods, propagate};

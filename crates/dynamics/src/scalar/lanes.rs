@@ -37,6 +37,7 @@ impl<const N: usize, const FUSED: bool> Index<usize> for Lanes<N, FUSED> {
 impl<const N: usize, const FUSED: bool> Scalar for Lanes<N, FUSED> {
     type Real = Self;
     const IN_KERNEL: bool = true;
+    const FUSED: bool = FUSED;
 
     #[inline(always)]
     fn constant(self, value: f64) -> Self {

@@ -45,6 +45,9 @@ pub trait Scalar:
     /// Whether a value of this type lives in a kernel that was compiled for the widest instructions already.
     const IN_KERNEL: bool = false;
 
+    /// Whether [`Scalar::mul_add`] rounds once.
+    const FUSED: bool = false;
+
     /// The constant `value`, of the same kind as `self` (same lanes; derivative zero).
     fn constant(self, value: f64) -> Self;
 
@@ -57,11 +60,25 @@ pub trait Scalar:
     /// `real` as a constant: derivative zero.
     fn lift(self, real: Self::Real) -> Self;
 
-    /// `self * factor + addend`. Rounded twice, but once over bundles with fused arithmetic: the one place where the two
-    /// arithmetics differ.
+    /// `self * factor + addend`. Rounded twice, but once over bundles with fused arithmetic: here the two arithmetics differ, and
+    /// where [`Scalar::FUSED`] is asked.
     #[inline(always)]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
         self * factor + addend
+    }
+
+    /// `self + (a b - c d)`, each operation rounded; or, fused, `(self + a b) - c d` in two: a complex product, summed up.
+    #[inline(always)]
+    #[must_use]
+    fn add_difference(self, (a, b): (Self, Self), (c, d): (Self, Self)) -> Self {
+        if Self::FUSED { (-c).mul_add(d, a.mul_add(b, self)) } else { self + (a * b - c * d) }
+    }
+
+    /// `self + (a b + c d)`, rounded like [`Scalar::add_difference`].
+    #[inline(always)]
+    #[must_use]
+    fn add_sum(self, (a, b): (Self, Self), (c, d): (Self, Self)) -> Self {
+        if Self::FUSED { c.mul_add(d, a.mul_add(b, self)) } else { self + (a * b + c * d) }
     }
 
     /// `self + real * x`, rounded like [`Scalar::mul_add`].

@@ -142,6 +142,7 @@ impl<R: Registers, const FUSED: bool> fmt::Debug for Packed<R, FUSED> {
 impl<R: Registers, const FUSED: bool> Scalar for Packed<R, FUSED> {
     type Real = Self;
     const IN_KERNEL: bool = true;
+    const FUSED: bool = FUSED;
 
     #[inline(always)]
     fn constant(self, value: f64) -> Self {

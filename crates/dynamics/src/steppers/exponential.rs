@@ -74,10 +74,14 @@ impl ExponentialTableau {
         if self.order < 4 { self.order } else { 4 }
     }
 
+    /// The terms of a step, the estimate of its error left out.
+    pub(crate) fn step_terms(&self) -> impl Iterator<Item = &'static ExponentialTerm> {
+        self.rows.iter().flat_map(|row| row.1).chain(self.weights)
+    }
+
     /// All terms in the order of [`StepTable`].
     fn terms(&self) -> impl Iterator<Item = &'static ExponentialTerm> {
-        let rows = self.rows.iter().flat_map(|row| row.1);
-        rows.chain(self.weights).chain(self.error.unwrap_or(&[]))
+        self.step_terms().chain(self.error.unwrap_or(&[]))
     }
 }
 

@@ -10,8 +10,10 @@
 //! Source: paper, the equation for phi_t with g1 .. g5.
 
 use super::CellParameters;
+use super::convolution::{PADDING, in_blocks, in_rows};
+use motiform_dynamics::ensemble::{StiffInLanes, StiffLanes};
 use motiform_dynamics::simd::{self, Kernel};
-use motiform_dynamics::{Lanes, Scalar, Semilinear, System, VectorField};
+use motiform_dynamics::{Bundle, Complex, Lanes, Scalar, Semilinear, System, VectorField};
 
 /// Most modes that can be computed (a convolution keeps its operands on the stack).
 pub const MAX_MODES: usize = 128;
@@ -80,79 +82,6 @@ impl<P> System for CellField<P> {
     }
 }
 
-/// Complex numbers of the modes in two rows; index `n - 1` holds mode `n`.
-struct Rows<T> {
-    re: [T; MAX_MODES],
-    im: [T; MAX_MODES],
-}
-
-impl<T: Scalar> Rows<T> {
-    #[inline(always)]
-    fn zero(like: T) -> Self {
-        Self { re: [like.zero(); MAX_MODES], im: [like.zero(); MAX_MODES] }
-    }
-
-    /// `n^power phi_n`.
-    #[inline(always)]
-    fn derivative(u: &[T], power: i32) -> Self {
-        let mut rows = Self::zero(u[0]);
-        for (i, mode) in u.chunks_exact(2).enumerate() {
-            let factor = (i as f64 + 1.0).powi(power);
-            rows.re[i] = mode[0] * factor;
-            rows.im[i] = mode[1] * factor;
-        }
-        rows
-    }
-
-    /// `rate_n += factor i n rows_n`.
-    #[inline(always)]
-    fn add_derivative(&self, factor: T::Real, du: &mut [T]) {
-        for (i, rate) in du.chunks_exact_mut(2).enumerate() {
-            let n = i as f64 + 1.0;
-            rate[0] += (self.im[i] * -n).scale(factor);
-            rate[1] += (self.re[i] * n).scale(factor);
-        }
-    }
-}
-
-/// `sum_{p+q=n} a_p a_q` over all `p, q` of either sign, for `n = 1 ..= modes`; `a_{-p} = sign conj(a_p)`.
-///
-/// Sums run over whole rows, so that they become vector instructions without changing their order.
-#[inline(always)]
-fn convolve<T: Scalar>(a: &Rows<T>, modes: usize, sign: f64) -> Rows<T> {
-    let mut out = Rows::zero(a.re[0]);
-    for p in 1..modes {
-        // a_p a_q, p < q, at n = p + q
-        let (re, im) = (a.re[p - 1], a.im[p - 1]);
-        if 2 * p < modes {
-            let (to, from) = (2 * p..modes, p..modes - p);
-            let target = out.re[to.clone()].iter_mut().zip(&mut out.im[to]);
-            let source = a.re[from.clone()].iter().zip(&a.im[from]);
-            for ((x, y), (&q_re, &q_im)) in target.zip(source) {
-                *x += q_re * re - q_im * im;
-                *y += q_re * im + q_im * re;
-            }
-        }
-        // a_{n+p} a_{-p}
-        let (re, im) = (re * sign, im * -sign);
-        let target = out.re[..modes - p].iter_mut().zip(&mut out.im[..modes - p]);
-        let source = a.re[p..modes].iter().zip(&a.im[p..modes]);
-        for ((x, y), (&q_re, &q_im)) in target.zip(source) {
-            *x += q_re * re - q_im * im;
-            *y += q_re * im + q_im * re;
-        }
-    }
-    for n in 0..modes {
-        (out.re[n], out.im[n]) = (out.re[n] * 2.0, out.im[n] * 2.0);
-    }
-    for p in 1..=modes / 2 {
-        let (re, im) = (a.re[p - 1], a.im[p - 1]);
-        out.re[2 * p - 1] += re * re - im * im;
-        out.im[2 * p - 1] += re * im * 2.0;
-    }
-    out
-}
-
 impl<T: Scalar<Real = P>, P: Scalar<Real = P>> VectorField<T> for CellField<P> {
     #[inline(always)]
     fn eval(&self, t: P, u: &[T], du: &mut [T]) {
@@ -190,15 +119,51 @@ impl<T: Scalar<Real = P>, P: Scalar<Real = P>> Kernel for Quadratic<'_, T, P> {
 
     #[inline(always)]
     fn run(self) {
-        let modes = self.field.modes();
-        let square = convolve(&Rows::derivative(self.u, 2), modes, 1.0); // phi_ss^2
-        for x in self.du.iter_mut() {
-            *x = x.zero();
+        let (bending, stretching) = (self.field.bending, self.field.stretching);
+        if T::IN_KERNEL {
+            let zero = self.u[0].zero();
+            let mut waves = [Complex::new(zero, zero); MAX_MODES + PADDING];
+            in_blocks((bending, stretching), &mut waves, self.u, self.du);
+        } else {
+            in_rows((bending, stretching), self.u, self.du);
         }
-        square.add_derivative(self.field.bending, self.du); // (C), g5
-        if let Some(stretching) = self.field.stretching {
-            let square = convolve(&Rows::derivative(self.u, 1), modes, -1.0); // phi_s^2
-            square.add_derivative(stretching, self.du); // (C), g4
+    }
+}
+
+/// The quadratic terms of (C) for the cells of a bundle.
+#[derive(Clone, Debug)]
+pub struct CellLanes<B> {
+    bending: B,
+    stretching: Option<B>,
+    waves: Vec<Complex<B>>,
+}
+
+impl<B: Bundle> StiffLanes<B> for CellLanes<B> {
+    #[inline(always)]
+    fn nonlinear(&mut self, _t: B, u: &[B], du: &mut [B]) {
+        in_blocks((self.bending, self.stretching), &mut self.waves, u, du);
+    }
+}
+
+impl StiffInLanes for CellField<f64> {
+    type Lanes<B: Bundle> = CellLanes<B>;
+
+    const COMPLEX: bool = true;
+
+    fn lanes<B: Bundle>(&self) -> CellLanes<B> {
+        let zero = B::splat(0.0);
+        CellLanes {
+            bending: B::splat(self.bending),
+            stretching: self.stretching.map(B::splat),
+            waves: vec![Complex::new(zero, zero); self.modes() + PADDING],
+        }
+    }
+
+    fn put<B: Bundle>(&self, lane: usize, lanes: &mut CellLanes<B>) {
+        lanes.bending = lanes.bending.with_lane(lane, self.bending);
+        if self.stretching.is_some() || lanes.stretching.is_some() {
+            let others = lanes.stretching.unwrap_or(B::splat(0.0));
+            lanes.stretching = Some(others.with_lane(lane, self.stretching.unwrap_or(0.0)));
         }
     }
 }
