@@ -101,6 +101,8 @@ pub mod terms {
     pub const REDUCED: u32 = E11 | E21 | D22;
     /// The full model of the paper's Simulations II: `a1, b1, b2, d1, d2`.
     pub const PAPER: u32 = E11 | E21 | E22 | E31 | E32;
+    /// Both of these: what a scan over the paper's planes needs.
+    pub const COMMON: u32 = REDUCED | PAPER;
     /// All 21 parameters.
     pub const ALL: u32 = (1 << 18) - 1;
 

@@ -25,10 +25,10 @@ pub(super) fn classify(
 ) -> bool {
     let Some((settings, terms)) = kernel(plan) else { return false };
     let work = Work { single, plan, settings, next, done, stop };
-    match terms {
-        terms::REDUCED => work.run::<{ terms::REDUCED }>(),
-        terms::PAPER => work.run::<{ terms::PAPER }>(),
-        _ => work.run::<{ terms::ALL }>(),
+    if terms & !terms::COMMON == 0 {
+        work.run::<{ terms::COMMON }>();
+    } else {
+        work.run::<{ terms::ALL }>();
     }
     true
 }
@@ -47,9 +47,7 @@ fn kernel(plan: &ScanPlan) -> Option<(Settings, u32)> {
         return None;
     }
     let corners = [0, plan.cells() - 1].map(|cell| tensor(plan, cell).map(|tensor| tensor.terms()));
-    let both = corners[0]? | corners[1]?;
-    let enclosing = [terms::REDUCED, terms::PAPER].into_iter().find(|set| both & !set == 0);
-    Some((settings, enclosing.unwrap_or(terms::ALL)))
+    Some((settings, corners[0]? | corners[1]?))
 }
 
 /// The model of a cell, if it is a tensor model.
