@@ -87,13 +87,15 @@ fn six_exponents_in_lanes_have_the_bits_of_a_single_run() {
     assert!(!runs[3].outcome.is_complete() && runs[3].exponents.is_empty());
 }
 
-/// Other last digits, the same exponents within their errors; two of the regular ones vanish.
+/// Other last digits, the same exponents within their errors (a run that escapes is finished alone, by unfused steps).
 #[test]
 fn fused_exponents_agree_within_their_errors() {
     let (fused, exact) =
         (together::<6, 42>(8, Arithmetic::Fused), together::<6, 42>(8, Arithmetic::Reproducible));
     for (member, (a, b)) in fused.iter().zip(&exact).enumerate() {
-        assert_ne!(format!("{a:?}"), format!("{b:?}"), "fused arithmetic rounds differently");
+        if b.outcome.is_complete() {
+            assert_ne!(format!("{a:?}"), format!("{b:?}"), "fused arithmetic rounds differently");
+        }
         for (a, b) in a.exponents.iter().zip(&b.exponents) {
             assert!((a.value - b.value).abs() <= 2.0 * (a.error + b.error), "member {member}: {a:?} {b:?}");
         }

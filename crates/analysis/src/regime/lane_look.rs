@@ -166,7 +166,8 @@ impl<L: Bundle, const N: usize> LaneSight<L, N> {
         let (zero, span) = (L::splat(0.0), step.t - step.t_old);
         let mut found = [(0.0, false, 0_usize); 16 * PIECES];
         let mut count = 0;
-        for piece in 1..=PIECES {
+        // Kept from the compiler, which would write the field out once per piece.
+        for piece in 1..=std::hint::black_box(PIECES) {
             let last = piece == PIECES;
             let t = if last { step.t } else { step.t_old + span * piece as f64 / L::splat(PIECES as f64) };
             let state = if last { *step.u } else { dense.at((t - step.t_old) / span) };
@@ -176,6 +177,9 @@ impl<L: Bundle, const N: usize> LaneSight<L, N> {
             let counts = (falls | rises) & step.accepted;
             let changed = counts & self.known & ((before & rises) | (!before & falls));
             for lane in changed.lanes() {
+                if count == found.len() {
+                    break; // no step has more: one per lane and piece
+                }
                 let Some(single) = &singles[lane] else { continue };
                 let guess =
                     self.locate(lane, (t.lane(lane), value.lane(lane)), step.t_old, &dense, step.t, single);

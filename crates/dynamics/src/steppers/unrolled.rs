@@ -44,6 +44,10 @@ const START: usize = 16;
 const NEW: usize = 17;
 const ROWS: usize = 18;
 
+/// States up to this length have their stages written out; in longer ones (tangent flows) the field is compiled once, not once
+/// per stage: a kernel would take minutes to compile, and gain little.
+const WRITTEN_OUT: usize = 8;
+
 /// Components whose sums are held in registers together: the largest divisor of `dim` up to 8.
 const fn block(dim: usize) -> usize {
     let mut size = if dim < 8 { dim } else { 8 };
@@ -233,7 +237,15 @@ impl<B: Bundle, const D: usize> StepSlopes<B, D> {
     fn rows<M: Method, F: VectorField<B>>(&mut self, field: &F, at: &LaneStep<'_, B, D>) {
         self.k[START] = *at.u;
         let this = std::hint::black_box(self);
-        macro_rules! rows {
+        macro_rules! advance {
+            ($stage:expr, $($row:literal)*) => {
+                match $stage {
+                    $($row if const { $row < M::TABLEAU.stages() } => this.advance::<M, $row>(at.h),)*
+                    _ => {}
+                }
+            };
+        }
+        macro_rules! written_out {
             ($($row:literal)*) => {$(
                 if const { $row < M::TABLEAU.stages() } {
                     this.advance::<M, $row>(at.h);
@@ -241,7 +253,14 @@ impl<B: Bundle, const D: usize> StepSlopes<B, D> {
                 }
             )*};
         }
-        rows!(1 2 3 4 5 6 7 8 9 10 11);
+        if const { D <= WRITTEN_OUT } {
+            written_out!(1 2 3 4 5 6 7 8 9 10 11);
+        } else {
+            for stage in 1..std::hint::black_box(const { M::TABLEAU.stages() }) {
+                advance!(stage, 1 2 3 4 5 6 7 8 9 10 11);
+                this.evaluate(field, at.t + at.h * M::TABLEAU.nodes[stage], stage);
+            }
+        }
         this.advance::<M, WEIGHTS>(at.h);
     }
 
