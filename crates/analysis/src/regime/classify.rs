@@ -49,7 +49,7 @@ pub fn classify<B: Equivariant + ?Sized>(
             Ask::Exponent(span) => {
                 let run = chaos::exponent(body, orbit.state(), span, settings, stop)?;
                 orbit.restart(&run.shape);
-                search.measured(body, run)?
+                search.measured(body, &run)?
             }
             Ask::Nothing(verdict) => return Ok(verdict.map(|verdict| *verdict)),
         };
@@ -222,7 +222,7 @@ impl Search {
     }
 
     /// Takes in an exponent: do neighbours part?
-    pub(super) fn measured<B: Equivariant + ?Sized>(&mut self, body: &B, run: Lyapunov) -> Result<Ask> {
+    pub(super) fn measured<B: Equivariant + ?Sized>(&mut self, body: &B, run: &Lyapunov) -> Result<Ask> {
         if let Some(outcome) = ended(&run.outcome) {
             return Ok(self.ended(&outcome, 0.0));
         }

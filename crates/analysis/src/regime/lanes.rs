@@ -143,7 +143,7 @@ impl<F: InLanes + Clone, const N: usize> Desk<'_, F, N> {
             let Some(run) = run else { continue }; // stopped
             let ask = run.and_then(|run| {
                 parked.u.copy_from_slice(&run.shape);
-                parked.search.measured(parked.candidate.body.as_ref(), run)
+                parked.search.measured(parked.candidate.body.as_ref(), &run)
             });
             let again = self.file(parked, ask);
             self.ready.extend(again);
