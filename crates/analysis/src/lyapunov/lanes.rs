@@ -32,7 +32,7 @@ pub fn runs_in_lanes(settings: &LyapunovSettings) -> bool {
 }
 
 /// The `K` largest exponents of every member, each handed to `done` with its number in the order that `next` gave them:
-/// the same bits as [`mod@super::lyapunov`] gives one by one (reproducible arithmetic). `D` must be `N (1 + K)`, the
+/// the same bits as [`super::lyapunov()`] gives one by one (reproducible arithmetic). `D` must be `N (1 + K)`, the
 /// members' settings must ask for `K` exponents with the same control, see [`runs_in_lanes`].
 ///
 /// A member that escapes or fails is run again alone, which says how it ended. When `stopped` says so, the rest is left.

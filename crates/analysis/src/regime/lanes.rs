@@ -1,7 +1,7 @@
 //! Many motions classified at once: their orbits in lanes, their decisions one by one.
 //!
 //! A [`Search`] asks for looks and exponents. Here a lane of a bundle makes each look; a search that asks for an exponent
-//! leaves its lane and waits until some tens of them can be measured together. Verdicts are those of [`super::classify`], to
+//! leaves its lane and waits until some tens of them can be measured together. Verdicts are those of [`super::classify()`], to
 //! the last bit of every number in them (reproducible arithmetic).
 
 use super::chaos::exponent_settings;
