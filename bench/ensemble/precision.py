@@ -23,8 +23,6 @@ def makers(scale):
     return {
         "motiform dop853": mine("dop853", 0),
         "motiform dop853 fast": mine("dop853", 1),
-        "motiform taylor": mine("taylor", 0),
-        "motiform taylor fast": mine("taylor", 1),
         "motiform dopri5": mine("dopri5", 0),
         "heyoka batch 8": (n, lambda rtol: heyoka_rival.adaptive(n, T, rtol)),
         "Rust differential-equations": (few, lambda rtol: program.rust(few, T, rtol)),

@@ -76,7 +76,6 @@ def orbits(task, t, rtol, scale, repeats, per_orbit):
     heyoka = lambda **options: lambda m: heyoka_rival.adaptive(m, t, rtol, per_orbit=per_orbit, **options)  # noqa: E731
     list_ = [
         *mine("dop853"),
-        *mine("taylor"),
         entry("heyoka batch 8", n(16384), heyoka()),
         entry("heyoka batch 8 fast_math, avx512", n(16384), heyoka(**heyoka_rival.FAST)),
         entry("heyoka scalar", n(4096), heyoka(batch=1)),
