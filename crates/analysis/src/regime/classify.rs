@@ -104,8 +104,8 @@ pub(super) struct Search {
 enum Pending {
     /// The next look.
     Look,
-    /// Whether the orbit comes closer to the equilibrium beside it; the look before.
-    Approach { found: Box<RelativeEquilibrium>, before: f64, reached: f64, size: f64, look: Box<Look> },
+    /// Whether the orbit comes closer to the equilibrium beside it.
+    Approach { found: Box<RelativeEquilibrium>, before: f64, reached: f64, size: f64 },
     /// An exponent; the look before.
     Exponent(Box<Look>),
 }
@@ -144,12 +144,14 @@ impl Search {
         self.time += look.end - look.start;
         self.shape.clone_from(&look.last);
         match std::mem::replace(&mut self.pending, Pending::Look) {
-            Pending::Approach { found, before, reached, size, look } => {
+            Pending::Approach { found, before, reached, size } => {
                 let after = found.distance(body, &self.shape);
                 if after > reached && after > 0.7 * before {
+                    // It may spiral in, or swing by. Nothing else is asked so near to a stable equilibrium: the last
+                    // swings of a spiral come back like a small periodic orbit.
                     "the orbit did not come closer to the equilibrium beside it"
                         .clone_into(&mut self.missing);
-                    return self.recurs(body, *look);
+                    return self.again(body);
                 }
                 Ok(words::equilibrium(body, &found, after / size, &self.settings, self.time).into())
             }
@@ -198,8 +200,7 @@ impl Search {
         let reached = (self.settings.hovering() * size).max(100.0 * self.settings.atol());
         if before > reached {
             let wait = (-1.0 / found.growth()).min(self.settings.budget);
-            let (found, look) = (Box::new(found), Box::new(look));
-            self.pending = Pending::Approach { found, before, reached, size, look };
+            self.pending = Pending::Approach { found: Box::new(found), before, reached, size };
             return Ok(Ask::Look(wait));
         }
         Ok(words::equilibrium(body, &found, before / size, &self.settings, self.time).into())

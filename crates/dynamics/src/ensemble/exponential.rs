@@ -1,14 +1,17 @@
 //! Stiff members from start to end: exponential methods with a fixed step, each lane with its own linear part.
 //!
 //! A lane has its own coefficients (functions of `h lambda`), so a table holds one bundle where a single orbit's has one
-//! number. Real and imaginary parts share theirs ([`StiffInLanes::COMPLEX`]). The length of the state is known when the program runs: all room is made once per thread.
+//! number. Real and imaginary parts share theirs ([`StiffInLanes::COMPLEX`]). The length of the state is known when the
+//! program runs: all room is made once per thread.
 
+use super::clock::Clock;
+use super::lane_table::LaneTable;
 use crate::drive::drive;
-use crate::orbit::{check_start, fixed_step};
+use crate::orbit::check_start;
 use crate::scalar::MOST_LANES;
 use crate::simd::{Arithmetic, InstructionSet, LaneKernel, run_lanes_on};
 use crate::steppers::ExponentialTableau;
-use crate::steppers::exponential::{ExponentialTerm, Node, PhiValues};
+use crate::steppers::exponential::Node;
 use crate::{
     Bundle, Error, ExponentialOrbit, Integration as _, Mask, Outcome, Request, Semilinear, StepControl,
 };
@@ -168,28 +171,6 @@ impl<F: StiffInLanes> LaneKernel for Run<'_, F> {
     }
 }
 
-/// Time of one lane: multiples of the step from an origin, as in [`ExponentialOrbit`].
-#[derive(Clone, Copy, Default)]
-struct Clock {
-    t: f64,
-    t_end: f64,
-    origin: (f64, u64),
-    steps: u64,
-}
-
-impl Clock {
-    /// Goes on by a step; its size.
-    #[inline(always)]
-    fn advance(&mut self, step: f64) -> f64 {
-        let (t, h) = fixed_step(step, self.t, self.origin, self.t_end);
-        let (start, count) = self.origin;
-        self.origin = if t == self.t_end { (t, 0) } else { (start, count + 1) };
-        self.t = t;
-        self.steps += 1;
-        h
-    }
-}
-
 /// The members in the lanes of one thread.
 struct Crew<'q, B: Bundle, F: StiffInLanes> {
     queue: &'q Queue<'q, F>,
@@ -214,7 +195,7 @@ impl<B: Bundle, F: StiffInLanes> Crew<'_, B, F> {
                 continue;
             }
             t[lane] = clock.t;
-            h[lane] = clock.advance(step);
+            h[lane] = clock.step(step);
             if clock.t >= clock.t_end {
                 arrived |= Mask::only(lane);
             }
@@ -256,7 +237,7 @@ impl<B: Bundle, F: StiffInLanes> Crew<'_, B, F> {
                     break member;
                 }
             };
-            self.clocks[lane] = Clock { t_end: member.t_end, ..Clock::default() };
+            self.clocks[lane] = Clock::new(0.0, member.t_end);
             self.active |= Mask::only(lane);
             self.lanes.place(lane, member);
             self.set_size(lane, self.how.step);
@@ -341,87 +322,5 @@ impl<B: Bundle, F: StiffInLanes> Lanes<B, F> {
         }
         self.table.combine((Node::Full, row, method.weights), (&self.u, &self.stages), &mut self.argument);
         std::mem::swap(&mut self.u, &mut self.argument);
-    }
-}
-
-/// The coefficients of a method for each lane's step size and linear part.
-struct LaneTable<B> {
-    /// Entries of the state that share a number: 1 or 2.
-    parts: usize,
-    /// Numbers in a row.
-    width: usize,
-    /// Rows: `e^{z/2}`, `e^z`, then `h` times the coefficient of each term.
-    values: Vec<B>,
-}
-
-impl<B: Bundle> LaneTable<B> {
-    #[inline(always)]
-    fn new(method: &ExponentialTableau, dim: usize, parts: usize) -> Self {
-        let width = dim / parts;
-        let rows = 2 + method.step_terms().count();
-        Self { parts, width, values: vec![B::splat(0.0); rows * width] }
-    }
-
-    /// Computes the coefficients of one lane.
-    #[inline(always)]
-    fn fill(&mut self, lane: usize, method: &ExponentialTableau, lambda: &[f64], h: f64) {
-        for (i, &rate) in lambda.iter().step_by(self.parts).enumerate() {
-            let values = PhiValues::at(h * rate);
-            self.set(lane, i, values.half[0]);
-            self.set(lane, self.width + i, values.full[0]);
-            for (row, (_, coefficient)) in method.step_terms().enumerate() {
-                self.set(lane, (2 + row) * self.width + i, h * coefficient(&values));
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn set(&mut self, lane: usize, place: usize, value: f64) {
-        self.values[place] = self.values[place].with_lane(lane, value);
-    }
-
-    /// `e u + sum_j c_j N_j` over `terms`, whose coefficients start at `row`, in the order of a single orbit.
-    #[inline(always)]
-    fn combine(
-        &self,
-        (node, row, terms): (Node, usize, &[ExponentialTerm]),
-        (u, stages): (&[B], &[B]),
-        out: &mut [B],
-    ) {
-        let propagator = if node == Node::Full { self.width } else { 0 };
-        let rows = (propagator, (2 + row) * self.width);
-        if self.parts == 2 {
-            self.combine_parts::<2>(rows, terms, (u, stages), out);
-        } else {
-            self.combine_parts::<1>(rows, terms, (u, stages), out);
-        }
-    }
-
-    #[inline(always)]
-    fn combine_parts<const PARTS: usize>(
-        &self,
-        (propagator, first): (usize, usize),
-        terms: &[ExponentialTerm],
-        (u, stages): (&[B], &[B]),
-        out: &mut [B],
-    ) {
-        for i in 0..self.width {
-            let place = i * PARTS;
-            let (e, u) = (self.values[propagator + i], &u[place..place + PARTS]);
-            let mut sums = [e; PARTS];
-            for part in 0..PARTS {
-                sums[part] = e * u[part];
-            }
-            let mut at = first + i;
-            for &(stage, _) in terms {
-                let c = self.values[at];
-                let slope = &stages[stage * out.len() + place..][..PARTS];
-                for part in 0..PARTS {
-                    sums[part] = c.mul_add(slope[part], sums[part]);
-                }
-                at += self.width;
-            }
-            out[place..place + PARTS].copy_from_slice(&sums);
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! Fixed steps in lanes.
 
+use super::clock::Clock;
 use super::lane::{Entry, Leaving, Members, Pace, Stepped, Turn, Why};
-use crate::orbit::fixed_step;
 use crate::scalar::MOST_LANES;
 use crate::steppers::unrolled::{LaneStep, Method, StepSlopes};
 use crate::{Bundle, Mask, VectorField as _};
@@ -22,33 +22,6 @@ pub fn run_fixed<M: Method, B: Bundle, const D: usize, C: Members<B, D>>(members
     let mut slopes = StepSlopes::zero();
     while lanes.active.any() {
         lanes.advance::<M, C>(members, step, &mut slopes);
-    }
-}
-
-/// Time of one lane: multiples of the step from an origin, as in [`crate::Orbit`].
-#[derive(Clone, Copy, Default)]
-struct Clock {
-    t: f64,
-    t_end: f64,
-    origin: (f64, u64),
-    steps: u64,
-}
-
-impl Clock {
-    /// How many whole steps there are before the end, at most `most`.
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a count, and not above `most`"
-    )]
-    fn whole_steps(&self, step: f64, most: u64) -> u64 {
-        let (start, count) = self.origin;
-        let left = ((self.t_end - start) / step - count as f64).floor() - 1.0;
-        if self.t != start + step * count as f64 { 0 } else { left.clamp(0.0, most as f64) as u64 }
-    }
-
-    fn at(&self, step: f64) -> f64 {
-        self.origin.0 + step * self.origin.1 as f64
     }
 }
 
@@ -134,15 +107,10 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         for lane in self.active.lanes() {
             let clock = &mut self.clocks[lane];
             if chunk == 0 {
-                let (t_new, _) = fixed_step(step, clock.t, clock.origin, clock.t_end);
-                let (start, count) = clock.origin;
-                clock.origin = if t_new == clock.t_end { (clock.t_end, 0) } else { (start, count + 1) };
-                clock.t = t_new;
+                clock.step(step);
             } else {
-                clock.origin.1 += chunk;
-                clock.t = clock.at(step);
+                clock.jump(step, chunk);
             }
-            clock.steps += chunk.max(1);
         }
         called
     }
@@ -154,7 +122,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         for lane in self.active.lanes() {
             let clock = &self.clocks[lane];
             let (t_new, h) = match chunk {
-                0 => fixed_step(step, clock.t, clock.origin, clock.t_end),
+                0 => clock.next(step),
                 _ => (clock.t, step),
             };
             (out[0][lane], out[1][lane], out[2][lane]) = (clock.t, t_new, h);
@@ -203,7 +171,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
     fn fill<C: Members<B, D>>(&mut self, members: &mut C, vacant: Mask) {
         for lane in vacant.lanes() {
             let Some(Entry { t, u, t_end, .. }) = members.enter(lane) else { continue };
-            self.clocks[lane] = Clock { t, t_end, origin: (t, 0), steps: 0 };
+            self.clocks[lane] = Clock::new(t, t_end);
             self.place(lane, &u);
             self.active |= Mask::only(lane);
         }

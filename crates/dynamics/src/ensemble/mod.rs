@@ -8,10 +8,12 @@
 //! width and instruction set (`tests/ensemble.rs`); with fused arithmetic, those that any machine computes with it.
 
 mod adaptive;
+mod clock;
 mod dense;
 mod exponential;
 mod fixed;
 mod lane;
+mod lane_table;
 mod propagate;
 mod tangent;
 

@@ -97,6 +97,7 @@ pub fn propagate<F: InLanes, const D: usize>(
     }
     for member in members {
         check_start(member.field.dim(), 0.0, &member.start)?;
+        check_start(member.field.dim(), member.t_end, &member.start)?; // an end that is a number
     }
     let queue = Queue { members, next: AtomicUsize::new(0), ends: Mutex::new(vec![None; members.len()]) };
     match how.method.name {
