@@ -1,13 +1,17 @@
 //! One way to do each chore: `cargo xtask test`, `cargo xtask deny`.
 
+mod python;
+
 use anyhow::{Context, Result, bail};
+use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
 const HELP: &str = "\
 usage: cargo xtask COMMAND
 
-  test     everything that must pass before a push: format, lints, documentation, all tests
-  quick    the tests alone
+  test     everything that must pass before a push: format, lints, documentation, all tests, also those of Python
+  quick    the Rust tests alone
+  python   the Python package: builds it into target/python and runs its tests there
   deny     licences, advisories and sources of the dependencies (needs `cargo install --locked cargo-deny`)";
 
 /// Lints and documentation are checked with every feature on, so that optional parts cannot rot.
@@ -35,8 +39,12 @@ fn main() -> ExitCode {
 
 fn run() -> Result<()> {
     match std::env::args().nth(1).as_deref() {
-        Some("test") => STEPS.iter().try_for_each(|(name, arguments)| cargo(name, arguments)),
+        Some("test") => {
+            STEPS.iter().try_for_each(|(name, arguments)| cargo(name, arguments))?;
+            python::test()
+        }
         Some("quick") => cargo("tests", TESTS),
+        Some("python") => python::test(),
         Some("deny") => cargo("dependencies", &["deny", "check"]),
         _ => {
             println!("{HELP}");
@@ -45,20 +53,25 @@ fn run() -> Result<()> {
     }
 }
 
+/// The checkout. From cargo at run time: a program built in another checkout must not test that one.
+fn root() -> Result<PathBuf> {
+    let package = std::env::var("CARGO_MANIFEST_DIR").context("start this by `cargo xtask`")?;
+    Ok(PathBuf::from(package).join(".."))
+}
+
 /// Runs cargo in the workspace, showing what it does.
 fn cargo(name: &str, arguments: &[&str]) -> Result<()> {
-    eprintln!("== {name}: cargo {}", arguments.join(" "));
-    // From cargo at run time: a program built in another checkout must not test that one.
-    let package = std::env::var("CARGO_MANIFEST_DIR").context("start this by `cargo xtask`")?;
-    let root = std::path::Path::new(&package).join("..");
     let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let status = Command::new(program)
-        .args(arguments)
-        .current_dir(root)
-        .env("RUSTDOCFLAGS", "-D warnings")
-        .status()
-        .with_context(|| format!("cargo could not be started for {name}"))?;
-    if !status.success() {
+    step(name, Command::new(program).args(arguments).env("RUSTDOCFLAGS", "-D warnings"))
+}
+
+/// Runs a command in the checkout, showing what it does.
+fn step(name: &str, command: &mut Command) -> Result<()> {
+    let words: Vec<_> = std::iter::once(command.get_program()).chain(command.get_args()).collect();
+    let words: Vec<_> = words.into_iter().map(std::ffi::OsStr::to_string_lossy).collect();
+    eprintln!("== {name}: {}", words.join(" "));
+    let status = command.current_dir(root()?).status();
+    if !status.with_context(|| format!("{} could not be started for {name}", words[0]))?.success() {
         bail!("{name} failed");
     }
     Ok(())

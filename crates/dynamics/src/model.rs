@@ -63,7 +63,7 @@ pub trait Model: Equivariant {
     /// The numbers that people type and read for the shape, in file order.
     fn coordinates(&self) -> &[Coordinate];
 
-    /// Coordinates (as in [`Model::coordinates`]) to the state that is computed with.
+    /// Coordinates (as in [`Model::coordinates`]) to the state that is computed with: a linear map.
     fn encode(&self, coordinates: &[f64], shape: &mut [f64]);
 
     /// The inverse of [`Model::encode`].

@@ -75,7 +75,7 @@ pub fn lyapunov(
         escape_norm: c.escape_norm,
         max_steps: c.max_steps,
     };
-    let mut stop = Stop { total: settings.transient + settings.span, ..Stop::new(monitor) };
+    let mut stop = Stop::over(monitor, settings.transient + settings.span);
     Ok(motiform_analysis::lyapunov(model.as_ref(), &shape, &settings, &mut stop)?)
 }
 
@@ -103,7 +103,12 @@ pub(crate) struct Stop<'m> {
 
 impl<'m> Stop<'m> {
     pub(crate) fn new(monitor: &'m dyn Monitor) -> Self {
-        Self { monitor, ticks: 0, total: 0.0 }
+        Self::over(monitor, 0.0)
+    }
+
+    /// For a run of length `total` (0 where it is not known).
+    pub(crate) fn over(monitor: &'m dyn Monitor, total: f64) -> Self {
+        Self { monitor, ticks: 0, total }
     }
 }
 

@@ -167,6 +167,12 @@ pub enum Error {
         /// The reason.
         reason: String,
     },
+    /// Rows that are not those of a part.
+    #[error("these are not the rows of part {part}, in order: hand over one row per cell and initial state")]
+    OtherRows {
+        /// The part.
+        part: usize,
+    },
     /// A fixed step that an explicit method cannot take on this model.
     #[error(
         "step = {step:?}: {stepper} is unstable above {largest:.1e} for this model; give a smaller step, or take an \

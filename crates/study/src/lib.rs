@@ -4,10 +4,12 @@
 pub mod analyse;
 pub mod dataset;
 pub mod draw;
+pub mod equilibria;
 mod error;
 pub mod fields;
 pub mod figures;
 pub mod files;
+pub mod flow;
 mod initial;
 pub mod plan;
 pub mod presets;
@@ -15,8 +17,10 @@ pub mod report;
 pub mod reproduction;
 pub mod saddle;
 pub mod scan;
+pub mod section;
 pub mod simulate;
 pub mod study;
+mod study_toml;
 pub mod table;
 mod toml_reader;
 

@@ -49,6 +49,16 @@ pub fn simulate(plan: &Plan, monitor: &dyn Monitor) -> Result<Dataset, Error> {
     run.all()
 }
 
+/// The state `(shape, x, y)` after the plan's transient, or how the run ended before it was over.
+pub(crate) fn after_transient(
+    plan: &Plan,
+    model: &dyn Model,
+    monitor: &dyn Monitor,
+) -> Result<(Option<Outcome>, Vec<f64>), Error> {
+    let run = Run { plan, computation: &plan.computation, model, body: &InPlane(model), monitor };
+    run.transient(1.0)
+}
+
 struct Run<'r> {
     plan: &'r Plan,
     computation: &'r Computation,

@@ -20,9 +20,9 @@ pub struct Study {
     pub about: String,
     /// The parameters that span the paper's diagram, where this study stands for one.
     pub free: Vec<String>,
-    /// Parameters that differ from the model's defaults.
+    /// Parameters that are given, in registry order.
     pub parameters: Vec<(String, f64)>,
-    /// Initial values that are given; the others are 0, or random if none is given.
+    /// Initial values that are given, in the order of the coordinates; the others are 0, or random if none is given.
     pub initial: Vec<(String, f64)>,
     /// Size of the random start.
     pub random: f64,
@@ -85,7 +85,7 @@ impl Default for RunSettings {
 }
 
 /// What a scan varies.
-#[derive(Clone, Debug, PartialEq, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ScanSettings {
     /// One or two axes: "kappa2=0.1:1.6:64" is 64 values from 0.1 to 1.6, both ends included; "kappa2=0.1,0.2" lists
     /// them.
@@ -235,7 +235,8 @@ impl Study {
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), Error> {
         let info = self.info()?;
         motiform_models::parameters::index_of(info.parameters(), info.name, name)?;
-        replace(&mut self.parameters, name, value);
+        let order: Vec<_> = info.parameters().iter().map(|spec| spec.name).collect();
+        replace(&mut self.parameters, (name, value), &order);
         Ok(())
     }
 
@@ -244,15 +245,20 @@ impl Study {
     /// # Errors
     /// An unknown name (with the nearest one).
     pub fn set_initial(&mut self, name: &str, value: f64) -> Result<(), Error> {
-        self.info()?.coordinate(&self.values()?, name)?;
-        replace(&mut self.initial, name, value);
+        let (info, values) = (self.info()?, self.values()?);
+        info.coordinate(&values, name)?;
+        let names = info.coordinates(&values).iter().map(|coordinate| coordinate.name);
+        let order: Vec<_> = names.chain(["x", "y"]).collect();
+        replace(&mut self.initial, (name, value), &order);
         Ok(())
     }
 }
 
-fn replace(list: &mut Vec<(String, f64)>, name: &str, value: f64) {
+/// Puts a value in the place that `order` gives its name: what was typed first makes no difference.
+fn replace(list: &mut Vec<(String, f64)>, (name, value): (&str, f64), order: &[&str]) {
     list.retain(|(known, _)| known != name);
     list.push((name.to_owned(), value));
+    list.sort_by_key(|(known, _)| order.iter().position(|name| name == known));
 }
 
 /// `[model.NAME]` with parameters, on top of `preset = "..."` if given.

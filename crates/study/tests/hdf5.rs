@@ -1,7 +1,7 @@
 //! HDF5 fields as h5py and as the crate itself read them.
 
 use hdf5_pure::{AttrValue, File};
-use motiform_study::files::{Fields, write_fields};
+use motiform_study::files::{Fields, read_fields, write_fields};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -135,4 +135,18 @@ fn lengths_that_do_not_belong_together_are_refused() {
     assert!(!path.exists());
     let nowhere = folder.path().join("nowhere").join("fields.h5");
     assert!(matches!(write_fields(&nowhere, &good()), Err(motiform_study::Error::WriteFailed { .. })));
+}
+
+#[test]
+fn what_was_written_is_read_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("fields.h5");
+    let written = fields(7, 16, 12);
+    write_fields(&path, &written).unwrap();
+    let read = read_fields(&path).unwrap();
+    assert_eq!((read.points, &read.attributes), (written.points, &written.attributes));
+    let columns = |f: &Fields| [bytes(&f.times), bytes(&f.arcs), bytes(&f.phi), bytes(&f.outlines)];
+    assert_eq!(columns(&read), columns(&written));
+    std::fs::write(&path, "no HDF5").unwrap();
+    assert!(read_fields(&path).unwrap_err().to_string().starts_with("cannot read"));
 }

@@ -94,6 +94,39 @@ pub enum Attractor {
     Unknown,
 }
 
+impl Attractor {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Equilibrium,
+        Self::Periodic,
+        Self::Torus,
+        Self::Heteroclinic,
+        Self::Chaotic,
+        Self::Escape,
+        Self::Unknown,
+    ];
+
+    /// Its name in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Equilibrium => "equilibrium",
+            Self::Periodic => "periodic",
+            Self::Torus => "torus",
+            Self::Heteroclinic => "heteroclinic",
+            Self::Chaotic => "chaotic",
+            Self::Escape => "escape",
+            Self::Unknown => "unknown",
+        }
+    }
+
+    /// The kind of this name.
+    #[must_use]
+    pub fn find(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|attractor| attractor.name() == name)
+    }
+}
+
 /// Mean and extremes of a quantity over the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spread {

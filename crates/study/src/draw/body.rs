@@ -123,7 +123,7 @@ impl<'d> Body<'d> {
     /// R0 does not enter the dynamics: a round number that shows the deformation and keeps the outline a curve.
     fn fitting_radius(&self) -> f64 {
         let deformation = self.rows().map(|row| self.model.deformation(&self.shape(row))).fold(0.0, f64::max);
-        if deformation < 1e-6 || !deformation.is_finite() { 1.0 } else { round_up(deformation / DEFORMATION) }
+        radius_for(deformation)
     }
 
     /// 1 where an undeformed outline at its true size is about `target` of the longer side of the path, else a round
@@ -136,6 +136,12 @@ impl<'d> Body<'d> {
             round_up(target / share / 1.3)
         }
     }
+}
+
+/// A round undeformed radius for a body whose largest deformation (as in [`Model::deformation`]) is this.
+#[must_use]
+pub fn radius_for(deformation: f64) -> f64 {
+    if deformation < 1e-6 || !deformation.is_finite() { 1.0 } else { round_up(deformation / DEFORMATION) }
 }
 
 fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {

@@ -13,6 +13,7 @@ mod words;
 use crate::figures::{DEFAULT_SCALE, png};
 use crate::{Dataset, Error};
 use body::Body;
+pub use body::radius_for;
 pub use diagram::{draw_scan, exponents, phase_diagram};
 pub(crate) use words::number;
 

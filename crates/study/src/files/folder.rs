@@ -96,6 +96,22 @@ pub fn read_dataset(folder: &Path) -> Result<Dataset, Error> {
     Ok(Dataset { manifest, trajectory, crossings: Some(crossings) })
 }
 
+/// Reads one table, Parquet or CSV by its extension, and the manifest where the file carries one.
+///
+/// # Errors
+/// [`Error::Unreadable`].
+pub fn read_table_file(path: &Path) -> Result<(Table, Option<Manifest>), Error> {
+    match Format::of_path(path) {
+        Some(Format::Csv) => Ok((csv_table::read(path)?, None)),
+        Some(Format::Parquet) => {
+            let text = parquet_table::read_metadata(path)?;
+            let manifest = text.map(|text| serde_json::from_str(&text)).transpose();
+            Ok((parquet_table::read(path)?, manifest.map_err(|error| Error::unreadable(path, error))?))
+        }
+        None => Err(Error::unreadable(path, "it is no table: give a .parquet or .csv file")),
+    }
+}
+
 fn model_of(manifest: &Manifest) -> Result<Box<dyn Model>, Error> {
     let plan = &manifest.plan;
     Ok(plan.info()?.build(&plan.computation.parameters.values())?)

@@ -1,7 +1,7 @@
 //! Fields over time and arc length as HDF5: named dimensions, units, attributes; opens in h5py, MATLAB, Julia.
 
 use crate::Error;
-use hdf5_pure::{AttrValue, FileBuilder};
+use hdf5_pure::{AttrValue, File, FileBuilder};
 use std::path::Path;
 
 /// Bytes of a chunk, about: what a reader of one time has to unpack.
@@ -67,6 +67,31 @@ pub fn write_fields(path: &Path, fields: &Fields) -> Result<(), Error> {
         add(&mut file, part);
     }
     file.write(path).map_err(|error| Error::write_failed(path, error))
+}
+
+/// Reads the fields back.
+///
+/// # Errors
+/// [`Error::Unreadable`] for a file that is no HDF5, or has not these datasets with lengths that belong together.
+pub fn read_fields(path: &Path) -> Result<Fields, Error> {
+    let unreadable = |why: &dyn std::fmt::Display| Error::unreadable(path, why);
+    let file = File::open(path).map_err(|error| unreadable(&error))?;
+    let read = |name: &str| {
+        let values = file.dataset(name).and_then(|set| set.read_f64());
+        values.map_err(|error| unreadable(&format!("dataset {name}: {error}")))
+    };
+    let (times, arcs, phi, outlines) = (read("t")?, read("s")?, read("phi")?, read("outline")?);
+    let attributes = file.root().attrs().map_err(|error| unreadable(&error))?;
+    let texts =
+        attributes.iter().filter_map(|(name, value)| Some((name.clone(), value.as_str()?.to_owned())));
+    let mut attributes: Vec<(String, String)> = texts.collect();
+    attributes.sort(); // the file has no order of its own
+    let points = outlines.len() / (2 * times.len()).max(1);
+    let fields = Fields { times, arcs, phi, outlines, points, attributes };
+    for part in parts(&fields) {
+        check(&part).map_err(|why| unreadable(&why))?;
+    }
+    Ok(fields)
 }
 
 fn parts(fields: &Fields) -> [Part<'_>; 4] {

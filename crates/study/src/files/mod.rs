@@ -6,6 +6,6 @@ mod hdf5;
 mod parquet_table;
 mod staging;
 
-pub use folder::{Format, read_dataset, write_dataset, write_table};
-pub use hdf5::{Fields, write_fields};
+pub use folder::{Format, read_dataset, read_table_file, write_dataset, write_table};
+pub use hdf5::{Fields, read_fields, write_fields};
 pub use staging::{Staging, replace_file};

@@ -115,3 +115,14 @@ fn try_read(path: &Path) -> Result<Table> {
     }
     Ok(Table { columns })
 }
+
+/// What was written as `metadata`, if the file has it.
+pub(super) fn read_metadata(path: &Path) -> std::result::Result<Option<String>, Error> {
+    let read = || -> Result<Option<String>> {
+        let reader = SerializedFileReader::new(std::fs::File::open(path)?)?;
+        let entries = reader.metadata().file_metadata().key_value_metadata();
+        let entry = entries.and_then(|entries| entries.iter().find(|entry| entry.key == "motiform"));
+        Ok(entry.and_then(|entry| entry.value.clone()))
+    };
+    read().map_err(|error| Error::unreadable(path, error))
+}

@@ -35,6 +35,13 @@ impl Axis {
         Ok(axis)
     }
 
+    /// The text that reads back as this axis ([`Axis::parse`]), every value with all its digits.
+    #[must_use]
+    pub fn to_text(&self) -> String {
+        let values: Vec<String> = self.values.iter().map(|value| format!("{value:?}")).collect();
+        format!("{}={}", self.name, values.join(","))
+    }
+
     /// Refuses an axis without values, with too many, or with one that is not finite or stands there twice.
     pub(super) fn check(&self) -> Result<(), Error> {
         let wrong = |problem: String| Error::Axis { text: self.name.clone(), problem };

@@ -5,10 +5,10 @@ use super::evaluate::Evaluate;
 use crate::Error;
 use crate::analyse::settings_of;
 use crate::simulate::Monitor;
-use motiform_analysis::regime::{Candidate, Settings, Verdict, classifies_in_lanes, classify_in_lanes};
+use motiform_analysis::regime::{Settings, Verdict, classifies_in_lanes};
 use motiform_dynamics::simd::Arithmetic;
+use motiform_kernels::{TensorRow, classify_tensors, covering};
 use motiform_models::tensor::Tensor;
-use motiform_models::tensor::fourier::{DIM, FourierField, terms};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
@@ -24,12 +24,7 @@ pub(super) fn classify(
     stop: &dyn Monitor,
 ) -> bool {
     let Some((settings, terms)) = kernel(plan) else { return false };
-    let work = Work { single, plan, settings, next, done, stop };
-    if terms & !terms::COMMON == 0 {
-        work.run::<{ terms::COMMON }>();
-    } else {
-        work.run::<{ terms::ALL }>();
-    }
+    Work { single, plan, settings, terms: covering(terms), next, done, stop }.run();
     true
 }
 
@@ -60,6 +55,7 @@ struct Work<'w> {
     single: &'w dyn Evaluate,
     plan: &'w ScanPlan,
     settings: Settings,
+    terms: u32,
     next: Next<'w>,
     done: Done<'w>,
     stop: &'w dyn Monitor,
@@ -67,8 +63,8 @@ struct Work<'w> {
 
 impl Work<'_> {
     /// Runs the kernel with these terms; a row that has others is classified by itself.
-    fn run<const TERMS: u32>(self) {
-        let Self { single, plan, settings, next, done, stop } = self;
+    fn run(self) {
+        let Self { single, plan, settings, terms, next, done, stop } = self;
         let fast = plan.computation.fast;
         let arithmetic = if fast { Arithmetic::Fused } else { Arithmetic::Reproducible };
         let done = RefCell::new(done);
@@ -79,7 +75,7 @@ impl Work<'_> {
             let (cell, sample) = next()?;
             let row = taken;
             taken += 1;
-            match row_in_lanes::<TERMS>(plan, cell, sample) {
+            match row_in_lanes(plan, terms, cell, sample) {
                 Ok(Some(candidate)) => {
                     rows.borrow_mut().insert(riding, row);
                     riding += 1;
@@ -95,29 +91,15 @@ impl Work<'_> {
             }
         };
         let stopped = || stop.stopped();
-        classify_in_lanes::<_, DIM, { 2 * DIM }>(
-            &settings,
-            arithmetic,
-            &mut candidate,
-            &mut decided,
-            &stopped,
-        );
+        classify_tensors(terms, &settings, arithmetic, &mut candidate, &mut decided, &stopped);
     }
 }
 
-/// A row as a candidate for a lane of the kernel with these terms; `None` if it needs others.
-fn row_in_lanes<const TERMS: u32>(
-    plan: &ScanPlan,
-    cell: usize,
-    sample: usize,
-) -> Result<Option<Candidate<FourierField<f64, TERMS>, DIM>>, Error> {
-    let model = plan.model_of(cell)?;
-    let start = plan.start(cell, sample, model.as_ref())?;
-    let Some(tensor) = model.as_any().and_then(|any| any.downcast_ref::<Tensor>()) else { return Ok(None) };
-    let Ok(start) = <[f64; DIM]>::try_from(start) else { return Ok(None) };
-    if tensor.terms() & !TERMS != 0 {
-        return Ok(None);
-    }
-    let field = FourierField(tensor.field().0);
-    Ok(Some(Candidate { body: model, field, start }))
+/// A row for a lane of the kernel with these terms; `None` if it needs others.
+fn row_in_lanes(plan: &ScanPlan, terms: u32, cell: usize, sample: usize) -> Result<Option<TensorRow>, Error> {
+    let body = plan.model_of(cell)?;
+    let start = plan.start(cell, sample, body.as_ref())?;
+    let Some(&tensor) = body.as_any().and_then(|any| any.downcast_ref::<Tensor>()) else { return Ok(None) };
+    let Ok(start) = start.try_into() else { return Ok(None) };
+    Ok((tensor.terms() & !terms == 0).then_some(TensorRow { body, tensor, start }))
 }

@@ -20,6 +20,8 @@ mod run;
 mod shard;
 mod start;
 mod summary;
+mod table;
+mod work;
 
 pub use axis::Axis;
 pub use evaluate::{Classify, Evaluate};
@@ -28,6 +30,8 @@ pub use merge::{Merged, merge};
 pub use part::{PartError, Parts, read_part};
 pub use plan::{SCAN_FORMAT, ScanComputation, ScanPlan};
 pub use rows::{NUMBERS, Row};
-pub use run::{Ended, Opening, Scan};
+pub use run::{Opening, Scan};
 pub use shard::Shard;
 pub use summary::{CellSummary, Motion, Totals, cells, for_each_part};
+pub use table::ScanTable;
+pub use work::{Ended, Store, compute, rows_of};

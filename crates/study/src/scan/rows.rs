@@ -104,11 +104,7 @@ pub(super) fn to_columns(plan: &ScanPlan, rows: &[Row]) -> Vec<Column> {
         columns.push(Column::new(&axis.name, "the parameter", Values::Number(values)));
     }
     columns.push(Column::new("regime", "the motion", text(|row| row.regime.name())));
-    columns.push(Column::new(
-        "attractor",
-        "the kind of reduced attractor",
-        text(|row| attractor_name(row.attractor)),
-    ));
+    columns.push(Column::new("attractor", "the kind of reduced attractor", text(|row| row.attractor.name())));
     for (place, (name, meaning)) in NUMBERS.iter().enumerate() {
         let values = rows.iter().map(|row| row.numbers[place]).collect();
         columns.push(Column::new(name, meaning, Values::Number(values)));
@@ -135,7 +131,7 @@ pub(super) fn from_columns(plan: &ScanPlan, columns: Vec<Column>) -> Option<Vec<
             cell: usize::try_from(cells[place]).ok()?,
             sample: usize::try_from(samples[place]).ok()?,
             regime: Regime::find(&regimes[place])?,
-            attractor: ATTRACTORS.into_iter().find(|&known| attractor_name(known) == attractors[place])?,
+            attractor: Attractor::find(&attractors[place])?,
             numbers: [f64::NAN; NUMBERS.len()],
             why: std::mem::take(&mut whys[place]),
         };
@@ -147,29 +143,6 @@ pub(super) fn from_columns(plan: &ScanPlan, columns: Vec<Column>) -> Option<Vec<
     (0..cells.len()).map(row).collect()
 }
 
-const ATTRACTORS: [Attractor; 7] = [
-    Attractor::Equilibrium,
-    Attractor::Periodic,
-    Attractor::Torus,
-    Attractor::Heteroclinic,
-    Attractor::Chaotic,
-    Attractor::Escape,
-    Attractor::Unknown,
-];
-
-/// Its name in files: the one that JSON has.
-fn attractor_name(attractor: Attractor) -> &'static str {
-    match attractor {
-        Attractor::Equilibrium => "equilibrium",
-        Attractor::Periodic => "periodic",
-        Attractor::Torus => "torus",
-        Attractor::Heteroclinic => "heteroclinic",
-        Attractor::Chaotic => "chaotic",
-        Attractor::Escape => "escape",
-        Attractor::Unknown => "unknown",
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -177,8 +150,8 @@ mod tests {
 
     #[test]
     fn attractors_are_called_as_in_json() {
-        for attractor in ATTRACTORS {
-            assert_eq!(serde_json::to_value(attractor).unwrap(), attractor_name(attractor));
+        for attractor in Attractor::ALL {
+            assert_eq!(serde_json::to_value(attractor).unwrap(), attractor.name());
         }
     }
 

@@ -1,19 +1,14 @@
-//! Computing a scan: open the folder, find what is missing, compute it over all threads.
+//! The folder of a scan that is being computed: open it, find what is missing, keep what is done.
 
 use super::evaluate::Evaluate;
 use super::folder::{ScanFolder, differences, lock, stage};
 use super::part::{PARTIAL, PartError};
-use super::queue::{Job, Queue, held};
+use super::work::{Ended, Store, compute};
 use super::{Parts, Row, ScanPlan, Shard};
 use crate::Error;
 use crate::simulate::Monitor;
-use motiform_analysis::regime::{Attractor, Regime, Verdict};
-use std::cell::RefCell;
-use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::path::Path;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// What to do with a folder that is there already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,17 +31,6 @@ pub struct Scan {
     damaged: Vec<String>,
     /// The folder's lock, and that of the folder it replaced.
     _locks: (File, Option<File>),
-}
-
-/// How a computation ended that did not fail.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Ended {
-    /// Whether everything of the shard is computed; if not, the monitor stopped it.
-    pub complete: bool,
-    /// Cells computed and written.
-    pub cells: usize,
-    /// Most rows that were in memory at once.
-    pub most_rows: usize,
 }
 
 impl Scan {
@@ -118,9 +102,24 @@ impl Scan {
         self.parts_left().map(|part| self.folder.plan().cells_of(part).len()).sum()
     }
 
-    fn parts_left(&self) -> impl Iterator<Item = usize> + Send {
+    /// The parts to compute, in order.
+    pub fn parts_left(&self) -> impl Iterator<Item = usize> {
         let left = |(part, whole): (usize, &bool)| (self.shard.holds(part) && !whole).then_some(part);
         self.whole.iter().enumerate().filter_map(left)
+    }
+
+    /// Keeps the rows of a part that were computed elsewhere.
+    ///
+    /// # Errors
+    /// [`Error::PartFailed`]; [`Error::OtherRows`] if they are not the rows of this part, in order.
+    pub fn keep(&self, part: usize, rows: &[Row]) -> Result<(), Error> {
+        let plan = self.folder.plan();
+        let samples = plan.computation.samples;
+        let places = plan.cells_of(part).flat_map(|cell| (0..samples).map(move |sample| (cell, sample)));
+        if !places.eq(rows.iter().map(|row| (row.cell, row.sample))) {
+            return Err(Error::OtherRows { part });
+        }
+        self.folder.parts().write(plan, part, rows)
     }
 
     /// Computes what is missing, over `threads` threads. Rows under way are stopped soon when `monitor` says so.
@@ -133,35 +132,20 @@ impl Scan {
         threads: usize,
         monitor: &dyn Monitor,
     ) -> Result<Ended, Error> {
-        let plan = self.folder.plan();
-        let cells = self.cells_left();
-        let total = cells * plan.computation.samples;
-        let work = Work {
-            plan,
-            parts: self.folder.parts(),
-            evaluate,
-            monitor,
-            total,
-            queue: Mutex::new(Queue::new(plan, self.parts_left())),
-            failure: Mutex::new(None),
-            failed: AtomicBool::new(false),
-            rows: AtomicUsize::new(0),
-            cells: AtomicUsize::new(0),
-            held: AtomicUsize::new(0),
-            most: AtomicUsize::new(0),
-        };
-        // Plain threads: the queue is the whole scheduler, and a pool would only hide it.
-        std::thread::scope(|scope| {
-            for _ in 1..threads.min(total) {
-                scope.spawn(|| work.compute());
-            }
-            work.compute();
-        });
-        if let Some(error) = held(&work.failure).take() {
-            return Err(error);
-        }
-        let done = work.cells.into_inner();
-        Ok(Ended { complete: done == cells, cells: done, most_rows: work.most.into_inner() })
+        let files = Files { plan: self.folder.plan(), parts: self.folder.parts() };
+        compute(files.plan, self.parts_left().collect(), evaluate, threads, monitor, &files)
+    }
+}
+
+/// The parts as files.
+struct Files<'f> {
+    plan: &'f ScanPlan,
+    parts: Parts,
+}
+
+impl Store for Files<'_> {
+    fn put(&self, part: usize, rows: Vec<Row>) -> Result<(), Error> {
+        self.parts.write(self.plan, part, &rows)
     }
 }
 
@@ -177,85 +161,4 @@ fn remove_partial(folder: &Path) -> Result<(), Error> {
         }
     }
     Ok(())
-}
-
-/// What the threads share.
-struct Work<'w> {
-    plan: &'w ScanPlan,
-    parts: Parts,
-    evaluate: &'w dyn Evaluate,
-    monitor: &'w dyn Monitor,
-    /// Rows to compute.
-    total: usize,
-    queue: Mutex<Queue<'w>>,
-    failure: Mutex<Option<Error>>,
-    failed: AtomicBool,
-    /// Rows computed, cells written, rows in memory, and the most of these.
-    rows: AtomicUsize,
-    cells: AtomicUsize,
-    held: AtomicUsize,
-    most: AtomicUsize,
-}
-
-impl Work<'_> {
-    /// One thread: rows until none is left, or a stop.
-    fn compute(&self) {
-        // The rows under way, by their number on this thread.
-        let jobs = RefCell::new(BTreeMap::new());
-        let mut handed_out = 0;
-        let mut next = || {
-            if self.stopped() {
-                return None;
-            }
-            let job = held(&self.queue).next()?;
-            let row = (job.cell, job.sample);
-            jobs.borrow_mut().insert(handed_out, job);
-            handed_out += 1;
-            Some(row)
-        };
-        let mut done = |number: usize, verdict| {
-            if let Some(job) = jobs.borrow_mut().remove(&number) {
-                self.done(&job, verdict);
-            }
-        };
-        self.evaluate.evaluate_all(self.plan, &mut next, &mut done, self);
-    }
-
-    /// Takes in the verdict on a row; nothing, if it was stopped. What the numerics refuse is a row that says so.
-    fn done(&self, job: &Job, verdict: Result<Option<Verdict>, Error>) {
-        let verdict = match verdict {
-            Ok(Some(verdict)) => verdict,
-            Ok(None) => return,
-            Err(error) => {
-                Verdict::new(Regime::Undetermined, Attractor::Unknown, format!("refused: {error}"), 0.0)
-            }
-        };
-        let count = self.held.fetch_add(1, Ordering::Relaxed) + 1;
-        self.most.fetch_max(count, Ordering::Relaxed);
-        if let Some(rows) = job.done(Row::new(job.cell, job.sample, verdict)) {
-            self.write(job.pending.part, &rows);
-        }
-        let rows = self.rows.fetch_add(1, Ordering::Relaxed) + 1;
-        self.monitor.progress(rows as f64 / self.total as f64);
-    }
-
-    fn write(&self, part: usize, rows: &[Row]) {
-        match self.parts.write(self.plan, part, rows) {
-            Ok(()) => {
-                self.cells.fetch_add(self.plan.cells_of(part).len(), Ordering::Relaxed);
-            }
-            Err(error) => {
-                held(&self.failure).get_or_insert(error);
-                self.failed.store(true, Ordering::Relaxed);
-            }
-        }
-        self.held.fetch_sub(rows.len(), Ordering::Relaxed);
-    }
-}
-
-/// What an evaluation listens to: the caller's stop, or a failure in another thread.
-impl Monitor for Work<'_> {
-    fn stopped(&self) -> bool {
-        self.failed.load(Ordering::Relaxed) || self.monitor.stopped()
-    }
 }

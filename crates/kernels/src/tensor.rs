@@ -1,0 +1,56 @@
+//! The tensor model, classified in lanes.
+
+use motiform_analysis::Result;
+use motiform_analysis::regime::{Candidate, Settings, Verdict, classify_in_lanes};
+use motiform_dynamics::Model;
+use motiform_dynamics::simd::Arithmetic;
+use motiform_models::tensor::Tensor;
+use motiform_models::tensor::fourier::{DIM, FourierField, terms};
+
+/// One body to classify.
+pub struct TensorRow {
+    /// The body.
+    pub body: Box<dyn Model>,
+    /// The same, for its coefficients.
+    pub tensor: Tensor,
+    /// Its shape at the start.
+    pub start: [f64; DIM],
+}
+
+/// The smallest set of terms (see [`terms`]) for which there is a kernel with all of `needed`.
+#[must_use]
+pub fn covering(needed: u32) -> u32 {
+    if needed & !terms::COMMON == 0 { terms::COMMON } else { terms::ALL }
+}
+
+/// Names the motion of all rows that `next` gives, whose terms must be within `covering` (a set that [`covering()`]
+/// gave); each verdict goes to `done` with the row's number. Verdicts are those of [`motiform_analysis::classify`] to the
+/// last bit (in reproducible arithmetic). When `stopped` says so, the rest is left.
+pub fn classify_tensors(
+    covering: u32,
+    settings: &Settings,
+    arithmetic: Arithmetic,
+    next: &mut dyn FnMut() -> Option<TensorRow>,
+    done: &mut dyn FnMut(usize, Result<Option<Verdict>>),
+    stopped: &dyn Fn() -> bool,
+) {
+    if covering == terms::COMMON {
+        classify::<{ terms::COMMON }>(settings, arithmetic, next, done, stopped);
+    } else {
+        classify::<{ terms::ALL }>(settings, arithmetic, next, done, stopped);
+    }
+}
+
+fn classify<const TERMS: u32>(
+    settings: &Settings,
+    arithmetic: Arithmetic,
+    next: &mut dyn FnMut() -> Option<TensorRow>,
+    done: &mut dyn FnMut(usize, Result<Option<Verdict>>),
+    stopped: &dyn Fn() -> bool,
+) {
+    let mut candidate = || {
+        let TensorRow { body, tensor, start } = next()?;
+        Some(Candidate { body, field: FourierField::<f64, TERMS>(tensor.field().0), start })
+    };
+    classify_in_lanes::<_, DIM, { 2 * DIM }>(settings, arithmetic, &mut candidate, done, stopped);
+}

@@ -1,0 +1,48 @@
+"""motiform: the laboratory for deformable self-propelled domains.
+
+>>> import motiform
+>>> body = motiform.preset("fig5a")            # or motiform.Tensor(kappa2=0.5, ...), motiform.Cell(length=21.6)
+>>> run = body.simulate(200.0)                 # run.t, run.position, run["s11"], run.to_pandas(), run.plot()
+>>> body.classify().regime
+>>> motiform.scan(motiform.preset("fig1"), {"kappa2": "-0.2:0.2:40", "gamma": "-0.1:0.1:40"})
+
+All quantities are in the models' own units of time and length; parameters have the paper's names.
+"""
+
+from ._registry import MODELS, PRESETS, REGIMES, STEPPERS
+from ._registry import VERSION as __version__
+from .bodies import Cell, Tensor
+from .errors import EndedEarly, Incomplete, Interrupted, WorkersLost
+from .models import Model, preset, study
+from .reading import read
+from .results import Crossings, Equilibrium, Estimate, Exponents, Outcome, Spread, Verdict
+from .scans import merge, scan
+from .trajectory import Trajectory
+
+__all__ = [
+    "MODELS",
+    "PRESETS",
+    "REGIMES",
+    "STEPPERS",
+    "Cell",
+    "Crossings",
+    "EndedEarly",
+    "Equilibrium",
+    "Estimate",
+    "Exponents",
+    "Incomplete",
+    "Interrupted",
+    "Model",
+    "Outcome",
+    "Spread",
+    "Tensor",
+    "Trajectory",
+    "Verdict",
+    "WorkersLost",
+    "__version__",
+    "merge",
+    "preset",
+    "read",
+    "scan",
+    "study",
+]

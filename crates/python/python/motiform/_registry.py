@@ -1,0 +1,95 @@
+"""What has a name in motiform, read once from the native module: models, parameters, presets, regimes."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import Any
+
+from . import _motiform
+
+_RAW: dict[str, Any] = json.loads(_motiform.registry())
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter of a model."""
+
+    name: str
+    """The paper's name in ASCII."""
+    symbol: str
+    """How figures write it: ``*`` around italic letters, ``_`` before a subscript."""
+    default: float
+    range: tuple[float, float]
+    """Where interesting things happen."""
+    allowed: tuple[float, float]
+    """Values that the model can be computed with."""
+    equation: str
+    """The equation it stands in."""
+    meaning: str
+
+    @property
+    def tex(self) -> str:
+        """The symbol for matplotlib."""
+        return "$" + self.symbol.replace("*", "") + "$"
+
+
+@dataclass(frozen=True)
+class ModelInfo:
+    """A model of the registry."""
+
+    name: str
+    title: str
+    equations: str
+    source: str
+    parameters: tuple[Parameter, ...]
+    coordinates: tuple[tuple[str, str], ...]
+    """Name and meaning of each coordinate of the shape, for the default parameters."""
+    run: dict[str, Any]
+    """The default run settings."""
+    budget: float
+    """Most model time spent on naming one motion, by default."""
+
+
+@dataclass(frozen=True)
+class Preset:
+    """A parameter set of the paper."""
+
+    name: str
+    model: str
+    title: str
+    about: str
+    free: tuple[str, ...]
+    """The parameters that span the paper's diagram, where the preset stands for one."""
+
+
+@dataclass(frozen=True)
+class Regime:
+    """A kind of motion, and how every figure draws it."""
+
+    name: str
+    colour: str
+    area: str
+    glyph: str
+
+
+def _model(raw: dict[str, Any]) -> ModelInfo:
+    parameters = tuple(
+        Parameter(**{**entry, "range": tuple(entry["range"]), "allowed": tuple(entry["allowed"])})
+        for entry in raw["parameters"]
+    )
+    coordinates = tuple((entry["name"], entry["meaning"]) for entry in raw["coordinates"])
+    names = ("name", "title", "equations", "source", "run", "budget")
+    return ModelInfo(parameters=parameters, coordinates=coordinates, **{name: raw[name] for name in names})
+
+
+VERSION: str = _RAW["version"]
+MODELS: dict[str, ModelInfo] = {raw["name"]: _model(raw) for raw in _RAW["models"]}
+PRESETS: dict[str, Preset] = {
+    raw["name"]: Preset(**{**raw, "free": tuple(raw["free"])}) for raw in _RAW["presets"]
+}
+STEPPERS: tuple[str, ...] = tuple(_RAW["steppers"])
+REGIMES: tuple[Regime, ...] = tuple(Regime(**raw) for raw in _RAW["regimes"])
+ATTRACTORS: tuple[str, ...] = tuple(_RAW["attractors"])
+NUMBERS: tuple[tuple[str, str], ...] = tuple((raw["name"], raw["meaning"]) for raw in _RAW["numbers"])
+"""The numbers of a scan's rows: name and meaning."""

@@ -1,0 +1,43 @@
+"""The models by name, made of the registry. Their signatures stand in ``bodies.pyi``, which ``motiform._stubs`` writes."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Mapping
+from typing import Any
+
+from . import _motiform
+from ._registry import MODELS, ModelInfo
+from .models import Model
+
+__all__ = ["Cell", "Tensor"]
+
+
+def docstring(info: ModelInfo) -> str:
+    """The documentation of a model: title, equations, parameters with default and meaning."""
+    lines = [info.title, "", info.equations, "", f"Source: {info.source}", "", "Parameters", "----------"]
+    for parameter in info.parameters:
+        lines += [f"{parameter.name} : float, default {parameter.default:g}"]
+        lines += [f"    {parameter.meaning} (equation {parameter.equation})"]
+    return "\n".join(lines)
+
+
+def _class(info: ModelInfo) -> type[Model]:
+    def __init__(self: Model, *, initial: Mapping[str, float] | None = None, **parameters: float) -> None:
+        self._study = _motiform.Study.of_model(info.name).with_(parameters, dict(initial or {}))
+
+    kind = inspect.Parameter.KEYWORD_ONLY
+    named: list[Any] = [
+        inspect.Parameter(parameter.name, kind, default=parameter.default, annotation=float)
+        for parameter in info.parameters
+    ]
+    own = inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)
+    start = inspect.Parameter("initial", kind, default=None)
+    setattr(__init__, "__signature__", inspect.Signature([own, *named, start]))  # noqa: B010
+    name = info.name.capitalize()
+    body = {"__init__": __init__, "__doc__": docstring(info), "__module__": __name__}
+    return type(name, (Model,), body)
+
+
+Tensor = _class(MODELS["tensor"])
+Cell = _class(MODELS["cell"])

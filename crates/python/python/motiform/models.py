@@ -1,0 +1,307 @@
+"""A body: a model with its parameters, a start and a way to run."""
+
+from __future__ import annotations
+
+import json
+import os
+import warnings
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _motiform
+from ._registry import MODELS, ModelInfo
+from .errors import EndedEarly, Interrupted
+from .progress import Bar, Progress
+from .results import Crossings, Equilibrium, Exponents, Verdict, equilibrium_of, outcome_of, verdict_of
+from .trajectory import Floats, Trajectory, _frame
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
+OnEnd = Literal["warn", "ignore", "raise"]
+M = TypeVar("M", bound="Model")
+
+
+class Model:
+    """A model with its parameters. Never changed: :meth:`replace` gives another one.
+
+    Use :class:`Tensor`, :class:`Cell`, :func:`preset` or :func:`study`.
+    """
+
+    _study: _motiform.Study
+
+    @classmethod
+    def _of(cls: type[M], study: _motiform.Study) -> M:
+        model = cls.__new__(cls)
+        model._study = study
+        return model
+
+    @property
+    def info(self) -> ModelInfo:
+        """The registry's entry: equations, source, parameters with meanings and ranges."""
+        return MODELS[self._study.model]
+
+    @property
+    def title(self) -> str:
+        """The title of a preset or a study file."""
+        return self._study.title
+
+    @property
+    def about(self) -> str:
+        """What to look at, for a preset."""
+        return self._study.about
+
+    @property
+    def free(self) -> list[str]:
+        """The parameters that span the paper's diagram, where the preset stands for one."""
+        return self._study.free
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """All parameters, in the order of the registry."""
+        return dict(self._study.parameters())
+
+    @property
+    def initial(self) -> dict[str, float]:
+        """The initial values that are given; without any the start is random."""
+        return dict(self._study.initial())
+
+    @property
+    def run(self) -> dict[str, Any]:
+        """The run settings: ``t_end``, ``transient``, ``stepper``, ``rtol``, ``seed``, ..."""
+        settings: dict[str, Any] = json.loads(self._study.run())
+        return settings
+
+    @property
+    def coordinates(self) -> list[str]:
+        """Names of the shape's coordinates."""
+        return [name for name, _ in self._study.coordinates()]
+
+    def __getattr__(self, name: str) -> float:
+        if not name.startswith("_"):
+            for known, value in self._study.parameters():
+                if known == name:
+                    return value
+        raise AttributeError(f"{type(self).__name__} has no attribute or parameter {name!r}")
+
+    def replace(self, *, initial: Mapping[str, float] | None = None, **changes: Any) -> Self:
+        """A copy with other parameters, run settings (``t_end``, ``rtol``, ``seed``, ...) or initial values."""
+        settings = {name: changes.pop(name) for name in list(changes) if name in _SETTINGS}
+        return self._of(self._study.with_(changes, dict(initial or {}), settings))
+
+    def to_toml(self) -> str:
+        """A study file for the command line: ``motiform simulate FILE.toml`` computes the same bits."""
+        return self._study.to_toml()
+
+    def simulate(
+        self,
+        t_end: float | None = None,
+        *,
+        transient: float | None = None,
+        dt_out: float | None = None,
+        initial: Mapping[str, float] | None = None,
+        random: float | None = None,
+        seed: int | None = None,
+        noise: float | None = None,
+        stepper: str | None = None,
+        rtol: float | None = None,
+        atol: float | None = None,
+        step: float | None = None,
+        max_steps: int | None = None,
+        escape_norm: float | None = None,
+        on_end: OnEnd | None = None,
+        progress: Progress = None,
+    ) -> Trajectory:
+        """Runs the body and records its motion.
+
+        Parameters
+        ----------
+        t_end
+            Time that is recorded (model time).
+        transient
+            Time before the recording; the position is put back after it.
+        dt_out
+            Time between rows; without it ``t_end / 2000``.
+        initial
+            Initial values by name (the shape's coordinates, ``x``, ``y``); those not given are 0. Without any the start
+            is random, of size `random`, from `seed`.
+        noise
+            Amplitude of additive white noise on the shape.
+        stepper, rtol, atol, step
+            Method and step control; a `step` fixes it.
+        escape_norm
+            A shape beyond this norm has escaped.
+        on_end
+            What to do if the run does not reach `t_end`: ``"warn"`` (:class:`EndedEarly`), ``"ignore"`` (the default
+            where `escape_norm` or `max_steps` is given: then it was asked for) or ``"raise"`` (``RuntimeError``).
+
+        What is not given is the model's, or the preset's. Ctrl-C raises :class:`Interrupted` with the shorter trajectory.
+        """
+        given = {
+            "t_end": t_end, "transient": transient, "dt_out": dt_out, "random": random, "seed": seed, "noise": noise,
+            "stepper": stepper, "rtol": rtol, "atol": atol, "step": step, "max_steps": max_steps,
+            "escape_norm": escape_norm,
+        }  # fmt: skip
+        study = _with(self._study, initial, given)
+        with Bar(progress, 1.0, "of the run") as bar:
+            run, raised = _motiform.simulate(study, bar.callable())
+        trajectory = Trajectory(run)
+        if raised is not None:
+            raise _raised(raised, trajectory)
+        if not run.complete:
+            asked = escape_norm is not None or max_steps is not None
+            _ended_early(run.ended, on_end or ("ignore" if asked else "warn"))
+        return trajectory
+
+    def classify(
+        self,
+        *,
+        budget: float = 0.0,
+        initial: Mapping[str, float] | None = None,
+        seed: int | None = None,
+        progress: Progress = None,
+    ) -> Verdict:
+        """Names the motion, spending at most `budget` model time (0: the model's default), with the evidence."""
+        study = _with(self._study, initial, {"seed": seed})
+        with Bar(progress, budget or self.info.budget, "model time") as bar:
+            return verdict_of(json.loads(_motiform.classify(study, budget, bar.callable())))
+
+    def lyapunov(
+        self,
+        count: int | None = None,
+        *,
+        transient: float | None = None,
+        t_end: float | None = None,
+        initial: Mapping[str, float] | None = None,
+        seed: int | None = None,
+        on_end: OnEnd = "warn",
+        progress: Progress = None,
+    ) -> Exponents:
+        """The `count` largest Lyapunov exponents (at most 6, unless asked), with errors, averaged over `t_end`."""
+        study = _with(self._study, initial, {"seed": seed})
+        count = min(6, len(study.coordinates())) if count is None else count
+        with Bar(progress, 1.0, "of the run") as bar:
+            raw = json.loads(_motiform.lyapunov(study, count, transient, t_end, bar.callable()))
+        if not raw["complete"]:
+            _ended_early(raw["ended"], on_end)
+        estimates = np.array([(entry["value"], entry["error"]) for entry in raw["exponents"]]).reshape(-1, 2)
+        outcome = outcome_of(raw["outcome"], raw["complete"], raw["ended"])
+        return Exponents(estimates[:, 0], estimates[:, 1], raw["neutral"], raw["time"], raw["transient"], outcome)
+
+    def equilibria(self, *, starts: int = 200, seed: int | None = None, progress: Progress = None) -> list[Equilibrium]:
+        """The steady motions (at rest, straight, circular) that Newton's method finds from the circle and from random
+        shapes, the most stable first. Nothing proves that there are no others: more `starts` find more."""
+        study = _with(self._study, None, {"seed": seed})
+        with Bar(progress, starts, "starts") as bar:
+            raw = json.loads(_motiform.equilibria(study, starts, bar.callable()))
+        return [equilibrium_of(entry) for entry in raw]
+
+    def section(
+        self,
+        coordinate: str = "y",
+        value: float = 0.0,
+        direction: Literal["rising", "falling", "either"] = "either",
+        *,
+        t_end: float | None = None,
+        transient: float | None = None,
+        initial: Mapping[str, float] | None = None,
+        seed: int | None = None,
+        on_end: OnEnd = "warn",
+        progress: Progress = None,
+    ) -> Crossings:
+        """Where the orbit crosses ``coordinate = value``, located to round-off."""
+        study = _with(self._study, initial, {"t_end": t_end, "transient": transient, "seed": seed})
+        with Bar(progress, 1.0, "of the run") as bar:
+            found = _motiform.section(study, coordinate, value, direction, bar.callable())
+        names, meanings, block, complete, ended = found
+        if not complete:
+            _ended_early(ended, on_end)
+        return Crossings(_frame(names, meanings, block), ended, complete)
+
+    def __call__(self, t: float, u: npt.ArrayLike) -> Floats:
+        """The vector field: d/dt of the coordinates at `u`, for integrators such as ``scipy.integrate.solve_ivp``.
+
+        `u` holds the coordinates (:attr:`coordinates`), or these and ``x``, ``y``: (entries,), or (entries, m) for m
+        states at once. The result has the same shape. `t` plays no part.
+        """
+        states = _real(u)
+        if states.ndim not in (1, 2):
+            raise ValueError(f"u has {states.ndim} dimensions: give (entries,) or (entries, m)")
+        rows = np.ascontiguousarray(states[np.newaxis] if states.ndim == 1 else states.T)
+        rates = self._flow().rates(rows)
+        return rates[0] if states.ndim == 1 else np.ascontiguousarray(rates.T)
+
+    def _flow(self) -> _motiform.Flow:
+        flow: _motiform.Flow | None = self.__dict__.get("_made_flow")
+        if flow is None:
+            flow = self.__dict__["_made_flow"] = _motiform.Flow(self._study)
+        return flow
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"_study": self._study}
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Model) and self._study == other._study
+
+    def __hash__(self) -> int:
+        return hash(self.to_toml())
+
+    def __repr__(self) -> str:
+        given = ", ".join(f"{name}={value:g}" for name, value in self._study.given())
+        return f"{type(self).__name__}({given})"
+
+
+_SETTINGS = frozenset({
+    "t_end", "transient", "dt_out", "random", "seed", "noise", "stepper", "rtol", "atol", "step", "max_steps",
+    "escape_norm",
+})  # fmt: skip
+
+
+def _with(study: _motiform.Study, initial: Mapping[str, float] | None, given: dict[str, Any]) -> _motiform.Study:
+    run = {name: value for name, value in given.items() if value is not None}
+    if not run and initial is None:
+        return study
+    return study.with_(None, None if initial is None else dict(initial), run)
+
+
+def _real(values: npt.ArrayLike) -> Floats:
+    """An array of doubles; what is not real numbers is refused, not converted."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiub":
+        raise TypeError(f"u must hold real numbers, not {array.dtype}")
+    return array.astype(np.float64, copy=False)
+
+
+def _ended_early(how: str, on_end: OnEnd) -> None:
+    if on_end == "raise":
+        raise RuntimeError(f"the run {how}")
+    if on_end == "warn":
+        warnings.warn(f"the run {how}; see the result's outcome", EndedEarly, stacklevel=3)
+    elif on_end != "ignore":
+        raise ValueError(f"on_end = {on_end!r}: give 'warn', 'ignore' or 'raise'")
+
+
+def _raised(raised: BaseException, result: object) -> BaseException:
+    """What stopped a call; a Ctrl-C carries the result so far."""
+    return Interrupted(result) if isinstance(raised, KeyboardInterrupt) else raised
+
+
+def preset(name: str) -> Model:
+    """A parameter set of the paper: ``fig1`` .. ``fig5b`` (tensor), ``fig6a`` .. ``fig6d`` (cell)."""
+    return of_study(_motiform.Study.preset(name))
+
+
+def study(path: str | os.PathLike[str]) -> Model:
+    """The model of a study file, with its parameters, start, run and scan."""
+    return of_study(_motiform.Study.read(os.fspath(path)))
+
+
+def of_study(native: _motiform.Study) -> Model:
+    """The model of a native study, as :class:`Tensor` or :class:`Cell`."""
+    from . import bodies
+
+    kind: type[Model] = getattr(bodies, native.model.capitalize())
+    return kind._of(native)

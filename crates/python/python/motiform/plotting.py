@@ -1,0 +1,141 @@
+"""Figures by matplotlib, with the colours and markers of every figure of motiform."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.animation import FuncAnimation
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.colors import ListedColormap
+from matplotlib.lines import Line2D
+from matplotlib.patches import Polygon
+from matplotlib.path import Path
+
+from ._registry import MODELS, REGIMES, Regime
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from .trajectory import Trajectory
+
+TIME = "viridis"
+_ZIGZAG = Path([(-1.0, -0.5), (-0.5, 0.5), (0.0, -0.5), (0.5, 0.5), (1.0, -0.5)])
+_MARKERS: dict[str, Any] = {
+    "Disc": "o", "Ring": "o", "Triangle": "^", "DownTriangle": "v", "Square": "s", "Diamond": "D",
+    "Zigzag": _ZIGZAG, "Star": (6, 2, 0), "Cross": "x", "Question": "$?$",
+}  # fmt: skip
+
+
+def regime_mark(regime: Regime, size: float = 7.0) -> Line2D:
+    """The marker of a regime, for legends."""
+    hollow = regime.glyph in ("Ring", "Zigzag")
+    return Line2D(
+        [], [], linestyle="none", label=regime.name, markersize=size, color=regime.colour,
+        marker=_MARKERS[regime.glyph], markerfacecolor="none" if hollow else regime.colour, markeredgewidth=1.4,
+    )  # fmt: skip
+
+
+def plot_path(run: Trajectory, ax: Axes | None, outlines: int) -> Axes:
+    """The path coloured by time, with outlines of the body at equal distances along it."""
+    ax = plt.subplots(layout="constrained")[1] if ax is None else ax
+    path = run.position
+    segments = np.stack((path[:-1], path[1:]), axis=1)
+    line = LineCollection(list(segments), cmap=TIME, array=run.t[:-1], linewidths=1.2, zorder=2)
+    ax.add_collection(line)
+    scale = drawn_scale(run)
+    for row in _rows_along(path, outlines):
+        curve = run.outline(float(run.t[row]), scale=scale)
+        if curve is not None:
+            colour = line.to_rgba(run.t[row])
+            ax.add_patch(Polygon(curve, closed=True, facecolor=(*colour[:3], 0.15), edgecolor=colour, zorder=3))
+    ax.autoscale_view()
+    ax.set_aspect("equal", adjustable="datalim")
+    ax.set(xlabel="$x$ (model length)", ylabel="$y$ (model length)")
+    ax.figure.colorbar(line, ax=ax, label="$t$ (model time)")
+    if scale != 1.0:
+        ax.set_title(f"body drawn {scale:g} times its size", fontsize="small", loc="right")
+    return ax
+
+
+def drawn_scale(run: Trajectory) -> float:
+    """1 where the body's size suits its path; else a round factor that makes it seen."""
+    extent = float(np.ptp(run.position, axis=0).max()) if len(run) else 0.0
+    if extent <= 0.0:
+        return 1.0
+    share = run.radius / extent
+    if 0.015 <= share <= 0.3:
+        return 1.0
+    wanted = 0.035 / share
+    power = 10.0 ** np.floor(np.log10(wanted))
+    return float(power * min((1.0, 2.0, 5.0, 10.0), key=lambda step: abs(np.log(step * power / wanted))))
+
+
+def _rows_along(path: Any, count: int) -> list[int]:
+    """Rows at equal distances along a path."""
+    if count < 1 or len(path) == 0:
+        return []
+    travelled = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))))
+    if travelled[-1] == 0.0:
+        return [0]
+    places = np.searchsorted(travelled, np.linspace(0.0, travelled[-1], count))
+    return sorted({min(int(place), len(path) - 1) for place in places})
+
+
+def animate(run: Trajectory, frames: int, interval: float) -> FuncAnimation:
+    """The body moving, with its trail; the camera stands still and shows the whole path."""
+    if frames < 1 or len(run) == 0:
+        raise ValueError(f"frames = {frames} of {len(run)} rows: give at least 1 of at least 1")
+    figure, ax = plt.subplots(layout="constrained")
+    scale, path = drawn_scale(run), run.position
+    rows = np.unique(np.linspace(0, len(run) - 1, frames).astype(int))
+    (trail,) = ax.plot([], [], color="0.6", linewidth=1.0)
+    body = Polygon(np.zeros((3, 2)), closed=True, facecolor="#0072b233", edgecolor="#0072b2")
+    ax.add_patch(body)
+    margin = 1.5 * scale * run.radius
+    low, high = path.min(axis=0) - margin, path.max(axis=0) + margin
+    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), xlabel="$x$ (model length)", ylabel="$y$ (model length)")
+    ax.set_aspect("equal", adjustable="datalim")
+    clock = ax.set_title("")
+
+    def show(row: int) -> list[Any]:
+        curve = run.outline(float(run.t[row]), scale=scale)
+        body.set_visible(curve is not None)
+        if curve is not None:
+            body.set_xy(curve)
+        trail.set_data(path[: row + 1, 0], path[: row + 1, 1])
+        clock.set_text(f"$t$ = {run.t[row]:.1f} (model time)")
+        return [body, trail, clock]
+
+    film = FuncAnimation(figure, show, frames=[int(row) for row in rows], interval=interval)
+    plt.close(figure)  # or a notebook shows the first frame beside the film
+    return film
+
+
+def plot_scan(data: xr.Dataset, ax: Axes | None) -> Axes:
+    """The most frequent motion of each cell; where several occur, the others are told by ``ds.motiform.share``."""
+    ax = plt.subplots(layout="constrained")[1] if ax is None else ax
+    axes: list[str] = list(data.attrs["axes"])
+    shares = np.stack([data.motiform.share(regime.name).values for regime in REGIMES])
+    most = np.where(shares.sum(axis=0) > 0.0, shares.argmax(axis=0), len(REGIMES))
+    symbols = {spec.name: spec.tex for spec in MODELS[data.attrs["model"]].parameters}
+    if len(axes) == 2:
+        colours = ListedColormap([regime.area for regime in REGIMES] + ["#ffffff"])
+        x, y = (data[name].values for name in axes)
+        ax.pcolormesh(x, y, most, cmap=colours, vmin=-0.5, vmax=len(REGIMES) + 0.5, shading="nearest")
+        ax.set(xlabel=symbols[axes[0]], ylabel=symbols[axes[1]])
+    else:
+        for place, regime in enumerate(REGIMES):
+            share = shares[place]
+            mark = regime_mark(regime)
+            shown = share > 0.0
+            x = data[axes[0]].values[shown]
+            ax.plot(x, share[shown], linestyle="none", marker=mark.get_marker(), color=regime.colour,
+                    markerfacecolor=mark.get_markerfacecolor())  # fmt: skip
+        ax.set(xlabel=symbols[axes[0]], ylabel="share of the initial states", ylim=(-0.05, 1.05))
+    present = [regime_mark(regime) for place, regime in enumerate(REGIMES) if np.any(most == place)]
+    ax.legend(handles=present, loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
+    ax.set_title(data.attrs["title"])
+    return ax

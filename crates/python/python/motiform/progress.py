@@ -1,0 +1,49 @@
+"""Progress: a bar where tqdm is installed and the work takes over a second, nothing otherwise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import TracebackType
+from typing import Any
+
+Progress = bool | Callable[[float], object] | None
+"""``None``: a bar if tqdm is there; ``True``: a bar, or ImportError; ``False``: nothing; or a callable that is given the
+fraction done, 0 to 1."""
+
+
+class Bar:
+    """Shows the fraction done of `total` units; made at the first report, for most calls are too short for one."""
+
+    def __init__(self, progress: Progress, total: float, unit: str) -> None:
+        self._wanted, self._total, self._unit = progress, total, unit
+        self._bar: Any = None
+
+    def callable(self) -> Callable[[float], object] | None:
+        """What native code calls with the fraction done."""
+        if self._wanted is False:
+            return None
+        return self._wanted if callable(self._wanted) else self._show
+
+    def _show(self, fraction: float) -> None:
+        if self._bar is None:
+            try:
+                from tqdm.auto import tqdm
+            except ImportError:
+                if self._wanted is True:
+                    raise
+                self._bar = False
+            else:
+                self._bar = tqdm(
+                    total=self._total, unit=f" {self._unit}", unit_scale=True, delay=1.0, leave=False
+                )
+        if self._bar is not False:
+            self._bar.update(fraction * self._total - self._bar.n)
+
+    def __enter__(self) -> Bar:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._bar:
+            self._bar.close()

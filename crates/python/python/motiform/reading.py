@@ -1,0 +1,67 @@
+"""Reading every file that the binary writes."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+import xarray as xr
+
+from . import _motiform
+from .scans import read_scan
+from .trajectory import Trajectory, _frame
+
+
+def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | xr.Dataset | pd.DataFrame | dict[str, Any]:
+    """What the binary wrote.
+
+    ======================================  ===============================================
+    folder of ``motiform simulate``         :class:`Trajectory`
+    ``.parquet`` of a trajectory            :class:`Trajectory` (it carries its manifest)
+    ``.csv``, other ``.parquet``            ``pandas.DataFrame``
+    folder of ``motiform scan``             ``xarray.Dataset``, as :func:`scan` returns it
+    ``fields.h5``                           ``xarray.Dataset`` with ``phi`` and ``outline``
+    ``.json`` (manifests, ``--json``)       ``dict``
+    ======================================  ===============================================
+
+    `why`: keep the evidence of a scan's rows.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise FileNotFoundError(f"{path} does not exist")
+    if path.is_dir():
+        if (path / "_manifest.json").exists():
+            return read_scan(path, why)
+        return Trajectory(_motiform.read_run(os.fspath(path)))
+    if path.suffix in (".parquet", ".csv"):
+        if (path.parent / "_manifest.json").exists():
+            raise ValueError(f"{path} is a part of a scan: give its folder, {path.parent}")
+        run, table = _motiform.read_table(os.fspath(path))
+        if run is not None:
+            return Trajectory(run)
+        assert table is not None
+        return _frame(*table)
+    if path.suffix == ".h5":
+        return _fields(path)
+    if path.suffix == ".json":
+        loaded: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        return loaded
+    raise ValueError(f"{path} holds no data of motiform: give a folder, or a .parquet, .csv, .h5 or .json file")
+
+
+def _fields(path: Path) -> xr.Dataset:
+    t, s, phi, outline, attributes = _motiform.read_fields(os.fspath(path))
+    coords = {
+        "t": ("t", t, {"long_name": "time", "units": "model time"}),
+        "s": ("s", s, {"long_name": "arc length along the boundary", "units": "model length"}),
+        "xy": ("xy", ["x", "y"]),
+    }
+    meaning = "boundary, absolute coordinates; NaN where it could not be closed"
+    variables = {
+        "phi": (("t", "s"), phi, {"long_name": "phi in the normal angle 2 pi (s + phi)/L", "units": "model length"}),
+        "outline": (("t", "point", "xy"), outline, {"long_name": meaning, "units": "model length"}),
+    }
+    return xr.Dataset(variables, coords, dict(attributes))

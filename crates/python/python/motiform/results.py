@@ -1,0 +1,191 @@
+"""What analyses answer with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a run ended. Only a complete run reached what was asked for."""
+
+    kind: str
+    """``completed``, ``escaped``, ``step-underflow``, ``closure-failed``, ``step-budget`` or ``interrupted``."""
+    t: float
+    """The time that goes with it (model time): of the end, or the blow-up time t*."""
+    complete: bool
+    text: str
+    """The same in words."""
+    details: Mapping[str, Any] = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def outcome_of(raw: dict[str, Any], complete: bool, text: str) -> Outcome:
+    """The outcome of a manifest."""
+    details = {key: value for key, value in raw.items() if key not in ("kind", "t")}
+    return Outcome(raw["kind"], raw["t"], complete, text, details)
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A number with the half width of its 95 % confidence interval."""
+
+    value: float
+    error: float
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Mean and extremes over the motion."""
+
+    mean: float
+    min: float
+    max: float
+
+
+@dataclass(frozen=True)
+class Saddle:
+    """The rates of the saddles that a heteroclinic cycle rests at (inverse model time)."""
+
+    out: float
+    inward: float
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """A motion by name, with the evidence. What has no meaning for the motion is ``None``, or empty."""
+
+    regime: str
+    """motionless, straight, circular, rectangular, quasi-periodic, zigzag, chaotic, blow-up or undetermined."""
+    attractor: str
+    """equilibrium, periodic, torus, heteroclinic, chaotic, escape or unknown."""
+    why: str
+    """The evidence in one sentence."""
+    time: float
+    """Model time that the decision took."""
+    margin: float | None = None
+    """Distance of the deciding number from the limit, in units of its own uncertainty: 1 is weak, 10 is clear."""
+    speed: Spread | None = None
+    """Speed of the centre of mass (model length per model time)."""
+    turning_rate: float | None = None
+    """Mean turning rate of the heading (rad per model time)."""
+    period: float | None = None
+    """Period of the reduced motion (model time)."""
+    net_rotation: float | None = None
+    """Net rotation per period (rad, -pi to pi)."""
+    drift: float | None = None
+    """Distance travelled per period (model length)."""
+    swing: float | None = None
+    """Peak-to-peak swing of the heading over one period (rad)."""
+    escape_time: float | None = None
+    """The blow-up time t* (model time)."""
+    saddle: Saddle | None = None
+    exponents: tuple[Estimate, ...] = ()
+    """Lyapunov exponents, largest first (inverse model time)."""
+    legs: tuple[float, ...] = ()
+    """Turns from leg to leg (rad)."""
+    rests: tuple[float, ...] = ()
+    """Durations of the rests (model time)."""
+
+    def __str__(self) -> str:
+        return f"{self.regime}: {self.why}"
+
+
+def verdict_of(raw: dict[str, Any]) -> Verdict:
+    """The verdict of the native module's JSON."""
+    made: dict[str, Any] = dict(raw)
+    for name, kind in (("speed", Spread), ("saddle", Saddle)):
+        if made.get(name) is not None:
+            made[name] = kind(**made[name])
+    made["exponents"] = tuple(Estimate(**entry) for entry in raw.get("exponents", ()))
+    for name in ("legs", "rests"):
+        made[name] = tuple(raw.get(name, ()))
+    return Verdict(**made)
+
+
+@dataclass(frozen=True)
+class Exponents:
+    """Lyapunov exponents of one orbit (inverse model time), largest first."""
+
+    values: npt.NDArray[np.float64]
+    """(count,)"""
+    errors: npt.NDArray[np.float64]
+    """Half widths of the 95 % confidence intervals, (count,)."""
+    neutral: int
+    """How many of them symmetry and time make 0: a check on the others."""
+    time: float
+    """Averaged over so much model time, after `transient`."""
+    transient: float
+    outcome: Outcome
+
+    @property
+    def sum(self) -> float:
+        """The mean rate at which volumes grow, where all exponents are there."""
+        return float(self.values.sum())
+
+    def __str__(self) -> str:
+        pairs = zip(self.values, self.errors, strict=True)
+        return ", ".join(f"{value:.5g} ± {error:.1g}" for value, error in pairs)
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """A steady motion: a shape that does not change but for a steady rotation."""
+
+    shape: dict[str, float]
+    """Its coordinates; all its rotations are equilibria too."""
+    speed: float
+    """(model length per model time)"""
+    turning_rate: float
+    """(rad per model time)"""
+    eigenvalues: npt.NDArray[np.complex128]
+    """Of the reduced linearisation, largest real part first (inverse model time)."""
+    unstable: int
+    """Number of growing directions."""
+    residual: float
+    share: float
+    """Part of the random starts from which Newton's method came here."""
+
+    @property
+    def stable(self) -> bool:
+        """Whether no direction grows."""
+        return self.unstable == 0
+
+    @property
+    def kind(self) -> str:
+        """motionless, straight or circular."""
+        if self.speed < 1e-9:
+            return "motionless"
+        return "straight" if abs(self.turning_rate) < 1e-9 else "circular"
+
+
+def equilibrium_of(raw: dict[str, Any]) -> Equilibrium:
+    """The equilibrium of the native module's JSON."""
+    eigenvalues = np.array([complex(*pair) for pair in raw["eigenvalues"]], dtype=np.complex128)
+    return Equilibrium(**{**raw, "eigenvalues": eigenvalues})
+
+
+@dataclass(frozen=True)
+class Crossings:
+    """Where an orbit crosses a section."""
+
+    table: pd.DataFrame
+    """One row per crossing: ``t``, ``x``, ``y``, the coordinates of the shape, ``rising``."""
+    outcome_text: str
+    complete: bool
+
+    def __len__(self) -> int:
+        return len(self.table)
+
+    def pairs(self, name: str) -> npt.NDArray[np.float64]:
+        """The return map of a column: (crossings - 1, 2), each value with the next one."""
+        values = self.table[name].to_numpy()
+        return np.column_stack((values[:-1], values[1:]))

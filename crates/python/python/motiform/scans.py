@@ -1,0 +1,249 @@
+"""Scans: which motion happens where in parameter space."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+import xarray as xr
+
+from . import _motiform
+from ._registry import ATTRACTORS, MODELS, NUMBERS, REGIMES, VERSION
+from .errors import Incomplete, Interrupted
+from .executors import gather
+from .models import Model
+from .progress import Bar, Progress
+from .trajectory import _unit
+
+Axes = Mapping[str, "str | npt.ArrayLike"]
+Path = str | os.PathLike[str]
+
+
+def scan(
+    model: Model,
+    axes: Axes | None = None,
+    *,
+    samples: int | None = None,
+    seed: int | None = None,
+    budget: float | None = None,
+    fast: bool | None = None,
+    why: bool = False,
+    threads: int | None = None,
+    executor: Executor | None = None,
+    out: Path | None = None,
+    resume: bool = False,
+    overwrite: bool = False,
+    shard: str | None = None,
+    progress: Progress = None,
+) -> xr.Dataset:
+    """Names the motion in every cell of one or two axes of parameters, from several initial states each.
+
+    Parameters
+    ----------
+    model
+        The model; parameters that no axis varies are its.
+    axes
+        Parameter names with values: an array, or text as on the command line (``"0.1:1.6:64"`` is 64 values, both ends
+        included). Without it those of the model's study file.
+    samples
+        Initial states per cell: random, but the first one is the model's ``initial`` where that is given.
+    budget
+        Most model time for naming one motion; 0 is the model's default.
+    fast
+        Fused multiply-add: faster, other last digits (the same on every machine).
+    why
+        Keep the evidence of each row as text: it takes more memory than all numbers.
+    threads
+        Threads of this process; without it all cores.
+    executor
+        Any ``concurrent.futures.Executor`` (process pools, ``dask.distributed``'s ``client.get_executor()``,
+        ``mpi4py.futures``): work goes there in tasks of 0.2 s and more, lost ones are given out again.
+    out, resume, overwrite, shard
+        A folder that keeps the rows as they come, what to do if it is there, and the share ``"I/N"`` of it to compute:
+        as the command line's ``--out --resume --force --shard``.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dimensions: the axes (the first one last, so that it runs along x in figures) and ``sample``. Variables:
+        ``regime`` and ``attractor`` (codes with CF ``flag_meanings``, -1 where missing; names by
+        ``ds.motiform.names()``) and the numbers of each motion with ``units``, NaN where a number has no meaning for
+        the motion. ``ds.motiform.to_pandas()`` gives a frame with categoricals, ``ds.motiform.plot()`` the diagram.
+
+    The same bits whatever the threads, workers, interruptions and resumes. Ctrl-C raises :class:`Interrupted` with the
+    rows done so far.
+    """
+    made = None if axes is None else [(name, _axis(name, values)) for name, values in axes.items()]
+    plan = _motiform.ScanPlan(model._study, made, samples, seed, budget, fast)
+    xr.Dataset({"first": ("x", [0])})  # xarray imports much at its first dataset: not when Ctrl-C waits for one
+    with Bar(progress, plan.cells, "cells") as bar:
+        if out is not None:
+            opening = "resume" if resume else "replace" if overwrite else "new"
+            files = _motiform.ScanFiles(os.fspath(out), plan, shard, opening)
+            _warn_of(files.damaged())
+            if executor is None:
+                raised = files.run(_threads(threads), bar.callable())
+            else:
+                raised = gather(plan, executor, None, files, bar.callable())
+            result = read_scan(out, why, quiet=shard is not None or raised is not None)
+        elif shard is not None:
+            raise ValueError(f"shard = {shard!r}: a share of a scan is kept in a folder, give out=...")
+        elif executor is None:
+            arrays, raised = plan.compute(_threads(threads), why, bar.callable())
+            result = dataset(plan, arrays)
+        else:
+            table = Table(plan, why)
+            raised = gather(plan, executor, table, None, bar.callable())
+            result = dataset(plan, table.arrays())
+    if raised is not None:
+        raise Interrupted(result) if isinstance(raised, KeyboardInterrupt) else raised
+    return result
+
+
+def merge(folders: Sequence[Path], out: Path, *, overwrite: bool = False) -> xr.Dataset:
+    """Puts the folders of a scan's shards together in `out`, and reads it."""
+    _, damaged = _motiform.merge([os.fspath(folder) for folder in folders], os.fspath(out), overwrite)
+    _warn_of(damaged)
+    return read_scan(out, False)
+
+
+def read_scan(path: Path, why: bool, *, quiet: bool = False) -> xr.Dataset:
+    """The dataset of a scan folder; rows that are missing have the regime -1."""
+    plan, arrays, damaged = _motiform.read_scan(os.fspath(path), why)
+    _warn_of(damaged)
+    missing = int(np.count_nonzero(arrays[0] < 0))
+    if missing and not quiet:
+        text = f"{os.fspath(path)}: {missing} of {arrays[0].size} rows are not computed yet"
+        warnings.warn(text, Incomplete, stacklevel=3)
+    return dataset(plan, arrays)
+
+
+class Table:
+    """The rows of a whole scan, filled as tasks come back."""
+
+    def __init__(self, plan: _motiform.ScanPlan, why: bool) -> None:
+        rows = plan.cells * plan.samples
+        self._samples = plan.samples
+        self.regimes = np.full(rows, -1, np.int8)
+        self.attractors = np.full(rows, -1, np.int8)
+        self.numbers = [np.full(rows, np.nan) for _ in NUMBERS]
+        self.whys = [""] * rows if why else None
+
+    def put(self, first: int, arrays: _motiform.Arrays) -> None:
+        """Takes in the rows of cells from `first` on."""
+        regimes, attractors, numbers, whys = arrays
+        place = slice(first * self._samples, first * self._samples + len(regimes))
+        self.regimes[place] = regimes
+        self.attractors[place] = attractors
+        for column, values in zip(self.numbers, numbers, strict=True):
+            column[place] = values
+        if self.whys is not None and whys is not None:
+            self.whys[place] = whys
+
+    def arrays(self) -> _motiform.Arrays:
+        """The rows as the native module gives them."""
+        return self.regimes, self.attractors, self.numbers, self.whys
+
+
+def dataset(plan: _motiform.ScanPlan, arrays: _motiform.Arrays) -> xr.Dataset:
+    """Named dimensions, units and codes for the rows of a plan."""
+    regimes, attractors, numbers, whys = arrays
+    axes = plan.axes()
+    dims = (*(name for name, _ in reversed(axes)), "sample")
+    sizes = (*(len(values) for _, values in reversed(axes)), plan.samples)
+    specs = {spec.name: spec for spec in MODELS[plan.model].parameters}
+    coords: dict[str, Any] = {
+        name: (name, values, {"long_name": specs[name].meaning, "symbol": specs[name].symbol}) for name, values in axes
+    }
+    coords["sample"] = ("sample", np.arange(plan.samples), {"long_name": "number of the initial state"})
+    variables: dict[str, Any] = {
+        "regime": (dims, regimes.reshape(sizes), _flags("the motion", [regime.name for regime in REGIMES])),
+        "attractor": (dims, attractors.reshape(sizes), _flags("the kind of reduced attractor", ATTRACTORS)),
+    }
+    for (name, meaning), values in zip(NUMBERS, numbers, strict=True):
+        variables[name] = (dims, values.reshape(sizes), {"long_name": meaning, "units": _unit(meaning)})
+    if whys is not None:
+        texts = np.array(whys, dtype=object).reshape(sizes)
+        variables["why"] = (dims, texts, {"long_name": "the evidence in one sentence"})
+    attrs: dict[str, Any] = {
+        "model": plan.model,
+        "title": plan.title,
+        "motiform": VERSION,
+        "plan": plan.to_json(),
+        "plan_hash": plan.hash,
+        "axes": [name for name, _ in axes],
+    }
+    return xr.Dataset(variables, coords, attrs | {f"parameter_{name}": value for name, value in plan.parameters})
+
+
+def _flags(meaning: str, names: Sequence[str]) -> dict[str, Any]:
+    """A categorical by the CF conventions."""
+    values = np.arange(len(names), dtype=np.int8)
+    return {"long_name": meaning, "flag_values": values, "flag_meanings": " ".join(names)}
+
+
+@xr.register_dataset_accessor("motiform")  # type: ignore[no-untyped-call]
+class ScanAccessor:
+    """What the dataset of a scan can do: ``ds.motiform``."""
+
+    def __init__(self, data: xr.Dataset) -> None:
+        self._data = data
+
+    def names(self, variable: str = "regime") -> xr.DataArray:
+        """The names of ``regime`` (or ``attractor``) codes; an empty one where a row is missing."""
+        codes = self._data[variable]
+        names = np.array([*codes.attrs["flag_meanings"].split(), ""])
+        return xr.DataArray(names[codes.values], codes.coords, codes.dims, attrs={"long_name": codes.long_name})
+
+    def share(self, regime: str) -> xr.DataArray:
+        """The share of initial states that lead to a regime, over the axes."""
+        known = [entry.name for entry in REGIMES]
+        if regime not in known:
+            raise ValueError(f"regime = {regime!r}: the regimes are {', '.join(known)}")
+        share: xr.DataArray = (self._data.regime == known.index(regime)).mean("sample")
+        return share
+
+    def to_pandas(self) -> pd.DataFrame:
+        """One row per cell and sample; ``regime`` and ``attractor`` are categoricals in the order of legends."""
+        frame = self._data.to_dataframe().reset_index()
+        for name in ("regime", "attractor"):
+            names = self._data[name].attrs["flag_meanings"].split()
+            frame[name] = pd.Categorical.from_codes(frame[name].to_numpy(), categories=names)
+        return frame
+
+    def plot(self, ax: Any = None) -> Any:
+        """The phase diagram: the most frequent motion of each cell, in the colours of every figure of motiform."""
+        from .plotting import plot_scan
+
+        return plot_scan(self._data, ax)
+
+
+def _axis(name: str, values: str | npt.ArrayLike) -> Any:
+    """Values for the native module: text, or a contiguous array of doubles."""
+    if isinstance(values, str):
+        return values
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"axis {name} must hold real numbers, not {array.dtype}")
+    if array.ndim > 1:
+        raise ValueError(f"axis {name} has {array.ndim} dimensions: give one")
+    return np.ascontiguousarray(np.atleast_1d(array), dtype=np.float64)
+
+
+def _threads(threads: int | None) -> int:
+    if threads is None:
+        return os.cpu_count() or 1
+    if threads < 1:
+        raise ValueError(f"threads = {threads}: give at least 1")
+    return threads
+
+
+def _warn_of(damaged: Sequence[str]) -> None:
+    for how in damaged:
+        warnings.warn(how, Incomplete, stacklevel=4)

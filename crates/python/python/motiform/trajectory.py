@@ -1,0 +1,210 @@
+"""A recorded motion."""
+
+from __future__ import annotations
+
+import json
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from . import _motiform
+from .results import Outcome, outcome_of
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.axes import Axes
+
+Floats = npt.NDArray[np.float64]
+
+
+def _unit(meaning: str) -> str:
+    """The unit that a meaning ends with, in brackets."""
+    start, end = meaning.rfind("("), meaning.rfind(")")
+    return meaning[start + 1 : end] if 0 <= start < end else ""
+
+
+class Trajectory:
+    """A recorded motion: columns over time, in one block of memory.
+
+    ``trajectory["s11"]`` and the properties below are views of that block wherever possible. All quantities are in the
+    model's own units of time and length.
+    """
+
+    def __init__(self, run: _motiform.Run) -> None:
+        self._run = run
+        self._block = run.block()
+
+    @cached_property
+    def _place(self) -> dict[str, int]:
+        return {name: place for place, name in enumerate(self._run.table()[0])}
+
+    @cached_property
+    def _meanings(self) -> dict[str, str]:
+        names, meanings, _ = self._run.table()
+        return dict(zip(names, meanings, strict=True))
+
+    @property
+    def names(self) -> list[str]:
+        """The columns."""
+        return list(self._place)
+
+    def meaning(self, name: str) -> str:
+        """What a column is, with its unit."""
+        return self._meanings[name]
+
+    def __getitem__(self, name: str) -> Floats:
+        try:
+            column: Floats = self._block[self._place[name]]
+        except KeyError:
+            raise KeyError(f"no column {name!r}: the columns are {', '.join(self._place)}") from None
+        return column
+
+    def __len__(self) -> int:
+        return int(self._block.shape[1])
+
+    @property
+    def t(self) -> Floats:
+        """Times of the rows (model time), (rows,)."""
+        return self["t"]
+
+    @property
+    def position(self) -> Floats:
+        """Centre of mass (model length), (rows, 2); a view."""
+        position: Floats = self._block[1:3].T
+        return position
+
+    @cached_property
+    def velocity(self) -> Floats:
+        """Velocity of the centre of mass (model length per model time), (rows, 2); a view for the tensor model."""
+        if "v1" in self._place:
+            first = self._place["v1"]
+            return self._block[first : first + 2].T
+        shapes = np.ascontiguousarray(self.shape)
+        return self._flow.velocities(shapes)
+
+    @property
+    def shape(self) -> Floats:
+        """The coordinates of the shape, (rows, coordinates); a view."""
+        shape: Floats = self._block[3 : 3 + len(self.coordinates)].T
+        return shape
+
+    @cached_property
+    def coordinates(self) -> list[str]:
+        """Names of the shape's coordinates."""
+        return list(self.manifest["state"])
+
+    @property
+    def S(self) -> Floats:
+        """The ellipse's tensor S_ij of the tensor model, (rows, 2, 2)."""
+        a, b = self["s11"], self["s12"]
+        return np.stack((np.stack((a, b), axis=-1), np.stack((b, -a), axis=-1)), axis=-2)
+
+    @property
+    def U(self) -> Floats:
+        """The triangle's tensor U_ijk of the tensor model, (rows, 2, 2, 2)."""
+        a, b = self["u111"], self["u222"]
+        tensor = np.empty((len(self), 2, 2, 2))
+        tensor[:, 0, 0, 0], tensor[:, 1, 1, 1] = a, b
+        for place in ((0, 0, 1), (0, 1, 0), (1, 0, 0)):
+            tensor[(slice(None), *place)] = -b
+        for place in ((0, 1, 1), (1, 0, 1), (1, 1, 0)):
+            tensor[(slice(None), *place)] = -a
+        return tensor
+
+    @property
+    def modes(self) -> Floats:
+        """The modes c_n, s_n of the cell's phi = sum c_n cos(k_n s) + s_n sin(k_n s), (rows, modes, 2); a view."""
+        if "c1" not in self._place:
+            raise AttributeError("the tensor model has no modes: see S and U")
+        count = len(self.coordinates) // 2
+        return self._block[3 : 3 + 2 * count].reshape(count, 2, len(self)).transpose(2, 0, 1)
+
+    @cached_property
+    def manifest(self) -> dict[str, Any]:
+        """Provenance: the plan with every number, its hash, how the run ended, the final state."""
+        manifest: dict[str, Any] = json.loads(self._run.manifest())
+        return manifest
+
+    @cached_property
+    def outcome(self) -> Outcome:
+        """How the run ended."""
+        return outcome_of(self.manifest["outcome"], self._run.complete, self._run.ended)
+
+    @cached_property
+    def crossings(self) -> pd.DataFrame | None:
+        """The crossings of the return map's segment, where the study has one: ``t``, ``x``, ``y``, ``rising``."""
+        found = self._run.crossings()
+        return None if found is None else _frame(*found)
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A frame with one column each; meanings in ``frame.attrs``."""
+        return _frame(self.names, [self._meanings[name] for name in self.names], self._block)
+
+    def to_xarray(self) -> xr.Dataset:
+        """A dataset over the dimension ``t``, with ``long_name`` and ``units``."""
+        import xarray as xr
+
+        def attrs(name: str) -> dict[str, str]:
+            meaning = self._meanings[name]
+            return {"long_name": meaning, "units": _unit(meaning)}
+
+        variables = {name: ("t", self[name], attrs(name)) for name in self._place if name != "t"}
+        times = {"t": ("t", self.t, {"long_name": "time", "units": "model time"})}
+        return xr.Dataset(variables, times, {"outcome": str(self.outcome), "plan_hash": self.manifest["plan_hash"]})
+
+    @cached_property
+    def radius(self) -> float:
+        """Radius of the undeformed body (model length): the model's, or a round one that shows the deformation."""
+        return self._run.radius()
+
+    def row(self, t: float) -> int:
+        """The row nearest to a time."""
+        times = self.t
+        if not len(self) or not times[0] <= t <= times[-1]:
+            span = f"the recording is from {times[0]:g} to {times[-1]:g}" if len(self) else "nothing is recorded"
+            raise ValueError(f"t = {t}: {span}")
+        after = int(np.searchsorted(times, t))
+        return after - 1 if after and t - times[after - 1] <= times[min(after, len(self) - 1)] - t else after
+
+    def outline(self, t: float, *, radius: float | None = None, scale: float = 1.0, points: int = 200) -> Floats | None:
+        """The boundary in the plane at the recorded time nearest to `t`, (points, 2) in model lengths.
+
+        `radius` is that of the undeformed body (:attr:`radius`); `scale` enlarges the body about its centre. ``None``
+        where the shape is no closed curve.
+        """
+        if points < 3:
+            raise ValueError(f"points = {points}: give at least 3")
+        row = self.row(t)
+        curve = self._run.outline(row, self.radius if radius is None else radius, points)
+        return None if curve is None else scale * curve + self.position[row]
+
+    def plot(self, ax: Axes | None = None, *, outlines: int = 12) -> Axes:
+        """The path with `outlines` of the body along it."""
+        from .plotting import plot_path
+
+        return plot_path(self, ax, outlines)
+
+    def animate(self, *, frames: int = 120, interval: float = 40.0) -> FuncAnimation:
+        """A film of the moving body; in a notebook show it with ``HTML(film.to_jshtml())``. `interval` in ms."""
+        from .plotting import animate
+
+        return animate(self, frames, interval)
+
+    @cached_property
+    def _flow(self) -> _motiform.Flow:
+        computation = self.manifest["plan"]["computation"]
+        study = _motiform.Study.of_model(computation["model"])
+        return _motiform.Flow(study.with_(parameters=computation["parameters"]))
+
+    def __repr__(self) -> str:
+        return f"<Trajectory: {len(self)} rows of {', '.join(self._place)}; {self._run.ended}>"
+
+
+def _frame(names: list[str], meanings: list[str], block: Floats) -> pd.DataFrame:
+    frame = pd.DataFrame(block.T, columns=names, copy=False)
+    frame.attrs["meanings"] = dict(zip(names, meanings, strict=True))
+    return frame

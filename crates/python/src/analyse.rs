@@ -1,0 +1,110 @@
+//! Questions about one motion; answers as JSON, which the Python side makes into its classes.
+
+use crate::errors::{of_json, python};
+use crate::run::Columns;
+use crate::study::{Study, plan};
+use crate::watch::Watch;
+use motiform_dynamics::Direction;
+use motiform_study::Error;
+use numpy::PyArray2;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+use serde_json::json;
+
+/// The answer, or what stopped it.
+fn answer<T>((answer, raised): (Result<Option<T>, Error>, Option<PyErr>)) -> PyResult<T> {
+    if let Some(raised) = raised {
+        return Err(raised);
+    }
+    answer.map_err(python)?.ok_or_else(|| PyKeyboardInterrupt::new_err("interrupted"))
+}
+
+/// The verdict on a study's motion.
+#[pyfunction]
+#[pyo3(signature = (study, budget=0.0, progress=None))]
+pub(crate) fn classify(
+    py: Python<'_>,
+    study: &Study,
+    budget: f64,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<String> {
+    let verdict = answer(Watch::here(py, progress, |monitor| {
+        motiform_study::analyse::classify(&plan(study)?, budget, monitor)
+    }))?;
+    serde_json::to_string(&verdict).map_err(of_json)
+}
+
+/// The largest exponents of a study's motion.
+#[pyfunction]
+#[pyo3(signature = (study, count, transient=None, t_end=None, progress=None))]
+pub(crate) fn lyapunov(
+    py: Python<'_>,
+    study: &Study,
+    count: usize,
+    transient: Option<f64>,
+    t_end: Option<f64>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<String> {
+    let found = answer(Watch::here(py, progress, |monitor| {
+        motiform_study::analyse::lyapunov(&plan(study)?, count, (transient, t_end), monitor).map(Some)
+    }))?;
+    let text = serde_json::to_string(&json!({
+        "exponents": found.exponents,
+        "zeros": found.zeros(),
+        "neutral": found.neutral,
+        "time": found.time,
+        "transient": found.transient,
+        "outcome": found.outcome,
+        "complete": found.outcome.is_complete(),
+        "ended": found.outcome.to_string(),
+    }));
+    text.map_err(of_json)
+}
+
+/// The steady motions of a study's model.
+#[pyfunction]
+#[pyo3(signature = (study, starts, progress=None))]
+pub(crate) fn equilibria(
+    py: Python<'_>,
+    study: &Study,
+    starts: usize,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<String> {
+    let found = answer(Watch::here(py, progress, |monitor| {
+        motiform_study::equilibria::equilibria(&plan(study)?, starts, monitor)
+    }))?;
+    serde_json::to_string(&found).map_err(of_json)
+}
+
+/// Names, meanings and values of the crossings, whether the run was complete, how it ended.
+type Crossings = (Vec<String>, Vec<String>, Py<PyArray2<f64>>, bool, String);
+
+/// The crossings of `coordinate = value`.
+#[pyfunction]
+#[pyo3(signature = (study, coordinate, value, direction, progress=None))]
+pub(crate) fn section(
+    py: Python<'_>,
+    study: &Study,
+    coordinate: &str,
+    value: f64,
+    direction: &str,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Crossings> {
+    let direction = match direction {
+        "rising" => Direction::Rising,
+        "falling" => Direction::Falling,
+        "either" => Direction::Either,
+        other => {
+            return Err(PyValueError::new_err(format!(
+                "direction = {other:?}: give \"rising\", \"falling\" or \"either\""
+            )));
+        }
+    };
+    let mut study = study.clone();
+    study.0.run.dt_out = 0.0; // there are no rows: those of a preset may be too many for this span
+    let (table, outcome) = answer(Watch::here(py, progress, |monitor| {
+        motiform_study::section::section(&plan(&study)?, (coordinate, value), direction, monitor).map(Some)
+    }))?;
+    let (names, meanings, block) = Columns::new(py, table)?.parts(py);
+    Ok((names, meanings, block, outcome.is_complete(), outcome.to_string()))
+}

@@ -1,0 +1,35 @@
+//! Our errors as Python's, with the same words as the command line's.
+
+use motiform_models::Error as ModelError;
+use motiform_study::Error;
+use pyo3::PyErr;
+use pyo3::exceptions::{PyFileExistsError, PyKeyboardInterrupt, PyOSError, PyTypeError, PyValueError};
+
+/// `ValueError` for input that cannot be used, `OSError` (or `FileExistsError`) for files, `KeyboardInterrupt` for a stop.
+pub(crate) fn python(error: Error) -> PyErr {
+    let text = error.to_string();
+    match error {
+        Error::Interrupted => PyKeyboardInterrupt::new_err(text),
+        Error::Exists { .. } | Error::NotOurs { .. } | Error::ScanExists { .. } => {
+            PyFileExistsError::new_err(text)
+        }
+        Error::Unreadable { .. } | Error::Unwritable { .. } | Error::Busy { .. } | Error::Threads { .. } => {
+            PyOSError::new_err(text)
+        }
+        failure if failure.is_machine_failure() => PyOSError::new_err(text),
+        _ => PyValueError::new_err(text),
+    }
+}
+
+/// As [`python()`], for names that were given as keywords: an unknown one is a `TypeError`, as Python has it.
+pub(crate) fn of_keywords(error: Error) -> PyErr {
+    match error {
+        Error::Models(ModelError::UnknownParameter { .. }) => PyTypeError::new_err(error.to_string()),
+        other => python(other),
+    }
+}
+
+/// JSON that cannot be written is a bug of ours, and said as such.
+pub(crate) fn of_json(error: serde_json::Error) -> PyErr {
+    PyValueError::new_err(format!("not the JSON of motiform: {error}"))
+}

@@ -1,0 +1,39 @@
+//! The native module of the Python package `motiform`: it parses and calls; the work is done by `motiform-study`.
+//!
+//! Everything here is private to the package (`motiform._motiform`); what users see stands in `python/motiform`.
+
+#![allow(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
+
+mod analyse;
+mod errors;
+mod flow;
+mod read;
+mod registry;
+mod run;
+mod scan_files;
+mod scan_plan;
+mod study;
+mod watch;
+
+use pyo3::prelude::*;
+
+/// The native half of `motiform`.
+#[pymodule]
+mod _motiform {
+    #[pymodule_export]
+    use super::analyse::{classify, equilibria, lyapunov, section};
+    #[pymodule_export]
+    use super::flow::Flow;
+    #[pymodule_export]
+    use super::read::{read_fields, read_run, read_scan, read_table};
+    #[pymodule_export]
+    use super::registry::registry;
+    #[pymodule_export]
+    use super::run::{Run, seconds_of_run, simulate};
+    #[pymodule_export]
+    use super::scan_files::{ScanFiles, merge};
+    #[pymodule_export]
+    use super::scan_plan::ScanPlan;
+    #[pymodule_export]
+    use super::study::Study;
+}

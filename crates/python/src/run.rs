@@ -1,0 +1,167 @@
+//! A run: its table as one NumPy array, and what is drawn of it.
+
+use crate::errors::{of_json, python};
+use crate::study::{Study, plan};
+use crate::watch::Watch;
+use motiform_dynamics::{Model, Outline};
+use motiform_study::table::Table;
+use motiform_study::{Dataset, Manifest, draw};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::exceptions::PyIndexError;
+use pyo3::prelude::*;
+use std::hint::black_box;
+use std::time::Instant;
+
+/// A recorded motion.
+#[pyclass(frozen, module = "motiform._motiform")]
+pub(crate) struct Run {
+    manifest: Manifest,
+    model: Box<dyn Model>,
+    table: Columns,
+    crossings: Option<Columns>,
+}
+
+/// Names and meanings of columns, and the array (column, row).
+pub(crate) type TableArrays = (Vec<String>, Vec<String>, Py<PyArray2<f64>>);
+
+/// A table as one block: row `k` of the array is column `names[k]`, so that each column is a view of contiguous memory.
+pub(crate) struct Columns {
+    pub(crate) names: Vec<String>,
+    meanings: Vec<String>,
+    pub(crate) block: Py<PyArray2<f64>>,
+}
+
+impl Columns {
+    pub(crate) fn new(py: Python<'_>, table: Table) -> PyResult<Self> {
+        let (count, rows) = (table.columns.len(), table.rows());
+        let (mut names, mut meanings) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        let mut block = Vec::with_capacity(count * rows);
+        for column in table.columns {
+            block.extend_from_slice(&column.values); // and frees the column
+            names.push(column.name);
+            meanings.push(column.meaning);
+        }
+        let block = PyArray1::from_vec(py, block).reshape([count, rows])?;
+        Ok(Self { names, meanings, block: block.unbind() })
+    }
+
+    pub(crate) fn parts(&self, py: Python<'_>) -> TableArrays {
+        (self.names.clone(), self.meanings.clone(), self.block.clone_ref(py))
+    }
+}
+
+impl Run {
+    pub(crate) fn new(py: Python<'_>, dataset: Dataset) -> PyResult<Self> {
+        let c = &dataset.manifest.plan.computation;
+        let info = dataset.manifest.plan.info().map_err(python)?;
+        let model = info.build(&c.parameters.values()).map_err(|error| python(error.into()))?;
+        let table = Columns::new(py, dataset.trajectory)?;
+        let crossings = dataset.crossings.map(|table| Columns::new(py, table)).transpose()?;
+        Ok(Self { manifest: dataset.manifest, model, table, crossings })
+    }
+
+    /// The shape in a row, as the model computes with it.
+    fn shape(&self, py: Python<'_>, row: usize) -> PyResult<Vec<f64>> {
+        let block = self.table.block.bind(py).readonly();
+        let block = block.as_array();
+        if row >= block.ncols() {
+            return Err(PyIndexError::new_err(format!("row {row}: the run has {} rows", block.ncols())));
+        }
+        let place = |name: &str| self.table.names.iter().position(|known| known == name);
+        let coordinates = self.model.coordinates().iter();
+        let named: Vec<f64> = coordinates.filter_map(|c| Some(block[[place(c.name)?, row]])).collect();
+        let mut shape = vec![0.0; self.model.dim()];
+        self.model.encode(&named, &mut shape);
+        Ok(shape)
+    }
+}
+
+#[pymethods]
+impl Run {
+    /// The array (column, row).
+    fn block(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
+        self.table.block.clone_ref(py)
+    }
+
+    /// Names and meanings of the columns, and the array (column, row).
+    fn table(&self, py: Python<'_>) -> TableArrays {
+        self.table.parts(py)
+    }
+
+    /// The same of the return map's crossings, if there is one.
+    fn crossings(&self, py: Python<'_>) -> Option<TableArrays> {
+        self.crossings.as_ref().map(|table| table.parts(py))
+    }
+
+    /// The manifest as JSON.
+    fn manifest(&self) -> PyResult<String> {
+        serde_json::to_string(&self.manifest).map_err(of_json)
+    }
+
+    /// Whether the run reached its end.
+    #[getter]
+    fn complete(&self) -> bool {
+        self.manifest.outcome.is_complete()
+    }
+
+    /// How the run ended, in words.
+    #[getter]
+    fn ended(&self) -> String {
+        self.manifest.outcome.to_string()
+    }
+
+    /// The undeformed radius: the model's, or a round one that shows the deformation over these rows.
+    fn radius(&self, py: Python<'_>) -> PyResult<f64> {
+        if let Some(fixed) = self.model.radius() {
+            return Ok(fixed);
+        }
+        let rows = self.table.block.bind(py).shape()[1];
+        let mut largest = 0.0_f64;
+        for row in (0..rows).step_by(rows.div_ceil(4096).max(1)) {
+            largest = largest.max(self.model.deformation(&self.shape(py, row)?));
+        }
+        Ok(draw::radius_for(largest))
+    }
+
+    /// The boundary in a row about the centre of mass, (points, 2); `None` where the shape is no closed curve.
+    fn outline<'py>(
+        &self,
+        py: Python<'py>,
+        row: usize,
+        radius: f64,
+        points: usize,
+    ) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
+        match self.model.outline(&self.shape(py, row)?, radius, points) {
+            Outline::Curve(curve) => {
+                let count = curve.len();
+                let flat = curve.into_iter().flatten().collect();
+                PyArray1::from_vec(py, flat).reshape([count, 2]).map(Some)
+            }
+            Outline::NotACurve { .. } | Outline::NotClosed { .. } => Ok(None),
+        }
+    }
+}
+
+/// Runs a study. The second value is what a signal or the callable raised: the run was stopped then.
+#[pyfunction]
+#[pyo3(signature = (study, progress=None))]
+pub(crate) fn simulate(
+    py: Python<'_>,
+    study: &Study,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(Run, Option<PyErr>)> {
+    let (dataset, raised) =
+        Watch::here(py, progress, |monitor| motiform_study::simulate::simulate(&plan(study)?, monitor));
+    Ok((Run::new(py, dataset.map_err(python)?)?, raised))
+}
+
+/// Seconds of one run without Python about it, the mean of `count`: what calls from Python are compared with.
+#[pyfunction]
+pub(crate) fn seconds_of_run(study: &Study, count: u32) -> PyResult<f64> {
+    let began = Instant::now();
+    for _ in 0..count {
+        let run = plan(study).and_then(|plan| motiform_study::simulate::simulate(&plan, &()));
+        black_box(run.map_err(python)?);
+    }
+    Ok(began.elapsed().as_secs_f64() / f64::from(count))
+}

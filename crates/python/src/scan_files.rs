@@ -1,0 +1,96 @@
+//! Scans in folders.
+
+use crate::errors::python;
+use crate::scan_plan::{Arrays, ScanPlan, arrays};
+use crate::watch::Watch;
+use motiform_study::scan::{
+    Classify, Opening, Scan, ScanFolder, ScanTable, Shard, for_each_part, merge as merge_folders,
+};
+use numpy::PyReadonlyArray1;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use std::path::PathBuf;
+
+/// A scan folder that is being computed; locked while this lives.
+#[pyclass(frozen, module = "motiform._motiform")]
+pub(crate) struct ScanFiles(Scan);
+
+#[pymethods]
+impl ScanFiles {
+    /// Opens the folder: `opening` is "new", "resume" or "replace", `shard` like "2/8".
+    #[new]
+    fn new(path: PathBuf, plan: &ScanPlan, shard: Option<&str>, opening: &str) -> PyResult<Self> {
+        let shard = shard.map_or(Ok(Shard::WHOLE), Shard::parse).map_err(python)?;
+        let opening = match opening {
+            "resume" => Opening::Resume,
+            "replace" => Opening::Replace,
+            _ => Opening::New,
+        };
+        Scan::open(&path, &plan.0, shard, opening).map(Self).map_err(python)
+    }
+
+    /// Damaged parts that were found, each with what is wrong; they are computed again.
+    fn damaged(&self) -> Vec<String> {
+        self.0.damaged().to_vec()
+    }
+
+    /// The parts still to compute.
+    fn left(&self) -> Vec<usize> {
+        self.0.parts_left().collect()
+    }
+
+    /// Computes what is left on `threads` threads; returns what stopped it, if something did.
+    #[pyo3(signature = (threads, progress=None))]
+    fn run(&self, py: Python<'_>, threads: usize, progress: Option<Py<PyAny>>) -> PyResult<Option<PyErr>> {
+        let (ended, raised) =
+            Watch::beside(py, progress, |monitor| self.0.run(&Classify, threads.max(1), monitor));
+        ended.map_err(python)?;
+        Ok(raised)
+    }
+
+    /// Keeps the rows of a part that an executor computed.
+    fn keep(
+        &self,
+        part: usize,
+        regimes: Vec<i8>,
+        attractors: Vec<i8>,
+        numbers: Vec<PyReadonlyArray1<'_, f64>>,
+        whys: Vec<String>,
+    ) -> PyResult<()> {
+        let codes = |codes: Vec<i8>| codes.into_iter().map(i8::cast_unsigned).collect();
+        let columns: Vec<Vec<f64>> = numbers.iter().map(|column| column.as_array().to_vec()).collect();
+        let numbers = columns.try_into().map_err(|_| PyValueError::new_err("columns are missing"))?;
+        let table =
+            ScanTable { regimes: codes(regimes), attractors: codes(attractors), numbers, whys: Some(whys) };
+        let plan = self.0.folder().plan();
+        let samples = plan.computation.samples;
+        let cells = plan.cells_of(part);
+        let places = cells.flat_map(|cell| (0..samples).map(move |sample| (cell, sample)));
+        let rows: Option<Vec<_>> = places.enumerate().map(|(place, at)| table.row(place, at)).collect();
+        let rows = rows.ok_or_else(|| PyValueError::new_err("rows are missing"))?;
+        self.0.keep(part, &rows).map_err(python)
+    }
+}
+
+/// Puts the folders of shards together; returns the number of missing parts and what is damaged.
+#[pyfunction]
+pub(crate) fn merge(folders: Vec<PathBuf>, out: PathBuf, force: bool) -> PyResult<(usize, Vec<String>)> {
+    let merged = merge_folders(&folders, &out, force).map_err(python)?;
+    Ok((merged.missing, merged.damaged))
+}
+
+/// The plan and the rows of a scan folder, and what is wrong with damaged parts.
+pub(crate) fn load(py: Python<'_>, path: PathBuf, whys: bool) -> PyResult<(ScanPlan, Arrays, Vec<String>)> {
+    let loaded = py.detach(|| {
+        let folder = ScanFolder::read(&path)?;
+        let mut table = ScanTable::empty(folder.plan().rows(), whys);
+        let damaged = for_each_part(&folder, |rows| {
+            for row in rows {
+                table.put(ScanTable::place(folder.plan(), row), row.clone());
+            }
+        })?;
+        Ok((folder.plan().clone(), table, damaged))
+    });
+    let (plan, table, damaged) = loaded.map_err(python)?;
+    Ok((ScanPlan(plan), arrays(py, table), damaged))
+}

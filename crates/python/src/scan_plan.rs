@@ -1,0 +1,199 @@
+//! A scan's plan, and computing it: on all threads here, or cell by cell in tasks of an executor.
+
+use crate::errors::{of_json, of_keywords, python};
+use crate::study::{Study, number};
+use crate::watch::Watch;
+use motiform_study::scan::{Axis, Classify, Row, ScanTable, Store, compute, rows_of};
+use motiform_study::{Error, ScanPlan as Inner};
+use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyType;
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+/// The plan of a scan.
+#[pyclass(frozen, module = "motiform._motiform")]
+pub(crate) struct ScanPlan(pub(crate) Inner);
+
+/// Rows as arrays: codes of regimes and attractors (-1: not computed), numbers, and the evidence where it is asked for.
+pub(crate) type Arrays = (Py<PyArray1<i8>>, Py<PyArray1<i8>>, Vec<Py<PyArray1<f64>>>, Option<Vec<String>>);
+
+/// A table as NumPy arrays, which take over the numbers' memory.
+pub(crate) fn arrays(py: Python<'_>, table: ScanTable) -> Arrays {
+    let codes = |codes: Vec<u8>| {
+        let code = |code: u8| i8::try_from(code).unwrap_or(-1);
+        PyArray1::from_vec(py, codes.into_iter().map(code).collect::<Vec<_>>()).unbind()
+    };
+    let numbers = table.numbers.into_iter().map(|column| PyArray1::from_vec(py, column).unbind()).collect();
+    (codes(table.regimes), codes(table.attractors), numbers, table.whys)
+}
+
+/// Parts go into a table in memory.
+struct Memory<'m> {
+    plan: &'m Inner,
+    table: Mutex<ScanTable>,
+}
+
+impl Store for Memory<'_> {
+    fn put(&self, _part: usize, rows: Vec<Row>) -> Result<(), Error> {
+        let mut table = self.table.lock().unwrap_or_else(PoisonError::into_inner);
+        for row in rows {
+            let place = ScanTable::place(self.plan, &row);
+            table.put(place, row);
+        }
+        Ok(())
+    }
+}
+
+#[pymethods]
+impl ScanPlan {
+    /// The plan of a study's scan. An axis is a name with the text of its values as on the command line, or an array;
+    /// what is not given is that of the study.
+    #[new]
+    #[pyo3(signature = (study, axes=None, samples=None, seed=None, budget=None, fast=None))]
+    fn new(
+        study: &Study,
+        axes: Option<Vec<(String, Bound<'_, PyAny>)>>,
+        samples: Option<u64>,
+        seed: Option<u64>,
+        budget: Option<f64>,
+        fast: Option<bool>,
+    ) -> PyResult<Self> {
+        let mut study = study.0.clone();
+        let scan = &mut study.scan;
+        if let Some(axes) = axes {
+            let read = |(name, values): (String, Bound<'_, PyAny>)| axis(name, &values);
+            scan.axes = axes.into_iter().map(read).collect::<PyResult<_>>()?;
+        }
+        scan.samples = samples.unwrap_or(scan.samples);
+        scan.budget = budget.unwrap_or(scan.budget);
+        scan.fast = fast.unwrap_or(scan.fast);
+        study.run.seed = seed.unwrap_or(study.run.seed);
+        Inner::new(&study).map(Self).map_err(of_keywords)
+    }
+
+    /// The plan of this JSON.
+    #[staticmethod]
+    fn of_json(text: &str) -> PyResult<Self> {
+        serde_json::from_str(text).map(Self).map_err(of_json)
+    }
+
+    fn to_json(&self) -> PyResult<String> {
+        serde_json::to_string(&self.0).map_err(of_json)
+    }
+
+    fn __reduce__(&self, py: Python<'_>) -> PyResult<(Py<PyAny>, (String,))> {
+        Ok((PyType::new::<Self>(py).getattr("of_json")?.unbind(), (self.to_json()?,)))
+    }
+
+    /// SHA-256 of everything the rows depend on.
+    #[getter]
+    fn hash(&self) -> String {
+        self.0.hash()
+    }
+
+    #[getter]
+    fn model(&self) -> &str {
+        &self.0.computation.model
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.0.title
+    }
+
+    #[getter]
+    fn cells(&self) -> usize {
+        self.0.cells()
+    }
+
+    #[getter]
+    fn samples(&self) -> usize {
+        self.0.computation.samples
+    }
+
+    #[getter]
+    fn parts(&self) -> usize {
+        self.0.parts()
+    }
+
+    /// The parameters that no axis varies.
+    #[getter]
+    fn parameters(&self) -> Vec<(String, f64)> {
+        self.0.computation.parameters.0.clone()
+    }
+
+    /// First and last cell (exclusive) of a part.
+    fn cells_of(&self, part: usize) -> (usize, usize) {
+        let cells = self.0.cells_of(part);
+        (cells.start, cells.end)
+    }
+
+    /// The axes: name and values; the first runs fastest.
+    fn axes<'py>(&self, py: Python<'py>) -> Vec<(String, Bound<'py, PyArray1<f64>>)> {
+        let axes = self.0.computation.axes.iter();
+        axes.map(|axis| (axis.name.clone(), PyArray1::from_slice(py, &axis.values))).collect()
+    }
+
+    /// Everything, on `threads` threads. Where the third value is an exception, it stopped the scan: rows are missing.
+    #[pyo3(signature = (threads, whys, progress=None))]
+    fn compute(
+        &self,
+        py: Python<'_>,
+        threads: usize,
+        whys: bool,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(Arrays, Option<PyErr>)> {
+        let rows = self.0.rows();
+        let store = Memory { plan: &self.0, table: Mutex::new(ScanTable::empty(rows, whys)) };
+        let parts = (0..self.0.parts()).collect();
+        let (ended, raised) = Watch::beside(py, progress, |monitor| {
+            compute(&self.0, parts, &Classify, threads.max(1), monitor, &store)
+        });
+        ended.map_err(python)?;
+        let table = store.table.into_inner().unwrap_or_else(PoisonError::into_inner);
+        Ok((arrays(py, table), raised))
+    }
+
+    /// The rows of the first of the cells `first..last`, on this thread: as many as begin within `seconds`. Returns them,
+    /// the cell to go on with, and the seconds that they took. One task of an executor.
+    fn task(
+        &self,
+        py: Python<'_>,
+        first: usize,
+        last: usize,
+        seconds: f64,
+        whys: bool,
+    ) -> PyResult<(Arrays, usize, f64)> {
+        if first >= last || last > self.0.cells() {
+            let cells = self.0.cells();
+            return Err(PyValueError::new_err(format!("cells {first} to {last}: the scan has {cells}")));
+        }
+        let began = Instant::now();
+        let (rows, raised) = Watch::here(py, None, |monitor| {
+            rows_of(&self.0, first..last, &|| began.elapsed().as_secs_f64() < seconds, &Classify, monitor)
+        });
+        if let Some(raised) = raised {
+            return Err(raised);
+        }
+        let rows = rows.ok_or_else(|| PyKeyboardInterrupt::new_err("interrupted"))?;
+        let next = first + rows.len() / self.0.computation.samples;
+        let mut table = ScanTable::empty(rows.len(), whys);
+        for (place, row) in rows.into_iter().enumerate() {
+            table.put(place, row);
+        }
+        Ok((arrays(py, table), next, began.elapsed().as_secs_f64()))
+    }
+}
+
+/// An axis from its text (`0.1:1.6:64`, as on the command line) or its values.
+fn axis(name: String, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
+    if let Ok(text) = values.extract::<String>() {
+        return Axis::parse(&format!("{name}={text}")).map_err(python);
+    }
+    if let Ok(array) = values.extract::<PyReadonlyArray1<'_, f64>>() {
+        return Ok(Axis { name, values: array.as_array().to_vec() });
+    }
+    Ok(Axis { values: vec![number(&name, values)?], name })
+}

@@ -1,0 +1,187 @@
+//! A study, as Python holds it.
+
+use crate::errors::{of_keywords, python};
+use motiform_dynamics::model::Coordinate;
+use motiform_models::ModelInfo;
+use motiform_study::study::RunSettings;
+use motiform_study::{Error, presets};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyString, PyType};
+use std::path::PathBuf;
+
+/// A model with its parameters, a start and a run; never changed, only copied with changes.
+#[pyclass(frozen, module = "motiform._motiform")]
+#[derive(Clone)]
+pub(crate) struct Study(pub(crate) motiform_study::Study);
+
+#[pymethods]
+impl Study {
+    /// A model with its defaults.
+    #[staticmethod]
+    fn of_model(name: &str) -> PyResult<Self> {
+        let info = ModelInfo::find(name).map_err(|error| python(error.into()))?;
+        Ok(Self(motiform_study::Study::of_model(info)))
+    }
+
+    /// A preset of any model.
+    #[staticmethod]
+    fn preset(name: &str) -> PyResult<Self> {
+        let info = presets::model_of(name).unwrap_or(&motiform_models::MODELS[0]);
+        presets::find(info, name).map(Self).map_err(python)
+    }
+
+    /// A study file.
+    #[staticmethod]
+    fn read(path: PathBuf) -> PyResult<Self> {
+        motiform_study::Study::read(&path).map(Self).map_err(python)
+    }
+
+    /// The text of a study file.
+    #[staticmethod]
+    fn parse(text: &str, name: &str) -> PyResult<Self> {
+        motiform_study::Study::parse(text, name, name).map(Self).map_err(python)
+    }
+
+    /// A copy with other parameters, initial values and run settings.
+    #[pyo3(signature = (parameters=None, initial=None, run=None))]
+    fn with_(
+        &self,
+        parameters: Option<&Bound<'_, PyDict>>,
+        initial: Option<&Bound<'_, PyDict>>,
+        run: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let mut study = self.0.clone();
+        for (name, value) in parameters.into_iter().flatten() {
+            let name: String = name.extract()?;
+            let value = number(&name, &value)?;
+            study.set(&name, value).map_err(of_keywords)?;
+        }
+        for (name, value) in initial.into_iter().flatten() {
+            let name: String = name.extract()?;
+            let value = number(&name, &value)?;
+            study.set_initial(&name, value).map_err(python)?;
+        }
+        for (name, value) in run.into_iter().flatten() {
+            set(&mut study, name.cast::<PyString>()?.to_str()?, &value)?;
+        }
+        let values = study.values().map_err(python)?;
+        let built = study.info().map_err(python)?.build(&values); // refuses what is out of range
+        built.map_err(|error| python(error.into()))?;
+        Ok(Self(study))
+    }
+
+    #[getter]
+    fn model(&self) -> &'static str {
+        self.0.model
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.0.title
+    }
+
+    #[getter]
+    fn about(&self) -> &str {
+        &self.0.about
+    }
+
+    #[getter]
+    fn free(&self) -> Vec<String> {
+        self.0.free.clone()
+    }
+
+    /// All parameters, in registry order.
+    fn parameters(&self) -> PyResult<Vec<(&'static str, f64)>> {
+        let specs = self.0.info().map_err(python)?.parameters();
+        let values = self.0.values().map_err(python)?;
+        Ok(specs.iter().map(|spec| spec.name).zip(values).collect())
+    }
+
+    /// The parameters that were given.
+    fn given(&self) -> Vec<(String, f64)> {
+        self.0.parameters.clone()
+    }
+
+    /// The initial values that were given.
+    fn initial(&self) -> Vec<(String, f64)> {
+        self.0.initial.clone()
+    }
+
+    /// The coordinates of the shape: name and meaning.
+    fn coordinates(&self) -> PyResult<Vec<(&'static str, &'static str)>> {
+        let values = self.0.values().map_err(python)?;
+        let coordinates = self.0.info().map_err(python)?.coordinates(&values);
+        Ok(coordinates.iter().map(|&Coordinate { name, meaning }| (name, meaning)).collect())
+    }
+
+    /// The run settings as JSON.
+    fn run(&self) -> PyResult<String> {
+        serde_json::to_string(&self.0.run).map_err(crate::errors::of_json)
+    }
+
+    /// The text of a study file that gives this study.
+    fn to_toml(&self) -> PyResult<String> {
+        self.0.to_toml().map_err(python)
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+
+    fn __reduce__(&self, py: Python<'_>) -> PyResult<(Py<PyAny>, (String, String))> {
+        let parse = PyType::new::<Self>(py).getattr("parse")?;
+        Ok((parse.unbind(), (self.to_toml()?, self.0.name.clone())))
+    }
+}
+
+/// A real number; anything else is a `TypeError` that names the key.
+pub(crate) fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    value.extract().map_err(|_| {
+        let kind = value.get_type();
+        PyTypeError::new_err(format!(
+            "{name} must be a real number, not {}",
+            kind.name().map_or_else(|_| "this".to_owned(), |name| name.to_string())
+        ))
+    })
+}
+
+/// A whole number of at least 0.
+fn whole(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
+    let wrong = || {
+        let shown = value.repr().map_or_else(|_| "?".to_owned(), |text| text.to_string());
+        PyTypeError::new_err(format!("{name} must be a whole number of at least 0, not {shown}"))
+    };
+    value.extract().map_err(|_| wrong())
+}
+
+/// Sets one run setting.
+fn set(study: &mut motiform_study::Study, name: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
+    let run: &mut RunSettings = &mut study.run;
+    match name {
+        "t_end" => run.t_end = number(name, value)?,
+        "transient" => run.transient = number(name, value)?,
+        "dt_out" => run.dt_out = number(name, value)?,
+        "stepper" => run.stepper = value.extract()?,
+        "rtol" => run.rtol = number(name, value)?,
+        "atol" => run.atol = number(name, value)?,
+        "step" => run.step = Some(number(name, value)?),
+        "seed" => run.seed = whole(name, value)?,
+        "max_steps" => run.max_steps = whole(name, value)?,
+        "escape_norm" => run.escape_norm = number(name, value)?,
+        "noise" => run.noise = number(name, value)?,
+        "random" => study.random = number(name, value)?,
+        _ => return Err(PyTypeError::new_err(format!("unknown setting {name:?}"))),
+    }
+    Ok(())
+}
+
+/// The plan of a study.
+pub(crate) fn plan(study: &Study) -> Result<motiform_study::Plan, Error> {
+    motiform_study::Plan::new(&study.0)
+}

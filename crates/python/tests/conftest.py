@@ -1,0 +1,23 @@
+"""What the tests share."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+
+import matplotlib
+import pytest
+
+matplotlib.use("Agg")
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+@pytest.fixture(scope="session")
+def binary() -> Path:
+    """The command-line program of this checkout."""
+    path = Path(os.environ.get("MOTIFORM_BINARY", ROOT / "target/release/motiform"))
+    if not path.exists():
+        subprocess.run(["cargo", "build", "--release"], cwd=ROOT, check=True)
+    return path

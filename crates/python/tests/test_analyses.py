@@ -1,0 +1,71 @@
+"""Questions about one motion."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import motiform
+
+
+def test_verdicts_are_those_of_the_command_line(binary: Path) -> None:
+    said = subprocess.run([binary, "classify", "tensor", "--preset", "fig5a", "--json"], capture_output=True, check=True)
+    raw = json.loads(said.stdout)
+    verdict = motiform.preset("fig5a").classify()
+    assert (verdict.regime, verdict.why, verdict.period) == (raw["regime"], raw["why"], raw["period"])
+    assert verdict.speed is not None and verdict.speed.mean == raw["speed"]["mean"]
+    assert [estimate.value for estimate in verdict.exponents] == [entry["value"] for entry in raw["exponents"]]
+
+
+def test_exponents_add_up_to_the_mean_divergence(binary: Path) -> None:
+    body = motiform.preset("fig5b")
+    found = body.lyapunov(6, transient=200.0, t_end=2000.0)
+    arguments = ["--preset", "fig5b", "--transient", "200", "--t-end", "2000", "--json"]
+    said = subprocess.run([binary, "lyapunov", "tensor", *arguments], capture_output=True, check=True)
+    assert found.values.tolist() == [entry["value"] for entry in json.loads(said.stdout)["exponents"]]
+    run = body.simulate(2000.0, transient=200.0, dt_out=0.1)
+    step, sample = 1e-6, run.shape[::20]
+    divergence = np.zeros(len(sample))
+    for place in range(6):
+        shift = np.zeros(6)
+        shift[place] = step
+        divergence += (body(0.0, (sample + shift).T) - body(0.0, (sample - shift).T))[place] / (2 * step)
+    assert found.sum == pytest.approx(divergence.mean(), abs=0.02)
+
+
+def test_equilibria_are_steady() -> None:
+    body = motiform.preset("fig1").replace(kappa2=-0.1, gamma=0.1)
+    found = body.equilibria(starts=60)
+    growth = [e.eigenvalues[0].real for e in found]
+    assert len(found) >= 3 and growth == sorted(growth)
+    circle = [e for e in found if not any(e.shape.values())]
+    assert len(circle) == 1 and circle[0].kind == "motionless" and not circle[0].stable
+    for e in found:
+        u = np.array([e.shape[name] for name in body.coordinates])
+        speed = float(np.hypot(*body(0.0, np.concatenate((u, [0.0, 0.0])))[6:]))
+        assert speed == pytest.approx(e.speed, abs=1e-12)
+        if e.kind != "circular":
+            assert np.abs(body(0.0, u)).max() < 1e-9
+    assert body.classify().regime in {e.kind for e in found if e.stable} | {"quasi-periodic", "zigzag", "rectangular"}
+
+
+def test_sections_are_crossed_where_they_are() -> None:
+    body = motiform.preset("fig5a")
+    found = body.section("s12", 0.1, "rising", t_end=300.0)
+    assert len(found) > 5 and found.complete
+    table = found.table
+    np.testing.assert_allclose(table["s12"], 0.1, atol=1e-9)
+    assert (table["rising"] == 1.0).all()
+    slopes = [body(0.0, row)[3] for row in table[body.coordinates].to_numpy()]
+    assert min(slopes) > 0.0
+    assert found.pairs("v1").shape == (len(found) - 1, 2)
+    both = body.section("y", t_end=300.0).table
+    np.testing.assert_allclose(both["y"], 0.0, atol=1e-9)
+    with pytest.raises(ValueError, match="unknown"):
+        body.section("w")
+    with pytest.raises(ValueError, match="direction"):
+        body.section("y", 0.0, "up")  # type: ignore[arg-type]

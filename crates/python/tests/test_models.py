@@ -1,0 +1,87 @@
+"""Models: parameters, copies, errors."""
+
+from __future__ import annotations
+
+import copy
+import inspect
+import pickle
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import motiform
+
+
+def test_a_model_has_the_parameters_of_the_registry() -> None:
+    body = motiform.Tensor(kappa2=0.5)
+    assert body.kappa2 == 0.5 and body.gamma == motiform.MODELS["tensor"].parameters[0].default
+    assert list(body.parameters) == [spec.name for spec in motiform.MODELS["tensor"].parameters]
+    names = list(inspect.signature(motiform.Cell.__init__).parameters)
+    assert names[1:-1] == [spec.name for spec in motiform.MODELS["cell"].parameters]
+    assert "kappa2" in (motiform.Tensor.__doc__ or "")
+
+
+def test_copies_are_changed_and_originals_are_not() -> None:
+    body = motiform.preset("fig5b")
+    other = body.replace(kappa2=0.45, t_end=7.0, initial={"v1": 0.25})
+    assert (other.kappa2, other.run["t_end"], other.initial) == (0.45, 7.0, {"v1": 0.25})
+    assert body.kappa2 == 0.5 and body.initial == {} and body != other
+    assert isinstance(body, motiform.Tensor) and isinstance(motiform.preset("fig6a"), motiform.Cell)
+
+
+@pytest.mark.parametrize("name", list(motiform.PRESETS))
+def test_models_travel(name: str, tmp_path: Path) -> None:
+    body = motiform.preset(name).replace(seed=7)
+    assert pickle.loads(pickle.dumps(body)) == body == copy.deepcopy(body)
+    file = tmp_path / f"{name}.toml"
+    file.write_text(body.to_toml(), encoding="utf-8")
+    assert motiform.study(file) == body
+
+
+def refused(binary: Path, *arguments: str) -> str:
+    """What the command line says against an input."""
+    done = subprocess.run([binary, *arguments], capture_output=True, text=True)
+    assert done.returncode == 2
+    return done.stderr
+
+
+@pytest.mark.parametrize(
+    ("kind", "call", "arguments"),
+    [
+        (TypeError, lambda: motiform.Tensor(kapa2=1.0), ("--set", "kapa2=1")),
+        (ValueError, lambda: motiform.Tensor(kappa2=1e9), ("--set", "kappa2=1e9")),
+        (ValueError, lambda: motiform.preset("fig7"), ("--preset", "fig7")),
+        (ValueError, lambda: motiform.Tensor().simulate(-1.0), ("--t-end=-1",)),
+        (ValueError, lambda: motiform.Tensor().simulate(1.0, stepper="rk5"), ("--stepper", "rk5")),
+        (ValueError, lambda: motiform.Tensor(initial={"w1": 1.0}), ("--initial", "w1=1")),
+    ],
+)
+def test_errors_have_the_words_of_the_command_line(
+    binary: Path, kind: type[Exception], call: object, arguments: tuple[str, ...]
+) -> None:
+    assert callable(call)
+    with pytest.raises(kind) as error:
+        call()
+    said = " ".join(refused(binary, "simulate", "tensor", *arguments).split())
+    assert " ".join(str(error.value).split()) in said
+
+
+def test_wrong_types_are_type_errors() -> None:
+    for call in (
+        lambda: motiform.Tensor(kappa2="much"),  # type: ignore[arg-type]
+        lambda: motiform.Tensor(kappa2=None),  # type: ignore[arg-type]
+        lambda: motiform.Tensor().simulate(1.0, seed=-1),
+        lambda: motiform.Tensor().simulate(1.0, seed=1.5),  # type: ignore[arg-type]
+        lambda: motiform.Tensor().simulate("long"),  # type: ignore[arg-type]
+    ):
+        with pytest.raises(TypeError, match="must be a"):
+            call()
+
+
+def test_numbers_of_numpy_are_numbers() -> None:
+    body = motiform.Tensor(kappa2=np.float32(0.5), gamma=np.int64(1))
+    assert (body.kappa2, body.gamma) == (0.5, 1.0)
+    with pytest.raises(AttributeError, match="kapa2"):
+        body.kapa2  # type: ignore[attr-defined]  # noqa: B018

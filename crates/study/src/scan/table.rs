@@ -1,0 +1,87 @@
+//! The rows of a scan as columns in memory: what arrays are made of.
+
+use super::{NUMBERS, Row, ScanPlan};
+use motiform_analysis::regime::{Attractor, Regime};
+
+/// Rows `first..` of a scan, column by column, in the order `row = cell * samples + sample`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ScanTable {
+    /// Place in [`Regime::ALL`]; [`ScanTable::MISSING`] where the row is not computed.
+    pub regimes: Vec<u8>,
+    /// Place in [`Attractor::ALL`]; [`ScanTable::MISSING`] where the row is not computed.
+    pub attractors: Vec<u8>,
+    /// One column for each of [`NUMBERS`]; NaN where the number has no meaning for the motion.
+    pub numbers: [Vec<f64>; NUMBERS.len()],
+    /// The evidence of each row, where it is kept: it takes more room than all numbers.
+    pub whys: Option<Vec<String>>,
+}
+
+impl ScanTable {
+    /// The code of a row that is not computed.
+    pub const MISSING: u8 = u8::MAX;
+
+    /// A table for so many rows, none of them computed.
+    #[must_use]
+    pub fn empty(rows: usize, whys: bool) -> Self {
+        Self {
+            regimes: vec![Self::MISSING; rows],
+            attractors: vec![Self::MISSING; rows],
+            numbers: std::array::from_fn(|_| vec![f64::NAN; rows]),
+            whys: whys.then(|| vec![String::new(); rows]),
+        }
+    }
+
+    /// Puts a row in a place.
+    pub fn put(&mut self, place: usize, row: Row) {
+        self.regimes[place] = code(Regime::ALL.iter().position(|&known| known == row.regime));
+        self.attractors[place] = code(Attractor::ALL.iter().position(|&known| known == row.attractor));
+        for (column, number) in self.numbers.iter_mut().zip(row.numbers) {
+            column[place] = number;
+        }
+        if let Some(whys) = &mut self.whys {
+            whys[place] = row.why;
+        }
+    }
+
+    /// The row in a place, which is that of `cell` and `sample`; `None` where it is not computed, or without evidence.
+    #[must_use]
+    pub fn row(&self, place: usize, (cell, sample): (usize, usize)) -> Option<Row> {
+        Some(Row {
+            cell,
+            sample,
+            regime: *Regime::ALL.get(usize::from(*self.regimes.get(place)?))?,
+            attractor: *Attractor::ALL.get(usize::from(*self.attractors.get(place)?))?,
+            numbers: std::array::from_fn(|number| self.numbers[number][place]),
+            why: self.whys.as_ref()?.get(place)?.clone(),
+        })
+    }
+
+    /// The place of a row in the table of the whole plan.
+    #[must_use]
+    pub fn place(plan: &ScanPlan, row: &Row) -> usize {
+        row.cell * plan.computation.samples + row.sample
+    }
+}
+
+fn code(place: Option<usize>) -> u8 {
+    place.and_then(|place| u8::try_from(place).ok()).unwrap_or(ScanTable::MISSING)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motiform_analysis::regime::Verdict;
+
+    #[test]
+    fn a_row_comes_back_as_it_was_put() {
+        let verdict = Verdict::new(Regime::Zigzag, Attractor::Periodic, "because".to_owned(), 3.0);
+        let row = Row::new(7, 1, Verdict { period: Some(2.5), ..verdict });
+        let mut table = ScanTable::empty(3, true);
+        table.put(1, row.clone());
+        let back = table.row(1, (7, 1)).unwrap();
+        assert_eq!((back.regime, back.attractor, &back.why), (row.regime, row.attractor, &row.why));
+        assert_eq!(back.numbers.map(f64::to_bits), row.numbers.map(f64::to_bits));
+        assert!(table.row(0, (7, 0)).is_none(), "it is not computed");
+        assert_eq!(table.regimes[2], ScanTable::MISSING);
+    }
+}

@@ -1,0 +1,134 @@
+//! A study as the text of a study file.
+
+use crate::scan::Axis;
+use crate::{Error, Study};
+use serde::Serialize;
+use toml::{Table, Value};
+
+impl Study {
+    /// The text of a study file that reads back as this study ([`Study::parse`]): what differs from the model's
+    /// defaults, with every digit. Its name is that of the file, and not in the text.
+    ///
+    /// # Errors
+    /// An unknown model; [`Error::Setting`] for whole numbers of 2^63 and more, which TOML does not have.
+    pub fn to_toml(&self) -> Result<String, Error> {
+        let bare = Self::of_model(self.info()?);
+        let mut top = Table::new();
+        for (key, text) in [("title", &self.title), ("about", &self.about)] {
+            if !text.is_empty() {
+                top.insert(key.to_owned(), text.clone().into());
+            }
+        }
+        if !self.free.is_empty() {
+            top.insert("free".to_owned(), self.free.clone().into());
+        }
+        let model = Table::from_iter([(self.model.to_owned(), Value::Table(numbers(&self.parameters)))]);
+        top.insert("model".to_owned(), model.into());
+        let mut initial = numbers(&self.initial);
+        if self.random != bare.random {
+            initial.insert("random".to_owned(), self.random.into());
+        }
+        let tables = [
+            ("initial", initial),
+            ("run", changed("run", &self.run, &bare.run)?),
+            ("scan", self.scan_table(&bare)?),
+            ("figure", changed("figure", &self.figure, &bare.figure)?),
+        ];
+        top.extend(
+            tables
+                .into_iter()
+                .filter(|entry| !entry.1.is_empty())
+                .map(|(key, table)| (key.to_owned(), table.into())),
+        );
+        if let Some(map) = &self.return_map {
+            top.insert("return_map".to_owned(), table("return_map", map)?.into());
+        }
+        Ok(top.to_string())
+    }
+
+    fn scan_table(&self, bare: &Self) -> Result<Table, Error> {
+        let mut scan = changed("scan", &self.scan, &bare.scan)?;
+        if let Some(axes) = scan.get_mut("axes") {
+            *axes = self.scan.axes.iter().map(Axis::to_text).collect::<Vec<_>>().into();
+        }
+        Ok(scan)
+    }
+}
+
+fn numbers(entries: &[(String, f64)]) -> Table {
+    entries.iter().map(|(name, value)| (name.clone(), Value::Float(*value))).collect()
+}
+
+fn table<T: Serialize>(key: &'static str, settings: &T) -> Result<Table, Error> {
+    Table::try_from(settings).map_err(|error| Error::Setting {
+        key,
+        value: error.to_string(),
+        remedy: "a study file holds whole numbers below 2^63 only: give a smaller one",
+    })
+}
+
+/// The entries of `settings` that are not those of `default`.
+fn changed<T: Serialize>(key: &'static str, settings: &T, default: &T) -> Result<Table, Error> {
+    let (mut entries, default) = (table(key, settings)?, table(key, default)?);
+    entries.retain(|name, value| default.get(name) != Some(value));
+    Ok(entries)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::presets::PRESETS;
+    use crate::study::{FigureSettings, ReturnMapSettings, RunSettings, ScanSettings};
+
+    fn back(study: &Study) -> Study {
+        Study::parse(&study.to_toml().unwrap(), "text", &study.name).unwrap()
+    }
+
+    #[test]
+    fn presets_read_back_as_they_are() {
+        for preset in PRESETS {
+            let study = Study::parse(preset.text, preset.name, preset.name).unwrap();
+            assert_eq!(back(&study), study, "{}", study.to_toml().unwrap());
+        }
+    }
+
+    #[test]
+    fn every_setting_reads_back() {
+        let mut study = Study::parse("preset = \"fig5b\"\n[model.tensor]", "text", "all").unwrap();
+        study.title = "quotes \" and \\ and \n lines".to_owned();
+        study.set("kappa2", 0.1 + 0.2).unwrap();
+        study.set_initial("v1", 1e-300).unwrap();
+        study.random = 0.5;
+        study.run = RunSettings {
+            t_end: 1.0 / 3.0,
+            transient: 7.0,
+            dt_out: 0.1,
+            stepper: "rk4".to_owned(),
+            rtol: 1e-7,
+            atol: 1e-8,
+            step: Some(0.01),
+            seed: 9,
+            max_steps: 1000,
+            escape_norm: 1e3,
+            noise: 0.25,
+        };
+        study.scan = ScanSettings {
+            axes: vec![Axis::parse("gamma=0.1:0.7:5").unwrap(), Axis::parse("kappa2=0.3").unwrap()],
+            samples: 4,
+            budget: 12.0,
+            fast: true,
+        };
+        study.return_map = Some(ReturnMapSettings { y: 1.0, x_min: -2.0, x_max: 3.5, centre: true });
+        study.figure =
+            FigureSettings { radius: 1.0, scale: 2.0, outlines: 3, from: 4.0, to: 5.0, animation: false };
+        assert_eq!(back(&study), study, "{}", study.to_toml().unwrap());
+    }
+
+    #[test]
+    fn a_seed_beyond_toml_is_refused() {
+        let mut study = Study::parse("preset = \"fig5b\"", "text", "seed").unwrap();
+        study.run.seed = u64::MAX;
+        let refusal = study.to_toml().unwrap_err().to_string();
+        assert!(refusal.contains("below 2^63"), "{refusal}");
+    }
+}

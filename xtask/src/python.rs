@@ -1,0 +1,30 @@
+//! The Python package: built as users build it, and tested in an environment of its own.
+
+use crate::{root, step};
+use anyhow::{Result, bail};
+use std::process::Command;
+
+/// Builds the package with everything its tests need into `target/python`, and runs them.
+pub(crate) fn test() -> Result<()> {
+    let root = root()?.canonicalize()?;
+    let environment = root.join("target/python");
+    let python = environment.join("bin/python");
+    if !python.exists() {
+        let interpreter = interpreter()?;
+        step("python environment", Command::new(interpreter).args(["-m", "venv"]).arg(&environment))?;
+    }
+    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", ".[test]"];
+    step("python package", Command::new(&python).args(install))?;
+    step("python tests", Command::new(&python).args(["-m", "pytest"]))
+}
+
+/// A Python of version 3.10 or later: that of `PYTHON`, or `python3`.
+fn interpreter() -> Result<String> {
+    let name = std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let check = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 10))";
+    let found = Command::new(&name).args(["-c", check]).status();
+    if !found.is_ok_and(|status| status.success()) {
+        bail!("{name} is no Python of 3.10 or later with venv: install python3-venv, or name one in PYTHON");
+    }
+    Ok(name)
+}
