@@ -67,8 +67,8 @@ fn cargo(name: &str, arguments: &[&str]) -> Result<()> {
 
 /// Runs a command in the checkout, showing what it does.
 fn step(name: &str, command: &mut Command) -> Result<()> {
-    let words: Vec<_> = std::iter::once(command.get_program()).chain(command.get_args()).collect();
-    let words: Vec<_> = words.into_iter().map(std::ffi::OsStr::to_string_lossy).collect();
+    let words = std::iter::once(command.get_program()).chain(command.get_args());
+    let words: Vec<String> = words.map(|word| word.to_string_lossy().into_owned()).collect();
     eprintln!("== {name}: {}", words.join(" "));
     let status = command.current_dir(root()?).status();
     if !status.with_context(|| format!("{} could not be started for {name}", words[0]))?.success() {
