@@ -62,9 +62,9 @@ fn rates_that_are_known_need_no_evaluation() {
         let mut rates = [0.0; 2];
         motiform_dynamics::VectorField::<f64>::eval(&StuartLandau, orbit.t(), &TO, &mut rates);
         if known {
-            orbit.restart_with(&TO, &rates)
+            orbit.restart_with(&TO, &rates);
         } else {
-            orbit.restart(&TO)
+            orbit.restart(&TO);
         }
         while orbit.t() < 2.0 {
             orbit.advance(2.0).unwrap();
