@@ -118,6 +118,8 @@ def lyapunov(scale, repeats, quick):
     for interval in (1.0, 5.0):
         start = lambda i=interval, **options: heyoka_rival.lyapunov(n(512), T, rtol, i, **options)  # noqa: E731
         list_.append(entry(f"heyoka batch 8, QR every {interval:g}", n(512), start))
+        start = lambda i=interval: heyoka_rival.lyapunov(n(64), T, rtol, i, batch=1)  # noqa: E731
+        list_.append(entry(f"heyoka one by one, QR every {interval:g}", n(64), start))
         start = lambda i=interval: lyapunov_rivals.jitcode(n(64), T, rtol, i)  # noqa: E731
         list_.append(entry(f"jitcode_lyap dop853, QR every {interval:g}", n(64), start))
     if not quick:  # it compiles for half a minute

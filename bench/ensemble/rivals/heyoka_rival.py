@@ -100,6 +100,8 @@ def lyapunov(n, t, rtol, interval, batch=8, low=w.KAPPA2[0], high=w.KAPPA2[1], *
     """First-order variational equations beside the orbit; QR by NumPy every `interval`."""
     ta = integrator(rtol, batch, variational=True, **options)
     kappa2, start = w.members(n, low, high)
+    if batch == 1:
+        return lyapunov_alone(ta, kappa2, start, t, interval)
     frame = np.eye(6).reshape(36, 1)
 
     def run():
@@ -116,6 +118,28 @@ def lyapunov(n, t, rtol, interval, batch=8, low=w.KAPPA2[0], high=w.KAPPA2[1], *
                 total += np.log(np.abs(np.diagonal(r, axis1=1, axis2=2)))
                 ta.state[6:] = np.moveaxis(q, 0, 2).reshape(36, batch)
             found[m : m + batch] = total / t
+        return Run(time.perf_counter() - begin, n * t, found[: w.SHOWN])
+
+    return run
+
+
+def lyapunov_alone(ta, kappa2, start, t, interval):
+    """The same, one orbit at a time."""
+
+    def run():
+        n = len(kappa2)
+        found = np.empty((n, 6))
+        begin = time.perf_counter()
+        for m in range(n):
+            ta.state[:6], ta.state[6:] = start[:, m], np.eye(6).ravel()
+            ta.pars[0], ta.time = kappa2[m], 0.0
+            total = np.zeros(6)
+            for k in range(round(t / interval)):
+                ta.propagate_until(interval * (k + 1))
+                q, r = np.linalg.qr(ta.state[6:].reshape(6, 6))
+                total += np.log(np.abs(np.diagonal(r)))
+                ta.state[6:] = q.ravel()
+            found[m] = total / t
         return Run(time.perf_counter() - begin, n * t, found[: w.SHOWN])
 
     return run

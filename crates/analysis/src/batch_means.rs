@@ -55,18 +55,27 @@ const LEAST: usize = 64;
 /// # Ok::<(), motiform_analysis::Error>(())
 /// ```
 pub fn batch_means(samples: &[f64]) -> Result<Estimate> {
+    means_over(samples, &vec![1.0; samples.len()])
+}
+
+/// [`batch_means`] of samples that stand for times of different lengths: `m = sum d_i x_i / sum d_i`, and in the error each batch
+/// counts by its share of the time, `(D_b / D) (m_b - m)` with `D` the mean of the `D_b` (the error of a ratio of sums; Law and
+/// Kelton, sec. 9.5.3).
+pub(crate) fn means_over(samples: &[f64], durations: &[f64]) -> Result<Estimate> {
     checks::at_least("an error from batch means, in samples,", LEAST, samples.len())?;
     checks::finite(samples)?;
-    let value = mean(samples, samples[0]);
+    let value = mean(samples, durations, samples[0]);
     let mut error: f64 = 0.0;
     for (batches, quantile) in BATCHES {
-        let means: Vec<f64> = samples
-            .chunks_exact(samples.len() / batches)
-            .take(batches)
-            .map(|batch| mean(batch, samples[0]))
-            .collect();
-        let middle = mean(&means, means[0]);
-        let squares: f64 = means.iter().map(|m| (m - middle) * (m - middle)).sum();
+        let size = samples.len() / batches;
+        let parts = samples.chunks_exact(size).zip(durations.chunks_exact(size)).take(batches);
+        let means: Vec<f64> = parts.clone().map(|(x, d)| mean(x, d, samples[0])).collect();
+        let times: Vec<f64> = parts.map(|(_, d)| d.iter().sum()).collect();
+        let usual = times.iter().sum::<f64>() / batches as f64;
+        let shares: Vec<f64> = times.iter().map(|time| time / usual).collect();
+        let middle = mean(&means, &shares, means[0]);
+        let off = means.iter().zip(&shares).map(|(m, share)| share * (m - middle));
+        let squares: f64 = off.map(|x| x * x).sum();
         let k = batches as f64;
         error = error.max(quantile * (squares / (k * (k - 1.0))).sqrt());
         if !squares.is_finite() {
@@ -76,7 +85,8 @@ pub fn batch_means(samples: &[f64]) -> Result<Estimate> {
     if value.is_finite() { Ok(Estimate { value, error }) } else { Err(checks::overflow(samples)) }
 }
 
-/// The mean, summed as differences to `origin`: exact for constants, accurate for small changes on a large value.
-fn mean(samples: &[f64], origin: f64) -> f64 {
-    origin + samples.iter().map(|x| x - origin).sum::<f64>() / samples.len() as f64
+/// The mean over these durations, summed as differences to `origin`: exact for constants, accurate for small changes on a large value.
+fn mean(samples: &[f64], durations: &[f64], origin: f64) -> f64 {
+    let sum: f64 = samples.iter().zip(durations).map(|(x, d)| (x - origin) * d).sum();
+    origin + sum / durations.iter().sum::<f64>()
 }

@@ -10,7 +10,7 @@
 //! systems Rowley, Kevrekidis, Marsden, Lust (2003), Nonlinearity 16, 1257.
 
 use crate::linear::{dot, norm};
-use motiform_dynamics::{Equivariant, System, VectorField};
+use motiform_dynamics::{Bundle, Equivariant, System, VectorField};
 use std::f64::consts::TAU;
 
 /// How one shape is best turned (and mirrored) onto another.
@@ -110,11 +110,26 @@ pub fn turning_of_shape<B: Equivariant + ?Sized>(body: &B, shape: &[f64], rate: 
 /// `|f - omega Gu|` with the best omega: how fast the reduced shape changes.
 #[must_use]
 pub fn reduced_speed<B: Equivariant + ?Sized>(body: &B, shape: &[f64], rate: &[f64]) -> f64 {
-    let omega = turning_of_shape(body, shape, rate);
     let mut spin = vec![0.0; shape.len()];
     body.spin(shape, &mut spin);
-    let rest: Vec<f64> = rate.iter().zip(&spin).map(|(f, g)| f - omega * g).collect();
-    norm(&rest)
+    speed_beside(&spin, rate)
+}
+
+/// `|f - omega g|` with the best omega, for the rates `f` and the rotation `g` of a shape.
+#[inline(always)]
+pub(crate) fn speed_beside<S: Bundle>(spin: &[S], rate: &[S]) -> S {
+    let zero = S::splat(0.0);
+    let (mut along, mut size, mut rest) = (zero, zero, zero);
+    for i in 0..spin.len() {
+        along = spin[i].mul_add(rate[i], along);
+        size = spin[i].mul_add(spin[i], size);
+    }
+    let omega = S::select(zero.less(size), along / size, zero);
+    for i in 0..spin.len() {
+        let left = rate[i] - omega * spin[i];
+        rest = left.mul_add(left, rest);
+    }
+    rest.sqrt()
 }
 
 /// The flow seen from a frame that turns with the shape, and what it takes to come back: state `(w, theta, x, y)` with

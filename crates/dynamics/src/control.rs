@@ -138,6 +138,26 @@ impl Tolerance {
         B::splat(1.0) / (u.abs().max(v.abs()) * self.rtol + B::splat(self.atol))
     }
 
+    /// The weights of all entries. Where the state is made of `vectors` ([`crate::System::vectors`]), those after the first have one
+    /// weight each: `1 / (atol + rtol max_i max(|u_i|, |v_i|))`.
+    #[inline(always)]
+    pub(crate) fn weights<B: Bundle>(&self, vectors: Option<usize>, u: &[B], v: &[B], out: &mut [B]) {
+        let length = vectors.unwrap_or(u.len()).clamp(1, u.len().max(1));
+        for i in 0..length.min(u.len()) {
+            out[i] = self.weight(u[i], v[i]);
+        }
+        for from in (length..u.len()).step_by(length) {
+            let mut size = u[from].abs().max(v[from].abs());
+            for i in from + 1..from + length {
+                size = size.max(u[i].abs().max(v[i].abs()));
+            }
+            let weight = B::splat(1.0) / (size * self.rtol + B::splat(self.atol));
+            for i in from..from + length {
+                out[i] = weight;
+            }
+        }
+    }
+
     /// `(weight e)^2`. A zero over a zero counts as no error.
     #[inline(always)]
     pub(crate) fn square<B: Bundle>(error: B, weight: B) -> B {
@@ -149,30 +169,31 @@ impl Tolerance {
     /// `sqrt(mean((e_i / (atol + rtol max(|u_i|, |v_i|)))^2))`.
     #[inline(always)]
     pub(crate) fn norm<B: Bundle>(&self, error: &[B], u: &[B], v: &[B]) -> B {
-        self.mean_square(error, u, v).sqrt()
-    }
-
-    #[inline(always)]
-    fn mean_square<B: Bundle>(&self, error: &[B], u: &[B], v: &[B]) -> B {
         let mut sum = B::splat(0.0);
         for i in 0..u.len() {
             sum += Self::square(error[i], self.weight(u[i], v[i]));
         }
-        sum * (1.0 / u.len() as f64)
+        (sum * (1.0 / u.len() as f64)).sqrt()
     }
 
-    /// The squared norm of a step's estimated error; `scratch` has the state's length.
+    /// The squared norm of a step's estimated error; `scratch` has twice the state's length.
     pub(crate) fn step_error<B: Bundle>(
         &self,
         tableau: &Tableau,
         slopes: &Slopes<B>,
         h: B,
-        (u, v): (&[B], &[B]),
+        (u, v, vectors): (&[B], &[B], Option<usize>),
         scratch: &mut [B],
     ) -> B {
+        let (scratch, scales) = scratch.split_at_mut(u.len());
+        self.weights(vectors, u, v, scales);
         let mean_square = |weights, scratch: &mut [B]| {
             slopes.combine(weights, scratch);
-            self.mean_square(scratch, u, v)
+            let mut sum = B::splat(0.0);
+            for i in 0..u.len() {
+                sum += Self::square(scratch[i], scales[i]);
+            }
+            sum * (1.0 / u.len() as f64)
         };
         match tableau.error {
             ErrorEstimate::None => B::splat(0.0),

@@ -10,6 +10,9 @@ use std::ops::ControlFlow;
 pub struct Request<'g> {
     /// End of the time span.
     pub t_end: f64,
+    /// The run also ends with the first step that reaches this time: for one who wants no step cut short. Infinite for no such
+    /// time.
+    pub stop_after: f64,
     /// Time between samples, the first at the start; `None` for no samples.
     pub sample_every: Option<f64>,
     /// Most steps (accepted and rejected) the run may take: bounds every run.
@@ -28,6 +31,7 @@ impl Request<'_> {
     pub fn until(t_end: f64, dim: usize) -> Self {
         Self {
             t_end,
+            stop_after: f64::INFINITY,
             sample_every: None,
             max_steps: 1_000_000_000,
             escape_norm: 1e6,
@@ -113,7 +117,7 @@ impl Run {
             sink.sample(orbit.t(), orbit.state());
             self.next_sample = 1;
         }
-        while orbit.t() < request.t_end {
+        while orbit.t() < request.t_end.min(request.stop_after) {
             let work = orbit.counters();
             if work.steps + work.rejected >= request.max_steps {
                 return Outcome::StepBudget { t: orbit.t(), steps: work.steps };

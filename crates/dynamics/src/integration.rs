@@ -24,6 +24,10 @@ impl<O: Integration + ?Sized> Integration for Box<O> {
         (**self).restart(u);
     }
 
+    fn restart_with(&mut self, u: &[f64], rates: &[f64]) {
+        (**self).restart_with(u, rates);
+    }
+
     fn t(&self) -> f64 {
         (**self).t()
     }
@@ -70,6 +74,12 @@ pub trait Integration {
     /// # Shapes
     /// `u` has the length of [`Integration::state`].
     fn restart(&mut self, u: &[f64]);
+
+    /// As [`Integration::restart`], where the caller knows the rates at `u`; an integration that has no use for them computes
+    /// its own.
+    fn restart_with(&mut self, u: &[f64], _rates: &[f64]) {
+        self.restart(u);
+    }
 
     /// Current time.
     fn t(&self) -> f64;

@@ -127,7 +127,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
             u: u.to_vec(),
             u_old: u.to_vec(),
             scratch: vec![0.0; u.len()],
-            errors: vec![0.0; u.len()],
+            errors: vec![0.0; 2 * u.len()],
             restep: slopes.clone(),
             slopes,
             interpolant: Interpolant::new(tableau, u.len()),
@@ -215,7 +215,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
                 self.evaluate_end(h);
             }
             let error = {
-                let ends = (&self.u[..], &self.scratch[..]);
+                let ends = (&self.u[..], &self.scratch[..], self.field.vectors());
                 tolerance.step_error(self.tableau, &self.slopes, h, ends, &mut self.errors)
             };
             let judgement = self.controller.judge(error);
@@ -323,10 +323,20 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
 
     /// Goes on from the state `u` (of the same length) at the same time; see [`Integration::restart`].
     pub fn restart(&mut self, u: &[f64]) {
+        self.field.eval(self.t, u, self.slopes.get_mut(self.tableau.stages()));
+        self.place(u);
+    }
+
+    /// As [`Orbit::restart`], with the rates there, which are not computed again.
+    pub fn restart_with(&mut self, u: &[f64], rates: &[f64]) {
+        self.slopes.get_mut(self.tableau.stages()).copy_from_slice(rates);
+        self.place(u);
+    }
+
+    fn place(&mut self, u: &[f64]) {
         self.u.copy_from_slice(u);
         self.u_old.copy_from_slice(u);
         self.t_old = self.t;
-        self.field.eval(self.t, u, self.slopes.get_mut(self.tableau.stages()));
         self.accepted = true;
         self.jumped = false;
         self.prepared = false;
@@ -386,6 +396,10 @@ impl<F: VectorField<f64> + ?Sized> Integration for Orbit<'_, F> {
 
     fn restart(&mut self, u: &[f64]) {
         self.restart(u);
+    }
+
+    fn restart_with(&mut self, u: &[f64], rates: &[f64]) {
+        self.restart_with(u, rates);
     }
 
     fn t(&self) -> f64 {

@@ -94,6 +94,10 @@ impl<F: System + ?Sized> System for Tangent<'_, F> {
     fn obstacle(&self, u: &[f64]) -> Option<Obstacle> {
         self.field.obstacle(&u[..self.field.dim()])
     }
+
+    fn vectors(&self) -> Option<usize> {
+        Some(self.field.dim())
+    }
 }
 
 impl<F: VectorField<Number> + ?Sized> VectorField<f64> for Tangent<'_, F> {

@@ -13,6 +13,12 @@ pub trait System {
         None
     }
 
+    /// Length of the vectors that the state is made of, where it is a shape followed by vectors tangent to it. Error control
+    /// measures an error in the shape against its own entry, one in another vector against that vector's largest entry.
+    fn vectors(&self) -> Option<usize> {
+        None
+    }
+
     /// Corrects the state at the end of an accepted step: writes the corrected one into `projected` and says `true`,
     /// or says `false` and leaves it alone, which is the default. [`crate::Orbit`] and [`crate::ExponentialOrbit`] go
     /// on from the corrected state. Errors are controlled on the flow alone, which knows nothing of the correction:

@@ -5,8 +5,9 @@
 mod common;
 
 use common::StuartLandau;
+use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::{DOP853, KROGSTAD4, RK4};
-use motiform_dynamics::{ExponentialOrbit, Integration, Orbit, StepControl};
+use motiform_dynamics::{ExponentialOrbit, Integration, Orbit, Request, StepControl};
 
 const FROM: [f64; 2] = [0.5, 0.0];
 const TO: [f64; 2] = [-0.3, 0.9];
@@ -51,4 +52,38 @@ fn an_orbit_goes_on_from_the_state_given() {
         // tolerances of 1e-12 per step, and (1e-3 |4 i|)^4 of the fixed fourth-order steps
         assert!(restarted(orbit.as_mut()).iter().all(|d| *d < 1e-9));
     }
+}
+
+#[test]
+fn rates_that_are_known_need_no_evaluation() {
+    let end = |known: bool| {
+        let mut orbit = Orbit::new(&StuartLandau, &DOP853, ADAPTIVE, 0.0, &FROM).unwrap();
+        orbit.advance(2.0).unwrap();
+        let mut rates = [0.0; 2];
+        motiform_dynamics::VectorField::<f64>::eval(&StuartLandau, orbit.t(), &TO, &mut rates);
+        if known {
+            orbit.restart_with(&TO, &rates);
+        } else {
+            orbit.restart(&TO);
+        }
+        while orbit.t() < 2.0 {
+            orbit.advance(2.0).unwrap();
+        }
+        orbit.state().to_vec()
+    };
+    assert_eq!(end(true), end(false));
+}
+
+/// The steps of the run are those of a run that does not stop.
+#[test]
+fn a_run_that_stops_after_a_time_cuts_no_step_short() {
+    let mut orbit = Orbit::new(&StuartLandau, &DOP853, ADAPTIVE, 0.0, &FROM).unwrap();
+    let mut whole = Orbit::new(&StuartLandau, &DOP853, ADAPTIVE, 0.0, &FROM).unwrap();
+    let request = Request { stop_after: 1.0, ..Request::until(5.0, 2) };
+    assert!(drive(&mut orbit, &request, &mut ()).unwrap().is_complete());
+    while whole.t() < 1.0 {
+        whole.advance(5.0).unwrap();
+    }
+    assert!(orbit.t_old() < 1.0 && orbit.t() >= 1.0 && orbit.t() < 5.0);
+    assert_eq!((orbit.t(), orbit.state()), (whole.t(), whole.state()));
 }

@@ -1,14 +1,17 @@
 //! Exponents of many orbits, in lanes.
 
-use super::protocol::Protocol;
+use super::frame::orthonormalise;
+use super::protocol::{Protocol, Stretch};
 use super::{Lyapunov, LyapunovSettings, first_state, lyapunov};
 use crate::Result;
+use crate::symmetry::speed_beside;
 use motiform_dynamics::drive::Sink;
-use motiform_dynamics::ensemble::{Entry, InLanes, Leaving, Members, Turn, Why, run_adaptive};
+use motiform_dynamics::ensemble::{Entry, InLanes, Landed, Leaving, Members, Turn, Why, run_adaptive};
+use motiform_dynamics::scalar::MOST_LANES;
 use motiform_dynamics::simd::{Arithmetic, LaneKernel, run_lanes};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::steppers::unrolled::Dop853;
-use motiform_dynamics::{Bundle, Equivariant, Mask, StepControl};
+use motiform_dynamics::{Bundle, Equivariant, Mask, Outcome, StepControl};
 use std::ops::ControlFlow;
 
 /// One orbit whose exponents are asked for.
@@ -70,6 +73,7 @@ impl<B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, cons
             first: Some(first),
             count: 0,
             escape: L::splat(0.0),
+            stop: L::splat(0.0),
             riding: std::array::from_fn(|_| None),
             steps: 0,
             next: self.next,
@@ -93,6 +97,8 @@ struct Crew<'r, L: Bundle, B, F: InLanes, const N: usize, const K: usize, const 
     first: Option<TangentMember<B, F, N>>,
     count: usize,
     escape: L,
+    /// Ends of the stretches under way.
+    stop: L,
     riding: [Option<Rider<B, F, N>>; 16],
     steps: u32,
     next: &'r mut dyn FnMut() -> Option<TangentMember<B, F, N>>,
@@ -109,12 +115,41 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
         let mut stop = Stop(self.stopped);
         (self.done)(rider.number, lyapunov(body.as_ref(), start, settings, &mut stop));
     }
+
+    /// Tells the lanes in `due` what their vectors have grown to, and takes the ends of their next stretches. A lane that has
+    /// none, or has spent its steps, is at its end.
+    #[inline(always)]
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts")]
+    fn stretched(&mut self, due: Mask, landed: &mut Landed<'_, L, D>, lengths: &[L; K], speed: L) {
+        let mut grown = [[0.0; MOST_LANES]; K];
+        for (to, &from) in grown.iter_mut().zip(lengths) {
+            from.store(to);
+        }
+        let [mut t, mut speeds, mut steps, mut work] = [[0.0; MOST_LANES]; 4];
+        landed.t.store(&mut t);
+        speed.store(&mut speeds);
+        landed.steps.store(&mut steps);
+        (landed.steps + landed.rejected).store(&mut work);
+        let (mut stop, mut end) = (t, t);
+        self.stop.store(&mut stop);
+        landed.t_end.store(&mut end);
+        for lane in due.lanes() {
+            let Some(rider) = &mut self.riding[lane] else { continue };
+            let lengths = grown.map(|lanes| lanes[lane]);
+            let next = rider.protocol.stretched(t[lane], &lengths, speeds[lane], steps[lane] as u64);
+            let next = next.filter(|_| (work[lane] as u64) < rider.member.settings.max_steps);
+            (stop[lane], end[lane]) = next.map_or((t[lane], t[lane]), |next| (next.stop, next.limit));
+        }
+        self.stop = L::load(&stop);
+        *landed.t_end = L::load(&end);
+    }
 }
 
 impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, const D: usize>
     Members<L, D> for Crew<'_, L, B, F, N, K, D>
 {
     type Field = F::Tangent<L, K>;
+    const LANDS: bool = true;
 
     #[inline(always)]
     fn field(&self) -> &Self::Field {
@@ -130,7 +165,7 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
             let number = self.count;
             self.count += 1;
             let mut rider = Rider { number, protocol: Protocol::new(&member.settings, N), member };
-            let Some(t_end) = rider.protocol.begin(0.0) else {
+            let Some(Stretch { stop, limit }) = rider.protocol.begin(0.0) else {
                 self.alone(&rider);
                 continue;
             };
@@ -140,7 +175,8 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
             let mut u = [0.0; D];
             u.copy_from_slice(&first_state(&rider.member.start, K));
             self.riding[lane] = Some(rider);
-            return Some(Entry { t: 0.0, u, t_end, pace: None });
+            self.stop = self.stop.with_lane(lane, stop);
+            return Some(Entry { t: 0.0, u, t_end: limit, pace: None });
         }
     }
 
@@ -158,8 +194,24 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
         self.escape.less(norm)
     }
 
-    fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Turn<D> {
-        let Some(mut rider) = self.riding[lane].take() else { return Turn::Done };
+    /// Lanes at the end of a stretch: their vectors are made orthonormal, all at once.
+    #[inline(always)]
+    fn landed(&mut self, landed: &mut Landed<'_, L, D>) -> Mask {
+        let due = self.stop.at_most(landed.t) & landed.accepted;
+        if !due.any() {
+            return due;
+        }
+        let mut lengths = [L::splat(0.0); K];
+        let lost = orthonormalise(due, N, &mut landed.u[N..], &mut landed.rates[N..], &mut lengths);
+        let mut spin = [L::splat(0.0); N];
+        F::spin(&landed.u[..N], &mut spin);
+        let speed = speed_beside(&spin, &landed.rates[..N]);
+        self.stretched(due, landed, &lengths, speed);
+        lost
+    }
+
+    fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Turn {
+        let Some(rider) = self.riding[lane].take() else { return Turn::Done };
         if (self.stopped)() {
             return Turn::Done;
         }
@@ -168,14 +220,8 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
             self.alone(&rider);
             return Turn::Done;
         }
-        let mut u = leaving.u;
-        let body = rider.member.body.as_ref();
-        if let Some(t_end) = rider.protocol.stretched(body, leaving.t, &mut u, leaving.steps) {
-            self.riding[lane] = Some(rider);
-            return Turn::Restart(t_end, u);
-        }
-        let outcome = motiform_dynamics::Outcome::Completed { t: leaving.t };
-        let result = rider.protocol.result(body, &u[..N], outcome, leaving.steps);
+        let (body, outcome) = (rider.member.body.as_ref(), Outcome::Completed { t: leaving.t });
+        let result = rider.protocol.result(body, &leaving.u[..N], outcome, leaving.steps);
         (self.done)(rider.number, result);
         Turn::Done
     }

@@ -1,15 +1,18 @@
 //! Lyapunov exponents, from the exact tangent flow.
 
+mod frame;
 mod lanes;
 mod protocol;
 
-use crate::linear::{basis, norm, orthonormalise};
-use crate::{Estimate, Result, batch_means};
+use crate::batch_means::means_over;
+use crate::linear::{basis, norm};
+use crate::symmetry::reduced_speed;
+use crate::{Estimate, Result};
 pub use lanes::{TangentMember, lyapunov_in_lanes, runs_in_lanes};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::Method;
-use motiform_dynamics::{Equivariant, Outcome, Request, Sink, StepControl, Tangent, VectorField};
-use protocol::Protocol;
+use motiform_dynamics::{Equivariant, Mask, Outcome, Request, Sink, StepControl, Tangent, VectorField};
+use protocol::{Protocol, Stretch};
 
 /// How to compute exponents.
 #[derive(Clone, Copy, Debug)]
@@ -81,7 +84,7 @@ impl Lyapunov {
         if time < 0.5 * self.time {
             return None;
         }
-        let exponents = means(&history, self.exponents.first()?.error.min(1e-12)).ok()?;
+        let exponents = means(&history, before, self.exponents.first()?.error.min(1e-12)).ok()?;
         let reduced_speeds = self.reduced_speeds[first..=last].to_vec();
         Some(Self { exponents, history, reduced_speeds, time, ..self.clone() })
     }
@@ -92,7 +95,7 @@ impl Lyapunov {
 /// lambda_i = lim 1/T sum ln R_ii
 ///
 /// The vectors are made orthonormal whenever the fastest and the slowest have parted by a factor of about e^8: the interval is
-/// chosen in the transient and kept. Errors are 95 % half widths from batch means (honest for correlated rates), at
+/// chosen in the transient and kept, and a stretch ends with the first step that reaches the end of its interval. Errors are 95 % half widths from batch means (honest for correlated rates), at
 /// least the growth that the steps' own tolerance leaves undetermined.
 ///
 /// Source: Benettin, Galgani, Giorgilli, Strelcyn (1980), Meccanica 15, 9.
@@ -111,23 +114,29 @@ pub fn lyapunov<B: Equivariant + ?Sized>(
     let tangent = Tangent::new(body, settings.count);
     let mut protocol = Protocol::new(settings, start.len());
     let state = first_state(start, settings.count);
+    let mut lengths = vec![0.0; settings.count];
     let mut orbit = settings.method.shape_orbit(&tangent, settings.control, 0.0, &state)?;
-    let mut goal = protocol.begin(orbit.t());
+    let mut stretch = protocol.begin(orbit.t());
     let mut outcome = Outcome::Completed { t: orbit.t() };
-    while let Some(t_end) = goal {
+    while let Some(Stretch { stop, limit }) = stretch {
         let request = Request {
             max_steps: settings.max_steps,
             escape_norm: settings.escape_norm,
             watched: start.len(),
-            ..Request::until(t_end, start.len())
+            stop_after: stop,
+            ..Request::until(limit, start.len())
         };
         outcome = drive(orbit.as_mut(), &request, watch)?;
         if !outcome.is_complete() {
             break;
         }
-        let mut state = orbit.state().to_vec();
-        goal = protocol.stretched(body, orbit.t(), &mut state, orbit.counters().steps);
-        orbit.restart(&state);
+        let (mut state, mut rates) = (orbit.state().to_vec(), orbit.slope().to_vec());
+        let (shape, vectors) = state.split_at_mut(start.len());
+        let (rate, vector_rates) = rates.split_at_mut(start.len());
+        let lost = frame::orthonormalise(Mask::only(0), start.len(), vectors, vector_rates, &mut lengths);
+        let speed = reduced_speed(body, shape, rate);
+        stretch = protocol.stretched(orbit.t(), &lengths, speed, orbit.counters().steps);
+        if lost.any() { orbit.restart(&state) } else { orbit.restart_with(&state, &rates) }
     }
     let steps = orbit.counters().steps;
     protocol.result(body, &orbit.state()[..start.len()], outcome, steps)
@@ -139,7 +148,8 @@ pub(crate) fn first_state(start: &[f64], count: usize) -> Vec<f64> {
     let mut state = start.to_vec();
     let mut random = SplitMix(1);
     state.extend((0..dim * count).map(|_| random.next()));
-    orthonormalise(&mut state[dim..].chunks_exact_mut(dim.max(1)).collect::<Vec<_>>());
+    let mut rates = vec![0.0; dim * count];
+    frame::orthonormalise(Mask::only(0), dim, &mut state[dim..], &mut rates, &mut vec![0.0; count]);
     state
 }
 
@@ -153,12 +163,14 @@ fn neutral_directions<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> usize
     basis(&moving, 1e-6).len()
 }
 
-/// Means of the rates in a history, largest first, with errors of at least `numerical`.
-fn means(history: &[(f64, Vec<f64>)], numerical: f64) -> Result<Vec<Estimate>> {
+/// Means over time of the rates in a history that begins at `start`, largest first, with errors of at least `numerical`.
+fn means(history: &[(f64, Vec<f64>)], start: f64, numerical: f64) -> Result<Vec<Estimate>> {
+    let starts = std::iter::once(start).chain(history.iter().map(|entry| entry.0));
+    let durations: Vec<f64> = history.iter().zip(starts).map(|(entry, start)| entry.0 - start).collect();
     let count = history.first().map_or(0, |entry| entry.1.len());
     let exponent = |k: usize| {
         let rates: Vec<f64> = history.iter().map(|entry| entry.1[k]).collect();
-        let mean = batch_means(&rates)?;
+        let mean = means_over(&rates, &durations)?;
         Ok(Estimate { value: mean.value, error: mean.error.max(numerical) })
     };
     let mut exponents = (0..count).map(exponent).collect::<Result<Vec<_>>>()?;

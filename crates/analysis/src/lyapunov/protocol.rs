@@ -2,28 +2,41 @@
 
 use super::{Lyapunov, LyapunovSettings, means, neutral_directions};
 use crate::Result;
-use crate::linear::orthonormalise;
-use crate::symmetry::reduced_speed;
-use motiform_dynamics::{Equivariant, Outcome, StepControl, VectorField};
+use motiform_dynamics::{Equivariant, Outcome, StepControl};
 
 /// Vectors are made orthonormal when they have parted by this factor (natural logarithm).
 const PARTED: f64 = 8.0;
+
+/// Least number of intervals to average over; steps may be twice as long as one of them, so there are half as many stretches
+/// or more: enough for errors from batch means.
+const INTERVALS: f64 = 160.0;
+
+/// A stretch to come.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stretch {
+    /// It ends with the first step that reaches this time,
+    pub(crate) stop: f64,
+    /// and here at the latest: no step may go on beyond.
+    pub(crate) limit: f64,
+}
 
 /// A tangent flow under way, stretch by stretch: whoever runs the flow asks how far the next stretch goes.
 #[derive(Clone, Debug)]
 pub(crate) struct Protocol {
     settings: LyapunovSettings,
     dim: usize,
-    /// Length of a stretch: chosen while the flow settles, then kept.
+    /// Usual length of a stretch: chosen while the flow settles, then kept.
     interval: f64,
     averaging: bool,
-    /// Start of the stretch under way, and end of the phase.
+    /// Start of the stretch under way, start of the averages, end of the phase.
     start: f64,
+    begun: f64,
     end: f64,
     /// Steps before the averages began.
     steps_before: u64,
     history: Vec<(f64, Vec<f64>)>,
-    durations: Vec<f64>,
+    /// Time averaged over so far.
+    time: f64,
     reduced_speeds: Vec<f64>,
 }
 
@@ -36,47 +49,39 @@ impl Protocol {
             interval: 1.0,
             averaging: false,
             start: 0.0,
+            begun: 0.0,
             end: 0.0,
             steps_before: 0,
             history: Vec::new(),
-            durations: Vec::new(),
+            time: 0.0,
             reduced_speeds: Vec::new(),
         }
     }
 
-    /// The end of the first stretch of a run from time `t`; `None` if there is none.
-    pub(crate) fn begin(&mut self, t: f64) -> Option<f64> {
+    /// The first stretch of a run from time `t`; `None` if there is none.
+    pub(crate) fn begin(&mut self, t: f64) -> Option<Stretch> {
         self.end = t + self.settings.transient;
-        self.goal(t, 0)
+        self.next(t, 0)
     }
 
-    /// Takes in the end of a stretch, whose vectors are made orthonormal in place, after so many steps in all; the end of the
-    /// next stretch.
-    pub(crate) fn stretched<B: Equivariant + ?Sized>(
-        &mut self,
-        body: &B,
-        t: f64,
-        state: &mut [f64],
-        steps: u64,
-    ) -> Option<f64> {
-        let (shape, vectors) = state.split_at_mut(self.dim);
-        let lengths = orthonormalise(&mut vectors.chunks_exact_mut(self.dim.max(1)).collect::<Vec<_>>());
-        let growth: Vec<f64> = lengths.into_iter().map(f64::ln).collect();
+    /// Takes in the end of a stretch at time `t`, after so many steps in all: the lengths that the vectors had grown to, and how
+    /// fast the reduced shape changes there. The next stretch.
+    pub(crate) fn stretched(&mut self, t: f64, lengths: &[f64], speed: f64, steps: u64) -> Option<Stretch> {
         if self.averaging {
             let lasted = t - self.start;
-            self.durations.push(lasted);
-            self.reduced_speeds.push(speed(body, shape));
-            self.history.push((t, growth.into_iter().map(|g| g / lasted).collect()));
+            self.history.push((t, lengths.iter().map(|length| length.ln() / lasted).collect()));
+            self.time += lasted;
+            self.reduced_speeds.push(speed);
         } else {
-            self.adjust(&growth);
+            self.adjust(lengths);
         }
-        self.goal(t, steps)
+        self.next(t, steps)
     }
 
     /// Stretches half or twice as long, by how far the vectors have parted.
-    fn adjust(&mut self, growth: &[f64]) {
-        let most = growth.iter().copied().fold(0.0, f64::max);
-        let least = growth.iter().copied().fold(0.0, f64::min);
+    fn adjust(&mut self, lengths: &[f64]) {
+        let most = lengths.iter().copied().fold(1.0, f64::max).ln();
+        let least = lengths.iter().copied().fold(1.0, f64::min).ln();
         if most - least > PARTED {
             self.interval *= 0.5;
         } else if most - least < 0.25 * PARTED {
@@ -84,22 +89,33 @@ impl Protocol {
         }
     }
 
-    /// The end of the stretch that begins at `t`.
-    fn goal(&mut self, t: f64, steps: u64) -> Option<f64> {
+    /// The stretch that begins at `t`. That of an average goes to the next of the times `begun + k interval`, and on to the end of
+    /// the step that reaches it: none is cut short, as long as steps are shorter than half an interval. A phase ends on time.
+    fn next(&mut self, t: f64, steps: u64) -> Option<Stretch> {
         if !self.averaging && t >= self.end {
             self.averaging = true;
             self.steps_before = steps;
+            self.begun = t;
             self.end = t + self.settings.span;
-            // At least as many intervals as the errors need, all of the same length.
-            self.interval = self.settings.span / (self.settings.span / self.interval).ceil().max(128.0);
+            self.interval = self.settings.span / (self.settings.span / self.interval).ceil().max(INTERVALS);
         }
-        let left = if self.averaging { 0.5 * self.interval } else { 0.0 };
-        if t >= self.end - left {
+        if t >= self.end {
             return None;
         }
         self.start = t;
-        let next = t + self.interval;
-        Some(if next > self.end - 1e-9 * self.interval { self.end } else { next })
+        if !self.averaging {
+            // The interval may be too long already: no step goes on beyond it, or a vector might vanish.
+            let stop = self.end.min(t + self.interval);
+            return Some(Stretch { stop, limit: stop });
+        }
+        let mut stop = self.begun + self.interval * (((t - self.begun) / self.interval).floor() + 1.0);
+        if stop <= t {
+            stop += self.interval; // t is a multiple but for its rounding
+        }
+        if stop > self.end - 0.5 * self.interval {
+            return Some(Stretch { stop: self.end, limit: self.end });
+        }
+        Some(Stretch { stop, limit: self.end.min(stop + self.interval) })
     }
 
     /// The exponents of a run that ended like this, at this shape, after so many steps in all.
@@ -110,14 +126,14 @@ impl Protocol {
         outcome: Outcome,
         steps: u64,
     ) -> Result<Lyapunov> {
-        let time = self.durations.iter().sum();
+        let time = self.time;
         let exponents = if outcome.is_complete() && !self.history.is_empty() {
             let rtol = match self.settings.control {
                 StepControl::Adaptive { rtol, .. } => rtol,
                 StepControl::Fixed { .. } => 0.0,
             };
             let steps = (steps - self.steps_before) as f64;
-            means(&self.history, rtol * (self.dim as f64).sqrt() * steps / time)?
+            means(&self.history, self.settings.transient, rtol * (self.dim as f64).sqrt() * steps / time)?
         } else {
             Vec::new()
         };
@@ -132,11 +148,4 @@ impl Protocol {
             shape: shape.to_vec(),
         })
     }
-}
-
-/// The reduced speed of a body at a shape.
-fn speed<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> f64 {
-    let mut rate = shape.to_vec();
-    VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
-    reduced_speed(body, shape, &rate)
 }

@@ -254,7 +254,7 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> Members<L, N> for Crew<'_, '
         Mask::default()
     }
 
-    fn leave(&mut self, lane: usize, leaving: &Leaving<N>) -> Turn<N> {
+    fn leave(&mut self, lane: usize, leaving: &Leaving<N>) -> Turn {
         let (rider, seen) = (self.riding[lane].take(), self.sight.end(lane));
         let (Some(Rider { mut parked, begun }), Some(seen)) = (rider, seen) else { return Turn::Done };
         if (self.desk.stopped)() {

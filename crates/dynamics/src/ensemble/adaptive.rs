@@ -1,11 +1,11 @@
 //! Error control in lanes: each lane accepts, repeats and sizes its own steps.
 
-use super::lane::{Entry, Leaving, Members, Pace, Stepped, Turn, Why};
+use super::lane::{Entry, Landed, Leaving, Members, Pace, Stepped, Turn, Why};
 use crate::control::{Controller, Tolerance, pair_error};
 use crate::scalar::MOST_LANES;
 use crate::steppers::tableau::ErrorEstimate;
 use crate::steppers::unrolled::{LaneStep, Method, StepSlopes};
-use crate::{Bundle, Mask, VectorField as _};
+use crate::{Bundle, Mask, System as _, VectorField as _};
 use std::marker::PhantomData;
 
 /// Runs all members with the adaptive method `M`.
@@ -29,7 +29,7 @@ pub fn run_adaptive<M: Method, B: Bundle, const D: usize, C: Members<B, D>>(
     }
 }
 
-/// The state of the bundle between steps.
+/// The state of the bundle between steps; the slope there is the first one of the next step.
 struct Lanes<B, const D: usize> {
     tolerance: Tolerance,
     active: Mask,
@@ -39,7 +39,6 @@ struct Lanes<B, const D: usize> {
     t_end: B,
     h: B,
     u: [B; D],
-    slope: [B; D],
     controller: Controller<B>,
     steps: B,
     rejected: B,
@@ -57,7 +56,6 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
             t_end: zero,
             h: zero,
             u: [zero; D],
-            slope: [zero; D],
             controller: Controller::new(M::TABLEAU),
             steps: zero,
             rejected: zero,
@@ -74,11 +72,10 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         let crumb = h.at_most(self.t.abs() * (16.0 * f64::EPSILON)) & !last;
         let failed = (crumb | h.less(B::splat(f64::MIN_POSITIVE))) & self.active;
 
-        slopes.k[0] = self.slope;
         slopes.step::<M, _>(members.field(), &LaneStep { t: self.t, h, u: &self.u });
         let t_new = B::select(last, self.t_end, self.t + h);
         slopes.end::<M, _>(members.field(), t_new);
-        let judgement = self.controller.judge(self.error::<M>(slopes, h));
+        let judgement = self.controller.judge(self.error::<M>(slopes, members.field().vectors(), h));
         let accepted = judgement.accepted & self.active & !failed;
 
         let next = h * judgement.factor;
@@ -92,7 +89,6 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         self.rejected += B::select(accepted, B::splat(0.0), one);
         for i in 0..D {
             self.u[i] = B::select(accepted, slopes.arrival()[i], self.u[i]);
-            self.slope[i] = B::select(accepted, slopes.k[const { M::TABLEAU.stages() }][i], self.slope[i]);
         }
         let mut called = members.outside(&self.u);
         if C::WATCHES {
@@ -102,6 +98,23 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
             called |= members.stepped(&mut step);
         }
         called &= self.active;
+        for i in 0..D {
+            slopes.k[0][i] = B::select(accepted, slopes.k[const { M::TABLEAU.stages() }][i], slopes.k[0][i]);
+        }
+        if C::LANDS {
+            let anew = members.landed(&mut Landed {
+                accepted: accepted & !called,
+                t: self.t,
+                t_end: &mut self.t_end,
+                u: &mut self.u,
+                rates: &mut slopes.k[0],
+                steps: self.steps,
+                rejected: self.rejected,
+            });
+            if anew.any() {
+                self.slopes_of::<C>(members, anew, &mut slopes.k[0]);
+            }
+        }
         let arrived = self.t_end.at_most(self.t) & self.active;
         if (failed | called | arrived).any() {
             self.turn::<C>(members, failed, called, arrived);
@@ -110,8 +123,8 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
 
     /// The squared error norm of a step.
     #[inline(always)]
-    fn error<M: Method>(&self, slopes: &StepSlopes<B, D>, h: B) -> B {
-        let [first, third] = slopes.errors::<M>(self.tolerance);
+    fn error<M: Method>(&self, slopes: &StepSlopes<B, D>, vectors: Option<usize>, h: B) -> B {
+        let [first, third] = slopes.errors::<M>(self.tolerance, vectors);
         match M::TABLEAU.error {
             ErrorEstimate::None => B::splat(0.0),
             ErrorEstimate::Embedded { .. } => h * h * first,
@@ -122,7 +135,6 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
     /// Lets the members of the lanes that have come to a stop say what they do next.
     #[inline(always)]
     fn turn<C: Members<B, D>>(&mut self, members: &mut C, failed: Mask, called: Mask, arrived: Mask) {
-        let mut moved = Mask::default();
         for lane in (failed | called | arrived).lanes() {
             let why = match (failed.has(lane), called.has(lane)) {
                 (true, _) => Why::Failed,
@@ -132,15 +144,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
             match members.leave(lane, &self.leaving(lane, why)) {
                 Turn::Done => self.vacant |= Mask::only(lane),
                 Turn::On(t_end) => self.t_end = self.t_end.with_lane(lane, t_end),
-                Turn::Restart(t_end, u) => {
-                    self.t_end = self.t_end.with_lane(lane, t_end);
-                    self.place(lane, &u);
-                    moved |= Mask::only(lane);
-                }
             }
-        }
-        if moved.any() {
-            self.slopes_of::<C>(members, moved);
         }
         self.active &= !self.vacant;
     }
@@ -166,11 +170,11 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
 
     /// Evaluates the slopes of the lanes in `mask`.
     #[inline(always)]
-    fn slopes_of<C: Members<B, D>>(&mut self, members: &C, mask: Mask) {
-        let mut slope = self.slope;
+    fn slopes_of<C: Members<B, D>>(&self, members: &C, mask: Mask, rates: &mut [B; D]) {
+        let mut slope = *rates;
         members.field().eval(self.t, &self.u, &mut slope);
         for i in 0..D {
-            self.slope[i] = B::select(mask, slope[i], self.slope[i]);
+            rates[i] = B::select(mask, slope[i], rates[i]);
         }
     }
 
@@ -192,9 +196,9 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         self.controller.reset(entered);
         self.steps = B::select(entered, B::splat(0.0), self.steps);
         self.rejected = B::select(entered, B::splat(0.0), self.rejected);
-        self.slopes_of::<C>(members, entered);
-        let [near, rate, ..] = &mut slopes.k;
-        let start = (self.t, &self.u[..], &self.slope[..]);
+        self.slopes_of::<C>(members, entered, &mut slopes.k[0]);
+        let [slope, near, rate, ..] = &mut slopes.k;
+        let start = (self.t, &self.u[..], &slope[..]);
         let h = self.tolerance.first_step(members.field(), M::TABLEAU.order, start, (near, rate));
         self.h = B::select(entered, h, self.h);
         for lane in entered.lanes() {

@@ -75,10 +75,6 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
             match members.leave(lane, &leaving) {
                 Turn::Done => vacant |= Mask::only(lane),
                 Turn::On(t_end) => self.clocks[lane].t_end = t_end,
-                Turn::Restart(t_end, u) => {
-                    self.clocks[lane].t_end = t_end;
-                    self.place(lane, &u);
-                }
             }
         }
         if vacant.any() {

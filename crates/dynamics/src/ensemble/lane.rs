@@ -14,6 +14,9 @@ pub trait Members<B: Bundle, const D: usize> {
     /// Whether [`Members::stepped`] wants to be called.
     const WATCHES: bool = false;
 
+    /// Whether [`Members::landed`] wants to be called.
+    const LANDS: bool = false;
+
     /// The field.
     fn field(&self) -> &Self::Field;
 
@@ -34,8 +37,15 @@ pub trait Members<B: Bundle, const D: usize> {
         Mask::default()
     }
 
+    /// After each adaptive step: may give lanes that accepted theirs another state, with the rates there, and another end. The
+    /// rates of the lanes of the returned mask are evaluated anew.
+    #[inline(always)]
+    fn landed(&mut self, _landed: &mut Landed<'_, B, D>) -> Mask {
+        Mask::default()
+    }
+
     /// The member in `lane` has come to a stop. What it does next.
-    fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Turn<D>;
+    fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Turn;
 }
 
 /// Where a member starts.
@@ -89,13 +99,29 @@ pub struct Leaving<const D: usize> {
 
 /// What a member that has come to a stop does next.
 #[derive(Clone, Copy, Debug)]
-pub enum Turn<const D: usize> {
+pub enum Turn {
     /// Goes on to this time, as if it had not stopped.
     On(f64),
-    /// Goes on to this time from another state ([`crate::Orbit::restart`]).
-    Restart(f64, [f64; D]),
     /// Makes room for the next member.
     Done,
+}
+
+/// Where the lanes stand after a step.
+pub struct Landed<'s, B, const D: usize> {
+    /// Lanes whose step was accepted, and that go on.
+    pub accepted: Mask,
+    /// Time.
+    pub t: B,
+    /// End of the time span.
+    pub t_end: &'s mut B,
+    /// State.
+    pub u: &'s mut [B; D],
+    /// Rates there.
+    pub rates: &'s mut [B; D],
+    /// Accepted steps so far.
+    pub steps: B,
+    /// Rejected steps so far.
+    pub rejected: B,
 }
 
 /// A step of the bundle, just made.

@@ -21,6 +21,6 @@ pub use adaptive::run_adaptive;
 pub use dense::LaneDense;
 pub use exponential::{StiffEnd, StiffInLanes, StiffLanes, StiffMember, StiffPropagation, propagate_stiff};
 pub use fixed::run_fixed;
-pub use lane::{Entry, Leaving, Members, Pace, Stepped, Turn, Why};
+pub use lane::{Entry, Landed, Leaving, Members, Pace, Stepped, Turn, Why};
 pub use propagate::{End, InLanes, Member, Propagation, lane_methods, propagate};
 pub use tangent::LaneTangent;

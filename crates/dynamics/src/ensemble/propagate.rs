@@ -214,7 +214,7 @@ impl<B: Bundle, F: InLanes, const D: usize> Members<B, D> for Crew<'_, B, F, D> 
         self.escape.less(norm)
     }
 
-    fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Turn<D> {
+    fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Turn {
         if leaving.why == Why::Arrived {
             let Leaving { t, u, steps, rejected, .. } = *leaving;
             let end = End { outcome: Outcome::Completed { t }, u, steps, rejected };

@@ -18,6 +18,11 @@ impl<F, const N: usize, const K: usize> System for LaneTangent<F, N, K> {
     fn dim(&self) -> usize {
         N * (1 + K)
     }
+
+    #[inline(always)]
+    fn vectors(&self) -> Option<usize> {
+        Some(N)
+    }
 }
 
 impl<B: Bundle, F: VectorField<Dual<B, K>>, const N: usize, const K: usize> VectorField<B>

@@ -272,19 +272,19 @@ impl<B: Bundle, const D: usize> StepSlopes<B, D> {
 
     /// The mean square of the estimated error, and of the second estimate of a pair.
     #[inline(always)]
-    pub(crate) fn errors<M: Method>(&self, tolerance: Tolerance) -> [B; 2] {
+    pub(crate) fn errors<M: Method>(&self, tolerance: Tolerance, vectors: Option<usize>) -> [B; 2] {
         let (mut first, mut third) = (B::splat(0.0), B::splat(0.0));
+        let mut weights = [B::splat(0.0); D];
+        tolerance.weights(vectors, &self.k[START], &self.k[NEW], &mut weights);
         for start in (0..D).step_by(const { block(D) }) {
             let fifth = self.sums::<M, ERROR>(start);
-            let mut weights = [B::splat(0.0); 8];
             for i in 0..const { block(D) } {
-                weights[i] = tolerance.weight(self.k[START][start + i], self.k[NEW][start + i]);
-                first += Tolerance::square(fifth[i], weights[i]);
+                first += Tolerance::square(fifth[i], weights[start + i]);
             }
             if const { matches!(M::TABLEAU.error, ErrorEstimate::Pair { .. }) } {
                 let sums = self.sums::<M, THIRD>(start);
                 for i in 0..const { block(D) } {
-                    third += Tolerance::square(sums[i], weights[i]);
+                    third += Tolerance::square(sums[i], weights[start + i]);
                 }
             }
         }
