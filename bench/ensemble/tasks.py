@@ -146,7 +146,7 @@ def cells(scale, repeats):
         return entry(name, 64, steps, cell.LENGTHS, start)
 
     list_ = both("64 members, own lengths", mine)
-    for n in (8, 32, 64):
+    for n in (1, 8, 32, 64):  # 1: a member at a time
         start = lambda n=n: cell_rivals.exponax_cell(n, steps)  # noqa: E731
         list_.append(entry(f"exponax vmap of {n}, equal lengths", n, steps, cell.EQUAL, start))
     start = lambda: cell_rivals.numpy_cell(64, few, low, high)  # noqa: E731

@@ -39,17 +39,7 @@ fn start(model: &Tensor, components: [f64; 6]) -> Vec<f64> {
 /// The heading swings by about 80 degrees; the legs of the path turn by 61, which is the paper's "about 60".
 #[test]
 fn the_zigzag_swings_by_eighty_degrees_and_its_legs_turn_by_less() {
-    let p = TensorParameters {
-        gamma: 1.0,
-        kappa2: 0.9,
-        kappa3: 0.1,
-        a1: -1.0,
-        b1: -0.5,
-        b2: 0.3,
-        d1: 0.1,
-        d2: 0.8,
-        ..TensorParameters::default()
-    };
+    let p = TensorParameters::full(0.9, 0.1);
     let model = Tensor::new(&p);
     let body = InPlane(model);
     let u = start(&model, [-0.5, 0.001, 0.0, 0.0, 0.0, 0.0]);

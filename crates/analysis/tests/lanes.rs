@@ -22,16 +22,7 @@ const TOLERANCES: (f64, f64) = (1e-9, 1e-12);
 
 /// The full model, from chaos to straight motion; the first ones escape, if they are given the time.
 fn tensor(member: usize) -> Tensor {
-    Tensor::new(&TensorParameters {
-        kappa2: 0.15 + 0.1 * member as f64,
-        kappa3: 0.1,
-        a1: -1.0,
-        b1: -0.5,
-        b2: 0.3,
-        d1: 0.1,
-        d2: 0.8,
-        ..TensorParameters::default()
-    })
+    Tensor::new(&TensorParameters::full(0.15 + 0.1 * member as f64, 0.1))
 }
 
 fn start(member: usize) -> [f64; 6] {

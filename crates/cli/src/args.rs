@@ -1,7 +1,12 @@
 //! The command line: one place for its words.
 
+mod help;
+mod subject;
+
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use help::{CLASSIFY_HELP, EXAMPLES, LYAPUNOV_HELP, REPRODUCE_HELP, SCAN_HELP, SIMULATE_HELP};
 use std::path::PathBuf;
+pub(crate) use subject::{MethodOptions, SubjectOptions};
 
 /// The laboratory for deformable self-propelled domains: cells, droplets and other bodies whose shape and motion
 /// drive each other.
@@ -11,14 +16,6 @@ pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,
 }
-
-const EXAMPLES: &str = "\
-Start here:
-  motiform simulate tensor --preset fig5a       a zigzagging domain: numbers, figures, animation
-  motiform models tensor                        its equations, parameters and presets
-
-Exit codes: 0 done; 1 finished, but some result is not what was asked (a run escaped, a disk is full);
-2 bad input; 130 interrupted (what was computed until then is kept).";
 
 #[derive(Subcommand)]
 pub(crate) enum Command {
@@ -53,67 +50,6 @@ pub(crate) enum Command {
     Completions(CompletionsOptions),
 }
 
-const SIMULATE_HELP: &str = "\
-Examples:
-  motiform simulate tensor --preset fig5b --t-end 600
-  motiform simulate tensor --preset fig4 --set kappa2=0.2 --set kappa3=0.1 --seed 7
-  motiform simulate tensor --set gamma=1 --set a1=-1 --initial v1=0.1 --out run.csv
-  motiform simulate cell --set length=13.2 --transient 4000 --t-end 4000
-  motiform simulate tensor --preset fig2 --noise 1e-6 --t-end 5000
-  motiform simulate my-study.toml --json
-
-The output folder holds
-  manifest.json        plan, hash, version, seed, outcome
-  trajectory.parquet   time, position, shape, speed, turning rate
-  path, series         figures, as .svg and .png; motion.png is the animation
-  crossings.parquet    and the figure return-map, for studies with a return map
-  fields.h5            phi(s, t) and outlines, and the figures phi and spectrum, for the cell";
-
-const SCAN_HELP: &str = "\
-Examples:
-  motiform scan tensor --preset fig1 --axis kappa2=0.1:1.6:64 --axis gamma=0.1:1.5:64 --samples 4
-  motiform scan tensor --preset fig4 --axis kappa2=0.1,0.2,0.5 --resume
-  motiform scan my-study.toml --shard 1/3 --out shard1
-
-The output folder holds
-  _manifest.json       plan, hash, version
-  part-*.parquet       one row per cell and initial state; pandas.read_parquet(DIR) reads them all
-  _diagram             which motion occurs where, as .svg and .png; _exponent with one axis, where exponents are known
-A scan that was interrupted or killed goes on with --resume. The numbers are the same for any number of threads, any
-shards and any interruption. Exit code 1: some cells are undetermined.";
-
-const CLASSIFY_HELP: &str = "\
-Examples:
-  motiform classify tensor --preset fig5a
-  motiform classify cell --set length=21.6 --json
-  motiform classify tensor --preset fig4 --set kappa2=0.2 --set kappa3=0.1 --seed 7
-
-Regimes, by the dynamics of the shape with rotations divided out:
-  motionless, straight, circular   a fixed shape (at rest, moving, turning), stable by its eigenvalues
-  zigzag, quasi-periodic           a shape that comes back after a period, without or with a net rotation
-  rectangular                      rests near motionless shapes, along a heteroclinic cycle that attracts
-  chaotic                          the largest Lyapunov exponent is positive beyond its error
-  blow-up                          the shape leaves every bound in finite time
-  undetermined                     the evidence does not decide; it says what is missing (exit code 1)
-The transient of a preset does not matter here: looks at the motion get longer until the evidence decides.";
-
-const REPRODUCE_HELP: &str = "\
-Examples:
-  motiform reproduce --quick
-  motiform reproduce fig4 fig5 --out paper
-
-The output folder holds report.html (figures, parameters, claim by claim: what the paper says, what we find, how it was
-decided, and why where they differ) and the scans behind it. Exit code 1: a claim failed.";
-
-const LYAPUNOV_HELP: &str = "\
-Examples:
-  motiform lyapunov tensor --preset fig5b
-  motiform lyapunov cell --set length=21.6 --count 3
-  motiform lyapunov tensor --preset fig4 --set kappa2=0.3 --set kappa3=0.1 --saddle 200
-
-Errors are half widths of 95 % confidence intervals. The exponents that must be zero (the flow's own direction and
-the rotations') are a self-check. A run that escapes has no exponents: ask for the chaotic saddle's.";
-
 #[derive(Args)]
 pub(crate) struct ModelsOptions {
     /// Show this model whole
@@ -125,18 +61,10 @@ pub(crate) struct ModelsOptions {
 
 #[derive(Args)]
 pub(crate) struct SimulateOptions {
-    /// A model (`motiform models` lists them) or a study file ending in .toml
-    #[arg(value_name = "MODEL|STUDY.toml")]
-    pub(crate) subject: String,
-    /// Start from a preset of the model, e.g. fig5a
-    #[arg(long, value_name = "NAME")]
-    pub(crate) preset: Option<String>,
-    /// Set a parameter (repeatable)
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
-    pub(crate) set: Vec<(String, f64)>,
-    /// Set an initial value (repeatable); values not given are 0. Without any, the start is small and random
-    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
-    pub(crate) initial: Vec<(String, f64)>,
+    #[command(flatten)]
+    pub(crate) subject: SubjectOptions,
+    #[command(flatten)]
+    pub(crate) method: MethodOptions,
     /// Model time to record
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) t_end: Option<f64>,
@@ -146,25 +74,9 @@ pub(crate) struct SimulateOptions {
     /// Model time between recorded states (default: t-end / 2000)
     #[arg(long, value_name = "D", value_parser = number, allow_hyphen_values = true)]
     pub(crate) dt_out: Option<f64>,
-    /// euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for the stiff cell model ifrk4 (fixed step), etdrk4,
-    /// krogstad4 (adaptive). Default: dop853 for tensor, krogstad4 for cell
-    #[arg(long, value_name = "NAME")]
-    pub(crate) stepper: Option<String>,
-    /// Fixed step (without it, adaptive steppers control their own; the others take 1e-3)
-    #[arg(long, value_name = "H", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) step: Option<f64>,
-    /// Relative tolerance of adaptive steppers
-    #[arg(long, value_name = "R", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) rtol: Option<f64>,
-    /// Absolute tolerance of adaptive steppers
-    #[arg(long, value_name = "A", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) atol: Option<f64>,
     /// Amplitude of additive white noise on the shape, the same in every direction
     #[arg(long, value_name = "ETA", value_parser = number, allow_hyphen_values = true)]
     pub(crate) noise: Option<f64>,
-    /// Seed of the random start, and of the noise
-    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
-    pub(crate) seed: Option<u64>,
     /// Most steps to take
     #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) max_steps: Option<u64>,
@@ -190,33 +102,10 @@ pub(crate) struct SimulateOptions {
 /// What a command is about, for commands that ask about one motion.
 #[derive(Args)]
 pub(crate) struct MotionOptions {
-    /// A model (`motiform models` lists them) or a study file ending in .toml
-    #[arg(value_name = "MODEL|STUDY.toml")]
-    pub(crate) subject: String,
-    /// Start from a preset of the model, e.g. fig5a
-    #[arg(long, value_name = "NAME")]
-    pub(crate) preset: Option<String>,
-    /// Set a parameter (repeatable)
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
-    pub(crate) set: Vec<(String, f64)>,
-    /// Set an initial value (repeatable); values not given are 0. Without any, the start is small and random
-    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
-    pub(crate) initial: Vec<(String, f64)>,
-    /// Stepper (default: dop853 for tensor, krogstad4 for cell)
-    #[arg(long, value_name = "NAME")]
-    pub(crate) stepper: Option<String>,
-    /// Fixed step (without it, adaptive steppers control their own; the others take 1e-3)
-    #[arg(long, value_name = "H", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) step: Option<f64>,
-    /// Relative tolerance of adaptive steppers
-    #[arg(long, value_name = "R", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) rtol: Option<f64>,
-    /// Absolute tolerance of adaptive steppers
-    #[arg(long, value_name = "A", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) atol: Option<f64>,
-    /// Seed of the random start
-    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
-    pub(crate) seed: Option<u64>,
+    #[command(flatten)]
+    pub(crate) subject: SubjectOptions,
+    #[command(flatten)]
+    pub(crate) method: MethodOptions,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,
@@ -271,15 +160,8 @@ pub(crate) struct ReproduceOptions {
 
 #[derive(Args)]
 pub(crate) struct ScanOptions {
-    /// A model (`motiform models` lists them) or a study file ending in .toml
-    #[arg(value_name = "MODEL|STUDY.toml")]
-    pub(crate) subject: String,
-    /// Start from a preset of the model, e.g. fig4
-    #[arg(long, value_name = "NAME")]
-    pub(crate) preset: Option<String>,
-    /// Set a parameter (repeatable); axes win over it
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
-    pub(crate) set: Vec<(String, f64)>,
+    #[command(flatten)]
+    pub(crate) subject: SubjectOptions,
     /// Vary a parameter (once or twice): NAME=LOW:HIGH:COUNT, both ends included, or NAME=v1,v2,v3
     #[arg(long = "axis", value_name = "NAME=LOW:HIGH:COUNT")]
     pub(crate) axes: Vec<String>,

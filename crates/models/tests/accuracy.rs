@@ -110,24 +110,10 @@ fn order_8_agrees_with_the_index_form_by_another_method() {
     assert!(worst < 1e-10, "{worst:e}");
 }
 
-fn fig4(kappa2: f64, kappa3: f64) -> TensorParameters {
-    TensorParameters {
-        gamma: 1.0,
-        kappa2,
-        kappa3,
-        a1: -1.0,
-        b1: -0.5,
-        b2: 0.3,
-        d1: 0.1,
-        d2: 0.8,
-        ..TensorParameters::default()
-    }
-}
-
 /// The paper's 'numerical instability' is a true blow-up: its time does not depend on tolerance, bound or method.
 #[test]
 fn large_states_of_fig4_blow_up_at_a_definite_time() {
-    let p = fig4(0.2, 0.1);
+    let p = TensorParameters::full(0.2, 0.1);
     let start = [8.0, 1.0, 30.0, 3.0, -20.0, 5.0, 0.0, 0.0];
     let times: Vec<f64> = [1e-8, 1e-10, 1e-12]
         .iter()

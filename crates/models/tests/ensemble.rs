@@ -19,17 +19,7 @@ fn members(
 ) -> Vec<Member<Field, DIM>> {
     let start = [0.5, 0.1, 0.1, -0.2, 0.05, 0.1];
     let member = |i: usize| {
-        let parameters = TensorParameters {
-            gamma: 1.0,
-            kappa2: kappa2(i),
-            kappa3: 0.1,
-            a1: -1.0,
-            b1: -0.5,
-            b2: 0.3,
-            d1: 0.1,
-            d2: 0.8,
-            ..TensorParameters::default()
-        };
+        let parameters = TensorParameters::full(kappa2(i), 0.1);
         let start = std::array::from_fn(|j| start[j] * (1.0 + 0.1 * (0.7 * i as f64 + 1.3 * j as f64).sin()));
         Member { field: FourierField(Coefficients::from(&parameters)), start, t_end: span(i) }
     };

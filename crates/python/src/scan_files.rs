@@ -74,8 +74,13 @@ impl ScanFiles {
 
 /// Puts the folders of shards together; returns the number of missing parts and what is damaged.
 #[pyfunction]
-pub(crate) fn merge(folders: Vec<PathBuf>, out: PathBuf, force: bool) -> PyResult<(usize, Vec<String>)> {
-    let merged = merge_folders(&folders, &out, force).map_err(python)?;
+pub(crate) fn merge(
+    py: Python<'_>,
+    folders: Vec<PathBuf>,
+    out: PathBuf,
+    force: bool,
+) -> PyResult<(usize, Vec<String>)> {
+    let merged = py.detach(|| merge_folders(&folders, &out, force)).map_err(python)?;
     Ok((merged.missing, merged.damaged))
 }
 

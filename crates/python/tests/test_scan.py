@@ -55,6 +55,11 @@ def test_the_binary_finds_the_same_bits(binary: Path, tmp_path: Path, data: xr.D
     xr.testing.assert_identical(from_binary, data)
     ours = motiform.scan(motiform.preset("fig1"), AXES, samples=2, out=tmp_path / "p", progress=False)
     xr.testing.assert_identical(ours, data)
+    last = motiform.read(sorted((tmp_path / "b").glob("*.parquet"))[-1])
+    whole = from_binary.motiform.to_pandas(cells=True)
+    assert isinstance(last, pd.DataFrame) and last.cell.iloc[-1] == 44
+    assert np.array_equal(whole.tail(len(last)).speed_mean, last.speed_mean, equal_nan=True)
+    assert {"why", "kappa2"} <= set(last.columns)
     for part in sorted((tmp_path / "b").glob("*.parquet")):
         assert part.read_bytes() == (tmp_path / "p" / part.name).read_bytes()
 

@@ -26,17 +26,7 @@ pub fn members_between(
 ) -> Vec<(TensorParameters, Member<Field, 6>)> {
     let base = [0.5, 0.1, 0.1, -0.2, 0.05, 0.1];
     let member = |i: usize| {
-        let p = TensorParameters {
-            gamma: 1.0,
-            kappa2: low + (high - low) * i as f64 / (count - 1).max(1) as f64,
-            kappa3: 0.1,
-            a1: -1.0,
-            b1: -0.5,
-            b2: 0.3,
-            d1: 0.1,
-            d2: 0.8,
-            ..TensorParameters::default()
-        };
+        let p = TensorParameters::full(low + (high - low) * i as f64 / (count - 1).max(1) as f64, 0.1);
         let field = FourierField(Coefficients::from(&p));
         let start = std::array::from_fn(|j| {
             base[j] * (1.0 + 0.1 * (1.0 + i as f64 * 0.7 + j as f64 * 1.3).sin())

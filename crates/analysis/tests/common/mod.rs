@@ -17,18 +17,7 @@ pub(crate) fn reduced(kappa2: f64, gamma: f64) -> Tensor {
 
 /// The full model of the paper's Simulations II.
 pub(crate) fn full(kappa2: f64, kappa3: f64) -> Tensor {
-    let others = TensorParameters::default();
-    Tensor::new(&TensorParameters {
-        gamma: 1.0,
-        kappa2,
-        kappa3,
-        a1: -1.0,
-        b1: -0.5,
-        b2: 0.3,
-        d1: 0.1,
-        d2: 0.8,
-        ..others
-    })
+    Tensor::new(&TensorParameters::full(kappa2, kappa3))
 }
 
 /// The active cell of this length.

@@ -38,17 +38,13 @@ const COARSE: f64 = 1e-4;
 
 /// The study that the options describe: a file or a model, a preset, then what is set by hand.
 fn study(options: &SimulateOptions) -> Result<Study, Error> {
-    let mut study = subject::study(&options.subject, options.preset.as_deref(), &options.set)?;
-    for (name, value) in &options.initial {
-        study.set_initial(name, *value)?;
-    }
+    let mut study = subject::study(&options.subject)?;
+    subject::apply(&options.method, &mut study)?;
     let run = &mut study.run;
     let numbers = [
         (options.t_end, &mut run.t_end),
         (options.transient, &mut run.transient),
         (options.dt_out, &mut run.dt_out),
-        (options.rtol, &mut run.rtol),
-        (options.atol, &mut run.atol),
         (options.noise, &mut run.noise),
     ];
     for (given, place) in numbers {
@@ -59,12 +55,7 @@ fn study(options: &SimulateOptions) -> Result<Study, Error> {
     if options.dt_out == Some(0.0) {
         return Err(Error::Setting { key: "dt_out", value: "0".into(), remedy: "give a time above 0" });
     }
-    run.step = options.step.or(run.step);
-    run.seed = options.seed.unwrap_or(run.seed);
     run.max_steps = options.max_steps.unwrap_or(run.max_steps);
-    if let Some(stepper) = &options.stepper {
-        run.stepper.clone_from(stepper);
-    }
     figure::apply(&options.drawing, &mut study.figure);
     Ok(study)
 }

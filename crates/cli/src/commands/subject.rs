@@ -1,13 +1,19 @@
 //! What a command is about: a file or a model, a preset, then what is set by hand.
 
-use crate::args::MotionOptions;
+use crate::args::{MethodOptions, MotionOptions, SubjectOptions};
 use motiform_models::ModelInfo;
 use motiform_study::{Error, Plan, Study, presets};
 use std::path::Path;
 
 /// The plan of a command about one motion.
 pub(crate) fn plan(options: &MotionOptions) -> Result<Plan, Error> {
-    let mut study = study(&options.subject, options.preset.as_deref(), &options.set)?;
+    let mut study = study(&options.subject)?;
+    apply(&options.method, &mut study)?;
+    Plan::new(&study)
+}
+
+/// Puts what is given of start and method into a study.
+pub(crate) fn apply(options: &MethodOptions, study: &mut Study) -> Result<(), Error> {
     for (name, value) in &options.initial {
         study.set_initial(name, *value)?;
     }
@@ -19,11 +25,12 @@ pub(crate) fn plan(options: &MotionOptions) -> Result<Plan, Error> {
     if let Some(stepper) = &options.stepper {
         run.stepper.clone_from(stepper);
     }
-    Plan::new(&study)
+    Ok(())
 }
 
 /// The study of a model's name or a study file, with a preset and parameters.
-pub(crate) fn study(subject: &str, preset: Option<&str>, set: &[(String, f64)]) -> Result<Study, Error> {
+pub(crate) fn study(options: &SubjectOptions) -> Result<Study, Error> {
+    let SubjectOptions { subject, preset, set } = options;
     let path = Path::new(subject);
     let mut study = if path.extension().is_some_and(|extension| extension == "toml") {
         if let Some(name) = preset {

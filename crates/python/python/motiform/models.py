@@ -146,7 +146,7 @@ class Model:
             "escape_norm": escape_norm,
         }  # fmt: skip
         study = _with(self._study, initial, given)
-        with Bar(progress, 1.0, "of the run") as bar:
+        with Bar(progress, lambda: _span(study), "model time") as bar:
             run, raised = _motiform.simulate(study, bar.callable())
         trajectory = Trajectory(run)
         if raised is not None:
@@ -183,7 +183,7 @@ class Model:
         """The `count` largest Lyapunov exponents (at most 6, unless asked), with errors, averaged over `t_end`."""
         study = _with(self._study, initial, {"seed": seed})
         count = min(6, len(study.coordinates())) if count is None else count
-        with Bar(progress, 1.0, "of the run") as bar:
+        with Bar(progress, 100.0, "%") as bar:
             raw = json.loads(_motiform.lyapunov(study, count, transient, t_end, bar.callable()))
         if not raw["complete"]:
             _ended_early(raw["ended"], on_end)
@@ -214,7 +214,7 @@ class Model:
     ) -> Crossings:
         """Where the orbit crosses ``coordinate = value``, located to round-off."""
         study = _with(self._study, initial, {"t_end": t_end, "transient": transient, "seed": seed})
-        with Bar(progress, 1.0, "of the run") as bar:
+        with Bar(progress, lambda: _span(study), "model time") as bar:
             found = _motiform.section(study, coordinate, value, direction, bar.callable())
         names, meanings, block, complete, ended = found
         if not complete:
@@ -265,6 +265,12 @@ def _with(study: _motiform.Study, initial: Mapping[str, float] | None, given: di
     if not run and initial is None:
         return study
     return study.with_(None, None if initial is None else dict(initial), run)
+
+
+def _span(study: _motiform.Study) -> float:
+    """The model time of a run."""
+    run = json.loads(study.run())
+    return float(run["transient"] + run["t_end"])
 
 
 def _real(values: npt.ArrayLike) -> Floats:

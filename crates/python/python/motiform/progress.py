@@ -14,8 +14,9 @@ fraction done, 0 to 1."""
 class Bar:
     """Shows the fraction done of `total` units; made at the first report, for most calls are too short for one."""
 
-    def __init__(self, progress: Progress, total: float, unit: str) -> None:
-        self._wanted, self._total, self._unit = progress, total, unit
+    def __init__(self, progress: Progress, total: float | Callable[[], float], unit: str) -> None:
+        self._wanted, self._given, self._unit = progress, total, unit
+        self._total = 1.0
         self._bar: Any = None
 
     def callable(self) -> Callable[[float], object] | None:
@@ -26,6 +27,7 @@ class Bar:
 
     def _show(self, fraction: float) -> None:
         if self._bar is None:
+            self._total = self._given() if callable(self._given) else self._given
             try:
                 from tqdm.auto import tqdm
             except ImportError:

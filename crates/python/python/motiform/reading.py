@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ import pandas as pd
 import xarray as xr
 
 from . import _motiform
+from .errors import Incomplete
 from .scans import read_scan
 from .trajectory import Trajectory, _frame
 
@@ -23,6 +25,7 @@ def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | xr.
     ``.parquet`` of a trajectory            :class:`Trajectory` (it carries its manifest)
     ``.csv``, other ``.parquet``            ``pandas.DataFrame``
     folder of ``motiform scan``             ``xarray.Dataset``, as :func:`scan` returns it
+    a ``.parquet`` part of that folder      ``pandas.DataFrame`` of its rows
     ``fields.h5``                           ``xarray.Dataset`` with ``phi`` and ``outline``
     ``.json`` (manifests, ``--json``)       ``dict``
     ======================================  ===============================================
@@ -38,7 +41,7 @@ def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | xr.
         return Trajectory(_motiform.read_run(os.fspath(path)))
     if path.suffix in (".parquet", ".csv"):
         if (path.parent / "_manifest.json").exists():
-            raise ValueError(f"{path} is a part of a scan: give its folder, {path.parent}")
+            return _part(path)
         run, table = _motiform.read_table(os.fspath(path))
         if run is not None:
             return Trajectory(run)
@@ -50,6 +53,16 @@ def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | xr.
         loaded: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         return loaded
     raise ValueError(f"{path} holds no data of motiform: give a folder, or a .parquet, .csv, .h5 or .json file")
+
+
+def _part(path: Path) -> pd.DataFrame:
+    """The rows of one part of a scan's folder."""
+    plan, _, _ = _motiform.read_scan(os.fspath(path.parent), False)
+    first, last = plan.cells_of(int(path.stem.removeprefix("part-")))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", Incomplete)  # of the other parts
+        rows = read_scan(path.parent, True).motiform.to_pandas(cells=True)
+    return rows[rows["cell"].between(first, last - 1)].reset_index(drop=True)
 
 
 def _fields(path: Path) -> xr.Dataset:

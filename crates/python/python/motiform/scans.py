@@ -209,9 +209,12 @@ class ScanAccessor:
         share: xr.DataArray = (self._data.regime == known.index(regime)).mean("sample")
         return share
 
-    def to_pandas(self) -> pd.DataFrame:
-        """One row per cell and sample; ``regime`` and ``attractor`` are categoricals in the order of legends."""
-        frame = self._data.to_dataframe().reset_index()
+    def to_pandas(self, *, cells: bool = False) -> pd.DataFrame:
+        """One row per cell and sample; ``regime`` and ``attractor`` are categoricals in the order of legends. `cells`
+        adds the number of each cell, by which files are ordered."""
+        frame = self._data.to_dataframe(dim_order=list(self._data["regime"].dims)).reset_index()
+        if cells:
+            frame.insert(0, "cell", np.arange(len(frame)) // self._data.sizes["sample"])
         for name in ("regime", "attractor"):
             names = self._data[name].attrs["flag_meanings"].split()
             frame[name] = pd.Categorical.from_codes(frame[name].to_numpy(), categories=names)

@@ -1,0 +1,70 @@
+//! What `--help` shows below the options: examples, and what the output holds.
+
+pub(super) const EXAMPLES: &str = "\
+Start here:
+  motiform simulate tensor --preset fig5a       a zigzagging domain: numbers, figures, animation
+  motiform models tensor                        its equations, parameters and presets
+
+Exit codes: 0 done; 1 finished, but some result is not what was asked (a run escaped, a disk is full);
+2 bad input; 130 interrupted (what was computed until then is kept).";
+
+pub(super) const SIMULATE_HELP: &str = "\
+Examples:
+  motiform simulate tensor --preset fig5b --t-end 600
+  motiform simulate tensor --preset fig4 --set kappa2=0.2 --set kappa3=0.1 --seed 7
+  motiform simulate tensor --set gamma=1 --set a1=-1 --initial v1=0.1 --out run.csv
+  motiform simulate cell --set length=13.2 --transient 4000 --t-end 4000
+  motiform simulate tensor --preset fig2 --noise 1e-6 --t-end 5000
+  motiform simulate my-study.toml --json
+
+The output folder holds
+  manifest.json        plan, hash, version, seed, outcome
+  trajectory.parquet   time, position, shape, speed, turning rate
+  path, series         figures, as .svg and .png; motion.png is the animation
+  crossings.parquet    and the figure return-map, for studies with a return map
+  fields.h5            phi(s, t) and outlines, and the figures phi and spectrum, for the cell";
+
+pub(super) const SCAN_HELP: &str = "\
+Examples:
+  motiform scan tensor --preset fig1 --axis kappa2=0.1:1.6:64 --axis gamma=0.1:1.5:64 --samples 4
+  motiform scan tensor --preset fig4 --axis kappa2=0.1,0.2,0.5 --resume
+  motiform scan my-study.toml --shard 1/3 --out shard1
+
+The output folder holds
+  _manifest.json       plan, hash, version
+  part-*.parquet       one row per cell and initial state; pandas.read_parquet(DIR) reads them all
+  _diagram             which motion occurs where, as .svg and .png; _exponent with one axis, where exponents are known
+A scan that was interrupted or killed goes on with --resume. The numbers are the same for any number of threads, any
+shards and any interruption. Exit code 1: some cells are undetermined.";
+
+pub(super) const CLASSIFY_HELP: &str = "\
+Examples:
+  motiform classify tensor --preset fig5a
+  motiform classify cell --set length=21.6 --json
+  motiform classify tensor --preset fig4 --set kappa2=0.2 --set kappa3=0.1 --seed 7
+
+Regimes, by the dynamics of the shape with rotations divided out:
+  motionless, straight, circular   a fixed shape (at rest, moving, turning), stable by its eigenvalues
+  zigzag, quasi-periodic           a shape that comes back after a period, without or with a net rotation
+  rectangular                      rests near motionless shapes, along a heteroclinic cycle that attracts
+  chaotic                          the largest Lyapunov exponent is positive beyond its error
+  blow-up                          the shape leaves every bound in finite time
+  undetermined                     the evidence does not decide; it says what is missing (exit code 1)
+The transient of a preset does not matter here: looks at the motion get longer until the evidence decides.";
+
+pub(super) const REPRODUCE_HELP: &str = "\
+Examples:
+  motiform reproduce --quick
+  motiform reproduce fig4 fig5 --out paper
+
+The output folder holds report.html (figures, parameters, claim by claim: what the paper says, what we find, how it was
+decided, and why where they differ) and the scans behind it. Exit code 1: a claim failed.";
+
+pub(super) const LYAPUNOV_HELP: &str = "\
+Examples:
+  motiform lyapunov tensor --preset fig5b
+  motiform lyapunov cell --set length=21.6 --count 3
+  motiform lyapunov tensor --preset fig4 --set kappa2=0.3 --set kappa3=0.1 --saddle 200
+
+Errors are half widths of 95 % confidence intervals. The exponents that must be zero (the flow's own direction and
+the rotations') are a self-check. A run that escapes has no exponents: ask for the chaotic saddle's.";

@@ -1,0 +1,42 @@
+//! Options that several commands share: what they are about, and how it is computed.
+
+use super::{assignment, number, whole};
+use clap::Args;
+
+/// What a command is about.
+#[derive(Args)]
+pub(crate) struct SubjectOptions {
+    /// A model (`motiform models` lists them) or a study file ending in .toml
+    #[arg(value_name = "MODEL|STUDY.toml")]
+    pub(crate) subject: String,
+    /// Start from a preset of the model, e.g. fig5a
+    #[arg(long, value_name = "NAME")]
+    pub(crate) preset: Option<String>,
+    /// Set a parameter (repeatable); axes of a scan win over it
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, f64)>,
+}
+
+/// Where an orbit starts, and the method that computes it.
+#[derive(Args)]
+pub(crate) struct MethodOptions {
+    /// Set an initial value (repeatable); values not given are 0. Without any, the start is small and random
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) initial: Vec<(String, f64)>,
+    /// euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for the stiff cell model ifrk4 (fixed step), etdrk4,
+    /// krogstad4 (adaptive). Default: dop853 for tensor, krogstad4 for cell
+    #[arg(long, value_name = "NAME")]
+    pub(crate) stepper: Option<String>,
+    /// Fixed step (without it, adaptive steppers control their own; the others take 1e-3)
+    #[arg(long, value_name = "H", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) step: Option<f64>,
+    /// Relative tolerance of adaptive steppers
+    #[arg(long, value_name = "R", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) rtol: Option<f64>,
+    /// Absolute tolerance of adaptive steppers
+    #[arg(long, value_name = "A", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) atol: Option<f64>,
+    /// Seed of the random start, and of noise
+    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
+    pub(crate) seed: Option<u64>,
+}
