@@ -6,7 +6,7 @@ mod subject;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use help::{CLASSIFY_HELP, EXAMPLES, LYAPUNOV_HELP, REPRODUCE_HELP, SCAN_HELP, SIMULATE_HELP};
 use std::path::PathBuf;
-pub(crate) use subject::{MethodOptions, SubjectOptions};
+pub(crate) use subject::{MethodOptions, SamplesOptions, SubjectOptions};
 
 /// The laboratory for deformable self-propelled domains: cells, droplets and other bodies whose shape and motion
 /// drive each other.
@@ -115,6 +115,8 @@ pub(crate) struct MotionOptions {
 pub(crate) struct ClassifyOptions {
     #[command(flatten)]
     pub(crate) motion: MotionOptions,
+    #[command(flatten)]
+    pub(crate) many: SamplesOptions,
     /// Most model time to spend; 0 is the model's default
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) budget: Option<f64>,
@@ -124,6 +126,8 @@ pub(crate) struct ClassifyOptions {
 pub(crate) struct LyapunovOptions {
     #[command(flatten)]
     pub(crate) motion: MotionOptions,
+    #[command(flatten)]
+    pub(crate) many: SamplesOptions,
     /// How many exponents, from the largest (default: all, but at most 6)
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u16), allow_hyphen_values = true)]
     pub(crate) count: Option<u16>,
@@ -135,7 +139,7 @@ pub(crate) struct LyapunovOptions {
     pub(crate) t_end: Option<f64>,
     /// For chaos that does not last: the exponent of the chaotic saddle, from this many initial states, with the rate at
     /// which they escape
-    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u16).range(2..), allow_hyphen_values = true)]
+    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u16).range(2..), allow_hyphen_values = true, conflicts_with = "samples")]
     pub(crate) saddle: Option<u16>,
 }
 

@@ -62,11 +62,23 @@ pub fn lyapunov(
     monitor: &dyn Monitor,
 ) -> Result<Lyapunov, Error> {
     let (model, shape) = start(plan)?;
-    if count == 0 || count > shape.len() {
-        return Err(Error::Count { count, dim: shape.len() });
-    }
+    let settings = lyapunov_settings(plan, count, (transient, t_end))?;
+    let mut stop = Stop::over(monitor, settings.transient + settings.span);
+    Ok(motiform_analysis::lyapunov(model.as_ref(), &shape, &settings, &mut stop)?)
+}
+
+/// What [`lyapunov`] computes for a plan.
+pub(crate) fn lyapunov_settings(
+    plan: &Plan,
+    count: usize,
+    (transient, t_end): (Option<f64>, Option<f64>),
+) -> Result<LyapunovSettings, Error> {
     let (info, c) = (plan.info()?, &plan.computation);
-    let settings = LyapunovSettings {
+    let dim = c.initial.0.len() - 2; // without the position
+    if count == 0 || count > dim {
+        return Err(Error::Count { count, dim });
+    }
+    Ok(LyapunovSettings {
         count,
         method: plan.method()?,
         control: c.control.into(),
@@ -74,9 +86,7 @@ pub fn lyapunov(
         span: t_end.unwrap_or(20.0 * info.look),
         escape_norm: c.escape_norm,
         max_steps: c.max_steps,
-    };
-    let mut stop = Stop::over(monitor, settings.transient + settings.span);
-    Ok(motiform_analysis::lyapunov(model.as_ref(), &shape, &settings, &mut stop)?)
+    })
 }
 
 /// The model of a plan that has no noise: questions are asked of the flow.

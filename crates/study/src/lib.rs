@@ -16,6 +16,7 @@ pub mod presets;
 pub mod report;
 pub mod reproduction;
 pub mod saddle;
+pub mod samples;
 pub mod scan;
 pub mod section;
 pub mod simulate;

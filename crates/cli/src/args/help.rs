@@ -41,6 +41,7 @@ pub(super) const CLASSIFY_HELP: &str = "\
 Examples:
   motiform classify tensor --preset fig5a
   motiform classify cell --set length=21.6 --json
+  motiform classify tensor --preset fig1 --set kappa2=-0.1 --set gamma=-0.04 --samples 64
   motiform classify tensor --preset fig4 --set kappa2=0.2 --set kappa3=0.1 --seed 7
 
 Regimes, by the dynamics of the shape with rotations divided out:
@@ -64,6 +65,7 @@ pub(super) const LYAPUNOV_HELP: &str = "\
 Examples:
   motiform lyapunov tensor --preset fig5b
   motiform lyapunov cell --set length=21.6 --count 3
+  motiform lyapunov tensor --preset fig5b --samples 32
   motiform lyapunov tensor --preset fig4 --set kappa2=0.3 --set kappa3=0.1 --saddle 200
 
 Errors are half widths of 95 % confidence intervals. The exponents that must be zero (the flow's own direction and

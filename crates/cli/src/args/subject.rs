@@ -17,6 +17,17 @@ pub(crate) struct SubjectOptions {
     pub(crate) set: Vec<(String, f64)>,
 }
 
+/// Many initial states in place of one.
+#[derive(Args)]
+pub(crate) struct SamplesOptions {
+    /// Ask this many initial states: the one given (or drawn), then random ones; on all cores
+    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(1..=1_000_000), allow_hyphen_values = true)]
+    pub(crate) samples: Option<u32>,
+    /// Threads for --samples (default: all cores); changes no number
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
+    pub(crate) threads: Option<u16>,
+}
+
 /// Where an orbit starts, and the method that computes it.
 #[derive(Args)]
 pub(crate) struct MethodOptions {

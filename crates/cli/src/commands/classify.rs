@@ -5,19 +5,58 @@ use crate::commands::subject;
 use crate::output::{End, print};
 use crate::progress::Watch;
 use motiform_analysis::{Regime, Verdict};
+use motiform_study::samples::{self, Samples};
 use motiform_study::{Plan, analyse};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
 pub(crate) fn run(options: &ClassifyOptions) -> anyhow::Result<End> {
-    let plan = subject::plan(&options.motion)?;
+    let (plan, samples) = subject::plan(&options.motion, &options.many)?;
     let budget = options.budget.unwrap_or(0.0);
+    if let Some(samples) = samples {
+        return many(options, &plan, samples, budget);
+    }
     let watch = Watch::new(analyse::settings(&plan, budget)?.budget, "model time");
     let verdict = analyse::classify(&plan, budget, &watch);
     watch.finish();
     let Some(verdict) = verdict? else { return Ok(End::Interrupted) };
     print(&if options.motion.json { json(&plan, &verdict)? } else { summary(&plan, &verdict)? })?;
     Ok(if verdict.regime == Regime::Undetermined { End::NotAsAsked } else { End::Done })
+}
+
+/// `--samples`: the motions that many initial states lead to.
+fn many(options: &ClassifyOptions, plan: &Plan, samples: Samples, budget: f64) -> anyhow::Result<End> {
+    let watch = Watch::new(samples.count as f64, "initial states");
+    let verdicts = samples::classify(plan, samples, budget, &watch);
+    watch.finish();
+    let Some(verdicts) = verdicts? else { return Ok(End::Interrupted) };
+    let motions = samples::motions(&verdicts);
+    if options.motion.json {
+        let counts: serde_json::Map<String, Value> =
+            motions.iter().map(|&(name, count)| (name.to_owned(), count.into())).collect();
+        print(&serde_json::to_string(&json!({
+            "model": plan.computation.model,
+            "parameters": plan.computation.parameters,
+            "seed": plan.computation.seed,
+            "regimes": counts,
+            "samples": verdicts,
+        }))?)?;
+    } else {
+        print(&motions_summary(plan, &verdicts, &motions)?)?;
+    }
+    let undecided = verdicts.iter().any(|verdict| verdict.regime == Regime::Undetermined);
+    Ok(if undecided { End::NotAsAsked } else { End::Done })
+}
+
+fn motions_summary(plan: &Plan, verdicts: &[Verdict], motions: &[(&str, usize)]) -> anyhow::Result<String> {
+    let mut text = String::new();
+    for (name, count) in motions {
+        let first = verdicts.iter().position(|verdict| verdict.regime.name() == *name).unwrap_or(0);
+        writeln!(text, "{name:14} {count} of {}, the first is initial state {first}", verdicts.len())?;
+        writeln!(text, "               {}", verdicts[first].why)?;
+    }
+    write!(text, "seed           {}", plan.computation.seed)?;
+    Ok(text)
 }
 
 /// The verdict as an object, with what it is about.

@@ -7,6 +7,7 @@ use crate::progress::Watch;
 use motiform_analysis::Lyapunov;
 use motiform_dynamics::Outcome;
 use motiform_study::saddle::{Saddle, saddle as find_saddle};
+use motiform_study::samples::{self, Exponents, Samples};
 use motiform_study::{Error, Plan, analyse};
 use serde_json::json;
 use std::fmt::Write;
@@ -15,7 +16,7 @@ use std::fmt::Write;
 const COUNT: usize = 6;
 
 pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
-    let plan = subject::plan(&options.motion)?;
+    let (plan, samples) = subject::plan(&options.motion, &options.many)?;
     let info = plan.info()?;
     for (key, value) in [("t_end", options.t_end), ("transient", options.transient)] {
         if let Some(value) = value.filter(|&value| value < 0.0 || key == "t_end" && value == 0.0) {
@@ -30,10 +31,13 @@ pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
     if let Some(samples) = options.saddle {
         return saddle(options, &plan, usize::from(samples));
     }
-    let total = options.transient.unwrap_or(4.0 * info.look) + options.t_end.unwrap_or(20.0 * info.look);
-    let watch = Watch::new(total, "model time");
     let dim = plan.computation.initial.0.len() - 2;
     let count = options.count.map_or(COUNT.min(dim), usize::from);
+    if let Some(samples) = samples {
+        return many(options, &plan, samples, count);
+    }
+    let total = options.transient.unwrap_or(4.0 * info.look) + options.t_end.unwrap_or(20.0 * info.look);
+    let watch = Watch::new(total, "model time");
     let found = analyse::lyapunov(&plan, count, (options.transient, options.t_end), &watch);
     watch.finish();
     let found = found?;
@@ -78,6 +82,48 @@ fn summary(found: &Lyapunov) -> anyhow::Result<String> {
         )?;
     }
     write!(text, "averaged over {:.0} model time after {:.0}", found.time, found.transient)?;
+    Ok(text)
+}
+
+/// `--samples`: the exponents of many orbits.
+fn many(options: &LyapunovOptions, plan: &Plan, samples: Samples, count: usize) -> anyhow::Result<End> {
+    let watch = Watch::new(samples.count as f64, "orbits");
+    let found = samples::lyapunov(plan, samples, count, (options.transient, options.t_end), &watch);
+    watch.finish();
+    let Some(found) = found? else { return Ok(End::Interrupted) };
+    let lasted = found.orbits.iter().filter(|orbit| orbit.outcome.is_complete()).count();
+    let text = if options.motion.json {
+        let orbit = |orbit: &Lyapunov| json!({ "exponents": orbit.exponents, "outcome": orbit.outcome });
+        serde_json::to_string(&json!({
+            "model": plan.computation.model,
+            "parameters": plan.computation.parameters,
+            "exponents": found.means,
+            "agree": found.agree,
+            "lasted": lasted,
+            "orbits": found.orbits.iter().map(orbit).collect::<Vec<_>>(),
+        }))?
+    } else {
+        many_summary(&found, lasted)?
+    };
+    print(&text)?;
+    Ok(if lasted == found.orbits.len() && found.agree { End::Done } else { End::NotAsAsked })
+}
+
+fn many_summary(found: &Exponents, lasted: usize) -> anyhow::Result<String> {
+    let mut text = String::new();
+    for (i, exponent) in found.means.iter().enumerate() {
+        writeln!(text, "lambda_{}   {:>11.6} +- {:.1e}", i + 1, exponent.value, exponent.error)?;
+    }
+    write!(text, "means over {lasted} of {} orbits", found.orbits.len())?;
+    if lasted < found.orbits.len() {
+        write!(text, "; the others did not last: for chaos before an escape, ask for --saddle 200")?;
+    }
+    if !found.agree {
+        write!(
+            text,
+            "\nThe orbits do not agree: they lead to different motions (`motiform classify --samples`)"
+        )?;
+    }
     Ok(text)
 }
 

@@ -1,15 +1,23 @@
 //! What a command is about: a file or a model, a preset, then what is set by hand.
 
-use crate::args::{MethodOptions, MotionOptions, SubjectOptions};
+use crate::args::{MethodOptions, MotionOptions, SamplesOptions, SubjectOptions};
 use motiform_models::ModelInfo;
+use motiform_study::samples::Samples;
 use motiform_study::{Error, Plan, Study, presets};
 use std::path::Path;
 
-/// The plan of a command about one motion.
-pub(crate) fn plan(options: &MotionOptions) -> Result<Plan, Error> {
+/// The plan of a command about one motion, and the samples it is about, if they are many.
+pub(crate) fn plan(options: &MotionOptions, many: &SamplesOptions) -> Result<(Plan, Option<Samples>), Error> {
     let mut study = study(&options.subject)?;
     apply(&options.method, &mut study)?;
-    Plan::new(&study)
+    Ok((Plan::new(&study)?, samples(many, &study)))
+}
+
+/// Many initial states of a study's model, if they are asked for.
+fn samples(options: &SamplesOptions, study: &Study) -> Option<Samples> {
+    let count = options.samples? as usize;
+    let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    Some(Samples { count, random: study.random, threads: options.threads.map_or_else(all, usize::from) })
 }
 
 /// Puts what is given of start and method into a study.
