@@ -144,8 +144,8 @@ def plot_scan(data: xr.Dataset, ax: Axes | None) -> Axes:
         for (place, _), mark in zip(drawn, handles, strict=True):
             shown = shares[place] > 0.0
             ax.plot(data[axes[0]].values[shown], shares[place][shown], linestyle="none", marker=mark.get_marker(),
-                    color=mark.get_color(), markerfacecolor=mark.get_markerfacecolor(), clip_on=False)  # fmt: skip
-        ax.set(xlabel=symbols[axes[0]], ylabel="share of the initial states", ylim=(0.0, 1.0))
+                    color=mark.get_color(), markerfacecolor=mark.get_markerfacecolor())  # fmt: skip
+        ax.set(xlabel=symbols[axes[0]], ylabel="share of the initial states", ylim=(-0.02, 1.05))
     labels = [regime.name for _, regime in drawn]
     ax.legend(handles, labels, loc="center left", bbox_to_anchor=(1.02, 0.5), frameon=False, handleheight=1.4)
     ax.set_title(data.attrs["title"])
