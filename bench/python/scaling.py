@@ -18,6 +18,7 @@ import tempfile
 import time
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -39,14 +40,21 @@ ROWS = (10_000, 100_000)
 CELLS, CORES, NODES = 1_000_000, 64, 100  # what is asked of the numbers
 
 MEMORY = """
-import json, resource, sys
+import json, pathlib, resource, sys
 import motiform
+
+def peak():
+    status = pathlib.Path("/proc/self/status")
+    if status.exists():  # ru_maxrss would begin with that of the process that started this one
+        return next(int(line.split()[1]) * 1024 for line in status.read_text().splitlines() if line.startswith("VmHWM"))
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+
 rows, axes = int(sys.argv[1]), json.loads(sys.argv[2])
 motiform.scan(motiform.preset("fig1"), {"kappa2": "0.1:0.2:4", "gamma": "-0.1:-0.05:4"}, progress=False)
-before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+before = peak()
 data = motiform.scan(motiform.preset("fig1"), axes, threads=1, progress=False)
 assert data.regime.size == rows and (data.regime == 0).all()
-print(json.dumps([before, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, data.nbytes]))
+print(json.dumps([before, peak(), data.nbytes]))
 """
 
 
@@ -54,7 +62,7 @@ def plan_of(preset: str, axes: dict[str, str]) -> _motiform.ScanPlan:
     return _motiform.ScanPlan(motiform.preset(preset)._study, list(axes.items()))
 
 
-def cost(preset: str, axes: dict[str, str]) -> dict[str, float]:
+def cost(preset: str, axes: dict[str, str]) -> dict[str, Any]:
     """Seconds of one core per cell: many cells together, and each alone. Time of the processor, not of the clock."""
     plan = plan_of(preset, axes)
     plan.task(0, 1, 0.0, False)
@@ -65,7 +73,7 @@ def cost(preset: str, axes: dict[str, str]) -> dict[str, float]:
         each.append(time.process_time() - begun)
         assert end == cell + 1
         rows.append(arrays)
-    together = statistics.mean(each)
+    together = None
     if sum(each) < 60.0:  # cells share lanes where a model has them; too long else to do it twice
         begun = time.process_time()
         (regimes, _, numbers, _), raised = plan.compute(1, False)
@@ -73,13 +81,19 @@ def cost(preset: str, axes: dict[str, str]) -> dict[str, float]:
         assert raised is None and [row[0][0] for row in rows] == list(regimes)
         for place, column in enumerate(numbers):
             np.testing.assert_array_equal(column, [row[2][place][0] for row in rows])
+    dearest = each.index(max(each))
+    place, where = dearest, []
+    for name, values in plan.axes():  # the first axis runs fastest
+        place, index = divmod(place, len(values))
+        where.append(f"{name} = {values[index]:.4g}")
     return {
-        "cells": plan.cells, "mean": together, "alone_mean": statistics.mean(each), "alone_median": statistics.median(each),
-        "alone_max": max(each),
+        "cells": plan.cells, "together": together, "mean": together or statistics.mean(each), "alone_mean": statistics.mean(each),
+        "alone_median": statistics.median(each), "longest": max(each), "where": ", ".join(where),
+        "regime": motiform.REGIMES[rows[dearest][0][0]].name, "tenth": sum(sorted(each)[-(len(each) // 10) :]) / sum(each),
     }  # fmt: skip
 
 
-def files(preset: str, folder: Path, shards: int = 500) -> dict[str, float]:
+def files(preset: str, folder: Path, shards: int = 500) -> dict[str, Any]:
     """Bytes per row of a share of a scan of a million cells, and the seconds to read a row."""
     out = folder / preset
     data = motiform.scan(motiform.preset(preset), FINE[preset], out=out, shard=f"1/{shards}", progress=False)
@@ -92,20 +106,18 @@ def files(preset: str, folder: Path, shards: int = 500) -> dict[str, float]:
     }  # fmt: skip
 
 
-def memory() -> dict[str, float]:
+def memory() -> dict[str, Any]:
     """Resident bytes per row of a scan's result: the slope between two sizes, each in a process of its own."""
     found = []
     for rows in ROWS:
         axes = {"kappa2": QUIET["kappa2"], "gamma": QUIET["gamma"].format(rows // 100)}
         made = subprocess.run([sys.executable, "-c", MEMORY, str(rows), json.dumps(axes)], capture_output=True, text=True, check=True)
-        before, after, data = json.loads(made.stdout.splitlines()[-1])
-        unit = 1 if sys.platform == "darwin" else 1024
-        found.append((before * unit, after * unit, data))
+        found.append(json.loads(made.stdout.splitlines()[-1]))
     (base, small, _), (_, large, data) = found
     return {"base": base, "small": small, "large": large, "slope": (large - small) / (ROWS[1] - ROWS[0]), "data": data / ROWS[1]}
 
 
-def overhead(workers: int, rounds: int) -> dict[str, float]:
+def overhead(workers: int, rounds: int) -> dict[str, Any]:
     """A scan on a pool of processes against the same one on as many threads, in turn."""
     body, axes = motiform.preset("fig1"), {"kappa2": "-0.22:0.22:64", "gamma": "-0.16:0.12:48"}
     tasks: list[float] = []
@@ -164,15 +176,16 @@ def table(head: list[str], rows: list[list[str]]) -> str:
     return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
 
 
-def page(found: dict[str, dict[str, dict[str, float]]]) -> str:
+def page(found: dict[str, Any]) -> str:
     costs, written = found["cost"], found["files"]
     held, tasks = found["memory"], found["overhead"]
-    text = [f"Measured on {processor()}, {os.cpu_count()} cores, motiform {motiform.__version__}, Python {platform.python_version()}.\n"]
+    text = [f"Measured on {found['processor']}, {found['cores']} cores, motiform {found['motiform']}, Python {found['python']}.\n"]
 
     text.append("**Seconds of one core per cell**, one initial state each, default budget.\n")
     text.append(table(
-        ["scan", "cells", "mean, together", "mean, one by one", "median, one by one", "longest"],
-        [[PLANES[name][0], str(c["cells"]), span(c["mean"]), span(c["alone_mean"]), span(c["alone_median"]), span(c["alone_max"])]
+        ["scan", "cells", "mean, together", "mean, one by one", "median, one by one", "dearest cell", "dearest tenth of the cells"],
+        [[PLANES[name][0], str(c["cells"]), span(c["together"]) if c["together"] else "not measured", span(c["alone_mean"]),
+          span(c["alone_median"]), f"{span(c['longest'])}: {c['where']}, {c['regime']}", f"{100 * c['tenth']:.0f} % of the time"]
          for name, c in costs.items()],
     ))  # fmt: skip
     text.append("**Bytes per row**: Parquet parts of a share of a scan of a million cells; result in memory.\n")
@@ -208,7 +221,7 @@ def page(found: dict[str, dict[str, dict[str, float]]]) -> str:
         disk = written.get(name, {"bytes": most})["bytes"] * CELLS
         rows.append([
             PLANES[name][0], f"{seconds / 3600:.3g}", span(seconds / CORES), span(seconds / CORES / NODES),
-            size(disk) + ("" if name in written else " (assumed as above)"),
+            size(disk) + ("" if name in written else " (bytes per row assumed as above)"),
         ])  # fmt: skip
     text.append(table(["scan", "core hours", "1 node", f"{NODES} nodes", "on disk"], rows))
     text.append(
@@ -218,21 +231,33 @@ def page(found: dict[str, dict[str, dict[str, float]]]) -> str:
     return "\n".join(text)
 
 
+def measure(workers: int, rounds: int) -> dict[str, Any]:
+    with tempfile.TemporaryDirectory() as folder:
+        found: dict[str, Any] = {
+            "processor": processor(), "cores": os.cpu_count(), "motiform": motiform.__version__, "python": platform.python_version(),
+        }  # fmt: skip
+        found["overhead"] = overhead(workers, rounds)
+        found["memory"] = memory()
+        found["files"] = {name: files(name, Path(folder)) for name in FINE}
+        found["cost"] = {}
+        for name, (_, axes) in PLANES.items():
+            found["cost"][name] = cost(name, axes)
+            print(name, found["cost"][name], file=sys.stderr, flush=True)
+    return found
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--page", type=Path, help="a page with the marks <!-- measured --> and <!-- end -->")
+    parser.add_argument("--raw", type=Path, default=Path(__file__).with_name("scaling.json"), help="the numbers, kept")
+    parser.add_argument("--again", action="store_true", help="measure nothing: the page from the numbers kept")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
     options = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        found = {
-            "overhead": overhead(options.workers, options.rounds),
-            "memory": memory(),
-            "files": {name: files(name, Path(folder)) for name in FINE},
-            "cost": {name: cost(name, axes) for name, (_, axes) in PLANES.items()},
-        }
-    print(json.dumps(found, indent=1))
-    text = page(found)
+    if not options.again:
+        found = measure(options.workers, options.rounds)
+        options.raw.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    text = page(json.loads(options.raw.read_text(encoding="utf-8")))
     print(text)
     if options.page:
         old = options.page.read_text(encoding="utf-8")
