@@ -153,6 +153,31 @@ def test_ctrl_c_keeps_what_is_done(local: xr.Dataset) -> None:
     assert bool((partial.regime == local.regime).where(done, True).all())
 
 
+@pytest.mark.parametrize("pooled", [False, True])
+def test_a_stopped_scan_leaves_its_folder_free(local: xr.Dataset, tmp_path: Path, pooled: bool) -> None:
+    """The exception is kept, as a notebook keeps the last one, and the scan is resumed."""
+
+    def press(fraction: float) -> None:
+        if fraction > 0.2:
+            raise KeyboardInterrupt
+
+    with ThreadPoolExecutor(2) as pool:
+        executor = pool if pooled else None
+        with pytest.raises(motiform.Interrupted) as stop:
+            motiform.scan(BODY, AXES, samples=2, executor=executor, out=tmp_path / "a", progress=press)
+    found = motiform.scan(BODY, AXES, samples=2, why=True, out=tmp_path / "a", resume=True, progress=False)
+    xr.testing.assert_identical(found, local)
+    assert isinstance(stop.value.result, xr.Dataset)
+
+
+def test_a_failed_scan_leaves_its_folder_free(local: xr.Dataset, tmp_path: Path) -> None:
+    with pytest.raises(RuntimeError) as stop:
+        motiform.scan(BODY, AXES, samples=2, executor=Hopeless(), out=tmp_path / "a")
+    found = motiform.scan(BODY, AXES, samples=2, why=True, out=tmp_path / "a", resume=True, progress=False)
+    xr.testing.assert_identical(found, local)
+    assert "worker is gone" in str(stop.value)
+
+
 def test_a_task_ends_in_time() -> None:
     """A task begins no cell after its time, and says where to go on."""
     from motiform import _motiform

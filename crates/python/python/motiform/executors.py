@@ -63,6 +63,7 @@ def gather(
 ) -> BaseException | None:
     """Computes a plan on an executor into `table`, or what is left of `files`; returns what stopped it, if it was."""
     work = _Work(plan, executor, table, files, progress)
+    del files
     try:
         work.run()
     except KeyboardInterrupt as stop:
@@ -71,6 +72,8 @@ def gather(
     except BaseException:
         work.cancel()
         raise
+    finally:
+        work.close()
     return None
 
 
@@ -116,6 +119,11 @@ class _Work:
         """Takes back what has not begun."""
         for future in self._flying:
             future.cancel()
+
+    def close(self) -> None:
+        """Gives the folder free, though a traceback may keep this object."""
+        if self._keeper is not None:
+            self._keeper.close()
 
     def _cut(self) -> Cells:
         """The next cells: an even share of what is left, so that the last tasks end together, but no less than
@@ -202,3 +210,7 @@ class _Keeper:
         whys = [why for piece in ordered for why in piece[3] or []]
         self._files.keep(part, regimes, attractors, numbers, whys)
         del self._waiting[part]
+
+    def close(self) -> None:
+        """Lets go of the files."""
+        del self._files

@@ -9,9 +9,9 @@ import numpy as np
 from matplotlib.animation import FuncAnimation
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
-from matplotlib.colors import ListedColormap
+from matplotlib.colors import ListedColormap, to_rgb
 from matplotlib.lines import Line2D
-from matplotlib.patches import Polygon
+from matplotlib.patches import Patch, Polygon
 from matplotlib.path import Path
 
 from ._registry import MODELS, REGIMES, Regime
@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 
     from .trajectory import Trajectory
 
-TIME = "viridis"
+TIME = ListedColormap(plt.get_cmap("viridis")(np.linspace(0.0, 0.9, 256)), name="time")
+"""Without the brightest colours, which are lost on white paper."""
 _ZIGZAG = Path([(-1.0, -0.5), (-0.5, 0.5), (0.0, -0.5), (0.5, 0.5), (1.0, -0.5)])
 _MARKERS: dict[str, Any] = {
     "Disc": "o", "Ring": "o", "Triangle": "^", "DownTriangle": "v", "Square": "s", "Diamond": "D",
@@ -53,6 +54,7 @@ def plot_path(run: Trajectory, ax: Axes | None, outlines: int) -> Axes:
             ax.add_patch(Polygon(curve, closed=True, facecolor=(*colour[:3], 0.15), edgecolor=colour, zorder=3))
     ax.autoscale_view()
     ax.set_aspect("equal", adjustable="datalim")
+    ax.locator_params(axis="x", nbins=6)
     ax.set(xlabel="$x$ (model length)", ylabel="$y$ (model length)")
     ax.figure.colorbar(line, ax=ax, label="$t$ (model time)")
     if scale != 1.0:
@@ -119,23 +121,51 @@ def plot_scan(data: xr.Dataset, ax: Axes | None) -> Axes:
     ax = plt.subplots(layout="constrained")[1] if ax is None else ax
     axes: list[str] = list(data.attrs["axes"])
     shares = np.stack([data.motiform.share(regime.name).values for regime in REGIMES])
-    most = np.where(shares.sum(axis=0) > 0.0, shares.argmax(axis=0), len(REGIMES))
     symbols = {spec.name: spec.tex for spec in MODELS[data.attrs["model"]].parameters}
+    handles: list[Any]
     if len(axes) == 2:
+        most = np.where(shares.sum(axis=0) > 0.0, shares.argmax(axis=0), len(REGIMES))
+        drawn = [(place, regime) for place, regime in enumerate(REGIMES) if np.any(most == place)]
         colours = ListedColormap([regime.area for regime in REGIMES] + ["#ffffff"])
         x, y = (data[name].values for name in axes)
         ax.pcolormesh(x, y, most, cmap=colours, vmin=-0.5, vmax=len(REGIMES) + 0.5, shading="nearest")
+        for place, regime in drawn:
+            rows, columns = _marked(most == place)
+            ax.plot(x[columns], y[rows], **_on_area(regime))
+        handles = [
+            (Patch(facecolor=regime.area, edgecolor="0.4", linewidth=0.6), Line2D([], [], **_on_area(regime)))
+            for _, regime in drawn
+        ]
+        ax.locator_params(axis="x", nbins=6)
         ax.set(xlabel=symbols[axes[0]], ylabel=symbols[axes[1]])
     else:
-        for place, regime in enumerate(REGIMES):
-            share = shares[place]
-            mark = regime_mark(regime)
-            shown = share > 0.0
-            x = data[axes[0]].values[shown]
-            ax.plot(x, share[shown], linestyle="none", marker=mark.get_marker(), color=regime.colour,
-                    markerfacecolor=mark.get_markerfacecolor())  # fmt: skip
-        ax.set(xlabel=symbols[axes[0]], ylabel="share of the initial states", ylim=(-0.05, 1.05))
-    present = [regime_mark(regime) for place, regime in enumerate(REGIMES) if np.any(most == place)]
-    ax.legend(handles=present, loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
+        drawn = [(place, regime) for place, regime in enumerate(REGIMES) if np.any(shares[place] > 0.0)]
+        handles = [regime_mark(regime) for _, regime in drawn]
+        for (place, _), mark in zip(drawn, handles, strict=True):
+            shown = shares[place] > 0.0
+            ax.plot(data[axes[0]].values[shown], shares[place][shown], linestyle="none", marker=mark.get_marker(),
+                    color=mark.get_color(), markerfacecolor=mark.get_markerfacecolor())  # fmt: skip
+        ax.set(xlabel=symbols[axes[0]], ylabel="share of the initial states", ylim=(-0.02, 1.05))
+    labels = [regime.name for _, regime in drawn]
+    ax.legend(handles, labels, loc="center left", bbox_to_anchor=(1.02, 0.5), frameon=False, handleheight=1.4)
     ax.set_title(data.attrs["title"])
     return ax
+
+
+def _on_area(regime: Regime) -> dict[str, Any]:
+    """The marker of a regime on its own area: told apart without colours, too."""
+    red, green, blue = to_rgb(regime.area)
+    ink = "#ffffff" if 0.3 * red + 0.59 * green + 0.11 * blue < 0.45 else "#000000"
+    hollow = regime.glyph in ("Ring", "Zigzag")
+    return {
+        "linestyle": "none", "marker": _MARKERS[regime.glyph], "markersize": 4.0, "color": ink, "alpha": 0.75,
+        "markerfacecolor": "none" if hollow else ink, "markeredgewidth": 0.8,
+    }  # fmt: skip
+
+
+def _marked(cells: Any) -> tuple[Any, Any]:
+    """Rows and columns of those cells that get a marker: at most some twenty along each axis, but at least one."""
+    steps = [max(1, -(-size // 20)) for size in cells.shape]
+    rows, columns = np.nonzero(cells)
+    kept = (rows % steps[0] == steps[0] // 2) & (columns % steps[1] == steps[1] // 2)
+    return (rows[kept], columns[kept]) if kept.any() else (rows[:1], columns[:1])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from types import TracebackType
 from typing import Any
@@ -29,15 +30,19 @@ class Bar:
         if self._bar is None:
             self._total = self._given() if callable(self._given) else self._given
             try:
-                from tqdm.auto import tqdm
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")  # without ipywidgets a notebook shows the bar as text
+                    from tqdm.auto import tqdm
             except ImportError:
                 if self._wanted is True:
                     raise
                 self._bar = False
             else:
+                whole = "{l_bar}{bar}| " + self._unit + " [{elapsed}<{remaining}]"
                 self._bar = tqdm(
-                    total=self._total, unit=f" {self._unit}", unit_scale=True, delay=1.0, leave=False
-                )
+                    total=self._total, unit=f" {self._unit}", unit_scale=True, delay=1.0, leave=False,
+                    bar_format=whole if self._total == 1.0 else None,
+                )  # fmt: skip
         if self._bar is not False:
             self._bar.update(fraction * self._total - self._bar.n)
 

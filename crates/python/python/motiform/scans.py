@@ -86,11 +86,14 @@ def scan(
         if out is not None:
             opening = "resume" if resume else "replace" if overwrite else "new"
             files = _motiform.ScanFiles(os.fspath(out), plan, shard, opening)
-            _warn_of(files.damaged())
-            if executor is None:
-                raised = files.run(_threads(threads), bar.callable())
-            else:
-                raised = gather(plan, executor, None, files, bar.callable())
+            try:
+                _warn_of(files.damaged())
+                if executor is None:
+                    raised = files.run(_threads(threads), bar.callable())
+                else:
+                    raised = gather(plan, executor, None, files, bar.callable())
+            finally:
+                del files  # gives the folder free; a traceback would keep it
             result = read_scan(out, why, quiet=shard is not None or raised is not None)
         elif shard is not None:
             raise ValueError(f"shard = {shard!r}: a share of a scan is kept in a folder, give out=...")
