@@ -38,11 +38,8 @@ class Bar:
                     raise
                 self._bar = False
             else:
-                whole = "{l_bar}{bar}| " + self._unit + " [{elapsed}<{remaining}]"
-                self._bar = tqdm(
-                    total=self._total, unit=f" {self._unit}", unit_scale=True, delay=1.0, leave=False,
-                    bar_format=whole if self._total == 1.0 else None,
-                )  # fmt: skip
+                unit = f" {self._unit}"
+                self._bar = tqdm(total=self._total, unit=unit, unit_scale=True, delay=1.0, leave=False)
         if self._bar is not False:
             self._bar.update(fraction * self._total - self._bar.n)
 
