@@ -51,6 +51,17 @@ def test_a_diagram_has_the_colours_of_the_regimes() -> None:
     line.figure.canvas.draw()
 
 
+def test_a_legend_names_rare_motions_too() -> None:
+    """With one axis every motion that is drawn has its mark, also one that is nowhere the most frequent."""
+    data = motiform.scan(motiform.preset("fig1"), {"kappa2": "-0.2:0.2:5"}, samples=3, progress=False)
+    codes = data.regime.values.copy()
+    zigzag = [regime.name for regime in motiform.REGIMES].index("zigzag")
+    codes[2, 0] = zigzag
+    data = data.assign(regime=(data.regime.dims, codes, data.regime.attrs))
+    names = [text.get_text() for text in data.motiform.plot().get_legend().get_texts()]
+    assert "zigzag" in names and set(names) == set(np.unique(data.motiform.names()))
+
+
 def test_small_bodies_are_drawn_larger() -> None:
     run = motiform.preset("fig6a").simulate(1000.0)
     scale, extent = drawn_scale(run), float(np.ptp(run.position, axis=0).max())
