@@ -1,12 +1,11 @@
 //! Questions about one motion; answers as JSON, which the Python side makes into its classes.
 
 use crate::errors::{of_json, python};
-use crate::run::Columns;
+use crate::run::{Columns, TableArrays};
 use crate::study::{Study, plan};
 use crate::watch::Watch;
 use motiform_dynamics::Direction;
 use motiform_study::Error;
-use numpy::PyArray2;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use serde_json::json;
@@ -76,8 +75,8 @@ pub(crate) fn equilibria(
     serde_json::to_string(&found).map_err(of_json)
 }
 
-/// Names, meanings and values of the crossings, whether the run was complete, how it ended.
-type Crossings = (Vec<String>, Vec<String>, Py<PyArray2<f64>>, bool, String);
+/// Names, meanings and values of the crossings; how the run ended, as JSON; whether it was complete; the same in words.
+type Crossings = (TableArrays, (String, bool, String));
 
 /// The crossings of `coordinate = value`.
 #[pyfunction]
@@ -105,6 +104,6 @@ pub(crate) fn section(
     let (table, outcome) = answer(Watch::here(py, progress, |monitor| {
         motiform_study::section::section(&plan(&study)?, (coordinate, value), direction, monitor).map(Some)
     }))?;
-    let (names, meanings, block) = Columns::new(py, table)?.parts(py);
-    Ok((names, meanings, block, outcome.is_complete(), outcome.to_string()))
+    let ended = serde_json::to_string(&outcome).map_err(of_json)?;
+    Ok((Columns::new(py, table)?.parts(py), (ended, outcome.is_complete(), outcome.to_string())))
 }

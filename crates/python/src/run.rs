@@ -10,13 +10,15 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use std::hint::black_box;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 /// A recorded motion.
 #[pyclass(frozen, module = "motiform._motiform")]
 pub(crate) struct Run {
     manifest: Manifest,
-    model: Box<dyn Model>,
+    /// Made when the first outline asks for it: that of a cell takes longer than a short run.
+    model: OnceLock<Box<dyn Model>>,
     table: Columns,
     crossings: Option<Columns>,
 }
@@ -52,12 +54,19 @@ impl Columns {
 
 impl Run {
     pub(crate) fn new(py: Python<'_>, dataset: Dataset) -> PyResult<Self> {
-        let c = &dataset.manifest.plan.computation;
-        let info = dataset.manifest.plan.info().map_err(python)?;
-        let model = info.build(&c.parameters.values()).map_err(|error| python(error.into()))?;
         let table = Columns::new(py, dataset.trajectory)?;
         let crossings = dataset.crossings.map(|table| Columns::new(py, table)).transpose()?;
-        Ok(Self { manifest: dataset.manifest, model, table, crossings })
+        Ok(Self { manifest: dataset.manifest, model: OnceLock::new(), table, crossings })
+    }
+
+    fn model(&self) -> PyResult<&dyn Model> {
+        if let Some(model) = self.model.get() {
+            return Ok(model.as_ref());
+        }
+        let plan = &self.manifest.plan;
+        let model = plan.info().map_err(python)?.build(&plan.computation.parameters.values());
+        let model = model.map_err(|error| python(error.into()))?;
+        Ok(self.model.get_or_init(|| model).as_ref())
     }
 
     /// The shape in a row, as the model computes with it.
@@ -67,11 +76,12 @@ impl Run {
         if row >= block.ncols() {
             return Err(PyIndexError::new_err(format!("row {row}: the run has {} rows", block.ncols())));
         }
+        let model = self.model()?;
         let place = |name: &str| self.table.names.iter().position(|known| known == name);
-        let coordinates = self.model.coordinates().iter();
+        let coordinates = model.coordinates().iter();
         let named: Vec<f64> = coordinates.filter_map(|c| Some(block[[place(c.name)?, row]])).collect();
-        let mut shape = vec![0.0; self.model.dim()];
-        self.model.encode(&named, &mut shape);
+        let mut shape = vec![0.0; model.dim()];
+        model.encode(&named, &mut shape);
         Ok(shape)
     }
 }
@@ -112,13 +122,14 @@ impl Run {
 
     /// The undeformed radius: the model's, or a round one that shows the deformation over these rows.
     fn radius(&self, py: Python<'_>) -> PyResult<f64> {
-        if let Some(fixed) = self.model.radius() {
+        let model = self.model()?;
+        if let Some(fixed) = model.radius() {
             return Ok(fixed);
         }
         let rows = self.table.block.bind(py).shape()[1];
         let mut largest = 0.0_f64;
         for row in (0..rows).step_by(rows.div_ceil(4096).max(1)) {
-            largest = largest.max(self.model.deformation(&self.shape(py, row)?));
+            largest = largest.max(model.deformation(&self.shape(py, row)?));
         }
         Ok(draw::radius_for(largest))
     }
@@ -131,7 +142,7 @@ impl Run {
         radius: f64,
         points: usize,
     ) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
-        match self.model.outline(&self.shape(py, row)?, radius, points) {
+        match self.model()?.outline(&self.shape(py, row)?, radius, points) {
             Outline::Curve(curve) => {
                 let count = curve.len();
                 let flat = curve.into_iter().flatten().collect();

@@ -16,7 +16,7 @@ from ._registry import MODELS, ModelInfo
 from .errors import EndedEarly, Interrupted
 from .progress import Bar, Progress
 from .results import Crossings, Equilibrium, Exponents, Verdict, equilibrium_of, outcome_of, verdict_of
-from .trajectory import Floats, Trajectory, _frame
+from .trajectory import Floats, Trajectory, crossing_frame
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -216,10 +216,10 @@ class Model:
         study = _with(self._study, initial, {"t_end": t_end, "transient": transient, "seed": seed})
         with Bar(progress, lambda: _span(study), "model time") as bar:
             found = _motiform.section(study, coordinate, value, direction, bar.callable())
-        names, meanings, block, complete, ended = found
+        table, (raw, complete, ended) = found
         if not complete:
             _ended_early(ended, on_end)
-        return Crossings(_frame(names, meanings, block), ended, complete)
+        return Crossings(crossing_frame(*table), outcome_of(json.loads(raw), complete, ended))
 
     def __call__(self, t: float, u: npt.ArrayLike) -> Floats:
         """The vector field: d/dt of the coordinates at `u`, for integrators such as ``scipy.integrate.solve_ivp``.

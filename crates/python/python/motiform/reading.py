@@ -14,7 +14,7 @@ import xarray as xr
 from . import _motiform
 from .errors import Incomplete
 from .scans import read_scan
-from .trajectory import Trajectory, _frame
+from .trajectory import Trajectory, _frame, crossing_frame
 
 
 def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | xr.Dataset | pd.DataFrame | dict[str, Any]:
@@ -46,7 +46,7 @@ def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | xr.
         if run is not None:
             return Trajectory(run)
         assert table is not None
-        return _frame(*table)
+        return crossing_frame(*table) if "rising" in table[0] else _frame(*table)
     if path.suffix == ".h5":
         return _fields(path)
     if path.suffix == ".json":

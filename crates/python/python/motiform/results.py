@@ -179,8 +179,7 @@ class Crossings:
 
     table: pd.DataFrame
     """One row per crossing: ``t``, ``x``, ``y``, the coordinates of the shape, ``rising``."""
-    outcome_text: str
-    complete: bool
+    outcome: Outcome
 
     def __len__(self) -> int:
         return len(self.table)

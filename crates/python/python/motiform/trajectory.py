@@ -138,7 +138,7 @@ class Trajectory:
     def crossings(self) -> pd.DataFrame | None:
         """The crossings of the return map's segment, where the study has one: ``t``, ``x``, ``y``, ``rising``."""
         found = self._run.crossings()
-        return None if found is None else _frame(*found)
+        return None if found is None else crossing_frame(*found)
 
     def to_pandas(self) -> pd.DataFrame:
         """A frame with one column each; meanings in ``frame.attrs``."""
@@ -202,6 +202,12 @@ class Trajectory:
 
     def __repr__(self) -> str:
         return f"<Trajectory: {len(self)} rows of {', '.join(self._place)}; {self._run.ended}>"
+
+
+def crossing_frame(names: list[str], meanings: list[str], block: Floats) -> pd.DataFrame:
+    """A frame of crossings; ``rising`` is true or false."""
+    frame = _frame(names, meanings, block)
+    return frame.assign(rising=frame["rising"] == 1.0)
 
 
 def _frame(names: list[str], meanings: list[str], block: Floats) -> pd.DataFrame:
