@@ -65,9 +65,11 @@ impl Study {
         for (name, value) in run.into_iter().flatten() {
             set(&mut study, name.cast::<PyString>()?.to_str()?, &value)?;
         }
-        let values = study.values().map_err(python)?;
-        let built = study.info().map_err(python)?.build(&values); // refuses what is out of range
-        built.map_err(|error| python(error.into()))?;
+        if parameters.is_some() {
+            let values = study.values().map_err(python)?;
+            let built = study.info().map_err(python)?.build(&values); // refuses what is out of range
+            built.map_err(|error| python(error.into()))?;
+        }
         Ok(Self(study))
     }
 
