@@ -32,6 +32,10 @@ def test_a_film_shows_every_frame() -> None:
     film = run.animate(frames=5)
     assert len(list(film.new_frame_seq())) == 5
     film._draw_frame(3)  # a frame of it
+    (ax,) = film._fig.axes
+    film._fig.canvas.draw()
+    for name, (low, high) in (("x", ax.get_xlim()), ("y", ax.get_ylim())):
+        assert low < run[name].min() and run[name].max() < high  # the whole path is in sight
     film._draw_was_started = True
     with pytest.raises(ValueError, match="frames"):
         run.animate(frames=0)

@@ -99,7 +99,8 @@ def animate(run: Trajectory, frames: int, interval: float) -> FuncAnimation:
     margin = 1.5 * scale * run.radius
     low, high = path.min(axis=0) - margin, path.max(axis=0) + margin
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), xlabel="$x$ (model length)", ylabel="$y$ (model length)")
-    ax.set_aspect("equal", adjustable="datalim")
+    ax.set_aspect("equal", adjustable="box")
+    ax.locator_params(axis="x", nbins=4)
     clock = ax.set_title("")
 
     def show(row: int) -> list[Any]:
