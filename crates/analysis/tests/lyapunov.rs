@@ -121,7 +121,7 @@ fn both_neutral_directions_of_a_chaotic_body_vanish_within_their_errors() {
     let slow = LyapunovSettings {
         method: methods.method,
         control: methods.control,
-        ..settings(3, 6000.0, 12_000.0)
+        ..settings(3, 6000.0, 24_000.0)
     };
     let cell = run(&cell(21.6, 21), &Random(5).state(42, 0.01), &slow);
     for (name, seen) in [("tensor", &tensor), ("cell", &cell)] {
@@ -130,7 +130,7 @@ fn both_neutral_directions_of_a_chaotic_body_vanish_within_their_errors() {
         assert!(seen.exponents[0].value > 2.0 * seen.exponents[0].error);
         for zero in seen.zeros() {
             assert!(zero.covers(0.0), "{name}: {zero:?}");
-            assert!(zero.error < 0.25 * seen.exponents[0].value, "{name}: {zero:?}");
+            assert!(zero.error < 0.2 * seen.exponents[0].value, "{name}: {zero:?}");
         }
     }
 }

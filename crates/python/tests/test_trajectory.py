@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 import time
 import warnings
@@ -119,6 +120,16 @@ def test_other_threads_run_meanwhile() -> None:
     stop.set()
     thread.join()
     assert counted[0] - before > 5
+
+
+def test_without_tqdm_nothing_is_shown(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setitem(sys.modules, "tqdm", None)
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    body = motiform.preset("fig5b")
+    body.simulate(30000.0, transient=0.0, dt_out=10.0)
+    assert capfd.readouterr() == ("", "")
+    with pytest.raises(ImportError):
+        body.simulate(30000.0, transient=0.0, dt_out=10.0, progress=True)
 
 
 def test_progress_is_told() -> None:

@@ -95,8 +95,9 @@ impl Lyapunov {
 /// lambda_i = lim 1/T sum ln R_ii
 ///
 /// The vectors are made orthonormal whenever the fastest and the slowest have parted by a factor of about e^8: the interval is
-/// chosen in the transient and kept, and a stretch ends with the first step that reaches the end of its interval. Errors are 95 % half widths from batch means (honest for correlated rates), at
-/// least the growth that the steps' own tolerance leaves undetermined.
+/// chosen in the transient and kept, and a stretch ends with the first step that reaches the end of its interval. Errors are
+/// 95 % half widths from batch means (honest for correlated rates), at least the growth that the steps' own tolerance leaves
+/// undetermined.
 ///
 /// Source: Benettin, Galgani, Giorgilli, Strelcyn (1980), Meccanica 15, 9.
 ///
