@@ -167,6 +167,21 @@ impl Page {
         })
     }
 
+    /// Moves on by `dt` in all, in as many pictures as a busy machine needs; the samples of all of them.
+    pub fn advance_whole(&mut self, dt: f64) -> Frame {
+        let mut frame = self.advance(0.0);
+        let (end, mut samples) = (frame.t + dt, std::mem::take(&mut frame.samples));
+        loop {
+            let before = frame.t;
+            frame = self.advance((end - before).min(100.0));
+            samples.append(&mut frame.samples);
+            if frame.t >= end - 1e-9 || frame.t == before {
+                frame.samples = samples;
+                return frame;
+            }
+        }
+    }
+
     /// A file, or why there is none.
     pub fn export(&mut self, what: &str) -> Result<(Value, Vec<u8>), String> {
         self.say(&format!(r#"{{"do":"export","id":5,"what":"{what}","section":"path","y":null}}"#));
