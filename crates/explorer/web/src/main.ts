@@ -5,6 +5,7 @@ import "./styles/bar.css";
 import "./styles/panels.css";
 import "./styles/parameters.css";
 import "./styles/overlays.css";
+import "./styles/phone.css";
 import { App } from "./app";
 import { byId } from "./dom";
 import { startTheme } from "./theme";

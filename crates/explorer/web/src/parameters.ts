@@ -24,21 +24,29 @@ export class ParameterPanel {
   private base: Values = {};
 
   /** `set` hears each value that the reader chooses. */
-  constructor(private readonly set: (name: string, value: number) => void) {}
+  constructor(private readonly set: (name: string, value: number) => void) {
+    const details = byId<HTMLDetailsElement>("parameter-details");
+    const phone = matchMedia("(max-width: 700px)");
+    const fold = (): void => void (details.open = !phone.matches);
+    phone.addEventListener("change", fold);
+    fold();
+  }
 
   /** The rows of a model; `base` holds the values that a reset comes back to. */
   begin(model: Model, preset: Preset | null, base: Values): void {
     this.base = base;
     this.rows = [];
-    const free = preset?.free ?? [];
+    const plane = preset?.plane ?? model.plane;
+    const given = preset?.free ?? [];
+    const free = given.length ? given : [plane.x.name, plane.y?.name ?? ""];
     const first = model.parameters.filter((one) => free.includes(one.name));
     const groups = new Map<string, Parameter[]>();
     for (const one of model.parameters) {
       if (!free.includes(one.name)) groups.set(one.equation, [...(groups.get(one.equation) ?? []), one]);
     }
     this.place.replaceChildren(
-      ...(first.length ? [this.group("free in the paper\u2019s figure", first)] : []),
-      ...[...groups].map(([equation, list]) => this.group(`equation ${equation}`, list)),
+      ...(first.length ? [this.group(given.length ? "free in the paper\u2019s figure" : "of the map", first)] : []),
+      ...[...groups].map(([equation, list]) => this.group(equation.startsWith("(") ? `equation ${equation}` : equation, list)),
       make("details", { class: "equations" }, make("summary", {}, "Equations"), make("pre", { tabindex: "0" }, model.equations), make("p", {}, model.source)),
     );
   }

@@ -69,8 +69,9 @@ function yAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string)
   });
   g.stroke();
   g.textBaseline = "alphabetic";
+  const widest = Math.max(0, ...labels.map((text) => g.measureText(text).width));
   g.save();
-  g.translate(left - 40, box.top + box.height / 2);
+  g.translate(left - widest - 15, box.top + box.height / 2);
   g.rotate(-Math.PI / 2);
   drawSymbol(g, label, 0, 0, 15);
   g.restore();

@@ -113,10 +113,20 @@ export class ShareMenu {
       const also = figure === "map" ? ["map.csv"] : figure === "path" ? ["body.apng", "motion.csv"] : [];
       const files = [...FORMATS.map((format) => `${figure}.${format}`), ...also];
       const buttons = files.map((what) => this.button(what, (what.split(".").pop() ?? "").toUpperCase(), "data-save"));
-      menu.append(make("summary", { title: "Save this figure" }, "save"), make("div", { class: "menu-body" }, ...buttons));
+      menu.append(make("summary", { title: "Save this figure", "aria-label": "Save this figure" }, arrow()), make("div", { class: "menu-body" }, ...buttons));
       menu.addEventListener("click", (event) => event.target instanceof HTMLButtonElement && (menu.open = false));
     }
   }
+}
+
+/** An arrow down onto a line. */
+function arrow(): SVGSVGElement {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+  for (const [name, value] of Object.entries({ viewBox: "0 0 16 16", width: "14", height: "14", "aria-hidden": "true" })) svg.setAttribute(name, value);
+  for (const [name, value] of Object.entries({ d: "M8 2v8M4.500 6.800 8 10.300 11.500 6.800M3 13.500h10", fill: "none", stroke: "currentColor", "stroke-width": "1.600" })) path.setAttribute(name, value);
+  svg.append(path);
+  return svg;
 }
 
 /** Menus close by a click elsewhere and by Escape. */

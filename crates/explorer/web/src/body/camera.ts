@@ -22,6 +22,7 @@ export class Camera {
   height = 1;
   private zoom = 1;
   private fresh = true;
+  private body = { x: 0, y: 0 };
   private goal = { x: 0, y: 0, scale: 40 };
 
   /** The next aim is taken at once: a new body. */
@@ -39,6 +40,7 @@ export class Camera {
 
   /** Aims at the trail from sample `from` on and at the body, with its radius. */
   aim(history: History, from: number, bx: number, by: number, radius: number): void {
+    this.body = { x: bx, y: by };
     let [x0, x1, y0, y1] = [bx - radius, bx + radius, by - radius, by + radius];
     const stride = Math.max(1, Math.floor((history.length - from) / 400));
     for (let i = from; i < history.length; i += stride) {
@@ -51,7 +53,7 @@ export class Camera {
     const least = Math.min(this.width, this.height) / 2;
     const fit = Math.min(this.width / (x1 - x0), this.height / (y1 - y0)) / MARGIN;
     const scale = this.zoom * Math.min(least / (CLOSEST * radius), Math.max(least / (WIDEST * radius), fit));
-    this.goal = { x: toward((x0 + x1) / 2, bx, 0.36 * this.width / scale), y: toward((y0 + y1) / 2, by, 0.36 * this.height / scale), scale };
+    this.goal = { x: toward((x0 + x1) / 2, bx, 0.26 * this.width / scale), y: toward((y0 + y1) / 2, by, 0.26 * this.height / scale), scale };
   }
 
   /** Moves on by `seconds`; tells whether anything moved visibly. */
@@ -64,6 +66,8 @@ export class Camera {
     this.x += dx;
     this.y += dy;
     this.scale *= ratio;
+    this.x = toward(this.x, this.body.x, (0.4 * this.width) / this.scale);
+    this.y = toward(this.y, this.body.y, (0.4 * this.height) / this.scale);
     return Math.hypot(dx, dy) * this.scale > 0.02 || Math.abs(ratio - 1) > 1e-4;
   }
 

@@ -126,5 +126,9 @@ function paintScale(g: CanvasRenderingContext2D, camera: Camera, inks: Inks): vo
   g.font = `11px ${UI_FONT}`;
   g.textAlign = "left";
   g.textBaseline = "alphabetic";
-  g.fillText(`${pretty(length)} model length`, x + 5, y - 7);
+  const text = `${pretty(length)} model length`;
+  g.strokeStyle = inks.plot;
+  g.lineWidth = 3;
+  g.strokeText(text, x + 5, y - 7);
+  g.fillText(text, x + 5, y - 7);
 }

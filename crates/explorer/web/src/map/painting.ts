@@ -125,7 +125,8 @@ function paintGlyphs(g: CanvasRenderingContext2D, { box, view, lattice, landmark
   if (!lattice) return;
   for (const { regime, i, j } of landmarks) {
     const [left, top, width, height] = lattice.place(box, view, i, i + 1, j);
-    if (regimes[regime]) drawGlyph(g, regimes[regime], left + width / 2, top + height / 2, 5);
+    const y = lattice.rows > 1 ? top + height / 2 : top + height * 0.2;
+    if (regimes[regime]) drawGlyph(g, regimes[regime], left + width / 2, y, 5);
   }
 }
 
@@ -135,8 +136,10 @@ function paintMark(g: CanvasRenderingContext2D, { box, view, mark, lattice }: Sc
   const y = lattice?.start.y === null ? box.top + box.height / 2 : pixelY(box, view, mark.y);
   const strokes: [string, number][] = [["rgba(255, 255, 255, 0.9)", 4], ["#111111", 1.6]];
   const hairs = new Path2D();
-  hairs.rect(box.left, y, x - 11 - box.left, 0);
-  hairs.rect(x + 11, y, box.left + box.width - x - 11, 0);
+  if (lattice?.start.y) {
+    hairs.rect(box.left, y, x - 11 - box.left, 0);
+    hairs.rect(x + 11, y, box.left + box.width - x - 11, 0);
+  }
   hairs.rect(x, box.top, 0, y - 11 - box.top);
   hairs.rect(x, y + 11, 0, box.top + box.height - y - 11);
   g.strokeStyle = "rgba(255, 255, 255, 0.45)";

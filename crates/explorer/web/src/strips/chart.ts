@@ -27,9 +27,18 @@ export function linear(target: number): Pick<uPlot.Axis, "splits" | "values"> {
   };
 }
 
+/** The range of data with some room, and more above; a constant gets a little, too. */
+export function roomy(low: number | null, high: number | null, above: number): [number, number] {
+  if (low === null || high === null) return [0, 1];
+  const span = Math.max(high - low, 1e-3 * Math.max(Math.abs(low), Math.abs(high)), 1e-9);
+  return [low - 0.06 * span, high + (0.06 + above) * span];
+}
+
 /** Powers of ten of a logarithmic axis; in between only ticks. */
-export const POWERS: Pick<uPlot.Axis, "values" | "filter"> = {
+export const POWERS: Pick<uPlot.Axis, "values" | "filter" | "grid" | "ticks"> = {
   filter: (_chart, splits) => thinned(splits),
+  grid: { stroke: () => currentInks().faint, width: 1, filter: (_chart, splits) => thinned(splits) },
+  ticks: { stroke: () => currentInks().faint, width: 1, size: 4, filter: (_chart, splits) => thinned(splits) },
   values: (_chart, splits) => splits.map((value) => (value === null ? "" : power(value))),
 };
 

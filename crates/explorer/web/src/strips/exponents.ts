@@ -5,13 +5,15 @@ import { byId, setText } from "../dom";
 import { pretty } from "../numbers";
 import type { Exponents } from "../protocol";
 import { currentInks, curve, DASHES } from "../theme";
-import { axis, chart, linear } from "./chart";
+import { axis, chart, linear, roomy } from "./chart";
 import { showKeys } from "./keys";
 
 const MOST = 3;
 /** Above so many points every other one goes. */
 const POINTS = 800;
 const PER_CURVE = 3;
+/** Room above the curves for keys and numbers. */
+const HEADROOM = 0.4;
 
 export class ExponentStrip {
   private readonly plot: uPlot;
@@ -67,8 +69,7 @@ export class ExponentStrip {
         high = Math.max(high, one[i] ?? 0);
       }
     }
-    const room = Math.max(0.08 * (high - low), 1e-6);
-    return [low - room, high + room];
+    return roomy(low, high, HEADROOM);
   }
 
   draw(): void {

@@ -21,9 +21,9 @@ export function recolourKeys(): void {
 
 function stroke(index: number): SVGSVGElement {
   const svg = document.createElementNS(SVG, "svg");
-  for (const [name, value] of [["width", "22"], ["height", "8"], ["aria-hidden", "true"]]) svg.setAttribute(name, value);
+  for (const [name, value] of [["width", "16"], ["height", "8"], ["aria-hidden", "true"]]) svg.setAttribute(name, value);
   const path = document.createElementNS(SVG, "path");
-  const attributes = { d: "M0 4H22", stroke: curve(index), "stroke-width": "2", "stroke-dasharray": DASHES[index].join(" ") || "none", "data-curve": String(index) };
+  const attributes = { d: "M0 4H16", stroke: curve(index), "stroke-width": "2", "stroke-dasharray": DASHES[index].join(" ") || "none", "data-curve": String(index) };
   for (const [name, value] of Object.entries(attributes)) path.setAttribute(name, value);
   svg.append(path);
   return svg;

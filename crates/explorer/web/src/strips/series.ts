@@ -7,9 +7,11 @@ import { pretty } from "../numbers";
 import type { Observable } from "../protocol";
 import { symbol } from "../symbols";
 import { curve, DASHES } from "../theme";
-import { axis, chart, linear } from "./chart";
+import { axis, chart, linear, roomy } from "./chart";
 import { showKeys } from "./keys";
 
+/** Room above the curves of the shape for their keys. */
+const HEADROOM = 0.45;
 /** Points per curve, at most. */
 const POINTS = 700;
 
@@ -68,19 +70,17 @@ export class SeriesStrip {
   }
 
   private row(name: string, markup: string, columns: number[], last: boolean, observables: Observable[] = []): Row {
-    const keys = make("span", { class: "keys" });
-    if (markup) keys.append(symbol(markup));
-    else showKeys(keys, observables.map((one) => one.symbol), observables.map((one) => one.meaning));
-    const place = make("div", { class: last ? "series-row series-last" : "series-row" });
-    const frame = make("div", { class: last ? "series-frame series-frame-last" : "series-frame" }, make("span", { class: "series-name", title: name }, keys), place);
+    const place = make("div", { class: "series-row" });
+    const frame = make("div", { class: last ? "series-frame series-frame-last" : "series-frame" }, make("span", { class: "series-name", title: name }, symbol(markup)), place);
+    if (last) frame.append(keysOf(observables), make("span", { class: "series-time", title: "model time" }, symbol("*t*")));
     this.place.append(frame);
     const made = chart(place, {
       cursor: { sync: { key: "time" }, points: { show: false }, y: false, drag: { x: false, y: false } },
-      scales: { x: { time: false, auto: false } },
+      scales: { x: { time: false, auto: false }, y: { range: (_plot, low, high) => roomy(low, high, last ? HEADROOM : 0) } },
       padding: [4, 8, last ? 0 : 3, 0],
       axes: [
         axis({ ...linear(5), size: last ? 20 : 0, show: last }),
-        axis({ ...linear(2.4), size: 44 }),
+        axis({ ...linear(3), size: 44 }),
       ],
       series: [{}, ...columns.map((_, i) => ({ stroke: () => curve(i), dash: DASHES[i], width: 1.5, points: { show: false } }))],
       hooks: { setCursor: [(plot: uPlot) => this.cursor(plot)] },
@@ -97,4 +97,10 @@ export class SeriesStrip {
     const say = (i: number): string => pretty((index === null || index === undefined ? null : this.rows[i].data[0][index]) ?? NaN, 3);
     setText(byId("series-values"), t === undefined ? "model time" : `t = ${pretty(t, 6)}, |v| = ${say(0)}, \u03c9 = ${say(1)}`);
   }
+}
+
+function keysOf(observables: Observable[]): HTMLElement {
+  const keys = make("span", { class: "keys" });
+  showKeys(keys, observables.map((one) => one.symbol), observables.map((one) => one.meaning));
+  return make("div", { class: "plot-keys" }, keys);
 }

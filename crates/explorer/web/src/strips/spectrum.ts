@@ -10,6 +10,8 @@ import { showKeys } from "./keys";
 /** Decades shown below the highest peak: what lies deeper is round-off. */
 const DECADES = 12;
 const CURVES = 6;
+/** Decades above the highest peak, for the keys. */
+const HEADROOM = 2;
 
 export class SpectrumStrip {
   private readonly plot: uPlot;
@@ -19,8 +21,8 @@ export class SpectrumStrip {
     this.plot = chart(byId("spectrum"), {
       cursor: { y: false, points: { show: false }, drag: { x: false, y: false } },
       scales: {
-        x: { time: false, distr: 3 },
-        y: { distr: 3, range: (_plot, low, high) => (high > 0 ? [Math.max(low, high / 10 ** DECADES) / 2, high * 3] : [1e-6, 1]) },
+        x: { time: false, distr: 3, range: (_plot, low, high) => (high > low ? [low, high] : [0.01, 1]) },
+        y: { distr: 3, range: (_plot, low, high) => (high > 0 ? [Math.max(low, high / 10 ** DECADES) / 2, high * 10 ** HEADROOM] : [1e-6, 1]) },
       },
       padding: [6, 10, 0, 0],
       axes: [axis({ ...POWERS, size: 20, space: 20 }), axis({ ...POWERS, size: 40, space: 12 })],
