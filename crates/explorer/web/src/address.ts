@@ -147,3 +147,8 @@ function numbers(text: string, count: number | null): number[] | null {
   if (values.some((value) => value === null) || (count !== null && values.length !== count)) return null;
   return values as number[];
 }
+
+/** The beginning of a preset or model, everything else left to it. */
+export function fresh(model: string, preset: string | null, playing: boolean): Place {
+  return { model, preset, parameters: {}, plane: null, speed: null, noise: 0, section: null, y: null, playing, t: 0, position: null, state: null };
+}

@@ -22,6 +22,7 @@ export class ParameterPanel {
   private readonly place = byId("parameters");
   private rows: Row[] = [];
   private base: Values = {};
+  private values: Values = {};
 
   /** `set` hears each value that the reader chooses. */
   constructor(private readonly set: (name: string, value: number) => void) {
@@ -53,6 +54,7 @@ export class ParameterPanel {
 
   /** Shows these values; the field that is being typed in is left alone. */
   show(values: Values): void {
+    this.values = values;
     for (const { parameter, slider, number, reset } of this.rows) {
       const value = values[parameter.name];
       if (value === undefined) continue;
@@ -110,6 +112,7 @@ export class ParameterPanel {
     slider.addEventListener("input", () => choose(whole ? slider.valueAsNumber : snapped(slider.valueAsNumber, (high - low) / STEPS)));
     number.addEventListener("change", () => choose(number.valueAsNumber));
     number.addEventListener("keydown", (event) => event.key === "Enter" && choose(number.valueAsNumber));
+    number.addEventListener("blur", () => (number.value = plain(this.values[name], 8)));
     reset.addEventListener("click", () => choose(this.base[name]));
     return { parameter, element, slider, number, reset, mark, refusal };
   }

@@ -14,7 +14,6 @@ export class Session {
   noise = 0;
   revision = 0;
   speed = 1;
-  speeds: [number, number] = [0.1, 100];
   /** Sets on their way to the server, the oldest first. */
   private readonly underway: Values[] = [];
   private wanted: Values = {};
@@ -41,8 +40,8 @@ export class Session {
     return Object.fromEntries(Object.entries(this.parameters).filter(([name, value]) => value !== this.base[name]));
   }
 
-  begun({ revision, parameters, noise, speeds }: Begun): void {
-    Object.assign(this, { revision, noise, speeds, confirmed: parameters, parameters: { ...parameters } });
+  begun({ revision, parameters, noise }: Begun, speed: number): void {
+    Object.assign(this, { revision, noise, speed, confirmed: parameters, parameters: { ...parameters } });
   }
 
   /** Notes a value for the next `set`. */

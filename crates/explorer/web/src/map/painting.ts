@@ -15,13 +15,18 @@ export interface Memory {
   outdated: boolean;
 }
 
-export interface Scene {
+/** What fills the frame. */
+export interface Areas {
   box: Box;
   view: View;
-  labels: { x: string; y: string | null };
   regimes: Regime[];
   lattice: Lattice | null;
   memory: Memory | null;
+}
+
+/** The whole picture. */
+export interface Scene extends Areas {
+  labels: { x: string; y: string | null };
   landmarks: Landmark[];
   mark: { x: number; y: number };
 }
@@ -50,7 +55,7 @@ export function paint(g: CanvasRenderingContext2D, scene: Scene, inks: Inks): vo
 }
 
 /** Only the areas: ground, the map before, the cells of now, hatching. */
-export function paintCells(g: CanvasRenderingContext2D, { box, view, lattice, memory, regimes }: Scene, inks: Inks): void {
+export function paintCells(g: CanvasRenderingContext2D, { box, view, lattice, memory, regimes }: Areas, inks: Inks): void {
   g.fillStyle = pattern(g, "ground", inks);
   g.fillRect(box.left, box.top, box.width, box.height);
   if (memory) {

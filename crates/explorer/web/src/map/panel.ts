@@ -1,20 +1,18 @@
 /** The map: asks the server for the window in sight, shows it, and takes the body to where one clicks. */
 
-import { Sheet } from "../canvas";
 import type { Cells } from "../binary";
-import { byId, setText, throttle } from "../dom";
-import { decimalsOf, duration, pretty, roundStep } from "../numbers";
+import { byId, throttle } from "../dom";
 import { watch } from "../pointer";
-import { dataX, dataY, pixelX, pixelY, type Box, type View } from "../plot";
+import { pixelX, pixelY, type Box, type View } from "../plot";
 import type { Evidence, Mapped, MapStart, Model, Parameter, Plane, Progress, Regime, Values, Wish } from "../protocol";
-import { currentInks } from "../theme";
-import { AxisSelectors } from "./selectors";
-import { landmarks, type Landmark } from "./landmarks";
-import { Lattice } from "./lattice";
+import { listenToKeys } from "./keys";
 import { Legend } from "./legend";
-import { paint, paintCells, type Memory, type Scene } from "./painting";
+import { rounded, under, type Sides } from "./pick";
+import { MapPicture } from "./picture";
 import { allowed, panned, sameAxes, viewOf, zoomed } from "./plane";
+import { showMapped, showProgress } from "./progress";
 import { Readout } from "./readout";
+import { AxisSelectors } from "./selectors";
 
 /** What the map needs of the page. */
 export interface MapHost {
@@ -30,47 +28,48 @@ export interface MapHost {
 
 /** The page asks for at most eight maps a second. */
 const GAP = 125;
-/** Pixels per cell, about. */
+/** Pixels per cell, about; and how many cells along an axis at least and at most. */
 const CELL = 6;
+const CELLS = { least: 24, most: 96 };
+/** Clicks that follow each other within so many milliseconds may be a double click. */
+const DOUBLE = 400;
 
 export class MapPanel {
-  private readonly sheet: Sheet;
+  complete = false;
+  private readonly picture: MapPicture;
   private readonly readout: Readout;
   private readonly legend = new Legend(byId("map-legend"));
-  private readonly selectors: AxisSelectors;
-  private readonly request: () => void;
+  private readonly selectors = new AxisSelectors((plane) => this.choosePlane(plane));
+  private readonly request = throttle(GAP, () => this.ask());
   private plane: Plane | null = null;
   private home: Plane | null = null;
   private epoch = 0;
-  private lattice: Lattice | null = null;
-  private memory: Memory | null = null;
-  private marks: Landmark[] = [];
-  private outdated = false;
-  private dirty = false;
+  private lastClick = -Infinity;
   private beforeClick: Values = {};
-  complete = false;
 
   constructor(private readonly host: MapHost) {
     const canvas = byId<HTMLCanvasElement>("map");
-    this.sheet = new Sheet(canvas, () => (this.dirty = true));
-    this.request = throttle(GAP, () => this.ask());
+    this.picture = new MapPicture(canvas, () => host.regimes());
     this.readout = new Readout(byId("readout"), () => host.regimes(), (cell) => host.send({ do: "evidence", epoch: this.epoch, cell }));
-    this.selectors = new AxisSelectors((plane) => this.choosePlane(plane));
     watch(canvas, {
       click: (x, y) => this.click(x, y),
       double: () => this.undoClicks(),
-      hover: (at) => (at ? this.hover(...at) : this.readout.leave()),
+      hover: (at) => this.hover(at),
       pan: (dx, dy) => this.plane && this.go(panned(this.plane, this.box(), dx, dy)),
       zoom: (factor, x, y) => this.zoomAt(factor, x, y),
     });
-    canvas.addEventListener("keydown", (event) => this.key(event));
+    listenToKeys(canvas, {
+      walk: (columns, rows) => this.walk(columns, rows),
+      zoom: (factor) => this.zoomAt(factor, ...this.markPixel()),
+      reset: () => this.reset(),
+    });
     canvas.addEventListener("blur", () => this.readout.leave());
     byId("map-reset").addEventListener("click", () => this.reset());
   }
 
   /** A new body: these axes, and `home` to come back to. */
   begin(plane: Plane, home: Plane): void {
-    if (this.plane && !sameAxes(plane, this.plane)) this.memory = this.lattice = null;
+    if (this.plane && !sameAxes(plane, this.plane)) this.picture.forget();
     this.home = home;
     this.setPlane(plane);
     this.renew();
@@ -78,13 +77,12 @@ export class MapPanel {
 
   /** Parameters off the axes changed: what is shown holds no longer. */
   renew(): void {
-    this.outdated = true;
+    this.picture.age();
     this.request();
   }
 
-  /** Draws again before the next picture on the screen. */
   touch(): void {
-    this.dirty = true;
+    this.picture.touch();
   }
 
   /** The plane as it is, for the address and the server. */
@@ -92,7 +90,6 @@ export class MapPanel {
     return this.plane;
   }
 
-  /** Whether the parameter is an axis. */
   isAxis(name: string): boolean {
     return this.plane?.x.name === name || this.plane?.y?.name === name;
   }
@@ -108,97 +105,56 @@ export class MapPanel {
   }
 
   started(start: MapStart): void {
-    if (start.epoch !== this.epoch) return;
-    this.remember();
-    this.lattice = new Lattice(start, this.host.regimes());
-    this.marks = [];
-    this.complete = false;
-    this.outdated = false;
-    this.dirty = true;
+    const view = this.window();
+    if (start.epoch === this.epoch && view) this.picture.start(start, view);
   }
 
   cells(cells: Cells): void {
-    if (cells.epoch !== this.epoch || !this.lattice) return;
-    this.lattice.take(cells);
-    this.dirty = true;
+    if (cells.epoch === this.epoch) this.picture.take(cells);
   }
 
-  progress({ epoch, done, total, rate }: Progress): void {
-    if (epoch !== this.epoch) return;
-    const left = rate > 0 ? `, ${duration((total - done) / rate)} left` : "";
-    this.say(`${grouped(done)} of ${grouped(total)} cells, ${pretty(rate, 2)}/s${left}`, done / total);
+  progress(progress: Progress): void {
+    if (progress.epoch !== this.epoch) return;
+    showProgress(progress);
     this.showLegend();
   }
 
-  mapped({ epoch, cells, seconds }: Mapped): void {
-    if (epoch !== this.epoch || !this.lattice) return;
+  mapped(mapped: Mapped): void {
+    if (mapped.epoch !== this.epoch) return;
     this.complete = true;
-    this.memory = null;
-    this.marks = landmarks(this.lattice);
-    this.say(`${grouped(cells)} cells in ${pretty(seconds, 2)} s`, 1);
+    this.picture.finish();
+    showMapped(mapped);
     this.showLegend();
     this.readout.refresh();
-    this.dirty = true;
   }
 
   evidence(evidence: Evidence): void {
     if (evidence.epoch === this.epoch) this.readout.answer(evidence);
   }
 
-  /** Draws where something changed. */
   draw(): void {
-    const view = this.window();
-    if (!this.dirty || !view || !this.plane || this.sheet.width < 80) return;
-    this.dirty = false;
-    this.sheet.clear();
-    paint(this.sheet.g, this.scene(view, this.box()), currentInks());
-  }
-
-  private scene(view: View, box: Box): Scene {
+    const [view, sides] = [this.window(), this.sides()];
+    if (!view || !sides) return;
     const values = this.host.parameters();
-    const [x, y] = [this.parameter("x"), this.parameter("y")];
-    return {
-      box,
-      view,
-      labels: { x: x?.symbol ?? "", y: y?.symbol ?? null },
-      regimes: this.host.regimes(),
-      lattice: this.lattice,
-      memory: this.memory,
-      landmarks: this.marks,
-      mark: { x: values[x?.name ?? ""] ?? NaN, y: y ? values[y.name] : 0.5 },
-    };
+    this.picture.draw(view, sides, { x: values[sides.x.name], y: sides.y ? values[sides.y.name] : 0.5 });
   }
 
-  private parameter(axis: "x" | "y"): Parameter | undefined {
-    const name = this.plane?.[axis]?.name;
-    return this.host.model().parameters.find((one) => one.name === name);
+  private sides(): Sides | null {
+    const of = (name?: string): Parameter | undefined => this.host.model().parameters.find((one) => one.name === name);
+    const x = this.plane && of(this.plane.x.name);
+    return x ? { x, y: of(this.plane?.y?.name) ?? null } : null;
   }
 
   private box(): Box {
-    const left = this.plane?.y ? 62 : 14;
-    const [width, height] = [this.sheet.width - left - 12, this.sheet.height - 8 - 42];
-    return this.plane?.y ? { left, top: 8, width, height } : { left, top: 8 + height * 0.2, width, height: height * 0.6 };
-  }
-
-  /** Keeps the areas in sight as a picture, until the new map covers them. */
-  private remember(): void {
-    const view = this.window();
-    if (!this.lattice || !view || this.sheet.width < 80) return;
-    const box = { ...this.box(), left: 0, top: 0 };
-    const picture = document.createElement("canvas");
-    picture.width = Math.max(1, Math.round(box.width));
-    picture.height = Math.max(1, Math.round(box.height));
-    const g = picture.getContext("2d");
-    if (g) paintCells(g, { ...this.scene(view, box), box }, currentInks());
-    this.memory = { picture, view, outdated: this.outdated };
+    return this.picture.box(!this.plane?.y);
   }
 
   private ask(): void {
     const plane = this.plane && allowed(this.plane, this.host.model());
     if (!plane) return;
     const box = this.box();
-    const across = plane.y ? Math.min(box.width, box.height) : box.width / 2;
-    const count = Math.round(Math.max(24, Math.min(96, across / CELL)));
+    const across = plane.y ? Math.min(box.width, box.height) / CELL : box.width / 2;
+    const count = Math.round(Math.max(CELLS.least, Math.min(CELLS.most, across)));
     this.epoch++;
     this.complete = false;
     this.host.send({ do: "map", epoch: this.epoch, ...plane, count });
@@ -207,12 +163,11 @@ export class MapPanel {
   private setPlane(plane: Plane): void {
     this.plane = plane;
     this.selectors.show(this.host.model(), plane);
-    this.dirty = true;
+    this.picture.touch();
   }
 
   private choosePlane(plane: Plane): void {
-    if (this.plane && !sameAxes(plane, this.plane)) this.memory = this.lattice = null;
-    this.legend.show([], []);
+    if (this.plane && !sameAxes(plane, this.plane)) this.picture.forget();
     this.go(plane);
   }
 
@@ -232,97 +187,63 @@ export class MapPanel {
     if (this.plane) this.go(zoomed(this.plane, factor, (x - box.left) / box.width, 1 - (y - box.top) / box.height));
   }
 
-  /** The parameters under a pixel, rounded to what a pixel resolves. */
   private under(px: number, py: number): Values | null {
-    const [box, view] = [this.box(), this.window()];
-    const [x, y] = [this.parameter("x"), this.parameter("y")];
-    if (!view || !x || px < box.left || px > box.left + box.width || py < box.top || py > box.top + box.height) return null;
-    const values: Values = { [x.name]: rounded(dataX(box, view, px), (view.x1 - view.x0) / box.width, x) };
-    if (y) values[y.name] = rounded(dataY(box, view, py), (view.y1 - view.y0) / box.height, y);
-    return values;
+    const [view, sides] = [this.window(), this.sides()];
+    return view && sides && under(px, py, this.box(), view, sides);
   }
 
   private click(px: number, py: number): void {
     const values = this.under(px, py);
     if (!values) return;
-    const now = this.host.parameters();
-    if (performance.now() - this.lastClick > 400) this.beforeClick = Object.fromEntries(Object.keys(values).map((name) => [name, now[name]]));
-    this.lastClick = performance.now();
+    const [now, before] = [performance.now(), this.host.parameters()];
+    if (now - this.lastClick > DOUBLE) this.beforeClick = Object.fromEntries(Object.keys(values).map((name) => [name, before[name]]));
+    this.lastClick = now;
     this.host.choose(values);
   }
 
-  private lastClick = -Infinity;
-
   /** A double click resets the window; the clicks it consists of shall not move the body. */
   private undoClicks(): void {
-    if (Object.keys(this.beforeClick).length) this.host.choose(this.beforeClick);
+    this.host.choose(this.beforeClick);
     this.beforeClick = {};
     this.reset();
   }
 
-  private hover(px: number, py: number): void {
-    const values = this.under(px, py);
+  private hover(at: [number, number] | null): void {
+    const values = at && this.under(...at);
     if (values) this.pointAt(values);
     else this.readout.leave();
   }
 
   private pointAt(values: Values): void {
-    const [x, y] = [this.parameter("x"), this.parameter("y")];
-    if (!x) return;
-    const at: [Parameter, number][] = [[x, values[x.name]]];
-    if (y) at.push([y, values[y.name]]);
-    this.readout.point(at, this.lattice?.cell(values[x.name], y ? values[y.name] : 0) ?? null);
+    const sides = this.sides();
+    if (!sides) return;
+    const { x, y } = sides;
+    const at: [Parameter, number][] = [x, ...(y ? [y] : [])].map((side) => [side, values[side.name]]);
+    this.readout.point(at, this.picture.lattice?.cell(values[x.name], y ? values[y.name] : 0) ?? null);
   }
 
-  private key(event: KeyboardEvent): void {
-    const steps: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
-    const step = steps[event.key];
-    const box = this.box();
-    if (step) this.walk(step[0] * (event.shiftKey ? 8 : 1), step[1] * (event.shiftKey ? 8 : 1));
-    else if (event.key === "+" || event.key === "=") this.zoomAt(1.25, ...this.markPixel(box));
-    else if (event.key === "-" || event.key === "\u2212") this.zoomAt(0.8, ...this.markPixel(box));
-    else if (event.key === "0" || event.key === "Home") this.reset();
-    else return;
-    event.preventDefault();
-  }
-
-  private markPixel(box: Box): [number, number] {
-    const values = this.host.parameters();
-    const y = this.parameter("y");
-    const [px, py] = this.toPixel(values[this.parameter("x")?.name ?? ""], y ? values[y.name] : 0.5);
+  private markPixel(): [number, number] {
+    const [box, values, sides] = [this.box(), this.host.parameters(), this.sides()];
+    const [px, py] = sides ? this.toPixel(values[sides.x.name], sides.y ? values[sides.y.name] : 0.5) : [NaN, NaN];
     const within = (p: number, from: number, size: number): number => (p >= from && p <= from + size ? p : from + size / 2);
     return [within(px, box.left, box.width), within(py, box.top, box.height)];
   }
 
   /** Moves the body's parameters by whole cells. */
   private walk(columns: number, rows: number): void {
-    const [x, y, start] = [this.parameter("x"), this.parameter("y"), this.lattice?.start];
-    if (!x || !start) return;
+    const [sides, start] = [this.sides(), this.picture.lattice?.start];
+    if (!sides || !start) return;
     const now = this.host.parameters();
-    const values: Values = { [x.name]: rounded(now[x.name] + columns * start.x.step, start.x.step / 8, x) };
-    if (y && start.y) values[y.name] = rounded(now[y.name] + rows * start.y.step, start.y.step / 8, y);
+    const moved = (side: Parameter, by: number, step: number): number => rounded(now[side.name] + by * step, step / 8, side);
+    const values: Values = { [sides.x.name]: moved(sides.x, columns, start.x.step) };
+    if (sides.y && start.y) values[sides.y.name] = moved(sides.y, rows, start.y.step);
     this.host.choose(values);
     this.pointAt(values);
   }
 
-  private say(text: string, fraction: number): void {
-    setText(byId("map-progress-text"), text);
-    byId<HTMLProgressElement>("map-progress-bar").value = fraction;
-  }
-
   private showLegend(): void {
-    if (!this.lattice) return;
+    const { lattice } = this.picture;
     const regimes = this.host.regimes();
-    this.legend.show(this.lattice.occurring().map((index) => regimes[index]), this.lattice.start.lines);
+    if (lattice) this.legend.show(lattice.occurring().map((index) => regimes[index]), lattice.start.lines);
   }
-}
-
-function grouped(count: number): string {
-  return String(Math.round(count)).replace(/\B(?=(\d{3})+$)/g, "\u2009");
-}
-
-/** A value with the digits that `resolution` deserves, within what the parameter allows. */
-function rounded(value: number, resolution: number, { allowed: [low, high], whole }: Parameter): number {
-  const decimals = whole ? 0 : decimalsOf(roundStep(resolution));
-  return Math.min(high, Math.max(low, Number(value.toFixed(decimals))));
 }
