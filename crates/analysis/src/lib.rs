@@ -25,7 +25,7 @@ pub use equilibrium::RelativeEquilibrium;
 pub use error::{Error, Result};
 pub use escape::{EscapeRate, Stay, SurvivalStep, escape_rate, survival};
 pub use legs::{CornerKind, Ends, Leg, Legs, PathSample, legs};
-pub use lyapunov::{Lyapunov, LyapunovSettings, lyapunov};
+pub use lyapunov::{Lyapunov, LyapunovSettings, SoFar, lyapunov, lyapunov_followed};
 pub use periodic::PeriodicOrbit;
 pub use regime::{Attractor, Regime, Settings, Spread, Verdict, classify};
 pub use rests::{Rest, Rests, rests};

@@ -5,7 +5,7 @@
 mod common;
 
 use common::{Random, cell, full, near};
-use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings, batch_means, lyapunov};
+use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings, batch_means, lyapunov, lyapunov_followed};
 use motiform_dynamics::steppers::{DOP853, Method};
 use motiform_dynamics::{Equivariant, Orbit, Outcome, Request, StepControl, drive::drive};
 use motiform_models::tensor::Tensor;
@@ -190,4 +190,25 @@ fn a_run_that_escapes_has_no_exponents() {
     let seen = run(&full(0.1, 0.1), &Random(1).state(6, 0.01), &settings(2, 100.0, 20_000.0));
     assert!(matches!(seen.outcome, Outcome::Escaped { singular: true, .. }), "{:?}", seen.outcome);
     assert!(seen.exponents.is_empty());
+}
+
+/// Looking on changes nothing, and what is seen ends in the result.
+#[test]
+fn a_run_that_is_followed_is_the_same_run() {
+    let settings = settings(3, 20.0, 400.0);
+    let start = [1.0, 1.0, 20.0];
+    let alone = run(&Lorenz::default(), &start, &settings);
+    let mut seen = Vec::new();
+    let followed = lyapunov_followed(&Lorenz::default(), &start, &settings, &mut (), &mut |so_far| {
+        seen.push((so_far.time(), so_far.exponents()));
+    });
+    assert_eq!(followed.unwrap(), alone);
+    assert_eq!(seen.len(), alone.history.len());
+    assert!(seen.windows(2).all(|pair| pair[0].0 < pair[1].0));
+    let (time, last) = seen.pop().unwrap();
+    assert!((time - alone.time).abs() < 1e-9);
+    for (seen, result) in last.unwrap().iter().zip(&alone.exponents) {
+        assert_eq!(seen.value.to_bits(), result.value.to_bits());
+        assert!(seen.error <= result.error);
+    }
 }

@@ -4,6 +4,8 @@ mod help;
 mod subject;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+#[cfg(feature = "explorer")]
+use help::EXPLORE_HELP;
 use help::{CLASSIFY_HELP, EXAMPLES, LYAPUNOV_HELP, REPRODUCE_HELP, SCAN_HELP, SIMULATE_HELP};
 use std::path::PathBuf;
 pub(crate) use subject::{MethodOptions, SamplesOptions, SubjectOptions};
@@ -39,6 +41,10 @@ pub(crate) enum Command {
     /// Rebuild the paper: every figure, every claim, one HTML report
     #[command(after_help = REPRODUCE_HELP)]
     Reproduce(ReproduceOptions),
+    /// Play with the models in a browser: a map of motions, and a body that moves where you point
+    #[cfg(feature = "explorer")]
+    #[command(after_help = EXPLORE_HELP)]
+    Explore(ExploreOptions),
     /// Check a study file and print the plan it stands for, without computing
     Check(CheckOptions),
     /// Draw the figures of datasets and scans again, without computing
@@ -160,6 +166,23 @@ pub(crate) struct ReproduceOptions {
     /// Print the claims as one JSON object
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[cfg(feature = "explorer")]
+#[derive(Args)]
+pub(crate) struct ExploreOptions {
+    /// Begin with this preset, e.g. fig5a
+    #[arg(long, value_name = "NAME")]
+    pub(crate) preset: Option<String>,
+    /// Port on this machine (default: 7373, or any free one)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..), allow_hyphen_values = true)]
+    pub(crate) port: Option<u16>,
+    /// The secret part of the address (default: a new random one); with that of an earlier start its open pages go on
+    #[arg(long, value_name = "TOKEN")]
+    pub(crate) token: Option<String>,
+    /// Print the address without opening a browser
+    #[arg(long)]
+    pub(crate) no_open: bool,
 }
 
 #[derive(Args)]

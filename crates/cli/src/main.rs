@@ -21,6 +21,8 @@ fn main() -> ExitCode {
         Command::Classify(options) => commands::classify::run(&options),
         Command::Lyapunov(options) => commands::lyapunov::run(&options),
         Command::Reproduce(options) => commands::reproduce::run(&options),
+        #[cfg(feature = "explorer")]
+        Command::Explore(options) => commands::explore::run(&options),
         Command::Check(options) => commands::check::run(&options),
         Command::Figure(options) => commands::figure::run(&options),
         Command::Completions(options) => commands::completions::run(&options),

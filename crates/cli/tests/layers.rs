@@ -5,13 +5,17 @@
 use cargo_metadata::{DependencyKind, MetadataCommand};
 
 /// Each crate, and the crates below it that it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &[&str]); 8] = [
+const LAYERS: [(&str, &[&str]); 9] = [
     ("motiform-dynamics", &[]),
     ("motiform-models", &["motiform-dynamics"]),
     ("motiform-analysis", &["motiform-dynamics"]),
     ("motiform-kernels", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
     ("motiform-study", &["motiform-analysis", "motiform-dynamics", "motiform-kernels", "motiform-models"]),
-    ("motiform", &["motiform-analysis", "motiform-dynamics", "motiform-models", "motiform-study"]),
+    ("motiform-explorer", &["motiform-analysis", "motiform-dynamics", "motiform-models", "motiform-study"]),
+    (
+        "motiform",
+        &["motiform-analysis", "motiform-dynamics", "motiform-explorer", "motiform-models", "motiform-study"],
+    ),
     ("motiform-py", &["motiform-analysis", "motiform-dynamics", "motiform-models", "motiform-study"]),
     ("xtask", &[]),
 ];

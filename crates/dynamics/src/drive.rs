@@ -80,12 +80,17 @@ pub fn drive<O: Integration + ?Sized>(
     request: &Request<'_>,
     sink: &mut dyn Sink,
 ) -> Result<Outcome, Error> {
-    request.validate(orbit.t())?;
-    Ok(Run::new(orbit, request).finish(orbit, request, sink))
+    let mut run = Run::new(orbit, request, sink)?;
+    loop {
+        if let ControlFlow::Break(outcome) = run.step(orbit, request, sink) {
+            return Ok(outcome);
+        }
+    }
 }
 
-/// The state of a run between steps.
-struct Run {
+/// A run under way, one step at a time: for one who decides between the steps whether there is another. [`drive`] is this loop
+/// and nothing else.
+pub struct Run {
     start: f64,
     next_sample: u64,
     watchers: Vec<Watcher>,
@@ -95,60 +100,79 @@ struct Run {
 }
 
 impl Run {
-    fn new<O: Integration + ?Sized>(orbit: &O, request: &Request<'_>) -> Self {
+    /// A run from the present state of `orbit`, which is its first sample where samples are asked for.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a request that makes no sense.
+    pub fn new<O: Integration + ?Sized>(
+        orbit: &O,
+        request: &Request<'_>,
+        sink: &mut dyn Sink,
+    ) -> Result<Self, Error> {
+        request.validate(orbit.t())?;
+        if request.sample_every.is_some() {
+            sink.sample(orbit.t(), orbit.state());
+        }
         let watcher = |section| Watcher::new(section, orbit.t(), orbit.state());
-        Self {
+        Ok(Self {
             start: orbit.t(),
-            next_sample: 0,
+            next_sample: 1,
             watchers: request.sections.iter().map(watcher).collect(),
             growth: GrowthLaw::default(),
             state: orbit.state().to_vec(),
             found: Vec::with_capacity(16),
-        }
+        })
     }
 
-    fn finish<O: Integration + ?Sized>(
-        mut self,
+    /// One step of `orbit`, the same as before, for the same request; `Break` if the run is over, before or with it.
+    pub fn step<O: Integration + ?Sized>(
+        &mut self,
         orbit: &mut O,
         request: &Request<'_>,
         sink: &mut dyn Sink,
+    ) -> ControlFlow<Outcome> {
+        if orbit.t() >= request.t_end.min(request.stop_after) {
+            return ControlFlow::Break(Outcome::Completed { t: orbit.t() });
+        }
+        let work = orbit.counters();
+        if work.steps + work.rejected >= request.max_steps {
+            return ControlFlow::Break(Outcome::StepBudget { t: orbit.t(), steps: work.steps });
+        }
+        if let Err(failure) = orbit.advance(request.t_end) {
+            return ControlFlow::Break(self.failed(orbit, request, failure));
+        }
+        if let Some(t) = self.cross(orbit, request, sink) {
+            return ControlFlow::Break(Outcome::Stopped { t });
+        }
+        sink.step(orbit.t(), orbit.state(), orbit.slope());
+        self.sample(orbit, request, sink, orbit.t());
+        let watched = ..request.watched;
+        self.growth.observe(orbit.t(), &orbit.state()[watched], &orbit.slope()[watched]);
+        if norm(&orbit.state()[watched]) > request.escape_norm {
+            return ControlFlow::Break(self.left(orbit, request));
+        }
+        if sink.tick(orbit.t()).is_break() {
+            return ControlFlow::Break(Outcome::Interrupted { t: orbit.t() });
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// The outcome of a run whose step could not be taken.
+    fn failed<O: Integration + ?Sized>(
+        &self,
+        orbit: &O,
+        request: &Request<'_>,
+        failure: StepFailure,
     ) -> Outcome {
-        if request.sample_every.is_some() {
-            sink.sample(orbit.t(), orbit.state());
-            self.next_sample = 1;
-        }
-        while orbit.t() < request.t_end.min(request.stop_after) {
-            let work = orbit.counters();
-            if work.steps + work.rejected >= request.max_steps {
-                return Outcome::StepBudget { t: orbit.t(), steps: work.steps };
+        match failure {
+            StepFailure::Underflow { step } => {
+                self.escaped(orbit, request).unwrap_or(Outcome::StepUnderflow { t: orbit.t(), step })
             }
-            match orbit.advance(request.t_end) {
-                Ok(()) => {}
-                Err(StepFailure::Underflow { step }) => {
-                    return self
-                        .escaped(orbit, request)
-                        .unwrap_or(Outcome::StepUnderflow { t: orbit.t(), step });
-                }
-                Err(StepFailure::NotFinite) => return self.left(orbit, request),
-                Err(StepFailure::Obstacle(Obstacle::Closure { residual })) => {
-                    return Outcome::ClosureFailed { t: orbit.t(), residual };
-                }
-            }
-            if let Some(t) = self.cross(orbit, request, sink) {
-                return Outcome::Stopped { t };
-            }
-            sink.step(orbit.t(), orbit.state(), orbit.slope());
-            self.sample(orbit, request, sink, orbit.t());
-            let watched = ..request.watched;
-            self.growth.observe(orbit.t(), &orbit.state()[watched], &orbit.slope()[watched]);
-            if norm(&orbit.state()[watched]) > request.escape_norm {
-                return self.left(orbit, request);
-            }
-            if sink.tick(orbit.t()).is_break() {
-                return Outcome::Interrupted { t: orbit.t() };
+            StepFailure::NotFinite => self.left(orbit, request),
+            StepFailure::Obstacle(Obstacle::Closure { residual }) => {
+                Outcome::ClosureFailed { t: orbit.t(), residual }
             }
         }
-        Outcome::Completed { t: orbit.t() }
     }
 
     /// Hands over the samples of the last step up to time `until`.

@@ -4,7 +4,7 @@ use crate::plan::{Control, check_no_noise};
 use crate::simulate::Monitor;
 use crate::{Error, Plan};
 use motiform_analysis::regime::{Settings, Verdict};
-use motiform_analysis::{Lyapunov, LyapunovSettings};
+use motiform_analysis::{Lyapunov, LyapunovSettings, SoFar};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Model, Sink};
 use motiform_models::ModelInfo;
@@ -61,10 +61,24 @@ pub fn lyapunov(
     (transient, t_end): (Option<f64>, Option<f64>),
     monitor: &dyn Monitor,
 ) -> Result<Lyapunov, Error> {
+    lyapunov_followed(plan, count, (transient, t_end), monitor, &mut |_| {})
+}
+
+/// As [`lyapunov`], shown to `follow` while it is averaged.
+///
+/// # Errors
+/// As [`lyapunov`].
+pub fn lyapunov_followed(
+    plan: &Plan,
+    count: usize,
+    times: (Option<f64>, Option<f64>),
+    monitor: &dyn Monitor,
+    follow: &mut dyn FnMut(SoFar<'_>),
+) -> Result<Lyapunov, Error> {
     let (model, shape) = start(plan)?;
-    let settings = lyapunov_settings(plan, count, (transient, t_end))?;
+    let settings = lyapunov_settings(plan, count, times)?;
     let mut stop = Stop::over(monitor, settings.transient + settings.span);
-    Ok(motiform_analysis::lyapunov(model.as_ref(), &shape, &settings, &mut stop)?)
+    Ok(motiform_analysis::lyapunov_followed(model.as_ref(), &shape, &settings, &mut stop, follow)?)
 }
 
 /// What [`lyapunov`] computes for a plan.

@@ -83,6 +83,17 @@ pub enum Control {
     Fixed { step: f64 },
 }
 
+impl Control {
+    /// The absolute tolerance; 0 for fixed steps.
+    #[must_use]
+    pub fn absolute_tolerance(self) -> f64 {
+        match self {
+            Self::Adaptive { atol, .. } => atol,
+            Self::Fixed { .. } => 0.0,
+        }
+    }
+}
+
 impl From<Control> for StepControl {
     fn from(control: Control) -> Self {
         match control {

@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::dataset::{Dataset, Manifest, VERSION};
+use crate::live::start;
 use crate::plan::{Computation, Control, Named, NoiseSettings, Plan};
 use crate::study::ReturnMapSettings;
 use crate::table::Table;
@@ -91,7 +92,9 @@ impl Run<'_> {
             return Ok(self.dataset(&first, None));
         }
         // The flow does not depend on the position: the second pass is the first one, moved.
-        let centre = centre_of(&first.trajectory);
+        let path = first.trajectory.iter().map(|(t, u)| (t, [u[u.len() - 2], u[u.len() - 1]]));
+        let end = first.trajectory.times().last().copied().unwrap_or(1.0);
+        let centre = centre_of(path, 0.0, end);
         let mut moved = start;
         let place = moved.len() - 2;
         moved[place] -= centre[0];
@@ -103,13 +106,13 @@ impl Run<'_> {
     /// The start after the transient, position put back; or how the run ended before it was over.
     fn transient(&self, passes: f64) -> Result<(Option<Outcome>, Vec<f64>), Error> {
         let c = self.computation;
-        let mut u = self.start();
+        let mut u = start(self.plan, self.model);
         if c.transient == 0.0 {
             return Ok((None, u));
         }
         let shape = ..u.len() - 2;
         let orbit = self.plan.method()?.shape_orbit(self.model, c.control.into(), -c.transient, &u[shape])?;
-        let mut orbit = self.noisy(orbit, 0)?;
+        let mut orbit = noisy(c, orbit, self.model.dim(), 0)?;
         let total = c.transient + passes * c.t_end;
         let mut sink = Watched {
             trajectory: None,
@@ -123,14 +126,6 @@ impl Run<'_> {
         let outcome = drive(orbit.as_mut(), &request, &mut sink)?;
         u[shape].copy_from_slice(orbit.state());
         Ok(((!outcome.is_complete()).then_some(outcome), u))
-    }
-
-    fn start(&self) -> Vec<f64> {
-        let values = self.computation.initial.values();
-        let mut u = values.clone();
-        let shape = values.len() - 2;
-        self.model.encode(&values[..shape], &mut u[..shape]);
-        u
     }
 
     fn request<'g>(&self, sections: &'g [Section<'g>]) -> Request<'g> {
@@ -147,7 +142,7 @@ impl Run<'_> {
     fn record(&self, start: &[f64], passes: f64, pass: f64) -> Result<Recording, Error> {
         let c = self.computation;
         let orbit = self.plan.method()?.orbit(self.body, c.control.into(), 0.0, start)?;
-        let mut orbit = self.noisy(orbit, 1)?;
+        let mut orbit = noisy(c, orbit, self.model.dim(), 1)?;
         let mut trajectory = Trajectory::new(start.len());
         let height = c.return_map.as_ref().map_or(0.0, |map| map.y);
         let above = |_t: f64, u: &[f64]| u[u.len() - 1] - height;
@@ -168,19 +163,6 @@ impl Run<'_> {
         let counters = orbit.counters();
         let last = orbit.state().to_vec();
         Ok(Recording { outcome, trajectory, last, steps: counters.steps, rejected: counters.rejected })
-    }
-
-    /// The orbit with the plan's noise, if it has any; transient (0) and recording (1) have a stream of deviates each, far
-    /// from those of the starts.
-    fn noisy<'o>(
-        &self,
-        orbit: Box<dyn Integration + 'o>,
-        stretch: u64,
-    ) -> Result<Box<dyn Integration + 'o>, Error> {
-        let Some(NoiseSettings { amplitude, every }) = self.computation.noise else { return Ok(orbit) };
-        let noise = Noise { amplitude, every, entries: self.model.dim() };
-        let normal = Normal::new(self.computation.seed, u64::MAX - stretch);
-        Ok(Box::new(NoisyOrbit::new(orbit, noise, normal)?))
     }
 
     /// The local error of a fixed step at the end of the run, by halving it; `None` for adaptive steps, and where the
@@ -231,8 +213,21 @@ impl Run<'_> {
     }
 }
 
+/// The orbit with the plan's noise on its leading `entries`, if it has any. Every stretch has a stream of deviates of its own, far
+/// from those of the starts: a run's transient is number 0, its recording 1.
+pub(crate) fn noisy<'o>(
+    computation: &Computation,
+    orbit: Box<dyn Integration + 'o>,
+    entries: usize,
+    stretch: u64,
+) -> Result<Box<dyn Integration + 'o>, Error> {
+    let Some(NoiseSettings { amplitude, every }) = computation.noise else { return Ok(orbit) };
+    let normal = Normal::new(computation.seed, u64::MAX - stretch);
+    Ok(Box::new(NoisyOrbit::new(orbit, Noise { amplitude, every, entries }, normal)?))
+}
+
 /// The norm of a finite state may overflow. Files hold no infinity: it becomes the largest number.
-fn finite(outcome: Outcome) -> Outcome {
+pub(crate) fn finite(outcome: Outcome) -> Outcome {
     match outcome {
         Outcome::Escaped { t, norm, singular, t_last } => {
             Outcome::Escaped { t, norm: norm.min(f64::MAX), singular, t_last }
@@ -278,22 +273,21 @@ impl Sink for Watched<'_> {
 
 /// The time average of the position with a smooth window that vanishes with all its derivatives at both ends: for a
 /// periodic or quasi-periodic path it converges to the centre faster than any power of the time.
-fn centre_of(trajectory: &Trajectory) -> [f64; 2] {
-    let span = trajectory.times().last().copied().unwrap_or(1.0);
+pub(crate) fn centre_of(path: impl Iterator<Item = (f64, [f64; 2])>, start: f64, end: f64) -> [f64; 2] {
     let (mut weight_sum, mut centre) = (0.0, [0.0; 2]);
-    for (t, u) in trajectory.iter() {
-        let s = t / span;
+    for (t, [x, y]) in path {
+        let s = (t - start) / (end - start);
         let weight = if s > 0.0 && s < 1.0 { libm::exp(-1.0 / (s * (1.0 - s))) } else { 0.0 };
         weight_sum += weight;
-        centre[0] += weight * u[u.len() - 2];
-        centre[1] += weight * u[u.len() - 1];
+        centre[0] += weight * x;
+        centre[1] += weight * y;
     }
     if weight_sum > 0.0 { centre.map(|sum| sum / weight_sum) } else { [0.0; 2] }
 }
 
 /// The trajectory as a table, with what is read off it.
-fn motion(model: &dyn Model, trajectory: &Trajectory, control: Control) -> Table {
-    let atol = if let Control::Adaptive { atol, .. } = control { atol } else { 0.0 };
+pub(crate) fn motion(model: &dyn Model, trajectory: &Trajectory, control: Control) -> Table {
+    let atol = control.absolute_tolerance();
     let shape = ..model.dim();
     let rows = trajectory.len();
     let read = |of: &dyn Fn(&[f64]) -> f64| -> Vec<f64> { trajectory.iter().map(|(_, u)| of(u)).collect() };
@@ -315,11 +309,9 @@ fn motion(model: &dyn Model, trajectory: &Trajectory, control: Control) -> Table
         for (column, &value) in columns.zip(named.iter().chain(&seen).chain(&boundary)) {
             column.push(value);
         }
-        let (v, a) = velocity_and_acceleration(model, &u[shape]);
-        let size = libm::hypot(v[0], v[1]);
+        let (size, rate) = pace(model, &u[shape], atol);
         speed.push(size);
-        let moves = size > model.speed_resolution(&u[shape], atol);
-        turning.push(turning_rate(v, a).filter(|_| moves).unwrap_or(f64::NAN));
+        turning.push(rate);
     }
     for (coordinate, values) in model.coordinates().iter().zip(coordinates) {
         table.push(coordinate.name, coordinate.meaning, values);
@@ -339,8 +331,16 @@ fn motion(model: &dyn Model, trajectory: &Trajectory, control: Control) -> Table
     table
 }
 
+/// Speed and turning rate of a shape; the latter is NaN at rest: below what a run with absolute tolerance `atol` resolves.
+pub(crate) fn pace(model: &dyn Model, shape: &[f64], atol: f64) -> (f64, f64) {
+    let (v, a) = velocity_and_acceleration(model, shape);
+    let speed = libm::hypot(v[0], v[1]);
+    let moves = speed > model.speed_resolution(shape, atol);
+    (speed, turning_rate(v, a).filter(|_| moves).unwrap_or(f64::NAN))
+}
+
 /// The measures of a shape that are defined, by name.
-fn measures(model: &dyn Model, shape: &[f64]) -> Named {
+pub(crate) fn measures(model: &dyn Model, shape: &[f64]) -> Named {
     let mut values = vec![0.0; model.measures().len()];
     model.measure(shape, &mut values);
     let names = model.measures().iter().map(|measure| measure.name.to_owned());

@@ -112,6 +112,41 @@ pub fn lyapunov<B: Equivariant + ?Sized>(
     settings: &LyapunovSettings,
     watch: &mut dyn Sink,
 ) -> Result<Lyapunov> {
+    lyapunov_followed(body, start, settings, watch, &mut |_| {})
+}
+
+/// The exponents of a run that is still going on.
+#[derive(Clone, Copy, Debug)]
+pub struct SoFar<'r> {
+    history: &'r [(f64, Vec<f64>)],
+    begun: f64,
+}
+
+impl SoFar<'_> {
+    /// Time averaged over.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.history.last().map_or(0.0, |last| last.0 - self.begun)
+    }
+
+    /// The exponents with their errors, as in [`Lyapunov`]; `None` while there are too few intervals for an error.
+    #[must_use]
+    pub fn exponents(&self) -> Option<Vec<Estimate>> {
+        means(self.history, self.begun, 0.0).ok().filter(|all| !all.is_empty())
+    }
+}
+
+/// As [`lyapunov`], the same numbers; `follow` is shown after every interval of the average what they are so far.
+///
+/// # Errors
+/// As [`lyapunov`].
+pub fn lyapunov_followed<B: Equivariant + ?Sized>(
+    body: &B,
+    start: &[f64],
+    settings: &LyapunovSettings,
+    watch: &mut dyn Sink,
+    follow: &mut dyn FnMut(SoFar<'_>),
+) -> Result<Lyapunov> {
     let tangent = Tangent::new(body, settings.count);
     let mut protocol = Protocol::new(settings, start.len());
     let state = first_state(start, settings.count);
@@ -137,6 +172,9 @@ pub fn lyapunov<B: Equivariant + ?Sized>(
         let lost = frame::orthonormalise(Mask::only(0), start.len(), vectors, vector_rates, &mut lengths);
         let speed = reduced_speed(body, shape, rate);
         stretch = protocol.stretched(orbit.t(), &lengths, speed, orbit.counters().steps);
+        if let Some(so_far) = protocol.so_far() {
+            follow(so_far);
+        }
         if lost.any() { orbit.restart(&state) } else { orbit.restart_with(&state, &rates) }
     }
     let steps = orbit.counters().steps;

@@ -1,6 +1,6 @@
 //! When tangent vectors are made orthonormal, and what they have grown by: the same for one orbit and for a lane of many.
 
-use super::{Lyapunov, LyapunovSettings, means, neutral_directions};
+use super::{Lyapunov, LyapunovSettings, SoFar, means, neutral_directions};
 use crate::Result;
 use motiform_dynamics::{Equivariant, Outcome, StepControl};
 
@@ -76,6 +76,11 @@ impl Protocol {
             self.adjust(lengths);
         }
         self.next(t, steps)
+    }
+
+    /// What there is of the averages; `None` before they begin.
+    pub(crate) fn so_far(&self) -> Option<SoFar<'_>> {
+        (!self.history.is_empty()).then_some(SoFar { history: &self.history, begun: self.begun })
     }
 
     /// Stretches half or twice as long, by how far the vectors have parted.

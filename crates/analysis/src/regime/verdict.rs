@@ -61,6 +61,28 @@ impl Regime {
         }
     }
 
+    /// What a body does in it, in one sentence.
+    #[must_use]
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Self::Motionless => "A fixed shape at rest: a circle, or a deformed body.",
+            Self::Straight => "A fixed shape that moves without turning.",
+            Self::Circular => "A fixed shape that turns at a constant rate.",
+            Self::Rectangular => {
+                "Straight runs, rests, and turns in between: a cycle between motionless shapes."
+            }
+            Self::QuasiPeriodic => {
+                "A shape that repeats up to a rotation and turns on the whole: a rosette that never closes."
+            }
+            Self::Zigzag => {
+                "A shape that repeats up to a rotation and does not turn on the whole: the body travels on."
+            }
+            Self::Chaotic => "Neighbouring motions part: the largest Lyapunov exponent is positive.",
+            Self::BlowUp => "The shape leaves every bound in finite time.",
+            Self::Undetermined => "The evidence does not decide.",
+        }
+    }
+
     /// The regime of this name.
     #[must_use]
     pub fn find(name: &str) -> Option<Self> {

@@ -3,6 +3,7 @@
 pub(super) const EXAMPLES: &str = "\
 Start here:
   motiform simulate tensor --preset fig5a       a zigzagging domain: numbers, figures, animation
+  motiform explore                              play with the models in a browser
   motiform models tensor                        its equations, parameters and presets
 
 Exit codes: 0 done; 1 finished, but some result is not what was asked (a run escaped, a disk is full);
@@ -70,3 +71,14 @@ Examples:
 
 Errors are half widths of 95 % confidence intervals. The exponents that must be zero (the flow's own direction and
 the rotations') are a self-check. A run that escapes has no exponents: ask for the chaotic saddle's.";
+
+#[cfg(feature = "explorer")]
+pub(super) const EXPLORE_HELP: &str = "\
+Examples:
+  motiform explore
+  motiform explore --preset fig3
+  motiform explore --port 8080 --no-open
+
+The page: a map of motions over two parameters (click into it), the body in motion, its speed, spectrum, return map and
+Lyapunov exponents, and a slider for every parameter. The server is for this machine alone: it listens on 127.0.0.1, its
+address holds a secret, and a page can neither read nor write files. Over ssh: ssh -L 7373:127.0.0.1:7373 HOST.";

@@ -3,6 +3,8 @@
 pub(crate) mod check;
 pub(crate) mod classify;
 pub(crate) mod completions;
+#[cfg(feature = "explorer")]
+pub(crate) mod explore;
 pub(crate) mod figure;
 pub(crate) mod lyapunov;
 pub(crate) mod merge;

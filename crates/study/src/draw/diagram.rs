@@ -54,7 +54,7 @@ pub fn phase_diagram(plan: &ScanPlan, cells: &[CellSummary]) -> Result<PhaseDiag
         x: values(axes.first()),
         y: values(axes.get(1)),
         cells: cells.iter().map(cell).collect(),
-        lines: lines(plan),
+        lines: boundary_lines(plan),
     })
 }
 
@@ -146,8 +146,9 @@ fn reduced(plan: &ScanPlan) -> Option<Reduced> {
     (named("kappa2") && named("gamma")).then(|| Reduced::of(&parameters))?
 }
 
-/// The analytic lines over a scan; none for other models and planes.
-fn lines(plan: &ScanPlan) -> Vec<BoundaryLine> {
+/// The analytic lines over a scan of the reduced tensor model over (kappa2, gamma); none for other models and planes.
+#[must_use]
+pub fn boundary_lines(plan: &ScanPlan) -> Vec<BoundaryLine> {
     let Some(reduced) = reduced(plan) else { return Vec::new() };
     let axes = &plan.computation.axes;
     let swapped = axes[0].name == "gamma";

@@ -3,6 +3,7 @@
 mod body;
 mod diagram;
 mod film;
+pub mod live;
 mod path;
 mod return_map;
 mod series;
@@ -14,7 +15,7 @@ use crate::figures::{DEFAULT_SCALE, png};
 use crate::{Dataset, Error};
 use body::Body;
 pub use body::radius_for;
-pub use diagram::{draw_scan, exponents, phase_diagram};
+pub use diagram::{boundary_lines, draw_scan, exponents, phase_diagram};
 pub(crate) use words::number;
 
 /// A file ready to be written.
@@ -62,6 +63,31 @@ fn stills(body: &Body<'_>, pdf: bool) -> Result<Vec<Picture>, Error> {
 /// The still figures of a dataset as SVG, by name: what [`draw`] makes files of.
 pub(crate) fn stills_as_svg(dataset: &Dataset) -> Result<Vec<(&'static str, String)>, Error> {
     drawings(&Body::new(dataset)?)
+}
+
+/// One still figure of a dataset as SVG: `path` or `series`; `None` for other names, and with fewer than two rows.
+///
+/// # Errors
+/// As [`draw`].
+pub fn still(dataset: &Dataset, name: &str) -> Result<Option<String>, Error> {
+    let body = Body::new(dataset)?;
+    if body.rows().len() < 2 {
+        return Ok(None);
+    }
+    Ok(match name {
+        "path" => Some(path::figure(&body).svg()?),
+        "series" => Some(series::figure(&body).svg()?),
+        _ => None,
+    })
+}
+
+/// The animation of a dataset as an animated PNG; `None` with fewer than two rows.
+///
+/// # Errors
+/// As [`draw`].
+pub fn film(dataset: &Dataset) -> Result<Option<Vec<u8>>, Error> {
+    let body = Body::new(dataset)?;
+    Ok(if body.rows().len() < 2 { None } else { Some(film::animation(&body).apng()?) })
 }
 
 fn drawings(body: &Body<'_>) -> Result<Vec<(&'static str, String)>, Error> {

@@ -8,20 +8,32 @@ use std::path::Path;
 pub(super) fn write(table: &Table, path: &Path) -> Result<(), Error> {
     let failed = |error: std::io::Error| Error::write_failed(path, error);
     let mut out = BufWriter::new(std::fs::File::create(path).map_err(failed)?);
+    write_to(table, &mut out).map_err(failed)?;
+    out.into_inner().map_err(|error| failed(error.into_error()))?.sync_all().map_err(failed)
+}
+
+/// The text of a table's CSV file.
+#[must_use]
+pub fn table_to_csv(table: &Table) -> Vec<u8> {
+    let mut text = Vec::new();
+    let _ = write_to(table, &mut text); // writing into memory does not fail
+    text
+}
+
+fn write_to(table: &Table, out: &mut impl Write) -> std::io::Result<()> {
     let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
-    writeln!(out, "{}", names.join(",")).map_err(failed)?;
+    writeln!(out, "{}", names.join(","))?;
     // Readers skip an empty line, so the only field of a row is quoted where it is empty.
     let undefined = if table.columns.len() == 1 { "\"\"" } else { "" };
     for row in 0..table.rows() {
         for (place, column) in table.columns.iter().enumerate() {
             let comma = if place == 0 { "" } else { "," };
             let value = column.values[row];
-            if value.is_nan() { write!(out, "{comma}{undefined}") } else { write!(out, "{comma}{value:?}") }
-                .map_err(failed)?;
+            if value.is_nan() { write!(out, "{comma}{undefined}") } else { write!(out, "{comma}{value:?}") }?;
         }
-        writeln!(out).map_err(failed)?;
+        writeln!(out)?;
     }
-    out.into_inner().map_err(|error| failed(error.into_error()))?.sync_all().map_err(failed)
+    Ok(())
 }
 
 pub(super) fn read(path: &Path) -> Result<Table, Error> {

@@ -61,6 +61,28 @@ impl Column {
     }
 }
 
+/// The columns as CSV: a header line, shortest round-trip numbers, an empty field where a number is undefined.
+pub(super) fn to_csv(columns: &[Column]) -> Vec<u8> {
+    let rows = columns.first().map_or(0, |column| match &column.values {
+        Values::Whole(values) => values.len(),
+        Values::Number(values) => values.len(),
+        Values::Text(values) => values.len(),
+    });
+    let field = |column: &Column, row: usize| match &column.values {
+        Values::Whole(values) => values[row].to_string(),
+        Values::Number(values) if values[row].is_nan() => String::new(),
+        Values::Number(values) => format!("{:?}", values[row]),
+        Values::Text(values) => values[row].clone(),
+    };
+    let mut out = csv::Writer::from_writer(Vec::new());
+    // Writing into memory does not fail, and every record has as many fields as the first.
+    let _ = out.write_record(columns.iter().map(|column| &column.name));
+    for row in 0..rows {
+        let _ = out.write_record(columns.iter().map(|column| field(column, row)));
+    }
+    out.into_inner().unwrap_or_default()
+}
+
 /// The file, with these entries in its metadata. The same columns give the same bytes.
 pub(super) fn encode(columns: &[Column], mut metadata: Vec<(&str, String)>) -> Result<Vec<u8>> {
     let fields = columns.iter().map(Column::schema).collect::<Result<Vec<_>>>()?;

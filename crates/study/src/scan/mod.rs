@@ -29,7 +29,7 @@ pub use folder::{ScanFolder, ScanManifest, default_folder};
 pub use merge::{Merged, merge};
 pub use part::{PartError, Parts, read_part};
 pub use plan::{SCAN_FORMAT, ScanComputation, ScanPlan};
-pub use rows::{NUMBERS, Row};
+pub use rows::{NUMBERS, Row, rows_to_csv};
 pub use run::{Opening, Scan};
 pub use shard::Shard;
 pub use summary::{CellSummary, Motion, Totals, cells, for_each_part};

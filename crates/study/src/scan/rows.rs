@@ -1,7 +1,8 @@
 //! A row of a scan: one cell, one initial state, its verdict.
 
 use super::ScanPlan;
-use super::columns::{Column, Values};
+use super::columns::{Column, Values, to_csv};
+use crate::Error;
 use motiform_analysis::regime::{Attractor, Regime, Verdict};
 
 /// The numbers of a row, in file order: name and meaning.
@@ -67,6 +68,20 @@ impl Row {
         Self { cell, sample, regime: v.regime, attractor: v.attractor, numbers, why: verdict.why }
     }
 
+    /// The row of an evaluation: `None` if it was stopped; what the numerics refuse is a row that says so.
+    #[must_use]
+    pub fn of_evaluation(
+        cell: usize,
+        sample: usize,
+        verdict: Result<Option<Verdict>, Error>,
+    ) -> Option<Self> {
+        let verdict = verdict.unwrap_or_else(|error| {
+            let why = format!("refused: {error}");
+            Some(Verdict::new(Regime::Undetermined, Attractor::Unknown, why, 0.0))
+        });
+        verdict.map(|verdict| Self::new(cell, sample, verdict))
+    }
+
     /// A number by its name in [`NUMBERS`]; `None` where it has no meaning.
     #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
@@ -111,6 +126,12 @@ pub(super) fn to_columns(plan: &ScanPlan, rows: &[Row]) -> Vec<Column> {
     }
     columns.push(Column::new("why", "the evidence in one sentence", text(|row| &row.why)));
     columns
+}
+
+/// Rows of a plan as the text of a CSV file, with the columns of a part.
+#[must_use]
+pub fn rows_to_csv(plan: &ScanPlan, rows: &[Row]) -> Vec<u8> {
+    to_csv(&to_columns(plan, rows))
 }
 
 /// The inverse of [`to_columns`]; `None` where the columns are not those of a part of this plan.

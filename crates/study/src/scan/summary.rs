@@ -73,6 +73,12 @@ pub struct CellSummary {
 }
 
 impl CellSummary {
+    /// The summary of the rows of one cell, at least one.
+    #[must_use]
+    pub fn of(cell: usize, rows: &[Row]) -> Self {
+        Self { cell, rows: rows.len(), motions: motions(rows) }
+    }
+
     /// The motions by name with their shares, as diagrams take them.
     #[must_use]
     pub fn shares(&self) -> Vec<(String, f64)> {
@@ -114,7 +120,7 @@ pub fn cells(folder: &ScanFolder) -> Result<Vec<Option<CellSummary>>, Error> {
         for rows in rows.chunk_by(|a, b| a.cell == b.cell) {
             let cell = rows[0].cell;
             if let Some(place) = all.get_mut(cell) {
-                *place = Some(CellSummary { cell, rows: rows.len(), motions: motions(rows) });
+                *place = Some(CellSummary::of(cell, rows));
             }
         }
     })?;

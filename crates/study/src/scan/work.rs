@@ -5,7 +5,7 @@ use super::queue::{Job, Queue, held};
 use super::{Row, ScanPlan};
 use crate::Error;
 use crate::simulate::Monitor;
-use motiform_analysis::regime::{Attractor, Regime, Verdict};
+use motiform_analysis::regime::Verdict;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -103,20 +103,11 @@ pub fn rows_of(
     let mut done = |number: usize, verdict| {
         let (cell, sample) = place(number);
         rows.resize_with(rows.len().max(number + 1), || None);
-        rows[number] = row(cell, sample, verdict);
+        rows[number] = Row::of_evaluation(cell, sample, verdict);
     };
     evaluate.evaluate_all(plan, &mut next, &mut done, monitor);
     let whole = !monitor.stopped() && rows.len() == given.into_inner();
     rows.into_iter().collect::<Option<Vec<_>>>().filter(|_| whole)
-}
-
-/// The row of a verdict; none, if it was stopped. What the numerics refuse is a row that says so.
-fn row(cell: usize, sample: usize, verdict: Result<Option<Verdict>, Error>) -> Option<Row> {
-    let verdict = verdict.unwrap_or_else(|error| {
-        let why = format!("refused: {error}");
-        Some(Verdict::new(Regime::Undetermined, Attractor::Unknown, why, 0.0))
-    });
-    verdict.map(|verdict| Row::new(cell, sample, verdict))
 }
 
 /// What the threads share.
@@ -163,7 +154,7 @@ impl Work<'_> {
 
     /// Takes in the verdict on a row.
     fn done(&self, job: &Job, verdict: Result<Option<Verdict>, Error>) {
-        let Some(row) = row(job.cell, job.sample, verdict) else { return };
+        let Some(row) = Row::of_evaluation(job.cell, job.sample, verdict) else { return };
         let count = self.held.fetch_add(1, Ordering::Relaxed) + 1;
         self.most.fetch_max(count, Ordering::Relaxed);
         if let Some(rows) = job.done(row) {

@@ -1,0 +1,169 @@
+//! What can be read off the recorded motion: strips for the page, files to keep.
+
+use super::setting::Setting;
+use crate::export::{Made, Maker};
+use crate::motion::History;
+use crate::protocol::{Export, Section, SectionKind};
+use motiform_dynamics::Outcome;
+use motiform_study::draw;
+use motiform_study::files::table_to_csv;
+use motiform_study::live::{Record, crossings_of_path, dataset, maxima_of_speed, spectra};
+use motiform_study::study::ReturnMapSettings;
+use motiform_study::table::Table;
+use motiform_study::{Dataset, Study};
+use serde_json::{Value, json};
+
+/// Most points of a return map that are sent: the last ones.
+const MOST_RETURNS: usize = 3000;
+
+/// The motion since the last change.
+pub(super) struct Look<'l> {
+    pub(super) setting: &'l Setting,
+    pub(super) record: &'l Record,
+    pub(super) outcome: Option<Outcome>,
+}
+
+/// A sequence whose return map is shown.
+struct Returns {
+    values: Vec<f64>,
+    /// What they are called (markup), and what they are.
+    symbol: &'static str,
+    what: String,
+    /// The height of the line that the path crosses.
+    y: Option<f64>,
+    crossings: Option<Table>,
+}
+
+impl Look<'_> {
+    fn returns(&self, section: Section) -> Returns {
+        if section.section == SectionKind::Speed {
+            return Returns {
+                values: maxima_of_speed(self.record),
+                symbol: "*v*",
+                what: "The maxima of the speed, in turn.".to_owned(),
+                y: None,
+                crossings: None,
+            };
+        }
+        let settings = self.segment(section.y);
+        let (crossings, _) = crossings_of_path(self.record, self.setting.model(), &settings);
+        Returns {
+            values: crossings.get("x").unwrap_or_default().to_vec(),
+            symbol: "*x*",
+            what: format!(
+                "*x* where the path crosses *y* = {}, in either direction; the centre of the path lies on the origin.",
+                settings.y
+            ),
+            y: Some(settings.y),
+            crossings: Some(crossings),
+        }
+    }
+
+    /// The segment at this height; without one, that of the preset, or half way between the centre of the path and its top.
+    fn segment(&self, y: Option<f64>) -> ReturnMapSettings {
+        let preset = self.setting.return_map().cloned();
+        let known = y.or(preset.as_ref().map(|map| map.y));
+        let whole = ReturnMapSettings { y: 0.0, x_min: -1e300, x_max: 1e300, centre: true };
+        let y = known.unwrap_or_else(|| {
+            let heights = self.record.rows().map(|row| row.position()[1]);
+            let (low, high) = heights.fold((f64::MAX, f64::MIN), |(low, high), y| (low.min(y), high.max(y)));
+            if low < high { short(0.25 * (high - low), 2) } else { 0.0 }
+        });
+        ReturnMapSettings { y, centre: true, ..preset.unwrap_or(whole) }
+    }
+
+    fn dataset(&self, section: Section) -> Option<Dataset> {
+        let crossings = match section.section {
+            SectionKind::Path => self.returns(section).crossings,
+            SectionKind::Speed => None,
+        };
+        let plan = self.setting.plan();
+        // An unknown model is none of ours: nothing to make a file of.
+        dataset(plan, self.setting.model(), self.record, self.outcome, crossings).ok().flatten()
+    }
+}
+
+/// Spectrum and return map, as the protocol has them.
+pub(super) fn strips(look: &Look<'_>, section: Section) -> Value {
+    let spectra = spectra(look.record, look.setting.model(), look.setting.plan().computation.dt_out);
+    let returns = look.returns(section);
+    let pairs = returns.values.windows(2).rev().take(MOST_RETURNS).rev();
+    let curve = |(name, symbol, power): &(&str, &str, Vec<f64>)| json!({ "name": name, "symbol": symbol, "power": shorts(power) });
+    json!({
+        "is": "strips",
+        "revision": look.setting.revision(),
+        "samples": look.record.len(),
+        "frequencies": shorts(&spectra.frequencies),
+        "spectra": spectra.curves.iter().map(curve).collect::<Vec<_>>(),
+        "returns": {
+            "section": if section.section == SectionKind::Path { "path" } else { "speed" },
+            "label": returns.symbol,
+            "y": returns.y,
+            "points": pairs.map(shorts).collect::<Vec<_>>(),
+        },
+    })
+}
+
+/// Enough digits for a picture.
+const DIGITS: usize = 6;
+
+fn shorts(values: &[f64]) -> Vec<f64> {
+    values.iter().map(|&value| short(value, DIGITS)).collect()
+}
+
+/// A number with so many significant digits: its text is short.
+fn short(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
+}
+
+/// The study file.
+#[allow(clippy::unnecessary_wraps, reason = "as the other makers")]
+pub(super) fn study(mut study: Study) -> Option<Maker> {
+    // What the preset says of its motion may be true no longer.
+    study.about = String::new();
+    Some(Box::new(move || Ok(Some(Made::Bytes(study.to_toml()?.into_bytes())))))
+}
+
+/// The figure of the exponents so far.
+#[allow(clippy::unnecessary_wraps, reason = "as the other makers")]
+pub(super) fn exponents(look: &Look<'_>, history: History) -> Option<Maker> {
+    let plan = look.setting.plan().clone();
+    Some(Box::new(move || Ok(draw::live::exponents(&plan, &history)?.map(Made::Svg))))
+}
+
+/// Makes a file of the motion; `None` for a name that is none.
+pub(super) fn maker(look: &Look<'_>, export: &Export) -> Option<Maker> {
+    let section = Section { section: export.section, y: export.y };
+    let plan = look.setting.plan().clone();
+    let (subject, ending) = export.what.split_once('.')?;
+    let svg = matches!(ending, "svg" | "png");
+    Some(match (subject, ending) {
+        ("spectrum", _) if svg => {
+            let spectra = spectra(look.record, look.setting.model(), plan.computation.dt_out);
+            Box::new(move || Ok(draw::live::spectrum(&plan, &spectra)?.map(Made::Svg)))
+        }
+        ("return-map", _) if svg => {
+            let Returns { values, symbol, what, .. } = look.returns(section);
+            Box::new(move || Ok(draw::live::return_map(&plan, &values, symbol, &what)?.map(Made::Svg)))
+        }
+        ("path" | "series", _) if svg => {
+            let (dataset, name) = (look.dataset(section), subject.to_owned());
+            Box::new(move || match dataset {
+                Some(dataset) => Ok(draw::still(&dataset, &name)?.map(Made::Svg)),
+                None => Ok(None),
+            })
+        }
+        ("motion", "csv") => {
+            let dataset = look.dataset(section);
+            Box::new(move || Ok(dataset.map(|dataset| Made::Bytes(table_to_csv(&dataset.trajectory)))))
+        }
+        ("body", "apng") => {
+            let dataset = look.dataset(section);
+            Box::new(move || match dataset {
+                Some(dataset) => Ok(draw::film(&dataset)?.map(Made::Bytes)),
+                None => Ok(None),
+            })
+        }
+        _ => return None,
+    })
+}

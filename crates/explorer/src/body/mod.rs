@@ -1,0 +1,124 @@
+//! The body of a session: its motion, and everything that is asked about it, on a thread of its own.
+
+mod looks;
+mod setting;
+mod stage;
+
+use crate::answers::{Answers, Gone};
+use crate::export::Exports;
+use crate::map::Map;
+use crate::motion::Naming;
+use crate::protocol::Ask;
+use motiform_dynamics::InPlane;
+pub(crate) use setting::Setting;
+use stage::Stage;
+use std::sync::mpsc::Receiver;
+
+/// What a session computes beside the motion itself.
+pub(crate) struct Desks {
+    pub(crate) naming: Naming,
+    pub(crate) map: Map,
+    pub(crate) exports: Exports,
+    pub(crate) answers: Answers,
+}
+
+impl Desks {
+    pub(crate) fn new(answers: &Answers) -> std::io::Result<Self> {
+        Ok(Self {
+            naming: Naming::new(answers.clone())?,
+            map: Map::new(answers.clone())?,
+            exports: Exports::new(answers.clone())?,
+            answers: answers.clone(),
+        })
+    }
+}
+
+/// Answers what is asked until the page goes.
+pub(crate) fn run(asks: &Receiver<Ask>, desks: &Desks) {
+    // The only failure is that nobody listens any more.
+    let _ = live(asks, desks);
+}
+
+fn live(asks: &Receiver<Ask>, desks: &Desks) -> Result<(), Gone> {
+    let mut next = first(asks, desks)?;
+    while let Some(setting) = next {
+        desks.naming.name(setting.motion());
+        let body = InPlane(setting.model());
+        next = match Stage::new(&setting, &body, desks) {
+            Ok(mut stage) => play(&mut stage, asks)?,
+            Err(error) => {
+                desks.answers.refused(None, &error.to_string())?;
+                first(asks, desks)?
+            }
+        };
+    }
+    Ok(())
+}
+
+/// Waits for a body to begin with; `None` if the page goes.
+fn first(asks: &Receiver<Ask>, desks: &Desks) -> Result<Option<Setting>, Gone> {
+    while let Ok(ask) = asks.recv() {
+        let Ask::Begin(begin) = &ask else {
+            desks.answers.refused(None, "there is no body yet: begin one first")?;
+            continue;
+        };
+        match Setting::begin(begin, 1) {
+            Ok(setting) => {
+                desks.answers.json(&setting.begun())?;
+                return Ok(Some(setting));
+            }
+            Err(error) => desks.answers.refused(None, &error.to_string())?,
+        }
+    }
+    Ok(None)
+}
+
+/// Answers until the body changes (what it is then), or the page goes (`None`).
+fn play(stage: &mut Stage<'_>, asks: &Receiver<Ask>) -> Result<Option<Setting>, Gone> {
+    while let Ok(ask) = asks.recv() {
+        let change = match ask {
+            Ask::Advance { dt } => {
+                stage.advance(dt)?;
+                continue;
+            }
+            Ask::Strips(section) => {
+                stage.strips(section)?;
+                continue;
+            }
+            Ask::Share {} => {
+                stage.share()?;
+                continue;
+            }
+            Ask::Map(window) => {
+                stage.map(window);
+                continue;
+            }
+            Ask::Unmap {} => {
+                stage.desks().map.stop();
+                continue;
+            }
+            Ask::Evidence { epoch, cell } => {
+                stage.evidence(epoch, cell)?;
+                continue;
+            }
+            Ask::Export(export) => {
+                stage.export(&export)?;
+                continue;
+            }
+            Ask::Begin(begin) => stage.begin(&begin),
+            Ask::Set { parameters } => stage.set(&parameters),
+            Ask::Noise { amplitude } => stage.noise(amplitude),
+            Ask::Kick {} => stage.kick(),
+            Ask::Restart {} => stage.restart(),
+        };
+        match change {
+            Ok((setting, answer)) => {
+                stage.desks().naming.stop();
+                stage.desks().answers.json(&answer)?;
+                return Ok(Some(setting));
+            }
+            Err(error) => stage.desks().answers.refused(None, &error.to_string())?,
+        }
+    }
+    Ok(None)
+}

@@ -1,0 +1,329 @@
+//! A body between two changes: model, parameters, where it starts.
+
+use crate::catalogue::{self, Tempo};
+use crate::motion::Motion;
+use crate::protocol::Begin;
+use motiform_dynamics::{InPlane, Model, Normal};
+use motiform_study::draw::radius_for;
+use motiform_study::live::{Record, Stretch, settled, start};
+use motiform_study::study::ReturnMapSettings;
+use motiform_study::{Error, Plan, Study};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+/// A transient that takes longer is cut short: the page waits.
+const SETTLING: Duration = Duration::from_millis(300);
+
+/// A look ahead, to draw the body from the start with a radius that suits its deformation: samples, and time for it.
+const AHEAD: (usize, Duration) = (600, Duration::from_millis(30));
+
+/// A kick, as a part of the shape.
+const KICK: f64 = 0.2;
+
+/// What stays the same until the next change.
+pub(crate) struct Setting {
+    preset: Option<String>,
+    /// As begun: its start is the one to restart from.
+    study: Study,
+    /// From the state below, with the noise and without.
+    plan: Plan,
+    quiet: Plan,
+    model: Box<dyn Model>,
+    revision: u32,
+    t: f64,
+    /// The shape as the model computes with it, then x and y.
+    state: Vec<f64>,
+    /// Undeformed radius that the body is drawn with.
+    radius: f64,
+}
+
+impl Setting {
+    /// The body that a page asks for.
+    pub(crate) fn begin(begin: &Begin, revision: u32) -> Result<Self, Error> {
+        let mut study = catalogue::study(&begin.model, begin.preset.as_deref())?;
+        for (name, value) in &begin.parameters {
+            study.set(name, *value)?;
+        }
+        (study.run.seed, study.run.noise) = (begin.seed, begin.noise);
+        let plan = Plan::new(&study)?;
+        let model = plan.info()?.build(&plan.computation.parameters.values())?;
+        let state = match &begin.state {
+            Some(coordinates) => state_of(model.as_ref(), coordinates, begin.position.unwrap_or_default())?,
+            None => settled(&plan, model.as_ref(), SETTLING)?,
+        };
+        let mut setting = Self::new(study, begin.preset.clone(), revision, begin.t, state)?;
+        setting.radius = setting.fitting_radius()?;
+        Ok(setting)
+    }
+
+    fn new(
+        study: Study,
+        preset: Option<String>,
+        revision: u32,
+        t: f64,
+        state: Vec<f64>,
+    ) -> Result<Self, Error> {
+        let model = study.info()?.build(&study.values()?)?;
+        let mut now = at(&study, model.as_ref(), &state);
+        let plan = Plan::new(&now)?;
+        now.run.noise = 0.0;
+        let quiet = Plan::new(&now)?;
+        Ok(Self { preset, study, plan, quiet, model, revision, t, state, radius: 0.0 })
+    }
+
+    /// The same body, changed while it is at `state` at time `t`.
+    fn changed(&self, study: Study, t: f64, state: Vec<f64>, radius: f64) -> Result<Self, Error> {
+        let next = Self::new(study, self.preset.clone(), self.revision.wrapping_add(1), t, state)?;
+        Ok(Self { radius, ..next })
+    }
+
+    /// With these parameters from now on.
+    pub(crate) fn with(
+        &self,
+        parameters: &BTreeMap<String, f64>,
+        t: f64,
+        state: &[f64],
+        radius: f64,
+    ) -> Result<Self, Error> {
+        let mut study = self.study.clone();
+        for (name, value) in parameters {
+            study.set(name, *value)?;
+        }
+        let model = study.info()?.build(&study.values()?)?;
+        let state = if model.dim() == self.model.dim() {
+            state.to_vec()
+        } else {
+            // Fewer or more modes: those that there are stay.
+            let (shape, position) = state.split_at(self.model.dim());
+            let old = decode(self.model.as_ref(), shape);
+            let named = |name| self.model.coordinates().iter().position(|coordinate| coordinate.name == name);
+            let kept = |name| named(name).map_or(0.0, |place| old[place]);
+            let new: Vec<f64> = model.coordinates().iter().map(|coordinate| kept(coordinate.name)).collect();
+            state_of(model.as_ref(), &new, [position[0], position[1]])?
+        };
+        self.changed(study, t, state, radius)
+    }
+
+    /// With this noise from now on.
+    pub(crate) fn with_noise(
+        &self,
+        amplitude: f64,
+        t: f64,
+        state: &[f64],
+        radius: f64,
+    ) -> Result<Self, Error> {
+        let mut study = self.study.clone();
+        study.run.noise = amplitude;
+        self.changed(study, t, state.to_vec(), radius)
+    }
+
+    /// Kicked at random: every entry of the shape by a part of what it and its neighbours are.
+    pub(crate) fn kicked(&self, t: f64, state: &[f64], radius: f64) -> Result<Self, Error> {
+        let dim = self.model.dim();
+        let mut normal = Normal::new(self.study.run.seed, (1 << 40) + u64::from(self.revision));
+        let mut kicked = state.to_vec();
+        for (place, entry) in kicked[..dim].iter_mut().enumerate() {
+            // Entries of a mode come in pairs; high modes of a cell are tiny, and must stay so.
+            let near = &state[place.saturating_sub(3)..(place + 4).min(dim)];
+            let size = near.iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-3 * self.study.random);
+            *entry += KICK * size * normal.next();
+        }
+        self.changed(self.study.clone(), t, kicked, radius)
+    }
+
+    /// At its start again, without the transient.
+    pub(crate) fn restarted(&self, radius: f64) -> Result<Self, Error> {
+        let plan = Plan::new(&self.study)?;
+        self.changed(self.study.clone(), 0.0, start(&plan, self.model.as_ref()), radius)
+    }
+
+    /// The largest radius that the deformation asks for in the near future.
+    fn fitting_radius(&self) -> Result<f64, Error> {
+        if let Some(fixed) = self.model.radius() {
+            return Ok(fixed);
+        }
+        if self.study.figure.radius > 0.0 {
+            return Ok(self.study.figure.radius);
+        }
+        let body = InPlane(self.model());
+        let mut record = Record::new(self.model(), 0.0, AHEAD.0);
+        let mut stretch = Stretch::new(&self.quiet, &body, self.t, &self.state, 0)?;
+        let end = self.t + AHEAD.0 as f64 * self.tempo().sample;
+        stretch.advance(end, AHEAD.1, &mut record, self.model());
+        let dim = self.model.dim();
+        let deformations = record.rows().map(|row| self.model.deformation(&row.state[..dim]));
+        Ok(radius_for(deformations.filter(|deformation| deformation.is_finite()).fold(0.0, f64::max)))
+    }
+
+    pub(crate) fn tempo(&self) -> Tempo {
+        catalogue::tempo(self.preset.as_deref().unwrap_or(self.study.model))
+    }
+
+    pub(crate) fn preset(&self) -> Option<&str> {
+        self.preset.as_deref()
+    }
+
+    pub(crate) fn model(&self) -> &dyn Model {
+        self.model.as_ref()
+    }
+
+    pub(crate) fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    pub(crate) fn study(&self) -> &Study {
+        &self.study
+    }
+
+    pub(crate) fn revision(&self) -> u32 {
+        self.revision
+    }
+
+    /// Where it starts: time, state, and the radius that it is drawn with.
+    pub(crate) fn start(&self) -> (f64, &[f64], f64) {
+        (self.t, &self.state, self.radius)
+    }
+
+    /// The return map of the preset, if it has one.
+    pub(crate) fn return_map(&self) -> Option<&ReturnMapSettings> {
+        self.study.return_map.as_ref()
+    }
+
+    /// What there is to name.
+    pub(crate) fn motion(&self) -> Motion {
+        Motion { revision: self.revision, plan: self.quiet.clone() }
+    }
+
+    /// The study that goes on from a state.
+    pub(crate) fn study_at(&self, state: &[f64]) -> Study {
+        at(&self.study, self.model.as_ref(), state)
+    }
+
+    pub(crate) fn begun(&self) -> Value {
+        let tempo = self.tempo();
+        let observables = self.model.observables().iter();
+        json!({
+            "is": "begun",
+            "revision": self.revision,
+            "model": self.study.model,
+            "preset": self.preset,
+            "title": self.study.title,
+            "about": self.study.about,
+            "parameters": self.plan.computation.parameters,
+            "noise": self.study.run.noise,
+            "sample": tempo.sample,
+            "speed": tempo.speed,
+            "speeds": tempo.speeds,
+            "observables": observables
+                .map(|o| json!({ "name": o.name, "symbol": o.symbol, "meaning": o.meaning }))
+                .collect::<Vec<_>>(),
+        })
+    }
+
+    pub(crate) fn told(&self) -> Value {
+        json!({
+            "is": "changed",
+            "revision": self.revision,
+            "parameters": self.plan.computation.parameters,
+            "noise": self.study.run.noise,
+        })
+    }
+}
+
+/// The coordinates of a shape.
+pub(crate) fn decode(model: &dyn Model, shape: &[f64]) -> Vec<f64> {
+    let mut coordinates = vec![0.0; shape.len()];
+    model.decode(shape, &mut coordinates);
+    coordinates
+}
+
+/// The state with these coordinates.
+fn state_of(model: &dyn Model, coordinates: &[f64], position: [f64; 2]) -> Result<Vec<f64>, Error> {
+    let (dim, got) = (model.dim(), coordinates.len());
+    if got != dim {
+        return Err(motiform_dynamics::Error::Shape { what: "the state", expected: dim, got }.into());
+    }
+    let mut state = vec![0.0; dim];
+    model.encode(coordinates, &mut state);
+    state.extend(position);
+    Ok(state)
+}
+
+/// A study that starts from a state, without transient.
+fn at(study: &Study, model: &dyn Model, state: &[f64]) -> Study {
+    let (shape, position) = state.split_at(model.dim());
+    let names = model.coordinates().iter().map(|coordinate| coordinate.name).chain(["x", "y"]);
+    let values = decode(model, shape).into_iter().chain(position.iter().copied());
+    let mut study = study.clone();
+    study.initial = names.map(str::to_owned).zip(values).collect();
+    study.run.transient = 0.0;
+    study
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+    use motiform_models::MODELS;
+    use motiform_study::presets::PRESETS;
+
+    fn begin(model: &str, preset: &str) -> Setting {
+        let begin =
+            Begin { model: model.to_owned(), preset: Some(preset.to_owned()), seed: 1, ..Begin::default() };
+        Setting::begin(&begin, 1).unwrap()
+    }
+
+    #[test]
+    fn every_preset_begins() {
+        for preset in PRESETS {
+            let setting = begin(preset.model, preset.name);
+            assert_eq!(setting.begun()["preset"], preset.name);
+            assert!(setting.start().2 > 0.0);
+        }
+        for info in MODELS {
+            let begin = Begin { model: info.name.to_owned(), ..Begin::default() };
+            assert_eq!(Setting::begin(&begin, 1).unwrap().begun()["model"], info.name);
+        }
+    }
+
+    #[test]
+    fn a_change_keeps_the_state() {
+        let setting = begin("tensor", "fig5a");
+        let (t, state, radius) = setting.start();
+        let next = setting.with(&BTreeMap::from([("kappa2".to_owned(), 0.5)]), t, state, radius).unwrap();
+        assert_eq!((next.start(), next.revision()), (setting.start(), 2));
+        assert_eq!(next.told()["parameters"]["kappa2"], 0.5);
+        assert_eq!(next.motion().plan.computation.parameters.get("kappa2"), Some(0.5));
+        assert!(setting.with(&BTreeMap::from([("kapa2".to_owned(), 0.5)]), t, state, radius).is_err());
+        let noisy = setting.with_noise(0.1, t, state, radius).unwrap();
+        assert!(noisy.plan().computation.noise.is_some() && noisy.motion().plan.computation.noise.is_none());
+    }
+
+    #[test]
+    fn the_modes_of_a_cell_that_stay_keep_their_values() {
+        let setting = begin("cell", "fig6a");
+        let (t, state, radius) = setting.start();
+        let fewer = setting.with(&BTreeMap::from([("modes".to_owned(), 16.0)]), t, state, radius).unwrap();
+        let (old, new) =
+            (decode(setting.model(), &state[..42]), decode(fewer.model(), &fewer.start().1[..32]));
+        assert_eq!(old[..32], new[..]);
+    }
+
+    #[test]
+    fn a_kick_is_a_kick() {
+        for (model, preset) in [("tensor", "fig5a"), ("tensor", "fig2"), ("cell", "fig6a")] {
+            let setting = begin(model, preset);
+            let (t, state, radius) = setting.start();
+            let dim = setting.model().dim();
+            let kicked = setting.kicked(t, state, radius).unwrap();
+            let size = |u: &[f64]| u.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let difference: Vec<f64> =
+                kicked.start().1[..dim].iter().zip(state).map(|(a, b)| a - b).collect();
+            let part = size(&difference) / size(&state[..dim]);
+            assert!((0.02..2.0).contains(&part), "{preset}: {part}");
+            assert_eq!(kicked.start().1[dim..], state[dim..]);
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! The body in motion, as the page sees it.
+
+use super::Desks;
+use super::looks::{self, Look};
+use super::setting::{Setting, decode};
+use crate::answers::Gone;
+use crate::export::Order;
+use crate::frames::Frame;
+use crate::map::Job;
+use crate::protocol::{Begin, Export, MapWindow, Section};
+use crate::share;
+use motiform_dynamics::{InPlane, Model, Outcome, Outline};
+use motiform_study::Error;
+use motiform_study::draw::radius_for;
+use motiform_study::live::{Record, Stretch};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+/// Samples that are kept: what spectra and return maps are made of.
+const KEPT: usize = 20_000;
+
+/// Most samples in a picture, and most time that computing one may take: 60 pictures per second leave 16 ms.
+const PICTURE: (f64, Duration) = (512.0, Duration::from_millis(12));
+
+/// Points of the outline.
+const POINTS: usize = 96;
+
+/// A setting in motion.
+pub(super) struct Stage<'s> {
+    setting: &'s Setting,
+    stretch: Stretch<'s>,
+    record: Record,
+    /// Samples up to this time are with the page.
+    told: f64,
+    radius: f64,
+    ended: bool,
+    desks: &'s Desks,
+}
+
+/// What the body is after a change, and what to say of it.
+type Change = Result<(Setting, Value), Error>;
+
+impl<'s> Stage<'s> {
+    pub(super) fn new(
+        setting: &'s Setting,
+        body: &'s InPlane<&'s dyn Model>,
+        desks: &'s Desks,
+    ) -> Result<Self, Error> {
+        let (t, state, radius) = setting.start();
+        let stretch = Stretch::new(setting.plan(), body, t, state, u64::from(setting.revision()))?;
+        let record =
+            Record::new(setting.model(), setting.plan().computation.control.absolute_tolerance(), KEPT);
+        Ok(Self { setting, stretch, record, told: f64::NEG_INFINITY, radius, ended: false, desks })
+    }
+
+    pub(super) fn desks(&self) -> &'s Desks {
+        self.desks
+    }
+
+    /// Moves on and shows where the body is.
+    pub(super) fn advance(&mut self, dt: f64) -> Result<(), Gone> {
+        if dt < 0.0 {
+            return self.desks.answers.refused(None, "a body moves forward in time: give a dt of at least 0");
+        }
+        let most = PICTURE.0 * self.setting.tempo().sample;
+        let to = self.stretch.t() + dt.min(most);
+        let there = self.stretch.advance(to, PICTURE.1, &mut self.record, self.setting.model());
+        let frame = self.frame(!there || dt > most);
+        self.desks.answers.binary(frame.encode())?;
+        match self.stretch.outcome() {
+            Some(outcome) if !self.ended => {
+                self.ended = true;
+                self.desks.answers.json(&ended(self.setting.revision(), &outcome))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn frame(&mut self, behind: bool) -> Frame {
+        let model = self.setting.model();
+        let (shape, position) = self.stretch.state().split_at(model.dim());
+        if model.radius().is_none() {
+            let deformation = model.deformation(shape);
+            self.radius =
+                self.radius.max(if deformation.is_finite() { radius_for(deformation) } else { 0.0 });
+        }
+        let outline = match model.outline(shape, self.radius, POINTS) {
+            Outline::Curve(points) if points.iter().flatten().all(|x| x.is_finite()) => Some(points),
+            _ => None,
+        };
+        let rows: Vec<_> = self.record.rows().rev().take_while(|row| row.t > self.told).collect();
+        let mut samples = Vec::new();
+        for row in rows.iter().rev() {
+            samples.push(row.t);
+            samples.extend(row.position());
+            samples.extend(row.read);
+        }
+        let frame = Frame {
+            revision: self.setting.revision(),
+            behind,
+            t: self.stretch.t(),
+            position: [position[0], position[1]],
+            radius: self.radius,
+            coordinates: decode(model, shape),
+            samples,
+            columns: 5 + model.observables().len(),
+            outline,
+        };
+        self.told = rows.first().map_or(self.told, |row| row.t);
+        frame
+    }
+
+    fn look(&self) -> Look<'_> {
+        Look { setting: self.setting, record: &self.record, outcome: self.stretch.outcome() }
+    }
+
+    pub(super) fn strips(&self, section: Section) -> Result<(), Gone> {
+        self.desks.answers.json(&looks::strips(&self.look(), section))
+    }
+
+    pub(super) fn share(&self) -> Result<(), Gone> {
+        let study = self.setting.study_at(self.stretch.state());
+        let texts = share::command(self.setting.preset(), &study)
+            .and_then(|command| Ok((command, share::python(self.setting.preset(), &study)?)));
+        match texts {
+            Ok((command, python)) => {
+                let answer = json!({ "is": "share", "command": command, "python": python });
+                self.desks.answers.json(&answer)
+            }
+            Err(error) => self.desks.answers.refused(None, &error.to_string()),
+        }
+    }
+
+    pub(super) fn map(&self, window: MapWindow) {
+        self.desks.map.show(Job { window, study: self.setting.study().clone() });
+    }
+
+    pub(super) fn evidence(&self, epoch: u32, cell: [u16; 2]) -> Result<(), Gone> {
+        match self.desks.map.evidence(epoch, cell) {
+            Some(evidence) => self.desks.answers.json(&evidence),
+            None => Ok(()), // of an earlier map
+        }
+    }
+
+    pub(super) fn export(&self, export: &Export) -> Result<(), Gone> {
+        let make = match export.what.as_str() {
+            "map.csv" | "map.svg" | "map.png" => self.desks.map.maker(export.what == "map.csv"),
+            "exponent.svg" | "exponent.png" => looks::exponents(&self.look(), self.desks.naming.history()),
+            "study.toml" => looks::study(self.setting.study_at(self.stretch.state())),
+            _ => looks::maker(&self.look(), export),
+        };
+        let Some(make) = make else {
+            let why = format!("there is no file {:?} to be had", export.what);
+            return self.desks.answers.refused(Some(export.id), &why);
+        };
+        let subject = self.setting.preset().unwrap_or(self.setting.study().model).to_owned();
+        self.desks.exports.put(Order { id: export.id, subject, what: export.what.clone(), make })
+    }
+
+    pub(super) fn begin(&self, begin: &Begin) -> Change {
+        let setting = Setting::begin(begin, self.setting.revision().wrapping_add(1))?;
+        self.desks.map.stop();
+        let answer = setting.begun();
+        Ok((setting, answer))
+    }
+
+    pub(super) fn set(&self, parameters: &BTreeMap<String, f64>) -> Change {
+        let setting = self.setting.with(parameters, self.stretch.t(), self.stretch.state(), self.radius)?;
+        if parameters.keys().any(|name| !self.desks.map.has_axis(name)) {
+            self.desks.map.stop();
+        }
+        Ok(told(setting))
+    }
+
+    pub(super) fn noise(&self, amplitude: f64) -> Change {
+        let state = self.stretch.state();
+        Ok(told(self.setting.with_noise(amplitude, self.stretch.t(), state, self.radius)?))
+    }
+
+    pub(super) fn kick(&self) -> Change {
+        Ok(told(self.setting.kicked(self.stretch.t(), self.stretch.state(), self.radius)?))
+    }
+
+    pub(super) fn restart(&self) -> Change {
+        Ok(told(self.setting.restarted(self.radius)?))
+    }
+}
+
+fn told(setting: Setting) -> (Setting, Value) {
+    let answer = setting.told();
+    (setting, answer)
+}
+
+fn ended(revision: u32, outcome: &Outcome) -> Value {
+    let kind = match outcome {
+        Outcome::Escaped { .. } => "blow-up",
+        Outcome::ClosureFailed { .. } => "closure-failed",
+        _ => "step-underflow",
+    };
+    json!({ "is": "ended", "revision": revision, "outcome": kind, "text": outcome.to_string() })
+}

@@ -1,0 +1,139 @@
+//! A desk: one thread, and the last job put on it. Whatever is put there makes what lay there stale, at once.
+
+use motiform_study::simulate::Monitor;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+
+/// A thread that works at the last job only.
+pub(crate) struct Desk<J> {
+    shared: Arc<Shared<J>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+struct Shared<J> {
+    slot: Mutex<Slot<J>>,
+    bell: Condvar,
+    /// Number of the last order; a job of an earlier one is stale.
+    order: AtomicU64,
+}
+
+struct Slot<J> {
+    job: Option<J>,
+    closed: bool,
+}
+
+/// Whether a job still counts. A [`Monitor`], so that every computation of the study layer listens to it.
+pub(crate) struct Current<'d> {
+    order: &'d AtomicU64,
+    mine: u64,
+}
+
+impl Monitor for Current<'_> {
+    fn stopped(&self) -> bool {
+        self.order.load(Ordering::Relaxed) != self.mine
+    }
+}
+
+impl<J: Send + 'static> Desk<J> {
+    /// A desk at which `work` is done.
+    ///
+    /// # Errors
+    /// The system gives no thread.
+    pub(crate) fn new(
+        name: &str,
+        mut work: impl FnMut(J, &Current<'_>) + Send + 'static,
+    ) -> std::io::Result<Self> {
+        let slot = Mutex::new(Slot { job: None, closed: false });
+        let shared = Arc::new(Shared { slot, bell: Condvar::new(), order: AtomicU64::new(0) });
+        let desk = Arc::clone(&shared);
+        let run = move || {
+            while let Some((job, mine)) = desk.next() {
+                work(job, &Current { order: &desk.order, mine });
+            }
+        };
+        let thread = std::thread::Builder::new().name(name.to_owned()).spawn(run)?;
+        Ok(Self { shared, thread: Some(thread) })
+    }
+
+    /// Puts a job on the desk in place of whatever is there or under way.
+    pub(crate) fn put(&self, job: J) {
+        self.shared.order(Some(job), false);
+    }
+
+    /// Clears the desk.
+    pub(crate) fn clear(&self) {
+        self.shared.order(None, false);
+    }
+}
+
+impl<J> Shared<J> {
+    fn lock(&self) -> MutexGuard<'_, Slot<J>> {
+        self.slot.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn order(&self, job: Option<J>, closed: bool) {
+        let mut slot = self.lock();
+        self.order.fetch_add(1, Ordering::Relaxed);
+        slot.job = job;
+        slot.closed |= closed;
+        self.bell.notify_one();
+    }
+
+    /// Waits for a job; `None` when the desk is closed.
+    fn next(&self) -> Option<(J, u64)> {
+        let mut slot = self.lock();
+        loop {
+            if slot.closed {
+                return None;
+            }
+            if let Some(job) = slot.job.take() {
+                return Some((job, self.order.load(Ordering::Relaxed)));
+            }
+            slot = self.bell.wait(slot).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+}
+
+impl<J> Drop for Desk<J> {
+    /// Stops what is under way, and waits for it: no thread outlives its session.
+    fn drop(&mut self) {
+        self.shared.order(None, true);
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join(); // its panic was reported by the thread itself
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+    use std::sync::mpsc;
+    use std::time::Duration;
+
+    #[test]
+    fn the_last_job_is_the_only_one_that_is_finished() {
+        let (told, hear) = mpsc::channel();
+        let desk = Desk::new("test", move |job: u32, current| {
+            while job != 9 && !current.stopped() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            told.send((job, current.stopped())).unwrap();
+        })
+        .unwrap();
+        desk.put(1);
+        assert!(hear.recv_timeout(Duration::from_millis(20)).is_err(), "job 1 goes on");
+        desk.put(9);
+        assert_eq!(hear.recv().unwrap(), (1, true));
+        assert_eq!(hear.recv().unwrap(), (9, false));
+        desk.put(2);
+        std::thread::sleep(Duration::from_millis(20));
+        desk.clear();
+        assert_eq!(hear.recv().unwrap(), (2, true));
+        desk.put(3);
+        drop(desk); // ends the job and the thread
+        assert!(hear.iter().all(|(job, stopped)| job == 3 && stopped));
+    }
+}

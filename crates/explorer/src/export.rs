@@ -1,0 +1,99 @@
+//! Files to keep, made on a thread of their own while the body moves on.
+
+use crate::answers::{Answers, Gone};
+use motiform_study::Error;
+use motiform_study::figures::{DEFAULT_SCALE, png};
+use std::sync::mpsc::{SyncSender, TrySendError, sync_channel};
+use std::thread::JoinHandle;
+
+/// What was made.
+pub(crate) enum Made {
+    /// A drawing; it becomes a PNG where one is asked for.
+    Svg(String),
+    /// A file as it is.
+    Bytes(Vec<u8>),
+}
+
+/// Makes a file from a snapshot; `None` where there is nothing to make it of yet.
+pub(crate) type Maker = Box<dyn FnOnce() -> Result<Option<Made>, Error> + Send>;
+
+/// A file that was asked for.
+pub(crate) struct Order {
+    pub(crate) id: u32,
+    /// The preset or the model.
+    pub(crate) subject: String,
+    pub(crate) what: String,
+    pub(crate) make: Maker,
+}
+
+/// Orders that may wait: there are about twice as many buttons.
+const WAITING: usize = 8;
+
+/// The thread that makes files.
+pub(crate) struct Exports {
+    orders: Option<SyncSender<Order>>,
+    answers: Answers,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Exports {
+    pub(crate) fn new(answers: Answers) -> std::io::Result<Self> {
+        let (orders, taken) = sync_channel::<Order>(WAITING);
+        let back = answers.clone();
+        let run = move || {
+            // Until the session ends, or nobody listens any more.
+            while let Ok(order) = taken.recv() {
+                if deliver(order, &back).is_err() {
+                    return;
+                }
+            }
+        };
+        let thread = std::thread::Builder::new().name("files".to_owned()).spawn(run)?;
+        Ok(Self { orders: Some(orders), answers, thread: Some(thread) })
+    }
+
+    pub(crate) fn put(&self, order: Order) -> Result<(), Gone> {
+        let Some(orders) = &self.orders else { return Err(Gone) };
+        match orders.try_send(order) {
+            Ok(()) => Ok(()),
+            Err(TrySendError::Full(order)) => {
+                self.answers.refused(Some(order.id), "other files are being made: wait for them")
+            }
+            Err(TrySendError::Disconnected(_)) => Err(Gone),
+        }
+    }
+}
+
+impl Drop for Exports {
+    fn drop(&mut self) {
+        self.orders = None; // ends the thread after the file it is making
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join(); // its panic was reported by the thread itself
+        }
+    }
+}
+
+fn deliver(order: Order, answers: &Answers) -> Result<(), Gone> {
+    let Order { id, subject, what, make } = order;
+    let ending = what.rsplit('.').next().unwrap_or_default();
+    let content = make().and_then(|made| match made {
+        Some(Made::Svg(svg)) if ending == "png" => Ok(Some(png(&svg, DEFAULT_SCALE, &[])?)),
+        Some(Made::Svg(svg)) => Ok(Some(svg.into_bytes())),
+        Some(Made::Bytes(bytes)) => Ok(Some(bytes)),
+        None => Ok(None),
+    });
+    let mime = match ending {
+        "svg" => "image/svg+xml",
+        "png" => "image/png",
+        "apng" => "image/apng",
+        "csv" => "text/csv",
+        _ => "application/toml",
+    };
+    match content {
+        Ok(Some(content)) => answers.file(id, &format!("motiform-{subject}-{what}"), mime, &content),
+        Ok(None) => {
+            answers.refused(Some(id), "there is too little to make this file of yet: let the body move on")
+        }
+        Err(error) => answers.refused(Some(id), &error.to_string()),
+    }
+}

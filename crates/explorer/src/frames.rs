@@ -1,0 +1,127 @@
+//! Binary messages, as `PROTOCOL.md` lays them out.
+
+use serde_json::json;
+
+/// Kinds of binary messages: their first byte.
+const FRAME: u8 = 1;
+const CELLS: u8 = 2;
+const FILE: u8 = 3;
+
+/// One picture of the body.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Frame {
+    pub(crate) revision: u32,
+    /// Computing took longer than a picture may: the body is not where it was asked to be.
+    pub(crate) behind: bool,
+    pub(crate) t: f64,
+    pub(crate) position: [f64; 2],
+    /// Undeformed radius that the outline is drawn with.
+    pub(crate) radius: f64,
+    pub(crate) coordinates: Vec<f64>,
+    /// Rows of `columns` numbers.
+    pub(crate) samples: Vec<f64>,
+    pub(crate) columns: usize,
+    /// Relative to the position; `None` where the shape is no curve.
+    pub(crate) outline: Option<Vec<[f64; 2]>>,
+}
+
+impl Frame {
+    pub(crate) fn encode(&self) -> Vec<u8> {
+        let outline = self.outline.as_deref().unwrap_or_default();
+        let rows = self.samples.len() / self.columns.max(1);
+        let flags = u8::from(self.outline.is_some()) | (u8::from(self.behind) << 1);
+        let numbers = 4 + self.coordinates.len() + self.samples.len() + 2 * outline.len();
+        let mut out = Vec::with_capacity(16 + 8 * numbers);
+        out.extend([FRAME, flags]);
+        for count in [rows, self.columns, outline.len()] {
+            out.extend(u16::try_from(count).unwrap_or(u16::MAX).to_le_bytes());
+        }
+        out.extend(self.revision.to_le_bytes());
+        out.extend(u32::try_from(self.coordinates.len()).unwrap_or(u32::MAX).to_le_bytes());
+        let [x, y] = self.position;
+        let head = [self.t, x, y, self.radius];
+        let all = head.iter().chain(&self.coordinates).chain(&self.samples).chain(outline.iter().flatten());
+        all.for_each(|number| out.extend(number.to_le_bytes()));
+        out
+    }
+}
+
+/// A cell of the map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Cell {
+    pub(crate) place: [u16; 2],
+    /// It stands for 2^level cells along each axis.
+    pub(crate) level: u8,
+    /// Place in the list of regimes.
+    pub(crate) regime: u8,
+}
+
+/// Some cells of a map.
+pub(crate) fn cells(epoch: u32, cells: &[Cell]) -> Vec<u8> {
+    let mut out = Vec::with_capacity(16 + 8 * cells.len());
+    out.extend([CELLS, 0]);
+    out.extend(u16::try_from(cells.len()).unwrap_or(u16::MAX).to_le_bytes());
+    out.extend(epoch.to_le_bytes());
+    out.extend([0; 8]);
+    for cell in cells {
+        out.extend(cell.place[0].to_le_bytes());
+        out.extend(cell.place[1].to_le_bytes());
+        out.extend([cell.level, cell.regime, 0, 0]);
+    }
+    out
+}
+
+/// A file.
+pub(crate) fn file(id: u32, name: &str, mime: &str, content: &[u8]) -> Vec<u8> {
+    let head = json!({ "id": id, "name": name, "mime": mime }).to_string();
+    let mut out = Vec::with_capacity(8 + head.len() + content.len());
+    out.extend([FILE, 0, 0, 0]);
+    out.extend(u32::try_from(head.len()).unwrap_or(u32::MAX).to_le_bytes());
+    out.extend(head.as_bytes());
+    out.extend(content);
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+
+    fn number(bytes: &[u8], place: usize) -> f64 {
+        f64::from_le_bytes(bytes[place..place + 8].try_into().unwrap())
+    }
+
+    #[test]
+    fn frames_are_laid_out_as_written() {
+        let frame = Frame {
+            revision: 258,
+            behind: true,
+            t: 1.5,
+            position: [2.0, -3.0],
+            radius: 0.5,
+            coordinates: vec![7.0, 8.0],
+            samples: vec![10.0, 11.0, 12.0, 13.0, 14.0, 15.0],
+            columns: 3,
+            outline: Some(vec![[20.0, 21.0]]),
+        };
+        let bytes = frame.encode();
+        assert_eq!(bytes[..16], [1, 3, 2, 0, 3, 0, 1, 0, 2, 1, 0, 0, 2, 0, 0, 0]);
+        let numbers: Vec<f64> = (16..bytes.len()).step_by(8).map(|place| number(&bytes, place)).collect();
+        let expected = [1.5, 2.0, -3.0, 0.5, 7.0, 8.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0, 20.0, 21.0];
+        assert_eq!(numbers, expected);
+        assert_eq!(Frame { outline: None, ..frame }.encode()[1], 2);
+    }
+
+    #[test]
+    fn cells_and_files_are_laid_out_as_written() {
+        let bytes = cells(3, &[Cell { place: [4, 258], level: 2, regime: 6 }]);
+        assert_eq!(bytes[16..], [4, 0, 2, 1, 2, 6, 0, 0]);
+        assert_eq!(bytes[..8], [2, 0, 1, 0, 3, 0, 0, 0]);
+        let bytes = file(5, "a.svg", "image/svg+xml", b"<svg/>");
+        let length = usize::from(bytes[4]);
+        let head: serde_json::Value = serde_json::from_slice(&bytes[8..8 + length]).unwrap();
+        assert_eq!(head, json!({ "id": 5, "name": "a.svg", "mime": "image/svg+xml" }));
+        assert_eq!(&bytes[8 + length..], b"<svg/>");
+    }
+}

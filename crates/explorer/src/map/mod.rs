@@ -1,0 +1,108 @@
+//! The map: which motion happens where in a window of two parameters, coarse first, then ever finer.
+
+mod lattice;
+mod sight;
+mod store;
+mod work;
+
+use crate::answers::{Answers, Gone};
+use crate::desk::Desk;
+use crate::export::{Made, Maker};
+use crate::protocol::MapWindow;
+use motiform_study::Study;
+use motiform_study::draw::phase_diagram;
+use motiform_study::scan::{CellSummary, Row, rows_to_csv};
+use serde_json::{Value, json};
+use sight::Sight;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// The map of a session.
+pub(crate) struct Map {
+    desk: Desk<Job>,
+    sight: Arc<Mutex<Sight>>,
+}
+
+/// A window, over the parameters and with the start of a study.
+pub(crate) struct Job {
+    pub(crate) window: MapWindow,
+    pub(crate) study: Study,
+}
+
+impl Map {
+    pub(crate) fn new(answers: Answers) -> std::io::Result<Self> {
+        let sight = Arc::new(Mutex::new(Sight::default()));
+        let shared = Arc::clone(&sight);
+        let desk = Desk::new("map", move |job: Job, current| {
+            // A page that has gone takes its session along.
+            let _ = work::compute(&job, &shared, current, &answers);
+        })?;
+        Ok(Self { desk, sight })
+    }
+
+    /// Computes a window, in place of the one under way.
+    pub(crate) fn show(&self, job: Job) {
+        self.desk.put(job);
+    }
+
+    /// Stops computing, for the answer is no longer wanted.
+    pub(crate) fn stop(&self) {
+        self.desk.clear();
+    }
+
+    /// Whether the map in sight has this parameter as an axis.
+    pub(crate) fn has_axis(&self, name: &str) -> bool {
+        let sight = lock(&self.sight);
+        sight.present().is_some_and(|map| map.plan.computation.axes.iter().any(|axis| axis.name == name))
+    }
+
+    /// What is known of a cell, as the protocol has it.
+    pub(crate) fn evidence(&self, epoch: u32, [i, j]: [u16; 2]) -> Option<Value> {
+        let mut sight = lock(&self.sight);
+        let map = sight.present().filter(|map| map.epoch == epoch)?;
+        let at = map.at(usize::from(i), usize::from(j))?;
+        let names: Vec<String> = map.plan.computation.axes.iter().map(|axis| axis.name.clone()).collect();
+        let parameters: serde_json::Map<String, Value> =
+            names.into_iter().zip(&at).map(|(name, value)| (name, json!(value))).collect();
+        let row = sight.store.get(&at);
+        Some(json!({
+            "is": "evidence",
+            "epoch": epoch,
+            "cell": [i, j],
+            "parameters": parameters,
+            "regime": row.map(|row| row.regime.name()),
+            "why": row.map(|row| row.why.as_str()),
+            "numbers": row.map(numbers),
+        }))
+    }
+
+    /// Makes a file of the cells in sight that are computed: CSV, or the phase diagram.
+    pub(crate) fn maker(&self, csv: bool) -> Option<Maker> {
+        let (plan, rows) = lock(&self.sight).rows()?;
+        Some(Box::new(move || {
+            if rows.is_empty() {
+                return Ok(None);
+            }
+            if csv {
+                return Ok(Some(Made::Bytes(rows_to_csv(&plan, &rows))));
+            }
+            let cells: Vec<CellSummary> =
+                rows.iter().map(|row| CellSummary::of(row.cell, std::slice::from_ref(row))).collect();
+            Ok(Some(Made::Svg(phase_diagram(&plan, &cells)?.svg()?)))
+        }))
+    }
+}
+
+/// The numbers of a row that are defined.
+pub(crate) fn numbers(row: &Row) -> Value {
+    let defined = motiform_study::scan::NUMBERS.iter().zip(row.numbers).filter(|entry| entry.1.is_finite());
+    defined
+        .map(|((name, _), value)| ((*name).to_owned(), json!(value)))
+        .collect::<serde_json::Map<_, _>>()
+        .into()
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+type Done = Result<(), Gone>;

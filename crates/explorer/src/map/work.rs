@@ -1,0 +1,236 @@
+//! Computing a window: coarse cells first, from its middle outwards, on all cores.
+
+use super::sight::Sight;
+use super::{Done, Job, lock};
+use crate::answers::{Answers, Gone};
+use crate::desk::Current;
+use crate::frames::{self, Cell};
+use motiform_analysis::regime::{Regime, Verdict};
+use motiform_study::draw::boundary_lines;
+use motiform_study::figures::{BoundaryLine, LineStyle};
+use motiform_study::scan::{Classify, Evaluate, Row};
+use motiform_study::simulate::Monitor;
+use motiform_study::{Error, ScanPlan};
+use serde_json::{Value, json};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// Between two messages with cells, and two with the progress.
+const EVERY: (Duration, Duration) = (Duration::from_millis(40), Duration::from_millis(120));
+
+/// Computes what is not known of the window of a job, unless it becomes stale.
+pub(super) fn compute(job: &Job, sight: &Mutex<Sight>, current: &Current<'_>, answers: &Answers) -> Done {
+    let mut seen = lock(sight);
+    if let Err(error) = seen.turn(job) {
+        drop(seen);
+        return answers.refused(None, &error.to_string());
+    }
+    let Some(view) = View::of(&mut seen, job.window.epoch) else { return Ok(()) };
+    drop(seen);
+    answers.json(&view.announcement)?;
+    for known in view.known.chunks(4096) {
+        answers.binary(frames::cells(view.epoch, known))?;
+    }
+    let work = Work {
+        view: &view,
+        sight,
+        current,
+        answers,
+        gone: AtomicBool::new(false),
+        next: Mutex::new(view.wanted.iter()),
+        out: Mutex::new(Out::new(view.known.len())),
+    };
+    let begun = Instant::now();
+    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    std::thread::scope(|scope| {
+        for _ in 1..threads.min(view.wanted.len()) {
+            scope.spawn(|| work.run());
+        }
+        work.run();
+    });
+    work.finish(begun)
+}
+
+/// What is to be done for a window.
+struct View {
+    epoch: u32,
+    plan: ScanPlan,
+    announcement: Value,
+    /// Cells that are known already, and those that are not: the coarsest first.
+    known: Vec<Cell>,
+    wanted: Vec<Cell>,
+}
+
+impl View {
+    fn of(sight: &mut Sight, epoch: u32) -> Option<Self> {
+        let map = sight.present()?;
+        let [columns, rows] = map.counts();
+        let side = |axis: usize| {
+            let cells = map.sides.get(axis)?;
+            Some(json!({
+                "name": map.plan.computation.axes[axis].name,
+                "first": cells.values.first(),
+                "step": cells.step,
+                "count": cells.values.len(),
+            }))
+        };
+        let announcement = json!({
+            "is": "map",
+            "epoch": epoch,
+            "x": side(0),
+            "y": side(1),
+            "lines": boundary_lines(&map.plan).iter().map(line).collect::<Vec<_>>(),
+        });
+        let plan = map.plan.clone();
+        let places = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
+        let mut cells: Vec<Cell> = places
+            .map(|(i, j)| {
+                let place = [i, j].map(|k| u16::try_from(k).unwrap_or(u16::MAX));
+                Cell { place, level: map.level(i, j), regime: 0 }
+            })
+            .collect();
+        let centre = [columns, rows].map(|count| 0.5 * (count as f64 - 1.0));
+        let distance = |cell: &Cell| {
+            let [x, y] = [0, 1].map(|axis| f64::from(cell.place[axis]) - centre[axis]);
+            x * x + y * y
+        };
+        cells.sort_by(|a, b| b.level.cmp(&a.level).then(distance(a).total_cmp(&distance(b))));
+        let (mut known, mut wanted) = (Vec::new(), Vec::new());
+        for cell in cells {
+            match sight.store.get(&plan.axis_values(number(columns, &cell))) {
+                Some(row) => known.push(Cell { regime: code(row.regime), ..cell }),
+                None => wanted.push(cell),
+            }
+        }
+        Some(Self { epoch, plan, announcement, known, wanted })
+    }
+
+    fn columns(&self) -> usize {
+        self.plan.computation.axes.first().map_or(1, |axis| axis.values.len())
+    }
+}
+
+/// The number of a cell in the plan.
+fn number(columns: usize, cell: &Cell) -> usize {
+    usize::from(cell.place[0]) + columns * usize::from(cell.place[1])
+}
+
+/// Place in the list of regimes.
+fn code(regime: Regime) -> u8 {
+    Regime::ALL
+        .iter()
+        .position(|&known| known == regime)
+        .and_then(|k| u8::try_from(k).ok())
+        .unwrap_or(u8::MAX)
+}
+
+fn line(line: &BoundaryLine) -> Value {
+    let style = match line.style {
+        LineStyle::Solid => "solid",
+        LineStyle::Dashed => "dashed",
+        LineStyle::Dotted => "dotted",
+        LineStyle::DashDotted => "dash-dotted",
+        LineStyle::LongDashed => "long-dashed",
+    };
+    json!({ "label": line.label, "style": style, "points": line.points })
+}
+
+/// What the threads share.
+struct Work<'w> {
+    view: &'w View,
+    sight: &'w Mutex<Sight>,
+    current: &'w Current<'w>,
+    answers: &'w Answers,
+    gone: AtomicBool,
+    next: Mutex<std::slice::Iter<'w, Cell>>,
+    out: Mutex<Out>,
+}
+
+/// Cells on their way to the page.
+struct Out {
+    cells: Vec<Cell>,
+    done: usize,
+    computed: usize,
+    sent: Instant,
+    told: Instant,
+    begun: Instant,
+}
+
+impl Out {
+    fn new(known: usize) -> Self {
+        let now = Instant::now();
+        Self { cells: Vec::new(), done: known, computed: 0, sent: now, told: now, begun: now }
+    }
+}
+
+impl Work<'_> {
+    /// One thread: cells until none is left.
+    fn run(&self) {
+        let columns = self.view.columns();
+        // The cells under way, by the number that this thread gave them.
+        let taken = std::cell::RefCell::new(Vec::new());
+        let mut next = || {
+            let cell = *lock(&self.next).next().filter(|_| !self.stopped())?;
+            taken.borrow_mut().push(cell);
+            Some((number(columns, &cell), 0))
+        };
+        let mut done = |given: usize, verdict: Result<Option<Verdict>, Error>| {
+            let cell = taken.borrow()[given];
+            if self.put(cell, verdict).is_err() {
+                self.gone.store(true, Ordering::Relaxed);
+            }
+        };
+        Classify.evaluate_all(&self.view.plan, &mut next, &mut done, self);
+    }
+
+    fn put(&self, cell: Cell, verdict: Result<Option<Verdict>, Error>) -> Done {
+        let number = number(self.view.columns(), &cell);
+        let Some(row) = Row::of_evaluation(number, 0, verdict) else { return Ok(()) };
+        let cell = Cell { regime: code(row.regime), ..cell };
+        lock(self.sight).store.put(&self.view.plan.axis_values(number), row);
+        let mut out = lock(&self.out);
+        out.cells.push(cell);
+        out.done += 1;
+        out.computed += 1;
+        if out.sent.elapsed() < EVERY.0 {
+            return Ok(());
+        }
+        out.sent = Instant::now();
+        let cells = std::mem::take(&mut out.cells);
+        self.answers.binary(frames::cells(self.view.epoch, &cells))?;
+        if out.told.elapsed() < EVERY.1 {
+            return Ok(());
+        }
+        out.told = Instant::now();
+        self.answers.json(&self.progress(&out))
+    }
+
+    fn progress(&self, out: &Out) -> Value {
+        let total = self.view.known.len() + self.view.wanted.len();
+        let rate = out.computed as f64 / out.begun.elapsed().as_secs_f64().max(1e-3);
+        json!({ "is": "progress", "epoch": self.view.epoch, "done": out.done, "total": total, "rate": rate })
+    }
+
+    /// Sends what is left, and that it is all, if it is.
+    fn finish(self, begun: Instant) -> Done {
+        let stopped = self.stopped();
+        let out = self.out.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+        if self.gone.into_inner() {
+            return Err(Gone);
+        }
+        if stopped {
+            return Ok(()); // whoever made it stale knows
+        }
+        self.answers.binary(frames::cells(self.view.epoch, &out.cells))?;
+        let seconds = begun.elapsed().as_secs_f64();
+        self.answers
+            .json(&json!({ "is": "mapped", "epoch": self.view.epoch, "cells": out.done, "seconds": seconds }))
+    }
+}
+
+impl Monitor for Work<'_> {
+    fn stopped(&self) -> bool {
+        self.gone.load(Ordering::Relaxed) || self.current.stopped()
+    }
+}

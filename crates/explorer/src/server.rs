@@ -1,0 +1,197 @@
+//! The server: addresses, and what is refused at the door.
+
+use crate::connection;
+use crate::guard::{Names, Token};
+use crate::page::asset;
+use crate::protocol::LONGEST;
+use crate::session::Greeting;
+use crate::{Error, catalogue};
+use axum::Router;
+use axum::extract::{Path, State, WebSocketUpgrade};
+use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use axum::routing::get;
+use std::net::{Ipv4Addr, TcpListener};
+use std::sync::Arc;
+use tokio::sync::{Semaphore, watch};
+
+/// The port that is taken where none is asked for and it is free.
+pub const DEFAULT_PORT: u16 = 7373;
+
+/// Most pages at a time: each has threads of its own.
+const PAGES: usize = 8;
+
+/// How to serve.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// The port; without it [`DEFAULT_PORT`], or any free one.
+    pub port: Option<u16>,
+    /// The token of an earlier start, so that its pages go on.
+    pub token: Option<String>,
+    /// The preset to begin with.
+    pub preset: Option<String>,
+}
+
+/// A server that has its port, and has not answered anybody yet.
+pub struct Server {
+    listener: TcpListener,
+    shared: Arc<Shared>,
+    port: u16,
+    stop: watch::Sender<bool>,
+    preset: Option<String>,
+}
+
+/// Stops a server from another thread.
+#[derive(Clone)]
+pub struct Handle(watch::Sender<bool>);
+
+impl Handle {
+    /// Asks the server to stop: pages are told, threads end.
+    pub fn stop(&self) {
+        self.0.send_replace(true);
+    }
+}
+
+/// What all requests share.
+struct Shared {
+    token: Token,
+    names: Names,
+    pages: Arc<Semaphore>,
+    greeting: Greeting,
+    stop: watch::Receiver<bool>,
+}
+
+impl Server {
+    /// Takes the port on 127.0.0.1.
+    ///
+    /// # Errors
+    /// A port that is taken, a token that is none, no random numbers.
+    pub fn bind(options: &Options) -> Result<Self, Error> {
+        let token = options.token.as_deref().map_or_else(Token::random, Token::given)?;
+        let listen = |port| {
+            TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(|reason| Error::Port { port, reason })
+        };
+        let listener = match options.port {
+            Some(port) => listen(port)?,
+            None => listen(DEFAULT_PORT).or_else(|_| listen(0))?,
+        };
+        let port = listener.local_addr()?.port();
+        let (stop, stopped) = watch::channel(false);
+        let restart = format!("motiform explore --port {port} --token {}", token.text());
+        let greeting = Greeting::new(&catalogue::registry()?, &restart);
+        let (names, pages) = (Names::new(port), Arc::new(Semaphore::new(PAGES)));
+        let shared = Arc::new(Shared { token, names, pages, greeting, stop: stopped });
+        Ok(Self { listener, shared, port, stop, preset: options.preset.clone() })
+    }
+
+    /// The address of the page.
+    #[must_use]
+    pub fn address(&self) -> String {
+        let preset = self.preset.as_ref().map_or_else(String::new, |preset| format!("#preset={preset}"));
+        format!("http://127.0.0.1:{}/{}/{preset}", self.port, self.shared.token.text())
+    }
+
+    /// Stops the server.
+    #[must_use]
+    pub fn handle(&self) -> Handle {
+        Handle(self.stop.clone())
+    }
+
+    /// Serves until it is stopped.
+    ///
+    /// # Errors
+    /// The machine failed.
+    pub fn run(self) -> Result<(), Error> {
+        // One thread for all connections: the work is done by the sessions' own.
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_io().enable_time().build()?;
+        let Self { listener, shared, stop, .. } = self;
+        runtime.block_on(async move {
+            listener.set_nonblocking(true)?;
+            let listener = tokio::net::TcpListener::from_std(listener)?;
+            let mut stopped = shared.stop.clone();
+            let done = async move {
+                let _ = stopped.wait_for(|stop| *stop).await; // the sender lives as long as the server
+            };
+            let served = axum::serve(listener, router(shared)).with_graceful_shutdown(done).await;
+            drop(stop);
+            Ok(served?)
+        })
+    }
+}
+
+fn router(shared: Arc<Shared>) -> Router {
+    Router::new()
+        .route("/{token}/", get(page))
+        .route("/{token}/{name}", get(file))
+        .route("/{token}/live", get(live))
+        .fallback(|| async { StatusCode::NOT_FOUND })
+        .with_state(shared)
+}
+
+impl Shared {
+    /// Nobody learns from the answer whether the token or the name was wrong.
+    fn admits(&self, token: &str, headers: &HeaderMap) -> bool {
+        let ours = self.names.host_is_ours(headers);
+        self.token.is(token) && ours
+    }
+}
+
+async fn page(State(shared): State<Arc<Shared>>, Path(token): Path<String>, headers: HeaderMap) -> Response {
+    if shared.admits(&token, &headers) { asset_response("") } else { StatusCode::FORBIDDEN.into_response() }
+}
+
+async fn file(
+    State(shared): State<Arc<Shared>>,
+    Path((token, name)): Path<(String, String)>,
+    headers: HeaderMap,
+) -> Response {
+    if shared.admits(&token, &headers) {
+        asset_response(&name)
+    } else {
+        StatusCode::FORBIDDEN.into_response()
+    }
+}
+
+/// What a browser must not do with the page: load anything from elsewhere, show it inside another page, tell its address.
+const HEADERS: [(HeaderName, &str); 6] = [
+    (
+        header::CONTENT_SECURITY_POLICY,
+        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'; \
+         base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    ),
+    (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+    (header::X_FRAME_OPTIONS, "DENY"),
+    (header::REFERRER_POLICY, "no-referrer"),
+    (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
+    (header::CACHE_CONTROL, "no-cache"),
+];
+
+fn asset_response(name: &str) -> Response {
+    let Some(asset) = asset(name) else { return StatusCode::NOT_FOUND.into_response() };
+    let mut response = asset.content.into_response();
+    let headers = response.headers_mut();
+    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(asset.kind));
+    for (name, value) in HEADERS {
+        headers.insert(name, HeaderValue::from_static(value));
+    }
+    response
+}
+
+async fn live(
+    State(shared): State<Arc<Shared>>,
+    Path(token): Path<String>,
+    headers: HeaderMap,
+    upgrade: WebSocketUpgrade,
+) -> Response {
+    if !shared.admits(&token, &headers) || !shared.names.origin_is_ours(&headers) {
+        return StatusCode::FORBIDDEN.into_response();
+    }
+    let Ok(place) = Arc::clone(&shared.pages).try_acquire_owned() else {
+        return (StatusCode::SERVICE_UNAVAILABLE, "too many pages are open: close one").into_response();
+    };
+    let (greeting, stop) = (shared.greeting.clone(), shared.stop.clone());
+    upgrade.max_message_size(LONGEST).max_frame_size(LONGEST).on_upgrade(move |socket| async move {
+        connection::serve(socket, greeting, stop).await;
+        drop(place);
+    })
+}

@@ -1,0 +1,64 @@
+//! The session of one page: its threads, and the greeting.
+
+use crate::answers::Answers;
+use crate::body::{self, Desks};
+use crate::protocol::Ask;
+use motiform_study::dataset::VERSION;
+use serde_json::{Value, json};
+use std::sync::Arc;
+use std::sync::mpsc::{SyncSender, sync_channel};
+use std::thread::JoinHandle;
+
+/// Messages that may wait for an answer.
+const WAITING: usize = 1024;
+
+/// The first message to every page.
+#[derive(Clone)]
+pub(crate) struct Greeting(Arc<str>);
+
+impl Greeting {
+    /// With the registry, and the command that starts this server again after it stopped.
+    pub(crate) fn new(registry: &Value, restart: &str) -> Self {
+        let hello = json!({ "is": "hello", "version": VERSION, "restart": restart, "registry": registry });
+        Self(hello.to_string().into())
+    }
+
+    pub(crate) fn text(&self) -> &str {
+        &self.0
+    }
+}
+
+/// What works for one page. All its threads end with it.
+pub(crate) struct Session {
+    asks: Option<SyncSender<Ask>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Session {
+    /// Starts the threads.
+    ///
+    /// # Errors
+    /// The system gives none.
+    pub(crate) fn start(answers: Answers) -> std::io::Result<Self> {
+        let (asks, heard) = sync_channel(WAITING);
+        let desks = Desks::new(&answers)?;
+        drop(answers); // the desks have their own: when they are gone, the page hears no more
+        let run = move || body::run(&heard, &desks);
+        let thread = std::thread::Builder::new().name("body".to_owned()).spawn(run)?;
+        Ok(Self { asks: Some(asks), thread: Some(thread) })
+    }
+
+    /// Asks; `false` if too much waits already, or the session has ended.
+    pub(crate) fn ask(&self, ask: Ask) -> bool {
+        self.asks.as_ref().is_some_and(|asks| asks.try_send(ask).is_ok())
+    }
+}
+
+impl Drop for Session {
+    fn drop(&mut self) {
+        self.asks = None; // ends the body, and with it the desks
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join(); // its panic was reported by the thread itself
+        }
+    }
+}

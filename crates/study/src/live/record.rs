@@ -1,0 +1,89 @@
+//! What was seen of a motion since its last change.
+
+use crate::simulate::pace;
+use motiform_dynamics::Model;
+
+/// The last samples of a motion, in memory that does not grow beyond twice `most` of them.
+#[derive(Clone, Debug)]
+pub struct Record {
+    most: usize,
+    /// Entries of a state (shape, x, y), and of what is read off it (speed, turning rate, observables).
+    state: usize,
+    read: usize,
+    /// Absolute tolerance of the method: speeds that it does not resolve have no heading.
+    atol: f64,
+    /// Whole rows: time, state, what is read off it.
+    numbers: Vec<f64>,
+}
+
+/// One sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row<'r> {
+    /// Model time.
+    pub t: f64,
+    /// The shape as the model computes with it, then x and y.
+    pub state: &'r [f64],
+    /// Speed, turning rate (NaN at rest), then the model's observables.
+    pub read: &'r [f64],
+}
+
+impl Row<'_> {
+    /// The position of the centre of mass.
+    #[must_use]
+    pub fn position(&self) -> [f64; 2] {
+        let place = self.state.len() - 2;
+        [self.state[place], self.state[place + 1]]
+    }
+}
+
+impl Record {
+    /// An empty record of a model's motion, computed with this absolute tolerance, that keeps the last `most` samples.
+    #[must_use]
+    pub fn new(model: &dyn Model, atol: f64, most: usize) -> Self {
+        let (state, read) = (model.dim() + 2, 2 + model.observables().len());
+        Self { most: most.max(1), state, read, atol, numbers: Vec::new() }
+    }
+
+    fn width(&self) -> usize {
+        1 + self.state + self.read
+    }
+
+    /// Number of samples that are kept.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        (self.numbers.len() / self.width()).min(self.most)
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.numbers.is_empty()
+    }
+
+    /// Takes in a sample: its time, then its state.
+    pub(super) fn push(&mut self, model: &dyn Model, sample: &[f64]) {
+        let width = self.width();
+        if self.numbers.len() == 2 * self.most * width {
+            self.numbers.drain(..self.most * width);
+        }
+        self.numbers.extend_from_slice(sample);
+        let shape = &sample[1..self.state - 1];
+        let (speed, turning) = pace(model, shape, self.atol);
+        self.numbers.extend([speed, turning]);
+        let observed = self.numbers.len();
+        self.numbers.resize(observed + self.read - 2, f64::NAN);
+        model.observe(shape, &mut self.numbers[observed..]);
+    }
+
+    /// The samples that are kept, from the oldest.
+    #[must_use]
+    pub fn rows(&self) -> impl DoubleEndedIterator<Item = Row<'_>> + ExactSizeIterator + Clone {
+        let (width, state) = (self.width(), self.state);
+        let first = self.numbers.len() - self.len() * width;
+        self.numbers[first..].chunks_exact(width).map(move |row| Row {
+            t: row[0],
+            state: &row[1..=state],
+            read: &row[1 + state..],
+        })
+    }
+}
