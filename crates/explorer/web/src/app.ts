@@ -1,0 +1,318 @@
+/** Brings the parts together: what the server says goes to the panels, what the reader does goes to the server. */
+
+import { fresh, read, type Place } from "./address";
+import type { Frame } from "./binary";
+import { BodyPanel } from "./body/panel";
+import { showName } from "./body/naming";
+import { Connection } from "./connection";
+import { Controls } from "./controls";
+import { dispatch, type Hearer } from "./dispatch";
+import { byId, setText } from "./dom";
+import { expose } from "./handle";
+import { History } from "./history";
+import { Keeper } from "./keeper";
+import { Loop } from "./loop";
+import { MapPanel } from "./map/panel";
+import { ParameterPanel } from "./parameters";
+import { PresetBar } from "./presets";
+import type { Begun, Changed, Exponents, Hello, Named, Refused, Regime, Share, Strips, Values, Wish } from "./protocol";
+import { Session } from "./session";
+import { ShareMenu } from "./share";
+import { showConnection } from "./status";
+import { StripPanels } from "./strips/panels";
+import { currentInks, onTheme } from "./theme";
+import { toast } from "./toasts";
+
+/** The body's colour while its motion has no name. */
+const NAMELESS = "#888888";
+
+export class App implements Hearer {
+  readonly map: MapPanel;
+  private session: Session | null = null;
+  private regime: Regime | null = null;
+  /** What the last `begin` asked for; `null` once the server agreed. */
+  private beginning: Place | null = null;
+  /** Whether parameters off the axes of the map changed. */
+  private mapStale = false;
+  private frames = 0;
+
+  private readonly history = new History();
+  private readonly keeper = new Keeper(() => this.place());
+  private readonly body = new BodyPanel(this.history, (follow) => this.controls.setFollow(follow));
+  private readonly parameters = new ParameterPanel((name, value) => this.choose({ [name]: value }));
+  private readonly presets = new PresetBar((name) => this.openPreset(name), (name) => this.open(fresh(name, null, this.loop.playing)));
+  private readonly strips: StripPanels;
+  private readonly controls: Controls;
+  private readonly share: ShareMenu;
+  private readonly connection: Connection;
+  private readonly loop: Loop;
+
+  constructor() {
+    const send = (wish: Wish): void => this.send(wish);
+    this.strips = new StripPanels(this.history, send, (time) => this.body.point(time), () => this.keeper.changed());
+    this.map = new MapPanel({
+      send,
+      regimes: () => this.session?.registry.regimes ?? [],
+      model: () => this.known().model,
+      parameters: () => this.session?.parameters ?? {},
+      choose: (values) => this.choose(values),
+      moved: () => this.windowMoved(),
+    });
+    this.controls = new Controls({
+      play: (playing) => this.play(playing),
+      restart: () => this.send({ do: "restart" }),
+      kick: () => this.send({ do: "kick" }),
+      noise: (amplitude) => this.send({ do: "noise", amplitude }),
+      speed: (speed) => this.setSpeed(speed),
+      trail: (time) => this.body.setTrail(time),
+      follow: (follow) => this.body.setFollow(follow),
+    });
+    this.share = new ShareMenu({ send, connected: () => this.connection.open, section: () => this.strips.section(), link: () => this.keeper.link() });
+    this.connection = new Connection({
+      answer: (answer) => dispatch(answer, this),
+      frame: (frame) => this.take(frame),
+      cells: (cells) => this.map.cells(cells),
+      file: (file) => this.share.take(file),
+      open: (open) => this.opened(open),
+    });
+    this.loop = new Loop({
+      ready: () => this.connection.open && this.session !== null && !this.beginning,
+      speed: () => this.known().speed,
+      advance: (dt) => this.send({ do: "advance", dt }),
+      before: () => this.flush(),
+      draw: (now, seconds) => this.draw(now, seconds),
+    });
+    onTheme(() => this.recolour());
+    window.addEventListener("hashchange", () => this.openAddress());
+    expose({ frames: () => this.frames, frame: () => this.body.last(), map: this.map });
+  }
+
+  private known(): Session {
+    if (!this.session) throw new Error("the server has not said hello yet");
+    return this.session;
+  }
+
+  private send(wish: Wish): void {
+    this.connection.send(wish);
+  }
+
+  private draw(now: number, seconds: number): void {
+    const moving = this.loop.moving();
+    this.body.draw(seconds);
+    this.map.draw();
+    this.strips.draw(now, moving, this.body);
+    if (moving) this.keeper.moving(now);
+  }
+
+  private recolour(): void {
+    this.map.touch();
+    this.strips.touch();
+    this.paintBody();
+  }
+
+  // ---- what the server says
+
+  revision(): number {
+    return this.session?.revision ?? -1;
+  }
+
+  private opened(open: boolean): void {
+    showConnection(open);
+    this.loop.received();
+    if (!open) this.share.drop();
+  }
+
+  /** The first greeting opens the address; after a loss of the connection the body goes on where it was. */
+  hello({ registry, restart, version }: Hello): void {
+    setText(byId("banner-command"), restart);
+    byId("connection").title = `motiform ${version}`;
+    const place = this.place();
+    this.session = new Session(registry);
+    this.presets.fill(registry);
+    if (place) this.open(place);
+    else this.openAddress();
+  }
+
+  begun(begun: Begun): void {
+    const session = this.known();
+    const { preset, model } = session;
+    const place = this.beginning;
+    this.beginning = null;
+    session.begun(begun, place?.speed ?? begun.speed);
+    setText(byId("about"), begun.about);
+    document.title = `${begun.title} \u2013 motiform`;
+    this.presets.show(model.name, begun.preset);
+    this.parameters.begin(model, preset, session.base);
+    this.controls.setSpeed(session.speed, begun.speeds);
+    this.controls.setTrail(begun.speed);
+    this.history.clear();
+    this.body.begin();
+    if (place?.section) this.strips.begin(model.observables, place.section, place.y);
+    else this.strips.begin(model.observables, preset?.section ?? "speed", preset?.y ?? null);
+    const home = preset?.plane ?? model.plane;
+    this.map.begin(place?.plane ?? home, home);
+    this.windowMoved();
+    this.renew(session);
+  }
+
+  changed(changed: Changed): void {
+    const session = this.known();
+    session.agreed(changed);
+    this.renew(session);
+  }
+
+  /** The motion is another one: no name, no exponents, and the body may move again. */
+  private renew(session: Session): void {
+    this.parameters.show(session.parameters);
+    this.controls.setNoise(session.noise);
+    this.map.touch();
+    this.loop.ended = false;
+    byId("ended").hidden = true;
+    this.naming();
+    this.strips.renew();
+    if (!this.loop.playing) this.send({ do: "advance", dt: 0 });
+    this.keeper.changed();
+  }
+
+  naming(): void {
+    this.name(null, "");
+  }
+
+  named({ regime, why }: Named): void {
+    this.name(this.known().registry.regimes.find((one) => one.name === regime) ?? null, why);
+  }
+
+  private name(regime: Regime | null, why: string): void {
+    this.regime = regime;
+    showName(regime, why);
+    this.paintBody();
+  }
+
+  /** The body takes the colour of its regime; black would be invisible upon dark. */
+  private paintBody(): void {
+    const inks = currentInks();
+    const colour = this.regime?.colour ?? NAMELESS;
+    this.body.setColour(inks.dark && colour === "#000000" ? inks.ink : colour);
+  }
+
+  exponents(exponents: Exponents): void {
+    this.strips.exponents(exponents);
+  }
+
+  analysed(strips: Strips, current: boolean): void {
+    this.strips.take(strips, current);
+  }
+
+  ended(text: string): void {
+    this.loop.ended = true;
+    setText(byId("ended-text"), text);
+    byId("ended").hidden = false;
+  }
+
+  shared(share: Share): void {
+    this.share.show(share);
+  }
+
+  refused({ id, why }: Refused): void {
+    if (id !== null && this.share.refuse(id, why)) return;
+    if (this.beginning) return this.beginLess(this.beginning, why);
+    const names = this.session?.refused(why) ?? [];
+    if (!this.parameters.refuse(names, why)) toast(why);
+    if (this.session) this.parameters.show(this.session.parameters);
+    this.map.touch();
+  }
+
+  /** A beginning that was refused is tried with less: without state, then without changes. */
+  private beginLess(place: Place, why: string): void {
+    this.beginning = null;
+    toast(why);
+    if (place.state) this.open({ ...place, state: null, position: null, t: 0 });
+    else if (Object.keys(place.parameters).length) this.open({ ...place, parameters: {} });
+  }
+
+  private take(frame: Frame): void {
+    this.loop.received();
+    this.frames++;
+    if (frame.revision < this.revision()) return;
+    const first = this.body.last() === null;
+    this.history.take(frame);
+    this.body.take(frame);
+    if (first) this.keeper.changed();
+  }
+
+  // ---- what the reader does
+
+  private openPreset(name: string): void {
+    const preset = this.known().registry.presets.find((one) => one.name === name);
+    if (preset) this.open(fresh(preset.model, name, this.loop.playing));
+  }
+
+  private openAddress(): void {
+    const { place, notes } = read(location.hash, this.known().registry);
+    if (notes.length) toast(`Left aside in the address: ${notes.join(", ")}`);
+    this.loop.playing = place.playing;
+    this.controls.setPlaying(place.playing);
+    this.open(place);
+  }
+
+  private open(place: Place): void {
+    const { model, preset, parameters, state, position, t, noise } = place;
+    this.known().choose(model, preset, parameters);
+    this.beginning = place;
+    this.send({ do: "begin", model, preset, parameters, state, position, t, noise, seed: 1 });
+  }
+
+  /** New values: sent with the next frame, in one message however many there are. */
+  private choose(values: Values): void {
+    if (!this.session) return;
+    this.session.want(values);
+    this.parameters.show(this.session.parameters);
+    this.map.touch();
+    this.mapStale ||= Object.keys(values).some((name) => !this.map.isAxis(name));
+    this.keeper.changed();
+  }
+
+  private flush(): void {
+    const values = this.session?.take();
+    if (!values) return;
+    this.send({ do: "set", parameters: values });
+    if (this.mapStale) this.map.renew();
+    this.mapStale = false;
+  }
+
+  private play(playing: boolean): void {
+    this.loop.playing = playing;
+    this.controls.setPlaying(playing);
+    this.keeper.write();
+  }
+
+  private setSpeed(speed: number): void {
+    this.known().speed = speed;
+    this.keeper.changed();
+  }
+
+  private windowMoved(): void {
+    const plane = this.map.current();
+    this.parameters.markAxes(plane?.x.name ?? null, plane?.y?.name ?? null);
+    this.keeper.changed();
+  }
+
+  /** Everything that the address holds; `null` before the body has been seen. */
+  private place(): Place | null {
+    const [session, frame] = [this.session, this.body.last()];
+    if (!session || !frame || this.beginning) return null;
+    return {
+      model: session.model.name,
+      preset: session.preset?.name ?? null,
+      parameters: session.changed(),
+      plane: this.map.current(),
+      speed: session.speed,
+      noise: session.noise,
+      ...this.strips.section(),
+      playing: this.loop.playing,
+      t: frame.t,
+      position: [frame.x, frame.y],
+      state: [...frame.state],
+    };
+  }
+}

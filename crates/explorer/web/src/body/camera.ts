@@ -1,0 +1,99 @@
+/** Which part of the plane is in sight: follows body and trail smoothly, or stays where the reader left it. */
+
+import type { History } from "../history";
+import { X, Y } from "../history";
+
+/** Half the sight is at most so many radii of the body, or the path would shrink the body to a dot. */
+const WIDEST = 28;
+/** and at least so many. */
+const CLOSEST = 3;
+/** Seconds in which the camera makes up for most of its lag. */
+const EASE = 0.45;
+/** Room about the trail. */
+const MARGIN = 1.15;
+
+export class Camera {
+  follow = true;
+  /** Pixels per model length. */
+  scale = 40;
+  x = 0;
+  y = 0;
+  width = 1;
+  height = 1;
+  private zoom = 1;
+  private fresh = true;
+  private body = { x: 0, y: 0 };
+  private goal = { x: 0, y: 0, scale: 40 };
+
+  /** The next aim is taken at once: a new body. */
+  jump(): void {
+    this.fresh = true;
+  }
+
+  toX(x: number): number {
+    return this.width / 2 + (x - this.x) * this.scale;
+  }
+
+  toY(y: number): number {
+    return this.height / 2 - (y - this.y) * this.scale;
+  }
+
+  /** Aims at the trail from sample `from` on and at the body, with its radius. */
+  aim(history: History, from: number, bx: number, by: number, radius: number): void {
+    this.body = { x: bx, y: by };
+    let [x0, x1, y0, y1] = [bx - radius, bx + radius, by - radius, by + radius];
+    const stride = Math.max(1, Math.floor((history.length - from) / 400));
+    for (let i = from; i < history.length; i += stride) {
+      const [x, y] = [history.at(i, X), history.at(i, Y)];
+      x0 = Math.min(x0, x);
+      x1 = Math.max(x1, x);
+      y0 = Math.min(y0, y);
+      y1 = Math.max(y1, y);
+    }
+    const least = Math.min(this.width, this.height) / 2;
+    const fit = Math.min(this.width / (x1 - x0), this.height / (y1 - y0)) / MARGIN;
+    const scale = this.zoom * Math.min(least / (CLOSEST * radius), Math.max(least / (WIDEST * radius), fit));
+    this.goal = { x: toward((x0 + x1) / 2, bx, 0.26 * this.width / scale), y: toward((y0 + y1) / 2, by, 0.26 * this.height / scale), scale };
+  }
+
+  /** Moves on by `seconds`; tells whether anything moved visibly. */
+  step(seconds: number): boolean {
+    if (!this.follow && !this.fresh) return false;
+    const part = this.fresh ? 1 : 1 - Math.exp(-seconds / EASE);
+    this.fresh = false;
+    const [dx, dy] = [(this.goal.x - this.x) * part, (this.goal.y - this.y) * part];
+    const ratio = (this.goal.scale / this.scale) ** part;
+    this.x += dx;
+    this.y += dy;
+    this.scale *= ratio;
+    this.x = toward(this.x, this.body.x, (0.4 * this.width) / this.scale);
+    this.y = toward(this.y, this.body.y, (0.4 * this.height) / this.scale);
+    return Math.hypot(dx, dy) * this.scale > 0.02 || Math.abs(ratio - 1) > 1e-4;
+  }
+
+  /** Zooms about a pixel; while the camera follows, about the body. */
+  zoomBy(factor: number, px: number, py: number): void {
+    this.zoom = Math.min(50, Math.max(0.02, this.zoom * factor));
+    if (!this.follow) {
+      this.x += (px - this.width / 2) * (1 / this.scale - 1 / (this.scale * factor));
+      this.y -= (py - this.height / 2) * (1 / this.scale - 1 / (this.scale * factor));
+    }
+    this.scale *= factor;
+  }
+
+  pan(dx: number, dy: number): void {
+    this.x -= dx / this.scale;
+    this.y += dy / this.scale;
+  }
+
+  /** Back to the sight that suits body and trail. */
+  reset(): void {
+    this.zoom = 1;
+    this.follow = true;
+  }
+}
+
+/** `centre`, moved so that `must` is no further from it than `reach`. */
+function toward(centre: number, must: number, reach: number): number {
+  return Math.min(must + reach, Math.max(must - reach, centre));
+}

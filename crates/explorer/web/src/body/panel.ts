@@ -1,0 +1,158 @@
+/** The body in motion, in its place on the page. */
+
+import type { Frame } from "../binary";
+import { Sheet } from "../canvas";
+import { byId, setText } from "../dom";
+import { T, type History } from "../history";
+import { fixed } from "../numbers";
+import { watch } from "../pointer";
+import { currentInks } from "../theme";
+import { Camera } from "./camera";
+import { paintBody } from "./painting";
+
+/** The body is drawn at least and at most so large (radius in pixels) before its enlargement changes. */
+const SMALLEST = 15;
+const LARGEST = 52;
+const ENLARGEMENTS = [1, 2, 3, 5, 8, 12, 20, 30, 50, 80, 120, 200, 500];
+const CLOCK_GAP = 100;
+
+export class BodyPanel {
+  readonly camera = new Camera();
+  private readonly sheet: Sheet;
+  private frame: Frame | null = null;
+  private outline: Float64Array | null = null;
+  private enlarged = 1;
+  private trueSize = false;
+  private dirty = false;
+  private colour = "#888888";
+  private clockAt = 0;
+  private trail = 100;
+  /** Time that the cursor of the series points at. */
+  private pointed: number | null = null;
+
+  constructor(
+    private readonly history: History,
+    private readonly followed: (follow: boolean) => void,
+  ) {
+    const canvas = byId<HTMLCanvasElement>("body");
+    this.sheet = new Sheet(canvas, () => (this.dirty = true));
+    watch(canvas, {
+      pan: (dx, dy) => {
+        this.setFollow(false);
+        this.camera.pan(dx, dy);
+        this.dirty = true;
+      },
+      zoom: (factor, x, y) => {
+        this.camera.zoomBy(factor, x, y);
+        this.dirty = true;
+      },
+      double: () => {
+        this.camera.reset();
+        this.setFollow(true);
+      },
+    });
+    byId("true-size").addEventListener("click", () => this.toggleSize());
+  }
+
+  /** The last frame that came. */
+  last(): Frame | null {
+    return this.frame;
+  }
+
+  /** A new body: the sight jumps to it. */
+  begin(): void {
+    this.frame = this.outline = null;
+    this.camera.jump();
+    this.dirty = true;
+  }
+
+  take(frame: Frame): void {
+    if (this.frame && frame.t < this.frame.t - 1e-9) this.camera.jump();
+    this.frame = frame;
+    if (frame.outlined && frame.outline.length) this.outline = frame.outline;
+    this.dirty = true;
+  }
+
+  touch(): void {
+    this.dirty = true;
+  }
+
+  setColour(colour: string): void {
+    this.colour = colour;
+    this.dirty = true;
+  }
+
+  /** Model time of the trail. */
+  setTrail(time: number): void {
+    this.trail = time;
+    this.dirty = true;
+  }
+
+  setFollow(follow: boolean): void {
+    if (this.camera.follow !== follow) this.followed(follow);
+    this.camera.follow = follow;
+    this.dirty = true;
+  }
+
+  point(time: number | null): void {
+    if (this.pointed !== time) this.dirty = true;
+    this.pointed = time;
+  }
+
+  /** Draws where anything moved; `seconds` since the last picture. */
+  draw(seconds: number): void {
+    const { frame, camera, sheet } = this;
+    if (!frame || !sheet.width) return;
+    [camera.width, camera.height] = [sheet.width, sheet.height];
+    const from = this.history.since(frame.t - this.trail);
+    if (this.dirty) camera.aim(this.history, from, frame.x, frame.y, frame.radius);
+    if (!camera.step(seconds) && !this.dirty) return;
+    this.dirty = false;
+    this.enlarge(frame.radius);
+    sheet.clear();
+    const pointed = this.pointed === null ? -1 : Math.min(this.history.length - 1, this.history.since(this.pointed));
+    paintBody(sheet.g, { camera, history: this.history, from, frame, outline: this.outline, enlarged: this.enlarged, colour: this.colour, pointed }, currentInks());
+    this.clock(frame);
+  }
+
+  /** The least enlargement that makes the body visible, kept while it is neither tiny nor huge. */
+  private enlarge(radius: number): void {
+    const pixels = radius * this.camera.scale;
+    const now = pixels * this.enlarged;
+    if (this.trueSize) this.enlarged = 1;
+    else if (now < SMALLEST || (this.enlarged > 1 && now > LARGEST)) {
+      this.enlarged = ENLARGEMENTS.find((factor) => pixels * factor >= 1.3 * SMALLEST) ?? 1;
+    }
+    const button = byId("true-size");
+    button.hidden = !this.trueSize && this.enlarged === 1;
+    setText(button, this.trueSize ? "true size" : `body drawn ${this.enlarged}\u00d7`);
+  }
+
+  private toggleSize(): void {
+    this.trueSize = !this.trueSize;
+    byId("true-size").setAttribute("aria-pressed", String(this.trueSize));
+    this.dirty = true;
+  }
+
+  /** Time and place in figures, ten times a second. */
+  private clock(frame: Frame): void {
+    const now = performance.now();
+    if (now - this.clockAt < CLOCK_GAP) return;
+    this.clockAt = now;
+    setText(byId("clock-t"), fixed(frame.t, 1));
+    setText(byId("clock-x"), fixed(frame.x, 2));
+    setText(byId("clock-y"), fixed(frame.y, 2));
+    const late = frame.behind ? "computing is slower than this speed: the body is behind" : "";
+    setText(byId("body-note"), frame.outlined || !frame.outline.length && !this.outline ? late : "the outline is no curve here");
+  }
+
+  /** Time of the first sample in sight. */
+  since(): number {
+    return (this.frame?.t ?? 0) - this.trail;
+  }
+
+  /** Time of the last sample. */
+  now(): number {
+    return this.history.length ? this.history.at(this.history.length - 1, T) : 0;
+  }
+}

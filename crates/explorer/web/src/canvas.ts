@@ -1,0 +1,38 @@
+/** A canvas that is as sharp as the screen and as large as its place on the page. */
+
+export class Sheet {
+  readonly g: CanvasRenderingContext2D;
+  width = 0;
+  height = 0;
+  ratio = 1;
+
+  /** Calls `changed` whenever the size changes; the drawing is then gone. */
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    changed: () => void,
+  ) {
+    const g = canvas.getContext("2d");
+    if (!g) throw new Error("this browser draws no canvases");
+    this.g = g;
+    new ResizeObserver(() => {
+      if (this.fit()) changed();
+    }).observe(canvas);
+    this.fit();
+  }
+
+  /** Units of drawing are CSS pixels. */
+  clear(): void {
+    this.g.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    this.g.clearRect(0, 0, this.width, this.height);
+  }
+
+  private fit(): boolean {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const ratio = Math.min(3, window.devicePixelRatio || 1);
+    if (width === this.width && height === this.height && ratio === this.ratio) return false;
+    Object.assign(this, { width, height, ratio });
+    this.canvas.width = Math.round(width * ratio);
+    this.canvas.height = Math.round(height * ratio);
+    return true;
+  }
+}

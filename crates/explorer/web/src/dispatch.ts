@@ -1,0 +1,58 @@
+/** Who hears which answer. What belongs to an earlier motion is left aside here, once for all. */
+
+import type { Answer, Begun, Changed, Exponents, Hello, Named, Refused, Share, Strips } from "./protocol";
+import type { MapPanel } from "./map/panel";
+
+/** The page, as the server speaks to it. */
+export interface Hearer {
+  readonly map: MapPanel;
+  /** Revision of the motion that the page shows. */
+  revision(): number;
+  hello(answer: Hello): void;
+  begun(answer: Begun): void;
+  changed(answer: Changed): void;
+  naming(): void;
+  named(answer: Named): void;
+  exponents(answer: Exponents): void;
+  /** Also of an earlier motion: another question may then follow. */
+  analysed(answer: Strips, current: boolean): void;
+  ended(text: string): void;
+  shared(answer: Share): void;
+  refused(answer: Refused): void;
+}
+
+export function dispatch(answer: Answer, to: Hearer): void {
+  switch (answer.is) {
+    case "hello":
+      return to.hello(answer);
+    case "begun":
+      return to.begun(answer);
+    case "changed":
+      return to.changed(answer);
+    case "map":
+      return to.map.started(answer);
+    case "progress":
+      return to.map.progress(answer);
+    case "mapped":
+      return to.map.mapped(answer);
+    case "evidence":
+      return to.map.evidence(answer);
+    case "share":
+      return to.shared(answer);
+    case "refused":
+      return to.refused(answer);
+    case "strips":
+      return to.analysed(answer, answer.revision === to.revision());
+  }
+  if (answer.revision !== to.revision()) return;
+  switch (answer.is) {
+    case "naming":
+      return to.naming();
+    case "named":
+      return to.named(answer);
+    case "exponents":
+      return to.exponents(answer);
+    case "ended":
+      return to.ended(answer.text);
+  }
+}

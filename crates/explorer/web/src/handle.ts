@@ -1,0 +1,51 @@
+/** `window.motiform`: a small read-only handle for tests and for curious readers at the console. */
+
+import type { Frame } from "./binary";
+import type { MapPanel } from "./map/panel";
+import type { View } from "./plot";
+
+interface Handle {
+  /** Frames received so far. */
+  readonly frames: number;
+  /** Where the body is. */
+  position(): [number, number] | null;
+  /** Coordinates of the shape. */
+  state(): number[] | null;
+  map: {
+    /** The window in sight. */
+    window(): View | null;
+    /** CSS pixels on the canvas of a point of the plane. */
+    toPixel(x: number, y: number): [number, number];
+    readonly complete: boolean;
+  };
+}
+
+declare global {
+  interface Window {
+    motiform: Handle;
+  }
+}
+
+export function expose(source: { frames(): number; frame(): Frame | null; map: MapPanel }): void {
+  const { map } = source;
+  window.motiform = Object.freeze({
+    get frames() {
+      return source.frames();
+    },
+    position() {
+      const frame = source.frame();
+      return frame && ([frame.x, frame.y] as [number, number]);
+    },
+    state() {
+      const frame = source.frame();
+      return frame && [...frame.state];
+    },
+    map: Object.freeze({
+      window: () => map.window(),
+      toPixel: (x: number, y: number) => map.toPixel(x, y),
+      get complete() {
+        return map.complete;
+      },
+    }),
+  });
+}

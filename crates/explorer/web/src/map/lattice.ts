@@ -1,0 +1,115 @@
+/** The cells of one map: their regimes, and a picture of one pixel per cell. */
+
+import type { Cells } from "../binary";
+import type { Grid, MapStart, Regime } from "../protocol";
+import { pixelX, pixelY, type Box, type View } from "../plot";
+
+/** A cell that no verdict covers yet. */
+export const UNKNOWN = 255;
+
+const POINT: Grid = { name: "", first: 0, step: 1, count: 1 };
+
+export class Lattice {
+  readonly columns: number;
+  readonly rows: number;
+  /** Regime of each cell, row by row from the lowest y. */
+  readonly regimes: Uint8Array;
+  private readonly x: Grid;
+  private readonly y: Grid;
+  private readonly image: ImageData;
+  private readonly canvas: HTMLCanvasElement;
+  private readonly colours: Uint32Array;
+  private stale = false;
+
+  constructor(
+    readonly start: MapStart,
+    private readonly legend: Regime[],
+  ) {
+    this.x = start.x;
+    this.y = start.y ?? POINT;
+    this.columns = this.x.count;
+    this.rows = this.y.count;
+    this.regimes = new Uint8Array(this.columns * this.rows).fill(UNKNOWN);
+    this.image = new ImageData(this.columns, this.rows);
+    this.canvas = document.createElement("canvas");
+    this.canvas.width = this.columns;
+    this.canvas.height = this.rows;
+    this.colours = Uint32Array.from(legend, (regime) => opaque(regime.area));
+  }
+
+  /** Enters cells in the order of their arrival; a cell of level l stands for 2^l x 2^l cells about it. */
+  take({ count, view }: Cells): void {
+    for (let k = 0; k < count && 8 * k + 8 <= view.byteLength; k++) {
+      const size = 1 << view.getUint8(8 * k + 4);
+      const i = view.getUint16(8 * k, true) - (size >> 1);
+      const j = view.getUint16(8 * k + 2, true) - (size >> 1);
+      this.fill(i, j, size, view.getUint8(8 * k + 5));
+    }
+    this.stale = true;
+  }
+
+  private fill(i: number, j: number, size: number, regime: number): void {
+    const pixels = new Uint32Array(this.image.data.buffer);
+    for (let row = Math.max(0, j); row < Math.min(this.rows, j + size); row++) {
+      const [from, to] = [Math.max(0, i), Math.min(this.columns, i + size)];
+      this.regimes.fill(regime, row * this.columns + from, row * this.columns + to);
+      const top = (this.rows - 1 - row) * this.columns;
+      pixels.fill(this.colours[regime] ?? 0, top + from, top + to);
+    }
+  }
+
+  /** The cell about a point of the plane; `null` outside. */
+  cell(x: number, y: number): [number, number] | null {
+    const i = Math.round((x - this.x.first) / this.x.step);
+    const j = this.start.y ? Math.round((y - this.y.first) / this.y.step) : 0;
+    return i >= 0 && i < this.columns && j >= 0 && j < this.rows ? [i, j] : null;
+  }
+
+  /** Which regimes occur, in the order of legends. */
+  occurring(): number[] {
+    const seen = new Set(this.regimes);
+    return this.legend.map((_, index) => index).filter((index) => seen.has(index));
+  }
+
+  /** The rectangle that cells `i` to `end` of row `j` cover on the screen. */
+  place(box: Box, view: View, i: number, end: number, j: number): [number, number, number, number] {
+    const left = pixelX(box, view, this.x.first + (i - 0.5) * this.x.step);
+    const right = pixelX(box, view, this.x.first + (end - 0.5) * this.x.step);
+    if (!this.start.y) return [left, box.top, right - left, box.height];
+    const top = pixelY(box, view, this.y.first + (j + 0.5) * this.y.step);
+    const bottom = pixelY(box, view, this.y.first + (j - 0.5) * this.y.step);
+    return [left, top, right - left, bottom - top];
+  }
+
+  /** Draws the cells; those that are not known yet stay transparent. */
+  draw(g: CanvasRenderingContext2D, box: Box, view: View): void {
+    if (this.stale) this.canvas.getContext("2d")?.putImageData(this.image, 0, 0);
+    this.stale = false;
+    const [left, top, width] = this.place(box, view, 0, this.columns, this.rows - 1);
+    const [, lowest, , height] = this.place(box, view, 0, 1, 0);
+    g.imageSmoothingEnabled = false;
+    g.drawImage(this.canvas, left, top, width, lowest + height - top);
+  }
+
+  /** Runs of cells of one regime along the rows, as one path. */
+  outlineOf(regime: number, box: Box, view: View): Path2D | null {
+    const path = new Path2D();
+    let any = false;
+    for (let j = 0; j < this.rows; j++) {
+      for (let i = 0; i < this.columns; i++) {
+        if (this.regimes[j * this.columns + i] !== regime) continue;
+        const from = i;
+        while (i < this.columns && this.regimes[j * this.columns + i] === regime) i++;
+        path.rect(...this.place(box, view, from, i, j));
+        any = true;
+      }
+    }
+    return any ? path : null;
+  }
+}
+
+/** `#rrggbb` as a pixel of ImageData. */
+function opaque(colour: string): number {
+  const value = parseInt(colour.slice(1), 16);
+  return (255 << 24 | (value & 255) << 16 | (value & 0xff00) | value >> 16) >>> 0;
+}

@@ -1,0 +1,163 @@
+/** The picture of the map: cells, hatching, lines of the theory, glyphs, the mark of the body, axes. */
+
+import { drawGlyph } from "../glyphs";
+import type { Line, LineStyle, Regime } from "../protocol";
+import { drawAxes, pixelX, pixelY, type Box, type View } from "../plot";
+import type { Inks } from "../theme";
+import type { Landmark } from "./landmarks";
+import type { Lattice } from "./lattice";
+
+/** The map before the present one, kept in sight until new cells cover it. */
+export interface Memory {
+  picture: HTMLCanvasElement;
+  view: View;
+  /** Whether it shows other parameters than the present ones. */
+  outdated: boolean;
+}
+
+/** What fills the frame. */
+export interface Areas {
+  box: Box;
+  view: View;
+  regimes: Regime[];
+  lattice: Lattice | null;
+  memory: Memory | null;
+}
+
+/** The whole picture. */
+export interface Scene extends Areas {
+  labels: { x: string; y: string | null };
+  landmarks: Landmark[];
+  mark: { x: number; y: number };
+}
+
+export const DASH: Record<LineStyle, number[]> = {
+  solid: [],
+  dashed: [6, 4],
+  dotted: [1.5, 3.5],
+  "dash-dotted": [7, 3, 1.5, 3],
+  "long-dashed": [12, 5],
+};
+
+/** Draws the whole map. */
+export function paint(g: CanvasRenderingContext2D, scene: Scene, inks: Inks): void {
+  const { box } = scene;
+  g.save();
+  g.beginPath();
+  g.rect(box.left, box.top, box.width, box.height);
+  g.clip();
+  paintCells(g, scene, inks);
+  for (const line of scene.lattice?.start.lines ?? []) paintLine(g, box, scene.view, line);
+  paintGlyphs(g, scene);
+  paintMark(g, scene);
+  g.restore();
+  drawAxes(g, box, scene.view, scene.labels, inks);
+}
+
+/** Only the areas: ground, the map before, the cells of now, hatching. */
+export function paintCells(g: CanvasRenderingContext2D, { box, view, lattice, memory, regimes }: Areas, inks: Inks): void {
+  g.fillStyle = pattern(g, "ground", inks);
+  g.fillRect(box.left, box.top, box.width, box.height);
+  if (memory) {
+    g.globalAlpha = memory.outdated ? 0.35 : 1;
+    const [left, top] = [pixelX(box, view, memory.view.x0), pixelY(box, view, memory.view.y1)];
+    g.imageSmoothingEnabled = false;
+    g.drawImage(memory.picture, left, top, pixelX(box, view, memory.view.x1) - left, pixelY(box, view, memory.view.y0) - top);
+    g.globalAlpha = 1;
+  }
+  if (!lattice) return;
+  lattice.draw(g, box, view);
+  const hatched = lattice.outlineOf(regimes.findIndex((regime) => regime.glyph === "Question"), box, view);
+  if (!hatched) return;
+  g.fillStyle = pattern(g, "hatch", inks);
+  g.fill(hatched);
+}
+
+const patterns = new Map<string, CanvasPattern>();
+
+/** Dots for what is not computed yet, strokes for what stays undetermined. */
+function pattern(g: CanvasRenderingContext2D, kind: "ground" | "hatch", inks: Inks): CanvasPattern | string {
+  const key = `${kind} ${inks.plot}`;
+  const known = patterns.get(key);
+  if (known) return known;
+  const tile = document.createElement("canvas");
+  tile.width = tile.height = 8;
+  const t = tile.getContext("2d");
+  if (!t) return inks.plot;
+  if (kind === "ground") {
+    t.fillStyle = inks.plot;
+    t.fillRect(0, 0, 8, 8);
+    t.fillStyle = inks.faint;
+    t.fillRect(1, 1, 1.2, 1.2);
+    t.fillRect(5, 5, 1.2, 1.2);
+  } else {
+    t.strokeStyle = "#888888";
+    t.lineWidth = 1.1;
+    t.beginPath();
+    for (const shift of [-8, 0, 8]) {
+      t.moveTo(shift - 1, 9);
+      t.lineTo(shift + 9, -1);
+    }
+    t.stroke();
+  }
+  const made = g.createPattern(tile, "repeat");
+  if (!made) return inks.plot;
+  patterns.set(key, made);
+  return made;
+}
+
+/** A line of the theory: black with a white halo, visible upon every regime. */
+function paintLine(g: CanvasRenderingContext2D, box: Box, view: View, line: Line): void {
+  if (line.points.length < 2) return;
+  const path = new Path2D();
+  line.points.forEach(([x, y], i) => {
+    const [u, v] = [pixelX(box, view, x), pixelY(box, view, y)];
+    if (i) path.lineTo(u, v);
+    else path.moveTo(u, v);
+  });
+  g.lineJoin = "round";
+  g.strokeStyle = "rgba(255, 255, 255, 0.8)";
+  g.lineWidth = 4;
+  g.stroke(path);
+  g.strokeStyle = "#111111";
+  g.lineWidth = 1.6;
+  g.setLineDash(DASH[line.style] ?? []);
+  g.stroke(path);
+  g.setLineDash([]);
+}
+
+function paintGlyphs(g: CanvasRenderingContext2D, { box, view, lattice, landmarks, regimes }: Scene): void {
+  if (!lattice) return;
+  for (const { regime, i, j } of landmarks) {
+    const [left, top, width, height] = lattice.place(box, view, i, i + 1, j);
+    const y = lattice.rows > 1 ? top + height / 2 : top + height * 0.2;
+    if (regimes[regime]) drawGlyph(g, regimes[regime], left + width / 2, y, 5);
+  }
+}
+
+/** Where the body is: a cross of hair lines with a ring, light on dark on light. */
+function paintMark(g: CanvasRenderingContext2D, { box, view, mark, lattice }: Scene): void {
+  const x = pixelX(box, view, mark.x);
+  const y = lattice?.start.y === null ? box.top + box.height / 2 : pixelY(box, view, mark.y);
+  const strokes: [string, number][] = [["rgba(255, 255, 255, 0.9)", 4], ["#111111", 1.6]];
+  const hairs = new Path2D();
+  if (lattice?.start.y) {
+    hairs.rect(box.left, y, x - 11 - box.left, 0);
+    hairs.rect(x + 11, y, box.left + box.width - x - 11, 0);
+  }
+  hairs.rect(x, box.top, 0, y - 11 - box.top);
+  hairs.rect(x, y + 11, 0, box.top + box.height - y - 11);
+  g.strokeStyle = "rgba(255, 255, 255, 0.45)";
+  g.lineWidth = 2;
+  g.stroke(hairs);
+  g.strokeStyle = "rgba(0, 0, 0, 0.55)";
+  g.lineWidth = 0.8;
+  g.stroke(hairs);
+  for (const [colour, width] of strokes) {
+    g.strokeStyle = colour;
+    g.lineWidth = width;
+    g.beginPath();
+    g.arc(x, y, 7, 0, 2 * Math.PI);
+    g.stroke();
+  }
+}

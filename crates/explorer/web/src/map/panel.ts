@@ -1,0 +1,249 @@
+/** The map: asks the server for the window in sight, shows it, and takes the body to where one clicks. */
+
+import type { Cells } from "../binary";
+import { byId, throttle } from "../dom";
+import { watch } from "../pointer";
+import { pixelX, pixelY, type Box, type View } from "../plot";
+import type { Evidence, Mapped, MapStart, Model, Parameter, Plane, Progress, Regime, Values, Wish } from "../protocol";
+import { listenToKeys } from "./keys";
+import { Legend } from "./legend";
+import { rounded, under, type Sides } from "./pick";
+import { MapPicture } from "./picture";
+import { allowed, panned, sameAxes, viewOf, zoomed } from "./plane";
+import { showMapped, showProgress } from "./progress";
+import { Readout } from "./readout";
+import { AxisSelectors } from "./selectors";
+
+/** What the map needs of the page. */
+export interface MapHost {
+  send(wish: Wish): void;
+  regimes(): Regime[];
+  model(): Model;
+  parameters(): Values;
+  /** Takes the body to these parameters. */
+  choose(values: Values): void;
+  /** The window or the axes changed. */
+  moved(): void;
+}
+
+/** The page asks for at most eight maps a second. */
+const GAP = 125;
+/** Pixels per cell, about; and how many cells along an axis at least and at most. */
+const CELL = 6;
+const CELLS = { least: 24, most: 96 };
+/** Clicks that follow each other within so many milliseconds may be a double click. */
+const DOUBLE = 400;
+
+export class MapPanel {
+  complete = false;
+  private readonly picture: MapPicture;
+  private readonly readout: Readout;
+  private readonly legend = new Legend(byId("map-legend"));
+  private readonly selectors = new AxisSelectors((plane) => this.choosePlane(plane));
+  private readonly request = throttle(GAP, () => this.ask());
+  private plane: Plane | null = null;
+  private home: Plane | null = null;
+  private epoch = 0;
+  private lastClick = -Infinity;
+  private beforeClick: Values = {};
+
+  constructor(private readonly host: MapHost) {
+    const canvas = byId<HTMLCanvasElement>("map");
+    this.picture = new MapPicture(canvas, () => host.regimes());
+    this.readout = new Readout(byId("readout"), () => host.regimes(), (cell) => host.send({ do: "evidence", epoch: this.epoch, cell }));
+    watch(canvas, {
+      click: (x, y) => this.click(x, y),
+      double: () => this.undoClicks(),
+      hover: (at) => this.hover(at),
+      pan: (dx, dy) => this.plane && this.go(panned(this.plane, this.box(), dx, dy)),
+      zoom: (factor, x, y) => this.zoomAt(factor, x, y),
+    });
+    listenToKeys(canvas, {
+      walk: (columns, rows) => this.walk(columns, rows),
+      zoom: (factor) => this.zoomAt(factor, ...this.markPixel()),
+      reset: () => this.reset(),
+    });
+    canvas.addEventListener("blur", () => this.readout.leave());
+    byId("map-reset").addEventListener("click", () => this.reset());
+  }
+
+  /** A new body: these axes, and `home` to come back to. */
+  begin(plane: Plane, home: Plane): void {
+    if (this.plane && !sameAxes(plane, this.plane)) this.picture.forget();
+    this.home = home;
+    this.setPlane(plane);
+    this.renew();
+  }
+
+  /** Parameters off the axes changed: what is shown holds no longer. */
+  renew(): void {
+    this.picture.age();
+    this.request();
+  }
+
+  touch(): void {
+    this.picture.touch();
+  }
+
+  /** The plane as it is, for the address and the server. */
+  current(): Plane | null {
+    return this.plane;
+  }
+
+  isAxis(name: string): boolean {
+    return this.plane?.x.name === name || this.plane?.y?.name === name;
+  }
+
+  window(): View | null {
+    return this.plane && viewOf(this.plane);
+  }
+
+  /** Where a point of the plane is on the canvas, in CSS pixels. */
+  toPixel(x: number, y: number): [number, number] {
+    const [box, view] = [this.box(), this.window()];
+    return view ? [pixelX(box, view, x), pixelY(box, view, y)] : [0, 0];
+  }
+
+  started(start: MapStart): void {
+    const view = this.window();
+    if (start.epoch === this.epoch && view) this.picture.start(start, view);
+  }
+
+  cells(cells: Cells): void {
+    if (cells.epoch === this.epoch) this.picture.take(cells);
+  }
+
+  progress(progress: Progress): void {
+    if (progress.epoch !== this.epoch) return;
+    showProgress(progress);
+    this.showLegend();
+  }
+
+  mapped(mapped: Mapped): void {
+    if (mapped.epoch !== this.epoch) return;
+    this.complete = true;
+    this.picture.finish();
+    showMapped(mapped);
+    this.showLegend();
+    this.readout.refresh();
+  }
+
+  evidence(evidence: Evidence): void {
+    if (evidence.epoch === this.epoch) this.readout.answer(evidence);
+  }
+
+  draw(): void {
+    const [view, sides] = [this.window(), this.sides()];
+    if (!view || !sides) return;
+    const values = this.host.parameters();
+    this.picture.draw(view, sides, { x: values[sides.x.name], y: sides.y ? values[sides.y.name] : 0.5 });
+  }
+
+  private sides(): Sides | null {
+    const of = (name?: string): Parameter | undefined => this.host.model().parameters.find((one) => one.name === name);
+    const x = this.plane && of(this.plane.x.name);
+    return x ? { x, y: of(this.plane?.y?.name) ?? null } : null;
+  }
+
+  private box(): Box {
+    return this.picture.box(!this.plane?.y);
+  }
+
+  private ask(): void {
+    const plane = this.plane && allowed(this.plane, this.host.model());
+    if (!plane) return;
+    const box = this.box();
+    const across = plane.y ? Math.min(box.width, box.height) / CELL : box.width / 2;
+    const count = Math.round(Math.max(CELLS.least, Math.min(CELLS.most, across)));
+    this.epoch++;
+    this.complete = false;
+    this.host.send({ do: "map", epoch: this.epoch, ...plane, count });
+  }
+
+  private setPlane(plane: Plane): void {
+    this.plane = plane;
+    this.selectors.show(this.host.model(), plane);
+    this.picture.touch();
+  }
+
+  private choosePlane(plane: Plane): void {
+    if (this.plane && !sameAxes(plane, this.plane)) this.picture.forget();
+    this.go(plane);
+  }
+
+  /** Another window: shown at once, computed soon. */
+  private go(plane: Plane): void {
+    this.setPlane(plane);
+    this.request();
+    this.host.moved();
+  }
+
+  private reset(): void {
+    if (this.home) this.choosePlane(this.home);
+  }
+
+  private zoomAt(factor: number, x: number, y: number): void {
+    const box = this.box();
+    if (this.plane) this.go(zoomed(this.plane, factor, (x - box.left) / box.width, 1 - (y - box.top) / box.height));
+  }
+
+  private under(px: number, py: number): Values | null {
+    const [view, sides] = [this.window(), this.sides()];
+    return view && sides && under(px, py, this.box(), view, sides);
+  }
+
+  private click(px: number, py: number): void {
+    const values = this.under(px, py);
+    if (!values) return;
+    const [now, before] = [performance.now(), this.host.parameters()];
+    if (now - this.lastClick > DOUBLE) this.beforeClick = Object.fromEntries(Object.keys(values).map((name) => [name, before[name]]));
+    this.lastClick = now;
+    this.host.choose(values);
+  }
+
+  /** A double click resets the window; the clicks it consists of shall not move the body. */
+  private undoClicks(): void {
+    this.host.choose(this.beforeClick);
+    this.beforeClick = {};
+    this.reset();
+  }
+
+  private hover(at: [number, number] | null): void {
+    const values = at && this.under(...at);
+    if (values) this.pointAt(values);
+    else this.readout.leave();
+  }
+
+  private pointAt(values: Values): void {
+    const sides = this.sides();
+    if (!sides) return;
+    const { x, y } = sides;
+    const at: [Parameter, number][] = [x, ...(y ? [y] : [])].map((side) => [side, values[side.name]]);
+    this.readout.point(at, this.picture.lattice?.cell(values[x.name], y ? values[y.name] : 0) ?? null);
+  }
+
+  private markPixel(): [number, number] {
+    const [box, values, sides] = [this.box(), this.host.parameters(), this.sides()];
+    const [px, py] = sides ? this.toPixel(values[sides.x.name], sides.y ? values[sides.y.name] : 0.5) : [NaN, NaN];
+    const within = (p: number, from: number, size: number): number => (p >= from && p <= from + size ? p : from + size / 2);
+    return [within(px, box.left, box.width), within(py, box.top, box.height)];
+  }
+
+  /** Moves the body's parameters by whole cells. */
+  private walk(columns: number, rows: number): void {
+    const [sides, start] = [this.sides(), this.picture.lattice?.start];
+    if (!sides || !start) return;
+    const now = this.host.parameters();
+    const moved = (side: Parameter, by: number, step: number): number => rounded(now[side.name] + by * step, step / 8, side);
+    const values: Values = { [sides.x.name]: moved(sides.x, columns, start.x.step) };
+    if (sides.y && start.y) values[sides.y.name] = moved(sides.y, rows, start.y.step);
+    this.host.choose(values);
+    this.pointAt(values);
+  }
+
+  private showLegend(): void {
+    const { lattice } = this.picture;
+    const regimes = this.host.regimes();
+    if (lattice) this.legend.show(lattice.occurring().map((index) => regimes[index]), lattice.start.lines);
+  }
+}

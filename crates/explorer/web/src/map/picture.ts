@@ -1,0 +1,99 @@
+/** What the map shows: the cells of now, those of before underneath, and when it must be drawn again. */
+
+import type { Cells } from "../binary";
+import { Sheet } from "../canvas";
+import type { Box, View } from "../plot";
+import type { MapStart, Regime } from "../protocol";
+import { currentInks } from "../theme";
+import { landmarks, type Landmark } from "./landmarks";
+import { Lattice } from "./lattice";
+import { paint, paintCells, type Areas, type Memory } from "./painting";
+import type { Sides } from "./pick";
+
+/** Smaller than this (CSS pixels) there is no room for axes. */
+const LEAST = 80;
+
+export class MapPicture {
+  lattice: Lattice | null = null;
+  private readonly sheet: Sheet;
+  private memory: Memory | null = null;
+  private marks: Landmark[] = [];
+  private outdated = false;
+  private dirty = true;
+
+  constructor(
+    canvas: HTMLCanvasElement,
+    private readonly regimes: () => Regime[],
+  ) {
+    this.sheet = new Sheet(canvas, () => (this.dirty = true));
+  }
+
+  /** Draws again before the next picture on the screen. */
+  touch(): void {
+    this.dirty = true;
+  }
+
+  /** Other axes: nothing of what was shown holds. */
+  forget(): void {
+    this.lattice = this.memory = null;
+    this.marks = [];
+    this.dirty = true;
+  }
+
+  /** Other parameters off the axes: what is shown pales when the new map begins. */
+  age(): void {
+    this.outdated = true;
+  }
+
+  start(start: MapStart, view: View): void {
+    this.remember(view, start.y === null);
+    this.lattice = new Lattice(start, this.regimes());
+    this.marks = [];
+    this.outdated = false;
+    this.dirty = true;
+  }
+
+  take(cells: Cells): void {
+    this.lattice?.take(cells);
+    this.dirty = true;
+  }
+
+  /** All cells are there. */
+  finish(): void {
+    this.memory = null;
+    if (this.lattice) this.marks = landmarks(this.lattice);
+    this.dirty = true;
+  }
+
+  /** The frame of the data; a strip is less high. */
+  box(strip: boolean): Box {
+    const left = strip ? 14 : 62;
+    const [width, height] = [this.sheet.width - left - 12, this.sheet.height - 8 - 42];
+    return strip ? { left, top: 8 + height * 0.2, width, height: height * 0.6 } : { left, top: 8, width, height };
+  }
+
+  /** Draws where something changed. */
+  draw(view: View, sides: Sides, mark: { x: number; y: number }): void {
+    if (!this.dirty || this.sheet.width < LEAST) return;
+    this.dirty = false;
+    this.sheet.clear();
+    const labels = { x: sides.x.symbol, y: sides.y?.symbol ?? null };
+    paint(this.sheet.g, { ...this.areas(this.box(!sides.y), view), labels, mark, landmarks: this.marks }, currentInks());
+  }
+
+  private areas(box: Box, view: View): Areas {
+    return { box, view, regimes: this.regimes(), lattice: this.lattice, memory: this.memory };
+  }
+
+  /** Keeps the areas in sight as a picture, until the new map covers them. */
+  private remember(view: View, strip: boolean): void {
+    if (!this.lattice || this.sheet.width < LEAST) return;
+    const box = { ...this.box(strip), left: 0, top: 0 };
+    const picture = document.createElement("canvas");
+    picture.width = Math.max(1, Math.round(box.width));
+    picture.height = Math.max(1, Math.round(box.height));
+    const g = picture.getContext("2d");
+    if (g) paintCells(g, this.areas(box, view), currentInks());
+    this.memory = { picture, view, outdated: this.outdated };
+  }
+}

@@ -1,0 +1,23 @@
+/** How far the map is, in a line of fixed height. */
+
+import { byId, setText } from "../dom";
+import { duration, pretty } from "../numbers";
+import type { Mapped, Progress } from "../protocol";
+
+export function showProgress({ done, total, rate }: Progress): void {
+  const left = rate > 0 ? `, ${duration((total - done) / rate)} left` : "";
+  say(`${grouped(done)} of ${grouped(total)} cells, ${pretty(rate, 2)}/s${left}`, total > 0 ? done / total : 0);
+}
+
+export function showMapped({ cells, seconds }: Mapped): void {
+  say(`${grouped(cells)} cells in ${pretty(seconds, 2)} s`, 1);
+}
+
+function say(text: string, fraction: number): void {
+  setText(byId("map-progress-text"), text);
+  byId<HTMLProgressElement>("map-progress-bar").value = fraction;
+}
+
+function grouped(count: number): string {
+  return String(Math.round(count)).replace(/\B(?=(\d{3})+$)/g, "\u2009");
+}

@@ -1,0 +1,66 @@
+/** The line below the map: what is known about the cell under the pointer, asked at most fifteen times a second. */
+
+import { make, setText, throttle } from "../dom";
+import { swatch } from "../glyphs";
+import { pretty } from "../numbers";
+import type { Evidence, Parameter, Regime } from "../protocol";
+import { symbol } from "../symbols";
+
+const GAP = 1000 / 15;
+
+export class Readout {
+  private cell: [number, number] | null = null;
+  private readonly ask: () => void;
+  private readonly place = make("span", { class: "readout-place" });
+  private readonly verdict = make("span", { class: "readout-verdict" });
+  private readonly why = make("span", { class: "readout-why" });
+  private regime: string | null | undefined;
+
+  constructor(
+    element: HTMLElement,
+    private readonly regimes: () => Regime[],
+    question: (cell: [number, number]) => void,
+  ) {
+    element.replaceChildren(make("span", { class: "readout-head" }, this.place, this.verdict), this.why);
+    this.ask = throttle(GAP, () => this.cell && question(this.cell));
+    this.leave();
+  }
+
+  /** The pointer is upon this point and this cell; the answer comes later. */
+  point(at: [Parameter, number][], cell: [number, number] | null): void {
+    this.place.replaceChildren(
+      ...at.map(([parameter, value]) => make("span", {}, symbol(parameter.symbol), ` = ${pretty(value)}`)),
+    );
+    if (cell && this.cell && cell[0] === this.cell[0] && cell[1] === this.cell[1]) return;
+    this.cell = cell;
+    if (cell) this.ask();
+    else this.show(undefined, "outside the computed map");
+  }
+
+  /** The same question again: more may be known by now. */
+  refresh(): void {
+    if (this.cell) this.ask();
+  }
+
+  /** The pointer left. */
+  leave(): void {
+    this.cell = null;
+    this.place.replaceChildren();
+    this.show(undefined, "Point at the map for the evidence; click to take the body there.");
+  }
+
+  answer(evidence: Evidence): void {
+    if (!this.cell || evidence.cell[0] !== this.cell[0] || evidence.cell[1] !== this.cell[1]) return;
+    this.show(evidence.regime, evidence.regime === null ? evidence.why || "not computed yet" : evidence.why);
+  }
+
+  private show(name: string | null | undefined, why: string): void {
+    if (name !== this.regime) {
+      const regime = this.regimes().find((one) => one.name === name);
+      this.verdict.replaceChildren(...(regime ? [swatch(regime, 14), make("b", {}, regime.name)] : []));
+      this.regime = name;
+    }
+    setText(this.why, why);
+    this.why.title = why;
+  }
+}

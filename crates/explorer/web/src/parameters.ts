@@ -1,0 +1,124 @@
+/** The panel of parameters: one row each, grouped by equation, those of the figure first. */
+
+import { byId, make } from "./dom";
+import { plain, decimalsOf, roundStep } from "./numbers";
+import type { Model, Parameter, Preset, Values } from "./protocol";
+import { symbol } from "./symbols";
+
+/** A slider goes over its range in so many steps. */
+const STEPS = 400;
+
+interface Row {
+  parameter: Parameter;
+  element: HTMLElement;
+  slider: HTMLInputElement;
+  number: HTMLInputElement;
+  reset: HTMLButtonElement;
+  mark: HTMLElement;
+  refusal: HTMLElement;
+}
+
+export class ParameterPanel {
+  private readonly place = byId("parameters");
+  private rows: Row[] = [];
+  private base: Values = {};
+  private values: Values = {};
+
+  /** `set` hears each value that the reader chooses. */
+  constructor(private readonly set: (name: string, value: number) => void) {
+    const details = byId<HTMLDetailsElement>("parameter-details");
+    const phone = matchMedia("(max-width: 700px)");
+    const fold = (): void => void (details.open = !phone.matches);
+    phone.addEventListener("change", fold);
+    fold();
+  }
+
+  /** The rows of a model; `base` holds the values that a reset comes back to. */
+  begin(model: Model, preset: Preset | null, base: Values): void {
+    this.base = base;
+    this.rows = [];
+    const plane = preset?.plane ?? model.plane;
+    const given = preset?.free ?? [];
+    const free = given.length ? given : [plane.x.name, plane.y?.name ?? ""];
+    const first = model.parameters.filter((one) => free.includes(one.name));
+    const groups = new Map<string, Parameter[]>();
+    for (const one of model.parameters) {
+      if (!free.includes(one.name)) groups.set(one.equation, [...(groups.get(one.equation) ?? []), one]);
+    }
+    this.place.replaceChildren(
+      ...(first.length ? [this.group(given.length ? "free in the paper\u2019s figure" : "of the map", first)] : []),
+      ...[...groups].map(([equation, list]) => this.group(equation.startsWith("(") ? `equation ${equation}` : equation, list)),
+      make("details", { class: "equations" }, make("summary", {}, "Equations"), make("pre", { tabindex: "0" }, model.equations), make("p", {}, model.source)),
+    );
+  }
+
+  /** Shows these values; the field that is being typed in is left alone. */
+  show(values: Values): void {
+    this.values = values;
+    for (const { parameter, slider, number, reset } of this.rows) {
+      const value = values[parameter.name];
+      if (value === undefined) continue;
+      slider.value = String(value);
+      if (document.activeElement !== number) number.value = plain(value, 8);
+      reset.classList.toggle("shown", value !== this.base[parameter.name]);
+      reset.disabled = value === this.base[parameter.name];
+    }
+  }
+
+  /** Marks the axes of the map. */
+  markAxes(x: string | null, y: string | null): void {
+    for (const { parameter, mark } of this.rows) {
+      const axis = parameter.name === x ? "x" : parameter.name === y ? "y" : "";
+      mark.textContent = axis;
+      mark.title = axis ? `axis of the map (${axis === "x" ? "across" : "up"})` : "";
+    }
+  }
+
+  /** Shows the server's refusal at the row it is about; tells whether there was one. */
+  refuse(names: string[], why: string): boolean {
+    const row = this.rows.find((one) => names.includes(one.parameter.name));
+    if (!row) return false;
+    row.refusal.textContent = why;
+    row.refusal.hidden = false;
+    return true;
+  }
+
+  private group(title: string, parameters: Parameter[]): HTMLElement {
+    const rows = parameters.map((one) => this.row(one));
+    this.rows.push(...rows);
+    return make("fieldset", {}, make("legend", {}, title), ...rows.map((row) => row.element));
+  }
+
+  private row(parameter: Parameter): Row {
+    const { name, range: [low, high], allowed, meaning, equation, whole } = parameter;
+    const id = `about-${name}`;
+    const step = String(whole ? 1 : (high - low) / STEPS);
+    const about = make("button", { type: "button", class: "symbol-button", "aria-expanded": "false", "aria-controls": id, title: `${name}: ${meaning}`, "aria-label": `${name}: what it means` }, symbol(parameter.symbol));
+    const text = make("p", { id, class: "meaning", hidden: "" }, `${name}, equation ${equation}: ${meaning}`);
+    const mark = make("span", { class: "axis-mark" });
+    const slider = make("input", { type: "range", min: String(low), max: String(high), step, "aria-label": name });
+    const number = make("input", { type: "number", min: String(allowed[0]), max: String(allowed[1]), step: whole ? "1" : "any", "aria-label": `${name}, value` });
+    const reset = make("button", { type: "button", class: "reset", title: "The preset\u2019s value again", "aria-label": `Reset ${name}` }, "\u21ba");
+    const refusal = make("p", { class: "refusal", role: "alert", hidden: "" });
+    const element = make("div", { class: "parameter", "data-parameter": name, "data-testid": `parameter-${name}` }, about, mark, slider, number, reset, text, refusal);
+    about.addEventListener("click", () => {
+      text.hidden = !text.hidden;
+      about.setAttribute("aria-expanded", String(!text.hidden));
+    });
+    const choose = (value: number): void => {
+      refusal.hidden = true;
+      if (Number.isFinite(value)) this.set(name, value);
+    };
+    slider.addEventListener("input", () => choose(whole ? slider.valueAsNumber : snapped(slider.valueAsNumber, (high - low) / STEPS)));
+    number.addEventListener("change", () => choose(number.valueAsNumber));
+    number.addEventListener("keydown", (event) => event.key === "Enter" && choose(number.valueAsNumber));
+    number.addEventListener("blur", () => (number.value = plain(this.values[name], 8)));
+    reset.addEventListener("click", () => choose(this.base[name]));
+    return { parameter, element, slider, number, reset, mark, refusal };
+  }
+}
+
+/** A slider's value without the noise of floating point. */
+function snapped(value: number, step: number): number {
+  return Number(value.toFixed(decimalsOf(roundStep(step)) + 3));
+}

@@ -1,0 +1,260 @@
+/** What the page and the server say to each other, as JSON; see PROTOCOL.md. */
+
+/** Named numbers. */
+export type Values = Record<string, number>;
+
+export interface Parameter {
+  name: string;
+  symbol: string;
+  default: number;
+  range: [number, number];
+  allowed: [number, number];
+  equation: string;
+  meaning: string;
+  whole: boolean;
+}
+
+export interface Observable {
+  name: string;
+  symbol: string;
+  meaning: string;
+}
+
+/** An axis of the map: a parameter and the part of it that is shown. */
+export interface Axis {
+  name: string;
+  low: number;
+  high: number;
+}
+
+/** The part of parameter space that the map shows; without `y` it is a strip. */
+export interface Plane {
+  x: Axis;
+  y: Axis | null;
+}
+
+export interface Model {
+  name: string;
+  title: string;
+  equations: string;
+  source: string;
+  parameters: Parameter[];
+  observables: Observable[];
+  plane: Plane;
+}
+
+/** Where the return map is taken: maxima of the speed, or where the path crosses a line. */
+export type Section = "speed" | "path";
+
+export interface Preset {
+  name: string;
+  model: string;
+  title: string;
+  about: string;
+  free: string[];
+  parameters: Values;
+  speed: number;
+  plane: Plane | null;
+  section: Section;
+  y: number | null;
+}
+
+export interface Regime {
+  name: string;
+  colour: string;
+  area: string;
+  tint: string;
+  glyph: string;
+  meaning: string;
+}
+
+export interface Registry {
+  models: Model[];
+  presets: Preset[];
+  regimes: Regime[];
+}
+
+export interface Hello {
+  is: "hello";
+  version: string;
+  restart: string;
+  registry: Registry;
+}
+
+export interface Begun {
+  is: "begun";
+  revision: number;
+  model: string;
+  preset: string | null;
+  title: string;
+  about: string;
+  parameters: Values;
+  noise: number;
+  sample: number;
+  speed: number;
+  speeds: [number, number];
+}
+
+export interface Changed {
+  is: "changed";
+  revision: number;
+  parameters: Values;
+  noise: number;
+}
+
+export interface Named {
+  is: "named";
+  revision: number;
+  regime: string;
+  why: string;
+  numbers: Values;
+}
+
+/** A running Lyapunov exponent with the half width of its 95 % interval. */
+export interface Exponent {
+  value: number;
+  error: number | null;
+}
+
+export interface Exponents {
+  is: "exponents";
+  revision: number;
+  time: number;
+  exponents: Exponent[];
+  done: boolean;
+}
+
+export interface Spectrum {
+  name: string;
+  symbol: string;
+  power: number[];
+}
+
+export interface Returns {
+  section: Section;
+  label: string;
+  y: number | null;
+  points: [number, number][];
+}
+
+export interface Strips {
+  is: "strips";
+  revision: number;
+  samples: number;
+  frequencies: number[];
+  spectra: Spectrum[];
+  returns: Returns;
+}
+
+/** The centres of cells along one axis: `first + i step`. */
+export interface Grid {
+  name: string;
+  first: number;
+  step: number;
+  count: number;
+}
+
+export type LineStyle = "solid" | "dashed" | "dotted" | "dash-dotted" | "long-dashed";
+
+/** A line of the theory in the plane of the map. */
+export interface Line {
+  label: string;
+  style: LineStyle;
+  points: [number, number][];
+}
+
+export interface MapStart {
+  is: "map";
+  epoch: number;
+  x: Grid;
+  y: Grid | null;
+  lines: Line[];
+}
+
+export interface Progress {
+  is: "progress";
+  epoch: number;
+  done: number;
+  total: number;
+  rate: number;
+}
+
+export interface Mapped {
+  is: "mapped";
+  epoch: number;
+  cells: number;
+  seconds: number;
+}
+
+export interface Evidence {
+  is: "evidence";
+  epoch: number;
+  cell: [number, number];
+  parameters: Values;
+  regime: string | null;
+  why: string;
+}
+
+export interface Ended {
+  is: "ended";
+  revision: number;
+  outcome: string;
+  text: string;
+}
+
+export interface Share {
+  is: "share";
+  command: string;
+  python: string;
+}
+
+export interface Refused {
+  is: "refused";
+  id: number | null;
+  why: string;
+}
+
+/** Everything the server says as text. */
+export type Answer =
+  | Hello
+  | Begun
+  | Changed
+  | { is: "naming"; revision: number }
+  | Named
+  | Exponents
+  | Strips
+  | MapStart
+  | Progress
+  | Mapped
+  | Evidence
+  | Ended
+  | Share
+  | Refused;
+
+/** A new body; `null` leaves the start to the preset. */
+export interface Begin {
+  do: "begin";
+  model: string;
+  preset: string | null;
+  parameters: Values;
+  state: number[] | null;
+  position: [number, number] | null;
+  t: number;
+  noise: number;
+  seed: number;
+}
+
+/** Everything the page says. */
+export type Wish =
+  | Begin
+  | { do: "set"; parameters: Values }
+  | { do: "noise"; amplitude: number }
+  | { do: "kick" }
+  | { do: "restart" }
+  | { do: "advance"; dt: number }
+  | { do: "strips"; section: Section; y: number | null }
+  | { do: "map"; epoch: number; x: Axis; y: Axis | null; count: number }
+  | { do: "unmap" }
+  | { do: "evidence"; epoch: number; cell: [number, number] }
+  | { do: "share" }
+  | { do: "export"; id: number; what: string; section: Section; y: number | null };

@@ -1,0 +1,69 @@
+/** What all curve charts share: colours of the theme, true minus signs, fixed margins, size of their place. */
+
+import uPlot from "uplot";
+import { minus, pretty, ticks } from "../numbers";
+import { UI_FONT } from "../plot";
+import { currentInks, onTheme } from "../theme";
+
+const FONT = `11px ${UI_FONT}`;
+
+/** An axis in the colours of the theme. */
+export function axis(options: Partial<uPlot.Axis>): uPlot.Axis {
+  return {
+    stroke: () => currentInks().muted,
+    grid: { stroke: () => currentInks().faint, width: 1 },
+    ticks: { stroke: () => currentInks().faint, width: 1, size: 4 },
+    font: FONT,
+    gap: 3,
+    ...options,
+  };
+}
+
+/** Numbers of a linear axis. */
+export function linear(target: number): Pick<uPlot.Axis, "splits" | "values"> {
+  return {
+    splits: (_chart, _axis, low, high) => (high > low ? ticks(low, high, target).values : [low]),
+    values: (_chart, splits) => splits.map((value) => pretty(value, 6)),
+  };
+}
+
+/** The range of data with some room, and more above; a constant gets a little, too. */
+export function roomy(low: number | null, high: number | null, above: number): [number, number] {
+  if (low === null || high === null) return [0, 1];
+  const span = Math.max(high - low, 1e-3 * Math.max(Math.abs(low), Math.abs(high)), 1e-9);
+  return [low - 0.06 * span, high + (0.06 + above) * span];
+}
+
+/** Powers of ten of a logarithmic axis; in between only ticks. */
+export const POWERS: Pick<uPlot.Axis, "values" | "filter" | "grid" | "ticks"> = {
+  filter: (_chart, splits) => thinned(splits),
+  grid: { stroke: () => currentInks().faint, width: 1, filter: (_chart, splits) => thinned(splits) },
+  ticks: { stroke: () => currentInks().faint, width: 1, size: 4, filter: (_chart, splits) => thinned(splits) },
+  values: (_chart, splits) => splits.map((value) => (value === null ? "" : power(value))),
+};
+
+/** Only powers of ten, and of those as many as have room. */
+function thinned(splits: number[]): (number | null)[] {
+  const powers = splits.map((value) => Math.round(Math.log10(value) * 1e6) / 1e6);
+  const whole = powers.filter(Number.isInteger);
+  const step = Math.max(1, Math.ceil(whole.length / 4));
+  return splits.map((value, i) => (Number.isInteger(powers[i]) && powers[i] % step === 0 ? value : null));
+}
+
+function power(value: number): string {
+  const exponent = Math.round(Math.log10(value));
+  if (exponent >= -1 && exponent <= 2) return minus(String(10 ** exponent));
+  return `10${[...String(exponent)].map((c) => (c === "-" ? "\u207b" : "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[Number(c)])).join("")}`;
+}
+
+/** A chart that fills `place` and follows its size and the theme. */
+export function chart(place: HTMLElement, options: Omit<uPlot.Options, "width" | "height">, data: uPlot.AlignedData): uPlot {
+  const made = new uPlot({ legend: { show: false }, ...options, width: Math.max(40, place.clientWidth), height: Math.max(30, place.clientHeight) }, data, place);
+  const observer = new ResizeObserver(() => {
+    if (!made.root.isConnected) observer.disconnect();
+    else if (place.clientWidth && place.clientHeight) made.setSize({ width: place.clientWidth, height: place.clientHeight });
+  });
+  observer.observe(place);
+  onTheme(() => made.root.isConnected && made.redraw(false));
+  return made;
+}

@@ -1,0 +1,43 @@
+/** Power spectra of the motion since the last change, both axes logarithmic. */
+
+import type uPlot from "uplot";
+import { byId } from "../dom";
+import type { Strips } from "../protocol";
+import { curve, DASHES } from "../theme";
+import { axis, chart, POWERS } from "./chart";
+import { showKeys } from "./keys";
+
+/** Decades shown below the highest peak: what lies deeper is round-off. */
+const DECADES = 12;
+const CURVES = 6;
+/** Decades above the highest peak, for the keys. */
+const HEADROOM = 2;
+
+export class SpectrumStrip {
+  private readonly plot: uPlot;
+
+  constructor() {
+    const indices = Array.from({ length: CURVES }, (_, i) => i);
+    this.plot = chart(byId("spectrum"), {
+      cursor: { y: false, points: { show: false }, drag: { x: false, y: false } },
+      scales: {
+        x: { time: false, distr: 3, range: (_plot, low, high) => (high > low ? [low, high] : [0.01, 1]) },
+        y: { distr: 3, range: (_plot, low, high) => (high > 0 ? [Math.max(low, high / 10 ** DECADES) / 2, high * 10 ** HEADROOM] : [1e-6, 1]) },
+      },
+      padding: [6, 10, 0, 0],
+      axes: [axis({ ...POWERS, size: 20, space: 20 }), axis({ ...POWERS, size: 40, space: 12 })],
+      series: [{}, ...indices.map((i) => ({ stroke: () => curve(i), dash: DASHES[i], width: 1.4, points: { show: false } }))],
+    }, [[], ...indices.map(() => [])]);
+  }
+
+  show({ frequencies, spectra }: Strips): void {
+    const from = frequencies.findIndex((f) => f > 0);
+    const usable = from >= 0 && frequencies.length - from > 1;
+    byId("spectrum-empty").hidden = usable;
+    const shown = usable ? spectra.slice(0, CURVES) : [];
+    const powers = Array.from({ length: CURVES }, (_, i) => shown[i]?.power.slice(from).map((p) => (p > 0 ? p : null)) ?? []);
+    const x = usable ? frequencies.slice(from) : [];
+    this.plot.setData([x, ...powers.map((power) => (power.length ? power : x.map(() => null)))]);
+    showKeys(byId("spectrum-keys"), shown.map((one) => one.symbol), shown.map((one) => one.name));
+  }
+}

@@ -1,0 +1,92 @@
+/** Light and dark: the system's choice until the reader chooses; the colours of canvases come from the style sheet. */
+
+const KEY = "motiform-theme";
+
+/** Colours for canvases, as the style sheet has them now. */
+export interface Inks {
+  dark: boolean;
+  ink: string;
+  muted: string;
+  faint: string;
+  paper: string;
+  plot: string;
+  accent: string;
+}
+
+/** Colours of curves (Okabe and Ito 2008), in the order in which curves take them. */
+export const CURVES = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
+const CURVES_ON_DARK = ["#56b4e9", "#e69f00", "#2bbd92", "#e39bc6", "#ff8a3d", "#8aa4ff"];
+
+/** Dashes of curves: they stay apart without colour. */
+export const DASHES: number[][] = [[], [6, 3], [2, 2.5], [8, 3, 2, 3], [12, 4], [4, 4]];
+
+const dark = matchMedia("(prefers-color-scheme: dark)");
+const listeners: (() => void)[] = [];
+let inks: Inks = read();
+
+/** The colours of now. */
+export function currentInks(): Inks {
+  return inks;
+}
+
+/** Colour of the curve with this number. */
+export function curve(index: number): string {
+  const colours = inks.dark ? CURVES_ON_DARK : CURVES;
+  return colours[index % colours.length];
+}
+
+/** Calls back after each change of the theme. */
+export function onTheme(listener: () => void): void {
+  listeners.push(listener);
+}
+
+/** Wires the button and follows the system. */
+export function startTheme(button: HTMLButtonElement): void {
+  const chosen = recall();
+  if (chosen) document.documentElement.dataset.theme = chosen;
+  dark.addEventListener("change", () => apply(button));
+  button.addEventListener("click", () => {
+    const next = read().dark ? "light" : "dark";
+    document.documentElement.dataset.theme = next;
+    keep(next);
+    apply(button);
+  });
+  apply(button);
+}
+
+function apply(button: HTMLButtonElement): void {
+  inks = read();
+  button.setAttribute("aria-label", inks.dark ? "Light theme" : "Dark theme");
+  button.title = inks.dark ? "Light theme" : "Dark theme";
+  for (const listener of listeners) listener();
+}
+
+function read(): Inks {
+  const style = getComputedStyle(document.documentElement);
+  const colour = (name: string): string => style.getPropertyValue(`--${name}`).trim();
+  return {
+    dark: colour("scheme") === "dark",
+    ink: colour("ink"),
+    muted: colour("muted"),
+    faint: colour("faint"),
+    paper: colour("paper"),
+    plot: colour("plot"),
+    accent: colour("accent"),
+  };
+}
+
+function recall(): string | null {
+  try {
+    return localStorage.getItem(KEY);
+  } catch {
+    return null; // storage may be forbidden
+  }
+}
+
+function keep(theme: string): void {
+  try {
+    localStorage.setItem(KEY, theme);
+  } catch {
+    // the choice then lasts as long as the page
+  }
+}
