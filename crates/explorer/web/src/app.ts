@@ -13,6 +13,7 @@ import { History } from "./history";
 import { Keeper } from "./keeper";
 import { Loop } from "./loop";
 import { MapPanel } from "./map/panel";
+import { typeset } from "./numbers";
 import { ParameterPanel } from "./parameters";
 import { PresetBar } from "./presets";
 import type { Begun, Changed, Exponents, Hello, Named, Refused, Regime, Share, Strips, Values, Wish } from "./protocol";
@@ -179,7 +180,7 @@ export class App implements Hearer {
   }
 
   named({ regime, why }: Named): void {
-    this.name(this.known().registry.regimes.find((one) => one.name === regime) ?? null, why);
+    this.name(this.known().registry.regimes.find((one) => one.name === regime) ?? null, typeset(why));
   }
 
   private name(regime: Regime | null, why: string): void {
@@ -205,7 +206,7 @@ export class App implements Hearer {
 
   ended(text: string): void {
     this.loop.ended = true;
-    setText(byId("ended-text"), text);
+    setText(byId("ended-text"), typeset(text));
     byId("ended").hidden = false;
   }
 

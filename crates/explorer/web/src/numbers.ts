@@ -67,3 +67,13 @@ export function duration(seconds: number): string {
   if (seconds < 90) return `${Math.round(seconds)} s`;
   return `${Math.round(seconds / 60)} min`;
 }
+
+/** The server's plain sentences with the signs that people write. */
+export function typeset(text: string): string {
+  return text
+    .replaceAll("+-", "\u00b1")
+    .replace(/\blambda_(\d)/g, (_, digit: string) => `\u03bb${String.fromCharCode(0x2080 + Number(digit))}`)
+    .replace(/\blambda_([+-])/g, (_, sign: string) => `\u03bb${sign === "+" ? "\u208a" : "\u208b"}`)
+    .replace(/\d+(\.\d+)?e-?\d+/g, (number) => pretty(Number(number), 5))
+    .replace(/(^|[\s(=,])-(?=[\d.])/g, `$1${MINUS}`);
+}

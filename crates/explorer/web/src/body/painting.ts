@@ -6,6 +6,7 @@ import { UI_FONT } from "../plot";
 import { pretty, roundStep } from "../numbers";
 import type { Inks } from "../theme";
 import type { Camera } from "./camera";
+import { paintInset } from "./inset";
 import { paintTrail } from "./trail";
 
 /** What is drawn. */
@@ -32,6 +33,7 @@ export function paintBody(g: CanvasRenderingContext2D, scene: BodyScene, inks: I
   paintArrow(g, scene, inks);
   if (scene.pointed >= 0) dot(g, camera, history.at(scene.pointed, X), history.at(scene.pointed, Y), inks);
   paintScale(g, camera, inks);
+  paintInset(g, camera, history, scene.from, frame.radius, scene.colour, inks);
 }
 
 function paintGrid(g: CanvasRenderingContext2D, camera: Camera, inks: Inks): void {

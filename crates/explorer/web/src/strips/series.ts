@@ -77,9 +77,9 @@ export class SeriesStrip {
     const made = chart(place, {
       cursor: { sync: { key: "time" }, points: { show: false }, y: false, drag: { x: false, y: false } },
       scales: { x: { time: false, auto: false }, y: { range: (_plot, low, high) => roomy(low, high, last ? HEADROOM : 0) } },
-      padding: [4, 8, last ? 0 : 3, 0],
+      padding: [4, 14, last ? 0 : 3, 0],
       axes: [
-        axis({ ...linear(5), size: last ? 20 : 0, show: last }),
+        axis({ ...linear(), size: last ? 20 : 0, show: last }),
         axis({ ...linear(3), size: 44 }),
       ],
       series: [{}, ...columns.map((_, i) => ({ stroke: () => curve(i), dash: DASHES[i], width: 1.5, points: { show: false } }))],
