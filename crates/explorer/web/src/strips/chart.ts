@@ -31,7 +31,7 @@ export function linear(target?: number): Pick<uPlot.Axis, "splits" | "values"> {
 }
 
 /** Relative changes below this look like what they are: none. */
-const STEADY = 0.02;
+const STEADY = 0.05;
 
 /** The range of data with some room, and more above; a constant gets a little, too. */
 export function roomy(low: number | null, high: number | null, above: number, least = 1e-9): [number, number] {
@@ -41,9 +41,10 @@ export function roomy(low: number | null, high: number | null, above: number, le
 }
 
 /** Powers of ten along a logarithmic axis, as many as have room. */
-export function powers(most: number): Pick<uPlot.Axis, "splits" | "values"> {
+export function powers(most: number): Pick<uPlot.Axis, "splits" | "values" | "filter"> {
   return {
     splits: (_chart, _axis, low, high) => powersWithin(low, high, most),
+    filter: (_chart, splits) => splits,
     values: (_chart, splits) => splits.map(power),
   };
 }
