@@ -274,7 +274,7 @@ export class App implements Hearer {
   }
 
   private flush(): void {
-    const values = this.session?.take();
+    const values = this.beginning ? null : this.session?.take();
     if (!values) return;
     this.send({ do: "set", parameters: values });
     if (this.mapStale) this.map.renew();

@@ -10,7 +10,8 @@ export function minus(text: string): string {
 /** A number with at most `digits` significant digits, no trailing zeros, a true minus. */
 export function pretty(value: number, digits = 4): string {
   if (!Number.isFinite(value)) return "\u2013";
-  return minus(plain(value, digits)).replace(/e\+?(.+)$/, (_, power: string) => `\u00b7${superscript(10, power)}`);
+  const text = Math.abs(value) >= 1e5 ? String(value.toExponential(digits - 1)).replace(/\.?0*e/, "e") : plain(value, digits);
+  return minus(text).replace(/e\+?(.+)$/, (_, power: string) => `\u00b7${superscript(10, power)}`);
 }
 
 function superscript(base: number, power: string): string {

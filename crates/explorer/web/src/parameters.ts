@@ -47,7 +47,7 @@ export class ParameterPanel {
       groups.set(one.equation, free.includes(one.name) ? others : [...others, one]);
     }
     this.place.replaceChildren(
-      ...(first.length ? [this.group(given.length ? "free in the paper\u2019s figure" : "of the map", first)] : []),
+      ...(first.length ? [this.group(given.length ? "free in the paper\u2019s figure" : `axes of the ${preset ? "preset" : "model"}\u2019s map`, first)] : []),
       ...[...groups].filter(([, list]) => list.length).map(([equation, list]) => this.group(equation.startsWith("(") ? `equation ${equation}` : equation, list)),
       make("details", { class: "equations" }, make("summary", {}, "Equations"), make("pre", { tabindex: "0" }, model.equations), make("p", {}, model.source)),
     );

@@ -1,6 +1,6 @@
 /** A path that is small against the body, enlarged in a corner: an active cell moves by less than its own size. */
 
-import { T, X, Y, type History } from "../history";
+import { X, Y, type History } from "../history";
 import { pretty, roundStep } from "../numbers";
 import { UI_FONT } from "../plot";
 import type { Inks } from "../theme";
@@ -10,6 +10,8 @@ const SIZE = 132;
 const EDGE = 10;
 const ROOM = 16;
 const POINTS = 1200;
+/** A path smaller than this share of the radius lies under the body. */
+const HIDDEN = 0.8;
 
 /** The least box around the samples from `from` on: left, lower, width, height. */
 function bounds(history: History, from: number, stride: number): [number, number, number, number] {
@@ -27,11 +29,11 @@ function bounds(history: History, from: number, stride: number): [number, number
 /** Draws the inset where the whole trail would lie under a body of this radius; else nothing. */
 export function paintInset(g: CanvasRenderingContext2D, camera: Camera, history: History, from: number, radius: number, colour: string, inks: Inks): void {
   const count = history.length - from;
-  if (count < 8) return;
+  if (count < 8 || camera.width < 2.4 * SIZE) return;
   const stride = Math.ceil(count / POINTS);
-  const [x0, y0, width, height] = bounds(history, from, stride);
-  const extent = Math.max(width, height);
-  if (!(extent > 0) || extent > 0.8 * radius || camera.width < 2.4 * SIZE) return;
+  const box = bounds(history, from, stride);
+  const extent = Math.max(box[2], box[3]);
+  if (!(extent > 0) || extent > HIDDEN * radius) return;
   const [left, top] = [camera.width - SIZE - EDGE, camera.height - SIZE - EDGE];
   g.fillStyle = inks.plot;
   g.strokeStyle = inks.muted;
@@ -39,26 +41,30 @@ export function paintInset(g: CanvasRenderingContext2D, camera: Camera, history:
   g.fillRect(left, top, SIZE, SIZE);
   g.strokeRect(left + 0.5, top + 0.5, SIZE - 1, SIZE - 1);
   const scale = (SIZE - 2 * ROOM - 10) / extent;
-  const px = (i: number): number => left + SIZE / 2 + (history.at(i, X) - x0 - width / 2) * scale;
-  const py = (i: number): number => top + SIZE / 2 - 7 - (history.at(i, Y) - y0 - height / 2) * scale;
+  const place = (i: number): [number, number] => [
+    left + SIZE / 2 + (history.at(i, X) - box[0] - box[2] / 2) * scale,
+    top + SIZE / 2 - 7 - (history.at(i, Y) - box[1] - box[3] / 2) * scale,
+  ];
+  paintPath(g, place, history.start(from, stride), stride, history.length - 1, colour);
+  paintBar(g, left, top, scale, inks);
+}
+
+/** The path from sample `first` to sample `last`, with a dot at its end. */
+function paintPath(g: CanvasRenderingContext2D, place: (i: number) => [number, number], first: number, stride: number, last: number, colour: string): void {
   g.beginPath();
-  // Strides are counted in samples of the whole run, or the polygon would shimmer.
-  const first = from + ((stride - (Math.round(history.at(from, T) / (history.at(from + 1, T) - history.at(from, T))) % stride)) % stride);
-  for (let i = Math.min(first, history.length - 1); i < history.length; i += stride) g.lineTo(px(i), py(i));
-  g.lineTo(px(history.length - 1), py(history.length - 1));
-  g.strokeStyle = colour;
+  for (let i = first; i < last; i += stride) g.lineTo(...place(i));
+  g.lineTo(...place(last));
+  g.strokeStyle = g.fillStyle = colour;
   g.lineWidth = 1.4;
   g.lineJoin = "round";
   g.stroke();
   g.beginPath();
-  g.arc(px(history.length - 1), py(history.length - 1), 3, 0, 2 * Math.PI);
-  g.fillStyle = colour;
+  g.arc(...place(last), 3, 0, 2 * Math.PI);
   g.fill();
-  label(g, left, top, scale, inks);
 }
 
 /** A bar of a round length below the path. */
-function label(g: CanvasRenderingContext2D, left: number, top: number, scale: number, inks: Inks): void {
+function paintBar(g: CanvasRenderingContext2D, left: number, top: number, scale: number, inks: Inks): void {
   const length = roundStep(60 / scale);
   const [x, y] = [left + 8, top + SIZE - 7];
   g.strokeStyle = g.fillStyle = inks.ink;

@@ -79,17 +79,17 @@ const patterns = new Map<string, CanvasPattern>();
 
 /** Dots for what is not computed yet, strokes for what stays undetermined. */
 function pattern(g: CanvasRenderingContext2D, kind: "ground" | "hatch", inks: Inks): CanvasPattern | string {
-  const key = `${kind} ${inks.plot}`;
+  const key = `${kind} ${inks.ground}`;
   const known = patterns.get(key);
   if (known) return known;
   const tile = document.createElement("canvas");
   tile.width = tile.height = 8;
   const t = tile.getContext("2d");
-  if (!t) return inks.plot;
+  if (!t) return inks.ground;
   if (kind === "ground") {
-    t.fillStyle = inks.plot;
+    t.fillStyle = inks.ground;
     t.fillRect(0, 0, 8, 8);
-    t.fillStyle = inks.faint;
+    t.fillStyle = inks.line;
     t.fillRect(1, 1, 1.2, 1.2);
     t.fillRect(5, 5, 1.2, 1.2);
   } else {
@@ -103,7 +103,7 @@ function pattern(g: CanvasRenderingContext2D, kind: "ground" | "hatch", inks: In
     t.stroke();
   }
   const made = g.createPattern(tile, "repeat");
-  if (!made) return inks.plot;
+  if (!made) return inks.ground;
   patterns.set(key, made);
   return made;
 }

@@ -46,7 +46,7 @@ export class Readout {
   leave(): void {
     this.cell = null;
     this.place.replaceChildren();
-    this.show(undefined, "Point at the map for the evidence; click to take the body there.");
+    this.show(undefined, "Point at the map for the evidence, click to take the body there; drag and wheel move the window.");
   }
 
   answer(evidence: Evidence): void {
