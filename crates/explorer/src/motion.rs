@@ -138,6 +138,8 @@ impl Work<'_> {
                 lock(self.known).history.push((time, exponents));
             }
         };
+        // One behind: the last point is that of the whole average.
+        let mut last = None;
         let times = (Some(LOOKS.0 * info.look), Some(span));
         let result =
             analyse::lyapunov_followed(&self.motion.plan, count, times, self.current, &mut |so_far| {
@@ -146,7 +148,9 @@ impl Work<'_> {
                 }
                 if let Some(exponents) = so_far.exponents() {
                     next = so_far.time() + span / POINTS;
-                    tell(so_far.time(), exponents, false);
+                    if let Some((time, exponents)) = last.replace((so_far.time(), exponents)) {
+                        tell(time, exponents, false);
+                    }
                 }
             });
         // A motion that escapes has no exponents; what the numerics refuse was said by the name.
