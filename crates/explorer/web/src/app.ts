@@ -139,7 +139,7 @@ export class App implements Hearer {
     const { preset, model } = session;
     const place = this.opening.agreed();
     session.begun(begun, place?.speed ?? begun.speed);
-    setText(byId("about"), begun.about);
+    setText(byId("about"), begun.about || model.title);
     document.title = `${begun.title} \u2013 motiform`;
     this.presets.show(model.name, begun.preset);
     this.parameters.begin(model, preset, session.base);
