@@ -80,7 +80,7 @@ export class App implements Hearer {
       ready: () => this.connection.open && this.session !== null && !this.opening.under,
       speed: () => this.known().speed,
       advance: (dt) => this.send({ do: "advance", dt }),
-      before: () => this.flush(),
+      before: (now) => this.flush(now),
       draw: (now, seconds) => this.draw(now, seconds),
     });
     onTheme(() => this.recolour());
@@ -139,7 +139,7 @@ export class App implements Hearer {
     const { preset, model } = session;
     const place = this.opening.agreed();
     session.begun(begun, place?.speed ?? begun.speed);
-    setText(byId("about"), begun.about);
+    setText(byId("about"), begun.about || model.title);
     document.title = `${begun.title} \u2013 motiform`;
     this.presets.show(model.name, begun.preset);
     this.parameters.begin(model, preset, session.base);
@@ -261,8 +261,8 @@ export class App implements Hearer {
     this.keeper.changed();
   }
 
-  private flush(): void {
-    const values = this.opening.under ? null : this.session?.take();
+  private flush(now: number): void {
+    const values = this.opening.under ? null : this.session?.take(now);
     if (!values) return;
     this.send({ do: "set", parameters: values });
     if (this.mapStale) this.map.renew();

@@ -38,7 +38,7 @@ export function drawAxes(g: CanvasRenderingContext2D, box: Box, view: View, labe
 }
 
 function xAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string): void {
-  const { values, labels } = ticks(view.x0, view.x1, Math.max(2, box.width / 62));
+  const { values, labels } = ticks(view.x0, view.x1, Math.max(2, box.width / 52));
   const bottom = Math.round(box.top + box.height) + 0.5;
   g.font = `11px ${UI_FONT}`;
   g.textAlign = "center";

@@ -39,6 +39,9 @@ export const DASH: Record<LineStyle, number[]> = {
   "long-dashed": [12, 5],
 };
 
+/** Strength of a map of other parameters. */
+const PALE = 0.45;
+
 /** Draws the whole map. */
 export function paint(g: CanvasRenderingContext2D, scene: Scene, inks: Inks): void {
   const { box } = scene;
@@ -46,7 +49,7 @@ export function paint(g: CanvasRenderingContext2D, scene: Scene, inks: Inks): vo
   g.beginPath();
   g.rect(box.left, box.top, box.width, box.height);
   g.clip();
-  paintCells(g, scene, inks);
+  paintAreas(g, scene, inks);
   for (const line of scene.lattice?.start.lines ?? []) paintLine(g, box, scene.view, line);
   paintGlyphs(g, scene);
   const at = markPixel(scene);
@@ -56,12 +59,18 @@ export function paint(g: CanvasRenderingContext2D, scene: Scene, inks: Inks): vo
   paintRing(g, box, at);
 }
 
-/** Only the areas: ground, the map before, the cells of now, hatching. */
-export function paintCells(g: CanvasRenderingContext2D, { box, view, lattice, memory, regimes }: Areas, inks: Inks): void {
+/** The areas upon their ground; a map of other parameters is pale. */
+function paintAreas(g: CanvasRenderingContext2D, areas: Areas, inks: Inks): void {
+  const { left, top, width, height } = areas.box;
   g.fillStyle = pattern(g, "ground", inks);
-  g.fillRect(box.left, box.top, box.width, box.height);
+  g.fillRect(left, top, width, height);
+  paintCells(g, areas, areas.memory?.outdated ? PALE : 1, inks);
+}
+
+/** Only what is known: the map before, the cells of now, hatching. */
+export function paintCells(g: CanvasRenderingContext2D, { box, view, lattice, memory, regimes }: Areas, strength: number, inks: Inks): void {
   if (memory) {
-    g.globalAlpha = memory.outdated ? 0.35 : 1;
+    g.globalAlpha = strength;
     const [left, top] = [pixelX(box, view, memory.view.x0), pixelY(box, view, memory.view.y1)];
     g.imageSmoothingEnabled = false;
     g.drawImage(memory.picture, left, top, pixelX(box, view, memory.view.x1) - left, pixelY(box, view, memory.view.y0) - top);
