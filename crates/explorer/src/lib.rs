@@ -1,11 +1,11 @@
 //! `motiform explore`: parameter space in a browser.
 //!
 //! A server for one person on one machine: it listens on 127.0.0.1 alone, every address carries a random token, and a page
-//! reaches nothing but what [`protocol`] says: no file is read or written for it. The page is built into the program.
+//! reaches nothing but what `protocol` says: no file is read or written for it. The page is built into the program.
 //! What is said between the two stands in `PROTOCOL.md`.
 //!
-//! Each page has a [`session`]: a body that moves when the page asks ([`body`]), and two desks ([`desk`]) at which the last
-//! job put there is the only one that counts: naming the motion and its exponents ([`motion`]), and the map ([`map`]).
+//! Each page has a `session`: a body that moves when the page asks (`body`), and two desks (`desk`) at which the last
+//! job put there is the only one that counts: naming the motion and its exponents (`motion`), and the map (`map`).
 
 mod answers;
 mod body;

@@ -4,47 +4,56 @@ use crate::answers::{Answers, Gone};
 use crate::desk::{Current, Desk};
 use crate::map::numbers;
 use motiform_analysis::Estimate;
+use motiform_analysis::regime::Regime;
 use motiform_study::scan::Row;
 use motiform_study::simulate::Monitor;
 use motiform_study::{Plan, analyse};
 use serde_json::{Value, json};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
 
 /// Exponents that are followed.
 const COUNT: usize = 3;
 
-/// They are averaged over this many looks of the model after some others, and told this often.
+/// They are averaged over this many looks of the model after some others, and told at so many times on the way.
 const LOOKS: (f64, f64) = (2.0, 40.0);
-const EVERY: Duration = Duration::from_millis(200);
+const POINTS: f64 = 200.0;
 
-/// Points that are kept of their history; beyond, every second one goes.
-const MOST_POINTS: usize = 400;
-
-/// A motion: the plan whose start is its state at the last change, without noise.
+/// A motion: the plan whose start is the state of the body, without noise.
 pub(crate) struct Motion {
     pub(crate) revision: u32,
     pub(crate) plan: Plan,
+    /// Named before, but the body has moved on since: is it still true?
+    pub(crate) again: bool,
 }
 
 /// The exponents so far, by averaging time.
 pub(crate) type History = Vec<(f64, Vec<Estimate>)>;
 
+/// What is known of the present motion.
+#[derive(Default)]
+struct Known {
+    /// Its revision, its name, and the model time that it took to find that.
+    name: Option<(u32, Regime, f64)>,
+    history: History,
+    /// Nothing more is to come.
+    complete: bool,
+}
+
 /// The desk at which motions are named.
 pub(crate) struct Naming {
     desk: Desk<Motion>,
-    history: Arc<Mutex<History>>,
+    known: Arc<Mutex<Known>>,
 }
 
 impl Naming {
     pub(crate) fn new(answers: Answers) -> std::io::Result<Self> {
-        let history = Arc::new(Mutex::new(History::new()));
-        let kept = Arc::clone(&history);
+        let known = Arc::new(Mutex::new(Known::default()));
+        let shared = Arc::clone(&known);
         let desk = Desk::new("naming", move |motion: Motion, current| {
             // A page that has gone takes its session along.
-            let _ = name(&motion, current, &answers).and_then(|()| follow(&motion, current, &answers, &kept));
+            let _ = Work { motion: &motion, current, answers: &answers, known: &shared }.run();
         })?;
-        Ok(Self { desk, history })
+        Ok(Self { desk, known })
     }
 
     /// Names this motion, in place of an earlier one.
@@ -55,12 +64,18 @@ impl Naming {
     /// Stops: the body has changed.
     pub(crate) fn stop(&self) {
         self.desk.clear();
-        lock(&self.history).clear();
+        *lock(&self.known) = Known::default();
+    }
+
+    /// The model time that it took to name the motion of this revision, if it is named and has its exponents.
+    pub(crate) fn took(&self, revision: u32) -> Option<f64> {
+        let known = lock(&self.known);
+        known.name.filter(|name| known.complete && name.0 == revision).map(|name| name.2)
     }
 
     /// The exponents of the present motion so far.
     pub(crate) fn history(&self) -> History {
-        lock(&self.history).clone()
+        lock(&self.known).history.clone()
     }
 }
 
@@ -68,57 +83,82 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn name(motion: &Motion, current: &Current<'_>, answers: &Answers) -> Result<(), Gone> {
-    let revision = motion.revision;
-    answers.json(&json!({ "is": "naming", "revision": revision }))?;
-    let verdict = analyse::classify(&motion.plan, 0.0, current);
-    let Some(row) = Row::of_evaluation(0, 0, verdict).filter(|_| !current.stopped()) else { return Ok(()) };
-    answers.json(&json!({
-        "is": "named",
-        "revision": revision,
-        "regime": row.regime.name(),
-        "why": row.why,
-        "numbers": numbers(&row),
-    }))
+/// One motion on the desk.
+struct Work<'w> {
+    motion: &'w Motion,
+    current: &'w Current<'w>,
+    answers: &'w Answers,
+    known: &'w Mutex<Known>,
 }
 
-fn follow(
-    motion: &Motion,
-    current: &Current<'_>,
-    answers: &Answers,
-    history: &Mutex<History>,
-) -> Result<(), Gone> {
-    let Ok(info) = motion.plan.info() else { return Ok(()) };
-    let count = COUNT.min(motion.plan.computation.initial.0.len() - 2);
-    let times = (Some(LOOKS.0 * info.look), Some(LOOKS.1 * info.look));
-    lock(history).clear();
-    let (mut told, mut gone) = (Instant::now(), Ok(()));
-    let mut tell = |time: f64, exponents: Option<Vec<Estimate>>, done: bool| {
-        let Some(exponents) = exponents.filter(|_| !current.stopped()) else { return };
-        gone = answers.json(&message(motion.revision, time, &exponents, done));
-        keep(&mut lock(history), time, exponents);
-    };
-    let result = analyse::lyapunov_followed(&motion.plan, count, times, current, &mut |so_far| {
-        if told.elapsed() >= EVERY {
-            told = Instant::now();
-            tell(so_far.time(), so_far.exponents(), false);
+impl Work<'_> {
+    fn run(&self) -> Result<(), Gone> {
+        let before = lock(self.known).name.map(|known| known.1);
+        lock(self.known).complete = false;
+        let Some(regime) = self.name()? else { return Ok(()) };
+        // A name that has not changed has the same exponents.
+        if !(self.motion.again && before == Some(regime)) {
+            self.follow()?;
         }
-    });
-    // A motion that escapes has no exponents; what the numerics refuse was said by the name.
-    if let Ok(result) = result {
-        tell(result.time, Some(result.exponents).filter(|all| !all.is_empty()), true);
+        lock(self.known).complete = !self.current.stopped();
+        Ok(())
     }
-    gone
-}
 
-fn keep(history: &mut History, time: f64, exponents: Vec<Estimate>) {
-    history.push((time, exponents));
-    if history.len() > MOST_POINTS {
-        let mut place = 0;
-        history.retain(|_| {
-            place += 1;
-            place % 2 == 1
-        });
+    /// Names the motion; `None` if that is no longer wanted.
+    fn name(&self) -> Result<Option<Regime>, Gone> {
+        let revision = self.motion.revision;
+        if !self.motion.again {
+            self.answers.json(&json!({ "is": "naming", "revision": revision }))?;
+        }
+        let verdict = analyse::classify(&self.motion.plan, 0.0, self.current);
+        let Some(row) = Row::of_evaluation(0, 0, verdict).filter(|_| !self.current.stopped()) else {
+            return Ok(None);
+        };
+        lock(self.known).name = Some((revision, row.regime, row.number("time").unwrap_or(0.0)));
+        self.answers.json(&json!({
+            "is": "named",
+            "revision": revision,
+            "regime": row.regime.name(),
+            "why": row.why,
+            "numbers": numbers(&row),
+        }))?;
+        Ok(Some(row.regime))
+    }
+
+    /// Follows the exponents until their average is complete.
+    fn follow(&self) -> Result<(), Gone> {
+        let Ok(info) = self.motion.plan.info() else { return Ok(()) };
+        let count = COUNT.min(self.motion.plan.computation.initial.0.len() - 2);
+        let span = LOOKS.1 * info.look;
+        lock(self.known).history.clear();
+        let (mut next, mut gone) = (0.0, Ok(()));
+        let mut tell = |time: f64, exponents: Vec<Estimate>, done: bool| {
+            if !self.current.stopped() && gone.is_ok() {
+                gone = self.answers.json(&message(self.motion.revision, time, &exponents, done));
+                lock(self.known).history.push((time, exponents));
+            }
+        };
+        // One behind: the last point is that of the whole average.
+        let mut last = None;
+        let times = (Some(LOOKS.0 * info.look), Some(span));
+        let result =
+            analyse::lyapunov_followed(&self.motion.plan, count, times, self.current, &mut |so_far| {
+                if so_far.time() < next {
+                    return;
+                }
+                if let Some(exponents) = so_far.exponents() {
+                    next = so_far.time() + span / POINTS;
+                    if let Some((time, exponents)) = last.replace((so_far.time(), exponents)) {
+                        tell(time, exponents, false);
+                    }
+                }
+            });
+        // A motion that escapes has no exponents; what the numerics refuse was said by the name.
+        match result {
+            Ok(result) if !result.exponents.is_empty() => tell(result.time, result.exponents, true),
+            _ => {}
+        }
+        gone
     }
 }
 

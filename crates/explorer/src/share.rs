@@ -2,7 +2,6 @@
 
 use motiform_models::ModelInfo;
 use motiform_study::{Error, Study, presets};
-use std::fmt::Write;
 
 /// A state of more numbers than this is left to the study file.
 const MOST_COORDINATES: usize = 8;
@@ -43,56 +42,75 @@ fn bare(info: &'static ModelInfo, preset: Option<&str>) -> Result<Study, Error> 
 /// it.)
 pub(crate) fn command(preset: Option<&str>, study: &Study) -> Result<String, Error> {
     let said = Said::of(preset, study)?;
-    let mut text = format!("motiform simulate {}", study.model);
-    if let Some(preset) = &said.preset {
-        push(&mut text, &format!(" --preset {preset}"));
-    }
-    for (name, value) in &said.set {
-        push(&mut text, &format!(" --set {name}={value}"));
-    }
-    for (name, value) in &said.initial {
-        push(&mut text, &format!(" --initial {name}={value:?}"));
-    }
+    let mut words = vec![format!("motiform simulate {}", study.model)];
+    words.extend(said.preset.iter().map(|preset| format!("--preset {preset}")));
+    words.extend(said.set.iter().map(|(name, value)| format!("--set {name}={value:?}")));
+    words.extend(said.initial.iter().map(|(name, value)| format!("--initial {name}={value:?}")));
     if !said.initial.is_empty() {
-        push(&mut text, " --transient 0");
+        words.push("--transient 0".to_owned());
     }
-    push(&mut text, &format!(" --t-end {}", said.t_end));
+    words.push(format!("--t-end {}", said.t_end));
     if said.noise > 0.0 {
-        push(&mut text, &format!(" --noise {} --seed {}", said.noise, said.seed));
+        words.push(format!("--noise {:?}", said.noise));
     }
-    Ok(text)
+    words.push(format!("--seed {}", said.seed));
+    Ok(words.join(" "))
 }
 
 /// The same in Python.
 pub(crate) fn python(preset: Option<&str>, study: &Study) -> Result<String, Error> {
     let said = Said::of(preset, study)?;
-    let list = |entries: &[(String, f64)]| -> String {
-        entries.iter().map(|(name, value)| format!("{name}={value:?}")).collect::<Vec<_>>().join(", ")
-    };
-    let mut text = "import motiform\n\n".to_owned();
+    let set: Vec<String> = said.set.iter().map(|(name, value)| format!("{name}={value:?}")).collect();
+    let set = set.join(", ");
     let class = if study.model == "cell" { "Cell" } else { "Tensor" };
-    match &said.preset {
-        Some(preset) if said.set.is_empty() => {
-            push(&mut text, &format!("body = motiform.preset(\"{preset}\")\n"))
-        }
-        Some(preset) => {
-            push(&mut text, &format!("body = motiform.preset(\"{preset}\").replace({})\n", list(&said.set)));
-        }
-        None => push(&mut text, &format!("body = motiform.{class}({})\n", list(&said.set))),
-    }
-    let mut options = format!("{}", said.t_end);
+    let body = match &said.preset {
+        Some(preset) if set.is_empty() => format!("motiform.preset(\"{preset}\")"),
+        Some(preset) => format!("motiform.preset(\"{preset}\").replace({set})"),
+        None => format!("motiform.{class}({set})"),
+    };
+    let mut options = vec![format!("{}", said.t_end)];
     if !said.initial.is_empty() {
         let initial: Vec<String> =
             said.initial.iter().map(|(name, value)| format!("\"{name}\": {value:?}")).collect();
-        push(&mut options, &format!(", transient=0.0, initial={{{}}}", initial.join(", ")));
+        options.push("transient=0.0".to_owned());
+        options.push(format!("initial={{{}}}", initial.join(", ")));
     }
     if said.noise > 0.0 {
-        push(&mut options, &format!(", noise={:?}, seed={}", said.noise, said.seed));
+        options.push(format!("noise={:?}", said.noise));
     }
-    push(&mut text, &format!("run = body.simulate({options})\nrun.plot()\nprint(body.classify())\n"));
-    Ok(text)
+    options.push(format!("seed={}", said.seed));
+    let options = options.join(", ");
+    Ok(format!(
+        "import motiform\n\nbody = {body}\nrun = body.simulate({options})\nrun.plot()\nprint(body.classify())\n"
+    ))
 }
 
-fn push(text: &mut String, more: &str) {
-    let _ = write!(text, "{more}"); // a string takes everything
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+
+    #[test]
+    fn only_what_differs_is_said() {
+        let mut study = presets::find(ModelInfo::find("tensor").unwrap(), "fig5a").unwrap();
+        let bare = study.clone();
+        study.set("kappa2", 0.5).unwrap();
+        study.initial = vec![("v1".to_owned(), -0.1), ("x".to_owned(), 1e-300)];
+        study.run.noise = 0.25;
+        assert_eq!(
+            command(Some("fig5a"), &study).unwrap(),
+            "motiform simulate tensor --preset fig5a --set kappa2=0.5 --initial v1=-0.1 --initial x=1e-300 --transient 0 \
+             --t-end 160 --noise 0.25 --seed 1"
+        );
+        assert_eq!(
+            python(Some("fig5a"), &study).unwrap(),
+            "import motiform\n\nbody = motiform.preset(\"fig5a\").replace(kappa2=0.5)\n\
+             run = body.simulate(160, transient=0.0, initial={\"v1\": -0.1, \"x\": 1e-300}, noise=0.25, seed=1)\n\
+             run.plot()\nprint(body.classify())\n"
+        );
+        assert!(python(Some("fig5a"), &bare).unwrap().contains("motiform.preset(\"fig5a\")\n"));
+        let cell = Study::of_model(ModelInfo::find("cell").unwrap());
+        assert!(python(None, &cell).unwrap().contains("motiform.Cell()"));
+    }
 }

@@ -37,7 +37,7 @@ pub enum Error {
         known: Vec<&'static str>,
     },
     /// A number that is not finite, or outside what the model allows.
-    #[error("{name} = {value} is out of range: give a number from {min} to {max}")]
+    #[error("{name} = {} is out of range: give a number from {min} to {max}", written(*.value))]
     OutOfRange {
         /// Name of the number.
         name: String,
@@ -92,4 +92,9 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
         .filter(|&(distance, candidate)| distance <= (candidate.len().max(name.len()) + 1) / 3)
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, candidate)| candidate)
+}
+
+/// A number as people write it: 2000000, but 1e300 and not 300 zeros.
+fn written(value: f64) -> String {
+    if value.abs() < 1e15 { value.to_string() } else { format!("{value:?}") }
 }

@@ -110,18 +110,24 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     let rotation = orbit.net_rotation();
     let no_turn = NO_TURN.max(settings.accuracy());
     let (regime, what) = match (path.moves(), orbit.mirrored, rotation.abs() < no_turn) {
-        (false, ..) => (Regime::Motionless, "the centre rests while the shape repeats"),
-        (true, true, _) => {
-            (Regime::Zigzag, "half a period later the motion is its own mirror image: no net rotation")
+        (false, ..) => (Regime::Motionless, "the centre rests while the shape repeats".to_owned()),
+        (true, true, _) => (
+            Regime::Zigzag,
+            "half a period later the motion is its own mirror image, so it has no net rotation".to_owned(),
+        ),
+        (true, false, true) => (Regime::Zigzag, "the shape repeats without net rotation".to_owned()),
+        (true, false, false) => {
+            (Regime::QuasiPeriodic, format!("the shape repeats, turned by {rotation:.6} rad each time"))
         }
-        (true, false, true) => (Regime::Zigzag, "the shape repeats without net rotation"),
-        (true, false, false) => (Regime::QuasiPeriodic, "the shape repeats, turned by the net rotation"),
+    };
+    let returns = match recurrence.returns {
+        1 => "one return".to_owned(),
+        more => format!("{more} returns"),
     };
     let why = format!(
-        "{what}; period {:.6}, net rotation {rotation:.6} rad, largest multiplier {:.3e} (stable), {} returns apart",
+        "{what}; period {:.6}, largest multiplier {:.3e}: stable; it closes after {returns} to its section",
         orbit.period(),
-        orbit.growth(),
-        recurrence.returns
+        orbit.growth()
     );
     let mut verdict = Verdict::new(regime, Attractor::Periodic, why, time);
     let stability = (1.0 - orbit.growth()) / settings.accuracy();

@@ -117,18 +117,16 @@ fn short(value: f64, digits: usize) -> f64 {
 }
 
 /// The study file.
-#[allow(clippy::unnecessary_wraps, reason = "as the other makers")]
-pub(super) fn study(mut study: Study) -> Option<Maker> {
+pub(super) fn study(mut study: Study) -> Maker {
     // What the preset says of its motion may be true no longer.
     study.about = String::new();
-    Some(Box::new(move || Ok(Some(Made::Bytes(study.to_toml()?.into_bytes())))))
+    Box::new(move || Ok(Some(Made::Bytes(study.to_toml()?.into_bytes()))))
 }
 
 /// The figure of the exponents so far.
-#[allow(clippy::unnecessary_wraps, reason = "as the other makers")]
-pub(super) fn exponents(look: &Look<'_>, history: History) -> Option<Maker> {
+pub(super) fn exponents(look: &Look<'_>, history: History) -> Maker {
     let plan = look.setting.plan().clone();
-    Some(Box::new(move || Ok(draw::live::exponents(&plan, &history)?.map(Made::Svg))))
+    Box::new(move || Ok(draw::live::exponents(&plan, &history)?.map(Made::Svg)))
 }
 
 /// Makes a file of the motion; `None` for a name that is none.

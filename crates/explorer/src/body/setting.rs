@@ -192,7 +192,14 @@ impl Setting {
 
     /// What there is to name.
     pub(crate) fn motion(&self) -> Motion {
-        Motion { revision: self.revision, plan: self.quiet.clone() }
+        Motion { revision: self.revision, plan: self.quiet.clone(), again: false }
+    }
+
+    /// The same motion, seen from a later state.
+    pub(crate) fn motion_at(&self, state: &[f64]) -> Result<Motion, Error> {
+        let mut study = self.study_at(state);
+        study.run.noise = 0.0;
+        Ok(Motion { revision: self.revision, plan: Plan::new(&study)?, again: true })
     }
 
     /// The study that goes on from a state.

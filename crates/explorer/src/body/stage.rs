@@ -35,6 +35,9 @@ pub(super) struct Stage<'s> {
     told: f64,
     radius: f64,
     ended: bool,
+    /// The name was asked for at this time; it is asked for again when the body has moved on this many times longer than finding
+    /// the name took.
+    named: (f64, f64),
     desks: &'s Desks,
 }
 
@@ -51,7 +54,16 @@ impl<'s> Stage<'s> {
         let stretch = Stretch::new(setting.plan(), body, t, state, u64::from(setting.revision()))?;
         let record =
             Record::new(setting.model(), setting.plan().computation.control.absolute_tolerance(), KEPT);
-        Ok(Self { setting, stretch, record, told: f64::NEG_INFINITY, radius, ended: false, desks })
+        Ok(Self {
+            setting,
+            stretch,
+            record,
+            told: f64::NEG_INFINITY,
+            radius,
+            ended: false,
+            named: (t, 1.0),
+            desks,
+        })
     }
 
     pub(super) fn desks(&self) -> &'s Desks {
@@ -68,12 +80,27 @@ impl<'s> Stage<'s> {
         let there = self.stretch.advance(to, PICTURE.1, &mut self.record, self.setting.model());
         let frame = self.frame(!there || dt > most);
         self.desks.answers.binary(frame.encode())?;
+        self.name_again();
         match self.stretch.outcome() {
             Some(outcome) if !self.ended => {
                 self.ended = true;
                 self.desks.answers.json(&ended(self.setting.revision(), &outcome))
             }
             _ => Ok(()),
+        }
+    }
+
+    /// A long transient may end on another motion than the one it was named after, for neighbours part: asks again, ever more rarely.
+    fn name_again(&mut self) {
+        let (asked, times) = self.named;
+        let Some(took) = self.desks.naming.took(self.setting.revision()) else { return };
+        if self.ended || self.stretch.t() - asked < times * took.max(1.0) {
+            return;
+        }
+        self.named = (self.stretch.t(), 2.0 * times);
+        // A state that makes no plan is no body: the motion itself says so.
+        if let Ok(motion) = self.setting.motion_at(self.stretch.state()) {
+            self.desks.naming.name(motion);
         }
     }
 
@@ -145,9 +172,11 @@ impl<'s> Stage<'s> {
 
     pub(super) fn export(&self, export: &Export) -> Result<(), Gone> {
         let make = match export.what.as_str() {
-            "map.csv" | "map.svg" | "map.png" => self.desks.map.maker(export.what == "map.csv"),
-            "exponent.svg" | "exponent.png" => looks::exponents(&self.look(), self.desks.naming.history()),
-            "study.toml" => looks::study(self.setting.study_at(self.stretch.state())),
+            "map.csv" | "map.svg" | "map.png" => Some(self.desks.map.maker(export.what == "map.csv")),
+            "exponent.svg" | "exponent.png" => {
+                Some(looks::exponents(&self.look(), self.desks.naming.history()))
+            }
+            "study.toml" => Some(looks::study(self.setting.study_at(self.stretch.state()))),
             _ => looks::maker(&self.look(), export),
         };
         let Some(make) = make else {

@@ -76,19 +76,17 @@ impl Map {
     }
 
     /// Makes a file of the cells in sight that are computed: CSV, or the phase diagram.
-    pub(crate) fn maker(&self, csv: bool) -> Option<Maker> {
-        let (plan, rows) = lock(&self.sight).rows()?;
-        Some(Box::new(move || {
-            if rows.is_empty() {
-                return Ok(None);
-            }
+    pub(crate) fn maker(&self, csv: bool) -> Maker {
+        let known = lock(&self.sight).rows();
+        Box::new(move || {
+            let Some((plan, rows)) = known.filter(|(_, rows)| !rows.is_empty()) else { return Ok(None) };
             if csv {
                 return Ok(Some(Made::Bytes(rows_to_csv(&plan, &rows))));
             }
             let cells: Vec<CellSummary> =
                 rows.iter().map(|row| CellSummary::of(row.cell, std::slice::from_ref(row))).collect();
             Ok(Some(Made::Svg(phase_diagram(&plan, &cells)?.svg()?)))
-        }))
+        })
     }
 }
 

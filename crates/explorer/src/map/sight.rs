@@ -44,8 +44,9 @@ impl Present {
 
     /// How coarse a look a cell belongs to.
     pub(crate) fn level(&self, i: usize, j: usize) -> u8 {
-        let places = self.sides.iter().zip([i, j]);
-        places.map(|(side, place)| level(side.first + place as i64)).min().unwrap_or(0)
+        let number = |side: &Cells, place: usize| side.first + i64::try_from(place).unwrap_or(0);
+        let levels = self.sides.iter().zip([i, j]).map(|(side, place)| level(number(side, place)));
+        levels.min().unwrap_or(0)
     }
 }
 

@@ -19,14 +19,14 @@ use tungstenite::protocol::CloseFrame;
 use tungstenite::{HandshakeError, Message, WebSocket};
 
 /// A running server.
-pub struct Running {
-    pub address: String,
+pub(crate) struct Running {
+    pub(crate) address: String,
     handle: Handle,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Running {
-    pub fn start(options: &Options) -> Self {
+    pub(crate) fn start(options: &Options) -> Self {
         let server = Server::bind(options).unwrap();
         let (address, handle) = (server.address(), server.handle());
         let thread = std::thread::spawn(move || server.run().unwrap());
@@ -34,25 +34,25 @@ impl Running {
     }
 
     /// On any free port: tests run side by side.
-    pub fn anywhere() -> Self {
+    pub(crate) fn anywhere() -> Self {
         let free = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
         Self::start(&Options { port: Some(free), ..Options::default() })
     }
 
-    pub fn host(&self) -> &str {
+    pub(crate) fn host(&self) -> &str {
         self.address.split('/').nth(2).unwrap()
     }
 
-    pub fn port(&self) -> u16 {
+    pub(crate) fn port(&self) -> u16 {
         self.host().split(':').nth(1).unwrap().parse().unwrap()
     }
 
-    pub fn token(&self) -> &str {
+    pub(crate) fn token(&self) -> &str {
         self.address.split('/').nth(3).unwrap()
     }
 
     /// Status line and headers, and the body, of a request.
-    pub fn get(&self, path: &str, host: &str) -> (String, String) {
+    pub(crate) fn get(&self, path: &str, host: &str) -> (String, String) {
         let mut stream = TcpStream::connect(self.host()).unwrap();
         write!(stream, "GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n").unwrap();
         let mut bytes = Vec::new();
@@ -63,7 +63,7 @@ impl Running {
     }
 
     /// The opening request of a page.
-    pub fn request(&self) -> Request {
+    pub(crate) fn request(&self) -> Request {
         let mut request =
             format!("ws://{}/{}/live", self.host(), self.token()).into_client_request().unwrap();
         let origin = format!("http://{}", self.host()).parse().unwrap();
@@ -72,7 +72,7 @@ impl Running {
     }
 
     /// A page, or the status that it is refused with.
-    pub fn try_page(&self, request: Request) -> Result<Page, u16> {
+    pub(crate) fn try_page(&self, request: Request) -> Result<Page, u16> {
         let stream = TcpStream::connect(self.host()).unwrap();
         stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
         match tungstenite::client(request, stream) {
@@ -84,13 +84,13 @@ impl Running {
         }
     }
 
-    pub fn page(&self) -> Page {
+    pub(crate) fn page(&self) -> Page {
         let mut page = self.try_page(self.request()).unwrap();
         assert_eq!(page.json("hello")["is"], "hello");
         page
     }
 
-    pub fn stop(&self) {
+    pub(crate) fn stop(&self) {
         self.handle.stop();
     }
 }
@@ -106,31 +106,31 @@ impl Drop for Running {
 }
 
 /// An open page.
-pub struct Page {
-    pub socket: WebSocket<TcpStream>,
+pub(crate) struct Page {
+    pub(crate) socket: WebSocket<TcpStream>,
     /// Messages that came while another one was waited for.
-    pub other: Vec<Message>,
+    pub(crate) other: Vec<Message>,
 }
 
 /// A frame as the page reads it.
-pub struct Frame {
-    pub flags: u8,
-    pub revision: u32,
-    pub t: f64,
-    pub position: [f64; 2],
-    pub radius: f64,
-    pub coordinates: Vec<f64>,
-    pub samples: Vec<Vec<f64>>,
-    pub outline: Vec<[f64; 2]>,
+pub(crate) struct Frame {
+    pub(crate) flags: u8,
+    pub(crate) revision: u32,
+    pub(crate) t: f64,
+    pub(crate) position: [f64; 2],
+    pub(crate) radius: f64,
+    pub(crate) coordinates: Vec<f64>,
+    pub(crate) samples: Vec<Vec<f64>>,
+    pub(crate) outline: Vec<[f64; 2]>,
 }
 
 impl Page {
-    pub fn say(&mut self, text: &str) {
+    pub(crate) fn say(&mut self, text: &str) {
         self.socket.send(Message::text(text.to_owned())).unwrap();
     }
 
     /// The next message that `wanted` takes; others are kept aside.
-    pub fn next<T>(&mut self, mut wanted: impl FnMut(&Message) -> Option<T>) -> T {
+    pub(crate) fn next<T>(&mut self, mut wanted: impl FnMut(&Message) -> Option<T>) -> T {
         if let Some(place) = self.other.iter().position(|message| wanted(message).is_some()) {
             return wanted(&self.other.remove(place)).unwrap();
         }
@@ -144,14 +144,14 @@ impl Page {
     }
 
     /// The next JSON message of a kind.
-    pub fn json(&mut self, kind: &str) -> Value {
+    pub(crate) fn json(&mut self, kind: &str) -> Value {
         self.next(|message| {
             let value: Value = serde_json::from_str(message.to_text().ok()?).ok()?;
             (value["is"] == kind).then_some(value)
         })
     }
 
-    pub fn begin(&mut self, model: &str, preset: Option<&str>) -> Value {
+    pub(crate) fn begin(&mut self, model: &str, preset: Option<&str>) -> Value {
         let preset = preset.map_or("null".to_owned(), |preset| format!("{preset:?}"));
         self.say(&format!(
             r#"{{"do":"begin","model":"{model}","preset":{preset},"parameters":{{}},"state":null,"position":null}}"#
@@ -159,7 +159,7 @@ impl Page {
         self.json("begun")
     }
 
-    pub fn advance(&mut self, dt: f64) -> Frame {
+    pub(crate) fn advance(&mut self, dt: f64) -> Frame {
         self.say(&format!(r#"{{"do":"advance","dt":{dt}}}"#));
         self.next(|message| match message {
             Message::Binary(bytes) if bytes[0] == 1 => Some(frame(bytes)),
@@ -168,7 +168,7 @@ impl Page {
     }
 
     /// Moves on by `dt` in all, in as many pictures as a busy machine needs; the samples of all of them.
-    pub fn advance_whole(&mut self, dt: f64) -> Frame {
+    pub(crate) fn advance_whole(&mut self, dt: f64) -> Frame {
         let mut frame = self.advance(0.0);
         let (end, mut samples) = (frame.t + dt, std::mem::take(&mut frame.samples));
         loop {
@@ -183,7 +183,7 @@ impl Page {
     }
 
     /// A file, or why there is none.
-    pub fn export(&mut self, what: &str) -> Result<(Value, Vec<u8>), String> {
+    pub(crate) fn export(&mut self, what: &str) -> Result<(Value, Vec<u8>), String> {
         self.say(&format!(r#"{{"do":"export","id":5,"what":"{what}","section":"path","y":null}}"#));
         self.next(|message| match message {
             Message::Binary(bytes) if bytes[0] == 3 => {
@@ -201,7 +201,7 @@ impl Page {
     }
 
     /// Reads until the server closes; its code.
-    pub fn closed(&mut self) -> Option<u16> {
+    pub(crate) fn closed(&mut self) -> Option<u16> {
         loop {
             match self.socket.read() {
                 Ok(Message::Close(Some(CloseFrame { code, .. }))) => return Some(code.into()),

@@ -13,6 +13,8 @@ import { History } from "./history";
 import { Keeper } from "./keeper";
 import { Loop } from "./loop";
 import { MapPanel } from "./map/panel";
+import { typeset } from "./numbers";
+import { Opening } from "./opening";
 import { ParameterPanel } from "./parameters";
 import { PresetBar } from "./presets";
 import type { Begun, Changed, Exponents, Hello, Named, Refused, Regime, Share, Strips, Values, Wish } from "./protocol";
@@ -30,8 +32,7 @@ export class App implements Hearer {
   readonly map: MapPanel;
   private session: Session | null = null;
   private regime: Regime | null = null;
-  /** What the last `begin` asked for; `null` once the server agreed. */
-  private beginning: Place | null = null;
+  private readonly opening = new Opening((begin) => this.send(begin));
   /** Whether parameters off the axes of the map changed. */
   private mapStale = false;
   private frames = 0;
@@ -76,10 +77,10 @@ export class App implements Hearer {
       open: (open) => this.opened(open),
     });
     this.loop = new Loop({
-      ready: () => this.connection.open && this.session !== null && !this.beginning,
+      ready: () => this.connection.open && this.session !== null && !this.opening.under,
       speed: () => this.known().speed,
       advance: (dt) => this.send({ do: "advance", dt }),
-      before: () => this.flush(),
+      before: (now) => this.flush(now),
       draw: (now, seconds) => this.draw(now, seconds),
     });
     onTheme(() => this.recolour());
@@ -136,10 +137,9 @@ export class App implements Hearer {
   begun(begun: Begun): void {
     const session = this.known();
     const { preset, model } = session;
-    const place = this.beginning;
-    this.beginning = null;
+    const place = this.opening.agreed();
     session.begun(begun, place?.speed ?? begun.speed);
-    setText(byId("about"), begun.about);
+    setText(byId("about"), begun.about || model.title);
     document.title = `${begun.title} \u2013 motiform`;
     this.presets.show(model.name, begun.preset);
     this.parameters.begin(model, preset, session.base);
@@ -179,7 +179,7 @@ export class App implements Hearer {
   }
 
   named({ regime, why }: Named): void {
-    this.name(this.known().registry.regimes.find((one) => one.name === regime) ?? null, why);
+    this.name(this.known().registry.regimes.find((one) => one.name === regime) ?? null, typeset(why));
   }
 
   private name(regime: Regime | null, why: string): void {
@@ -205,7 +205,7 @@ export class App implements Hearer {
 
   ended(text: string): void {
     this.loop.ended = true;
-    setText(byId("ended-text"), text);
+    setText(byId("ended-text"), typeset(text));
     byId("ended").hidden = false;
   }
 
@@ -215,19 +215,11 @@ export class App implements Hearer {
 
   refused({ id, why }: Refused): void {
     if (id !== null && this.share.refuse(id, why)) return;
-    if (this.beginning) return this.beginLess(this.beginning, why);
+    if (this.opening.under) return this.opening.refused(why, this.known());
     const names = this.session?.refused(why) ?? [];
     if (!this.parameters.refuse(names, why)) toast(why);
     if (this.session) this.parameters.show(this.session.parameters);
     this.map.touch();
-  }
-
-  /** A beginning that was refused is tried with less: without state, then without changes. */
-  private beginLess(place: Place, why: string): void {
-    this.beginning = null;
-    toast(why);
-    if (place.state) this.open({ ...place, state: null, position: null, t: 0 });
-    else if (Object.keys(place.parameters).length) this.open({ ...place, parameters: {} });
   }
 
   private take(frame: Frame): void {
@@ -237,7 +229,7 @@ export class App implements Hearer {
     const first = this.body.last() === null;
     this.history.take(frame);
     this.body.take(frame);
-    if (first) this.keeper.changed();
+    if (first || !this.loop.playing) this.keeper.changed();
   }
 
   // ---- what the reader does
@@ -256,10 +248,7 @@ export class App implements Hearer {
   }
 
   private open(place: Place): void {
-    const { model, preset, parameters, state, position, t, noise } = place;
-    this.known().choose(model, preset, parameters);
-    this.beginning = place;
-    this.send({ do: "begin", model, preset, parameters, state, position, t, noise, seed: 1 });
+    this.opening.open(place, this.known());
   }
 
   /** New values: sent with the next frame, in one message however many there are. */
@@ -272,8 +261,8 @@ export class App implements Hearer {
     this.keeper.changed();
   }
 
-  private flush(): void {
-    const values = this.session?.take();
+  private flush(now: number): void {
+    const values = this.opening.under ? null : this.session?.take(now);
     if (!values) return;
     this.send({ do: "set", parameters: values });
     if (this.mapStale) this.map.renew();
@@ -300,7 +289,7 @@ export class App implements Hearer {
   /** Everything that the address holds; `null` before the body has been seen. */
   private place(): Place | null {
     const [session, frame] = [this.session, this.body.last()];
-    if (!session || !frame || this.beginning) return null;
+    if (!session || !frame || this.opening.under) return null;
     return {
       model: session.model.name,
       preset: session.preset?.name ?? null,

@@ -15,12 +15,13 @@ const CAPACITY = 16384;
 export class History {
   columns = SHAPE;
   length = 0;
+  /** Samples taken since the run began, those forgotten included. */
+  private total = 0;
   private next = 0;
   private data = new Float64Array(CAPACITY * SHAPE);
 
   clear(): void {
-    this.length = 0;
-    this.next = 0;
+    this.length = this.total = this.next = 0;
   }
 
   /** Appends the samples of a frame. Where time ran backwards a new run has begun: what was before is forgotten. */
@@ -30,6 +31,7 @@ export class History {
     for (let from = 0; from < frame.rows.length; from += this.columns) {
       for (let c = 0; c < this.columns; c++) this.data[this.next * this.columns + c] = frame.rows[from + c];
       this.next = (this.next + 1) % CAPACITY;
+      this.total++;
       if (this.length < CAPACITY) this.length++;
     }
   }
@@ -37,6 +39,15 @@ export class History {
   /** The value of sample `index`, counted from the oldest. */
   at(index: number, column: number): number {
     return this.data[((this.next - this.length + index + CAPACITY) % CAPACITY) * this.columns + column];
+  }
+
+  /**
+   * The first sample from `from` on to draw where only every `stride`-th is drawn. Strides are counted from the beginning
+   * of the run, so that a line keeps its corners while its window moves on.
+   */
+  start(from: number, stride: number): number {
+    const absolute = this.total - this.length + from;
+    return from + ((stride - (absolute % stride)) % stride);
   }
 
   /** The first sample not before time `t`. */

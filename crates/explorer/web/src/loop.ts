@@ -11,7 +11,7 @@ export interface Beat {
   speed(): number;
   advance(dt: number): void;
   /** Before anything else. */
-  before(): void;
+  before(now: number): void;
   /** Everything that is drawn; `now` in milliseconds, `seconds` since the last picture. */
   draw(now: number, seconds: number): void;
 }
@@ -42,7 +42,7 @@ export class Loop {
   private tick(now: number): void {
     const seconds = Math.min(LONGEST, (now - this.drawn) / 1000);
     this.drawn = now;
-    this.beat.before();
+    this.beat.before(now);
     this.advance(now);
     this.beat.draw(now, seconds);
     requestAnimationFrame((next) => this.tick(next));

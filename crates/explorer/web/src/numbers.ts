@@ -10,7 +10,8 @@ export function minus(text: string): string {
 /** A number with at most `digits` significant digits, no trailing zeros, a true minus. */
 export function pretty(value: number, digits = 4): string {
   if (!Number.isFinite(value)) return "\u2013";
-  return minus(plain(value, digits)).replace(/e\+?(.+)$/, (_, power: string) => `\u00b7${superscript(10, power)}`);
+  const text = Math.abs(value) >= 1e5 ? String(value.toExponential(digits - 1)).replace(/\.?0*e/, "e") : plain(value, digits);
+  return minus(text).replace(/e\+?(.+)$/, (_, power: string) => `\u00b7${superscript(10, power)}`);
 }
 
 function superscript(base: number, power: string): string {
@@ -66,4 +67,14 @@ export function duration(seconds: number): string {
   if (seconds < 1) return "< 1 s";
   if (seconds < 90) return `${Math.round(seconds)} s`;
   return `${Math.round(seconds / 60)} min`;
+}
+
+/** The server's plain sentences with the signs that people write. */
+export function typeset(text: string): string {
+  return text
+    .replaceAll("+-", "\u00b1")
+    .replace(/\blambda_(\d)/g, (_, digit: string) => `\u03bb${String.fromCharCode(0x2080 + Number(digit))}`)
+    .replace(/\blambda_([+-])/g, (_, sign: string) => `\u03bb${sign === "+" ? "\u208a" : "\u208b"}`)
+    .replace(/\d+(\.\d+)?e-?\d+/g, (number) => pretty(Number(number), 5))
+    .replace(/(^|[\s(=,])-(?=[\d.])/g, `$1${MINUS}`);
 }

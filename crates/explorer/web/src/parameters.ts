@@ -43,11 +43,12 @@ export class ParameterPanel {
     const first = model.parameters.filter((one) => free.includes(one.name));
     const groups = new Map<string, Parameter[]>();
     for (const one of model.parameters) {
-      if (!free.includes(one.name)) groups.set(one.equation, [...(groups.get(one.equation) ?? []), one]);
+      const others = groups.get(one.equation) ?? [];
+      groups.set(one.equation, free.includes(one.name) ? others : [...others, one]);
     }
     this.place.replaceChildren(
-      ...(first.length ? [this.group(given.length ? "free in the paper\u2019s figure" : "of the map", first)] : []),
-      ...[...groups].map(([equation, list]) => this.group(equation.startsWith("(") ? `equation ${equation}` : equation, list)),
+      ...(first.length ? [this.group(given.length ? "free in the paper\u2019s figure" : `axes of the ${preset ? "preset" : "model"}\u2019s map`, first)] : []),
+      ...[...groups].filter(([, list]) => list.length).map(([equation, list]) => this.group(equation.startsWith("(") ? `equation ${equation}` : equation, list)),
       make("details", { class: "equations" }, make("summary", {}, "Equations"), make("pre", { tabindex: "0" }, model.equations), make("p", {}, model.source)),
     );
   }

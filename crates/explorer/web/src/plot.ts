@@ -38,7 +38,7 @@ export function drawAxes(g: CanvasRenderingContext2D, box: Box, view: View, labe
 }
 
 function xAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string): void {
-  const { values, labels } = ticks(view.x0, view.x1, box.width / 62);
+  const { values, labels } = ticks(view.x0, view.x1, Math.max(2, box.width / 52));
   const bottom = Math.round(box.top + box.height) + 0.5;
   g.font = `11px ${UI_FONT}`;
   g.textAlign = "center";
@@ -55,7 +55,7 @@ function xAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string)
 }
 
 function yAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string): void {
-  const { values, labels } = ticks(view.y0, view.y1, box.height / 40);
+  const { values, labels } = ticks(view.y0, view.y1, Math.max(2, box.height / 40));
   const left = Math.round(box.left) - 0.5;
   g.font = `11px ${UI_FONT}`;
   g.textAlign = "right";

@@ -24,6 +24,7 @@ export function watch(canvas: HTMLCanvasElement, gestures: Gestures): void {
     canvas.setPointerCapture(event.pointerId);
     if (fingers.size === 0) moved = 0;
     fingers.set(event.pointerId, place(event));
+    gestures.hover?.(place(event));
   });
   canvas.addEventListener("pointermove", (event) => {
     const at = place(event);
@@ -41,7 +42,7 @@ export function watch(canvas: HTMLCanvasElement, gestures: Gestures): void {
   };
   canvas.addEventListener("pointerup", (event) => lift(event, true));
   canvas.addEventListener("pointercancel", (event) => lift(event, false));
-  canvas.addEventListener("pointerleave", () => gestures.hover?.(null));
+  canvas.addEventListener("pointerleave", (event) => event.pointerType === "mouse" && gestures.hover?.(null));
   canvas.addEventListener("dblclick", () => gestures.double?.());
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();

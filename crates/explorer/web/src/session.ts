@@ -1,5 +1,8 @@
 /** What the page knows about the body: model, preset, parameters, and the changes that are under way. */
 
+/** A `set` without an answer for so long (milliseconds) holds up no other. */
+const PATIENCE = 500;
+
 import type { Begun, Changed, Model, Preset, Registry, Values } from "./protocol";
 
 export class Session {
@@ -14,8 +17,9 @@ export class Session {
   noise = 0;
   revision = 0;
   speed = 1;
-  /** Sets on their way to the server, the oldest first. */
-  private readonly underway: Values[] = [];
+  /** The `set` on its way to the server. */
+  private underway: Values | null = null;
+  private sent = -Infinity;
   private wanted: Values = {};
 
   constructor(readonly registry: Registry) {
@@ -31,7 +35,7 @@ export class Session {
     this.base = { ...defaults, ...this.preset?.parameters };
     this.parameters = { ...this.base, ...parameters };
     this.confirmed = this.parameters;
-    this.underway.length = 0;
+    this.underway = null;
     this.wanted = {};
   }
 
@@ -50,29 +54,29 @@ export class Session {
     Object.assign(this.parameters, values);
   }
 
-  /** The next `set`, at most one per frame; `null` where nothing changed. */
-  take(): Values | null {
-    if (Object.keys(this.wanted).length === 0) return null;
-    const values = this.wanted;
+  /** The next `set`: one at a time, so that a slider never runs ahead of the server. `null` where there is none. */
+  take(now: number): Values | null {
+    if (Object.keys(this.wanted).length === 0 || (this.underway && now - this.sent < PATIENCE)) return null;
+    this.underway = this.wanted;
     this.wanted = {};
-    this.underway.push(values);
-    return values;
+    this.sent = now;
+    return this.underway;
   }
 
   /** The server agreed. What was wanted meanwhile stays wanted. */
   agreed({ revision, parameters, noise }: Changed): void {
-    const first = this.underway[0];
-    if (first && Object.entries(first).every(([name, value]) => parameters[name] === value)) this.underway.shift();
+    const { underway } = this;
+    if (underway && Object.entries(underway).every(([name, value]) => parameters[name] === value)) this.underway = null;
     Object.assign(this, { revision, noise, confirmed: parameters });
-    this.parameters = Object.assign({ ...parameters }, ...this.underway, this.wanted);
+    this.parameters = { ...parameters, ...this.underway, ...this.wanted };
   }
 
-  /** The server refused something; where it names a parameter of a `set` under way, that one is undone. */
+  /** The server refused something; where it names a parameter of the `set` under way, that one is undone. */
   refused(why: string): string[] {
-    const at = this.underway.findIndex((values) => Object.keys(values).some((name) => new RegExp(`\\b${name}\\b`).test(why)));
-    if (at < 0) return [];
-    const [values] = this.underway.splice(at, 1);
-    this.parameters = Object.assign({ ...this.confirmed }, ...this.underway, this.wanted);
-    return Object.keys(values);
+    const names = Object.keys(this.underway ?? {});
+    if (!names.some((name) => new RegExp(`\\b${name}\\b`).test(why))) return [];
+    this.underway = null;
+    this.parameters = { ...this.confirmed, ...this.wanted };
+    return names;
   }
 }

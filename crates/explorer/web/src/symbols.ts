@@ -3,8 +3,6 @@
  * The same markup as in the figures, for the document and for canvases.
  */
 
-import { minus } from "./numbers";
-
 type Script = "base" | "sub" | "sup";
 
 interface Run {
@@ -50,6 +48,11 @@ function parse(markup: string): Run[] {
   return runs;
 }
 
+/** A hyphen before a digit becomes a true minus, unless it follows a letter or a digit: as in the figures. */
+function signed(text: string): string {
+  return text.replace(/(?<![\p{L}\p{N}])-(?=[\d.])/gu, "\u2212");
+}
+
 /** The symbol without its setting: for titles, options and screen readers. */
 export function spoken(markup: string): string {
   return parse(markup).map((run) => run.text).join("");
@@ -60,7 +63,7 @@ export function symbol(markup: string): HTMLElement {
   const out = document.createElement("span");
   out.className = "symbol";
   for (const run of parse(markup)) {
-    let node: Node = document.createTextNode(minus(run.text));
+    let node: Node = document.createTextNode(signed(run.text));
     if (run.italic) node = wrapped("i", node);
     if (run.script !== "base") node = wrapped(run.script, node);
     out.append(node);
@@ -81,14 +84,14 @@ export function drawSymbol(g: CanvasRenderingContext2D, markup: string, x: numbe
   const runs = parse(markup);
   const widths = runs.map((run) => {
     g.font = font(run, size);
-    return g.measureText(minus(run.text)).width;
+    return g.measureText(signed(run.text)).width;
   });
   g.textAlign = "left";
   let at = x - widths.reduce((a, b) => a + b, 0) / 2;
   runs.forEach((run, i) => {
     g.font = font(run, size);
     const drop = run.script === "sub" ? 0.22 : run.script === "sup" ? -0.36 : 0;
-    g.fillText(minus(run.text), at, y + drop * size);
+    g.fillText(signed(run.text), at, y + drop * size);
     at += widths[i];
   });
 }

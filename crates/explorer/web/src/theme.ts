@@ -8,9 +8,9 @@ export interface Inks {
   ink: string;
   muted: string;
   faint: string;
-  paper: string;
+  line: string;
+  ground: string;
   plot: string;
-  accent: string;
 }
 
 /** Colours of curves (Okabe and Ito 2008), in the order in which curves take them. */
@@ -33,6 +33,14 @@ export function currentInks(): Inks {
 export function curve(index: number): string {
   const colours = inks.dark ? CURVES_ON_DARK : CURVES;
   return colours[index % colours.length];
+}
+
+/** A colour for edges and lines, moved away from the ground so that it stands out. */
+export function edge(colour: string): string {
+  const toward = inks.dark ? 255 : 0;
+  const share = inks.dark ? 0.25 : 0.3;
+  const channels = [1, 3, 5].map((at) => Math.round(parseInt(colour.slice(at, at + 2), 16) * (1 - share) + toward * share));
+  return `rgb(${channels.join(" ")})`;
 }
 
 /** Calls back after each change of the theme. */
@@ -69,9 +77,9 @@ function read(): Inks {
     ink: colour("ink"),
     muted: colour("muted"),
     faint: colour("faint"),
-    paper: colour("paper"),
+    line: colour("line"),
+    ground: colour("paper"),
     plot: colour("plot"),
-    accent: colour("accent"),
   };
 }
 

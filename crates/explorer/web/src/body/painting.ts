@@ -6,6 +6,7 @@ import { UI_FONT } from "../plot";
 import { pretty, roundStep } from "../numbers";
 import type { Inks } from "../theme";
 import type { Camera } from "./camera";
+import { paintInset } from "./inset";
 import { paintTrail } from "./trail";
 
 /** What is drawn. */
@@ -19,7 +20,10 @@ export interface BodyScene {
   outline: Float64Array | null;
   /** How much larger than true the body is drawn. */
   enlarged: number;
+  /** Of the inside. */
   colour: string;
+  /** Of edge and trail. */
+  edge: string;
   /** The sample that the cursor in the time series points at; -1: none. */
   pointed: number;
 }
@@ -27,11 +31,12 @@ export interface BodyScene {
 export function paintBody(g: CanvasRenderingContext2D, scene: BodyScene, inks: Inks): void {
   const { camera, frame, history } = scene;
   paintGrid(g, camera, inks);
-  paintTrail(g, camera, history, scene.from, frame.x, frame.y, scene.colour);
+  paintTrail(g, camera, history, scene.from, frame.x, frame.y, scene.edge);
   paintOutline(g, scene);
   paintArrow(g, scene, inks);
   if (scene.pointed >= 0) dot(g, camera, history.at(scene.pointed, X), history.at(scene.pointed, Y), inks);
   paintScale(g, camera, inks);
+  paintInset(g, camera, history, scene.from, frame.radius, scene.edge, inks);
 }
 
 function paintGrid(g: CanvasRenderingContext2D, camera: Camera, inks: Inks): void {
@@ -54,7 +59,7 @@ function paintGrid(g: CanvasRenderingContext2D, camera: Camera, inks: Inks): voi
   g.stroke();
 }
 
-function paintOutline(g: CanvasRenderingContext2D, { camera, frame, outline, enlarged, colour }: BodyScene): void {
+function paintOutline(g: CanvasRenderingContext2D, { camera, frame, outline, enlarged, colour, edge }: BodyScene): void {
   if (!outline || outline.length < 6) return;
   const size = camera.scale * enlarged;
   const [x, y] = [camera.toX(frame.x), camera.toY(frame.y)];
@@ -62,10 +67,10 @@ function paintOutline(g: CanvasRenderingContext2D, { camera, frame, outline, enl
   for (let i = 0; i < outline.length; i += 2) g.lineTo(x + size * outline[i], y - size * outline[i + 1]);
   g.closePath();
   g.fillStyle = colour;
-  g.globalAlpha = frame.outlined ? 0.22 : 0.06;
+  g.globalAlpha = frame.outlined ? 0.28 : 0.06;
   g.fill();
   g.globalAlpha = 1;
-  g.strokeStyle = colour;
+  g.strokeStyle = edge;
   g.lineWidth = 2;
   g.lineJoin = "round";
   if (!frame.outlined) g.setLineDash([5, 4]);

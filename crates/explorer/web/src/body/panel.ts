@@ -6,7 +6,7 @@ import { byId, setText } from "../dom";
 import { T, type History } from "../history";
 import { fixed } from "../numbers";
 import { watch } from "../pointer";
-import { currentInks } from "../theme";
+import { currentInks, edge } from "../theme";
 import { Camera } from "./camera";
 import { paintBody } from "./painting";
 
@@ -25,6 +25,7 @@ export class BodyPanel {
   private trueSize = false;
   private dirty = false;
   private colour = "#888888";
+  private edge = "#888888";
   private clockAt = 0;
   private trail = 100;
   /** Time that the cursor of the series points at. */
@@ -79,6 +80,7 @@ export class BodyPanel {
 
   setColour(colour: string): void {
     this.colour = colour;
+    this.edge = edge(colour);
     this.dirty = true;
   }
 
@@ -111,7 +113,7 @@ export class BodyPanel {
     this.enlarge(frame.radius);
     sheet.clear();
     const pointed = this.pointed === null ? -1 : Math.min(this.history.length - 1, this.history.since(this.pointed));
-    paintBody(sheet.g, { camera, history: this.history, from, frame, outline: this.outline, enlarged: this.enlarged, colour: this.colour, pointed }, currentInks());
+    paintBody(sheet.g, { camera, history: this.history, from, frame, outline: this.outline, enlarged: this.enlarged, colour: this.colour, edge: this.edge, pointed }, currentInks());
     this.clock(frame);
   }
 

@@ -11,8 +11,7 @@ export function paintTrail(g: CanvasRenderingContext2D, camera: Camera, history:
   const count = history.length - from;
   if (count < 2) return;
   const stride = Math.max(1, Math.ceil(count / POINTS));
-  // Strides are counted in samples of the whole run, not of the window, or the polygon would shimmer.
-  const first = from + ((stride - (from % stride)) % stride);
+  const first = history.start(from, stride);
   const perStroke = Math.max(stride, Math.ceil(count / STROKES / stride) * stride);
   g.strokeStyle = colour;
   g.lineWidth = 1.6;

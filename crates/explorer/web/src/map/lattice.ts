@@ -14,9 +14,12 @@ export class Lattice {
   readonly rows: number;
   /** Regime of each cell, row by row from the lowest y. */
   readonly regimes: Uint8Array;
+  /** How coarse the look is that each cell has its regime from. */
+  private readonly levels: Uint8Array;
   private readonly x: Grid;
   private readonly y: Grid;
   private readonly image: ImageData;
+  private readonly pixels: Uint32Array;
   private readonly canvas: HTMLCanvasElement;
   private readonly colours: Uint32Array;
   private stale = false;
@@ -30,31 +33,40 @@ export class Lattice {
     this.columns = this.x.count;
     this.rows = this.y.count;
     this.regimes = new Uint8Array(this.columns * this.rows).fill(UNKNOWN);
+    this.levels = new Uint8Array(this.regimes.length).fill(UNKNOWN);
     this.image = new ImageData(this.columns, this.rows);
+    this.pixels = new Uint32Array(this.image.data.buffer);
     this.canvas = document.createElement("canvas");
     this.canvas.width = this.columns;
     this.canvas.height = this.rows;
     this.colours = Uint32Array.from(legend, (regime) => opaque(regime.area));
   }
 
-  /** Enters cells in the order of their arrival; a cell of level l stands for 2^l x 2^l cells about it. */
+  /**
+   * Enters cells. One of level l stands for the 2^l x 2^l cells about it, but not for those that a finer look has reached:
+   * a coarse verdict that took long arrives late.
+   */
   take({ count, view }: Cells): void {
     for (let k = 0; k < count && 8 * k + 8 <= view.byteLength; k++) {
-      const size = 1 << view.getUint8(8 * k + 4);
-      const i = view.getUint16(8 * k, true) - (size >> 1);
-      const j = view.getUint16(8 * k + 2, true) - (size >> 1);
-      this.fill(i, j, size, view.getUint8(8 * k + 5));
+      const [i, j] = [view.getUint16(8 * k, true), view.getUint16(8 * k + 2, true)];
+      const [level, regime] = [view.getUint8(8 * k + 4), view.getUint8(8 * k + 5)];
+      this.fill(i, j, level, regime);
+      this.fill(i, j, 0, regime);
     }
     this.stale = true;
   }
 
-  private fill(i: number, j: number, size: number, regime: number): void {
-    const pixels = new Uint32Array(this.image.data.buffer);
-    for (let row = Math.max(0, j); row < Math.min(this.rows, j + size); row++) {
-      const [from, to] = [Math.max(0, i), Math.min(this.columns, i + size)];
-      this.regimes.fill(regime, row * this.columns + from, row * this.columns + to);
-      const top = (this.rows - 1 - row) * this.columns;
-      pixels.fill(this.colours[regime] ?? 0, top + from, top + to);
+  private fill(i: number, j: number, level: number, regime: number): void {
+    const size = 1 << level;
+    const [left, lowest] = [i - (size >> 1), j - (size >> 1)];
+    for (let row = Math.max(0, lowest); row < Math.min(this.rows, lowest + size); row++) {
+      for (let column = Math.max(0, left); column < Math.min(this.columns, left + size); column++) {
+        const at = row * this.columns + column;
+        if (this.levels[at] < level) continue;
+        this.levels[at] = level;
+        this.regimes[at] = regime;
+        this.pixels[(this.rows - 1 - row) * this.columns + column] = this.colours[regime] ?? 0;
+      }
     }
   }
 

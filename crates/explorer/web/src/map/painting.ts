@@ -39,6 +39,9 @@ export const DASH: Record<LineStyle, number[]> = {
   "long-dashed": [12, 5],
 };
 
+/** Strength of a map of other parameters. */
+const PALE = 0.45;
+
 /** Draws the whole map. */
 export function paint(g: CanvasRenderingContext2D, scene: Scene, inks: Inks): void {
   const { box } = scene;
@@ -46,20 +49,28 @@ export function paint(g: CanvasRenderingContext2D, scene: Scene, inks: Inks): vo
   g.beginPath();
   g.rect(box.left, box.top, box.width, box.height);
   g.clip();
-  paintCells(g, scene, inks);
+  paintAreas(g, scene, inks);
   for (const line of scene.lattice?.start.lines ?? []) paintLine(g, box, scene.view, line);
   paintGlyphs(g, scene);
-  paintMark(g, scene);
+  const at = markPixel(scene);
+  paintHairs(g, scene, at);
   g.restore();
   drawAxes(g, box, scene.view, scene.labels, inks);
+  paintRing(g, box, at);
 }
 
-/** Only the areas: ground, the map before, the cells of now, hatching. */
-export function paintCells(g: CanvasRenderingContext2D, { box, view, lattice, memory, regimes }: Areas, inks: Inks): void {
+/** The areas upon their ground; a map of other parameters is pale. */
+function paintAreas(g: CanvasRenderingContext2D, areas: Areas, inks: Inks): void {
+  const { left, top, width, height } = areas.box;
   g.fillStyle = pattern(g, "ground", inks);
-  g.fillRect(box.left, box.top, box.width, box.height);
+  g.fillRect(left, top, width, height);
+  paintCells(g, areas, areas.memory?.outdated ? PALE : 1, inks);
+}
+
+/** Only what is known: the map before, the cells of now, hatching. */
+export function paintCells(g: CanvasRenderingContext2D, { box, view, lattice, memory, regimes }: Areas, strength: number, inks: Inks): void {
   if (memory) {
-    g.globalAlpha = memory.outdated ? 0.35 : 1;
+    g.globalAlpha = strength;
     const [left, top] = [pixelX(box, view, memory.view.x0), pixelY(box, view, memory.view.y1)];
     g.imageSmoothingEnabled = false;
     g.drawImage(memory.picture, left, top, pixelX(box, view, memory.view.x1) - left, pixelY(box, view, memory.view.y0) - top);
@@ -77,17 +88,17 @@ const patterns = new Map<string, CanvasPattern>();
 
 /** Dots for what is not computed yet, strokes for what stays undetermined. */
 function pattern(g: CanvasRenderingContext2D, kind: "ground" | "hatch", inks: Inks): CanvasPattern | string {
-  const key = `${kind} ${inks.plot}`;
+  const key = `${kind} ${inks.ground}`;
   const known = patterns.get(key);
   if (known) return known;
   const tile = document.createElement("canvas");
   tile.width = tile.height = 8;
   const t = tile.getContext("2d");
-  if (!t) return inks.plot;
+  if (!t) return inks.ground;
   if (kind === "ground") {
-    t.fillStyle = inks.plot;
+    t.fillStyle = inks.ground;
     t.fillRect(0, 0, 8, 8);
-    t.fillStyle = inks.faint;
+    t.fillStyle = inks.line;
     t.fillRect(1, 1, 1.2, 1.2);
     t.fillRect(5, 5, 1.2, 1.2);
   } else {
@@ -101,7 +112,7 @@ function pattern(g: CanvasRenderingContext2D, kind: "ground" | "hatch", inks: In
     t.stroke();
   }
   const made = g.createPattern(tile, "repeat");
-  if (!made) return inks.plot;
+  if (!made) return inks.ground;
   patterns.set(key, made);
   return made;
 }
@@ -135,29 +146,46 @@ function paintGlyphs(g: CanvasRenderingContext2D, { box, view, lattice, landmark
   }
 }
 
-/** Where the body is: a cross of hair lines with a ring, light on dark on light. */
-function paintMark(g: CanvasRenderingContext2D, { box, view, mark, lattice }: Scene): void {
-  const x = pixelX(box, view, mark.x);
-  const y = lattice?.start.y === null ? box.top + box.height / 2 : pixelY(box, view, mark.y);
-  const strokes: [string, number][] = [["rgba(255, 255, 255, 0.9)", 4], ["#111111", 1.6]];
+/** Where the body is. */
+function markPixel({ box, view, mark, labels }: Scene): [number, number] {
+  return [pixelX(box, view, mark.x), labels.y === null ? box.top + box.height / 2 : pixelY(box, view, mark.y)];
+}
+
+/** Radius of the ring about the body's place, and of the gap in the hair lines. */
+const RING = 7;
+const GAP = 11;
+
+/** A cross of hair lines, light on dark on light; a strip has the upright one only. */
+function paintHairs(g: CanvasRenderingContext2D, { box, labels }: Scene, [x, y]: [number, number]): void {
   const hairs = new Path2D();
-  if (lattice?.start.y) {
-    hairs.rect(box.left, y, x - 11 - box.left, 0);
-    hairs.rect(x + 11, y, box.left + box.width - x - 11, 0);
+  hairs.moveTo(x, box.top);
+  hairs.lineTo(x, y - GAP);
+  hairs.moveTo(x, y + GAP);
+  hairs.lineTo(x, box.top + box.height);
+  if (labels.y !== null) {
+    hairs.moveTo(box.left, y);
+    hairs.lineTo(x - GAP, y);
+    hairs.moveTo(x + GAP, y);
+    hairs.lineTo(box.left + box.width, y);
   }
-  hairs.rect(x, box.top, 0, y - 11 - box.top);
-  hairs.rect(x, y + 11, 0, box.top + box.height - y - 11);
   g.strokeStyle = "rgba(255, 255, 255, 0.45)";
   g.lineWidth = 2;
   g.stroke(hairs);
   g.strokeStyle = "rgba(0, 0, 0, 0.55)";
   g.lineWidth = 0.8;
   g.stroke(hairs);
+}
+
+/** The ring stays whole at the edge of the frame; outside there is none. */
+function paintRing(g: CanvasRenderingContext2D, box: Box, [x, y]: [number, number]): void {
+  const slack = 1;
+  if (!(x >= box.left - slack && x <= box.left + box.width + slack && y >= box.top - slack && y <= box.top + box.height + slack)) return;
+  const strokes: [string, number][] = [["rgba(255, 255, 255, 0.9)", 4], ["#111111", 1.6]];
   for (const [colour, width] of strokes) {
     g.strokeStyle = colour;
     g.lineWidth = width;
     g.beginPath();
-    g.arc(x, y, 7, 0, 2 * Math.PI);
+    g.arc(x, y, RING, 0, 2 * Math.PI);
     g.stroke();
   }
 }

@@ -69,7 +69,7 @@ export class MapPanel {
 
   /** A new body: these axes, and `home` to come back to. */
   begin(plane: Plane, home: Plane): void {
-    if (this.plane && !sameAxes(plane, this.plane)) this.picture.forget();
+    this.forgetUnless(plane);
     this.home = home;
     this.setPlane(plane);
     this.renew();
@@ -106,7 +106,9 @@ export class MapPanel {
 
   started(start: MapStart): void {
     const view = this.window();
-    if (start.epoch === this.epoch && view) this.picture.start(start, view);
+    if (start.epoch !== this.epoch || !view) return;
+    this.picture.start(start, view);
+    showProgress({ done: 0, total: start.x.count * (start.y?.count ?? 1), rate: 0 });
   }
 
   cells(cells: Cells): void {
@@ -167,8 +169,15 @@ export class MapPanel {
   }
 
   private choosePlane(plane: Plane): void {
-    if (this.plane && !sameAxes(plane, this.plane)) this.picture.forget();
+    this.forgetUnless(plane);
     this.go(plane);
+  }
+
+  /** Other axes: nothing of what is shown holds. */
+  private forgetUnless(plane: Plane): void {
+    if (!this.plane || sameAxes(plane, this.plane)) return;
+    this.picture.forget();
+    this.legend.show([], []);
   }
 
   /** Another window: shown at once, computed soon. */

@@ -93,7 +93,7 @@ export class MapPicture {
     picture.width = Math.max(1, Math.round(box.width));
     picture.height = Math.max(1, Math.round(box.height));
     const g = picture.getContext("2d");
-    if (g) paintCells(g, this.areas(box, view), currentInks());
-    this.memory = { picture, view, outdated: this.outdated };
+    if (g) paintCells(g, this.areas(box, view), 1, currentInks());
+    this.memory = { picture, view, outdated: this.outdated || (this.memory?.outdated ?? false) };
   }
 }

@@ -4,9 +4,9 @@ import { byId, setText } from "../dom";
 import { duration, pretty } from "../numbers";
 import type { Mapped, Progress } from "../protocol";
 
-export function showProgress({ done, total, rate }: Progress): void {
-  const left = rate > 0 ? `, ${duration((total - done) / rate)} left` : "";
-  say(`${grouped(done)} of ${grouped(total)} cells, ${pretty(rate, 2)}/s${left}`, total > 0 ? done / total : 0);
+export function showProgress({ done, total, rate }: Pick<Progress, "done" | "total" | "rate">): void {
+  const left = rate > 0 ? `, ${pretty(rate, 2)}/s, ${duration((total - done) / rate)} left` : "";
+  say(`${grouped(done)} of ${grouped(total)} cells${left}`, total > 0 ? done / total : 0);
 }
 
 export function showMapped({ cells, seconds }: Mapped): void {

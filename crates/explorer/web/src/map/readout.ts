@@ -2,7 +2,7 @@
 
 import { make, setText, throttle } from "../dom";
 import { swatch } from "../glyphs";
-import { pretty } from "../numbers";
+import { pretty, typeset } from "../numbers";
 import type { Evidence, Parameter, Regime } from "../protocol";
 import { symbol } from "../symbols";
 
@@ -46,12 +46,12 @@ export class Readout {
   leave(): void {
     this.cell = null;
     this.place.replaceChildren();
-    this.show(undefined, "Point at the map for the evidence; click to take the body there.");
+    this.show(undefined, "Point at the map for the evidence, click to take the body there; drag and wheel move the window.");
   }
 
   answer(evidence: Evidence): void {
     if (!this.cell || evidence.cell[0] !== this.cell[0] || evidence.cell[1] !== this.cell[1]) return;
-    this.show(evidence.regime, evidence.regime === null ? evidence.why || "not computed yet" : evidence.why);
+    this.show(evidence.regime, evidence.regime === null ? evidence.why || "not computed yet" : typeset(evidence.why));
   }
 
   private show(name: string | null | undefined, why: string): void {

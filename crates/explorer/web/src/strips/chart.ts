@@ -19,35 +19,42 @@ export function axis(options: Partial<uPlot.Axis>): uPlot.Axis {
   };
 }
 
-/** Numbers of a linear axis. */
-export function linear(target: number): Pick<uPlot.Axis, "splits" | "values"> {
+/** Pixels per number along the lower axis. */
+const SPACING = 58;
+
+/** Numbers of a linear axis; without a target as many as the width of the chart has room for. */
+export function linear(target?: number): Pick<uPlot.Axis, "splits" | "values"> {
   return {
-    splits: (_chart, _axis, low, high) => (high > low ? ticks(low, high, target).values : [low]),
+    splits: (chart, _axis, low, high) => (high > low ? ticks(low, high, target ?? Math.max(2, chart.width / SPACING)).values : [low]),
     values: (_chart, splits) => splits.map((value) => pretty(value, 6)),
   };
 }
 
+/** Relative changes below this look like what they are: none. */
+const STEADY = 0.05;
+
 /** The range of data with some room, and more above; a constant gets a little, too. */
-export function roomy(low: number | null, high: number | null, above: number): [number, number] {
+export function roomy(low: number | null, high: number | null, above: number, least = 1e-9): [number, number] {
   if (low === null || high === null) return [0, 1];
-  const span = Math.max(high - low, 1e-3 * Math.max(Math.abs(low), Math.abs(high)), 1e-9);
+  const span = Math.max(high - low, STEADY * Math.max(Math.abs(low), Math.abs(high)), least);
   return [low - 0.06 * span, high + (0.06 + above) * span];
 }
 
-/** Powers of ten of a logarithmic axis; in between only ticks. */
-export const POWERS: Pick<uPlot.Axis, "values" | "filter" | "grid" | "ticks"> = {
-  filter: (_chart, splits) => thinned(splits),
-  grid: { stroke: () => currentInks().faint, width: 1, filter: (_chart, splits) => thinned(splits) },
-  ticks: { stroke: () => currentInks().faint, width: 1, size: 4, filter: (_chart, splits) => thinned(splits) },
-  values: (_chart, splits) => splits.map((value) => (value === null ? "" : power(value))),
-};
+/** Powers of ten along a logarithmic axis, as many as have room. */
+export function powers(most: number): Pick<uPlot.Axis, "splits" | "values" | "filter"> {
+  return {
+    splits: (_chart, _axis, low, high) => powersWithin(low, high, most),
+    filter: (_chart, splits) => splits,
+    values: (_chart, splits) => splits.map(power),
+  };
+}
 
-/** Only powers of ten, and of those as many as have room. */
-function thinned(splits: number[]): (number | null)[] {
-  const powers = splits.map((value) => Math.round(Math.log10(value) * 1e6) / 1e6);
-  const whole = powers.filter(Number.isInteger);
-  const step = Math.max(1, Math.ceil(whole.length / 4));
-  return splits.map((value, i) => (Number.isInteger(powers[i]) && powers[i] % step === 0 ? value : null));
+function powersWithin(low: number, high: number, most: number): number[] {
+  const [first, last] = [Math.ceil(Math.log10(low) - 1e-9), Math.floor(Math.log10(high) + 1e-9)];
+  if (!(last >= first)) return [low];
+  const step = Math.ceil((last - first + 1) / most);
+  const from = Math.ceil(first / step) * step;
+  return Array.from({ length: Math.floor((last - from) / step) + 1 }, (_, i) => 10 ** (from + i * step));
 }
 
 function power(value: number): string {

@@ -14,6 +14,10 @@ const POINTS = 800;
 const PER_CURVE = 3;
 /** Room above the curves for keys and numbers. */
 const HEADROOM = 0.4;
+/** Exponents that differ by less are not told apart by eye. */
+const LEAST = 2e-3;
+/** So few points are drawn as points, too. */
+const FEW = 12;
 
 export class ExponentStrip {
   private readonly plot: uPlot;
@@ -28,9 +32,9 @@ export class ExponentStrip {
     this.plot = chart(byId("exponents"), {
       cursor: { y: false, points: { show: false }, drag: { x: false, y: false } },
       scales: { x: { time: false }, y: { range: () => this.range() } },
-      padding: [6, 10, 0, 0],
-      axes: [axis({ ...linear(4), size: 20 }), axis({ ...linear(4), size: 50 })],
-      series: [{}, ...indices.flatMap((i) => [{ stroke: () => curve(i), dash: DASHES[i], width: 1.8, points: { show: false } }, edge, edge])],
+      padding: [6, 20, 0, 0],
+      axes: [axis({ ...linear(), size: 20 }), axis({ ...linear(4), size: 50 })],
+      series: [{}, ...indices.flatMap((i) => [{ stroke: () => curve(i), dash: DASHES[i], width: 1.8, points: { show: () => this.time.length < FEW, size: 5 } }, edge, edge])],
       bands: indices.map((i) => ({ series: [PER_CURVE * i + 2, PER_CURVE * i + 3], fill: () => `${curve(i)}33` })),
       hooks: { drawAxes: [zero] },
     }, [[], ...this.curves]);
@@ -69,13 +73,13 @@ export class ExponentStrip {
         high = Math.max(high, one[i] ?? 0);
       }
     }
-    return roomy(low, high, HEADROOM);
+    return roomy(low, high, HEADROOM, LEAST);
   }
 
   draw(): void {
     if (!this.dirty) return;
     this.dirty = false;
-    byId("exponents-empty").hidden = this.time.length > 1;
+    byId("exponents-empty").hidden = this.time.length > 0;
     this.plot.setData([this.time, ...this.curves]);
   }
 }

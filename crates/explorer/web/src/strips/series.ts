@@ -12,6 +12,9 @@ import { showKeys } from "./keys";
 
 /** Room above the curves of the shape for their keys. */
 const HEADROOM = 0.45;
+/** So large a share of the turning rates is usual; beyond so many times that begins a spike. */
+const USUAL = 0.9;
+const SPIKE = 6;
 /** Points per curve, at most. */
 const POINTS = 700;
 
@@ -48,7 +51,7 @@ export class SeriesStrip {
   show(from: number, now: number): void {
     const first = this.history.since(from);
     const stride = Math.max(1, Math.ceil((this.history.length - first) / POINTS));
-    const start = first + ((stride - (first % stride)) % stride);
+    const start = this.history.start(first, stride);
     const count = Math.max(0, Math.ceil((this.history.length - start) / stride));
     this.time.length = count;
     for (let k = 0; k < count; k++) this.time[k] = this.history.at(start + k * stride, T);
@@ -76,11 +79,11 @@ export class SeriesStrip {
     this.place.append(frame);
     const made = chart(place, {
       cursor: { sync: { key: "time" }, points: { show: false }, y: false, drag: { x: false, y: false } },
-      scales: { x: { time: false, auto: false }, y: { range: (_plot, low, high) => roomy(low, high, last ? HEADROOM : 0) } },
-      padding: [4, 8, last ? 0 : 3, 0],
+      scales: { x: { time: false, auto: false }, y: { range: (plot, low, high) => (columns[0] === TURNING ? calm(plot.data[1], low, high) : roomy(low, high, last ? HEADROOM : 0)) } },
+      padding: [4, 14, last ? 0 : 3, 0],
       axes: [
-        axis({ ...linear(5), size: last ? 20 : 0, show: last }),
-        axis({ ...linear(3), size: 44 }),
+        axis({ ...linear(), size: last ? 20 : 0, show: last }),
+        axis({ ...linear(3), size: 48 }),
       ],
       series: [{}, ...columns.map((_, i) => ({ stroke: () => curve(i), dash: DASHES[i], width: 1.5, points: { show: false } }))],
       hooks: { setCursor: [(plot: uPlot) => this.cursor(plot)] },
@@ -95,8 +98,16 @@ export class SeriesStrip {
     const t = index === null || index === undefined ? undefined : this.time[index];
     this.pointed(t ?? null);
     const say = (i: number): string => pretty((index === null || index === undefined ? null : this.rows[i].data[0][index]) ?? NaN, 3);
-    setText(byId("series-values"), t === undefined ? "model time" : `t = ${pretty(t, 6)}, |v| = ${say(0)}, \u03c9 = ${say(1)}`);
+    setText(byId("series-values"), t === undefined ? "model time" : `t ${pretty(t, 5)} \u2002|v| ${say(0)} \u2002\u03c9 ${say(1)}`);
   }
+}
+
+/** The range of a rate that diverges where the body nearly rests: such spikes leave the picture, or all else were flat. */
+function calm(values: ArrayLike<number | null | undefined>, low: number | null, high: number | null): [number, number] {
+  const sizes = Array.from(values, (value) => Math.abs(value ?? 0)).sort((a, b) => a - b);
+  const usual = sizes[Math.floor(USUAL * sizes.length)] ?? 0;
+  if (low === null || high === null || !(usual > 0)) return roomy(low, high, 0);
+  return roomy(Math.max(low, -SPIKE * usual), Math.min(high, SPIKE * usual), 0);
 }
 
 function keysOf(observables: Observable[]): HTMLElement {

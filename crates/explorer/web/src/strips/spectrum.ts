@@ -1,15 +1,17 @@
 /** Power spectra of the motion since the last change, both axes logarithmic. */
 
 import type uPlot from "uplot";
-import { byId } from "../dom";
+import { byId, setText } from "../dom";
 import type { Strips } from "../protocol";
 import { curve, DASHES } from "../theme";
-import { axis, chart, POWERS } from "./chart";
+import { axis, chart, powers } from "./chart";
 import { showKeys } from "./keys";
 
 /** Decades shown below the highest peak: what lies deeper is round-off. */
 const DECADES = 12;
 const CURVES = 6;
+/** Power below this is no motion. */
+const ROUND_OFF = 1e-20;
 /** Decades above the highest peak, for the keys. */
 const HEADROOM = 2;
 
@@ -24,16 +26,19 @@ export class SpectrumStrip {
         x: { time: false, distr: 3, range: (_plot, low, high) => (high > low ? [low, high] : [0.01, 1]) },
         y: { distr: 3, range: (_plot, low, high) => (high > 0 ? [Math.max(low, high / 10 ** DECADES) / 2, high * 10 ** HEADROOM] : [1e-6, 1]) },
       },
-      padding: [6, 10, 0, 0],
-      axes: [axis({ ...POWERS, size: 20, space: 20 }), axis({ ...POWERS, size: 40, space: 12 })],
+      padding: [6, 14, 0, 0],
+      axes: [axis({ ...powers(4), size: 20 }), axis({ ...powers(4), size: 40 })],
       series: [{}, ...indices.map((i) => ({ stroke: () => curve(i), dash: DASHES[i], width: 1.4, points: { show: false } }))],
     }, [[], ...indices.map(() => [])]);
   }
 
   show({ frequencies, spectra }: Strips): void {
     const from = frequencies.findIndex((f) => f > 0);
-    const usable = from >= 0 && frequencies.length - from > 1;
+    const peak = Math.max(0, ...spectra.map((one) => one.power.reduce((most, p) => Math.max(most, p), 0)));
+    const enough = from >= 0 && frequencies.length - from > 1;
+    const usable = enough && peak > ROUND_OFF;
     byId("spectrum-empty").hidden = usable;
+    setText(byId("spectrum-empty"), enough ? "steady: nothing fluctuates" : "collecting samples\u2026");
     const shown = usable ? spectra.slice(0, CURVES) : [];
     const powers = Array.from({ length: CURVES }, (_, i) => shown[i]?.power.slice(from).map((p) => (p > 0 ? p : null)) ?? []);
     const x = usable ? frequencies.slice(from) : [];
