@@ -9,8 +9,8 @@ import { chromium } from "playwright-core";
 import { Server } from "./server.mjs";
 import { Wire } from "./wire.mjs";
 
-/** A busy machine may be slow; a page that hangs is found all the same. */
-export const PATIENCE = 60_000;
+/** A busy machine may be slow; a page that hangs is found all the same. MOTIFORM_PATIENCE, in milliseconds, for who writes tests. */
+export const PATIENCE = Number(process.env.MOTIFORM_PATIENCE ?? 60_000);
 
 const NAMES = ["chromium", "chromium-browser", "google-chrome"];
 const FLAGS = [
