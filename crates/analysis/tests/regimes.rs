@@ -295,3 +295,21 @@ fn rectangular_motion_carries_its_turns_and_its_saddle() {
     assert!(verdict.exponents.is_empty() && verdict.legs.len() >= 2);
     assert!(verdict.legs.iter().all(|turn| (turn.abs() - FRAC_PI_2).abs() < 1e-3), "{:?}", verdict.legs);
 }
+
+/// A motion named from where another look ended is the same motion: an orbit that begins at rest was never fast.
+#[test]
+fn what_begins_where_it_ends_up_is_named_alike() {
+    for (kappa2, kappa3, name) in [(0.5, 0.5, "circular"), (1.3, 0.7, "straight"), (0.9, 0.1, "zigzag")] {
+        let body = full(kappa2, kappa3);
+        let mut shape = Random(7).state(6, 0.01);
+        for _ in 0..3 {
+            let verdict = named(&body, &shape, &settings("tensor"));
+            assert_eq!(verdict.regime.name(), name, "{}", verdict.why);
+            let control = StepControl::Adaptive { rtol: 1e-9, atol: 1e-12 };
+            let mut orbit =
+                Orbit::new(&body, &motiform_dynamics::steppers::DOP853, control, 0.0, &shape).unwrap();
+            drive(&mut orbit, &Request::until(700.0, 6), &mut ()).unwrap();
+            shape = orbit.state().to_vec();
+        }
+    }
+}

@@ -36,18 +36,20 @@ impl Monitor for Current<'_> {
 }
 
 impl<J: Send + 'static> Desk<J> {
-    /// A desk at which `work` is done.
+    /// A desk at which `work` is done, and waits (`nice` above 0) for whoever draws pictures.
     ///
     /// # Errors
     /// The system gives no thread.
     pub(crate) fn new(
         name: &str,
+        nice: i32,
         mut work: impl FnMut(J, &Current<'_>) + Send + 'static,
     ) -> std::io::Result<Self> {
         let slot = Mutex::new(Slot { job: None, closed: false });
         let shared = Arc::new(Shared { slot, bell: Condvar::new(), order: AtomicU64::new(0) });
         let desk = Arc::clone(&shared);
         let run = move || {
+            give_way(nice);
             while let Some((job, mine)) = desk.next() {
                 work(job, &Current { order: &desk.order, mine });
             }
@@ -66,6 +68,16 @@ impl<J: Send + 'static> Desk<J> {
         self.shared.order(None, false);
     }
 }
+
+/// Lets other threads go first, and so do the threads that this one starts. What the system refuses is no loss.
+#[cfg(target_os = "linux")]
+fn give_way(nice: i32) {
+    // On Linux a thread has a priority of its own; elsewhere this would slow the whole program down.
+    let _ = rustix::process::setpriority_process(None, nice);
+}
+
+#[cfg(not(target_os = "linux"))]
+fn give_way(_nice: i32) {}
 
 impl<J> Shared<J> {
     fn lock(&self) -> MutexGuard<'_, Slot<J>> {
@@ -116,7 +128,7 @@ mod tests {
     #[test]
     fn the_last_job_is_the_only_one_that_is_finished() {
         let (told, hear) = mpsc::channel();
-        let desk = Desk::new("test", move |job: u32, current| {
+        let desk = Desk::new("test", 0, move |job: u32, current| {
             while job != 9 && !current.stopped() {
                 std::thread::sleep(Duration::from_millis(1));
             }

@@ -11,6 +11,9 @@ use motiform_study::{Plan, analyse};
 use serde_json::{Value, json};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+/// Pictures go first.
+const NICE: i32 = 3;
+
 /// Exponents that are followed.
 const COUNT: usize = 3;
 
@@ -49,7 +52,7 @@ impl Naming {
     pub(crate) fn new(answers: Answers) -> std::io::Result<Self> {
         let known = Arc::new(Mutex::new(Known::default()));
         let shared = Arc::clone(&known);
-        let desk = Desk::new("naming", move |motion: Motion, current| {
+        let desk = Desk::new("naming", NICE, move |motion: Motion, current| {
             // A page that has gone takes its session along.
             let _ = Work { motion: &motion, current, answers: &answers, known: &shared }.run();
         })?;

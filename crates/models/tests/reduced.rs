@@ -104,6 +104,31 @@ fn the_papers_quasi_periodic_line_is_straight() {
     }
 }
 
+/// For other couplings the line bends, and where it ends there is nothing: it never jumps to another root.
+#[test]
+fn lines_of_other_couplings_are_smooth() {
+    let (kappa2, gamma) = ((-0.6, 0.3), (-0.2, 0.4));
+    for a1 in [0.3, 0.5, 0.8, 0.95, 1.0, 1.05, 1.3, 1.9] {
+        let reduced = Reduced { a1, ..Reduced::PAPER };
+        let points = reduced.line(Line::CircularToQuasiPeriodic, kappa2, gamma, 600);
+        assert!(points.len() > 10, "{a1}");
+        let steps: Vec<[f64; 2]> =
+            points.windows(2).map(|pair| [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]]).collect();
+        for pair in steps.windows(2) {
+            let [a, b] = [pair[0], pair[1]];
+            let (dot, sizes) = (a[0] * b[0] + a[1] * b[1], a[0].hypot(a[1]) * b[0].hypot(b[1]));
+            assert!(dot > 0.9 * sizes, "{a1}: {a:?} {b:?}");
+        }
+        for point in points.iter().skip(1).step_by(40) {
+            let state = reduced.circular(point[0], point[1]).unwrap();
+            let sine = (1.0 - state.cos_psi * state.cos_psi).sqrt();
+            let shape = [state.speed, 0.0, state.r2 * state.cos_psi, state.r2 * sine];
+            let found = newton(&model(&reduced, point[0], point[1]), shape);
+            assert!(found.growth().abs() < 1e-8, "{a1} {point:?} {found:?}");
+        }
+    }
+}
+
 #[test]
 fn lines_stay_near_the_box() {
     let (kappa2, gamma) = ((-0.22, 0.22), (-0.16, 0.12));

@@ -16,6 +16,9 @@ use serde_json::{Value, json};
 use sight::Sight;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+/// All cores are at work for the map: pictures and names go first.
+const NICE: i32 = 10;
+
 /// The map of a session.
 pub(crate) struct Map {
     desk: Desk<Job>,
@@ -32,7 +35,7 @@ impl Map {
     pub(crate) fn new(answers: Answers) -> std::io::Result<Self> {
         let sight = Arc::new(Mutex::new(Sight::default()));
         let shared = Arc::clone(&sight);
-        let desk = Desk::new("map", move |job: Job, current| {
+        let desk = Desk::new("map", NICE, move |job: Job, current| {
             // A page that has gone takes its session along.
             let _ = work::compute(&job, &shared, current, &answers);
         })?;

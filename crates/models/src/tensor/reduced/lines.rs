@@ -53,6 +53,9 @@ impl Line {
 /// How far along the open ends of their parameters lines are followed, as parts of their natural units.
 const FAR: f64 = 8.0;
 
+/// Steps in which a root is followed from the origin.
+const HOMOTOPY: i32 = 64;
+
 impl Reduced {
     /// `count` points `[kappa2, gamma]` of a line inside or just outside the box of these ranges, in the order of its
     /// parameter; empty where the line does not meet the box.
@@ -107,30 +110,34 @@ impl Reduced {
         [kappa2, 2.0 * self.a1 * s - 0.5 * kappa2 - 12.0 * b3 * s * s]
     }
 
-    /// The point with the ellipse `r2^2 = rho >= 0` of the line [`Line::CircularToQuasiPeriodic`]: the root `kappa2` of
-    /// `c2 c1 = c0` next to its tangent at the origin, by the secant method; NaN where the line has ended.
+    /// The point with the ellipse `r2^2 = rho >= 0` of the line [`Line::CircularToQuasiPeriodic`]; NaN where the line has ended.
+    ///
+    /// With `kappa2 = q rho` the condition `c2 c1 = c0` is linear in rho: `D(q) rho + 48 a1^2 (q - q0) = 0`, D a cubic and q0 the
+    /// slope at the origin. The root is followed from there in small steps of rho; where two roots meet, the line turns back.
     #[must_use]
     pub fn circular_hopf(&self, rho: f64) -> [f64; 2] {
-        if rho <= 0.0 {
-            return [0.0, 0.0];
-        }
         let (a1, b3, b) = (self.a1, self.b3, self.b());
-        let m = 4.0 * a1 / b;
-        let tangent = 4.0 / 3.0 * (1.0 + b * b3 / a1) * m - 2.0 * m - 24.0 * b3;
-        let (mut last, mut kappa2) = (1.01 * tangent * rho, tangent * rho);
-        let (mut before, mut value) = (self.hurwitz(last, rho), self.hurwitz(kappa2, rho));
-        for _ in 0..40 {
-            let step = value * (kappa2 - last) / (value - before);
-            if value == 0.0 || !step.is_finite() {
-                break;
+        let (free, coupling) = (8.0 * a1 / b, 256.0 * a1 * a1 * (a1 + b * b3) / b);
+        let origin = coupling / (48.0 * a1 * a1) - free - 24.0 * b3;
+        let mut q = origin;
+        for step in 1..=HOMOTOPY {
+            let rho = rho * f64::from(step) / f64::from(HOMOTOPY);
+            for _ in 0..4 {
+                let (first, ellipse) = (free + q + 24.0 * b3, q + 8.0 * b3);
+                let second = free * (q + 24.0 * b3) - 2.0 * ellipse * ellipse;
+                let weight = coupling / (16.0 * a1 * a1);
+                let d = first * second + weight * ellipse * ellipse;
+                let slope = second + first * (free - 4.0 * ellipse) + 2.0 * weight * ellipse;
+                let steepness = slope * rho + 48.0 * a1 * a1;
+                if steepness <= 1e-3 * a1 * a1 {
+                    return [f64::NAN, f64::NAN];
+                }
+                q -= (d * rho + 48.0 * a1 * a1 * (q - origin)) / steepness;
             }
-            (last, before) = (kappa2, value);
-            kappa2 -= step;
-            value = self.hurwitz(kappa2, rho);
         }
-        let cosine = (kappa2 + 8.0 * b3 * rho) / (4.0 * a1 * rho.sqrt());
-        let gamma = m * rho + 0.5 * (kappa2 + 8.0 * b3 * rho);
-        if cosine.abs() < 1.0 { [kappa2, gamma] } else { [f64::NAN, f64::NAN] }
+        let cosine = (q + 8.0 * b3) * rho.sqrt() / (4.0 * a1);
+        let gamma = (4.0 * a1 / b + 0.5 * (q + 8.0 * b3)) * rho;
+        if cosine.abs() < 1.0 { [q * rho, gamma] } else { [f64::NAN, f64::NAN] }
     }
 
     /// What divides kappa2 to give the square of an ellipse.
