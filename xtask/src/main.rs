@@ -1,5 +1,6 @@
 //! One way to do each chore: `cargo xtask test`, `cargo xtask deny`.
 
+mod explorer;
 mod python;
 
 use anyhow::{Context, Result, bail};
@@ -10,7 +11,9 @@ const HELP: &str = "\
 usage: cargo xtask COMMAND
 
   test     everything that must pass before a push: format, lints, documentation, all tests, also those of Python
+           and those in a browser
   quick    the Rust tests alone
+  explorer the page of `motiform explore`: builds it, compares it with the committed one, tests it in Chromium
   python   the Python package: builds it into target/python and runs its tests there
   deny     licences, advisories and sources of the dependencies (needs `cargo install --locked cargo-deny`)";
 
@@ -41,9 +44,11 @@ fn run() -> Result<()> {
     match std::env::args().nth(1).as_deref() {
         Some("test") => {
             STEPS.iter().try_for_each(|(name, arguments)| cargo(name, arguments))?;
+            explorer::test()?;
             python::test()
         }
         Some("quick") => cargo("tests", TESTS),
+        Some("explorer") => explorer::test(),
         Some("python") => python::test(),
         Some("deny") => cargo("dependencies", &["deny", "check"]),
         _ => {

@@ -1,0 +1,134 @@
+/** What one does to the body, by mouse and by keys. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { stage, upon } from "./stage.mjs";
+import { changed, moves, pictures, slide, stands, until } from "./waits.mjs";
+
+const it = stage();
+const output = (page, name) => page.locator(`#${name}-value`).textContent();
+
+/** Nothing is asked of the server while the page draws many pictures. */
+async function assertStill(page, wire) {
+  const frame = await stands(page, wire);
+  const clock = await page.locator("#clock-t").textContent();
+  const asked = wire.count("advance");
+  await pictures(page, 40);
+  assert.deepEqual([wire.count("advance"), wire.frame.t], [asked, frame.t]);
+  assert.equal(await page.locator("#clock-t").textContent(), clock);
+  return frame;
+}
+
+test("play and pause", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+  await moves(page, wire);
+  await page.locator("#play").click();
+  await assertStill(page, wire);
+  assert.equal(await page.locator("#play").getAttribute("aria-label"), "Play");
+  await page.locator("#play").click();
+  await moves(page, wire);
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press(" ");
+  await assertStill(page, wire);
+  await page.keyboard.press(" ");
+  await moves(page, wire);
+}));
+
+const waysOfRestart = { "the button": (page) => page.locator("#restart").click(), "the key r": (page) => page.keyboard.press("r") };
+const waysOfKick = { "the button": (page) => page.locator("#kick").click(), "the key k": (page) => page.keyboard.press("k") };
+
+test("restart and kick", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+  for (const way of Object.values(waysOfRestart)) {
+    await until(() => wire.frame?.t > 0.5, "some time to pass");
+    const { revision, t } = wire.frame;
+    await page.evaluate(() => document.activeElement.blur());
+    await way(page);
+    assert.ok((await changed(wire, revision)).t < t);
+  }
+  await moves(page, wire);
+  await page.locator("#play").click();
+  for (const way of Object.values(waysOfKick)) {
+    const before = await stands(page, wire);
+    await page.evaluate(() => document.activeElement.blur());
+    await way(page);
+    const after = await changed(wire, before.revision);
+    assert.deepEqual([after.t, after.x, after.y], [before.t, before.x, before.y]);
+    assert.notDeepEqual(after.state, before.state);
+  }
+  const { revision } = wire.frame;
+  await page.keyboard.press("r");
+  assert.equal((await changed(wire, revision)).t, 0);
+}));
+
+test("noise", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+  await moves(page, wire);
+  await slide(page.locator("#noise"), 80);
+  await until(() => wire.last.get("changed")?.noise > 0, "noise");
+  assert.equal(wire.last.get("changed").noise, 0.01);
+  assert.match(await output(page, "noise"), /0\.01/);
+  await moves(page, wire);
+  await page.locator("#noise").focus();
+  await page.keyboard.press("Home");
+  await until(() => wire.last.get("changed").noise === 0, "no noise");
+  assert.equal(await output(page, "noise"), "0");
+}));
+
+test("speed", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+  await moves(page, wire);
+  const [low, high] = wire.last.get("begun").speeds;
+  const LONGEST = 0.1; // seconds of the wall that a stretch of motion stands for at most
+  await page.locator("#speed").focus();
+  for (const [key, speed] of [["Home", low], ["End", high], ["Home", low]]) {
+    await page.keyboard.press(key);
+    const asked = wire.count("advance");
+    await until(() => wire.count("advance") > asked + 2, "more motion");
+    const { dt } = wire.said.get("advance");
+    assert.ok(dt > 0 && dt <= 1.001 * LONGEST * speed, `${key}: ${dt} asked for at speed ${speed}`);
+  }
+  const slow = await output(page, "speed");
+  await slide(page.locator("#speed"), 700);
+  assert.notEqual(await output(page, "speed"), slow);
+  await moves(page, wire);
+}));
+
+test("follow ends with a drag, and comes back by key", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+  await moves(page, wire);
+  const following = (yes) => page.locator(`#follow[aria-pressed=${yes}]`).waitFor();
+  const box = await page.locator("#body").boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 60, y + 30, { steps: 5 });
+  await page.mouse.up();
+  await following(false);
+  await page.keyboard.press("f");
+  await following(true);
+  await page.keyboard.press("f");
+  await following(false);
+  await page.mouse.wheel(0, -300);
+  await moves(page, wire);
+}));
+
+test("a double click on the body follows again", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+  await moves(page, wire);
+  await page.locator("#follow").click();
+  await page.locator("#follow[aria-pressed=false]").waitFor();
+  await page.locator("#body").dblclick();
+  await page.locator("#follow[aria-pressed=true]").waitFor();
+}));
+
+test("a hidden page costs nothing", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+  await moves(page, wire);
+  const hide = (hidden) => page.evaluate((value) => {
+    Object.defineProperty(document, "hidden", { configurable: true, get: () => value });
+    Object.defineProperty(document, "visibilityState", { configurable: true, get: () => (value ? "hidden" : "visible") });
+    document.dispatchEvent(new Event("visibilitychange"));
+  }, hidden);
+  await hide(true);
+  await pictures(page, 3);
+  const asked = wire.count("advance");
+  await pictures(page, 60);
+  assert.equal(wire.count("advance"), asked);
+  await hide(false);
+  await until(() => wire.count("advance") > asked, "the motion to go on");
+  await moves(page, wire);
+}));

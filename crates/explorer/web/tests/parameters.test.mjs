@@ -1,0 +1,64 @@
+/** Sliders and numbers: the motion follows, what is not allowed is refused where one sees it. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { stage, upon } from "./stage.mjs";
+import { changed, moves, named, number, slide, slider } from "./waits.mjs";
+
+const it = stage();
+const refusal = (page, name) => page.locator(`[data-parameter="${name}"] .refusal`);
+
+test("a slider changes the regime", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+  assert.equal(await named(page), "zigzag");
+  const { revision } = wire.frame;
+  await slide(slider(page, "kappa2"), 0.5);
+  await changed(wire, revision);
+  assert.ok(Math.abs(Number(await number(page, "kappa2").inputValue()) - 0.5) < 0.02);
+  assert.equal(wire.last.get("changed").parameters.kappa3, 0.1);
+  assert.equal(await named(page, "chaotic"), "chaotic");
+  await page.locator(`[aria-label="Reset kappa2"]`).click();
+  assert.equal(await named(page, "zigzag"), "zigzag");
+  assert.equal(wire.last.get("changed").parameters.kappa2, 0.9);
+}));
+
+test("a slider follows the mouse and the arrow keys", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+  await moves(page, wire);
+  const one = slider(page, "kappa3");
+  const start = Number(await number(page, "kappa3").inputValue());
+  const { revision } = wire.frame;
+  await one.focus();
+  await page.keyboard.press("ArrowRight");
+  await changed(wire, revision);
+  const stepped = Number(await number(page, "kappa3").inputValue());
+  assert.ok(stepped > start && stepped - start < 0.1, `${start} to ${stepped}`);
+  const box = await one.boundingBox();
+  await page.mouse.move(box.x + 0.3 * box.width, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.9 * box.width, box.y + box.height / 2, { steps: 12 });
+  await page.mouse.up();
+  await page.waitForFunction((from) => document.querySelector(`[data-parameter="kappa3"] input[type=number]`).valueAsNumber > from, stepped + 0.1);
+  await moves(page, wire);
+}));
+
+test("a number that is not allowed is refused at its row, and the old value stays", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+  await moves(page, wire);
+  const field = number(page, "kappa2");
+  for (const bad of ["1e7", "-1e9"]) {
+    await field.fill(bad);
+    await field.press("Enter");
+    await refusal(page, "kappa2").filter({ hasText: /kappa2|10000000/ }).waitFor();
+    await field.blur();
+    assert.equal(await field.inputValue(), "0.9");
+    assert.ok(Math.abs(Number(await slider(page, "kappa2").inputValue()) - 0.9) < 0.02);
+  }
+  const { revision } = wire.frame;
+  await field.fill("0.7");
+  await field.press("Enter");
+  await changed(wire, revision);
+  assert.equal(wire.last.get("changed").parameters.kappa2, 0.7);
+  await refusal(page, "kappa2").waitFor({ state: "hidden" });
+  await field.fill("");
+  await field.blur();
+  assert.equal(await field.inputValue(), "0.7");
+  await moves(page, wire);
+}));

@@ -1,0 +1,49 @@
+/** The server dies and comes back: the page says so, and the body goes on from where it was. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { TOKEN, Server } from "./server.mjs";
+import { shoot, stage, visit } from "./stage.mjs";
+import { changed, moves, named, seen, slide, slider, stands, until } from "./waits.mjs";
+
+const it = stage();
+
+for (const playing of [true, false]) {
+  test(`a ${playing ? "moving" : "paused"} body goes on after the server was killed`, async () => {
+    const server = await Server.start();
+    const { page, wire, leave } = await visit({ browser: it.browser, server }, { hash: "preset=fig5a", tolerate: /WebSocket connection|ERR_CONNECTION_REFUSED/ });
+    await moves(page, wire);
+    const { revision } = wire.frame;
+    await slide(slider(page, "kappa2"), 0.8);
+    await changed(wire, revision);
+    if (playing) await moves(page, wire);
+    else {
+      await page.locator("#play").click();
+      await stands(page, wire);
+    }
+    const { parameters } = wire.last.get("changed");
+    await server.stop("SIGKILL");
+    await page.locator("#banner").waitFor();
+    assert.equal(await page.locator("#banner-command").textContent(), `motiform explore --port ${server.port} --token ${TOKEN}`);
+    assert.equal(await page.locator("#connection").getAttribute("data-state"), "closed");
+    if (playing) await shoot(page, "server-gone");
+    const before = wire.frame;
+    wire.last.clear();
+    wire.frames.length = 0;
+    const again = await Server.start({ port: server.port });
+    await page.locator("#connection[data-state=open]").waitFor();
+    await page.locator("#banner").waitFor({ state: "hidden" });
+    await seen(page, wire);
+    assert.deepEqual(wire.last.get("begun").parameters, parameters);
+    const [first] = wire.frames;
+    const speed = Math.hypot(before.state[0], before.state[1]);
+    assert.ok(first.t >= before.t && Math.hypot(first.x - before.x, first.y - before.y) <= 3 * speed * (first.t - before.t) + 1e-9, `${JSON.stringify(before)} then ${JSON.stringify(first)}`);
+    if (playing) await moves(page, wire);
+    else assert.deepEqual([first.t, first.x, first.y], [before.t, before.x, before.y]);
+    if (!playing) first.state.forEach((value, k) => assert.ok(Math.abs(value - before.state[k]) <= 1e-12, "the state"));
+    await named(page);
+    await until(() => wire.last.has("mapped") || wire.last.has("progress"), "the map");
+    await leave();
+    await again.stop();
+  });
+}

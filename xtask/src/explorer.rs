@@ -1,0 +1,153 @@
+//! The page of `motiform explore`: that the committed one is what its sources give, and its tests in a real browser.
+
+use crate::{cargo, root, step};
+use anyhow::{Context, Result, bail};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// The oldest Node that builds and tests the page, as in `package.json`.
+const NODE: (u32, u32) = (20, 19);
+
+const CHROMIUM: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
+
+/// Builds the page, compares it with the committed one, and tests the program's own in Chromium.
+pub(crate) fn test() -> Result<()> {
+    let root = root()?.canonicalize()?;
+    let web = root.join("crates/explorer/web");
+    let node = node(&root)?;
+    let chromium = chromium()?;
+    npm("page dependencies", &node, &web, &["ci", "--no-audit", "--no-fund"])?;
+    compare(&node, &root, &web)?;
+    cargo("program", &["build", "--release", "--workspace"])?;
+    let mut command = Command::new(&node);
+    command.args(["--test", "--test-reporter=spec"]).args(files(&web.join("tests"))?);
+    command.env("MOTIFORM", binary(&root)).env("CHROMIUM", chromium);
+    step("browser tests", &mut command)
+}
+
+/// Builds the page beside the committed one: they must agree byte by byte, since programs are built without Node.
+fn compare(node: &Path, root: &Path, web: &Path) -> Result<()> {
+    npm("page types", node, web, &["run", "check"])?;
+    let built = root.join("target/page");
+    let mut vite = Command::new(node);
+    vite.arg(web.join("node_modules/vite/bin/vite.js")).arg("build").arg(web);
+    step("page", vite.arg("--outDir").arg(&built).arg("--emptyOutDir"))?;
+    let committed = root.join("crates/explorer/page");
+    if contents(&built)? != contents(&committed)? {
+        bail!(
+            "the page in crates/explorer/page is not what web/ gives: \
+             run `npm run build` in crates/explorer/web and commit"
+        );
+    }
+    Ok(())
+}
+
+/// Names and bytes of the files of a folder, sorted.
+fn contents(folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>> {
+    let mut all = Vec::new();
+    for path in list(folder)? {
+        let bytes = std::fs::read(&path).with_context(|| path.display().to_string())?;
+        all.push((path.file_name().unwrap_or_default().into(), bytes));
+    }
+    all.sort();
+    Ok(all)
+}
+
+/// The test files, sorted: Node 20 knows no patterns.
+fn files(folder: &Path) -> Result<Vec<PathBuf>> {
+    let mut all = list(folder)?;
+    all.retain(|path| path.to_string_lossy().ends_with(".test.mjs"));
+    all.sort();
+    Ok(all)
+}
+
+fn list(folder: &Path) -> Result<Vec<PathBuf>> {
+    let entries = std::fs::read_dir(folder).with_context(|| folder.display().to_string())?;
+    entries.map(|entry| Ok(entry?.path())).collect()
+}
+
+/// The program that was just built, also where `CARGO_TARGET_DIR` points elsewhere.
+fn binary(root: &Path) -> PathBuf {
+    let target =
+        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), |dir| root.join(dir));
+    target.join("release").join(format!("motiform{}", std::env::consts::EXE_SUFFIX))
+}
+
+/// Runs npm with this Node, in the folder of the page.
+fn npm(name: &str, node: &Path, web: &Path, arguments: &[&str]) -> Result<()> {
+    let mut path = node.parent().map(Path::to_path_buf).into_iter().collect::<Vec<_>>();
+    path.extend(std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default()));
+    let mut command = Command::new("npm");
+    command.arg("--prefix").arg(web).args(arguments).env("PATH", std::env::join_paths(path)?);
+    step(name, &mut command)
+}
+
+/// A Node that is new enough: that of the path, of an earlier run, of the system's packages, or of npm.
+fn node(root: &Path) -> Result<PathBuf> {
+    let own = root.join("target/node/node_modules/node/bin/node");
+    let known = || [Path::new("node"), own.as_path()].into_iter().find_map(recent);
+    if let Some(found) = known() {
+        return Ok(found);
+    }
+    if !works("npm") {
+        install(&["nodejs", "npm"], "Node 20.19 or later with npm")?;
+    }
+    if let Some(found) = known() {
+        return Ok(found);
+    }
+    let prefix = root.join("target/node");
+    let arguments = ["install", "--no-save", "--no-audit", "--no-fund", "node@22"];
+    step("node", Command::new("npm").arg("--prefix").arg(&prefix).args(arguments))?;
+    recent(&own).context("Node 20.19 or later is needed: install it from nodejs.org")
+}
+
+/// The full path of this Node, if it is new enough.
+fn recent(node: &Path) -> Option<PathBuf> {
+    let script = "console.log(process.version.slice(1) + ' ' + process.execPath)";
+    let output = Command::new(node).args(["-e", script]).stderr(Stdio::null()).output().ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    let (version, path) = text.trim().split_once(' ')?;
+    let mut numbers = version.split('.').map(str::parse::<u32>);
+    let found = (numbers.next()?.ok()?, numbers.next()?.ok()?);
+    (found >= NODE).then(|| path.into())
+}
+
+/// A Chromium: that of `CHROMIUM`, of the path, or of the system's packages.
+fn chromium() -> Result<PathBuf> {
+    if let Some(given) = std::env::var_os("CHROMIUM") {
+        return Ok(given.into());
+    }
+    let known = || CHROMIUM.into_iter().find_map(on_path);
+    if let Some(found) = known() {
+        return Ok(found);
+    }
+    install(&["chromium"], "Chromium")?;
+    known().context("Chromium is needed: install it, or name it in CHROMIUM")
+}
+
+/// The file that a bare name starts.
+fn on_path(name: &str) -> Option<PathBuf> {
+    let path = std::env::var_os("PATH")?;
+    std::env::split_paths(&path).map(|folder| folder.join(name)).find(|file| file.is_file())
+}
+
+/// Whether a program can be started at all.
+fn works(name: &str) -> bool {
+    let mut command = Command::new(name);
+    command.arg("--version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command.status().is_ok_and(|status| status.success())
+}
+
+/// Installs Debian packages as root; whoever is not root, or elsewhere, is told what is missing.
+fn install(packages: &[&str], what: &str) -> Result<()> {
+    let root = Command::new("id").arg("-u").output().is_ok_and(|output| output.stdout == b"0\n");
+    if !root || !works("apt-get") {
+        bail!(
+            "{what} is needed for the tests of the page: install it (Debian: apt-get install {})",
+            packages.join(" ")
+        );
+    }
+    step("package lists", Command::new("apt-get").arg("update"))?;
+    let arguments = ["install", "-y", "--no-install-recommends"];
+    step("packages", Command::new("apt-get").args(arguments).args(packages))
+}
