@@ -1,5 +1,6 @@
 //! The body of a session: its motion, and everything that is asked about it, on a thread of its own.
 
+mod changes;
 mod looks;
 mod setting;
 mod stage;
@@ -76,48 +77,14 @@ fn first(asks: &Receiver<Ask>, desks: &Desks) -> Result<Option<Setting>, Gone> {
 /// Answers until the body changes (what it is then), or the page goes (`None`).
 fn play(stage: &mut Stage<'_>, asks: &Receiver<Ask>) -> Result<Option<Setting>, Gone> {
     while let Ok(ask) = asks.recv() {
-        let change = match ask {
-            Ask::Advance { dt } => {
-                stage.advance(dt)?;
-                continue;
-            }
-            Ask::Strips(section) => {
-                stage.strips(section)?;
-                continue;
-            }
-            Ask::Share {} => {
-                stage.share()?;
-                continue;
-            }
-            Ask::Map(window) => {
-                stage.map(window);
-                continue;
-            }
-            Ask::Unmap {} => {
-                stage.desks().map.stop();
-                continue;
-            }
-            Ask::Evidence { epoch, cell } => {
-                stage.evidence(epoch, cell)?;
-                continue;
-            }
-            Ask::Export(export) => {
-                stage.export(&export)?;
-                continue;
-            }
-            Ask::Begin(begin) => stage.begin(&begin),
-            Ask::Set { parameters } => stage.set(&parameters),
-            Ask::Noise { amplitude } => stage.noise(amplitude),
-            Ask::Kick {} => stage.kick(),
-            Ask::Restart {} => stage.restart(),
-        };
-        match change {
-            Ok((setting, answer)) => {
+        match stage.answer(ask)? {
+            None => {}
+            Some(Ok((setting, answer))) => {
                 stage.desks().naming.stop();
                 stage.desks().answers.json(&answer)?;
                 return Ok(Some(setting));
             }
-            Err(error) => stage.desks().answers.refused(None, &error.to_string())?,
+            Some(Err(error)) => stage.desks().answers.refused(None, &error.to_string())?,
         }
     }
     Ok(None)

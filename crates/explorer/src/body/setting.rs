@@ -3,13 +3,12 @@
 use crate::catalogue::{self, Tempo};
 use crate::motion::Motion;
 use crate::protocol::Begin;
-use motiform_dynamics::{InPlane, Model, Normal};
+use motiform_dynamics::{InPlane, Model};
 use motiform_study::draw::radius_for;
 use motiform_study::live::{Record, Stretch, settled, start};
 use motiform_study::study::ReturnMapSettings;
 use motiform_study::{Error, Plan, Study};
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
 use std::time::Duration;
 
 /// A transient that takes longer is cut short: the page waits.
@@ -17,9 +16,6 @@ const SETTLING: Duration = Duration::from_millis(300);
 
 /// A look ahead, to draw the body from the start with a radius that suits its deformation: samples, and time for it.
 const AHEAD: (usize, Duration) = (600, Duration::from_millis(30));
-
-/// A kick, as a part of the shape.
-const KICK: f64 = 0.2;
 
 /// What stays the same until the next change.
 pub(crate) struct Setting {
@@ -36,6 +32,15 @@ pub(crate) struct Setting {
     state: Vec<f64>,
     /// Undeformed radius that the body is drawn with.
     radius: f64,
+}
+
+/// Where a body is, and the undeformed radius that it is drawn with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Seen<'s> {
+    pub(super) t: f64,
+    /// The shape as the model computes with it, then x and y.
+    pub(super) state: &'s [f64],
+    pub(super) radius: f64,
 }
 
 impl Setting {
@@ -72,70 +77,10 @@ impl Setting {
         Ok(Self { preset, study, plan, quiet, model, revision, t, state, radius: 0.0 })
     }
 
-    /// The same body, changed while it is at `state` at time `t`.
-    fn changed(&self, study: Study, t: f64, state: Vec<f64>, radius: f64) -> Result<Self, Error> {
+    /// The same body with another study, from another state.
+    pub(super) fn changed(&self, study: Study, t: f64, state: Vec<f64>, radius: f64) -> Result<Self, Error> {
         let next = Self::new(study, self.preset.clone(), self.revision.wrapping_add(1), t, state)?;
         Ok(Self { radius, ..next })
-    }
-
-    /// With these parameters from now on.
-    pub(crate) fn with(
-        &self,
-        parameters: &BTreeMap<String, f64>,
-        t: f64,
-        state: &[f64],
-        radius: f64,
-    ) -> Result<Self, Error> {
-        let mut study = self.study.clone();
-        for (name, value) in parameters {
-            study.set(name, *value)?;
-        }
-        let model = study.info()?.build(&study.values()?)?;
-        let state = if model.dim() == self.model.dim() {
-            state.to_vec()
-        } else {
-            // Fewer or more modes: those that there are stay.
-            let (shape, position) = state.split_at(self.model.dim());
-            let old = decode(self.model.as_ref(), shape);
-            let named = |name| self.model.coordinates().iter().position(|coordinate| coordinate.name == name);
-            let kept = |name| named(name).map_or(0.0, |place| old[place]);
-            let new: Vec<f64> = model.coordinates().iter().map(|coordinate| kept(coordinate.name)).collect();
-            state_of(model.as_ref(), &new, [position[0], position[1]])?
-        };
-        self.changed(study, t, state, radius)
-    }
-
-    /// With this noise from now on.
-    pub(crate) fn with_noise(
-        &self,
-        amplitude: f64,
-        t: f64,
-        state: &[f64],
-        radius: f64,
-    ) -> Result<Self, Error> {
-        let mut study = self.study.clone();
-        study.run.noise = amplitude;
-        self.changed(study, t, state.to_vec(), radius)
-    }
-
-    /// Kicked at random: every entry of the shape by a part of what it and its neighbours are.
-    pub(crate) fn kicked(&self, t: f64, state: &[f64], radius: f64) -> Result<Self, Error> {
-        let dim = self.model.dim();
-        let mut normal = Normal::new(self.study.run.seed, (1 << 40) + u64::from(self.revision));
-        let mut kicked = state.to_vec();
-        for (place, entry) in kicked[..dim].iter_mut().enumerate() {
-            // Entries of a mode come in pairs; high modes of a cell are tiny, and must stay so.
-            let near = &state[place.saturating_sub(3)..(place + 4).min(dim)];
-            let size = near.iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-3 * self.study.random);
-            *entry += KICK * size * normal.next();
-        }
-        self.changed(self.study.clone(), t, kicked, radius)
-    }
-
-    /// At its start again, without the transient.
-    pub(crate) fn restarted(&self, radius: f64) -> Result<Self, Error> {
-        let plan = Plan::new(&self.study)?;
-        self.changed(self.study.clone(), 0.0, start(&plan, self.model.as_ref()), radius)
     }
 
     /// The largest radius that the deformation asks for in the near future.
@@ -180,9 +125,9 @@ impl Setting {
         self.revision
     }
 
-    /// Where it starts: time, state, and the radius that it is drawn with.
-    pub(crate) fn start(&self) -> (f64, &[f64], f64) {
-        (self.t, &self.state, self.radius)
+    /// Where it starts.
+    pub(super) fn start(&self) -> Seen<'_> {
+        Seen { t: self.t, state: &self.state, radius: self.radius }
     }
 
     /// The return map of the preset, if it has one.
@@ -246,7 +191,11 @@ pub(crate) fn decode(model: &dyn Model, shape: &[f64]) -> Vec<f64> {
 }
 
 /// The state with these coordinates.
-fn state_of(model: &dyn Model, coordinates: &[f64], position: [f64; 2]) -> Result<Vec<f64>, Error> {
+pub(super) fn state_of(
+    model: &dyn Model,
+    coordinates: &[f64],
+    position: [f64; 2],
+) -> Result<Vec<f64>, Error> {
     let (dim, got) = (model.dim(), coordinates.len());
     if got != dim {
         return Err(motiform_dynamics::Error::Shape { what: "the state", expected: dim, got }.into());
@@ -269,14 +218,14 @@ fn at(study: &Study, model: &dyn Model, state: &[f64]) -> Study {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
     use super::*;
     use motiform_models::MODELS;
     use motiform_study::presets::PRESETS;
 
-    fn begin(model: &str, preset: &str) -> Setting {
+    pub(in super::super) fn begin(model: &str, preset: &str) -> Setting {
         let begin =
             Begin { model: model.to_owned(), preset: Some(preset.to_owned()), seed: 1, ..Begin::default() };
         Setting::begin(&begin, 1).unwrap()
@@ -287,50 +236,11 @@ mod tests {
         for preset in PRESETS {
             let setting = begin(preset.model, preset.name);
             assert_eq!(setting.begun()["preset"], preset.name);
-            assert!(setting.start().2 > 0.0);
+            assert!(setting.start().radius > 0.0);
         }
         for info in MODELS {
             let begin = Begin { model: info.name.to_owned(), ..Begin::default() };
             assert_eq!(Setting::begin(&begin, 1).unwrap().begun()["model"], info.name);
-        }
-    }
-
-    #[test]
-    fn a_change_keeps_the_state() {
-        let setting = begin("tensor", "fig5a");
-        let (t, state, radius) = setting.start();
-        let next = setting.with(&BTreeMap::from([("kappa2".to_owned(), 0.5)]), t, state, radius).unwrap();
-        assert_eq!((next.start(), next.revision()), (setting.start(), 2));
-        assert_eq!(next.told()["parameters"]["kappa2"], 0.5);
-        assert_eq!(next.motion().plan.computation.parameters.get("kappa2"), Some(0.5));
-        assert!(setting.with(&BTreeMap::from([("kapa2".to_owned(), 0.5)]), t, state, radius).is_err());
-        let noisy = setting.with_noise(0.1, t, state, radius).unwrap();
-        assert!(noisy.plan().computation.noise.is_some() && noisy.motion().plan.computation.noise.is_none());
-    }
-
-    #[test]
-    fn the_modes_of_a_cell_that_stay_keep_their_values() {
-        let setting = begin("cell", "fig6a");
-        let (t, state, radius) = setting.start();
-        let fewer = setting.with(&BTreeMap::from([("modes".to_owned(), 16.0)]), t, state, radius).unwrap();
-        let (old, new) =
-            (decode(setting.model(), &state[..42]), decode(fewer.model(), &fewer.start().1[..32]));
-        assert_eq!(old[..32], new[..]);
-    }
-
-    #[test]
-    fn a_kick_is_a_kick() {
-        for (model, preset) in [("tensor", "fig5a"), ("tensor", "fig2"), ("cell", "fig6a")] {
-            let setting = begin(model, preset);
-            let (t, state, radius) = setting.start();
-            let dim = setting.model().dim();
-            let kicked = setting.kicked(t, state, radius).unwrap();
-            let size = |u: &[f64]| u.iter().map(|x| x * x).sum::<f64>().sqrt();
-            let difference: Vec<f64> =
-                kicked.start().1[..dim].iter().zip(state).map(|(a, b)| a - b).collect();
-            let part = size(&difference) / size(&state[..dim]);
-            assert!((0.02..2.0).contains(&part), "{preset}: {part}");
-            assert_eq!(kicked.start().1[dim..], state[dim..]);
         }
     }
 }

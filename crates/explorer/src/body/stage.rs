@@ -2,12 +2,12 @@
 
 use super::Desks;
 use super::looks::{self, Look};
-use super::setting::{Setting, decode};
+use super::setting::{Seen, Setting, decode};
 use crate::answers::Gone;
 use crate::export::Order;
 use crate::frames::Frame;
 use crate::map::Job;
-use crate::protocol::{Begin, Export, MapWindow, Section};
+use crate::protocol::{Ask, Begin, Export, MapWindow, Section};
 use crate::share;
 use motiform_dynamics::{InPlane, Model, Outcome, Outline};
 use motiform_study::Error;
@@ -42,7 +42,7 @@ pub(super) struct Stage<'s> {
 }
 
 /// What the body is after a change, and what to say of it.
-type Change = Result<(Setting, Value), Error>;
+pub(super) type Change = Result<(Setting, Value), Error>;
 
 impl<'s> Stage<'s> {
     pub(super) fn new(
@@ -50,7 +50,7 @@ impl<'s> Stage<'s> {
         body: &'s InPlane<&'s dyn Model>,
         desks: &'s Desks,
     ) -> Result<Self, Error> {
-        let (t, state, radius) = setting.start();
+        let Seen { t, state, radius } = setting.start();
         let stretch = Stretch::new(setting.plan(), body, t, state, u64::from(setting.revision()))?;
         let record =
             Record::new(setting.model(), setting.plan().computation.control.absolute_tolerance(), KEPT);
@@ -70,8 +70,27 @@ impl<'s> Stage<'s> {
         self.desks
     }
 
+    /// Answers a message; one that changes the body gives what it is then, or why it cannot be.
+    pub(super) fn answer(&mut self, ask: Ask) -> Result<Option<Change>, Gone> {
+        match ask {
+            Ask::Advance { dt } => self.advance(dt)?,
+            Ask::Strips(section) => self.strips(section)?,
+            Ask::Share {} => self.share()?,
+            Ask::Map(window) => self.map(window),
+            Ask::Unmap {} => self.desks.map.stop(),
+            Ask::Evidence { epoch, cell } => self.evidence(epoch, cell)?,
+            Ask::Export(export) => self.export(&export)?,
+            Ask::Begin(begin) => return Ok(Some(self.begin(&begin))),
+            Ask::Set { parameters } => return Ok(Some(self.set(&parameters))),
+            Ask::Noise { amplitude } => return Ok(Some(self.noise(amplitude))),
+            Ask::Kick {} => return Ok(Some(self.kick())),
+            Ask::Restart {} => return Ok(Some(self.restart())),
+        }
+        Ok(None)
+    }
+
     /// Moves on and shows where the body is.
-    pub(super) fn advance(&mut self, dt: f64) -> Result<(), Gone> {
+    fn advance(&mut self, dt: f64) -> Result<(), Gone> {
         if dt < 0.0 {
             return self.desks.answers.refused(None, "a body moves forward in time: give a dt of at least 0");
         }
@@ -138,15 +157,19 @@ impl<'s> Stage<'s> {
         frame
     }
 
+    fn seen(&self) -> Seen<'_> {
+        Seen { t: self.stretch.t(), state: self.stretch.state(), radius: self.radius }
+    }
+
     fn look(&self) -> Look<'_> {
         Look { setting: self.setting, record: &self.record, outcome: self.stretch.outcome() }
     }
 
-    pub(super) fn strips(&self, section: Section) -> Result<(), Gone> {
+    fn strips(&self, section: Section) -> Result<(), Gone> {
         self.desks.answers.json(&looks::strips(&self.look(), section))
     }
 
-    pub(super) fn share(&self) -> Result<(), Gone> {
+    fn share(&self) -> Result<(), Gone> {
         let study = self.setting.study_at(self.stretch.state());
         let texts = share::command(self.setting.preset(), &study)
             .and_then(|command| Ok((command, share::python(self.setting.preset(), &study)?)));
@@ -159,18 +182,18 @@ impl<'s> Stage<'s> {
         }
     }
 
-    pub(super) fn map(&self, window: MapWindow) {
+    fn map(&self, window: MapWindow) {
         self.desks.map.show(Job { window, study: self.setting.study().clone() });
     }
 
-    pub(super) fn evidence(&self, epoch: u32, cell: [u16; 2]) -> Result<(), Gone> {
+    fn evidence(&self, epoch: u32, cell: [u16; 2]) -> Result<(), Gone> {
         match self.desks.map.evidence(epoch, cell) {
             Some(evidence) => self.desks.answers.json(&evidence),
             None => Ok(()), // of an earlier map
         }
     }
 
-    pub(super) fn export(&self, export: &Export) -> Result<(), Gone> {
+    fn export(&self, export: &Export) -> Result<(), Gone> {
         let make = match export.what.as_str() {
             "map.csv" | "map.svg" | "map.png" => Some(self.desks.map.maker(export.what == "map.csv")),
             "exponent.svg" | "exponent.png" => {
@@ -187,31 +210,30 @@ impl<'s> Stage<'s> {
         self.desks.exports.put(Order { id: export.id, subject, what: export.what.clone(), make })
     }
 
-    pub(super) fn begin(&self, begin: &Begin) -> Change {
+    fn begin(&self, begin: &Begin) -> Change {
         let setting = Setting::begin(begin, self.setting.revision().wrapping_add(1))?;
         self.desks.map.stop();
         let answer = setting.begun();
         Ok((setting, answer))
     }
 
-    pub(super) fn set(&self, parameters: &BTreeMap<String, f64>) -> Change {
-        let setting = self.setting.with(parameters, self.stretch.t(), self.stretch.state(), self.radius)?;
+    fn set(&self, parameters: &BTreeMap<String, f64>) -> Change {
+        let setting = self.setting.with(parameters, &self.seen())?;
         if parameters.keys().any(|name| !self.desks.map.has_axis(name)) {
             self.desks.map.stop();
         }
         Ok(told(setting))
     }
 
-    pub(super) fn noise(&self, amplitude: f64) -> Change {
-        let state = self.stretch.state();
-        Ok(told(self.setting.with_noise(amplitude, self.stretch.t(), state, self.radius)?))
+    fn noise(&self, amplitude: f64) -> Change {
+        Ok(told(self.setting.with_noise(amplitude, &self.seen())?))
     }
 
-    pub(super) fn kick(&self) -> Change {
-        Ok(told(self.setting.kicked(self.stretch.t(), self.stretch.state(), self.radius)?))
+    fn kick(&self) -> Change {
+        Ok(told(self.setting.kicked(&self.seen())?))
     }
 
-    pub(super) fn restart(&self) -> Change {
+    fn restart(&self) -> Change {
         Ok(told(self.setting.restarted(self.radius)?))
     }
 }

@@ -1,0 +1,108 @@
+//! The ways in which a body changes. Each keeps what it does not change: above all, the state.
+
+use super::setting::{Seen, Setting, decode, state_of};
+use motiform_dynamics::Normal;
+use motiform_study::live::start;
+use motiform_study::{Error, Plan, Study};
+use std::collections::BTreeMap;
+
+/// A kick, as a part of the shape.
+const KICK: f64 = 0.2;
+
+impl Setting {
+    /// With these parameters from now on.
+    pub(super) fn with(&self, parameters: &BTreeMap<String, f64>, seen: &Seen<'_>) -> Result<Self, Error> {
+        let mut study = self.study().clone();
+        for (name, value) in parameters {
+            study.set(name, *value)?;
+        }
+        let model = study.info()?.build(&study.values()?)?;
+        let state = if model.dim() == self.model().dim() {
+            seen.state.to_vec()
+        } else {
+            // Fewer or more modes: those that there are stay.
+            let (shape, position) = seen.state.split_at(self.model().dim());
+            let old = decode(self.model(), shape);
+            let named =
+                |name| self.model().coordinates().iter().position(|coordinate| coordinate.name == name);
+            let kept = |name| named(name).map_or(0.0, |place| old[place]);
+            let new: Vec<f64> = model.coordinates().iter().map(|coordinate| kept(coordinate.name)).collect();
+            state_of(model.as_ref(), &new, [position[0], position[1]])?
+        };
+        self.changed(study, seen.t, state, seen.radius)
+    }
+
+    /// With this noise from now on.
+    pub(super) fn with_noise(&self, amplitude: f64, seen: &Seen<'_>) -> Result<Self, Error> {
+        let mut study = self.study().clone();
+        study.run.noise = amplitude;
+        self.changed(study, seen.t, seen.state.to_vec(), seen.radius)
+    }
+
+    /// Kicked at random: every entry of the shape by a part of what it and its neighbours are.
+    pub(super) fn kicked(&self, seen: &Seen<'_>) -> Result<Self, Error> {
+        let dim = self.model().dim();
+        let mut normal = Normal::new(self.study().run.seed, (1 << 40) + u64::from(self.revision()));
+        let mut kicked = seen.state.to_vec();
+        for (place, entry) in kicked[..dim].iter_mut().enumerate() {
+            // Entries of a mode come in pairs; high modes of a cell are tiny, and must stay so.
+            let near = &seen.state[place.saturating_sub(3)..(place + 4).min(dim)];
+            let size = near.iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-3 * self.study().random);
+            *entry += KICK * size * normal.next();
+        }
+        self.changed(self.study().clone(), seen.t, kicked, seen.radius)
+    }
+
+    /// At its start again, without the transient.
+    pub(super) fn restarted(&self, radius: f64) -> Result<Self, Error> {
+        let plan = Plan::new(self.study())?;
+        self.changed(self.study().clone(), 0.0, start(&plan, self.model()), radius)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::super::setting::tests::begin;
+    use super::*;
+
+    #[test]
+    fn a_change_keeps_the_state() {
+        let setting = begin("tensor", "fig5a");
+        let seen = setting.start();
+        let next = setting.with(&BTreeMap::from([("kappa2".to_owned(), 0.5)]), &seen).unwrap();
+        assert_eq!((next.start(), next.revision()), (setting.start(), 2));
+        assert_eq!(next.told()["parameters"]["kappa2"], 0.5);
+        assert_eq!(next.motion().plan.computation.parameters.get("kappa2"), Some(0.5));
+        assert!(setting.with(&BTreeMap::from([("kapa2".to_owned(), 0.5)]), &seen).is_err());
+        let noisy = setting.with_noise(0.1, &seen).unwrap();
+        assert!(noisy.plan().computation.noise.is_some() && noisy.motion().plan.computation.noise.is_none());
+    }
+
+    #[test]
+    fn the_modes_of_a_cell_that_stay_keep_their_values() {
+        let setting = begin("cell", "fig6a");
+        let seen = setting.start();
+        let fewer = setting.with(&BTreeMap::from([("modes".to_owned(), 16.0)]), &seen).unwrap();
+        let (old, new) =
+            (decode(setting.model(), &seen.state[..42]), decode(fewer.model(), &fewer.start().state[..32]));
+        assert_eq!(old[..32], new[..]);
+    }
+
+    #[test]
+    fn a_kick_is_a_kick() {
+        for (model, preset) in [("tensor", "fig5a"), ("tensor", "fig2"), ("cell", "fig6a")] {
+            let setting = begin(model, preset);
+            let seen = setting.start();
+            let dim = setting.model().dim();
+            let kicked = setting.kicked(&seen).unwrap();
+            let size = |u: &[f64]| u.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let difference: Vec<f64> =
+                kicked.start().state[..dim].iter().zip(seen.state).map(|(a, b)| a - b).collect();
+            let part = size(&difference) / size(&seen.state[..dim]);
+            assert!((0.02..2.0).contains(&part), "{preset}: {part}");
+            assert_eq!(kicked.start().state[dim..], seen.state[dim..]);
+        }
+    }
+}
