@@ -20,7 +20,7 @@ pub(crate) fn test() -> Result<()> {
     compare(&node, &root, &web)?;
     cargo("program", &["build", "--release", "--workspace"])?;
     let mut command = Command::new(&node);
-    command.args(["--test", "--test-reporter=spec"]).args(files(&web.join("tests"))?);
+    command.args(["--test", "--test-concurrency=2", "--test-reporter=spec"]).args(files(&web.join("tests"))?);
     command.env("MOTIFORM", binary(&root)).env("CHROMIUM", chromium);
     step("browser tests", &mut command)
 }
@@ -82,20 +82,16 @@ fn npm(name: &str, node: &Path, web: &Path, arguments: &[&str]) -> Result<()> {
     step(name, &mut command)
 }
 
-/// A Node that is new enough: that of the path, of an earlier run, of the system's packages, or of npm.
+/// A Node that is new enough: that of the path or of the system's packages, or one that npm brings.
 fn node(root: &Path) -> Result<PathBuf> {
-    let own = root.join("target/node/node_modules/node/bin/node");
-    let known = || [Path::new("node"), own.as_path()].into_iter().find_map(recent);
-    if let Some(found) = known() {
-        return Ok(found);
-    }
-    if !works("npm") {
+    if !works("node") || !works("npm") {
         install(&["nodejs", "npm"], "Node 20.19 or later with npm")?;
     }
-    if let Some(found) = known() {
+    let prefix = root.join("target/node");
+    let own = prefix.join("node_modules/node/bin/node");
+    if let Some(found) = recent(Path::new("node")).or_else(|| recent(&own)) {
         return Ok(found);
     }
-    let prefix = root.join("target/node");
     let arguments = ["install", "--no-save", "--no-audit", "--no-fund", "node@22"];
     step("node", Command::new("npm").arg("--prefix").arg(&prefix).args(arguments))?;
     recent(&own).context("Node 20.19 or later is needed: install it from nodejs.org")

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
 use cargo_metadata::{DependencyKind, MetadataCommand};
+use std::process::Command;
 
 /// Each crate, and the crates below it that it may use. A new crate must be given its place here.
 const LAYERS: [(&str, &[&str]); 9] = [
@@ -41,4 +42,26 @@ fn dependencies_point_down() {
             );
         }
     }
+}
+
+/// The explorer brings a server along; a program built without it must not carry one.
+#[test]
+fn without_the_explorer_there_is_no_server() {
+    for (arguments, there) in [(&["--no-default-features"][..], false), (&[], true)] {
+        let tree = tree(arguments);
+        for name in ["axum", "tokio"] {
+            let found = tree.lines().any(|line| line.split(' ').next() == Some(name));
+            assert_eq!(found, there, "{name} with {arguments:?}");
+        }
+    }
+}
+
+/// The crates that the program is built from, one a line.
+fn tree(arguments: &[&str]) -> String {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(cargo);
+    command.args(["tree", "-p", "motiform", "-e", "normal", "--prefix", "none", "--offline"]).args(arguments);
+    let output = command.current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
 }
