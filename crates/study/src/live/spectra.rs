@@ -7,7 +7,10 @@ use motiform_dynamics::Model;
 /// Fewest samples that a spectrum is made of, and the longest segment.
 const SAMPLES: (usize, usize) = (256, 2048);
 
-/// Power spectra of the speed and of the model's observables.
+/// A quantity that varies by less than this part of its size is steady: its spectrum would be that of round-off.
+const VARIES: f64 = 1e-7;
+
+/// Power spectra of the speed and of the model's observables, those that are steady left out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectra {
     /// Cycles per model time, without the frequency 0; empty where the record is too short.
@@ -39,7 +42,14 @@ pub fn spectra(record: &Record, model: &dyn Model, dt: f64) -> Spectra {
         let Ok(spectrum) = welch(&values, dt, segment) else { continue };
         all.segments = spectrum.segments;
         all.frequencies = spectrum.frequencies[1..].to_vec();
-        all.curves.push((name, symbol, spectrum.power[1..].to_vec()));
+        if varies(&values) {
+            all.curves.push((name, symbol, spectrum.power[1..].to_vec()));
+        }
     }
     all
+}
+
+fn varies(values: &[f64]) -> bool {
+    let (low, high) = values.iter().fold((f64::MAX, f64::MIN), |(low, high), &x| (low.min(x), high.max(x)));
+    high - low > VARIES * high.abs().max(low.abs())
 }
