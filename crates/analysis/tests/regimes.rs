@@ -7,9 +7,9 @@ mod common;
 
 use common::{Random, cell, full, letter, named, reduced, settings};
 use motiform_analysis::RelativeEquilibrium;
-use motiform_analysis::regime::Verdict;
+use motiform_analysis::regime::{Settings, Verdict};
 use motiform_dynamics::steppers::RK4;
-use motiform_dynamics::{Orbit, Request, StepControl, Trajectory, drive::drive};
+use motiform_dynamics::{Model, Orbit, Request, StepControl, Trajectory, drive::drive};
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
 
@@ -311,5 +311,27 @@ fn what_begins_where_it_ends_up_is_named_alike() {
             drive(&mut orbit, &Request::until(700.0, 6), &mut ()).unwrap();
             shape = orbit.state().to_vec();
         }
+    }
+}
+
+/// A body that comes to rest under tolerances that resolve any speed is at rest: what Newton's method leaves over is no motion.
+#[test]
+fn what_is_left_of_a_motion_is_no_motion() {
+    let settings =
+        Settings { control: StepControl::Adaptive { rtol: 1e-12, atol: 1e-300 }, ..settings("tensor") };
+    // Each of these was left with a speed of some 1e-18.
+    let places = [
+        (0.139_791_666_666_666_65, -0.036_041_666_666_666_65),
+        (0.167_291_666_666_666_67, -0.036_041_666_666_666_65),
+        (0.071_041_666_666_666_67, -0.044_791_666_666_666_646),
+        (0.029_791_666_666_666_66, -0.079_791_666_666_666_65),
+        (0.126_041_666_666_666_66, -0.036_041_666_666_666_65),
+    ];
+    for (kappa2, gamma) in places {
+        let body = reduced(kappa2, gamma);
+        let mut start = [0.0; 6];
+        body.encode(&[0.02, 0.03, 0.2, 0.0, 0.0, 0.0], &mut start);
+        let verdict = named(&body, &start, &settings);
+        assert_eq!(verdict.regime.name(), "motionless", "{kappa2} {gamma}: {}", verdict.why);
     }
 }

@@ -153,7 +153,8 @@ impl Search {
                         .clone_into(&mut self.missing);
                     return self.again(body);
                 }
-                Ok(words::equilibrium(body, &found, after / size, &self.settings, self.time).into())
+                Ok(words::equilibrium(body, &found, (after / size, self.largest), &self.settings, self.time)
+                    .into())
             }
             _ => self.rests(body, look),
         }
@@ -205,7 +206,7 @@ impl Search {
             self.pending = Pending::Approach { found: Box::new(found), before, reached, size };
             return Ok(Ask::Look(wait));
         }
-        Ok(words::equilibrium(body, &found, before / size, &self.settings, self.time).into())
+        Ok(words::equilibrium(body, &found, (before / size, self.largest), &self.settings, self.time).into())
     }
 
     /// Does it rest near saddles, does its shape come back?

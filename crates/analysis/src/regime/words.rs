@@ -28,17 +28,22 @@ pub(super) fn blow_up(singular: bool, t: f64, time: f64) -> Verdict {
     verdict
 }
 
-/// A stable relative equilibrium, reached up to `distance` (against its size).
+/// Speeds below this part of the largest shape on the way are what is left of it: Newton's method goes no further.
+const REST: f64 = 1e-13;
+
+/// A stable relative equilibrium, reached up to `distance` (against its size) by an orbit that was as large as `largest`.
 pub(super) fn equilibrium<B: Equivariant + ?Sized>(
     body: &B,
     found: &RelativeEquilibrium,
-    distance: f64,
+    (distance, largest): (f64, f64),
     settings: &Settings,
     time: f64,
 ) -> Verdict {
     let speed = found.speed();
-    let least_speed =
-        body.speed_resolution(&found.shape, settings.atol()).max(1e-9 * found.scale * settings.accuracy());
+    let least_speed = body
+        .speed_resolution(&found.shape, settings.atol())
+        .max(1e-9 * found.scale * settings.accuracy())
+        .max(REST * largest);
     let least_turn = (1e3 * found.resolution()).max(1e-12);
     let turns = found.turning_rate.abs() > least_turn;
     let moves = speed > least_speed;

@@ -3,7 +3,7 @@
 use super::setting::{Seen, Setting, decode, state_of};
 use motiform_dynamics::Normal;
 use motiform_study::live::start;
-use motiform_study::{Error, Plan, Study};
+use motiform_study::{Error, Plan};
 use std::collections::BTreeMap;
 
 /// A kick, as a part of the shape.

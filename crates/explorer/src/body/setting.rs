@@ -5,7 +5,7 @@ use crate::motion::Motion;
 use crate::protocol::Begin;
 use motiform_dynamics::{InPlane, Model};
 use motiform_study::draw::radius_for;
-use motiform_study::live::{Record, Stretch, settled, start};
+use motiform_study::live::{Record, Stretch, settled};
 use motiform_study::study::ReturnMapSettings;
 use motiform_study::{Error, Plan, Study};
 use serde_json::{Value, json};
