@@ -72,7 +72,10 @@ async function place() {
   return pixel(page, view.x0 + random() * (view.x1 - view.x0), view.y0 + random() * (view.y1 - view.y0));
 }
 
+/** What is in use, with the same body each time. */
 async function sample() {
+  await page.locator('[data-preset="fig5a"]').click();
+  await seen(page, wire, "fig5a");
   await session.send("HeapProfiler.collectGarbage");
   const { usedSize } = await session.send("Runtime.getHeapUsage");
   const { nodes } = await session.send("Memory.getDOMCounters");
@@ -95,8 +98,6 @@ for (let minute = 1; minute <= minutes; minute++) {
   console.log(`${String(minute).padStart(6)}  ${now.server.toFixed(1).padStart(9)}  ${now.heap.toFixed(1).padStart(7)}  ${String(now.nodes).padStart(5)}  ${String(total).padStart(4)}`);
 }
 console.log([...done].map(([name, count]) => `${name} ${count}`).join(", "));
-await page.locator('[data-preset="fig5a"]').click();
-await seen(page, wire, "fig5a");
 await moves(page, wire);
 await leave();
 await browser.close();

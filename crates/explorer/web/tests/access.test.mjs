@@ -2,13 +2,13 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { stage, upon, visit } from "./stage.mjs";
+import { LIGHT, stage, upon, visit } from "./stage.mjs";
 import { moves, named, number, seen } from "./waits.mjs";
 
 const it = stage();
 const NAMED = new Set(["button", "checkbox", "combobox", "slider", "spinbutton", "textbox", "link", "progressbar", "img", "application", "Canvas", "DisclosureTriangle", "listbox", "dialog"]);
 
-test("everything that can be used or seen has a name", { todo: "the canvases of the curves have none" }, upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+test("everything that can be used or seen has a name", { todo: "the canvases of the curves have none" }, upon(it, { hash: LIGHT }, async ({ page, wire }) => {
   await moves(page, wire);
   await page.locator("#share-menu > summary").click();
   const session = await page.context().newCDPSession(page);
@@ -25,7 +25,7 @@ test("everything that can be used or seen has a name", { todo: "the canvases of 
   assert.ok(["Pause", "Restart"].every((name) => names.includes(name)), names.join("; "));
 }));
 
-test("the tab key meets map, body and sliders in this order", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+test("the tab key meets map, body and sliders in this order", upon(it, { hash: LIGHT }, async ({ page, wire }) => {
   await moves(page, wire);
   const met = [];
   for (let k = 0; k < 150 && met.at(-1) !== "kappa3"; k++) {
@@ -71,7 +71,7 @@ function contrasts(page, selectors) {
 const TEXTS = ["h1", "#about", ".chip", ".chip[aria-pressed=true]", "#connection-text", "#regime", "#why", "#clock-t", "#clock", "#readout", "#map-legend li", "#map-progress-text", "#speed-value", "#follow", "fieldset legend", ".symbol-button", ".parameter input[type=number]", ".axis-name", "#map-reset", "#map-title", ".refusal", "#x-axis", "#true-size"];
 
 for (const colorScheme of ["light", "dark"]) {
-  test(`${colorScheme}: texts stand out`, upon(it, { hash: "preset=fig5a", colorScheme }, async ({ page, wire }) => {
+  test(`${colorScheme}: texts stand out`, upon(it, { hash: LIGHT, colorScheme }, async ({ page, wire }) => {
     await moves(page, wire);
     await named(page);
     await page.locator("#map-legend li").first().waitFor();
@@ -87,7 +87,7 @@ for (const colorScheme of ["light", "dark"]) {
 const brightness = (page) => page.evaluate(() => Number(getComputedStyle(document.body).backgroundColor.match(/\d+/)[0]));
 
 test("light or dark as the system says, until the reader says otherwise", async () => {
-  const { page, wire, leave } = await visit(it, { hash: "preset=fig5a", colorScheme: "dark" });
+  const { page, wire, leave } = await visit(it, { hash: LIGHT, colorScheme: "dark" });
   await seen(page, wire);
   assert.ok((await brightness(page)) < 60);
   await page.emulateMedia({ colorScheme: "light" });

@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { delimiter, join } from "node:path";
 import { test } from "node:test";
 import { binary } from "./server.mjs";
-import { stage, upon } from "./stage.mjs";
+import { LIGHT, stage, upon } from "./stage.mjs";
 import { moves } from "./waits.mjs";
 
 const it = stage();
@@ -64,7 +64,7 @@ async function assertFile(judge, what, path) {
   if (kind === "apng") assert.ok(kinds.includes("acTL") && kinds.filter((one) => one === "fcTL").length > 5, kinds.join());
 }
 
-test("every button of Share and keep gives a valid file", upon(it, { hash: "preset=fig5b" }, async ({ page, wire, browser }) => {
+test("every button of Share and keep gives a valid file", upon(it, { hash: "preset=fig5b&x=kappa2:1.2:1.6&y=kappa3:0.7:1" }, async ({ page, wire, browser }) => {
   const judge = await browser.newPage(); // has no rules of its own about what may be parsed
   await moves(page, wire);
   await page.locator("#speed").focus();
@@ -87,7 +87,7 @@ test("every button of Share and keep gives a valid file", upon(it, { hash: "pres
   assert.equal(await page.locator("#toasts li").count(), 0);
 }));
 
-test("a panel's own button saves its figure", upon(it, { hash: "preset=fig5a" }, async ({ page, wire, browser }) => {
+test("a panel's own button saves its figure", upon(it, { hash: LIGHT }, async ({ page, wire, browser }) => {
   await moves(page, wire);
   await page.locator('details.save[data-figure="path"] > summary').click();
   const [download] = await Promise.all([page.waitForEvent("download"), page.locator('[data-save="path.svg"]').click()]);
@@ -96,7 +96,7 @@ test("a panel's own button saves its figure", upon(it, { hash: "preset=fig5a" },
   await judge.close();
 }));
 
-test("what cannot be made is said", upon(it, { hash: "preset=fig5a&play=0" }, async ({ page }) => {
+test("what cannot be made is said", upon(it, { hash: `${LIGHT}&play=0` }, async ({ page }) => {
   await page.waitForFunction(() => window.motiform?.position());
   await page.locator("#share-menu > summary").click();
   await page.locator('[data-export="return-map.svg"]').click();
@@ -112,7 +112,7 @@ async function text(page, which) {
   return found;
 }
 
-test("the command runs, the Python compiles", upon(it, { hash: "preset=fig5a&kappa2=0.8&noise=0.001" }, async ({ page, wire }) => {
+test("the command runs, the Python compiles", upon(it, { hash: `${LIGHT}&kappa2=0.8&noise=0.001` }, async ({ page, wire }) => {
   await moves(page, wire);
   await page.locator("#play").click();
   const folder = mkdtempSync(join(tmpdir(), "motiform-share-"));

@@ -64,7 +64,7 @@ test("nothing jumps", upon(it, { hash: "" }, async ({ page, wire }) => {
   }
   await named(page);
   await page.mouse.move(...(await pixel(page, 0.5, 0.5)));
-  await page.locator("#readout .readout-verdict b").waitFor();
+  await page.locator("#readout .readout-place span").first().waitFor();
   await page.mouse.move(3, 3);
   const { revision } = wire.frame;
   await slide(slider(page, "kappa2"), 0.9);

@@ -3,22 +3,24 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { stage, upon } from "./stage.mjs";
-import { changed, moves, named, number, pictures, pixel, seen, stands, until } from "./waits.mjs";
+import { changed, mapped, moves, named, number, pictures, pixel, seen, stands, until } from "./waits.mjs";
 
 /** Points of the plane of figure 4, well inside their regions. */
 const STRAIGHT = [1.2, 0.6];
 const CIRCULAR = [1.5, 0.12];
 
+/** A window about both that is soon complete: its cells are simple motions. */
+const WINDOW = "x=kappa2:1:1.6&y=kappa3:0.1:0.7";
+
 const it = stage();
-const window_ = (page) => page.evaluate(() => window.motiform.map.window());
-const complete = (page) => page.waitForFunction(() => window.motiform.map.complete);
+const view = (page) => page.evaluate(() => window.motiform.map.window());
 
 async function click(page, point) {
   await page.mouse.click(...(await pixel(page, ...point)));
 }
 
 for (const preset of ["fig4", "fig5a"]) {
-  test(`a click in the map of ${preset} takes the body there, and its motion follows`, upon(it, { hash: `preset=${preset}` }, async ({ page, wire }) => {
+  test(`a click in the map of ${preset} takes the body there, and its motion follows`, upon(it, { hash: `preset=${preset}&${WINDOW}` }, async ({ page, wire }) => {
     await moves(page, wire);
     for (const [point, regime] of [[STRAIGHT, "straight"], [CIRCULAR, "circular"], [STRAIGHT, "straight"]]) {
       const before = wire.frame;
@@ -45,7 +47,7 @@ function assertNoJump(wire, after) {
   assert.ok(dt >= 0 && way <= 3 * speed * dt + 1e-9, `a jump of ${way} in ${dt}`);
 }
 
-test("a click keeps the state of a paused body to the bit", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+test("a click keeps the state of a paused body to the bit", upon(it, { hash: `preset=fig5a&${WINDOW}` }, async ({ page, wire }) => {
   await moves(page, wire);
   await page.locator("#play").click();
   const before = await stands(page, wire);
@@ -56,7 +58,7 @@ test("a click keeps the state of a paused body to the bit", upon(it, { hash: "pr
 
 test("the wheel zooms about the pointer, a drag pans, a double click resets", upon(it, { hash: "preset=fig4" }, async ({ page, wire }) => {
   await seen(page, wire);
-  const home = await window_(page);
+  const home = await view(page);
   const [x, y] = await pixel(page, ...STRAIGHT);
   await page.mouse.move(x, y);
   await page.mouse.wheel(0, -200);
@@ -69,7 +71,7 @@ test("the wheel zooms about the pointer, a drag pans, a double click resets", up
   await page.mouse.up();
   const [px, py] = await pixel(page, ...STRAIGHT);
   assert.ok(Math.hypot(px - x - 30, py - y - 20) < 6.5, `dragged by 30, 20, moved by ${px - x}, ${py - y}`);
-  await complete(page);
+  await until(() => wire.last.get("map")?.epoch === wire.said.get("map").epoch, "the map of the new window");
   assert.equal(wire.frame.revision, revision, "zoom and drag leave the body alone");
   const parameters = wire.last.get("begun").parameters;
   await page.mouse.dblclick(...(await pixel(page, ...STRAIGHT)));
@@ -79,8 +81,8 @@ test("the wheel zooms about the pointer, a drag pans, a double click resets", up
 
 test("the keyboard walks, zooms and resets", upon(it, { hash: "preset=fig4" }, async ({ page, wire }) => {
   await seen(page, wire);
-  await complete(page);
-  const home = await window_(page);
+  await until(() => wire.last.has("map"), "the cells to walk by");
+  const home = await view(page);
   const value = () => page.evaluate(() => ["kappa2", "kappa3"].map((name) => document.querySelector(`[data-parameter="${name}"] input[type=number]`).valueAsNumber));
   await page.locator("#map").focus();
   let before = await value();
@@ -92,19 +94,19 @@ test("the keyboard walks, zooms and resets", upon(it, { hash: "preset=fig4" }, a
     assert.ok(sign * (after[axis] - before[axis]) > 0 && after[1 - axis] === before[1 - axis], `${key}: ${before} to ${after}`);
     before = after;
   }
-  const width = async () => ((view) => view.x1 - view.x0)(await window_(page));
+  const width = async () => ((one) => one.x1 - one.x0)(await view(page));
   await page.keyboard.press("+");
   assert.ok((await width()) < home.x1 - home.x0);
   await page.keyboard.press("-");
   assert.ok(Math.abs((await width()) / (home.x1 - home.x0) - 1) < 1e-9);
   await page.keyboard.press("+");
   await page.keyboard.press("0");
-  assert.deepEqual(await window_(page), home);
+  assert.deepEqual(await view(page), home);
 }));
 
-test("pointing at the map tells regime and evidence", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+test("pointing at the map tells regime and evidence", upon(it, { hash: `preset=fig5a&${WINDOW}` }, async ({ page, wire }) => {
   await seen(page, wire);
-  await complete(page);
+  await mapped(page);
   const readout = page.locator("#readout");
   const idle = await readout.textContent();
   for (const [point, regime] of [[STRAIGHT, "straight"], [CIRCULAR, "circular"]]) {
@@ -118,13 +120,12 @@ test("pointing at the map tells regime and evidence", upon(it, { hash: "preset=f
   assert.equal(await readout.textContent(), idle);
 }));
 
-test("other axes, and none", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+test("other axes, and none", upon(it, { hash: `preset=fig5a&${WINDOW}` }, async ({ page, wire }) => {
   await seen(page, wire);
   await page.locator("#x-axis").selectOption("gamma");
   await until(() => wire.last.get("map")?.x.name === "gamma", "a map over gamma");
   await page.locator("#y-axis").selectOption("");
   await until(() => wire.last.get("map")?.y === null, "a map of one axis");
-  await complete(page);
   await page.locator("#map-reset").click();
   await until(() => wire.last.get("map")?.x.name === "kappa2", "the map of the preset again");
 }));

@@ -2,13 +2,13 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { stage, upon } from "./stage.mjs";
+import { LIGHT, stage, upon } from "./stage.mjs";
 import { changed, moves, named, number, slide, slider } from "./waits.mjs";
 
 const it = stage();
 const refusal = (page, name) => page.locator(`[data-parameter="${name}"] .refusal`);
 
-test("a slider changes the regime", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+test("a slider changes the regime", upon(it, { hash: LIGHT }, async ({ page, wire }) => {
   assert.equal(await named(page), "zigzag");
   const { revision } = wire.frame;
   await slide(slider(page, "kappa2"), 0.5);
@@ -21,7 +21,7 @@ test("a slider changes the regime", upon(it, { hash: "preset=fig5a" }, async ({ 
   assert.equal(wire.last.get("changed").parameters.kappa2, 0.9);
 }));
 
-test("a slider follows the mouse and the arrow keys", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+test("a slider follows the mouse and the arrow keys", upon(it, { hash: LIGHT }, async ({ page, wire }) => {
   await moves(page, wire);
   const one = slider(page, "kappa3");
   const start = Number(await number(page, "kappa3").inputValue());
@@ -40,7 +40,7 @@ test("a slider follows the mouse and the arrow keys", upon(it, { hash: "preset=f
   await moves(page, wire);
 }));
 
-test("a number that is not allowed is refused at its row, and the old value stays", upon(it, { hash: "preset=fig5a" }, async ({ page, wire }) => {
+test("a number that is not allowed is refused at its row, and the old value stays", upon(it, { hash: LIGHT }, async ({ page, wire }) => {
   await moves(page, wire);
   const field = number(page, "kappa2");
   for (const bad of ["1e7", "-1e9"]) {

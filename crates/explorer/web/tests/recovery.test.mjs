@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { TOKEN, Server } from "./server.mjs";
-import { shoot, stage, visit } from "./stage.mjs";
+import { LIGHT, shoot, stage, visit } from "./stage.mjs";
 import { changed, moves, named, seen, slide, slider, stands, until } from "./waits.mjs";
 
 const it = stage();
@@ -11,7 +11,7 @@ const it = stage();
 for (const playing of [true, false]) {
   test(`a ${playing ? "moving" : "paused"} body goes on after the server was killed`, async () => {
     const server = await Server.start();
-    const { page, wire, leave } = await visit({ browser: it.browser, server }, { hash: "preset=fig5a", tolerate: /WebSocket connection|ERR_CONNECTION_REFUSED/ });
+    const { page, wire, leave } = await visit({ browser: it.browser, server }, { hash: LIGHT, tolerate: /WebSocket connection|ERR_CONNECTION_REFUSED/ });
     await moves(page, wire);
     const { revision } = wire.frame;
     await slide(slider(page, "kappa2"), 0.8);

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { once } from "node:events";
 import { createServer, request } from "node:http";
 import { test } from "node:test";
-import { stage, upon } from "./stage.mjs";
+import { LIGHT, stage, upon } from "./stage.mjs";
 import { moves } from "./waits.mjs";
 
 const it = stage();
@@ -40,7 +40,7 @@ async function upgrade(server, path, origin) {
   return answer[0].statusCode;
 }
 
-test("a wrong token opens nothing", upon(it, { hash: "preset=fig5a", tolerate: /WebSocket|403/ }, async ({ page, wire, server, browser }) => {
+test("a wrong token opens nothing", upon(it, { hash: LIGHT, tolerate: /WebSocket|403/ }, async ({ page, wire, server, browser }) => {
   await moves(page, wire);
   for (const path of [`/${WRONG}/`, `/${WRONG}/app.js`]) assert.equal((await fetch(server.origin + path)).status, 403);
   const other = await browser.newPage();
@@ -54,7 +54,7 @@ test("a wrong token opens nothing", upon(it, { hash: "preset=fig5a", tolerate: /
   await moves(page, wire);
 }));
 
-test("a page from elsewhere that knows the token is refused", upon(it, { hash: "preset=fig5a" }, async ({ page, wire, server, browser }) => {
+test("a page from elsewhere that knows the token is refused", upon(it, { hash: LIGHT }, async ({ page, wire, server, browser }) => {
   await moves(page, wire);
   const elsewhere = createServer((_, response) => response.setHeader("content-type", "text/html").end("<!doctype html><title>elsewhere</title>"));
   elsewhere.listen(0, "127.0.0.1");
@@ -72,7 +72,7 @@ test("a page from elsewhere that knows the token is refused", upon(it, { hash: "
   await moves(page, wire);
 }));
 
-test("malformed messages are refused one by one, a huge one ends its connection alone", upon(it, { hash: "preset=fig5a" }, async ({ page, wire, server }) => {
+test("malformed messages are refused one by one, a huge one ends its connection alone", upon(it, { hash: LIGHT }, async ({ page, wire, server }) => {
   await moves(page, wire);
   const bad = ["nonsense", "{}", '{"do":"fly"}', '{"do":"set","parameters":{"kappa2":"x"}}', '{"do":"advance","dt":-1}', '{"do":"export","id":1,"what":"/etc/passwd"}'];
   const heard = await converse(page, live(server), bad);

@@ -29,6 +29,7 @@ export class Server {
 
   constructor(child, address) {
     child.stdout.resume(); // nothing else is said, and a full pipe would stop it
+    process.once("exit", () => child.kill("SIGKILL"));
     this.child = child;
     this.address = address;
     this.origin = new URL(address).origin;

@@ -12,6 +12,9 @@ import { Wire } from "./wire.mjs";
 /** A busy machine may be slow; a page that hangs is found all the same. MOTIFORM_PATIENCE, in milliseconds, for who writes tests. */
 export const PATIENCE = Number(process.env.MOTIFORM_PATIENCE ?? 60_000);
 
+/** The body of figure 5(a) beside a map that costs next to nothing, for tests of something else. */
+export const LIGHT = "preset=fig5a&x=kappa2:1.2:1.6&y=kappa3:0.7:1";
+
 const NAMES = ["chromium", "chromium-browser", "google-chrome"];
 const FLAGS = [
   "--no-sandbox",

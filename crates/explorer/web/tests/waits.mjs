@@ -3,6 +3,9 @@
 import assert from "node:assert/strict";
 import { PATIENCE } from "./stage.mjs";
 
+/** What the server computes for long, names and whole maps, gets so many times more patience. */
+const COMPUTING = 4;
+
 /** Waits until `holds()` here, in the test, is true. */
 export async function until(holds, what) {
   const end = performance.now() + PATIENCE;
@@ -62,8 +65,13 @@ export async function named(page, name = null) {
   await page.waitForFunction((wanted) => {
     const regime = document.getElementById("regime").dataset.regime;
     return wanted ? regime === wanted : regime !== "";
-  }, name);
+  }, name, { timeout: COMPUTING * PATIENCE });
   return page.locator("#regime").getAttribute("data-regime");
+}
+
+/** Waits until all cells of the map are there. */
+export async function mapped(page) {
+  await page.waitForFunction(() => window.motiform.map.complete, null, { timeout: COMPUTING * PATIENCE });
 }
 
 /** Lets the page draw so many pictures: the least that it needs to do whatever it is about to do. */
