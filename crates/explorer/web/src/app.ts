@@ -13,7 +13,7 @@ import { History } from "./history";
 import { Keeper } from "./keeper";
 import { Loop } from "./loop";
 import { MapPanel } from "./map/panel";
-import { typeset } from "./numbers";
+import { pretty, typeset } from "./numbers";
 import { Opening } from "./opening";
 import { ParameterPanel } from "./parameters";
 import { PresetBar } from "./presets";
@@ -84,7 +84,8 @@ export class App implements Hearer {
       draw: (now, seconds) => this.draw(now, seconds),
     });
     onTheme(() => this.recolour());
-    window.addEventListener("hashchange", () => this.openAddress());
+    // The event knows the address that was asked for; the bar may have been written to since.
+    window.addEventListener("hashchange", (event) => this.openAddress(new URL(event.newURL).hash));
     expose({ frames: () => this.frames, frame: () => this.body.last(), map: this.map });
   }
 
@@ -138,7 +139,7 @@ export class App implements Hearer {
     const session = this.known();
     const { preset, model } = session;
     const place = this.opening.agreed();
-    session.begun(begun, place?.speed ?? begun.speed);
+    session.begun(begun, this.speedOf(place, begun));
     setText(byId("about"), begun.about || model.title);
     document.title = `${begun.title} \u2013 motiform`;
     this.presets.show(model.name, begun.preset);
@@ -153,6 +154,15 @@ export class App implements Hearer {
     this.map.begin(place?.plane ?? home, home);
     this.windowMoved();
     this.renew(session);
+  }
+
+  /** The speed of a place, where it is one that the slider has. */
+  private speedOf(place: Place | null, { speed, speeds }: Begun): number {
+    const wanted = place?.speed ?? speed;
+    const [least, most] = [0.999 * speeds[0], 1.001 * speeds[1]];
+    if (wanted >= least && wanted <= most) return wanted;
+    toast(`Left aside in the address: speed=${pretty(wanted, 3)}`);
+    return speed;
   }
 
   changed(changed: Changed): void {
@@ -239,8 +249,8 @@ export class App implements Hearer {
     if (preset) this.open(fresh(preset.model, name, this.loop.playing));
   }
 
-  private openAddress(): void {
-    const { place, notes } = read(location.hash, this.known().registry);
+  private openAddress(hash = location.hash): void {
+    const { place, notes } = read(hash, this.known().registry);
     if (notes.length) toast(`Left aside in the address: ${notes.join(", ")}`);
     this.loop.playing = place.playing;
     this.controls.setPlaying(place.playing);

@@ -21,7 +21,7 @@ const CURVES_ON_DARK = ["#56b4e9", "#e69f00", "#2bbd92", "#e39bc6", "#ff8a3d", "
 export const DASHES: number[][] = [[], [6, 3], [2, 2.5], [8, 3, 2, 3], [12, 4], [4, 4]];
 
 const dark = matchMedia("(prefers-color-scheme: dark)");
-const listeners: (() => void)[] = [];
+const listeners = new Set<() => void>();
 let inks: Inks = read();
 
 /** The colours of now. */
@@ -43,9 +43,10 @@ export function edge(colour: string): string {
   return `rgb(${channels.join(" ")})`;
 }
 
-/** Calls back after each change of the theme. */
-export function onTheme(listener: () => void): void {
-  listeners.push(listener);
+/** Calls back after each change of the theme, until what it returns is called. */
+export function onTheme(listener: () => void): () => void {
+  listeners.add(listener);
+  return () => listeners.delete(listener);
 }
 
 /** Wires the button and follows the system. */

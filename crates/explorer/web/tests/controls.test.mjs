@@ -108,7 +108,7 @@ test("follow ends with a drag, and comes back by key", upon(it, { hash: LIGHT },
   await moves(page, wire);
 }));
 
-test("a double click on the body follows again", { todo: "Camera.reset sets follow before BodyPanel.setFollow compares, so the button never hears of it" }, upon(it, { hash: LIGHT }, async ({ page, wire }) => {
+test("a double click on the body follows again", upon(it, { hash: LIGHT }, async ({ page, wire }) => {
   await moves(page, wire);
   await page.locator("#follow").click();
   await page.locator("#follow[aria-pressed=false]").waitFor();

@@ -7,6 +7,10 @@ import { X, Y } from "../history";
 const WIDEST = 28;
 /** and at least so many. */
 const CLOSEST = 3;
+/** Pixels at the top that the clock takes. */
+const CLOCK = 24;
+/** A deformed body reaches so many of its radii. */
+const BULGE = 1.5;
 /** Seconds in which the camera makes up for most of its lag. */
 const EASE = 0.45;
 /** Room about the trail. */
@@ -23,6 +27,8 @@ export class Camera {
   private zoom = 1;
   private fresh = true;
   private body = { x: 0, y: 0 };
+  /** Radius that the body is drawn with. */
+  drawn = 0;
   private goal = { x: 0, y: 0, scale: 40 };
 
   /** The next aim is taken at once: a new body. */
@@ -66,9 +72,14 @@ export class Camera {
     this.x += dx;
     this.y += dy;
     this.scale *= ratio;
-    this.x = toward(this.x, this.body.x, (0.4 * this.width) / this.scale);
-    this.y = toward(this.y, this.body.y, (0.4 * this.height) / this.scale);
+    this.x = toward(this.x, this.body.x, this.reach(this.width, 0));
+    this.y = toward(this.y, this.body.y, this.reach(this.height, CLOCK));
     return Math.hypot(dx, dy) * this.scale > 0.02 || Math.abs(ratio - 1) > 1e-4;
+  }
+
+  /** How far the body may be from the middle of a side: it stays in sight whole, below the clock. */
+  private reach(side: number, taken: number): number {
+    return Math.max(0, 0.48 * side - taken - BULGE * this.drawn * this.scale) / this.scale;
   }
 
   /** Zooms about a pixel; while the camera follows, about the body. */
@@ -86,10 +97,9 @@ export class Camera {
     this.y += dy / this.scale;
   }
 
-  /** Back to the sight that suits body and trail. */
+  /** The zoom that suits body and trail; whether it follows is not touched. */
   reset(): void {
     this.zoom = 1;
-    this.follow = true;
   }
 }
 

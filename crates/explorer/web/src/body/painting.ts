@@ -131,7 +131,7 @@ function paintScale(g: CanvasRenderingContext2D, camera: Camera, inks: Inks): vo
   g.font = `11px ${UI_FONT}`;
   g.textAlign = "left";
   g.textBaseline = "alphabetic";
-  const text = `${pretty(length)} model length`;
+  const text = `${pretty(length)} model length${length === 1 ? "" : "s"}`;
   g.strokeStyle = inks.plot;
   g.lineWidth = 3;
   g.strokeText(text, x + 5, y - 7);

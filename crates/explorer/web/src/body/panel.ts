@@ -108,6 +108,7 @@ export class BodyPanel {
     [camera.width, camera.height] = [sheet.width, sheet.height];
     const from = this.history.since(frame.t - this.trail);
     if (this.dirty) camera.aim(this.history, from, frame.x, frame.y, frame.radius);
+    camera.drawn = frame.radius * this.enlarged;
     if (!camera.step(seconds) && !this.dirty) return;
     this.dirty = false;
     this.enlarge(frame.radius);

@@ -10,7 +10,7 @@ export function showProgress({ done, total, rate }: Pick<Progress, "done" | "tot
 }
 
 export function showMapped({ cells, seconds }: Mapped): void {
-  say(`${grouped(cells)} cells in ${pretty(seconds, 2)} s`, 1);
+  say(`${grouped(cells)} cells in ${seconds < 0.1 ? "less than 0.1" : pretty(seconds, 2)} s`, 1);
 }
 
 function say(text: string, fraction: number): void {

@@ -63,14 +63,22 @@ function power(value: number): string {
   return `10${[...String(exponent)].map((c) => (c === "-" ? "\u207b" : "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[Number(c)])).join("")}`;
 }
 
-/** A chart that fills `place` and follows its size and the theme. */
-export function chart(place: HTMLElement, options: Omit<uPlot.Options, "width" | "height">, data: uPlot.AlignedData): uPlot {
-  const made = new uPlot({ legend: { show: false }, ...options, width: Math.max(40, place.clientWidth), height: Math.max(30, place.clientHeight) }, data, place);
+/** A chart called `name` that fills `place` and follows its size and the theme, until it is destroyed. */
+export function chart(place: HTMLElement, name: string, options: Omit<uPlot.Options, "width" | "height">, data: uPlot.AlignedData): uPlot {
+  const leave = (): void => {
+    observer.disconnect();
+    forget();
+  };
+  const hooks = { ...options.hooks, destroy: [leave] };
+  const size = { width: Math.max(40, place.clientWidth), height: Math.max(30, place.clientHeight) };
+  const made = new uPlot({ legend: { show: false }, ...options, hooks, ...size }, data, place);
+  made.root.setAttribute("role", "img");
+  made.root.setAttribute("aria-label", name);
+  for (const canvas of made.root.querySelectorAll("canvas")) canvas.setAttribute("aria-hidden", "true");
   const observer = new ResizeObserver(() => {
-    if (!made.root.isConnected) observer.disconnect();
-    else if (place.clientWidth && place.clientHeight) made.setSize({ width: place.clientWidth, height: place.clientHeight });
+    if (place.clientWidth && place.clientHeight) made.setSize({ width: place.clientWidth, height: place.clientHeight });
   });
   observer.observe(place);
-  onTheme(() => made.root.isConnected && made.redraw(false));
+  const forget = onTheme(() => made.redraw(false));
   return made;
 }

@@ -29,7 +29,7 @@ export class ExponentStrip {
   constructor() {
     const indices = Array.from({ length: MOST }, (_, i) => i);
     const edge = { width: 0, points: { show: false } };
-    this.plot = chart(byId("exponents"), {
+    this.plot = chart(byId("exponents"), "Lyapunov exponents against averaging time", {
       cursor: { y: false, points: { show: false }, drag: { x: false, y: false } },
       scales: { x: { time: false }, y: { range: () => this.range() } },
       padding: [6, 20, 0, 0],

@@ -77,7 +77,7 @@ export class SeriesStrip {
     const frame = make("div", { class: last ? "series-frame series-frame-last" : "series-frame" }, make("span", { class: "series-name", title: name }, symbol(markup)), place);
     if (last) frame.append(keysOf(observables), make("span", { class: "series-time", title: "model time" }, symbol("*t*")));
     this.place.append(frame);
-    const made = chart(place, {
+    const made = chart(place, `${name} against time`, {
       cursor: { sync: { key: "time" }, points: { show: false }, y: false, drag: { x: false, y: false } },
       scales: { x: { time: false, auto: false }, y: { range: (plot, low, high) => (columns[0] === TURNING ? calm(plot.data[1], low, high) : roomy(low, high, last ? HEADROOM : 0)) } },
       padding: [4, 14, last ? 0 : 3, 0],

@@ -20,7 +20,7 @@ export class SpectrumStrip {
 
   constructor() {
     const indices = Array.from({ length: CURVES }, (_, i) => i);
-    this.plot = chart(byId("spectrum"), {
+    this.plot = chart(byId("spectrum"), "Power spectrum against frequency", {
       cursor: { y: false, points: { show: false }, drag: { x: false, y: false } },
       scales: {
         x: { time: false, distr: 3, range: (_plot, low, high) => (high > low ? [low, high] : [0.01, 1]) },
