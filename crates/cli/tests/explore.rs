@@ -46,7 +46,7 @@ fn what_cannot_be_served_is_said() {
     for (words, says) in [
         ("--preset fig5c", "fig5b"),
         ("--token short", "16 to 128"),
-        ("--port 0", "1..65535"),
+        ("--port 0", "1..=65535"),
         (&format!("--port {port}"), port.as_str()),
     ] {
         let done = folder.run(&format!("explore --no-open {words}")).expect(2);

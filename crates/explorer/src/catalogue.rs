@@ -21,7 +21,7 @@ struct Showing {
 
 /// The planes of the paper: Fig. 1, Fig. 4, and the windows of lengths of Fig. 6.
 const REDUCED: (Side, Option<Side>) = (("kappa2", -0.22, 0.22), Some(("gamma", -0.16, 0.12)));
-const FULL: (Side, Option<Side>) = (("kappa2", 0.1, 1.6), Some(("kappa3", 0.1, 1.0)));
+const FULL: (Side, Option<Side>) = (("kappa2", 0.05, 1.65), Some(("kappa3", 0.05, 1.05)));
 const LENGTHS: (Side, Option<Side>) = (("length", 6.0, 32.0), None);
 
 const SHOWINGS: [Showing; 12] = [

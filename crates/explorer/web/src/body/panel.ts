@@ -143,8 +143,10 @@ export class BodyPanel {
     if (now - this.clockAt < CLOCK_GAP) return;
     this.clockAt = now;
     setText(byId("clock-t"), fixed(frame.t, 1));
-    setText(byId("clock-x"), fixed(frame.x, 2));
-    setText(byId("clock-y"), fixed(frame.y, 2));
+    // A digit more than the sight resolves.
+    const digits = Math.min(6, Math.max(2, Math.ceil(Math.log10(this.camera.scale / (this.enlarged > 1 ? 1 : 20)))));
+    setText(byId("clock-x"), fixed(frame.x, digits));
+    setText(byId("clock-y"), fixed(frame.y, digits));
     const late = frame.behind ? "computing is slower than this speed: the body is behind" : "";
     setText(byId("body-note"), frame.outlined || !frame.outline.length && !this.outline ? late : "the outline is no curve here");
   }

@@ -7,6 +7,9 @@ import { pixelX, pixelY, type Box, type View } from "../plot";
 /** A cell that no verdict covers yet. */
 export const UNKNOWN = 255;
 
+/** Opacity of cells that only a coarser look speaks for. */
+const PALE = 130;
+
 const POINT: Grid = { name: "", first: 0, step: 1, count: 1 };
 
 export class Lattice {
@@ -22,6 +25,7 @@ export class Lattice {
   private readonly pixels: Uint32Array;
   private readonly canvas: HTMLCanvasElement;
   private readonly colours: Uint32Array;
+  private readonly pale: Uint32Array;
   private stale = false;
 
   constructor(
@@ -39,7 +43,8 @@ export class Lattice {
     this.canvas = document.createElement("canvas");
     this.canvas.width = this.columns;
     this.canvas.height = this.rows;
-    this.colours = Uint32Array.from(legend, (regime) => opaque(regime.area));
+    this.colours = Uint32Array.from(legend, (regime) => pixel(regime.area, 255));
+    this.pale = Uint32Array.from(legend, (regime) => pixel(regime.area, PALE));
   }
 
   /**
@@ -65,7 +70,9 @@ export class Lattice {
         if (this.levels[at] < level) continue;
         this.levels[at] = level;
         this.regimes[at] = regime;
-        this.pixels[(this.rows - 1 - row) * this.columns + column] = this.colours[regime] ?? 0;
+        // A first look that stands for others is pale.
+        const colour = (level ? this.pale : this.colours)[regime] ?? 0;
+        this.pixels[(this.rows - 1 - row) * this.columns + column] = colour;
       }
     }
   }
@@ -120,8 +127,8 @@ export class Lattice {
   }
 }
 
-/** `#rrggbb` as a pixel of ImageData. */
-function opaque(colour: string): number {
+/** `#rrggbb` as a pixel of ImageData, with this opacity. */
+function pixel(colour: string, opacity: number): number {
   const value = parseInt(colour.slice(1), 16);
-  return (255 << 24 | (value & 255) << 16 | (value & 0xff00) | value >> 16) >>> 0;
+  return (opacity << 24 | (value & 255) << 16 | (value & 0xff00) | value >> 16) >>> 0;
 }

@@ -119,6 +119,7 @@ export class MapPanel {
     if (progress.epoch !== this.epoch) return;
     showProgress(progress);
     this.showLegend();
+    this.readout.wait();
   }
 
   mapped(mapped: Mapped): void {

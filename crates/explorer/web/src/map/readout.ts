@@ -37,6 +37,11 @@ export class Readout {
     else this.show(undefined, "outside the computed map");
   }
 
+  /** Cells have come: the question again, if it had no answer. */
+  wait(): void {
+    if (this.cell && !this.regime) this.ask();
+  }
+
   /** The same question again: more may be known by now. */
   refresh(): void {
     if (this.cell) this.ask();

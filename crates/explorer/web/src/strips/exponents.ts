@@ -59,7 +59,7 @@ export class ExponentStrip {
     if (this.time.length > POINTS) for (const list of [this.time, ...this.curves]) thin(list);
     showKeys(byId("exponent-keys"), exponents.slice(0, MOST).map((_, i) => `*λ*_${i + 1}`));
     const first = exponents[0];
-    if (first) setText(byId("exponent-values"), `\u03bb\u2081 = ${pretty(first.value, 3)}${first.error === null ? "" : ` \u00b1 ${pretty(first.error, 2)}`}${done ? "" : "\u2026"}`);
+    if (first) setText(byId("exponent-values"), `\u03bb\u2081 = ${valueText(first.value, first.error)}${first.error === null ? "" : ` \u00b1 ${pretty(first.error, 2)}`}${done ? "" : "\u2026"}`);
     this.dirty = true;
   }
 
@@ -82,6 +82,11 @@ export class ExponentStrip {
     byId("exponents-empty").hidden = this.time.length > 0;
     this.plot.setData([this.time, ...this.curves]);
   }
+}
+
+/** A value far below its error is nothing but its error. */
+function valueText(value: number, error: number | null): string {
+  return error !== null && Math.abs(value) < 0.05 * error ? "0" : pretty(value, 3);
 }
 
 /** The line that matters most. */
