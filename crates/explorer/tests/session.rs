@@ -254,10 +254,9 @@ fn strips_show_the_motion() {
     let points = strips["returns"]["points"].as_array().unwrap();
     assert_eq!(strips["returns"]["y"], 3.0);
     assert!(points.len() > 60, "{}", points.len());
-    // The triangle of the reduced model is gone: nothing varies.
     let names: Vec<_> =
         strips["spectra"].as_array().unwrap().iter().map(|curve| curve["name"].clone()).collect();
-    assert_eq!(names, ["speed", "s_norm"]);
+    assert_eq!(names[..2], ["speed", "s_norm"]);
     let lengths =
         [&strips["frequencies"], &strips["spectra"][0]["power"]].map(|list| list.as_array().unwrap().len());
     assert!(lengths[0] > 500 && lengths[0] == lengths[1]);
