@@ -61,6 +61,8 @@ class Preset:
     about: str
     free: tuple[str, ...]
     """The parameters that span the paper's diagram, where the preset stands for one."""
+    parameters: dict[str, float]
+    """The parameters that it sets; all others have their defaults."""
 
 
 @dataclass(frozen=True)
@@ -68,8 +70,12 @@ class Regime:
     """A kind of motion, and how every figure draws it."""
 
     name: str
+    meaning: str
+    """What a body does in it, in one sentence."""
     colour: str
     area: str
+    tint: str
+    """The pale ground behind a marker."""
     glyph: str
 
 
