@@ -80,9 +80,7 @@ pub(crate) fn registry() -> Result<Value, Error> {
         let name = model["name"].as_str().unwrap_or_default().to_owned();
         model["plane"] = plane(&name);
         for parameter in model["parameters"].as_array_mut().into_iter().flatten() {
-            // Every whole number of the registry says so.
-            let whole =
-                parameter["meaning"].as_str().is_some_and(|meaning| meaning.contains("(a whole number)"));
+            let whole = parameter["meaning"].as_str().is_some_and(is_whole);
             parameter["whole"] = json!(whole);
         }
     }
@@ -97,6 +95,11 @@ pub(crate) fn registry() -> Result<Value, Error> {
         preset["y"] = json!(y);
     }
     Ok(all)
+}
+
+/// Whether a parameter of this meaning is a whole number: every one of the registry says so.
+pub(crate) fn is_whole(meaning: &str) -> bool {
+    meaning.contains("(a whole number)")
 }
 
 /// The entries of a list of the registry.

@@ -69,6 +69,11 @@ impl<J: Send + 'static> Desk<J> {
     }
 }
 
+/// What a mutex guards, also after a panic of another thread: every job leaves it whole.
+pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Lets other threads go first, and so do the threads that this one starts. What the system refuses is no loss.
 #[cfg(target_os = "linux")]
 fn give_way(nice: i32) {
@@ -80,12 +85,8 @@ fn give_way(nice: i32) {
 fn give_way(_nice: i32) {}
 
 impl<J> Shared<J> {
-    fn lock(&self) -> MutexGuard<'_, Slot<J>> {
-        self.slot.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     fn order(&self, job: Option<J>, closed: bool) {
-        let mut slot = self.lock();
+        let mut slot = lock(&self.slot);
         self.order.fetch_add(1, Ordering::Relaxed);
         slot.job = job;
         slot.closed |= closed;
@@ -94,7 +95,7 @@ impl<J> Shared<J> {
 
     /// Waits for a job; `None` when the desk is closed.
     fn next(&self) -> Option<(J, u64)> {
-        let mut slot = self.lock();
+        let mut slot = lock(&self.slot);
         loop {
             if slot.closed {
                 return None;

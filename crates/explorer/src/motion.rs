@@ -1,7 +1,7 @@
 //! Naming the present motion, then its Lyapunov exponents, for as long as it is the present one.
 
 use crate::answers::{Answers, Gone};
-use crate::desk::{Current, Desk};
+use crate::desk::{Current, Desk, lock};
 use crate::map::numbers;
 use motiform_analysis::Estimate;
 use motiform_analysis::regime::Regime;
@@ -9,7 +9,7 @@ use motiform_study::scan::Row;
 use motiform_study::simulate::Monitor;
 use motiform_study::{Plan, analyse};
 use serde_json::{Value, json};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 
 /// Pictures go first.
 const NICE: i32 = 3;
@@ -80,10 +80,6 @@ impl Naming {
     pub(crate) fn history(&self) -> History {
         lock(&self.known).history.clone()
     }
-}
-
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// One motion on the desk.

@@ -6,7 +6,7 @@ mod store;
 mod work;
 
 use crate::answers::{Answers, Gone};
-use crate::desk::Desk;
+use crate::desk::{Desk, lock};
 use crate::export::{Made, Maker};
 use crate::protocol::MapWindow;
 use motiform_study::Study;
@@ -14,7 +14,7 @@ use motiform_study::draw::phase_diagram;
 use motiform_study::scan::{CellSummary, Row, rows_to_csv};
 use serde_json::{Value, json};
 use sight::Sight;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 
 /// All cores are at work for the map: pictures and names go first.
 const NICE: i32 = 10;
@@ -100,10 +100,6 @@ pub(crate) fn numbers(row: &Row) -> Value {
         .map(|((name, _), value)| ((*name).to_owned(), json!(value)))
         .collect::<serde_json::Map<_, _>>()
         .into()
-}
-
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 type Done = Result<(), Gone>;

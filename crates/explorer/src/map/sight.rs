@@ -3,6 +3,7 @@
 use super::Job;
 use super::lattice::{Cells, Lattice, level};
 use super::store::Store;
+use crate::catalogue::is_whole;
 use crate::protocol::Side;
 use motiform_models::ModelInfo;
 use motiform_models::parameters::{ParameterSpec, index_of};
@@ -65,7 +66,7 @@ impl Sight {
         if self.plane.as_ref() != Some(&plane) {
             *self = Self { plane: Some(plane), ..Self::default() };
             let lattice = |(side, spec): (&&Side, &&ParameterSpec)| {
-                Lattice::new(side.low, side.high, count, is_whole(spec))
+                Lattice::new(side.low, side.high, count, is_whole(spec.meaning))
             };
             self.lattices = sides.iter().zip(&specs).map(lattice).collect();
         }
@@ -90,10 +91,6 @@ impl Sight {
         let rows = (0..plan.cells()).filter_map(row).collect();
         Some((plan, rows))
     }
-}
-
-fn is_whole(spec: &ParameterSpec) -> bool {
-    spec.meaning.contains("(a whole number)")
 }
 
 fn axis(side: &Side, values: Vec<f64>) -> Axis {

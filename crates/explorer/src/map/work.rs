@@ -1,9 +1,9 @@
 //! Computing a window: coarse cells first, from its middle outwards, on all cores.
 
 use super::sight::Sight;
-use super::{Done, Job, lock};
+use super::{Done, Job};
 use crate::answers::{Answers, Gone};
-use crate::desk::Current;
+use crate::desk::{Current, lock};
 use crate::frames::{self, Cell};
 use motiform_analysis::regime::{Regime, Verdict};
 use motiform_study::draw::boundary_lines;

@@ -1,14 +1,15 @@
 //! Power spectra of a recorded motion.
 
-use super::Record;
+use super::{Record, Row};
 use motiform_analysis::welch;
 use motiform_dynamics::Model;
 
 /// Fewest samples that a spectrum is made of, and the longest segment.
 const SAMPLES: (usize, usize) = (256, 2048);
 
-/// A quantity that varies by less than this part of its size is steady: its spectrum would be that of round-off.
-const VARIES: f64 = 1e-7;
+/// A quantity that varies by less than this part of its size, or by less than that part of the largest one, is steady: its spectrum
+/// would be that of round-off, or of what is left of a decay.
+const VARIES: (f64, f64) = (1e-7, 1e-12);
 
 /// Power spectra of the speed and of the model's observables, those that are steady left out.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -37,19 +38,23 @@ pub fn spectra(record: &Record, model: &dyn Model, dt: f64) -> Spectra {
     // The turning rate, which is undefined at rest, lies between.
     let columns = std::iter::once(0).chain(2..);
     let mut all = Spectra::default();
-    for ((name, symbol), column) in names.zip(columns) {
+    let sizes = |row: Row<'_>| {
+        columns.clone().take(row.read.len() - 1).map(|column| row.read[column]).fold(0.0, f64::max)
+    };
+    let largest = record.rows().map(sizes).fold(0.0, f64::max);
+    for ((name, symbol), column) in names.zip(columns.clone()) {
         let values: Vec<f64> = record.rows().map(|row| row.read[column]).collect();
         let Ok(spectrum) = welch(&values, dt, segment) else { continue };
         all.segments = spectrum.segments;
         all.frequencies = spectrum.frequencies[1..].to_vec();
-        if varies(&values) {
+        if varies(&values, largest) {
             all.curves.push((name, symbol, spectrum.power[1..].to_vec()));
         }
     }
     all
 }
 
-fn varies(values: &[f64]) -> bool {
+fn varies(values: &[f64], largest: f64) -> bool {
     let (low, high) = values.iter().fold((f64::MAX, f64::MIN), |(low, high), &x| (low.min(x), high.max(x)));
-    high - low > VARIES * high.abs().max(low.abs())
+    high - low > (VARIES.0 * high.abs().max(low.abs())).max(VARIES.1 * largest)
 }
