@@ -65,9 +65,10 @@ pub(crate) fn tempo(name: &str) -> Tempo {
     Tempo { sample, speed, speeds: [2.0 * sample, MOST_SAMPLES * sample] }
 }
 
-/// The section of a preset's return map, where it has one.
-pub(crate) fn section(settings: Option<&ReturnMapSettings>) -> (SectionKind, Option<f64>) {
-    settings.map_or((SectionKind::Speed, None), |map| (SectionKind::Path, Some(map.y)))
+/// The section that a preset's return map begins with: through the path, where the preset has one. Its height is left to the
+/// centre of the path: the paper's line for Fig. 3, `y = 3`, runs along the rim of the annulus, and misses some turns.
+pub(crate) fn section(settings: Option<&ReturnMapSettings>) -> SectionKind {
+    settings.map_or(SectionKind::Speed, |_| SectionKind::Path)
 }
 
 /// The registry of the study layer, with what the page needs beside it.
@@ -88,11 +89,11 @@ pub(crate) fn registry() -> Result<Value, Error> {
         let name = preset["name"].as_str().unwrap_or_default().to_owned();
         let model = preset["model"].as_str().unwrap_or_default();
         let study = presets::find(ModelInfo::find(model)?, &name)?;
-        let (kind, y) = section(study.return_map.as_ref());
+        let kind = section(study.return_map.as_ref());
         preset["speed"] = json!(tempo(&name).speed);
         preset["plane"] = plane(&name);
         preset["section"] = json!(if kind == SectionKind::Path { "path" } else { "speed" });
-        preset["y"] = json!(y);
+        preset["y"] = Value::Null;
     }
     Ok(all)
 }

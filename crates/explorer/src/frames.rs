@@ -47,18 +47,20 @@ impl Frame {
 }
 
 /// A cell of the map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cell {
     pub(crate) place: [u16; 2],
     /// It stands for 2^level cells along each axis.
     pub(crate) level: u8,
     /// Place in the list of regimes.
     pub(crate) regime: u8,
+    /// The largest Lyapunov exponent and the half width of its 95 % interval; NaN where the verdict has none.
+    pub(crate) exponent: [f32; 2],
 }
 
 /// Some cells of a map.
 pub(crate) fn cells(epoch: u32, cells: &[Cell]) -> Vec<u8> {
-    let mut out = Vec::with_capacity(16 + 8 * cells.len());
+    let mut out = Vec::with_capacity(16 + 16 * cells.len());
     out.extend([CELLS, 0]);
     out.extend(u16::try_from(cells.len()).unwrap_or(u16::MAX).to_le_bytes());
     out.extend(epoch.to_le_bytes());
@@ -67,6 +69,7 @@ pub(crate) fn cells(epoch: u32, cells: &[Cell]) -> Vec<u8> {
         out.extend(cell.place[0].to_le_bytes());
         out.extend(cell.place[1].to_le_bytes());
         out.extend([cell.level, cell.regime, 0, 0]);
+        cell.exponent.iter().for_each(|number| out.extend(number.to_le_bytes()));
     }
     out
 }
@@ -115,8 +118,8 @@ mod tests {
 
     #[test]
     fn cells_and_files_are_laid_out_as_written() {
-        let bytes = cells(3, &[Cell { place: [4, 258], level: 2, regime: 6 }]);
-        assert_eq!(bytes[16..], [4, 0, 2, 1, 2, 6, 0, 0]);
+        let bytes = cells(3, &[Cell { place: [4, 258], level: 2, regime: 6, exponent: [1.0, -2.0] }]);
+        assert_eq!(bytes[16..], [4, 0, 2, 1, 2, 6, 0, 0, 0, 0, 128, 63, 0, 0, 0, 192]);
         assert_eq!(bytes[..8], [2, 0, 1, 0, 3, 0, 0, 0]);
         let bytes = file(5, "a.svg", "image/svg+xml", b"<svg/>");
         let length = usize::from(bytes[4]);

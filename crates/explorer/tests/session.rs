@@ -49,7 +49,8 @@ fn a_change_keeps_the_state_and_is_named() {
     assert_eq!(named(&mut page, revision(&changed)), "chaotic");
     let exponents = page.next(|message| {
         let value: Value = serde_json::from_str(message.to_text().ok()?).ok()?;
-        (value["is"] == "exponents" && value["done"] == true).then_some(value)
+        let changed = value["revision"].as_u64() == Some(revision(&changed));
+        (value["is"] == "exponents" && changed && value["done"] == true).then_some(value)
     });
     let largest = &exponents["exponents"][0];
     assert!(largest["value"].as_f64().unwrap() > 3.0 * largest["error"].as_f64().unwrap(), "{exponents}");
@@ -138,7 +139,7 @@ fn the_map_says_what_classify_says() {
     ]
     .map(str::to_owned)
     .to_vec();
-    for (i, j, _, regime) in cells.iter().step_by(17) {
+    for (i, j, _, regime, _) in cells.iter().step_by(17) {
         page.say(&format!(r#"{{"do":"evidence","epoch":1,"cell":[{i},{j}]}}"#));
         let evidence = page.json("evidence");
         assert_eq!(evidence["regime"].as_str().unwrap(), regimes[usize::from(*regime)]);
@@ -202,10 +203,26 @@ fn one_axis_is_a_map_too() {
     page.say(r#"{"do":"map","epoch":4,"x":{"name":"kappa2","low":0.5,"high":1.5},"y":null,"count":16}"#);
     let map = page.json("map");
     assert!(map["y"].is_null());
-    assert_eq!(cells(&mut page, 4).len(), count(&map["x"]));
-    for what in ["map.svg", "map.csv", "map.png"] {
+    let cells = cells(&mut page, 4);
+    assert_eq!(cells.len(), count(&map["x"]));
+    // Fig. 4(b): the largest exponent along the axis, as the evidence has it.
+    for (i, ..) in &cells {
+        page.say(&format!(r#"{{"do":"evidence","epoch":4,"cell":[{i},0]}}"#));
+        let numbers = &page.json("evidence")["numbers"];
+        let told = cells.iter().find(|cell| cell.0 == *i).unwrap().4;
+        match numbers["lambda_1"].as_f64() {
+            Some(exponent) => assert_eq!(told, exponent as f32),
+            None => assert!(told.is_nan()),
+        }
+    }
+    for what in ["map.svg", "map.csv", "map.png", "map-exponents.svg", "map-exponents.png"] {
         page.export(what).unwrap();
     }
+    page.say(
+        r#"{"do":"map","epoch":5,"x":{"name":"kappa2","low":1.2,"high":1.5},"y":{"name":"kappa3","low":0.7,"high":1},"count":8}"#,
+    );
+    self::cells(&mut page, 5);
+    assert!(page.export("map-exponents.svg").unwrap_err().contains("one axis"));
 }
 
 #[test]
@@ -252,8 +269,9 @@ fn strips_show_the_motion() {
     page.say(r#"{"do":"strips","section":"path","y":null}"#);
     let strips = page.json("strips");
     let points = strips["returns"]["points"].as_array().unwrap();
-    assert_eq!(strips["returns"]["y"], 3.0);
+    assert_eq!(strips["returns"]["y"], 0.0);
     assert!(points.len() > 60, "{}", points.len());
+    assert_closed(points);
     let names: Vec<_> =
         strips["spectra"].as_array().unwrap().iter().map(|curve| curve["name"].clone()).collect();
     assert_eq!(names, ["speed", "s_norm"], "the triangle of the reduced model has decayed");
@@ -262,6 +280,24 @@ fn strips_show_the_motion() {
     assert!(lengths[0] > 500 && lengths[0] == lengths[1]);
     page.say(r#"{"do":"strips","section":"speed","y":null}"#);
     assert!(page.json("strips")["returns"]["points"].as_array().unwrap().len() > 50);
+}
+
+/// Points on a closed curve about their centre: seen from there none is far from the next.
+fn assert_closed(points: &[Value]) {
+    let points: Vec<[f64; 2]> = points.iter().map(|p| [0, 1].map(|k| p[k].as_f64().unwrap())).collect();
+    let centre = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / points.len() as f64);
+    let polar = |p: &[f64; 2]| {
+        let [x, y] = [p[0] - centre[0], p[1] - centre[1]];
+        (y.atan2(x), x.hypot(y))
+    };
+    let mut seen: Vec<(f64, f64)> = points.iter().map(polar).collect();
+    seen.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let size = seen.iter().map(|p| p.1).fold(0.0, f64::max);
+    let next = seen.iter().cycle().skip(1);
+    for (a, b) in seen.iter().zip(next) {
+        let turn = (b.0 - a.0).rem_euclid(std::f64::consts::TAU);
+        assert!(turn < 0.5 && (b.1 - a.1).abs() < 0.25 * size, "{a:?} {b:?}");
+    }
 }
 
 /// A circle at constant speed has no spectrum: it would be that of round-off.
@@ -337,8 +373,11 @@ fn epoch(message: &Message) -> Option<u32> {
     }
 }
 
-/// All cells of a map: i, j, level, regime.
-fn cells(page: &mut Page, wanted: u32) -> Vec<(u16, u16, u8, u8)> {
+/// A cell of a map: i, j, level, regime, exponent.
+type Told = (u16, u16, u8, u8, f32);
+
+/// All cells of a map.
+fn cells(page: &mut Page, wanted: u32) -> Vec<Told> {
     page.json("mapped");
     let mut found = Vec::new();
     page.other.retain(|message| {
@@ -346,9 +385,10 @@ fn cells(page: &mut Page, wanted: u32) -> Vec<(u16, u16, u8, u8)> {
         if bytes[0] != 2 || epoch(message) != Some(wanted) {
             return true;
         }
-        found.extend(bytes[16..].chunks_exact(8).map(|cell| {
+        found.extend(bytes[16..].chunks_exact(16).map(|cell| {
             let place = |k: usize| u16::from_le_bytes([cell[k], cell[k + 1]]);
-            (place(0), place(2), cell[4], cell[5])
+            let exponent = f32::from_le_bytes(cell[8..12].try_into().unwrap());
+            (place(0), place(2), cell[4], cell[5], exponent)
         }));
         false
     });

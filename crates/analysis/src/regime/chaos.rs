@@ -80,7 +80,7 @@ pub(super) fn chaotic(seen: &[Estimate], run: &Lyapunov, witness: &Witness, time
     let Estimate { value, error } = *now;
     let second = witness.zero_one.map_or(String::new(), |k| format!("; 0-1 test {k:.2}"));
     let why = format!(
-        "lambda_1 = {value:.4} +- {error:.4} over {:.0}, after {:.4} +- {:.4} in the look before{second}",
+        "lambda_1 = {value:.4} +- {error:.4} over a time of {:.0}, {:.4} +- {:.4} over the time before{second}",
         run.time, before.value, before.error
     );
     let mut verdict = Verdict::new(Regime::Chaotic, Attractor::Chaotic, why, time);

@@ -47,11 +47,16 @@ impl Look<'_> {
         }
         let settings = self.segment(section.y);
         let (crossings, _) = crossings_of_path(self.record, self.setting.model(), &settings);
+        let rising = crossings.get("rising").unwrap_or_default();
+        let wanted = |place: usize| section.y.is_some() || rising.get(place) == Some(&1.0);
+        let xs = crossings.get("x").unwrap_or_default().iter().enumerate();
+        let values = xs.filter(|(place, _)| wanted(*place)).map(|(_, x)| *x).collect();
+        let direction = if section.y.is_some() { "in either direction" } else { "upwards" };
         Returns {
-            values: crossings.get("x").unwrap_or_default().to_vec(),
+            values,
             symbol: "*x*",
             what: format!(
-                "*x* where the path crosses *y* = {}, in either direction; the centre of the path lies on the origin.",
+                "*x* where the path crosses *y* = {}, {direction}; the centre of the path lies on the origin.",
                 settings.y
             ),
             y: Some(settings.y),
@@ -59,17 +64,15 @@ impl Look<'_> {
         }
     }
 
-    /// The segment at this height; without one, that of the preset, or half way between the centre of the path and its top.
+    /// The segment at this height, as wide as that of the preset. Without a height, the whole line through the centre of the
+    /// path: a body that circles crosses it upwards once in each turn, and its return map is of one piece.
     fn segment(&self, y: Option<f64>) -> ReturnMapSettings {
-        let preset = self.setting.return_map().cloned();
-        let known = y.or(preset.as_ref().map(|map| map.y));
         let whole = ReturnMapSettings { y: 0.0, x_min: -1e300, x_max: 1e300, centre: true };
-        let y = known.unwrap_or_else(|| {
-            let heights = self.record.rows().map(|row| row.position()[1]);
-            let (low, high) = heights.fold((f64::MAX, f64::MIN), |(low, high), y| (low.min(y), high.max(y)));
-            if low < high { short(0.25 * (high - low), 2) } else { 0.0 }
-        });
-        ReturnMapSettings { y, centre: true, ..preset.unwrap_or(whole) }
+        match (y, self.setting.return_map()) {
+            (None, _) => whole,
+            (Some(y), None) => ReturnMapSettings { y, ..whole },
+            (Some(y), Some(preset)) => ReturnMapSettings { y, centre: true, ..preset.clone() },
+        }
     }
 
     fn dataset(&self, section: Section) -> Option<Dataset> {

@@ -6,7 +6,7 @@ use super::setting::{Seen, Setting, decode};
 use crate::answers::Gone;
 use crate::export::Order;
 use crate::frames::Frame;
-use crate::map::Job;
+use crate::map::{Job, MapFile};
 use crate::protocol::{Ask, Begin, Export, MapWindow, Section};
 use crate::share;
 use motiform_dynamics::{InPlane, Model, Outcome, Outline};
@@ -195,7 +195,14 @@ impl<'s> Stage<'s> {
 
     fn export(&self, export: &Export) -> Result<(), Gone> {
         let make = match export.what.as_str() {
-            "map.csv" | "map.svg" | "map.png" => Some(self.desks.map.maker(export.what == "map.csv")),
+            "map.csv" => Some(self.desks.map.maker(MapFile::Csv)),
+            "map.svg" | "map.png" => Some(self.desks.map.maker(MapFile::Diagram)),
+            "map-exponents.svg" | "map-exponents.png" if self.desks.map.axes() == 2 => {
+                let why =
+                    "exponents are drawn along one axis, and the map has two: choose none for one of them";
+                return self.desks.answers.refused(Some(export.id), why);
+            }
+            "map-exponents.svg" | "map-exponents.png" => Some(self.desks.map.maker(MapFile::Exponents)),
             "exponent.svg" | "exponent.png" => {
                 Some(looks::exponents(&self.look(), self.desks.naming.history()))
             }

@@ -10,7 +10,7 @@ use crate::desk::{Desk, lock};
 use crate::export::{Made, Maker};
 use crate::protocol::MapWindow;
 use motiform_study::Study;
-use motiform_study::draw::phase_diagram;
+use motiform_study::draw::{exponents, phase_diagram};
 use motiform_study::scan::{CellSummary, Row, rows_to_csv};
 use serde_json::{Value, json};
 use sight::Sight;
@@ -58,6 +58,11 @@ impl Map {
         sight.present().is_some_and(|map| map.plan.computation.axes.iter().any(|axis| axis.name == name))
     }
 
+    /// How many axes the map in sight has.
+    pub(crate) fn axes(&self) -> usize {
+        lock(&self.sight).present().map_or(0, |map| map.sides.len())
+    }
+
     /// What is known of a cell, as the protocol has it.
     pub(crate) fn evidence(&self, epoch: u32, [i, j]: [u16; 2]) -> Option<Value> {
         let mut sight = lock(&self.sight);
@@ -78,19 +83,35 @@ impl Map {
         }))
     }
 
-    /// Makes a file of the cells in sight that are computed: CSV, or the phase diagram.
-    pub(crate) fn maker(&self, csv: bool) -> Maker {
+    /// Makes a file of the cells in sight that are computed.
+    pub(crate) fn maker(&self, file: MapFile) -> Maker {
         let known = lock(&self.sight).rows();
         Box::new(move || {
             let Some((plan, rows)) = known.filter(|(_, rows)| !rows.is_empty()) else { return Ok(None) };
-            if csv {
-                return Ok(Some(Made::Bytes(rows_to_csv(&plan, &rows))));
-            }
-            let cells: Vec<CellSummary> =
-                rows.iter().map(|row| CellSummary::of(row.cell, std::slice::from_ref(row))).collect();
-            Ok(Some(Made::Svg(phase_diagram(&plan, &cells)?.svg()?)))
+            let cells = || {
+                rows.iter()
+                    .map(|row| CellSummary::of(row.cell, std::slice::from_ref(row)))
+                    .collect::<Vec<_>>()
+            };
+            Ok(match file {
+                MapFile::Csv => Some(Made::Bytes(rows_to_csv(&plan, &rows))),
+                MapFile::Diagram => Some(Made::Svg(phase_diagram(&plan, &cells())?.svg()?)),
+                MapFile::Exponents => match exponents(&plan, &cells())? {
+                    Some(figure) => Some(Made::Svg(figure.svg()?)),
+                    None => None,
+                },
+            })
         })
     }
+}
+
+/// What can be made of a map.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum MapFile {
+    Csv,
+    Diagram,
+    /// The largest Lyapunov exponent along the only axis; none of a map with two.
+    Exponents,
 }
 
 /// The numbers of a row that are defined.

@@ -87,7 +87,7 @@ impl View {
         let mut cells: Vec<Cell> = places
             .map(|(i, j)| {
                 let place = [i, j].map(|k| u16::try_from(k).unwrap_or(u16::MAX));
-                Cell { place, level: map.level(i, j), regime: 0 }
+                Cell { place, level: map.level(i, j), regime: 0, exponent: [f32::NAN; 2] }
             })
             .collect();
         let centre = [columns, rows].map(|count| 0.5 * (count as f64 - 1.0));
@@ -99,7 +99,7 @@ impl View {
         let (mut known, mut wanted) = (Vec::new(), Vec::new());
         for cell in cells {
             match sight.store.get(&plan.axis_values(number(columns, &cell))) {
-                Some(row) => known.push(Cell { regime: code(row.regime), ..cell }),
+                Some(row) => known.push(told(cell, row)),
                 None => wanted.push(cell),
             }
         }
@@ -114,6 +114,12 @@ impl View {
 /// The number of a cell in the plan.
 fn number(columns: usize, cell: &Cell) -> usize {
     usize::from(cell.place[0]) + columns * usize::from(cell.place[1])
+}
+
+/// A cell with what its row says.
+fn told(cell: Cell, row: &Row) -> Cell {
+    let exponent = ["lambda_1", "lambda_1_error"].map(|name| row.number(name).unwrap_or(f64::NAN) as f32);
+    Cell { regime: code(row.regime), exponent, ..cell }
 }
 
 /// Place in the list of regimes.
@@ -187,7 +193,7 @@ impl Work<'_> {
     fn put(&self, cell: Cell, verdict: Result<Option<Verdict>, Error>) -> Done {
         let number = number(self.view.columns(), &cell);
         let Some(row) = Row::of_evaluation(number, 0, verdict) else { return Ok(()) };
-        let cell = Cell { regime: code(row.regime), ..cell };
+        let cell = told(cell, &row);
         lock(self.sight).store.put(&self.view.plan.axis_values(number), row);
         let mut out = lock(&self.out);
         out.cells.push(cell);

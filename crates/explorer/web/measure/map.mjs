@@ -11,7 +11,7 @@ export function mapTimes(page, address, count) {
       const view = new DataView(data);
       if (view.getUint8(0) !== 2) return;
       for (let k = 0; k < view.getUint16(2, true); k++) {
-        const at = 16 + 8 * k;
+        const at = 16 + 16 * k;
         const [i, j, size] = [view.getUint16(at, true), view.getUint16(at + 2, true), 2 ** view.getUint8(at + 4)];
         const first = (n) => Math.max(0, n - Math.floor(size / 2));
         for (let x = first(i); x < Math.min(sides[0], first(i) + size); x++) {

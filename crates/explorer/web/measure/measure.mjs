@@ -9,9 +9,8 @@ import { gzipSync } from "node:zlib";
 import { Server } from "../tests/server.mjs";
 import { launch, visit } from "../tests/stage.mjs";
 import { mapTimes } from "./map.mjs";
-import { browserSeconds, processSeconds, taskSeconds } from "./cost.mjs";
+import { Unwatched } from "./unwatched.mjs";
 
-const MINUTES = 60_000;
 /** Seconds over which the costs of a playing page are averaged. */
 const WINDOW = 10;
 
@@ -68,30 +67,13 @@ async function map() {
 
 /** A page that plays, once everything else is computed. */
 async function play(preset) {
-  const { page, wire, leave } = await visit({ browser, server }, { hash: `preset=${preset}` });
-  page.setDefaultTimeout(10 * MINUTES);
   const begin = performance.now();
-  const since = () => `${((performance.now() - begin) / 1000).toFixed(1)} s`;
-  await page.waitForFunction(() => document.getElementById("regime").dataset.regime);
-  const name = since();
-  await page.waitForFunction(() => window.motiform.map.complete);
-  row(`${preset}: named, mapped`, `after ${name}, ${since()}`);
-  while (!wire.last.get("exponents")?.done) await new Promise((resolve) => setTimeout(resolve, 200));
-  row(`${preset}: exponents`, `after ${since()}`);
-  const session = await page.context().newCDPSession(page);
-  const counts = async () => ({
-    now: performance.now() / 1000,
-    frames: await page.evaluate(() => window.motiform.frames),
-    server: processSeconds(server.pid),
-    page: await taskSeconds(session),
-    browser: await browserSeconds(browser),
-  });
-  const before = await counts();
-  await new Promise((resolve) => setTimeout(resolve, 1000 * WINDOW));
-  const after = await counts();
-  const per = (key) => (after[key] - before[key]) / (after.now - before.now);
-  assert.ok(per("frames") > 0, "the body moves");
-  const share = (key) => `${(100 * per(key)).toFixed(1)} %`;
-  row(`${preset}: playing`, `${per("frames").toFixed(1)} frames/s; of a core: server ${share("server")}, main thread ${share("page")}, all of Chromium ${share("browser")}; load ${loadavg()[0].toFixed(1)}`);
-  await leave();
+  const page = await Unwatched.open(`${server.address}#preset=${preset}`);
+  await page.settled();
+  row(`${preset}: named, mapped, exponents`, `after ${((performance.now() - begin) / 1000).toFixed(1)} s`);
+  const { rate, main, renderer, all, own } = await page.shares(server.pid, WINDOW);
+  assert.ok(rate > 0, "the body moves");
+  const share = (part) => `${(100 * part).toFixed(1)} %`;
+  row(`${preset}: playing`, `${rate.toFixed(1)} frames/s; of a core: server ${share(own)}, page ${share(renderer)} (its main thread ${share(main)}), all of Chromium ${share(all)}; load ${loadavg()[0].toFixed(1)}`);
+  await page.close();
 }

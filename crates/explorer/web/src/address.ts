@@ -1,5 +1,6 @@
 /** The whole state of the page as readable `key=value` pairs behind the # of its address. */
 
+import { MOST_NOISE } from "./controls";
 import { plain } from "./numbers";
 import type { Axis, Model, Plane, Registry, Section, Values } from "./protocol";
 
@@ -74,7 +75,7 @@ class Reader {
       preset,
       plane: this.plane(model),
       speed: this.take("speed", (text) => positive(finite(text))),
-      noise: this.take("noise", (text) => notNegative(finite(text))) ?? 0,
+      noise: this.take("noise", (text) => amplitude(finite(text))) ?? 0,
       section: section?.kind ?? null,
       y: section?.y ?? null,
       playing: this.take("play", (text) => (text === "0" || text === "1" ? { on: text === "1" } : null))?.on ?? true,
@@ -140,7 +141,7 @@ function finite(text: string): number | null {
 }
 
 const positive = (value: number | null): number | null => (value !== null && value > 0 ? value : null);
-const notNegative = (value: number | null): number | null => (value !== null && value >= 0 ? value : null);
+const amplitude = (value: number | null): number | null => (value !== null && value >= 0 && value <= MOST_NOISE ? value : null);
 
 function numbers(text: string, count: number | null): number[] | null {
   const values = text.split(",").map(finite);

@@ -11,6 +11,7 @@ import { byId, setText } from "./dom";
 import { expose } from "./handle";
 import { History } from "./history";
 import { Keeper } from "./keeper";
+import { Later } from "./later";
 import { Loop } from "./loop";
 import { MapPanel } from "./map/panel";
 import { pretty, typeset } from "./numbers";
@@ -29,6 +30,14 @@ import { toast } from "./toasts";
 const NAMELESS = "#888888";
 
 export class App implements Hearer {
+  /** Before anything else: it opens while the page is built, and is heard once it stands. */
+  private readonly connection = new Connection({
+    answer: (answer) => dispatch(answer, this),
+    frame: (frame) => this.take(frame),
+    cells: (cells) => this.map.cells(cells),
+    file: (file) => this.share.take(file),
+    open: (open) => this.opened(open),
+  });
   readonly map: MapPanel;
   private session: Session | null = null;
   private regime: Regime | null = null;
@@ -36,6 +45,7 @@ export class App implements Hearer {
   /** Whether parameters off the axes of the map changed. */
   private mapStale = false;
   private frames = 0;
+  private readonly later = new Later();
 
   private readonly history = new History();
   private readonly keeper = new Keeper(() => this.place());
@@ -45,7 +55,6 @@ export class App implements Hearer {
   private readonly strips: StripPanels;
   private readonly controls: Controls;
   private readonly share: ShareMenu;
-  private readonly connection: Connection;
   private readonly loop: Loop;
 
   constructor() {
@@ -69,13 +78,6 @@ export class App implements Hearer {
       follow: (follow) => this.body.setFollow(follow),
     });
     this.share = new ShareMenu({ send, connected: () => this.connection.open, section: () => this.strips.section(), link: () => this.keeper.link() });
-    this.connection = new Connection({
-      answer: (answer) => dispatch(answer, this),
-      frame: (frame) => this.take(frame),
-      cells: (cells) => this.map.cells(cells),
-      file: (file) => this.share.take(file),
-      open: (open) => this.opened(open),
-    });
     this.loop = new Loop({
       ready: () => this.connection.open && this.session !== null && !this.opening.under,
       speed: () => this.known().speed,
@@ -86,7 +88,7 @@ export class App implements Hearer {
     onTheme(() => this.recolour());
     // The event knows the address that was asked for; the bar may have been written to since.
     window.addEventListener("hashchange", (event) => this.openAddress(new URL(event.newURL).hash));
-    expose({ frames: () => this.frames, frame: () => this.body.last(), map: this.map });
+    expose({ frames: () => this.frames, frame: () => (this.later.due ? null : this.body.last()), map: this.map });
   }
 
   private known(): Session {
@@ -100,7 +102,7 @@ export class App implements Hearer {
 
   private draw(now: number, seconds: number): void {
     const moving = this.loop.moving();
-    this.body.draw(seconds);
+    if (this.body.draw(seconds)) this.later.go();
     this.map.draw();
     this.strips.draw(now, moving, this.body);
     if (moving) this.keeper.moving(now);
@@ -137,23 +139,28 @@ export class App implements Hearer {
 
   begun(begun: Begun): void {
     const session = this.known();
-    const { preset, model } = session;
     const place = this.opening.agreed();
     session.begun(begun, this.speedOf(place, begun));
-    setText(byId("about"), begun.about || model.title);
-    document.title = `${begun.title} \u2013 motiform`;
-    this.presets.show(model.name, begun.preset);
-    this.parameters.begin(model, preset, session.base);
-    this.controls.setSpeed(session.speed, begun.speeds);
-    this.controls.setTrail(begun.speed);
     this.history.clear();
     this.body.begin();
+    this.loop.look();
+    document.title = `${begun.title} \u2013 motiform`;
+    this.presets.show(session.model, begun.preset, begun.about || session.model.title);
+    this.controls.setSpeed(session.speed, begun.speeds);
+    this.controls.setTrail(begun.speed);
+    this.renew(session);
+    this.later.put(() => this.furnish(session, place));
+  }
+
+  /** What surrounds the body; its first picture does not wait for it. */
+  private furnish({ model, preset, base, parameters }: Session, place: Place | null): void {
+    this.parameters.begin(model, preset, base);
+    this.parameters.show(parameters);
     if (place?.section) this.strips.begin(model.observables, place.section, place.y);
     else this.strips.begin(model.observables, preset?.section ?? "speed", preset?.y ?? null);
     const home = preset?.plane ?? model.plane;
     this.map.begin(place?.plane ?? home, home);
     this.windowMoved();
-    this.renew(session);
   }
 
   /** The speed of a place, where it is one that the slider has. */
@@ -168,19 +175,20 @@ export class App implements Hearer {
   changed(changed: Changed): void {
     const session = this.known();
     session.agreed(changed);
+    if (!this.loop.playing) this.loop.look();
     this.renew(session);
   }
 
   /** The motion is another one: no name, no exponents, and the body may move again. */
   private renew(session: Session): void {
     this.parameters.show(session.parameters);
+    this.presets.depart(session.departed());
     this.controls.setNoise(session.noise);
     this.map.touch();
     this.loop.ended = false;
     byId("ended").hidden = true;
     this.naming();
     this.strips.renew();
-    if (!this.loop.playing) this.send({ do: "advance", dt: 0 });
     this.keeper.changed();
   }
 
@@ -292,6 +300,7 @@ export class App implements Hearer {
 
   private windowMoved(): void {
     const plane = this.map.current();
+    this.share.showStrip(plane !== null && plane.y === null);
     this.parameters.markAxes(plane?.x.name ?? null, plane?.y?.name ?? null);
     this.keeper.changed();
   }
@@ -299,7 +308,7 @@ export class App implements Hearer {
   /** Everything that the address holds; `null` before the body has been seen. */
   private place(): Place | null {
     const [session, frame] = [this.session, this.body.last()];
-    if (!session || !frame || this.opening.under) return null;
+    if (!session || !frame || this.opening.under || this.later.due) return null;
     return {
       model: session.model.name,
       preset: session.preset?.name ?? null,

@@ -25,7 +25,7 @@ export interface Frame {
   outline: Float64Array;
 }
 
-/** Cells of the map, eight bytes each; see `Lattice.take`. */
+/** Cells of the map, sixteen bytes each; see `Lattice.take`. */
 export interface Cells {
   kind: "cells";
   epoch: number;

@@ -14,6 +14,8 @@ export interface Actions {
   follow(follow: boolean): void;
 }
 
+/** The largest amplitude of noise that the page offers. */
+export const MOST_NOISE = 1;
 /** The noise slider: 0, then ten decades up to 1. */
 const NOISE_DECADES = 10;
 /** The trail is so many seconds of the opening speed. */

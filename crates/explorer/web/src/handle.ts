@@ -7,7 +7,7 @@ import type { View } from "./plot";
 interface Handle {
   /** Frames received so far. */
   readonly frames: number;
-  /** Where the body is. */
+  /** Where the body is; `null` until all that surrounds it stands. */
   position(): [number, number] | null;
   /** Coordinates of the shape. */
   state(): number[] | null;

@@ -39,6 +39,13 @@ export class Loop {
     this.waiting = false;
   }
 
+  /** Asks for a picture of now. */
+  look(): void {
+    this.waiting = true;
+    this.asked = performance.now();
+    this.beat.advance(0);
+  }
+
   private tick(now: number): void {
     const seconds = Math.min(LONGEST, (now - this.drawn) / 1000);
     this.drawn = now;

@@ -1,11 +1,12 @@
 /** The panel of parameters: one row each, grouped by equation, those of the figure first. */
 
 import { byId, make } from "./dom";
+import { equations } from "./equations";
 import { plain, decimalsOf, roundStep } from "./numbers";
 import type { Model, Parameter, Preset, Values } from "./protocol";
 import { symbol } from "./symbols";
 
-/** A slider goes over its range in so many steps. */
+/** A slider goes over its range in at least so many steps, each a round number. */
 const STEPS = 400;
 
 interface Row {
@@ -23,6 +24,8 @@ export class ParameterPanel {
   private rows: Row[] = [];
   private base: Values = {};
   private values: Values = {};
+  /** What sliders go over that are finer than their parameter's range: the window of the figure. */
+  private spans = new Map<string, [number, number]>();
 
   /** `set` hears each value that the reader chooses. */
   constructor(private readonly set: (name: string, value: number) => void) {
@@ -38,6 +41,7 @@ export class ParameterPanel {
     this.base = base;
     this.rows = [];
     const plane = preset?.plane ?? model.plane;
+    this.spans = new Map([plane.x, ...(plane.y ? [plane.y] : [])].map(({ name, low, high }) => [name, [low, high]]));
     const given = preset?.free ?? [];
     const free = given.length ? given : [plane.x.name, plane.y?.name ?? ""];
     const first = model.parameters.filter((one) => free.includes(one.name));
@@ -49,7 +53,7 @@ export class ParameterPanel {
     this.place.replaceChildren(
       ...(first.length ? [this.group(given.length ? "free in the paper\u2019s figure" : `axes of the ${preset ? "preset" : "model"}\u2019s map`, first)] : []),
       ...[...groups].filter(([, list]) => list.length).map(([equation, list]) => this.group(equation.startsWith("(") ? `equation ${equation}` : equation, list)),
-      make("details", { class: "equations" }, make("summary", {}, "Equations"), make("pre", { tabindex: "0" }, model.equations), make("p", {}, model.source)),
+      make("details", { class: "equations" }, make("summary", {}, "Equations"), equations(model), make("p", {}, model.source)),
     );
   }
 
@@ -91,13 +95,15 @@ export class ParameterPanel {
   }
 
   private row(parameter: Parameter): Row {
-    const { name, range: [low, high], allowed, meaning, equation, whole } = parameter;
+    const [low, high] = this.spans.get(parameter.name) ?? parameter.range;
+    const { name, allowed, meaning, equation, whole } = parameter;
     const id = `about-${name}`;
-    const step = String(whole ? 1 : (high - low) / STEPS);
+    const step = whole ? 1 : roundStep((high - low) / STEPS);
+    const round = (edge: number): string => String(snapped(step * Math.round(edge / step), step));
     const about = make("button", { type: "button", class: "symbol-button", "aria-expanded": "false", "aria-controls": id, title: `${name}: ${meaning}`, "aria-label": `${name}: what it means` }, symbol(parameter.symbol));
     const text = make("p", { id, class: "meaning", hidden: "" }, `${name}, equation ${equation}: ${meaning}`);
     const mark = make("span", { class: "axis-mark" });
-    const slider = make("input", { type: "range", min: String(low), max: String(high), step, "aria-label": name });
+    const slider = make("input", { type: "range", min: round(low), max: round(high), step: String(step), "aria-label": name });
     const number = make("input", { type: "number", min: String(allowed[0]), max: String(allowed[1]), step: whole ? "1" : "any", "aria-label": `${name}, value` });
     const reset = make("button", { type: "button", class: "reset", title: "The preset\u2019s value again", "aria-label": `Reset ${name}` }, "\u21ba");
     const refusal = make("p", { class: "refusal", role: "alert", hidden: "" });
@@ -110,7 +116,7 @@ export class ParameterPanel {
       refusal.hidden = true;
       if (Number.isFinite(value)) this.set(name, value);
     };
-    slider.addEventListener("input", () => choose(whole ? slider.valueAsNumber : snapped(slider.valueAsNumber, (high - low) / STEPS)));
+    slider.addEventListener("input", () => choose(snapped(slider.valueAsNumber, step)));
     number.addEventListener("change", () => choose(number.valueAsNumber));
     number.addEventListener("keydown", (event) => event.key === "Enter" && choose(number.valueAsNumber));
     number.addEventListener("blur", () => (number.value = plain(this.values[name], 8)));
@@ -119,7 +125,7 @@ export class ParameterPanel {
   }
 }
 
-/** A slider's value without the noise of floating point. */
+/** A multiple of a step without the noise of floating point. */
 function snapped(value: number, step: number): number {
-  return Number(value.toFixed(decimalsOf(roundStep(step)) + 3));
+  return Number(value.toFixed(decimalsOf(step)));
 }

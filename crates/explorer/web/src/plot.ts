@@ -27,13 +27,13 @@ export const pixelY = (box: Box, view: View, y: number): number => box.top + ((v
 export const dataX = (box: Box, view: View, x: number): number => view.x0 + ((x - box.left) / box.width) * (view.x1 - view.x0);
 export const dataY = (box: Box, view: View, y: number): number => view.y1 - ((y - box.top) / box.height) * (view.y1 - view.y0);
 
-/** Frame, ticks outside, numbers, labels in markup; without a y label the y axis is left out. */
-export function drawAxes(g: CanvasRenderingContext2D, box: Box, view: View, labels: { x: string; y: string | null }, inks: Inks): void {
+/** Frame, ticks outside, numbers, labels in markup; an axis without a label is left out. */
+export function drawAxes(g: CanvasRenderingContext2D, box: Box, view: View, labels: { x: string | null; y: string | null }, inks: Inks): void {
   g.strokeStyle = inks.muted;
   g.fillStyle = inks.ink;
   g.lineWidth = 1;
   g.strokeRect(Math.round(box.left) - 0.5, Math.round(box.top) - 0.5, Math.round(box.width) + 1, Math.round(box.height) + 1);
-  xAxis(g, box, view, labels.x);
+  if (labels.x !== null) xAxis(g, box, view, labels.x);
   if (labels.y !== null) yAxis(g, box, view, labels.y);
 }
 

@@ -1,7 +1,11 @@
 /** The presets as chips, one click each, and the selector of the model. */
 
 import { byId, make } from "./dom";
-import type { Registry } from "./protocol";
+import type { Model, Parameter, Registry } from "./protocol";
+import { symbol } from "./symbols";
+
+/** So many changed parameters are named. */
+const MOST = 4;
 
 export class PresetBar {
   private readonly place = byId("presets");
@@ -24,13 +28,34 @@ export class PresetBar {
     this.select.replaceChildren(...models.map(({ name, title }) => make("option", { value: name, title }, name)));
   }
 
-  /** Shows which ones are in use. */
-  show(model: string, preset: string | null): void {
-    this.select.value = model;
+  /** Shows which ones are in use, and the sentence about them. */
+  show(model: Model, preset: string | null, about: string): void {
+    this.select.value = model.name;
+    byId("about-text").replaceChildren(...prose(about, model.parameters));
     for (const chip of this.place.querySelectorAll<HTMLElement>(".chip")) {
       const chosen = chip.dataset.preset === preset;
       if (chosen && chip.getAttribute("aria-pressed") !== "true") chip.scrollIntoView({ block: "nearest", inline: "nearest" });
       chip.setAttribute("aria-pressed", String(chosen));
     }
   }
+
+  /** Shows what the reader changed since: the sentence about the preset may hold no longer. */
+  depart(parameters: Parameter[]): void {
+    const place = byId("departed");
+    const names = parameters.map((one) => one.name).join();
+    if (place.dataset.names === names) return;
+    place.dataset.names = names;
+    place.hidden = !names;
+    const symbols = parameters.slice(0, MOST).flatMap((one, i) => [...(i ? [", "] : []), symbol(one.symbol)]);
+    place.replaceChildren("changed: ", ...symbols, parameters.length > MOST ? ", \u2026" : "");
+    this.place.toggleAttribute("data-departed", names !== "");
+  }
+}
+
+/** Text with the symbols of parameters in place of their names, but for names that are words, too. */
+function prose(text: string, parameters: Parameter[]): (Node | string)[] {
+  return text.split(/\b(gamma|[a-z]+\d)\b/).map((part) => {
+    const parameter = parameters.find((one) => one.name === part);
+    return parameter ? symbol(parameter.symbol) : part;
+  });
 }

@@ -3,7 +3,7 @@
 /** A `set` without an answer for so long (milliseconds) holds up no other. */
 const PATIENCE = 500;
 
-import type { Begun, Changed, Model, Preset, Registry, Values } from "./protocol";
+import type { Begun, Changed, Model, Parameter, Preset, Registry, Values } from "./protocol";
 
 export class Session {
   model: Model;
@@ -42,6 +42,12 @@ export class Session {
   /** Only the parameters that differ from the preset's. */
   changed(): Values {
     return Object.fromEntries(Object.entries(this.parameters).filter(([name, value]) => value !== this.base[name]));
+  }
+
+  /** The parameters themselves. */
+  departed(): Parameter[] {
+    const changed = this.changed();
+    return this.model.parameters.filter((one) => one.name in changed);
   }
 
   begun({ revision, parameters, noise }: Begun, speed: number): void {

@@ -7,7 +7,9 @@ import type { Section, Share, Wish } from "./protocol";
 import { toast } from "./toasts";
 
 const DATA: [string, string][] = [["study.toml", "Study (TOML)"], ["motion.csv", "Motion (CSV)"], ["map.csv", "Map (CSV)"], ["body.apng", "Animation (APNG)"]];
-const FIGURES: [string, string][] = [["map", "Map"], ["path", "Path"], ["series", "Time series"], ["spectrum", "Power spectrum"], ["return-map", "Return map"], ["exponent", "Lyapunov exponents"]];
+/** Only a map of one axis has it. */
+const EXPONENTS = "map-exponents";
+const FIGURES: [string, string][] = [["map", "Map"], [EXPONENTS, "Exponents along the map"], ["path", "Path"], ["series", "Time series"], ["spectrum", "Power spectrum"], ["return-map", "Return map"], ["exponent", "Lyapunov exponents"]];
 const FORMATS = ["svg", "png"];
 
 /** What sharing needs of the page. */
@@ -38,6 +40,11 @@ export class ShareMenu {
     byId("dialog-close").addEventListener("click", () => this.dialog.close());
     byId("dialog-copy").addEventListener("click", (event) => void copy(byId("dialog-text").textContent ?? "", event.currentTarget as HTMLButtonElement));
     closeMenusOutside();
+  }
+
+  /** Whether the map has one axis only. */
+  showStrip(strip: boolean): void {
+    for (const part of document.querySelectorAll<HTMLElement>(`[data-figure-of="${EXPONENTS}"]`)) part.hidden = !strip;
   }
 
   /** Shows the text that was asked for. */
@@ -102,7 +109,9 @@ export class ShareMenu {
   private buildMenu(): void {
     byId("export-data").append(...DATA.map(([what, text]) => this.button(what, text, "data-export")));
     for (const [figure, text] of FIGURES) {
-      byId("export-figures").append(make("span", {}, text), ...FORMATS.map((format) => this.button(`${figure}.${format}`, format.toUpperCase(), "data-export")));
+      const row = [make("span", {}, text), ...FORMATS.map((format) => this.button(`${figure}.${format}`, format.toUpperCase(), "data-export"))];
+      for (const part of row) part.dataset.figureOf = figure;
+      byId("export-figures").append(...row);
     }
   }
 
@@ -113,6 +122,13 @@ export class ShareMenu {
       const also = figure === "map" ? ["map.csv"] : figure === "path" ? ["body.apng", "motion.csv"] : [];
       const files = [...FORMATS.map((format) => `${figure}.${format}`), ...also];
       const buttons = files.map((what) => this.button(what, (what.split(".").pop() ?? "").toUpperCase(), "data-save"));
+      if (figure === "map") {
+        for (const format of FORMATS) {
+          const button = this.button(`${EXPONENTS}.${format}`, `\u03bb\u2081 ${format.toUpperCase()}`, "data-save");
+          button.dataset.figureOf = EXPONENTS;
+          buttons.push(button);
+        }
+      }
       menu.append(make("summary", { title: "Save this figure", "aria-label": "Save this figure" }, arrow()), make("div", { class: "menu-body" }, ...buttons));
       menu.addEventListener("click", (event) => event.target instanceof HTMLButtonElement && (menu.open = false));
     }

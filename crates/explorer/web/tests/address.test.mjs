@@ -96,6 +96,7 @@ const DAMAGED = {
   "preset=fig5a&nonsense=1": "nonsense=1",
   "preset=fig5a&%E0%A4%A=%&gamma=%zz": "gamma=%zz",
   "preset=fig5a&kappa2=1e7": "kappa2=1e7",
+  "preset=fig5a&noise=1e9": "noise=1e9",
   "preset=fig5a&t=5&at=1,2&state=1,2,3": "state",
   "preset=fig5a&t=5&at=1,2&state=1,x,3,4,5,6": "state=1,x,3,4,5,6",
 };

@@ -33,6 +33,27 @@ test("play and pause", upon(it, { hash: LIGHT }, async ({ page, wire }) => {
   await moves(page, wire);
 }));
 
+test("a paused page comes to rest: it draws nothing", upon(it, { hash: LIGHT }, async ({ page, wire }) => {
+  await moves(page, wire);
+  await page.locator("#play").click();
+  await stands(page, wire);
+  await page.evaluate(() => {
+    const { prototype } = CanvasRenderingContext2D;
+    const { stroke } = prototype;
+    window.strokes = 0;
+    prototype.stroke = function (...path) {
+      if (this.canvas.id === "body") window.strokes++;
+      return stroke.apply(this, path);
+    };
+  });
+  const strokes = () => page.evaluate(() => window.strokes);
+  await until(async () => {
+    const before = await strokes();
+    await pictures(page, 30);
+    return (await strokes()) === before;
+  }, "the camera to come to rest");
+}));
+
 const waysOfRestart = { "the button": (page) => page.locator("#restart").click(), "the key r": (page) => page.keyboard.press("r") };
 const waysOfKick = { "the button": (page) => page.locator("#kick").click(), "the key k": (page) => page.keyboard.press("k") };
 

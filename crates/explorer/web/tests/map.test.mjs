@@ -129,3 +129,38 @@ test("other axes, and none", upon(it, { hash: `preset=fig5a&${WINDOW}` }, async 
   await page.locator("#map-reset").click();
   await until(() => wire.last.get("map")?.x.name === "kappa2", "the map of the preset again");
 }));
+
+/** By the map's own menu. */
+async function saveExponents(page) {
+  await page.locator('details.save[data-figure="map"] > summary').click();
+  await page.locator('[data-save="map-exponents.svg"]').click();
+}
+
+test("along one axis the exponents stand above the strip", upon(it, { hash: "preset=fig5b&x=kappa2:0.45:0.6&y=none" }, async ({ page, wire }) => {
+  await seen(page, wire);
+  await mapped(page);
+  await page.locator("#map-legend li").filter({ hasText: "Lyapunov" }).waitFor();
+  // Chaos all along: dots of its colour well above the strip.
+  const dots = await page.evaluate(() => {
+    const canvas = document.getElementById("map");
+    const { data } = canvas.getContext("2d").getImageData(70, 20, canvas.width - 90, 0.6 * canvas.height);
+    let count = 0;
+    for (let k = 0; k < data.length; k += 4) count += data[k] > 100 && data[k] > 1.6 * data[k + 1] && data[k + 1] > 1.5 * data[k + 2] ? 1 : 0;
+    return count;
+  });
+  assert.ok(dots > 100, `${dots} pixels`);
+  const [download] = await Promise.all([page.waitForEvent("download"), saveExponents(page)]);
+  assert.equal(download.suggestedFilename(), "motiform-fig5b-map-exponents.svg");
+}));
+
+test("the window stays within what the model allows", upon(it, { hash: "preset=fig6b" }, async ({ page, wire }) => {
+  await seen(page, wire);
+  const [low] = wire.last.get("hello").registry.models.find((one) => one.name === "cell").parameters.find((one) => one.name === "length").allowed;
+  const { x, y, width, height } = await page.locator("#map").boundingBox();
+  await page.mouse.move(x + 0.2 * width, y + height / 2);
+  await page.mouse.down();
+  await page.mouse.move(x + 0.95 * width, y + height / 2, { steps: 4 });
+  await page.mouse.up();
+  const { x0, x1 } = await view(page);
+  assert.ok(x0 >= low && x1 > x0 + 20, `${x0} to ${x1}`);
+}));

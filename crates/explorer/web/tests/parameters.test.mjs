@@ -62,3 +62,32 @@ test("a number that is not allowed is refused at its row, and the old value stay
   assert.equal(await field.inputValue(), "0.7");
   await moves(page, wire);
 }));
+
+test("the sliders of the figure\u2019s plane go over its window, the others over their range", upon(it, { hash: "preset=fig1" }, async ({ page, wire }) => {
+  await moves(page, wire);
+  const span = async (name) => slider(page, name).evaluate((one) => [one.min, one.max, one.step].map(Number));
+  await slider(page, "b1").waitFor();
+  assert.deepEqual(await span("kappa2"), [-0.22, 0.22, 0.001]);
+  const { range } = wire.last.get("hello").registry.models[0].parameters.find((one) => one.name === "b1");
+  assert.deepEqual((await span("b1")).slice(0, 2), range);
+}));
+
+test("what the reader changed is told beside the preset\u2019s sentence, until it is as before", upon(it, { hash: LIGHT }, async ({ page, wire }) => {
+  await moves(page, wire);
+  const told = page.locator("#departed");
+  assert.ok(!(await told.isVisible()));
+  const { revision } = wire.frame;
+  await slide(slider(page, "kappa3"), 0.5);
+  await changed(wire, revision);
+  await told.filter({ hasText: "changed: \u03ba3" }).waitFor();
+  await page.locator(`[aria-label="Reset kappa3"]`).click();
+  await told.waitFor({ state: "hidden" });
+}));
+
+test("equations are set in the paper\u2019s symbols", upon(it, { hash: LIGHT }, async ({ page, wire }) => {
+  await moves(page, wire);
+  await page.locator(".equations summary").click();
+  const text = await page.locator(".equation").first().textContent();
+  assert.match(text, /^\(V\)dv\/dt = \u03b3 v \u2212 v2 v \u2212 a1 S v/);
+  assert.doesNotMatch(await page.locator(".equation-list").textContent(), /kappa|gamma|theta/);
+}));

@@ -16,7 +16,8 @@ export const PATIENCE = Number(process.env.MOTIFORM_PATIENCE ?? 60_000);
 export const LIGHT = "preset=fig5a&x=kappa2:1.2:1.6&y=kappa3:0.7:1";
 
 const NAMES = ["chromium", "chromium-browser", "google-chrome"];
-const FLAGS = [
+/** How Chromium runs on a machine without a screen, without asking anybody anything. */
+export const FLAGS = [
   "--no-sandbox",
   "--disable-gpu",
   "--disable-quic",
@@ -31,7 +32,8 @@ export async function launch(more = []) {
   return chromium.launch({ executablePath: executable(), headless: true, args: [...FLAGS, ...more] });
 }
 
-function executable() {
+/** The Chromium to use. */
+export function executable() {
   const given = process.env.CHROMIUM;
   if (given) return given;
   const folders = (process.env.PATH ?? "").split(delimiter);

@@ -108,15 +108,15 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary]) -> Vec<Stri
     let (count, all) = (cells.len(), plan.cells());
     let computed =
         if count < all { format!("{count} of {all} cells are computed") } else { format!("{all} cells") };
+    let random = format!("uniform in ±{}, seed {}", words::number(c.random), c.seed);
     let states = match (c.samples, c.initial.is_empty()) {
         (1, false) => "one initial state each, the given one".to_owned(),
-        (1, true) => "one initial state each".to_owned(),
-        (samples, false) => format!("{samples} initial states each, the given one and random ones"),
-        (samples, true) => format!("{samples} initial states each"),
+        (1, true) => format!("one random initial state each, {random}"),
+        (samples, false) => format!("{samples} initial states each, the given one and random ones, {random}"),
+        (samples, true) => format!("{samples} random initial states each, {random}"),
     };
-    let random = format!("random states are uniform in ±{}, seed {}", words::number(c.random), c.seed);
     let method = format!("Computed by {}, {}.", words::stepper(&c.stepper), words::control(c.control));
-    vec![words::named(info, &c.parameters), format!("{computed}, {states}; {random}. {method}")]
+    vec![words::named(info, &c.parameters), format!("{computed}, {states}. {method}")]
 }
 
 /// How figures write a parameter.

@@ -67,14 +67,12 @@ export class Camera {
     if (!this.follow && !this.fresh) return false;
     const part = this.fresh ? 1 : 1 - Math.exp(-seconds / EASE);
     this.fresh = false;
-    const [dx, dy] = [(this.goal.x - this.x) * part, (this.goal.y - this.y) * part];
+    const [x, y] = [this.x, this.y];
     const ratio = (this.goal.scale / this.scale) ** part;
-    this.x += dx;
-    this.y += dy;
     this.scale *= ratio;
-    this.x = toward(this.x, this.body.x, this.reach(this.width, 0));
-    this.y = toward(this.y, this.body.y, this.reach(this.height, CLOCK));
-    return Math.hypot(dx, dy) * this.scale > 0.02 || Math.abs(ratio - 1) > 1e-4;
+    this.x = toward(x + (this.goal.x - x) * part, this.body.x, this.reach(this.width, 0));
+    this.y = toward(y + (this.goal.y - y) * part, this.body.y, this.reach(this.height, CLOCK));
+    return Math.hypot(this.x - x, this.y - y) * this.scale > 0.02 || Math.abs(ratio - 1) > 1e-4;
   }
 
   /** How far the body may be from the middle of a side: it stays in sight whole, below the clock. */

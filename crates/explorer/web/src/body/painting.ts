@@ -132,8 +132,11 @@ function paintScale(g: CanvasRenderingContext2D, camera: Camera, inks: Inks): vo
   g.textAlign = "left";
   g.textBaseline = "alphabetic";
   const text = `${pretty(length)} model length${length === 1 ? "" : "s"}`;
-  g.strokeStyle = inks.plot;
-  g.lineWidth = 3;
-  g.strokeText(text, x + 5, y - 7);
+  // A ground of its own is cheaper than letters with a halo, and as legible upon the trail.
+  g.globalAlpha = 0.75;
+  g.fillStyle = inks.plot;
+  g.fillRect(x + 3, y - 18, g.measureText(text).width + 4, 14);
+  g.globalAlpha = 1;
+  g.fillStyle = inks.ink;
   g.fillText(text, x + 5, y - 7);
 }

@@ -36,7 +36,7 @@ export class BodyPanel {
     private readonly followed: (follow: boolean) => void,
   ) {
     const canvas = byId<HTMLCanvasElement>("body");
-    this.sheet = new Sheet(canvas, () => (this.dirty = true));
+    this.sheet = new Sheet(canvas, () => (this.dirty = true), true);
     watch(canvas, {
       pan: (dx, dy) => {
         this.setFollow(false);
@@ -101,21 +101,22 @@ export class BodyPanel {
     this.pointed = time;
   }
 
-  /** Draws where anything moved; `seconds` since the last picture. */
-  draw(seconds: number): void {
+  /** Draws where anything moved, and tells whether it did; `seconds` since the last picture. */
+  draw(seconds: number): boolean {
     const { frame, camera, sheet } = this;
-    if (!frame || !sheet.width) return;
+    if (!frame || !sheet.width) return false;
     [camera.width, camera.height] = [sheet.width, sheet.height];
     const from = this.history.since(frame.t - this.trail);
     if (this.dirty) camera.aim(this.history, from, frame.x, frame.y, frame.radius);
     camera.drawn = frame.radius * this.enlarged;
-    if (!camera.step(seconds) && !this.dirty) return;
+    if (!camera.step(seconds) && !this.dirty) return false;
     this.dirty = false;
     this.enlarge(frame.radius);
-    sheet.clear();
+    sheet.clear(currentInks().plot);
     const pointed = this.pointed === null ? -1 : Math.min(this.history.length - 1, this.history.since(this.pointed));
     paintBody(sheet.g, { camera, history: this.history, from, frame, outline: this.outline, enlarged: this.enlarged, colour: this.colour, edge: this.edge, pointed }, currentInks());
     this.clock(frame);
+    return true;
   }
 
   /** The least enlargement that makes the body visible, kept while it is neither tiny nor huge. */

@@ -7,6 +7,9 @@ import { pixelX, pixelY, type Box, type View } from "../plot";
 /** A cell that no verdict covers yet. */
 export const UNKNOWN = 255;
 
+/** Bytes of a cell in a message. */
+const SIZE = 16;
+
 /** Opacity of cells that only a coarser look speaks for. */
 const PALE = 130;
 
@@ -17,6 +20,9 @@ export class Lattice {
   readonly rows: number;
   /** Regime of each cell, row by row from the lowest y. */
   readonly regimes: Uint8Array;
+  /** Largest Lyapunov exponent of each cell and the half width of its 95 % interval; NaN where there is none, or none yet. */
+  readonly exponents: Float32Array;
+  readonly errors: Float32Array;
   /** How coarse the look is that each cell has its regime from. */
   private readonly levels: Uint8Array;
   private readonly x: Grid;
@@ -37,6 +43,8 @@ export class Lattice {
     this.columns = this.x.count;
     this.rows = this.y.count;
     this.regimes = new Uint8Array(this.columns * this.rows).fill(UNKNOWN);
+    this.exponents = new Float32Array(this.regimes.length).fill(NaN);
+    this.errors = new Float32Array(this.regimes.length).fill(NaN);
     this.levels = new Uint8Array(this.regimes.length).fill(UNKNOWN);
     this.image = new ImageData(this.columns, this.rows);
     this.pixels = new Uint32Array(this.image.data.buffer);
@@ -52,11 +60,15 @@ export class Lattice {
    * a coarse verdict that took long arrives late.
    */
   take({ count, view }: Cells): void {
-    for (let k = 0; k < count && 8 * k + 8 <= view.byteLength; k++) {
-      const [i, j] = [view.getUint16(8 * k, true), view.getUint16(8 * k + 2, true)];
-      const [level, regime] = [view.getUint8(8 * k + 4), view.getUint8(8 * k + 5)];
+    for (let k = 0; k < count && SIZE * (k + 1) <= view.byteLength; k++) {
+      const at = SIZE * k;
+      const [i, j] = [view.getUint16(at, true), view.getUint16(at + 2, true)];
+      const [level, regime] = [view.getUint8(at + 4), view.getUint8(at + 5)];
       this.fill(i, j, level, regime);
       this.fill(i, j, 0, regime);
+      if (i >= this.columns || j >= this.rows) continue;
+      this.exponents[i + this.columns * j] = view.getFloat32(at + 8, true);
+      this.errors[i + this.columns * j] = view.getFloat32(at + 12, true);
     }
     this.stale = true;
   }

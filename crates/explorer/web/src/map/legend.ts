@@ -13,14 +13,15 @@ export class Legend {
 
   constructor(private readonly element: HTMLElement) {}
 
-  /** Shows these; nothing is touched where they are shown already. */
-  show(regimes: Regime[], lines: Line[]): void {
-    const key = JSON.stringify([regimes.map((one) => one.name), lines.map((line) => [line.label, line.style])]);
+  /** Shows these, and for a strip what is above it; nothing is touched where they are shown already. */
+  show(regimes: Regime[], lines: Line[], strip: boolean): void {
+    const key = JSON.stringify([strip, regimes.map((one) => one.name), lines.map((line) => [line.label, line.style])]);
     if (key === this.shown) return;
     this.shown = key;
     const distinct = lines.filter((line, i) => lines.findIndex((other) => other.label === line.label) === i);
     this.element.replaceChildren(
       ...regimes.map((regime) => make("li", { title: regime.meaning }, swatch(regime, 13), regime.name)),
+      ...(strip ? [make("li", {}, symbol("*\u03bb*_1"), "largest Lyapunov exponent, bars: 95 %")] : []),
       ...distinct.map((line) => make("li", {}, sample(line), symbol(line.label))),
     );
   }

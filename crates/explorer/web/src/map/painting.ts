@@ -4,6 +4,7 @@ import { drawGlyph } from "../glyphs";
 import type { Line, LineStyle, Regime } from "../protocol";
 import { drawAxes, pixelX, pixelY, type Box, type View } from "../plot";
 import type { Inks } from "../theme";
+import { divided, paintExponents, rangeOf } from "./exponents";
 import type { Landmark } from "./landmarks";
 import type { Lattice } from "./lattice";
 
@@ -42,21 +43,32 @@ export const DASH: Record<LineStyle, number[]> = {
 /** Strength of a map of other parameters. */
 const PALE = 0.45;
 
-/** Draws the whole map. */
+/** Draws the whole map; a strip has the exponents above it. */
 export function paint(g: CanvasRenderingContext2D, scene: Scene, inks: Inks): void {
-  const { box } = scene;
+  const { box, view, labels } = scene;
+  const [strip, above] = labels.y === null ? [divided(box).strip, divided(box).above] : [box, null];
+  const range = above && rangeOf(scene.lattice, view);
+  clipped(g, strip, () => {
+    paintAreas(g, { ...scene, box: strip }, inks);
+    for (const line of scene.lattice?.start.lines ?? []) paintLine(g, box, view, line);
+    paintGlyphs(g, { ...scene, box: strip });
+  });
+  if (above && range) clipped(g, above, () => paintExponents(g, above, range, scene.lattice, scene.regimes, inks));
+  const at = markPixel(scene, strip);
+  clipped(g, box, () => paintHairs(g, scene, at));
+  drawAxes(g, strip, view, labels, inks);
+  if (above && range) drawAxes(g, above, range, { x: null, y: "*\u03bb*_1 (1/time)" }, inks);
+  paintRing(g, box, at);
+}
+
+/** Draws within a frame only. */
+function clipped(g: CanvasRenderingContext2D, { left, top, width, height }: Box, draw: () => void): void {
   g.save();
   g.beginPath();
-  g.rect(box.left, box.top, box.width, box.height);
+  g.rect(left, top, width, height);
   g.clip();
-  paintAreas(g, scene, inks);
-  for (const line of scene.lattice?.start.lines ?? []) paintLine(g, box, scene.view, line);
-  paintGlyphs(g, scene);
-  const at = markPixel(scene);
-  paintHairs(g, scene, at);
+  draw();
   g.restore();
-  drawAxes(g, box, scene.view, scene.labels, inks);
-  paintRing(g, box, at);
 }
 
 /** The areas upon their ground; a map of other parameters is pale. */
@@ -141,14 +153,13 @@ function paintGlyphs(g: CanvasRenderingContext2D, { box, view, lattice, landmark
   if (!lattice) return;
   for (const { regime, i, j } of landmarks) {
     const [left, top, width, height] = lattice.place(box, view, i, i + 1, j);
-    const y = lattice.rows > 1 ? top + height / 2 : top + height * 0.2;
-    if (regimes[regime]) drawGlyph(g, regimes[regime], left + width / 2, y, 5);
+    if (regimes[regime]) drawGlyph(g, regimes[regime], left + width / 2, top + height / 2, 5);
   }
 }
 
 /** Where the body is. */
-function markPixel({ box, view, mark, labels }: Scene): [number, number] {
-  return [pixelX(box, view, mark.x), labels.y === null ? box.top + box.height / 2 : pixelY(box, view, mark.y)];
+function markPixel({ box, view, mark, labels }: Scene, strip: Box): [number, number] {
+  return [pixelX(box, view, mark.x), labels.y === null ? strip.top + strip.height / 2 : pixelY(box, view, mark.y)];
 }
 
 /** Radius of the ring about the body's place, and of the gap in the hair lines. */

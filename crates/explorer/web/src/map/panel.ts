@@ -9,7 +9,7 @@ import { listenToKeys } from "./keys";
 import { Legend } from "./legend";
 import { rounded, under, type Sides } from "./pick";
 import { MapPicture } from "./picture";
-import { allowed, panned, sameAxes, viewOf, zoomed } from "./plane";
+import { confined, panned, sameAxes, viewOf, zoomed } from "./plane";
 import { showMapped, showProgress } from "./progress";
 import { Readout } from "./readout";
 import { AxisSelectors } from "./selectors";
@@ -55,7 +55,7 @@ export class MapPanel {
       click: (x, y) => this.click(x, y),
       double: () => this.undoClicks(),
       hover: (at) => this.hover(at),
-      pan: (dx, dy) => this.plane && this.go(panned(this.plane, this.box(), dx, dy)),
+      pan: (dx, dy) => this.pan(dx, dy),
       zoom: (factor, x, y) => this.zoomAt(factor, x, y),
     });
     listenToKeys(canvas, {
@@ -149,11 +149,11 @@ export class MapPanel {
   }
 
   private box(): Box {
-    return this.picture.box(!this.plane?.y);
+    return this.picture.box();
   }
 
   private ask(): void {
-    const plane = this.plane && allowed(this.plane, this.host.model());
+    const { plane } = this;
     if (!plane) return;
     const box = this.box();
     const across = plane.y ? Math.min(box.width, box.height) / CELL : box.width / 2;
@@ -164,8 +164,9 @@ export class MapPanel {
   }
 
   private setPlane(plane: Plane): void {
-    this.plane = plane;
-    this.selectors.show(this.host.model(), plane);
+    const model = this.host.model();
+    this.plane = confined(plane, model);
+    this.selectors.show(model, this.plane);
     this.picture.touch();
   }
 
@@ -178,7 +179,7 @@ export class MapPanel {
   private forgetUnless(plane: Plane): void {
     if (!this.plane || sameAxes(plane, this.plane)) return;
     this.picture.forget();
-    this.legend.show([], []);
+    this.legend.show([], [], false);
   }
 
   /** Another window: shown at once, computed soon. */
@@ -190,6 +191,12 @@ export class MapPanel {
 
   private reset(): void {
     if (this.home) this.choosePlane(this.home);
+  }
+
+  /** What was pointed at moves away. */
+  private pan(dx: number, dy: number): void {
+    this.readout.leave();
+    if (this.plane) this.go(panned(this.plane, this.box(), dx, dy));
   }
 
   private zoomAt(factor: number, x: number, y: number): void {
@@ -254,6 +261,6 @@ export class MapPanel {
   private showLegend(): void {
     const { lattice } = this.picture;
     const regimes = this.host.regimes();
-    if (lattice) this.legend.show(lattice.occurring().map((index) => regimes[index]), lattice.start.lines);
+    if (lattice) this.legend.show(lattice.occurring().map((index) => regimes[index]), lattice.start.lines, lattice.start.y === null);
   }
 }

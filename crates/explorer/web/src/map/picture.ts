@@ -5,6 +5,7 @@ import { Sheet } from "../canvas";
 import type { Box, View } from "../plot";
 import type { MapStart, Regime } from "../protocol";
 import { currentInks } from "../theme";
+import { divided } from "./exponents";
 import { landmarks, type Landmark } from "./landmarks";
 import { Lattice } from "./lattice";
 import { paint, paintCells, type Areas, type Memory } from "./painting";
@@ -65,11 +66,10 @@ export class MapPicture {
     this.dirty = true;
   }
 
-  /** The frame of the data; a strip is less high. */
-  box(strip: boolean): Box {
-    const left = strip ? 14 : 62;
-    const [width, height] = [this.sheet.width - left - 12, this.sheet.height - 8 - 42];
-    return strip ? { left, top: 8 + height * 0.2, width, height: height * 0.6 } : { left, top: 8, width, height };
+  /** The frame of the data. */
+  box(): Box {
+    const left = 62;
+    return { left, top: 8, width: this.sheet.width - left - 12, height: this.sheet.height - 8 - 42 };
   }
 
   /** Draws where something changed. */
@@ -78,7 +78,7 @@ export class MapPicture {
     this.dirty = false;
     this.sheet.clear();
     const labels = { x: sides.x.symbol, y: sides.y?.symbol ?? null };
-    paint(this.sheet.g, { ...this.areas(this.box(!sides.y), view), labels, mark, landmarks: this.marks }, currentInks());
+    paint(this.sheet.g, { ...this.areas(this.box(), view), labels, mark, landmarks: this.marks }, currentInks());
   }
 
   private areas(box: Box, view: View): Areas {
@@ -88,7 +88,7 @@ export class MapPicture {
   /** Keeps the areas in sight as a picture, until the new map covers them. */
   private remember(view: View, strip: boolean): void {
     if (!this.lattice || this.sheet.width < LEAST) return;
-    const box = { ...this.box(strip), left: 0, top: 0 };
+    const box = { ...(strip ? divided(this.box()).strip : this.box()), left: 0, top: 0 };
     const picture = document.createElement("canvas");
     picture.width = Math.max(1, Math.round(box.width));
     picture.height = Math.max(1, Math.round(box.height));

@@ -28,17 +28,16 @@ export function panned({ x, y }: Plane, box: Box, dx: number, dy: number): Plane
   return { x: by(x, -dx / box.width), y: y && by(y, dy / box.height) };
 }
 
-/** The plane within what the model allows; `null` where nothing of it is left. */
-export function allowed(plane: Plane, model: Model): Plane | null {
-  const cut = (axis: Axis): Axis | null => {
+/** The plane moved, and cut where it is too large, into what the model allows. */
+export function confined(plane: Plane, model: Model): Plane {
+  const into = (axis: Axis): Axis => {
     const bounds = model.parameters.find((one) => one.name === axis.name)?.allowed;
-    if (!bounds) return null;
-    const [low, high] = [Math.max(axis.low, bounds[0]), Math.min(axis.high, bounds[1])];
-    return high > low ? { ...axis, low, high } : null;
+    if (!bounds) return axis;
+    const size = Math.min(axis.high - axis.low, bounds[1] - bounds[0]);
+    const low = Math.min(bounds[1] - size, Math.max(bounds[0], axis.low));
+    return axis.low >= bounds[0] && axis.high <= bounds[1] ? axis : { ...axis, low, high: low + size };
   };
-  const x = cut(plane.x);
-  const y = plane.y && cut(plane.y);
-  return x && (y || !plane.y) ? { x, y } : null;
+  return { x: into(plane.x), y: plane.y && into(plane.y) };
 }
 
 /** The whole slider range of a parameter as an axis. */

@@ -22,10 +22,13 @@ export function axis(options: Partial<uPlot.Axis>): uPlot.Axis {
 /** Pixels per number along the lower axis. */
 const SPACING = 58;
 
-/** Numbers of a linear axis; without a target as many as the width of the chart has room for. */
-export function linear(target?: number): Pick<uPlot.Axis, "splits" | "values"> {
+/** Numbers of a linear axis, none in the room `above`; without a target as many as the width of the chart has room for. */
+export function linear(target?: number, above = 0): Pick<uPlot.Axis, "splits" | "values"> {
   return {
-    splits: (chart, _axis, low, high) => (high > low ? ticks(low, high, target ?? Math.max(2, chart.width / SPACING)).values : [low]),
+    splits: (chart, _axis, low, high) => {
+      const top = high - (above / (1 + above)) * (high - low);
+      return high > low ? ticks(low, top, target ?? Math.max(2, chart.width / SPACING)).values : [low];
+    },
     values: (_chart, splits) => splits.map((value) => pretty(value, 6)),
   };
 }

@@ -83,7 +83,7 @@ export class SeriesStrip {
       padding: [4, 14, last ? 0 : 3, 0],
       axes: [
         axis({ ...linear(), size: last ? 20 : 0, show: last }),
-        axis({ ...linear(3), size: 48 }),
+        axis({ ...linear(3, last ? HEADROOM : 0), size: 48 }),
       ],
       series: [{}, ...columns.map((_, i) => ({ stroke: () => curve(i), dash: DASHES[i], width: 1.5, points: { show: false } }))],
       hooks: { setCursor: [(plot: uPlot) => this.cursor(plot)] },
