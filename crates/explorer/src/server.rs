@@ -11,6 +11,7 @@ use axum::extract::{Path, State, WebSocketUpgrade};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
+use axum::serve::ListenerExt as _;
 use std::net::{Ipv4Addr, TcpListener};
 use std::sync::Arc;
 use std::time::Duration;
@@ -111,7 +112,9 @@ impl Server {
         let Self { listener, shared, stop, .. } = self;
         runtime.block_on(async move {
             listener.set_nonblocking(true)?;
-            let listener = tokio::net::TcpListener::from_std(listener)?;
+            // Frames are small and wanted now: without this each waits up to 40 ms for the answer to the one before.
+            let listener =
+                tokio::net::TcpListener::from_std(listener)?.tap_io(|stream| drop(stream.set_nodelay(true))); // where that is refused, frames come late
             let mut stopped = shared.stop.clone();
             let done = async move {
                 let _ = stopped.wait_for(|stop| *stop).await; // the sender lives as long as the server

@@ -160,9 +160,9 @@ class Cell(Model):
     """active cell: a closed boundary that deforms by itself and moves by its deformation
 
     (C)     phi_t = g1 phi_ss + g2 phi_ssss + g3 phi_ssssss + g4 phi_s phi_ss + g5 phi_ss phi_sss
-            on 0 <= s < length, in modes n = 1 .. modes; normal angle (2 pi / length) (s + phi)
+            on 0 <= s < length, Fourier components 1 .. modes; normal angle (2 pi / length) (s + phi)
     (VEL)   v = ((2 pi)^2 / length^3) int (alpha2 phi_s^2 + A phi_ss^2) n ds,   A = alpha3 + alpha3_per_length length
-    (CLOSE) int n ds = 0, by the most likely error function: closure_modes modes of width n^-prior
+    (CLOSE) int n ds = 0, by the most likely error function: components n = 1 .. closure_modes, widths n^-prior
             feedback = 1 adds it to phi after every step
             dx/dt = v
 

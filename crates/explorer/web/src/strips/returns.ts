@@ -17,7 +17,7 @@ export class ReturnStrip {
   constructor(chosen: () => void) {
     this.sheet = new Sheet(byId<HTMLCanvasElement>("returns"), () => (this.dirty = true));
     const changed = (): void => {
-      this.line.hidden = this.select.value !== "path";
+      byId("section-line").hidden = this.select.value !== "path";
       this.clear();
       chosen();
     };
@@ -34,7 +34,7 @@ export class ReturnStrip {
   setSection(section: Section, y: number | null): void {
     this.select.value = section;
     this.line.value = y === null ? "" : String(y);
-    this.line.hidden = section !== "path";
+    byId("section-line").hidden = section !== "path";
   }
 
   clear(): void {
