@@ -24,6 +24,7 @@ try {
   await start();
   await map();
   for (const preset of ["fig5a", "fig3", "fig6a"]) await play(preset);
+  for (const [preset, name] of [["fig1", "gamma"], ["fig5a", "kappa2"], ["fig6b", "length"]]) await drag(preset, name);
 } finally {
   await browser.close();
   await server.stop();
@@ -75,5 +76,14 @@ async function play(preset) {
   assert.ok(rate > 0, "the body moves");
   const share = (part) => `${(100 * part).toFixed(1)} %`;
   row(`${preset}: playing`, `${rate.toFixed(1)} frames/s; of a core: server ${share(own)}, page ${share(renderer)} (its main thread ${share(main)}), all of Chromium ${share(all)}; load ${loadavg()[0].toFixed(1)}`);
+  await page.close();
+}
+
+/** A slider in motion: every picture sets another value. */
+async function drag(preset, name) {
+  const page = await Unwatched.open(`${server.address}#preset=${preset}`);
+  const rates = await page.dragged(name, 5);
+  assert.ok(rates.changes > 0 && rates.frames > 0, "the body follows");
+  row(`${preset}: ${name} dragged`, `${rates.frames.toFixed(1)} frames/s, ${rates.changes.toFixed(1)} changes/s; load ${loadavg()[0].toFixed(1)}`);
   await page.close();
 }

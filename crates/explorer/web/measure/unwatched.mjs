@@ -56,6 +56,30 @@ export class Unwatched {
     return { rate: (last - first) / (end - begin), own: share("own"), main: share("main"), renderer: share("renderer"), all: share("all") };
   }
 
+  /** Drags a slider about its value for so many seconds; frames and changes per second. */
+  async dragged(name, seconds) {
+    await this.ask((page) => page.waitForFunction((of) => document.querySelector(`[data-parameter="${of}"]`) && document.getElementById("regime").dataset.regime, name));
+    await this.ask((page) => page.evaluate(([of, length]) => {
+      const slider = document.querySelector(`[data-parameter="${of}"] input[type=range]`);
+      const [middle, reach] = [slider.valueAsNumber, 0.1 * (slider.max - slider.min)];
+      const [begin, first] = [performance.now(), window.motiform.frames];
+      let [changes, last] = [0, null];
+      const next = (now) => {
+        slider.value = String(middle + reach * Math.sin((now - begin) / 500));
+        slider.dispatchEvent(new Event("input", { bubbles: true }));
+        const { revision } = window.motiform;
+        if (revision !== last) changes++;
+        last = revision;
+        const passed = (now - begin) / 1000;
+        if (passed < length) requestAnimationFrame(next);
+        else window.dragged = { frames: (window.motiform.frames - first) / passed, changes: changes / passed };
+      };
+      window.setTimeout(() => requestAnimationFrame(next), 1000);
+    }, [name, seconds]));
+    await wait(seconds + 2);
+    return this.ask((page) => page.waitForFunction(() => window.dragged).then((one) => one.jsonValue()));
+  }
+
   /** CPU seconds so far: of the server, of the busiest renderer and its main thread, of all processes of the browser. */
   used(server) {
     const all = this.processes();

@@ -45,6 +45,8 @@ export class App implements Hearer {
   /** Whether parameters off the axes of the map changed. */
   private mapStale = false;
   private frames = 0;
+  /** Whether the server has said hello on this connection. */
+  private greeted = false;
   private readonly later = new Later();
 
   private readonly history = new History();
@@ -77,9 +79,9 @@ export class App implements Hearer {
       trail: (time) => this.body.setTrail(time),
       follow: (follow) => this.body.setFollow(follow),
     });
-    this.share = new ShareMenu({ send, connected: () => this.connection.open, section: () => this.strips.section(), link: () => this.keeper.link() });
+    this.share = new ShareMenu({ send, connected: () => this.connection.open && this.greeted, section: () => this.strips.section(), link: () => this.keeper.link() });
     this.loop = new Loop({
-      ready: () => this.connection.open && this.session !== null && !this.opening.under,
+      ready: () => this.greeted && this.session !== null && !this.opening.under,
       speed: () => this.known().speed,
       advance: (dt) => this.send({ do: "advance", dt }),
       before: (now) => this.flush(now),
@@ -88,7 +90,7 @@ export class App implements Hearer {
     onTheme(() => this.recolour());
     // The event knows the address that was asked for; the bar may have been written to since.
     window.addEventListener("hashchange", (event) => this.openAddress(new URL(event.newURL).hash));
-    expose({ frames: () => this.frames, frame: () => (this.later.due ? null : this.body.last()), map: this.map });
+    expose({ frames: () => this.frames, revision: () => this.revision(), frame: () => (this.later.due ? null : this.body.last()), map: this.map });
   }
 
   private known(): Session {
@@ -96,8 +98,9 @@ export class App implements Hearer {
     return this.session;
   }
 
+  /** Before the greeting there is nobody to hear: what is refused then would be taken for a refusal of the beginning. */
   private send(wish: Wish): void {
-    this.connection.send(wish);
+    if (this.greeted) this.connection.send(wish);
   }
 
   private draw(now: number, seconds: number): void {
@@ -122,12 +125,14 @@ export class App implements Hearer {
 
   private opened(open: boolean): void {
     showConnection(open);
+    this.greeted = false;
     this.loop.received();
     if (!open) this.share.drop();
   }
 
   /** The first greeting opens the address; after a loss of the connection the body goes on where it was. */
   hello({ registry, restart, version }: Hello): void {
+    this.greeted = true;
     setText(byId("banner-command"), restart);
     byId("connection").title = `motiform ${version}`;
     const place = this.place();

@@ -7,6 +7,8 @@ import type { View } from "./plot";
 interface Handle {
   /** Frames received so far. */
   readonly frames: number;
+  /** Number of the present motion: it grows with every change. */
+  readonly revision: number;
   /** Where the body is; `null` until all that surrounds it stands. */
   position(): [number, number] | null;
   /** Coordinates of the shape. */
@@ -26,11 +28,14 @@ declare global {
   }
 }
 
-export function expose(source: { frames(): number; frame(): Frame | null; map: MapPanel }): void {
+export function expose(source: { frames(): number; revision(): number; frame(): Frame | null; map: MapPanel }): void {
   const { map } = source;
   window.motiform = Object.freeze({
     get frames() {
       return source.frames();
+    },
+    get revision() {
+      return source.revision();
     },
     position() {
       const frame = source.frame();

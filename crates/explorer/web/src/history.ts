@@ -16,7 +16,7 @@ export class History {
   columns = SHAPE;
   length = 0;
   /** Samples taken since the run began, those forgotten included. */
-  private total = 0;
+  total = 0;
   private next = 0;
   private data = new Float64Array(CAPACITY * SHAPE);
 

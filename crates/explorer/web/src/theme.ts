@@ -70,11 +70,18 @@ function apply(button: HTMLButtonElement): void {
   for (const listener of listeners) listener();
 }
 
+/** The colours as the browser resolves them. */
 function read(): Inks {
-  const style = getComputedStyle(document.documentElement);
-  const colour = (name: string): string => style.getPropertyValue(`--${name}`).trim();
-  return {
-    dark: colour("scheme") === "dark",
+  const probe = document.createElement("i");
+  probe.hidden = true;
+  document.documentElement.append(probe);
+  const channels = (name: string): number[] => {
+    probe.style.color = `var(--${name})`;
+    return (getComputedStyle(probe).color.match(/\d+/g) ?? []).slice(0, 3).map(Number);
+  };
+  const colour = (name: string): string => `#${channels(name).map((one) => one.toString(16).padStart(2, "0")).join("")}`;
+  const inks = {
+    dark: Math.max(...channels("paper")) < 128,
     ink: colour("ink"),
     muted: colour("muted"),
     faint: colour("faint"),
@@ -82,6 +89,8 @@ function read(): Inks {
     ground: colour("paper"),
     plot: colour("plot"),
   };
+  probe.remove();
+  return inks;
 }
 
 function recall(): string | null {

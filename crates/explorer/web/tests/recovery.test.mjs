@@ -34,6 +34,7 @@ for (const playing of [true, false]) {
     await page.locator("#connection[data-state=open]").waitFor();
     await page.locator("#banner").waitFor({ state: "hidden" });
     await seen(page, wire);
+    assert.ok(!wire.last.has("refused"), JSON.stringify(wire.last.get("refused")));
     assert.deepEqual(wire.last.get("begun").parameters, parameters);
     const [first] = wire.frames;
     const speed = Math.hypot(before.state[0], before.state[1]);

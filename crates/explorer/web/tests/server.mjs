@@ -29,6 +29,9 @@ export class Server {
 
   constructor(child, address) {
     child.stdout.resume(); // nothing else is said, and a full pipe would stop it
+    // A test that fails leaves it behind: that must not keep the test process waiting.
+    child.unref();
+    child.stdout.unref();
     process.once("exit", () => child.kill("SIGKILL"));
     this.child = child;
     this.address = address;

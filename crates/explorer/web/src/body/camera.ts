@@ -4,7 +4,7 @@ import type { History } from "../history";
 import { X, Y } from "../history";
 
 /** Half the sight is at most so many radii of the body, or the path would shrink the body to a dot. */
-const WIDEST = 28;
+const WIDEST = 40;
 /** and at least so many. */
 const CLOSEST = 3;
 /** Pixels at the top that the clock takes. */
@@ -13,11 +13,20 @@ const CLOCK = 24;
 const BULGE = 1.5;
 /** Seconds in which the camera makes up for most of its lag. */
 const EASE = 0.45;
-/** Room about the trail. */
-const MARGIN = 1.15;
+/** So near its goal (pixels) the camera rests, until its goal is so far away. */
+const NEAR = 0.5;
+const AWAY = 2;
+/** The trail is looked at in so many points: so many that its box does not tremble. */
+const POINTS = 1600;
+/** Room about trail and body, as a part of the sight. */
+const MARGIN = 1.04;
+/** At most this part of the sight is kept free for the body at the ends of its trail. */
+const MOST_ROOM = 0.3;
 
 export class Camera {
   follow = true;
+  /** Whether it stands still. */
+  resting = false;
   /** Pixels per model length. */
   scale = 40;
   x = 0;
@@ -47,8 +56,8 @@ export class Camera {
   /** Aims at the trail from sample `from` on and at the body, with its radius. */
   aim(history: History, from: number, bx: number, by: number, radius: number): void {
     this.body = { x: bx, y: by };
-    let [x0, x1, y0, y1] = [bx - radius, bx + radius, by - radius, by + radius];
-    const stride = Math.max(1, Math.floor((history.length - from) / 400));
+    let [x0, x1, y0, y1] = [bx, bx, by, by];
+    const stride = Math.max(1, Math.floor((history.length - from) / POINTS));
     for (let i = from; i < history.length; i += stride) {
       const [x, y] = [history.at(i, X), history.at(i, Y)];
       x0 = Math.min(x0, x);
@@ -57,22 +66,38 @@ export class Camera {
       y1 = Math.max(y1, y);
     }
     const least = Math.min(this.width, this.height) / 2;
-    const fit = Math.min(this.width / (x1 - x0), this.height / (y1 - y0)) / MARGIN;
+    const fit = Math.min(this.free(this.width, 0) / (x1 - x0), this.free(this.height, CLOCK) / (y1 - y0)) / MARGIN;
     const scale = this.zoom * Math.min(least / (CLOSEST * radius), Math.max(least / (WIDEST * radius), fit));
-    this.goal = { x: toward((x0 + x1) / 2, bx, 0.26 * this.width / scale), y: toward((y0 + y1) / 2, by, 0.26 * this.height / scale), scale };
+    // A trail that is too long for the sight is seen from nearer the body.
+    const lag = scale > fit ? 0.26 : Infinity;
+    this.goal = { x: toward((x0 + x1) / 2, bx, (lag * this.width) / scale), y: toward((y0 + y1) / 2, by, (lag * this.height) / scale), scale };
   }
 
   /** Moves on by `seconds`; tells whether anything moved visibly. */
   step(seconds: number): boolean {
-    if (!this.follow && !this.fresh) return false;
-    const part = this.fresh ? 1 : 1 - Math.exp(-seconds / EASE);
+    if (!this.follow && !this.fresh) {
+      this.resting = true;
+      return false;
+    }
+    const { x, y, scale } = this;
+    this.resting = !this.fresh && this.astray() < (this.resting ? AWAY : NEAR);
+    const part = this.fresh ? 1 : this.resting ? 0 : 1 - Math.exp(-seconds / EASE);
     this.fresh = false;
-    const [x, y] = [this.x, this.y];
-    const ratio = (this.goal.scale / this.scale) ** part;
-    this.scale *= ratio;
+    this.scale *= (this.goal.scale / scale) ** part;
     this.x = toward(x + (this.goal.x - x) * part, this.body.x, this.reach(this.width, 0));
     this.y = toward(y + (this.goal.y - y) * part, this.body.y, this.reach(this.height, CLOCK));
-    return Math.hypot(this.x - x, this.y - y) * this.scale > 0.02 || Math.abs(ratio - 1) > 1e-4;
+    return this.x !== x || this.y !== y || this.scale !== scale;
+  }
+
+  /** How far from its goal the sight is, in pixels. */
+  private astray(): number {
+    const zoomed = 0.5 * Math.max(this.width, this.height) * Math.abs(Math.log(this.goal.scale / this.scale));
+    return Math.max(zoomed, this.scale * Math.hypot(this.goal.x - this.x, this.goal.y - this.y));
+  }
+
+  /** The part of a side that the trail may fill, for the body to be in sight at both ends. */
+  private free(side: number, taken: number): number {
+    return side - 2 * Math.min(MOST_ROOM * side, taken + BULGE * this.drawn * this.scale);
   }
 
   /** How far the body may be from the middle of a side: it stays in sight whole, below the clock. */

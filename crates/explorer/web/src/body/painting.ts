@@ -1,4 +1,4 @@
-/** The picture of the body: grid and scale bar, trail, outline, direction of motion. */
+/** The parts of the body's picture but for its path: grid and scale bar, outline, direction of motion. */
 
 import type { Frame } from "../binary";
 import { SPEED, X, Y, type History } from "../history";
@@ -6,8 +6,6 @@ import { UI_FONT } from "../plot";
 import { pretty, roundStep } from "../numbers";
 import type { Inks } from "../theme";
 import type { Camera } from "./camera";
-import { paintInset } from "./inset";
-import { paintTrail } from "./trail";
 
 /** What is drawn. */
 export interface BodyScene {
@@ -28,18 +26,16 @@ export interface BodyScene {
   pointed: number;
 }
 
+/** The body and what belongs to it; the rest is its backdrop. */
 export function paintBody(g: CanvasRenderingContext2D, scene: BodyScene, inks: Inks): void {
-  const { camera, frame, history } = scene;
-  paintGrid(g, camera, inks);
-  paintTrail(g, camera, history, scene.from, frame.x, frame.y, scene.edge);
+  const { camera, history } = scene;
   paintOutline(g, scene);
   paintArrow(g, scene, inks);
   if (scene.pointed >= 0) dot(g, camera, history.at(scene.pointed, X), history.at(scene.pointed, Y), inks);
-  paintScale(g, camera, inks);
-  paintInset(g, camera, history, scene.from, frame.radius, scene.edge, inks);
 }
 
-function paintGrid(g: CanvasRenderingContext2D, camera: Camera, inks: Inks): void {
+/** Squares of a round size. */
+export function paintGrid(g: CanvasRenderingContext2D, camera: Camera, inks: Inks): void {
   const step = roundStep(130 / camera.scale);
   g.strokeStyle = inks.faint;
   g.lineWidth = 1;
@@ -117,7 +113,7 @@ function dot(g: CanvasRenderingContext2D, camera: Camera, x: number, y: number, 
 }
 
 /** A bar of a round length, with its length. */
-function paintScale(g: CanvasRenderingContext2D, camera: Camera, inks: Inks): void {
+export function paintScale(g: CanvasRenderingContext2D, camera: Camera, inks: Inks): void {
   const length = roundStep(110 / camera.scale);
   const [x, y, width] = [14, camera.height - 14, length * camera.scale];
   g.strokeStyle = g.fillStyle = inks.ink;

@@ -7,6 +7,7 @@ import { T, type History } from "../history";
 import { fixed } from "../numbers";
 import { watch } from "../pointer";
 import { currentInks, edge } from "../theme";
+import { Backdrop } from "./backdrop";
 import { Camera } from "./camera";
 import { paintBody } from "./painting";
 
@@ -19,6 +20,7 @@ const CLOCK_GAP = 100;
 export class BodyPanel {
   readonly camera = new Camera();
   private readonly sheet: Sheet;
+  private readonly backdrop = new Backdrop();
   private frame: Frame | null = null;
   private outline: Float64Array | null = null;
   private enlarged = 1;
@@ -87,6 +89,7 @@ export class BodyPanel {
   /** Model time of the trail. */
   setTrail(time: number): void {
     this.trail = time;
+    this.backdrop.forget();
     this.dirty = true;
   }
 
@@ -112,9 +115,10 @@ export class BodyPanel {
     if (!camera.step(seconds) && !this.dirty) return false;
     this.dirty = false;
     this.enlarge(frame.radius);
-    sheet.clear(currentInks().plot);
     const pointed = this.pointed === null ? -1 : Math.min(this.history.length - 1, this.history.since(this.pointed));
-    paintBody(sheet.g, { camera, history: this.history, from, frame, outline: this.outline, enlarged: this.enlarged, colour: this.colour, edge: this.edge, pointed }, currentInks());
+    const scene = { camera, history: this.history, from, frame, outline: this.outline, enlarged: this.enlarged, colour: this.colour, edge: this.edge, pointed };
+    this.backdrop.paint(sheet, scene, currentInks());
+    paintBody(sheet.g, scene, currentInks());
     this.clock(frame);
     return true;
   }

@@ -10,27 +10,47 @@ const DEVIATION = 0.25;
 /** and the corners beside it are so near. */
 const CHORD = 6;
 
-/** Draws the samples from `from` on, then on to the body at (bx, by). */
-export function paintTrail(g: CanvasRenderingContext2D, camera: Camera, history: History, from: number, bx: number, by: number, colour: string): void {
+/** Strength of the newest and of the oldest piece. */
+const [NEWEST, OLDEST] = [0.9, 0.08];
+
+/** Draws the samples from `from` on. */
+export function paintTrail(g: CanvasRenderingContext2D, camera: Camera, history: History, from: number, colour: string): void {
   const count = history.length - from;
   if (count < 2) return;
   const stride = Math.max(1, Math.ceil(count / POINTS));
   const first = history.start(from, stride);
   const perStroke = Math.max(stride, Math.ceil(count / STROKES / stride) * stride);
+  pen(g, colour);
+  const line = new Polyline(g);
+  for (let start = first; start < history.length; start += perStroke) {
+    const end = Math.min(history.length - 1, start + perStroke);
+    g.globalAlpha = OLDEST + (NEWEST - OLDEST) * ((end - from) / count) ** 1.4;
+    line.begin(camera.toX(history.at(start, X)), camera.toY(history.at(start, Y)));
+    for (let i = start + stride; i <= end; i += stride) line.add(camera.toX(history.at(i, X)), camera.toY(history.at(i, Y)));
+    if (start + perStroke >= history.length) line.add(camera.toX(history.at(end, X)), camera.toY(history.at(end, Y)));
+    line.stroke();
+  }
+  g.globalAlpha = 1;
+}
+
+/** Draws the samples from `first` on at full strength, then on to the body at (bx, by). */
+export function paintNewest(g: CanvasRenderingContext2D, camera: Camera, history: History, first: number, bx: number, by: number, colour: string): void {
+  if (history.length < 2) return;
+  pen(g, colour);
+  g.globalAlpha = NEWEST;
+  const line = new Polyline(g);
+  line.begin(camera.toX(history.at(first, X)), camera.toY(history.at(first, Y)));
+  for (let i = first + 1; i < history.length; i++) line.add(camera.toX(history.at(i, X)), camera.toY(history.at(i, Y)));
+  line.add(camera.toX(bx), camera.toY(by));
+  line.stroke();
+  g.globalAlpha = 1;
+}
+
+function pen(g: CanvasRenderingContext2D, colour: string): void {
   g.strokeStyle = colour;
   g.lineWidth = 1.6;
   g.lineJoin = "bevel";
   g.lineCap = "butt";
-  const line = new Polyline(g);
-  for (let start = first; start < history.length; start += perStroke) {
-    const end = Math.min(history.length - 1, start + perStroke);
-    g.globalAlpha = 0.08 + 0.82 * ((end - from) / count) ** 1.4;
-    line.begin(camera.toX(history.at(start, X)), camera.toY(history.at(start, Y)));
-    for (let i = start + stride; i <= end; i += stride) line.add(camera.toX(history.at(i, X)), camera.toY(history.at(i, Y)));
-    if (start + perStroke >= history.length) line.add(camera.toX(bx), camera.toY(by));
-    line.stroke();
-  }
-  g.globalAlpha = 1;
 }
 
 /** A path without the corners that nobody would see. */

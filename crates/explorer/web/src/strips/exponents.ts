@@ -13,7 +13,7 @@ const MOST = 3;
 const POINTS = 800;
 const PER_CURVE = 3;
 /** Room above the curves for keys and numbers. */
-const HEADROOM = 0.4;
+const HEADROOM = 0.55;
 /** Exponents that differ by less are not told apart by eye. */
 const LEAST = 2e-3;
 /** So few points are drawn as points, too. */

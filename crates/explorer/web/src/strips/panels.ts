@@ -1,4 +1,4 @@
-/** The row of linked strips: asks for what the server computes, draws at most ten times a second. */
+/** The row of linked strips: asks for what the server computes, draws at most eight times a second. */
 
 import type { BodyPanel } from "../body/panel";
 import type { History } from "../history";
@@ -10,7 +10,7 @@ import { SeriesStrip } from "./series";
 import { SpectrumStrip } from "./spectrum";
 
 const ASK_GAP = 500;
-const DRAW_GAP = 100;
+const DRAW_GAP = 125;
 
 export class StripPanels {
   private readonly series: SeriesStrip;

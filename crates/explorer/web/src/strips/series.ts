@@ -15,8 +15,9 @@ const HEADROOM = 0.45;
 /** So large a share of the turning rates is usual; beyond so many times that begins a spike. */
 const USUAL = 0.9;
 const SPIKE = 6;
-/** Points per curve, at most. */
+/** Points per curve, at most; and for each pixel of its width. */
 const POINTS = 700;
+const PER_PIXEL = 2.5;
 
 interface Row {
   chart: uPlot;
@@ -50,7 +51,8 @@ export class SeriesStrip {
   /** Shows the samples since `from`, up to `now`. */
   show(from: number, now: number): void {
     const first = this.history.since(from);
-    const stride = Math.max(1, Math.ceil((this.history.length - first) / POINTS));
+    const points = Math.min(POINTS, PER_PIXEL * (this.rows[0]?.chart.over.clientWidth ?? POINTS));
+    const stride = Math.max(1, Math.ceil((this.history.length - first) / Math.max(2, points)));
     const start = this.history.start(first, stride);
     const count = Math.max(0, Math.ceil((this.history.length - start) / stride));
     this.time.length = count;
