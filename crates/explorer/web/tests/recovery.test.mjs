@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { TOKEN, Server } from "./server.mjs";
 import { LIGHT, shoot, stage, visit } from "./stage.mjs";
-import { changed, moves, named, seen, slide, slider, stands, until } from "./waits.mjs";
+import { changed, moves, named, pictures, seen, slide, slider, stands, until } from "./waits.mjs";
 
 const it = stage();
 
@@ -48,3 +48,30 @@ for (const playing of [true, false]) {
     await again.stop();
   });
 }
+
+test("a page that comes back says nothing before the greeting, however late it comes", async () => {
+  const { page, leave } = await visit(it, { hash: "preset=fig2" });
+  const [lines, early] = [[], []];
+  await page.routeWebSocket(/live$/, (ours) => {
+    const server = ours.connectToServer();
+    let greeted = false;
+    ours.onMessage((message) => {
+      if (!greeted) early.push(message);
+      server.send(message);
+    });
+    server.onMessage(async (message) => {
+      if (!greeted) await pictures(page, 30);
+      greeted = true;
+      ours.send(message);
+    });
+    lines.push(ours);
+  });
+  await page.reload();
+  await page.waitForFunction(() => window.motiform?.position());
+  await lines[0].close();
+  await until(() => lines.length === 2, "another connection");
+  const time = await page.locator("#clock-t").textContent();
+  await page.waitForFunction((before) => Number(document.getElementById("clock-t").textContent) > before, Number(time));
+  assert.deepEqual(early, []);
+  await leave();
+});
