@@ -11,6 +11,8 @@ const CLOSEST = 3;
 const CLOCK = 24;
 /** A deformed body reaches so many of its radii. */
 const BULGE = 1.5;
+/** At the ends of its trail it has so many: there it may touch the edge. */
+const ROOM = 1.2;
 /** Seconds in which the camera makes up for most of its lag. */
 const EASE = 0.45;
 /** So near its goal (pixels) the camera rests, until its goal is so far away. */
@@ -97,7 +99,7 @@ export class Camera {
 
   /** The part of a side that the trail may fill, for the body to be in sight at both ends. */
   private free(side: number, taken: number): number {
-    return side - 2 * Math.min(MOST_ROOM * side, taken + BULGE * this.drawn * this.scale);
+    return side - 2 * Math.min(MOST_ROOM * side, 0.5 * taken + ROOM * this.drawn * this.scale);
   }
 
   /** How far the body may be from the middle of a side: it stays in sight whole, below the clock. */

@@ -5,8 +5,8 @@ import type { Regime } from "../protocol";
 import { edge, type Inks } from "../theme";
 import type { Lattice } from "./lattice";
 
-/** Exponents that differ by less are not told apart by eye. */
-const LEAST = 2e-3;
+/** The range is at least so wide. */
+const LEAST = 0.02;
 /** Room above and below, as a part of the range. */
 const ROOM = 0.08;
 const DOT = 2.4;

@@ -21,7 +21,7 @@ export class AxisSelectors {
     if (model !== this.model) {
       const options = (): HTMLElement[] => model.parameters.map((one) => make("option", { value: one.name }, label(one.name, spoken(one.symbol))));
       this.x.replaceChildren(...options());
-      this.y.replaceChildren(make("option", { value: "" }, "none: exponent \u03bb\u2081"), ...options());
+      this.y.replaceChildren(make("option", { value: "" }, "none (\u03bb\u2081)"), ...options());
       this.model = model;
     }
     this.plane = plane;
