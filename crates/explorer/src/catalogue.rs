@@ -93,7 +93,6 @@ pub(crate) fn registry() -> Result<Value, Error> {
         preset["speed"] = json!(tempo(&name).speed);
         preset["plane"] = plane(&name);
         preset["section"] = json!(if kind == SectionKind::Path { "path" } else { "speed" });
-        preset["y"] = Value::Null;
     }
     Ok(all)
 }

@@ -112,9 +112,10 @@ impl Server {
         let Self { listener, shared, stop, .. } = self;
         runtime.block_on(async move {
             listener.set_nonblocking(true)?;
-            // Frames are small and wanted now: without this each waits up to 40 ms for the answer to the one before.
-            let listener =
-                tokio::net::TcpListener::from_std(listener)?.tap_io(|stream| drop(stream.set_nodelay(true))); // where that is refused, frames come late
+            // Frames are small and wanted now: without this each waits up to 40 ms for the answer to the one before. Where it is
+            // refused they come late, and that is all.
+            let listener = tokio::net::TcpListener::from_std(listener)?;
+            let listener = listener.tap_io(|stream| drop(stream.set_nodelay(true)));
             let mut stopped = shared.stop.clone();
             let done = async move {
                 let _ = stopped.wait_for(|stop| *stop).await; // the sender lives as long as the server

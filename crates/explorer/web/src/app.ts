@@ -23,7 +23,7 @@ import { Session } from "./session";
 import { ShareMenu } from "./share";
 import { showConnection } from "./status";
 import { StripPanels } from "./strips/panels";
-import { currentInks, onTheme } from "./theme";
+import { onTheme, visible } from "./theme";
 import { toast } from "./toasts";
 
 /** The body's colour while its motion has no name. */
@@ -79,7 +79,7 @@ export class App implements Hearer {
       trail: (time) => this.body.setTrail(time),
       follow: (follow) => this.body.setFollow(follow),
     });
-    this.share = new ShareMenu({ send, connected: () => this.connection.open && this.greeted, section: () => this.strips.section(), link: () => this.keeper.link() });
+    this.share = new ShareMenu({ send, connected: () => this.greeted, section: () => this.strips.section(), link: () => this.keeper.link() });
     this.loop = new Loop({
       ready: () => this.greeted && this.session !== null && !this.opening.under,
       speed: () => this.known().speed,
@@ -162,7 +162,7 @@ export class App implements Hearer {
     this.parameters.begin(model, preset, base);
     this.parameters.show(parameters);
     if (place?.section) this.strips.begin(model.observables, place.section, place.y);
-    else this.strips.begin(model.observables, preset?.section ?? "speed", preset?.y ?? null);
+    else this.strips.begin(model.observables, preset?.section ?? "speed", null);
     const home = preset?.plane ?? model.plane;
     this.map.begin(place?.plane ?? home, home);
     this.windowMoved();
@@ -211,11 +211,9 @@ export class App implements Hearer {
     this.paintBody();
   }
 
-  /** The body takes the colour of its regime; black would be invisible upon dark. */
+  /** The body takes the colour of its regime. */
   private paintBody(): void {
-    const inks = currentInks();
-    const colour = this.regime?.colour ?? NAMELESS;
-    this.body.setColour(inks.dark && colour === "#000000" ? inks.ink : colour);
+    this.body.setColour(visible(this.regime?.colour ?? NAMELESS));
   }
 
   exponents(exponents: Exponents): void {

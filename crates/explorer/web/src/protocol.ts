@@ -56,7 +56,6 @@ export interface Preset {
   speed: number;
   plane: Plane | null;
   section: Section;
-  y: number | null;
 }
 
 export interface Regime {

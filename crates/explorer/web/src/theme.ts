@@ -35,6 +35,11 @@ export function curve(index: number): string {
   return colours[index % colours.length];
 }
 
+/** The colour of a regime upon the ground: black would be invisible upon dark. */
+export function visible(colour: string): string {
+  return inks.dark && colour === "#000000" ? inks.ink : colour;
+}
+
 /** A colour for edges and lines, moved away from the ground so that it stands out. */
 export function edge(colour: string): string {
   const toward = inks.dark ? 255 : 0;

@@ -2,7 +2,7 @@
 
 import { pixelX, pixelY, type Box, type View } from "../plot";
 import type { Regime } from "../protocol";
-import { edge, type Inks } from "../theme";
+import { edge, visible, type Inks } from "../theme";
 import type { Lattice } from "./lattice";
 
 /** The range is at least so wide. */
@@ -26,7 +26,7 @@ export function rangeOf(lattice: Lattice | null, view: View): View {
   let [low, high] = [0, 0];
   for (const [i, value] of (lattice?.exponents ?? []).entries()) {
     if (!Number.isFinite(value)) continue;
-    const error = lattice?.errors[i] ?? 0;
+    const error = lattice?.errors[i] || 0; // none where it is not known
     low = Math.min(low, value - error);
     high = Math.max(high, value + error);
   }
@@ -51,8 +51,8 @@ export function paintExponents(g: CanvasRenderingContext2D, box: Box, view: View
   for (const [i, value] of lattice.exponents.entries()) {
     const regime = regimes[lattice.regimes[i]];
     if (!Number.isFinite(value) || !regime) continue;
-    const [x, error] = [pixelX(box, view, first + i * step), lattice.errors[i]];
-    g.strokeStyle = g.fillStyle = edge(inks.dark && regime.colour === "#000000" ? inks.ink : regime.colour);
+    const [x, error] = [pixelX(box, view, first + i * step), lattice.errors[i] || 0];
+    g.strokeStyle = g.fillStyle = edge(visible(regime.colour));
     g.beginPath();
     g.moveTo(x, pixelY(box, view, value - error));
     g.lineTo(x, pixelY(box, view, value + error));

@@ -46,7 +46,7 @@ const PALE = 0.45;
 /** Draws the whole map; a strip has the exponents above it. */
 export function paint(g: CanvasRenderingContext2D, scene: Scene, inks: Inks): void {
   const { box, view, labels } = scene;
-  const [strip, above] = labels.y === null ? [divided(box).strip, divided(box).above] : [box, null];
+  const { strip, above } = labels.y === null ? divided(box) : { strip: box, above: null };
   const range = above && rangeOf(scene.lattice, view);
   clipped(g, strip, () => {
     paintAreas(g, { ...scene, box: strip }, inks);
