@@ -1,5 +1,6 @@
 //! Relative equilibria: shapes that do not change but for a steady rotation.
 
+use crate::isotropy::folds;
 use crate::linear::{add, apply, basis, complement, dot, eigenvalues, least_squares, norm, restrict};
 use crate::symmetry::{align, turning_of_shape};
 use motiform_dynamics::tangent::jacobian;
@@ -123,14 +124,15 @@ impl RelativeEquilibrium {
     /// Directions that keep all of the shape's own symmetry (a larger or smaller body of the same kind) carry no orbit
     /// from saddle to saddle and do not count. Where the shape has a mirror axis, orbits leave in one class (even or
     /// odd) and arrive in the other; `lambda_-` is then the leading rate of that other class. `None` unless exactly one
-    /// direction grows.
+    /// direction grows, or one complex pair (the departure oscillates).
     ///
     /// Source: Krupa, Melbourne (1995), Ergod. Theory Dyn. Syst. 15, 121; for 1:2 modes Armbruster, Guckenheimer, Holmes
     /// (1988), Physica D 29, 257.
     #[must_use]
     pub fn saddle<B: Equivariant + ?Sized>(&self, body: &B) -> Option<Saddle> {
         let growing = self.eigenvalues.iter().filter(|value| value.0 > self.resolution()).count();
-        if growing != 1 {
+        let pair = growing == 2 && self.eigenvalues[0].1 != 0.0;
+        if growing != 1 && !pair {
             return None;
         }
         let matrix: Vec<f64> = linearisation(body, &self.shape, self.turning_rate).concat();
@@ -144,7 +146,7 @@ impl RelativeEquilibrium {
         match rates[..] {
             [out, inward, ..] if out > 0.0 && inward < 0.0 => Some(Saddle { out, inward }),
             [out] if out > 0.0 => {
-                let inward = self.eigenvalues.get(1)?.0;
+                let inward = self.eigenvalues.get(growing)?.0;
                 (inward < 0.0).then_some(Saddle { out, inward })
             }
             _ => None,
@@ -156,7 +158,7 @@ impl RelativeEquilibrium {
     fn classes<B: Equivariant + ?Sized>(&self, body: &B) -> Vec<Vec<Vec<f64>>> {
         let dim = self.shape.len();
         let neutral = neutral_direction(body, &self.shape);
-        let folds = folds(body, &self.shape);
+        let folds = folds(body, &self.shape, 1e-7);
         let mean = |x: &[f64]| {
             let mut sum = vec![0.0; dim];
             for k in 0..folds {
@@ -242,16 +244,4 @@ pub(crate) fn neutral_direction<B: Equivariant + ?Sized>(body: &B, shape: &[f64]
     }
     spin.iter_mut().for_each(|x| *x /= size);
     vec![spin]
-}
-
-/// The order of the rotations that leave the shape unchanged (1 for none; a circle counts as 1).
-fn folds<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> usize {
-    let fixed = |folds: &usize| {
-        let mut turned = shape.to_vec();
-        body.rotate(std::f64::consts::TAU / *folds as f64, &mut turned);
-        add(&mut turned, -1.0, shape);
-        norm(&turned) < 1e-7 * norm(shape)
-    };
-    let most = if body.is_symmetric() { 16.min(shape.len()) } else { 1 };
-    (2..=most).rev().find(fixed).unwrap_or(1)
 }

@@ -67,10 +67,11 @@ impl Lyapunov {
 
 impl Lyapunov {
     /// The same run without the rests it began and ended in: intervals at whose end the reduced shape changed slower than
-    /// `fraction` of its fastest. In a rest at a saddle neighbours part at the saddle's rate; the approach, in which they came
-    /// together, must be averaged over as well. `None` where less than half of the run, or too little for an error, remains.
+    /// `fraction` of its fastest. In a rest at a saddle neighbouring orbits separate at the saddle's rate; the approach, in which
+    /// they came together, must be averaged over as well. `None` where less than half of the run, or too little for an error,
+    /// remains.
     #[must_use]
-    pub fn awake(&self, fraction: f64) -> Option<Self> {
+    pub fn moving(&self, fraction: f64) -> Option<Self> {
         let fastest = self.reduced_speeds.iter().copied().fold(0.0, f64::max);
         let moves = |speed: &f64| *speed >= fraction * fastest;
         let first = self.reduced_speeds.iter().position(moves)?;

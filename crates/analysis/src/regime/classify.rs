@@ -2,30 +2,37 @@
 //!
 //! 1. Did the orbit leave every bound?                         blow-up
 //! 2. Does it approach a stable relative equilibrium?           motionless, straight, circular
-//! 3. Does it rest near saddles that attract as a cycle?        rectangular
-//! 4. Does its shape come back, stably?                         zigzag, quasi-periodic
-//! 5. Do neighbours part exponentially?                         chaotic
-//! 6. Do its returns lie on a curve, without chaos?             quasi-periodic (a torus of shapes)
+//! 3. Does it stay at an unstable one, by its exact symmetry?    the same, named unstable
+//! 4. Does it rest near saddles that attract as a cycle?        rectangular
+//! 5. Does its shape come back, stably?                         pulsating straight, zigzag, quasi-periodic
+//! 6. Do neighbouring orbits separate exponentially?            chaotic
+//! 7. Do its returns lie on a curve, without chaos?             quasi-periodic (a torus of shapes)
 //!
 //! If nothing is decided the next look is twice as long, until the budget is spent.
 
+use super::chaos::Growth;
 use super::heteroclinic::cycle;
 use super::look::{Look, RESTS, Rest};
-use super::recurrence::periodic;
+use super::recurrence::{Returns, periodic};
 use super::settings::{Settings, ended};
+use super::stay::Stay;
 use super::verdict::{Attractor, Regime, Verdict};
 use super::{chaos, words};
 use crate::equilibrium::RelativeEquilibrium;
 use crate::linear::norm;
-use crate::{Estimate, Lyapunov, Result};
+use crate::{Lyapunov, Result};
 use motiform_dynamics::{Equivariant, Outcome, Sink};
 
 /// Classifies the motion that starts from `start`; `None` if `stop` broke off.
 ///
 /// The evidence and its numbers are in the verdict. Thresholds: an equilibrium counts as reached at 1e-3 of the shape's
 /// size if it is stable by its eigenvalues and the orbit comes closer at the rate they say; a shape comes back if Newton's
-/// method finds a stable orbit within 3 % of the motion's diameter; chaos needs lambda_1 above twice its 95 % error and
-/// growth by more than e^10, in two consecutive looks, and no veto of the 0-1 test (K < 0.3).
+/// method finds a stable orbit beside a return that closes to 0.5 % of the motion's diameter; chaos needs a motion, lambda_1 above
+/// three times its 95 % error and growth by more than e^10, both pooled over two consecutive runs and more (1.3 times as much where the
+/// 0-1 test sees order, K < 0.3); a torus needs returns on a curve that early and late ones fill alike.
+///
+/// An orbit that begins with an exact symmetry keeps it, and may end where no other orbit does: at an unstable shape. The verdict
+/// then says so ([`Attractor::Unstable`]); front ends perturb such starts.
 ///
 /// # Errors
 /// What the numerics refuse (a start of the wrong length, say). Everything that happens to the orbit is a verdict.
@@ -91,8 +98,10 @@ pub(super) struct Search {
     largest: f64,
     /// Complete rests of all looks.
     rests: Vec<Rest>,
-    /// The exponents of the last looks, as far back as neighbours parted in them.
-    parted: Vec<Estimate>,
+    /// How tangent vectors grew in the runs so far.
+    growth: Vec<Growth>,
+    /// The stay at an unstable equilibrium that is under way.
+    stay: Stay,
     /// What kept the last look from deciding.
     missing: String,
     /// What the next observation is for.
@@ -122,7 +131,8 @@ impl Search {
             fastest: 0.0,
             largest: norm(start),
             rests: Vec::new(),
-            parted: Vec::new(),
+            growth: Vec::new(),
+            stay: Stay::default(),
             missing: "no motion had established itself".to_owned(),
             pending: Pending::Look,
         };
@@ -181,8 +191,7 @@ impl Search {
         self.fastest = self.fastest.max(look.fastest);
         self.largest = self.largest.max(look.sizes.1);
         // An orbit that began where it ends up was never fast: what is left of its changes is round-off.
-        let still = look.sizes.1 - look.sizes.0 <= self.settings.hovering() * look.sizes.1;
-        if look.last_speed > 0.05 * self.fastest && !still {
+        if look.last_speed > 0.05 * self.fastest && !look.is_still(self.settings.hovering()) {
             return self.recurs(body, look);
         }
         let Some(found) = RelativeEquilibrium::find(body, &self.shape) else {
@@ -191,16 +200,16 @@ impl Search {
         };
         let size = norm(&found.shape).max(self.largest);
         let before = found.distance(body, &self.shape);
+        let reached = (self.settings.hovering() * size).max(100.0 * self.settings.atol());
         if found.growth() > -found.resolution() {
             self.missing =
                 format!("the orbit rests at an unstable shape (growth rate {:.2e})", found.growth());
-            return self.recurs(body, look);
+            return if before > reached { self.recurs(body, look) } else { self.stays(body, look, &found) };
         }
         if before > CLOSE * size {
             "the orbit was still on its way to an equilibrium".clone_into(&mut self.missing);
             return self.recurs(body, look);
         }
-        let reached = (self.settings.hovering() * size).max(100.0 * self.settings.atol());
         if before > reached {
             let wait = (-1.0 / found.growth()).min(self.settings.budget);
             self.pending = Pending::Approach { found: Box::new(found), before, reached, size };
@@ -209,23 +218,59 @@ impl Search {
         Ok(words::equilibrium(body, &found, (before / size, self.largest), &self.settings, self.time).into())
     }
 
-    /// Does it rest near saddles, does its shape come back?
-    fn recurs<B: Equivariant + ?Sized>(&mut self, body: &B, mut look: Look) -> Result<Ask> {
+    /// The orbit is at an unstable equilibrium: does it stay there? It is not asked whether neighbouring orbits separate: at a
+    /// saddle they do, at its own rate.
+    fn stays<B: Equivariant + ?Sized>(
+        &mut self,
+        body: &B,
+        mut look: Look,
+        found: &RelativeEquilibrium,
+    ) -> Result<Ask> {
+        let still = look.is_still(self.settings.hovering());
+        if self.stay.goes_on(look.end - look.start, still, found.growth()) {
+            return Ok(words::unstable(
+                body,
+                found,
+                self.largest,
+                self.stay.time(),
+                &self.settings,
+                self.time,
+            )
+            .into());
+        }
         self.rests.append(&mut look.rests);
         if let Some(cycle) = cycle(body, &self.rests, &self.settings) {
             return Ok(words::rectangular(body, &cycle, &self.shape, &self.settings, self.time)?.into());
         }
-        if let Some((found, recurrence)) = periodic(body, &look, &self.settings) {
-            return Ok(words::periodic(body, &found, &recurrence, &self.settings, self.time)?.into());
+        self.again(body)
+    }
+
+    /// Does it rest near saddles, does its shape come back?
+    fn recurs<B: Equivariant + ?Sized>(&mut self, body: &B, mut look: Look) -> Result<Ask> {
+        self.stay = Stay::default();
+        self.rests.append(&mut look.rests);
+        if let Some(cycle) = cycle(body, &self.rests, &self.settings) {
+            return Ok(words::rectangular(body, &cycle, &self.shape, &self.settings, self.time)?.into());
         }
-        if self.first {
+        match periodic(body, &look, &self.settings) {
+            Returns::Stable(found, recurrence) => {
+                return Ok(words::periodic(body, &found, &recurrence, &self.settings, self.time)?.into());
+            }
+            Returns::Unstable { growth } => {
+                self.missing =
+                    format!("the orbit stays on an unstable periodic orbit (largest multiplier {growth:.3})");
+                return self.again(body);
+            }
+            Returns::None => {}
+        }
+        if self.first || look.is_still(self.settings.hovering()) {
             return self.again(body);
         }
         self.pending = Pending::Exponent(Box::new(look));
         Ok(Ask::Exponent(self.span))
     }
 
-    /// Takes in an exponent: do neighbours part?
+    /// Takes in an exponent: do neighbouring orbits separate?
     pub(super) fn measured<B: Equivariant + ?Sized>(&mut self, body: &B, run: &Lyapunov) -> Result<Ask> {
         if let Some(outcome) = ended(&run.outcome) {
             return Ok(self.ended(&outcome, 0.0));
@@ -235,22 +280,24 @@ impl Search {
         };
         self.time += run.time + run.transient;
         self.shape.clone_from(&run.shape);
-        let Some(run) = run.awake(RESTS) else {
-            // At a saddle neighbours part at its own rate: that is no chaos, however long it lasts.
+        let moved = run.reduced_speeds.iter().any(|&speed| speed >= RESTS * look.fastest);
+        let Some(run) = moved.then(|| run.moving(RESTS)).flatten() else {
+            // At a saddle neighbouring orbits separate at its own rate: that is no chaos, however long it lasts.
             "the orbit rested at a saddle while the exponent was measured".clone_into(&mut self.missing);
             return self.again(body);
         };
-        let witness = chaos::Witness::of(&look);
-        match chaos::parts(&run) {
-            Some(exponent) => self.parted.push(exponent),
-            None => self.parted.clear(),
+        if let Some(rests) = chaos::few_rests(&run, RESTS) {
+            self.missing = format!("the orbit spent most of the time in {rests} rests at saddles");
+            return self.again(body);
         }
-        let decided = chaos::chaotic(&self.parted, &run, &witness, self.time)
+        let witness = chaos::Witness::of(&look);
+        self.growth.extend(Growth::of(&run, self.time));
+        let decided = chaos::chaotic(&self.growth, &run, &witness, self.time)
             .or_else(|| chaos::torus(&run, &witness, self.time));
         if let Some(verdict) = decided {
             return Ok(self.described(verdict, body, look.end - look.start)?.into());
         }
-        self.missing = chaos::missing(&run, &witness);
+        self.missing = chaos::missing(&self.growth, &witness);
         self.again(body)
     }
 

@@ -25,7 +25,7 @@ const LEAST_RESTS: usize = 3;
 /// A rest that comes closer than this (against the shape's size) is ruled by the saddle alone.
 const CLOSE: f64 = 1e-2;
 
-/// Finds a cycle of saddles that attracts: each of the last rests is near a motionless saddle with one growing direction,
+/// Finds a cycle of saddles that attracts: each of the last rests is near a motionless saddle with one growing direction or pair,
 /// and orbits leave it slower than they arrive (`lambda_+ + lambda_- < 0`). `None` where any of this does not hold.
 ///
 /// The rests are those of all looks so far: near the end of a window one rest may be as long as a look.

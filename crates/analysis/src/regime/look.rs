@@ -71,6 +71,11 @@ impl Look {
         Ok(seen.look((start, orbit.t()), outcome, orbit.state().to_vec()))
     }
 
+    /// Whether the size of the shape stayed the same, up to the part `hovering`: the orbit was at an equilibrium all the time.
+    pub(super) fn is_still(&self, hovering: f64) -> bool {
+        self.sizes.1 - self.sizes.0 <= hovering * self.sizes.1
+    }
+
     /// The minima of the size.
     pub(super) fn minima(&self) -> Vec<&Extreme> {
         self.extremes.iter().filter(|extreme| extreme.minimum).collect()

@@ -2,6 +2,7 @@
 
 mod chaos;
 mod classify;
+mod form;
 mod heteroclinic;
 mod lane_look;
 mod lanes;
@@ -11,10 +12,12 @@ mod motion;
 mod recurrence;
 mod returns;
 mod settings;
+mod stay;
 mod verdict;
 mod words;
 
 pub use classify::classify;
+pub use form::Form;
 pub use lanes::{Candidate, classifies_in_lanes, classify_in_lanes};
 pub use settings::Settings;
 pub use verdict::{Attractor, Regime, Spread, Verdict};

@@ -3,9 +3,11 @@
 use super::heteroclinic::attracting_saddle;
 use super::look::{Extreme, Look};
 use super::settings::Settings;
+use crate::isotropy::Isotropy;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
-use crate::symmetry::align;
+use crate::symmetry::{align, wrap};
 use motiform_dynamics::Equivariant;
+use motiform_dynamics::drive::drive;
 
 /// Most returns to the section per period.
 const LONGEST: usize = 48;
@@ -18,6 +20,12 @@ const NEAR: f64 = 0.2;
 
 /// Most recurrences that are tried.
 const TRIES: usize = 2;
+
+/// A shape of a periodic orbit that differs from its image by less than this part of its size is symmetric.
+const SYMMETRIC: f64 = 1e-6;
+
+/// Moments of a period at which the symmetry is looked at.
+const MOMENTS: usize = 8;
 
 /// A return of the reduced orbit to where it was.
 #[derive(Clone, Copy, Debug)]
@@ -71,16 +79,29 @@ fn settles<B: Equivariant + ?Sized>(
     now <= 1.05 * before.max(resolution)
 }
 
-/// A stable periodic orbit that the look ends on, with the recurrence that led to it.
-pub(super) fn periodic<B: Equivariant + ?Sized>(
-    body: &B,
-    look: &Look,
-    settings: &Settings,
-) -> Option<(PeriodicOrbit, Recurrence)> {
+/// An unstable periodic orbit this near to the latest return, against the latest swing, is the motion itself.
+const ON: f64 = 1e-6;
+
+/// What the latest returns of a look say.
+#[derive(Debug)]
+pub(super) enum Returns {
+    /// The look ends on a stable periodic orbit; the recurrence led to it.
+    Stable(Box<PeriodicOrbit>, Recurrence),
+    /// The look ends on an unstable periodic orbit with this largest multiplier, to within round-off: an orbit of exact
+    /// symmetry stays there, and its tangent vectors grow at the orbit's own rate.
+    Unstable { growth: f64 },
+    /// No periodic orbit was found.
+    None,
+}
+
+/// The periodic orbit that the look ends on.
+pub(super) fn periodic<B: Equivariant + ?Sized>(body: &B, look: &Look, settings: &Settings) -> Returns {
     let minima = look.minima();
     let diameter = look.diameter(body);
-    let last = minima.last()?;
-    let maximum = look.extremes.iter().rev().find(|extreme| !extreme.minimum)?;
+    let Some(last) = minima.last() else { return Returns::None };
+    let Some(maximum) = look.extremes.iter().rev().find(|extreme| !extreme.minimum) else {
+        return Returns::None;
+    };
     let swing = align(body, &maximum.shape, &last.shape, false).distance;
     for recurrence in recurrences(body, &minima, diameter).into_iter().take(TRIES) {
         let guess = PeriodicGuess {
@@ -92,11 +113,55 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
         let Some(orbit) = PeriodicOrbit::find(body, &guess, &settings.flow()) else { continue };
         // Against the latest swing: an equilibrium, approached in a spiral, is a periodic orbit of no size.
         let away = align(body, &orbit.shape, &last.shape, false).distance / swing;
+        if away < ON && orbit.growth() > 1.0 + settings.accuracy() {
+            return Returns::Unstable { growth: orbit.growth() };
+        }
         if orbit.growth() < 1.0 && away < NEAR && !haunts_a_saddle(body, &orbit, settings) {
-            return Some(shortest(body, orbit, recurrence, settings));
+            let (orbit, recurrence) = shortest(body, orbit, recurrence, settings);
+            let (orbit, recurrence) = unmirrored(body, orbit, recurrence, settings);
+            return Returns::Stable(Box::new(orbit), recurrence);
         }
     }
-    None
+    Returns::None
+}
+
+/// An orbit that is mirror symmetric at every moment is its own mirror image after any time: its period ends when the shape comes
+/// back as it was, not mirrored.
+fn unmirrored<B: Equivariant + ?Sized>(
+    body: &B,
+    orbit: PeriodicOrbit,
+    recurrence: Recurrence,
+    settings: &Settings,
+) -> (PeriodicOrbit, Recurrence) {
+    let axis = Isotropy::of(body, &orbit.shape, SYMMETRIC).mirror;
+    let Some(axis) = axis.filter(|_| orbit.mirrored) else { return (orbit, recurrence) };
+    // M u = R(-axis) u, so R(angle) M u = R(angle - axis) u
+    let angle = wrap(orbit.angle - axis);
+    let guess = PeriodicGuess { shape: &orbit.shape, time: orbit.time, angle, mirrored: false };
+    match PeriodicOrbit::find(body, &guess, &settings.flow()) {
+        Some(found) => (found, Recurrence { mirrored: false, angle, ..recurrence }),
+        None => (orbit, recurrence),
+    }
+}
+
+/// The symmetry that every shape of the orbit has: that of some moments, spread over the period. (A zigzag that rests near a straight motion
+/// is nearly symmetric there, and only there.)
+pub(super) fn symmetry_of<B: Equivariant + ?Sized>(
+    body: &B,
+    orbit: &PeriodicOrbit,
+    settings: &Settings,
+) -> Result<Isotropy, motiform_dynamics::Error> {
+    let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape)?;
+    let mut all = Isotropy::of(body, &orbit.shape, SYMMETRIC);
+    for moment in 1..MOMENTS {
+        let t = orbit.time * moment as f64 / MOMENTS as f64;
+        drive(flow.as_mut(), &settings.request(t, body.dim()), &mut ())?;
+        let here = Isotropy::of(body, flow.state(), SYMMETRIC);
+        all.mirror = all.mirror.filter(|_| here.mirror.is_some());
+        all.circle &= here.circle;
+        all.folds = if all.folds == here.folds { all.folds } else { 1 };
+    }
+    Ok(all)
 }
 
 /// Whether the orbit passes so near to a saddle that attracts as a cycle does that only the tolerance closes it.

@@ -2,6 +2,7 @@
 
 use crate::Estimate;
 use crate::equilibrium::Saddle;
+use crate::regime::form::Form;
 use serde::{Deserialize, Serialize};
 
 /// The motions, defined by the reduced dynamics and the drift of the group (never by eye).
@@ -14,6 +15,8 @@ pub enum Regime {
     Motionless,
     /// A fixed shape that moves without turning.
     Straight,
+    /// A shape that repeats and is mirror symmetric at every moment: constant heading, changing speed.
+    PulsatingStraight,
     /// A fixed shape that turns at a constant rate.
     Circular,
     /// A heteroclinic cycle between motionless shapes: rests, and turns in between.
@@ -33,9 +36,10 @@ pub enum Regime {
 
 impl Regime {
     /// All of them, in the order of legends.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Motionless,
         Self::Straight,
+        Self::PulsatingStraight,
         Self::Circular,
         Self::Rectangular,
         Self::QuasiPeriodic,
@@ -51,6 +55,7 @@ impl Regime {
         match self {
             Self::Motionless => "motionless",
             Self::Straight => "straight",
+            Self::PulsatingStraight => "pulsating-straight",
             Self::Circular => "circular",
             Self::Rectangular => "rectangular",
             Self::QuasiPeriodic => "quasi-periodic",
@@ -67,15 +72,18 @@ impl Regime {
         match self {
             Self::Motionless => "A fixed shape at rest: a circle, or a deformed body.",
             Self::Straight => "A fixed shape that moves without turning.",
+            Self::PulsatingStraight => {
+                "A shape that repeats and stays mirror symmetric: the heading is constant, the speed changes."
+            }
             Self::Circular => "A fixed shape that turns at a constant rate.",
             Self::Rectangular => {
                 "Straight runs, rests, and turns in between: a cycle between motionless shapes."
             }
             Self::QuasiPeriodic => {
-                "A shape that repeats up to a rotation and turns on the whole: a rosette that never closes."
+                "A shape that repeats up to a rotation, with a net rotation per period: a rosette that never closes."
             }
             Self::Zigzag => {
-                "A shape that repeats up to a rotation and does not turn on the whole: the body travels on."
+                "A shape that repeats up to a rotation, without net rotation: the body travels on, left and right by turns."
             }
             Self::Chaotic => "Neighbouring motions part: the largest Lyapunov exponent is positive.",
             Self::BlowUp => "The shape leaves every bound in finite time.",
@@ -100,8 +108,10 @@ impl std::fmt::Display for Regime {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Attractor {
-    /// A relative equilibrium: a fixed point of the reduced dynamics.
+    /// A stable relative equilibrium: a fixed point of the reduced dynamics.
     Equilibrium,
+    /// An unstable relative equilibrium, on which only an orbit of exact symmetry stays. No attractor: a typical start leaves it.
+    Unstable,
     /// A relative periodic orbit.
     Periodic,
     /// A torus of the reduced dynamics.
@@ -118,8 +128,9 @@ pub enum Attractor {
 
 impl Attractor {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Equilibrium,
+        Self::Unstable,
         Self::Periodic,
         Self::Torus,
         Self::Heteroclinic,
@@ -133,6 +144,7 @@ impl Attractor {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Equilibrium => "equilibrium",
+            Self::Unstable => "unstable",
             Self::Periodic => "periodic",
             Self::Torus => "torus",
             Self::Heteroclinic => "heteroclinic",
@@ -167,6 +179,9 @@ pub struct Verdict {
     pub regime: Regime,
     /// The kind of reduced attractor.
     pub attractor: Attractor,
+    /// The symmetry of a motion that repeats.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub form: Option<Form>,
     /// The evidence in one sentence, with its numbers.
     pub why: String,
     /// How far the deciding number lies from where the decision would change, in units of its own uncertainty or
@@ -203,6 +218,9 @@ pub struct Verdict {
     /// Durations of the rests (model time), in order.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub rests: Vec<f64>,
+    /// For chaos: the model time for which it was seen to last, at least. A chaotic transient looks the same until it ends.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub lasted: Option<f64>,
     /// The blow-up time t*.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub escape_time: Option<f64>,
@@ -217,6 +235,7 @@ impl Verdict {
         Self {
             regime,
             attractor,
+            form: None,
             why,
             margin: None,
             speed: None,
@@ -229,6 +248,7 @@ impl Verdict {
             legs: Vec::new(),
             swing: None,
             rests: Vec::new(),
+            lasted: None,
             escape_time: None,
             time,
         }

@@ -1,8 +1,9 @@
 //! From the kind of reduced orbit to the motion, with its numbers in words.
 
+use super::form::Form;
 use super::heteroclinic::Cycle;
 use super::motion::Path;
-use super::recurrence::Recurrence;
+use super::recurrence::{Recurrence, symmetry_of};
 use super::settings::Settings;
 use super::verdict::{Attractor, Regime, Spread, Verdict};
 use crate::equilibrium::RelativeEquilibrium;
@@ -31,6 +32,63 @@ pub(super) fn blow_up(singular: bool, t: f64, time: f64) -> Verdict {
 /// Speeds below this part of the largest shape on the way are what is left of it: Newton's method goes no further.
 const REST: f64 = 1e-13;
 
+/// What a body does at a relative equilibrium.
+struct Steady {
+    regime: Regime,
+    /// In words.
+    what: String,
+    moves: bool,
+    turns: bool,
+    /// Speeds and turning rates below these are zero.
+    least: (f64, f64),
+}
+
+impl Steady {
+    /// At this equilibrium, for an orbit that was as large as `largest`.
+    fn of<B: Equivariant + ?Sized>(
+        body: &B,
+        found: &RelativeEquilibrium,
+        largest: f64,
+        settings: &Settings,
+    ) -> Self {
+        let speed = found.speed();
+        let least_speed = body
+            .speed_resolution(&found.shape, settings.atol())
+            .max(1e-9 * found.scale * settings.accuracy())
+            .max(REST * largest);
+        let least_turn = (1e3 * found.resolution()).max(1e-12);
+        let (moves, turns) = (speed > least_speed, found.turning_rate.abs() > least_turn);
+        let regime = match (moves, turns) {
+            (false, false) => Regime::Motionless,
+            (true, false) => Regime::Straight,
+            (_, true) => Regime::Circular,
+        };
+        let what = match (moves, turns) {
+            (false, false) => "a fixed shape at rest".to_owned(),
+            (true, false) => format!("a fixed shape that moves at {speed:.4e} without turning"),
+            (false, true) => format!("a fixed shape that turns on the spot at {:.4e}", found.turning_rate),
+            (true, true) => {
+                format!("a fixed shape that moves at {speed:.4e} and turns at {:.4e}", found.turning_rate)
+            }
+        };
+        Self { regime, what, moves, turns, least: (least_speed, least_turn) }
+    }
+
+    /// A verdict with the numbers of the equilibrium.
+    fn verdict(&self, found: &RelativeEquilibrium, attractor: Attractor, why: String, time: f64) -> Verdict {
+        let mut verdict = Verdict::new(self.regime, attractor, why, time);
+        let speed = found.speed();
+        verdict.speed = Some(Spread { mean: speed, min: speed, max: speed });
+        verdict.turning_rate = self.moves.then_some(if self.turns { found.turning_rate } else { 0.0 });
+        let error = found.resolution();
+        let neutral = std::iter::repeat_n(0.0, found.neutral);
+        let mut values: Vec<f64> = found.eigenvalues.iter().map(|value| value.0).chain(neutral).collect();
+        values.sort_by(|a, b| b.total_cmp(a));
+        verdict.exponents = values.into_iter().map(|value| Estimate { value, error }).collect();
+        verdict
+    }
+}
+
 /// A stable relative equilibrium, reached up to `distance` (against its size) by an orbit that was as large as `largest`.
 pub(super) fn equilibrium<B: Equivariant + ?Sized>(
     body: &B,
@@ -39,43 +97,39 @@ pub(super) fn equilibrium<B: Equivariant + ?Sized>(
     settings: &Settings,
     time: f64,
 ) -> Verdict {
-    let speed = found.speed();
-    let least_speed = body
-        .speed_resolution(&found.shape, settings.atol())
-        .max(1e-9 * found.scale * settings.accuracy())
-        .max(REST * largest);
-    let least_turn = (1e3 * found.resolution()).max(1e-12);
-    let turns = found.turning_rate.abs() > least_turn;
-    let moves = speed > least_speed;
-    let regime = match (moves, turns) {
-        (false, false) => Regime::Motionless,
-        (true, false) => Regime::Straight,
-        (_, true) => Regime::Circular,
-    };
+    let steady = Steady::of(body, found, largest, settings);
     let growth = found.growth();
-    let why = format!(
-        "a fixed shape{}, reached to {distance:.0e}; stable: its leading eigenvalue is {growth:.2e}",
-        match (regime, moves) {
-            (Regime::Motionless, _) => " at rest".to_owned(),
-            (Regime::Straight, _) => format!(" that moves at {speed:.4e} without turning"),
-            (_, false) => format!(" that turns on the spot at {:.4e}", found.turning_rate),
-            (_, true) => format!(" that moves at {speed:.4e} and turns at {:.4e}", found.turning_rate),
-        }
-    );
-    let mut verdict = Verdict::new(regime, Attractor::Equilibrium, why, time);
+    let why =
+        format!("{}, reached to {distance:.0e}; stable: its leading eigenvalue is {growth:.2e}", steady.what);
+    let mut verdict = steady.verdict(found, Attractor::Equilibrium, why, time);
     let sure =
         |value: f64, least: f64| if value > least { value / least } else { least / value.max(1e-3 * least) };
-    let margins =
-        [-growth / found.resolution(), sure(speed, least_speed), sure(found.turning_rate.abs(), least_turn)];
+    let margins = [
+        -growth / found.resolution(),
+        sure(found.speed(), steady.least.0),
+        sure(found.turning_rate.abs(), steady.least.1),
+    ];
     verdict.margin = Some(margins.into_iter().fold(f64::MAX, f64::min));
-    verdict.speed = Some(Spread { mean: speed, min: speed, max: speed });
-    verdict.turning_rate = moves.then_some(if turns { found.turning_rate } else { 0.0 });
-    let error = found.resolution();
-    let neutral = std::iter::repeat_n(0.0, found.neutral);
-    let mut values: Vec<f64> = found.eigenvalues.iter().map(|value| value.0).chain(neutral).collect();
-    values.sort_by(|a, b| b.total_cmp(a));
-    verdict.exponents = values.into_iter().map(|value| Estimate { value, error }).collect();
     verdict
+}
+
+/// An unstable relative equilibrium that the orbit never leaves, after a stay of `stay`. It has no margin: what is decided is where this
+/// orbit is, not what the body does from a typical start.
+pub(super) fn unstable<B: Equivariant + ?Sized>(
+    body: &B,
+    found: &RelativeEquilibrium,
+    largest: f64,
+    stay: f64,
+    settings: &Settings,
+    time: f64,
+) -> Verdict {
+    let steady = Steady::of(body, found, largest, settings);
+    let why = format!(
+        "{}, but unstable, growth rate {:.4e}: this start has an exact symmetry, and its orbit stayed for a time of {stay:.0}; a typical start leaves it",
+        steady.what,
+        found.growth()
+    );
+    steady.verdict(found, Attractor::Unstable, why, time)
 }
 
 /// A heteroclinic cycle.
@@ -114,16 +168,11 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     let path = Path::follow(body, &orbit.shape, orbit.period(), SAMPLES, settings)?;
     let rotation = orbit.net_rotation();
     let no_turn = NO_TURN.max(settings.accuracy());
-    let (regime, what) = match (path.moves(), orbit.mirrored, rotation.abs() < no_turn) {
-        (false, ..) => (Regime::Motionless, "the centre rests while the shape repeats".to_owned()),
-        (true, true, _) => (
-            Regime::Zigzag,
-            "half a period later the motion is its own mirror image, so it has no net rotation".to_owned(),
-        ),
-        (true, false, true) => (Regime::Zigzag, "the shape repeats without net rotation".to_owned()),
-        (true, false, false) => {
-            (Regime::QuasiPeriodic, format!("the shape repeats, turned by {rotation:.6} rad each time"))
-        }
+    let symmetry = symmetry_of(body, orbit, settings)?;
+    let form = Form::of(&symmetry, orbit, &path, no_turn);
+    let what = match form.regime() {
+        Regime::QuasiPeriodic => format!("{}; turned by {rotation:.6} rad each period", form.meaning()),
+        _ => form.meaning().to_owned(),
     };
     let returns = match recurrence.returns {
         1 => "one return".to_owned(),
@@ -134,9 +183,11 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
         orbit.period(),
         orbit.growth()
     );
-    let mut verdict = Verdict::new(regime, Attractor::Periodic, why, time);
+    let mut verdict = Verdict::new(form.regime(), Attractor::Periodic, why, time);
+    verdict.form = Some(form);
     let stability = (1.0 - orbit.growth()) / settings.accuracy();
-    let turning = if orbit.mirrored { f64::MAX } else { rotation.abs() / no_turn };
+    let turning =
+        if orbit.mirrored || symmetry.mirror.is_some() { f64::MAX } else { rotation.abs() / no_turn };
     verdict.margin = Some(stability.min(if turning < 1.0 { 1.0 / turning.max(1e-3) } else { turning }));
     verdict.period = Some(orbit.period());
     verdict.net_rotation = Some(rotation);
@@ -149,9 +200,12 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     verdict.exponents = values.into_iter().map(|value| Estimate { value, error }).collect();
     if path.moves() {
         verdict.drift = Some(path.drift());
-        // exactly 0 where the second half of the period mirrors the first
-        verdict.turning_rate = path.turning_rate().map(|rate| if orbit.mirrored { 0.0 } else { rate });
-        super::legs::describe(&mut verdict, &path, rotation);
+        let straight = symmetry.mirror.is_some();
+        // exactly 0 where the second half of the period mirrors the first, and where the heading keeps to a mirror axis
+        verdict.turning_rate = if orbit.mirrored || straight { Some(0.0) } else { path.turning_rate() };
+        if !straight {
+            super::legs::describe(&mut verdict, &path, rotation);
+        }
     }
     Ok(verdict)
 }

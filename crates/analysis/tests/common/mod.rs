@@ -49,6 +49,7 @@ pub(crate) fn letter(regime: Regime) -> char {
     match regime {
         Regime::Motionless => '.',
         Regime::Straight => 's',
+        Regime::PulsatingStraight => 'p',
         Regime::Circular => 'c',
         Regime::Rectangular => 'R',
         Regime::QuasiPeriodic => 'q',

@@ -47,6 +47,7 @@ Examples:
 
 Regimes, by the dynamics of the shape with rotations divided out:
   motionless, straight, circular   a fixed shape (at rest, moving, turning), stable by its eigenvalues
+  pulsating-straight               a shape that comes back and stays mirror symmetric: constant heading, changing speed
   zigzag, quasi-periodic           a shape that comes back after a period, without or with a net rotation
   rectangular                      rests near motionless shapes, along a heteroclinic cycle that attracts
   chaotic                          the largest Lyapunov exponent is positive beyond its error

@@ -81,6 +81,12 @@ fn summary(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
         let sure = if margin < 3.0 { "weak" } else { "clear" };
         writeln!(text, "margin         {margin:.1} times the uncertainty of the deciding number ({sure})")?;
     }
+    if let Some(form) = verdict.form {
+        writeln!(text, "form           {}", form.name())?;
+    }
+    if let Some(lasted) = verdict.lasted {
+        writeln!(text, "lasted         {lasted:.0} model time at least; chaos may be a transient")?;
+    }
     if let Some(speed) = verdict.speed {
         writeln!(text, "speed          {:.6} (from {:.6} to {:.6})", speed.mean, speed.min, speed.max)?;
     }

@@ -64,13 +64,16 @@ class Verdict:
     """A motion by name, with the evidence. What has no meaning for the motion is ``None``, or empty."""
 
     regime: str
-    """motionless, straight, circular, rectangular, quasi-periodic, zigzag, chaotic, blow-up or undetermined."""
+    """motionless, straight, pulsating-straight, circular, rectangular, quasi-periodic, zigzag, chaotic, blow-up or
+    undetermined."""
     attractor: str
-    """equilibrium, periodic, torus, heteroclinic, chaotic, escape or unknown."""
+    """equilibrium, unstable (an equilibrium that only a start of exact symmetry does not leave), periodic, torus, heteroclinic, chaotic, escape or unknown."""
     why: str
     """The evidence in one sentence."""
     time: float
     """Model time that the decision took."""
+    form: str | None = None
+    """The symmetry of a motion that repeats: mirror-zigzag, rotating-zigzag, pulsating-circular, ... (docs/regimes.md)."""
     margin: float | None = None
     """Distance of the deciding number from the limit, in units of its own uncertainty: 1 is weak, 10 is clear."""
     speed: Spread | None = None
@@ -85,6 +88,8 @@ class Verdict:
     """Distance travelled per period (model length)."""
     swing: float | None = None
     """Peak-to-peak swing of the heading over one period (rad)."""
+    lasted: float | None = None
+    """For chaos: the model time for which it was seen to last, at least."""
     escape_time: float | None = None
     """The blow-up time t* (model time)."""
     saddle: Saddle | None = None

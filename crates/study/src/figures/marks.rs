@@ -4,7 +4,7 @@
 
 use super::geometry::Point;
 use super::glyph::Glyph;
-use super::palette::{BLACK, BLUE, Colour, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, WHITE};
+use super::palette::{BLACK, BLUE, Colour, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, WHITE, YELLOW};
 use super::svg::Svg;
 
 /// How a regime is drawn.
@@ -21,9 +21,10 @@ pub struct RegimeMark {
 }
 
 /// All regimes, in the order of legends and stacked bars; the last stands for whatever has no other name.
-pub const REGIMES: [RegimeMark; 9] = [
+pub const REGIMES: [RegimeMark; 10] = [
     RegimeMark { area: Colour(205, 205, 205), ..mark("motionless", Glyph::Ring, Colour(90, 90, 90)) },
     mark("straight", Glyph::Triangle, BLUE),
+    mark("pulsating-straight", Glyph::DownTriangle, YELLOW),
     mark("circular", Glyph::Disc, ORANGE),
     mark("rectangular", Glyph::Square, SKY),
     mark("quasi-periodic", Glyph::Diamond, PURPLE),

@@ -46,6 +46,8 @@ pub const PURPLE: Colour = Colour(204, 121, 167);
 pub const ORANGE: Colour = Colour(230, 159, 0);
 /// Okabe-Ito sky blue.
 pub const SKY: Colour = Colour(86, 180, 233);
+/// Okabe-Ito yellow: for areas, too pale for lines.
+pub const YELLOW: Colour = Colour(240, 228, 66);
 
 /// The order in which curves take their colours.
 pub const CATEGORIES: [Colour; 6] = [BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY];

@@ -1,0 +1,55 @@
+//! The symmetry of one shape: which rotations and mirrors leave it as it is.
+
+use crate::linear::{add, norm};
+use crate::symmetry::align;
+use motiform_dynamics::Equivariant;
+
+/// The rotations and mirrors of the plane that leave a shape unchanged: its isotropy subgroup.
+///
+/// What a shape has of it, its whole orbit has: the flow commutes with the symmetry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Isotropy {
+    /// Order of the rotations that leave the shape unchanged: 1 for none. A circle counts as 1, see `circle`.
+    pub folds: usize,
+    /// Whether every rotation leaves it unchanged.
+    pub circle: bool,
+    /// Whether it has a mirror axis: then `R(angle) M u = u` for this angle (rad).
+    pub mirror: Option<f64>,
+}
+
+impl Isotropy {
+    /// The isotropy of `shape`, where an image counts as equal up to `tolerance` of the shape's size.
+    ///
+    /// # Checked by  tests/isotropy.rs: pure modes, bodies with an axis in any direction, the circle, general shapes
+    #[must_use]
+    pub fn of<B: Equivariant + ?Sized>(body: &B, shape: &[f64], tolerance: f64) -> Self {
+        let size = norm(shape);
+        if !body.is_symmetric() {
+            return Self { folds: 1, circle: false, mirror: None };
+        }
+        let mut spin = vec![0.0; shape.len()];
+        body.spin(shape, &mut spin);
+        let circle = norm(&spin) <= tolerance * size;
+        let axis = align(body, shape, shape, true);
+        let mirror = (axis.distance <= tolerance * size).then_some(axis.angle);
+        Self { folds: if circle { 1 } else { folds(body, shape, tolerance) }, circle, mirror }
+    }
+
+    /// Whether nothing but the identity leaves the shape unchanged.
+    #[must_use]
+    pub fn is_trivial(&self) -> bool {
+        !self.circle && self.folds == 1 && self.mirror.is_none()
+    }
+}
+
+/// The order of the rotations that leave the shape unchanged (1 for none; a circle counts as 1).
+pub(crate) fn folds<B: Equivariant + ?Sized>(body: &B, shape: &[f64], tolerance: f64) -> usize {
+    let fixed = |folds: &usize| {
+        let mut turned = shape.to_vec();
+        body.rotate(std::f64::consts::TAU / *folds as f64, &mut turned);
+        add(&mut turned, -1.0, shape);
+        norm(&turned) < tolerance * norm(shape)
+    };
+    let most = if body.is_symmetric() { 16.min(shape.len()) } else { 1 };
+    (2..=most).rev().find(fixed).unwrap_or(1)
+}

@@ -1,0 +1,127 @@
+//! The symmetry of a motion that repeats: what distinguishes the periodic motions of one regime.
+
+use super::motion::Path;
+use super::verdict::Regime;
+use crate::isotropy::Isotropy;
+use crate::periodic::PeriodicOrbit;
+use serde::{Deserialize, Serialize};
+
+/// The kind of a relative periodic orbit, by its symmetry and by the rotation that it adds up to in a period.
+///
+/// The symmetry of the shape at every moment (its isotropy) comes first, then the symmetry between different moments, then the
+/// net rotation. See docs/regimes.md, section 'Periodic motions'.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Form {
+    /// The shape repeats while the centre of mass rests.
+    PulsatingAtRest,
+    /// Mirror symmetric at every moment, no net rotation: the body moves along a straight line at a changing speed.
+    PulsatingStraight,
+    /// Mirror symmetric at every moment, turned by half a turn per period: back and forth on a line, without net displacement.
+    BackAndForth,
+    /// Half a period later the motion is its own mirror image: left and right turns are alike.
+    MirrorZigzag,
+    /// No symmetry, and no net rotation either.
+    AsymmetricZigzag,
+    /// The heading swings left and right, by more than the net rotation of a period.
+    RotatingZigzag,
+    /// The heading turns in one direction only, at a changing rate.
+    PulsatingCircular,
+    /// A net rotation, and neither of the two above.
+    Rosette,
+}
+
+impl Form {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::PulsatingAtRest,
+        Self::PulsatingStraight,
+        Self::BackAndForth,
+        Self::MirrorZigzag,
+        Self::AsymmetricZigzag,
+        Self::RotatingZigzag,
+        Self::PulsatingCircular,
+        Self::Rosette,
+    ];
+
+    /// Its name in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::PulsatingAtRest => "pulsating-at-rest",
+            Self::PulsatingStraight => "pulsating-straight",
+            Self::BackAndForth => "back-and-forth",
+            Self::MirrorZigzag => "mirror-zigzag",
+            Self::AsymmetricZigzag => "asymmetric-zigzag",
+            Self::RotatingZigzag => "rotating-zigzag",
+            Self::PulsatingCircular => "pulsating-circular",
+            Self::Rosette => "rosette",
+        }
+    }
+
+    /// What it is, as a clause of a verdict.
+    #[must_use]
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Self::PulsatingAtRest => "the centre of mass rests while the shape repeats",
+            Self::PulsatingStraight => {
+                "the shape is mirror symmetric at every moment and repeats: constant heading, changing speed"
+            }
+            Self::BackAndForth => {
+                "the shape is mirror symmetric at every moment and repeats after half a turn: back and forth on a line"
+            }
+            Self::MirrorZigzag => {
+                "half a period later the motion is its own mirror image, so it has no net rotation"
+            }
+            Self::AsymmetricZigzag => "the shape repeats without net rotation",
+            Self::RotatingZigzag => {
+                "a slowly rotating zigzag: the heading swings by more than the net rotation"
+            }
+            Self::PulsatingCircular => "a pulsating circular motion: the heading turns in one direction only",
+            Self::Rosette => "the shape repeats with a net rotation",
+        }
+    }
+
+    /// The regime that it belongs to.
+    #[must_use]
+    pub const fn regime(self) -> Regime {
+        match self {
+            Self::PulsatingAtRest => Regime::Motionless,
+            Self::PulsatingStraight | Self::BackAndForth => Regime::PulsatingStraight,
+            Self::MirrorZigzag | Self::AsymmetricZigzag => Regime::Zigzag,
+            Self::RotatingZigzag | Self::PulsatingCircular | Self::Rosette => Regime::QuasiPeriodic,
+        }
+    }
+
+    /// The form of an orbit whose shapes all have the symmetry `symmetry`, with the path of one period. Net rotations below
+    /// `no_turn` (rad) are none.
+    pub(super) fn of(symmetry: &Isotropy, orbit: &PeriodicOrbit, path: &Path, no_turn: f64) -> Self {
+        let turns = orbit.net_rotation().abs() >= no_turn;
+        if !path.moves() {
+            return Self::PulsatingAtRest;
+        }
+        match (symmetry.mirror.is_some(), orbit.mirrored, turns) {
+            (true, _, false) => Self::PulsatingStraight,
+            (true, _, true) => Self::BackAndForth,
+            (false, true, _) => Self::MirrorZigzag,
+            (false, false, false) => Self::AsymmetricZigzag,
+            (false, false, true) => Self::turning(path),
+        }
+    }
+
+    /// The form of a motion with a net rotation, by its heading: how far it turns back within a period.
+    fn turning(path: &Path) -> Self {
+        let Some(heading) = path.heading() else { return Self::Rosette };
+        let steps: Vec<f64> = heading.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let net = steps.iter().sum::<f64>().abs();
+        let all = steps.iter().map(|step| step.abs()).sum::<f64>();
+        let back = 0.5 * (all - net);
+        if back < 1e-6 * all {
+            Self::PulsatingCircular
+        } else if back > net {
+            Self::RotatingZigzag
+        } else {
+            Self::Rosette
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! A stay at an unstable equilibrium: what only an orbit of exact symmetry can do for ever.
+
+/// The logarithm of the ratio of the largest to the smallest positive double, rounded up: a deviation of any size along a growing
+/// direction has grown to the size of the shape after this time over the growth rate.
+const EVERY_DEVIATION: f64 = 1500.0;
+
+/// How long an orbit has been at one unstable equilibrium.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Stay {
+    time: f64,
+}
+
+impl Stay {
+    /// Takes in a look that ended there: it lasted for `span`, and the shape was still all the time or not. Whether the orbit
+    /// will never leave: every deviation that a number can hold would have grown (at the rate `growth`) and been seen.
+    pub(super) fn goes_on(&mut self, span: f64, still: bool, growth: f64) -> bool {
+        self.time = if still { self.time + span } else { 0.0 };
+        growth * self.time > EVERY_DEVIATION
+    }
+
+    /// Model time of the stay so far.
+    pub(super) fn time(&self) -> f64 {
+        self.time
+    }
+}
