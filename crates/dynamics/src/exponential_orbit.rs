@@ -133,7 +133,7 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
             drift,
             tableau,
             control,
-            tables: StepTables::new(tableau, dim),
+            tables: StepTables::new(tableau, &lambda),
             lambda,
             restep: stages.clone(),
             stages,

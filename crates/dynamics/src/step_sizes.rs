@@ -3,6 +3,10 @@
 use crate::steppers::ExponentialTableau;
 use crate::steppers::exponential::StepTable;
 
+/// Longest step, over the fastest growth rate of the linear part. Measured on the cell's saddles (lengths 13.2 to 29.45): growth
+/// rates of deviations within 2 % or 1e-4 at .15, wrong by 5 to 30 % at .3, decay instead of growth at .6.
+const LONGEST: f64 = 0.15;
+
 /// Step sizes per doubling.
 const PER_DOUBLING: f64 = 4.0;
 
@@ -16,13 +20,22 @@ pub(crate) struct StepTables {
     selected: Option<usize>,
     /// Exponent `k` of the next step to try.
     k: i32,
+    /// The largest `k` that is tried.
+    most: i32,
 }
 
 const FIXED: i32 = i32::MAX;
 
 impl StepTables {
-    pub(crate) fn new(tableau: &ExponentialTableau, dim: usize) -> Self {
-        Self { known: Vec::new(), odd: StepTable::new(tableau, dim), selected: None, k: 0 }
+    /// Tables for the rates `lambda` of the linear part.
+    ///
+    /// No step is longer than [`LONGEST`] over the fastest growth rate. Near an unstable equilibrium the error of a step is below
+    /// any tolerance, whatever its length; there long steps would damp an oscillation that grows, and the orbit would never
+    /// leave.
+    pub(crate) fn new(tableau: &ExponentialTableau, lambda: &[f64]) -> Self {
+        let fastest = lambda.iter().copied().fold(0.0, f64::max);
+        let most = if fastest > 0.0 { exponent(LONGEST / fastest) } else { i32::MAX - 1 };
+        Self { known: Vec::new(), odd: StepTable::new(tableau, lambda.len()), selected: None, k: 0, most }
     }
 
     /// The step size that control asks for.
@@ -32,7 +45,7 @@ impl StepTables {
 
     /// Asks for the largest size up to `h`.
     pub(crate) fn set_size(&mut self, h: f64) {
-        self.k = exponent(h);
+        self.k = exponent(h).min(self.most);
     }
 
     /// The table in use.
@@ -81,6 +94,7 @@ impl StepTables {
             (true, false) => k,
             (false, _) => k.min(exponent(h) - 1),
         };
+        self.k = self.k.min(self.most);
         good
     }
 }

@@ -90,8 +90,9 @@ pub(super) struct Search {
     first: bool,
     /// Where the orbit was last seen.
     shape: Vec<f64>,
-    /// Model time spent.
+    /// Model time spent, and to be spent at most.
     time: f64,
+    budget: f64,
     /// Fastest change of the reduced shape so far.
     fastest: f64,
     /// Largest `|u|` so far: what distances are small against, for a circle has no size of its own.
@@ -128,6 +129,7 @@ impl Search {
             first: true,
             shape: start.to_vec(),
             time: 0.0,
+            budget: settings.budget,
             fastest: 0.0,
             largest: norm(start),
             rests: Vec::new(),
@@ -238,7 +240,14 @@ impl Search {
             )
             .into());
         }
+        self.budget = self.budget.max(self.stay.budget(&self.settings, self.time, found.growth()));
         self.rests.append(&mut look.rests);
+        if !still {
+            let start = look.resting.unwrap_or(look.start);
+            self.rests.push(Rest { start, end: look.end, shape: self.shape.clone(), whole: false });
+        } else if let Some(rest) = self.rests.last_mut().filter(|rest| !rest.whole) {
+            rest.end = look.end;
+        }
         if let Some(cycle) = cycle(body, &self.rests, &self.settings) {
             return Ok(words::rectangular(body, &cycle, &self.shape, &self.settings, self.time)?.into());
         }
@@ -304,11 +313,11 @@ impl Search {
     /// Twice as long, or the end of the budget.
     fn again<B: Equivariant + ?Sized>(&mut self, body: &B) -> Result<Ask> {
         self.first = false;
-        self.span = (2.0 * self.span).min((self.settings.budget - self.time).max(self.settings.first_look));
-        if self.time < self.settings.budget {
+        self.span = (2.0 * self.span).min((self.budget - self.time).max(self.settings.first_look));
+        if self.time < self.budget {
             return Ok(self.next());
         }
-        let why = format!("{} within the budget of {:.0}", self.missing, self.settings.budget);
+        let why = format!("{} within the budget of {:.0}", self.missing, self.budget);
         let verdict = Verdict::new(Regime::Undetermined, Attractor::Unknown, why, self.time);
         Ok(self.described(verdict, body, self.span)?.into())
     }

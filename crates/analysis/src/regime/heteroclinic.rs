@@ -25,12 +25,18 @@ const LEAST_RESTS: usize = 3;
 /// A rest that comes closer than this (against the shape's size) is ruled by the saddle alone.
 const CLOSE: f64 = 1e-2;
 
-/// Finds a cycle of saddles that attracts: each of the last rests is near a motionless saddle with one growing direction or pair,
-/// and orbits leave it slower than they arrive (`lambda_+ + lambda_- < 0`). `None` where any of this does not hold.
+/// A rest is at least one part in this many of the longest one: an orbit that leaves in a spiral slows down again at each turn.
+const LONG: f64 = 8.0;
+
+/// Finds a cycle of saddles that attracts: each of the last long rests is near a motionless saddle with one growing direction
+/// or pair, and orbits leave it slower than they arrive (`lambda_+ + lambda_- < 0`). `None` where any of this does not hold.
 ///
-/// The rests are those of all looks so far: near the end of a window one rest may be as long as a look.
+/// The rests are those of all looks so far: near the end of a window one rest may be as long as a look. One of which only a part was
+/// seen counts as well, but its duration is not told.
 pub(super) fn cycle<B: Equivariant + ?Sized>(body: &B, rests: &[Rest], settings: &Settings) -> Option<Cycle> {
-    let latest = &rests[rests.len().checked_sub(LEAST_RESTS)?..];
+    let longest = rests.iter().map(Rest::duration).fold(0.0, f64::max);
+    let long: Vec<&Rest> = rests.iter().filter(|rest| LONG * rest.duration() >= longest).collect();
+    let latest = &long[long.len().checked_sub(LEAST_RESTS)?..];
     let mut closest = f64::INFINITY;
     let mut found: Option<(RelativeEquilibrium, Saddle)> = None;
     for rest in latest.iter().rev() {
@@ -39,7 +45,7 @@ pub(super) fn cycle<B: Equivariant + ?Sized>(body: &B, rests: &[Rest], settings:
         found.get_or_insert((equilibrium, saddle));
     }
     let (equilibrium, saddle) = found?;
-    let durations = rests.iter().map(|rest| rest.end - rest.start).collect();
+    let durations = long.iter().filter(|rest| rest.whole).map(|rest| rest.duration()).collect();
     Some(Cycle { equilibrium, saddle, rests: durations, closest })
 }
 

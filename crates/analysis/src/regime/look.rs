@@ -23,6 +23,15 @@ pub(super) struct Rest {
     pub(super) end: f64,
     /// The shape where it was slowest.
     pub(super) shape: Vec<f64>,
+    /// Whether its beginning and its end were seen.
+    pub(super) whole: bool,
+}
+
+impl Rest {
+    /// How long it lasted, at least.
+    pub(super) fn duration(&self) -> f64 {
+        self.end - self.start
+    }
 }
 
 /// What a look saw.
@@ -35,6 +44,8 @@ pub(super) struct Look {
     pub(super) extremes: Vec<Extreme>,
     /// Complete rests.
     pub(super) rests: Vec<Rest>,
+    /// When the rest began that the look ended in; `None` where it began before, or there is none.
+    pub(super) resting: Option<f64>,
     /// Reduced speed: fastest in this look, and at its end.
     pub(super) fastest: f64,
     pub(super) last_speed: f64,
@@ -165,7 +176,7 @@ impl Seen {
         } else if let Some((start, shape, _)) = self.rest.take()
             && let Some(start) = start
         {
-            self.rests.push(Rest { start, end: t, shape });
+            self.rests.push(Rest { start, end: t, shape, whole: true });
         }
     }
 
@@ -182,6 +193,7 @@ impl Seen {
             outcome,
             extremes: significant(self.extremes, flutter),
             rests: self.rests,
+            resting: self.rest.and_then(|rest| rest.0),
             fastest: self.fastest,
             last_speed: self.last_speed,
             sizes: self.sizes,

@@ -1,8 +1,13 @@
 //! A stay at an unstable equilibrium: what only an orbit of exact symmetry can do for ever.
 
+use super::settings::Settings;
+
 /// The logarithm of the ratio of the largest to the smallest positive double, rounded up: a deviation of any size along a growing
 /// direction has grown to the size of the shape after this time over the growth rate.
 const EVERY_DEVIATION: f64 = 1500.0;
+
+/// The logarithm of the shape's size over its round-off.
+const ROUND_OFF: f64 = 37.0;
 
 /// How long an orbit has been at one unstable equilibrium.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,8 +23,14 @@ impl Stay {
         growth * self.time > EVERY_DEVIATION
     }
 
+    /// The model time to spend on a motion that rests here at time `now`: three rests limited by round-off, if they take longer than the
+    /// budget, but at most four budgets.
+    pub(super) fn budget(self, settings: &Settings, now: f64, growth: f64) -> f64 {
+        (now + 3.0 * ROUND_OFF / growth).min(4.0 * settings.budget)
+    }
+
     /// Model time of the stay so far.
-    pub(super) fn time(&self) -> f64 {
+    pub(super) fn time(self) -> f64 {
         self.time
     }
 }
