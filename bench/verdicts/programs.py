@@ -1,0 +1,63 @@
+"""The two programs: motiform's classifier and the long run, which share no line."""
+
+import json
+import os
+import subprocess
+import tempfile
+from pathlib import Path
+
+from samples import NAMES, STATE
+
+HERE = Path(__file__).parent
+RTOL = 1e-10
+
+
+def build():
+    """Compiles both; returns their paths."""
+    folder = Path(os.environ.get("CARGO_TARGET_DIR", HERE / "runner" / "target"))
+    subprocess.run(["cargo", "build", "--release", "--quiet"], cwd=HERE / "runner", check=True,
+                   env={**os.environ, "CARGO_TARGET_DIR": str(folder)})
+    long_run = folder / "long_run"
+    subprocess.run(["gcc", "-O3", "-march=native", "-fno-math-errno", "-o", str(long_run),
+                    str(HERE / "long_run" / "long_run.c"), "-lm"], check=True)
+    return folder / "release" / "motiform-verdicts", long_run
+
+
+def ask(program, lines, jobs):
+    """Lines in, lines out, in order, with `jobs` processes."""
+    parts = [lines[i::jobs] for i in range(jobs)]
+    running = []
+    for part in parts:
+        files = [tempfile.TemporaryFile("w+") for _ in range(2)]
+        files[0].write("\n".join(part) + "\n")
+        files[0].seek(0)
+        running.append((subprocess.Popen(["nice", "-n", "10", str(program)], stdin=files[0], stdout=files[1]), files[1]))
+    answers = []
+    for process, out in running:
+        if process.wait():
+            raise SystemExit(f"{program} failed")
+        out.seek(0)
+        answers.append(out.read().splitlines())
+    return [json.loads(answers[i % jobs][i // jobs]) for i in range(len(lines))]
+
+
+def verdicts(program, cases, jobs):
+    """What motiform calls these motions."""
+    lines = [json.dumps({"id": case["id"], "model": "tensor", "parameters": full(case["parameters"]),
+                         "start": dict(zip(STATE, case["start"]))}) for case in cases]
+    answers = ask(program, lines, jobs)
+    for answer in answers:
+        if "error" in answer:
+            raise SystemExit(f"{answer['id']}: {answer['error']}")
+    return [answer["verdict"] for answer in answers]
+
+
+def full(parameters):
+    """All 21: what a case leaves out is 0, whatever motiform's default is."""
+    return {name: parameters.get(name, 0.0) for name in NAMES}
+
+
+def long_line(case, total, period=0.0, kick=0.0, seed=1):
+    numbers = [*full(case["parameters"]).values(), *case["start"]]
+    name = case["id"].replace(" ", "-")
+    return f"{name} {total!r} {period!r} {kick!r} {seed} {RTOL!r} " + " ".join(map(repr, numbers))
