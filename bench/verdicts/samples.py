@@ -86,20 +86,35 @@ def from_subspaces(seed, per_set=100):
             yield {"id": f"{name}/{i}/{kind.replace(' ', '-')}", "parameters": parameters, "start": start}
 
 
-def anywhere(seed, count=2000):
-    """Points of the 21-parameter space with starts of several sizes; every second one has all cubic terms damping."""
-    rng = random.Random(f"{seed} anywhere")
-    for i in range(count):
-        p = {name: rng.gauss(0, 1) for name in NAMES[3:]}
+def coefficients(rng, i):
+    """A point of the 21-parameter space: half of them anywhere, half around the paper's two models with every term on.
+    Every second one has all cubic terms damping, so that not everything blows up."""
+    if i % 4 < 2:
+        strength = rng.choice([1.0, 0.3, 0.1])
+        p = {name: strength * rng.gauss(0, 1) for name in NAMES[3:]}
         for name in NAMES[:3]:
             p[name] = rng.choice([1, 0.3, 0.1, 0.03]) * rng.uniform(-1, 1)
-        if i % 2:
-            for name in "a4 a5 b3 b4 b5 d3 d4 d5".split():
-                p[name] = abs(p[name])
-        if rng.random() < 0.5:  # weak couplings: rates and growth of similar size
-            strength = rng.choice([0.3, 0.1])
-            for name in NAMES[3:]:
-                if name not in ("b3", "d3"):
-                    p[name] *= strength
-        size = rng.choice([1e-4, 1e-2, 0.1, 1.0])
-        yield {"id": f"any/{i}", "parameters": p, "start": [size * rng.uniform(-1, 1) for _ in STATE]}
+    else:
+        centre = {**FULL, "kappa2": rng.uniform(0.1, 1.4), "kappa3": rng.uniform(0.03, 0.4)}
+        if rng.random() < 0.4:
+            centre = {**REDUCED, "kappa2": rng.uniform(-0.22, 0.22), "gamma": rng.uniform(-0.16, 0.12),
+                      "kappa3": rng.uniform(-0.1, 1)}
+        spread = rng.choice([0.2, 0.05])
+        p = {name: centre.get(name, 0.0) + (spread * rng.gauss(0, 1) if name in NAMES[3:] else 0.0) for name in NAMES}
+    if i % 2:
+        for name in "a4 a5 b3 b4 b5 d3 d4 d5".split():
+            p[name] = abs(p[name])
+    return p
+
+
+def anywhere(seed, count=2000):
+    """Points of the 21-parameter space with starts of several sizes, one in four in an invariant subspace."""
+    rng = random.Random(f"{seed} anywhere")
+    for i in range(count):
+        p = coefficients(rng, i)
+        kind, size = "general", rng.choice([1e-4, 1e-2, 0.1, 1.0])
+        start = [size * rng.uniform(-1, 1) for _ in STATE]
+        if rng.random() < 0.25:
+            kind = rng.choice(KINDS[:-1])
+            start = invariant(rng, kind, p)
+        yield {"id": f"any/{i}/{kind.replace(' ', '-')}", "parameters": p, "start": start}
