@@ -6,12 +6,13 @@ CLOSES = 1e-3  # of the diameter: after its period a shape is back
 SETTLED = 1e-6  # of the fastest change: at rest
 TURNED = 1e-5  # rad per period: a net rotation
 
-# What a periodic motion may be called, by what it was seen to do.
+# What a periodic motion is called, by what it was seen to do; its forms.
 PERIODIC_NAMES = {
-    "at rest": {"motionless", "pulsating-at-rest", "breathing"},
-    "fixed heading": {"pulsating-straight"},
-    "no net rotation": {"zigzag"},
-    "turns": {"quasi-periodic", "pulsating-circular", "rotating-zigzag"},
+    "at rest": ("motionless", {"pulsating-at-rest"}),
+    "fixed heading": ("pulsating-straight", {"pulsating-straight", "back-and-forth"}),
+    "mirrored": ("zigzag", {"mirror-zigzag"}),
+    "no net rotation": ("zigzag", {"asymmetric-zigzag"}),
+    "turns": ("quasi-periodic", {"rotating-zigzag", "pulsating-circular", "rosette"}),
 }
 
 
@@ -26,7 +27,7 @@ def judge(verdict, run):
         if attractor == "chaotic" and run["t"] > verdict["time"]:
             return "transient", f"escapes at t = {run['t']:.6g}"
         return "contradicted", f"the long run escapes at t = {run['t']:.6g}"
-    return {"equilibrium": equilibrium, "periodic": periodic, "torus": torus, "heteroclinic": cycle,
+    return {"equilibrium": equilibrium, "unstable": equilibrium, "periodic": periodic, "torus": torus, "heteroclinic": cycle,
             "chaotic": chaotic}[attractor](verdict, run)
 
 
@@ -105,7 +106,9 @@ def seen_after(period):
         return "at rest"
     if period["across"] < 1e-6:
         return "fixed heading"
-    return "no net rotation" if abs(period["turn"]) < TURNED else "turns"
+    if abs(period["turn"]) > TURNED:
+        return "turns"
+    return "mirrored" if period["half_mirrored"] < CLOSES * period["diameter"] else "no net rotation"
 
 
 def periodic(verdict, run):
@@ -121,8 +124,9 @@ def periodic(verdict, run):
         if period[name] < CLOSES * diameter:
             return "contradicted", f"it repeats after a {name} of the period"
     seen = seen_after(period)
-    if verdict["regime"] not in PERIODIC_NAMES[seen]:
-        return "contradicted", f"{seen} (heading across by {period['across']:.2g}, turn {period['turn']:.6g})"
+    regime, forms = PERIODIC_NAMES[seen]
+    if verdict["regime"] != regime or verdict["form"] not in forms:
+        return "contradicted", f"{seen}, not {verdict['form']} (heading across by {period['across']:.2g}, turn {period['turn']:.6g})"
     return "agrees", ""
 
 

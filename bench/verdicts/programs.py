@@ -10,6 +10,7 @@ from samples import NAMES, STATE
 
 HERE = Path(__file__).parent
 RTOL = 1e-10
+NICE = int(os.environ.get("VERDICTS_NICE", "10"))  # other people work on the machine
 
 
 def build():
@@ -27,11 +28,12 @@ def ask(program, lines, jobs):
     """Lines in, lines out, in order, with `jobs` processes."""
     parts = [lines[i::jobs] for i in range(jobs)]
     running = []
+    gently = ["nice", "-n", str(NICE)]
     for part in parts:
         files = [tempfile.TemporaryFile("w+") for _ in range(2)]
         files[0].write("\n".join(part) + "\n")
         files[0].seek(0)
-        running.append((subprocess.Popen(["nice", "-n", "10", str(program)], stdin=files[0], stdout=files[1]), files[1]))
+        running.append((subprocess.Popen([*gently, str(program)], stdin=files[0], stdout=files[1]), files[1]))
     answers = []
     for process, out in running:
         if process.wait():

@@ -17,7 +17,15 @@ KICKS = [1e-6, 1e-6, 1e-4]
 
 
 def confident(verdict):
-    return verdict["regime"] != "undetermined" and (verdict["attractor"] == "escape" or verdict.get("margin", 0.0) >= CONFIDENT)
+    """Blow-up and a stay at an unstable shape have no margin, but are said without reserve."""
+    if verdict["attractor"] in ("escape", "unstable"):
+        return True
+    return verdict["regime"] != "undetermined" and verdict.get("margin", 0.0) >= CONFIDENT
+
+
+def name(verdict):
+    """The row of the table."""
+    return verdict["regime"] + (" (unstable)" if verdict["attractor"] == "unstable" else "")
 
 
 def how_long(verdict, cap):
@@ -42,7 +50,7 @@ def check(cases, found, long_run, options):
     for i, run in zip(sure, runs):
         results[i] = judge(found[i], run)
     for seed, kick in enumerate(KICKS, 1):
-        again = [i for i in sure if results[i][0] in ("contradicted", "undecided")]
+        again = [i for i in sure if results[i][0] in ("contradicted", "undecided") and found[i]["attractor"] != "unstable"]
         runs = long_runs(long_run, [cases[i] for i in again], [found[i] for i in again], options, kick, seed)
         for i, run in zip(again, runs):
             status, reason = judge(found[i], run)
@@ -52,17 +60,17 @@ def check(cases, found, long_run, options):
 
 
 def table(title, found, results):
-    print(f"\n{title}\n{'':20}" + "".join(f"{name:>14}" for name in COLUMNS))
-    for regime in sorted({verdict["regime"] for verdict in found}):
-        counts = Counter(result[0] for verdict, result in zip(found, results) if verdict["regime"] == regime)
-        print(f"{regime:20}" + "".join(f"{counts[name]:14}" for name in COLUMNS))
+    print(f"\n{title}\n{'':24}" + "".join(f"{column:>14}" for column in COLUMNS))
+    for row in sorted({name(verdict) for verdict in found}):
+        counts = Counter(result[0] for verdict, result in zip(found, results) if name(verdict) == row)
+        print(f"{row:24}" + "".join(f"{counts[column]:14}" for column in COLUMNS))
     counts = Counter(result[0] for result in results)
-    print(f"{'all':20}" + "".join(f"{counts[name]:14}" for name in COLUMNS), flush=True)
+    print(f"{'all':24}" + "".join(f"{counts[column]:14}" for column in COLUMNS), flush=True)
     return counts
 
 
 def kept(case, verdict, result):
-    fields = {key: verdict[key] for key in ("regime", "attractor", "why", "margin", "period", "time") if key in verdict}
+    fields = {key: verdict[key] for key in ("regime", "attractor", "form", "why", "margin", "period", "time") if key in verdict}
     return {**case, "status": result[0], "reason": result[1], "verdict": fields}
 
 
