@@ -59,8 +59,10 @@ def halves(run, name):
 
 
 def at_rest(run):
-    """The reduced shape has stopped changing."""
-    return high(run, "rate") <= max(SETTLED * run["fastest"], 1e-9 * high(run, "size"))
+    """The reduced shape has stopped changing; or its rate is a small constant, which steps of finite length leave on a turning shape."""
+    rate = high(run, "rate")
+    left_over = rate < 1e-4 * run["fastest"] and low(run, "rate") > 0.999 * rate
+    return left_over or rate <= max(SETTLED * run["fastest"], 1e-9 * high(run, "size"))
 
 
 def settling(run):

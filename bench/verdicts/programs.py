@@ -14,14 +14,15 @@ NICE = int(os.environ.get("VERDICTS_NICE", "10"))  # other people work on the ma
 
 
 def build():
-    """Compiles both; returns their paths."""
+    """Compiles all; returns the path of the classifier and of the long runs' programs by model."""
     folder = Path(os.environ.get("CARGO_TARGET_DIR", HERE / "runner" / "target"))
     subprocess.run(["cargo", "build", "--release", "--quiet"], cwd=HERE / "runner", check=True,
                    env={**os.environ, "CARGO_TARGET_DIR": str(folder)})
-    long_run = folder / "long_run"
-    subprocess.run(["gcc", "-O3", "-march=native", "-fno-math-errno", "-o", str(long_run),
-                    str(HERE / "long_run" / "long_run.c"), "-lm"], check=True)
-    return folder / "release" / "motiform-verdicts", long_run
+    programs = {"tensor": folder / "long_run", "cell": folder / "long_cell"}
+    for program in programs.values():
+        subprocess.run(["gcc", "-O3", "-march=native", "-fno-math-errno", "-fcx-limited-range", "-o", str(program),
+                        str(HERE / "long_run" / f"{program.name}.c"), "-lm"], check=True)
+    return folder / "release" / "motiform-verdicts", programs
 
 
 def ask(program, lines, jobs):
@@ -45,8 +46,7 @@ def ask(program, lines, jobs):
 
 def verdicts(program, cases, jobs):
     """What motiform calls these motions."""
-    lines = [json.dumps({"id": case["id"], "model": "tensor", "parameters": full(case["parameters"]),
-                         "start": dict(zip(STATE, case["start"]))}) for case in cases]
+    lines = [json.dumps({key: case[key] for key in ("id", "model", "parameters", "start")}) for case in map(complete, cases)]
     answers = ask(program, lines, jobs)
     for answer in answers:
         if "error" in answer:
@@ -54,12 +54,18 @@ def verdicts(program, cases, jobs):
     return [answer["verdict"] for answer in answers]
 
 
-def full(parameters):
-    """All 21: what a case leaves out is 0, whatever motiform's default is."""
-    return {name: parameters.get(name, 0.0) for name in NAMES}
+def complete(case):
+    """The tensor model has all its 21 parameters: what a case leaves out is 0, whatever motiform's default is."""
+    if case["model"] == "cell":
+        return case
+    return {**case, "parameters": {name: case["parameters"].get(name, 0.0) for name in NAMES}}
 
 
 def long_line(case, total, period=0.0, kick=0.0, seed=1):
-    numbers = [*full(case["parameters"]).values(), *case["start"]]
-    name = case["id"].replace(" ", "-")
-    return f"{name} {total!r} {period!r} {kick!r} {seed} {RTOL!r} " + " ".join(map(repr, numbers))
+    """A long run as its program reads it."""
+    start = case["start"]
+    if case["model"] == "cell":
+        numbers = [case["parameters"]["length"], *(start.get(f"{wave}{n}", 0.0) for n in range(1, 22) for wave in "cs")]
+    else:
+        numbers = [RTOL, *complete(case)["parameters"].values(), *(start[name] for name in STATE)]
+    return f"{case['id']} {total!r} {period!r} {kick!r} {seed} " + " ".join(map(repr, numbers))

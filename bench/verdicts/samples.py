@@ -83,7 +83,8 @@ def from_subspaces(seed, per_set=100):
         for i in range(per_set):
             kind = KINDS[i % len(KINDS)]
             start = invariant(rng, kind, parameters)
-            yield {"id": f"{name}/{i}/{kind.replace(' ', '-')}", "parameters": parameters, "start": start}
+            yield {"id": f"{name}/{i}/{kind.replace(' ', '-')}", "model": "tensor", "parameters": parameters,
+                   "start": dict(zip(STATE, start))}
 
 
 def coefficients(rng, i):
@@ -117,4 +118,21 @@ def anywhere(seed, count=2000):
         if rng.random() < 0.25:
             kind = rng.choice(KINDS[:-1])
             start = invariant(rng, kind, p)
-        yield {"id": f"any/{i}/{kind.replace(' ', '-')}", "parameters": p, "start": start}
+        yield {"id": f"any/{i}/{kind.replace(' ', '-')}", "model": "tensor", "parameters": p, "start": dict(zip(STATE, start))}
+
+
+LENGTHS = [6.2, 7.0, 9.0, 12.0, 12.4, 12.8, 13.2, 13.5, 14.4, 15.0, 18.0, 20.85, 21.0, 21.4, 21.6, 21.75, 21.8, 22.0, 22.3, 24.0, 28.0,
+           29.2, 29.3, 29.4, 29.45, 29.6, 29.8, 31.0]
+
+
+def cells(seed):
+    """The active cell at lengths of every window, from general starts; and from exact symmetry where the circle is unstable."""
+    rng = random.Random(f"{seed} cells")
+    names = [f"{wave}{n}" for n in range(1, 22) for wave in "cs"]
+    for length in LENGTHS:
+        start = {name: 0.01 * rng.uniform(-1, 1) for name in names}
+        yield {"id": f"cell/{length}/general", "model": "cell", "parameters": {"length": length}, "start": start}
+    for length in (7.0, 13.5, 15.0, 24.0):
+        for kind, start in [("circle", {}), ("mode-1", {"s1": 0.05}), ("mode-2", {"c2": 0.05}), ("mode-3", {"c3": 0.05}),
+                            ("mirror", {f"s{n}": 0.1 * rng.uniform(-1, 1) for n in (1, 2, 3)})]:
+            yield {"id": f"cell/{length}/{kind}", "model": "cell", "parameters": {"length": length}, "start": start}

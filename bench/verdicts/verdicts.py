@@ -32,13 +32,13 @@ def how_long(verdict, cap):
     """Several times what the decision took; chaos and blow-up need no settling."""
     if verdict["attractor"] == "escape":
         return 1.5 * verdict["escape_time"] + 10.0
-    return min(max(10.0 * verdict["time"], 5000.0), cap)
+    return min(max(10.0 * verdict["time"], 8000.0), cap)
 
 
 def long_runs(program, cases, found, options, kick=0.0, seed=1):
     lines = [programs.long_line(case, how_long(verdict, options.cap), verdict.get("period", 0.0), kick, seed)
              for case, verdict in zip(cases, found)]
-    return programs.ask(program, lines, options.jobs)
+    return programs.ask(program, lines, options.jobs) if lines else []
 
 
 def check(cases, found, long_run, options):
@@ -79,6 +79,7 @@ def main():
     parser.add_argument("--seed", type=int, default=14)
     parser.add_argument("--per-set", type=int, default=100, help="starts for each of the ten sets (default 100)")
     parser.add_argument("--points", type=int, default=2000, help="points of the 21-parameter space (default 2000)")
+    parser.add_argument("--cells", type=int, choices=(0, 1), default=1, help="also the active cell at 28 lengths (default 1)")
     parser.add_argument("--cap", type=float, default=60000.0, help="longest run (model time)")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--out", type=Path, help="folder for the results (JSON lines of all that does not simply agree)")
@@ -86,11 +87,12 @@ def main():
     classifier, long_run = programs.build()
     contradicted, report = 0, []
     for title, cases in [("Invariant subspaces", list(samples.from_subspaces(options.seed, options.per_set))),
-                         ("21 parameters", list(samples.anywhere(options.seed, options.points)))]:
+                         ("21 parameters", list(samples.anywhere(options.seed, options.points))),
+                         ("Active cell", list(samples.cells(options.seed)) if options.cells else [])]:
         if not cases:
             continue
         found = programs.verdicts(classifier, cases, options.jobs)
-        results = check(cases, found, long_run, options)
+        results = check(cases, found, long_run[cases[0]["model"]], options)
         counts = table(f"{title}: {len(cases)} motions, seed {options.seed}", found, results)
         contradicted += counts["contradicted"]
         report += [kept(*row) for row in zip(cases, found, results) if row[2][0] != "agrees"]

@@ -103,7 +103,10 @@ fn velocity_is_the_quadrature_of_its_definition() {
                 let size = expected[0].hypot(expected[1]);
                 let off = (v[0] - expected[0]).hypot(v[1] - expected[1]) / size;
                 // differences of order 8 are good to 1e-9 here, the drawn boundary (128 points, 63 waves) to 1e-6
-                assert!(size > 1e-6 && off < 1e-5, "{alpha2} {alpha3} {seed} {closure_modes}: {v:?} {expected:?}");
+                assert!(
+                    size > 1e-6 && off < 1e-5,
+                    "{alpha2} {alpha3} {seed} {closure_modes}: {v:?} {expected:?}"
+                );
             }
         }
     }

@@ -34,7 +34,12 @@ fn run(value: f64, size: f64, time: f64) -> Lyapunov {
 }
 
 fn witness(zero_one: f64, dimension: f64, stationary: bool) -> Witness {
-    Witness { zero_one: Some(zero_one), dimension: Some(dimension), stationary: Some(stationary), returns: 1000 }
+    Witness {
+        zero_one: Some(zero_one),
+        dimension: Some(dimension),
+        stationary: Some(stationary),
+        returns: 1000,
+    }
 }
 
 /// The error of two such runs, pooled, for noise of size 1.
@@ -47,8 +52,7 @@ fn pooled_error() -> f64 {
 fn is_chaos(ratio: f64, growth: f64, zero_one: f64) -> bool {
     let (value, time) = (0.01, 0.5 * growth / 0.01);
     let one = run(value, value / (ratio * pooled_error()), time);
-    let runs: Vec<Growth> =
-        [time, 2.0 * time].into_iter().filter_map(|end| Growth::of(&one, end)).collect();
+    let runs: Vec<Growth> = [time, 2.0 * time].into_iter().filter_map(|end| Growth::of(&one, end)).collect();
     chaotic(&runs, &one, &witness(zero_one, 1.5, true), 2.0 * time).is_some()
 }
 
@@ -75,7 +79,8 @@ fn chaos_needs_growth_beyond_a_power_of_time() {
 fn chaos_needs_two_runs_that_agree() {
     let verdict = |runs: &[Lyapunov]| {
         let ends = (1..).map(|i| 1e3 * f64::from(i));
-        let growth: Vec<Growth> = runs.iter().zip(ends).filter_map(|(run, end)| Growth::of(run, end)).collect();
+        let growth: Vec<Growth> =
+            runs.iter().zip(ends).filter_map(|(run, end)| Growth::of(run, end)).collect();
         chaotic(&growth, runs.last()?, &witness(0.9, 1.5, true), 1e3 * runs.len() as f64)
     };
     let strong = run(0.1, 0.01, 1e3);
