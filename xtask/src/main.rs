@@ -1,6 +1,7 @@
 //! One way to do each chore: `cargo xtask test`, `cargo xtask deny`.
 
 mod explorer;
+mod mutants;
 mod python;
 
 use anyhow::{Context, Result, bail};
@@ -15,6 +16,8 @@ usage: cargo xtask COMMAND
   quick    the Rust tests alone
   explorer the page of `motiform explore`: builds it, compares it with the committed one, tests it in Chromium
   python   the Python package: builds it into target/python and runs its tests there
+  mutants  [K/N] [OPTION..]: changes the mathematics in small ways, every N-th possible one from the K-th (0/100), and asks
+           the tests to notice; see docs/mutants.md (needs `cargo install --locked cargo-mutants`)
   deny     licences, advisories and sources of the dependencies (needs `cargo install --locked cargo-deny`)";
 
 /// Lints and documentation are checked with every feature on, so that optional parts cannot rot.
@@ -50,6 +53,7 @@ fn run() -> Result<()> {
         Some("quick") => cargo("tests", TESTS),
         Some("explorer") => explorer::test(),
         Some("python") => python::test(),
+        Some("mutants") => mutants::run(&std::env::args().skip(2).collect::<Vec<_>>()),
         Some("deny") => cargo("dependencies", &["deny", "check"]),
         _ => {
             println!("{HELP}");

@@ -13,6 +13,8 @@ mod recurrence;
 mod returns;
 mod settings;
 mod stay;
+#[cfg(test)]
+mod tests_of_thresholds;
 mod verdict;
 mod words;
 
