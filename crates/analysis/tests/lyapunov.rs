@@ -5,7 +5,7 @@
 mod common;
 
 use common::{Random, cell, full, near};
-use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings, batch_means, lyapunov, lyapunov_followed};
+use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings, lyapunov, lyapunov_followed, series_mean};
 use motiform_dynamics::steppers::{DOP853, Method};
 use motiform_dynamics::{Equivariant, Orbit, Outcome, Request, StepControl, drive::drive};
 use motiform_models::tensor::Tensor;
@@ -162,7 +162,7 @@ fn two_orbits(model: &Tensor, start: &[f64], transient: f64, span: f64) -> Optio
         let back: Vec<f64> = orbit.state().iter().zip(&step).map(|(a, b)| a + b * APART / length).collect();
         other.restart(&back);
     }
-    ended.is_complete().then(|| batch_means(&rates).unwrap())
+    ended.is_complete().then(|| series_mean(&rates).unwrap())
 }
 
 #[test]
