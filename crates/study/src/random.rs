@@ -76,6 +76,15 @@ impl Random {
         }
     }
 
+    /// The largest size.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        match *self {
+            Self::Within(size) => size,
+            Self::Sizes { max, .. } => max,
+        }
+    }
+
     /// The distribution in words: `uniform within ±0.01`, `of size 0.01 to 1, log-uniform`.
     #[must_use]
     pub fn words(&self) -> String {

@@ -117,6 +117,14 @@ pub fn lyapunov(
     Ok(orbits.map(summarise))
 }
 
+impl Exponents {
+    /// Why the means have no error; `None` if they have one, or there are none.
+    #[must_use]
+    pub fn without_error(&self) -> Option<String> {
+        self.orbits.iter().find_map(Lyapunov::without_error)
+    }
+}
+
 fn exponents_in_lanes(tensor: &Tensor, settings: &LyapunovSettings, asked: &Asked<'_, '_, Lyapunov>) {
     let mut next = || asked.next()?.try_into().ok();
     let mut done = |number, found: motiform_analysis::Result<Lyapunov>| {

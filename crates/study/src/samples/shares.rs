@@ -43,24 +43,31 @@ impl Basins {
     pub fn new(samples: &Samples, verdicts: &[Verdict]) -> Self {
         let drawn = &verdicts[usize::from(samples.given).min(verdicts.len())..];
         let share = |(regime, count)| Some(MotionShare { regime, share: Share::new(count, drawn.len())? });
-        Self {
-            starts: Starts {
-                count: drawn.len(),
-                given: samples.given,
-                random: samples.random,
-                words: samples.random.words(),
-            },
-            shares: motions(drawn).into_iter().filter_map(share).collect(),
-        }
+        Self { starts: Starts::of(samples), shares: motions(drawn).into_iter().filter_map(share).collect() }
     }
 
     /// `of 200 starts of size 0.01 to 1, log-uniform: circular 86 % (80 to 90 %), ...`.
     #[must_use]
     pub fn words(&self) -> String {
-        let Starts { count, given, words, .. } = &self.starts;
         let shares: Vec<String> = self.shares.iter().map(MotionShare::words).collect();
-        let beside = if *given { " beside the given one" } else { "" };
-        format!("of {count} starts {words}{beside}: {}", shares.join(", "))
+        format!("of {}: {}", self.starts.sentence(), shares.join(", "))
+    }
+}
+
+impl Starts {
+    /// The random ones of these samples.
+    #[must_use]
+    pub fn of(samples: &Samples) -> Self {
+        let Samples { count, random, given, .. } = *samples;
+        Self { count: count.saturating_sub(usize::from(given)), given, random, words: random.words() }
+    }
+
+    /// `200 starts of size 0.01 to 1, log-uniform`.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        let Self { count, given, words, .. } = self;
+        let beside = if *given { ", beside the given one" } else { "" };
+        format!("{count} starts {words}{beside}")
     }
 }
 
