@@ -76,12 +76,12 @@ impl Lyapunov {
         let fewest = (0..self.exponents.len()).map(worth).fold(f64::INFINITY, f64::min);
         Some(if fewest < FEWEST_INDEPENDENT {
             format!(
-                "too short for an error: the growth rates over a time of {:.4} are worth {fewest:.0} independent ones, and \
+                "too short for an error: the growth rates over a time of {:?} are worth {fewest:.0} independent ones, and \
                  {FEWEST_INDEPENDENT} are needed; average over a longer time",
                 self.time
             )
         } else {
-            format!("too short for an error: the body hardly moves within a time of {:.4}", self.time)
+            format!("too short for an error: the body hardly moves within a time of {:?}", self.time)
         })
     }
 }

@@ -39,16 +39,19 @@ fn many(options: &ClassifyOptions, plan: &Plan, samples: Samples, budget: f64) -
     if options.motion.json {
         let counts: serde_json::Map<String, Value> =
             motions.iter().map(|&(name, count)| (name.to_owned(), count.into())).collect();
-        print(&serde_json::to_string(&json!({
+        let mut object = json!({
             "model": plan.computation.model,
             "parameters": plan.computation.parameters,
             "seed": plan.computation.seed,
             "regimes": counts,
             "starts": basins.starts,
             "shares": basins.shares,
-            "escapes": escapes,
             "samples": verdicts,
-        }))?)?;
+        });
+        if let Some(escapes) = escapes {
+            object["escapes"] = serde_json::to_value(escapes)?;
+        }
+        print(&serde_json::to_string(&object)?)?;
     } else {
         print(&motions_summary(plan, &verdicts, &motions, (&basins, escapes.as_ref()))?)?;
     }

@@ -95,7 +95,8 @@ fn summary(found: &Lyapunov) -> anyhow::Result<String> {
             found.neutral
         )?;
     }
-    write!(text, "averaged over {:.0} model time after {:.0}", found.time, found.transient)?;
+    let digits = if found.time < 10.0 { 4 } else { 0 };
+    write!(text, "averaged over {:.digits$} model time after {:.0}", found.time, found.transient)?;
     Ok(text)
 }
 
@@ -110,17 +111,22 @@ fn many(options: &LyapunovOptions, plan: &Plan, samples: Samples, count: usize) 
     let starts = Starts::of(&samples);
     let text = if options.motion.json {
         let orbit = |orbit: &Lyapunov| json!({ "exponents": orbit.exponents, "outcome": orbit.outcome });
-        serde_json::to_string(&json!({
+        let mut object = json!({
             "model": plan.computation.model,
             "parameters": plan.computation.parameters,
             "exponents": found.means,
             "agree": found.agree,
             "lasted": lasted,
             "starts": starts,
-            "escapes": escapes,
-            "without_error": found.without_error(),
             "orbits": found.orbits.iter().map(orbit).collect::<Vec<_>>(),
-        }))?
+        });
+        if let Some(escapes) = &escapes {
+            object["escapes"] = serde_json::to_value(escapes)?;
+        }
+        if let Some(why) = found.without_error() {
+            object["without_error"] = why.into();
+        }
+        serde_json::to_string(&object)?
     } else {
         many_summary(&found, lasted, &starts, escapes.as_ref())?
     };

@@ -3,7 +3,7 @@
 use crate::analyse;
 use crate::scan::{CellSummary, Classify, Opening, Scan, Shard, cells};
 use crate::simulate::{Monitor, simulate};
-use crate::{Dataset, Error, Plan, ScanPlan, Study, presets};
+use crate::{Dataset, Error, Plan, Random, ScanPlan, Study, presets};
 use motiform_analysis::Verdict;
 use motiform_dynamics::Outcome;
 use std::path::Path;

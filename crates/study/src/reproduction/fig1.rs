@@ -7,7 +7,7 @@ mod schemes;
 use super::claims::claim;
 use super::context::Context;
 use crate::Error;
-use crate::draw::{number, phase_diagram};
+use crate::draw::phase_diagram;
 use crate::report::{Claim, Picture, ReportFigure, Section};
 use crate::scan::Axis;
 use grid::{Grid, found_line};

@@ -16,7 +16,7 @@ const FOLLOWED: usize = 32;
 /// What became of starts that blow up, or are chaotic and may do so.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Escapes {
-    /// Starts that blew up while they were named.
+    /// Starts that blew up while they were named, or within the first look.
     pub at_once: usize,
     /// Chaotic starts that were followed further.
     pub followed: usize,
@@ -99,10 +99,14 @@ impl Escapes {
             let parts = orbit.exponents.first().is_some_and(|first| first.value > 2.0 * first.error);
             parts || matches!(orbit.outcome, Outcome::Escaped { .. })
         };
-        let stays: Vec<Stay> =
-            orbits.iter().filter(chaotic).filter_map(|orbit| stay(&orbit.outcome)).collect();
+        let look = plan.info()?.look;
+        let all = orbits.iter().filter(chaotic).filter_map(|orbit| stay(&orbit.outcome));
+        // What leaves within the first look was never near chaos.
+        let (at_once, stays): (Vec<Stay>, Vec<Stay>) =
+            all.partition(|stay| stay.escaped && stay.time <= look);
+        let gone: Vec<f64> = at_once.iter().map(|stay| stay.time).collect();
         let until = orbits.iter().map(|orbit| orbit.transient + orbit.time).fold(0.0, f64::max);
-        Ok(Self::new(&[], &stays, 0, until, plan.info()?.look))
+        Ok(Self::new(&gone, &stays, 0, until, look))
     }
 
     fn new(gone: &[f64], stays: &[Stay], left_out: usize, until: f64, look: f64) -> Option<Self> {
