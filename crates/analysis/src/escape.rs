@@ -118,6 +118,46 @@ pub fn escape_rate(stays: &[Stay], t_from: f64) -> Result<EscapeRate> {
     Ok(EscapeRate { rate, escapes, watched })
 }
 
+/// The 95 % limits of the rate of a Poisson process that showed so many events while it was watched for so long (summed over
+/// runs), for any number of events: 0 to 3.69 / watched for none.
+///
+/// P(N >= n; lower watched) = 2.5 %,   P(N <= n; upper watched) = 2.5 %,   lower = 0 for n = 0
+///
+/// Exact: they cover the rate at least as often as they say.
+///
+/// Source: Garwood (1936), Biometrika 28, 437.
+///
+/// # Errors    [`Error::OutOfRange`] for a time that is not above 0
+/// # Checked by  tests/escape.rs: published limits
+pub fn escape_limits(events: usize, watched: f64) -> Result<(f64, f64)> {
+    checks::argument("watched", watched, watched > 0.0, "above 0")?;
+    let n = events as f64;
+    let end = n + 10.0 * (n + 1.0).sqrt() + 10.0;
+    let lower = if events == 0 { 0.0 } else { crossing(end, |mean| at_most(events - 1, mean) < 0.975) };
+    let upper = crossing(end, |mean| at_most(events, mean) < 0.025);
+    Ok((lower / watched, upper / watched))
+}
+
+/// P(N <= n) for a Poisson variable of this mean.
+fn at_most(n: usize, mean: f64) -> f64 {
+    let log = libm::log(mean);
+    (0..=n).map(|k| libm::exp(k as f64 * log - mean - libm::lgamma(k as f64 + 1.0))).sum()
+}
+
+/// Where `beyond` changes from false to true between 0 and `end`, to a part in 2^60.
+fn crossing(end: f64, beyond: impl Fn(f64) -> bool) -> f64 {
+    let (mut below, mut above) = (0.0, end);
+    for _ in 0..60 {
+        let middle = 0.5 * (below + above);
+        if beyond(middle) {
+            above = middle;
+        } else {
+            below = middle;
+        }
+    }
+    0.5 * (below + above)
+}
+
 /// The stays in the order of time: sums do not depend on the order of the runs.
 fn sorted(stays: &[Stay]) -> Result<Vec<Stay>> {
     checks::at_least("a survival curve, in runs,", 1, stays.len())?;

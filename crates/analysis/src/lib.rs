@@ -4,11 +4,11 @@
 //! [`periodic`], [`mod@lyapunov`], and [`regime`], which asks them all and names the motion. And those asked of **samples**:
 //! spectra, means with errors, legs, rests, returns, escapes.
 
-mod batch_means;
 mod checks;
 pub mod equilibrium;
 mod error;
 mod escape;
+mod estimate;
 mod isotropy;
 mod legs;
 mod linear;
@@ -18,14 +18,16 @@ pub mod regime;
 mod rests;
 mod returns;
 mod same_set;
+mod series_mean;
+mod share;
 mod spectrum;
 pub mod symmetry;
 mod zero_one;
 
-pub use batch_means::{Estimate, batch_means};
 pub use equilibrium::RelativeEquilibrium;
 pub use error::{Error, Result};
-pub use escape::{EscapeRate, Stay, SurvivalStep, escape_rate, survival};
+pub use escape::{EscapeRate, Stay, SurvivalStep, escape_limits, escape_rate, survival};
+pub use estimate::Estimate;
 pub use isotropy::Isotropy;
 pub use legs::{CornerKind, Ends, Leg, Legs, PathSample, legs};
 pub use lyapunov::{Lyapunov, LyapunovSettings, SoFar, lyapunov, lyapunov_followed};
@@ -34,5 +36,7 @@ pub use regime::{Attractor, Regime, Settings, Spread, Verdict, classify};
 pub use rests::{Rest, Rests, rests};
 pub use returns::{Dimension, correlation_dimension, return_pairs};
 pub use same_set::same_set;
+pub use series_mean::series_mean;
+pub use share::Share;
 pub use spectrum::{Spectrum, welch};
 pub use zero_one::{ZeroOne, zero_one};

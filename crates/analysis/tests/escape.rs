@@ -1,6 +1,6 @@
 //! Survival curves and escape rates against a textbook's numbers and against exponential times.
 
-use motiform_analysis::{Error, Stay, SurvivalStep, escape_rate, survival};
+use motiform_analysis::{Error, Stay, SurvivalStep, escape_limits, escape_rate, survival};
 use motiform_dynamics::Normal;
 
 fn stays(times: &[(f64, bool)]) -> Vec<Stay> {
@@ -113,6 +113,29 @@ fn the_ends_of_a_curve_are_defined() {
     let at_once = survival(&stays(&[(1.0, true)])).expect("a curve");
     assert_eq!((at_once[0].lower, at_once[0].upper), (0.0, 1.0));
     assert!(survival(&stays(&[(1.0, false)])).expect("a curve").is_empty());
+}
+
+/// The usual table of Poisson limits (Garwood 1936; Ulm 1990, Am. J. Epidemiol. 131, 373), four and five digits.
+#[test]
+fn limits_of_a_rate_are_the_published_ones() {
+    for (events, lower, upper) in [
+        (0, 0.0, 3.6889),
+        (1, 0.0253, 5.5716),
+        (2, 0.2422, 7.2247),
+        (5, 1.6235, 11.6683),
+        (10, 4.7954, 18.3904),
+        (100, 81.364, 121.627),
+    ] {
+        let (seen_lower, seen_upper) = escape_limits(events, 2.0).expect("limits");
+        assert!(
+            (2.0 * seen_lower - lower).abs() < 6e-4 && (2.0 * seen_upper - upper).abs() < 6e-4,
+            "{events}"
+        );
+    }
+    // far out: the normal law of escape_rate, a little to the right
+    let (lower, upper) = escape_limits(10_000, 1.0).expect("limits");
+    assert!((lower - 9804.0).abs() < 2.0 && (upper - 10_196.0).abs() < 4.0, "{lower} {upper}");
+    assert!(matches!(escape_limits(3, 0.0), Err(Error::OutOfRange { .. })));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
-use motiform_analysis::{Estimate, Rests, batch_means, correlation_dimension, rests, zero_one};
+use motiform_analysis::{Estimate, Rests, correlation_dimension, rests, series_mean, zero_one};
 use motiform_dynamics::steppers::{DOP853, RK4};
 use motiform_dynamics::{
     Direction, Integration, Noise, NoisyOrbit, Normal, Orbit, Request, Section, StepControl, Trajectory,
@@ -54,7 +54,7 @@ fn with_noise_mean_rests_grow_with_the_logarithm_of_its_amplitude() {
         let mut noisy = NoisyOrbit::new(orbit, noise, Normal::new(1990, stream)).unwrap();
         let seen = rests_of(&mut noisy, 40_000.0, 0.05);
         let durations: Vec<f64> = seen.rests.iter().skip(5).map(|rest| rest.duration).collect();
-        batch_means(&durations).unwrap()
+        series_mean(&durations).unwrap()
     };
     let (few, less, least) = (mean_rest(1e-4, 0), mean_rest(1e-6, 1), mean_rest(1e-8, 2));
     println!("{few:?} {less:?} {least:?}");

@@ -5,7 +5,7 @@
 mod common;
 
 use common::{Random, cell, full, near};
-use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings, batch_means, lyapunov, lyapunov_followed};
+use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings, lyapunov, lyapunov_followed, series_mean};
 use motiform_dynamics::steppers::{DOP853, Method};
 use motiform_dynamics::{Equivariant, Orbit, Outcome, Request, StepControl, drive::drive};
 use motiform_models::tensor::Tensor;
@@ -113,6 +113,63 @@ fn errors_cover_the_truth_as_often_as_they_say() {
     assert!(error < 12.0 * off, "errors of {error} say nothing about {off}");
 }
 
+/// How often the intervals of many runs cover `truth`, or their own mean; and how wide they are against 1.96 times the scatter.
+fn coverage(runs: &[Estimate], truth: Option<f64>) -> (f64, f64) {
+    let n = runs.len() as f64;
+    let truth = truth.unwrap_or_else(|| runs.iter().map(|x| x.value).sum::<f64>() / n);
+    let covered = runs.iter().filter(|x| x.has_error() && x.covers(truth)).count();
+    let scatter = (runs.iter().map(|x| (x.value - truth).powi(2)).sum::<f64>() / n).sqrt();
+    let width = (runs.iter().map(|x| x.error * x.error).sum::<f64>() / n).sqrt();
+    (covered as f64 / n, width / (1.96 * scatter))
+}
+
+/// The errors of chaotic runs are 95 % errors, and not by being wide: 0.92 to 0.985 leaves two standard errors of 160 runs (1.7 %)
+/// on either side of 0.95. Those of the zeros are bounds: every run is covered.
+#[test]
+fn errors_of_chaos_are_sharp() {
+    let lorenz = |seed| {
+        let mut random = Random(seed);
+        let start = [random.between(-10.0, 10.0), random.between(-10.0, 10.0), random.between(15.0, 35.0)];
+        run(&Lorenz::default(), &start, &settings(1, 20.0, 1000.0)).exponents[0]
+    };
+    let lorenz: Vec<Estimate> = (0..160).map(lorenz).collect();
+    let mut seen = vec![("lorenz", coverage(&lorenz, Some(published("lorenz").0[0])))];
+    for (name, kappa2, kappa3) in [("(.5, .1)", 0.5, 0.1), ("(.63, .11)", 0.63, 0.11)] {
+        let model = full(kappa2, kappa3);
+        let runs: Vec<Lyapunov> = (0..160)
+            .map(|seed| run(&model, &Random(seed).state(6, 0.01), &settings(3, 300.0, 1500.0)))
+            .filter(|run| run.outcome.is_complete())
+            .collect();
+        let firsts: Vec<Estimate> = runs.iter().map(|run| run.exponents[0]).collect();
+        seen.push((name, coverage(&firsts, None)));
+        let zeros: Vec<Estimate> = runs.iter().flat_map(Lyapunov::zeros).collect();
+        let (covered, width) = coverage(&zeros, Some(0.0));
+        println!("{name}: zeros {covered}, {width} times too wide; {} of 160 runs", runs.len());
+        assert!(covered > 0.99 && width < 4.0, "{name}: zeros {covered} {width}");
+    }
+    for (name, (covered, width)) in seen {
+        println!("{name}: {covered}, width {width}");
+        assert!(
+            (0.92..=0.985).contains(&covered) && (0.9..1.25).contains(&width),
+            "{name}: {covered} {width}"
+        );
+    }
+}
+
+/// What is too short for an error has none: an average over less than a turn, or over an instant of which only round-off is seen.
+#[test]
+fn short_averages_have_no_error() {
+    let model = full(0.5, 0.1);
+    for span in [1e-9, 1e-4, 0.01, 1.0, 5.0] {
+        let seen = run(&model, &Random(1).state(6, 0.01), &settings(1, 0.0, span));
+        println!("{span}: {:?} {:?}", seen.exponents, seen.without_error());
+        assert!(!seen.exponents[0].has_error() && seen.exponents[0].value.is_finite(), "{span}");
+        assert!(seen.without_error().is_some_and(|why| why.contains("too short")), "{span}");
+    }
+    let seen = run(&model, &Random(1).state(6, 0.01), &settings(1, 200.0, 1000.0));
+    assert!(seen.exponents[0].has_error() && seen.without_error().is_none());
+}
+
 /// Chaos has two zeros: along the flow, and along the rotations.
 #[test]
 fn both_neutral_directions_of_a_chaotic_body_vanish_within_their_errors() {
@@ -162,7 +219,7 @@ fn two_orbits(model: &Tensor, start: &[f64], transient: f64, span: f64) -> Optio
         let back: Vec<f64> = orbit.state().iter().zip(&step).map(|(a, b)| a + b * APART / length).collect();
         other.restart(&back);
     }
-    ended.is_complete().then(|| batch_means(&rates).unwrap())
+    ended.is_complete().then(|| series_mean(&rates).unwrap())
 }
 
 #[test]

@@ -4,7 +4,7 @@
 
 mod common;
 
-use motiform_analysis::{Ends, Estimate, PathSample, batch_means, legs, rests};
+use motiform_analysis::{Ends, Estimate, PathSample, legs, rests, series_mean};
 use motiform_dynamics::steppers::RK4;
 use motiform_dynamics::{
     InPlane, Noise, NoisyOrbit, Normal, Orbit, Request, Shape, StepControl, Trajectory, drive::drive,
@@ -46,7 +46,7 @@ fn run(amplitude: f64, stream: u64) -> Run {
     let speeds: Vec<f64> = path.iter().map(|s| s.vx.hypot(s.vy)).collect();
     let times: Vec<f64> = path.iter().map(|s| s.t).collect();
     let found = rests(&times, &speeds, 0.1).unwrap().rests;
-    let mean = batch_means(&found.iter().map(|rest| rest.duration).collect::<Vec<f64>>()).unwrap();
+    let mean = series_mean(&found.iter().map(|rest| rest.duration).collect::<Vec<f64>>()).unwrap();
     let turns = legs(&path, Ends::Open).unwrap().heading_turns;
     let askew = turns.iter().map(|turn| (turn.abs() - std::f64::consts::FRAC_PI_2).abs()).fold(0.0, f64::max);
     let left = turns.iter().filter(|turn| **turn > 0.0).count() as f64;

@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 #[cfg(feature = "explorer")]
 use help::EXPLORE_HELP;
 use help::{CLASSIFY_HELP, EXAMPLES, LYAPUNOV_HELP, REPRODUCE_HELP, SCAN_HELP, SIMULATE_HELP};
+use motiform_study::Random;
 use std::path::PathBuf;
 pub(crate) use subject::{MethodOptions, SamplesOptions, SubjectOptions};
 
@@ -192,9 +193,13 @@ pub(crate) struct ScanOptions {
     /// Vary a parameter (once or twice): NAME=LOW:HIGH:COUNT, both ends included, or NAME=v1,v2,v3
     #[arg(long = "axis", value_name = "NAME=LOW:HIGH:COUNT")]
     pub(crate) axes: Vec<String>,
-    /// Initial states per cell (default: 1)
+    /// Initial states per cell (default: 1); several are drawn from all sizes of --random
     #[arg(long, value_name = "M", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) samples: Option<u64>,
+    /// Random initial states: SIZE is each coordinate within +-SIZE (default for one state: 0.01), MIN:MAX is all directions and
+    /// log-uniform sizes (default for several: 0.01 to 1 times the model's typical size)
+    #[arg(long, value_name = "SIZE|MIN:MAX", value_parser = random, allow_hyphen_values = true)]
+    pub(crate) random: Option<Random>,
     /// Seed of the random initial states
     #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) seed: Option<u64>,
@@ -310,6 +315,10 @@ fn number(text: &str) -> Result<f64, String> {
 
 fn whole(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| format!("{text:?} is no whole number from 0 to {}: write it like 7", u64::MAX))
+}
+
+fn random(text: &str) -> Result<Random, String> {
+    Random::parse(text).map_err(|error| error.to_string())
 }
 
 fn assignment(text: &str) -> Result<(String, f64), String> {

@@ -1,5 +1,6 @@
 //! What the user reads, and the exit code.
 
+use motiform_analysis::Estimate;
 use motiform_dynamics::Outcome;
 use motiform_study::Error;
 use std::io::{self, Write};
@@ -34,6 +35,13 @@ impl From<&Outcome> for End {
             _ => Self::NotAsAsked,
         }
     }
+}
+
+/// `0.0902 +- 2.1e-3`, or that there is no error.
+pub(crate) fn estimate(estimate: &Estimate, width: usize, digits: usize) -> String {
+    let Estimate { value, error } = estimate;
+    let error = if estimate.has_error() { format!("+- {error:.1e}") } else { "(no error)".to_owned() };
+    format!("{value:>width$.digits$} {error}")
 }
 
 /// Prints `text` and a line end on standard output. A reader that went away is no error; a full disk is one.

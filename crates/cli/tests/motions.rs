@@ -128,3 +128,52 @@ fn bad_input_is_answered() {
     }
     insta::assert_snapshot!("motions", read);
 }
+
+/// Where motions coexist, small starts see one of them and starts of size .3 mostly the other (issue 14: 200 of 200 against 29
+/// of 32; here fewer). Shares come with intervals and say what was sampled.
+#[test]
+fn many_starts_sample_basins() {
+    let folder = Folder::new();
+    let place = "classify tensor --preset fig4 --set kappa2=1.11 --set kappa3=0.105";
+    let small = folder.run(&format!("{place} --samples 4 --random 0.01 --json")).expect(0).json();
+    assert_eq!(small["shares"][0]["regime"], "quasi-periodic", "{}", small["shares"]);
+    let wide = folder.run(&format!("{place} --samples 16 --random 0.3 --json")).expect(0).json();
+    let first = &wide["shares"][0];
+    assert_eq!((&first["regime"], &first["of"]), (&"circular".into(), &16.into()), "{first}");
+    let number = |key: &str| first[key].as_f64().unwrap();
+    assert!(number("lower") > 0.4 && number("lower") < number("value") && number("value") <= number("upper"));
+    assert_eq!(wide["starts"]["words"], "uniform within ±0.3");
+    let said = folder.run(&format!("{place} --samples 8")).expect(0).stdout;
+    assert!(said.contains("of 8 starts of size 0.01 to 1, log-uniform: "), "{said}");
+}
+
+/// Chaos that ends: some of a dozen starts blow up, and the answer says how many, by when, and at what rate.
+#[test]
+fn escapes_of_many_starts_are_told() {
+    let folder = Folder::new();
+    let words = "classify tensor --preset fig4 --set kappa2=0.3612 --set kappa3=0.0906 --samples 12";
+    let json = folder.run(&format!("{words} --json")).expect(0).json();
+    let escapes = &json["escapes"];
+    let number = |key: &str| escapes[key].as_f64().unwrap();
+    assert!(number("at_once") + number("lost") >= 6.0 && number("lost") > 0.0, "{escapes}");
+    assert!(number("first") <= number("median") && number("median") <= number("last"), "{escapes}");
+    let rate = |key: &str| escapes["rate"][key].as_f64().unwrap();
+    assert!(0.0 < rate("lower") && rate("lower") < rate("value") && rate("value") < rate("upper"));
+    let said = folder.run(words).expect(0).stdout;
+    assert!(said.contains("starts blow up within") && said.contains("this chaos is transient"), "{said}");
+}
+
+/// An average over a hundredth of a time unit knows nothing about its error, and says so.
+#[test]
+fn short_averages_have_no_error() {
+    let folder = Folder::new();
+    let words = "lyapunov tensor --preset fig5b --count 1 --transient 0 --t-end 0.01";
+    let json = folder.run(&format!("{words} --json")).expect(1).json();
+    assert!(
+        json["exponents"][0]["value"].is_number() && json["exponents"][0].get("error").is_none(),
+        "{json}"
+    );
+    assert!(json["without_error"].as_str().unwrap().contains("too short"), "{json}");
+    let said = folder.run(words).expect(1).stdout;
+    assert!(said.contains("(no error)") && said.contains("too short"), "{said}");
+}

@@ -26,6 +26,10 @@ pub struct ModelInfo {
     pub look: f64,
     /// Most model time to spend on naming a motion, by default.
     pub budget: f64,
+    /// Typical size of its shapes: the norm of their coordinates on the paper's motions, to one digit.
+    pub size: f64,
+    /// How large coordinates are in random shapes, by their place.
+    pub weight: fn(usize) -> f64,
     parameters: fn() -> &'static [ParameterSpec],
     coordinates: fn(&[f64]) -> &'static [Coordinate],
     build: Build,
@@ -45,6 +49,8 @@ pub static MODELS: &[ModelInfo] = &[
         tolerances: (1e-9, 1e-12),
         look: 200.0,
         budget: 4e4,
+        size: 1.0,
+        weight: |_| 1.0,
         parameters: TensorParameters::specs,
         coordinates: |_| &tensor::COORDINATES,
         build: |values| Ok(Box::new(Tensor::new(&from_values::<TensorParameters>(values)))),
@@ -58,6 +64,8 @@ pub static MODELS: &[ModelInfo] = &[
         tolerances: (1e-6, 1e-7), // high modes are tiny: their digits do not matter
         look: 1500.0,
         budget: 1e5,
+        size: 4.0,
+        weight: |place| 1.0 / ((place / 2 + 1) * (place / 2 + 1)) as f64, // mode n: as smooth as a boundary whose slope jumps
         parameters: CellParameters::specs,
         coordinates: |values| from_values::<CellParameters>(values).coordinates(),
         build: |values| Ok(Box::new(Cell::new(&from_values::<CellParameters>(values))?)),

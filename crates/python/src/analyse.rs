@@ -5,7 +5,8 @@ use crate::run::{Columns, TableArrays};
 use crate::study::{Study, plan};
 use crate::watch::Watch;
 use motiform_dynamics::Direction;
-use motiform_study::Error;
+use motiform_study::samples::{self, Basins, Escapes, Samples};
+use motiform_study::{Error, Random};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use serde_json::json;
@@ -33,6 +34,40 @@ pub(crate) fn classify(
     serde_json::to_string(&verdict).map_err(of_json)
 }
 
+/// The motions that many starts lead to, with their shares.
+#[pyfunction]
+#[pyo3(signature = (study, samples, budget=0.0, threads=1, progress=None))]
+pub(crate) fn motions(
+    py: Python<'_>,
+    study: &Study,
+    samples: usize,
+    budget: f64,
+    threads: usize,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<String> {
+    let (verdicts, basins, escapes) = answer(Watch::here(py, progress, |monitor| {
+        let mut study = study.clone();
+        let random = Random::of(study.0.random, samples as u64, study.0.info()?);
+        study.0.random = Some(random); // the first of many is drawn like the others
+        let given = study.0.initial.iter().any(|(name, _)| !["x", "y"].contains(&name.as_str()));
+        let (plan, samples) = (plan(&study)?, Samples { count: samples, random, given, threads: threads.max(1) });
+        let Some(verdicts) = samples::classify(&plan, samples, budget, monitor)? else { return Ok(None) };
+        let escapes = Escapes::of_verdicts(&plan, samples, &verdicts, budget, monitor)?;
+        let basins = Basins::new(&samples, &verdicts);
+        Ok(Some((verdicts, basins, escapes)))
+    }))?;
+    let words = escapes.as_ref().map(|escapes| escapes.words(verdicts.len()));
+    let text = serde_json::to_string(&json!({
+        "starts": basins.starts,
+        "shares": basins.shares,
+        "words": basins.words(),
+        "escapes": escapes,
+        "escape_words": words.unwrap_or_default(),
+        "verdicts": verdicts,
+    }));
+    text.map_err(of_json)
+}
+
 /// The largest exponents of a study's motion.
 #[pyfunction]
 #[pyo3(signature = (study, count, transient=None, t_end=None, progress=None))]
@@ -50,6 +85,7 @@ pub(crate) fn lyapunov(
     let text = serde_json::to_string(&json!({
         "exponents": found.exponents,
         "zeros": found.zeros(),
+        "without_error": found.without_error(),
         "neutral": found.neutral,
         "time": found.time,
         "transient": found.transient,

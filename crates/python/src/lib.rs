@@ -21,7 +21,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _motiform {
     #[pymodule_export]
-    use super::analyse::{classify, equilibria, lyapunov, section};
+    use super::analyse::{classify, equilibria, lyapunov, motions, section};
     #[pymodule_export]
     use super::flow::Flow;
     #[pymodule_export]

@@ -4,7 +4,7 @@ use crate::errors::{of_keywords, python};
 use motiform_dynamics::model::Coordinate;
 use motiform_models::ModelInfo;
 use motiform_study::study::RunSettings;
-use motiform_study::{Error, presets};
+use motiform_study::{Error, Random, presets};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyType};
@@ -162,6 +162,19 @@ fn whole(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u64> {
     value.extract().map_err(|_| wrong())
 }
 
+/// The distribution of random starts: a size, a pair of the smallest and the largest, or a text as on the command line.
+fn random(value: &Bound<'_, PyAny>) -> PyResult<Random> {
+    if let Ok(text) = value.extract::<String>() {
+        return Random::parse(&text).map_err(of_keywords);
+    }
+    let random = match value.extract::<(f64, f64)>() {
+        Ok((min, max)) => Random::Sizes { min, max },
+        Err(_) => Random::Within(number("random", value)?),
+    };
+    random.check().map_err(of_keywords)?;
+    Ok(random)
+}
+
 /// Sets one run setting.
 fn set(study: &mut motiform_study::Study, name: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
     let run: &mut RunSettings = &mut study.run;
@@ -177,7 +190,7 @@ fn set(study: &mut motiform_study::Study, name: &str, value: &Bound<'_, PyAny>) 
         "max_steps" => run.max_steps = whole(name, value)?,
         "escape_norm" => run.escape_norm = number(name, value)?,
         "noise" => run.noise = number(name, value)?,
-        "random" => study.random = number(name, value)?,
+        "random" => study.random = Some(random(value)?),
         _ => return Err(PyTypeError::new_err(format!("unknown setting {name:?}"))),
     }
     Ok(())

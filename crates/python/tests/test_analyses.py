@@ -69,3 +69,28 @@ def test_sections_are_crossed_where_they_are() -> None:
         body.section("w")
     with pytest.raises(ValueError, match="direction"):
         body.section("y", 0.0, "up")  # type: ignore[arg-type]
+
+
+def test_shares_of_many_starts_are_those_of_the_command_line(binary: Path) -> None:
+    body = motiform.preset("fig1").replace(kappa2=0.1, gamma=0.05)
+    found = body.motions(6, threads=2)
+    arguments = ["--preset", "fig1", "--set", "kappa2=0.1", "--set", "gamma=0.05", "--samples", "6", "--json"]
+    said = json.loads(subprocess.run([binary, "classify", "tensor", *arguments], capture_output=True, check=True).stdout)
+    assert [share.__dict__ for share in found.shares] == said["shares"]
+    assert found.starts == said["starts"] and found.starts["random"] == {"min": 0.01, "max": 1.0}
+    assert [verdict.why for verdict in found.verdicts] == [entry["why"] for entry in said["samples"]]
+    assert sum(share.count for share in found.shares) == 6
+    assert all(share.lower <= share.value <= share.upper for share in found.shares)
+    assert "of 6 starts of size 0.01 to 1, log-uniform" in str(found)
+    small, text = body.motions(2, random=0.01), body.motions(2, random="0.5:0.5")
+    assert small.starts["words"] == "uniform within ±0.01" and text.starts["words"] == "of size 0.5"
+    with pytest.raises((ValueError, TypeError), match="random"):
+        body.motions(2, random=(1.0, 0.1))
+
+
+def test_averages_that_are_too_short_have_no_error() -> None:
+    short = motiform.preset("fig5b").lyapunov(1, transient=0.0, t_end=0.01)
+    assert np.isinf(short.errors).all() and short.without_error is not None
+    assert "(no error)" in str(short)
+    enough = motiform.preset("fig5b").lyapunov(1, transient=200.0, t_end=1000.0)
+    assert np.isfinite(enough.errors).all() and enough.without_error is None

@@ -2,14 +2,15 @@
 
 use crate::Error;
 use crate::plan::Named;
+use crate::random::Random;
 use crate::study::Study;
 use motiform_dynamics::Model;
 use motiform_models::ModelInfo;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// The complete start: if any shape value is given, the others are 0; if none is, each is drawn uniformly from
-/// `-random .. random` by a counter-based generator. The position is `x = y = 0` unless given.
+/// The complete start: if any shape value is given, the others are 0; if none is, they are drawn
+/// from the study's distribution ([`Random`]; [`Random::SMALL`] if it has none) by a counter-based generator. The position is `x = y = 0` unless given.
 pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
     let values = study.values()?;
     let coordinates = info.coordinates(&values);
@@ -25,10 +26,11 @@ pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
         }
     }
     let draw = !coordinates.iter().any(|coordinate| given(coordinate.name).is_some());
-    let mut random = Uniform::new(study.run.seed, 0);
+    let random =
+        study.random.unwrap_or(Random::SMALL).coordinates(info, coordinates.len(), study.run.seed, 0);
     let mut entries: Vec<(String, f64)> = Vec::new();
-    for coordinate in coordinates {
-        let value = if draw { study.random * random.next() } else { given(coordinate.name).unwrap_or(0.0) };
+    for (coordinate, drawn) in coordinates.iter().zip(random) {
+        let value = if draw { drawn } else { given(coordinate.name).unwrap_or(0.0) };
         entries.push((coordinate.name.to_owned(), value));
     }
     for name in ["x", "y"] {

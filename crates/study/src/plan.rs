@@ -1,6 +1,7 @@
 //! A plan: a study made explicit. Every number that a run depends on stands in it; nothing else does.
 
 use crate::error::nearest_of;
+use crate::random::Random;
 use crate::study::{FigureSettings, ReturnMapSettings, Study};
 use crate::{Error, initial};
 use motiform_dynamics::steppers::Method;
@@ -175,7 +176,7 @@ impl Plan {
             "that is over 20 million rows: give a longer time",
         )?;
         check("escape_norm", run.escape_norm, run.escape_norm > 0.0, "give a number above 0")?;
-        check("random", study.random, study.random >= 0.0, "give a size of at least 0")?;
+        study.random.unwrap_or(Random::SMALL).check()?;
         if run.max_steps == 0 {
             return Err(Error::Setting { key: "max_steps", value: "0".into(), remedy: "give at least 1" });
         }

@@ -1,5 +1,6 @@
 //! A study as typed: everything optional, nothing computed yet.
 
+use crate::random::Random;
 use crate::scan::Axis;
 use crate::toml_reader::{Source, Table, Value};
 use crate::{Error, presets};
@@ -24,8 +25,9 @@ pub struct Study {
     pub parameters: Vec<(String, f64)>,
     /// Initial values that are given, in the order of the coordinates; the others are 0, or random if none is given.
     pub initial: Vec<(String, f64)>,
-    /// Size of the random start.
-    pub random: f64,
+    /// The distribution of random starts; without it one start is small ([`Random::SMALL`]), and many sample basins
+    /// ([`Random::basins`]).
+    pub random: Option<Random>,
     /// The run.
     pub run: RunSettings,
     /// The scan.
@@ -148,7 +150,7 @@ impl Study {
             free: Vec::new(),
             parameters: Vec::new(),
             initial: Vec::new(),
-            random: 0.01,
+            random: None,
             run: RunSettings {
                 stepper: info.stepper.to_owned(),
                 rtol: info.tolerances.0,
@@ -179,7 +181,9 @@ impl Study {
             study.free = read_free(&study, &free)?;
         }
         if let Some(mut table) = top.table("initial")? {
-            table.number("random", &mut study.random)?;
+            if let Some(value) = table.take("random") {
+                study.random = Some(read_random(&value)?);
+            }
             read_initial(&mut study, table)?;
         }
         if let Some(table) = top.table("run")? {
@@ -329,6 +333,12 @@ fn read_initial(study: &mut Study, mut table: Table<'_>) -> Result<(), Error> {
     Ok(())
 }
 
+/// One size as a number, or both ends of a range as a text.
+fn read_random(value: &Value<'_>) -> Result<Random, Error> {
+    let Ok(text) = value.text() else { return Ok(Random::Within(value.number()?)) };
+    Random::parse(&text).map_err(|error| value.error(error))
+}
+
 fn read_run(run: &mut RunSettings, mut table: Table<'_>) -> Result<(), Error> {
     table.number("t_end", &mut run.t_end)?;
     table.number("transient", &mut run.transient)?;
@@ -401,7 +411,7 @@ pub fn schema() -> serde_json::Value {
         serde_json::json!({ "type": "object", "additionalProperties": false, "properties": properties })
     };
     let mut models = serde_json::Map::new();
-    let mut initial = vec![("random", "size of the random start".to_owned())];
+    let mut initial = Vec::new();
     for info in MODELS {
         let meanings = info.parameters().iter().map(|spec| (spec.name, spec.meaning.to_owned())).collect();
         models.insert(info.name.to_owned(), numbers(meanings));
@@ -409,6 +419,11 @@ pub fn schema() -> serde_json::Value {
         initial.extend(info.coordinates(&defaults).iter().map(|c| (c.name, c.meaning.to_owned())));
     }
     initial.extend(["x", "y"].map(|name| (name, "position of the centre of mass".to_owned())));
+    let mut initial = numbers(initial);
+    initial["properties"]["random"] = serde_json::json!({
+        "type": ["number", "string"],
+        "description": "random starts: each coordinate within plus or minus this size, or \"MIN:MAX\" for log-uniform sizes in all directions",
+    });
     serde_json::json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "motiform study",
@@ -420,7 +435,7 @@ pub fn schema() -> serde_json::Value {
             "preset": { "type": "string", "description": "the preset to start from" },
             "free": { "type": "array", "items": { "type": "string" }, "description": "parameters to vary" },
             "model": { "type": "object", "additionalProperties": false, "properties": models },
-            "initial": numbers(initial),
+            "initial": initial,
             "run": section::<RunSettings>(),
             "scan": section::<ScanSettings>(),
             "return_map": section::<ReturnMapSettings>(),

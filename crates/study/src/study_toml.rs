@@ -1,5 +1,6 @@
 //! A study as the text of a study file.
 
+use crate::random::Random;
 use crate::scan::Axis;
 use crate::{Error, Study};
 use serde::Serialize;
@@ -25,8 +26,12 @@ impl Study {
         let model = Table::from_iter([(self.model.to_owned(), Value::Table(numbers(&self.parameters)))]);
         top.insert("model".to_owned(), model.into());
         let mut initial = numbers(&self.initial);
-        if self.random != bare.random {
-            initial.insert("random".to_owned(), self.random.into());
+        if let Some(random) = self.random {
+            let value = match random {
+                Random::Within(size) => size.into(),
+                Random::Sizes { .. } => random.to_string().into(),
+            };
+            initial.insert("random".to_owned(), value);
         }
         let tables = [
             ("initial", initial),
@@ -98,7 +103,7 @@ mod tests {
         study.title = "quotes \" and \\ and \n lines".to_owned();
         study.set("kappa2", 0.1 + 0.2).unwrap();
         study.set_initial("v1", 1e-300).unwrap();
-        study.random = 0.5;
+        study.random = Some(Random::Sizes { min: 0.1 + 0.2, max: 1.0 });
         study.run = RunSettings {
             t_end: 1.0 / 3.0,
             transient: 7.0,

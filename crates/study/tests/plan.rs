@@ -51,7 +51,7 @@ const SHOWING: &[Change] = &[
     ("from", |s| s.figure.from = 1.0),
     ("to", |s| s.figure.to = 2.0),
     ("animation", |s| s.figure.animation = false),
-    ("size of a random start, not in use", |s| s.random = 0.5),
+    ("size of a random start, not in use", |s| s.random = Some(0.5.into())),
     ("a value set to what it is", |s| s.set("kappa2", 0.9).unwrap()),
 ];
 
@@ -77,7 +77,7 @@ fn the_hash_covers_what_is_computed_and_nothing_else() {
     let random = |size: f64| {
         hash(&preset("fig5a", |s| {
             s.initial.clear();
-            s.random = size;
+            s.random = Some(size.into());
         }))
     };
     assert_ne!(random(0.01), random(0.02));

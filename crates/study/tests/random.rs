@@ -77,9 +77,9 @@ fn values_are_uniform() {
 fn size_scales_and_zero_is_rest() {
     let unit = start(&seeded(3));
     let mut study = seeded(3);
-    study.random = 0.02; // twice the default: exact in binary
+    study.random = Some(0.02.into()); // twice the default: exact in binary
     assert_eq!(start(&study), unit.iter().map(|x| 2.0 * x).collect::<Vec<_>>());
-    study.random = 0.0;
+    study.random = Some(0.0.into());
     assert!(start(&study).iter().all(|&x| x == 0.0));
 }
 

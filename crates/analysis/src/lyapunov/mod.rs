@@ -4,8 +4,8 @@ mod frame;
 mod lanes;
 mod protocol;
 
-use crate::batch_means::means_over;
 use crate::linear::{basis, norm};
+use crate::series_mean::{FEWEST_INDEPENDENT, independent_samples, mean_over};
 use crate::symmetry::reduced_speed;
 use crate::{Estimate, Result};
 pub use lanes::{TangentMember, lyapunov_in_lanes, runs_in_lanes};
@@ -36,7 +36,8 @@ pub struct LyapunovSettings {
 /// Exponents of one orbit. An orbit that did not last has none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lyapunov {
-    /// The exponents, largest first (inverse model time), each with its 95 % error; empty unless the run completed.
+    /// The exponents, largest first (inverse model time), each with its 95 % error; empty unless the run completed. The error is
+    /// infinite where the run is too short for one ([`Lyapunov::without_error`] says why).
     pub exponents: Vec<Estimate>,
     /// How many exponents must be zero: the flow's own direction, and the rotations'.
     pub neutral: usize,
@@ -63,6 +64,26 @@ impl Lyapunov {
         all.truncate(self.neutral);
         all
     }
+
+    /// Why exponents of this run have no error; `None` if all have one.
+    #[must_use]
+    pub fn without_error(&self) -> Option<String> {
+        if self.exponents.iter().all(Estimate::has_error) {
+            return None;
+        }
+        let durations = durations(&self.history, self.transient);
+        let worth = |k| independent_samples(&rates(&self.history, k), &durations);
+        let fewest = (0..self.exponents.len()).map(worth).fold(f64::INFINITY, f64::min);
+        Some(if fewest < FEWEST_INDEPENDENT {
+            format!(
+                "too short for an error: the growth rates over a time of {:?} are worth {fewest:.0} independent ones, and \
+                 {FEWEST_INDEPENDENT} are needed; average over a longer time",
+                self.time
+            )
+        } else {
+            format!("too short for an error: the body hardly moves within a time of {:?}", self.time)
+        })
+    }
 }
 
 impl Lyapunov {
@@ -85,7 +106,10 @@ impl Lyapunov {
         if time < 0.5 * self.time {
             return None;
         }
-        let exponents = means(&history, before, self.exponents.first()?.error.min(1e-12)).ok()?;
+        let leading = self.exponents.first()?;
+        // Half of a run that was long enough is.
+        let pace = if leading.has_error() { f64::INFINITY } else { 0.0 };
+        let exponents = means(&history, before, leading.error.min(1e-12), pace).ok()?;
         let reduced_speeds = self.reduced_speeds[first..=last].to_vec();
         Some(Self { exponents, history, reduced_speeds, time, ..self.clone() })
     }
@@ -97,8 +121,13 @@ impl Lyapunov {
 ///
 /// The vectors are made orthonormal whenever the fastest and the slowest have parted by a factor of about e^8: the interval is
 /// chosen in the transient and kept, and a stretch ends with the first step that reaches the end of its interval. Errors are
-/// 95 % half widths from batch means (honest for correlated rates), at least the growth that the steps' own tolerance leaves
-/// undetermined.
+/// 95 % half widths for correlated rates ([`crate::series_mean`]), at least the growth that the steps' own tolerance leaves
+/// undetermined. They are infinite where the rates are worth fewer than 16 independent ones, and where the run is shorter than
+/// 20 of the motion's fastest times: such a run says nothing about its error.
+///
+/// A neutral exponent (of the flow's direction, of the rotations) is exactly 0, and the growth along it is that of a bounded length: what is
+/// computed is the difference of two ends over T. Its error is no 95 % statement but a bound, two to three times that difference, and
+/// shrinks like 1/T.
 ///
 /// Source: Benettin, Galgani, Giorgilli, Strelcyn (1980), Meccanica 15, 9.
 ///
@@ -121,6 +150,7 @@ pub fn lyapunov<B: Equivariant + ?Sized>(
 pub struct SoFar<'r> {
     history: &'r [(f64, Vec<f64>)],
     begun: f64,
+    pace: f64,
 }
 
 impl SoFar<'_> {
@@ -133,7 +163,7 @@ impl SoFar<'_> {
     /// The exponents with their errors, as in [`Lyapunov`]; `None` while there are too few intervals for an error.
     #[must_use]
     pub fn exponents(&self) -> Option<Vec<Estimate>> {
-        means(self.history, self.begun, 0.0).ok().filter(|all| !all.is_empty())
+        means(self.history, self.begun, 0.0, self.pace).ok().filter(|all| !all.is_empty())
     }
 }
 
@@ -173,7 +203,7 @@ pub fn lyapunov_followed<B: Equivariant + ?Sized>(
         let lost = frame::orthonormalise(Mask::only(0), start.len(), vectors, vector_rates, &mut lengths);
         let speed = reduced_speed(body, shape, rate);
         stretch = protocol.stretched(orbit.t(), &lengths, speed, orbit.counters().steps);
-        if let Some(so_far) = protocol.so_far() {
+        if let Some(so_far) = protocol.so_far(pace(shape, rate)) {
             follow(so_far);
         }
         if lost.any() { orbit.restart(&state) } else { orbit.restart_with(&state, &rates) }
@@ -203,19 +233,46 @@ fn neutral_directions<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> usize
     basis(&moving, 1e-6).len()
 }
 
-/// Means over time of the rates in a history that begins at `start`, largest first, with errors of at least `numerical`.
-fn means(history: &[(f64, Vec<f64>)], start: f64, numerical: f64) -> Result<Vec<Estimate>> {
-    let starts = std::iter::once(start).chain(history.iter().map(|entry| entry.0));
-    let durations: Vec<f64> = history.iter().zip(starts).map(|(entry, start)| entry.0 - start).collect();
+/// An average over less than so many of the motion's fastest times has no error, however smooth it is.
+const SHORTEST: f64 = 20.0;
+
+/// How fast a shape changes, against its size.
+fn pace(shape: &[f64], rate: &[f64]) -> f64 {
+    let size = norm(shape);
+    if size > 0.0 { norm(rate) / size } else { 0.0 }
+}
+
+/// Means over time of the rates in a history that begins at `start`, largest first. Their errors are at least `numerical`, the
+/// accuracy of the rates: where these differ by less, they are the same. `pace`: how fast the shape changes.
+fn means(history: &[(f64, Vec<f64>)], start: f64, numerical: f64, pace: f64) -> Result<Vec<Estimate>> {
+    let durations = durations(history, start);
     let count = history.first().map_or(0, |entry| entry.1.len());
+    let fastest = history.iter().flat_map(|entry| &entry.1).fold(pace, |most, rate| most.max(rate.abs()));
+    let long = durations.iter().sum::<f64>() * fastest >= SHORTEST;
     let exponent = |k: usize| {
-        let rates: Vec<f64> = history.iter().map(|entry| entry.1[k]).collect();
-        let mean = means_over(&rates, &durations)?;
-        Ok(Estimate { value: mean.value, error: mean.error.max(numerical) })
+        let rates = rates(history, k);
+        let mean = mean_over(&rates, &durations)?;
+        let error = match (long, rates.iter().all(|rate| (rate - mean.value).abs() <= numerical)) {
+            (false, _) => f64::INFINITY,
+            (true, true) => numerical,
+            (true, false) => mean.error.max(numerical),
+        };
+        Ok(Estimate { value: mean.value, error })
     };
     let mut exponents = (0..count).map(exponent).collect::<Result<Vec<_>>>()?;
     exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
     Ok(exponents)
+}
+
+/// The lengths of the intervals of a history that begins at `start`.
+fn durations(history: &[(f64, Vec<f64>)], start: f64) -> Vec<f64> {
+    let starts = std::iter::once(start).chain(history.iter().map(|entry| entry.0));
+    history.iter().zip(starts).map(|(entry, start)| entry.0 - start).collect()
+}
+
+/// The rates of one vector.
+fn rates(history: &[(f64, Vec<f64>)], vector: usize) -> Vec<f64> {
+    history.iter().map(|entry| entry.1[vector]).collect()
 }
 
 /// Numbers in -1..1 in general position: Steele, Lea, Flood (2014), OOPSLA, 453.

@@ -1,14 +1,14 @@
 //! When tangent vectors are made orthonormal, and what they have grown by: the same for one orbit and for a lane of many.
 
-use super::{Lyapunov, LyapunovSettings, SoFar, means, neutral_directions};
+use super::{Lyapunov, LyapunovSettings, SoFar, means, neutral_directions, pace};
 use crate::Result;
-use motiform_dynamics::{Equivariant, Outcome, StepControl};
+use motiform_dynamics::{Equivariant, Outcome, StepControl, VectorField};
 
 /// Vectors are made orthonormal when they have parted by this factor (natural logarithm).
 const PARTED: f64 = 8.0;
 
 /// Least number of intervals to average over; steps may be twice as long as one of them, so there are half as many stretches
-/// or more: enough for errors from batch means.
+/// or more: enough for an error.
 const INTERVALS: f64 = 160.0;
 
 /// A stretch to come.
@@ -78,9 +78,9 @@ impl Protocol {
         self.next(t, steps)
     }
 
-    /// What there is of the averages; `None` before they begin.
-    pub(crate) fn so_far(&self) -> Option<SoFar<'_>> {
-        (!self.history.is_empty()).then_some(SoFar { history: &self.history, begun: self.begun })
+    /// What there is of the averages of a shape that changes at this pace; `None` before they begin.
+    pub(crate) fn so_far(&self, pace: f64) -> Option<SoFar<'_>> {
+        (!self.history.is_empty()).then_some(SoFar { history: &self.history, begun: self.begun, pace })
     }
 
     /// Stretches half or twice as long, by how far the vectors have parted.
@@ -138,7 +138,10 @@ impl Protocol {
                 StepControl::Fixed { .. } => 0.0,
             };
             let steps = (steps - self.steps_before) as f64;
-            means(&self.history, self.settings.transient, rtol * (self.dim as f64).sqrt() * steps / time)?
+            let numerical = rtol * (self.dim as f64).sqrt() * steps / time;
+            let mut rate = shape.to_vec();
+            VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
+            means(&self.history, self.settings.transient, numerical, pace(shape, &rate))?
         } else {
             Vec::new()
         };

@@ -4,8 +4,8 @@ use super::look::Look;
 use super::returns;
 use super::settings::Settings;
 use super::verdict::{Attractor, Regime, Verdict};
-use crate::batch_means::means_over;
 use crate::lyapunov::{Lyapunov, LyapunovSettings, lyapunov};
+use crate::series_mean::mean_over;
 use crate::{Estimate, Result};
 use motiform_dynamics::{Equivariant, Sink};
 
@@ -146,7 +146,7 @@ fn pooled(runs: &[Growth]) -> Option<Pooled> {
         }
         rates.splice(0..0, run.rates.iter().copied());
         durations.splice(0..0, run.durations.iter().copied());
-        let Ok(mean) = means_over(&rates, &durations) else { break };
+        let Ok(mean) = mean_over(&rates, &durations) else { break };
         let error = mean.error.max(1e-12);
         all = Pooled {
             estimate: Estimate { value: mean.value, error },
@@ -201,7 +201,7 @@ pub(super) fn chaotic(runs: &[Growth], run: &Lyapunov, witness: &Witness, time: 
 ///
 /// A set that shrinks is no torus: close to a bifurcation the returns approach a periodic orbit as a power of time, along a curve.
 pub(super) fn torus(run: &Lyapunov, witness: &Witness, time: f64) -> Option<Verdict> {
-    let Estimate { value, error } = *run.exponents.first()?;
+    let Estimate { value, error } = *run.exponents.first().filter(|first| first.has_error())?;
     let (k, dimension) = (witness.zero_one?, witness.dimension?);
     let curve = (0.8..1.2).contains(&dimension) && witness.stationary?;
     if value > 2.0 * error || value * run.time > GROWN || !curve {

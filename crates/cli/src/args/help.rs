@@ -29,6 +29,7 @@ pub(super) const SCAN_HELP: &str = "\
 Examples:
   motiform scan tensor --preset fig1 --axis kappa2=0.1:1.6:64 --axis gamma=0.1:1.5:64 --samples 4
   motiform scan tensor --preset fig4 --axis kappa2=0.1,0.2,0.5 --resume
+  motiform scan tensor --preset fig4 --axis kappa2=0.9:1.3:9 --samples 32 --random 0.1:0.5
   motiform scan my-study.toml --shard 1/3 --out shard1
 
 The output folder holds
@@ -53,7 +54,8 @@ Regimes, by the dynamics of the shape with rotations divided out:
   chaotic                          the largest Lyapunov exponent is positive beyond its error
   blow-up                          the shape leaves every bound in finite time
   undetermined                     the evidence does not decide; it says what is missing (exit code 1)
-The transient of a preset does not matter here: looks at the motion get longer until the evidence decides.";
+The transient of a preset does not matter here: looks at the motion get longer until the evidence decides.
+--samples M tells the shares of the motions with 95 % intervals, what was sampled (--random), and how many starts blow up.";
 
 pub(super) const REPRODUCE_HELP: &str = "\
 Examples:
@@ -71,7 +73,8 @@ Examples:
   motiform lyapunov tensor --preset fig4 --set kappa2=0.3 --set kappa3=0.1 --saddle 200
 
 Errors are half widths of 95 % confidence intervals. The exponents that must be zero (the flow's own direction and
-the rotations') are a self-check. A run that escapes has no exponents: ask for the chaotic saddle's.";
+the rotations') are a self-check. An average that is too short has no error, and says so (exit code 1). A run that escapes has no exponents:
+ask for the chaotic saddle's.";
 
 #[cfg(feature = "explorer")]
 pub(super) const EXPLORE_HELP: &str = "\

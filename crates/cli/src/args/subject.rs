@@ -1,7 +1,8 @@
 //! Options that several commands share: what they are about, and how it is computed.
 
-use super::{assignment, number, whole};
+use super::{assignment, number, random, whole};
 use clap::Args;
+use motiform_study::Random;
 
 /// What a command is about.
 #[derive(Args)]
@@ -20,7 +21,7 @@ pub(crate) struct SubjectOptions {
 /// Many initial states in place of one.
 #[derive(Args)]
 pub(crate) struct SamplesOptions {
-    /// Ask this many initial states: the one given (or drawn), then random ones; on all cores
+    /// Ask this many initial states: the one given, if any is, and random ones of all sizes (see --random); on all cores
     #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(1..=1_000_000), allow_hyphen_values = true)]
     pub(crate) samples: Option<u32>,
     /// Threads for --samples (default: all cores); changes no number
@@ -34,6 +35,10 @@ pub(crate) struct MethodOptions {
     /// Set an initial value (repeatable); values not given are 0. Without any, the start is small and random
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) initial: Vec<(String, f64)>,
+    /// Random starts: SIZE is each coordinate within +-SIZE (default for one start: 0.01), MIN:MAX is all directions and
+    /// log-uniform sizes (default for --samples: 0.01 to 1 times the model's typical size)
+    #[arg(long, value_name = "SIZE|MIN:MAX", value_parser = random, allow_hyphen_values = true)]
+    pub(crate) random: Option<Random>,
     /// euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for the stiff cell model ifrk4 (fixed step), etdrk4,
     /// krogstad4 (adaptive). Default: dop853 for tensor, krogstad4 for cell
     #[arg(long, value_name = "NAME")]

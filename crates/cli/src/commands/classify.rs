@@ -2,10 +2,10 @@
 
 use crate::args::ClassifyOptions;
 use crate::commands::subject;
-use crate::output::{End, print};
+use crate::output::{End, estimate, print};
 use crate::progress::Watch;
 use motiform_analysis::{Regime, Verdict};
-use motiform_study::samples::{self, Samples};
+use motiform_study::samples::{self, Basins, Escapes, Samples};
 use motiform_study::{Plan, analyse};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -30,30 +30,52 @@ fn many(options: &ClassifyOptions, plan: &Plan, samples: Samples, budget: f64) -
     let verdicts = samples::classify(plan, samples, budget, &watch);
     watch.finish();
     let Some(verdicts) = verdicts? else { return Ok(End::Interrupted) };
+    let watch = Watch::new(samples.count as f64, "chaotic starts followed");
+    let escapes = Escapes::of_verdicts(plan, samples, &verdicts, budget, &watch);
+    watch.finish();
+    let escapes = escapes?;
+    let basins = Basins::new(&samples, &verdicts);
     let motions = samples::motions(&verdicts);
     if options.motion.json {
         let counts: serde_json::Map<String, Value> =
             motions.iter().map(|&(name, count)| (name.to_owned(), count.into())).collect();
-        print(&serde_json::to_string(&json!({
+        let mut object = json!({
             "model": plan.computation.model,
             "parameters": plan.computation.parameters,
             "seed": plan.computation.seed,
             "regimes": counts,
+            "starts": basins.starts,
+            "shares": basins.shares,
             "samples": verdicts,
-        }))?)?;
+        });
+        if let Some(escapes) = escapes {
+            object["escapes"] = serde_json::to_value(escapes)?;
+        }
+        print(&serde_json::to_string(&object)?)?;
     } else {
-        print(&motions_summary(plan, &verdicts, &motions)?)?;
+        print(&motions_summary(plan, &verdicts, &motions, (&basins, escapes.as_ref()))?)?;
     }
     let undecided = verdicts.iter().any(|verdict| verdict.regime == Regime::Undetermined);
     Ok(if undecided { End::NotAsAsked } else { End::Done })
 }
 
-fn motions_summary(plan: &Plan, verdicts: &[Verdict], motions: &[(&str, usize)]) -> anyhow::Result<String> {
+fn motions_summary(
+    plan: &Plan,
+    verdicts: &[Verdict],
+    motions: &[(&str, usize)],
+    (basins, escapes): (&Basins, Option<&Escapes>),
+) -> anyhow::Result<String> {
     let mut text = String::new();
     for (name, count) in motions {
         let first = verdicts.iter().position(|verdict| verdict.regime.name() == *name).unwrap_or(0);
         writeln!(text, "{name:14} {count} of {}, the first is initial state {first}", verdicts.len())?;
         writeln!(text, "               {}", verdicts[first].why)?;
+    }
+    if !basins.shares.is_empty() {
+        writeln!(text, "shares         {}", basins.words())?;
+    }
+    for line in escapes.into_iter().flat_map(|escapes| escapes.words(verdicts.len())) {
+        writeln!(text, "escape         {line}")?;
     }
     write!(text, "seed           {}", plan.computation.seed)?;
     Ok(text)
@@ -116,8 +138,7 @@ fn summary(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
         writeln!(text, "rests          ... {} model time", rests.join(", "))?;
     }
     if !verdict.exponents.is_empty() {
-        let exponents: Vec<String> =
-            verdict.exponents.iter().take(6).map(|e| format!("{:.5} +- {:.1e}", e.value, e.error)).collect();
+        let exponents: Vec<String> = verdict.exponents.iter().take(6).map(|e| estimate(e, 0, 5)).collect();
         writeln!(text, "exponents      {}", exponents.join(", "))?;
     }
     if let Some(saddle) = verdict.saddle {

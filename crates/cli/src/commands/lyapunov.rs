@@ -2,12 +2,12 @@
 
 use crate::args::LyapunovOptions;
 use crate::commands::subject;
-use crate::output::{End, print};
+use crate::output::{End, estimate, print};
 use crate::progress::Watch;
-use motiform_analysis::Lyapunov;
+use motiform_analysis::{Estimate, Lyapunov};
 use motiform_dynamics::Outcome;
 use motiform_study::saddle::{Saddle, saddle as find_saddle};
-use motiform_study::samples::{self, Exponents, Samples};
+use motiform_study::samples::{self, Escapes, Exponents, Samples, Starts};
 use motiform_study::{Error, Plan, analyse};
 use serde_json::json;
 use std::fmt::Write;
@@ -42,11 +42,11 @@ pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
     watch.finish();
     let found = found?;
     print(&if options.motion.json { json(&plan, &found)? } else { summary(&found)? })?;
-    Ok(End::from(&found.outcome))
+    Ok(if found.without_error().is_some() { End::NotAsAsked } else { End::from(&found.outcome) })
 }
 
 fn json(plan: &Plan, found: &Lyapunov) -> anyhow::Result<String> {
-    Ok(serde_json::to_string(&json!({
+    let mut object = json!({
         "model": plan.computation.model,
         "parameters": plan.computation.parameters,
         "exponents": found.exponents,
@@ -55,7 +55,11 @@ fn json(plan: &Plan, found: &Lyapunov) -> anyhow::Result<String> {
         "time": found.time,
         "transient": found.transient,
         "outcome": found.outcome,
-    }))?)
+    });
+    if let Some(why) = found.without_error() {
+        object["without_error"] = why.into();
+    }
+    Ok(serde_json::to_string(&object)?)
 }
 
 fn summary(found: &Lyapunov) -> anyhow::Result<String> {
@@ -68,20 +72,31 @@ fn summary(found: &Lyapunov) -> anyhow::Result<String> {
         return Ok(text);
     }
     for (i, exponent) in found.exponents.iter().enumerate() {
-        writeln!(text, "lambda_{}   {:>11.6} +- {:.1e}", i + 1, exponent.value, exponent.error)?;
+        writeln!(text, "lambda_{}   {}", i + 1, estimate(exponent, 11, 6))?;
+    }
+    if let Some(why) = found.without_error() {
+        writeln!(text, "no error   {why}")?;
     }
     let zeros = found.zeros();
     let worst = zeros.iter().map(|zero| zero.value.abs()).fold(0.0, f64::max);
     if found.neutral > 0 && found.exponents.len() > found.neutral {
-        let fine = zeros.iter().all(|zero| zero.value.abs() <= 3.0 * zero.error);
-        let verdict = if fine { "within their errors" } else { "outside their errors: run longer" };
+        let (known, fine) = (
+            zeros.iter().all(Estimate::has_error),
+            zeros.iter().all(|zero| zero.value.abs() <= 3.0 * zero.error),
+        );
+        let verdict = match (known, fine) {
+            (false, _) => "which says nothing: run longer",
+            (true, true) => "within their errors (bounds, which shrink like 1/time)",
+            (true, false) => "outside their errors: run longer",
+        };
         writeln!(
             text,
             "self-check {} exponents must be 0: at most {worst:.1e} off, {verdict}",
             found.neutral
         )?;
     }
-    write!(text, "averaged over {:.0} model time after {:.0}", found.time, found.transient)?;
+    let digits = if found.time < 10.0 { 4 } else { 0 };
+    write!(text, "averaged over {:.digits$} model time after {:.0}", found.time, found.transient)?;
     Ok(text)
 }
 
@@ -92,31 +107,56 @@ fn many(options: &LyapunovOptions, plan: &Plan, samples: Samples, count: usize) 
     watch.finish();
     let Some(found) = found? else { return Ok(End::Interrupted) };
     let lasted = found.orbits.iter().filter(|orbit| orbit.outcome.is_complete()).count();
+    let escapes = Escapes::of_orbits(plan, &found.orbits)?;
+    let starts = Starts::of(&samples);
     let text = if options.motion.json {
         let orbit = |orbit: &Lyapunov| json!({ "exponents": orbit.exponents, "outcome": orbit.outcome });
-        serde_json::to_string(&json!({
+        let mut object = json!({
             "model": plan.computation.model,
             "parameters": plan.computation.parameters,
             "exponents": found.means,
             "agree": found.agree,
             "lasted": lasted,
+            "starts": starts,
             "orbits": found.orbits.iter().map(orbit).collect::<Vec<_>>(),
-        }))?
+        });
+        if let Some(escapes) = &escapes {
+            object["escapes"] = serde_json::to_value(escapes)?;
+        }
+        if let Some(why) = found.without_error() {
+            object["without_error"] = why.into();
+        }
+        serde_json::to_string(&object)?
     } else {
-        many_summary(&found, lasted)?
+        many_summary(&found, lasted, &starts, escapes.as_ref())?
     };
     print(&text)?;
-    Ok(if lasted == found.orbits.len() && found.agree { End::Done } else { End::NotAsAsked })
+    Ok(if lasted == found.orbits.len() && found.agree && found.without_error().is_none() {
+        End::Done
+    } else {
+        End::NotAsAsked
+    })
 }
 
-fn many_summary(found: &Exponents, lasted: usize) -> anyhow::Result<String> {
+fn many_summary(
+    found: &Exponents,
+    lasted: usize,
+    starts: &Starts,
+    escapes: Option<&Escapes>,
+) -> anyhow::Result<String> {
     let mut text = String::new();
     for (i, exponent) in found.means.iter().enumerate() {
-        writeln!(text, "lambda_{}   {:>11.6} +- {:.1e}", i + 1, exponent.value, exponent.error)?;
+        writeln!(text, "lambda_{}   {}", i + 1, estimate(exponent, 11, 6))?;
     }
-    write!(text, "means over {lasted} of {} orbits", found.orbits.len())?;
+    if let Some(why) = found.without_error() {
+        writeln!(text, "no error   {why}")?;
+    }
+    write!(text, "means over {lasted} of {} orbits; {}", found.orbits.len(), starts.sentence())?;
     if lasted < found.orbits.len() {
         write!(text, "; the others did not last: for chaos before an escape, ask for --saddle 200")?;
+    }
+    for line in escapes.into_iter().flat_map(|escapes| escapes.words(found.orbits.len())) {
+        write!(text, "\nescape     {line}")?;
     }
     if !found.agree {
         write!(

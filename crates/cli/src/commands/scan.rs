@@ -57,6 +57,7 @@ fn study(options: &ScanOptions) -> Result<Study, Error> {
     scan.samples = options.samples.unwrap_or(scan.samples);
     scan.budget = options.budget.unwrap_or(scan.budget);
     scan.fast |= options.fast;
+    study.random = options.random.or(study.random);
     study.run.seed = options.seed.unwrap_or(study.run.seed);
     Ok(study)
 }
@@ -77,6 +78,7 @@ fn json(folder: &ScanFolder, totals: &Totals) -> anyhow::Result<String> {
     Ok(serde_json::to_string(&json!({
         "plan_hash": folder.manifest().plan_hash,
         "cells": folder.plan().cells(),
+        "random": folder.plan().computation.random,
         "rows": totals.rows,
         "regimes": regimes,
         "multistable": totals.multistable,
@@ -95,6 +97,12 @@ fn summary(folder: &ScanFolder, totals: &Totals) -> anyhow::Result<String> {
     }
     let (cells, samples) = (totals.cells, plan.computation.samples);
     writeln!(text, "cells     {cells} of {}, {samples} initial states each", plan.cells())?;
+    writeln!(
+        text,
+        "          random ones {}, seed {}",
+        plan.computation.random.words(),
+        plan.computation.seed
+    )?;
     for (regime, rows) in totals.regimes() {
         let share = 100.0 * rows as f64 / totals.rows as f64;
         writeln!(text, "          {:14} {rows} rows ({share:.1} %)", regime.name())?;

@@ -3,21 +3,26 @@
 use crate::args::{MethodOptions, MotionOptions, SamplesOptions, SubjectOptions};
 use motiform_models::ModelInfo;
 use motiform_study::samples::Samples;
-use motiform_study::{Error, Plan, Study, presets};
+use motiform_study::{Error, Plan, Random, Study, presets};
 use std::path::Path;
 
 /// The plan of a command about one motion, and the samples it is about, if they are many.
 pub(crate) fn plan(options: &MotionOptions, many: &SamplesOptions) -> Result<(Plan, Option<Samples>), Error> {
     let mut study = study(&options.subject)?;
     apply(&options.method, &mut study)?;
-    Ok((Plan::new(&study)?, samples(many, &study)))
+    let random = Random::of(study.random, many.samples.map_or(1, u64::from), study.info()?);
+    study.random = Some(random); // the first of many is drawn like the others
+    let plan = Plan::new(&study)?;
+    let samples = samples(many, &study, random);
+    Ok((plan, samples))
 }
 
 /// Many initial states of a study's model, if they are asked for.
-fn samples(options: &SamplesOptions, study: &Study) -> Option<Samples> {
+fn samples(options: &SamplesOptions, study: &Study, random: Random) -> Option<Samples> {
     let count = options.samples? as usize;
     let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    Some(Samples { count, random: study.random, threads: options.threads.map_or_else(all, usize::from) })
+    let given = study.initial.iter().any(|(name, _)| !["x", "y"].contains(&name.as_str()));
+    Some(Samples { count, random, given, threads: options.threads.map_or_else(all, usize::from) })
 }
 
 /// Puts what is given of start and method into a study.
@@ -25,6 +30,7 @@ pub(crate) fn apply(options: &MethodOptions, study: &mut Study) -> Result<(), Er
     for (name, value) in &options.initial {
         study.set_initial(name, *value)?;
     }
+    study.random = options.random.or(study.random);
     let run = &mut study.run;
     run.rtol = options.rtol.unwrap_or(run.rtol);
     run.atol = options.atol.unwrap_or(run.atol);

@@ -3,7 +3,7 @@
 use super::setting::{Seen, Setting, decode, state_of};
 use motiform_dynamics::Normal;
 use motiform_study::live::start;
-use motiform_study::{Error, Plan};
+use motiform_study::{Error, Plan, Random};
 use std::collections::BTreeMap;
 
 /// A kick, as a part of the shape.
@@ -47,7 +47,7 @@ impl Setting {
         for (place, entry) in kicked[..dim].iter_mut().enumerate() {
             // Entries of a mode come in pairs; high modes of a cell are tiny, and must stay so.
             let near = &seen.state[place.saturating_sub(3)..(place + 4).min(dim)];
-            let size = near.iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-3 * self.study().random);
+            let size = near.iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-3 * self.study().random.unwrap_or(Random::SMALL).largest());
             *entry += KICK * size * normal.next();
         }
         self.changed(self.study().clone(), seen.t, kicked, seen.radius)

@@ -15,7 +15,7 @@ from .bodies import Cell, Tensor
 from .errors import EndedEarly, Incomplete, Interrupted, WorkersLost
 from .models import Model, preset, study
 from .reading import read
-from .results import Crossings, Equilibrium, Estimate, Exponents, Outcome, Spread, Verdict
+from .results import Crossings, Equilibrium, Estimate, Exponents, Motions, Outcome, Share, Spread, Verdict
 from .scans import merge, scan
 from .trajectory import Trajectory
 
@@ -33,7 +33,9 @@ __all__ = [
     "Incomplete",
     "Interrupted",
     "Model",
+    "Motions",
     "Outcome",
+    "Share",
     "Spread",
     "Tensor",
     "Trajectory",

@@ -15,7 +15,17 @@ from . import _motiform
 from ._registry import MODELS, ModelInfo
 from .errors import EndedEarly, Interrupted
 from .progress import Bar, Progress
-from .results import Crossings, Equilibrium, Exponents, Verdict, equilibrium_of, outcome_of, verdict_of
+from .results import (
+    Crossings,
+    Equilibrium,
+    Exponents,
+    Motions,
+    Verdict,
+    equilibrium_of,
+    motions_of,
+    outcome_of,
+    verdict_of,
+)
 from .trajectory import Floats, Trajectory, crossing_frame
 
 if TYPE_CHECKING:
@@ -23,6 +33,9 @@ if TYPE_CHECKING:
 
 OnEnd = Literal["warn", "ignore", "raise"]
 M = TypeVar("M", bound="Model")
+
+Random = float | str | tuple[float, float]
+"""Random starts: a size (each coordinate within +-size), or the smallest and the largest norm, log-uniform in all directions."""
 
 
 class Model:
@@ -103,7 +116,7 @@ class Model:
         transient: float | None = None,
         dt_out: float | None = None,
         initial: Mapping[str, float] | None = None,
-        random: float | None = None,
+        random: Random | None = None,
         seed: int | None = None,
         noise: float | None = None,
         stepper: str | None = None,
@@ -127,7 +140,10 @@ class Model:
             Time between rows; without it ``t_end / 2000``.
         initial
             Initial values by name (the shape's coordinates, ``x``, ``y``); those not given are 0. Without any the start
-            is random, of size `random`, from `seed`.
+            is random, from `seed`.
+        random
+            How large a random start is: a size (each coordinate within ±size; 0.01 if not given), or ``(min, max)``: all
+            directions, the norm log-uniform between these.
         noise
             Amplitude of additive white noise on the shape.
         stepper, rtol, atol, step
@@ -161,13 +177,35 @@ class Model:
         *,
         budget: float = 0.0,
         initial: Mapping[str, float] | None = None,
+        random: Random | None = None,
         seed: int | None = None,
         progress: Progress = None,
     ) -> Verdict:
         """Names the motion, spending at most `budget` model time (0: the model's default), with the evidence."""
-        study = _with(self._study, initial, {"seed": seed})
+        study = _with(self._study, initial, {"random": random, "seed": seed})
         with Bar(progress, budget or self.info.budget, "model time") as bar:
             return verdict_of(json.loads(_motiform.classify(study, budget, bar.callable())))
+
+    def motions(
+        self,
+        samples: int = 100,
+        *,
+        random: Random | None = None,
+        budget: float = 0.0,
+        initial: Mapping[str, float] | None = None,
+        seed: int | None = None,
+        threads: int | None = None,
+        progress: Progress = None,
+    ) -> Motions:
+        """Which motions `samples` starts lead to: shares with 95 % intervals, what was sampled, and what escapes.
+
+        The starts are random (after the one in `initial`, if that is given): without `random` they have all directions and
+        log-uniform sizes from a hundredth of the model's typical size to all of it.
+        """
+        study = _with(self._study, initial, {"random": random, "seed": seed})
+        with Bar(progress, 100.0, "%") as bar:
+            count = threads or os.cpu_count() or 1
+            return motions_of(json.loads(_motiform.motions(study, samples, budget, count, bar.callable())))
 
     def lyapunov(
         self,
@@ -176,20 +214,23 @@ class Model:
         transient: float | None = None,
         t_end: float | None = None,
         initial: Mapping[str, float] | None = None,
+        random: Random | None = None,
         seed: int | None = None,
         on_end: OnEnd = "warn",
         progress: Progress = None,
     ) -> Exponents:
         """The `count` largest Lyapunov exponents (at most 6, unless asked), with errors, averaged over `t_end`."""
-        study = _with(self._study, initial, {"seed": seed})
+        study = _with(self._study, initial, {"random": random, "seed": seed})
         count = min(6, len(study.coordinates())) if count is None else count
         with Bar(progress, 100.0, "%") as bar:
             raw = json.loads(_motiform.lyapunov(study, count, transient, t_end, bar.callable()))
         if not raw["complete"]:
             _ended_early(raw["ended"], on_end)
-        estimates = np.array([(entry["value"], entry["error"]) for entry in raw["exponents"]]).reshape(-1, 2)
+        pairs = [(entry["value"], entry.get("error", np.inf)) for entry in raw["exponents"]]
+        estimates = np.array(pairs, dtype=float).reshape(-1, 2)
         outcome = outcome_of(raw["outcome"], raw["complete"], raw["ended"])
-        return Exponents(estimates[:, 0], estimates[:, 1], raw["neutral"], raw["time"], raw["transient"], outcome)
+        ends = (raw["neutral"], raw["time"], raw["transient"], outcome, raw["without_error"])
+        return Exponents(estimates[:, 0], estimates[:, 1], *ends)
 
     def equilibria(self, *, starts: int = 200, seed: int | None = None, progress: Progress = None) -> list[Equilibrium]:
         """The steady motions (at rest, straight, circular) that Newton's method finds from the circle and from random

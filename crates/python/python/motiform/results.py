@@ -36,10 +36,10 @@ def outcome_of(raw: dict[str, Any], complete: bool, text: str) -> Outcome:
 
 @dataclass(frozen=True)
 class Estimate:
-    """A number with the half width of its 95 % confidence interval."""
+    """A number with the half width of its 95 % confidence interval; ``None`` where the data say nothing about it."""
 
     value: float
-    error: float
+    error: float | None = None
 
 
 @dataclass(frozen=True)
@@ -117,19 +117,60 @@ def verdict_of(raw: dict[str, Any]) -> Verdict:
 
 
 @dataclass(frozen=True)
+class Share:
+    """The share of one motion among random starts, with Wilson's 95 % interval."""
+
+    regime: str
+    count: int
+    of: int
+    value: float
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True)
+class Motions:
+    """What many starts lead to."""
+
+    verdicts: tuple[Verdict, ...]
+    """Of each start, in order."""
+    shares: tuple[Share, ...]
+    """Of the random ones, the most frequent motion first."""
+    starts: Mapping[str, Any]
+    """What was sampled: ``count``, ``given`` (a start beside them that was given), ``random`` and the same in ``words``."""
+    escapes: Mapping[str, Any] | None
+    """How many blew up, when, and the rate at which chaos loses orbits, with 95 % limits; ``None`` without chaos and blow-up."""
+    text: str
+    """Shares and escapes in words."""
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def motions_of(raw: dict[str, Any]) -> Motions:
+    """The motions of the native module's JSON."""
+    verdicts = tuple(verdict_of(entry) for entry in raw["verdicts"])
+    shares = tuple(Share(**entry) for entry in raw["shares"])
+    text = "; ".join([raw["words"], *raw["escape_words"]])
+    return Motions(verdicts, shares, raw["starts"], raw["escapes"], text)
+
+
+@dataclass(frozen=True)
 class Exponents:
     """Lyapunov exponents of one orbit (inverse model time), largest first."""
 
     values: npt.NDArray[np.float64]
     """(count,)"""
     errors: npt.NDArray[np.float64]
-    """Half widths of the 95 % confidence intervals, (count,)."""
+    """Half widths of the 95 % confidence intervals, (count,); infinite where the average is too short for one."""
     neutral: int
     """How many of them symmetry and time make 0: a check on the others."""
     time: float
     """Averaged over so much model time, after `transient`."""
     transient: float
     outcome: Outcome
+    without_error: str | None = None
+    """Why there are exponents without an error."""
 
     @property
     def sum(self) -> float:
@@ -138,7 +179,9 @@ class Exponents:
 
     def __str__(self) -> str:
         pairs = zip(self.values, self.errors, strict=True)
-        return ", ".join(f"{value:.5g} ± {error:.1g}" for value, error in pairs)
+        return ", ".join(
+            f"{value:.5g} ± {error:.1g}" if np.isfinite(error) else f"{value:.5g} (no error)" for value, error in pairs
+        )
 
 
 @dataclass(frozen=True)

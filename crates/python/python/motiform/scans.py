@@ -17,7 +17,7 @@ from . import _motiform
 from ._registry import ATTRACTORS, MODELS, NUMBERS, REGIMES, VERSION
 from .errors import Incomplete, Interrupted
 from .executors import gather
-from .models import Model
+from .models import Model, Random
 from .progress import Bar, Progress
 from .trajectory import _unit
 
@@ -30,6 +30,7 @@ def scan(
     axes: Axes | None = None,
     *,
     samples: int | None = None,
+    random: Random | None = None,
     seed: int | None = None,
     budget: float | None = None,
     fast: bool | None = None,
@@ -53,6 +54,9 @@ def scan(
         included). Without it those of the model's study file.
     samples
         Initial states per cell: random, but the first one is the model's ``initial`` where that is given.
+    random
+        How large random ones are: a size (each coordinate within ±size; 0.01 for one state per cell), or ``(min, max)``: all
+        directions, the norm log-uniform between these (a hundredth of the model's typical size to all of it for several).
     budget
         Most model time for naming one motion; 0 is the model's default.
     fast
@@ -80,7 +84,8 @@ def scan(
     rows done so far.
     """
     made = None if axes is None else [(name, _axis(name, values)) for name, values in axes.items()]
-    plan = _motiform.ScanPlan(model._study, made, samples, seed, budget, fast)
+    study = model._study if random is None else model._study.with_(None, None, {"random": random})
+    plan = _motiform.ScanPlan(study, made, samples, seed, budget, fast)
     xr.Dataset({"first": ("x", [0])})  # xarray imports much at its first dataset: not when Ctrl-C waits for one
     with Bar(progress, plan.cells, "cells") as bar:
         if out is not None:

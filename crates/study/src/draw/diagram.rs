@@ -108,7 +108,7 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary]) -> Vec<Stri
     let (count, all) = (cells.len(), plan.cells());
     let computed =
         if count < all { format!("{count} of {all} cells are computed") } else { format!("{all} cells") };
-    let random = format!("uniform in ±{}, seed {}", words::number(c.random), c.seed);
+    let random = format!("{}, seed {}", c.random.words(), c.seed);
     let states = match (c.samples, c.initial.is_empty()) {
         (1, false) => "one initial state each, the given one".to_owned(),
         (1, true) => format!("one random initial state each, {random}"),

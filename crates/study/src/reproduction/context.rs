@@ -3,7 +3,7 @@
 use crate::analyse;
 use crate::scan::{CellSummary, Classify, Opening, Scan, Shard, cells};
 use crate::simulate::{Monitor, simulate};
-use crate::{Dataset, Error, Plan, ScanPlan, Study, presets};
+use crate::{Dataset, Error, Plan, Random, ScanPlan, Study, presets};
 use motiform_analysis::Verdict;
 use motiform_dynamics::Outcome;
 use std::path::Path;
@@ -59,7 +59,9 @@ impl Context<'_> {
 
     /// Makes a scan (or goes on with it) in the folder `name`, and reads it: its plan, and one summary per cell.
     pub(super) fn scan(&self, name: &str, study: &Study) -> Result<(ScanPlan, Vec<CellSummary>), Error> {
-        let plan = ScanPlan::new(study)?;
+        // as in the paper, motions grow from small perturbations of a circle
+        let study = Study { random: study.random.or(Some(Random::SMALL)), ..study.clone() };
+        let plan = ScanPlan::new(&study)?;
         let folder = self.out.join(format!("{name}{}-scan", if self.quick { "-quick" } else { "" }));
         let scan = Scan::open(&folder, &plan, Shard::WHOLE, Opening::Resume)?;
         if !scan.run(&Classify, self.threads, self.monitor)?.complete {

@@ -7,7 +7,7 @@ mod schemes;
 use super::claims::claim;
 use super::context::Context;
 use crate::Error;
-use crate::draw::{number, phase_diagram};
+use crate::draw::phase_diagram;
 use crate::report::{Claim, Picture, ReportFigure, Section};
 use crate::scan::Axis;
 use grid::{Grid, found_line};
@@ -58,7 +58,7 @@ fn parameters(plan: &crate::ScanPlan) -> Vec<(String, String)> {
         ("couplings", "*a*_1 = 1, *b*_1 = 0.5, *b*_3 = 1".to_owned()),
         ("across", axis(0).replace("kappa2", "*κ*_2")),
         ("upwards", axis(1).replace("gamma", "*γ*")),
-        ("initial states per cell", format!("{}, random within ±{}", c.samples, number(c.random))),
+        ("initial states per cell", format!("{}, random, {}", c.samples, c.random.words())),
         ("method", format!("{}, relative tolerance 10^{{-10}}", c.stepper)),
     ]
     .map(|(name, value)| (name.to_owned(), value))

@@ -11,7 +11,7 @@ mod schemes;
 use super::context::Context;
 use crate::report::{Picture, ReportFigure, Section};
 use crate::simulate::Monitor;
-use crate::{Error, Study};
+use crate::{Error, Random, Study};
 
 pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     let mut section = Section {
@@ -49,7 +49,10 @@ fn parameters(study: &Study) -> Result<Vec<(String, String)>, Error> {
     let mut rows: Vec<(String, String)> =
         set.map(|(spec, value)| (spec.symbol.to_owned(), value.to_string())).collect();
     rows.push(("all other coefficients".to_owned(), "0".to_owned()));
-    rows.push(("initial states".to_owned(), format!("random, each value within ±{}", study.random)));
+    rows.push((
+        "initial states".to_owned(),
+        format!("random, {}", study.random.unwrap_or(Random::SMALL).words()),
+    ));
     rows.push((
         "method".to_owned(),
         format!("{}, relative tolerance {}", study.run.stepper, power(study.run.rtol)),

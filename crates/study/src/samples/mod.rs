@@ -1,27 +1,33 @@
 //! A question about one motion, asked of many initial states: which motions are there, and do the orbits agree?
 
 mod crowd;
+mod escapes;
+mod shares;
 
 use crate::analyse::{self, Stop};
 use crate::plan::check;
 use crate::simulate::Monitor;
-use crate::{Error, Plan};
+use crate::{Error, Plan, Random};
 use crowd::{Asked, Crowd};
+pub use escapes::{EscapeLimits, Escapes};
 use motiform_analysis::regime::{Settings, Verdict, classifies_in_lanes};
 use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings};
 use motiform_dynamics::Outcome;
 use motiform_dynamics::simd::Arithmetic;
 use motiform_kernels::{TensorRow, classify_tensors, covering, exponents_of_tensor, has_exponents};
 use motiform_models::tensor::Tensor;
+pub use shares::{Basins, MotionShare, Starts};
 use std::collections::BTreeMap;
 
-/// Who is asked: the plan's own initial state, then random ones of size `random`, as the samples of a scan's first cell.
+/// Who is asked: the plan's own initial state, then random ones.
 #[derive(Clone, Copy, Debug)]
 pub struct Samples {
     /// How many.
     pub count: usize,
-    /// Size of the random ones.
-    pub random: f64,
+    /// The distribution of the random ones: that of the plan's own, unless that one was given.
+    pub random: Random,
+    /// Whether the plan's own initial state was given and not drawn.
+    pub given: bool,
     /// Threads.
     pub threads: usize,
 }
@@ -29,7 +35,7 @@ pub struct Samples {
 impl Samples {
     fn check(&self) -> Result<(), Error> {
         check("samples", self.count as f64, self.count > 0, "give at least 1")?;
-        check("random", self.random, self.random >= 0.0, "give a size of at least 0")
+        self.random.check()
     }
 }
 
@@ -111,6 +117,14 @@ pub fn lyapunov(
     Ok(orbits.map(summarise))
 }
 
+impl Exponents {
+    /// Why the means have no error; `None` if they have one, or there are none.
+    #[must_use]
+    pub fn without_error(&self) -> Option<String> {
+        self.orbits.iter().find_map(Lyapunov::without_error)
+    }
+}
+
 fn exponents_in_lanes(tensor: &Tensor, settings: &LyapunovSettings, asked: &Asked<'_, '_, Lyapunov>) {
     let mut next = || asked.next()?.try_into().ok();
     let mut done = |number, found: motiform_analysis::Result<Lyapunov>| {
@@ -173,7 +187,7 @@ mod tests {
     }
 
     fn samples(count: usize, threads: usize) -> Samples {
-        Samples { count, random: 0.1, threads }
+        Samples { count, random: 0.1.into(), given: false, threads }
     }
 
     /// Many together, in lanes and on threads, are each by itself, to the bit.
@@ -186,9 +200,13 @@ mod tests {
             assert_eq!(found[0], analyse::classify(&plan, 0.0, &()).unwrap().unwrap());
             let crowd = Crowd::new(&plan, samples(5, 1), &()).unwrap();
             let settings = analyse::settings(&plan, 0.0).unwrap();
-            let alone =
-                motiform_analysis::classify(crowd.model.as_ref(), &crowd.start(3), &settings, &mut ())
-                    .unwrap();
+            let alone = motiform_analysis::classify(
+                crowd.model.as_ref(),
+                &crowd.start(3).unwrap(),
+                &settings,
+                &mut (),
+            )
+            .unwrap();
             assert_eq!(found[3], alone.unwrap());
             assert_eq!(motions(&found)[0], ("chaotic", 5));
         }
@@ -201,7 +219,8 @@ mod tests {
         assert_eq!(found.orbits[0], analyse::lyapunov(&plan, 6, spans, &()).unwrap());
         let crowd = Crowd::new(&plan, samples(12, 1), &()).unwrap();
         let settings = analyse::lyapunov_settings(&plan, 6, spans).unwrap();
-        let alone = motiform_analysis::lyapunov(crowd.model.as_ref(), &crowd.start(7), &settings, &mut ());
+        let alone =
+            motiform_analysis::lyapunov(crowd.model.as_ref(), &crowd.start(7).unwrap(), &settings, &mut ());
         assert_eq!(found.orbits[7], alone.unwrap());
         assert!(found.agree && found.means[0].error < 0.6 * found.orbits[0].exponents[0].error);
         let fewer = lyapunov(&plan, samples(3, 2), 2, spans, &()).unwrap().unwrap();

@@ -2,6 +2,7 @@
 
 use super::{Axis, lanes};
 use crate::plan::{Control, Named, check, check_no_noise, check_stability, control, sha256_hex, stepper};
+use crate::random::Random;
 use crate::{Error, Study};
 use motiform_dynamics::steppers::Method;
 use motiform_models::{ModelInfo, parameters};
@@ -42,8 +43,8 @@ pub struct ScanComputation {
     pub samples: usize,
     /// Seed of the random starts.
     pub seed: u64,
-    /// Size of the random starts.
-    pub random: f64,
+    /// The distribution of the random starts.
+    pub random: Random,
     /// The start of sample 0 where given (values not named are 0); empty if that one is random too.
     pub initial: Named,
     /// Stepper.
@@ -87,7 +88,7 @@ impl ScanPlan {
             axes: scan.axes.clone(),
             samples: usize::try_from(scan.samples).unwrap_or(usize::MAX),
             seed: run.seed,
-            random: study.random,
+            random: Random::of(study.random, scan.samples, info),
             initial: Named(initial),
             stepper: method.name().to_owned(),
             control: control(study, method)?,
@@ -206,7 +207,7 @@ impl ScanPlan {
 fn check_settings(study: &Study) -> Result<(), Error> {
     let (run, scan) = (&study.run, &study.scan);
     check("escape_norm", run.escape_norm, run.escape_norm > 0.0, "give a number above 0")?;
-    check("random", study.random, study.random >= 0.0, "give a size of at least 0")?;
+    study.random.unwrap_or(Random::SMALL).check()?;
     check("budget", scan.budget, scan.budget >= 0.0, "give a model time above 0, or 0 for the default")?;
     let counts = [("samples", scan.samples, MOST.1), ("max_steps", run.max_steps, u64::MAX)];
     for (key, value, most) in counts {

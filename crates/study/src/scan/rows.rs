@@ -59,7 +59,7 @@ impl Row {
             v.drift,
             v.swing,
             lambda.map(|exponent| exponent.value),
-            lambda.map(|exponent| exponent.error),
+            lambda.map(|exponent| exponent.error).filter(|error| error.is_finite()),
             v.escape_time,
             Some(v.time),
         ];

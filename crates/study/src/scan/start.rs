@@ -2,7 +2,6 @@
 
 use super::ScanPlan;
 use crate::Error;
-use crate::initial::random_shape;
 use crate::plan::check_closed;
 use motiform_dynamics::Model;
 
@@ -15,8 +14,8 @@ impl ScanPlan {
         Ok(self.info()?.build(&self.parameters_of(cell)?)?)
     }
 
-    /// The initial shape of a row, as `model` computes with it: the given values for sample 0, if any are; else each
-    /// coordinate uniform in `-random..random` from the generator's stream `cell * samples + sample + 1` (stream 0 is
+    /// The initial shape of a row, as `model` computes with it: the given values for sample 0, if any are; else drawn
+    /// from the plan's distribution ([`crate::Random`]) by the generator's stream `cell * samples + sample + 1` (stream 0 is
     /// that of a single run).
     ///
     /// # Errors
@@ -25,7 +24,7 @@ impl ScanPlan {
         let c = &self.computation;
         if sample > 0 || c.initial.is_empty() {
             let stream = cell as u64 * c.samples as u64 + sample as u64 + 1;
-            return Ok(random_shape(model, c.random, c.seed, stream));
+            return Ok(c.random.shape(self.info()?, model, c.seed, stream));
         }
         let parameters = self.parameters_of(cell)?;
         let mut named = vec![0.0; model.coordinates().len()];

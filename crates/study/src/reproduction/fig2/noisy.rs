@@ -5,7 +5,7 @@ use crate::Error;
 use crate::figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use crate::report::{Claim, Picture, ReportFigure};
 use crate::reproduction::context::Context;
-use motiform_analysis::{Ends, Estimate, PathSample, batch_means, legs};
+use motiform_analysis::{Ends, Estimate, PathSample, legs, series_mean};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::RK4;
 use motiform_dynamics::{InPlane, Noise, NoisyOrbit, Normal, Orbit, Request, Shape, Sink, StepControl};
@@ -48,7 +48,7 @@ pub(super) fn measure(context: &Context<'_>) -> Result<Rests, Error> {
 
 fn measured(context: &Context<'_>, eta: f64, stream: u64, time: f64) -> Result<Run, Error> {
     let path = path(context, eta, stream, time)?;
-    let mean = batch_means(&durations(&path)?.0)?;
+    let mean = series_mean(&durations(&path)?.0)?;
     let turns = legs(&path, Ends::Open)?.heading_turns;
     let left = turns.iter().filter(|turn| **turn > 0.0).count();
     Ok(Run { eta, mean, left, turns: turns.len() })
@@ -132,7 +132,7 @@ impl Rests {
         let figure = ErrorBarFigure {
             title: "Rectangular motion with noise: mean rest".to_owned(),
             caption: vec![format!(
-                "Rests: speed below a tenth of its maximum. Bars: 95 % by batch means, {} time units per amplitude, seed {SEED}. \
+                "Rests: speed below a tenth of its maximum. Bars: 95 %, {} time units per amplitude, seed {SEED}. \
                  Only the height of the line is fitted.",
                 self.time
             )],
@@ -169,7 +169,7 @@ impl Rests {
             slope.error,
             self.runs.len()
         );
-        let how = "weighted least squares on the means, 95 % error from batch means; within twice that error, and within 5 %";
+        let how = "weighted least squares on the means, 95 % error; within twice that error, and within 5 %";
         let off = (slope.value - theory).abs();
         let says = "The turns may depend on noises. (With explicit noise the law of a noisy heteroclinic cycle must hold: mean rest = \
                     −ln *η*/*λ*_+ + const; Stone and Holmes 1990.)";

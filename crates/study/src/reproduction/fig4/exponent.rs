@@ -101,7 +101,7 @@ fn picture(runs: &[Run], saddles: &[Left], span: f64) -> Result<crate::report::R
     let svg = ErrorBarFigure {
         title: "Largest Lyapunov exponent at κ_3 = 0.1".to_owned(),
         caption: vec![format!(
-            "Bars: 95 % confidence from batch means over {span} model time. Where runs escape, the exponent is that of the \
+            "Bars: 95 % confidence, over {span} model time. Where runs escape, the exponent is that of the \
              chaotic saddle (growth before the escape, over many runs)."
         )],
         x_label: "κ_2".to_owned(),

@@ -52,7 +52,7 @@ fn exponent(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
             found.time,
             largest.map_or(f64::NAN, |e| 1.0 / e.value)
         ),
-        "exact tangent flow, 95 % errors from batch means; λ_1 above ten errors; measured before: 0.09",
+        "exact tangent flow, 95 % errors; λ_1 above ten errors; measured before: 0.09",
         largest.is_some_and(|e| e.value > 10.0 * e.error && (e.value - 0.09).abs() < 0.01 + e.error),
     ))
 }

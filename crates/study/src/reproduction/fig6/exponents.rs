@@ -44,7 +44,7 @@ impl Exponents {
         let point = |(x, e): &(f64, Estimate)| Measured { x: *x, y: e.value, error: e.error };
         let figure = ErrorBarFigure {
             caption: vec![format!(
-                "Averaged over {} model time from a random start; bars are 95 % errors from batch means.",
+                "Averaged over {} model time from a random start; bars are 95 % errors.",
                 self.span
             )],
             x_label: "length *L*".to_owned(),

@@ -25,7 +25,7 @@ fn irregular(a: &Track, exponents: &Exponents) -> Claim {
     claim(
         "Fig. 6(a), *L* = 21.6: the motion is apparently chaotic.",
         format!("*λ*_1 = {:.4} ± {:.4}; the classifier says: {}", found.value, found.error, a.verdict.regime),
-        "Largest Lyapunov exponent from the exact tangent flow, 95 % error from batch means; chaotic if it excludes 0.",
+        "Largest Lyapunov exponent from the exact tangent flow, 95 % error; chaotic if it excludes 0.",
         found.value > found.error && a.verdict.regime == Regime::Chaotic,
     )
 }

@@ -1,0 +1,141 @@
+//! Random initial states: how large they are, and in which directions.
+
+use crate::Error;
+use crate::initial::Uniform;
+use crate::plan::check;
+use motiform_dynamics::Model;
+use motiform_models::ModelInfo;
+use serde::{Deserialize, Serialize};
+
+/// The distribution of random initial states.
+///
+/// # Checked by  tests/starts.rs: sizes, directions, text; tests/random.rs: the bits of small starts
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Random {
+    /// Each coordinate uniform in `-size..size`, independently. Small ones begin near the circle and follow its unstable
+    /// directions: all orbits may pass along the same one.
+    Within(f64),
+    /// Sizes that sample basins: the norm r of the coordinates is log-uniform, `ln r` uniform in `ln min..ln max`, and the direction is
+    /// isotropic: coordinates `r w_i g_i / |w g|` with normal `g_i` and the model's weights `w_i` (the same for both coordinates of
+    /// a harmonic, so that all orientations are alike).
+    Sizes {
+        /// Smallest norm, above 0.
+        min: f64,
+        /// Largest norm.
+        max: f64,
+    },
+}
+
+impl Random {
+    /// What one start is drawn from where nothing else is asked for.
+    pub const SMALL: Self = Self::Within(0.01);
+
+    /// What many starts are drawn from where nothing else is asked for: from a hundredth of the model's typical size to all of it.
+    #[must_use]
+    pub fn basins(info: &ModelInfo) -> Self {
+        Self::Sizes { min: 0.01 * info.size, max: info.size }
+    }
+
+    /// The distribution of `samples` starts, if `given` is what was asked for.
+    #[must_use]
+    pub fn of(given: Option<Self>, samples: u64, info: &ModelInfo) -> Self {
+        given.unwrap_or_else(|| if samples > 1 { Self::basins(info) } else { Self::SMALL })
+    }
+
+    /// Reads `0.3` ([`Random::Within`]) or `0.01:1` ([`Random::Sizes`]).
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for another text, and what [`Random::check`] refuses.
+    pub fn parse(text: &str) -> Result<Self, Error> {
+        let wrong = || Error::Setting {
+            key: "random",
+            value: text.to_owned(),
+            remedy: "give one size, like 0.3, or the smallest and the largest, like 0.01:1",
+        };
+        let number = |text: &str| text.trim().parse::<f64>().map_err(|_| wrong());
+        let random = match text.split_once(':') {
+            Some((min, max)) => Self::Sizes { min: number(min)?, max: number(max)? },
+            None => Self::Within(number(text)?),
+        };
+        random.check()?;
+        Ok(random)
+    }
+
+    /// Refuses sizes that are none.
+    ///
+    /// # Errors
+    /// [`Error::Setting`].
+    pub fn check(&self) -> Result<(), Error> {
+        match *self {
+            Self::Within(size) => check("random", size, size >= 0.0, "give a size of at least 0"),
+            Self::Sizes { min, max } => {
+                check("random", min, min > 0.0, "give a smallest size above 0")?;
+                check("random", max, max >= min, "give a largest size of at least the smallest one")
+            }
+        }
+    }
+
+    /// The largest size.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        match *self {
+            Self::Within(size) => size,
+            Self::Sizes { max, .. } => max,
+        }
+    }
+
+    /// The distribution in words: `uniform within ±0.01`, `of size 0.01 to 1, log-uniform`.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match self {
+            Self::Within(size) => format!("uniform within ±{size}"),
+            Self::Sizes { min, max } if min == max => format!("of size {min}"),
+            Self::Sizes { min, max } => format!("of size {min} to {max}, log-uniform"),
+        }
+    }
+
+    /// The coordinates of the start with this seed and stream, `count` of them.
+    pub(crate) fn coordinates(&self, info: &ModelInfo, count: usize, seed: u64, stream: u64) -> Vec<f64> {
+        let mut random = Uniform::new(seed, stream);
+        match *self {
+            Self::Within(size) => (0..count).map(|_| size * random.next()).collect(),
+            Self::Sizes { min, max } => {
+                let size = min * libm::exp(0.5 * (1.0 + random.next()) * libm::log(max / min));
+                let direction: Vec<f64> =
+                    (0..count).map(|place| (info.weight)(place) * normal(&mut random)).collect();
+                let norm = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
+                direction.into_iter().map(|x| size * x / norm).collect()
+            }
+        }
+    }
+
+    /// The same as the model computes with it.
+    pub(crate) fn shape(&self, info: &ModelInfo, model: &dyn Model, seed: u64, stream: u64) -> Vec<f64> {
+        let coordinates = self.coordinates(info, model.coordinates().len(), seed, stream);
+        let mut shape = vec![0.0; model.dim()];
+        model.encode(&coordinates, &mut shape);
+        shape
+    }
+}
+
+impl From<f64> for Random {
+    fn from(size: f64) -> Self {
+        Self::Within(size)
+    }
+}
+
+impl std::fmt::Display for Random {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Within(size) => write!(f, "{size}"),
+            Self::Sizes { min, max } => write!(f, "{min}:{max}"),
+        }
+    }
+}
+
+/// A normal number: Box and Muller (1958), Ann. Math. Stat. 29, 610. The radius needs a number above 0, and 1 - (0..1) is one.
+fn normal(random: &mut Uniform) -> f64 {
+    let radius = (-2.0 * libm::log(1.0 - 0.5 * (1.0 + random.next()))).sqrt();
+    radius * libm::cos(std::f64::consts::PI * random.next())
+}

@@ -1,0 +1,119 @@
+//! Random starts that sample basins: sizes, directions, text; what scans and single runs draw.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use motiform_models::{MODELS, ModelInfo};
+use motiform_study::{Plan, Random, ScanPlan, Study};
+
+/// The coordinates of the start that a study draws with this seed.
+fn start(study: &Study, seed: u64) -> Vec<f64> {
+    let mut study = study.clone();
+    study.run.seed = seed;
+    let all = Plan::new(&study).unwrap().computation.initial.values();
+    all[..all.len() - 2].to_vec()
+}
+
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// `ln r` is uniform: mean and variance within five standard errors of those of the uniform law, and no size beyond the ends.
+#[test]
+fn sizes_are_log_uniform() {
+    for info in MODELS {
+        let mut study = Study::of_model(info);
+        study.random = Some(Random::Sizes { min: 0.01, max: 2.0 });
+        let n = 2000;
+        let (low, high) = (0.01_f64.ln(), 2.0_f64.ln());
+        let places: Vec<f64> =
+            (0..n).map(|seed| (norm(&start(&study, seed)).ln() - low) / (high - low)).collect();
+        assert!(places.iter().all(|&x| (-1e-12..=1.0 + 1e-12).contains(&x)), "{}", info.name);
+        let n = n as f64;
+        let mean = places.iter().sum::<f64>() / n;
+        let variance = places.iter().map(|x| (x - 0.5) * (x - 0.5)).sum::<f64>() / n;
+        assert!((mean - 0.5).abs() < 5.0 * (1.0 / 12.0 / n).sqrt(), "{}: {mean}", info.name);
+        assert!((variance - 1.0 / 12.0).abs() < 5.0 * (1.0 / 180.0 / n).sqrt(), "{}: {variance}", info.name);
+    }
+}
+
+/// No direction is preferred: over the unit sphere in six dimensions `<x_i> = 0`, `<x_i x_j> = delta_ij / 6`, `<x_i^4> = 3 / 48`.
+#[test]
+fn directions_are_isotropic() {
+    let mut study = Study::of_model(ModelInfo::find("tensor").unwrap());
+    study.random = Some(Random::Sizes { min: 1.0, max: 1.0 });
+    let all: Vec<Vec<f64>> = (0..4000).map(|seed| start(&study, seed)).collect();
+    let n = all.len() as f64;
+    let mean = |of: &dyn Fn(&[f64]) -> f64| all.iter().map(|x| of(x)).sum::<f64>() / n;
+    for i in 0..6 {
+        assert!(mean(&|x| x[i]).abs() < 5.0 * (1.0 / 6.0 / n).sqrt());
+        assert!((mean(&|x| x[i].powi(4)) - 3.0 / 48.0).abs() < 5.0 * (0.01 / n).sqrt());
+        for j in 0..6 {
+            let want = if i == j { 1.0 / 6.0 } else { 0.0 };
+            assert!((mean(&|x| x[i] * x[j]) - want).abs() < 5.0 * (1.0 / 36.0 / n).sqrt(), "{i} {j}");
+        }
+    }
+}
+
+/// Harmonic n of a cell is drawn with weight 1/n^2, both coordinates alike.
+#[test]
+fn cells_are_smooth() {
+    let mut study = Study::of_model(ModelInfo::find("cell").unwrap());
+    study.random = Some(Random::Sizes { min: 1.0, max: 1.0 });
+    let all: Vec<Vec<f64>> = (0..2000).map(|seed| start(&study, seed)).collect();
+    let square = |place: usize| all.iter().map(|x| x[place] * x[place]).sum::<f64>();
+    for (place, weight) in [(1, 1.0), (2, 0.25), (3, 0.25), (5, 1.0 / 9.0)] {
+        // a ratio of two sums of 2000 squares: within 20 %
+        let seen = square(place) / square(0);
+        assert!((seen / (weight * weight) - 1.0).abs() < 0.2, "{place}: {seen}");
+    }
+}
+
+#[test]
+fn text_reads_back_and_nonsense_is_refused() {
+    for (text, random) in [
+        ("0.3", Random::Within(0.3)),
+        ("0", Random::Within(0.0)),
+        ("0.01:1", Random::Sizes { min: 0.01, max: 1.0 }),
+    ] {
+        assert_eq!(Random::parse(text).unwrap(), random);
+        assert_eq!(Random::parse(&random.to_string()).unwrap(), random);
+    }
+    for text in ["", "a", "-1", "nan", "inf", "0:1", "1:0.5", "0.1:", "0.1:0.2:0.3", "-1:1", "0.1:inf"] {
+        let refusal = Random::parse(text).unwrap_err().to_string();
+        assert!(refusal.contains("random"), "{text}: {refusal}");
+    }
+    let study =
+        |value: &str| Study::parse(&format!("preset = \"fig4\"\n[initial]\nrandom = {value}\n"), "text", "t");
+    assert_eq!(study("\"0.1:0.5\"").unwrap().random, Some(Random::Sizes { min: 0.1, max: 0.5 }));
+    assert_eq!(study("0.5").unwrap().random, Some(Random::Within(0.5)));
+    assert!(study("\"1:0.5\"").unwrap_err().to_string().contains("largest"));
+    assert!(study("true").is_err());
+}
+
+/// One start stays small, as it was; several sample basins, unless they are told.
+#[test]
+fn many_starts_sample_basins_and_one_stays_small() {
+    let plan = |text: &str| {
+        let study = format!("preset = \"fig4\"\n[scan]\naxes = [\"kappa2=0.5,1\"]\n{text}");
+        ScanPlan::new(&Study::parse(&study, "text", "t").unwrap()).unwrap()
+    };
+    assert_eq!(plan("samples = 1\n").computation.random, Random::Within(0.01));
+    let many = plan("samples = 3\n");
+    assert_eq!(many.computation.random, Random::Sizes { min: 0.01, max: 1.0 });
+    assert_eq!(plan("samples = 3\n[initial]\nrandom = 0.01\n").computation.random, Random::Within(0.01));
+    // plans of small starts are those of earlier versions, to the byte
+    let json = serde_json::to_value(&plan("samples = 1\n").computation).unwrap();
+    assert_eq!(json["random"], 0.01);
+    let back: ScanPlan = serde_json::from_str(&serde_json::to_string(&many).unwrap()).unwrap();
+    assert_eq!((back.hash(), &back), (many.hash(), &many));
+    let sizes: Vec<f64> = (0..6)
+        .map(|row| {
+            let model = many.model_of(row / 3).unwrap();
+            let mut coordinates = vec![0.0; 6];
+            model.decode(&many.start(row / 3, row % 3, model.as_ref()).unwrap(), &mut coordinates);
+            norm(&coordinates)
+        })
+        .collect();
+    assert!(sizes.iter().all(|size| (0.01..=1.0 + 1e-12).contains(size)), "{sizes:?}");
+    assert!(sizes.iter().any(|size| *size > 0.1), "{sizes:?}");
+}
