@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
+#[path = "common/paper.rs"]
+mod paper;
+
 use motiform_study::report::Verdict;
 use motiform_study::reproduction::{Options, reproduce};
 
@@ -14,10 +17,8 @@ fn no_claim_of_simulations_one_fails() {
     assert_eq!(report.sections.len(), 3);
     for section in &report.sections {
         assert!(section.claims.len() >= 5 && !section.figures.is_empty(), "{}", section.title);
-        for claim in &section.claims {
-            println!("{} {}\n    {}", claim.verdict.words(), claim.says, claim.finds);
-        }
     }
+    paper::check(&report, &["fig1", "fig2", "fig3"]);
     assert!(report.all_hold());
     // what the paper calls random is round-off: that must be said, not passed over
     let fig2 = &report.sections[1].claims;

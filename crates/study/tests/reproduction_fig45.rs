@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
+#[path = "common/paper.rs"]
+mod paper;
+
 use motiform_study::report::Verdict;
 use motiform_study::reproduction::{Options, reproduce};
 
@@ -10,7 +13,7 @@ fn no_claim_about_figures_4_and_5_fails() {
     let folder = tempfile::tempdir().unwrap();
     let options = Options { figures: vec!["fig4".into(), "fig5".into()], quick: true, threads: 2 };
     let report = reproduce(&options, folder.path(), &()).unwrap();
-    assert_eq!(report.sections.len(), 2);
+    paper::check(&report, &["fig4", "fig5"]);
     for section in &report.sections {
         assert!(section.figures.len() >= 4 && section.claims.len() >= 8, "{} is thin", section.title);
         for claim in &section.claims {

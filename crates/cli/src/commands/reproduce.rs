@@ -5,7 +5,7 @@ use crate::output::{End, print, warn};
 use crate::progress::Watch;
 use motiform_study::Error;
 use motiform_study::files::replace_file;
-use motiform_study::report::{Claim, Report};
+use motiform_study::report::{Claim, Counts, Report};
 use motiform_study::reproduction::{Options, reproduce};
 use serde_json::json;
 use std::fmt::Write;
@@ -38,9 +38,11 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     Ok(if report.all_hold() { End::Done } else { End::NotAsAsked })
 }
 
+/// `hold`, `differ`, `fail` count the claims of the paper; `checks` has the same for the checks of ours.
 fn json(report: &Report, page: &Path) -> anyhow::Result<String> {
     let claim = |claim: &Claim| {
-        json!({ "says": claim.says, "finds": claim.finds, "how": claim.how, "verdict": claim.verdict.words(),
+        json!({ "source": if claim.is_ours() { "check" } else { "paper" }, "sentences": claim.sentences(),
+                "says": claim.says, "finds": claim.finds, "how": claim.how, "verdict": claim.verdict.words(),
                 "explanation": claim.verdict.explanation() })
     };
     let sections: Vec<_> = report
@@ -48,9 +50,10 @@ fn json(report: &Report, page: &Path) -> anyhow::Result<String> {
         .iter()
         .map(|section| json!({ "title": section.title, "claims": section.claims.iter().map(claim).collect::<Vec<_>>() }))
         .collect();
-    let counts = report.counts();
+    let (counts, checks) = (report.counts(), report.checks());
     Ok(serde_json::to_string(&json!({
-        "report": page, "hold": counts.hold, "differ": counts.differ, "fail": counts.fail, "sections": sections,
+        "report": page, "hold": counts.hold, "differ": counts.differ, "fail": counts.fail,
+        "checks": { "hold": checks.hold, "differ": checks.differ, "fail": checks.fail }, "sections": sections,
     }))?)
 }
 
@@ -59,19 +62,19 @@ fn summary(report: &Report, page: &Path) -> anyhow::Result<String> {
     for section in &report.sections {
         writeln!(text, "{}", plain(&section.title))?;
         for claim in &section.claims {
-            writeln!(text, "  {:9} {}", claim.verdict.words(), plain(&claim.says))?;
+            let ours = if claim.is_ours() { "check: " } else { "" };
+            writeln!(text, "  {:9} {ours}{}", claim.verdict.words(), plain(&claim.says))?;
             if let Some(explanation) = claim.verdict.explanation() {
                 writeln!(text, "            found: {}", plain(&claim.finds))?;
                 writeln!(text, "            {}", plain(explanation))?;
             }
         }
     }
-    let counts = report.counts();
-    writeln!(
-        text,
-        "{} claims hold, {} differ for a known reason, {} fail",
-        counts.hold, counts.differ, counts.fail
-    )?;
+    let counted = |Counts { hold, differ, fail }: Counts| {
+        format!("{hold} hold, {differ} differ for a known reason, {fail} fail")
+    };
+    writeln!(text, "claims of the paper: {}", counted(report.counts()))?;
+    writeln!(text, "checks of ours: {}", counted(report.checks()))?;
     write!(text, "{}", page.display())?;
     Ok(text)
 }

@@ -2,10 +2,15 @@
 //!
 //! Knows no model, no analysis and no file. All texts are markup (see [`Label`]); an empty line parts paragraphs.
 
+mod claim;
 mod page;
 mod section;
+mod sentence;
 #[cfg(test)]
 mod tests;
+
+pub use claim::{Claim, Counts, Source, Verdict};
+pub use sentence::Sentence;
 
 use crate::figures::Label;
 
@@ -18,6 +23,8 @@ pub struct Report {
     pub about: String,
     /// Parts, in this order.
     pub sections: Vec<Section>,
+    /// The paper, sentence by sentence: shown with the claims that check it; without any, nothing is shown.
+    pub sentences: Vec<Sentence>,
 }
 
 /// A part of a report, such as one figure of a paper.
@@ -53,103 +60,27 @@ pub enum Picture {
     Png(Vec<u8>),
 }
 
-/// A statement and what became of it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Claim {
-    /// What the paper says.
-    pub says: String,
-    /// What we find.
-    pub finds: String,
-    /// How it was decided: quantity, tolerance.
-    pub how: String,
-    /// The decision.
-    pub verdict: Verdict,
-}
-
-/// Whether a claim holds.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Verdict {
-    /// It does.
-    Holds,
-    /// It does not as stated, for a reason that is understood.
-    Differs {
-        /// The reason.
-        explanation: String,
-    },
-    /// It does not.
-    Fails {
-        /// What goes wrong.
-        explanation: String,
-    },
-}
-
-impl Verdict {
-    /// Symbol and word; neither needs a colour.
-    #[must_use]
-    pub fn words(&self) -> &'static str {
-        match self {
-            Self::Holds => "✓ holds",
-            Self::Differs { .. } => "≠ differs",
-            Self::Fails { .. } => "✗ fails",
-        }
-    }
-
-    /// Why it does not hold; `None` if it does.
-    #[must_use]
-    pub fn explanation(&self) -> Option<&str> {
-        match self {
-            Self::Holds => None,
-            Self::Differs { explanation } | Self::Fails { explanation } => Some(explanation),
-        }
-    }
-
-    /// Name for the style sheet.
-    fn class(&self) -> &'static str {
-        match self {
-            Self::Holds => "holds",
-            Self::Differs { .. } => "differs",
-            Self::Fails { .. } => "fails",
-        }
-    }
-}
-
-/// How many claims hold, differ and fail.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Counts {
-    /// Claims that hold.
-    pub hold: usize,
-    /// Claims that differ for a reason.
-    pub differ: usize,
-    /// Claims that fail.
-    pub fail: usize,
-}
-
-impl Counts {
-    /// Counts the verdicts of claims.
-    pub fn of<'a>(claims: impl IntoIterator<Item = &'a Claim>) -> Self {
-        let mut counts = Self::default();
-        for claim in claims {
-            match claim.verdict {
-                Verdict::Holds => counts.hold += 1,
-                Verdict::Differs { .. } => counts.differ += 1,
-                Verdict::Fails { .. } => counts.fail += 1,
-            }
-        }
-        counts
-    }
-}
-
 impl Report {
-    /// Counts over all sections.
+    /// The claims of the paper, over all sections.
     #[must_use]
     pub fn counts(&self) -> Counts {
-        Counts::of(self.sections.iter().flat_map(|s| &s.claims))
+        Counts::of(self.claims().filter(|claim| !claim.is_ours()))
     }
 
-    /// Whether no claim fails. One that differs for a reason is no failure; a report without claims has none.
+    /// The checks of ours, over all sections.
+    #[must_use]
+    pub fn checks(&self) -> Counts {
+        Counts::of(self.claims().filter(|claim| claim.is_ours()))
+    }
+
+    fn claims(&self) -> impl Iterator<Item = &Claim> {
+        self.sections.iter().flat_map(|section| &section.claims)
+    }
+
+    /// Whether no claim and no check fails. One that differs for a reason is no failure; a report without claims has none.
     #[must_use]
     pub fn all_hold(&self) -> bool {
-        self.counts().fail == 0
+        self.counts().fail + self.checks().fail == 0
     }
 
     /// The page: HTML that refers to nothing outside itself.

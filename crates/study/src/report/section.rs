@@ -49,11 +49,12 @@ fn claim(section: usize, number: usize, claim: &Claim) -> String {
         text => format!("<div><dt>{name}</dt><dd>{}</dd></div>\n", inline(text)),
     };
     format!(
-        "<article class=\"claim {}\" id=\"c{section}-{number}\">\n<h3>Claim {section}.{number} {}</h3>\n<dl>\n\
+        "<article class=\"claim {}\" id=\"c{section}-{number}\">\n<h3>{} {section}.{number} {}</h3>\n<dl>\n\
          {}{}{}{}</dl>\n</article>\n",
         claim.verdict.class(),
+        claim.noun(),
         badge(&claim.verdict),
-        line("The paper says", &claim.says),
+        line(if claim.is_ours() { "We check" } else { "The paper says" }, &claim.says),
         line("We find", &claim.finds),
         line("Decided by", &claim.how),
         line("Explanation", claim.verdict.explanation().unwrap_or_default())

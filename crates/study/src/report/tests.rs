@@ -5,11 +5,16 @@ use crate::figures::{ReturnMapFigure, png};
 
 fn claim(verdict: Verdict) -> Claim {
     Claim {
+        source: Source::Paper(vec![7]),
         says: "*κ*_2 < 0.5 & <script>alert(1)</script>".into(),
         finds: "*λ*_1 = -0.02 \"within\" 10^{-3}".into(),
         how: "mean of 20 runs".into(),
         verdict,
     }
+}
+
+fn check(verdict: Verdict) -> Claim {
+    Claim { source: Source::Ours, ..claim(verdict) }
 }
 
 fn report() -> Report {
@@ -27,11 +32,26 @@ fn report() -> Report {
     };
     let second = Section {
         title: "Chaos".into(),
-        claims: vec![claim(Verdict::Holds), claim(Verdict::Fails { explanation: explanation() })],
+        claims: vec![
+            claim(Verdict::Holds),
+            claim(Verdict::Fails { explanation: explanation() }),
+            check(Verdict::Holds),
+        ],
         ..Section::default()
     };
     let third = Section { title: "Outlook".into(), ..Section::default() };
-    Report { title: "Report <1> *x*".into(), about: String::new(), sections: vec![first, second, third] }
+    let sentence = |numbers, unchecked: Option<&str>| Sentence {
+        numbers,
+        part: "Results".into(),
+        words: "It <moves>.".into(),
+        unchecked: unchecked.map(str::to_owned),
+    };
+    Report {
+        title: "Report <1> *x*".into(),
+        about: String::new(),
+        sections: vec![first, second, third],
+        sentences: vec![sentence((1, 6), Some("background")), sentence((7, 7), None), sentence((8, 8), None)],
+    }
 }
 
 #[test]
@@ -49,11 +69,35 @@ fn counts_are_those_of_the_claims() {
     let report = report();
     assert_eq!(report.counts(), Counts { hold: 2, differ: 1, fail: 1 });
     let html = report.html();
-    assert!(html.contains("4 claims: ") && html.contains("✓ 2 held"));
-    for counts in [">1 held, 1 differs<", ">1 held, 1 failed<", ">no claim<"] {
+    assert!(html.contains("4 claims of the paper: ") && html.contains("✓ 2 held"));
+    assert!(html.contains("1 check of ours: ") && html.contains("✓ 1 held"));
+    for counts in [">1 held, 1 differs<", ">1 held, 1 failed; checks: 1 held<", ">no claim<"] {
         assert!(html.contains(counts), "{counts}");
     }
     assert_eq!(html.matches("✗ fails").count(), 2, "in the summary and at the claim");
+}
+
+#[test]
+fn checks_of_ours_are_counted_apart() {
+    let mut report = report();
+    assert_eq!(report.checks(), Counts { hold: 1, differ: 0, fail: 0 });
+    let html = report.html();
+    assert_eq!(html.matches("<h3>Check 2.3").count(), 1);
+    assert_eq!((html.matches("<dt>The paper says").count(), html.matches("<dt>We check").count()), (4, 1));
+    report.sections[1].claims = vec![check(Verdict::Fails { explanation: String::new() })];
+    assert_eq!(report.counts().fail, 0);
+    assert!(!report.all_hold(), "a check that fails spoils the whole as well");
+}
+
+#[test]
+fn every_sentence_has_its_claims_or_its_reason() {
+    let html = report().html();
+    let rows: Vec<&str> = html.split("<tr>").filter(|row| row.contains("It &lt;moves&gt;.")).collect();
+    assert_eq!(rows.len(), 3);
+    assert!(rows[0].contains("1–6") && rows[0].contains("not checked: background"));
+    assert_eq!(rows[1].matches("href=\"#c").count(), 4, "all claims of the paper, not the check");
+    assert!(rows[2].contains("not part of this run"));
+    assert!(html.contains("2 of 8 sentences"));
 }
 
 #[test]
@@ -81,7 +125,7 @@ fn every_link_leads_somewhere_and_names_are_given_once() {
         html.split(mark).skip(1).filter_map(|rest| Some(rest.split_once('"')?.0.to_owned())).collect()
     };
     let (targets, names) = (after("href=\"#"), after(" id=\""));
-    assert!(targets.len() == 7 && targets.iter().all(|t| names.contains(t)), "{targets:?} in {names:?}");
+    assert!(targets.len() == 13 && targets.iter().all(|t| names.contains(t)), "{targets:?} in {names:?}");
     let once: std::collections::HashSet<_> = names.iter().collect();
     assert_eq!(once.len(), names.len());
 }

@@ -2,9 +2,10 @@
 
 mod correspondence;
 mod grid;
+mod hopf;
 mod schemes;
 
-use super::claims::claim;
+use super::claims::{check, claim};
 use super::context::Context;
 use crate::Error;
 use crate::draw::phase_diagram;
@@ -37,6 +38,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     claims.push(order(&grid));
     claims.push(agreement(&grid));
     claims.extend(lines(&grid));
+    claims.extend(hopf::claims(context, &grid)?);
     claims.push(schemes::claim_of(context)?);
     claims.extend(correspondence::claims(context)?);
     let svg = phase_diagram(&plan, &cells)?.svg()?;
@@ -68,25 +70,27 @@ fn parameters(plan: &crate::ScanPlan) -> Vec<(String, String)> {
 /// The paper's regions, each where the formulas say it is.
 fn regions(grid: &Grid) -> Vec<Claim> {
     let says = [
-        (Motion::Motionless, "In the region indicated by the cross symbol the domain is motionless."),
-        (Motion::Straight, "It undergoes a straight motion in the region of the open squares."),
-        (Motion::Circular, "A circular motion in the region of the open circles."),
+        (Motion::Motionless, 91, "In the region indicated by the cross symbol the domain is motionless."),
+        (Motion::Straight, 91, "It undergoes a straight motion in the region of the open squares."),
+        (Motion::Circular, 91, "A circular motion in the region of the open circles."),
         (
             Motion::Rectangular,
+            98,
             "For *κ*_2 < 0 rectangular motion occurs in the region of the solid squares (*γ* < 0).",
         ),
         (
             Motion::QuasiPeriodic,
+            101,
             "Where *γ* > 0 and *κ*_2 < 0, next to the rectangular region, the motion is quasi-periodic.",
         ),
     ];
     says.into_iter()
-        .map(|(motion, says)| {
+        .map(|(motion, sentence, says)| {
             let (agree, all) = grid.region(motion);
             let finds = format!("{agree} of {all} cells that lie inside the analytic region are {}", motion.name());
             let how = "all cells more than one cell away from every analytic line where this is the only stable motion; \
                        at least 98 % agree, and there are at least 3";
-            claim(says, finds, how, all >= 3 && agree as f64 >= 0.98 * all as f64)
+            claim(&[sentence], says, finds, how, all >= 3 && agree as f64 >= 0.98 * all as f64)
         })
         .collect()
 }
@@ -102,7 +106,13 @@ fn order(grid: &Grid) -> Claim {
     let holds = (left, right) == expected;
     let says = "With growing *γ* the domain is motionless, then goes straight, then in circles (*κ*_2 > 0); for *κ*_2 < 0 the \
                 rectangular and the quasi-periodic motion lie between straight and circular.";
-    claim(says, finds, "the most frequent motion of each cell in the two columns, from below", holds)
+    claim(
+        &[96, 189],
+        says,
+        finds,
+        "the most frequent motion of each cell in the two columns, from below",
+        holds,
+    )
 }
 
 /// Every cell against the formulas.
@@ -117,37 +127,41 @@ fn agreement(grid: &Grid) -> Claim {
                rectangular one may exist as well); at least 99 % of the far cells must, and at most 1 % be undetermined";
     let far = count.far.1 as f64;
     let holds = count.far.0 as f64 >= 0.99 * far && count.undetermined as f64 <= 0.01 * far;
-    claim("The phase diagram, obtained numerically.", finds, how, holds)
+    claim(&[84, 90], "The phase diagram, obtained numerically.", finds, how, holds)
 }
 
-/// Each line, found by the scan.
+/// Each line with a sharp change, found by the scan; without sentences of the paper it is a check of ours.
 fn lines(grid: &Grid) -> Vec<Claim> {
     use Line::{
         CircleToStraight, CircularToQuasiPeriodic, EllipseToStraight, QuasiPeriodicToRectangular,
         StraightToCircular,
     };
-    let all: [(&[Line], [Motion; 2], &str); 4] = [
+    let all: [(&[Line], [Motion; 2], &[u16], &str); 4] = [
         (
             &[CircleToStraight, EllipseToStraight],
             [Motion::Motionless, Motion::Straight],
+            &[93],
             "The solid line is the boundary between the motionless state and the straight motion.",
         ),
         (
             &[StraightToCircular],
             [Motion::Straight, Motion::Circular],
+            &[93],
             "The broken line is the phase boundary between the straight motion and the circular motion.",
         ),
         (
             &[CircularToQuasiPeriodic],
             [Motion::Circular, Motion::QuasiPeriodic],
-            "Quasi-periodic motion lies beside circular motion (no line in the paper; *γ* = −(2/5) *κ*_2 exactly).",
+            &[],
+            "Quasi-periodic motion lies beside circular motion, from *γ* = −(2/5) *κ*_2 on (no line in the paper).",
         ),
         (
             &[QuasiPeriodicToRectangular],
             [Motion::QuasiPeriodic, Motion::Rectangular],
+            &[101],
             "Quasi-periodic motion has *γ* > 0 (no line in the paper; *γ* = 0 exactly, *κ*_2 < 0).",
         ),
     ];
-    let sharp = all.into_iter().map(|(lines, sides, says)| found_line(grid, lines, sides, says));
-    sharp.chain([grid.hopf()]).collect()
+    let line = |(lines, sides, sentences, says)| found_line(grid, lines, sides, sentences, says);
+    all.into_iter().map(line).collect()
 }

@@ -2,7 +2,7 @@
 
 mod noisy;
 
-use super::claims::{claim, differs};
+use super::claims::{check, claim, differs};
 use super::context::Context;
 use crate::draw::stills_as_svg;
 use crate::figures::literal;
@@ -83,6 +83,7 @@ fn regime(context: &Context<'_>) -> Result<Claim, Error> {
     let says = "The so called rectangular motion, in which the domain repeats a straight motion and stopping, for *γ* = -0.04 and \
                 *κ*_2 = -0.1.";
     Ok(claim(
+        &[97],
         says,
         format!("{}: {}", verdict.regime, literal(&verdict.why)),
         how,
@@ -108,7 +109,7 @@ fn right_angles(dataset: &Dataset) -> Result<Claim, Error> {
     let finds = format!("{} turns by 90°, each to within {off:.1e}°", later.len());
     let how = "headings at the middle of successive legs, the first turn left out; each within 1° of 90°";
     let says = "During the stopping interval the domain changes the shape and the propagation direction almost by 90°.";
-    Ok(claim(says, finds, how, later.len() >= 5 && off < 1.0))
+    Ok(claim(&[99], says, finds, how, later.len() >= 5 && off < 1.0))
 }
 
 /// Durations of the rests of a path.
@@ -139,9 +140,9 @@ fn growth(dataset: &Dataset) -> Result<Claim, Error> {
                no rest is longer than -2 ln(2^{-53})/*λ*_+, where round-off has to end them";
     let bound = -2.0 * libm::log(f64::EPSILON / 2.0) / out;
     let holds = growing >= 2 && (near - ratio).abs() < 0.01 && longest < bound;
-    let says = "The domain repeats a straight motion and stopping alternatively. (The paper gives no time of rest: a heteroclinic \
-                cycle has no period, each rest is longer than the last by the ratio of the rates, until round-off.)";
-    Ok(claim(says, finds, how, holds))
+    let says = "A heteroclinic cycle has no period: each rest is longer than the last by the ratio of the rates, until round-off. (The \
+                paper gives no time of rest.)";
+    Ok(check(says, finds, how, holds))
 }
 
 /// `lambda_+` and `lambda_-` by the formulas.
@@ -172,6 +173,7 @@ fn by_rounding(one: &Dataset, other: &Dataset) -> Result<Claim, Error> {
     let says = "Either clock-wise rotation or counter clock-wise rotation seem to occur at random and may depend on noises caused \
                 unavoidably in the numerical computations.";
     Ok(differs(
+        &[100],
         says,
         finds,
         how,

@@ -1,6 +1,6 @@
 //! Fig. 3: quasi-periodic motion: an annulus, and a return map that is a closed curve.
 
-use super::claims::claim;
+use super::claims::{check, claim};
 use super::context::Context;
 use crate::draw::stills_as_svg;
 use crate::report::{Claim, Picture, ReportFigure, Section};
@@ -31,7 +31,8 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         rotation / TAU
     );
     let how = "the classifier: Newton's method on a return, all multipliers inside the unit circle, a net rotation that is not 0";
-    let named = claim(says, finds, how, verdict.regime == Regime::QuasiPeriodic && rotation.abs() > 0.01);
+    let named =
+        claim(&[102], says, finds, how, verdict.regime == Regime::QuasiPeriodic && rotation.abs() > 0.01);
     let claims = vec![
         named,
         annulus(&dataset),
@@ -86,7 +87,7 @@ fn annulus(dataset: &Dataset) -> Claim {
     let how = "distances from the time average of the path; both halves of the recording have the same radii to 1 %, and the inner \
                one is not 0";
     let says = "Fig. 3(a): a quasi-periodic path.";
-    claim(says, finds, how, inner > 0.05 * outer && off < 0.01 * outer)
+    claim(&[131], says, finds, how, inner > 0.05 * outer && off < 0.01 * outer)
 }
 
 fn anticlockwise(dataset: &Dataset) -> Claim {
@@ -102,7 +103,7 @@ fn anticlockwise(dataset: &Dataset) -> Claim {
     let finds = format!("mean turning rate {:+.6} rad per time unit", turned / time);
     let how = "the heading's net change over the recording; positive is counterclockwise. The mirror image exists as well: the start \
                was chosen so";
-    claim("Rotating in the counterclockwise direction.", finds, how, turned > 0.0)
+    claim(&[131], "Rotating in the counterclockwise direction.", finds, how, turned > 0.0)
 }
 
 fn return_map(dataset: &Dataset) -> Result<Claim, Error> {
@@ -119,7 +120,7 @@ fn return_map(dataset: &Dataset) -> Result<Claim, Error> {
                motion 0, chaos more than 1.2; within 0.2 of 1";
     let says = "In order to confirm that the motion is quasi-periodic, we have analyzed the return map of the *x*-component every time \
                 that the domain crosses the line -3 < *x* < 3 and *y* = 3.";
-    Ok(claim(says, finds, how, (dimension.value - 1.0).abs() < 0.2))
+    Ok(claim(&[103, 132], says, finds, how, (dimension.value - 1.0).abs() < 0.2))
 }
 
 fn exponent(context: &Context<'_>, study: &crate::Study) -> Result<Claim, Error> {
@@ -133,5 +134,5 @@ fn exponent(context: &Context<'_>, study: &crate::Study) -> Result<Claim, Error>
     let how = "QR on the tangent flow; zero within twice its 95 % error, and below 10^{-3}: two neutral directions, time and rotation, \
                and no other";
     let holds = first.value.abs() < (2.0 * first.error).max(1e-4) && first.value.abs() < 1e-3;
-    Ok(claim("Quasi-periodic, so not chaotic: the largest Lyapunov exponent is 0.", finds, how, holds))
+    Ok(check("Quasi-periodic, so not chaotic: the largest Lyapunov exponent is 0.", finds, how, holds))
 }

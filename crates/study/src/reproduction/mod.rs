@@ -1,10 +1,11 @@
 //! The paper, rebuilt: every figure computed anew, every claim checked, one report.
 //!
-//! One file per figure; each gives a [`Section`] with its pictures and its claims. What all of them need is in
+//! One file or folder per figure, one for the equations and one for the discussion; each gives a [`Section`] with its pictures and its claims. What all of them need is in
 //! `context.rs`.
 
 mod claims;
 mod context;
+mod equations;
 mod fig1;
 mod fig2;
 mod fig3;
@@ -12,12 +13,14 @@ mod fig4;
 mod fig5;
 mod fig6;
 mod models;
+mod paper;
 mod strip;
 
 use crate::Error;
 use crate::report::{Report, Section};
 use crate::simulate::Monitor;
 use context::{Context, Progress, Share};
+pub use paper::{checked_in, entry_of};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -54,6 +57,7 @@ struct Chapter {
 
 /// In the order of the paper.
 const CHAPTERS: &[Chapter] = &[
+    Chapter { name: "equations", work: 1.0, rebuild: equations::section },
     Chapter { name: "fig1", work: 3.0, rebuild: fig1::section },
     Chapter { name: "fig2", work: 1.0, rebuild: fig2::section },
     Chapter { name: "fig3", work: 0.5, rebuild: fig3::section },
@@ -100,5 +104,6 @@ pub fn reproduce(options: &Options, out: &Path, monitor: &dyn Monitor) -> Result
         title: "Dynamics of a deformable self-propelled domain, rebuilt".to_owned(),
         about: claims::ABOUT.to_owned(),
         sections,
+        sentences: paper::sentences(),
     })
 }

@@ -14,7 +14,7 @@ pub enum Line {
     /// `gamma = (16 a1/b1) s^2 + 2 a1 s`, `kappa2 = 4 a1 s - 8 b3 s^2`, `s > 0`: the path bends. The paper's broken line.
     StraightToCircular,
     /// `kappa2 = -(8 b3 s^3 + 12 b3 B s^2)/(s + B/2)`, `gamma = 2 a1 s - kappa2/2 - 12 b3 s^2`, `-B/2 < s < 0`, `B = b1/4`:
-    /// Hopf bifurcation of straight motion, subcritical. The paper's dotted line.
+    /// Hopf bifurcation of straight motion; its kind is [`Reduced::straight_hopf_criticality`]. The paper's dotted line.
     StraightHopf,
     /// Hopf bifurcation of circular motion (of the circle's radius and the ellipse): `c2 c1 = c0` (Routh and Hurwitz). For
     /// the paper's couplings exactly `gamma = -(2/5) kappa2`.

@@ -11,6 +11,7 @@
 //! Source: paper, eqs. (V) and (S) without U; Armbruster, Guckenheimer, Holmes (1988), Physica D 29, 257, the 'minus' case of
 //! the interaction of modes 1 and 2 with O(2) symmetry.
 
+mod criticality;
 mod cubic;
 mod lines;
 

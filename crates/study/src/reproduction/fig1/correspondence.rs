@@ -51,7 +51,7 @@ fn trivial(context: &Context<'_>) -> Result<Claim, Error> {
     let Polar { r1, r2, .. } = end(context, 0.1, -0.05)?;
     let finds = format!("|*z*_1| = {}, |*z*_2| = {} after 3000 time units", number(r1), number(r2));
     let how = "*κ*_2 = 0.1, *γ* = -0.05, a random start; both below 10^{-6}";
-    Ok(claim("Motionless circle ↔ trivial solution.", finds, how, r1 < CLOSE && r2 < CLOSE))
+    Ok(claim(&[170], "Motionless circle ↔ trivial solution.", finds, how, r1 < CLOSE && r2 < CLOSE))
 }
 
 fn pure_mode(context: &Context<'_>) -> Result<Claim, Error> {
@@ -59,7 +59,13 @@ fn pure_mode(context: &Context<'_>) -> Result<Claim, Error> {
     let exact = Reduced::PAPER.ellipse(-0.02).unwrap_or(f64::NAN);
     let finds = format!("|*z*_1| = {}, |*z*_2| = {r2:.9}; the formula gives {exact:.9}", number(r1));
     let how = "*κ*_2 = -0.02, *γ* = -0.16: *z*_1 = 0 and |*z*_2|^2 = −*κ*_2/(8 *b*_3), each to 10^{-6}";
-    Ok(claim("Deformed motionless domain ↔ pure mode.", finds, how, r1 < CLOSE && (r2 - exact).abs() < CLOSE))
+    Ok(claim(
+        &[170],
+        "Deformed motionless domain ↔ pure mode.",
+        finds,
+        how,
+        r1 < CLOSE && (r2 - exact).abs() < CLOSE,
+    ))
 }
 
 fn standing_wave(context: &Context<'_>) -> Result<Claim, Error> {
@@ -80,7 +86,7 @@ fn standing_wave(context: &Context<'_>) -> Result<Claim, Error> {
         && matches(&along, 0.18, 0.05, along.r2)
         && matches(&across, -0.18, -0.1, -across.r2);
     let how = "*ψ* = arg *z*_2 − 2 arg *z*_1 is 0 or π, |*z*_1| and |*z*_2| solve the cubic of straight motion, each to 10^{-6}";
-    Ok(claim("Straight motion ↔ standing wave.", finds, how, holds))
+    Ok(claim(&[170], "Straight motion ↔ standing wave.", finds, how, holds))
 }
 
 fn travelling_wave(context: &Context<'_>) -> Result<Claim, Error> {
@@ -90,7 +96,7 @@ fn travelling_wave(context: &Context<'_>) -> Result<Claim, Error> {
     let finds = format!("16 *a*_1 |*z*_2|^2 = {left:.9}, *b*_1 |*z*_1|^2 = {right:.9}, *ψ* = {psi:.4}");
     let how = "*κ*_2 = -0.1, *γ* = 0.1: the two agree to 10^{-6}, sin *ψ* does not vanish";
     let holds = (left - right).abs() < CLOSE && libm::sin(psi).abs() > 0.01;
-    Ok(claim("Rotating motion ↔ travelling wave.", finds, how, holds))
+    Ok(claim(&[170], "Rotating motion ↔ travelling wave.", finds, how, holds))
 }
 
 fn modulated_wave(context: &Context<'_>) -> Result<Claim, Error> {
@@ -102,7 +108,7 @@ fn modulated_wave(context: &Context<'_>) -> Result<Claim, Error> {
     );
     let how = "*κ*_2 = -0.06, *γ* = 0.02: Newton's method on a return of the reduced shape; all multipliers inside the unit circle";
     let holds = verdict.attractor == Attractor::Periodic && verdict.regime == Regime::QuasiPeriodic;
-    Ok(claim("Quasi-periodic motion ↔ modulated wave.", finds, how, holds))
+    Ok(claim(&[170], "Quasi-periodic motion ↔ modulated wave.", finds, how, holds))
 }
 
 fn heteroclinic_cycle(context: &Context<'_>) -> Result<Claim, Error> {
@@ -121,5 +127,5 @@ fn heteroclinic_cycle(context: &Context<'_>) -> Result<Claim, Error> {
     let how = "*κ*_2 = -0.1, *γ* = -0.04: eigenvalues of the equilibrium that Newton's method finds at a rest, against \
                *γ* ± 2 *a*_1 |*z*_2| to 10^{-9}; their sum is negative, so the cycle attracts";
     let holds = verdict.attractor == Attractor::Heteroclinic && near && rates.iter().sum::<f64>() < 0.0;
-    Ok(claim("Rectangular motion ↔ heteroclinic cycle.", finds, how, holds))
+    Ok(claim(&[170], "Rectangular motion ↔ heteroclinic cycle.", finds, how, holds))
 }

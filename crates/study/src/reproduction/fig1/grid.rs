@@ -1,6 +1,6 @@
 //! The cells of the scan against the formulas.
 
-use super::claim;
+use super::{check, claim};
 use crate::ScanPlan;
 use crate::report::Claim;
 use crate::scan::CellSummary;
@@ -29,7 +29,7 @@ impl Cell {
         self.found.iter().all(|regime| self.expected.allows(regime.name()))
     }
 
-    fn has(&self, motion: Motion) -> bool {
+    pub(super) fn has(&self, motion: Motion) -> bool {
         self.found.iter().any(|regime| regime.name() == motion.name())
     }
 }
@@ -103,31 +103,17 @@ impl Grid {
         Agreement { far: count(&far), near: count(&near), undetermined: unknown.len() }
     }
 
-    /// The line at which straight motion loses its stability in a subcritical Hopf bifurcation: no sharp change, for beside
-    /// it straight and rectangular motion are both stable. Beyond it no cell may hold straight motion; before it some must.
-    pub(super) fn hopf(&self) -> Claim {
+    /// Cells from half a cell to six cells off the Hopf line of straight motion, more than one and a half from every other,
+    /// with `kappa2` below `end`: those where straight motion is stable, and those beyond the line.
+    pub(super) fn beside_hopf(&self, end: f64) -> (Vec<&Cell>, Vec<&Cell>) {
         let hopf = |line| line == Line::StraightHopf;
         let beside = |cell: &&Cell| {
             let at = [cell.kappa2, cell.gamma];
             let own = self.distance(at, hopf);
-            own > 0.5 && own < 6.0 && self.distance(at, |line| !hopf(line)) > 1.5
+            cell.kappa2 < end && own > 0.5 && own < 6.0 && self.distance(at, |line| !hopf(line)) > 1.5
         };
         let stable = |cell: &&Cell| cell.expected.allows(Motion::Straight.name());
-        let (before, beyond): (Vec<&Cell>, Vec<&Cell>) = self.cells.iter().filter(beside).partition(stable);
-        let straight = |cells: &[&Cell]| cells.iter().filter(|cell| cell.has(Motion::Straight)).count();
-        let both = before.iter().filter(|cell| cell.has(Motion::Rectangular)).count();
-        claim(
-            "The dotted line indicates the subcritical Hopf bifurcation line from the straight to the rectangular motion.",
-            format!(
-                "beyond the analytic line {} of {} cells hold straight motion; before it {} of {} do, and {both} hold rectangular motion: both are stable there, as beside a subcritical bifurcation",
-                straight(&beyond),
-                beyond.len(),
-                straight(&before),
-                before.len()
-            ),
-            "cells from half a cell to six cells off the line and more than one and a half from every other",
-            straight(&beyond) == 0 && !beyond.is_empty() && straight(&before) > 0,
-        )
+        self.cells.iter().filter(beside).partition(stable)
     }
 
     /// The most frequent motions of the column nearest to `kappa2`, from below, repetitions left out.
@@ -151,7 +137,13 @@ impl Grid {
 
 /// Whether the scan changes from one of the two motions to the other within a cell of a line, wherever no other line is
 /// near.
-pub(super) fn found_line(grid: &Grid, lines: &[Line], sides: [Motion; 2], says: &str) -> Claim {
+pub(super) fn found_line(
+    grid: &Grid,
+    lines: &[Line],
+    sides: [Motion; 2],
+    sentences: &[u16],
+    says: &str,
+) -> Claim {
     let own = grid.lines.iter().filter(|entry| lines.contains(&entry.0)).flat_map(|entry| &entry.1);
     let inside =
         |at: &&[f64; 2]| grid.cells.iter().any(|cell| grid.apart([cell.kappa2, cell.gamma], **at) <= 0.5);
@@ -171,5 +163,9 @@ pub(super) fn found_line(grid: &Grid, lines: &[Line], sides: [Motion; 2], says: 
     );
     let how = "places along the analytic line more than one and a half cells away from all other lines; at least 95 % of \
                them have cells of both motions within one and a half cells (on the line itself motions settle infinitely slowly)";
-    claim(says, finds, how, points.len() >= 3 && found as f64 >= 0.95 * points.len() as f64)
+    let holds = points.len() >= 3 && found as f64 >= 0.95 * points.len() as f64;
+    match sentences {
+        [] => check(says, finds, how, holds),
+        sentences => claim(sentences, says, finds, how, holds),
+    }
 }

@@ -56,7 +56,7 @@ pub(super) fn claim_of(context: &Context<'_>) -> Result<Claim, Error> {
                the formulas give; speeds within 1 % but for the rectangular motion, whose rests depend on round-off";
     let says = "The simple Euler scheme has been employed with the time increment Δ*t* = 10^{-3}. We have checked the numerical \
                 accuracy by using Δ*t* = 10^{-4}.";
-    Ok(claim(says, finds, how, agree == all && off.iter().all(|&off| off < 0.01)))
+    Ok(claim(&[88, 89], says, finds, how, agree == all && off.iter().all(|&off| off < 0.01)))
 }
 
 /// The motion from a fixed start, by dop853 or by Euler's scheme.

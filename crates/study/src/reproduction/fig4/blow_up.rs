@@ -37,7 +37,7 @@ const FIXED: [(&str, f64); 3] = [("heun", 1e-3), ("heun", 1e-4), ("rk4", 1e-3)];
 pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Error> {
     let Some(start) = start(context)? else {
         let how = "up to 200 random starts, 2000 time units each";
-        section.claims.push(claim("The region × exists.", "No run escaped.", how, false));
+        section.claims.push(claim(&[156], "The region × exists.", "No run escaped.", how, false));
         return Ok(());
     };
     let approach = follow(&start)?;
@@ -48,6 +48,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     let (coefficient, ratio) = (approach.coefficient(), approach.ratio());
     let off = (coefficient / law - 1.0).abs();
     section.claims.push(differs(
+        &[156],
         "In the region × a numerical instability occurs, so that there is no definite conclusion.",
         format!(
             "From one start, {BEFORE} time units before the end, every method blows up at the same time t\\* = {:.9}: {list}. \
@@ -150,6 +151,7 @@ fn paper_steps(fixed: &[Ended], t_star: f64, c: f64) -> crate::report::Claim {
     let all = steps.iter().all(|(_, dt, s)| as_expected(*s, *dt));
     let closer = steps.windows(2).take(1).all(|pair| pair[1].2 < pair[0].2);
     claim(
+        &[156],
         "With the modified Euler scheme a numerical instability occurs.",
         format!(
             "It does, shortly before the singularity: {}. There |z_1|^2 dt passes the scheme's limit of stability; a smaller step \
@@ -172,6 +174,7 @@ fn bounded(context: &Context<'_>, start: &Study) -> Result<crate::report::Claim,
     let complete = dataset.manifest.outcome.is_complete();
     let fastest = dataset.trajectory.get("speed").unwrap_or(&[]).iter().copied().fold(0.0, f64::max);
     Ok(claim(
+        &[110],
         "Since κ_2 and κ_3 are positive the cubic terms are not considered: b_3 = d_3 = 0.",
         if complete {
             format!(

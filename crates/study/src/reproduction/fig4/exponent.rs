@@ -1,6 +1,6 @@
 //! The largest Lyapunov exponent along kappa3 = 0.1.
 
-use super::super::claims::{claim, differs};
+use super::super::claims::{check, claim, differs};
 use super::super::context::Context;
 use super::{Silent, at, figure, power};
 use crate::analyse::lyapunov;
@@ -150,6 +150,7 @@ fn chaos_ends(runs: &[Run], saddles: &[Left]) -> Claim {
         _ => "No end of the chaos was found.".to_owned(),
     };
     claim(
+        &[114, 115, 157],
         "λ_1 becomes positive for κ_2 < 0.8 (at κ_3 = 0.1).",
         finds,
         "going up from the smallest κ_2: λ_1 above twice its 95 % error; the edge must lie between 0.65 and 0.8. In steps of \
@@ -166,9 +167,10 @@ fn chaos_again(runs: &[Run]) -> Claim {
     let says = "λ_1 is not positive for κ_2 > 0.8.";
     let how = "every start at κ_2 of 0.8 and above: λ_1 against twice its 95 % error";
     if found.is_empty() {
-        return claim(says, format!("Zero for all of {} starts.", above().count()), how, true);
+        return claim(&[115], says, format!("Zero for all of {} starts.", above().count()), how, true);
     }
     differs(
+        &[115],
         says,
         format!(
             "Zero for {} of {} starts, but {}.",
@@ -192,8 +194,8 @@ fn known(runs: &[Run], saddles: &[Left]) -> Claim {
         })
         .collect();
     let found: Vec<String> = compared.iter().map(|(kappa2, e, _)| words(*kappa2, *e)).collect();
-    claim(
-        "(Measured before: λ_1 about 0.12, 0.09, 0.06 and 0.02 to 0.03 at κ_2 = 0.35, 0.5, 0.6 and 0.7.)",
+    check(
+        "Measured before: λ_1 about 0.12, 0.09, 0.06 and 0.02 to 0.03 at κ_2 = 0.35, 0.5, 0.6 and 0.7.",
         format!("{}.", found.join("; ")),
         "within the error and the digits given (0.01; 0.007 for the last one)",
         compared.len() == KNOWN.len() && compared.iter().all(|entry| entry.2),
@@ -207,6 +209,7 @@ fn instability(saddles: &[Left]) -> Claim {
     };
     let found: Vec<String> = saddles.iter().map(words).collect();
     differs(
+        &[116],
         "For smaller κ_2 a numerical instability hinders any accurate value of the exponent.",
         format!("λ_1 of the chaotic saddle: {}.", found.join("; ")),
         "growth of the tangent vector until a quarter of a look before each escape, summed over random starts; 95 % error \
@@ -224,8 +227,8 @@ fn neutral(runs: &[Run]) -> Claim {
     let inside = zeros.iter().filter(off).count();
     let worst = zeros.iter().map(|e| e.value.abs()).fold(0.0, f64::max);
     let sane = zeros.iter().all(|e| e.value.abs() <= (3.0 * e.error).max(1e-3));
-    claim(
-        "(Self-check: the flow's own direction and the rotation give exponents that are exactly zero.)",
+    check(
+        "The flow's own direction and the rotation give exponents that are exactly zero.",
         format!("{inside} of {} lie within their 95 % errors; the largest is {}.", zeros.len(), power(worst)),
         "at least 80 % within their errors, all within three errors (or 10^{-3})",
         sane && inside as f64 >= 0.8 * zeros.len() as f64,

@@ -1,6 +1,6 @@
 //! Which motion occurs where.
 
-use super::super::claims::{claim, differs};
+use super::super::claims::{check, claim, differs};
 use super::super::context::Context;
 use super::figure;
 use super::places::{Extent, Place, agreement, places};
@@ -11,9 +11,17 @@ use crate::report::{Claim, Section};
 use crate::scan::Axis;
 use motiform_analysis::Regime;
 
-/// Chaos and zigzag are said to need a slow triangle: a smaller rate than this. The text gives no number (it names 0.1, and
-/// the figure is not at hand); this is the lower 60 % of the plane, and the extent found stands in every claim.
+/// Where the triangle relaxes faster than this there shall be nothing but circles and straight lines. The text gives no number;
+/// the measured table has other motions up to 0.4.
 const SLOW: f64 = 0.65;
+
+/// The row that the text names for chaos, and the `kappa2` below which its cells shall be chaotic or blow up: the paper's
+/// exponent is positive below 0.8, in steps of 0.1 up to 0.7.
+const NAMED: f64 = 0.1;
+const SMALLER: f64 = 0.7;
+
+/// A second chaos, beside circular motion, lies above this `kappa2`: see the claims on the exponent.
+const SECOND: f64 = 1.0;
 
 /// Zigzag is said to need a large kappa2: above this.
 const LARGE: f64 = 0.55;
@@ -50,6 +58,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     ));
     let places = places(&plan, &cells);
     section.claims.extend([kinds(&places), order(&places), zigzag(&places), chaos(&places)]);
+    section.claims.extend(wedge(&places));
     section.claims.push(measured(&places));
     section.claims.extend(windows(&places));
     section.claims.extend(quasi_periodic(&places));
@@ -65,6 +74,7 @@ fn kinds(places: &[Place]) -> Claim {
     let unknown = Extent::of(places, Regime::Undetermined).cells;
     let words: Vec<String> = extents.iter().map(|(regime, extent)| extent.words(*regime)).collect();
     claim(
+        &[111, 135],
         "The plane holds straight, circular, zigzag and chaotic motion, and a region ×.",
         format!("{}; {unknown} cells with an undetermined start.", words.join("; ")),
         HOW,
@@ -84,6 +94,7 @@ fn order(places: &[Place]) -> Claim {
         a.regimes == [Regime::Straight] && fast.iter().any(circular_beyond)
     });
     claim(
+        &[112],
         "Where κ_3 is not small the motion is circular or straight (circles and squares).",
         format!(
             "Of {} cells with κ_3 > {SLOW}, {} hold only these two; {}.",
@@ -103,6 +114,7 @@ fn order(places: &[Place]) -> Claim {
 fn zigzag(places: &[Place]) -> Claim {
     let large = Extent::among(places, Regime::Zigzag, |place| place.kappa2 > LARGE);
     claim(
+        &[117],
         "A zigzag motion is observed when κ_2 is large and κ_3 is small.",
         format!("{}.", large.words(Regime::Zigzag)),
         "the cells at κ_2 > 0.55 whose shape returns to its mirror image half a period later, net rotation 0; small: κ_3 below \
@@ -116,6 +128,7 @@ fn windows(places: &[Place]) -> Option<Claim> {
     let small = Extent::among(places, Regime::Zigzag, |place| place.kappa2 <= LARGE);
     (small.cells > 0).then(|| {
         differs(
+            &[117],
             "The zigzag is a motion of large κ_2.",
             format!("Also {}.", small.words(Regime::Zigzag)),
             HOW,
@@ -126,15 +139,57 @@ fn windows(places: &[Place]) -> Option<Claim> {
     })
 }
 
+/// The row that the text names: chaotic (or blowing up) from its left end on, and regular beyond.
 fn chaos(places: &[Place]) -> Claim {
-    let extent = Extent::of(places, Regime::Chaotic);
+    let row = || places.iter().filter(|place| (place.kappa3 - NAMED).abs() < 1e-9);
+    let wild = |place: &&Place| place.has(Regime::Chaotic) || place.has(Regime::BlowUp);
+    let below = || row().filter(|place| place.kappa2 < SMALLER + 1e-9);
+    let beyond = || row().filter(|place| place.kappa2 > 0.8 - 1e-9 && place.kappa2 < SECOND + 1e-9);
+    let chaotic = Extent::among(places, Regime::Chaotic, |place| {
+        (place.kappa3 - NAMED).abs() < 1e-9 && place.kappa2 < SECOND + 1e-9
+    });
     claim(
-        "The motion is chaotic for the smaller values of κ_2 and small κ_3.",
-        format!("{}. The text names κ_3 = 0.1.", extent.words(Regime::Chaotic)),
-        "the cells with λ_1 above twice its 95 % error; small: κ_3 below 0.65, the lower 60 % of the plane (the text gives no \
-         number)",
-        extent.cells > 0 && extent.kappa3.1 < SLOW,
+        &[113],
+        "In the region of the stars, for the smaller values of κ_2 and for κ_3 = 0.1, the motion becomes chaotic.",
+        format!(
+            "At κ_3 = {NAMED} {} of {} cells up to κ_2 = {SMALLER} hold chaos or blow up, and {} of {} from 0.8 to {SECOND}; {}.",
+            below().filter(wild).count(),
+            below().count(),
+            beyond().filter(wild).count(),
+            beyond().count(),
+            chaotic.words(Regime::Chaotic)
+        ),
+        "the cells of this row: chaotic if λ_1 is above twice its 95 % error; all of the smaller ones, none of the larger ones, and \
+         at least three with chaos that lasts",
+        chaotic.cells >= 3
+            && below().all(|place| wild(&place))
+            && beyond().count() > 0
+            && !beyond().any(|place| wild(&place)),
     )
+}
+
+/// Chaos in other rows, which the text does not name: how far it reaches in each.
+fn wedge(places: &[Place]) -> Option<Claim> {
+    let mut rows: Vec<f64> = places.iter().map(|place| place.kappa3).collect();
+    rows.sort_by(f64::total_cmp);
+    rows.dedup();
+    let end = |row: &f64| {
+        let extent =
+            Extent::among(places, Regime::Chaotic, |place| place.kappa3 == *row && place.kappa2 < SECOND);
+        (extent.cells > 0).then_some((*row, extent.kappa2.1))
+    };
+    let ends: Vec<(f64, f64)> = rows.iter().filter_map(end).collect();
+    let words: Vec<String> = ends.iter().map(|(row, end)| format!("{end:.2} at κ_3 = {row:.2}")).collect();
+    (ends.len() > 1).then(|| {
+        differs(
+            &[113],
+            "The text names chaos for κ_3 = 0.1 alone.",
+            format!("Chaos also in other rows: up to κ_2 = {}.", words.join(", ")),
+            "the largest κ_2 with chaos in each row (up to κ_2 = 1); from row to row it may grow by at most 0.1",
+            "the region is a wedge: the faster the triangle relaxes, the smaller κ_2 has to be",
+            ends.windows(2).all(|pair| pair[1].1 <= pair[0].1 + 0.1 + 1e-9) && ends[ends.len() - 1].1 < ends[0].1,
+        )
+    })
 }
 
 fn measured(places: &[Place]) -> Claim {
@@ -145,8 +200,8 @@ fn measured(places: &[Place]) -> Claim {
     } else {
         format!(" Not at (κ_2, κ_3) = {}.", agreement.missing.join("; "))
     };
-    claim(
-        "(Measured before this project, by independent programs: a table of motions at 16 × 6 places.)",
+    check(
+        "Measured before this project, by independent programs: a table of motions at 16 × 6 places.",
         format!(
             "At {} of {} places the table's motion is among those found.{missing}",
             agreement.found, agreement.compared
@@ -159,15 +214,27 @@ fn measured(places: &[Place]) -> Claim {
 /// Present or not, it is a motion that the paper does not list here.
 fn quasi_periodic(places: &[Place]) -> Option<Claim> {
     let extent = Extent::of(places, Regime::QuasiPeriodic);
+    let beside = |place: &Place| {
+        let near = |other: &&Place| {
+            (other.kappa2 - place.kappa2).abs() < 0.11 && (other.kappa3 - place.kappa3).abs() < 0.11
+        };
+        places.iter().filter(near).any(|other| other.has(Regime::Chaotic) || other.has(Regime::Zigzag))
+    };
+    let all = || places.iter().filter(|place| place.has(Regime::QuasiPeriodic));
     let says = "The figure's symbols are squares, circles, stars, triangles and ×: no quasi-periodic motion.";
     (extent.cells > 0).then(|| {
         differs(
+            &[111],
             says,
-            format!("{}.", extent.words(Regime::QuasiPeriodic)),
-            HOW,
-            "between chaos or zigzag and circular motion lie narrow strips in which the shape repeats with a net rotation, \
-             which draws a rosette; on a coarse diagram they pass for circular or chaotic motion",
-            true,
+            format!(
+                "{}; {} of them beside a cell with chaos or a zigzag.",
+                extent.words(Regime::QuasiPeriodic),
+                all().filter(|place| beside(place)).count()
+            ),
+            "classification of every cell; all of these cells have chaos or a zigzag within 0.1, and they are fewer than a tenth of all",
+            "between the chaos and the zigzag lie narrow strips in which the zigzag has lost its mirror symmetry: it rotates slowly, to \
+             the left or to the right, which draws a rosette; on a coarse diagram it passes for a zigzag or for chaos",
+            all().all(beside) && 10 * extent.cells < places.len(),
         )
     })
 }

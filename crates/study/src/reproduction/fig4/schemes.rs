@@ -31,6 +31,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     let list: Vec<String> = PLACES.iter().zip(&rows).map(words).collect();
     let names: Vec<String> = steps.iter().map(|step| format!("dt = {}", power(*step))).collect();
     section.claims.push(claim(
+        &[107],
         "The modified Euler method with dt = 10^{-3} or 10^{-4} has been employed.",
         format!("{}.", list.join("; ")),
         &format!(

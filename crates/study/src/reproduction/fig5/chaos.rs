@@ -1,6 +1,6 @@
 //! (b) The chaos: its exponent, and how long it lasts.
 
-use super::super::claims::claim;
+use super::super::claims::{check, claim};
 use super::super::context::Context;
 use super::super::fig4::{Silent, power};
 use super::drawings;
@@ -45,6 +45,7 @@ fn exponent(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
         found.exponents.iter().map(|e| format!("{:.5} ± {:.5}", e.value, e.error)).collect();
     let largest = found.exponents.first();
     Ok(claim(
+        &[121, 167],
         "The motion at κ_2 = 0.5, κ_3 = 0.1 is chaotic (λ_1 > 0).",
         format!(
             "The three largest exponents are {}, over {:.0} time units: neighbours part by a factor of e in {:.1} time units.",
@@ -78,8 +79,8 @@ fn lasting(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
             power(found.escaped as f64 / watched)
         )
     };
-    Ok(claim(
-        "(The chaotic trajectory of Fig. 5(b) is a lasting motion.)",
+    Ok(check(
+        "The chaotic trajectory of Fig. 5(b) is a lasting motion.",
         finds,
         "escapes over many starts; three over the time watched is the 95 % bound where there are none; lasting: at least a \
          hundred times 1/λ_1 on average",

@@ -1,6 +1,6 @@
 //! Neighbours part: the rate at which a tiny difference grows.
 
-use super::super::claims::claim;
+use super::super::claims::check;
 use super::super::context::Context;
 use super::super::fig4::figure;
 use super::chaos;
@@ -95,8 +95,8 @@ fn rate(all: &[Vec<f64>], lambda: Estimate) -> Claim {
     let rates: Vec<f64> = all.iter().filter_map(growth).collect();
     let found = mean(&rates);
     let end = mean(&logarithms(all, row(SPAN.0)));
-    claim(
-        "(The chaotic motion depends sensitively on its start.)",
+    check(
+        "The chaotic motion depends sensitively on its start.",
         format!(
             "A difference of 10^{{-8}} grows at the rate {:.4} ± {:.4} (λ_1 = {:.4} ± {:.4}); after {:.0} time units it is {:.2}, \
              as large as the motion.",

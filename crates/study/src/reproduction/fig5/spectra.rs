@@ -1,6 +1,6 @@
 //! The spectra of both motions, and the 0-1 test.
 
-use super::super::claims::claim;
+use super::super::claims::check;
 use super::super::context::Context;
 use super::super::fig4::figure;
 use crate::figures::palette::CATEGORIES;
@@ -102,8 +102,8 @@ fn in_lines(spectrum: &Spectrum) -> f64 {
 fn lines(zigzag: &Spectrum, chaos: &Spectrum) -> Claim {
     let (line_a, line_b) = (in_lines(zigzag), in_lines(chaos));
     let (broad_a, broad_b) = (breadth(zigzag), breadth(chaos));
-    claim(
-        "(The chaotic motion has no period: its spectrum is broad, that of the zigzag is not.)",
+    check(
+        "The chaotic motion has no period: its spectrum is broad, that of the zigzag is not.",
         format!(
             "(a) {:.2} % of the power lies in lines, 99 % of it in {:.2} % of the frequencies; (b) {:.1} % and {:.1} %.",
             100.0 * line_a,
@@ -121,8 +121,8 @@ fn test(a: &Dataset, b: &Dataset) -> Result<Claim, Error> {
     let every = (APART / DT).round() as usize;
     let sparse = |dataset| speed(dataset).iter().step_by(every).copied().collect::<Vec<f64>>();
     let (a, b) = (zero_one(&sparse(a), 1)?, zero_one(&sparse(b), 1)?);
-    Ok(claim(
-        "(The 0-1 test tells both motions apart.)",
+    Ok(check(
+        "The 0-1 test tells both motions apart.",
         format!(
             "K = {:.3} (quartiles {:.2} to {:.2}) for the zigzag, {:.3} ({:.2} to {:.2}) for the chaotic motion.",
             a.k, a.lower, a.upper, b.k, b.lower, b.upper

@@ -33,6 +33,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
 fn mirrored(verdict: &Verdict) -> Claim {
     let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
     claim(
+        &[117, 118, 165],
         "A zig-zag motion is observed at κ_2 = 0.9, κ_3 = 0.1.",
         format!(
             "{}: after half of the period {:.5} the shape is its own mirror image, so the net rotation per period is exactly \
@@ -62,6 +63,7 @@ fn rightwards(dataset: &Dataset) -> Claim {
     };
     let (x, y) = (moved("x"), moved("y"));
     claim(
+        &[119, 166],
         "The domain is travelling from the left to the right.",
         format!(
             "It moves by ({x:.1}, {y:.1}) within the {:.0} time units shown, at {:.0}° to the x axis.",
@@ -79,6 +81,7 @@ fn angle(verdict: &Verdict) -> Claim {
     let swing = verdict.swing.map_or(f64::NAN, f64::to_degrees);
     let list: Vec<String> = turns.iter().map(|turn| format!("{turn:+.2}°")).collect();
     claim(
+        &[120],
         "The angle of the zig-zag motion is about 60°.",
         format!(
             "From leg to leg the path turns by {}. The heading itself swings by {swing:.2}° from peak to peak.",
@@ -103,6 +106,7 @@ fn triangle(context: &Context<'_>) -> Result<Vec<Claim>, Error> {
     let all = without(&["d1", "d2", "b2"])?;
     let (d1, d2, b2) = (without(&["d1"])?, without(&["d2"])?, without(&["b2"])?);
     Ok(vec![claim(
+        &[194],
         "The zig-zag is a motion of the full set of equations: the three-fold deformation matters.",
         format!(
             "Without the couplings d_1 = d_2 = b_2 = 0 the same start ends in {all} motion. Alone, d_2 = 0 gives {d2} motion, \

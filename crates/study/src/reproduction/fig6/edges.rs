@@ -7,8 +7,6 @@ use motiform_models::cell::{CellField, CellParameters};
 
 /// The lengths at which something changes. `None`: not within the lengths that were looked at.
 pub(super) struct Edges {
-    /// Onset of modes 1 to 4: where their growth rates change sign.
-    pub(super) onsets: [f64; 4],
     /// The largest growth rate, and k^2 there.
     pub(super) fastest: (f64, f64),
     /// Straight motion ends.
@@ -60,7 +58,6 @@ impl Edges {
             })
         };
         Ok(Self {
-            onsets: [1, 2, 3, 4].map(onset),
             fastest: fastest(),
             straight: straight.stable_until(15.0)?,
             straight_refined: refined.map(|branch| branch.stable_until(15.0)).transpose()?.flatten(),
@@ -92,17 +89,6 @@ fn near(branch: &Branch, length: f64) -> Result<Option<Branch>, Error> {
         here = last.at(branch.length + (length - branch.length) * done / count)?;
     }
     Ok(here)
-}
-
-/// Where the growth rate of mode `n` changes sign, by bisection of the field's own rates.
-fn onset(n: usize) -> f64 {
-    let rate = |length: f64| rates(length, n)[n - 1];
-    let (mut low, mut high) = (1.0, 60.0);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if rate(middle) > 0.0 { high = middle } else { low = middle }
-    }
-    0.5 * (low + high)
 }
 
 /// The largest growth rate of mode 1 over all lengths, by golden-section search, and `k^2` there.

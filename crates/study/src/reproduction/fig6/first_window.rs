@@ -20,6 +20,7 @@ fn circular(edges: &Edges, lengths: &Lengths) -> Claim {
     let (from, to) = (number(edges.straight), number(edges.circular));
     let (all, count) = lengths.only(Regime::Circular, from, number(edges.cycle));
     claim(
+        &[137, 138],
         "Circular motion emerges in *W*_1 = [12.0, 14.4].",
         format!(
             "circular at {} between *L* = {from:.3} and {to:.3}, where it loses its stability to an oscillation",
@@ -35,9 +36,10 @@ fn quasi_periodic(edges: &Edges, quasi: &Search) -> Claim {
     let says = "Quasi-periodic motion emerges in *W*_1, between circular and rectangular motion.";
     let how = "Random starts at lengths through the edge between circular and rectangular motion, each named by the classifier; eigenvalues of the circular motion and of the saddles of the cycle.";
     if quasi.found > 0 {
-        return claim(says, quasi.words(), how, true);
+        return claim(&[138], says, quasi.words(), how, true);
     }
     differs(
+        &[138],
         says,
         quasi.words(),
         how,
@@ -65,6 +67,7 @@ fn rectangular(edges: &Edges, lengths: &Lengths) -> Claim {
         .sum::<f64>()
         / inside.len() as f64;
     claim(
+        &[138],
         "Rectangular motion emerges in *W*_1.",
         format!(
             "a heteroclinic cycle between two-fold shapes exists and attracts from *L* = {from:.3} to {to:.3}; {:.0} % of the starts at {} lengths between (up to 14.4) follow it",
@@ -79,6 +82,7 @@ fn rectangular(edges: &Edges, lengths: &Lengths) -> Claim {
 fn end(edges: &Edges) -> Claim {
     let to = number(edges.two_fold);
     differs(
+        &[137],
         "*W*_1 ends at *L* = 14.4.",
         format!("the two-fold shape becomes stable at *L* = {to:.3}"),
         "*λ*_+ of the two-fold shape, followed in length, changes sign.",

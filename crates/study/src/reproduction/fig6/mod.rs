@@ -1,12 +1,17 @@
 //! Fig. 6: the active cell, whose only parameter is its length.
 
+mod boundary;
 mod branches;
+mod codimension;
 mod edges;
 mod exponents;
 mod first_window;
 mod lengths;
+mod onset;
 mod pictures;
 mod quasi;
+mod scheme;
+mod succession;
 mod tracks;
 mod tracks_claims;
 mod windows;
@@ -22,6 +27,7 @@ use crate::report::Section;
 use edges::Edges;
 use exponents::Exponents;
 use lengths::Lengths;
+use onset::Onsets;
 use quasi::Search;
 use zigzags::Zigzags;
 
@@ -33,6 +39,7 @@ the shape (with feedback nothing would move up to *L* = 15). Its modes have the 
 
 pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     let edges = Edges::find(context)?;
+    let onsets = Onsets::find(context)?;
     let lengths = Lengths::scan(context)?;
     context.monitor.progress(0.5);
     let quasi = Search::make(context)?;
@@ -41,8 +48,10 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     let tracks = tracks::all(context)?;
     let zigzags = Zigzags::follow(context, &tracks[2])?;
     context.monitor.progress(0.9);
-    let mut claims = windows::claims(&edges, &lengths, &zigzags, &quasi);
+    let mut claims = windows::claims(&edges, &lengths, &zigzags, &quasi, &onsets);
+    claims.extend(succession::claims(&lengths, &tracks));
     claims.extend(tracks_claims::claims(&tracks, &exponents));
+    claims.push(scheme::claim_of(context)?);
     Ok(Section {
         title: "Fig. 6: the active cell".to_owned(),
         about: ABOUT.to_owned(),

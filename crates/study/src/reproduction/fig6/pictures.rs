@@ -42,6 +42,7 @@ pub(super) fn all(
         svg("Mean speed over the length (motionless shapes are left out).", speeds(lengths)?),
         svg("Largest Lyapunov exponent in *W*_2.", exponents.svg()?),
     ];
+    figures.push(super::codimension::figure()?);
     let drawn: Vec<Vec<ReportFigure>> = tracks
         .par_iter()
         .zip(&LETTERS[..])

@@ -1,10 +1,11 @@
 //! Fig. 6(a) to (d): the four motions that the paper shows.
 
 use super::super::context::Context;
+use super::boundary::Boundary;
 use super::lengths::modes_for;
 use crate::report::{Picture, ReportFigure};
 use crate::{Dataset, Error, Study, draw};
-use motiform_analysis::{Spread, Verdict, welch};
+use motiform_analysis::{Verdict, welch};
 use rayon::prelude::*;
 
 /// Rows at which the boundary is measured.
@@ -19,12 +20,8 @@ pub(in crate::reproduction) struct Track {
     pub(in crate::reproduction) dataset: Dataset,
     /// Its motion.
     pub(in crate::reproduction) verdict: Verdict,
-    /// Length of the closed boundary, against the parameter.
-    pub(super) length_error: f64,
-    /// The enclosed area.
-    pub(super) area: Spread,
-    /// Largest `|int n ds| / L`.
-    pub(super) residual: f64,
+    /// Its boundary.
+    pub(super) boundary: Boundary,
 }
 
 /// Computes all four.
@@ -45,8 +42,8 @@ impl Track {
         })?;
         let dataset = context.simulate(&study)?;
         let verdict = context.classify(&continued(&study, &dataset)?)?;
-        let [length_error, residual, mean, min, max] = measures(&dataset)?;
-        Ok(Self { dataset, verdict, length_error, area: Spread { mean, min, max }, residual })
+        let boundary = measured(&dataset)?;
+        Ok(Self { dataset, verdict, boundary })
     }
 
     /// A parameter of the run.
@@ -118,28 +115,21 @@ pub(super) fn continued(study: &Study, dataset: &Dataset) -> Result<Study, Error
     Ok(next)
 }
 
-/// Largest relative error of the length, largest closure residual, mean, least and largest area.
-fn measures(dataset: &Dataset) -> Result<[f64; 5], Error> {
+/// Measures the boundary along a run.
+fn measured(dataset: &Dataset) -> Result<Boundary, Error> {
     let plan = &dataset.manifest.plan;
-    let values = &plan.computation.parameters;
-    let model = plan.info()?.build(&values.values())?;
+    let (info, parameters) = (plan.info()?, &plan.computation.parameters);
+    let build = |open: bool| {
+        let value =
+            |(name, value): &(String, f64)| if open && name == "closure_modes" { 0.0 } else { *value };
+        info.build(&parameters.0.iter().map(value).collect::<Vec<_>>())
+    };
+    let (model, bare) = (build(false)?, build(true)?);
     let columns: Vec<&[f64]> =
         model.coordinates().iter().filter_map(|c| dataset.trajectory.get(c.name)).collect();
     let rows = dataset.trajectory.rows();
-    let length = values.get("length").unwrap_or(f64::NAN);
-    let mut shape = vec![0.0; model.dim()];
-    let mut out = [0.0; 4]; // length, area, residual, crossing
-    let [mut error, mut residual, mut sum, mut min, mut max] = [0.0, 0.0, 0.0, f64::MAX, f64::MIN];
-    let mut count = 0.0;
-    for row in (0..rows).step_by(rows.div_ceil(MEASURED).max(1)) {
-        let named: Vec<f64> = columns.iter().map(|column| column[row]).collect();
-        model.encode(&named, &mut shape);
-        model.measure(&shape, &mut out);
-        error = f64::max(error, (out[0] / length - 1.0).abs());
-        residual = f64::max(residual, out[2]);
-        (min, max) = (f64::min(min, out[1]), f64::max(max, out[1]));
-        sum += out[1];
-        count += 1.0;
-    }
-    Ok([error, residual, sum / count, min, max])
+    let state = |row: usize| columns.iter().map(|column| column[row]).collect();
+    let states: Vec<Vec<f64>> = (0..rows).step_by(rows.div_ceil(MEASURED).max(1)).map(state).collect();
+    let length = parameters.get("length").unwrap_or(f64::NAN);
+    Boundary::along(&states, length, [model.as_ref(), bare.as_ref()])
 }

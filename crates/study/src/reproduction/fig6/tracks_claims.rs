@@ -14,15 +14,16 @@ pub(super) fn claims(tracks: &[Track], exponents: &Exponents) -> Vec<Claim> {
     let [a, b, c, d] = tracks else { return Vec::new() };
     let mut claims =
         vec![irregular(a, exponents), broad(a, b), quasi_periodic(b, exponents), reversing(c), net(d)];
-    claims.extend(boundary(tracks));
+    claims.extend(super::boundary::claims(tracks));
     claims
 }
 
 fn irregular(a: &Track, exponents: &Exponents) -> Claim {
     let Some(found) = exponents.at(21.6) else {
-        return claim("Fig. 6(a): *L* = 21.6 is chaotic.", "no exponent", "*λ*_1", false);
+        return claim(&[146, 177], "Fig. 6(a): *L* = 21.6 is chaotic.", "no exponent", "*λ*_1", false);
     };
     claim(
+        &[146, 177],
         "Fig. 6(a), *L* = 21.6: the motion is apparently chaotic.",
         format!("*λ*_1 = {:.4} ± {:.4}; the classifier says: {}", found.value, found.error, a.verdict.regime),
         "Largest Lyapunov exponent from the exact tangent flow, 95 % error; chaotic if it excludes 0.",
@@ -33,6 +34,7 @@ fn irregular(a: &Track, exponents: &Exponents) -> Claim {
 fn broad(a: &Track, b: &Track) -> Claim {
     let (here, there) = (a.flatness().unwrap_or(f64::NAN), b.flatness().unwrap_or(f64::NAN));
     claim(
+        &[147, 178],
         "Its power spectrum is broad.",
         format!(
             "flatness {here:.3}, against {there:.3} for the lines of the quasi-periodic motion at *L* = 21.8"
@@ -48,6 +50,7 @@ fn quasi_periodic(b: &Track, exponents: &Exponents) -> Claim {
     let lambda = exponents.at(21.8);
     let words = lambda.map_or(String::new(), |l| format!("; *λ*_1 = {:.4} ± {:.4}", l.value, l.error));
     claim(
+        &[148, 179],
         "Fig. 6(b), *L* = 21.8: the motion is quasi-periodic.",
         format!(
             "the shape repeats after {period:.1}, turned by {:.2} degrees, which is no simple part of a turn{words}",
@@ -77,6 +80,7 @@ fn turns_are(track: &Track, wanted: &[f64]) -> bool {
 
 fn reversing(c: &Track) -> Claim {
     claim(
+        &[149, 150, 180],
         "Fig. 6(c), *L* = 29.2: a zigzag with turns of 180 degrees and of 45 degrees to either side.",
         listed(c),
         "Change of heading at top speed from leg to leg (the body stops in between); within 6 degrees, as read off a figure.",
@@ -89,6 +93,7 @@ fn net(d: &Track) -> Claim {
         d.verdict.legs.windows(2).map(|pair| wrap(pair[0] + pair[1]).to_degrees().abs()).collect();
     let nets: Vec<String> = pairs.iter().map(|net| format!("{net:.1}")).collect();
     claim(
+        &[149, 152, 182, 183],
         "Fig. 6(d), *L* = 29.6: on the whole the path turns by 45 degrees to either side.",
         format!("{}; two turns together: {} degrees", listed(d), nets.join(", ")),
         "As before; two consecutive turns added. 180 and 135 degrees together are the 45 degrees of the coarse-grained path.",
@@ -97,32 +102,4 @@ fn net(d: &Track) -> Claim {
             && !pairs.is_empty()
             && pairs.iter().all(|net| (net - 45.0).abs() < ANGLE),
     )
-}
-
-fn boundary(tracks: &[Track]) -> [Claim; 3] {
-    let worst = |of: fn(&Track) -> f64| tracks.iter().map(of).fold(0.0, f64::max);
-    let (length, residual) = (worst(|t| t.length_error), worst(|t| t.residual));
-    let swing = |t: &Track| 100.0 * (t.area.max - t.area.min) / t.area.mean;
-    let swings: Vec<String> = tracks.iter().map(|t| format!("{:.0} %", swing(t))).collect();
-    let complete = tracks.iter().all(|t| t.dataset.manifest.outcome.is_complete());
-    [
-        claim(
-            "The length of the boundary does not change appreciably.",
-            format!("it differs from *L* by at most {length:.1e} of *L*"),
-            "Length of the closed curve from its own tangents, at 200 times of each run.",
-            length < 1e-9,
-        ),
-        claim(
-            "The enclosed area depends on time.",
-            format!("from smallest to largest, against the mean: {} in (a) to (d)", swings.join(", ")),
-            "Area inside the closed curve, at 200 times of each run.",
-            tracks.iter().all(|t| swing(t) > 1.0),
-        ),
-        claim(
-            "The boundary can be closed at every time step by the most likely error function.",
-            format!("|∫*n* d*s*|/*L* is at most {residual:.1e}; the estimate failed in none of the runs"),
-            "Newton's method on the constrained estimate at every evaluation of the velocity; a failure would end the run.",
-            residual < 1e-10 && complete,
-        ),
-    ]
 }

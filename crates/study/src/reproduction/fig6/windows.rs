@@ -1,12 +1,12 @@
 //! What the paper says about the windows of length, against edges computed from eigenvalues and scans from random starts.
 
-use super::super::claims::{claim, differs};
+use super::super::claims::{check, claim, differs};
 use super::edges::Edges;
 use super::lengths::Lengths;
+use super::onset::Onsets;
 use super::zigzags::Zigzags;
 use crate::report::Claim;
 use motiform_analysis::Regime;
-use std::f64::consts::TAU;
 
 /// How far an edge may lie from the paper's, which has three digits and was found by looking: the spacing of the scan.
 const NEAR: f64 = 0.1;
@@ -16,8 +16,11 @@ pub(super) fn claims(
     lengths: &Lengths,
     zigzags: &Zigzags,
     quasi: &super::quasi::Search,
+    onsets: &Onsets,
 ) -> Vec<Claim> {
-    let mut claims = vec![onset(edges), fastest(edges), nothing(edges, lengths), straight(edges, lengths)];
+    let mut claims = onsets.claims(edges).to_vec();
+    claims.extend([super::codimension::claim(onsets), fastest(edges)]);
+    claims.extend([nothing(onsets, lengths), straight(edges, onsets, lengths)]);
     claims.extend(super::first_window::claims(edges, lengths, quasi));
     claims.extend([
         two_fold(edges, lengths),
@@ -47,24 +50,9 @@ pub(super) fn places(count: usize) -> String {
     }
 }
 
-fn onset(edges: &Edges) -> Claim {
-    let worst = (1..).zip(&edges.onsets).map(|(n, l)| (l - TAU * f64::from(n)).abs()).fold(0.0, f64::max);
-    let found: Vec<String> = edges.onsets.iter().map(|l| format!("{l:.6}")).collect();
-    claim(
-        "Mode *n* becomes unstable at *L* = 2π*n*.",
-        format!(
-            "the growth rates change sign at *L* = {}; within {:.0e} of 2π*n*",
-            found.join(", "),
-            worst.max(1e-14)
-        ),
-        "Bisection of the growth rates that the field itself uses, *n* = 1 to 4.",
-        worst < 1e-9,
-    )
-}
-
 fn fastest(edges: &Edges) -> Claim {
     let (rate, square) = edges.fastest;
-    claim(
+    check(
         "Of *σ* = *k*^4 − *k*^6 the largest value is 4/27, at *k*^2 = 2/3 (follows from the paper's equation).",
         format!("{rate:.9} at *k*^2 = {square:.6}; 4/27 = {:.9}", 4.0 / 27.0),
         "Golden-section search over the length with the field's own rate of mode 1.",
@@ -72,25 +60,27 @@ fn fastest(edges: &Edges) -> Claim {
     )
 }
 
-fn nothing(edges: &Edges, lengths: &Lengths) -> Claim {
-    let (still, count) = lengths.only(Regime::Motionless, 0.0, edges.onsets[0]);
+fn nothing(onsets: &Onsets, lengths: &Lengths) -> Claim {
+    let (still, count) = lengths.only(Regime::Motionless, 0.0, onsets.0[0]);
     claim(
+        &[141],
         "No shape instability and no motion for *L* < 6.2.",
         format!(
             "the circle is stable up to *L* = {:.4} = 2π; motionless at {} below",
-            edges.onsets[0],
+            onsets.0[0],
             places(count)
         ),
-        "Growth rate of mode 1, and runs from random starts; the paper gives two digits.",
-        still && count > 0 && (edges.onsets[0] - 6.2).abs() < NEAR,
+        "Runs: growth of a small mode 1, and motions from random starts; the paper gives two digits.",
+        still && count > 0 && (onsets.0[0] - 6.2).abs() < NEAR,
     )
 }
 
-fn straight(edges: &Edges, lengths: &Lengths) -> Claim {
+fn straight(edges: &Edges, onsets: &Onsets, lengths: &Lengths) -> Claim {
     let end = number(edges.straight);
-    let (all, count) = lengths.only(Regime::Straight, edges.onsets[0], end);
+    let (all, count) = lengths.only(Regime::Straight, onsets.0[0], end);
     let same = (end - number(edges.straight_refined)).abs();
     differs(
+        &[140],
         "The straight motion is found for 6.2 < *L* < 12.0.",
         format!("straight at {} between 2π and *L* = {end:.3}, where it loses its stability", places(count)),
         "Edge: the leading eigenvalue of the straight shape, followed in length, changes sign. Runs from random starts between.",
@@ -107,6 +97,7 @@ fn two_fold(edges: &Edges, lengths: &Lengths) -> Claim {
     let (from, to) = (number(edges.two_fold), number(edges.two_fold_end));
     let (all, count) = lengths.only(Regime::Motionless, from + NEAR, to);
     claim(
+        &[137],
         "Between *W*_1 and *W*_2 there is no intricate motion.",
         format!(
             "a motionless two-fold shape, stable from *L* = {from:.3} to {to:.3}; motionless at {} between",
@@ -120,6 +111,7 @@ fn two_fold(edges: &Edges, lengths: &Lengths) -> Claim {
 fn second_start(edges: &Edges) -> Claim {
     let from = number(edges.two_fold_end);
     differs(
+        &[137],
         "*W*_2 begins at *L* = 21.0.",
         format!("the two-fold shape loses its stability at *L* = {from:.3}"),
         "Leading eigenvalue of the two-fold shape, followed in length.",
@@ -135,6 +127,7 @@ fn second_end(edges: &Edges) -> Claim {
     let (from, to) = edges.second_circular;
     let beyond = to.map_or("beyond 25".to_owned(), |to| format!("to {to:.2}"));
     claim(
+        &[137, 138],
         "*W*_2, with its quasi-periodic and chaotic motions, ends at *L* = 21.9.",
         format!(
             "circular motion becomes stable at *L* = {} and stays so {beyond}; from {} on random starts end on the three-fold shape",
@@ -152,6 +145,7 @@ fn three_fold(edges: &Edges, lengths: &Lengths) -> Claim {
     let (all, count) = lengths.only(Regime::Motionless, number(from) + 3.0 * NEAR, 28.95);
     let (turning, turned) = lengths.only(Regime::Circular, circular + 0.5 * NEAR, number(from) - 0.5 * NEAR);
     differs(
+        &[137],
         "Between *W*_2 and *W*_3 there is no intricate motion.",
         format!(
             "a motionless three-fold shape, stable from *L* = {} to {}; motionless at {} up to *W*_3; but circular motion at {} between *W*_2 and the three-fold shape",
@@ -173,6 +167,7 @@ fn four_fold(edges: &Edges, lengths: &Lengths) -> Claim {
     let from = number(edges.four_fold);
     let (all, count) = lengths.only(Regime::Motionless, from + 5.0 * NEAR, 32.0);
     claim(
+        &[137],
         "Beyond *W*_3 there is no intricate motion (up to *L* = 31).",
         format!(
             "a motionless four-fold shape, stable from *L* = {from:.3}; motionless at {} beyond {:.1}",

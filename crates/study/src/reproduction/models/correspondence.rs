@@ -128,7 +128,13 @@ impl Term {
             "tensor model at *κ*_2 = {kappa2}, *γ* = {gamma}: {}; active cell at *L* = {length}: {}",
             words[0], words[1]
         );
-        Ok(claim(self.says, finds, self.how, found.iter().all(|s| s.as_ref().is_some_and(self.holds))))
+        Ok(claim(
+            &[170],
+            self.says,
+            finds,
+            self.how,
+            found.iter().all(|s| s.as_ref().is_some_and(self.holds)),
+        ))
     }
 }
 
@@ -150,6 +156,7 @@ fn modulated(tensor: &Verdict, cell: &Verdict) -> Claim {
         format!("{}, period {period:.1}, net rotation {:.1} degrees", v.regime, rotation.to_degrees())
     };
     claim(
+        &[170],
         "The quasi-periodic motion is the modulated wave.",
         format!(
             "tensor model at *κ*_2 = {kappa2}, *γ* = {gamma}: {}; active cell at *L* = {length}: {} (in *W*_2, where mode 3 takes part)",
@@ -168,7 +175,8 @@ fn runs(tensor: &Verdict, cell: &Verdict) -> Claim {
         format!("{}, {} rests of {:.0} on average", v.regime, v.rests.len(), sum / v.rests.len() as f64)
     };
     claim(
-        "The rectangular motion is common to both models (straight, circular, quasi-periodic: above; zigzag: below).",
+        &[4, 184, 185],
+        "The rectangular motion is common to both models (straight, circular, quasi-periodic: above; chaos and zigzag: below).",
         format!(
             "tensor model at *κ*_2 = {kappa2}, *γ* = {gamma}: {}; active cell at *L* = {length}: {}",
             rests(tensor),

@@ -1,5 +1,6 @@
 //! The discussion: what both models have in common, and what differs.
 
+mod chaos;
 mod correspondence;
 mod reduction;
 mod steady;
@@ -16,6 +17,7 @@ Guckenheimer and Holmes (1988): each term is a property of the reduced dynamics,
 pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     let mut claims = vec![reduction::exact()?];
     claims.extend(correspondence::claims(context)?);
+    claims.push(chaos::claim_of(context)?);
     context.monitor.progress(0.4);
     let zigzags = zigzags::Zigzags::find(context)?;
     claims.extend(zigzags.claims());

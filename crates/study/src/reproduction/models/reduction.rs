@@ -34,6 +34,7 @@ pub(super) fn exact() -> Result<Claim, Error> {
         }
     }
     Ok(claim(
+        &[172, 174],
         "With the modes 1, 2 and 3 alone, the active cell has essentially the same equations as the tensor model.",
         format!(
             "they are the same: with coefficients given by *L* alone the two fields differ by at most {worst:.0e} of their size"
@@ -59,6 +60,7 @@ pub(super) fn edges(context: &Context<'_>) -> Result<Vec<Claim>, Error> {
     let two = reduced(Slaved::ThirdAndFourth);
     let three = reduced(Slaved::Fourth);
     Ok(vec![claim(
+        &[173],
         "If the modes higher than *n* = 3 relax rapidly, the modes 1, 2 and 3 may be retained alone.",
         format!(
             "the heteroclinic cycle attracts for *L* = {start:.2} to {end:.2} in the whole model, {:.2} to {:.2} with modes 1 to 3 (mode 4 slaved), {:.2} to {:.2} with modes 1 and 2 (3 and 4 slaved)",

@@ -33,6 +33,7 @@ impl Zigzags {
     fn sixty(&self) -> Claim {
         let turns = turns(&self.tensor);
         claim(
+            &[193],
             "The zigzag of the tensor model turns by about 60 degrees, by its modes ±2 and ±3.",
             format!(
                 "{}; turns of {} degrees from leg to leg; the heading swings by {:.1} degrees",
@@ -52,6 +53,7 @@ impl Zigzags {
         let all = self.cells.iter().flat_map(|track| turns(&track.verdict));
         let near = all.filter(|turn| (turn - 60.0).abs() < 15.0).count();
         claim(
+            &[153, 195],
             "The active cell has no such zigzag; its own turns by about 180, 135 and 45 degrees.",
             format!("turns of {} degrees at *L* = 29.2 and of {} degrees at 29.6", found[0], found[1]),
             "Change of heading at top speed from leg to leg.",
@@ -112,6 +114,7 @@ const HOW: &str = "Time average of the amplitudes over the run; the deformation 
 fn fourth(track: &Track) -> Claim {
     let mean = amplitudes(track);
     claim(
+        &[123, 196],
         "Higher modes such as the fourth are dominant for the zigzag of the active cell (Fig. 6(d)).",
         in_words(track),
         HOW,
@@ -123,9 +126,10 @@ fn fourth_at_the_edge(track: &Track) -> Claim {
     let mean = amplitudes(track);
     let says = "The same for Fig. 6(c): the effective modes are *n* = ±4.";
     if (1..MODES).all(|i| i == 3 || mean[i] < mean[3]) {
-        return claim(says, in_words(track), HOW, true);
+        return claim(&[151], says, in_words(track), HOW, true);
     }
     differs(
+        &[151],
         says,
         in_words(track),
         HOW,

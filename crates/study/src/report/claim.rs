@@ -1,0 +1,120 @@
+//! A claim, whose it is, and what became of it.
+
+/// A statement and what became of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Claim {
+    /// Whose statement it is.
+    pub source: Source,
+    /// What the paper says, or what we check.
+    pub says: String,
+    /// What we find.
+    pub finds: String,
+    /// How it was decided: quantity, tolerance.
+    pub how: String,
+    /// The decision.
+    pub verdict: Verdict,
+}
+
+/// Whose statement a claim is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Source {
+    /// The paper's, in the sentences of these numbers (see [`super::Sentence`]).
+    Paper(Vec<u16>),
+    /// Ours: the tools are checked, or something that follows, or was measured before.
+    Ours,
+}
+
+impl Claim {
+    /// Whether it is a check of ours, not a claim of the paper.
+    #[must_use]
+    pub fn is_ours(&self) -> bool {
+        self.source == Source::Ours
+    }
+
+    /// The sentences of the paper that it is about; none for a check of ours.
+    #[must_use]
+    pub fn sentences(&self) -> &[u16] {
+        match &self.source {
+            Source::Paper(sentences) => sentences,
+            Source::Ours => &[],
+        }
+    }
+
+    /// What it is called.
+    pub(super) fn noun(&self) -> &'static str {
+        if self.is_ours() { "Check" } else { "Claim" }
+    }
+}
+
+/// Whether a claim holds.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Verdict {
+    /// It does.
+    Holds,
+    /// It does not as stated, for a reason that is understood.
+    Differs {
+        /// The reason.
+        explanation: String,
+    },
+    /// It does not.
+    Fails {
+        /// What goes wrong.
+        explanation: String,
+    },
+}
+
+impl Verdict {
+    /// Symbol and word; neither needs a colour.
+    #[must_use]
+    pub fn words(&self) -> &'static str {
+        match self {
+            Self::Holds => "✓ holds",
+            Self::Differs { .. } => "≠ differs",
+            Self::Fails { .. } => "✗ fails",
+        }
+    }
+
+    /// Why it does not hold; `None` if it does.
+    #[must_use]
+    pub fn explanation(&self) -> Option<&str> {
+        match self {
+            Self::Holds => None,
+            Self::Differs { explanation } | Self::Fails { explanation } => Some(explanation),
+        }
+    }
+
+    /// Name for the style sheet.
+    pub(super) fn class(&self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Differs { .. } => "differs",
+            Self::Fails { .. } => "fails",
+        }
+    }
+}
+
+/// How many claims hold, differ and fail.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Claims that hold.
+    pub hold: usize,
+    /// Claims that differ for a reason.
+    pub differ: usize,
+    /// Claims that fail.
+    pub fail: usize,
+}
+
+impl Counts {
+    /// Counts the verdicts of claims.
+    pub fn of<'a>(claims: impl IntoIterator<Item = &'a Claim>) -> Self {
+        let mut counts = Self::default();
+        for claim in claims {
+            match claim.verdict {
+                Verdict::Holds => counts.hold += 1,
+                Verdict::Differs { .. } => counts.differ += 1,
+                Verdict::Fails { .. } => counts.fail += 1,
+            }
+        }
+        counts
+    }
+}
