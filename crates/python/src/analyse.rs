@@ -50,7 +50,8 @@ pub(crate) fn motions(
         let random = Random::of(study.0.random, samples as u64, study.0.info()?);
         study.0.random = Some(random); // the first of many is drawn like the others
         let given = study.0.initial.iter().any(|(name, _)| !["x", "y"].contains(&name.as_str()));
-        let (plan, samples) = (plan(&study)?, Samples { count: samples, random, given, threads: threads.max(1) });
+        let (plan, samples) =
+            (plan(&study)?, Samples { count: samples, random, given, threads: threads.max(1) });
         let Some(verdicts) = samples::classify(&plan, samples, budget, monitor)? else { return Ok(None) };
         let escapes = Escapes::of_verdicts(&plan, samples, &verdicts, budget, monitor)?;
         let basins = Basins::new(&samples, &verdicts);

@@ -82,9 +82,13 @@ impl Look {
         Ok(seen.look((start, orbit.t()), outcome, orbit.state().to_vec()))
     }
 
-    /// Whether the size of the shape stayed the same, up to the part `hovering`: the orbit was at an equilibrium all the time.
+    /// Whether the norm of the shape and its [`gauge`] stayed the same, up to the part `hovering` of its size: the orbit was at an
+    /// equilibrium all the time. (Without symmetry the norm alone may be constant on an orbit.)
     pub(super) fn is_still(&self, hovering: f64) -> bool {
-        self.sizes.1 - self.sizes.0 <= hovering * self.sizes.1
+        let least = hovering * self.sizes.1;
+        let low = self.extremes.iter().map(|extreme| extreme.size).fold(f64::INFINITY, f64::min);
+        let high = self.extremes.iter().map(|extreme| extreme.size).fold(f64::NEG_INFINITY, f64::max);
+        self.sizes.1 - self.sizes.0 <= least && !(high - low > least)
     }
 
     /// The minima of the size.

@@ -47,7 +47,12 @@ impl Setting {
         for (place, entry) in kicked[..dim].iter_mut().enumerate() {
             // Entries of a mode come in pairs; high modes of a cell are tiny, and must stay so.
             let near = &seen.state[place.saturating_sub(3)..(place + 4).min(dim)];
-            let size = near.iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-3 * self.study().random.unwrap_or(Random::SMALL).largest());
+            let size = near
+                .iter()
+                .map(|x| x * x)
+                .sum::<f64>()
+                .sqrt()
+                .max(1e-3 * self.study().random.unwrap_or(Random::SMALL).largest());
             *entry += KICK * size * normal.next();
         }
         self.changed(self.study().clone(), seen.t, kicked, seen.radius)
