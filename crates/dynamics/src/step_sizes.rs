@@ -12,6 +12,8 @@ pub(crate) struct StepTables {
     known: Vec<(i32, StepTable)>,
     /// For sizes used once: the last step to a limit, a step to a section.
     odd: StepTable,
+    /// Its size, 0 for none: steps of the same odd size often follow each other.
+    odd_size: f64,
     /// Index in `known`; `None` for `odd`.
     selected: Option<usize>,
     /// Exponent `k` of the next step to try.
@@ -22,7 +24,7 @@ const FIXED: i32 = i32::MAX;
 
 impl StepTables {
     pub(crate) fn new(tableau: &ExponentialTableau, dim: usize) -> Self {
-        Self { known: Vec::new(), odd: StepTable::new(tableau, dim), selected: None, k: 0 }
+        Self { known: Vec::new(), odd: StepTable::new(tableau, dim), odd_size: 0.0, selected: None, k: 0 }
     }
 
     /// The step size that control asks for.
@@ -52,7 +54,10 @@ impl StepTables {
 
     /// Uses the size `h`, without keeping its table.
     pub(crate) fn select_odd(&mut self, tableau: &ExponentialTableau, lambda: &[f64], h: f64) {
-        self.odd.fill(tableau, lambda, h);
+        if h != self.odd_size {
+            self.odd.fill(tableau, lambda, h);
+            self.odd_size = h;
+        }
         self.selected = None;
     }
 
