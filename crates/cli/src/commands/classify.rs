@@ -37,6 +37,7 @@ fn many(options: &ClassifyOptions, plan: &Plan, samples: Samples, budget: f64) -
         print(&serde_json::to_string(&json!({
             "model": plan.computation.model,
             "parameters": plan.computation.parameters,
+            "control": plan.computation.control,
             "seed": plan.computation.seed,
             "regimes": counts,
             "samples": verdicts,
@@ -65,6 +66,7 @@ fn json(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
     let mut object = json!({
         "model": computation.model,
         "parameters": computation.parameters,
+        "control": computation.control,
         "seed": computation.seed,
         "initial": computation.initial,
     });
@@ -117,6 +119,11 @@ fn summary(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
     if let Some(saddle) = verdict.saddle {
         writeln!(text, "saddle         lambda_+ {:.5}, lambda_- {:.5}", saddle.out, saddle.inward)?;
     }
-    write!(text, "time spent     {:.0} model time, seed {}", verdict.time, plan.computation.seed)?;
+    let c = &plan.computation;
+    write!(
+        text,
+        "time spent     {:.0} model time ({}, {}), seed {}",
+        verdict.time, c.stepper, c.control, c.seed
+    )?;
     Ok(text)
 }
