@@ -34,7 +34,7 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     if let Some(error) = undrawn {
         return Err(anyhow::Error::new(error).context("the tables are written, the figures are not"));
     }
-    Ok(End::from(&dataset.manifest.outcome))
+    Ok(End::from(&*dataset.manifest.outcome))
 }
 
 /// A fixed step whose own error is a larger part of the state than this deserves a word.
