@@ -50,7 +50,7 @@ fn with_noise_mean_rests_grow_with_the_logarithm_of_its_amplitude() {
     let mean_rest = |amplitude: f64, stream: u64| -> Estimate {
         let control = StepControl::Fixed { step: 0.05 };
         let orbit = Orbit::new(&field, &RK4, control, 0.0, &[0.9, 0.2, 0.1]).unwrap();
-        let noise = Noise { amplitude, every: 0.05, entries: 3 };
+        let noise = Noise { amplitudes: vec![amplitude; 3], rates: vec![0.0; 3], step: 0.05 };
         let mut noisy = NoisyOrbit::new(orbit, noise, Normal::new(1990, stream)).unwrap();
         let seen = rests_of(&mut noisy, 40_000.0, 0.05);
         let durations: Vec<f64> = seen.rests.iter().skip(5).map(|rest| rest.duration).collect();

@@ -33,7 +33,7 @@ fn run(amplitude: f64, stream: u64) -> Run {
     let body = InPlane(model);
     let start = [0.01, 0.0, 0.005, 0.0015, 0.0, 0.0, 0.0, 0.0];
     let orbit = Orbit::new(&body, &RK4, StepControl::Fixed { step: 0.2 }, 0.0, &start).unwrap();
-    let noise = Noise { amplitude, every: 0.2, entries: 6 };
+    let noise = Noise::on(&model, amplitude, amplitude, 0.2);
     let mut noisy = NoisyOrbit::new(orbit, noise, Normal::new(2010, stream)).unwrap();
     let mut trajectory = Trajectory::new(8);
     let request = Request { sample_every: Some(0.2), watched: 6, ..Request::until(TIME, 8) };

@@ -81,9 +81,12 @@ pub(crate) struct SimulateOptions {
     /// Model time between recorded states (default: t-end / 2000)
     #[arg(long, value_name = "D", value_parser = number, allow_hyphen_values = true)]
     pub(crate) dt_out: Option<f64>,
-    /// Amplitude of additive white noise on the shape, the same in every direction
+    /// Amplitude of additive white noise on the shape, and on the velocity where that is an unknown: see below
     #[arg(long, value_name = "ETA", value_parser = number, allow_hyphen_values = true)]
     pub(crate) noise: Option<f64>,
+    /// Amplitude of the noise on the velocity alone, in place of --noise (tensor)
+    #[arg(long, value_name = "ETA", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) noise_velocity: Option<f64>,
     /// Most steps to take
     #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) max_steps: Option<u64>,

@@ -3,6 +3,7 @@
 use motiform_analysis::Estimate;
 use motiform_dynamics::Outcome;
 use motiform_study::Error;
+use motiform_study::figures::Label;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -52,6 +53,11 @@ pub(crate) fn print(text: &str) -> anyhow::Result<()> {
         Err(error) => Err(StdoutFailed(error).into()),
         Ok(()) => Ok(()),
     }
+}
+
+/// A label of figures without its markup.
+pub(crate) fn plain(label: &str) -> String {
+    Label::parse(label).plain()
 }
 
 /// Says on standard error what the user should know about a result.

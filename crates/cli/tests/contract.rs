@@ -14,7 +14,10 @@ fn simulate_json_has_the_keys_of_the_contract() {
     let folder = Folder::new();
     let json = folder.run(&format!("{SHORT} --json")).expect(0).json();
     let expected = ["model", "parameters", "outcome", "t", "state", "position", "steps", "manifest"];
-    assert_eq!(keys(&json), expected);
+    // both tolerances beside what was agreed; a regime where a short look decides
+    let known: Vec<_> = keys(&json).into_iter().filter(|key| *key != "control" && *key != "regime").collect();
+    assert_eq!(known, expected);
+    assert_eq!(keys(&json["control"]), ["rtol", "atol"]);
     assert_eq!(json["model"], "tensor");
     assert_eq!(keys(&json["state"]), ["v1", "v2", "s11", "s12", "u111", "u222"]);
     assert_eq!(json["outcome"]["kind"], "completed");
@@ -127,6 +130,34 @@ fn check_prints_the_plan_that_simulate_carries_out() {
     assert!(told.trim_end().ends_with(hash), "{told}");
     assert_eq!(folder.run("check swim.toml --json").expect(0).json(), json["manifest"]["plan"]);
     assert_eq!(folder.names(), ["swim.toml"], "check computes and writes nothing");
+    folder.write("noisy.toml", "preset = \"fig5a\"\n[run]\nnoise = 1e-3\nnoise_velocity = 0\nseed = 4\n");
+    let told = folder.run("check noisy.toml").expect(0).stdout;
+    assert!(told.contains("rtol 1e-9, atol 1e-12"), "{told}");
+    assert!(
+        told.contains(
+            "noise       amplitude 0.001 on the shape and 0.0 on the velocity, steps of 0.0625, seed 4"
+        ),
+        "{told}"
+    );
+}
+
+/// The motion is named in words and JSON, unless there is noise; figures are called by it.
+#[test]
+fn simulate_names_what_it_simulated() {
+    let folder = Folder::new();
+    let words = "simulate tensor --preset fig5a --set kappa2=0.5 --set kappa3=0.4 --t-end 20";
+    let told = folder.run(&format!("{words} --out run --no-animation")).expect(0).stdout;
+    assert!(told.contains("motion    at the end circular: "), "{told}");
+    assert!(!told.contains("Zigzag") && told.starts_with("Circular motion: "), "{told}");
+    let figure = std::fs::read_to_string(folder.path("run/path.svg")).unwrap();
+    assert!(!figure.contains("Zigzag"), "a title from the preset's motion");
+    assert_eq!(read_json(&folder.path("run/manifest.json"))["regime"], "circular");
+    assert_eq!(folder.run(&format!("{words} --json")).expect(0).json()["regime"], "circular");
+    let noisy = folder.run(&format!("{words} --json --noise 1e-3")).expect(0).json();
+    assert!(noisy.get("regime").is_none());
+    let told = folder.run(&format!("{words} --noise 1e-3 --out noisy")).expect(0).stdout;
+    assert!(told.contains("noise     amplitude 0.001 on the shape and 0.001 on the velocity"), "{told}");
+    assert!(told.starts_with("Tensor model: ") && !told.contains("motion "), "{told}");
 }
 
 #[test]

@@ -61,11 +61,20 @@ fn a_blow_up_is_drawn_up_to_its_last_state() {
 #[test]
 fn a_blow_up_during_the_transient_is_one_too() {
     let folder = Folder::new();
-    let words = LARGE.replace("--transient 0", "--transient 100 --json");
-    let json = folder.run(&words).expect(1).json();
+    let words = LARGE.replace("--transient 0", "--transient 100 --dt-out 1e-3 --out run");
+    let json = folder.run(&format!("{words} --json")).expect(1).json();
     assert_no_nan(&json, "");
-    assert_eq!(json["outcome"]["kind"], "escaped");
-    assert!(json["t"].as_f64().unwrap() < 0.0, "the recording would have begun at 0");
+    let outcome = &json["outcome"];
+    assert_eq!((&outcome["kind"], &outcome["during"]), (&"escaped".into(), &"transient".into()));
+    // times count from the start of the run: that of the same run without a transient
+    let at_once = folder.run(&format!("{LARGE} --json")).expect(1).json();
+    let [t, expected] = [outcome, &at_once["outcome"]].map(|outcome| outcome["t"].as_f64().unwrap());
+    assert!((t - expected).abs() < 1e-6 && json["t"].as_f64().unwrap() > 0.0, "{t} {expected}");
+    assert!(at_once["outcome"].get("during").is_none());
+    assert!(json["steps"].as_u64().unwrap() > 10);
+    let told = folder.run(&format!("{words} --force")).expect(1).stdout;
+    assert!(told.contains(", during the transient"), "{told}");
+    assert!(names(&folder.path("run")).contains(&"path.svg".to_owned()), "{told}");
 }
 
 /// One Euler step from 1e100 lands at -1e299: a finite state whose norm overflows and that no axis can hold.

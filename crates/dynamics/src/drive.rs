@@ -193,7 +193,7 @@ impl Run {
             if t > until {
                 return;
             }
-            orbit.dense().at(t, &mut self.state);
+            orbit.at(t, &mut self.state);
             sink.sample(t, &self.state);
             self.next_sample += 1;
         }

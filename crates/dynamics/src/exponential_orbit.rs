@@ -16,7 +16,8 @@ use crate::{Dual, Error, Integration, Semilinear, Shape, StepControl};
 ///
 /// The position of a body ([`ExponentialOrbit::in_plane`]) drives nothing, so it is no stage of the method but a
 /// quadrature: `x_new = x + h (v + v_new)/2 + h^2 (v' - v_new')/12`, order 4 like the method, for one evaluation of
-/// the velocity per step instead of four. (Source: Euler-Maclaurin; Hairer, Norsett, Wanner, I, II.1.)
+/// the velocity per step instead of four. (Source: Euler-Maclaurin; Hairer, Norsett, Wanner, I, II.1.) Where noise kicks stiff
+/// entries the derivatives `v'` mean nothing, and the rule goes without them.
 ///
 /// Where the field corrects the end of a step ([`crate::System::project`]), the next step has its first stage and its
 /// first velocity at the corrected state. Inside a step dense output and position are those of the flow: at its end the
@@ -63,6 +64,8 @@ pub struct ExponentialOrbit<'f, F: ?Sized> {
     /// Whether `N` at the current state is the end stage of the step just accepted.
     accepted: bool,
     prepared: bool,
+    /// Whether states are kicked ([`Integration::roughen`]): the position then is the trapezoidal rule.
+    rough: bool,
     counters: Counters,
 }
 
@@ -149,9 +152,10 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
             origin: (t, 0),
             accepted: true,
             prepared: false,
+            rough: false,
             counters: Counters::default(),
         };
-        let problem = Problem { field, drift, lambda: &orbit.lambda };
+        let problem = Problem { field, drift, lambda: &orbit.lambda, rough: false };
         problem.evaluate(t, orbit.stages.get_mut(tableau.stages()), &mut orbit.new);
         orbit.choose_first_step();
         Ok(orbit)
@@ -226,7 +230,8 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
     /// Takes a trial step of size `h` from the current state with the selected coefficients.
     fn try_step(&mut self, h: f64) {
         let at = Start { t: self.t, h, end: &self.new };
-        let problem = Problem { field: self.field, drift: self.drift, lambda: &self.lambda };
+        let problem =
+            Problem { field: self.field, drift: self.drift, lambda: &self.lambda, rough: self.rough };
         problem.step(self.tableau, self.tables.selected(), &at, &mut self.stages, &mut self.trial);
     }
 
@@ -236,7 +241,8 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
         self.stages.copy_to(0, &mut self.restep);
         self.tables.select_odd(self.tableau, &self.lambda, h);
         let at = Start { t: self.t_old, h, end: &self.old };
-        let problem = Problem { field: self.field, drift: self.drift, lambda: &self.lambda };
+        let problem =
+            Problem { field: self.field, drift: self.drift, lambda: &self.lambda, rough: self.rough };
         problem.step(self.tableau, self.tables.selected(), &at, &mut self.restep, &mut self.trial);
     }
 
@@ -260,7 +266,8 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
         position.copy_from_slice(&self.trial.state[dim..]);
         std::mem::swap(&mut self.trial, &mut self.landed);
         self.jumped = true;
-        let problem = Problem { field: self.field, drift: self.drift, lambda: &self.lambda };
+        let problem =
+            Problem { field: self.field, drift: self.drift, lambda: &self.lambda, rough: self.rough };
         problem.evaluate(t_new, self.stages.get_mut(self.tableau.stages()), &mut self.trial);
         self.check()
     }
@@ -290,6 +297,7 @@ struct Problem<'p, 'f, F: ?Sized> {
     field: &'f F,
     drift: Option<DriftOf<'f, F>>,
     lambda: &'p [f64],
+    rough: bool,
 }
 
 impl<F: Semilinear<f64> + ?Sized> Problem<'_, '_, F> {
@@ -320,7 +328,7 @@ impl<F: Semilinear<f64> + ?Sized> Problem<'_, '_, F> {
         if let Some(drift) = self.drift {
             let (v, acceleration) = drift(self.field, &end.state[..dim], slope);
             velocity.copy_from_slice(&v);
-            end.acceleration = acceleration;
+            end.acceleration = if self.rough { [0.0; 2] } else { acceleration };
         }
     }
 }
@@ -355,6 +363,11 @@ impl<F: Semilinear<f64> + ?Sized> Integration for ExponentialOrbit<'_, F> {
         DenseStep { t_old: self.t_old, t: self.t, old, new, interpolant: &self.interpolant }
     }
 
+    fn roughen(&mut self) {
+        self.rough = true;
+        self.new.acceleration = [0.0; 2];
+    }
+
     fn step_to(&mut self, t: f64, out: &mut [f64]) {
         self.restep_to(t);
         out.copy_from_slice(&self.trial.state);
@@ -372,7 +385,8 @@ impl<F: Semilinear<f64> + ?Sized> Integration for ExponentialOrbit<'_, F> {
 
     fn restart(&mut self, u: &[f64]) {
         self.new.state.copy_from_slice(u);
-        let problem = Problem { field: self.field, drift: self.drift, lambda: &self.lambda };
+        let problem =
+            Problem { field: self.field, drift: self.drift, lambda: &self.lambda, rough: self.rough };
         problem.evaluate(self.t, self.stages.get_mut(self.tableau.stages()), &mut self.new);
         self.old.clone_from(&self.new);
         self.t_old = self.t;

@@ -12,6 +12,14 @@ impl<O: Integration + ?Sized> Integration for Box<O> {
         (**self).dense()
     }
 
+    fn at(&mut self, t: f64, out: &mut [f64]) {
+        (**self).at(t, out);
+    }
+
+    fn roughen(&mut self) {
+        (**self).roughen();
+    }
+
     fn step_to(&mut self, t: f64, out: &mut [f64]) {
         (**self).step_to(t, out);
     }
@@ -60,6 +68,15 @@ pub trait Integration {
     /// The last step as a function of time. Where the field corrects its states ([`crate::System::project`]) it is the
     /// flow before the correction, which is a jump at the very end of the step.
     fn dense(&mut self) -> DenseStep<'_>;
+
+    /// Writes the state at `t` inside the last step, for a record of the motion: dense output, unless the path is not smooth.
+    fn at(&mut self, t: f64, out: &mut [f64]) {
+        self.dense().at(t, out);
+    }
+
+    /// From now on states are kicked: nothing but the states themselves may rest on the smoothness of the past or on rates
+    /// at the ends of steps.
+    fn roughen(&mut self) {}
 
     /// Writes the state at `t` inside the last step by a true step of the method from its start.
     fn step_to(&mut self, t: f64, out: &mut [f64]);

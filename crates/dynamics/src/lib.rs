@@ -6,7 +6,7 @@
 //! * [`steppers`]: explicit and exponential Runge-Kutta methods as data, and the step that runs each kind;
 //! * [`Orbit`], [`ExponentialOrbit`]: one initial-value problem, step by step, with error control, dense output and
 //!   exact re-steps; [`Integration`] is what they have in common;
-//! * [`noise`]: an integration with explicit noise is an integration;
+//! * [`noise`], [`NoisyOrbit`]: an integration with explicit noise is an integration;
 //! * [`ensemble`]: many orbits in the lanes of vector registers ([`simd`]);
 //! * [`drive`]: the loop with samples, [`section`]s, a budget and an escape bound, ending in an [`Outcome`].
 
@@ -22,6 +22,7 @@ pub mod integration;
 mod interpolant;
 pub mod model;
 pub mod noise;
+mod noisy_orbit;
 pub mod orbit;
 mod outcome;
 pub mod scalar;
@@ -40,7 +41,8 @@ pub use error::Error;
 pub use exponential_orbit::ExponentialOrbit;
 pub use integration::Integration;
 pub use model::{InPlane, Model, Outline, Shape};
-pub use noise::{Noise, NoisyOrbit, Normal};
+pub use noise::{Noise, Normal};
+pub use noisy_orbit::NoisyOrbit;
 pub use orbit::Orbit;
 pub use outcome::{Obstacle, Outcome};
 pub use scalar::{Bundle, Complex, Dual, Lanes, Mask, Scalar};

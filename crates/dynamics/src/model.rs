@@ -69,6 +69,11 @@ pub trait Model: Equivariant {
     /// The inverse of [`Model::encode`].
     fn decode(&self, shape: &[f64], coordinates: &mut [f64]);
 
+    /// How many of the leading coordinates are the velocity itself, where it is an unknown.
+    fn velocities(&self) -> usize {
+        0
+    }
+
     /// The scalars that figures show, beside speed and turning rate.
     fn observables(&self) -> &[Observable];
 

@@ -1,8 +1,6 @@
-//! Noise: normal deviates with the same bits on every machine, and orbits that it kicks.
+//! Noise: normal deviates with the same bits on every machine, and the law of what is added to an orbit.
 
-use crate::interpolant::DenseStep;
-use crate::orbit::{Counters, StepFailure};
-use crate::{Error, Integration};
+use crate::{Error, Model, Semilinear};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::f64::consts::TAU;
@@ -52,137 +50,78 @@ impl Normal {
     }
 }
 
-/// Additive isotropic white noise: u' = f(t, u) + eta xi(t), <xi_i(t) xi_j(s)> = delta_ij delta(t - s).
+/// Additive white noise on a flow: `du_i = f_i(u) dt + eta_i dW_i`, with independent Wiener processes `W_i`.
 ///
-/// Every one of the leading `entries` of the state gets independent noise of the same strength: the noise is isotropic
-/// in the Euclidean norm of those entries, so that a symmetry which rotates pairs of them leaves its law unchanged. As
-/// it does not depend on the state, the readings of Ito and Stratonovich are one.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// `f` has the linear part `lambda_i u_i` ([`Semilinear`]), which is treated exactly (see [`crate::NoisyOrbit`]). As the noise does not
+/// depend on the state, the readings of Ito and Stratonovich are one.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Noise {
-    /// eta, at least 0. Without the flow an entry's variance grows by eta^2 per model time.
+    /// `eta_i`, at least 0, of the leading entries of the state (a position is not kicked).
     ///
-    /// # Units   unit of the state / sqrt(model time)
-    pub amplitude: f64,
-    /// Model time between two kicks, above 0.
-    pub every: f64,
-    /// How many leading entries of the state are kicked (the shape; a position is not).
-    pub entries: usize,
+    /// # Units   unit of the entry / sqrt(model time): without the flow its variance would be `eta_i^2 t`
+    pub amplitudes: Vec<f64>,
+    /// `lambda_i` of the same entries (inverse model time): 0 where nothing is known of them.
+    pub rates: Vec<f64>,
+    /// Model time `h` of one step of the noise, above 0 ([`Noise::step_for`]).
+    pub step: f64,
 }
 
 impl Noise {
-    fn validate(&self, dim: usize) -> Result<(), Error> {
+    /// The noise that gives every coordinate of `model` ([`Model::coordinates`]) the same strength: `velocity` to those that are the
+    /// velocity itself ([`Model::velocities`]), `shape` to all others. The plane's rotations turn pairs of coordinates, so its law
+    /// does not change with them.
+    ///
+    /// # Checked by  models/tests/noise.rs: rotation invariance, for both models
+    #[must_use]
+    pub fn on<M: Model + ?Sized>(model: &M, velocity: f64, shape: f64, step: f64) -> Self {
+        let dim = model.dim();
+        let (mut rates, mut variances) = (vec![0.0; dim], vec![0.0; dim]);
+        Semilinear::<f64>::linear(model, &mut rates);
+        let (mut unit, mut image) = (vec![0.0; dim], vec![0.0; dim]);
+        for coordinate in 0..dim {
+            unit[coordinate] = if coordinate < model.velocities() { velocity } else { shape };
+            model.encode(&unit, &mut image);
+            unit[coordinate] = 0.0;
+            for (variance, x) in variances.iter_mut().zip(&image) {
+                *variance += x * x;
+            }
+        }
+        Self { amplitudes: variances.into_iter().map(f64::sqrt).collect(), rates, step }
+    }
+
+    /// A step that resolves a flow with these linear rates whose slow motion has the time scale `slow` (model time):
+    ///
+    /// `h = 2^floor(log2 min(slow/100, 0.1/rho))`,   `rho = min(max_i |lambda_i|, 20 max(max_i lambda_i, 5/slow))`.
+    ///
+    /// Growth is always resolved, decay up to twenty times faster than that; what decays faster still is left to the exact
+    /// linear part. A power of 2, so that times carry no rounding.
+    #[must_use]
+    pub fn step_for(rates: &[f64], slow: f64) -> f64 {
+        let fastest = rates.iter().fold(0.0, |fastest: f64, rate| fastest.max(rate.abs()));
+        let growth = rates.iter().fold(5.0 / slow, |growth, &rate| growth.max(rate));
+        let longest = (0.01 * slow).min(0.1 / fastest.min(20.0 * growth));
+        libm::exp2(libm::log2(longest).floor())
+    }
+
+    pub(crate) fn validate(&self, dim: usize) -> Result<(), Error> {
         let check = |name, value: f64, ok: bool, range| {
             if ok && value.is_finite() { Ok(()) } else { Err(Error::OutOfRange { name, value, range }) }
         };
-        check("noise amplitude", self.amplitude, self.amplitude >= 0.0, "of at least 0")?;
-        check("time between kicks", self.every, self.every > 0.0, "above 0")?;
-        if self.entries > dim {
-            return Err(Error::Shape { what: "the part under noise", expected: dim, got: self.entries });
+        for &amplitude in &self.amplitudes {
+            check("noise amplitude", amplitude, amplitude >= 0.0, "of at least 0")?;
+        }
+        for &rate in &self.rates {
+            check("rate under noise", rate, true, "that is finite")?;
+        }
+        check("step of the noise", self.step, self.step > 0.0, "above 0")?;
+        let entries = self.amplitudes.len();
+        if entries > dim {
+            return Err(Error::Shape { what: "the part under noise", expected: dim, got: entries });
+        }
+        if self.rates.len() != entries {
+            let got = self.rates.len();
+            return Err(Error::Shape { what: "the rates under noise", expected: entries, got });
         }
         Ok(())
-    }
-}
-
-/// A stochastic orbit: any integration, kicked at even times.
-///
-/// Half a flow, a kick, half a flow (Strang splitting), with h = `every`:
-///
-/// u(t + h) = flow_{h/2}( flow_{h/2}(u(t)) + eta sqrt(h) xi ),   xi_i independent standard normal.
-///
-/// Kicks come at t0 + (n + 1/2) h. At t0 + n h, n = 0, 1, ..., the law of the state has weak order 2 in h, whatever
-/// steps the integration takes in between: sample there. (At other times it is of order 1: up to half a kick of
-/// variance more or less.) The flow itself is as accurate as the integration; a fixed step equal to `every` makes one
-/// step per kick.
-///
-/// It is an [`Integration`] again, so sections, escape bounds and samples work as for any orbit: between kicks the path
-/// is smooth; a kick is a jump at the start of a step, and a kick through a section is a crossing at the time of the kick.
-/// A step that fails right after a kick leaves the kicked state.
-///
-/// Source: Strang (1968), SIAM J. Numer. Anal. 5, 506; for Langevin equations Leimkuhler and Matthews (2013), Appl.
-/// Math. Res. eXpress 2013, 34.
-///
-/// # Errors    [`Error::OutOfRange`] and [`Error::Shape`] from [`NoisyOrbit::new`]
-/// # Not       for multiplicative noise; not for noise far above the flow's own size per `every`
-/// # Checked by  tests/noise.rs: Brownian motion, Ornstein-Uhlenbeck (variance, autocorrelation, the exact variance at
-/// large h), the same with an exponential method, rotation, seeds
-pub struct NoisyOrbit<O> {
-    orbit: O,
-    noise: Noise,
-    normal: Normal,
-    start: f64,
-    kicks: u64,
-    state: Vec<f64>,
-}
-
-impl<O: Integration> NoisyOrbit<O> {
-    /// `orbit`, from its present time and state on, with noise drawn from `normal`.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for an amplitude or interval that makes no sense, [`Error::Shape`] for more entries under
-    /// noise than the state has.
-    pub fn new(orbit: O, noise: Noise, normal: Normal) -> Result<Self, Error> {
-        noise.validate(orbit.state().len())?;
-        let (start, state) = (orbit.t(), orbit.state().to_vec());
-        Ok(Self { orbit, noise, normal, start, kicks: 0, state })
-    }
-
-    /// Time of the next kick: from the number of kicks, so that it carries no accumulated rounding.
-    fn next_kick(&self) -> f64 {
-        self.start + self.noise.every * (self.kicks as f64 + 0.5)
-    }
-
-    fn kick(&mut self) {
-        self.state.copy_from_slice(self.orbit.state());
-        let size = self.noise.amplitude * self.noise.every.sqrt();
-        for x in &mut self.state[..self.noise.entries] {
-            *x += size * self.normal.next();
-        }
-        self.orbit.restart(&self.state);
-        self.kicks += 1;
-    }
-}
-
-impl<O: Integration> Integration for NoisyOrbit<O> {
-    fn advance(&mut self, limit: f64) -> Result<(), StepFailure> {
-        if self.orbit.t() >= self.next_kick() {
-            self.kick();
-        }
-        self.orbit.advance(limit.min(self.next_kick()))
-    }
-
-    fn dense(&mut self) -> DenseStep<'_> {
-        self.orbit.dense()
-    }
-
-    fn step_to(&mut self, t: f64, out: &mut [f64]) {
-        self.orbit.step_to(t, out);
-    }
-
-    fn end_step_at(&mut self, t: f64) {
-        self.orbit.end_step_at(t);
-    }
-
-    fn restart(&mut self, u: &[f64]) {
-        self.orbit.restart(u);
-    }
-
-    fn t(&self) -> f64 {
-        self.orbit.t()
-    }
-
-    fn t_old(&self) -> f64 {
-        self.orbit.t_old()
-    }
-
-    fn state(&self) -> &[f64] {
-        self.orbit.state()
-    }
-
-    fn slope(&self) -> &[f64] {
-        self.orbit.slope()
-    }
-
-    fn counters(&self) -> Counters {
-        self.orbit.counters()
     }
 }

@@ -74,6 +74,33 @@ impl Outcome {
         matches!(self, Self::Completed { .. } | Self::Stopped { .. })
     }
 
+    /// The same, with its times counted from a moment that lies earlier by `shift`.
+    #[must_use]
+    pub fn later(mut self, shift: f64) -> Self {
+        match &mut self {
+            Self::Escaped { t, t_last, .. } => {
+                *t += shift;
+                *t_last += shift;
+            }
+            Self::Completed { t }
+            | Self::StepUnderflow { t, .. }
+            | Self::ClosureFailed { t, .. }
+            | Self::StepBudget { t, .. }
+            | Self::Stopped { t }
+            | Self::Interrupted { t } => *t += shift,
+        }
+        self
+    }
+
+    /// The time of the last state that there is: before that of a singularity ahead.
+    #[must_use]
+    pub fn t_last(&self) -> f64 {
+        match *self {
+            Self::Escaped { t_last, .. } => t_last,
+            other => other.t(),
+        }
+    }
+
     /// The time that goes with the outcome.
     #[must_use]
     pub fn t(&self) -> f64 {

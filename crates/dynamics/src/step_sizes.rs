@@ -16,6 +16,8 @@ pub(crate) struct StepTables {
     known: Vec<(i32, StepTable)>,
     /// For sizes used once: the last step to a limit, a step to a section.
     odd: StepTable,
+    /// Its size, 0 for none: steps of the same odd size often follow each other.
+    odd_size: f64,
     /// Index in `known`; `None` for `odd`.
     selected: Option<usize>,
     /// Exponent `k` of the next step to try.
@@ -35,7 +37,14 @@ impl StepTables {
     pub(crate) fn new(tableau: &ExponentialTableau, lambda: &[f64]) -> Self {
         let fastest = lambda.iter().copied().fold(0.0, f64::max);
         let most = if fastest > 0.0 { exponent(LONGEST / fastest) } else { i32::MAX - 1 };
-        Self { known: Vec::new(), odd: StepTable::new(tableau, lambda.len()), selected: None, k: 0, most }
+        Self {
+            known: Vec::new(),
+            odd: StepTable::new(tableau, lambda.len()),
+            odd_size: 0.0,
+            selected: None,
+            k: 0,
+            most,
+        }
     }
 
     /// The step size that control asks for.
@@ -65,7 +74,10 @@ impl StepTables {
 
     /// Uses the size `h`, without keeping its table.
     pub(crate) fn select_odd(&mut self, tableau: &ExponentialTableau, lambda: &[f64], h: f64) {
-        self.odd.fill(tableau, lambda, h);
+        if h != self.odd_size {
+            self.odd.fill(tableau, lambda, h);
+            self.odd_size = h;
+        }
         self.selected = None;
     }
 

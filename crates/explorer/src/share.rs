@@ -13,6 +13,7 @@ struct Said {
     initial: Vec<(String, f64)>,
     t_end: f64,
     noise: f64,
+    noise_velocity: Option<f64>,
     seed: u64,
 }
 
@@ -29,6 +30,7 @@ impl Said {
             initial: if few { study.initial.clone() } else { Vec::new() },
             t_end: study.run.t_end,
             noise: study.run.noise,
+            noise_velocity: study.run.noise_velocity,
             seed: study.run.seed,
         })
     }
@@ -53,6 +55,7 @@ pub(crate) fn command(preset: Option<&str>, study: &Study) -> Result<String, Err
     if said.noise > 0.0 {
         words.push(format!("--noise {:?}", said.noise));
     }
+    words.extend(said.noise_velocity.map(|amplitude| format!("--noise-velocity {amplitude:?}")));
     words.push(format!("--seed {}", said.seed));
     Ok(words.join(" "))
 }
@@ -78,6 +81,7 @@ pub(crate) fn python(preset: Option<&str>, study: &Study) -> Result<String, Erro
     if said.noise > 0.0 {
         options.push(format!("noise={:?}", said.noise));
     }
+    options.extend(said.noise_velocity.map(|amplitude| format!("noise_velocity={amplitude:?}")));
     options.push(format!("seed={}", said.seed));
     let options = options.join(", ");
     Ok(format!(

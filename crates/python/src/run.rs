@@ -5,7 +5,7 @@ use crate::study::{Study, plan};
 use crate::watch::Watch;
 use motiform_dynamics::{Model, Outline};
 use motiform_study::table::Table;
-use motiform_study::{Dataset, Manifest, draw};
+use motiform_study::{Dataset, Manifest, draw, naming};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -118,6 +118,15 @@ impl Run {
     #[getter]
     fn ended(&self) -> String {
         self.manifest.outcome.to_string()
+    }
+
+    /// The regime of the motion where a short look from the end of the run decides; `None` where it does not.
+    fn regime(&self, py: Python<'_>) -> PyResult<Option<String>> {
+        let (verdict, raised) = Watch::here(py, None, |monitor| naming::name(&self.manifest, monitor));
+        match raised {
+            Some(error) => Err(error),
+            None => Ok(verdict.map_err(python)?.map(|verdict| verdict.regime.name().to_owned())),
+        }
     }
 
     /// The undeformed radius: the model's, or a round one that shows the deformation over these rows.

@@ -184,13 +184,14 @@ fn set(study: &mut motiform_study::Study, name: &str, value: &Bound<'_, PyAny>) 
         "dt_out" => run.dt_out = number(name, value)?,
         "stepper" => run.stepper = value.extract()?,
         "rtol" => run.rtol = number(name, value)?,
-        "atol" => run.atol = number(name, value)?,
+        "atol" => run.atol = Some(number(name, value)?),
         "step" => run.step = Some(number(name, value)?),
         "seed" => run.seed = whole(name, value)?,
         "max_steps" => run.max_steps = whole(name, value)?,
         "escape_norm" => run.escape_norm = number(name, value)?,
         "noise" => run.noise = number(name, value)?,
         "random" => study.random = Some(random(value)?),
+        "noise_velocity" => run.noise_velocity = Some(number(name, value)?),
         _ => return Err(PyTypeError::new_err(format!("unknown setting {name:?}"))),
     }
     Ok(())

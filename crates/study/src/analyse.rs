@@ -105,7 +105,7 @@ pub(crate) fn lyapunov_settings(
 
 /// The model of a plan that has no noise: questions are asked of the flow.
 pub(crate) fn model(plan: &Plan) -> Result<Box<dyn Model>, Error> {
-    check_no_noise(plan.computation.noise.map_or(0.0, |noise| noise.amplitude))?;
+    check_no_noise(plan.computation.noise.map_or(0.0, |noise| noise.largest()))?;
     Ok(plan.info()?.build(&plan.computation.parameters.values())?)
 }
 

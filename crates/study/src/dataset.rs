@@ -1,8 +1,8 @@
 //! What a run gave: tables, the outcome, and where it came from.
 
+use crate::Ending;
 use crate::plan::{Named, Plan};
 use crate::table::Table;
-use motiform_dynamics::Outcome;
 use serde::{Deserialize, Serialize};
 
 /// The result of a simulation.
@@ -28,10 +28,13 @@ pub struct Manifest {
     /// The seed (also in the plan).
     pub seed: u64,
     /// How the run ended.
-    pub outcome: Outcome,
-    /// Accepted steps of the recorded part.
+    pub outcome: Ending,
+    /// The regime that the motion was named with, where a short look from its end decided ([`crate::naming`]).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub regime: Option<String>,
+    /// Accepted steps of the recorded part (of the transient, if the run ended there).
     pub steps: u64,
-    /// Rejected steps of the recorded part.
+    /// Rejected steps of the same part.
     pub rejected_steps: u64,
     /// The shape at the end, in the model's coordinates.
     pub state: Named,

@@ -1,17 +1,18 @@
 //! A plan: a study made explicit. Every number that a run depends on stands in it; nothing else does.
 
 use crate::error::nearest_of;
+pub use crate::named::Named;
 use crate::random::Random;
 use crate::study::{FigureSettings, ReturnMapSettings, Study};
 use crate::{Error, initial};
 use motiform_dynamics::steppers::Method;
-use motiform_dynamics::{Model, Obstacle, Semilinear, StepControl};
+use motiform_dynamics::{Model, Noise, Obstacle, Semilinear, StepControl};
 use motiform_models::ModelInfo;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 /// Version of the meaning of a plan; part of the hash.
-pub const PLAN_FORMAT: u32 = 1;
+pub const PLAN_FORMAT: u32 = 2;
 
 /// Most rows a trajectory may have (about 2 GB in memory).
 const MOST_ROWS: f64 = 2e7;
@@ -24,7 +25,7 @@ const DEFAULT_STEP: f64 = 1e-3;
 pub struct Plan {
     /// Short name of the study.
     pub name: String,
-    /// Title of the figures.
+    /// Title of the figures as typed, or nothing: see [`Plan::title`].
     pub title: String,
     /// What is computed: the hash covers this.
     pub computation: Computation,
@@ -61,18 +62,36 @@ pub struct Computation {
     pub escape_norm: f64,
     /// The return map.
     pub return_map: Option<ReturnMapSettings>,
-    /// Noise on the shape.
+    /// Noise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<NoiseSettings>,
 }
 
-/// Additive white noise on the shape, as kicks at even times.
+/// Additive white noise: `du = f(u) dt + eta dW` for every coordinate u that people see ([`Noise::on`]).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NoiseSettings {
-    /// Amplitude eta.
-    pub amplitude: f64,
-    /// Time between kicks; rows lie between them.
-    pub every: f64,
+    /// Amplitude eta on the velocity, where that is an unknown (unit of velocity / sqrt(model time)).
+    pub velocity: f64,
+    /// Amplitude eta on the shape (unit of its coordinates / sqrt(model time)).
+    pub shape: f64,
+    /// Model time of a step of the noise, from the rates of the model alone ([`Noise::step_for`]).
+    pub step: f64,
+}
+
+/// `amplitude 0.001 on the shape and 0 on the velocity, steps of 0.0625`.
+impl std::fmt::Display for NoiseSettings {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { velocity, shape, step } = self;
+        write!(f, "amplitude {shape:?} on the shape, {velocity:?} on the velocity, steps of {step}")
+    }
+}
+
+impl NoiseSettings {
+    /// The larger amplitude.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.velocity.max(self.shape)
+    }
 }
 
 /// [`StepControl`] as it is written to files.
@@ -95,64 +114,22 @@ impl Control {
     }
 }
 
+/// `rtol 1e-9, atol 1e-12`, or `step 0.001`.
+impl std::fmt::Display for Control {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Adaptive { rtol, atol } => write!(f, "rtol {rtol:e}, atol {atol:e}"),
+            Self::Fixed { step } => write!(f, "step {step}"),
+        }
+    }
+}
+
 impl From<Control> for StepControl {
     fn from(control: Control) -> Self {
         match control {
             Control::Adaptive { rtol, atol } => Self::Adaptive { rtol, atol },
             Control::Fixed { step } => Self::Fixed { step },
         }
-    }
-}
-
-/// Named numbers in a fixed order; a JSON object in files.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Named(pub Vec<(String, f64)>);
-
-impl Named {
-    /// The values alone.
-    #[must_use]
-    pub fn values(&self) -> Vec<f64> {
-        self.0.iter().map(|entry| entry.1).collect()
-    }
-
-    /// Whether there is nothing in it.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    /// The value of a name.
-    #[must_use]
-    pub fn get(&self, name: &str) -> Option<f64> {
-        self.0.iter().find(|entry| entry.0 == name).map(|entry| entry.1)
-    }
-}
-
-impl Serialize for Named {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
-    }
-}
-
-impl<'de> Deserialize<'de> for Named {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Entries;
-        impl<'de> serde::de::Visitor<'de> for Entries {
-            type Value = Named;
-
-            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.write_str("an object of numbers")
-            }
-
-            fn visit_map<A: serde::de::MapAccess<'de>>(self, mut map: A) -> Result<Named, A::Error> {
-                let mut entries = Vec::new();
-                while let Some(entry) = map.next_entry()? {
-                    entries.push(entry);
-                }
-                Ok(Named(entries))
-            }
-        }
-        deserializer.deserialize_map(Entries)
     }
 }
 
@@ -205,10 +182,10 @@ impl Plan {
             max_steps: run.max_steps,
             escape_norm: run.escape_norm,
             return_map: study.return_map.clone(),
-            noise: noise(run.noise, dt_out, info.look)?,
+            noise: noise(study, model.as_ref(), info.look)?,
         };
-        let title = if study.title.is_empty() { info.name.to_owned() } else { study.title.clone() };
-        Ok(Self { name: study.name.clone(), title, computation, figure: study.figure.clone() })
+        let (name, title) = (study.name.clone(), study.title.clone());
+        Ok(Self { name, title, computation, figure: study.figure.clone() })
     }
 
     /// SHA-256 of the computation as compact JSON, in hexadecimal: equal hashes mean equal numbers.
@@ -249,11 +226,21 @@ pub(crate) fn check(key: &'static str, value: f64, ok: bool, remedy: &'static st
     }
 }
 
-/// Kicks at about 2000 per look of the model, a whole number of them between two rows.
-fn noise(amplitude: f64, dt_out: f64, look: f64) -> Result<Option<NoiseSettings>, Error> {
-    check("noise", amplitude, amplitude >= 0.0, "give an amplitude above 0, or 0 for none")?;
-    let every = dt_out / (dt_out / (look / 2000.0)).ceil();
-    Ok((amplitude > 0.0).then_some(NoiseSettings { amplitude, every }))
+/// The noise of a study, if it has any.
+fn noise(study: &Study, model: &dyn Model, look: f64) -> Result<Option<NoiseSettings>, Error> {
+    let run = &study.run;
+    let remedy = "give an amplitude above 0, or 0 for none";
+    check("noise", run.noise, run.noise >= 0.0, remedy)?;
+    let unknown = model.velocities() > 0;
+    let velocity = run.noise_velocity.unwrap_or(if unknown { run.noise } else { 0.0 });
+    check("noise_velocity", velocity, velocity >= 0.0, remedy)?;
+    let remedy = "the velocity of this model is read off its shape: give noise, which is on the shape";
+    check("noise_velocity", velocity, unknown || velocity == 0.0, remedy)?;
+    let mut rates = vec![0.0; model.dim()];
+    Semilinear::<f64>::linear(model, &mut rates);
+    // A look is some tens of the slowest ordinary time scale.
+    let settings = NoiseSettings { velocity, shape: run.noise, step: Noise::step_for(&rates, look / 20.0) };
+    Ok((settings.largest() > 0.0).then_some(settings))
 }
 
 /// Refuses a study with noise where only the flow without it has an answer.
@@ -320,7 +307,10 @@ pub(crate) fn stepper(name: &str) -> Result<Method, Error> {
 pub(crate) fn control(study: &Study, method: Method) -> Result<Control, Error> {
     let run = &study.run;
     let control = match run.step {
-        None if method.is_adaptive() => Control::Adaptive { rtol: run.rtol, atol: run.atol },
+        None if method.is_adaptive() => {
+            let follows = study.info()?.absolute_tolerance(run.rtol);
+            Control::Adaptive { rtol: run.rtol, atol: run.atol.unwrap_or(follows) }
+        }
         step => Control::Fixed { step: step.unwrap_or(DEFAULT_STEP) },
     };
     method.validate(control.into())?;

@@ -4,10 +4,10 @@ use crate::analyse::Stop;
 use crate::plan::check;
 use crate::simulate::{Monitor, after_transient};
 use crate::table::Table;
-use crate::{Error, Plan};
+use crate::{Ending, Error, Plan};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::section::Crossing;
-use motiform_dynamics::{Direction, InPlane, Model, Outcome, Request, Section, Sink, Trajectory};
+use motiform_dynamics::{Direction, InPlane, Model, Request, Section, Sink, Trajectory};
 use std::ops::ControlFlow;
 
 /// The crossings of `coordinate = value` (a coordinate of the shape, or `x`, `y`) while the plan records: a table with
@@ -22,7 +22,7 @@ pub fn section(
     (coordinate, value): (&str, f64),
     direction: Direction,
     monitor: &dyn Monitor,
-) -> Result<(Table, Outcome), Error> {
+) -> Result<(Table, Ending), Error> {
     let c = &plan.computation;
     check("value", value, true, "give a finite number")?;
     let place = plan.info()?.coordinate(&c.parameters.values(), coordinate)?;
@@ -30,8 +30,8 @@ pub fn section(
     let weights = reading(model.as_ref(), place);
     let (ended, start) = after_transient(plan, model.as_ref(), monitor)?;
     let mut trajectory = Trajectory::new(start.len());
-    if let Some(outcome) = ended {
-        return Ok((table(model.as_ref(), &trajectory), outcome));
+    if let Some(ending) = ended {
+        return Ok((table(model.as_ref(), &trajectory), ending));
     }
     let body = InPlane(model.as_ref());
     let mut orbit = plan.method()?.orbit(&body, c.control.into(), 0.0, &start)?;
@@ -46,7 +46,7 @@ pub fn section(
     };
     let mut sink = Both(&mut trajectory, Stop::over(monitor, c.t_end));
     let outcome = drive(orbit.as_mut(), &request, &mut sink)?;
-    Ok((table(model.as_ref(), &trajectory), outcome))
+    Ok((table(model.as_ref(), &trajectory), outcome.into()))
 }
 
 /// The weights that read coordinate `place` off a state `(shape, x, y)`: coordinates are linear in the state.

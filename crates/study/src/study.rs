@@ -1,6 +1,7 @@
 //! A study as typed: everything optional, nothing computed yet.
 
 use crate::random::Random;
+pub use crate::run_settings::RunSettings;
 use crate::scan::Axis;
 use crate::toml_reader::{Source, Table, Value};
 use crate::{Error, presets};
@@ -36,54 +37,6 @@ pub struct Study {
     pub return_map: Option<ReturnMapSettings>,
     /// How to draw.
     pub figure: FigureSettings,
-}
-
-/// How to run.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct RunSettings {
-    /// Time that is recorded (model time), above 0.
-    pub t_end: f64,
-    /// Time before the recording starts; the position is put back to the start after it.
-    pub transient: f64,
-    /// Time between recorded states; 0 chooses t_end / 2000.
-    pub dt_out: f64,
-    /// Stepper: euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for stiff models ifrk4 (fixed step),
-    /// etdrk4, krogstad4 (adaptive).
-    pub stepper: String,
-    /// Relative tolerance of adaptive steppers, 1e-14 to 0.1.
-    pub rtol: f64,
-    /// Absolute tolerance of adaptive steppers.
-    pub atol: f64,
-    /// Fixed step. Without it adaptive steppers control their step, and the others take 1e-3.
-    #[schemars(with = "f64")]
-    pub step: Option<f64>,
-    /// Seed of everything random.
-    pub seed: u64,
-    /// Most steps a run may take.
-    pub max_steps: u64,
-    /// A shape whose norm exceeds this has escaped.
-    pub escape_norm: f64,
-    /// Amplitude eta of additive white noise on the shape, the same in every direction (0 for none): without the flow
-    /// every component of the state would have the variance eta^2 t.
-    pub noise: f64,
-}
-
-impl Default for RunSettings {
-    fn default() -> Self {
-        Self {
-            t_end: 200.0,
-            transient: 0.0,
-            dt_out: 0.0,
-            stepper: "dop853".to_owned(),
-            rtol: 1e-9,
-            atol: 1e-12,
-            step: None,
-            seed: 1,
-            max_steps: 100_000_000,
-            escape_norm: 1e6,
-            noise: 0.0,
-        }
-    }
 }
 
 /// What a scan varies.
@@ -151,12 +104,7 @@ impl Study {
             parameters: Vec::new(),
             initial: Vec::new(),
             random: None,
-            run: RunSettings {
-                stepper: info.stepper.to_owned(),
-                rtol: info.tolerances.0,
-                atol: info.tolerances.1,
-                ..RunSettings::default()
-            },
+            run: RunSettings { stepper: info.stepper.to_owned(), rtol: info.rtol, ..RunSettings::default() },
             scan: ScanSettings::default(),
             return_map: None,
             figure: FigureSettings { animation: true, ..FigureSettings::default() },
@@ -172,11 +120,6 @@ impl Study {
         let mut top = Source { file, text }.parse()?;
         let mut study = read_model(&mut top, file)?;
         name.clone_into(&mut study.name);
-        for (key, place) in [("title", &mut study.title), ("about", &mut study.about)] {
-            if let Some(text) = top.text(key)? {
-                *place = text;
-            }
-        }
         if let Some(free) = top.take("free") {
             study.free = read_free(&study, &free)?;
         }
@@ -186,8 +129,13 @@ impl Study {
             }
             read_initial(&mut study, table)?;
         }
+        for (key, place) in [("title", &mut study.title), ("about", &mut study.about)] {
+            if let Some(text) = top.text(key)? {
+                *place = text;
+            }
+        }
         if let Some(table) = top.table("run")? {
-            read_run(&mut study.run, table)?;
+            study.run.read(table)?;
         }
         if let Some(table) = top.table("scan")? {
             study.scan = read_scan(&study, table)?;
@@ -232,19 +180,28 @@ impl Study {
         Ok(specs.map(|spec| given(spec.name).unwrap_or(spec.default)).collect())
     }
 
-    /// Sets a parameter, replacing an earlier value.
+    /// Sets a parameter, replacing an earlier value. A title and a sentence that were made for another value go.
     ///
     /// # Errors
     /// An unknown name (with the nearest one).
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), Error> {
         let info = self.info()?;
-        motiform_models::parameters::index_of(info.parameters(), info.name, name)?;
+        let index = motiform_models::parameters::index_of(info.parameters(), info.name, name)?;
+        if self.values()?[index] != value {
+            self.untitle();
+        }
         let order: Vec<_> = info.parameters().iter().map(|spec| spec.name).collect();
         replace(&mut self.parameters, (name, value), &order);
         Ok(())
     }
 
-    /// Sets an initial value, replacing an earlier one.
+    /// Takes title and sentence away: they would speak of another motion.
+    fn untitle(&mut self) {
+        self.title.clear();
+        self.about.clear();
+    }
+
+    /// Sets an initial value, replacing an earlier one; title and sentence as in [`Study::set`].
     ///
     /// # Errors
     /// An unknown name (with the nearest one).
@@ -253,6 +210,9 @@ impl Study {
         info.coordinate(&values, name)?;
         let names = info.coordinates(&values).iter().map(|coordinate| coordinate.name);
         let order: Vec<_> = names.chain(["x", "y"]).collect();
+        if !self.initial.iter().any(|entry| entry.0 == name && entry.1 == value) {
+            self.untitle();
+        }
         replace(&mut self.initial, (name, value), &order);
         Ok(())
     }
@@ -337,25 +297,6 @@ fn read_initial(study: &mut Study, mut table: Table<'_>) -> Result<(), Error> {
 fn read_random(value: &Value<'_>) -> Result<Random, Error> {
     let Ok(text) = value.text() else { return Ok(Random::Within(value.number()?)) };
     Random::parse(&text).map_err(|error| value.error(error))
-}
-
-fn read_run(run: &mut RunSettings, mut table: Table<'_>) -> Result<(), Error> {
-    table.number("t_end", &mut run.t_end)?;
-    table.number("transient", &mut run.transient)?;
-    table.number("dt_out", &mut run.dt_out)?;
-    if let Some(stepper) = table.text("stepper")? {
-        run.stepper = stepper;
-    }
-    table.number("rtol", &mut run.rtol)?;
-    table.number("atol", &mut run.atol)?;
-    if let Some(step) = table.take("step") {
-        run.step = Some(step.number()?);
-    }
-    table.whole("seed", &mut run.seed)?;
-    table.whole("max_steps", &mut run.max_steps)?;
-    table.number("escape_norm", &mut run.escape_norm)?;
-    table.number("noise", &mut run.noise)?;
-    table.finish()
 }
 
 fn read_scan(study: &Study, mut table: Table<'_>) -> Result<ScanSettings, Error> {

@@ -110,12 +110,13 @@ mod tests {
             dt_out: 0.1,
             stepper: "rk4".to_owned(),
             rtol: 1e-7,
-            atol: 1e-8,
+            atol: Some(1e-8),
             step: Some(0.01),
             seed: 9,
             max_steps: 1000,
             escape_norm: 1e3,
             noise: 0.25,
+            noise_velocity: Some(0.0),
         };
         study.scan = ScanSettings {
             axes: vec![Axis::parse("gamma=0.1:0.7:5").unwrap(), Axis::parse("kappa2=0.3").unwrap()],

@@ -29,7 +29,7 @@ const COMPUTING: &[Change] = &[
     ("stepper", |s| s.run.stepper = "dopri5".into()),
     ("fixed stepper", |s| s.run.stepper = "rk4".into()),
     ("rtol", |s| s.run.rtol = 1e-10),
-    ("atol", |s| s.run.atol = 1e-13),
+    ("atol", |s| s.run.atol = Some(1e-13)),
     ("max_steps", |s| s.run.max_steps = 5),
     ("escape_norm", |s| s.run.escape_norm = 1e5),
     ("return map", |s| {

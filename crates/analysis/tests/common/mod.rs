@@ -28,7 +28,7 @@ pub(crate) fn cell(length: f64, modes: u32) -> Cell {
 /// How a model's motions are named by default.
 pub(crate) fn settings(model: &str) -> Settings {
     let info = ModelInfo::find(model).unwrap();
-    let (rtol, atol) = info.tolerances;
+    let (rtol, atol) = (info.rtol, info.absolute_tolerance(info.rtol));
     Settings {
         method: Method::find(info.stepper).unwrap(),
         control: StepControl::Adaptive { rtol, atol },

@@ -18,6 +18,13 @@ Examples:
   motiform simulate tensor --preset fig2 --noise 1e-6 --t-end 5000
   motiform simulate my-study.toml --json
 
+Noise: du = f(u) dt + ETA dW for every coordinate u that --initial names, each with a Wiener process W of its own. So without f
+its variance would be ETA^2 t: ETA has the unit of u per square root of model time. For tensor these are v1, v2 (velocity)
+and s11, s12, u111, u222 (shape), for cell c1, s1, c2, ... of phi. The law does not change with rotations. The path depends on
+the seed and the model's rates, not on --dt-out.
+
+The motion is named from where the run ends, if a short look decides (never with noise); `motiform classify` looks longer.
+
 The output folder holds
   manifest.json        plan, hash, version, seed, outcome
   trajectory.parquet   time, position, shape, speed, turning rate

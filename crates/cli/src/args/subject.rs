@@ -46,10 +46,10 @@ pub(crate) struct MethodOptions {
     /// Fixed step (without it, adaptive steppers control their own; the others take 1e-3)
     #[arg(long, value_name = "H", value_parser = number, allow_hyphen_values = true)]
     pub(crate) step: Option<f64>,
-    /// Relative tolerance of adaptive steppers
+    /// Relative tolerance of adaptive steppers: how accurate the run is
     #[arg(long, value_name = "R", value_parser = number, allow_hyphen_values = true)]
     pub(crate) rtol: Option<f64>,
-    /// Absolute tolerance of adaptive steppers
+    /// Absolute tolerance of adaptive steppers (default: it follows --rtol, a thousandth of it for tensor, a tenth for cell)
     #[arg(long, value_name = "A", value_parser = number, allow_hyphen_values = true)]
     pub(crate) atol: Option<f64>,
     /// Seed of the random start, and of noise

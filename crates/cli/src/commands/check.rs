@@ -1,8 +1,7 @@
 //! `motiform check`.
 
 use crate::args::CheckOptions;
-use crate::output::{End, print};
-use motiform_study::plan::Control;
+use crate::output::{End, plain, print};
 use motiform_study::{Plan, ScanPlan, Study, study};
 use std::fmt::Write;
 
@@ -30,7 +29,7 @@ pub(crate) fn run(options: &CheckOptions) -> anyhow::Result<End> {
 
 fn summary(plan: &Plan) -> anyhow::Result<String> {
     let c = &plan.computation;
-    let mut text = format!("{}: {}\nmodel       {}\n", plan.name, plan.title, c.model);
+    let mut text = format!("{}: {}\nmodel       {}\n", plan.name, plain(&plan.title()), c.model);
     let set: Vec<String> = c
         .parameters
         .0
@@ -42,11 +41,10 @@ fn summary(plan: &Plan) -> anyhow::Result<String> {
     let start: Vec<String> = c.initial.0.iter().map(|(name, value)| format!("{name}={value}")).collect();
     writeln!(text, "start       {}", start.join(" "))?;
     writeln!(text, "time        transient {}, recorded {}, every {}", c.transient, c.t_end, c.dt_out)?;
-    let control = match c.control {
-        Control::Adaptive { rtol, atol } => format!("rtol {rtol:e}, atol {atol:e}"),
-        Control::Fixed { step } => format!("step {step}"),
-    };
-    writeln!(text, "stepper     {}, {control}, at most {} steps", c.stepper, c.max_steps)?;
+    writeln!(text, "stepper     {}, {}, at most {} steps", c.stepper, c.control, c.max_steps)?;
+    if let Some(noise) = &c.noise {
+        writeln!(text, "noise       {noise}, seed {}", c.seed)?;
+    }
     write!(text, "plan        {}", plan.hash())?;
     Ok(text)
 }

@@ -42,6 +42,7 @@ fn many(options: &ClassifyOptions, plan: &Plan, samples: Samples, budget: f64) -
         let mut object = json!({
             "model": plan.computation.model,
             "parameters": plan.computation.parameters,
+            "control": plan.computation.control,
             "seed": plan.computation.seed,
             "regimes": counts,
             "starts": basins.starts,
@@ -87,6 +88,7 @@ fn json(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
     let mut object = json!({
         "model": computation.model,
         "parameters": computation.parameters,
+        "control": computation.control,
         "seed": computation.seed,
         "initial": computation.initial,
     });
@@ -144,6 +146,11 @@ fn summary(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
     if let Some(saddle) = verdict.saddle {
         writeln!(text, "saddle         lambda_+ {:.5}, lambda_- {:.5}", saddle.out, saddle.inward)?;
     }
-    write!(text, "time spent     {:.0} model time, seed {}", verdict.time, plan.computation.seed)?;
+    let c = &plan.computation;
+    write!(
+        text,
+        "time spent     {:.0} model time ({}, {}), seed {}",
+        verdict.time, c.stepper, c.control, c.seed
+    )?;
     Ok(text)
 }

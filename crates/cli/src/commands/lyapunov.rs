@@ -41,7 +41,7 @@ pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
     let found = analyse::lyapunov(&plan, count, (options.transient, options.t_end), &watch);
     watch.finish();
     let found = found?;
-    print(&if options.motion.json { json(&plan, &found)? } else { summary(&found)? })?;
+    print(&if options.motion.json { json(&plan, &found)? } else { summary(&plan, &found)? })?;
     Ok(if found.without_error().is_some() { End::NotAsAsked } else { End::from(&found.outcome) })
 }
 
@@ -49,6 +49,7 @@ fn json(plan: &Plan, found: &Lyapunov) -> anyhow::Result<String> {
     let mut object = json!({
         "model": plan.computation.model,
         "parameters": plan.computation.parameters,
+        "control": plan.computation.control,
         "exponents": found.exponents,
         "zeros": found.zeros(),
         "neutral": found.neutral,
@@ -62,7 +63,7 @@ fn json(plan: &Plan, found: &Lyapunov) -> anyhow::Result<String> {
     Ok(serde_json::to_string(&object)?)
 }
 
-fn summary(found: &Lyapunov) -> anyhow::Result<String> {
+fn summary(plan: &Plan, found: &Lyapunov) -> anyhow::Result<String> {
     let mut text = String::new();
     if found.exponents.is_empty() {
         write!(text, "no exponents: the run {}", found.outcome)?;
@@ -96,7 +97,12 @@ fn summary(found: &Lyapunov) -> anyhow::Result<String> {
         )?;
     }
     let digits = if found.time < 10.0 { 4 } else { 0 };
-    write!(text, "averaged over {:.digits$} model time after {:.0}", found.time, found.transient)?;
+    let c = &plan.computation;
+    write!(
+        text,
+        "averaged over {:.digits$} model time after {:.0} ({}, {})",
+        found.time, found.transient, c.stepper, c.control
+    )?;
     Ok(text)
 }
 
@@ -114,6 +120,7 @@ fn many(options: &LyapunovOptions, plan: &Plan, samples: Samples, count: usize) 
         let mut object = json!({
             "model": plan.computation.model,
             "parameters": plan.computation.parameters,
+            "control": plan.computation.control,
             "exponents": found.means,
             "agree": found.agree,
             "lasted": lasted,

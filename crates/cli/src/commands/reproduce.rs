@@ -1,7 +1,7 @@
 //! `motiform reproduce`.
 
 use crate::args::ReproduceOptions;
-use crate::output::{End, print, warn};
+use crate::output::{End, plain, print, warn};
 use crate::progress::Watch;
 use motiform_study::Error;
 use motiform_study::files::replace_file;
@@ -77,9 +77,4 @@ fn summary(report: &Report, page: &Path) -> anyhow::Result<String> {
     writeln!(text, "checks of ours: {}", counted(report.checks()))?;
     write!(text, "{}", page.display())?;
     Ok(text)
-}
-
-/// Markup as plain text.
-fn plain(markup: &str) -> String {
-    motiform_study::figures::Label::parse(markup).plain()
 }

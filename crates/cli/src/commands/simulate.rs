@@ -2,11 +2,12 @@
 
 use crate::args::{SimulateOptions, TableFormat};
 use crate::commands::{figure, subject};
-use crate::output::{End, print, warn};
+use crate::output::{End, plain, print, warn};
 use crate::progress::Watch;
+use motiform_analysis::Verdict;
 use motiform_study::files::{Format, Staging, write_dataset, write_table};
 use motiform_study::simulate::simulate;
-use motiform_study::{Dataset, Error, Plan, Study};
+use motiform_study::{Dataset, Error, Plan, Study, naming};
 use serde_json::json;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -16,11 +17,14 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     let target = Target::prepare(options, &plan)?;
     let c = &plan.computation;
     let watch = Watch::new(c.transient + c.t_end, "model time");
-    let dataset = simulate(&plan, &watch);
+    let dataset =
+        simulate(&plan, &watch).and_then(|dataset| Ok((naming::name(&dataset.manifest, &watch)?, dataset)));
     watch.finish();
-    let dataset = dataset?;
+    let (verdict, mut dataset) = dataset?;
+    dataset.manifest.regime = verdict.as_ref().map(|verdict| verdict.regime.name().to_owned());
     let (written, undrawn) = target.write(options, &dataset)?;
-    let text = if options.json { json(&dataset)? } else { summary(&dataset, written.as_deref())? };
+    let text =
+        if options.json { json(&dataset)? } else { summary(&dataset, verdict.as_ref(), written.as_deref())? };
     print(&text)?;
     if let Some(error) = dataset.manifest.step_error.filter(|&error| error > COARSE) {
         warn(&format!(
@@ -30,7 +34,7 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     if let Some(error) = undrawn {
         return Err(anyhow::Error::new(error).context("the tables are written, the figures are not"));
     }
-    Ok(End::from(&dataset.manifest.outcome))
+    Ok(End::from(&*dataset.manifest.outcome))
 }
 
 /// A fixed step whose own error is a larger part of the state than this deserves a word.
@@ -55,6 +59,7 @@ fn study(options: &SimulateOptions) -> Result<Study, Error> {
     if options.dt_out == Some(0.0) {
         return Err(Error::Setting { key: "dt_out", value: "0".into(), remedy: "give a time above 0" });
     }
+    run.noise_velocity = options.noise_velocity.or(run.noise_velocity);
     run.max_steps = options.max_steps.unwrap_or(run.max_steps);
     figure::apply(&options.drawing, &mut study.figure);
     Ok(study)
@@ -135,12 +140,16 @@ fn json(dataset: &Dataset) -> anyhow::Result<String> {
         "model": manifest.plan.computation.model,
         "parameters": manifest.plan.computation.parameters,
         "outcome": manifest.outcome,
-        "t": t_reached(dataset),
+        "control": manifest.plan.computation.control,
+        "t": manifest.outcome.t_last(),
         "state": manifest.state,
         "position": manifest.position,
         "steps": manifest.steps,
         "manifest": manifest,
     });
+    if let Some(regime) = &manifest.regime {
+        object["regime"] = json!(regime);
+    }
     if let Some(object) = object.as_object_mut().filter(|_| !manifest.measures.is_empty()) {
         object.insert("velocity".to_owned(), json!(manifest.velocity));
         for (name, value) in &manifest.measures.0 {
@@ -150,21 +159,20 @@ fn json(dataset: &Dataset) -> anyhow::Result<String> {
     Ok(serde_json::to_string(&object)?)
 }
 
-/// The time of the state that is reported: for a run that escaped, that of its last finite state.
-fn t_reached(dataset: &Dataset) -> f64 {
-    match dataset.manifest.outcome {
-        motiform_dynamics::Outcome::Escaped { t_last, .. } => t_last,
-        other => other.t(),
-    }
-}
-
-fn summary(dataset: &Dataset, written: Option<&str>) -> anyhow::Result<String> {
+fn summary(dataset: &Dataset, verdict: Option<&Verdict>, written: Option<&str>) -> anyhow::Result<String> {
     let manifest = &dataset.manifest;
     let plan = &manifest.plan;
-    let mut text = format!("{} ({}, {})\n", plan.title, plan.computation.model, plan.name);
+    let mut text = format!("{} ({}, {})\n", plain(&dataset.title()), plan.computation.model, plan.name);
     writeln!(text, "outcome   {}", manifest.outcome)?;
     let (steps, rejected) = (manifest.steps, manifest.rejected_steps);
-    writeln!(text, "steps     {steps} accepted, {rejected} rejected ({})", plan.computation.stepper)?;
+    let c = &plan.computation;
+    writeln!(text, "steps     {steps} accepted, {rejected} rejected ({}, {})", c.stepper, c.control)?;
+    if let Some(noise) = &c.noise {
+        writeln!(text, "noise     {noise}, seed {}", c.seed)?;
+    }
+    if let Some(verdict) = verdict {
+        writeln!(text, "motion    at the end {}: {}", verdict.regime, verdict.why)?;
+    }
     let state: Vec<String> =
         manifest.state.0.iter().map(|(name, value)| format!("{name} = {value:.6}")).collect();
     writeln!(text, "state     {}", state.join("  "))?;

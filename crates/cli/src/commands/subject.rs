@@ -33,7 +33,7 @@ pub(crate) fn apply(options: &MethodOptions, study: &mut Study) -> Result<(), Er
     study.random = options.random.or(study.random);
     let run = &mut study.run;
     run.rtol = options.rtol.unwrap_or(run.rtol);
-    run.atol = options.atol.unwrap_or(run.atol);
+    run.atol = options.atol.or(run.atol);
     run.step = options.step.or(run.step);
     run.seed = options.seed.unwrap_or(run.seed);
     if let Some(stepper) = &options.stepper {

@@ -50,7 +50,7 @@ impl Setting {
         for (name, value) in &begin.parameters {
             study.set(name, *value)?;
         }
-        (study.run.seed, study.run.noise) = (begin.seed, begin.noise);
+        (study.run.seed, study.run.noise, study.run.noise_velocity) = (begin.seed, begin.noise, None);
         let plan = Plan::new(&study)?;
         let model = plan.info()?.build(&plan.computation.parameters.values())?;
         let state = match &begin.state {
@@ -72,7 +72,7 @@ impl Setting {
         let model = study.info()?.build(&study.values()?)?;
         let mut now = at(&study, model.as_ref(), &state);
         let plan = Plan::new(&now)?;
-        now.run.noise = 0.0;
+        now.run.silence();
         let quiet = Plan::new(&now)?;
         Ok(Self { preset, study, plan, quiet, model, revision, t, state, radius: 0.0 })
     }
@@ -143,7 +143,7 @@ impl Setting {
     /// The same motion, seen from a later state.
     pub(crate) fn motion_at(&self, state: &[f64]) -> Result<Motion, Error> {
         let mut study = self.study_at(state);
-        study.run.noise = 0.0;
+        study.run.silence();
         Ok(Motion { revision: self.revision, plan: Plan::new(&study)?, again: true })
     }
 

@@ -111,7 +111,7 @@ fn spec(info: &'static ModelInfo, side: &Side) -> Result<&'static ParameterSpec,
 /// The study of a map: one start for all cells, that of `motiform classify` with the same parameters.
 fn of_map(study: &Study, axes: Vec<Axis>) -> Result<Study, Error> {
     let mut study = study.clone();
-    study.run.noise = 0.0;
+    study.run.silence();
     study.title = format!("Motions of the {} model", study.model); // a preset's is that of one motion
     // The number of modes decides which coordinates there are: each cell then draws its own.
     if study.initial.is_empty() && !axes.iter().any(|axis| axis.name == "modes") {

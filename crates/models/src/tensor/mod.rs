@@ -186,6 +186,11 @@ impl Model for Tensor {
         c.copy_from_slice(&[z[0], -z[1], 2.0 * z[2], -2.0 * z[3], 2.0 * z[4], 2.0 * z[5]]);
     }
 
+    /// v1 and v2.
+    fn velocities(&self) -> usize {
+        2
+    }
+
     fn observables(&self) -> &[Observable] {
         &OBSERVABLES
     }

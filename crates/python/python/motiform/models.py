@@ -119,6 +119,7 @@ class Model:
         random: Random | None = None,
         seed: int | None = None,
         noise: float | None = None,
+        noise_velocity: float | None = None,
         stepper: str | None = None,
         rtol: float | None = None,
         atol: float | None = None,
@@ -145,9 +146,11 @@ class Model:
             How large a random start is: a size (each coordinate within ±size; 0.01 if not given), or ``(min, max)``: all
             directions, the norm log-uniform between these.
         noise
-            Amplitude of additive white noise on the shape.
+            Amplitude eta of additive white noise: ``du = f(u) dt + eta dW`` for every coordinate ``u`` of the shape, and of
+            the velocity where that is an unknown (tensor), unless `noise_velocity` gives its amplitude.
         stepper, rtol, atol, step
-            Method and step control; a `step` fixes it.
+            Method and step control; a `step` fixes it. `rtol` decides how accurate the run is: `atol` follows it
+            unless it is given (:attr:`Trajectory.tolerances` says both).
         escape_norm
             A shape beyond this norm has escaped.
         on_end
@@ -158,7 +161,7 @@ class Model:
         """
         given = {
             "t_end": t_end, "transient": transient, "dt_out": dt_out, "random": random, "seed": seed, "noise": noise,
-            "stepper": stepper, "rtol": rtol, "atol": atol, "step": step, "max_steps": max_steps,
+            "noise_velocity": noise_velocity, "stepper": stepper, "rtol": rtol, "atol": atol, "step": step, "max_steps": max_steps,
             "escape_norm": escape_norm,
         }  # fmt: skip
         study = _with(self._study, initial, given)
@@ -296,7 +299,7 @@ class Model:
 
 
 _SETTINGS = frozenset({
-    "t_end", "transient", "dt_out", "random", "seed", "noise", "stepper", "rtol", "atol", "step", "max_steps",
+    "t_end", "transient", "dt_out", "random", "seed", "noise", "noise_velocity", "stepper", "rtol", "atol", "step", "max_steps",
     "escape_norm",
 })  # fmt: skip
 

@@ -134,6 +134,17 @@ class Trajectory:
         """How the run ended."""
         return outcome_of(self.manifest["outcome"], self._run.complete, self._run.ended)
 
+    @property
+    def tolerances(self) -> dict[str, float]:
+        """``rtol`` and ``atol`` of the run, or its fixed ``step``."""
+        return dict(self.manifest["plan"]["computation"]["control"])
+
+    @cached_property
+    def regime(self) -> str | None:
+        """The motion's name, where a short look from the end of the run decides; never under noise, nor of a run that ended
+        early. :meth:`Model.classify` looks longer and says why."""
+        return self._run.regime()
+
     @cached_property
     def crossings(self) -> pd.DataFrame | None:
         """The crossings of the return map's segment, where the study has one: ``t``, ``x``, ``y``, ``rising``."""

@@ -24,7 +24,7 @@ pub fn spectrum(plan: &Plan, spectra: &Spectra) -> Result<Option<String>, Error>
     });
     let method = format!("Welch's method: {} segments, Hann window, half overlapping.", spectra.segments);
     let figure = SpectrumFigure {
-        title: format!("{}: power spectrum", plan.title),
+        title: format!("{}: power spectrum", plan.title()),
         caption: vec![parameters(plan)?, method],
         y_label: "power spectral density (value^2 × time)".to_owned(),
         frequencies: spectra.frequencies.clone(),
@@ -43,7 +43,7 @@ pub fn return_map(plan: &Plan, xs: &[f64], symbol: &str, what: &str) -> Result<O
         return Ok(None);
     }
     let figure = ReturnMapFigure {
-        title: format!("{}: return map", plan.title),
+        title: format!("{}: return map", plan.title()),
         caption: vec![parameters(plan)?, what.to_owned(), format!("{} returns.", xs.len() - 1)],
         x_label: format!("{symbol}_*n*"),
         y_label: format!("{symbol}_{{*n*+1}}"),
@@ -70,7 +70,7 @@ pub fn exponents(plan: &Plan, history: &[(f64, Vec<Estimate>)]) -> Result<Option
         ErrorBarSeries { label: format!("*λ*_{}", k + 1), points, joined: true }
     };
     let figure = ErrorBarFigure {
-        title: format!("{}: Lyapunov exponents", plan.title),
+        title: format!("{}: Lyapunov exponents", plan.title()),
         caption: vec![
             parameters(plan)?,
             "Exponents of the motion from the state at the last change, without noise. Bars: 95 % confidence intervals."

@@ -18,7 +18,7 @@ pub(super) fn figure(body: &Body<'_>) -> PathFigure {
     }
     caption.extend(words::section(body));
     PathFigure {
-        title: body.dataset.manifest.plan.title.clone(),
+        title: body.dataset.title(),
         caption,
         segments: vec![points(body)],
         outlines: stamps,

@@ -15,7 +15,7 @@ pub(super) fn figure(body: &Body<'_>) -> Option<ReturnMapFigure> {
     caption.extend(words::section(body));
     caption.push(format!("{} crossings.", xs.len()));
     Some(ReturnMapFigure {
-        title: format!("{}: return map", body.dataset.manifest.plan.title),
+        title: format!("{}: return map", body.dataset.title()),
         caption,
         points,
         ..ReturnMapFigure::default()

@@ -29,7 +29,7 @@ pub(super) fn figure(body: &Body<'_>) -> SeriesFigure {
     }
     measures(body, &mut panels, &mut notes);
     SeriesFigure {
-        title: body.dataset.manifest.plan.title.clone(),
+        title: body.dataset.title(),
         times: body.column("t")[body.rows()].to_vec(),
         panels,
         notes,

@@ -21,7 +21,7 @@ pub(super) fn figure(body: &Body<'_>) -> Option<SpaceTimeFigure> {
     let values = places.flat_map(|place| profiles.iter().map(move |profile| profile[place])).collect();
     let last = *rows.last()?;
     Some(SpaceTimeFigure {
-        title: format!("{}: *φ*(*s*, *t*)", body.dataset.manifest.plan.title),
+        title: format!("{}: *φ*(*s*, *t*)", body.dataset.title()),
         caption: vec![words::parameters(body), words::method(body)],
         times: (body.time(rows[0]), body.time(last)),
         places: (0.0, body.arc_length()),

@@ -28,7 +28,7 @@ pub(super) fn figure(body: &Body<'_>) -> Option<SpectrumFigure> {
         first.segments
     );
     Some(SpectrumFigure {
-        title: format!("{}: power spectrum", body.dataset.manifest.plan.title),
+        title: format!("{}: power spectrum", body.dataset.title()),
         caption: vec![words::parameters(body), method],
         y_label: "power spectral density (length^2 × time)".to_owned(),
         frequencies: first.frequencies.clone(),

@@ -1,7 +1,8 @@
 //! Captions: the parameter set, the method, the scale of what is drawn. All of it from the manifest.
 
 use super::body::Body;
-use crate::plan::{Control, Named};
+use crate::plan::{Control, Named, NoiseSettings};
+use crate::titles::capital;
 use motiform_dynamics::Outcome;
 use motiform_models::ModelInfo;
 
@@ -42,25 +43,24 @@ pub(super) fn named(info: &ModelInfo, values: &Named) -> String {
     format!("{} model: {}{others}.", capital(info.name), set.join(", "))
 }
 
-fn capital(name: &str) -> String {
-    let mut letters = name.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-}
-
 /// How it was computed, and how the run ended if it did not complete.
 pub(super) fn method(body: &Body<'_>) -> String {
     let manifest = &body.dataset.manifest;
     let c = &manifest.plan.computation;
     let (title, control) = (stepper(&c.stepper), control(c.control));
-    let transient = if c.transient > 0.0 {
-        format!(" The first {} time units are not shown.", number(c.transient))
-    } else {
-        String::new()
+    let early = manifest.outcome.during.is_some();
+    let transient = match c.transient {
+        length if early => {
+            format!(
+                " The run did not survive its transient of {} time units: shown is its end.",
+                number(length)
+            )
+        }
+        length if length > 0.0 => format!(" The first {} time units are not shown.", number(length)),
+        _ => String::new(),
     };
-    let noise = c.noise.map_or_else(String::new, |noise| {
-        format!(" White noise of amplitude {} on the shape, seed {}.", number(noise.amplitude), c.seed)
-    });
-    let end = match manifest.outcome {
+    let noise = c.noise.map_or_else(String::new, |noise| self::noise(noise, body.model.velocities(), c.seed));
+    let end = match manifest.outcome.outcome {
         Outcome::Completed { .. } => String::new(),
         Outcome::Escaped { t, singular: true, .. } => {
             format!(" The solution blows up at *t** = {}.", number(t))
@@ -71,16 +71,31 @@ pub(super) fn method(body: &Body<'_>) -> String {
     format!("Computed by {title}, {control}.{noise}{transient}{end}")
 }
 
+/// The noise, its amplitudes and seed.
+fn noise(noise: NoiseSettings, velocities: usize, seed: u64) -> String {
+    let NoiseSettings { velocity, shape, .. } = noise;
+    let of = if velocities == 0 {
+        format!("{} on each coordinate of the shape", number(shape))
+    } else if velocity == shape {
+        format!("{} on each coordinate of velocity and shape", number(shape))
+    } else {
+        format!("{} on each coordinate of the velocity, {} of the shape", number(velocity), number(shape))
+    };
+    format!(" White noise of amplitude {of}, seed {seed}.")
+}
+
 /// What a stepper is called, without the kind of its control.
 pub(super) fn stepper(name: &str) -> &str {
     let title = motiform_dynamics::steppers::Method::find(name).map_or(name, |method| method.title());
     [", fixed step", ", adaptive"].iter().find_map(|kind| title.find(kind)).map_or(title, |at| &title[..at])
 }
 
-/// `relative tolerance 10^-9`, or the step.
+/// `tolerances 10^-9 (relative) and 10^-12`, or the step.
 pub(super) fn control(control: Control) -> String {
     match control {
-        Control::Adaptive { rtol, .. } => format!("relative tolerance {}", number(rtol)),
+        Control::Adaptive { rtol, atol } => {
+            format!("relative tolerance {}, absolute {}", number(rtol), number(atol))
+        }
         Control::Fixed { step } => format!("step {}", number(step)),
     }
 }

@@ -3,7 +3,8 @@
 use super::Record;
 use crate::dataset::{Dataset, Manifest, VERSION};
 use crate::plan::Named;
-use crate::simulate::{finite, measures, motion};
+use crate::readings::{measures, motion};
+use crate::simulate::finite;
 use crate::table::Table;
 use crate::{Error, Plan};
 use motiform_dynamics::model::velocity;
@@ -44,7 +45,8 @@ pub fn dataset(
         motiform: VERSION.to_owned(),
         plan_hash: plan.hash(),
         seed: plan.computation.seed,
-        outcome: finite(outcome.unwrap_or(Outcome::Completed { t: last.t - first.t })),
+        outcome: finite(outcome.unwrap_or(Outcome::Completed { t: last.t - first.t }).into()),
+        regime: None,
         steps: 0,
         rejected_steps: 0,
         state,

@@ -1,6 +1,6 @@
 //! What was seen of a motion since its last change.
 
-use crate::simulate::pace;
+use crate::readings::pace;
 use motiform_dynamics::Model;
 
 /// The last samples of a motion, in memory that does not grow beyond twice `most` of them.

@@ -57,7 +57,7 @@ impl<'b> Stretch<'b> {
     ) -> Result<Self, Error> {
         let c = &plan.computation;
         let orbit = plan.method()?.orbit(body, c.control.into(), t, state)?;
-        let orbit = noisy(c, orbit, body.0.dim(), 2 + number)?; // 0 and 1 are those of a plan's own run
+        let orbit = noisy(c, orbit, body.0, 2 + number)?; // 0 and 1 are those of a plan's own run
         let request = Request {
             sample_every: Some(c.dt_out),
             escape_norm: c.escape_norm,
@@ -106,7 +106,7 @@ impl<'b> Stretch<'b> {
         }
         self.shown = t;
         if t < self.orbit.t() {
-            self.orbit.dense().at(t, &mut self.state);
+            self.orbit.at(t, &mut self.state);
         } else {
             self.state.copy_from_slice(self.orbit.state());
         }

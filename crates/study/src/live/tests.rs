@@ -107,7 +107,7 @@ fn a_blow_up_is_an_end() {
     (study.run.transient, study.run.dt_out) = (0.0, 0.001);
     let plan = Plan::new(&study).unwrap();
     let (_, _, outcome, _) = watched(&plan, 1.0);
-    let simulated = simulate(&plan, &()).unwrap().manifest.outcome;
+    let simulated = simulate(&plan, &()).unwrap().manifest.outcome.outcome;
     assert!(matches!(simulated, Outcome::Escaped { singular: true, .. }));
     assert!((outcome.unwrap().t() - simulated.t()).abs() < 1e-9);
 }

@@ -46,7 +46,7 @@ impl Context<'_> {
     /// Runs a study.
     pub(super) fn simulate(&self, study: &Study) -> Result<Dataset, Error> {
         let dataset = simulate(&Plan::new(study)?, &Quiet(self.monitor))?;
-        match dataset.manifest.outcome {
+        match *dataset.manifest.outcome {
             Outcome::Interrupted { .. } => Err(Error::Interrupted),
             _ => Ok(dataset),
         }

@@ -29,7 +29,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         ];
         study.scan.samples = context.choose(2, 1);
         // near rest digits must stay relative, or shapes hover where they should decay
-        (study.run.rtol, study.run.atol) = (1e-10, 1e-30);
+        (study.run.rtol, study.run.atol) = (1e-10, Some(1e-30));
         Ok(())
     })?;
     let (plan, cells) = context.scan("fig1", &study)?;

@@ -72,7 +72,7 @@ impl ScanPlan {
         let method = stepper(&study.run.stepper)?;
         let (run, scan) = (&study.run, &study.scan);
         check_settings(study)?;
-        check_no_noise(run.noise)?;
+        check_no_noise(run.largest_noise())?;
         check_axes(study, info)?;
         let free = |name: &str| scan.axes.iter().any(|axis| axis.name == name);
         let names = info.parameters().iter().map(|spec| spec.name.to_owned());
@@ -97,7 +97,7 @@ impl ScanPlan {
             budget: scan.budget,
             fast: scan.fast,
         };
-        let title = if study.title.is_empty() { info.name.to_owned() } else { study.title.clone() };
+        let title = crate::titles::of_scan(study, info);
         let plan = Self { name: study.name.clone(), title, computation };
         plan.check_cells()?;
         if scan.fast && !lanes::has_kernel(&plan) {

@@ -41,7 +41,7 @@ fn circle(context: &Context<'_>) -> Result<Claim, Error> {
             study.set_initial(&format!("c{n}"), 1e-9)?;
         }
         (study.run.transient, study.run.t_end, study.run.dt_out) = (0.0, 0.5, 0.5);
-        (study.run.rtol, study.run.atol) = (1e-10, 1e-18);
+        (study.run.rtol, study.run.atol) = (1e-10, Some(1e-18));
         let end = context.simulate(&study)?.manifest.state;
         Ok((1..=8).map(|n| (end.get(&format!("c{n}")).unwrap_or(f64::NAN) / 1e-9).ln() / 0.5).collect())
     };

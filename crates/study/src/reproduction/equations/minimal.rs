@@ -27,7 +27,7 @@ pub(super) fn claim_of(context: &Context<'_>) -> Result<Claim, Error> {
             study.set_initial(name, units * value)?;
         }
         (study.run.transient, study.run.t_end, study.run.dt_out) = (0.0, duration, duration);
-        (study.run.rtol, study.run.atol) = (1e-11, 1e-13);
+        (study.run.rtol, study.run.atol) = (1e-11, Some(1e-13));
         let state = context.simulate(&study)?.manifest.state.values();
         Ok(state[..2 * modes].iter().map(|x| x / units).collect())
     };

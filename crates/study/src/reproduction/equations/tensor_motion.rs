@@ -21,7 +21,7 @@ pub(super) fn claims(context: &Context<'_>) -> Result<Vec<Claim>, Error> {
 /// A body with these parameters, all couplings else 0.
 fn body(parameters: &[(&str, f64)]) -> Result<Study, Error> {
     let mut study = Study::of_model(ModelInfo::find("tensor")?);
-    study.random = 0.1;
+    study.random = Some(crate::Random::Within(0.1));
     parameters.iter().try_for_each(|(name, value)| study.set(name, *value))?;
     Ok(study)
 }
@@ -156,7 +156,7 @@ fn saturation(context: &Context<'_>) -> Result<Claim, Error> {
                 .iter()
                 .try_for_each(|(name, value)| study.set_initial(name, *value))?;
             (study.run.transient, study.run.t_end, study.run.dt_out) = (0.0, 300.0, 1.0);
-            (study.run.rtol, study.run.atol) = (1e-12, 1e-15);
+            (study.run.rtol, study.run.atol) = (1e-12, Some(1e-15));
             Ok(())
         })?;
         Ok(context.simulate(&study)?.trajectory.get("speed").unwrap_or(&[]).to_vec())

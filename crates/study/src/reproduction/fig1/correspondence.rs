@@ -32,7 +32,7 @@ fn end(context: &Context<'_>, kappa2: f64, gamma: f64) -> Result<Polar, Error> {
     let study = context.preset("fig1", |study| {
         study.set("kappa2", kappa2)?;
         study.set("gamma", gamma)?;
-        (study.run.rtol, study.run.atol) = (1e-11, 1e-30);
+        (study.run.rtol, study.run.atol) = (1e-11, Some(1e-30));
         (study.run.transient, study.run.t_end) = (3000.0, 1.0);
         Ok(())
     })?;

@@ -59,7 +59,7 @@ impl Crossed {
                 study.set_initial("v1", 1.02 * speed)?;
                 study.set_initial("v2", 1e-4 * speed)?;
                 study.set_initial("s11", 2.0 * s)?;
-                (study.run.rtol, study.run.atol) = (1e-10, 1e-30);
+                (study.run.rtol, study.run.atol) = (1e-10, Some(1e-30));
                 Ok(())
             })?;
             let verdict = context.classify(&study)?;

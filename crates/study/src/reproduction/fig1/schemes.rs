@@ -66,7 +66,7 @@ fn seen(context: &Context<'_>, kappa2: f64, gamma: f64, step: Option<f64>) -> Re
         study.set("gamma", gamma)?;
         let start = [("v1", 0.1), ("v2", 0.03), ("s11", 0.1), ("s12", 0.04)];
         study.initial = start.map(|(name, value)| (name.to_owned(), value)).to_vec();
-        (study.run.rtol, study.run.atol) = (1e-10, 1e-30);
+        (study.run.rtol, study.run.atol) = (1e-10, Some(1e-30));
         (study.run.transient, study.run.t_end, study.run.dt_out) = {
             let (transient, t_end) = context.choose((1500.0, 300.0), (500.0, 100.0));
             (transient, t_end, 0.1)

@@ -16,7 +16,7 @@ use std::ops::ControlFlow;
 /// Seed of the noise.
 const SEED: u64 = 2010;
 
-/// Time step, time between kicks and between samples.
+/// Step of the method, of the noise and between samples.
 const STEP: f64 = 0.2;
 
 /// Cut off: the way from the start to the cycle.
@@ -70,7 +70,7 @@ fn path(context: &Context<'_>, eta: f64, stream: u64, time: f64) -> Result<Vec<P
     let body = InPlane(model);
     let start = [0.01, 0.0, 0.005, 0.0015, 0.0, 0.0, 0.0, 0.0];
     let orbit = Orbit::new(&body, &RK4, StepControl::Fixed { step: STEP }, 0.0, &start)?;
-    let noise = Noise { amplitude: eta, every: STEP, entries: 6 };
+    let noise = Noise::on(&model, eta, eta, STEP);
     let mut noisy = NoisyOrbit::new(orbit, noise, Normal::new(SEED, stream))?;
     let request = Request { sample_every: Some(STEP), watched: 6, ..Request::until(time, 8) };
     let mut recorder = Recorder { model, context, path: Vec::new(), ticks: 0 };

@@ -21,7 +21,7 @@ pub(super) struct Approach {
 /// The shape of the tensor model is z1, z2, z3, real and imaginary parts in turn.
 pub(super) fn follow(start: &Study) -> Result<Approach, Error> {
     let mut study = start.clone();
-    (study.run.rtol, study.run.atol, study.run.escape_norm) = (1e-13, 1e-16, BOUND);
+    (study.run.rtol, study.run.atol, study.run.escape_norm) = (1e-13, Some(1e-16), BOUND);
     let plan = Plan::new(&study)?;
     let c = &plan.computation;
     let model = plan.info()?.build(&c.parameters.values())?;

@@ -46,7 +46,7 @@ fn starts(context: &Context<'_>, study: &Study, count: usize) -> Result<Vec<Stud
     let start = |row: usize| {
         let mut start = study.clone();
         (start.run.transient, start.run.t_end, start.run.dt_out) = (0.0, SPAN.0, SPAN.1);
-        (start.run.rtol, start.run.atol) = (1e-13, 1e-15);
+        (start.run.rtol, start.run.atol) = (1e-13, Some(1e-15));
         for name in SHAPE {
             start.set_initial(name, recorded.get(name).map_or(0.0, |column| column[row]))?;
         }

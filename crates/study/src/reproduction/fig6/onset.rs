@@ -102,7 +102,7 @@ fn growth(context: &Context<'_>, n: u16, length: f64) -> Result<f64, Error> {
     let name = format!("c{n}");
     study.set_initial(&name, START)?;
     (study.run.transient, study.run.t_end, study.run.dt_out) = (0.0, TIME, TIME);
-    (study.run.rtol, study.run.atol) = (1e-10, 1e-17);
+    (study.run.rtol, study.run.atol) = (1e-10, Some(1e-17));
     let end = context.simulate(&study)?.manifest.state.get(&name).unwrap_or(f64::NAN);
     Ok((end / START).ln() / TIME)
 }

@@ -22,7 +22,7 @@ pub(super) fn claim_of(context: &Context<'_>) -> Result<Claim, Error> {
     let (mut explicit, mut exponential) = (start(LENGTH, MODES, time)?, start(LENGTH, MODES, time)?);
     "rk4".clone_into(&mut explicit.run.stepper);
     explicit.run.step = Some(STEP);
-    (exponential.run.rtol, exponential.run.atol) = (1e-10, 1e-12);
+    (exponential.run.rtol, exponential.run.atol) = (1e-10, Some(1e-12));
     let scheme = apart(context, &explicit, &exponential, MODES)?;
     let short = context.choose(60.0, 30.0);
     let truncation = apart(context, &start(21.6, 15, short)?, &start(21.6, 30, short)?, 15)?;
@@ -57,7 +57,7 @@ fn start(length: f64, modes: usize, time: f64) -> Result<Study, Error> {
         study.set_initial(&format!("s{n}"), 0.3 * random.next())?;
     }
     (study.run.transient, study.run.t_end, study.run.dt_out) = (0.0, time, time);
-    (study.run.rtol, study.run.atol) = (1e-10, 1e-12);
+    (study.run.rtol, study.run.atol) = (1e-10, Some(1e-12));
     Ok(study)
 }
 

@@ -1,0 +1,101 @@
+//! How to run, as typed.
+
+use crate::Error;
+use crate::toml_reader::Table;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// How to run.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct RunSettings {
+    /// Time that is recorded (model time), above 0.
+    pub t_end: f64,
+    /// Time before the recording starts; the position is put back to the start after it.
+    pub transient: f64,
+    /// Time between recorded states; 0 chooses t_end / 2000.
+    pub dt_out: f64,
+    /// Stepper: euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for stiff models ifrk4 (fixed step),
+    /// etdrk4, krogstad4 (adaptive).
+    pub stepper: String,
+    /// Relative tolerance of adaptive steppers, 1e-14 to 0.1: how accurate the run is.
+    pub rtol: f64,
+    /// Absolute tolerance of adaptive steppers. Without it, it follows `rtol`: a thousandth of it for tensor, a tenth for cell.
+    #[schemars(with = "f64")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub atol: Option<f64>,
+    /// Fixed step. Without it adaptive steppers control their step, and the others take 1e-3.
+    #[schemars(with = "f64")]
+    pub step: Option<f64>,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// Most steps a run may take.
+    pub max_steps: u64,
+    /// A shape whose norm exceeds this has escaped.
+    pub escape_norm: f64,
+    /// Amplitude eta of additive white noise (0 for none): du = f(u) dt + eta dW for every coordinate u of the shape (s11, s12,
+    /// u111, u222; c1, s1, c2, ...), and for v1, v2 unless `noise_velocity` is given. Unit of u per square root of model time.
+    pub noise: f64,
+    /// Amplitude of the noise on v1 and v2, where it is not that of the shape. For models whose velocity is an unknown: tensor.
+    #[schemars(with = "f64")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub noise_velocity: Option<f64>,
+}
+
+impl RunSettings {
+    /// The larger amplitude of its noise; 0 where there is none.
+    #[must_use]
+    pub fn largest_noise(&self) -> f64 {
+        self.noise.max(self.noise_velocity.unwrap_or(0.0))
+    }
+
+    /// Reads the keys of `[run]` that are given.
+    pub(crate) fn read(&mut self, mut table: Table<'_>) -> Result<(), Error> {
+        table.number("t_end", &mut self.t_end)?;
+        table.number("transient", &mut self.transient)?;
+        table.number("dt_out", &mut self.dt_out)?;
+        if let Some(stepper) = table.text("stepper")? {
+            self.stepper = stepper;
+        }
+        table.number("rtol", &mut self.rtol)?;
+        optional(&mut table, "atol", &mut self.atol)?;
+        optional(&mut table, "step", &mut self.step)?;
+        table.whole("seed", &mut self.seed)?;
+        table.whole("max_steps", &mut self.max_steps)?;
+        table.number("escape_norm", &mut self.escape_norm)?;
+        table.number("noise", &mut self.noise)?;
+        optional(&mut table, "noise_velocity", &mut self.noise_velocity)?;
+        table.finish()
+    }
+
+    /// Takes the noise away.
+    pub fn silence(&mut self) {
+        (self.noise, self.noise_velocity) = (0.0, None);
+    }
+}
+
+impl Default for RunSettings {
+    fn default() -> Self {
+        Self {
+            t_end: 200.0,
+            transient: 0.0,
+            dt_out: 0.0,
+            stepper: "dop853".to_owned(),
+            rtol: 1e-9,
+            atol: None,
+            step: None,
+            seed: 1,
+            max_steps: 100_000_000,
+            escape_norm: 1e6,
+            noise: 0.0,
+            noise_velocity: None,
+        }
+    }
+}
+
+/// A number that has no default.
+fn optional(table: &mut Table<'_>, key: &'static str, place: &mut Option<f64>) -> Result<(), Error> {
+    if let Some(value) = table.take(key) {
+        *place = Some(value.number()?);
+    }
+    Ok(())
+}

@@ -1,0 +1,70 @@
+//! What figures are called: as typed, else by the verdict, else by the parameters. Never by the motion of a preset that other
+//! parameters were given to ([`Study::set`] takes its title away).
+
+use crate::draw::number;
+use crate::presets::{self, PRESETS};
+use crate::{Dataset, Plan, Study};
+use motiform_models::ModelInfo;
+
+/// More parameters than this do not fit into a title.
+const MOST: usize = 3;
+
+impl Plan {
+    /// Title of its figures: as typed, else the model with the parameters that differ from its preset (or from the model's
+    /// defaults), if they are few. Markup: italic letters between `*`.
+    #[must_use]
+    pub fn title(&self) -> String {
+        if self.title.is_empty() { self.parametric(None) } else { self.title.clone() }
+    }
+
+    /// `Tensor model: kappa2 = 0.5`, or with a verdict `Circular motion: kappa2 = 0.5`.
+    fn parametric(&self, regime: Option<&str>) -> String {
+        let model = format!("{} model", capital(&self.computation.model));
+        let changed = self.changed();
+        let motion = regime.map(|regime| match regime {
+            "motionless" => "Motionless body".to_owned(),
+            name => format!("{} motion", capital(name)),
+        });
+        match (motion, changed.is_empty() || changed.len() > MOST) {
+            (None, true) => model,
+            (None, false) => format!("{model}: {}", changed.join(", ")),
+            (Some(motion), true) => format!("{motion} of the {} model", self.computation.model),
+            (Some(motion), false) => format!("{motion}: {}", changed.join(", ")),
+        }
+    }
+
+    /// The parameters that are not those of the preset of its name, or of the model, as `symbol = value`.
+    fn changed(&self) -> Vec<String> {
+        let Ok(info) = self.info() else { return Vec::new() };
+        let bare = presets::find(info, &self.name).unwrap_or_else(|_| Study::of_model(info));
+        let given = self.computation.parameters.values();
+        let values = bare.values().unwrap_or_default().into_iter().zip(given);
+        let specs = info.parameters().iter().zip(values).filter(|(_, (then, now))| then != now);
+        specs.map(|(spec, (_, now))| format!("{}\u{a0}=\u{a0}{}", spec.symbol, number(now))).collect()
+    }
+}
+
+impl Dataset {
+    /// Title of its figures: as typed, else by the regime that its motion was named with, else by its parameters.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let (plan, regime) = (&self.manifest.plan, self.manifest.regime.as_deref());
+        if plan.title.is_empty() { plan.parametric(regime) } else { plan.title.clone() }
+    }
+}
+
+/// Title of a scan: as typed, if it is not that of a preset, which speaks of one motion.
+pub(crate) fn of_scan(study: &Study, info: &'static ModelInfo) -> String {
+    let of_preset = |name: &str| presets::find(info, name).is_ok_and(|preset| preset.title == study.title);
+    let theirs = PRESETS.iter().any(|preset| preset.model == info.name && of_preset(preset.name));
+    if study.title.is_empty() || theirs {
+        format!("Motions of the {} model", info.name)
+    } else {
+        study.title.clone()
+    }
+}
+
+pub(crate) fn capital(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
