@@ -29,7 +29,8 @@ pub(crate) fn classify(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
     let verdict = answer(Watch::here(py, progress, |monitor| {
-        motiform_study::analyse::classify(&plan(study)?, budget, monitor)
+        let perturbed = study.0.perturbed()?.0;
+        motiform_study::analyse::classify(&motiform_study::Plan::new(&perturbed)?, budget, monitor)
     }))?;
     serde_json::to_string(&verdict).map_err(of_json)
 }
@@ -46,7 +47,7 @@ pub(crate) fn motions(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
     let (verdicts, basins, escapes) = answer(Watch::here(py, progress, |monitor| {
-        let mut study = study.clone();
+        let mut study = crate::study::Study(study.0.perturbed()?.0);
         let random = Random::of(study.0.random, samples as u64, study.0.info()?);
         study.0.random = Some(random); // the first of many is drawn like the others
         let given = study.0.initial.iter().any(|(name, _)| !["x", "y"].contains(&name.as_str()));

@@ -191,6 +191,7 @@ fn set(study: &mut motiform_study::Study, name: &str, value: &Bound<'_, PyAny>) 
         "escape_norm" => run.escape_norm = number(name, value)?,
         "noise" => run.noise = number(name, value)?,
         "random" => study.random = Some(random(value)?),
+        "perturb" => study.perturb = number(name, value)?,
         "noise_velocity" => run.noise_velocity = Some(number(name, value)?),
         _ => return Err(PyTypeError::new_err(format!("unknown setting {name:?}"))),
     }

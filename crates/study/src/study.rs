@@ -29,6 +29,9 @@ pub struct Study {
     /// The distribution of random starts; without it one start is small ([`Random::SMALL`]), and many sample basins
     /// ([`Random::basins`]).
     pub random: Option<Random>,
+    /// Size of the random values that naming a motion puts in the place of zeros of a given start, over its largest value: see
+    /// [`Study::perturbed`].
+    pub perturb: f64,
     /// The run.
     pub run: RunSettings,
     /// The scan.
@@ -104,6 +107,7 @@ impl Study {
             parameters: Vec::new(),
             initial: Vec::new(),
             random: None,
+            perturb: Self::PERTURB,
             run: RunSettings { stepper: info.stepper.to_owned(), rtol: info.rtol, ..RunSettings::default() },
             scan: ScanSettings::default(),
             return_map: None,
@@ -127,6 +131,7 @@ impl Study {
             if let Some(value) = table.take("random") {
                 study.random = Some(read_random(&value)?);
             }
+            table.number("perturb", &mut study.perturb)?;
             read_initial(&mut study, table)?;
         }
         for (key, place) in [("title", &mut study.title), ("about", &mut study.about)] {
@@ -364,6 +369,10 @@ pub fn schema() -> serde_json::Value {
     initial["properties"]["random"] = serde_json::json!({
         "type": ["number", "string"],
         "description": "random starts: each coordinate within plus or minus this size, or \"MIN:MAX\" for log-uniform sizes in all directions",
+    });
+    initial["properties"]["perturb"] = serde_json::json!({
+        "type": "number",
+        "description": "classify and scan put random values within this part of the largest given one in the place of zeros, for an exact symmetry would last for ever; 0 keeps the exact start",
     });
     serde_json::json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",

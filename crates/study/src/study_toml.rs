@@ -33,6 +33,9 @@ impl Study {
             };
             initial.insert("random".to_owned(), value);
         }
+        if self.perturb != Self::PERTURB {
+            initial.insert("perturb".to_owned(), self.perturb.into());
+        }
         let tables = [
             ("initial", initial),
             ("run", changed("run", &self.run, &bare.run)?),

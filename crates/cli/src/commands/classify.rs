@@ -2,7 +2,7 @@
 
 use crate::args::ClassifyOptions;
 use crate::commands::subject;
-use crate::output::{End, estimate, print};
+use crate::output::{End, estimate, print, warn};
 use crate::progress::Watch;
 use motiform_analysis::{Regime, Verdict};
 use motiform_study::samples::{self, Basins, Escapes, Samples};
@@ -11,7 +11,13 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 
 pub(crate) fn run(options: &ClassifyOptions) -> anyhow::Result<End> {
-    let (plan, samples) = subject::plan(&options.motion, &options.many)?;
+    let mut study = subject::motion(&options.motion)?;
+    study.perturb = options.perturb.unwrap_or(study.perturb);
+    let (study, perturbation) = study.perturbed()?;
+    if let Some(perturbation) = perturbation {
+        warn(&format!("{perturbation}; --perturb 0 keeps the exact start"));
+    }
+    let (plan, samples) = subject::plan(study, &options.many)?;
     let budget = options.budget.unwrap_or(0.0);
     if let Some(samples) = samples {
         return many(options, &plan, samples, budget);

@@ -16,7 +16,7 @@ use std::fmt::Write;
 const COUNT: usize = 6;
 
 pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
-    let (plan, samples) = subject::plan(&options.motion, &options.many)?;
+    let (plan, samples) = subject::plan(subject::motion(&options.motion)?, &options.many)?;
     let info = plan.info()?;
     for (key, value) in [("t_end", options.t_end), ("transient", options.transient)] {
         if let Some(value) = value.filter(|&value| value < 0.0 || key == "t_end" && value == 0.0) {

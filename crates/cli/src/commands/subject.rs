@@ -6,10 +6,15 @@ use motiform_study::samples::Samples;
 use motiform_study::{Error, Plan, Random, Study, presets};
 use std::path::Path;
 
-/// The plan of a command about one motion, and the samples it is about, if they are many.
-pub(crate) fn plan(options: &MotionOptions, many: &SamplesOptions) -> Result<(Plan, Option<Samples>), Error> {
+/// The study of a command about one motion.
+pub(crate) fn motion(options: &MotionOptions) -> Result<Study, Error> {
     let mut study = study(&options.subject)?;
     apply(&options.method, &mut study)?;
+    Ok(study)
+}
+
+/// The plan of a study that one motion is asked about, and the samples it is about, if they are many.
+pub(crate) fn plan(mut study: Study, many: &SamplesOptions) -> Result<(Plan, Option<Samples>), Error> {
     let random = Random::of(study.random, many.samples.map_or(1, u64::from), study.info()?);
     study.random = Some(random); // the first of many is drawn like the others
     let plan = Plan::new(&study)?;

@@ -181,11 +181,16 @@ class Model:
         budget: float = 0.0,
         initial: Mapping[str, float] | None = None,
         random: Random | None = None,
+        perturb: float | None = None,
         seed: int | None = None,
         progress: Progress = None,
     ) -> Verdict:
-        """Names the motion, spending at most `budget` model time (0: the model's default), with the evidence."""
-        study = _with(self._study, initial, {"random": random, "seed": seed})
+        """Names the motion, spending at most `budget` model time (0: the model's default), with the evidence.
+
+        The flow keeps an exact symmetry, so coordinates that `initial` leaves at zero get random values within `perturb` times its
+        largest value (1e-6 if not given; 0 keeps the exact start).
+        """
+        study = _with(self._study, initial, {"random": random, "perturb": perturb, "seed": seed})
         with Bar(progress, budget or self.info.budget, "model time") as bar:
             return verdict_of(json.loads(_motiform.classify(study, budget, bar.callable())))
 

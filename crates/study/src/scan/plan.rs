@@ -63,11 +63,12 @@ pub struct ScanComputation {
 }
 
 impl ScanPlan {
-    /// Makes the scan of a study explicit and checks every number.
+    /// Makes the scan of a study explicit and checks every number. A given start is perturbed ([`Study::perturbed`]).
     ///
     /// # Errors
     /// [`Error`] naming the key, the value and the remedy; what a model refuses at the values of an axis.
     pub fn new(study: &Study) -> Result<Self, Error> {
+        let study = &study.perturbed()?.0;
         let info = study.info()?;
         let method = stepper(&study.run.stepper)?;
         let (run, scan) = (&study.run, &study.scan);

@@ -1,0 +1,93 @@
+//! Given starts without exact symmetry: coordinates that are left at zero get small random values.
+
+use crate::initial::Uniform;
+use crate::plan::check;
+use crate::{Error, Study};
+use std::fmt;
+
+/// Stream of the generator: far from those of random starts and of noise.
+const STREAM: u64 = u64::MAX / 2;
+
+/// What was added to a given start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Perturbation {
+    /// The coordinates that were zero.
+    pub names: Vec<String>,
+    /// They lie within plus and minus this now.
+    pub size: f64,
+}
+
+impl fmt::Display for Perturbation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let count = self.names.len();
+        let names = if count > 6 { format!("{count} coordinates") } else { self.names.join(", ") };
+        write!(
+            f,
+            "{names} left at zero: random values within +-{:e} instead, for an exact symmetry would last for ever",
+            self.size
+        )
+    }
+}
+
+impl Study {
+    /// The default of `perturb`.
+    pub const PERTURB: f64 = 1e-6;
+
+    /// The same study, with a small random value for each coordinate that its given start leaves at zero: uniform within
+    /// `perturb` times the largest value given (1 where all are zero). `None` beside it where nothing was changed: no start is given,
+    /// none of its coordinates is zero, or `perturb` is 0.
+    ///
+    /// The flow keeps the symmetry of a start. A mirror symmetric one, a pure mode, or a circle may end at an unstable shape that no other
+    /// start leads to. Coordinates that a model has at some values of the scan's axes only stay as they are.
+    ///
+    /// # Errors
+    /// A `perturb` below 0; what the model refuses of its parameters.
+    ///
+    /// # Checked by  tests/perturbation.rs
+    pub fn perturbed(&self) -> Result<(Self, Option<Perturbation>), Error> {
+        check("initial.perturb", self.perturb, self.perturb >= 0.0, "give a size of at least 0")?;
+        let info = self.info()?;
+        let given = |name: &str| self.initial.iter().find(|(known, _)| known == name).map(|entry| entry.1);
+        let coordinates = info.coordinates(&self.values()?);
+        let values: Vec<f64> = coordinates.iter().filter_map(|coordinate| given(coordinate.name)).collect();
+        if values.is_empty() || self.perturb == 0.0 {
+            return Ok((self.clone(), None));
+        }
+        let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let size = self.perturb * if largest > 0.0 { largest } else { 1.0 };
+        let corners = self.corners()?;
+        let mut random = Uniform::new(self.run.seed, STREAM);
+        let (mut study, mut names) = (self.clone(), Vec::new());
+        for coordinate in coordinates {
+            let value = size * random.next();
+            let everywhere = corners.iter().all(|values| info.coordinate(values, coordinate.name).is_ok());
+            if given(coordinate.name).unwrap_or(0.0) == 0.0 && everywhere {
+                study.set_initial(coordinate.name, value)?;
+                names.push(coordinate.name.to_owned());
+            }
+        }
+        let perturbation = (!names.is_empty()).then_some(Perturbation { names, size });
+        Ok((study, perturbation))
+    }
+
+    /// All parameters at the ends of the scan's axes, or those of the study where it has none.
+    fn corners(&self) -> Result<Vec<Vec<f64>>, Error> {
+        let specs = self.info()?.parameters();
+        let mut corners = vec![self.values()?];
+        for axis in &self.scan.axes {
+            let Some(place) = specs.iter().position(|spec| spec.name == axis.name) else { continue };
+            let ends = [axis.values.first(), axis.values.last()];
+            corners = corners
+                .iter()
+                .flat_map(|values| {
+                    ends.into_iter().flatten().map(|&end| {
+                        let mut values = values.clone();
+                        values[place] = end;
+                        values
+                    })
+                })
+                .collect();
+        }
+        Ok(corners)
+    }
+}
