@@ -59,6 +59,19 @@ def check(cases, found, long_run, options):
     return results
 
 
+def in_parts(title, cases, classifier, long_run, options):
+    """Verdicts and results, a hundred at a time: what is done is said on standard error."""
+    found, results = [], []
+    for at in range(0, len(cases), 100):
+        part = cases[at:at + 100]
+        verdicts = programs.verdicts(classifier, part, options.jobs)
+        found += verdicts
+        results += check(part, verdicts, long_run, options)
+        against = sum(status == "contradicted" for status, _ in results)
+        print(f"{title}: {len(found)} of {len(cases)}, {against} contradicted", file=sys.stderr, flush=True)
+    return found, results
+
+
 def table(title, found, results):
     print(f"\n{title}\n{'':24}" + "".join(f"{column:>14}" for column in COLUMNS))
     for row in sorted({name(verdict) for verdict in found}):
@@ -91,8 +104,7 @@ def main():
                          ("Active cell", list(samples.cells(options.seed)) if options.cells else [])]:
         if not cases:
             continue
-        found = programs.verdicts(classifier, cases, options.jobs)
-        results = check(cases, found, long_run[cases[0]["model"]], options)
+        found, results = in_parts(title, cases, classifier, long_run[cases[0]["model"]], options)
         counts = table(f"{title}: {len(cases)} motions, seed {options.seed}", found, results)
         contradicted += counts["contradicted"]
         report += [kept(*row) for row in zip(cases, found, results) if row[2][0] != "agrees"]
