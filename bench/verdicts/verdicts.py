@@ -29,9 +29,9 @@ def name(verdict):
 
 
 def how_long(verdict, cap):
-    """Several times what the decision took; chaos and blow-up need no settling."""
+    """Several times what the decision took."""
     if verdict["attractor"] == "escape":
-        return 1.5 * verdict["escape_time"] + 10.0
+        return min(5.0 * verdict["escape_time"] + 10.0, cap)
     return min(max(10.0 * verdict["time"], 8000.0), cap)
 
 
