@@ -64,9 +64,14 @@ def in_parts(title, cases, classifier, long_run, options):
     found, results = [], []
     for at in range(0, len(cases), 100):
         part = cases[at:at + 100]
-        verdicts = programs.verdicts(classifier, part, options.jobs)
+        try:
+            verdicts = programs.verdicts(classifier, part, options.jobs)
+            checked = check(part, verdicts, long_run, options)
+        except KeyboardInterrupt:
+            print(f"{title}: interrupted after {len(found)} of {len(cases)}", file=sys.stderr)
+            break
         found += verdicts
-        results += check(part, verdicts, long_run, options)
+        results += checked
         against = sum(status == "contradicted" for status, _ in results)
         print(f"{title}: {len(found)} of {len(cases)}, {against} contradicted", file=sys.stderr, flush=True)
     return found, results
@@ -105,7 +110,7 @@ def main():
         if not cases:
             continue
         found, results = in_parts(title, cases, classifier, long_run[cases[0]["model"]], options)
-        counts = table(f"{title}: {len(cases)} motions, seed {options.seed}", found, results)
+        counts = table(f"{title}: {len(found)} of {len(cases)} motions, seed {options.seed}", found, results)
         contradicted += counts["contradicted"]
         report += [kept(*row) for row in zip(cases, found, results) if row[2][0] != "agrees"]
     shown = [row for row in report if row["status"] == "contradicted"]
