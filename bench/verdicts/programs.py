@@ -16,8 +16,9 @@ NICE = int(os.environ.get("VERDICTS_NICE", "10"))  # other people work on the ma
 def build():
     """Compiles all; returns the path of the classifier and of the long runs' programs by model."""
     folder = Path(os.environ.get("CARGO_TARGET_DIR", HERE / "runner" / "target"))
-    subprocess.run(["cargo", "build", "--release", "--quiet"], cwd=HERE / "runner", check=True,
-                   env={**os.environ, "CARGO_TARGET_DIR": str(folder)})
+    if os.environ.get("VERDICTS_BUILD", "1") != "0":
+        subprocess.run(["cargo", "build", "--release", "--quiet"], cwd=HERE / "runner", check=True,
+                       env={**os.environ, "CARGO_TARGET_DIR": str(folder)})
     programs = {"tensor": folder / "long_run", "cell": folder / "long_cell"}
     for program in programs.values():
         subprocess.run(["gcc", "-O3", "-march=native", "-fno-math-errno", "-fcx-limited-range", "-o", str(program),
@@ -36,11 +37,15 @@ def ask(program, lines, jobs):
         files[0].seek(0)
         running.append((subprocess.Popen([*gently, str(program)], stdin=files[0], stdout=files[1]), files[1]))
     answers = []
-    for process, out in running:
-        if process.wait():
-            raise SystemExit(f"{program} failed")
-        out.seek(0)
-        answers.append(out.read().splitlines())
+    try:
+        for process, out in running:
+            if process.wait():
+                raise SystemExit(f"{program} failed")
+            out.seek(0)
+            answers.append(out.read().splitlines())
+    finally:
+        for process, _ in running:
+            process.kill()  # those that still run, if this was interrupted
     return [json.loads(answers[i % jobs][i // jobs]) for i in range(len(lines))]
 
 

@@ -29,9 +29,9 @@ def name(verdict):
 
 
 def how_long(verdict, cap):
-    """Several times what the decision took; chaos and blow-up need no settling."""
+    """Several times what the decision took."""
     if verdict["attractor"] == "escape":
-        return 1.5 * verdict["escape_time"] + 10.0
+        return min(5.0 * verdict["escape_time"] + 10.0, cap)
     return min(max(10.0 * verdict["time"], 8000.0), cap)
 
 
@@ -57,6 +57,24 @@ def check(cases, found, long_run, options):
             if status in ("agrees", "transient"):
                 results[i] = ("moved", f"{results[i][1]}; agrees from a start moved by {kick:g}")
     return results
+
+
+def in_parts(title, cases, classifier, long_run, options):
+    """Verdicts and results, a hundred at a time: what is done is said on standard error."""
+    found, results = [], []
+    for at in range(0, len(cases), 100):
+        part = cases[at:at + 100]
+        try:
+            verdicts = programs.verdicts(classifier, part, options.jobs)
+            checked = check(part, verdicts, long_run, options)
+        except KeyboardInterrupt:
+            print(f"{title}: interrupted after {len(found)} of {len(cases)}", file=sys.stderr)
+            break
+        found += verdicts
+        results += checked
+        against = sum(status == "contradicted" for status, _ in results)
+        print(f"{title}: {len(found)} of {len(cases)}, {against} contradicted", file=sys.stderr, flush=True)
+    return found, results
 
 
 def table(title, found, results):
@@ -91,9 +109,8 @@ def main():
                          ("Active cell", list(samples.cells(options.seed)) if options.cells else [])]:
         if not cases:
             continue
-        found = programs.verdicts(classifier, cases, options.jobs)
-        results = check(cases, found, long_run[cases[0]["model"]], options)
-        counts = table(f"{title}: {len(cases)} motions, seed {options.seed}", found, results)
+        found, results = in_parts(title, cases, classifier, long_run[cases[0]["model"]], options)
+        counts = table(f"{title}: {len(found)} of {len(cases)} motions, seed {options.seed}", found, results)
         contradicted += counts["contradicted"]
         report += [kept(*row) for row in zip(cases, found, results) if row[2][0] != "agrees"]
     shown = [row for row in report if row["status"] == "contradicted"]

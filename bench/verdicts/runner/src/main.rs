@@ -52,7 +52,7 @@ fn numbers(object: &Value) -> Result<Vec<(String, f64)>, Box<dyn Error>> {
 
 /// The defaults of `motiform classify`.
 fn settings(info: &ModelInfo) -> Result<Settings, Box<dyn Error>> {
-    let (rtol, atol) = info.tolerances;
+    let (rtol, atol) = (info.rtol, info.absolute_tolerance(info.rtol));
     Ok(Settings {
         method: Method::find(info.stepper).ok_or("no stepper")?,
         control: StepControl::Adaptive { rtol, atol },
