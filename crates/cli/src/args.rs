@@ -153,7 +153,7 @@ pub(crate) struct LyapunovOptions {
     pub(crate) t_end: Option<f64>,
     /// For chaos that does not last: the exponent of the chaotic saddle, from this many initial states, with the rate at
     /// which they escape
-    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u16).range(2..), allow_hyphen_values = true, conflicts_with = "samples")]
+    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u16).range(2..), allow_hyphen_values = true, conflicts_with_all = ["samples", "random"])]
     pub(crate) saddle: Option<u16>,
 }
 

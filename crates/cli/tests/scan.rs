@@ -124,6 +124,7 @@ fn the_json_object_counts_everything() {
     let expected = [
         "plan_hash",
         "cells",
+        "random",
         "rows",
         "regimes",
         "multistable",

@@ -60,11 +60,11 @@ fn cells_are_smooth() {
     let mut study = Study::of_model(ModelInfo::find("cell").unwrap());
     study.random = Some(Random::Sizes { min: 1.0, max: 1.0 });
     let all: Vec<Vec<f64>> = (0..2000).map(|seed| start(&study, seed)).collect();
-    let square = |place: usize| all.iter().map(|x| x[place] * x[place]).sum::<f64>();
     for (place, weight) in [(1, 1.0), (2, 0.25), (3, 0.25), (5, 1.0 / 9.0)] {
-        // a ratio of two sums of 2000 squares: within 20 %
-        let seen = square(place) / square(0);
-        assert!((seen / (weight * weight) - 1.0).abs() < 0.2, "{place}: {seen}");
+        // The quotient of two normal numbers has a median of 1 in absolute value, known to pi/2 / sqrt(2000) here; five times that.
+        let mut quotients: Vec<f64> = all.iter().map(|x| (x[place] / x[0]).abs() / weight).collect();
+        quotients.sort_by(f64::total_cmp);
+        assert!((quotients[1000] - 1.0).abs() < 0.18, "{place}: {}", quotients[1000]);
     }
 }
 
