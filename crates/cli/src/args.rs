@@ -159,7 +159,7 @@ pub(crate) struct LyapunovOptions {
 
 #[derive(Args)]
 pub(crate) struct ReproduceOptions {
-    /// fig1, fig2, ... fig6, models (what both models have in common); everything if none is given
+    /// equations (what follows from them as written), fig1, fig2, ... fig6, models (what both models have in common); everything if none is given
     #[arg(value_name = "FIGURE")]
     pub(crate) figures: Vec<String>,
     /// Coarser scans and shorter runs: within a minute

@@ -3,8 +3,9 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
 use motiform_analysis::{RelativeEquilibrium, Settings, classify};
-use motiform_dynamics::StepControl;
-use motiform_dynamics::steppers::Method;
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::steppers::{DOP853, Method};
+use motiform_dynamics::{Orbit, Request, StepControl, Trajectory};
 use motiform_models::tensor::reduced::{Line, Motion, Reduced};
 use motiform_models::tensor::{Tensor, TensorParameters};
 
@@ -94,6 +95,46 @@ fn lines_are_where_growth_rates_vanish() {
             assert!(found.growth().abs() < 1e-9, "{found:?}");
         }
     }
+}
+
+/// Least and largest speed of the orbit that begins 2 % off the straight motion, `beyond` (in gamma) the Hopf line at the ellipse
+/// `s`; it stays mirror symmetric.
+fn speeds_beyond_hopf(s: f64, beyond: f64) -> [f64; 2] {
+    let [kappa2, gamma] = Reduced::PAPER.straight_hopf(s);
+    let model = model(&Reduced::PAPER, kappa2, gamma + beyond);
+    let start = [1.02 * (gamma - 2.0 * s).sqrt(), 0.0, s, 0.0, 0.0, 0.0];
+    let control = StepControl::Adaptive { rtol: 1e-9, atol: 1e-30 };
+    let mut orbit = Orbit::new(&model, &DOP853, control, 0.0, &start).unwrap();
+    drive(&mut orbit, &Request::until(100_000.0, 6), &mut ()).unwrap();
+    let mut path = Trajectory::new(6);
+    let request = Request { sample_every: Some(1.0), ..Request::until(102_000.0, 6) };
+    drive(&mut orbit, &request, &mut path).unwrap();
+    let speeds = path.iter().map(|(_, u)| u[0].abs());
+    speeds.fold([f64::INFINITY, 0.0], |[low, high], v| [low.min(v), high.max(v)])
+}
+
+/// Below 0 the oscillation grows out of the straight motion like the square root of the distance (2 at four times the distance, to
+/// 10 %: the next order); above 0 the orbit leaves for good, to the ellipse at rest. Measured zero: kappa2 = -0.0669.
+#[test]
+fn the_sign_of_the_criticality_is_the_kind_of_the_bifurcation() {
+    for s in [-0.0242, -0.03, -0.034] {
+        assert!(Reduced::PAPER.straight_hopf_criticality(s) < 0.0, "{s}");
+        let swing =
+            |beyond: f64| speeds_beyond_hopf(s, beyond).into_iter().rev().reduce(|a, b| a - b).unwrap();
+        let growth = swing(4e-4) / swing(1e-4);
+        println!("s = {s}: {growth}");
+        assert!((growth / 2.0 - 1.0).abs() < 0.1, "{s}: {growth}");
+    }
+    for s in [-0.042, -0.0456] {
+        assert!(Reduced::PAPER.straight_hopf_criticality(s) > 0.0, "{s}");
+        assert!(speeds_beyond_hopf(s, 1e-4)[1] < 1e-9, "{s}");
+    }
+    let (mut low, mut high) = (-0.05, -0.03);
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        if Reduced::PAPER.straight_hopf_criticality(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    assert!((Reduced::PAPER.straight_hopf(low)[0] + 0.0669).abs() < 1e-4);
 }
 
 #[test]

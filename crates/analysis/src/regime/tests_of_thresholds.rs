@@ -3,7 +3,7 @@
 
 use super::chaos::{Growth, Witness, chaotic, torus};
 use super::stay::Stay;
-use crate::batch_means::means_over;
+use crate::series_mean::mean_over;
 use crate::{Estimate, Lyapunov};
 use motiform_dynamics::Outcome;
 
@@ -20,7 +20,7 @@ fn noise(count: usize) -> Vec<f64> {
 fn run(value: f64, size: f64, time: f64) -> Lyapunov {
     let step = time / INTERVALS as f64;
     let rates: Vec<f64> = noise(INTERVALS).into_iter().map(|x| value + size * x).collect();
-    let error = means_over(&rates, &vec![step; INTERVALS]).map_or(0.0, |mean| mean.error);
+    let error = mean_over(&rates, &vec![step; INTERVALS]).map_or(0.0, |mean| mean.error);
     Lyapunov {
         exponents: vec![Estimate { value, error }],
         neutral: 0,
@@ -45,7 +45,7 @@ fn witness(zero_one: f64, dimension: f64, stationary: bool) -> Witness {
 /// The error of two such runs, pooled, for noise of size 1.
 fn pooled_error() -> f64 {
     let rates = [noise(INTERVALS), noise(INTERVALS)].concat();
-    means_over(&rates, &vec![1.0; 2 * INTERVALS]).map_or(0.0, |mean| mean.error)
+    mean_over(&rates, &vec![1.0; 2 * INTERVALS]).map_or(0.0, |mean| mean.error)
 }
 
 /// Whether two runs in a row, pooled, are chaos: `ratio` is the exponent over its error, `growth` the logarithm of the growth in both.
@@ -121,7 +121,7 @@ fn a_torus_stays_as_it_is() {
 fn a_torus_has_an_exponent_of_zero() {
     let unit = {
         let rates = noise(INTERVALS);
-        means_over(&rates, &vec![1.0; INTERVALS]).map_or(0.0, |mean| mean.error)
+        mean_over(&rates, &vec![1.0; INTERVALS]).map_or(0.0, |mean| mean.error)
     };
     let is_torus = |value: f64, error: f64, zero_one: f64| {
         torus(&run(value, error / unit, 1e3), &witness(zero_one, 1.0, true), 1e3).is_some()

@@ -2,18 +2,23 @@
 
 use super::grid::Grid;
 use super::{Claim, Context, claim};
-use crate::Error;
-use crate::draw::number;
 use crate::reproduction::claims::differs;
-use motiform_analysis::regime::Regime;
+use crate::{Error, Study};
+use motiform_analysis::regime::{Regime, Verdict};
 use motiform_models::tensor::reduced::{Motion, Reduced};
 
 /// `kappa2` at which the line is crossed, right and left of where its kind changes.
 const RIGHT: [f64; 3] = [-0.02, -0.035, -0.05];
 const LEFT: [f64; 2] = [-0.1, -0.14];
 
-/// How far beyond the line (in gamma) runs are made: first a step, then four times that.
+/// How far beyond the line (in gamma) runs are made at the right: a step, and four times that.
 const BEYOND: [f64; 2] = [1e-4, 4e-4];
+
+/// The same at the left, where the orbit leaves for good.
+const FAR: f64 = 3e-3;
+
+/// Time in which the oscillation beside the line settles: its amplitude does so at rates of some 1e-4.
+const SETTLE: f64 = 1.2e5;
 
 pub(super) fn claims(context: &Context<'_>, grid: &Grid) -> Result<[Claim; 2], Error> {
     Ok([limit(grid), kind(context, grid)?])
@@ -40,52 +45,64 @@ fn limit(grid: &Grid) -> Claim {
     )
 }
 
-/// What a start near the straight motion becomes beyond the line.
+/// A study that begins a part `off` off the straight motion of the line at `kappa2`, `beyond` the line; turned by a little, so
+/// that no mirror symmetry is left.
+fn beside(context: &Context<'_>, kappa2: f64, beyond: f64, off: f64) -> Result<Study, Error> {
+    let ([_, gamma], s) = line_at(kappa2);
+    context.preset("fig1", |study| {
+        study.set("kappa2", kappa2)?;
+        study.set("gamma", gamma + beyond)?;
+        let speed = (gamma - 2.0 * Reduced::PAPER.a1 * s).sqrt();
+        let start = [("v1", (1.0 + off) * speed), ("v2", 1e-4 * speed), ("s11", 2.0 * s), ("s12", 0.0)];
+        start.iter().try_for_each(|(name, value)| study.set_initial(name, *value))?;
+        (study.run.rtol, study.run.atol) = (1e-10, Some(1e-30));
+        (study.run.transient, study.run.t_end, study.run.dt_out) = (SETTLE, 2000.0, 1.0);
+        Ok(())
+    })
+}
+
+/// What straight motion becomes beyond the line, at the right.
 struct Crossed {
     kappa2: f64,
-    /// The motion, the period where it has one, and the extremes of the speed, at each distance.
-    found: Vec<(Regime, Option<f64>, [f64; 2])>,
+    /// Smallest and largest speed, at each distance.
+    speeds: Vec<[f64; 2]>,
+    /// The motion at the larger distance.
+    verdict: Verdict,
 }
 
 impl Crossed {
     fn at(context: &Context<'_>, kappa2: f64) -> Result<Self, Error> {
-        let one = |beyond: &f64| {
-            let ([_, gamma], s) = line_at(kappa2);
-            let study = context.preset("fig1", |study| {
-                study.set("kappa2", kappa2)?;
-                study.set("gamma", gamma + beyond)?;
-                // the straight motion at the line, turned by a little so that no mirror symmetry is left
-                let speed = (gamma - 2.0 * Reduced::PAPER.a1 * s).sqrt();
-                study.set_initial("v1", 1.02 * speed)?;
-                study.set_initial("v2", 1e-4 * speed)?;
-                study.set_initial("s11", 2.0 * s)?;
-                (study.run.rtol, study.run.atol) = (1e-10, Some(1e-30));
-                Ok(())
-            })?;
-            let verdict = context.classify(&study)?;
-            let speed = verdict.speed.map_or([f64::NAN; 2], |speed| [speed.min, speed.max]);
-            Ok((verdict.regime, verdict.period, speed))
-        };
-        Ok(Self { kappa2, found: BEYOND.iter().map(one).collect::<Result<_, Error>>()? })
-    }
-
-    fn all(&self, regime: Regime) -> bool {
-        self.found.iter().all(|found| found.0 == regime)
+        let (mut speeds, mut last) = (Vec::new(), None);
+        for beyond in BEYOND {
+            let study = beside(context, kappa2, beyond, 0.02)?;
+            let run = context.simulate(&study)?;
+            let column = run.trajectory.get("speed").unwrap_or(&[]);
+            speeds.push(column.iter().fold([f64::INFINITY, 0.0], |[low, high], v| [v.min(low), v.max(high)]));
+            last = Some((study, run));
+        }
+        let Some((mut study, run)) = last else { return Err(Error::Interrupted) };
+        for (name, value) in &run.manifest.state.0 {
+            study.set_initial(name, *value)?;
+        }
+        Ok(Self { kappa2, speeds, verdict: context.classify(&study)? })
     }
 
     /// The swing of the speed at four times the distance over that at the distance: 2 for a supercritical bifurcation.
     fn growth(&self) -> f64 {
-        let swing = |i: usize| self.found[i].2[1] - self.found[i].2[0];
-        swing(1) / swing(0)
+        let swing = |[low, high]: [f64; 2]| high - low;
+        swing(self.speeds[1]) / swing(self.speeds[0])
     }
 
     fn words(&self) -> String {
-        let one = |(regime, period, [low, high]): &(Regime, Option<f64>, [f64; 2])| {
-            let period = period.map_or_else(String::new, |period| format!(", period {period:.1}"));
-            format!("{regime}{period}, speed {} to {}", number(*low), number(*high))
-        };
-        let found: Vec<String> = self.found.iter().map(one).collect();
-        format!("*κ*_2 = {}: {}", self.kappa2, found.join("; then "))
+        let [low, high] = self.speeds[1];
+        format!(
+            "{} at *κ*_2 = {} (period {:.1}, speed {low:.4} to {high:.4}, net rotation {:.0e}; its swing is {:.2} times that at a quarter of the distance)",
+            self.verdict.regime,
+            self.kappa2,
+            self.verdict.period.unwrap_or(f64::NAN),
+            self.verdict.net_rotation.unwrap_or(f64::NAN).abs(),
+            self.growth()
+        )
     }
 }
 
@@ -113,40 +130,38 @@ fn bautin() -> [f64; 2] {
 /// Subcritical at the left, supercritical at the right.
 fn kind(context: &Context<'_>, grid: &Grid) -> Result<Claim, Error> {
     let turns = bautin()[0];
-    let crossed =
-        |places: &[f64]| places.iter().map(|k| Crossed::at(context, *k)).collect::<Result<Vec<_>, _>>();
-    let (right, left) = (crossed(&RIGHT)?, crossed(&LEFT)?);
+    let right = RIGHT.iter().map(|k| Crossed::at(context, *k)).collect::<Result<Vec<_>, _>>()?;
+    let left = LEFT
+        .iter()
+        .map(|k| Ok((*k, context.classify(&beside(context, *k, FAR, 0.1)?)?.regime)))
+        .collect::<Result<Vec<(f64, Regime)>, Error>>()?;
     let (before, _) = grid.beside_hopf(turns);
     let both = before.iter().filter(|cell| cell.has(Motion::Rectangular)).count();
-    let pulsating =
-        right.iter().all(|at| at.found.iter().all(|found| found.0.name() == "pulsating-straight"));
-    let growth: Vec<String> = right.iter().map(|at| format!("{:.2}", at.growth())).collect();
+    let leaves: Vec<String> = left.iter().map(|(k, regime)| format!("{regime} at *κ*_2 = {k}")).collect();
     let finds = format!(
-        "The first Lyapunov coefficient changes its sign at *κ*_2 = {turns:.4}. Left of it ({} and {} beyond the line): {}; \
-         before the line {both} of {} cells hold rectangular motion beside straight motion. Right of it: {}; there the swing of the \
-         speed grows by {} for a fourfold distance",
-        BEYOND[0],
-        BEYOND[1],
-        left.iter().map(Crossed::words).collect::<Vec<_>>().join("; "),
+        "the first Lyapunov coefficient changes its sign at *κ*_2 = {turns:.4}. Left of it a start near the straight motion, {FAR} beyond the \
+         line, becomes {}; before the line {both} of {} cells hold rectangular motion beside straight motion. Right of it, {} beyond the \
+         line: {}",
+        leaves.join(", "),
         before.len(),
+        BEYOND[1],
         right.iter().map(Crossed::words).collect::<Vec<_>>().join("; "),
-        growth.join(", "),
     );
     Ok(differs(
         &[94],
         "The dotted line is the subcritical Hopf bifurcation line from the straight motion to the rectangular motion.",
         finds,
-        "the normal form's first coefficient from the formulas; starts 2 % off the straight motion, a little beyond the line, named \
-         by the classifier; a swing that doubles (to 15 %) at four times the distance is the square root of a supercritical \
-         bifurcation",
+        "the first coefficient of the normal form from the formulas; starts 2 % (at the left 10 %) off the straight motion, a little beyond \
+         the line, named by the classifier; a swing that doubles (to 15 %) at four times the distance is the square root of a \
+         supercritical bifurcation",
         &format!(
             "it is subcritical, and leads to rectangular motion, only for *κ*_2 < {turns:.4}. Between there and 0 it is supercritical: \
              straight motion turns into a stable pulsating straight motion (fixed heading, stop-and-go speed), which the paper does not \
-             name; it is no zigzag, and exists in a narrow strip above the line, thinner than the cells of the paper's diagram"
+             name; it is no zigzag, and exists in a narrow strip above the line, thinner than the cells of the diagram"
         ),
-        pulsating
-            && right.iter().all(|at| (at.growth() / 2.0 - 1.0).abs() < 0.15)
-            && left.iter().all(|at| at.all(Regime::Rectangular))
+        right.iter().all(|at| {
+            at.verdict.regime == Regime::PulsatingStraight && (at.growth() / 2.0 - 1.0).abs() < 0.15
+        }) && left.iter().all(|at| at.1 == Regime::Rectangular)
             && both > 0
             && RIGHT.iter().all(|kappa2| *kappa2 > turns)
             && LEFT.iter().all(|kappa2| *kappa2 < turns),

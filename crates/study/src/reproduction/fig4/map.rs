@@ -159,7 +159,7 @@ fn chaos(places: &[Place]) -> Claim {
             beyond().count(),
             chaotic.words(Regime::Chaotic)
         ),
-        "the cells of this row: chaotic if λ_1 is above twice its 95 % error; all of the smaller ones, none of the larger ones, and \
+        "the cells of this row, named by the classifier; all of the smaller ones, none of the larger ones, and \
          at least three with chaos that lasts",
         chaotic.cells >= 3
             && below().all(|place| wild(&place))

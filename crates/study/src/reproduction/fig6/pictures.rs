@@ -15,8 +15,9 @@ const WINDOWS: [(f64, f64, LineStyle); 3] =
     [(12.0, 14.4, LineStyle::Solid), (21.0, 21.9, LineStyle::Dashed), (29.0, 29.9, LineStyle::Dotted)];
 
 /// What moves: the regimes that have a speed.
-const MOVING: [Regime; 6] = [
+const MOVING: [Regime; 7] = [
     Regime::Straight,
+    Regime::PulsatingStraight,
     Regime::Circular,
     Regime::Rectangular,
     Regime::QuasiPeriodic,
