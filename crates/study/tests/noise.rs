@@ -7,7 +7,7 @@ mod common;
 use common::{column, preset, run};
 use motiform_models::ModelInfo;
 use motiform_study::table::same_bits;
-use motiform_study::{Plan, Study, analyse};
+use motiform_study::{Plan, Random, Study, analyse};
 
 fn rectangular(noise: f64, seed: u64) -> Study {
     preset("fig2", |study| {
@@ -63,7 +63,7 @@ fn noise_is_refused_where_it_has_no_meaning() {
 fn noisy(model: &str, parameters: &[(&str, f64)], noise: f64, (t_end, dt_out): (f64, f64)) -> Study {
     let mut study = Study::of_model(ModelInfo::find(model).unwrap());
     parameters.iter().for_each(|(name, value)| study.set(name, *value).unwrap());
-    study.random = 0.0; // at rest: what moves is the noise
+    study.random = Some(Random::Within(0.0)); // at rest: what moves is the noise
     (study.run.noise, study.run.seed) = (noise, 3);
     (study.run.t_end, study.run.dt_out) = (t_end, dt_out);
     study
@@ -107,7 +107,7 @@ fn modes_of_a_resting_cell_have_their_stationary_variances() {
 fn a_cell_under_weak_noise_still_rests() {
     let median = |noise: f64| {
         let mut study = noisy("cell", &[("length", 13.2)], noise, (1000.0, 0.5));
-        (study.random, study.run.transient) = (0.01, 1000.0);
+        (study.random, study.run.transient) = (Some(Random::Within(0.01)), 1000.0);
         let dataset = run(&study);
         let mut speeds = column(&dataset, "speed").to_vec();
         speeds.sort_by(f64::total_cmp);
@@ -166,7 +166,7 @@ fn vanishing_noise_leaves_the_motion_alone() {
                 (study.run.transient, study.run.t_end, study.run.dt_out) = (0.0, 60.0, 0.7);
                 (study.run.noise, study.run.rtol) = (noise, 1e-9);
             });
-            study.random = 0.3;
+            study.random = Some(Random::Within(0.3));
             run(&study)
         };
         let (quiet, noisy) = (rows(0.0), rows(1e-15));
