@@ -17,8 +17,8 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-/// Lengths in each window, and where the cell swims straight.
-const LENGTHS: [f64; 4] = [9.0, 12.6, 21.6, 29.2];
+/// Lengths where the cell swims straight, in circles, irregularly, and where it rests on a three-fold shape.
+const LENGTHS: [f64; 4] = [9.0, 12.6, 21.6, 25.0];
 
 /// At rest: the rate of change of phi at the end.
 const STILL: f64 = 1e-7;
