@@ -59,3 +59,13 @@ pub fn model_of(name: &str) -> Option<&'static ModelInfo> {
     let preset = PRESETS.iter().find(|preset| preset.name == name)?;
     MODELS.iter().find(|info| info.name == preset.model)
 }
+
+/// Whether a text is the title or the sentence of one of a model's presets.
+pub(crate) fn says(model: &str, text: &str) -> bool {
+    let theirs = |preset: &&Preset| preset.model == model;
+    let says = |preset: &Preset| {
+        Study::parse(preset.text, preset.name, preset.name)
+            .is_ok_and(|study| study.title == text || study.about == text)
+    };
+    PRESETS.iter().filter(theirs).any(says)
+}

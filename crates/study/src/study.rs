@@ -185,7 +185,7 @@ impl Study {
         Ok(specs.map(|spec| given(spec.name).unwrap_or(spec.default)).collect())
     }
 
-    /// Sets a parameter, replacing an earlier value. A title and a sentence that were made for another value go.
+    /// Sets a parameter, replacing an earlier value. Title and sentence of a preset, which were made for another value, go.
     ///
     /// # Errors
     /// An unknown name (with the nearest one).
@@ -200,10 +200,13 @@ impl Study {
         Ok(())
     }
 
-    /// Takes title and sentence away: they would speak of another motion.
+    /// Takes title and sentence of a preset away: they would speak of another motion. Those that somebody typed stay.
     fn untitle(&mut self) {
-        self.title.clear();
-        self.about.clear();
+        for text in [&mut self.title, &mut self.about] {
+            if !text.is_empty() && presets::says(self.model, text) {
+                text.clear();
+            }
+        }
     }
 
     /// Sets an initial value, replacing an earlier one; title and sentence as in [`Study::set`].

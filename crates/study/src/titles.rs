@@ -2,8 +2,7 @@
 //! parameters were given to ([`Study::set`] takes its title away).
 
 use crate::draw::number;
-use crate::presets::{self, PRESETS};
-use crate::{Dataset, Plan, Study};
+use crate::{Dataset, Plan, Study, presets};
 use motiform_models::ModelInfo;
 
 /// More parameters than this do not fit into a title.
@@ -54,10 +53,8 @@ impl Dataset {
 }
 
 /// Title of a scan: as typed, if it is not that of a preset, which speaks of one motion.
-pub(crate) fn of_scan(study: &Study, info: &'static ModelInfo) -> String {
-    let of_preset = |name: &str| presets::find(info, name).is_ok_and(|preset| preset.title == study.title);
-    let theirs = PRESETS.iter().any(|preset| preset.model == info.name && of_preset(preset.name));
-    if study.title.is_empty() || theirs {
+pub(crate) fn of_scan(study: &Study, info: &ModelInfo) -> String {
+    if study.title.is_empty() || presets::says(info.name, &study.title) {
         format!("Motions of the {} model", info.name)
     } else {
         study.title.clone()

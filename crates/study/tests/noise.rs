@@ -7,7 +7,7 @@ mod common;
 use common::{column, preset, run};
 use motiform_models::ModelInfo;
 use motiform_study::table::same_bits;
-use motiform_study::{Plan, Random, Study, analyse};
+use motiform_study::{Plan, Study, analyse};
 
 fn rectangular(noise: f64, seed: u64) -> Study {
     preset("fig2", |study| {
@@ -63,7 +63,7 @@ fn noise_is_refused_where_it_has_no_meaning() {
 fn noisy(model: &str, parameters: &[(&str, f64)], noise: f64, (t_end, dt_out): (f64, f64)) -> Study {
     let mut study = Study::of_model(ModelInfo::find(model).unwrap());
     parameters.iter().for_each(|(name, value)| study.set(name, *value).unwrap());
-    study.random = Some(Random::Within(0.0)); // at rest: what moves is the noise
+    study.random = Some(0.0.into()); // at rest: what moves is the noise
     (study.run.noise, study.run.seed) = (noise, 3);
     (study.run.t_end, study.run.dt_out) = (t_end, dt_out);
     study
@@ -102,19 +102,21 @@ fn modes_of_a_resting_cell_have_their_stationary_variances() {
     }
 }
 
-/// With weak noise at L = 13.2 the cell rests like without it: the median speed was 1.8e-4 once, that of the noise alone.
+/// With weak noise at L = 13.2 the cell rests and moves on as without it. (Once the noise of stiff modes was taken for motion: the
+/// median speed was 1.8e-4.) A rest ends when deviations of some 1e-6 have grown: the slowest twentieth is near 8e-8.
 #[test]
 fn a_cell_under_weak_noise_still_rests() {
-    let median = |noise: f64| {
-        let mut study = noisy("cell", &[("length", 13.2)], noise, (1000.0, 0.5));
-        (study.random, study.run.transient) = (Some(Random::Within(0.01)), 1000.0);
+    let speeds = |noise: f64| {
+        let mut study = noisy("cell", &[("length", 13.2)], noise, (1000.0, 0.7));
+        (study.random, study.run.transient) = (None, 1000.0);
         let dataset = run(&study);
         let mut speeds = column(&dataset, "speed").to_vec();
         speeds.sort_by(f64::total_cmp);
-        speeds[speeds.len() / 2]
+        [speeds[speeds.len() / 20], speeds[speeds.len() - 1]]
     };
-    let (noisy, quiet) = (median(1e-7), median(0.0));
-    assert!(noisy < 1e-7, "{noisy} {quiet}");
+    let (noisy, quiet) = (speeds(1e-7), speeds(0.0));
+    assert!(noisy[0] < 1e-6, "{noisy:?} {quiet:?}");
+    assert!((noisy[1] / quiet[1] - 1.0).abs() < 0.1, "{noisy:?} {quiet:?}");
 }
 
 /// Each block of the tensor model at rest: eta^2/(2 rate), kappa3 = 20 included, where 45 % of the variance was lost once.
@@ -150,23 +152,24 @@ fn the_path_does_not_depend_on_the_rows() {
             let largest = column.values.iter().map(|x| x.abs()).fold(0.0, f64::max);
             for (row, value) in column.values.iter().enumerate().filter(|(_, value)| value.is_finite()) {
                 let off = (all[3 * row] - value).abs();
-                assert!(off <= 1e-9 * largest, "{model} {} row {row}: {off}", column.name);
+                assert!(off <= 1e-9 * largest + 1e-14, "{model} {} row {row}: {off}", column.name);
             }
         }
         assert!(column(&rare, "speed").iter().any(|speed| *speed > 1e-6));
     }
 }
 
-/// Noise that is far below every digit gives the motion without it.
+/// Noise that is far below every digit gives the motion without it, where no instability makes it grow.
 #[test]
 fn vanishing_noise_leaves_the_motion_alone() {
     for (model, name) in [("tensor", "fig5a"), ("cell", "fig6c")] {
         let rows = |noise: f64| {
             let mut study = preset(name, |study| {
-                (study.run.transient, study.run.t_end, study.run.dt_out) = (0.0, 60.0, 0.7);
+                (study.run.transient, study.run.t_end, study.run.dt_out) = (0.0, 40.0, 0.7);
                 (study.run.noise, study.run.rtol) = (noise, 1e-9);
+                (study.initial, study.random) = (Vec::new(), Some(0.3.into()));
             });
-            study.random = Some(Random::Within(0.3));
+            study.run.seed = 4;
             run(&study)
         };
         let (quiet, noisy) = (rows(0.0), rows(1e-15));
