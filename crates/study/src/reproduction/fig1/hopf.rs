@@ -127,7 +127,7 @@ impl Bistable {
             near_ellipse.set_initial(name, value)?;
         }
         // at rest digits must stay relative
-        (near_ellipse.run.atol, beyond.run.atol) = (1e-30, 1e-30);
+        (near_ellipse.run.atol, beyond.run.atol) = (Some(1e-30), Some(1e-30));
         let name = |study: &Study| Ok::<_, Error>(context.classify(study)?.regime);
         Ok(Self {
             kappa2,
