@@ -223,12 +223,14 @@ pub(super) fn torus(run: &Lyapunov, witness: &Witness, time: f64) -> Option<Verd
 
 /// What keeps the evidence from deciding.
 pub(super) fn missing(runs: &[Growth], witness: &Witness) -> String {
-    let Some(Pooled { estimate: Estimate { value, error }, .. }) = pooled(runs) else {
+    let Some(Pooled { estimate, .. }) = pooled(runs) else {
         return "no exponent".to_owned();
     };
+    let Estimate { value, error } = estimate;
+    let error = if estimate.has_error() { format!("+- {error:.1e}") } else { "without an error".to_owned() };
     let k = witness.zero_one.map_or_else(|| "no 0-1 test".to_owned(), |k| format!("0-1 test {k:.2}"));
     let drifts = if witness.stationary == Some(false) { ", the returns drift or shrink" } else { "" };
     format!(
-        "lambda_1 = {value:.1e} +- {error:.1e} and {k} decide neither chaos nor order{drifts}, no stable recurrence was found"
+        "lambda_1 = {value:.1e} {error} and {k} decide neither chaos nor order{drifts}, no stable recurrence was found"
     )
 }
