@@ -132,6 +132,8 @@ def periodic(verdict, run):
     seen = seen_after(period)
     regime, forms = PERIODIC_NAMES[seen]
     if verdict["regime"] != regime or verdict["form"] not in forms:
+        if shrinks(run):
+            return "undecided", f"still on its way: {seen} by {period['turn']:.2g} rad and ever less"
         return "contradicted", f"{seen}, not {verdict['form']} (heading across by {period['across']:.2g}, turn {period['turn']:.6g})"
     return "agrees", ""
 
@@ -144,6 +146,12 @@ def growth(windows, length):
     return mean, 2.2 * deviation / math.sqrt(len(rates))
 
 
+def shrinks(run):
+    """The range of the minima falls from window to window: the orbit approaches something."""
+    spreads = [window["minima"][1] - window["minima"][0] for window in late(run)]
+    return all(b < a for a, b in zip(spreads, spreads[1:]))
+
+
 def torus(verdict, run):
     if at_rest(run):
         return "contradicted", "the shape rests"
@@ -152,7 +160,7 @@ def torus(verdict, run):
     if rate > 2 * error and rate * 8 * length > 15:
         return "contradicted", f"neighbours part at {rate:.3g} +- {error:.2g}"
     spreads = [window["minima"][1] - window["minima"][0] for window in late(run)]
-    if all(b < a for a, b in zip(spreads, spreads[1:])) and spreads[-1] < 0.8 * spreads[0]:
+    if shrinks(run) and spreads[-1] < 0.8 * spreads[0]:
         return "contradicted", f"the curve shrinks from {spreads[0]:.3g} to {spreads[-1]:.3g}"
     if run["minima"] > 300 and run["clusters"] < 60:
         return "contradicted", f"periodic: {run['clusters']} returns"

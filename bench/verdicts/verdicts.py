@@ -12,6 +12,7 @@ from judge import judge
 
 CONFIDENT = 3.0
 COLUMNS = ["agrees", "moved", "transient", "undecided", "contradicted", "weak"]
+LIGHT = (300.0, 60000)  # a motion that needs more steps than these in this time is left out: naming it would take many minutes
 SHOWN = 20  # contradictions printed
 KICKS = [1e-6, 1e-6, 1e-4]
 
@@ -60,21 +61,30 @@ def check(cases, found, long_run, options):
 
 
 def in_parts(title, cases, classifier, long_run, options):
-    """Verdicts and results, a hundred at a time: what is done is said on standard error."""
-    found, results = [], []
+    """The motions that were named, verdicts and results, a hundred at a time: what is done is said on standard error."""
+    named, found, results = [], [], []
     for at in range(0, len(cases), 100):
-        part = cases[at:at + 100]
         try:
+            part = light(cases[at:at + 100], long_run, options)
             verdicts = programs.verdicts(classifier, part, options.jobs)
             checked = check(part, verdicts, long_run, options)
         except KeyboardInterrupt:
             print(f"{title}: interrupted after {len(found)} of {len(cases)}", file=sys.stderr)
             break
+        named += part
         found += verdicts
         results += checked
         against = sum(status == "contradicted" for status, _ in results)
-        print(f"{title}: {len(found)} of {len(cases)}, {against} contradicted", file=sys.stderr, flush=True)
-    return found, results
+        print(f"{title}: {at + 100} of {len(cases)}, {against} contradicted", file=sys.stderr, flush=True)
+    return named, found, results
+
+
+def light(cases, long_run, options):
+    """Those of the tensor model's motions that can be followed in reasonable time."""
+    if cases[0]["model"] == "cell":
+        return cases
+    runs = programs.ask(long_run, [programs.long_line(case, LIGHT[0]) for case in cases], options.jobs)
+    return [case for case, run in zip(cases, runs) if run["steps"] < LIGHT[1]]
 
 
 def table(title, found, results):
@@ -109,8 +119,8 @@ def main():
                          ("Active cell", list(samples.cells(options.seed)) if options.cells else [])]:
         if not cases:
             continue
-        found, results = in_parts(title, cases, classifier, long_run[cases[0]["model"]], options)
-        counts = table(f"{title}: {len(found)} of {len(cases)} motions, seed {options.seed}", found, results)
+        cases, found, results = in_parts(title, cases, classifier, long_run[cases[0]["model"]], options)
+        counts = table(f"{title}: {len(cases)} motions, seed {options.seed}", found, results)
         contradicted += counts["contradicted"]
         report += [kept(*row) for row in zip(cases, found, results) if row[2][0] != "agrees"]
     shown = [row for row in report if row["status"] == "contradicted"]

@@ -1,9 +1,9 @@
-//! The velocity of the active cell, (VEL), against direct quadrature: both terms, each alone, their signs.
+//! The velocity of the active cell, (VEL), against direct quadrature: both terms, each alone, their signs; and what closes the boundary.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
 use motiform_dynamics::model::velocity;
-use motiform_dynamics::{Model, Outline};
+use motiform_dynamics::{Model, Outline, System};
 use motiform_models::cell::{Cell, CellParameters};
 use std::f64::consts::TAU;
 
@@ -123,4 +123,33 @@ fn one_wave_pushes_along_its_crest() {
     let expected = 0.04 * k.powi(5) * c.powi(3) / 8.0;
     // the next order is (k c)^2 = 2e-5 of it
     assert!((v[1] / expected - 1.0).abs() < 1e-4 && v[0].abs() < 1e-4 * expected, "{v:?}, not {expected}");
+}
+
+/// The error function, as feedback adds it to phi, closes the boundary by quadrature; its size is the stated correction.
+#[test]
+fn the_correction_is_what_closes_the_boundary() {
+    for seed in 0..4 {
+        let open = body(0.0, -0.02, 8.0);
+        let numbers = CellParameters { feedback: 1.0, ..*open.parameters() };
+        let cell = Cell::new(&numbers).unwrap();
+        let (mut shape, mut closed) = (vec![0.0; 2 * MODES], vec![0.0; 2 * MODES]);
+        cell.encode(&coordinates(seed), &mut shape);
+        assert!(cell.project(&shape, &mut closed).unwrap());
+        let k = numbers.wavenumber();
+        let mean_normal = |u: &[f64]| {
+            let (mut c, mut sum) = (vec![0.0; 2 * MODES], [0.0; 2]);
+            cell.decode(u, &mut c);
+            for (j, phi) in phi(&c).into_iter().enumerate() {
+                let angle = TAU * j as f64 / POINTS as f64 + k * phi;
+                sum = [sum[0] + angle.cos(), sum[1] + angle.sin()];
+            }
+            sum[0].hypot(sum[1]) / POINTS as f64
+        };
+        // Newton's method stops at 1e-13
+        assert!(mean_normal(&shape) > 1e-2 && mean_normal(&closed) < 1e-12, "{seed}");
+        let change: f64 = shape.iter().zip(&closed).map(|(a, b)| (a - b) * (a - b)).sum();
+        let rms = k * (2.0 * change).sqrt(); // mean square of 2 Re(eps_n exp(i n k s)) is 2 |eps_n|^2
+        let stated = open.boundary(&shape, 128).unwrap().correction;
+        assert!((stated / rms - 1.0).abs() < 1e-9, "{seed}: {stated}, not {rms}");
+    }
 }

@@ -102,6 +102,7 @@ fn step((column, row): Place, (right, up): (i64, i64), cells: &Cells) -> Option<
 
 #[cfg(test)]
 mod tests {
+    use super::super::super::marks::rank;
     use super::super::Cell;
     use super::*;
 
@@ -113,6 +114,7 @@ mod tests {
         let cells: Vec<_> = places.map(|(x, y)| Cell { x, y, shares: vec![(name(x).into(), 1.0)] }).collect();
         let cells = Cells::new(&axis, &axis, &cells).expect("cells");
         // three columns of zigzag, six of straight
-        assert_eq!(deepest(&cells), [((1, 4), 2, 5), ((5, 4), 3, 1)]);
+        let (zigzag, straight) = (rank("zigzag"), rank("straight"));
+        assert_eq!(deepest(&cells), [((1, 4), 2, zigzag), ((5, 4), 3, straight)]);
     }
 }

@@ -104,13 +104,13 @@ impl Grid {
     }
 
     /// Cells from half a cell to six cells off the Hopf line of straight motion, more than one and a half from every other,
-    /// with `kappa2` below `end`: those where straight motion is stable, and those beyond the line.
-    pub(super) fn beside_hopf(&self, end: f64) -> (Vec<&Cell>, Vec<&Cell>) {
+    /// those where straight motion is stable, and those beyond the line.
+    pub(super) fn beside_hopf(&self) -> (Vec<&Cell>, Vec<&Cell>) {
         let hopf = |line| line == Line::StraightHopf;
         let beside = |cell: &&Cell| {
             let at = [cell.kappa2, cell.gamma];
             let own = self.distance(at, hopf);
-            cell.kappa2 < end && own > 0.5 && own < 6.0 && self.distance(at, |line| !hopf(line)) > 1.5
+            own > 0.5 && own < 6.0 && self.distance(at, |line| !hopf(line)) > 1.5
         };
         let stable = |cell: &&Cell| cell.expected.allows(Motion::Straight.name());
         self.cells.iter().filter(beside).partition(stable)

@@ -17,16 +17,19 @@ const BEYOND: [f64; 2] = [1e-4, 4e-4];
 /// The same at the left, where the orbit leaves for good.
 const FAR: f64 = 3e-3;
 
+/// How far before the line both motions are looked for, at the left.
+const BEFORE: f64 = 1e-3;
+
 /// Time in which the oscillation beside the line settles: its amplitude does so at rates of some 1e-4.
 const SETTLE: f64 = 1.2e5;
 
 pub(super) fn claims(context: &Context<'_>, grid: &Grid) -> Result<[Claim; 2], Error> {
-    Ok([limit(grid), kind(context, grid)?])
+    Ok([limit(grid), kind(context)?])
 }
 
 /// Whether the stability of straight motion ends there.
 fn limit(grid: &Grid) -> Claim {
-    let (before, beyond) = grid.beside_hopf(0.0);
+    let (before, beyond) = grid.beside_hopf();
     let straight =
         |cells: &[&super::grid::Cell]| cells.iter().filter(|cell| cell.has(Motion::Straight)).count();
     let finds = format!(
@@ -55,7 +58,7 @@ fn beside(context: &Context<'_>, kappa2: f64, beyond: f64, off: f64) -> Result<S
         let speed = (gamma - 2.0 * Reduced::PAPER.a1 * s).sqrt();
         let start = [("v1", (1.0 + off) * speed), ("v2", 1e-4 * speed), ("s11", 2.0 * s), ("s12", 0.0)];
         start.iter().try_for_each(|(name, value)| study.set_initial(name, *value))?;
-        (study.run.rtol, study.run.atol) = (1e-10, Some(1e-30));
+        (study.run.rtol, study.run.atol) = (1e-10, Some(1e-14));
         (study.run.transient, study.run.t_end, study.run.dt_out) = (SETTLE, 2000.0, 1.0);
         Ok(())
     })
@@ -106,6 +109,49 @@ impl Crossed {
     }
 }
 
+/// At the left: the motions before the line, from a start near the straight motion and from one near the ellipse at rest, and that
+/// of a start near the straight motion beyond it.
+struct Bistable {
+    kappa2: f64,
+    straight: Regime,
+    ellipse: Regime,
+    beyond: Regime,
+}
+
+impl Bistable {
+    fn at(context: &Context<'_>, kappa2: f64) -> Result<Self, Error> {
+        let near_straight = beside(context, kappa2, -BEFORE, 0.02)?;
+        let (mut near_ellipse, mut beyond) = (near_straight.clone(), beside(context, kappa2, FAR, 0.1)?);
+        let r2 = Reduced::PAPER.ellipse(kappa2).unwrap_or(f64::NAN);
+        for (name, value) in [("v1", 0.01), ("v2", 0.001), ("s11", -1.8 * r2), ("s12", 0.001)] {
+            near_ellipse.set_initial(name, value)?;
+        }
+        // at rest digits must stay relative
+        (near_ellipse.run.atol, beyond.run.atol) = (Some(1e-30), Some(1e-30));
+        let name = |study: &Study| Ok::<_, Error>(context.classify(study)?.regime);
+        Ok(Self {
+            kappa2,
+            straight: name(&near_straight)?,
+            ellipse: name(&near_ellipse)?,
+            beyond: name(&beyond)?,
+        })
+    }
+
+    fn is_so(&self) -> bool {
+        self.straight == Regime::Straight
+            && self.ellipse == Regime::Rectangular
+            && self.beyond == Regime::Rectangular
+    }
+
+    fn words(&self) -> String {
+        format!(
+            "at *κ*_2 = {}, {BEFORE} before the line, {} from near the straight motion and {} from near the ellipse at rest; {FAR} beyond it \
+             {} from near the straight motion",
+            self.kappa2, self.straight, self.ellipse, self.beyond
+        )
+    }
+}
+
 /// The point of the line at `kappa2`, and its ellipse `s`, by bisection in s.
 fn line_at(kappa2: f64) -> ([f64; 2], f64) {
     let (mut low, mut high) = (-0.125 * Reduced::PAPER.b1 * (1.0 - 1e-9), 0.0);
@@ -128,22 +174,13 @@ fn bautin() -> [f64; 2] {
 }
 
 /// Subcritical at the left, supercritical at the right.
-fn kind(context: &Context<'_>, grid: &Grid) -> Result<Claim, Error> {
+fn kind(context: &Context<'_>) -> Result<Claim, Error> {
     let turns = bautin()[0];
     let right = RIGHT.iter().map(|k| Crossed::at(context, *k)).collect::<Result<Vec<_>, _>>()?;
-    let left = LEFT
-        .iter()
-        .map(|k| Ok((*k, context.classify(&beside(context, *k, FAR, 0.1)?)?.regime)))
-        .collect::<Result<Vec<(f64, Regime)>, Error>>()?;
-    let (before, _) = grid.beside_hopf(turns);
-    let both = before.iter().filter(|cell| cell.has(Motion::Rectangular)).count();
-    let leaves: Vec<String> = left.iter().map(|(k, regime)| format!("{regime} at *κ*_2 = {k}")).collect();
+    let left = LEFT.iter().map(|k| Bistable::at(context, *k)).collect::<Result<Vec<_>, _>>()?;
     let finds = format!(
-        "the first Lyapunov coefficient changes its sign at *κ*_2 = {turns:.4}. Left of it a start near the straight motion, {FAR} beyond the \
-         line, becomes {}; before the line {both} of {} cells hold rectangular motion beside straight motion. Right of it, {} beyond the \
-         line: {}",
-        leaves.join(", "),
-        before.len(),
+        "the first Lyapunov coefficient changes its sign at *κ*_2 = {turns:.4}. Left of it: {}. Right of it, {} beyond the line: {}",
+        left.iter().map(Bistable::words).collect::<Vec<_>>().join("; "),
         BEYOND[1],
         right.iter().map(Crossed::words).collect::<Vec<_>>().join("; "),
     );
@@ -151,7 +188,7 @@ fn kind(context: &Context<'_>, grid: &Grid) -> Result<Claim, Error> {
         &[94],
         "The dotted line is the subcritical Hopf bifurcation line from the straight motion to the rectangular motion.",
         finds,
-        "the first coefficient of the normal form from the formulas; starts 2 % (at the left 10 %) off the straight motion, a little beyond \
+        "the first coefficient of the normal form from the formulas; starts 2 % (at the left 10 %) off the straight motion, beside \
          the line, named by the classifier; a swing that doubles (to 15 %) at four times the distance is the square root of a \
          supercritical bifurcation",
         &format!(
@@ -161,8 +198,7 @@ fn kind(context: &Context<'_>, grid: &Grid) -> Result<Claim, Error> {
         ),
         right.iter().all(|at| {
             at.verdict.regime == Regime::PulsatingStraight && (at.growth() / 2.0 - 1.0).abs() < 0.15
-        }) && left.iter().all(|at| at.1 == Regime::Rectangular)
-            && both > 0
+        }) && left.iter().all(Bistable::is_so)
             && RIGHT.iter().all(|kappa2| *kappa2 > turns)
             && LEFT.iter().all(|kappa2| *kappa2 < turns),
     ))

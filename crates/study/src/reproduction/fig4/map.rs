@@ -143,6 +143,8 @@ fn windows(places: &[Place]) -> Option<Claim> {
 fn chaos(places: &[Place]) -> Claim {
     let row = || places.iter().filter(|place| (place.kappa3 - NAMED).abs() < 1e-9);
     let wild = |place: &&Place| place.has(Regime::Chaotic) || place.has(Regime::BlowUp);
+    let regular =
+        |regime: &Regime| !matches!(regime, Regime::Chaotic | Regime::BlowUp | Regime::Undetermined);
     let below = || row().filter(|place| place.kappa2 < SMALLER + 1e-9);
     let beyond = || row().filter(|place| place.kappa2 > 0.8 - 1e-9 && place.kappa2 < SECOND + 1e-9);
     let chaotic = Extent::among(places, Regime::Chaotic, |place| {
@@ -159,12 +161,12 @@ fn chaos(places: &[Place]) -> Claim {
             beyond().count(),
             chaotic.words(Regime::Chaotic)
         ),
-        "the cells of this row, named by the classifier; all of the smaller ones, none of the larger ones, and \
-         at least three with chaos that lasts",
+        "the cells of this row, named by the classifier; all of the smaller ones, the larger ones hold \
+         a regular motion, and at least three show chaos that lasts",
         chaotic.cells >= 3
             && below().all(|place| wild(&place))
             && beyond().count() > 0
-            && !beyond().any(|place| wild(&place)),
+            && beyond().all(|place| place.regimes.iter().any(regular)),
     )
 }
 
