@@ -1,14 +1,16 @@
 //! What is read off recorded states: the tables of a dataset, the numbers of its manifest.
 
-use crate::plan::{Control, Named};
+use crate::plan::{Computation, Named};
 use crate::study::ReturnMapSettings;
 use crate::table::Table;
 use motiform_dynamics::model::{turning_rate, velocity_and_acceleration};
 use motiform_dynamics::{Model, Trajectory};
 
 /// The trajectory as a table, with what is read off it.
-pub(crate) fn motion(model: &dyn Model, trajectory: &Trajectory, control: Control) -> Table {
-    let atol = control.absolute_tolerance();
+pub(crate) fn motion(model: &dyn Model, trajectory: &Trajectory, c: &Computation) -> Table {
+    let atol = c.control.absolute_tolerance();
+    // A velocity that is read off a shape under noise has no derivative.
+    let turns = c.noise.is_none() || model.velocities() > 0;
     let shape = ..model.dim();
     let rows = trajectory.len();
     let read = |of: &dyn Fn(&[f64]) -> f64| -> Vec<f64> { trajectory.iter().map(|(_, u)| of(u)).collect() };
@@ -32,7 +34,7 @@ pub(crate) fn motion(model: &dyn Model, trajectory: &Trajectory, control: Contro
         }
         let (size, rate) = pace(model, &u[shape], atol);
         speed.push(size);
-        turning.push(rate);
+        turning.push(if turns { rate } else { f64::NAN });
     }
     for (coordinate, values) in model.coordinates().iter().zip(coordinates) {
         table.push(coordinate.name, coordinate.meaning, values);
@@ -40,7 +42,7 @@ pub(crate) fn motion(model: &dyn Model, trajectory: &Trajectory, control: Contro
     table.push("speed", "|v| (model length per model time)", speed);
     table.push(
         "turning_rate",
-        "d(heading)/dt (rad per model time); undefined where the body is at rest",
+        "d(heading)/dt (rad per model time); undefined at rest, and where noise leaves the velocity no derivative",
         turning,
     );
     for (observable, values) in model.observables().iter().zip(observed) {

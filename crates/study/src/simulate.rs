@@ -222,7 +222,7 @@ impl Run<'_> {
         let map = self.computation.return_map.as_ref();
         Dataset {
             manifest,
-            trajectory: motion(self.model, &recording.trajectory, self.computation.control),
+            trajectory: motion(self.model, &recording.trajectory, self.computation),
             crossings: map.map(|map| crossings(&recording.trajectory, map)),
         }
     }

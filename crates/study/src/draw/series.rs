@@ -16,7 +16,12 @@ pub(super) fn figure(body: &Body<'_>) -> SeriesFigure {
     let mut panels = vec![panel(body, "speed", "speed |***v***|", 0)];
     let turning = panel(body, "turning_rate", "turning rate (rad/time)", 1);
     if turning.curves[0].values.iter().any(Option::is_none) {
-        notes.push("The turning rate is undefined where the body is at rest.".to_owned());
+        notes.push(if body.dataset.manifest.plan.computation.noise.is_some() {
+            "The turning rate is undefined at rest, and where noise leaves the velocity no derivative."
+                .to_owned()
+        } else {
+            "The turning rate is undefined where the body is at rest.".to_owned()
+        });
     }
     panels.push(turning);
     for (index, observable) in body.model.observables().iter().enumerate() {

@@ -38,7 +38,7 @@ pub fn dataset(
     (c.transient, c.t_end) = (0.0, last.t - first.t);
     c.initial = named(model, first.state);
     let (shape, position) = last.state.split_at(last.state.len() - 2);
-    let table = motion(model, &trajectory, c.control);
+    let table = motion(model, &trajectory, c);
     let mut state = named(model, last.state);
     state.0.truncate(shape.len());
     let manifest = Manifest {
