@@ -33,7 +33,7 @@ impl Study {
             };
             initial.insert("random".to_owned(), value);
         }
-        if self.perturb != Self::PERTURB {
+        if self.perturb.to_bits() != Self::PERTURB.to_bits() {
             initial.insert("perturb".to_owned(), self.perturb.into());
         }
         let tables = [

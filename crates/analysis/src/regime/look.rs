@@ -88,7 +88,7 @@ impl Look {
         let least = hovering * self.sizes.1;
         let low = self.extremes.iter().map(|extreme| extreme.size).fold(f64::INFINITY, f64::min);
         let high = self.extremes.iter().map(|extreme| extreme.size).fold(f64::NEG_INFINITY, f64::max);
-        self.sizes.1 - self.sizes.0 <= least && !(high - low > least)
+        self.sizes.1 - self.sizes.0 <= least && high - low <= least // without extremes minus infinity
     }
 
     /// The minima of the size.
