@@ -136,7 +136,8 @@ fn lines(grid: &Grid) -> Vec<Claim> {
         CircleToStraight, CircularToQuasiPeriodic, EllipseToStraight, QuasiPeriodicToRectangular,
         StraightToCircular,
     };
-    let all: [(&[Line], [Motion; 2], &[u16], &str); 4] = [
+    type Sought = (&'static [Line], [Motion; 2], &'static [u16], &'static str);
+    let all: [Sought; 4] = [
         (
             &[CircleToStraight, EllipseToStraight],
             [Motion::Motionless, Motion::Straight],
