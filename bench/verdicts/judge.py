@@ -71,7 +71,8 @@ def at_rest(run):
 
 def settling(run):
     """It changes less and less, and by little."""
-    return halves(run, "rate") < 0.5 and late(run)[-1]["rate"][1] < 1e-2 * run["fastest"]
+    last = late(run)[-1]["rate"][1] / run["fastest"]
+    return halves(run, "rate") < 0.5 and last < 1e-2 or halves(run, "rate") < 1 and last < 1e-4
 
 
 def largest_ever(run):
@@ -89,7 +90,7 @@ def turning_rate(run):
 
 def equilibrium(verdict, run):
     if not at_rest(run):
-        if settling(run):
+        if settling(run) or run["t"] < verdict["time"]:
             return "undecided", "still on its way to an equilibrium"
         return "contradicted", f"the shape goes on changing (rate {high(run, 'rate'):.2g} of {run['fastest']:.2g})"
     regime, moving, rate = verdict["regime"], moves(run), turning_rate(run)
@@ -128,7 +129,10 @@ def periodic(verdict, run):
         return "contradicted", f"after the period the shape is off by {period['whole'] / diameter:.2g} of the diameter"
     for name in ("half", "third", "quarter"):
         if period[name] < CLOSES * diameter:
-            return "contradicted", f"it repeats after a {name} of the period"
+            if period["whole"] > 1e-5 * diameter:
+                return "undecided", f"near a saddle: after a {name} of the period it is as close as after all of it"
+            if period[name] < 1e-5 * diameter:
+                return "contradicted", f"it repeats after a {name} of the period"
     seen = seen_after(period)
     regime, forms = PERIODIC_NAMES[seen]
     if verdict["regime"] != regime or verdict["form"] not in forms:
@@ -195,6 +199,7 @@ def cycle(verdict, run):
     turns = [math.degrees(b[1] - a[1]) for a, b in zip(run["bursts"], run["bursts"][1:])][-6:]
     if any(abs(turn - 90 * round(turn / 90)) > 2 for turn in turns):
         return "contradicted", f"turns of {', '.join(f'{turn:.1f}' for turn in turns)} degrees"
-    if gaps[-1] < 0.5 * max(gaps):
-        return "contradicted", f"rests become shorter: {gaps[-1]:.4g} after {max(gaps):.4g}"
+    rests = [gap for gap in gaps if gap > 0.2 * max(gaps)]  # the others lie between the two halves of a turn
+    if rests[-1] < 0.5 * max(rests):
+        return "contradicted", f"rests become shorter: {rests[-1]:.4g} after {max(rests):.4g}"
     return "agrees", ""

@@ -110,7 +110,7 @@ def main():
     parser.add_argument("--cells", type=int, choices=(0, 1), default=1, help="also the active cell at 28 lengths (default 1)")
     parser.add_argument("--cap", type=float, default=60000.0, help="longest run (model time)")
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--out", type=Path, help="folder for the results (JSON lines of all that does not simply agree)")
+    parser.add_argument("--out", type=Path, help="folder for the results (JSON lines of all that neither agrees nor is weak)")
     options = parser.parse_args()
     classifier, long_run = programs.build()
     contradicted, report = 0, []
@@ -122,7 +122,7 @@ def main():
         cases, found, results = in_parts(title, cases, classifier, long_run[cases[0]["model"]], options)
         counts = table(f"{title}: {len(cases)} motions, seed {options.seed}", found, results)
         contradicted += counts["contradicted"]
-        report += [kept(*row) for row in zip(cases, found, results) if row[2][0] != "agrees"]
+        report += [kept(*row) for row in zip(cases, found, results) if row[2][0] not in ("agrees", "weak")]
     shown = [row for row in report if row["status"] == "contradicted"]
     for row in shown[:SHOWN]:
         print(f"\n{row['id']}: {row['verdict']['regime']} ({row['verdict']['why']})\n  long run: {row['reason']}")

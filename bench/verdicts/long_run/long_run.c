@@ -16,7 +16,7 @@ enum { PLANE = SHAPE + 2, ALL = PLANE + SHAPE, WINDOWS = 16, BURSTS = 4096, KEPT
 
 static const double ESCAPED = 1e6; /* |z| beyond it */
 static const double APART = 1e-8;  /* distance of the twin, against the size */
-static const long MOST_STEPS = 4000000;
+static const long MOST_STEPS = 600000;
 
 typedef struct {
     const Parameters *p;

@@ -177,6 +177,29 @@ fn three_modes_are_the_tensor_model() {
     }
 }
 
+/// With mode 4 slaved, `phi_4 = A phi_2^2 + B phi_1 phi_3`, the reduced rates of modes 1 to 3 are those of the full field there: A and B
+/// from the mode form, `(2 sigma_2 - sigma_4) A = -32 i k^5`, `(sigma_1 + sigma_3 - sigma_4) B = -36 i k^5`.
+#[test]
+fn the_slaved_fourth_mode_acts_back_as_in_the_full_field() {
+    let p = CellParameters { length: 14.0, modes: 7.0, ..Default::default() };
+    let full = Cell::new(&p).unwrap();
+    let k = TAU / p.length;
+    let sigma = |n: f64| (k * n).powi(4) - (k * n).powi(6);
+    let a = -32.0 * k.powi(5) / (2.0 * sigma(2.0) - sigma(4.0));
+    let b = -36.0 * k.powi(5) / (sigma(1.0) + sigma(3.0) - sigma(4.0));
+    let times = |x: [f64; 2], y: [f64; 2]| [x[0] * y[0] - x[1] * y[1], x[0] * y[1] + x[1] * y[0]];
+    let mut shape = vec![0.0; full.dim()];
+    shape[..6].copy_from_slice(&[0.3, -0.2, 0.25, 0.1, -0.15, 0.05]);
+    let [one, two, three] = [0, 2, 4].map(|i| [shape[i], shape[i + 1]]);
+    let (square, mixed) = (times(two, two), times(one, three));
+    let sum = [a * square[0] + b * mixed[0], a * square[1] + b * mixed[1]];
+    (shape[6], shape[7]) = (-sum[1], sum[0]); // times i
+    let (mut rate, mut reduced) = (vec![0.0; full.dim()], [0.0; 6]);
+    VectorField::<f64>::eval(&full, 0.0, &shape, &mut rate);
+    FourierField::all(reduce(&p, Slaved::Fourth)).eval(0.0, &amplitudes(&shape[..6]), &mut reduced);
+    assert!(distance(&modes(&reduced), &rate[..6]) < 1e-14, "{:?} {:?}", modes(&reduced), &rate[..6]);
+}
+
 /// On the slow manifold near 4 pi the error of the reduced flow falls with the stated power of the amplitude.
 #[test]
 fn slaved_modes_follow_to_the_stated_order() {
