@@ -19,6 +19,7 @@ use super::stay::Stay;
 use super::verdict::{Attractor, Regime, Verdict};
 use super::{chaos, words};
 use crate::equilibrium::RelativeEquilibrium;
+use crate::isotropy::Isotropy;
 use crate::linear::norm;
 use crate::{Lyapunov, Result};
 use motiform_dynamics::{Equivariant, Outcome, Sink};
@@ -301,12 +302,18 @@ impl Search {
         }
         let witness = chaos::Witness::of(&look);
         self.growth.extend(Growth::of(&run, self.time));
-        let decided = chaos::chaotic(&self.growth, &run, &witness, self.time)
-            .or_else(|| chaos::torus(&run, &witness, self.time));
+        let chaos = chaos::chaotic(&self.growth, &run, &witness, self.time);
+        // Out of a subspace of exact symmetry neighbouring orbits may separate at a rate that no chaos has made.
+        let symmetric = chaos.is_some() && !Isotropy::of(body, &self.shape, EXACT).is_trivial();
+        let decided = chaos.filter(|_| !symmetric).or_else(|| chaos::torus(&run, &witness, self.time));
         if let Some(verdict) = decided {
             return Ok(self.described(verdict, body, look.end - look.start)?.into());
         }
-        self.missing = chaos::missing(&self.growth, &witness);
+        self.missing = if symmetric {
+            "the orbit keeps an exact symmetry, and neighbouring orbits leave it".to_owned()
+        } else {
+            chaos::missing(&self.growth, &witness)
+        };
         self.again(body)
     }
 
@@ -336,3 +343,6 @@ impl Search {
 
 /// An equilibrium this near (against the size of the shape) may be where the orbit goes.
 const CLOSE: f64 = 1e-3;
+
+/// A shape that differs from its image by less than this part of its size has the symmetry exactly.
+const EXACT: f64 = 1e-12;

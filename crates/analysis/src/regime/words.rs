@@ -30,7 +30,7 @@ pub(super) fn blow_up(singular: bool, t: f64, time: f64) -> Verdict {
 }
 
 /// Speeds below this part of the largest shape on the way are what is left of it: Newton's method goes no further.
-const REST: f64 = 1e-13;
+const REST: f64 = 1e-11;
 
 /// What a body does at a relative equilibrium.
 struct Steady {
