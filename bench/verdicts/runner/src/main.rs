@@ -59,6 +59,6 @@ fn settings(info: &ModelInfo) -> Result<Settings, Box<dyn Error>> {
         first_look: info.look,
         budget: info.budget,
         escape_norm: 1e6,
-        max_steps: 1_000_000_000,
+        max_steps: 100_000_000,
     })
 }
