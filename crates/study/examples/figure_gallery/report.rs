@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use motiform_study::report::{Claim, Picture, Report, ReportFigure, Section, Verdict};
+use motiform_study::report::{Claim, Picture, Report, ReportFigure, Section, Source, Verdict};
 
 use super::diagrams::phase_diagram;
 use super::{Outcome, return_map};
@@ -14,6 +14,7 @@ pub(super) fn write(folder: &Path) -> Outcome {
             "Every figure and every claim, computed anew.\n\nAll data come from a formula of this example."
                 .into(),
         sections: vec![phases()?, chaos()?],
+        sentences: Vec::new(),
     };
     let html = report.html();
     println!("report: {} kB, all hold: {}", html.len() / 1000, report.all_hold());
@@ -38,12 +39,14 @@ fn phases() -> Result<Section, Box<dyn std::error::Error>> {
         }],
         claims: vec![
             Claim {
+                source: Source::Ours,
                 says: "The straight motion loses its stability at *κ*_2 = *κ*_3.".into(),
                 finds: "At *κ*_2 = 0.5000 ± 0.0002 for *κ*_3 = 0.5.".into(),
                 how: "sign of the largest real part, bisected to 10^{-4}; agreement within 10^{-3}".into(),
                 verdict: Verdict::Holds,
             },
             Claim {
+                source: Source::Ours,
                 says: "Zigzag motion has the period 36.2.".into(),
                 finds: "35.9 model times.".into(),
                 how: "mean distance of 50 crossings; agreement within 0.5 %".into(),
@@ -65,6 +68,7 @@ fn chaos() -> Result<Section, Box<dyn std::error::Error>> {
             picture: Picture::Svg(return_map(3000).svg()?),
         }],
         claims: vec![Claim {
+            source: Source::Ours,
             says: "The largest Lyapunov exponent is 0.012.".into(),
             finds: "*λ*_1 = 0.0003 ± 0.0004.".into(),
             how: "tangent flow over 10^{6} model times; 95 % interval".into(),
