@@ -47,7 +47,7 @@ pub(crate) fn motions(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
     let (verdicts, basins, escapes) = answer(Watch::here(py, progress, |monitor| {
-        let mut study = crate::study::Study(study.0.perturbed()?.0);
+        let mut study = Study(study.0.perturbed()?.0);
         let random = Random::of(study.0.random, samples as u64, study.0.info()?);
         study.0.random = Some(random); // the first of many is drawn like the others
         let given = study.0.initial.iter().any(|(name, _)| !["x", "y"].contains(&name.as_str()));

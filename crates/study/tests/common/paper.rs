@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 /// Prints and checks a report of these chapters: nothing fails, what differs has its reason, claims name sentences, and every
 /// sentence that the table gives to a chapter has a claim in it.
-pub fn check(report: &Report, chapters: &[&str]) {
+pub(crate) fn check(report: &Report, chapters: &[&str]) {
     assert_eq!(report.sections.len(), chapters.len());
     for (section, chapter) in report.sections.iter().zip(chapters) {
         let mut checked = BTreeSet::new();
