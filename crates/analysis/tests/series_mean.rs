@@ -52,7 +52,7 @@ fn correlated_series_are_covered_up_to_a_fiftieth_of_their_length() {
     for tau in [1.0, 4.0, 10.0, 20.0, 40.0] {
         let (known, covered, width) = coverage(tau);
         println!("correlation time {tau} of {SAMPLES}: {known} {covered} {width}");
-        assert!(covered >= 0.93 && covered <= 0.985, "correlation time {tau}: {covered}");
+        assert!((0.93..=0.985).contains(&covered), "correlation time {tau}: {covered}");
         assert!((0.95..1.3).contains(&width), "correlation time {tau}: {width}");
         assert!(known > 0.9, "correlation time {tau}: {known}");
     }

@@ -139,11 +139,7 @@ fn a_periodic_orbit_is_stable_below_the_multiplier_one_and_not_above() {
         let seen = verdict(&Ledge { growth: multiplier.ln() / TAU }, &[0.7, 0.1, 0.0]);
         let confident = seen.margin.is_some_and(|margin| margin >= 3.0);
         let stable = seen.attractor == Attractor::Periodic && !seen.why.contains("unstable");
-        assert!(
-            !stable && !(confident && seen.attractor == Attractor::Chaotic),
-            "{multiplier}: {}",
-            seen.why
-        );
+        assert!(!(stable || confident && seen.attractor == Attractor::Chaotic), "{multiplier}: {}", seen.why);
         // beside the ledge the same field ends on a stable cycle, at w = 1
         let seen = verdict(&Ledge { growth: multiplier.ln() / TAU }, &[0.7, 0.1, 1e-3]);
         assert_eq!(seen.attractor, Attractor::Periodic, "{multiplier}: {}", seen.why);

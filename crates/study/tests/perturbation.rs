@@ -19,10 +19,13 @@ fn verdict(study: &Study) -> Verdict {
     analyse::classify(&Plan::new(study).unwrap(), 0.0, &()).unwrap().unwrap()
 }
 
+/// Model, preset, initial values.
+type Start = (&'static str, Option<&'static str>, &'static [(&'static str, f64)]);
+
 /// The commands that called a body at rest chaotic.
 #[test]
 fn a_symmetric_start_is_named_like_a_typical_one_and_an_exact_one_by_what_it_does() {
-    let starts: [(&str, Option<&str>, &[(&str, f64)]); 6] = [
+    let starts: [Start; 6] = [
         ("tensor", Some("fig1"), &[("v1", 1.0)]),
         ("tensor", None, &[("v1", 0.0)]),
         ("cell", None, &[("c1", 0.0)]),
