@@ -135,7 +135,7 @@ fn check_prints_the_plan_that_simulate_carries_out() {
     assert!(told.contains("rtol 1e-9, atol 1e-12"), "{told}");
     assert!(
         told.contains(
-            "noise       amplitude 0.001 on the shape and 0.0 on the velocity, steps of 0.0625, seed 4"
+            "noise       amplitude 0.001 on the shape, 0.0 on the velocity, steps of 0.0625, seed 4"
         ),
         "{told}"
     );
@@ -156,7 +156,7 @@ fn simulate_names_what_it_simulated() {
     let noisy = folder.run(&format!("{words} --json --noise 1e-3")).expect(0).json();
     assert!(noisy.get("regime").is_none());
     let told = folder.run(&format!("{words} --noise 1e-3 --out noisy")).expect(0).stdout;
-    assert!(told.contains("noise     amplitude 0.001 on the shape and 0.001 on the velocity"), "{told}");
+    assert!(told.contains("noise     amplitude 0.001 on the shape, 0.001 on the velocity"), "{told}");
     assert!(told.starts_with("Tensor model: ") && !told.contains("motion "), "{told}");
 }
 

@@ -76,14 +76,15 @@ fn json_says_so_too() {
     assert_eq!(names(&folder.path("run")), ["manifest.json", "trajectory.parquet"]);
 }
 
-/// During the transient nothing is recorded yet: time is negative, the tables are empty, and that is a dataset too.
+/// An end during the transient says so, with the time since the start; that is a dataset too.
 #[test]
 fn during_the_transient() {
     let folder = Folder::new();
     interrupt(&folder, "--transient 1e9").expect(130);
     let manifest = read_json(&folder.path("run/manifest.json"));
     assert_eq!(manifest["outcome"]["kind"], "interrupted");
-    assert!(manifest["outcome"]["t"].as_f64().unwrap() < 0.0);
+    assert!(manifest["outcome"]["t"].as_f64().unwrap() > 0.0);
+    assert_eq!(manifest["outcome"]["during"], "transient");
     assert_eq!(names(&folder.path("run")), ["manifest.json", "trajectory.parquet"]);
     folder.run("figure run").expect(0);
 }

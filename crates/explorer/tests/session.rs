@@ -129,6 +129,7 @@ fn the_map_says_what_classify_says() {
     let regimes: Vec<String> = [
         "motionless",
         "straight",
+        "pulsating-straight",
         "circular",
         "rectangular",
         "quasi-periodic",
