@@ -40,7 +40,8 @@ fn a_symmetric_start_is_named_like_a_typical_one_and_an_exact_one_by_what_it_doe
         assert!(!perturbation.names.iter().any(|name| initial.contains(&(name.as_str(), 1.0))));
         let (found, random) = (verdict(&typical), verdict(&study(model, preset, &[])));
         println!("{model} {preset:?}: {} ({perturbation}); typical {}", found.regime, random.regime);
-        assert_eq!(found.regime, random.regime, "{}", found.why);
+        // where b3 = d3 = 0 large starts may blow up
+        assert!([random.regime, Regime::BlowUp].contains(&found.regime), "{}", found.why);
         let stays = verdict(&exact);
         println!("   exactly: {} {:?}: {}", stays.regime, stays.attractor, stays.why);
         assert_ne!(stays.regime, Regime::Chaotic, "{}", stays.why);
@@ -89,8 +90,8 @@ fn a_perturbation_is_small_drawn_from_the_seed_and_written_in_the_plan() {
 #[test]
 fn coordinates_that_some_cells_lack_are_left_alone() {
     let mut start = study("cell", None, &[("c1", 0.1)]);
-    start.scan.axes = vec![motiform_study::scan::Axis::parse("modes=8,12").unwrap()];
+    start.scan.axes = vec![motiform_study::scan::Axis::parse("modes=16,24").unwrap()];
     let (study, perturbation) = start.perturbed().unwrap();
-    assert!(perturbation.unwrap().names.iter().all(|name| name != "c9" && name != "s12"));
+    assert!(perturbation.unwrap().names.iter().all(|name| name != "c17" && name != "s24"));
     ScanPlan::new(&study).unwrap();
 }
