@@ -121,7 +121,7 @@ impl Lyapunov {
 ///
 /// The vectors are made orthonormal whenever the fastest and the slowest have parted by a factor of about e^8: the interval is
 /// chosen in the transient and kept, and a stretch ends with the first step that reaches the end of its interval. Errors are
-/// 95 % half widths for correlated rates ([`crate::series_mean`]), at least the growth that the steps' own tolerance leaves
+/// 95 % half widths for correlated rates ([`crate::series_mean()`]), at least the growth that the steps' own tolerance leaves
 /// undetermined. They are infinite where the rates are worth fewer than 16 independent ones, and where the run is shorter than
 /// 20 of the motion's fastest times: such a run says nothing about its error.
 ///
