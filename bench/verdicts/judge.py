@@ -162,7 +162,7 @@ def torus(verdict, run):
     length = run["t"] / 16
     rate, error = growth(late(run), length)
     if rate > 2 * error and rate * 8 * length > 15:
-        return "contradicted", f"neighbours part at {rate:.3g} +- {error:.2g}"
+        return "contradicted", f"neighbouring orbits separate at {rate:.3g} +- {error:.2g}"
     spreads = [window["minima"][1] - window["minima"][0] for window in late(run)]
     if shrinks(run) and spreads[-1] < 0.8 * spreads[0]:
         return "contradicted", f"the curve shrinks from {spreads[0]:.3g} to {spreads[-1]:.3g}"
@@ -185,8 +185,8 @@ def chaotic(verdict, run):
     if rate > 2 * error and rate > 0.5 * claimed["value"]:
         return "agrees", ""
     if rate + error < 0.5 * (claimed["value"] - claimed["error"]):
-        return "contradicted", f"neighbours part at {rate:.3g} +- {error:.2g}, not {claimed['value']:.3g}"
-    return "undecided", f"neighbours part at {rate:.3g} +- {error:.2g}"
+        return "contradicted", f"neighbouring orbits separate at {rate:.3g} +- {error:.2g}, not {claimed['value']:.3g}"
+    return "undecided", f"neighbouring orbits separate at {rate:.3g} +- {error:.2g}"
 
 
 def cycle(verdict, run):
@@ -196,7 +196,8 @@ def cycle(verdict, run):
         return "undecided", "too few rests"
     if low(run, "rate") > 1e-3 * run["fastest"]:
         return "contradicted", f"never at rest: {low(run, 'rate'):.2g} of {run['fastest']:.2g}"
-    turns = [math.degrees(b[1] - a[1]) for a, b in zip(run["bursts"], run["bursts"][1:])][-6:]
+    bursts = run["bursts"][1:]  # the first is how the body leaves its start
+    turns = [math.degrees(b[1] - a[1]) for a, b in zip(bursts, bursts[1:])][-6:]
     if any(abs(turn - 90 * round(turn / 90)) > 2 for turn in turns):
         return "contradicted", f"turns of {', '.join(f'{turn:.1f}' for turn in turns)} degrees"
     rests = [gap for gap in gaps if gap > 0.2 * max(gaps)]  # the others lie between the two halves of a turn

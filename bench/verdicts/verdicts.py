@@ -75,7 +75,7 @@ def in_parts(title, cases, classifier, long_run, options):
         found += verdicts
         results += checked
         against = sum(status == "contradicted" for status, _ in results)
-        print(f"{title}: {at + 100} of {len(cases)}, {against} contradicted", file=sys.stderr, flush=True)
+        print(f"{title}: {min(at + 100, len(cases))} of {len(cases)}, {against} contradicted", file=sys.stderr, flush=True)
     return named, found, results
 
 

@@ -2,26 +2,13 @@
 
    Each line of standard input: id total period kick seed length, then c1 s1 .. c21 s21. Each line of standard output is one JSON object. */
 #include "cell.h"
+#include "window.h"
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 enum { WINDOWS = 16, BURSTS = 4096, KEPT = 4096 };
 
-static const double STEP = 0.05, LOOK = 1.0, APART = 1e-8;
-
-typedef struct { double low, high; } Range;
-typedef struct {
-    double growth, heading;
-    int returns;
-    Range rate, speed, turn, size, hand, minima;
-} Window;
-typedef struct { double t, heading; } Burst;
-
-static Range none(void) { return (Range){INFINITY, -INFINITY}; }
-static void see(Range *r, double x) { r->low = fmin(r->low, x); r->high = fmax(r->high, x); }
-static double number(double x) { return isfinite(x) ? x : 0; }
-static void print_range(const char *name, Range r) { printf(",\"%s\":[%.10g,%.10g]", name, number(r.low), number(r.high)); }
+static const double STEP = 0.0125, LOOK = 1.0, APART = 1e-8;
 
 static double dot(const Shape a, const Shape b)
 {
@@ -86,18 +73,6 @@ static double distance(const Shape a, const Shape b0, int mirrored, double *best
     }
     *best = remainder(found, 2 * M_PI);
     return least;
-}
-
-static void print_window(const Window *w)
-{
-    printf("{\"growth\":%.10g,\"heading\":%.10g,\"returns\":%d", number(w->growth), number(w->heading), w->returns);
-    print_range("rate", w->rate);
-    print_range("speed", w->speed);
-    print_range("turn", w->turn);
-    print_range("size", w->size);
-    print_range("hand", w->hand);
-    print_range("minima", w->minima);
-    printf("}");
 }
 
 /* What the shape is after `period`, and the heading on the way. */
@@ -183,15 +158,16 @@ static void run(const char *id, Cell *c, Shape u, Shape twin, double total, doub
             see(&window.size, now);
             fastest = fmax(fastest, rate);
             const int wakes = rate > 0.01 * fastest && !awake;
-            if (wakes || w >= WINDOWS / 2) {
+            const int late = w * looks + look + 1 >= WINDOWS / 2 * looks; /* the velocity is computed at every look of the second half */
+            if (wakes || late) {
                 const Mode v = cell_velocity(c, u);
+                if (wakes && burst_count < BURSTS) bursts[burst_count++] = (Burst){t, carg(v)};
                 see(&window.speed, cabs(v));
-                if (cabs(v) > 0 && cabs(last) > 0) {
+                if (w >= WINDOWS / 2 && cabs(v) > 0 && cabs(last) > 0) {
                     window.heading += carg(v * conj(last));
                     see(&window.turn, carg(v * conj(last)) / LOOK);
                 }
-                last = v;
-                if (wakes && burst_count < BURSTS) bursts[burst_count++] = (Burst){t, carg(v)};
+                if (late) last = v;
             }
             awake = wakes || (awake && rate > 0.005 * fastest);
             const double d = apart(u, twin);

@@ -8,8 +8,8 @@
 #include "rkf78.h"
 #include "shape.h"
 #include "tensor.h"
+#include "window.h"
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 enum { PLANE = SHAPE + 2, ALL = PLANE + SHAPE, WINDOWS = 16, BURSTS = 4096, KEPT = 4096 };
@@ -78,48 +78,6 @@ static Run start(const Parameters *p, const double *u, int n, double rtol)
     memcpy(r.u, u, n * sizeof *u);
     field(&r.context, r.u, r.du);
     return r;
-}
-
-/* Least and most of something. */
-typedef struct {
-    double low, high;
-} Range;
-
-static Range none(void) { return (Range){INFINITY, -INFINITY}; }
-
-static void see(Range *r, double x)
-{
-    r->low = fmin(r->low, x);
-    r->high = fmax(r->high, x);
-}
-
-typedef struct {
-    double growth, heading;
-    Range rate, speed, turn, size, hand, minima;
-    int returns;
-} Window;
-
-typedef struct {
-    double t, heading;
-} Burst;
-
-static double number(double x) { return isfinite(x) ? x : 0; }
-
-static void print_range(const char *name, Range r)
-{
-    printf(",\"%s\":[%.10g,%.10g]", name, number(r.low), number(r.high));
-}
-
-static void print_window(const Window *w)
-{
-    printf("{\"growth\":%.10g,\"heading\":%.10g,\"returns\":%d", number(w->growth), number(w->heading), w->returns);
-    print_range("rate", w->rate);
-    print_range("speed", w->speed);
-    print_range("turn", w->turn);
-    print_range("size", w->size);
-    print_range("hand", w->hand);
-    print_range("minima", w->minima);
-    printf("}");
 }
 
 /* |z| at the minimum between a step's start and its end (Illinois), by the step's own method. */

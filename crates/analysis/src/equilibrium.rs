@@ -1,6 +1,6 @@
 //! Relative equilibria: shapes that do not change but for a steady rotation.
 
-use crate::isotropy::folds;
+use crate::isotropy::Isotropy;
 use crate::linear::{add, apply, basis, complement, dot, eigenvalues, least_squares, norm, restrict};
 use crate::symmetry::{align, turning_of_shape};
 use motiform_dynamics::tangent::jacobian;
@@ -158,7 +158,8 @@ impl RelativeEquilibrium {
     fn classes<B: Equivariant + ?Sized>(&self, body: &B) -> Vec<Vec<Vec<f64>>> {
         let dim = self.shape.len();
         let neutral = neutral_direction(body, &self.shape);
-        let folds = folds(body, &self.shape, 1e-7);
+        let isotropy = Isotropy::of(body, &self.shape, 1e-6);
+        let folds = isotropy.folds;
         let mean = |x: &[f64]| {
             let mut sum = vec![0.0; dim];
             for k in 0..folds {
@@ -179,22 +180,18 @@ impl RelativeEquilibrium {
             }
             out
         };
-        let mirror = align(body, &self.shape, &self.shape, true);
-        let reflect = |x: &[f64]| {
-            let mut out = x.to_vec();
-            body.mirror(&mut out);
-            body.rotate(mirror.angle, &mut out);
-            out
-        };
         let all = complement(&[], dim);
         let span = |part: &dyn Fn(&[f64]) -> Vec<f64>| {
             let images: Vec<Vec<f64>> = all.iter().map(|x| part(x)).filter(|x| norm(x) > 1e-6).collect();
             basis(&images.iter().map(Vec::as_slice).collect::<Vec<_>>(), 1e-6)
         };
-        let symmetric = body.is_symmetric() && mirror.distance < 1e-6 * norm(&self.shape);
-        if !symmetric {
-            return vec![span(&breaking)];
-        }
+        let Some(axis) = isotropy.mirror else { return vec![span(&breaking)] };
+        let reflect = |x: &[f64]| {
+            let mut out = x.to_vec();
+            body.mirror(&mut out);
+            body.rotate(axis, &mut out);
+            out
+        };
         let half = |sign: f64| {
             move |x: &[f64]| {
                 let mut out = breaking(x);

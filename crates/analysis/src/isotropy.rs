@@ -43,7 +43,7 @@ impl Isotropy {
 }
 
 /// The order of the rotations that leave the shape unchanged (1 for none; a circle counts as 1).
-pub(crate) fn folds<B: Equivariant + ?Sized>(body: &B, shape: &[f64], tolerance: f64) -> usize {
+fn folds<B: Equivariant + ?Sized>(body: &B, shape: &[f64], tolerance: f64) -> usize {
     let fixed = |folds: &usize| {
         let mut turned = shape.to_vec();
         body.rotate(std::f64::consts::TAU / *folds as f64, &mut turned);

@@ -4,53 +4,12 @@
 
 mod common;
 
-use common::named;
-use motiform_analysis::{Attractor, Settings, Verdict};
-use motiform_dynamics::steppers::{DOP853, Method};
-use motiform_dynamics::{Equivariant, Scalar, Semilinear, Shape, StepControl, System, VectorField};
+use common::{ORDINARY, named};
+use motiform_analysis::{Attractor, Verdict};
+use motiform_dynamics::{Equivariant, Scalar, VectorField};
+use motiform_models::plain;
 use motiform_models::zoo::{Hopf, Torus};
 use std::f64::consts::TAU;
-
-/// All time scales here are of order 1 to 10.
-const SETTINGS: Settings = Settings {
-    method: Method::Explicit(&DOP853),
-    control: StepControl::Adaptive { rtol: 1e-9, atol: 1e-12 },
-    first_look: 100.0,
-    budget: 2e4,
-    escape_norm: 1e6,
-    max_steps: 100_000_000,
-};
-
-/// A field without linear part, symmetry and drift.
-macro_rules! plain {
-    ($field:ty, $dim:expr) => {
-        impl System for $field {
-            fn dim(&self) -> usize {
-                $dim
-            }
-        }
-
-        impl<T: Scalar> Semilinear<T> for $field {
-            fn linear(&self, lambda: &mut [T::Real]) {
-                for rate in lambda {
-                    *rate = rate.zero();
-                }
-            }
-
-            fn nonlinear(&self, t: T::Real, u: &[T], du: &mut [T]) {
-                VectorField::<T>::eval(self, t, u, du);
-            }
-        }
-
-        impl<T: Scalar> Shape<T> for $field {
-            fn velocity(&self, shape: &[T]) -> [T; 2] {
-                [shape[0].zero(); 2]
-            }
-        }
-
-        impl Equivariant for $field {}
-    };
-}
 
 /// A stable focus at (1, 0), rate -0.2, inside a small stable cycle of radius `cycle`: with `s = r^2/(r^2 + cycle^2)`,
 /// `r' = -0.2 r (1 - 5 s)(1 - 2 s)`, turning at rate 1. Between the two an unstable cycle at half the radius.
@@ -99,7 +58,7 @@ impl<T: Scalar> VectorField<T> for ThreeTorus {
 plain!(ThreeTorus, 6);
 
 fn verdict(body: &impl Equivariant, start: &[f64]) -> Verdict {
-    let verdict = named(body, start, &SETTINGS);
+    let verdict = named(body, start, &ORDINARY);
     println!("{:?} {:?} t {:.0}: {}", verdict.attractor, verdict.margin, verdict.time, verdict.why);
     verdict
 }

@@ -4,21 +4,10 @@
 
 mod common;
 
-use common::{named, near};
-use motiform_analysis::{Attractor, Settings, Verdict};
-use motiform_dynamics::steppers::{DOP853, Method};
-use motiform_dynamics::{Equivariant, StepControl};
+use common::{ORDINARY, named, near};
+use motiform_analysis::{Attractor, Verdict};
+use motiform_dynamics::Equivariant;
 use motiform_models::zoo::{Heteroclinic, Hopf, Linear, Lorenz, Rossler, Torus, VanDerPol};
-
-/// All time scales of the zoo are of order 1 to 10.
-const SETTINGS: Settings = Settings {
-    method: Method::Explicit(&DOP853),
-    control: StepControl::Adaptive { rtol: 1e-9, atol: 1e-12 },
-    first_look: 100.0,
-    budget: 2e4,
-    escape_norm: 1e6,
-    max_steps: 100_000_000,
-};
 
 fn number(system: &str, key: &str) -> f64 {
     let all: toml::Table = include_str!("../../../reference/zoo.toml").parse().unwrap();
@@ -31,7 +20,7 @@ fn numbers(system: &str, key: &str) -> Vec<f64> {
 }
 
 fn verdict(body: &impl Equivariant, start: &[f64], want: Attractor) -> Verdict {
-    let verdict = named(body, start, &SETTINGS);
+    let verdict = named(body, start, &ORDINARY);
     println!("{:?} {:?} t {:.0}: {}", verdict.attractor, verdict.margin, verdict.time, verdict.why);
     assert_eq!(verdict.attractor, want, "{}", verdict.why);
     verdict

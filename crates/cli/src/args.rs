@@ -127,8 +127,8 @@ pub(crate) struct ClassifyOptions {
     pub(crate) motion: MotionOptions,
     #[command(flatten)]
     pub(crate) many: SamplesOptions,
-    /// Zeros of a given start become random values within SIZE times its largest value (default: 1e-6), for an exact symmetry
-    /// would last for ever; 0 keeps the exact start
+    /// Zeros of a given start become random values within SIZE times its largest value (default: 1e-6), because an
+    /// orbit never leaves an exact symmetry; 0 keeps the exact start
     #[arg(long, value_name = "SIZE", value_parser = number, allow_hyphen_values = true)]
     pub(crate) perturb: Option<f64>,
     /// Most model time to spend; 0 is the model's default
@@ -210,8 +210,8 @@ pub(crate) struct ScanOptions {
     /// Seed of the random initial states
     #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) seed: Option<u64>,
-    /// Zeros of a given start become random values within SIZE times its largest value (default: 1e-6), for an exact symmetry
-    /// would last for ever; 0 keeps the exact start
+    /// Zeros of a given start become random values within SIZE times its largest value (default: 1e-6), because an
+    /// orbit never leaves an exact symmetry; 0 keeps the exact start
     #[arg(long, value_name = "SIZE", value_parser = number, allow_hyphen_values = true)]
     pub(crate) perturb: Option<f64>,
     /// Most model time that naming one motion may take; 0 is the model's default

@@ -22,8 +22,9 @@ pub struct ModelInfo {
     pub stepper: &'static str,
     /// The relative tolerance to use by default.
     pub rtol: f64,
-    /// Entries of the state below this size count as small: see [`ModelInfo::absolute_tolerance`].
-    pub small: f64,
+    /// Relative over absolute tolerance, where only the former is given: the inverse of the size below which an entry of the state counts
+    /// as small.
+    pub tolerance_ratio: f64,
     /// Some tens of its slowest ordinary time scale (model time): how long to look at a motion first.
     pub look: f64,
     /// Most model time to spend on naming a motion, by default.
@@ -49,7 +50,7 @@ pub static MODELS: &[ModelInfo] = &[
         source: "Hiraiwa, Ohkuma, Ohta, Matsuo, Sano, EPL (2010), eqs. (V), (S), (U)",
         stepper: "dop853",
         rtol: 1e-9,
-        small: 1e-3,
+        tolerance_ratio: 1e3,
         look: 200.0,
         budget: 4e4,
         size: 1.0,
@@ -65,7 +66,7 @@ pub static MODELS: &[ModelInfo] = &[
         source: "Hiraiwa, Ohkuma, Ohta, Matsuo, Sano, EPL (2010), eqs. (C), (VEL), (CLOSE)",
         stepper: "krogstad4",
         rtol: 1e-6,
-        small: 0.1, // high modes are tiny: their digits do not matter
+        tolerance_ratio: 10.0, // high modes are tiny: their digits do not matter
         look: 1500.0,
         budget: 1e5,
         size: 4.0,
@@ -114,13 +115,13 @@ impl ModelInfo {
         })
     }
 
-    /// The absolute tolerance that goes with a relative one, where none is given: `rtol small`. So `rtol` alone decides how
+    /// The absolute tolerance that goes with a relative one, where none is given: `rtol / tolerance_ratio`. So `rtol` alone decides how
     /// accurate a run is.
     ///
     /// # Checked by  study/tests/tolerances.rs: the global error against the request, for both models
     #[must_use]
     pub fn absolute_tolerance(&self, rtol: f64) -> f64 {
-        rtol / self.small.recip() // the sizes are powers of ten, and their inverses exact: 1e-9 gives 1e-12
+        rtol / self.tolerance_ratio
     }
 
     /// Its registry of parameters.

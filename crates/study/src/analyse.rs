@@ -1,4 +1,4 @@
-//! A plan, and a question about its motion: which one is it, and do neighbours part?
+//! A plan, and a question about its motion: which one is it, and do neighbouring orbits separate?
 
 use crate::plan::{Control, check_no_noise};
 use crate::simulate::Monitor;

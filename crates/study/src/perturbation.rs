@@ -23,7 +23,7 @@ impl fmt::Display for Perturbation {
         let names = if count > 6 { format!("{count} coordinates") } else { self.names.join(", ") };
         write!(
             f,
-            "{names} left at zero: random values within +-{:e} instead, for an exact symmetry would last for ever",
+            "{names} left at zero: random values within +-{:e} instead, because an orbit never leaves an exact symmetry",
             self.size
         )
     }

@@ -375,7 +375,7 @@ pub fn schema() -> serde_json::Value {
     });
     initial["properties"]["perturb"] = serde_json::json!({
         "type": "number",
-        "description": "classify and scan put random values within this part of the largest given one in the place of zeros, for an exact symmetry would last for ever; 0 keeps the exact start",
+        "description": "classify and scan put random values within this part of the largest given one in the place of zeros, because an orbit never leaves an exact symmetry; 0 keeps the exact start",
     });
     serde_json::json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",

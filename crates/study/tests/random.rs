@@ -1,4 +1,4 @@
-//! The random start is fixed forever by its seed, on every machine.
+//! The random start is fixed by its seed, on every machine.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 

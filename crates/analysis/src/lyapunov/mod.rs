@@ -119,7 +119,7 @@ impl Lyapunov {
 ///
 /// lambda_i = lim 1/T sum ln R_ii
 ///
-/// The vectors are made orthonormal whenever the fastest and the slowest have parted by a factor of about e^8: the interval is
+/// The vectors are made orthonormal whenever the fastest and the slowest have separated by a factor of about e^8: the interval is
 /// chosen in the transient and kept, and a stretch ends with the first step that reaches the end of its interval. Errors are
 /// 95 % half widths for correlated rates ([`crate::series_mean()`]), at least the growth that the steps' own tolerance leaves
 /// undetermined. They are infinite where the rates are worth fewer than 16 independent ones, and where the run is shorter than
@@ -265,13 +265,13 @@ fn means(history: &[(f64, Vec<f64>)], start: f64, numerical: f64, pace: f64) -> 
 }
 
 /// The lengths of the intervals of a history that begins at `start`.
-fn durations(history: &[(f64, Vec<f64>)], start: f64) -> Vec<f64> {
+pub(crate) fn durations(history: &[(f64, Vec<f64>)], start: f64) -> Vec<f64> {
     let starts = std::iter::once(start).chain(history.iter().map(|entry| entry.0));
     history.iter().zip(starts).map(|(entry, start)| entry.0 - start).collect()
 }
 
 /// The rates of one vector.
-fn rates(history: &[(f64, Vec<f64>)], vector: usize) -> Vec<f64> {
+pub(crate) fn rates(history: &[(f64, Vec<f64>)], vector: usize) -> Vec<f64> {
     history.iter().map(|entry| entry.1[vector]).collect()
 }
 

@@ -4,7 +4,7 @@ use super::{Lyapunov, LyapunovSettings, SoFar, means, neutral_directions, pace};
 use crate::Result;
 use motiform_dynamics::{Equivariant, Outcome, StepControl, VectorField};
 
-/// Vectors are made orthonormal when they have parted by this factor (natural logarithm).
+/// Vectors are made orthonormal when they have separated by this factor (natural logarithm).
 const PARTED: f64 = 8.0;
 
 /// Least number of intervals to average over; steps may be twice as long as one of them, so there are half as many stretches
@@ -83,7 +83,7 @@ impl Protocol {
         (!self.history.is_empty()).then_some(SoFar { history: &self.history, begun: self.begun, pace })
     }
 
-    /// Stretches half or twice as long, by how far the vectors have parted.
+    /// Stretches half or twice as long, by how far the vectors have separated.
     fn adjust(&mut self, lengths: &[f64]) {
         let most = lengths.iter().copied().fold(1.0, f64::max).ln();
         let least = lengths.iter().copied().fold(1.0, f64::min).ln();

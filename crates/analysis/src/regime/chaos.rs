@@ -1,28 +1,25 @@
 //! Do neighbouring orbits separate exponentially? The largest exponent, pooled over looks, and what the returns say.
 
+use super::growth::{Growth, Pooled, pooled};
 use super::look::Look;
 use super::returns;
 use super::settings::Settings;
 use super::verdict::{Attractor, Regime, Verdict};
 use crate::lyapunov::{Lyapunov, LyapunovSettings, lyapunov};
-use crate::series_mean::mean_over;
-use crate::{Estimate, Result};
+use crate::{Estimate, Result, escape_limits};
 use motiform_dynamics::{Equivariant, Sink};
 
 /// Growth by less than this (natural logarithm) over all runs may be a power of time.
 const GROWN: f64 = 10.0;
 
 /// Chaos needs a pooled exponent above this many of its 95 % errors.
-const ERRORS: f64 = 3.0;
+const ERRORS: f64 = 2.5;
 
 /// K of the 0-1 test below this speaks for order.
 const ORDER: f64 = 0.3;
 
 /// What a witness for order asks of an exponent: so many times the errors and the growth.
-const DOUBT: f64 = 1.3;
-
-/// A mean life shorter than this part of the observed time would have ended it with a probability of 95 %: `1 / ln 20`.
-const SHORTEST_LIFE: f64 = 0.334;
+const DOUBT: f64 = 1.2;
 
 /// The largest exponent over `span`, after a fifth of it for the vector to turn its way.
 pub(super) fn exponent<B: Equivariant + ?Sized>(
@@ -78,101 +75,31 @@ impl Witness {
     }
 }
 
-/// Rests that take more than this part of a run count,
-const RESTING: f64 = 0.3;
-
-/// and then there must be as many of them: an exponent over a few rests at saddles is that of the saddles.
-const LEAST_RESTS: usize = 8;
-
-/// The number of rests in a run that consists of few of them and of little else; `None` for every other run.
-pub(super) fn few_rests(run: &Lyapunov, slow: f64) -> Option<usize> {
-    let fastest = run.reduced_speeds.iter().copied().fold(0.0, f64::max);
-    let rests: Vec<bool> = run.reduced_speeds.iter().map(|&speed| speed < slow * fastest).collect();
-    let share = rests.iter().filter(|&&rest| rest).count() as f64 / rests.len() as f64;
-    let ends = rests.windows(2).filter(|pair| pair[0] && !pair[1]).count();
-    (share > RESTING && ends < LEAST_RESTS).then_some(ends)
-}
-
-/// How the tangent vector grew in one run.
-#[derive(Clone, Debug)]
-pub(super) struct Growth {
-    /// Growth rates of the intervals, and their durations.
-    rates: Vec<f64>,
-    durations: Vec<f64>,
-    /// Their mean.
-    estimate: Estimate,
-    /// Model time of the search when the run began and ended.
-    span: (f64, f64),
-}
-
-impl Growth {
-    /// The growth of the first vector of a run that ended at time `end` of the search; `None` without an exponent.
-    pub(super) fn of(run: &Lyapunov, end: f64) -> Option<Self> {
-        let estimate = *run.exponents.first()?;
-        let last = run.history.last()?.0;
-        let begun = std::iter::once(last - run.time).chain(run.history.iter().map(|entry| entry.0));
-        let durations = run.history.iter().zip(begun).map(|(entry, begun)| entry.0 - begun).collect();
-        let rates = run.history.iter().map(|entry| entry.1[0]).collect();
-        Some(Self { rates, durations, estimate, span: (end - run.time - run.transient, end) })
-    }
-
-    fn time(&self) -> f64 {
-        self.durations.iter().sum()
-    }
-}
-
-/// The exponent of several runs in a row.
-#[derive(Clone, Copy, Debug)]
-struct Pooled {
-    estimate: Estimate,
-    /// Time averaged over.
-    time: f64,
-    /// Number of runs.
-    runs: usize,
-    /// Time of the search at which the first of them began.
-    since: f64,
-}
-
-/// The pooled exponent of the latest runs that agree with each other: one orbit may pass a transient first.
-fn pooled(runs: &[Growth]) -> Option<Pooled> {
-    let (last, earlier) = runs.split_last()?;
-    let mut rates = last.rates.clone();
-    let mut durations = last.durations.clone();
-    let mut all = Pooled { estimate: last.estimate, time: last.time(), runs: 1, since: last.span.0 };
-    for run in earlier.iter().rev() {
-        let apart = (run.estimate.value - all.estimate.value).abs();
-        if apart > 2.0 * (run.estimate.error + all.estimate.error) {
-            break;
-        }
-        rates.splice(0..0, run.rates.iter().copied());
-        durations.splice(0..0, run.durations.iter().copied());
-        let Ok(mean) = mean_over(&rates, &durations) else { break };
-        let error = mean.error.max(1e-12);
-        all = Pooled {
-            estimate: Estimate { value: mean.value, error },
-            time: all.time + run.time(),
-            runs: all.runs + 1,
-            since: run.span.0,
-        };
-    }
-    Some(all)
-}
-
-/// Chaos: the exponent of at least two runs in a row, pooled, exceeds three times its 95 % error and stands for growth beyond
+/// Chaos: the exponent of at least two runs in a row, pooled, exceeds 2.5 times its 95 % error and stands for growth beyond
 /// any power of time; the last run alone is positive beyond its error. Where the 0-1 test sees order, more is asked for, but no
 /// witness overrules the exponent. `None` where it is less.
 ///
 /// One run alone may see a transient, and the error of its exponent knows nothing of what comes after.
-pub(super) fn chaotic(runs: &[Growth], run: &Lyapunov, witness: &Witness, time: f64) -> Option<Verdict> {
-    let last = runs.last()?.estimate;
-    let all = pooled(runs)?;
+///
+/// # Errors
+/// A time that is not above 0.
+pub(super) fn chaotic(
+    runs: &[Growth],
+    run: &Lyapunov,
+    witness: &Witness,
+    time: f64,
+) -> Result<Option<Verdict>> {
+    let (Some(last), Some(all)) = (runs.last().map(|run| run.estimate), pooled(runs)) else {
+        return Ok(None);
+    };
     let asked = if witness.sees_order() { DOUBT } else { 1.0 };
     let Estimate { value, error } = all.estimate;
     let grows = value > asked * ERRORS * error && value * all.time >= asked * GROWN;
     if all.runs < 2 || !grows || last.value <= last.error {
-        return None;
+        return Ok(None);
     }
     let lasted = time - all.since;
+    let (_, fastest_escape) = escape_limits(0, lasted)?;
     let second = witness.zero_one.map_or(String::new(), |k| format!("; 0-1 test {k:.2}"));
     let why = format!(
         "lambda_1 = {value:.4} +- {error:.4} over a time of {:.0} in {} runs, {:.4} +- {:.4} in the last{second}; no escape in a \
@@ -181,7 +108,7 @@ pub(super) fn chaotic(runs: &[Growth], run: &Lyapunov, witness: &Witness, time: 
         all.runs,
         last.value,
         last.error,
-        SHORTEST_LIFE * lasted
+        1.0 / fastest_escape
     );
     let mut verdict = Verdict::new(Regime::Chaotic, Attractor::Chaotic, why, time);
     verdict.margin = Some(value / error.max(f64::MIN_POSITIVE));
@@ -190,13 +117,13 @@ pub(super) fn chaotic(runs: &[Growth], run: &Lyapunov, witness: &Witness, time: 
     if let Some(first) = verdict.exponents.first_mut() {
         *first = all.estimate;
     }
-    Some(verdict)
+    Ok(Some(verdict))
 }
 
 /// A torus of shapes: returns on a curve that early and late ones fill alike, and an exponent that is zero within its error.
 ///
-/// That it is zero and not small is said by the 0-1 test, or by the run itself: where neighbours have not parted by more
-/// than the number of returns, error included, their distance grows like a power of time at most. (The 0-1 test may fail
+/// That it is zero and not small is said by the 0-1 test, or by the run itself: where the distance of neighbouring orbits has not
+/// grown by more than the number of returns, error included, it grows like a power of time at most. (The 0-1 test may fail
 /// on a torus: where the number of minima per turn changes, the returns are an exchange of intervals, which wanders.)
 ///
 /// A set that shrinks is no torus: close to a bifurcation the returns approach a periodic orbit as a power of time, along a curve.

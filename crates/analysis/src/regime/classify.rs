@@ -10,7 +10,7 @@
 //!
 //! If nothing is decided the next look is twice as long, until the budget is spent.
 
-use super::chaos::Growth;
+use super::growth::{Growth, in_motion};
 use super::heteroclinic::cycle;
 use super::look::{Look, RESTS, Rest};
 use super::recurrence::{Returns, periodic};
@@ -29,7 +29,7 @@ use motiform_dynamics::{Equivariant, Outcome, Sink};
 /// The evidence and its numbers are in the verdict. Thresholds: an equilibrium counts as reached at 1e-3 of the shape's
 /// size if it is stable by its eigenvalues and the orbit comes closer at the rate they say; a shape comes back if Newton's
 /// method finds a stable orbit beside a return that closes to 0.5 % of the motion's diameter; chaos needs a motion, lambda_1 above
-/// three times its 95 % error and growth by more than e^10, both pooled over two consecutive runs and more (1.3 times as much where the
+/// 2.5 times its 95 % error and growth by more than e^10, both pooled over two consecutive runs and more (1.2 times as much where the
 /// 0-1 test sees order, K < 0.3); a torus needs returns on a curve that early and late ones fill alike.
 ///
 /// An orbit that begins with an exact symmetry keeps it, and may end where no other orbit does: at an unstable shape. The verdict
@@ -290,19 +290,16 @@ impl Search {
         };
         self.time += run.time + run.transient;
         self.shape.clone_from(&run.shape);
-        let moved = run.reduced_speeds.iter().any(|&speed| speed >= RESTS * look.fastest);
-        let Some(run) = moved.then(|| run.moving(RESTS)).flatten() else {
-            // At a saddle neighbouring orbits separate at its own rate: that is no chaos, however long it lasts.
-            "the orbit rested at a saddle while the exponent was measured".clone_into(&mut self.missing);
-            return self.again(body);
+        let run = match in_motion(run, RESTS, look.fastest) {
+            Ok(run) => run,
+            Err(missing) => {
+                self.missing = missing;
+                return self.again(body);
+            }
         };
-        if let Some(rests) = chaos::few_rests(&run, RESTS) {
-            self.missing = format!("the orbit spent most of the time in {rests} rests at saddles");
-            return self.again(body);
-        }
         let witness = chaos::Witness::of(&look);
         self.growth.extend(Growth::of(&run, self.time));
-        let chaos = chaos::chaotic(&self.growth, &run, &witness, self.time);
+        let chaos = chaos::chaotic(&self.growth, &run, &witness, self.time)?;
         // Out of a subspace of exact symmetry neighbouring orbits may separate at a rate that no chaos has made.
         let symmetric = chaos.is_some() && !Isotropy::of(body, &self.shape, EXACT).is_trivial();
         let decided = chaos.filter(|_| !symmetric).or_else(|| chaos::torus(&run, &witness, self.time));

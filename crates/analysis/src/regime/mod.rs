@@ -3,12 +3,14 @@
 mod chaos;
 mod classify;
 mod form;
+mod growth;
 mod heteroclinic;
 mod lane_look;
 mod lanes;
 mod legs;
 mod look;
 mod motion;
+mod near_symmetry;
 mod recurrence;
 mod returns;
 mod settings;

@@ -1,13 +1,14 @@
 //! Does the shape come back? Recurrences of the reduced orbit, polished by Newton's method.
 
 use super::heteroclinic::attracting_saddle;
-use super::look::{Extreme, Look};
+use super::look::{Extreme, Look, RESTS};
+use super::near_symmetry::passes_symmetric_shapes;
 use super::settings::Settings;
 use crate::isotropy::Isotropy;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
-use crate::symmetry::{align, wrap};
-use motiform_dynamics::Equivariant;
+use crate::symmetry::{align, reduced_speed, wrap};
 use motiform_dynamics::drive::drive;
+use motiform_dynamics::{Equivariant, VectorField};
 
 /// Most returns to the section per period.
 const LONGEST: usize = 48;
@@ -116,7 +117,7 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(body: &B, look: &Look, settings:
         if away < ON && orbit.growth() > 1.0 + settings.accuracy() {
             return Returns::Unstable { growth: orbit.growth() };
         }
-        if orbit.growth() < 1.0 && away < NEAR && !haunts_a_saddle(body, &orbit, settings) {
+        if orbit.growth() < 1.0 && away < NEAR && is_of_the_flow(body, &orbit, settings) {
             let (orbit, recurrence) = shortest(body, orbit, recurrence, settings);
             let (orbit, recurrence) = unmirrored(body, orbit, recurrence, settings);
             return Returns::Stable(Box::new(orbit), recurrence);
@@ -164,14 +165,21 @@ pub(super) fn symmetry_of<B: Equivariant + ?Sized>(
     Ok(all)
 }
 
-/// Whether the orbit passes so near to a saddle that attracts as a cycle does that only the tolerance closes it.
-fn haunts_a_saddle<B: Equivariant + ?Sized>(body: &B, orbit: &PeriodicOrbit, settings: &Settings) -> bool {
+/// Whether the orbit is one of the flow, and not of its tolerance: it passes no saddle that attracts as a cycle does, and if its
+/// shape rests on the way, it does so away from shapes of more symmetry.
+fn is_of_the_flow<B: Equivariant + ?Sized>(body: &B, orbit: &PeriodicOrbit, settings: &Settings) -> bool {
     let Ok(mut flow) = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape) else {
-        return false;
+        return true;
     };
     let request = settings.request(orbit.time, body.dim());
-    let Ok(look) = Look::take(body, flow.as_mut(), orbit.time, &request, &mut ()) else { return false };
-    attracting_saddle(body, &look.slowest, settings).is_some()
+    let Ok(look) = Look::take(body, flow.as_mut(), orbit.time, &request, &mut ()) else { return true };
+    if attracting_saddle(body, &look.slowest, settings).is_some() {
+        return false;
+    }
+    let mut rate = look.slowest.clone();
+    VectorField::<f64>::eval(body, 0.0, &look.slowest, &mut rate);
+    let rests = reduced_speed(body, &look.slowest, &rate) < RESTS * look.fastest;
+    !(rests && passes_symmetric_shapes(body, &orbit.shape, orbit.time, settings).unwrap_or(true))
 }
 
 /// The same orbit with its shortest period: more returns than one may have been tried first.

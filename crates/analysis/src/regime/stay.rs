@@ -1,4 +1,4 @@
-//! A stay at an unstable equilibrium: what only an orbit of exact symmetry can do for ever.
+//! A stay at an unstable equilibrium. Only an orbit of exact symmetry never leaves it.
 
 use super::settings::Settings;
 

@@ -1,15 +1,22 @@
 //! The thresholds of chaos, tori and stays from both sides. Evidence is made by hand, just inside and just outside; that the
 //! classifier gathers it rightly is asked in tests/.
 
-use super::chaos::{Growth, Witness, chaotic, torus};
+use super::chaos::{Witness, chaotic, torus};
+use super::growth::Growth;
+use super::near_symmetry::passes_symmetric_shapes;
+use super::settings::Settings;
 use super::stay::Stay;
+use crate::linear::norm;
 use crate::series_mean::mean_over;
+use crate::symmetry::align;
 use crate::{Estimate, Lyapunov};
-use motiform_dynamics::Outcome;
+use motiform_dynamics::steppers::{DOP853, Method};
+use motiform_dynamics::{Model, Outcome, StepControl, System};
+use motiform_models::tensor::{Tensor, TensorParameters};
 
 const INTERVALS: usize = 640;
 
-/// Noise of mean zero: what batches of 20, 40 and 80 make of it scales with its size.
+/// Noise of mean zero, whose error scales with its size.
 fn noise(count: usize) -> Vec<f64> {
     let raw: Vec<f64> = (0..count).map(|i| (1.3 * i as f64 + 0.7 * (i * i % 97) as f64).sin()).collect();
     let mean = raw.iter().sum::<f64>() / count as f64;
@@ -53,22 +60,22 @@ fn is_chaos(ratio: f64, growth: f64, zero_one: f64) -> bool {
     let (value, time) = (0.01, 0.5 * growth / 0.01);
     let one = run(value, value / (ratio * pooled_error()), time);
     let runs: Vec<Growth> = [time, 2.0 * time].into_iter().filter_map(|end| Growth::of(&one, end)).collect();
-    chaotic(&runs, &one, &witness(zero_one, 1.5, true), 2.0 * time).is_some()
+    matches!(chaotic(&runs, &one, &witness(zero_one, 1.5, true), 2.0 * time), Ok(Some(_)))
 }
 
-/// lambda_1 above three of its errors; a 0-1 test that sees order (K < 0.3) asks for 1.3 times as much and does not overrule.
+/// lambda_1 above 2.5 of its errors; a 0-1 test that sees order (K < 0.3) asks for 1.2 times as much and does not overrule.
 #[test]
-fn chaos_needs_three_errors_and_more_where_a_witness_doubts() {
-    for (zero_one, least) in [(0.9, 3.0), (0.31, 3.0), (0.29, 3.9), (-0.1, 3.9)] {
+fn chaos_needs_more_than_its_error_and_more_where_a_witness_doubts() {
+    for (zero_one, least) in [(0.9, 2.5), (0.31, 2.5), (0.29, 3.0), (-0.1, 3.0)] {
         assert!(is_chaos(1.01 * least, 100.0, zero_one), "{zero_one}");
         assert!(!is_chaos(0.99 * least, 100.0, zero_one), "{zero_one}");
     }
 }
 
-/// Growth by e^10 is beyond a power of time; a witness for order asks for e^13.
+/// Growth by e^10 is beyond a power of time; a witness for order asks for e^12.
 #[test]
 fn chaos_needs_growth_beyond_a_power_of_time() {
-    for (zero_one, least) in [(0.9, 10.0), (0.1, 13.0)] {
+    for (zero_one, least) in [(0.9, 10.0), (0.1, 12.0)] {
         assert!(is_chaos(100.0, 1.01 * least, zero_one), "{zero_one}");
         assert!(!is_chaos(100.0, 0.99 * least, zero_one), "{zero_one}");
     }
@@ -81,7 +88,7 @@ fn chaos_needs_two_runs_that_agree() {
         let ends = (1..).map(|i| 1e3 * f64::from(i));
         let growth: Vec<Growth> =
             runs.iter().zip(ends).filter_map(|(run, end)| Growth::of(run, end)).collect();
-        chaotic(&growth, runs.last()?, &witness(0.9, 1.5, true), 1e3 * runs.len() as f64)
+        chaotic(&growth, runs.last()?, &witness(0.9, 1.5, true), 1e3 * runs.len() as f64).ok().flatten()
     };
     let strong = run(0.1, 0.01, 1e3);
     assert!(verdict(std::slice::from_ref(&strong)).is_none());
@@ -115,8 +122,8 @@ fn a_torus_stays_as_it_is() {
     }
 }
 
-/// An exponent beyond twice its error is not zero. Where the 0-1 test does not see order (K > 0.3), neighbours may not have parted by
-/// more than the number of returns (here e^6.9), error included.
+/// An exponent beyond twice its error is not zero. Where the 0-1 test does not see order (K > 0.3), the distance of neighbouring orbits may not have
+/// grown by more than the number of returns (here e^6.9), error included.
 #[test]
 fn a_torus_has_an_exponent_of_zero() {
     let unit = {
@@ -131,9 +138,10 @@ fn a_torus_has_an_exponent_of_zero() {
     assert!(is_torus(0.0, 0.0070, 0.29) && !is_torus(0.0, 0.0070, 0.31));
 }
 
-/// Only an orbit that outlasts every deviation a number can hold, e^-1500 of its size, stays for ever; whatever moves starts again.
+/// An orbit stays for good if the smallest deviation that a double can hold, e^-1500 of the shape's size, would have grown to that
+/// size meanwhile; an orbit that moves begins a new stay.
 #[test]
-fn a_stay_is_for_ever_after_every_deviation_would_have_shown() {
+fn a_stay_lasts_once_every_deviation_would_have_shown() {
     let growth = 0.1;
     assert!(!Stay::default().goes_on(14_990.0, true, growth));
     assert!(Stay::default().goes_on(15_010.0, true, growth));
@@ -142,4 +150,35 @@ fn a_stay_is_for_ever_after_every_deviation_would_have_shown() {
     assert!(!stay.goes_on(10_000.0, false, growth));
     assert!(!stay.goes_on(10_000.0, true, growth));
     assert!(stay.goes_on(5_010.0, true, growth));
+}
+
+/// A body whose velocity grows at the rate 0.3 beside an ellipse that stays as it is. The mirror axis is the ellipse's, but for the velocity
+/// across it: one of less than 100 times the relative tolerance was left by the errors of steps.
+#[test]
+fn an_orbit_that_passes_a_symmetric_shape_within_its_errors_is_seen() -> Result<(), motiform_dynamics::Error>
+{
+    let body = Tensor::new(&TensorParameters { gamma: 0.3, kappa2: 0.0, ..TensorParameters::default() });
+    let (rtol, atol) = (1e-9, 1e-12);
+    let settings = Settings {
+        method: Method::Explicit(&DOP853),
+        control: StepControl::Adaptive { rtol, atol },
+        first_look: 100.0,
+        budget: 1e4,
+        escape_norm: 1e6,
+        max_steps: 1_000_000,
+    };
+    let shape = |across: f64| {
+        let mut shape = vec![0.0; body.dim()];
+        body.encode(&[1e-3, across, 0.2, 0.0, 0.0, 0.0], &mut shape);
+        shape
+    };
+    let small = shape(1e-7);
+    let per_across = align(&body, &small, &small, true).distance / norm(&small) / 1e-7;
+    let passes = |asymmetry: f64, time: f64| {
+        passes_symmetric_shapes(&body, &shape(asymmetry / per_across), time, &settings)
+    };
+    assert!(passes(0.98e-7, 15.0)? && !passes(1.02e-7, 15.0)?);
+    // Symmetric at all times: a symmetry that the orbit has, and need not pass.
+    assert!(!passes(0.98e-7, 5.0)? && !passes(0.0, 15.0)?);
+    Ok(())
 }

@@ -3,7 +3,7 @@
 #![allow(dead_code, clippy::unwrap_used, reason = "each test uses a part of it, and may fail")]
 
 use motiform_analysis::{Regime, Settings, Verdict, classify};
-use motiform_dynamics::steppers::Method;
+use motiform_dynamics::steppers::{DOP853, Method};
 use motiform_dynamics::{Equivariant, StepControl};
 use motiform_models::ModelInfo;
 use motiform_models::cell::{Cell, CellParameters};
@@ -24,6 +24,16 @@ pub(crate) fn full(kappa2: f64, kappa3: f64) -> Tensor {
 pub(crate) fn cell(length: f64, modes: u32) -> Cell {
     Cell::new(&CellParameters { length, modes: f64::from(modes), ..CellParameters::default() }).unwrap()
 }
+
+/// For fields whose time scales are of order 1 to 10.
+pub(crate) const ORDINARY: Settings = Settings {
+    method: Method::Explicit(&DOP853),
+    control: StepControl::Adaptive { rtol: 1e-9, atol: 1e-12 },
+    first_look: 100.0,
+    budget: 2e4,
+    escape_norm: 1e6,
+    max_steps: 100_000_000,
+};
 
 /// How a model's motions are named by default.
 pub(crate) fn settings(model: &str) -> Settings {

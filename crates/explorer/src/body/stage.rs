@@ -109,7 +109,7 @@ impl<'s> Stage<'s> {
         }
     }
 
-    /// A long transient may end on another motion than the one it was named after, for neighbours part: asks again, ever more rarely.
+    /// A long transient may end on another motion than the one it was named after: asks again, less and less often.
     fn name_again(&mut self) {
         let (asked, times) = self.named;
         let Some(took) = self.desks.naming.took(self.setting.revision()) else { return };

@@ -28,7 +28,7 @@ impl Default for Heteroclinic {
     }
 }
 
-super::plain!(Heteroclinic, 3);
+crate::plain!(Heteroclinic, 3);
 
 impl<T: Scalar> VectorField<T> for Heteroclinic {
     fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {

@@ -18,7 +18,7 @@ pub struct Hopf {
     pub omega: f64,
 }
 
-super::plain!(Hopf, 2);
+crate::plain!(Hopf, 2);
 
 impl<T: Scalar> VectorField<T> for Hopf {
     fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {

@@ -17,7 +17,7 @@ pub struct VanDerPol {
     pub mu: f64,
 }
 
-super::plain!(VanDerPol, 2);
+crate::plain!(VanDerPol, 2);
 
 impl<T: Scalar> VectorField<T> for VanDerPol {
     fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {

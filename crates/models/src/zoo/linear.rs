@@ -15,7 +15,7 @@ pub struct Linear<const N: usize> {
     pub rows: [[f64; N]; N],
 }
 
-super::plain!(Linear<N>, N, const N);
+crate::plain!(Linear<N>, N, const N);
 
 impl<T: Scalar, const N: usize> VectorField<T> for Linear<N> {
     fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {

@@ -27,7 +27,7 @@ impl Default for Lorenz {
     }
 }
 
-super::plain!(Lorenz, 3);
+crate::plain!(Lorenz, 3);
 
 impl<T: Scalar> VectorField<T> for Lorenz {
     fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {

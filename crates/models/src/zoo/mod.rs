@@ -19,8 +19,10 @@ pub use lorenz::Lorenz;
 pub use rossler::Rossler;
 pub use torus::Torus;
 
-/// A field of fixed dimension without linear part, symmetry and drift: `System`, `Semilinear` with `Lambda = 0`, a `Shape`
-/// that never moves, `Equivariant` under nothing.
+/// Makes a field of fixed dimension a body without linear part, symmetry and drift: `System`, `Semilinear` with `Lambda = 0`, a `Shape`
+/// that never moves, `Equivariant` under nothing. `plain!(Field, dim)` where `Field: VectorField<T>` for every scalar `T`; the caller
+/// depends on `motiform-dynamics`.
+#[macro_export]
 macro_rules! plain {
     ($field:ty, $dim:expr $(, const $n:ident)?) => {
         impl$(<const $n: usize>)? motiform_dynamics::System for $field {
@@ -50,4 +52,3 @@ macro_rules! plain {
         impl$(<const $n: usize>)? motiform_dynamics::Equivariant for $field {}
     };
 }
-use plain;

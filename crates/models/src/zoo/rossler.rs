@@ -26,7 +26,7 @@ impl Default for Rossler {
     }
 }
 
-super::plain!(Rossler, 3);
+crate::plain!(Rossler, 3);
 
 impl<T: Scalar> VectorField<T> for Rossler {
     fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {

@@ -24,7 +24,7 @@ impl Default for Torus {
     }
 }
 
-super::plain!(Torus, 4);
+crate::plain!(Torus, 4);
 
 impl<T: Scalar> VectorField<T> for Torus {
     fn eval(&self, t: T::Real, u: &[T], du: &mut [T]) {

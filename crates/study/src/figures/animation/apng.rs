@@ -43,7 +43,7 @@ impl Patch {
 }
 
 impl<'a> Film<'a> {
-    /// Starts a film of a number of frames that repeats for ever.
+    /// Starts a film of a number of frames that repeats without end.
     pub(super) fn new(out: &'a mut Vec<u8>, size: (u32, u32), frames: usize, fps: f64) -> Result<Self> {
         let palette = Palette::new();
         let mut encoder = Encoder::new(out, size.0, size.1);

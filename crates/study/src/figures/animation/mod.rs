@@ -75,7 +75,7 @@ impl Default for Animation {
 }
 
 impl Animation {
-    /// Draws the film as an animated PNG that repeats for ever.
+    /// Draws the film as an animated PNG that repeats without end.
     ///
     /// # Errors   no frame, a number that is not finite, times that decrease, or a setting out of range
     pub fn apng(&self) -> Result<Vec<u8>> {

@@ -104,7 +104,7 @@ fn look(dataset: &Dataset) -> Seen {
     Seen { motion, speed: [mean, low, high] }
 }
 
-/// The largest difference of speeds, over the largest speed; 0 where the body rests, for ever or now and then.
+/// The largest difference of speeds, over the largest speed; 0 where the body rests, always or at times.
 fn apart(a: &Seen, b: &Seen) -> f64 {
     if [Motion::Motionless, Motion::Rectangular].contains(&b.motion) {
         return 0.0;

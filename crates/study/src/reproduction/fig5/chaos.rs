@@ -48,7 +48,7 @@ fn exponent(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
         &[121, 167],
         "The motion at κ_2 = 0.5, κ_3 = 0.1 is chaotic (λ_1 > 0).",
         format!(
-            "The three largest exponents are {}, over {:.0} time units: neighbours part by a factor of e in {:.1} time units.",
+            "The three largest exponents are {}, over {:.0} time units: neighbouring orbits separate by a factor of e in {:.1} time units.",
             words.join(", "),
             found.time,
             largest.map_or(f64::NAN, |e| 1.0 / e.value)
@@ -67,7 +67,7 @@ fn lasting(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
     let finds = if found.escaped == 0 {
         format!(
             "None of {runs} random starts blew up within {t_end} time units each: the escape rate is below {} (95 %), the \
-             mean stay above {}. Whether the set is an attractor for ever, no run can say.",
+             mean stay above {}. No run can show that the set is an attractor and not a long transient.",
             power(3.0 / watched),
             power(watched / 3.0)
         )
