@@ -128,6 +128,8 @@ def periodic(verdict, run):
     if period["whole"] > CLOSES * diameter:
         return "contradicted", f"after the period the shape is off by {period['whole'] / diameter:.2g} of the diameter"
     for name in ("half", "third", "quarter"):
+        if name == "half" and abs(math.remainder(2 * period.get("half_turn", period["turn"] / 2) - period["turn"], math.tau)) > 1e-3:
+            continue  # a shape that is nearly its own mirror image, turned to the other side in the second half
         if period[name] < CLOSES * diameter:
             if period["whole"] > 1e-5 * diameter:
                 return "undecided", f"near a saddle: after a {name} of the period it is as close as after all of it"

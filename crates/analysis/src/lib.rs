@@ -13,6 +13,7 @@ mod isotropy;
 mod legs;
 mod linear;
 pub mod lyapunov;
+mod multiple_shooting;
 pub mod periodic;
 pub mod regime;
 mod rests;

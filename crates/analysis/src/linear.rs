@@ -1,6 +1,6 @@
 //! The little linear algebra that analyses need; sums in a fixed order, so that results depend on no machine.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Dyn, SVD};
 
 /// A complex number `(re, im)`.
 pub(crate) type ComplexPair = (f64, f64);
@@ -69,14 +69,33 @@ pub(crate) fn basis(columns: &[&[f64]], least: f64) -> Vec<Vec<f64>> {
 /// The smallest `x` that minimises `|sum_j columns_j x_j - rhs|`, by singular values above `1e-10` of the largest.
 /// `None` where a number is not finite.
 pub(crate) fn least_squares(columns: &[Vec<f64>], rhs: &[f64]) -> Option<Vec<f64>> {
+    let svd = singular_values(columns, rhs)?;
+    let least = 1e-10 * largest(&svd);
+    let x = svd.solve(&DVector::from_column_slice(rhs), least).ok()?;
+    Some(x.iter().copied().collect())
+}
+
+/// The `x` with `sum_j columns_j x_j = rhs`; `None` where a singular value is below the part `least` of the largest.
+pub(crate) fn solve(columns: &[Vec<f64>], rhs: &[f64], least: f64) -> Option<Vec<f64>> {
+    let svd = singular_values(columns, rhs)?;
+    let smallest = svd.singular_values.iter().copied().fold(f64::INFINITY, f64::min);
+    if !(smallest > least * largest(&svd)) {
+        return None;
+    }
+    let x = svd.solve(&DVector::from_column_slice(rhs), 0.0).ok()?;
+    Some(x.iter().copied().collect())
+}
+
+fn singular_values(columns: &[Vec<f64>], rhs: &[f64]) -> Option<SVD<f64, Dyn, Dyn>> {
     let matrix = DMatrix::from_fn(rhs.len(), columns.len(), |i, j| columns[j][i]);
     if !matrix.iter().chain(rhs).all(|x| x.is_finite()) {
         return None;
     }
-    let svd = matrix.try_svd(true, true, f64::EPSILON, 1000)?;
-    let largest = svd.singular_values.iter().fold(0.0, |m: f64, &s| m.max(s));
-    let x = svd.solve(&DVector::from_column_slice(rhs), 1e-10 * largest).ok()?;
-    Some(x.iter().copied().collect())
+    matrix.try_svd(true, true, f64::EPSILON, 1000)
+}
+
+fn largest(svd: &SVD<f64, Dyn, Dyn>) -> f64 {
+    svd.singular_values.iter().copied().fold(0.0, f64::max)
 }
 
 /// The eigenvalues of a matrix given by its columns, largest real part first (then largest imaginary part). `None`

@@ -3,8 +3,9 @@
 use crate::equilibrium::neutral_direction;
 use crate::linear::{add, basis, dot, eigenvalues, least_squares, norm, orthonormalise};
 use crate::lyapunov::SplitMix;
+use crate::multiple_shooting::refine;
 use crate::symmetry::wrap;
-use motiform_dynamics::drive::drive;
+use motiform_dynamics::drive::{Sink, drive};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Equivariant, Request, StepControl, System, Tangent, VectorField};
 
@@ -48,6 +49,9 @@ const DIRECTIONS: usize = 5;
 /// Systems up to this size are followed in all directions.
 const SMALL: usize = 8;
 
+/// Where a small deviation grows by more than this on the way, several short shots are asked ([`refine`]).
+const SENSITIVE: f64 = 1e4;
+
 /// Method and tolerance of the flow over a period.
 #[derive(Clone, Copy, Debug)]
 pub struct Flow {
@@ -60,17 +64,23 @@ pub struct Flow {
 }
 
 impl PeriodicOrbit {
-    /// Newton's method on `(u, T, angle)`; `None` where it does not converge to an orbit near the guess.
+    /// Newton's method on `(u, T, angle)`; `None` where it does not converge to an orbit near the guess, or `stop` ends it.
     ///
     /// Newton in the span of the leading tangent vectors (all of them in small systems), fixed-point iteration in the
     /// rest, which contracts strongly: the Newton-Picard method. Each step is the smallest one, so that it moves neither
-    /// along the orbit nor along the group.
+    /// along the orbit nor along the group. A small system whose orbit amplifies deviations by more than 1e4 on the way is solved by
+    /// multiple shooting from there.
     ///
     /// Source: Lust, Roose, Spence, Champneys (1998), SIAM J. Sci. Comput. 19, 1188.
     ///
     /// # Checked by  tests/periodic.rs: van der Pol's period, Hopf's multiplier (both exact), the tensor model's zigzag
     #[must_use]
-    pub fn find<B: Equivariant + ?Sized>(body: &B, guess: &PeriodicGuess<'_>, flow: &Flow) -> Option<Self> {
+    pub fn find<B: Equivariant + ?Sized>(
+        body: &B,
+        guess: &PeriodicGuess<'_>,
+        flow: &Flow,
+        stop: &mut dyn Sink,
+    ) -> Option<Self> {
         let mut state = Newton::new(body, guess);
         let size = norm(guess.shape);
         let tolerance = match flow.control {
@@ -79,7 +89,7 @@ impl PeriodicOrbit {
         };
         let mut first = f64::INFINITY;
         for step in 0..STEPS {
-            let image = state.image(flow)?;
+            let image = state.image(flow, stop)?;
             let residual = norm(&image.rest);
             if step == 0 {
                 first = residual;
@@ -91,7 +101,12 @@ impl PeriodicOrbit {
                 return None;
             }
             if step > 0 && residual <= tolerance * size {
-                return state.describe(&image, residual);
+                let found = state.describe(&image, residual)?;
+                return if state.is_small() && image.amplification() > SENSITIVE {
+                    refine(body, &found, flow, tolerance, stop)
+                } else {
+                    Some(found)
+                };
             }
             // Where Newton's method works at all it gains a factor per step.
             if step >= 2 && residual > 0.5 * first || step >= 5 && residual > 0.05 * first {
@@ -150,6 +165,13 @@ struct Image {
     by_angle: Vec<f64>,
 }
 
+impl Image {
+    /// By how much the longest direction has grown.
+    fn amplification(&self) -> f64 {
+        self.directions.iter().map(|direction| norm(direction)).fold(0.0, f64::max)
+    }
+}
+
 impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
     fn new(body: &'b B, guess: &PeriodicGuess<'_>) -> Self {
         let dim = guess.shape.len();
@@ -186,14 +208,19 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
         }
     }
 
-    fn image(&self, flow: &Flow) -> Option<Image> {
+    /// Whether it is followed in all directions.
+    fn is_small(&self) -> bool {
+        self.directions.len() == self.shape.len()
+    }
+
+    fn image(&self, flow: &Flow, stop: &mut dyn Sink) -> Option<Image> {
         let dim = self.shape.len();
         let tangent = Tangent::new(self.body, self.directions.len());
         let start: Vec<f64> = self.shape.iter().chain(self.directions.iter().flatten()).copied().collect();
         let mut orbit = flow.method.shape_orbit(&tangent, flow.control, 0.0, &start).ok()?;
         let request =
             Request { max_steps: flow.max_steps, watched: dim, ..Request::until(self.time, tangent.dim()) };
-        let outcome = drive(orbit.as_mut(), &request, &mut ()).ok()?;
+        let outcome = drive(orbit.as_mut(), &request, stop).ok()?;
         if !outcome.is_complete() {
             return None;
         }
@@ -237,7 +264,7 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
         add(&mut self.shape, 1.0, &outside);
         self.time += solution[count];
         self.angle += solution[count + 1];
-        if count < self.shape.len() {
+        if !self.is_small() {
             self.directions.clone_from(&image.directions);
             self.orthonormalise();
         }

@@ -6,10 +6,10 @@ use crate::study::{Study, plan};
 use crate::watch::Watch;
 use motiform_dynamics::Direction;
 use motiform_study::samples::{self, Basins, Escapes, Samples};
-use motiform_study::{Error, Random};
+use motiform_study::{Error, Plan, Random};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
-use serde_json::json;
+use serde_json::{Value, json};
 
 /// The answer, or what stopped it.
 fn answer<T>((answer, raised): (Result<Option<T>, Error>, Option<PyErr>)) -> PyResult<T> {
@@ -17,6 +17,13 @@ fn answer<T>((answer, raised): (Result<Option<T>, Error>, Option<PyErr>)) -> PyR
         return Err(raised);
     }
     answer.map_err(python)?.ok_or_else(|| PyKeyboardInterrupt::new_err("interrupted"))
+}
+
+/// What a motion is computed with: stepper, and its tolerances or step.
+fn accuracy(plan: &Plan) -> PyResult<Value> {
+    let mut entry = serde_json::to_value(plan.computation.control).map_err(of_json)?;
+    entry["stepper"] = json!(plan.computation.stepper);
+    Ok(entry)
 }
 
 /// The verdict on a study's motion.
@@ -28,11 +35,14 @@ pub(crate) fn classify(
     budget: f64,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
+    let perturbed = study.0.perturbed().map_err(python)?.0;
+    let plan = Plan::new(&perturbed).map_err(python)?;
     let verdict = answer(Watch::here(py, progress, |monitor| {
-        let perturbed = study.0.perturbed()?.0;
-        motiform_study::analyse::classify(&motiform_study::Plan::new(&perturbed)?, budget, monitor)
+        motiform_study::analyse::classify(&plan, budget, monitor)
     }))?;
-    serde_json::to_string(&verdict).map_err(of_json)
+    let mut entry = serde_json::to_value(&verdict).map_err(of_json)?;
+    entry["accuracy"] = accuracy(&plan)?;
+    Ok(entry.to_string())
 }
 
 /// The motions that many starts lead to, with their shares.
@@ -46,7 +56,7 @@ pub(crate) fn motions(
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
-    let (verdicts, basins, escapes) = answer(Watch::here(py, progress, |monitor| {
+    let (used, verdicts, basins, escapes) = answer(Watch::here(py, progress, |monitor| {
         let mut study = Study(study.0.perturbed()?.0);
         let random = Random::of(study.0.random, samples as u64, study.0.info()?);
         study.0.random = Some(random); // the first of many is drawn like the others
@@ -56,7 +66,7 @@ pub(crate) fn motions(
         let Some(verdicts) = samples::classify(&plan, samples, budget, monitor)? else { return Ok(None) };
         let escapes = Escapes::of_verdicts(&plan, samples, &verdicts, budget, monitor)?;
         let basins = Basins::new(&samples, &verdicts);
-        Ok(Some((verdicts, basins, escapes)))
+        Ok(Some((plan, verdicts, basins, escapes)))
     }))?;
     let words = escapes.as_ref().map(|escapes| escapes.words(verdicts.len()));
     let text = serde_json::to_string(&json!({
@@ -66,6 +76,7 @@ pub(crate) fn motions(
         "escapes": escapes,
         "escape_words": words.unwrap_or_default(),
         "verdicts": verdicts,
+        "accuracy": accuracy(&used)?,
     }));
     text.map_err(of_json)
 }
@@ -81,10 +92,12 @@ pub(crate) fn lyapunov(
     t_end: Option<f64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
+    let plan = plan(study).map_err(python)?;
     let found = answer(Watch::here(py, progress, |monitor| {
-        motiform_study::analyse::lyapunov(&plan(study)?, count, (transient, t_end), monitor).map(Some)
+        motiform_study::analyse::lyapunov(&plan, count, (transient, t_end), monitor).map(Some)
     }))?;
     let text = serde_json::to_string(&json!({
+        "accuracy": accuracy(&plan)?,
         "exponents": found.exponents,
         "zeros": found.zeros(),
         "without_error": found.without_error(),

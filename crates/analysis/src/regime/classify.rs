@@ -16,6 +16,7 @@ use super::look::{Look, RESTS, Rest};
 use super::recurrence::{Returns, periodic};
 use super::settings::{Settings, ended};
 use super::stay::Stay;
+use super::steady_turns::SteadyTurns;
 use super::verdict::{Attractor, Regime, Verdict};
 use super::{chaos, words};
 use crate::equilibrium::RelativeEquilibrium;
@@ -52,15 +53,18 @@ pub fn classify<B: Equivariant + ?Sized>(
             Ask::Look(span) => {
                 let request = settings.request(orbit.t() + span, body.dim());
                 let look = Look::take(body, orbit.as_mut(), span, &request, stop)?;
-                search.looked(body, look)?
+                search.looked(body, look, stop)?
             }
             Ask::Exponent(span) => {
                 let run = chaos::exponent(body, orbit.state(), span, settings, stop)?;
                 orbit.restart(&run.shape);
-                search.measured(body, &run)?
+                search.measured(body, &run, stop)?
             }
             Ask::Nothing(verdict) => return Ok(verdict.map(|verdict| *verdict)),
         };
+        if stop.tick(orbit.t()).is_break() {
+            return Ok(None); // what was decided while it stopped may rest on half of a run
+        }
     }
 }
 
@@ -104,6 +108,8 @@ pub(super) struct Search {
     growth: Vec<Growth>,
     /// The stay at an unstable equilibrium that is under way.
     stay: Stay,
+    /// Turns between rests in the last look that were all the same.
+    turns: Option<SteadyTurns>,
     /// What kept the last look from deciding.
     missing: String,
     /// What the next observation is for.
@@ -136,6 +142,7 @@ impl Search {
             rests: Vec::new(),
             growth: Vec::new(),
             stay: Stay::default(),
+            turns: None,
             missing: "no motion had established itself".to_owned(),
             pending: Pending::Look,
         };
@@ -150,7 +157,12 @@ impl Search {
     }
 
     /// Takes in a look.
-    pub(super) fn looked<B: Equivariant + ?Sized>(&mut self, body: &B, look: Look) -> Result<Ask> {
+    pub(super) fn looked<B: Equivariant + ?Sized>(
+        &mut self,
+        body: &B,
+        look: Look,
+        stop: &mut dyn Sink,
+    ) -> Result<Ask> {
         if let Some(outcome) = ended(&look.outcome) {
             return Ok(self.ended(&outcome, look.start));
         }
@@ -164,12 +176,12 @@ impl Search {
                     // swings of a spiral come back like a small periodic orbit.
                     "the orbit did not come closer to the equilibrium beside it"
                         .clone_into(&mut self.missing);
-                    return self.again(body);
+                    return self.again(body, stop);
                 }
                 Ok(words::equilibrium(body, &found, (after / size, self.largest), &self.settings, self.time)
                     .into())
             }
-            _ => self.rests(body, look),
+            _ => self.rests(body, look, stop),
         }
     }
 
@@ -190,16 +202,16 @@ impl Search {
     }
 
     /// Is the orbit about to reach a stable relative equilibrium?
-    fn rests<B: Equivariant + ?Sized>(&mut self, body: &B, look: Look) -> Result<Ask> {
+    fn rests<B: Equivariant + ?Sized>(&mut self, body: &B, look: Look, stop: &mut dyn Sink) -> Result<Ask> {
         self.fastest = self.fastest.max(look.fastest);
         self.largest = self.largest.max(look.sizes.1);
         // An orbit that began where it ends up was never fast: what is left of its changes is round-off.
         if look.last_speed > 0.05 * self.fastest && !look.is_still(self.settings.hovering()) {
-            return self.recurs(body, look);
+            return self.recurs(body, look, stop);
         }
         let Some(found) = RelativeEquilibrium::find(body, &self.shape) else {
             "no equilibrium was found where the orbit rests".clone_into(&mut self.missing);
-            return self.recurs(body, look);
+            return self.recurs(body, look, stop);
         };
         let size = norm(&found.shape).max(self.largest);
         let before = found.distance(body, &self.shape);
@@ -207,11 +219,15 @@ impl Search {
         if found.growth() > -found.resolution() {
             self.missing =
                 format!("the orbit rests at an unstable shape (growth rate {:.2e})", found.growth());
-            return if before > reached { self.recurs(body, look) } else { self.stays(body, look, &found) };
+            return if before > reached {
+                self.recurs(body, look, stop)
+            } else {
+                self.stays(body, look, &found, stop)
+            };
         }
         if before > CLOSE * size {
             "the orbit was still on its way to an equilibrium".clone_into(&mut self.missing);
-            return self.recurs(body, look);
+            return self.recurs(body, look, stop);
         }
         if before > reached {
             let wait = (-1.0 / found.growth()).min(self.settings.budget);
@@ -228,6 +244,7 @@ impl Search {
         body: &B,
         mut look: Look,
         found: &RelativeEquilibrium,
+        stop: &mut dyn Sink,
     ) -> Result<Ask> {
         let still = look.is_still(self.settings.hovering());
         if self.stay.goes_on(look.end - look.start, still, found.growth()) {
@@ -250,43 +267,56 @@ impl Search {
             rest.end = look.end;
         }
         if let Some(cycle) = cycle(body, &self.rests, &self.settings) {
-            return Ok(words::rectangular(body, &cycle, &self.shape, &self.settings, self.time)?.into());
+            return Ok(words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, stop)?.into());
         }
-        self.again(body)
+        self.again(body, stop)
     }
 
     /// Does it rest near saddles, does its shape come back?
-    fn recurs<B: Equivariant + ?Sized>(&mut self, body: &B, mut look: Look) -> Result<Ask> {
+    fn recurs<B: Equivariant + ?Sized>(
+        &mut self,
+        body: &B,
+        mut look: Look,
+        stop: &mut dyn Sink,
+    ) -> Result<Ask> {
         self.stay = Stay::default();
         self.rests.append(&mut look.rests);
         if let Some(cycle) = cycle(body, &self.rests, &self.settings) {
-            return Ok(words::rectangular(body, &cycle, &self.shape, &self.settings, self.time)?.into());
+            return Ok(words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, stop)?.into());
         }
-        match periodic(body, &look, &self.settings) {
+        match periodic(body, &look, &self.settings, stop) {
             Returns::Stable(found, recurrence) => {
-                return Ok(words::periodic(body, &found, &recurrence, &self.settings, self.time)?.into());
+                return Ok(
+                    words::periodic(body, &found, &recurrence, &self.settings, self.time, stop)?.into()
+                );
             }
             Returns::Unstable { growth } => {
                 self.missing =
                     format!("the orbit stays on an unstable periodic orbit (largest multiplier {growth:.3})");
-                return self.again(body);
+                return self.again(body, stop);
             }
             Returns::None => {}
         }
+        self.turns = SteadyTurns::of(body, &look, &self.settings);
         if self.first || look.is_still(self.settings.hovering()) {
-            return self.again(body);
+            return self.again(body, stop);
         }
         self.pending = Pending::Exponent(Box::new(look));
         Ok(Ask::Exponent(self.span))
     }
 
     /// Takes in an exponent: do neighbouring orbits separate?
-    pub(super) fn measured<B: Equivariant + ?Sized>(&mut self, body: &B, run: &Lyapunov) -> Result<Ask> {
+    pub(super) fn measured<B: Equivariant + ?Sized>(
+        &mut self,
+        body: &B,
+        run: &Lyapunov,
+        stop: &mut dyn Sink,
+    ) -> Result<Ask> {
         if let Some(outcome) = ended(&run.outcome) {
             return Ok(self.ended(&outcome, 0.0));
         }
         let Pending::Exponent(look) = std::mem::replace(&mut self.pending, Pending::Look) else {
-            return self.again(body); // nothing was asked
+            return self.again(body, stop); // nothing was asked
         };
         self.time += run.time + run.transient;
         self.shape.clone_from(&run.shape);
@@ -294,7 +324,7 @@ impl Search {
             Ok(run) => run,
             Err(missing) => {
                 self.missing = missing;
-                return self.again(body);
+                return self.again(body, stop);
             }
         };
         let witness = chaos::Witness::of(&look);
@@ -304,26 +334,30 @@ impl Search {
         let symmetric = chaos.is_some() && !Isotropy::of(body, &self.shape, EXACT).is_trivial();
         let decided = chaos.filter(|_| !symmetric).or_else(|| chaos::torus(&run, &witness, self.time));
         if let Some(verdict) = decided {
-            return Ok(self.described(verdict, body, look.end - look.start)?.into());
+            return Ok(self.described(verdict, body, look.end - look.start, stop)?.into());
         }
         self.missing = if symmetric {
             "the orbit keeps an exact symmetry, and neighbouring orbits leave it".to_owned()
         } else {
             chaos::missing(&self.growth, &witness)
         };
-        self.again(body)
+        self.again(body, stop)
     }
 
     /// Twice as long, or the end of the budget.
-    fn again<B: Equivariant + ?Sized>(&mut self, body: &B) -> Result<Ask> {
+    fn again<B: Equivariant + ?Sized>(&mut self, body: &B, stop: &mut dyn Sink) -> Result<Ask> {
         self.first = false;
         self.span = (2.0 * self.span).min((self.budget - self.time).max(self.settings.first_look));
         if self.time < self.budget {
             return Ok(self.next());
         }
+        if let Some(turns) = self.turns {
+            let verdict = turns.verdict(self.time);
+            return Ok(self.described(verdict, body, self.span, stop)?.into());
+        }
         let why = format!("{} within the budget of {:.0}", self.missing, self.budget);
         let verdict = Verdict::new(Regime::Undetermined, Attractor::Unknown, why, self.time);
-        Ok(self.described(verdict, body, self.span)?.into())
+        Ok(self.described(verdict, body, self.span, stop)?.into())
     }
 
     fn described<B: Equivariant + ?Sized>(
@@ -331,9 +365,10 @@ impl Search {
         mut verdict: Verdict,
         body: &B,
         span: f64,
+        stop: &mut dyn Sink,
     ) -> Result<Verdict> {
         let span = span.min(self.settings.first_look);
-        words::along(&mut verdict, body, &self.shape, span, &self.settings)?;
+        words::along(&mut verdict, body, &self.shape, span, &self.settings, stop)?;
         Ok(verdict)
     }
 }

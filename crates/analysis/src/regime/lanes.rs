@@ -108,6 +108,9 @@ impl<F: InLanes + Clone, const N: usize> Desk<'_, F, N> {
 
     /// Files a search by what it asks for; gives it back if that is a look.
     fn file(&mut self, mut parked: Parked<F, N>, ask: Result<Ask>) -> Option<Parked<F, N>> {
+        if (self.stopped)() {
+            return None; // what was decided while it stopped may rest on half of a run
+        }
         match ask {
             Ok(Ask::Look(span)) => {
                 parked.span = span;
@@ -143,7 +146,7 @@ impl<F: InLanes + Clone, const N: usize> Desk<'_, F, N> {
             let Some(run) = run else { continue }; // stopped
             let ask = run.and_then(|run| {
                 parked.u.copy_from_slice(&run.shape);
-                parked.search.measured(parked.candidate.body.as_ref(), &run)
+                parked.search.measured(parked.candidate.body.as_ref(), &run, &mut Stop(self.stopped))
             });
             let again = self.file(parked, ask);
             self.ready.extend(again);
@@ -157,7 +160,7 @@ impl<F: InLanes + Clone, const N: usize> Desk<'_, F, N> {
         let mut orbit = Orbit::resume(body, self.settings.control, t, &u, pace)?;
         let request = self.settings.request(t + parked.span, N);
         let look = Look::take(body, &mut orbit, parked.span, &request, &mut Stop(self.stopped))?;
-        parked.search.looked(body, look)
+        parked.search.looked(body, look, &mut Stop(self.stopped))
     }
 }
 
@@ -266,7 +269,7 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> Members<L, N> for Crew<'_, '
             self.desk.alone(&mut parked, begun)
         } else {
             let look = seen.look((begun.0, t), Outcome::Completed { t }, u.to_vec());
-            parked.search.looked(parked.candidate.body.as_ref(), look)
+            parked.search.looked(parked.candidate.body.as_ref(), look, &mut Stop(self.desk.stopped))
         };
         (parked.t, parked.u, parked.pace) = (t, u, Some(pace));
         let Some(parked) = self.desk.file(parked, ask) else { return Turn::Done };

@@ -10,11 +10,11 @@ mod lanes;
 mod legs;
 mod look;
 mod motion;
-mod near_symmetry;
 mod recurrence;
 mod returns;
 mod settings;
 mod stay;
+mod steady_turns;
 #[cfg(test)]
 mod tests_of_thresholds;
 mod verdict;

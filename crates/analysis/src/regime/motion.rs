@@ -6,6 +6,7 @@ use crate::symmetry::wrap;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::model::velocity;
 use motiform_dynamics::{Equivariant, Request, Sink};
+use std::ops::ControlFlow;
 
 /// Samples of a path, equally spaced in time; the path starts at the origin.
 #[derive(Clone, Debug)]
@@ -18,15 +19,16 @@ pub(super) struct Path {
 }
 
 impl Path {
-    /// The path from `shape` for `time`, in `steps` steps; shorter where the run ends early or a velocity is undefined.
+    /// The path from `shape` for `time`, in `steps` steps; shorter where the run ends early, by `stop` for one, or a velocity is undefined.
     pub(super) fn follow<B: Equivariant + ?Sized>(
         body: &B,
         shape: &[f64],
         time: f64,
         steps: usize,
         settings: &Settings,
+        stop: &mut dyn Sink,
     ) -> Result<Self, motiform_dynamics::Error> {
-        let mut sampler = Sampler { body, atol: settings.atol(), path: Self::empty() };
+        let mut sampler = Sampler { body, atol: settings.atol(), path: Self::empty(), stop };
         let mut orbit = settings.method.shape_orbit(body, settings.control, 0.0, shape)?;
         let request =
             Request { sample_every: Some(time / steps as f64), ..settings.request(time, shape.len()) };
@@ -106,6 +108,7 @@ struct Sampler<'b, B: ?Sized> {
     body: &'b B,
     atol: f64,
     path: Path,
+    stop: &'b mut dyn Sink,
 }
 
 impl<B: Equivariant + ?Sized> Sink for Sampler<'_, B> {
@@ -113,5 +116,9 @@ impl<B: Equivariant + ?Sized> Sink for Sampler<'_, B> {
         self.path.times.push(t);
         self.path.velocities.push(velocity(self.body, u));
         self.path.resolution = self.path.resolution.max(self.body.speed_resolution(u, self.atol));
+    }
+
+    fn tick(&mut self, t: f64) -> ControlFlow<()> {
+        self.stop.tick(t)
     }
 }

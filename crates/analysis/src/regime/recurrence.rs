@@ -1,14 +1,13 @@
 //! Does the shape come back? Recurrences of the reduced orbit, polished by Newton's method.
 
 use super::heteroclinic::attracting_saddle;
-use super::look::{Extreme, Look, RESTS};
-use super::near_symmetry::passes_symmetric_shapes;
+use super::look::{Extreme, Look};
 use super::settings::Settings;
 use crate::isotropy::Isotropy;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
-use crate::symmetry::{align, reduced_speed, wrap};
-use motiform_dynamics::drive::drive;
-use motiform_dynamics::{Equivariant, VectorField};
+use crate::symmetry::{align, wrap};
+use motiform_dynamics::Equivariant;
+use motiform_dynamics::drive::{Sink, drive};
 
 /// Most returns to the section per period.
 const LONGEST: usize = 48;
@@ -96,7 +95,12 @@ pub(super) enum Returns {
 }
 
 /// The periodic orbit that the look ends on.
-pub(super) fn periodic<B: Equivariant + ?Sized>(body: &B, look: &Look, settings: &Settings) -> Returns {
+pub(super) fn periodic<B: Equivariant + ?Sized>(
+    body: &B,
+    look: &Look,
+    settings: &Settings,
+    stop: &mut dyn Sink,
+) -> Returns {
     let minima = look.minima();
     let diameter = look.diameter(body);
     let Some(last) = minima.last() else { return Returns::None };
@@ -111,15 +115,15 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(body: &B, look: &Look, settings:
             angle: recurrence.angle,
             mirrored: recurrence.mirrored,
         };
-        let Some(orbit) = PeriodicOrbit::find(body, &guess, &settings.flow()) else { continue };
+        let Some(orbit) = PeriodicOrbit::find(body, &guess, &settings.flow(), stop) else { continue };
         // Against the latest swing: an equilibrium, approached in a spiral, is a periodic orbit of no size.
         let away = align(body, &orbit.shape, &last.shape, false).distance / swing;
         if away < ON && orbit.growth() > 1.0 + settings.accuracy() {
             return Returns::Unstable { growth: orbit.growth() };
         }
-        if orbit.growth() < 1.0 && away < NEAR && is_of_the_flow(body, &orbit, settings) {
-            let (orbit, recurrence) = shortest(body, orbit, recurrence, settings);
-            let (orbit, recurrence) = unmirrored(body, orbit, recurrence, settings);
+        if orbit.growth() < 1.0 && away < NEAR && is_of_the_flow(body, &orbit, settings, stop) {
+            let (orbit, recurrence) = shortest(body, orbit, recurrence, settings, stop);
+            let (orbit, recurrence) = unmirrored(body, orbit, recurrence, settings, stop);
             return Returns::Stable(Box::new(orbit), recurrence);
         }
     }
@@ -133,13 +137,14 @@ fn unmirrored<B: Equivariant + ?Sized>(
     orbit: PeriodicOrbit,
     recurrence: Recurrence,
     settings: &Settings,
+    stop: &mut dyn Sink,
 ) -> (PeriodicOrbit, Recurrence) {
     let axis = Isotropy::of(body, &orbit.shape, SYMMETRIC).mirror;
     let Some(axis) = axis.filter(|_| orbit.mirrored) else { return (orbit, recurrence) };
     // M u = R(-axis) u, so R(angle) M u = R(angle - axis) u
     let angle = wrap(orbit.angle - axis);
     let guess = PeriodicGuess { shape: &orbit.shape, time: orbit.time, angle, mirrored: false };
-    match PeriodicOrbit::find(body, &guess, &settings.flow()) {
+    match PeriodicOrbit::find(body, &guess, &settings.flow(), stop) {
         Some(found) => (found, Recurrence { mirrored: false, angle, ..recurrence }),
         None => (orbit, recurrence),
     }
@@ -151,12 +156,13 @@ pub(super) fn symmetry_of<B: Equivariant + ?Sized>(
     body: &B,
     orbit: &PeriodicOrbit,
     settings: &Settings,
+    stop: &mut dyn Sink,
 ) -> Result<Isotropy, motiform_dynamics::Error> {
     let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape)?;
     let mut all = Isotropy::of(body, &orbit.shape, SYMMETRIC);
     for moment in 1..MOMENTS {
         let t = orbit.time * moment as f64 / MOMENTS as f64;
-        drive(flow.as_mut(), &settings.request(t, body.dim()), &mut ())?;
+        drive(flow.as_mut(), &settings.request(t, body.dim()), stop)?;
         let here = Isotropy::of(body, flow.state(), SYMMETRIC);
         all.mirror = all.mirror.filter(|_| here.mirror.is_some());
         all.circle &= here.circle;
@@ -165,21 +171,19 @@ pub(super) fn symmetry_of<B: Equivariant + ?Sized>(
     Ok(all)
 }
 
-/// Whether the orbit is one of the flow, and not of its tolerance: it passes no saddle that attracts as a cycle does, and if its
-/// shape rests on the way, it does so away from shapes of more symmetry.
-fn is_of_the_flow<B: Equivariant + ?Sized>(body: &B, orbit: &PeriodicOrbit, settings: &Settings) -> bool {
+/// Whether the orbit is one of the flow, and not of its tolerance: it passes no saddle that attracts as a cycle does.
+fn is_of_the_flow<B: Equivariant + ?Sized>(
+    body: &B,
+    orbit: &PeriodicOrbit,
+    settings: &Settings,
+    stop: &mut dyn Sink,
+) -> bool {
     let Ok(mut flow) = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape) else {
         return true;
     };
     let request = settings.request(orbit.time, body.dim());
-    let Ok(look) = Look::take(body, flow.as_mut(), orbit.time, &request, &mut ()) else { return true };
-    if attracting_saddle(body, &look.slowest, settings).is_some() {
-        return false;
-    }
-    let mut rate = look.slowest.clone();
-    VectorField::<f64>::eval(body, 0.0, &look.slowest, &mut rate);
-    let rests = reduced_speed(body, &look.slowest, &rate) < RESTS * look.fastest;
-    !(rests && passes_symmetric_shapes(body, &orbit.shape, orbit.time, settings).unwrap_or(true))
+    let Ok(look) = Look::take(body, flow.as_mut(), orbit.time, &request, stop) else { return true };
+    attracting_saddle(body, &look.slowest, settings).is_none()
 }
 
 /// The same orbit with its shortest period: more returns than one may have been tried first.
@@ -188,14 +192,15 @@ fn shortest<B: Equivariant + ?Sized>(
     orbit: PeriodicOrbit,
     recurrence: Recurrence,
     settings: &Settings,
+    stop: &mut dyn Sink,
 ) -> (PeriodicOrbit, Recurrence) {
     if recurrence.returns == 1 && (recurrence.mirrored || !body.is_symmetric()) {
         return (orbit, recurrence);
     }
-    let found = || -> Option<(PeriodicOrbit, Recurrence)> {
+    let mut found = || -> Option<(PeriodicOrbit, Recurrence)> {
         let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape).ok()?;
         let request = settings.request(2.2 * orbit.time, body.dim());
-        let look = Look::take(body, flow.as_mut(), 2.2 * orbit.time, &request, &mut ()).ok()?;
+        let look = Look::take(body, flow.as_mut(), 2.2 * orbit.time, &request, stop).ok()?;
         let diameter = look.diameter(body);
         let minima = look.minima();
         let (start, later) = minima.split_first()?;
@@ -207,7 +212,7 @@ fn shortest<B: Equivariant + ?Sized>(
                 let shorter = time < 0.75 * orbit.time || mirrored && !orbit.mirrored;
                 if near.distance < 1e-2 * diameter && shorter {
                     let guess = PeriodicGuess { shape: &start.shape, time, angle: near.angle, mirrored };
-                    let found = PeriodicOrbit::find(body, &guess, &settings.flow())?;
+                    let found = PeriodicOrbit::find(body, &guess, &settings.flow(), stop)?;
                     let recurrence = Recurrence { returns: returns + 1, mirrored, time, angle: near.angle };
                     return (found.growth() < 1.0).then_some((found, recurrence));
                 }

@@ -3,16 +3,10 @@
 
 use super::chaos::{Witness, chaotic, torus};
 use super::growth::Growth;
-use super::near_symmetry::passes_symmetric_shapes;
-use super::settings::Settings;
 use super::stay::Stay;
-use crate::linear::norm;
 use crate::series_mean::mean_over;
-use crate::symmetry::align;
 use crate::{Estimate, Lyapunov};
-use motiform_dynamics::steppers::{DOP853, Method};
-use motiform_dynamics::{Model, Outcome, StepControl, System};
-use motiform_models::tensor::{Tensor, TensorParameters};
+use motiform_dynamics::Outcome;
 
 const INTERVALS: usize = 640;
 
@@ -150,35 +144,4 @@ fn a_stay_lasts_once_every_deviation_would_have_shown() {
     assert!(!stay.goes_on(10_000.0, false, growth));
     assert!(!stay.goes_on(10_000.0, true, growth));
     assert!(stay.goes_on(5_010.0, true, growth));
-}
-
-/// A body whose velocity grows at the rate 0.3 beside an ellipse that stays as it is. The mirror axis is the ellipse's, but for the velocity
-/// across it: one of less than 100 times the relative tolerance was left by the errors of steps.
-#[test]
-fn an_orbit_that_passes_a_symmetric_shape_within_its_errors_is_seen() -> Result<(), motiform_dynamics::Error>
-{
-    let body = Tensor::new(&TensorParameters { gamma: 0.3, kappa2: 0.0, ..TensorParameters::default() });
-    let (rtol, atol) = (1e-9, 1e-12);
-    let settings = Settings {
-        method: Method::Explicit(&DOP853),
-        control: StepControl::Adaptive { rtol, atol },
-        first_look: 100.0,
-        budget: 1e4,
-        escape_norm: 1e6,
-        max_steps: 1_000_000,
-    };
-    let shape = |across: f64| {
-        let mut shape = vec![0.0; body.dim()];
-        body.encode(&[1e-3, across, 0.2, 0.0, 0.0, 0.0], &mut shape);
-        shape
-    };
-    let small = shape(1e-7);
-    let per_across = align(&body, &small, &small, true).distance / norm(&small) / 1e-7;
-    let passes = |asymmetry: f64, time: f64| {
-        passes_symmetric_shapes(&body, &shape(asymmetry / per_across), time, &settings)
-    };
-    assert!(passes(0.98e-7, 15.0)? && !passes(1.02e-7, 15.0)?);
-    // Symmetric at all times: a symmetry that the orbit has, and need not pass.
-    assert!(!passes(0.98e-7, 5.0)? && !passes(0.0, 15.0)?);
-    Ok(())
 }

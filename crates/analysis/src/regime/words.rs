@@ -9,7 +9,7 @@ use super::verdict::{Attractor, Regime, Spread, Verdict};
 use crate::equilibrium::RelativeEquilibrium;
 use crate::periodic::PeriodicOrbit;
 use crate::{Estimate, Result};
-use motiform_dynamics::Equivariant;
+use motiform_dynamics::{Equivariant, Sink};
 
 /// Samples of a period: enough for the legs of its path.
 const SAMPLES: usize = 720;
@@ -139,6 +139,7 @@ pub(super) fn rectangular<B: Equivariant + ?Sized>(
     shape: &[f64],
     settings: &Settings,
     time: f64,
+    stop: &mut dyn Sink,
 ) -> Result<Verdict> {
     let (out, inward) = (cycle.saddle.out, cycle.saddle.inward);
     let why = format!(
@@ -151,7 +152,7 @@ pub(super) fn rectangular<B: Equivariant + ?Sized>(
     verdict.rests.clone_from(&cycle.rests);
     verdict.saddle = Some(cycle.saddle);
     let longest = cycle.rests.iter().copied().fold(0.0, f64::max);
-    let path = Path::follow(body, shape, 6.0 * longest, 4 * SAMPLES, settings)?;
+    let path = Path::follow(body, shape, 6.0 * longest, 4 * SAMPLES, settings, stop)?;
     verdict.speed = path.speed();
     verdict.legs = super::legs::between_rests(&path);
     Ok(verdict)
@@ -164,11 +165,12 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     recurrence: &Recurrence,
     settings: &Settings,
     time: f64,
+    stop: &mut dyn Sink,
 ) -> Result<Verdict> {
-    let path = Path::follow(body, &orbit.shape, orbit.period(), SAMPLES, settings)?;
+    let path = Path::follow(body, &orbit.shape, orbit.period(), SAMPLES, settings, stop)?;
     let rotation = orbit.net_rotation();
     let no_turn = NO_TURN.max(settings.accuracy());
-    let symmetry = symmetry_of(body, orbit, settings)?;
+    let symmetry = symmetry_of(body, orbit, settings, stop)?;
     let form = Form::of(&symmetry, orbit, &path, no_turn);
     let what = match form.regime() {
         Regime::QuasiPeriodic => format!("{}; turned by {rotation:.6} rad each period", form.meaning()),
@@ -217,8 +219,9 @@ pub(super) fn along<B: Equivariant + ?Sized>(
     shape: &[f64],
     time: f64,
     settings: &Settings,
+    stop: &mut dyn Sink,
 ) -> Result<()> {
-    let path = Path::follow(body, shape, time, SAMPLES, settings)?;
+    let path = Path::follow(body, shape, time, SAMPLES, settings, stop)?;
     verdict.speed = path.speed();
     verdict.turning_rate = path.turning_rate();
     Ok(())

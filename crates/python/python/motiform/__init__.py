@@ -15,7 +15,7 @@ from .bodies import Cell, Tensor
 from .errors import EndedEarly, Incomplete, Interrupted, WorkersLost
 from .models import Model, preset, study
 from .reading import read
-from .results import Crossings, Equilibrium, Estimate, Exponents, Motions, Outcome, Share, Spread, Verdict
+from .results import Accuracy, Crossings, Equilibrium, Estimate, Exponents, Motions, Outcome, Share, Spread, Verdict
 from .scans import merge, scan
 from .trajectory import Trajectory
 
@@ -24,6 +24,7 @@ __all__ = [
     "PRESETS",
     "REGIMES",
     "STEPPERS",
+    "Accuracy",
     "Cell",
     "Crossings",
     "EndedEarly",

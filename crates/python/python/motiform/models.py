@@ -16,6 +16,7 @@ from ._registry import MODELS, ModelInfo
 from .errors import EndedEarly, Interrupted
 from .progress import Bar, Progress
 from .results import (
+    Accuracy,
     Crossings,
     Equilibrium,
     Exponents,
@@ -237,7 +238,8 @@ class Model:
         pairs = [(entry["value"], entry.get("error", np.inf)) for entry in raw["exponents"]]
         estimates = np.array(pairs, dtype=float).reshape(-1, 2)
         outcome = outcome_of(raw["outcome"], raw["complete"], raw["ended"])
-        ends = (raw["neutral"], raw["time"], raw["transient"], outcome, raw["without_error"])
+        accuracy = Accuracy(**raw["accuracy"])
+        ends = (raw["neutral"], raw["time"], raw["transient"], outcome, accuracy, raw["without_error"])
         return Exponents(estimates[:, 0], estimates[:, 1], *ends)
 
     def equilibria(self, *, starts: int = 200, seed: int | None = None, progress: Progress = None) -> list[Equilibrium]:

@@ -52,6 +52,21 @@ class Spread:
 
 
 @dataclass(frozen=True)
+class Accuracy:
+    """What a motion was computed with: relative and absolute tolerance, or a fixed step (model time)."""
+
+    stepper: str
+    rtol: float | None = None
+    atol: float | None = None
+    step: float | None = None
+
+    def __str__(self) -> str:
+        if self.step is not None:
+            return f"{self.stepper}, step {self.step:g}"
+        return f"{self.stepper}, rtol {self.rtol:g}, atol {self.atol:g}"
+
+
+@dataclass(frozen=True)
 class Saddle:
     """The rates of the saddles that a heteroclinic cycle rests at (inverse model time)."""
 
@@ -72,6 +87,7 @@ class Verdict:
     """The evidence in one sentence."""
     time: float
     """Model time that the decision took."""
+    accuracy: Accuracy
     form: str | None = None
     """The symmetry of a motion that repeats: mirror-zigzag, rotating-zigzag, pulsating-circular, ... (docs/regimes.md)."""
     margin: float | None = None
@@ -107,6 +123,7 @@ class Verdict:
 def verdict_of(raw: dict[str, Any]) -> Verdict:
     """The verdict of the native module's JSON."""
     made: dict[str, Any] = dict(raw)
+    made["accuracy"] = Accuracy(**raw["accuracy"])
     for name, kind in (("speed", Spread), ("saddle", Saddle)):
         if made.get(name) is not None:
             made[name] = kind(**made[name])
@@ -149,7 +166,7 @@ class Motions:
 
 def motions_of(raw: dict[str, Any]) -> Motions:
     """The motions of the native module's JSON."""
-    verdicts = tuple(verdict_of(entry) for entry in raw["verdicts"])
+    verdicts = tuple(verdict_of({**entry, "accuracy": raw["accuracy"]}) for entry in raw["verdicts"])
     shares = tuple(Share(**entry) for entry in raw["shares"])
     text = "; ".join([raw["words"], *raw["escape_words"]])
     return Motions(verdicts, shares, raw["starts"], raw["escapes"], text)
@@ -169,6 +186,7 @@ class Exponents:
     """Averaged over so much model time, after `transient`."""
     transient: float
     outcome: Outcome
+    accuracy: Accuracy
     without_error: str | None = None
     """Why there are exponents without an error."""
 

@@ -120,13 +120,13 @@ fn agreement(grid: &Grid) -> Claim {
     let count = grid.agreement();
     let finds = format!(
         "{} of {} cells more than one cell away from every line agree ({} more are undetermined); of the {} cells nearer to \
-         a line {} agree",
-        count.far.0, count.far.1, count.undetermined, count.near.1, count.near.0
+         a line {} agree ({} more are undetermined)",
+        count.far.0, count.far.1, count.undetermined.0, count.near.1, count.near.0, count.undetermined.1
     );
     let how = "a cell agrees if every motion found in it is stable by the formulas (beside a stable straight motion the \
-               rectangular one may exist as well); at least 99 % of the far cells must, and at most 1 % be undetermined";
+               rectangular one may exist as well); at least 99 % of the far cells must, and at most 1 % of them be undetermined";
     let far = count.far.1 as f64;
-    let holds = count.far.0 as f64 >= 0.99 * far && count.undetermined as f64 <= 0.01 * far;
+    let holds = count.far.0 as f64 >= 0.99 * far && count.undetermined.0 as f64 <= 0.01 * far;
     claim(&[84, 90], "The phase diagram, obtained numerically.", finds, how, holds)
 }
 

@@ -43,11 +43,11 @@ pub(super) struct Grid {
     lines: Vec<(Line, Vec<[f64; 2]>)>,
 }
 
-/// How many cells agree, of how many.
+/// How many cells agree, of how many, and how many are undetermined (far from and near to the lines).
 pub(super) struct Agreement {
     pub(super) far: (usize, usize),
     pub(super) near: (usize, usize),
-    pub(super) undetermined: usize,
+    pub(super) undetermined: (usize, usize),
 }
 
 impl Grid {
@@ -100,7 +100,9 @@ impl Grid {
             self.cells.iter().partition(|cell| !cell.found.is_empty());
         let (far, near): (Vec<&Cell>, Vec<&Cell>) = known.into_iter().partition(|cell| cell.distance > 1.0);
         let count = |cells: &[&Cell]| (cells.iter().filter(|cell| cell.agrees()).count(), cells.len());
-        Agreement { far: count(&far), near: count(&near), undetermined: unknown.len() }
+        let far_unknown = unknown.iter().filter(|cell| cell.distance > 1.0).count();
+        let undetermined = (far_unknown, unknown.len() - far_unknown);
+        Agreement { far: count(&far), near: count(&near), undetermined }
     }
 
     /// Cells from half a cell to six cells off the Hopf line of straight motion, more than one and a half from every other,

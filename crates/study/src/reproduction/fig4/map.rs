@@ -182,14 +182,16 @@ fn wedge(places: &[Place]) -> Option<Claim> {
     };
     let ends: Vec<(f64, f64)> = rows.iter().filter_map(end).collect();
     let words: Vec<String> = ends.iter().map(|(row, end)| format!("{end:.2} at κ_3 = {row:.2}")).collect();
+    let widest = (0..ends.len()).max_by(|&a, &b| ends[a].1.total_cmp(&ends[b].1));
     (ends.len() > 1).then(|| {
         differs(
             &[113],
             "The text names chaos for κ_3 = 0.1 alone.",
             format!("Chaos also in other rows: up to κ_2 = {}.", words.join(", ")),
-            "the largest κ_2 with chaos in each row (up to κ_2 = 1); from row to row it may grow by at most 0.1",
-            "the region is a wedge: the faster the triangle relaxes, the smaller κ_2 has to be",
-            ends.windows(2).all(|pair| pair[1].1 <= pair[0].1 + 0.1 + 1e-9) && ends[ends.len() - 1].1 < ends[0].1,
+            "the largest κ_2 with chaos in each row (up to κ_2 = 1): it is largest in a row with κ_3 below 0.25, and above that row \
+             no row reaches further than the one before",
+            "the region narrows with κ_3: where the triangle relaxes faster, κ_2 has to be smaller",
+            widest.is_some_and(|widest| ends[widest].0 < 0.25 && ends[widest..].is_sorted_by(|a, b| a.1 >= b.1)),
         )
     })
 }

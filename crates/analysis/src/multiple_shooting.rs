@@ -1,0 +1,241 @@
+//! Periodic orbits that one shot over the period cannot resolve.
+//!
+//! An orbit that rests near a saddle amplifies small deviations by many powers of ten on the way, and loses them again. The matrix of
+//! its period then has entries so large that their errors hide its multipliers, and a shape nearly comes back after any time:
+//! `|Phi_T(u) - R [M] u|` says nothing. Over a short part of the period nothing is amplified much.
+//!
+//! Source: Stoer and Bulirsch, Introduction to Numerical Analysis, section 7.3; the product of reduced maps as in Fairgrieve and
+//! Jepson (1991), SIAM J. Numer. Anal. 28, 1446.
+
+use crate::equilibrium::neutral_direction;
+use crate::linear::{add, apply, basis, complement, dot, eigenvalues, norm, solve};
+use crate::periodic::{Flow, PeriodicOrbit};
+use crate::symmetry::wrap;
+use motiform_dynamics::drive::{Sink, drive};
+use motiform_dynamics::{Equivariant, Request, System, Tangent, VectorField};
+
+/// Over one part of the period deviations grow by less than this.
+const GROWTH: f64 = 30.0;
+
+/// Most parts.
+const PARTS: usize = 64;
+
+/// With a singular value below this part of the largest, round-off decides how long an orbit rests. (A deviation of `e^(-lambda T)` that
+/// grows to order 1 while the orbit rests for `T` makes one of this size.)
+const SINGULAR: f64 = 1e-14;
+
+/// Steps that Newton's method may take.
+const STEPS: usize = 12;
+
+/// The period may move by this part on the way.
+const NEAR: f64 = 0.2;
+
+/// What the flow over one part of the period gives.
+struct Part {
+    end: Vec<f64>,
+    /// `f` at the end.
+    slope: Vec<f64>,
+    /// `D Phi`, column by column.
+    tangents: Vec<f64>,
+}
+
+/// Shapes along the orbit, at equal times: `Phi_(T/m)(u_i) = u_(i+1)`, and the last one's image is `R(angle) [M] u_0`.
+struct Nodes<'b, B: ?Sized> {
+    body: &'b B,
+    shapes: Vec<Vec<f64>>,
+    time: f64,
+    angle: f64,
+    mirrored: bool,
+}
+
+/// Newton's method on shapes all along the orbit, from one that a single shot found; `None` where it does not converge nearby, or
+/// the orbit amplifies deviations beyond every number of parts.
+///
+/// It has converged where the shapes fit to `tolerance` of their size and the last step moved the period by no more than 30 times
+/// that part.
+///
+/// # Checked by  tests/periodic.rs: the multiplier of a known cycle that passes close to a saddle
+pub(crate) fn refine<B: Equivariant + ?Sized>(
+    body: &B,
+    orbit: &PeriodicOrbit,
+    flow: &Flow,
+    tolerance: f64,
+    stop: &mut dyn Sink,
+) -> Option<PeriodicOrbit> {
+    let (mut nodes, mut parts) = Nodes::along(body, orbit, flow, stop)?;
+    let size = norm(&orbit.shape);
+    let mut moved = f64::INFINITY;
+    for _ in 0..STEPS {
+        let rest = nodes.misfit(&parts);
+        let residual = rest.iter().map(|rest| norm(rest)).fold(0.0, f64::max);
+        if residual <= tolerance * size && moved <= 30.0 * tolerance {
+            return nodes.describe(&parts, residual);
+        }
+        let before = nodes.time;
+        nodes.step(&parts, &rest)?;
+        moved = (nodes.time / before - 1.0).abs();
+        if !((nodes.time / orbit.time - 1.0).abs() < NEAR) {
+            return None;
+        }
+        parts = nodes.parts(flow, stop)?;
+    }
+    None
+}
+
+impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
+    /// Shapes along an orbit, so close that nothing grows much between them.
+    fn along(
+        body: &'b B,
+        orbit: &PeriodicOrbit,
+        flow: &Flow,
+        stop: &mut dyn Sink,
+    ) -> Option<(Self, Vec<Part>)> {
+        let PeriodicOrbit { time, angle, mirrored, .. } = *orbit;
+        let mut count = 4;
+        while count <= PARTS {
+            let mut nodes = Self { body, shapes: Vec::new(), time, angle, mirrored };
+            let mut parts: Vec<Part> = Vec::new();
+            for _ in 0..count {
+                let start = parts.last().map_or(&orbit.shape, |part| &part.end).clone();
+                parts.push(part(body, &start, time / count as f64, flow, stop)?);
+                nodes.shapes.push(start);
+            }
+            if parts.iter().all(|part| norm(&part.tangents) < GROWTH) {
+                return Some((nodes, parts));
+            }
+            count *= 2;
+        }
+        None
+    }
+
+    fn parts(&self, flow: &Flow, stop: &mut dyn Sink) -> Option<Vec<Part>> {
+        let span = self.time / self.shapes.len() as f64;
+        self.shapes.iter().map(|shape| part(self.body, shape, span, flow, stop)).collect()
+    }
+
+    /// The inverse symmetry: `M R(-angle)`.
+    fn back(&self, x: &mut [f64]) {
+        self.body.rotate(-self.angle, x);
+        if self.mirrored {
+            self.body.mirror(x);
+        }
+    }
+
+    /// The ends of all parts, less the shapes that follow them; the last one's is brought back.
+    fn misfit(&self, parts: &[Part]) -> Vec<Vec<f64>> {
+        let rest = |(i, part): (usize, &Part)| {
+            let mut rest = part.end.clone();
+            if i + 1 == parts.len() {
+                self.back(&mut rest);
+            }
+            add(&mut rest, -1.0, &self.shapes[(i + 1) % parts.len()]);
+            rest
+        };
+        parts.iter().enumerate().map(rest).collect()
+    }
+
+    /// One Newton step.
+    fn step(&mut self, parts: &[Part], rest: &[Vec<f64>]) -> Option<()> {
+        let (count, dim) = (parts.len(), self.shapes[0].len());
+        let fixed = self.fixed(0);
+        let rows = count * dim + fixed.len();
+        let turns = self.body.is_symmetric();
+        let mut columns = vec![vec![0.0; rows]; count * dim + 1 + usize::from(turns)];
+        for (i, part) in parts.iter().enumerate() {
+            let last = i + 1 == count;
+            let back = |x: &[f64]| {
+                let mut x = x.to_vec();
+                if last {
+                    self.back(&mut x);
+                }
+                x
+            };
+            for (j, tangent) in part.tangents.chunks_exact(dim).enumerate() {
+                add(&mut columns[i * dim + j][i * dim..(i + 1) * dim], 1.0, &back(tangent));
+                columns[(i + 1) % count * dim + j][i * dim + j] -= 1.0;
+            }
+            add(&mut columns[count * dim][i * dim..(i + 1) * dim], 1.0 / count as f64, &back(&part.slope));
+            if last && turns {
+                let mut by_angle = part.end.clone();
+                self.body.spin(&part.end, &mut by_angle);
+                add(&mut columns[count * dim + 1][i * dim..(i + 1) * dim], -1.0, &back(&by_angle));
+            }
+        }
+        // The first shape moves neither along the orbit nor along the group.
+        for (row, fixed) in (count * dim..).zip(fixed) {
+            columns.iter_mut().zip(fixed).for_each(|(column, x)| column[row] = x);
+        }
+        let mut target: Vec<f64> = rest.iter().flatten().map(|x| -x).collect();
+        target.resize(rows, 0.0);
+        let solution = solve(&columns, &target, SINGULAR)?;
+        for (shape, step) in self.shapes.iter_mut().zip(solution.chunks_exact(dim)) {
+            add(shape, 1.0, step);
+        }
+        self.time += solution[count * dim];
+        self.angle += solution.get(count * dim + 1).unwrap_or(&0.0);
+        (self.time > 0.0).then_some(())
+    }
+
+    /// Unit vectors along the group and the flow at a shape.
+    fn fixed(&self, node: usize) -> Vec<Vec<f64>> {
+        let shape = &self.shapes[node];
+        let mut flow = shape.clone();
+        VectorField::<f64>::eval(self.body, 0.0, shape, &mut flow);
+        let mut fixed = neutral_direction(self.body, shape);
+        fixed.push(flow);
+        basis(&fixed.iter().map(Vec::as_slice).collect::<Vec<_>>(), 1e-8)
+    }
+
+    /// The orbit with its multipliers: those of the product of the parts' maps, each reduced to the directions across the flow and the
+    /// group.
+    fn describe(&self, parts: &[Part], residual: f64) -> Option<PeriodicOrbit> {
+        let (count, dim) = (parts.len(), self.shapes[0].len());
+        let across: Vec<Vec<Vec<f64>>> = (0..count).map(|node| complement(&self.fixed(node), dim)).collect();
+        let mut columns = across[0].clone();
+        for (i, part) in parts.iter().enumerate() {
+            for column in &mut columns {
+                let mut image = apply(&part.tangents, column);
+                if i + 1 == count {
+                    self.back(&mut image);
+                }
+                column.fill(0.0);
+                across[(i + 1) % count].iter().for_each(|q| add(column, dot(q, &image), q));
+            }
+        }
+        let inside = |column: &Vec<f64>| across[0].iter().map(|q| dot(q, column)).collect();
+        let mut multipliers = eigenvalues(&columns.iter().map(inside).collect::<Vec<_>>())?;
+        multipliers.sort_by(|a, b| libm::hypot(b.0, b.1).total_cmp(&libm::hypot(a.0, a.1)));
+        Some(PeriodicOrbit {
+            shape: self.shapes[0].clone(),
+            time: self.time,
+            angle: wrap(self.angle),
+            mirrored: self.mirrored,
+            residual,
+            multipliers,
+        })
+    }
+}
+
+/// The flow and all its tangents over `span`; `None` where the run does not reach its end.
+fn part<B: Equivariant + ?Sized>(
+    body: &B,
+    start: &[f64],
+    span: f64,
+    flow: &Flow,
+    stop: &mut dyn Sink,
+) -> Option<Part> {
+    let dim = start.len();
+    let field = Tangent::new(body, dim);
+    let mut state = start.to_vec();
+    state.extend((0..dim * dim).map(|i| if i / dim == i % dim { 1.0 } else { 0.0 }));
+    let mut orbit = flow.method.shape_orbit(&field, flow.control, 0.0, &state).ok()?;
+    let request = Request { max_steps: flow.max_steps, watched: dim, ..Request::until(span, field.dim()) };
+    let outcome = drive(orbit.as_mut(), &request, stop).ok()?;
+    if !outcome.is_complete() {
+        return None;
+    }
+    let (end, tangents) = orbit.state().split_at(dim);
+    let mut slope = end.to_vec();
+    VectorField::<f64>::eval(body, 0.0, end, &mut slope);
+    Some(Part { end: end.to_vec(), slope, tangents: tangents.to_vec() })
+}
