@@ -269,3 +269,21 @@ fn a_run_that_is_followed_is_the_same_run() {
         assert!(seen.error <= result.error);
     }
 }
+
+/// Rates that are immense against the time of the average: there is no end, and no endless loop either.
+#[test]
+fn immense_rates_end_with_a_word() {
+    let body = cell(0.1, 3);
+    let settings = LyapunovSettings {
+        count: 6,
+        method: Method::find("krogstad4").unwrap(),
+        control: StepControl::Adaptive { rtol: 1e-6, atol: 1e-7 },
+        transient: 100.0,
+        span: 1000.0,
+        escape_norm: 1e6,
+        max_steps: 1_000_000,
+    };
+    let found = lyapunov(&body, &[0.1; 6], &settings, &mut ()).unwrap();
+    assert!(matches!(found.outcome, Outcome::StepBudget { .. }), "{:?}", found.outcome);
+    assert!(found.exponents.is_empty());
+}

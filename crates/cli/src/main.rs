@@ -12,6 +12,7 @@ use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    prepare();
     let arguments = Arguments::parse();
     let done = match arguments.command {
         Command::Models(options) => commands::models::run(&options),
@@ -31,4 +32,21 @@ fn main() -> ExitCode {
         Ok(end) => end.into(),
         Err(error) => output::report(&error),
     }
+}
+
+/// What must hold before anything runs: a file that grows beyond its limit (`ulimit -f`) is an error and not the end of the process, and
+/// panics of the Parquet library on damaged files, which are caught, are not shown.
+fn prepare() {
+    #[cfg(unix)]
+    {
+        // If this fails, the system's default stays: the process ends at the limit.
+        let seen = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
+        let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, seen);
+    }
+    let shown = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        if !motiform_study::files::decoding() {
+            shown(panic);
+        }
+    }));
 }

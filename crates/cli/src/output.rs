@@ -55,9 +55,9 @@ pub(crate) fn print(text: &str) -> anyhow::Result<()> {
     }
 }
 
-/// A label of figures without its markup.
+/// A label of figures as text: 10^-3, z_1.
 pub(crate) fn plain(label: &str) -> String {
-    Label::parse(label).plain()
+    Label::parse(label).terminal()
 }
 
 /// Says on standard error what the user should know about a result.

@@ -2,6 +2,7 @@
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use motiform_study::simulate::Monitor;
+use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -60,6 +61,13 @@ impl Monitor for Watch {
             return;
         }
         self.bar.set_position(done);
+    }
+
+    fn note(&self, text: &str) {
+        self.bar.suspend(|| {
+            // Nothing is lost if nobody listens.
+            let _ = writeln!(std::io::stderr(), "{text}");
+        });
     }
 
     fn stopped(&self) -> bool {

@@ -88,6 +88,19 @@ impl Run {
 
 #[pymethods]
 impl Run {
+    /// A run made of what `manifest`, `table` and `crossings` give: for pickles.
+    #[staticmethod]
+    #[pyo3(signature = (manifest, table, crossings=None))]
+    fn of(manifest: &str, table: TableArrays, crossings: Option<TableArrays>) -> PyResult<Self> {
+        let columns = |(names, meanings, block): TableArrays| Columns { names, meanings, block };
+        Ok(Self {
+            manifest: serde_json::from_str(manifest).map_err(of_json)?,
+            model: OnceLock::new(),
+            table: columns(table),
+            crossings: crossings.map(columns),
+        })
+    }
+
     /// The array (column, row).
     fn block(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
         self.table.block.clone_ref(py)

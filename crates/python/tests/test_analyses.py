@@ -94,3 +94,11 @@ def test_averages_that_are_too_short_have_no_error() -> None:
     assert "(no error)" in str(short)
     enough = motiform.preset("fig5b").lyapunov(1, transient=200.0, t_end=1000.0)
     assert np.isfinite(enough.errors).all() and enough.without_error is None
+
+
+def test_results_state_their_accuracy(binary: Path) -> None:
+    body = motiform.preset("fig5b").replace(kappa2=0.9)
+    found = body.lyapunov(1, transient=10.0, t_end=100.0)
+    assert str(found.accuracy) == "dop853, rtol 1e-09, atol 1e-12" and str(found).startswith("λ1 = ")
+    assert body.classify().accuracy == found.accuracy
+    assert all(verdict.accuracy == found.accuracy for verdict in body.motions(2).verdicts)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import sys
 import threading
 import time
@@ -27,6 +28,15 @@ def test_columns_are_views_of_one_block(run: motiform.Trajectory) -> None:
     assert np.array_equal(run.shape[:, run.coordinates.index("u222")], run["u222"])
     with pytest.raises(KeyError, match="no column 'z'"):
         run["z"]
+
+
+def test_a_trajectory_survives_a_pickle(run: motiform.Trajectory) -> None:
+    for one in (run, motiform.preset("fig3").simulate(50.0, transient=0.0)):
+        back = pickle.loads(pickle.dumps(one))
+        assert np.array_equal(back._block, one._block, equal_nan=True)
+        assert back.manifest == one.manifest and back.names == one.names
+        assert (back.crossings is None) == (one.crossings is None)
+        assert np.array_equal(back.outline(3), one.outline(3))
 
 
 def test_velocity_is_the_rate_of_the_position(run: motiform.Trajectory) -> None:

@@ -1,6 +1,6 @@
 //! A plan, and a question about its motion: which one is it, and do neighbouring orbits separate?
 
-use crate::plan::{Control, check_no_noise};
+use crate::plan::{Control, LONGEST, check, check_no_noise};
 use crate::simulate::Monitor;
 use crate::{Error, Plan};
 use motiform_analysis::regime::{Settings, Verdict};
@@ -27,13 +27,8 @@ pub fn classify(plan: &Plan, budget: f64, monitor: &dyn Monitor) -> Result<Optio
 /// A budget below 0, an unknown model or stepper.
 pub fn settings(plan: &Plan, budget: f64) -> Result<Settings, Error> {
     let (info, c) = (plan.info()?, &plan.computation);
-    if budget < 0.0 {
-        return Err(Error::Setting {
-            key: "budget",
-            value: budget.to_string(),
-            remedy: "give a model time above 0, or 0 for the model's default",
-        });
-    }
+    let allowed = (0.0..=LONGEST).contains(&budget);
+    check("budget", budget, allowed, "give a model time above 0, at most 1e9, or 0 for the model's default")?;
     let bounds = (c.escape_norm, c.max_steps);
     Ok(settings_of(info, plan.method()?, c.control, bounds, budget))
 }
@@ -92,12 +87,15 @@ pub(crate) fn lyapunov_settings(
     if count == 0 || count > dim {
         return Err(Error::Count { count, dim });
     }
+    let (transient, span) = (transient.unwrap_or(4.0 * info.look), t_end.unwrap_or(20.0 * info.look));
+    check("transient", transient, transient <= LONGEST, "give a time of at most 1e9")?;
+    check("t_end", span, span <= LONGEST, "give a time of at most 1e9")?;
     Ok(LyapunovSettings {
         count,
         method: plan.method()?,
         control: c.control.into(),
-        transient: transient.unwrap_or(4.0 * info.look),
-        span: t_end.unwrap_or(20.0 * info.look),
+        transient,
+        span,
         escape_norm: c.escape_norm,
         max_steps: c.max_steps,
     })

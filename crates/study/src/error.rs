@@ -186,6 +186,20 @@ pub enum Error {
         /// The largest step that it can take.
         largest: f64,
     },
+    /// Rates so fast that an explicit method would never end.
+    #[error(
+        "the fastest rate of this model is {rate:.1e}: {stepper} would need some {:.0e} steps for a time of {time:.0}; take the exponential \
+         stepper krogstad4, or smaller parameters",
+        rate * time / 5.0
+    )]
+    Stiff {
+        /// The fastest rate of the linear part.
+        rate: f64,
+        /// The model time.
+        time: f64,
+        /// The stepper.
+        stepper: &'static str,
+    },
     /// A start whose boundary cannot be closed.
     #[error(
         "the initial values describe no closed boundary (closing it leaves {residual:.1e} of its length): give \
@@ -222,6 +236,12 @@ pub enum Error {
         path: PathBuf,
         /// The reason.
         reason: String,
+    },
+    /// Something that is no file is where a file of ours belongs.
+    #[error("{} is no file, and a part of the scan belongs there: remove it, and --resume goes on", .path.display())]
+    InTheWay {
+        /// The path.
+        path: PathBuf,
     },
     /// A file that cannot be read.
     #[error("cannot read {}: {reason}", .path.display())]

@@ -17,6 +17,15 @@ pub const PLAN_FORMAT: u32 = 2;
 /// Most rows a trajectory may have (about 2 GB in memory).
 const MOST_ROWS: f64 = 2e7;
 
+/// Longest model time: beyond it, time itself has too few digits for steps of order 1.
+pub(crate) const LONGEST: f64 = 1e9;
+
+/// Most steps of a run: hours of computing.
+const MOST_STEPS: f64 = 1e10;
+
+/// An adaptive explicit step times the fastest rate: the edge of stability of methods of order 5 and 8.
+const STEP_TIMES_RATE: f64 = 5.0;
+
 /// Step of steppers that cannot control it, where none is given: the paper's.
 const DEFAULT_STEP: f64 = 1e-3;
 
@@ -119,7 +128,7 @@ impl std::fmt::Display for Control {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Adaptive { rtol, atol } => write!(f, "rtol {rtol:e}, atol {atol:e}"),
-            Self::Fixed { step } => write!(f, "step {step}"),
+            Self::Fixed { step } => write!(f, "step {step:?}"),
         }
     }
 }
@@ -142,8 +151,14 @@ impl Plan {
         let info = study.info()?;
         let method = stepper(&study.run.stepper)?;
         let run = &study.run;
-        check("t_end", run.t_end, run.t_end > 0.0, "give a time above 0")?;
-        check("transient", run.transient, run.transient >= 0.0, "give a time of at least 0")?;
+        check(
+            "t_end",
+            run.t_end,
+            run.t_end > 0.0 && run.t_end <= LONGEST,
+            "give a time above 0, at most 1e9",
+        )?;
+        let transient = run.transient >= 0.0 && run.transient <= LONGEST;
+        check("transient", run.transient, transient, "give a time from 0 to 1e9")?;
         let dt_out = if run.dt_out == 0.0 { run.t_end / 2000.0 } else { run.dt_out };
         check("dt_out", dt_out, dt_out > 0.0, "give a time above 0")?;
         check(
@@ -166,6 +181,7 @@ impl Plan {
         let parameters = Named(names.zip(study.values()?).collect());
         let model = info.build(&parameters.values())?;
         check_stability(model.as_ref(), method, control)?;
+        check_steps(model.as_ref(), method, control, run.transient + run.t_end)?;
         let initial = initial::resolve(study, info)?;
         check_start(model.as_ref(), &initial)?;
         let computation = Computation {
@@ -262,6 +278,28 @@ pub(crate) fn check_stability(model: &dyn Model, method: Method, control: Contro
     // The real stability intervals: 2 for orders 1 and 2, 2.785 for the classical method of order 4.
     let largest = if tableau.order < 4 { 2.0 } else { 2.785 } / fastest;
     if step > largest { Err(Error::UnstableStep { step, stepper: tableau.name, largest }) } else { Ok(()) }
+}
+
+/// Refuses a run that could not end: steps that are too many for the time, because they are fixed and tiny, or because the fastest
+/// rate of the linear part keeps an explicit method to steps of some times its inverse.
+pub(crate) fn check_steps(
+    model: &dyn Model,
+    method: Method,
+    control: Control,
+    time: f64,
+) -> Result<(), Error> {
+    if let Control::Fixed { step } = control {
+        let remedy = "that is over 10 thousand million steps: give a larger step, or a shorter time";
+        return check("step", step, time / step <= MOST_STEPS, remedy);
+    }
+    let Method::Explicit(tableau) = method else { return Ok(()) };
+    let mut rates = vec![0.0; model.dim()];
+    Semilinear::<f64>::linear(model, &mut rates);
+    let rate = rates.iter().fold(0.0, |fastest: f64, rate| fastest.max(rate.abs()));
+    if rate * time / STEP_TIMES_RATE <= MOST_STEPS {
+        return Ok(());
+    }
+    Err(Error::Stiff { rate, time, stepper: tableau.name })
 }
 
 /// A start must be a body.

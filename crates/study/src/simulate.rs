@@ -21,6 +21,9 @@ pub trait Monitor: Sync {
     /// The part of the work that is done, 0 to 1; called often.
     fn progress(&self, _done: f64) {}
 
+    /// A part of the work is finished; the text says which, and how it went.
+    fn note(&self, _text: &str) {}
+
     /// Whether to stop here and keep what there is.
     fn stopped(&self) -> bool {
         false

@@ -1,5 +1,6 @@
 //! A study as typed: everything optional, nothing computed yet.
 
+use crate::files::input;
 use crate::random::Random;
 pub use crate::run_settings::RunSettings;
 use crate::scan::Axis;
@@ -161,7 +162,7 @@ impl Study {
     /// # Errors
     /// [`Error::Unreadable`], and what [`Study::parse`] refuses.
     pub fn read(path: &std::path::Path) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(path).map_err(|error| Error::unreadable(path, error))?;
+        let text = input::text(path, input::STUDY).map_err(|error| Error::unreadable(path, error))?;
         let stem =
             path.file_stem().map_or_else(|| "study".to_owned(), |stem| stem.to_string_lossy().into_owned());
         Self::parse(&text, &path.display().to_string(), &stem)

@@ -30,15 +30,47 @@ impl<'i> Source<'i> {
         let text = self.text[line_start..].lines().next().unwrap_or("");
         let gutter = format!("{line:4} | ");
         let marked = self.text.get(span).map_or(1, |text| text.chars().count());
-        let marks = marked.clamp(1, text.chars().count().saturating_sub(column - 1).max(1));
-        let pointer = format!("{:>1$}{2}", "", gutter.len() + column - 1, "^".repeat(marks));
+        let (text, column_shown) = around(text, column - 1);
+        let marks = marked.clamp(1, text.chars().count().saturating_sub(column_shown).max(1));
+        let pointer = format!("{}{}", " ".repeat(gutter.len() + column_shown), "^".repeat(marks));
         Error::Study {
             file: self.file.to_owned(),
             line,
             column,
-            problem,
+            problem: shortened(&problem),
             excerpt: format!("{gutter}{text}\n{pointer}"),
         }
+    }
+}
+
+/// Most characters of a complaint: it may quote a name of any length.
+const LONGEST: usize = 1000;
+
+/// A complaint without its middle, where it is too long to read.
+fn shortened(problem: &str) -> String {
+    let count = problem.chars().count();
+    if count <= LONGEST {
+        return problem.to_owned();
+    }
+    let part = |skip: usize| problem.chars().skip(skip).take(LONGEST / 2).collect::<String>();
+    format!("{} ... {}", part(0), part(count - LONGEST / 2))
+}
+
+/// Characters of a line that are shown.
+const SHOWN: usize = 160;
+
+/// What is shown of a long line around the character `place`, and the place in that.
+fn around(line: &str, place: usize) -> (String, usize) {
+    if line.chars().count() <= SHOWN {
+        return (line.to_owned(), place);
+    }
+    let first = place.saturating_sub(SHOWN / 2);
+    let shown: String = line.chars().skip(first).take(SHOWN).collect();
+    let after = if line.chars().count() > first + SHOWN { "..." } else { "" };
+    if first == 0 {
+        (format!("{shown}{after}"), place)
+    } else {
+        (format!("...{shown}{after}"), place - first + 3)
     }
 }
 

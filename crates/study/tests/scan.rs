@@ -7,8 +7,8 @@ mod common;
 use common::preset;
 use motiform_analysis::regime::{Attractor, Regime, Spread, Verdict};
 use motiform_study::scan::{
-    Axis, Classify, Ended, Evaluate, Opening, PartError, Row, Scan, ScanFolder, Shard, Totals, cells,
-    for_each_part, merge,
+    Axis, Classify, Ended, Evaluate, Opening, PartError, Row, SCAN_FORMAT, Scan, ScanFolder, Shard, Totals,
+    cells, for_each_part, merge,
 };
 use motiform_study::simulate::Monitor;
 use motiform_study::{Error, ScanPlan, Study};
@@ -394,4 +394,31 @@ fn real_orbits_too() {
         assert!(scan.run(&Classify, threads, &()).unwrap().complete);
     }
     assert!(contents(&at("1")) == contents(&at("2")));
+}
+
+/// A part may be resumed by a later program only if that computes the same bits: whoever changes a number raises [`SCAN_FORMAT`], and
+/// puts the new digest here.
+#[test]
+fn numbers_change_only_with_the_format() {
+    let rows = |name: &str, axes: &[&str]| {
+        let study = preset(name, |study| {
+            study.scan.axes = axes.iter().map(|text| Axis::parse(text).unwrap()).collect();
+            study.scan.samples = 2;
+        });
+        let place = TempDir::new().unwrap();
+        let plan = ScanPlan::new(&study).unwrap();
+        let scan = Scan::open(&place.path().join("scan"), &plan, Shard::WHOLE, Opening::New).unwrap();
+        scan.run(&Classify, 2, &()).unwrap();
+        let mut all = Vec::new();
+        for_each_part(scan.folder(), |rows| all.extend_from_slice(rows)).unwrap();
+        all
+    };
+    let mut all = rows("fig1", &["kappa2=-0.11:0.09:3", "gamma=-0.052:0.051:3"]);
+    all.extend(rows("fig4", &["kappa2=0.47:1.03:3", "kappa3=0.11:0.31:2"]));
+    // FNV-1a over the bits of all numbers.
+    let digest = all.iter().flat_map(|row| row.numbers).flat_map(|x| x.to_bits().to_le_bytes());
+    let digest = digest.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    assert_eq!((SCAN_FORMAT, format!("{digest:016x}").as_str()), (2, "03f6aac66aaec6f2"));
 }

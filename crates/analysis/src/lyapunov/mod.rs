@@ -206,6 +206,10 @@ pub fn lyapunov_followed<B: Equivariant + ?Sized>(
         if let Some(so_far) = protocol.so_far(pace(shape, rate)) {
             follow(so_far);
         }
+        if watch.tick(orbit.t()).is_break() {
+            outcome = Outcome::Interrupted { t: orbit.t() };
+            break;
+        }
         if lost.any() { orbit.restart(&state) } else { orbit.restart_with(&state, &rates) }
     }
     let steps = orbit.counters().steps;

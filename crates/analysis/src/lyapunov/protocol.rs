@@ -11,6 +11,10 @@ const PARTED: f64 = 8.0;
 /// or more: enough for an error.
 const INTERVALS: f64 = 160.0;
 
+/// Most stretches of a run. Vectors that separate so fast that it would take more are those of rates that are immense against the time.
+/// (Close to a blow-up stretches become short as well, and then the run ends.)
+const MOST: f64 = 1e13;
+
 /// A stretch to come.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stretch {
@@ -28,6 +32,8 @@ pub(crate) struct Protocol {
     /// Usual length of a stretch: chosen while the flow settles, then kept.
     interval: f64,
     averaging: bool,
+    /// Whether there would be more than [`MOST`] stretches: there are no exponents then.
+    given_up: bool,
     /// Start of the stretch under way, start of the averages, end of the phase.
     start: f64,
     begun: f64,
@@ -48,6 +54,7 @@ impl Protocol {
             dim,
             interval: 1.0,
             averaging: false,
+            given_up: false,
             start: 0.0,
             begun: 0.0,
             end: 0.0,
@@ -104,7 +111,8 @@ impl Protocol {
             self.end = t + self.settings.span;
             self.interval = self.settings.span / (self.settings.span / self.interval).ceil().max(INTERVALS);
         }
-        if t >= self.end {
+        self.given_up = self.interval * MOST < self.settings.transient + self.settings.span;
+        if t >= self.end || self.given_up {
             return None;
         }
         self.start = t;
@@ -132,6 +140,10 @@ impl Protocol {
         steps: u64,
     ) -> Result<Lyapunov> {
         let time = self.time;
+        let outcome = match outcome {
+            Outcome::Completed { t } if self.given_up => Outcome::StepBudget { t, steps },
+            outcome => outcome,
+        };
         let exponents = if outcome.is_complete() && !self.history.is_empty() {
             let rtol = match self.settings.control {
                 StepControl::Adaptive { rtol, .. } => rtol,

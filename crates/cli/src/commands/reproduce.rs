@@ -4,8 +4,9 @@ use crate::args::ReproduceOptions;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Watch;
 use motiform_study::Error;
+use motiform_study::figures::{DEFAULT_SCALE, png};
 use motiform_study::files::replace_file;
-use motiform_study::report::{Claim, Counts, Report};
+use motiform_study::report::{Claim, Counts, Picture, Report};
 use motiform_study::reproduction::{Options, reproduce};
 use serde_json::json;
 use std::fmt::Write;
@@ -32,10 +33,28 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
         }
         report => report?,
     };
+    write_figures(&report, out)?;
     let page = out.join("report.html");
     replace_file(&page, report.html().as_bytes())?;
     print(&if options.json { json(&report, &page)? } else { summary(&report, &page)? })?;
     Ok(if report.all_hold() { End::Done } else { End::NotAsAsked })
+}
+
+/// The figures of the report as files: `figure-4.1.svg` and `.png` are the page's Figure 4.1.
+fn write_figures(report: &Report, out: &Path) -> Result<(), Error> {
+    for (section, number) in report.sections.iter().zip(1..) {
+        for (figure, place) in section.figures.iter().zip(1..) {
+            let file = |ending: &str| out.join(format!("figure-{number}.{place}.{ending}"));
+            match &figure.picture {
+                Picture::Svg(svg) => {
+                    replace_file(&file("svg"), svg.as_bytes())?;
+                    replace_file(&file("png"), &png(svg, DEFAULT_SCALE, &[])?)?;
+                }
+                Picture::Png(bytes) => replace_file(&file("png"), bytes)?,
+            }
+        }
+    }
+    Ok(())
 }
 
 /// `hold`, `differ`, `fail` count the claims of the paper; `checks` has the same for the checks of ours.

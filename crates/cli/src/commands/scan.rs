@@ -21,6 +21,9 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
         _ => Opening::New,
     };
     let scan = Scan::open(&out, &plan, shard, opening)?;
+    for note in scan.swept() {
+        warn(note);
+    }
     for damaged in scan.damaged() {
         warn(&format!("{damaged}; its cells are computed again"));
     }
@@ -43,6 +46,13 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
             "interrupted: {done} of {left} cells are done; the same `motiform scan` with --resume goes on"
         ));
         return Ok(End::Interrupted);
+    }
+    let lost = scan.lost();
+    if lost > 0 {
+        warn(&format!(
+            "{lost} of the parts that were written are gone or changed: something else works in this folder; --resume computes them again"
+        ));
+        return Ok(End::NotAsAsked);
     }
     Ok(if totals.undetermined > 0 { End::NotAsAsked } else { End::Done })
 }

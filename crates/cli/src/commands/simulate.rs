@@ -15,6 +15,7 @@ use std::path::PathBuf;
 pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     let plan = Plan::new(&study(options)?)?;
     let target = Target::prepare(options, &plan)?;
+    target.swept().iter().for_each(|note| warn(note));
     let c = &plan.computation;
     let watch = Watch::new(c.transient + c.t_end, "model time");
     let dataset =
@@ -86,6 +87,14 @@ impl Target {
         })
     }
 
+    /// What was found of killed runs.
+    fn swept(&self) -> &[String] {
+        match self {
+            Self::Nowhere => &[],
+            Self::Folder(staging) | Self::Table(staging, _) => staging.swept(),
+        }
+    }
+
     /// Writes everything and gives it its name; returns what was written, and why there are no figures: numbers that
     /// no axis can hold are no reason to lose the numbers.
     fn write(
@@ -96,7 +105,8 @@ impl Target {
         match self {
             Self::Nowhere => Ok((None, None)),
             Self::Table(staging, format) => {
-                write_table(&dataset.trajectory, &dataset.manifest, format, staging.path())?;
+                write_table(&dataset.trajectory, &dataset.manifest, format, staging.path())
+                    .map_err(|error| staging.shown(error))?;
                 Ok((Some(staging.commit()?.display().to_string()), None))
             }
             Self::Folder(staging) => {

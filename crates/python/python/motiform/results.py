@@ -196,9 +196,10 @@ class Exponents:
         return float(self.values.sum())
 
     def __str__(self) -> str:
-        pairs = zip(self.values, self.errors, strict=True)
+        pairs = enumerate(zip(self.values, self.errors, strict=True), 1)
         return ", ".join(
-            f"{value:.5g} ± {error:.1g}" if np.isfinite(error) else f"{value:.5g} (no error)" for value, error in pairs
+            f"λ{number} = {value:.5g} " + (f"± {error:.1g}" if np.isfinite(error) else "(no error)")
+            for number, (value, error) in pairs
         )
 
 

@@ -27,6 +27,10 @@ def _unit(meaning: str) -> str:
     return meaning[start + 1 : end] if 0 <= start < end else ""
 
 
+def _unpickled(manifest: str, table: Any, crossings: Any) -> Trajectory:
+    return Trajectory(_motiform.Run.of(manifest, table, crossings))
+
+
 class Trajectory:
     """A recorded motion: columns over time, in one block of memory.
 
@@ -37,6 +41,9 @@ class Trajectory:
     def __init__(self, run: _motiform.Run) -> None:
         self._run = run
         self._block = run.block()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _unpickled, (self._run.manifest(), self._run.table(), self._run.crossings())
 
     @cached_property
     def _place(self) -> dict[str, int]:

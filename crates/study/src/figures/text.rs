@@ -115,6 +115,33 @@ impl Label {
         Self(out)
     }
 
+    /// The text for a terminal: subscripts as `z_1` or `x_{n+1}`, superscripts as `10^-3`, no italics.
+    #[must_use]
+    pub fn terminal(&self) -> String {
+        let mut groups: Vec<(Script, String)> = Vec::new();
+        for run in self.runs() {
+            match groups.last_mut() {
+                Some((script, text)) if *script == run.script => text.push_str(&run.text),
+                _ => groups.push((run.script, run.text)),
+            }
+        }
+        let shown = |(script, text): &(Script, String)| {
+            let mark = match script {
+                Script::Base => return text.clone(),
+                Script::Sub => '_',
+                Script::Super => '^',
+            };
+            let text = text.replace('\u{2212}', "-");
+            let number = text.trim_start_matches('-').chars().all(|c| c.is_ascii_digit());
+            if number || text.chars().count() == 1 {
+                format!("{mark}{text}")
+            } else {
+                format!("{mark}{{{text}}}")
+            }
+        };
+        groups.iter().map(shown).collect()
+    }
+
     /// Width in pixels at a font size in pixels.
     #[must_use]
     pub fn width(&self, size: f64) -> f64 {
@@ -173,6 +200,12 @@ mod tests {
 
     fn plain(markup: &str) -> String {
         Label::parse(markup).runs().into_iter().map(|r| r.text).collect()
+    }
+
+    #[test]
+    fn a_terminal_keeps_exponents_and_indices() {
+        let shown = Label::parse("*x*_{*n*+1} = 10^{-3} *z*_1^2, -0.9").terminal();
+        assert_eq!(shown, "x_{n+1} = 10^-3 z_1^2, \u{2212}0.9");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The folder of a dataset: `manifest.json`, `trajectory.*`, `crossings.*`, figures beside them.
 
 use super::staging::{MANIFEST, Staging};
-use super::{csv_table, parquet_table};
+use super::{csv_table, input, parquet_table};
 use crate::Error;
 use crate::dataset::{Dataset, Manifest};
 use crate::table::Table;
@@ -61,10 +61,12 @@ pub fn write_dataset(dataset: &Dataset, format: Format, staging: &Staging) -> Re
     let tables = [("trajectory", Some(&dataset.trajectory)), ("crossings", dataset.crossings.as_ref())];
     for (name, table) in tables.into_iter().filter_map(|(name, table)| Some((name, table?))) {
         let file = format!("{name}.{}", format.extension());
-        write_table(table, manifest, format, &staging.path().join(file))?;
+        write_table(table, manifest, format, &staging.path().join(file))
+            .map_err(|error| staging.shown(error))?;
     }
     if let Some(fields) = crate::fields::fields(dataset)? {
-        super::write_fields(&staging.path().join("fields.h5"), &fields)?;
+        super::write_fields(&staging.path().join("fields.h5"), &fields)
+            .map_err(|error| staging.shown(error))?;
     }
     let mut json =
         serde_json::to_vec_pretty(manifest).map_err(|error| Error::write_failed(staging.target(), error))?;
@@ -78,7 +80,7 @@ pub fn write_dataset(dataset: &Dataset, format: Format, staging: &Staging) -> Re
 /// [`Error::Unreadable`] for a folder without a manifest, or files that are missing or damaged.
 pub fn read_dataset(folder: &Path) -> Result<Dataset, Error> {
     let path = folder.join(MANIFEST);
-    let text = std::fs::read_to_string(&path).map_err(|error| {
+    let text = input::manifest(&path).map_err(|error| {
         Error::unreadable(&path, format!("{error}; a dataset is a folder written by `motiform simulate`"))
     })?;
     let manifest: Manifest = serde_json::from_str(&text).map_err(|error| Error::unreadable(&path, error))?;

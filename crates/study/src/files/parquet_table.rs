@@ -1,13 +1,15 @@
 //! Tables as Parquet: one DOUBLE column each, null where a value is undefined; zstd; opens in pandas, polars, R, Julia.
 
+use super::parquet_input::{self, wrong};
 use crate::Error;
 use crate::table::{Column, Table};
 use parquet::basic::{Compression, Repetition, Type as PhysicalType, ZstdLevel};
+use parquet::column::reader::ColumnReader;
 use parquet::data_type::DoubleType;
-use parquet::errors::{ParquetError, Result};
-use parquet::file::metadata::{KeyValue, RowGroupMetaData};
+use parquet::errors::Result;
+use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
-use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::reader::FileReader;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 use std::path::Path;
@@ -76,53 +78,38 @@ pub(super) fn read(path: &Path) -> std::result::Result<Table, Error> {
 }
 
 fn try_read(path: &Path) -> Result<Table> {
-    let reader = SerializedFileReader::new(std::fs::File::open(path)?)?;
-    let file = reader.metadata().file_metadata();
-    let meanings = file
-        .key_value_metadata()
-        .and_then(|entries| entries.iter().find(|entry| entry.key == "motiform.columns"))
-        .and_then(|entry| serde_json::from_str::<serde_json::Value>(entry.value.as_deref()?).ok());
-    // The library asserts these; a damaged file may break them.
-    for chunk in reader.metadata().row_groups().iter().flat_map(RowGroupMetaData::columns) {
-        let start = chunk.dictionary_page_offset().unwrap_or(chunk.data_page_offset());
-        if start < 0 || chunk.compressed_size() < 0 {
-            return Err(ParquetError::General("a column lies outside the file".to_owned()));
+    parquet_input::read(path, |reader| {
+        let file = reader.metadata().file_metadata();
+        let meanings = file
+            .key_value_metadata()
+            .and_then(|entries| entries.iter().find(|entry| entry.key == "motiform.columns"))
+            .and_then(|entry| serde_json::from_str::<serde_json::Value>(entry.value.as_deref()?).ok());
+        let mut columns: Vec<Column> = Vec::new();
+        for field in file.schema_descr().columns() {
+            let name = field.name().to_owned();
+            let meaning = meanings.as_ref().and_then(|all| all.get(&name)?.as_str()).unwrap_or("").to_owned();
+            columns.push(Column { name, meaning, values: Vec::new() });
         }
-    }
-    let mut columns: Vec<Column> = Vec::new();
-    for field in file.schema_descr().columns() {
-        let name = field.name().to_owned();
-        let meaning = meanings.as_ref().and_then(|all| all.get(&name)?.as_str()).unwrap_or("").to_owned();
-        columns.push(Column { name, meaning, values: Vec::new() });
-    }
-    for group in 0..reader.num_row_groups() {
-        let group = reader.get_row_group(group)?;
-        let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
-        for (index, column) in columns.iter_mut().enumerate() {
-            let parquet::column::reader::ColumnReader::DoubleColumnReader(mut input) =
-                group.get_column_reader(index)?
-            else {
-                return Err(ParquetError::General(format!("column {} does not hold numbers", column.name)));
-            };
-            let (mut levels, mut values) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
-            input.read_records(rows, Some(&mut levels), None, &mut values)?;
-            let mut defined = values.into_iter();
-            let filled = levels
-                .iter()
-                .map(|&level| if level == 0 { f64::NAN } else { defined.next().unwrap_or(f64::NAN) });
-            column.values.extend(filled);
+        for group in 0..reader.num_row_groups() {
+            let group = reader.get_row_group(group)?;
+            for (index, column) in columns.iter_mut().enumerate() {
+                let ColumnReader::DoubleColumnReader(mut input) = group.get_column_reader(index)? else {
+                    return Err(wrong(&format!("column {} does not hold numbers", column.name)));
+                };
+                let (values, levels) = parquet_input::column(&mut input, group.metadata().num_rows(), true)?;
+                column.values.extend(parquet_input::numbers(values, &levels));
+            }
         }
-    }
-    Ok(Table { columns })
+        Ok(Table { columns })
+    })
 }
 
 /// What was written as `metadata`, if the file has it.
 pub(super) fn read_metadata(path: &Path) -> std::result::Result<Option<String>, Error> {
-    let read = || -> Result<Option<String>> {
-        let reader = SerializedFileReader::new(std::fs::File::open(path)?)?;
+    let read = parquet_input::read(path, |reader| {
         let entries = reader.metadata().file_metadata().key_value_metadata();
         let entry = entries.and_then(|entries| entries.iter().find(|entry| entry.key == "motiform"));
         Ok(entry.and_then(|entry| entry.value.clone()))
-    };
-    read().map_err(|error| Error::unreadable(path, error))
+    });
+    read.map_err(|error| Error::unreadable(path, error))
 }

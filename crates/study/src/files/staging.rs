@@ -1,5 +1,7 @@
 //! Output that appears whole or not at all: everything is written beside its place and renamed when complete.
 
+use super::leftovers::{Place, remove, replaced, sweep};
+use super::{disk, input};
 use crate::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,10 +13,11 @@ pub(super) const MANIFEST: &str = "manifest.json";
 #[derive(Debug)]
 pub struct Staging {
     target: PathBuf,
-    partial: PathBuf,
+    place: Place,
     folder: bool,
     force: bool,
     committed: bool,
+    swept: Vec<String>,
 }
 
 impl Staging {
@@ -35,6 +38,7 @@ impl Staging {
     }
 
     fn prepare(target: &Path, folder: bool, force: bool, ours: fn(&Path) -> bool) -> Result<Self, Error> {
+        let swept = sweep(target);
         if target.symlink_metadata().is_ok() {
             if !force {
                 return Err(Error::Exists { path: target.to_owned() });
@@ -44,23 +48,24 @@ impl Staging {
             }
         }
         let unwritable = |reason| Error::Unwritable { path: target.to_owned(), reason };
-        let name = target.file_name().ok_or_else(|| {
-            unwritable(std::io::Error::new(std::io::ErrorKind::InvalidInput, "the path has no last part"))
-        })?;
-        let partial =
-            target.with_file_name(format!(".{}.{}.partial", name.to_string_lossy(), std::process::id()));
-        if folder {
-            fs::create_dir(&partial).map_err(unwritable)?;
-        } else {
-            fs::File::create_new(&partial).map_err(unwritable)?;
+        if target.file_name().is_none() {
+            let reason = std::io::Error::new(std::io::ErrorKind::InvalidInput, "the path has no last part");
+            return Err(unwritable(reason));
         }
-        Ok(Self { target: target.to_owned(), partial, folder, force, committed: false })
+        let place = Place::make(target, folder).map_err(unwritable)?;
+        Ok(Self { target: target.to_owned(), place, folder, force, committed: false, swept })
+    }
+
+    /// What was found and removed of runs to this target that were killed, in sentences.
+    #[must_use]
+    pub fn swept(&self) -> &[String] {
+        &self.swept
     }
 
     /// Where to write: the folder, or the file.
     #[must_use]
     pub fn path(&self) -> &Path {
-        &self.partial
+        &self.place.path
     }
 
     /// Where it will be.
@@ -69,12 +74,27 @@ impl Staging {
         &self.target
     }
 
+    /// The same failure with the name that the output would have had.
+    #[must_use]
+    pub fn shown(&self, error: Error) -> Error {
+        match error {
+            Error::WriteFailed { path, reason } if path == self.path() => {
+                Error::WriteFailed { path: self.target.clone(), reason }
+            }
+            Error::WriteFailed { path, reason } => match path.strip_prefix(self.path()) {
+                Ok(name) => Error::WriteFailed { path: self.target.join(name), reason },
+                Err(_) => Error::WriteFailed { path, reason },
+            },
+            other => other,
+        }
+    }
+
     /// Writes a file inside the folder.
     ///
     /// # Errors
     /// [`Error::WriteFailed`], naming the file as it would have been called.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Error> {
-        fs::write(self.partial.join(name), bytes)
+        disk::write(&self.path().join(name), bytes)
             .map_err(|error| Error::write_failed(&self.target.join(name), error))
     }
 
@@ -88,26 +108,40 @@ impl Staging {
         if there && !self.force {
             return Err(Error::Exists { path: self.target.clone() });
         }
+        self.sync().map_err(failed)?;
         if there && self.folder {
-            let old = self.partial.with_extension("replaced");
-            fs::rename(&self.target, &old).map_err(failed)?;
-            if let Err(error) = fs::rename(&self.partial, &self.target) {
-                let _ = fs::rename(&old, &self.target); // what was there is better than nothing
-                return Err(failed(error));
-            }
-            fs::remove_dir_all(&old).map_err(failed)?;
+            self.replace().map_err(failed)?;
         } else {
-            fs::rename(&self.partial, &self.target).map_err(failed)?;
+            disk::rename(self.path(), &self.target).map_err(failed)?;
         }
         self.committed = true;
         Ok(self.target.clone())
+    }
+
+    fn sync(&self) -> std::io::Result<()> {
+        if self.folder { disk::sync_all(self.path()) } else { fs::File::open(self.path())?.sync_all() }
+    }
+
+    /// Puts the folder in the place of the one that is there: at no moment is there none, where the system can exchange two.
+    fn replace(&self) -> std::io::Result<()> {
+        if disk::exchange(self.path(), &self.target) {
+            remove(self.path()); // the old one, which has the unfinished one's name now
+            return disk::sync_folder(self.target.parent().unwrap_or(Path::new(".")));
+        }
+        let old = replaced(&self.target);
+        fs::rename(&self.target, &old)?;
+        disk::rename(self.path(), &self.target).inspect_err(|_| {
+            let _ = fs::rename(&old, &self.target); // what was there is better than nothing
+        })?;
+        remove(&old);
+        Ok(())
     }
 }
 
 /// Whether a folder is one of ours. Many programs call a file `manifest.json`: it must say that motiform wrote it.
 fn is_dataset(folder: &Path) -> bool {
-    let manifest = fs::read(folder.join(MANIFEST)).unwrap_or_default();
-    let manifest: serde_json::Value = serde_json::from_slice(&manifest).unwrap_or_default();
+    let manifest = input::manifest(&folder.join(MANIFEST)).unwrap_or_default();
+    let manifest: serde_json::Value = serde_json::from_str(&manifest).unwrap_or_default();
     manifest["motiform"].is_string() && manifest["plan_hash"].is_string()
 }
 
@@ -125,9 +159,7 @@ pub fn replace_file(path: &Path, bytes: &[u8]) -> Result<(), Error> {
 impl Drop for Staging {
     fn drop(&mut self) {
         if !self.committed {
-            // Nothing to be done about a failure here: the partial name says what it is.
-            let _ =
-                if self.folder { fs::remove_dir_all(&self.partial) } else { fs::remove_file(&self.partial) };
+            remove(self.path());
         }
     }
 }

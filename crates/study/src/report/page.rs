@@ -13,13 +13,13 @@ pub(super) fn html(report: &Report) -> String {
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta name=\"color-scheme\" content=\"light dark\">\n\
          <title>{}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{}</h1>\n{}{}</header>\n\
-         {}{}<main>\n{sections}</main>\n{}\n</body>\n</html>\n",
+         {}<main>\n{sections}</main>\n{}{}\n</body>\n</html>\n",
         escape(&Label::parse(&report.title).plain()),
         inline(&report.title),
         paragraphs(&report.about),
         total(report),
-        summary(report),
         contents(report),
+        summary(report),
         sentence::html(report),
     )
 }
@@ -30,16 +30,17 @@ fn total(report: &Report) -> String {
         if counts == Counts::default() {
             return String::new();
         }
-        let badge = |class: &str, symbol: &str, words: &str| {
+        let badge = |n: usize, class: &str, symbol: &str, words: &str| {
+            let class = if n == 0 { "none" } else { class };
             format!("<span class=\"badge {class}\">{symbol} {words}</span>")
         };
         let all = counts.hold + counts.differ + counts.fail;
         format!(
             "<p class=\"total\">{all} {}: {} {} {}</p>\n",
             if all == 1 { one } else { many },
-            badge("holds", "✓", &held(counts.hold)),
-            badge("differs", "≠", &differing(counts.differ)),
-            badge("fails", "✗", &failed(counts.fail))
+            badge(counts.hold, "holds", "✓", &held(counts.hold)),
+            badge(counts.differ, "differs", "≠", &differing(counts.differ)),
+            badge(counts.fail, "fails", "✗", &failed(counts.fail))
         )
     };
     line(report.counts(), "claim of the paper", "claims of the paper")

@@ -100,6 +100,10 @@ impl Monitor for Share<'_> {
         self.progress.monitor.progress(self.progress.parts.iter().map(part).sum());
     }
 
+    fn note(&self, text: &str) {
+        self.progress.monitor.note(text);
+    }
+
     fn stopped(&self) -> bool {
         self.progress.monitor.stopped()
     }

@@ -1,12 +1,13 @@
 //! Typed columns as the bytes of one Parquet file, and back: whole numbers, numbers (null where undefined), texts.
 
+use crate::files::parquet_input::{column, numbers, read, wrong};
 use parquet::basic::{Compression, LogicalType, Repetition, Type as PhysicalType, ZstdLevel};
 use parquet::column::reader::ColumnReader;
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
-use parquet::errors::{ParquetError, Result};
+use parquet::errors::Result;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
-use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::reader::FileReader;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 use std::path::Path;
@@ -108,46 +109,39 @@ pub(super) fn encode(columns: &[Column], mut metadata: Vec<(&str, String)>) -> R
 
 /// The metadata entries of a file.
 pub(super) fn metadata(path: &Path) -> Result<Vec<(String, String)>> {
-    let reader = SerializedFileReader::new(std::fs::File::open(path)?)?;
-    let entries = reader.metadata().file_metadata().key_value_metadata().cloned().unwrap_or_default();
-    Ok(entries.into_iter().filter_map(|entry| Some((entry.key, entry.value?))).collect())
+    read(path, |reader| {
+        let entries = reader.metadata().file_metadata().key_value_metadata().cloned().unwrap_or_default();
+        Ok(entries.into_iter().filter_map(|entry| Some((entry.key, entry.value?))).collect())
+    })
 }
 
 /// The columns of a file; meanings are not read back.
 pub(super) fn decode(path: &Path) -> Result<Vec<Column>> {
-    let reader = SerializedFileReader::new(std::fs::File::open(path)?)?;
-    if reader.num_row_groups() != 1 {
-        return Err(ParquetError::General("a part has one row group".to_owned()));
-    }
-    let group = reader.get_row_group(0)?;
-    let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
-    let read = |(place, field): (usize, &Arc<parquet::schema::types::ColumnDescriptor>)| {
-        Ok(Column::new(field.name(), "", read_values(group.get_column_reader(place)?, rows)?))
-    };
-    reader.metadata().file_metadata().schema_descr().columns().iter().enumerate().map(read).collect()
+    read(path, |reader| {
+        if reader.num_row_groups() != 1 {
+            return Err(wrong("a part has one row group"));
+        }
+        let group = reader.get_row_group(0)?;
+        let rows = group.metadata().num_rows();
+        let read = |(place, field): (usize, &Arc<parquet::schema::types::ColumnDescriptor>)| {
+            Ok(Column::new(field.name(), "", read_values(group.get_column_reader(place)?, rows)?))
+        };
+        reader.metadata().file_metadata().schema_descr().columns().iter().enumerate().map(read).collect()
+    })
 }
 
-fn read_values(reader: ColumnReader, rows: usize) -> Result<Values> {
-    let (values, read) = match reader {
-        ColumnReader::Int64ColumnReader(mut input) => {
-            let mut values = Vec::with_capacity(rows);
-            let read = input.read_records(rows, None, None, &mut values)?.0;
-            (Values::Whole(values), read)
-        }
+fn read_values(reader: ColumnReader, rows: i64) -> Result<Values> {
+    Ok(match reader {
+        ColumnReader::Int64ColumnReader(mut input) => Values::Whole(column(&mut input, rows, false)?.0),
         ColumnReader::DoubleColumnReader(mut input) => {
-            let (mut levels, mut values) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
-            let read = input.read_records(rows, Some(&mut levels), None, &mut values)?.0;
-            let mut defined = values.into_iter();
-            let fill = |&level: &i16| if level == 0 { f64::NAN } else { defined.next().unwrap_or(f64::NAN) };
-            (Values::Number(levels.iter().map(fill).collect()), read)
+            let (values, levels) = column(&mut input, rows, true)?;
+            Values::Number(numbers(values, &levels))
         }
         ColumnReader::ByteArrayColumnReader(mut input) => {
-            let mut values: Vec<ByteArray> = Vec::with_capacity(rows);
-            let read = input.read_records(rows, None, None, &mut values)?.0;
+            let values: Vec<ByteArray> = column(&mut input, rows, false)?.0;
             let text = |bytes: &ByteArray| bytes.as_utf8().map(str::to_owned);
-            (Values::Text(values.iter().map(text).collect::<Result<_>>()?), read)
+            Values::Text(values.iter().map(text).collect::<Result<_>>()?)
         }
-        _ => return Err(ParquetError::General("a column has an unexpected type".to_owned())),
-    };
-    if read == rows { Ok(values) } else { Err(ParquetError::General("a column is too short".to_owned())) }
+        _ => return Err(wrong("a column has an unexpected type")),
+    })
 }

@@ -1,20 +1,18 @@
-//! The folder of a scan: `_manifest.json`, parts, a lock while it is computed.
+//! The folder of a scan: `_manifest.json`, locked while it is computed, and parts.
 //!
-//! The manifest's name begins with `_` and the lock's with `.`: readers of Parquet folders (pandas, pyarrow, polars)
-//! skip such names, so that they open the folder as one table.
+//! The manifest's name begins with `_`: readers of Parquet folders (pandas, pyarrow, polars) skip such names, so that they open the
+//! folder as one table.
 
 use super::{Parts, ScanPlan};
 use crate::Error;
 use crate::dataset::VERSION;
-use crate::files::Staging;
+use crate::files::{Staging, disk, input};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use std::fs::{self, File, TryLockError};
-use std::io::Write;
+use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 
 const MANIFEST: &str = "_manifest.json";
-const LOCK: &str = ".lock";
 
 /// Provenance of a scan. Knows no host, no user, no time of day, and neither threads nor shards.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -41,9 +39,10 @@ impl ScanFolder {
     /// [`Error::NoScan`] where it is missing or damaged.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let no_scan = |reason: String| Error::NoScan { path: path.to_owned(), reason };
-        let text = fs::read(path.join(MANIFEST)).map_err(|error| no_scan(format!("{MANIFEST}: {error}")))?;
+        let text =
+            input::manifest(&path.join(MANIFEST)).map_err(|error| no_scan(format!("{MANIFEST}: {error}")))?;
         let manifest: ScanManifest =
-            serde_json::from_slice(&text).map_err(|error| no_scan(format!("{MANIFEST}: {error}")))?;
+            serde_json::from_str(&text).map_err(|error| no_scan(format!("{MANIFEST}: {error}")))?;
         if manifest.plan.hash() != manifest.plan_hash {
             return Err(no_scan(format!("{MANIFEST} was changed: its plan does not give its hash")));
         }
@@ -53,8 +52,8 @@ impl ScanFolder {
     /// Whether there is a scan in a folder.
     #[must_use]
     pub fn is_one(path: &Path) -> bool {
-        let manifest = fs::read(path.join(MANIFEST)).unwrap_or_default();
-        let manifest: Value = serde_json::from_slice(&manifest).unwrap_or_default();
+        let manifest = input::manifest(&path.join(MANIFEST)).unwrap_or_default();
+        let manifest: Value = serde_json::from_str(&manifest).unwrap_or_default();
         manifest["motiform"].is_string() && manifest["plan_hash"].is_string()
     }
 
@@ -90,11 +89,11 @@ pub fn default_folder(plan: &ScanPlan) -> String {
     if plan.name == *model { format!("{model}-scan") } else { format!("{model}-{}-scan", plan.name) }
 }
 
-/// The lock of a folder, held as long as the file is open: the system releases it when the process ends, however it
-/// ends.
+/// The lock of a folder, which is on its manifest: a file of its own could be deleted under a running scan. Held as long as the file is
+/// open: the system releases it when the process ends, however it ends.
 pub(super) fn lock(folder: &Path, shown: &Path) -> Result<File, Error> {
     let unwritable = |reason| Error::Unwritable { path: shown.to_owned(), reason };
-    let file = File::options().create(true).truncate(false).write(true).open(folder.join(LOCK));
+    let file = File::options().read(true).write(true).open(folder.join(MANIFEST));
     let file = file.map_err(unwritable)?;
     match file.try_lock() {
         Ok(()) => Ok(file),
@@ -110,12 +109,7 @@ pub(super) fn stage(target: &Path, plan: &ScanPlan, force: bool) -> Result<Stagi
     let failed = |reason: String| Error::write_failed(&target.join(MANIFEST), reason);
     let mut json = serde_json::to_vec_pretty(&manifest).map_err(|error| failed(error.to_string()))?;
     json.push(b'\n');
-    let write = || {
-        let mut file = File::create(staging.path().join(MANIFEST))?;
-        file.write_all(&json)?;
-        file.sync_all()
-    };
-    write().map_err(|error: std::io::Error| failed(error.to_string()))?;
+    disk::write(&staging.path().join(MANIFEST), &json).map_err(|error| failed(error.to_string()))?;
     Ok(staging)
 }
 
@@ -125,6 +119,12 @@ pub(super) fn differences(there: &ScanPlan, asked: &ScanPlan) -> String {
     let json = |computation| serde_json::to_value(computation).unwrap_or_default();
     let (mut left, mut right) = (json(there), json(asked));
     let mut found = Vec::new();
+    if there.format != asked.format {
+        found.push(format!(
+            "it was computed by another version of motiform with other numbers: format {} there, {} here",
+            there.format, asked.format
+        ));
+    }
     if there.axes != asked.axes {
         let say = |axes: &[super::Axis]| {
             axes.iter().map(|axis| format!("[{axis}]")).collect::<Vec<_>>().join(" x ")
@@ -134,6 +134,7 @@ pub(super) fn differences(there: &ScanPlan, asked: &ScanPlan) -> String {
     for side in [&mut left, &mut right] {
         if let Some(object) = side.as_object_mut() {
             object.remove("axes");
+            object.remove("format");
         }
     }
     compare("", &left, &right, &mut found);

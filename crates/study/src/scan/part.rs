@@ -6,13 +6,15 @@
 use super::rows::{Row, from_columns, to_columns};
 use super::{ScanPlan, columns};
 use crate::Error;
+use crate::dataset::VERSION;
+use crate::files::disk;
 use crate::plan::sha256_hex;
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 const PLAN: &str = "motiform.plan_hash";
 const NUMBER: &str = "motiform.part";
+const VERSION_KEY: &str = "motiform.version";
 const DIGEST: &str = "motiform.digest";
 
 /// Length of a digest, in digits.
@@ -31,6 +33,8 @@ pub struct Parts {
 pub enum PartError {
     /// It is not there.
     Missing,
+    /// Something that is no file has its name.
+    InTheWay(PathBuf),
     /// It is damaged, or not this part of this scan; the text says how that shows.
     Damaged(String),
 }
@@ -54,6 +58,9 @@ impl Parts {
     pub fn check(&self, part: usize) -> Result<String, PartError> {
         let path = self.path(part);
         let damaged = |reason: String| PartError::Damaged(format!("{}: {reason}", path.display()));
+        if path.metadata().is_ok_and(|there| !there.is_file()) {
+            return Err(PartError::InTheWay(path)); // reading a pipe would wait without end
+        }
         let mut bytes = match fs::read(&path) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Err(PartError::Missing),
@@ -69,13 +76,13 @@ impl Parts {
         let metadata = columns::metadata(&path).map_err(|error| damaged(error.to_string()))?;
         let entry = |key| metadata.iter().find(|entry| entry.0 == key).map(|entry| entry.1.as_str());
         if entry(PLAN) != Some(self.plan_hash.as_str()) || entry(NUMBER) != Some(part.to_string().as_str()) {
-            return Err(damaged("it belongs to another place".to_owned()));
+            let by = entry(VERSION_KEY).map_or_else(String::new, |by| format!(" (written by motiform {by})"));
+            return Err(damaged(format!("it belongs to another scan or another place of it{by}")));
         }
         Ok(said)
     }
 
-    /// Writes a part: whole, then renamed, so that it is there whole or not at all. A name lost to a power cut costs
-    /// this part only, so the folder itself is not synchronised.
+    /// Writes a part: whole, then renamed, so that it is there whole or not at all, also after a power cut.
     pub(super) fn write(&self, plan: &ScanPlan, part: usize, rows: &[Row]) -> Result<(), Error> {
         let path = self.path(part);
         let failed = |reason: String| Error::PartFailed { path: path.clone(), reason };
@@ -84,8 +91,12 @@ impl Parts {
     }
 
     fn encode(&self, plan: &ScanPlan, part: usize, rows: &[Row]) -> Result<Vec<u8>, String> {
-        let metadata =
-            vec![(PLAN, self.plan_hash.clone()), (NUMBER, part.to_string()), (DIGEST, "0".repeat(DIGITS))];
+        let metadata = vec![
+            (PLAN, self.plan_hash.clone()),
+            (NUMBER, part.to_string()),
+            (VERSION_KEY, VERSION.to_owned()),
+            (DIGEST, "0".repeat(DIGITS)),
+        ];
         let mut bytes =
             columns::encode(&to_columns(plan, rows), metadata).map_err(|error| error.to_string())?;
         let digest = sha256_hex(&bytes);
@@ -100,10 +111,8 @@ impl Parts {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let partial = path.with_file_name(format!(".{name}{PARTIAL}"));
         let write = || {
-            let mut file = fs::File::create(&partial)?;
-            file.write_all(bytes)?;
-            file.sync_all()?;
-            fs::rename(&partial, &path)
+            disk::write(&partial, bytes)?;
+            disk::rename(&partial, &path)
         };
         write().inspect_err(|_| {
             let _ = fs::remove_file(&partial); // the error that matters is the first one

@@ -1,15 +1,19 @@
 //! A plan of a scan: every number that its rows depend on, and nothing else.
 
 use super::{Axis, lanes};
-use crate::plan::{Control, Named, check, check_no_noise, check_stability, control, sha256_hex, stepper};
+use crate::plan::{
+    Control, LONGEST, Named, check, check_no_noise, check_stability, check_steps, control, sha256_hex,
+    stepper,
+};
 use crate::random::Random;
 use crate::{Error, Study};
 use motiform_dynamics::steppers::Method;
 use motiform_models::{ModelInfo, parameters};
 use serde::{Deserialize, Serialize};
 
-/// Version of the meaning of a scan's plan; part of the hash.
-pub const SCAN_FORMAT: u32 = 1;
+/// Version of a scan's numbers; part of the hash. Raised whenever a plan's meaning or a row's bits change (tests/scan.rs notices), so that no
+/// folder ever holds rows of two programs that compute differently.
+pub const SCAN_FORMAT: u32 = 2;
 
 /// Most cells of a scan, and most initial states per cell.
 const MOST: (usize, u64) = (100_000_000, 100_000);
@@ -119,6 +123,9 @@ impl ScanPlan {
         for cell in edges.chain(sides) {
             let model = self.model_of(cell)?;
             check_stability(model.as_ref(), self.method()?, self.computation.control)?;
+            // Looks, exponents and periodic orbits repeat such times: a thousand looks are a day.
+            let time = 1e3 * self.info()?.look;
+            check_steps(model.as_ref(), self.method()?, self.computation.control, time)?;
             self.start(cell, 0, model.as_ref())?;
         }
         Ok(())
@@ -209,7 +216,8 @@ fn check_settings(study: &Study) -> Result<(), Error> {
     let (run, scan) = (&study.run, &study.scan);
     check("escape_norm", run.escape_norm, run.escape_norm > 0.0, "give a number above 0")?;
     study.random.unwrap_or(Random::SMALL).check()?;
-    check("budget", scan.budget, scan.budget >= 0.0, "give a model time above 0, or 0 for the default")?;
+    let budget = scan.budget >= 0.0 && scan.budget <= LONGEST;
+    check("budget", scan.budget, budget, "give a model time above 0, at most 1e9, or 0 for the default")?;
     let counts = [("samples", scan.samples, MOST.1), ("max_steps", run.max_steps, u64::MAX)];
     for (key, value, most) in counts {
         if !(1..=most).contains(&value) {

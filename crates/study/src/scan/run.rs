@@ -29,6 +29,7 @@ pub struct Scan {
     /// Whether each part is there and whole: one byte per part is all the memory that grows with the cells.
     whole: Vec<bool>,
     damaged: Vec<String>,
+    swept: Vec<String>,
     /// The folder's lock, and that of the folder it replaced.
     _locks: (File, Option<File>),
 }
@@ -53,6 +54,7 @@ impl Scan {
         let replaced = if there { Some(lock(path, path)?) } else { None };
         let staging = stage(path, plan, there)?;
         let new = lock(staging.path(), path)?;
+        let swept = staging.swept().to_vec();
         staging.commit()?;
         let whole = vec![false; plan.parts()];
         Ok(Self {
@@ -60,6 +62,7 @@ impl Scan {
             shard,
             whole,
             damaged: Vec::new(),
+            swept,
             _locks: (new, replaced),
         })
     }
@@ -79,9 +82,10 @@ impl Scan {
                 Ok(_) => *whole = true,
                 Err(PartError::Missing) => {}
                 Err(PartError::Damaged(how)) => damaged.push(how),
+                Err(PartError::InTheWay(path)) => return Err(Error::InTheWay { path }),
             }
         }
-        Ok(Self { folder, shard, whole, damaged, _locks: (lock, None) })
+        Ok(Self { folder, shard, whole, damaged, swept: Vec::new(), _locks: (lock, None) })
     }
 
     /// The folder.
@@ -120,6 +124,19 @@ impl Scan {
             return Err(Error::OtherRows { part });
         }
         self.folder.parts().write(plan, part, rows)
+    }
+
+    /// The parts of this scan that are not there, or not whole, though all of them were written: something else changed the folder.
+    #[must_use]
+    pub fn lost(&self) -> usize {
+        let parts = self.folder.parts();
+        (0..self.whole.len()).filter(|&part| self.shard.holds(part) && parts.check(part).is_err()).count()
+    }
+
+    /// What was found and removed of scans in this place that were killed while they began, in sentences.
+    #[must_use]
+    pub fn swept(&self) -> &[String] {
+        &self.swept
     }
 
     /// Computes what is missing, over `threads` threads. Rows under way are stopped soon when `monitor` says so.
