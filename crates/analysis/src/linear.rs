@@ -79,7 +79,7 @@ pub(crate) fn least_squares(columns: &[Vec<f64>], rhs: &[f64]) -> Option<Vec<f64
 pub(crate) fn solve(columns: &[Vec<f64>], rhs: &[f64], least: f64) -> Option<Vec<f64>> {
     let svd = singular_values(columns, rhs)?;
     let smallest = svd.singular_values.iter().copied().fold(f64::INFINITY, f64::min);
-    if !(smallest > least * largest(&svd)) {
+    if smallest <= least * largest(&svd) {
         return None;
     }
     let x = svd.solve(&DVector::from_column_slice(rhs), 0.0).ok()?;

@@ -74,7 +74,8 @@ pub(crate) fn refine<B: Equivariant + ?Sized>(
         let before = nodes.time;
         nodes.step(&parts, &rest)?;
         moved = (nodes.time / before - 1.0).abs();
-        if !((nodes.time / orbit.time - 1.0).abs() < NEAR) {
+        let away = (nodes.time / orbit.time - 1.0).abs();
+        if away.is_nan() || away > NEAR {
             return None;
         }
         parts = nodes.parts(flow, stop)?;

@@ -17,12 +17,12 @@ impl<'i> Source<'i> {
     /// Parses the document.
     pub(crate) fn parse(self) -> Result<Table<'i>, Error> {
         let parsed = DeTable::parse(self.text)
-            .map_err(|error| self.error(error.span().unwrap_or(0..0), error.message().to_owned()))?;
+            .map_err(|error| self.error(error.span().unwrap_or(0..0), error.message()))?;
         Ok(Table { source: self, path: String::new(), entries: parsed.into_inner(), known: Vec::new() })
     }
 
     /// A complaint about the text at `span`.
-    pub(crate) fn error(self, span: Range<usize>, problem: String) -> Error {
+    pub(crate) fn error(self, span: Range<usize>, problem: &str) -> Error {
         let before = &self.text[..span.start.min(self.text.len())];
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         let line = before.matches('\n').count() + 1;
@@ -37,7 +37,7 @@ impl<'i> Source<'i> {
             file: self.file.to_owned(),
             line,
             column,
-            problem: shortened(&problem),
+            problem: shortened(problem),
             excerpt: format!("{gutter}{text}\n{pointer}"),
         }
     }
@@ -168,19 +168,19 @@ impl<'i> Table<'i> {
             .map_or_else(String::new, |found| format!(" (did you mean {found}?)"));
         let problem =
             format!("unknown key {}{name}{meant}: the keys here are {}", self.path, known.join(", "));
-        Err(self.source.error(key.span(), problem))
+        Err(self.source.error(key.span(), &problem))
     }
 }
 
 impl<'i> Value<'i> {
     /// A complaint about this value.
     pub(crate) fn error(&self, problem: impl std::fmt::Display) -> Error {
-        self.source.error(self.value.span(), problem.to_string())
+        self.source.error(self.value.span(), &problem.to_string())
     }
 
     /// A complaint about its name.
     pub(crate) fn name_error(&self, problem: impl std::fmt::Display) -> Error {
-        self.source.error(self.key_span.clone(), problem.to_string())
+        self.source.error(self.key_span.clone(), &problem.to_string())
     }
 
     fn wrong(&self, expected: &str) -> Error {

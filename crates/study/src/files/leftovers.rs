@@ -38,9 +38,9 @@ impl Place {
         let number = RandomState::new().build_hasher().finish();
         let new = beside(target, number, NEW);
         if folder {
-            fs::create_dir(&new)?
+            fs::create_dir(&new)?;
         } else {
-            File::create_new(&new).map(drop)?
+            File::create_new(&new)?;
         }
         let lock = File::open(&new).ok().filter(|file| file.try_lock().is_ok());
         let path = beside(target, number, PARTIAL);
