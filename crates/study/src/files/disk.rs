@@ -2,7 +2,7 @@
 //!
 //! A rename may reach the disk before the data do: after a power cut the name stands, and behind it is nothing. So data are
 //! synchronised first, then the folder that holds their names, then comes the rename, then the folder that holds the new name
-//! (as SQLite does: https://sqlite.org/atomiccommit.html, sections 3.7 and 3.8).
+//! (as SQLite does: <https://sqlite.org/atomiccommit.html>, sections 3.7 and 3.8).
 
 use std::fs::{self, File};
 use std::io::{Result, Write};
