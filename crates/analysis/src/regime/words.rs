@@ -151,7 +151,8 @@ pub(super) fn rectangular<B: Equivariant + ?Sized>(
     verdict.margin = Some(-(out + inward) / (1e3 * cycle.equilibrium.resolution()));
     verdict.rests.clone_from(&cycle.rests);
     verdict.saddle = Some(cycle.saddle);
-    let longest = cycle.rests.iter().copied().fold(0.0, f64::max);
+    // Rests may be known of which none was seen whole.
+    let longest = cycle.rests.iter().copied().fold(settings.first_look / 6.0, f64::max);
     let path = Path::follow(body, shape, 6.0 * longest, 4 * SAMPLES, settings, stop)?;
     verdict.speed = path.speed();
     verdict.legs = super::legs::between_rests(&path);
