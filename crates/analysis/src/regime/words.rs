@@ -152,8 +152,9 @@ pub(super) fn rectangular<B: Equivariant + ?Sized>(
     verdict.rests.clone_from(&cycle.rests);
     verdict.saddle = Some(cycle.saddle);
     // Rests may be known of which none was seen whole.
-    let longest = cycle.rests.iter().copied().fold(settings.first_look / 6.0, f64::max);
-    let path = Path::follow(body, shape, 6.0 * longest, 4 * SAMPLES, settings, stop)?;
+    let longest = cycle.rests.iter().copied().fold(0.0, f64::max);
+    let time = if longest > 0.0 { 6.0 * longest } else { settings.first_look };
+    let path = Path::follow(body, shape, time, 4 * SAMPLES, settings, stop)?;
     verdict.speed = path.speed();
     verdict.legs = super::legs::between_rests(&path);
     Ok(verdict)
