@@ -98,16 +98,3 @@ fn returns_of_lorenz_are_chaotic() {
     let series: Vec<f64> = points.iter().map(|p| p[0].abs()).collect();
     assert!(zero_one(&series, 1).unwrap().k > 0.9);
 }
-
-/// Near the end of a window one rest may last longer than a look: none is seen whole, and the motion has its name all the same.
-#[test]
-fn a_cycle_is_named_before_a_rest_is_seen_whole() {
-    let (body, settings) = (common::cell(21.0, 21), common::settings("cell"));
-    for seed in 1..=3 {
-        let mut random = common::Random(seed);
-        let start: Vec<f64> = (0..42).map(|_| 1e-2 * random.next()).collect();
-        let verdict = common::named(&body, &start, &settings);
-        println!("{} ({}), rests {:?}", verdict.regime, verdict.why, verdict.rests);
-        assert!(["rectangular", "undetermined"].contains(&verdict.regime.name()), "{}", verdict.why);
-    }
-}

@@ -243,3 +243,16 @@ fn periods_of_orbits_with_long_rests_are_those_of_long_runs() {
         assert!((found - want).abs() < 5e-4 * want, "{found} and {want}: {}", verdict.why);
     }
 }
+
+/// Near the end of a window one rest may last longer than a look: none is seen whole, and the motion has its name all the same.
+#[test]
+fn a_cycle_is_named_before_a_rest_is_seen_whole() {
+    let (body, settings) = (cell(21.0, 21), settings("cell"));
+    for seed in 1..=3 {
+        let mut random = Random(seed);
+        let start: Vec<f64> = (0..42).map(|_| 1e-2 * random.next()).collect();
+        let verdict = named(&body, &start, &settings);
+        println!("{} ({}), rests {:?}", verdict.regime, verdict.why, verdict.rests);
+        assert!(matches!(verdict.regime, Regime::Rectangular | Regime::Undetermined), "{}", verdict.why);
+    }
+}
