@@ -422,3 +422,16 @@ fn numbers_change_only_with_the_format() {
     });
     assert_eq!((SCAN_FORMAT, format!("{digest:016x}").as_str()), (2, "03f6aac66aaec6f2"));
 }
+
+/// What something else removes or damages while a scan runs is counted at its end.
+#[test]
+fn parts_that_vanish_are_counted() {
+    let place = TempDir::new().unwrap();
+    let scan = Scan::open(&place.path().join("scan"), &plan(), Shard::WHOLE, Opening::New).unwrap();
+    scan.run(&Toy, 2, &()).unwrap();
+    assert_eq!(scan.lost(), 0);
+    let parts = scan.folder().parts();
+    std::fs::remove_file(parts.path(0)).unwrap();
+    std::fs::write(parts.path(2), "nothing").unwrap();
+    assert_eq!(scan.lost(), 2);
+}
