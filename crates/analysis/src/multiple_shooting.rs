@@ -8,8 +8,8 @@
 //! Jepson (1991), SIAM J. Numer. Anal. 28, 1446.
 
 use crate::equilibrium::neutral_direction;
-use crate::linear::{add, apply, basis, complement, dot, eigenvalues, norm, solve};
-use crate::periodic::{Flow, PeriodicOrbit};
+use crate::linear::{add, apply, basis, complement, dot, norm, solve};
+use crate::periodic::{Flow, PeriodicOrbit, back, multipliers};
 use crate::symmetry::wrap;
 use motiform_dynamics::drive::{Sink, drive};
 use motiform_dynamics::{Equivariant, Request, System, Tangent, VectorField};
@@ -54,7 +54,7 @@ struct Nodes<'b, B: ?Sized> {
 /// It has converged where the shapes fit to `tolerance` of their size and the last step moved the period by no more than 30 times
 /// that part.
 ///
-/// # Checked by  tests/periodic.rs: the multiplier of a known cycle that passes close to a saddle
+/// # Checked by  tests/long_runs.rs: periods against long runs of another integrator on the index form
 pub(crate) fn refine<B: Equivariant + ?Sized>(
     body: &B,
     orbit: &PeriodicOrbit,
@@ -114,12 +114,8 @@ impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
         self.shapes.iter().map(|shape| part(self.body, shape, span, flow, stop)).collect()
     }
 
-    /// The inverse symmetry: `M R(-angle)`.
     fn back(&self, x: &mut [f64]) {
-        self.body.rotate(-self.angle, x);
-        if self.mirrored {
-            self.body.mirror(x);
-        }
+        back(self.body, self.angle, self.mirrored, x);
     }
 
     /// The ends of all parts, less the shapes that follow them; the last one's is brought back.
@@ -144,7 +140,7 @@ impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
         let mut columns = vec![vec![0.0; rows]; count * dim + 1 + usize::from(turns)];
         for (i, part) in parts.iter().enumerate() {
             let last = i + 1 == count;
-            let back = |x: &[f64]| {
+            let brought = |x: &[f64]| {
                 let mut x = x.to_vec();
                 if last {
                     self.back(&mut x);
@@ -152,14 +148,14 @@ impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
                 x
             };
             for (j, tangent) in part.tangents.chunks_exact(dim).enumerate() {
-                add(&mut columns[i * dim + j][i * dim..(i + 1) * dim], 1.0, &back(tangent));
+                add(&mut columns[i * dim + j][i * dim..(i + 1) * dim], 1.0, &brought(tangent));
                 columns[(i + 1) % count * dim + j][i * dim + j] -= 1.0;
             }
-            add(&mut columns[count * dim][i * dim..(i + 1) * dim], 1.0 / count as f64, &back(&part.slope));
+            add(&mut columns[count * dim][i * dim..(i + 1) * dim], 1.0 / count as f64, &brought(&part.slope));
             if last && turns {
                 let mut by_angle = part.end.clone();
                 self.body.spin(&part.end, &mut by_angle);
-                add(&mut columns[count * dim + 1][i * dim..(i + 1) * dim], -1.0, &back(&by_angle));
+                add(&mut columns[count * dim + 1][i * dim..(i + 1) * dim], -1.0, &brought(&by_angle));
             }
         }
         // The first shape moves neither along the orbit nor along the group.
@@ -204,8 +200,7 @@ impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
             }
         }
         let inside = |column: &Vec<f64>| across[0].iter().map(|q| dot(q, column)).collect();
-        let mut multipliers = eigenvalues(&columns.iter().map(inside).collect::<Vec<_>>())?;
-        multipliers.sort_by(|a, b| libm::hypot(b.0, b.1).total_cmp(&libm::hypot(a.0, a.1)));
+        let multipliers = multipliers(&columns.iter().map(inside).collect::<Vec<_>>())?;
         Some(PeriodicOrbit {
             shape: self.shapes[0].clone(),
             time: self.time,

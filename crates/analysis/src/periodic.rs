@@ -142,6 +142,21 @@ impl PeriodicOrbit {
     }
 }
 
+/// The inverse of the symmetry `R(angle) [M]`: `M R(-angle)`.
+pub(crate) fn back<B: Equivariant + ?Sized>(body: &B, angle: f64, mirrored: bool, x: &mut [f64]) {
+    body.rotate(-angle, x);
+    if mirrored {
+        body.mirror(x);
+    }
+}
+
+/// The eigenvalues of a reduced map, largest modulus first.
+pub(crate) fn multipliers(columns: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
+    let mut values = eigenvalues(columns)?;
+    values.sort_by(|a, b| libm::hypot(b.0, b.1).total_cmp(&libm::hypot(a.0, a.1)));
+    Some(values)
+}
+
 /// The state of Newton's method.
 struct Newton<'b, B: ?Sized> {
     body: &'b B,
@@ -200,12 +215,8 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
         orthonormalise(&mut self.directions.iter_mut().map(Vec::as_mut_slice).collect::<Vec<_>>());
     }
 
-    /// The inverse symmetry: `M R(-angle)`.
     fn back(&self, x: &mut [f64]) {
-        self.body.rotate(-self.angle, x);
-        if self.mirrored {
-            self.body.mirror(x);
-        }
+        back(self.body, self.angle, self.mirrored, x);
     }
 
     /// Whether it is followed in all directions.
@@ -288,8 +299,7 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
             }
             out
         };
-        let mut multipliers = eigenvalues(&crate::linear::restrict(free, act))?;
-        multipliers.sort_by(|a, b| libm::hypot(b.0, b.1).total_cmp(&libm::hypot(a.0, a.1)));
+        let multipliers = multipliers(&crate::linear::restrict(free, act))?;
         Some(PeriodicOrbit {
             shape: self.shape.clone(),
             time: self.time,

@@ -396,8 +396,8 @@ fn real_orbits_too() {
     assert!(contents(&at("1")) == contents(&at("2")));
 }
 
-/// A part may be resumed by a later program only if that computes the same bits: whoever changes a number raises [`SCAN_FORMAT`], and
-/// puts the new digest here.
+/// A part may be resumed by a later program only if that computes the same bits: a change that moves a number raises [`SCAN_FORMAT`]
+/// and puts the new digest here.
 #[test]
 fn numbers_change_only_with_the_format() {
     let rows = |name: &str, axes: &[&str]| {

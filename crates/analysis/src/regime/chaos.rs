@@ -13,13 +13,13 @@ use motiform_dynamics::{Equivariant, Sink};
 const GROWN: f64 = 10.0;
 
 /// Chaos needs a pooled exponent above this many of its 95 % errors.
-const ERRORS: f64 = 2.5;
+const ERRORS: f64 = 3.0;
 
 /// K of the 0-1 test below this speaks for order.
 const ORDER: f64 = 0.3;
 
 /// What a witness for order asks of an exponent: so many times the errors and the growth.
-const DOUBT: f64 = 1.2;
+const DOUBT: f64 = 1.3;
 
 /// The largest exponent over `span`, after a fifth of it for the vector to turn its way.
 pub(super) fn exponent<B: Equivariant + ?Sized>(
@@ -75,7 +75,7 @@ impl Witness {
     }
 }
 
-/// Chaos: the exponent of at least two runs in a row, pooled, exceeds 2.5 times its 95 % error and stands for growth beyond
+/// Chaos: the exponent of at least two runs in a row, pooled, exceeds three times its 95 % error and stands for growth beyond
 /// any power of time; the last run alone is positive beyond its error. Where the 0-1 test sees order, more is asked for, but no
 /// witness overrules the exponent. `None` where it is less.
 ///
@@ -118,6 +118,15 @@ pub(super) fn chaotic(
         *first = all.estimate;
     }
     Ok(Some(verdict))
+}
+
+/// An exponent above this many of its errors is worth more time.
+const NEARLY: f64 = 2.0;
+
+/// Whether the pooled exponent of at least two runs is above twice its error: too much for order, and maybe too little for chaos.
+pub(super) fn is_near(runs: &[Growth]) -> bool {
+    let near = |all: Pooled| all.runs > 1 && all.estimate.value > NEARLY * all.estimate.error;
+    pooled(runs).is_some_and(near)
 }
 
 /// A torus of shapes: returns on a curve that early and late ones fill alike, and an exponent that is zero within its error.

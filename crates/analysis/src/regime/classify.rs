@@ -30,7 +30,7 @@ use motiform_dynamics::{Equivariant, Outcome, Sink};
 /// The evidence and its numbers are in the verdict. Thresholds: an equilibrium counts as reached at 1e-3 of the shape's
 /// size if it is stable by its eigenvalues and the orbit comes closer at the rate they say; a shape comes back if Newton's
 /// method finds a stable orbit beside a return that closes to 0.5 % of the motion's diameter; chaos needs a motion, lambda_1 above
-/// 2.5 times its 95 % error and growth by more than e^10, both pooled over two consecutive runs and more (1.2 times as much where the
+/// three times its 95 % error and growth by more than e^10, both pooled over two consecutive runs and more (1.3 times as much where the
 /// 0-1 test sees order, K < 0.3); a torus needs returns on a curve that early and late ones fill alike.
 ///
 /// An orbit that begins with an exact symmetry keeps it, and may end where no other orbit does: at an unstable shape. The verdict
@@ -98,6 +98,8 @@ pub(super) struct Search {
     /// Model time spent, and to be spent at most.
     time: f64,
     budget: f64,
+    /// Whether the budget was doubled for an exponent that was nearly decided.
+    extended: bool,
     /// Fastest change of the reduced shape so far.
     fastest: f64,
     /// Largest `|u|` so far: what distances are small against, for a circle has no size of its own.
@@ -137,6 +139,7 @@ impl Search {
             shape: start.to_vec(),
             time: 0.0,
             budget: settings.budget,
+            extended: false,
             fastest: 0.0,
             largest: norm(start),
             rests: Vec::new(),
@@ -347,6 +350,11 @@ impl Search {
     /// Twice as long, or the end of the budget.
     fn again<B: Equivariant + ?Sized>(&mut self, body: &B, stop: &mut dyn Sink) -> Result<Ask> {
         self.first = false;
+        // An exponent that is nearly that of chaos gets more time, once: its error shrinks, the limit stays.
+        if self.time >= self.budget && !self.extended && chaos::is_near(&self.growth) {
+            self.extended = true;
+            self.budget *= 2.0;
+        }
         self.span = (2.0 * self.span).min((self.budget - self.time).max(self.settings.first_look));
         if self.time < self.budget {
             return Ok(self.next());

@@ -70,7 +70,8 @@ Examples:
   motiform reproduce fig4 fig5 --out paper
 
 The output folder holds report.html (figures, parameters, claim by claim: what the paper says, what we find, how it was
-decided, and why where they differ), its figures as figure-4.1.svg and .png, and the scans behind them. Exit code 1: a claim failed.";
+decided, and why where they differ), its figures (figure-4.1.svg and .png), and the scans behind them.
+Exit code 1: a claim failed.";
 
 pub(super) const LYAPUNOV_HELP: &str = "\
 Examples:

@@ -55,23 +55,17 @@ static int writes(const char *path, int flags)
     return (flags & (O_WRONLY | O_RDWR | O_CREAT)) && strncmp(path, "/dev/", 5) && strncmp(path, "/proc/", 6);
 }
 
-int open64(const char *path, int flags, ...)
-{
-    va_list more;
-    va_start(more, flags);
-    const mode_t mode = va_arg(more, mode_t);
-    va_end(more);
-    return writes(path, flags) && struck() ? fail() : REAL(open64)(path, flags, mode);
-}
-
-int open(const char *path, int flags, ...)
-{
-    va_list more;
-    va_start(more, flags);
-    const mode_t mode = va_arg(more, mode_t);
-    va_end(more);
-    return writes(path, flags) && struck() ? fail() : REAL(open)(path, flags, mode);
-}
+#define OPEN(name)                                                                     \
+    int name(const char *path, int flags, ...)                                         \
+    {                                                                                  \
+        va_list more;                                                                  \
+        va_start(more, flags);                                                         \
+        const mode_t mode = va_arg(more, mode_t);                                      \
+        va_end(more);                                                                  \
+        return writes(path, flags) && struck() ? fail() : REAL(name)(path, flags, mode); \
+    }
+OPEN(open)
+OPEN(open64)
 
 int fsync(int fd) { return struck() ? fail() : REAL(fsync)(fd); }
 

@@ -14,6 +14,8 @@ pub struct Merged {
     pub missing: usize,
     /// Damaged parts, each with what is wrong; they were left out.
     pub damaged: Vec<String>,
+    /// What was found and removed of merges to the same place that were killed, in sentences.
+    pub swept: Vec<String>,
 }
 
 /// Puts the parts of `folders` into a new folder at `out`, which appears whole or not at all. Missing parts are no
@@ -25,7 +27,7 @@ pub struct Merged {
 pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged, Error> {
     let folders = folders.iter().map(|path| ScanFolder::read(path)).collect::<Result<Vec<_>, _>>()?;
     let Some((first, others)) = folders.split_first() else {
-        return Ok(Merged { missing: 0, damaged: Vec::new() });
+        return Ok(Merged { missing: 0, damaged: Vec::new(), swept: Vec::new() });
     };
     for other in others {
         if other.manifest().plan_hash != first.manifest().plan_hash {
@@ -43,7 +45,7 @@ pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged, Err
     let staging = stage(out, plan, force)?;
     let target = Parts::new(staging.path(), plan);
     let sources: Vec<Parts> = folders.iter().map(ScanFolder::parts).collect();
-    let mut merged = Merged { missing: 0, damaged: Vec::new() };
+    let mut merged = Merged { missing: 0, damaged: Vec::new(), swept: staging.swept().to_vec() };
     for part in 0..plan.parts() {
         let Some(source) = choose(plan, &sources, part, &mut merged.damaged)? else {
             merged.missing += 1;
