@@ -1,5 +1,6 @@
 //! One way to do each chore: `cargo xtask test`, `cargo xtask deny`.
 
+mod emulated;
 mod explorer;
 mod mutants;
 mod python;
@@ -16,6 +17,8 @@ usage: cargo xtask COMMAND
   quick    the Rust tests alone
   explorer the page of `motiform explore`: builds it, compares it with the committed one, tests it in Chromium
   python   the Python package: builds it into target/python and runs its tests there
+  emulated the tests of lanes under qemu-user, as a processor without vector registers to speak of and as one with AVX2
+           (needs qemu-user)
   mutants  [K/N] [OPTION..]: changes the mathematics in small ways, every N-th possible one from the K-th (0/100), and asks
            the tests to notice; see docs/mutants.md (needs `cargo install --locked cargo-mutants`)
   deny     licences, advisories and sources of the dependencies (needs `cargo install --locked cargo-deny`)";
@@ -54,6 +57,7 @@ fn run() -> Result<()> {
         Some("explorer") => explorer::test(),
         Some("python") => python::test(),
         Some("mutants") => mutants::run(&std::env::args().skip(2).collect::<Vec<_>>()),
+        Some("emulated") => emulated::run(),
         Some("deny") => cargo("dependencies", &["deny", "check"]),
         _ => {
             println!("{HELP}");
@@ -70,8 +74,12 @@ fn root() -> Result<PathBuf> {
 
 /// Runs cargo in the workspace, showing what it does.
 fn cargo(name: &str, arguments: &[&str]) -> Result<()> {
-    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    step(name, Command::new(program).args(arguments).env("RUSTDOCFLAGS", "-D warnings"))
+    step(name, cargo_command().args(arguments).env("RUSTDOCFLAGS", "-D warnings"))
+}
+
+/// The cargo that runs this.
+fn cargo_command() -> Command {
+    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
 /// Runs a command in the checkout, showing what it does.

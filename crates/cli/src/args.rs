@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 #[cfg(feature = "explorer")]
 use help::EXPLORE_HELP;
 use help::{CLASSIFY_HELP, EXAMPLES, LYAPUNOV_HELP, REPRODUCE_HELP, SCAN_HELP, SIMULATE_HELP};
+use motiform_figures::Width;
 use motiform_study::Random;
 use std::path::PathBuf;
 pub(crate) use subject::{MethodOptions, SamplesOptions, SubjectOptions};
@@ -279,6 +280,18 @@ pub(crate) struct DrawingOptions {
     /// Draw to this time
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) to: Option<f64>,
+    /// Title of the figures in place of their own (*letters* between asterisks are italic, _ begins an index)
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) title: Option<String>,
+    /// Leave the captions out
+    #[arg(long)]
+    pub(crate) no_caption: bool,
+    /// Width of the figures, e.g. 86mm, 3.4in or 1200px (default: as drawn, about 170 mm)
+    #[arg(long, value_name = "WIDTH", value_parser = width)]
+    pub(crate) width: Option<Width>,
+    /// Also write the animation in this format (needs ffmpeg); give it twice for both
+    #[arg(long, value_name = "FORMAT", conflicts_with = "no_animation")]
+    pub(crate) film: Vec<FilmFormat>,
     /// Also write PDF figures
     #[cfg(feature = "pdf")]
     #[arg(long)]
@@ -317,6 +330,19 @@ pub(crate) struct CompletionsOptions {
 pub(crate) enum TableFormat {
     Parquet,
     Csv,
+}
+
+/// Formats of films that other programs show.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum FilmFormat {
+    /// H.264 video
+    Mp4,
+    /// Animated GIF, 256 colours
+    Gif,
+}
+
+fn width(text: &str) -> Result<Width, String> {
+    text.parse().map_err(|error: motiform_figures::FigureError| error.to_string())
 }
 
 fn number(text: &str) -> Result<f64, String> {

@@ -2,8 +2,8 @@
 
 use motiform_analysis::Estimate;
 use motiform_dynamics::Outcome;
+use motiform_figures::Label;
 use motiform_study::Error;
-use motiform_study::figures::Label;
 use std::io::{self, Write};
 use std::process::ExitCode;
 

@@ -6,16 +6,36 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::process::Command;
 
 /// Each crate, and the crates below it that it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &[&str]); 9] = [
+const LAYERS: [(&str, &[&str]); 10] = [
     ("motiform-dynamics", &[]),
     ("motiform-models", &["motiform-dynamics"]),
     ("motiform-analysis", &["motiform-dynamics"]),
     ("motiform-kernels", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
-    ("motiform-study", &["motiform-analysis", "motiform-dynamics", "motiform-kernels", "motiform-models"]),
-    ("motiform-explorer", &["motiform-analysis", "motiform-dynamics", "motiform-models", "motiform-study"]),
+    ("motiform-figures", &[]),
+    (
+        "motiform-study",
+        &[
+            "motiform-analysis",
+            "motiform-dynamics",
+            "motiform-figures",
+            "motiform-kernels",
+            "motiform-models",
+        ],
+    ),
+    (
+        "motiform-explorer",
+        &["motiform-analysis", "motiform-dynamics", "motiform-figures", "motiform-models", "motiform-study"],
+    ),
     (
         "motiform",
-        &["motiform-analysis", "motiform-dynamics", "motiform-explorer", "motiform-models", "motiform-study"],
+        &[
+            "motiform-analysis",
+            "motiform-dynamics",
+            "motiform-explorer",
+            "motiform-figures",
+            "motiform-models",
+            "motiform-study",
+        ],
     ),
     ("motiform-py", &["motiform-analysis", "motiform-dynamics", "motiform-models", "motiform-study"]),
     ("xtask", &[]),

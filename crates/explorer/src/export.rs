@@ -1,8 +1,8 @@
 //! Files to keep, made on a thread of their own while the body moves on.
 
 use crate::answers::{Answers, Gone};
+use motiform_figures::{DEFAULT_SCALE, png};
 use motiform_study::Error;
-use motiform_study::figures::{DEFAULT_SCALE, png};
 use std::sync::mpsc::{SyncSender, TrySendError, sync_channel};
 use std::thread::JoinHandle;
 

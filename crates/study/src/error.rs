@@ -253,7 +253,7 @@ pub enum Error {
     },
     /// A figure could not be drawn.
     #[error(transparent)]
-    Figure(#[from] crate::figures::FigureError),
+    Figure(#[from] motiform_figures::FigureError),
 }
 
 impl Error {

@@ -8,7 +8,6 @@ mod ending;
 pub mod equilibria;
 mod error;
 pub mod fields;
-pub mod figures;
 pub mod files;
 pub mod flow;
 mod initial;

@@ -1,11 +1,11 @@
 //! Everything that has a name, as JSON: models, parameters, presets, steppers, regimes. Front ends are made of it.
 
-use crate::figures::regime_mark;
 use crate::presets::{PRESETS, find};
 use crate::scan::NUMBERS;
 use crate::{Error, Study, dataset};
 use motiform_analysis::regime::{Attractor, Regime};
 use motiform_dynamics::steppers::Method;
+use motiform_figures::regime_mark;
 use motiform_models::{MODELS, ModelInfo};
 use serde_json::{Value, json};
 

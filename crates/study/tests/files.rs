@@ -234,3 +234,30 @@ fn what_appears_in_the_meantime_is_kept() {
     assert_eq!(fs::read_to_string(&target).unwrap(), "someone was faster");
     assert_eq!(listing(place.path()), [target]);
 }
+
+/// Each count of a Parquet file changed alone: its columns then differ in length from each other or from the footer.
+#[test]
+fn a_changed_count_is_no_other_table() {
+    let place = TempDir::new().unwrap();
+    let path = place.path().join("table.parquet");
+    let rows = SHORT.trajectory.rows();
+    assert!(rows < 60, "a count is one byte");
+    let manifest = &SHORT.manifest;
+    motiform_study::files::write_table(&SHORT.trajectory, manifest, Format::Parquet, &path).unwrap();
+    let whole = fs::read(&path).unwrap();
+    // Thrift writes a number as a zigzag varint: twice the number.
+    let count = u8::try_from(2 * rows).unwrap();
+    let mut refused = 0;
+    for place in whole.iter().enumerate().filter(|(_, byte)| **byte == count).map(|(place, _)| place) {
+        for other in [count - 2, count + 2, 126] {
+            let mut bytes = whole.clone();
+            bytes[place] = other;
+            fs::write(&path, bytes).unwrap();
+            match motiform_study::files::read_table_file(&path) {
+                Err(_) => refused += 1,
+                Ok((table, _)) => assert!(table.columns.iter().all(|column| column.values.len() == rows)),
+            }
+        }
+    }
+    assert!(refused >= 3 * SHORT.trajectory.columns.len(), "{refused} changes were refused");
+}

@@ -1,17 +1,20 @@
 //! `motiform figure`, and the drawing that `simulate` shares with it.
 
+use super::film;
 use crate::args::{DrawingOptions, FigureOptions};
 use crate::output::{End, print};
-use motiform_study::draw::{Picture, draw, draw_scan};
+use motiform_figures::Style;
+use motiform_study::draw::{FigureFormat, Picture, draw, draw_scan};
 use motiform_study::files::{read_dataset, replace_file};
 use motiform_study::scan::ScanFolder;
 use motiform_study::study::FigureSettings;
 use motiform_study::{Dataset, Error, plan};
 
 pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
+    film::check(&options.drawing.film)?;
     for folder in &options.datasets {
         if ScanFolder::is_one(folder) {
-            let names = write_scan(&ScanFolder::read(folder)?, pdf(&options.drawing))?;
+            let names = write_scan(&ScanFolder::read(folder)?, &format(&options.drawing))?;
             print(&format!("{}: {}", folder.display(), names.join(" ")))?;
             continue;
         }
@@ -19,7 +22,9 @@ pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
         apply(&options.drawing, &mut dataset.manifest.plan.figure);
         plan::check_figure(&dataset.manifest.plan.figure)?;
         let mut names = Vec::new();
-        for picture in pictures(&dataset, &options.drawing)? {
+        let stills = pictures(&dataset, &options.drawing)?;
+        let films = film::convert(&stills, &options.drawing.film)?;
+        for picture in stills.into_iter().chain(films) {
             replace_file(&folder.join(&picture.name), &picture.bytes)?;
             names.push(picture.name);
         }
@@ -39,9 +44,9 @@ pub(crate) fn apply(options: &DrawingOptions, settings: &mut FigureSettings) {
 }
 
 /// Draws a scan into its folder; the names of its figures.
-pub(crate) fn write_scan(folder: &ScanFolder, pdf: bool) -> Result<Vec<String>, Error> {
+pub(crate) fn write_scan(folder: &ScanFolder, format: &FigureFormat) -> Result<Vec<String>, Error> {
     let mut names = Vec::new();
-    for picture in draw_scan(folder, pdf)? {
+    for picture in draw_scan(folder, format)? {
         replace_file(&folder.path().join(&picture.name), &picture.bytes)?;
         names.push(picture.name);
     }
@@ -50,17 +55,14 @@ pub(crate) fn write_scan(folder: &ScanFolder, pdf: bool) -> Result<Vec<String>, 
 
 /// Every picture of a dataset.
 pub(crate) fn pictures(dataset: &Dataset, options: &DrawingOptions) -> Result<Vec<Picture>, Error> {
-    draw(dataset, pdf(options))
+    draw(dataset, &format(options))
 }
 
-/// Whether PDF files are asked for.
-fn pdf(options: &DrawingOptions) -> bool {
+fn format(options: &DrawingOptions) -> FigureFormat {
     #[cfg(feature = "pdf")]
     let pdf = options.pdf;
     #[cfg(not(feature = "pdf"))]
-    let pdf = {
-        let _ = options;
-        false
-    };
-    pdf
+    let pdf = false;
+    let style = Style { title: options.title.clone(), no_caption: options.no_caption, width: options.width };
+    FigureFormat { pdf, style }
 }

@@ -6,6 +6,7 @@ pub(crate) mod completions;
 #[cfg(feature = "explorer")]
 pub(crate) mod explore;
 pub(crate) mod figure;
+pub(crate) mod film;
 pub(crate) mod lyapunov;
 pub(crate) mod merge;
 pub(crate) mod models;

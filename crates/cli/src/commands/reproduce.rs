@@ -3,8 +3,8 @@
 use crate::args::ReproduceOptions;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Watch;
+use motiform_figures::{DEFAULT_SCALE, png};
 use motiform_study::Error;
-use motiform_study::figures::{DEFAULT_SCALE, png};
 use motiform_study::files::replace_file;
 use motiform_study::report::{Claim, Counts, Picture, Report};
 use motiform_study::reproduction::{Options, reproduce};
@@ -40,7 +40,7 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     Ok(if report.all_hold() { End::Done } else { End::NotAsAsked })
 }
 
-/// The figures of the report as files: `figure-4.1.svg` and `.png` are the page's Figure 4.1.
+/// The figures of the report as files: `figure-4.1.svg` and `.png` are the page's Figure 4.1, `.csv` the numbers that it shows.
 fn write_figures(report: &Report, out: &Path) -> Result<(), Error> {
     for (section, number) in report.sections.iter().zip(1..) {
         for (figure, place) in section.figures.iter().zip(1..) {
@@ -51,6 +51,9 @@ fn write_figures(report: &Report, out: &Path) -> Result<(), Error> {
                     replace_file(&file("png"), &png(svg, DEFAULT_SCALE, &[])?)?;
                 }
                 Picture::Png(bytes) => replace_file(&file("png"), bytes)?,
+            }
+            if let Some(data) = &figure.data {
+                replace_file(&file("csv"), data.as_bytes())?;
             }
         }
     }

@@ -5,6 +5,7 @@ use crate::commands::figure::write_scan;
 use crate::commands::subject;
 use crate::output::{End, print, warn};
 use crate::progress::Watch;
+use motiform_study::draw::FigureFormat;
 use motiform_study::scan::{Axis, Classify, Opening, Scan, ScanFolder, Shard, Totals, default_folder};
 use motiform_study::{Error, ScanPlan, Study};
 use serde_json::json;
@@ -33,7 +34,7 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
     watch.finish();
     let ended = ended?;
     if !options.no_figures {
-        write_scan(scan.folder(), false)?;
+        write_scan(scan.folder(), &FigureFormat::default())?;
     }
     let totals = Totals::of(scan.folder())?;
     show(scan.folder(), &totals, options.json)?;

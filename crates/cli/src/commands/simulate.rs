@@ -1,7 +1,7 @@
 //! `motiform simulate`.
 
 use crate::args::{SimulateOptions, TableFormat};
-use crate::commands::{figure, subject};
+use crate::commands::{figure, film, subject};
 use crate::output::{End, plain, print, warn};
 use crate::progress::Watch;
 use motiform_analysis::Verdict;
@@ -13,6 +13,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
+    film::check(&options.drawing.film)?;
     let plan = Plan::new(&study(options)?)?;
     let target = Target::prepare(options, &plan)?;
     target.swept().iter().for_each(|note| warn(note));
@@ -33,7 +34,7 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
         ));
     }
     if let Some(error) = undrawn {
-        return Err(anyhow::Error::new(error).context("the tables are written, the figures are not"));
+        return Err(error.context("the tables are written, the figures are not, or not all"));
     }
     Ok(End::from(&*dataset.manifest.outcome))
 }
@@ -101,7 +102,7 @@ impl Target {
         self,
         options: &SimulateOptions,
         dataset: &Dataset,
-    ) -> anyhow::Result<(Option<String>, Option<Error>)> {
+    ) -> anyhow::Result<(Option<String>, Option<anyhow::Error>)> {
         match self {
             Self::Nowhere => Ok((None, None)),
             Self::Table(staging, format) => {
@@ -122,10 +123,15 @@ impl Target {
                 };
                 let (pictures, undrawn) = match drawn {
                     Ok(pictures) => (pictures, None),
-                    Err(error @ Error::Figure(_)) => (Vec::new(), Some(error)),
+                    Err(error @ Error::Figure(_)) => (Vec::new(), Some(error.into())),
                     Err(error) => return Err(error.into()),
                 };
-                for picture in pictures {
+                let (films, unfilmed) = match film::convert(&pictures, &options.drawing.film) {
+                    Ok(films) => (films, None),
+                    Err(error) => (Vec::new(), Some(error)),
+                };
+                let undrawn: Option<anyhow::Error> = undrawn.or(unfilmed);
+                for picture in pictures.into_iter().chain(films) {
                     staging.write(&picture.name, &picture.bytes)?;
                 }
                 let mut names: Vec<String> = std::fs::read_dir(staging.path())?

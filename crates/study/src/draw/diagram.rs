@@ -1,10 +1,12 @@
 //! Scans: which motion occurs where, and the largest exponent along one axis.
 
-use super::{Picture, add, words};
-use crate::figures::{BoundaryLine, Cell, ErrorBarFigure, ErrorBarSeries, LineStyle, Measured, PhaseDiagram};
+use super::{FigureFormat, Picture, add, words};
 use crate::scan::{Axis, CellSummary, ScanFolder, cells};
 use crate::{Error, ScanPlan};
 use motiform_analysis::regime::Regime;
+use motiform_figures::{
+    BoundaryLine, Cell, ErrorBarFigure, ErrorBarSeries, LineStyle, Measured, PhaseDiagram,
+};
 use motiform_models::ModelInfo;
 use motiform_models::parameters::Parameters;
 use motiform_models::tensor::TensorParameters;
@@ -19,16 +21,16 @@ const POINTS: usize = 600;
 ///
 /// # Errors
 /// [`Error::Unreadable`], an unknown model, or numbers that no axis can hold.
-pub fn draw_scan(folder: &ScanFolder, pdf: bool) -> Result<Vec<Picture>, Error> {
+pub fn draw_scan(folder: &ScanFolder, format: &FigureFormat) -> Result<Vec<Picture>, Error> {
     let plan = folder.plan();
     let cells: Vec<CellSummary> = cells(folder)?.into_iter().flatten().collect();
     let mut pictures = Vec::new();
     if cells.is_empty() {
         return Ok(pictures);
     }
-    add(&mut pictures, "_diagram", &phase_diagram(plan, &cells)?.svg()?, pdf)?;
-    if let Some(figure) = exponents(plan, &cells)? {
-        add(&mut pictures, "_exponent", &figure.svg()?, pdf)?;
+    add(&mut pictures, "_diagram", &mut phase_diagram(plan, &cells)?, format)?;
+    if let Some(mut figure) = exponents(plan, &cells)? {
+        add(&mut pictures, "_exponent", &mut figure, format)?;
     }
     Ok(pictures)
 }

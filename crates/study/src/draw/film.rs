@@ -2,7 +2,7 @@
 
 use super::body::Body;
 use super::{path, words};
-use crate::figures::{Animation, Camera, Frame};
+use motiform_figures::{Animation, Camera, Frame};
 
 /// Frames of the film (8 seconds at 25 frames per second).
 const FRAMES: usize = 200;

@@ -1,13 +1,13 @@
 //! Figures of what was read off a body that moves while somebody looks on ([`crate::live`]).
 
 use super::words;
-use crate::figures::palette::CATEGORIES;
-use crate::figures::{
-    ErrorBarFigure, ErrorBarSeries, Measured, ReturnMapFigure, SpectrumCurve, SpectrumFigure,
-};
 use crate::live::Spectra;
 use crate::{Error, Plan};
 use motiform_analysis::Estimate;
+use motiform_figures::palette::CATEGORIES;
+use motiform_figures::{
+    ErrorBarFigure, ErrorBarSeries, Measured, ReturnMapFigure, SpectrumCurve, SpectrumFigure,
+};
 
 /// Power spectra; `None` while there are none.
 ///

@@ -1,4 +1,4 @@
-//! Dataset to figures: what is drawn, and with what words. The drawing itself is in [`crate::figures`].
+//! Dataset to figures: what is drawn, and with what words. The drawing itself is in [`motiform_figures`].
 
 mod body;
 mod diagram;
@@ -11,11 +11,11 @@ mod space_time;
 mod spectrum;
 mod words;
 
-use crate::figures::{DEFAULT_SCALE, png};
 use crate::{Dataset, Error};
 use body::Body;
 pub use body::radius_for;
 pub use diagram::{boundary_lines, draw_scan, exponents, phase_diagram};
+use motiform_figures::{Drawn, Figure, Style, png};
 pub(crate) use words::number;
 
 /// A file ready to be written.
@@ -27,6 +27,15 @@ pub struct Picture {
     pub bytes: Vec<u8>,
 }
 
+/// How figures become files.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct FigureFormat {
+    /// PDF as well, where that is built in.
+    pub pdf: bool,
+    /// Words and size in place of the figures' own.
+    pub style: Style,
+}
+
 /// Draws every figure of a dataset: `path`, `series`, and where the model or the plan has them `return-map`, `phi` and
 /// `spectrum` (as SVG and PNG, and PDF if asked and built in), and the animation `motion.png`.
 ///
@@ -34,7 +43,7 @@ pub struct Picture {
 ///
 /// # Errors
 /// An unknown model, or numbers that no axis can hold.
-pub fn draw(dataset: &Dataset, pdf: bool) -> Result<Vec<Picture>, Error> {
+pub fn draw(dataset: &Dataset, format: &FigureFormat) -> Result<Vec<Picture>, Error> {
     let body = Body::new(dataset)?;
     if body.rows().len() < 2 {
         return Ok(Vec::new());
@@ -43,7 +52,7 @@ pub fn draw(dataset: &Dataset, pdf: bool) -> Result<Vec<Picture>, Error> {
     // The film takes about as long as the rest: one thread each.
     let (film, stills) = std::thread::scope(|scope| {
         let film = scope.spawn(|| animated.then(|| film::animation(&body).apng()).transpose());
-        let stills = stills(&body, pdf);
+        let stills = stills(&body, format);
         (film.join(), stills)
     });
     let mut pictures = stills?;
@@ -52,17 +61,24 @@ pub fn draw(dataset: &Dataset, pdf: bool) -> Result<Vec<Picture>, Error> {
     Ok(pictures)
 }
 
-fn stills(body: &Body<'_>, pdf: bool) -> Result<Vec<Picture>, Error> {
+fn stills(body: &Body<'_>, format: &FigureFormat) -> Result<Vec<Picture>, Error> {
     let mut pictures = Vec::new();
-    for (name, svg) in drawings(body)? {
-        add(&mut pictures, name, &svg, pdf)?;
+    for (name, mut figure) in figures(body) {
+        add(&mut pictures, name, figure.as_mut(), format)?;
     }
     Ok(pictures)
 }
 
-/// The still figures of a dataset as SVG, by name: what [`draw`] makes files of.
-pub(crate) fn stills_as_svg(dataset: &Dataset) -> Result<Vec<(&'static str, String)>, Error> {
-    drawings(&Body::new(dataset)?)
+/// The still figures of a dataset with their data, by name: what [`draw`] makes files of. None with fewer than two rows.
+///
+/// # Errors
+/// As [`draw`].
+pub fn drawn(dataset: &Dataset) -> Result<Vec<(&'static str, Drawn)>, Error> {
+    let body = Body::new(dataset)?;
+    if body.rows().len() < 2 {
+        return Ok(Vec::new());
+    }
+    figures(&body).into_iter().map(|(name, figure)| Ok((name, figure.drawn()?))).collect()
 }
 
 /// One still figure of a dataset as SVG: `path` or `series`; `None` for other names, and with fewer than two rows.
@@ -90,28 +106,28 @@ pub fn film(dataset: &Dataset) -> Result<Option<Vec<u8>>, Error> {
     Ok(if body.rows().len() < 2 { None } else { Some(film::animation(&body).apng()?) })
 }
 
-fn drawings(body: &Body<'_>) -> Result<Vec<(&'static str, String)>, Error> {
-    let mut all = vec![("path", path::figure(body).svg()?), ("series", series::figure(body).svg()?)];
-    if let Some(figure) = return_map::figure(body) {
-        all.push(("return-map", figure.svg()?));
-    }
-    if let Some(figure) = space_time::figure(body) {
-        all.push(("phi", figure.svg()?));
-    }
-    if let Some(figure) = spectrum::figure(body) {
-        all.push(("spectrum", figure.svg()?));
-    }
-    Ok(all)
+fn figures(body: &Body<'_>) -> Vec<(&'static str, Box<dyn Figure>)> {
+    let mut all: Vec<(&'static str, Box<dyn Figure>)> =
+        vec![("path", Box::new(path::figure(body))), ("series", Box::new(series::figure(body)))];
+    all.extend(return_map::figure(body).map(|figure| ("return-map", Box::new(figure) as _)));
+    all.extend(space_time::figure(body).map(|figure| ("phi", Box::new(figure) as _)));
+    all.extend(spectrum::figure(body).map(|figure| ("spectrum", Box::new(figure) as _)));
+    all
 }
 
-fn add(pictures: &mut Vec<Picture>, name: &str, svg: &str, pdf: bool) -> Result<(), Error> {
-    pictures.push(Picture { name: format!("{name}.svg"), bytes: svg.as_bytes().to_vec() });
-    pictures.push(Picture { name: format!("{name}.png"), bytes: png(svg, DEFAULT_SCALE, &[])? });
+fn add(
+    pictures: &mut Vec<Picture>,
+    name: &str,
+    figure: &mut dyn Figure,
+    format: &FigureFormat,
+) -> Result<(), Error> {
+    let svg = format.style.draw(figure)?.svg;
+    let mut push = |ending: &str, bytes| pictures.push(Picture { name: format!("{name}.{ending}"), bytes });
+    push("svg", svg.clone().into_bytes());
+    push("png", png(&svg, format.style.png_scale(), &[])?);
     #[cfg(feature = "pdf")]
-    if pdf {
-        pictures.push(Picture { name: format!("{name}.pdf"), bytes: crate::figures::pdf(svg)? });
+    if format.pdf {
+        push("pdf", motiform_figures::pdf(&svg)?);
     }
-    #[cfg(not(feature = "pdf"))]
-    let _ = pdf;
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use super::body::Body;
 use super::words;
-use crate::figures::{OutlineStamp, PathFigure, PathPoint, SectionLine};
+use motiform_figures::{OutlineStamp, PathFigure, PathPoint, SectionLine};
 
 /// Points of a drawn outline.
 const OUTLINE_POINTS: usize = 96;

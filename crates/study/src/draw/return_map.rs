@@ -2,7 +2,7 @@
 
 use super::body::Body;
 use super::words;
-use crate::figures::ReturnMapFigure;
+use motiform_figures::ReturnMapFigure;
 
 /// `None` without a return map, or with fewer than two crossings.
 pub(super) fn figure(body: &Body<'_>) -> Option<ReturnMapFigure> {

@@ -2,8 +2,8 @@
 
 use super::body::Body;
 use super::words;
-use crate::figures::palette::CATEGORIES;
-use crate::figures::{Curve, Panel, SeriesFigure};
+use motiform_figures::palette::CATEGORIES;
+use motiform_figures::{Curve, Panel, SeriesFigure};
 
 /// An observable below this throughout is not drawn but mentioned.
 const NEGLIGIBLE: f64 = 1e-9;

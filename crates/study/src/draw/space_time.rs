@@ -2,7 +2,7 @@
 
 use super::body::Body;
 use super::words;
-use crate::figures::SpaceTimeFigure;
+use motiform_figures::SpaceTimeFigure;
 
 /// Points along the boundary.
 const PLACES: usize = 128;

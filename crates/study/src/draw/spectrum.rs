@@ -2,9 +2,9 @@
 
 use super::body::Body;
 use super::words;
-use crate::figures::palette::CATEGORIES;
-use crate::figures::{SpectrumCurve, SpectrumFigure};
 use motiform_analysis::{Spectrum, welch};
+use motiform_figures::palette::CATEGORIES;
+use motiform_figures::{SpectrumCurve, SpectrumFigure};
 
 /// Modes whose spectra are drawn.
 const MODES: usize = 4;

@@ -12,7 +12,7 @@ mod tests;
 pub use claim::{Claim, Counts, Source, Verdict};
 pub use sentence::Sentence;
 
-use crate::figures::Label;
+use motiform_figures::{Drawn, Label};
 
 /// A page of sections.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -49,6 +49,22 @@ pub struct ReportFigure {
     pub caption: String,
     /// The picture.
     pub picture: Picture,
+    /// The numbers that are drawn, as a CSV table; none for animations.
+    pub data: Option<String>,
+}
+
+impl ReportFigure {
+    /// A drawn figure, with its data.
+    #[must_use]
+    pub fn new(drawn: Drawn, caption: impl Into<String>) -> Self {
+        Self { caption: caption.into(), picture: Picture::Svg(drawn.svg), data: Some(drawn.data) }
+    }
+
+    /// An animation.
+    #[must_use]
+    pub fn film(png: Vec<u8>, caption: impl Into<String>) -> Self {
+        Self { caption: caption.into(), picture: Picture::Png(png), data: None }
+    }
 }
 
 /// A picture as a file's content.

@@ -4,8 +4,8 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
 
 use super::{Claim, Picture, ReportFigure, Section, Verdict, inline, paragraphs};
-use crate::figures::Label;
-use crate::figures::svg::escape;
+use motiform_figures::Label;
+use motiform_figures::svg::escape;
 
 pub(super) fn html(number: usize, section: &Section) -> String {
     let figures: String = section.figures.iter().enumerate().map(|(i, f)| figure(number, i + 1, f)).collect();

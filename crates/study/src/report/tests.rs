@@ -1,7 +1,7 @@
 //! What holds for every report.
 
 use super::*;
-use crate::figures::{ReturnMapFigure, png};
+use motiform_figures::{ReturnMapFigure, png};
 
 fn claim(verdict: Verdict) -> Claim {
     Claim {
@@ -21,7 +21,7 @@ fn report() -> Report {
     let svg =
         ReturnMapFigure { points: vec![[0.0, 1.0]], ..ReturnMapFigure::default() }.svg().expect("a figure");
     let bytes = png(&svg, 0.5, &[]).expect("a png");
-    let figure = |picture| ReportFigure { caption: "a \"quoted\" *x*_1".into(), picture };
+    let figure = |picture| ReportFigure { caption: "a \"quoted\" *x*_1".into(), picture, data: None };
     let explanation = || "the paper's *a*_1 is rounded".to_owned();
     let first = Section {
         title: "Phase diagram, *κ*_2 > 0".into(),

@@ -9,9 +9,10 @@ use super::claims::{check, claim};
 use super::context::Context;
 use crate::Error;
 use crate::draw::phase_diagram;
-use crate::report::{Claim, Picture, ReportFigure, Section};
+use crate::report::{Claim, ReportFigure, Section};
 use crate::scan::Axis;
 use grid::{Grid, found_line};
+use motiform_figures::Figure;
 use motiform_models::tensor::reduced::{Line, Motion, Reduced};
 
 const ABOUT: &str = "Velocity *v* and ellipse *S* alone, *a*_1 = 1, *b*_1 = 0.5, *b*_3 = 1, over the plane (*κ*_2, *γ*). \
@@ -41,14 +42,14 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     claims.extend(hopf::claims(context, &grid)?);
     claims.push(schemes::claim_of(context)?);
     claims.extend(correspondence::claims(context)?);
-    let svg = phase_diagram(&plan, &cells)?.svg()?;
+    let drawn = phase_diagram(&plan, &cells)?.drawn()?;
     let caption = "The motions found, one marker or colour per cell, and the analytic lines. Solid, broken and dotted lines \
                    are those of the paper's figure; the other two are lines that the paper does not draw.";
     Ok(Section {
         title: "Fig. 1: phase diagram of velocity and ellipse".to_owned(),
         about: ABOUT.to_owned(),
         parameters: parameters(&plan),
-        figures: vec![ReportFigure { caption: caption.to_owned(), picture: Picture::Svg(svg) }],
+        figures: vec![ReportFigure::new(drawn, caption)],
         claims,
     })
 }

@@ -4,12 +4,11 @@ mod noisy;
 
 use super::claims::{check, claim, differs};
 use super::context::Context;
-use crate::draw::stills_as_svg;
-use crate::figures::literal;
-use crate::report::{Claim, Picture, ReportFigure, Section};
-use crate::{Dataset, Error};
+use crate::report::{Claim, ReportFigure, Section};
+use crate::{Dataset, Error, draw};
 use motiform_analysis::regime::Regime;
 use motiform_analysis::{Ends, Legs, PathSample, legs, rests};
+use motiform_figures::literal;
 use motiform_models::tensor::reduced::Reduced;
 use std::f64::consts::FRAC_PI_2;
 
@@ -71,10 +70,8 @@ fn drawn(dataset: &Dataset) -> Result<Vec<ReportFigure>, Error> {
         ),
         _ => None,
     };
-    let figure = |(name, svg): (&str, String)| {
-        Some(ReportFigure { caption: words(name)?.to_owned(), picture: Picture::Svg(svg) })
-    };
-    Ok(stills_as_svg(dataset)?.into_iter().filter_map(figure).collect())
+    let figure = |(name, drawn)| Some(ReportFigure::new(drawn, words(name)?));
+    Ok(draw::drawn(dataset)?.into_iter().filter_map(figure).collect())
 }
 
 fn regime(context: &Context<'_>) -> Result<Claim, Error> {

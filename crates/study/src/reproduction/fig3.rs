@@ -2,11 +2,11 @@
 
 use super::claims::{check, claim};
 use super::context::Context;
-use crate::draw::stills_as_svg;
-use crate::report::{Claim, Picture, ReportFigure, Section};
-use crate::{Dataset, Error, Plan, analyse};
+use crate::report::{Claim, ReportFigure, Section};
+use crate::study::ReturnMapSettings;
+use crate::{Dataset, Error, Plan, Study, analyse, draw};
 use motiform_analysis::regime::Regime;
-use motiform_analysis::{correlation_dimension, return_pairs};
+use motiform_analysis::{Dimension, correlation_dimension, return_pairs};
 use std::f64::consts::TAU;
 
 const ABOUT: &str = "The shape repeats after a period, turned by an angle that is no rational part of a turn: in the plane the path \
@@ -21,6 +21,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         Ok(())
     })?;
     let dataset = context.simulate(&study)?;
+    let radial = context.simulate(&through_the_centre(&study))?;
     let verdict = context.classify(&study)?;
     let (period, rotation) = (verdict.period.unwrap_or(f64::NAN), verdict.net_rotation.unwrap_or(f64::NAN));
     let says = "This circular motion does not have a single frequency but has a multi-frequency with irrational ratio, and therefore \
@@ -38,6 +39,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         annulus(&dataset),
         anticlockwise(&dataset),
         return_map(&dataset)?,
+        radial_map(&radial)?,
         exponent(context, &study)?,
     ];
     let parameters = [
@@ -49,21 +51,39 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         title: "Fig. 3: quasi-periodic motion".to_owned(),
         about: ABOUT.to_owned(),
         parameters: parameters.map(|(name, value)| (name.to_owned(), value)).to_vec(),
-        figures: drawn(&dataset)?,
+        figures: drawn(&dataset, &radial)?,
         claims,
     })
 }
 
-fn drawn(dataset: &Dataset) -> Result<Vec<ReportFigure>, Error> {
-    let words = |name: &str| match name {
-        "path" => Some("(a) The beginning of the path: a rosette."),
-        "return-map" => Some("(b) The return map of *x* on the section."),
-        _ => None,
-    };
-    let figure = |(name, svg): (&str, String)| {
-        Some(ReportFigure { caption: words(name)?.to_owned(), picture: Picture::Svg(svg) })
-    };
-    Ok(stills_as_svg(dataset)?.into_iter().filter_map(figure).collect())
+/// The same motion, cut by the half line from the centre of the path.
+fn through_the_centre(study: &Study) -> Study {
+    let half_line = ReturnMapSettings { y: 0.0, x_min: 0.0, x_max: 1e3, centre: true };
+    let mut through = Study { return_map: Some(half_line), ..study.clone() };
+    through.run.t_end = 40_000.0; // it is crossed rarely
+    through
+}
+
+fn drawn(dataset: &Dataset, radial: &Dataset) -> Result<Vec<ReportFigure>, Error> {
+    let mut figures = Vec::new();
+    for (name, drawn) in draw::drawn(dataset)? {
+        match name {
+            "path" => figures.push(ReportFigure::new(drawn, "(a) The beginning of the path: a rosette.")),
+            "return-map" => {
+                figures.push(ReportFigure::new(drawn, "(b) The return map of *x* on the paper's line."))
+            }
+            _ => {}
+        }
+    }
+    let map = draw::drawn(radial)?.into_iter().find(|(name, _)| *name == "return-map");
+    figures.extend(map.map(|(_, drawn)| {
+        ReportFigure::new(
+            drawn,
+            "The return map on the half line from the centre of the path (*y* = 0, *x* > 0), which the paper does not show: *x* is the \
+             distance from the centre.",
+        )
+    }));
+    Ok(figures)
 }
 
 /// Smallest and largest distance from the centre of the path.
@@ -107,14 +127,10 @@ fn anticlockwise(dataset: &Dataset) -> Claim {
 }
 
 fn return_map(dataset: &Dataset) -> Result<Claim, Error> {
-    let xs = dataset.crossings.as_ref().and_then(|table| table.get("x")).unwrap_or(&[]);
-    let pairs: Vec<Vec<f64>> = return_pairs(xs).into_iter().map(|pair| pair.to_vec()).collect();
-    let dimension = correlation_dimension(&pairs, 1e-6)?;
+    let (dimension, points) = dimension_of_map(dataset)?;
     let finds = format!(
-        "correlation dimension {:.3} ± {:.3} of {} points (*x*_*n*, *x*_{{*n*+1}})",
-        dimension.value,
-        dimension.spread,
-        pairs.len()
+        "correlation dimension {:.3} ± {:.3} of {points} points (*x*_*n*, *x*_{{*n*+1}})",
+        dimension.value, dimension.spread
     );
     let how = "Grassberger and Procaccia on crossings of -3 < *x* < 3, *y* = 3 in either direction; a closed curve has 1, a periodic \
                motion 0, chaos more than 1.2; within 0.2 of 1";
@@ -123,7 +139,23 @@ fn return_map(dataset: &Dataset) -> Result<Claim, Error> {
     Ok(claim(&[103, 132], says, finds, how, (dimension.value - 1.0).abs() < 0.2))
 }
 
-fn exponent(context: &Context<'_>, study: &crate::Study) -> Result<Claim, Error> {
+fn radial_map(dataset: &Dataset) -> Result<Claim, Error> {
+    let (dimension, points) = dimension_of_map(dataset)?;
+    let finds =
+        format!("correlation dimension {:.3} ± {:.3} of {points} points", dimension.value, dimension.spread);
+    let how = "as for the paper's line, on the half line *y* = 0, *x* > 0 from the centre of the path; within 0.2 of 1";
+    let says = "The return map does not depend on the line: through the centre of the path it is a closed curve as well.";
+    Ok(check(says, finds, how, (dimension.value - 1.0).abs() < 0.2))
+}
+
+/// The correlation dimension of the return map of x, and its number of points.
+fn dimension_of_map(dataset: &Dataset) -> Result<(Dimension, usize), Error> {
+    let xs = dataset.crossings.as_ref().and_then(|table| table.get("x")).unwrap_or(&[]);
+    let pairs: Vec<Vec<f64>> = return_pairs(xs).into_iter().map(|pair| pair.to_vec()).collect();
+    Ok((correlation_dimension(&pairs, 1e-6)?, pairs.len()))
+}
+
+fn exponent(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
     let span = context.choose(40_000.0, 8_000.0);
     let run = analyse::lyapunov(&Plan::new(study)?, 1, (Some(3000.0), Some(span)), &context.quiet())?;
     if context.monitor.stopped() {

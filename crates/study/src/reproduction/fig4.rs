@@ -9,9 +9,10 @@ mod places;
 mod schemes;
 
 use super::context::Context;
-use crate::report::{Picture, ReportFigure, Section};
+use crate::report::{ReportFigure, Section};
 use crate::simulate::Monitor;
 use crate::{Error, Random, Study};
+use motiform_figures::Drawn;
 
 pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     let mut section = Section {
@@ -61,8 +62,8 @@ fn parameters(study: &Study) -> Result<Vec<(String, String)>, Error> {
 }
 
 /// A drawing with its words.
-pub(super) fn figure(svg: String, caption: impl Into<String>) -> ReportFigure {
-    ReportFigure { caption: caption.into(), picture: Picture::Svg(svg) }
+pub(super) fn figure(drawn: Drawn, caption: impl Into<String>) -> ReportFigure {
+    ReportFigure::new(drawn, caption)
 }
 
 /// Listens for the stop; says nothing of single runs.

@@ -7,9 +7,8 @@ mod zigzag;
 
 use super::context::Context;
 use super::fig4::power;
-use crate::draw::draw;
-use crate::report::{Picture, ReportFigure, Section};
-use crate::{Dataset, Error};
+use crate::report::{ReportFigure, Section};
+use crate::{Dataset, Error, draw};
 
 pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     let mut section = Section {
@@ -44,16 +43,16 @@ fn parameters(context: &Context<'_>) -> Result<Vec<(String, String)>, Error> {
     Ok(rows)
 }
 
-/// The drawings of a dataset: names of the files, with the words below each.
-fn drawings(dataset: &Dataset, wanted: &[(&str, &str)]) -> Result<Vec<ReportFigure>, Error> {
-    let drawn = draw(dataset, false)?;
-    let figure = |(name, caption): &(&str, &str)| {
-        let file = drawn.iter().find(|picture| picture.name == *name)?;
-        let picture = match name.strip_suffix(".svg") {
-            Some(_) => Picture::Svg(String::from_utf8_lossy(&file.bytes).into_owned()),
-            None => Picture::Png(file.bytes.clone()),
-        };
-        Some(ReportFigure { caption: (*caption).to_owned(), picture })
-    };
-    Ok(wanted.iter().filter_map(figure).collect())
+/// The drawings of a dataset by name (`motion` is the animation), with the words below each.
+pub(super) fn drawings(dataset: &Dataset, wanted: &[(&str, &str)]) -> Result<Vec<ReportFigure>, Error> {
+    let mut drawn = draw::drawn(dataset)?;
+    let mut figures = Vec::new();
+    for &(name, caption) in wanted {
+        if name == "motion" {
+            figures.extend(draw::film(dataset)?.map(|film| ReportFigure::film(film, caption)));
+        } else if let Some(place) = drawn.iter().position(|(known, _)| *known == name) {
+            figures.push(ReportFigure::new(drawn.swap_remove(place).1, caption));
+        }
+    }
+    Ok(figures)
 }

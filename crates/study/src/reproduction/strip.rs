@@ -1,8 +1,8 @@
 //! A scan over one parameter as a strip.
 
 use crate::Error;
-use crate::figures::{BoundaryLine, Cell, PhaseDiagram};
 use crate::scan::CellSummary;
+use motiform_figures::{BoundaryLine, Cell, Drawn, Figure, PhaseDiagram};
 
 /// What was found at each value, increasing, and lines in front of it.
 pub(super) fn strip(
@@ -10,7 +10,7 @@ pub(super) fn strip(
     points: &[(f64, CellSummary)],
     lines: Vec<BoundaryLine>,
     caption: Vec<String>,
-) -> Result<String, Error> {
+) -> Result<Drawn, Error> {
     let cell = |(x, summary): &(f64, CellSummary)| Cell { x: *x, y: 0.0, shares: summary.shares() };
     let figure = PhaseDiagram {
         caption,
@@ -20,5 +20,5 @@ pub(super) fn strip(
         lines,
         ..PhaseDiagram::default()
     };
-    Ok(figure.svg()?)
+    Ok(figure.drawn()?)
 }

@@ -4,7 +4,6 @@ use super::super::claims::claim;
 use super::super::context::Context;
 use super::super::fig6;
 use crate::Error;
-use crate::figures::{ErrorBarFigure, ErrorBarSeries, Measured};
 use crate::initial::Uniform;
 use crate::report::Claim;
 use motiform_dynamics::drive::drive;
@@ -12,6 +11,7 @@ use motiform_dynamics::steppers::KROGSTAD4;
 use motiform_dynamics::{
     ExponentialOrbit, Outcome, Request, Semilinear, Sink, StepControl, System, VectorField,
 };
+use motiform_figures::{Drawn, ErrorBarFigure, ErrorBarSeries, Figure, Measured};
 use motiform_models::cell::{CellField, CellParameters};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -164,7 +164,7 @@ fn run(context: &Context<'_>, length: f64, g: [f64; 2], quartic: f64) -> Result<
 }
 
 /// Sentences 57 and 58, and the figure of the potentials.
-pub(super) fn claim_of(context: &Context<'_>) -> Result<(Vec<Claim>, String), Error> {
+pub(super) fn claim_of(context: &Context<'_>) -> Result<(Vec<Claim>, Drawn), Error> {
     let all = |g: [f64; 2], quartic: f64| {
         LENGTHS.par_iter().map(|length| run(context, *length, g, quartic)).collect::<Result<Vec<_>, Error>>()
     };
@@ -217,7 +217,7 @@ fn simple(bounded: &[Ran], active: &[Ran]) -> Claim {
     )
 }
 
-fn picture(bounded: &[Ran], active: &[Ran]) -> Result<String, Error> {
+fn picture(bounded: &[Ran], active: &[Ran]) -> Result<Drawn, Error> {
     let series = |ran: &Ran, label: String| ErrorBarSeries {
         label,
         points: (0..)
@@ -238,5 +238,5 @@ fn picture(bounded: &[Ran], active: &[Ran]) -> Result<String, Error> {
         zero_line: true,
         ..ErrorBarFigure::default()
     };
-    Ok(figure.svg()?)
+    Ok(figure.drawn()?)
 }

@@ -16,7 +16,7 @@ mod velocity;
 
 use super::context::Context;
 use crate::Error;
-use crate::report::{Picture, ReportFigure, Section};
+use crate::report::{ReportFigure, Section};
 
 const ABOUT: &str = "What can be said of the equations as they are written. The tensor form of the first model, with its indices as in the \
 paper, is taken apart into monomials of the Fourier amplitudes by least squares, and compared with all couplings that rotations and \
@@ -45,12 +45,11 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
             ("states and coefficients".to_owned(), "random, from fixed seeds".to_owned()),
             ("runs".to_owned(), "from random starts, named by the classifier".to_owned()),
         ],
-        figures: vec![ReportFigure {
-            caption: "The variational nonlinearity *g*_4 alone: the shape comes to rest, its potential falls all the time. With *g*_5, which \
-                      is not variational, it does not."
-                .to_owned(),
-            picture: Picture::Svg(figure),
-        }],
+        figures: vec![ReportFigure::new(
+            figure,
+            "The variational nonlinearity *g*_4 alone: the shape comes to rest, its potential falls all the time. With *g*_5, which \
+             is not variational, it does not.",
+        )],
         claims,
     })
 }

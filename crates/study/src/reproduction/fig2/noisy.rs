@@ -2,13 +2,13 @@
 
 use super::{GAMMA, KAPPA2, check, claim, durations, rates};
 use crate::Error;
-use crate::figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
-use crate::report::{Claim, Picture, ReportFigure};
+use crate::report::{Claim, ReportFigure};
 use crate::reproduction::context::Context;
 use motiform_analysis::{Ends, Estimate, PathSample, legs, series_mean};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::RK4;
 use motiform_dynamics::{InPlane, Noise, NoisyOrbit, Normal, Orbit, Request, Shape, Sink, StepControl};
+use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, Figure, LineStyle, Measured};
 use motiform_models::tensor::reduced::Reduced;
 use motiform_models::tensor::{Tensor, TensorParameters};
 use std::ops::ControlFlow;
@@ -153,7 +153,7 @@ impl Rests {
         };
         let caption = "Mean rest of rectangular motion against the amplitude of explicit noise, with the slope −1/*λ*_+ that the \
                        saddle's growth rate gives.";
-        Ok(ReportFigure { caption: caption.to_owned(), picture: Picture::Svg(figure.svg()?) })
+        Ok(ReportFigure::new(figure.drawn()?, caption))
     }
 
     pub(super) fn claims(&self) -> Result<Vec<Claim>, Error> {

@@ -11,10 +11,10 @@ use super::super::claims::{claim, differs};
 use super::super::context::Context;
 use super::approach::{Approach, follow};
 use super::{at, figure, power};
-use crate::figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use crate::report::{ReportFigure, Section};
 use crate::{Error, Study};
 use motiform_dynamics::Outcome;
+use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, Figure, LineStyle, Measured};
 use rayon::prelude::*;
 
 /// The place that is looked at.
@@ -223,7 +223,7 @@ fn picture(approach: &Approach, c: f64) -> Result<ReportFigure, Error> {
         logarithmic_y: true,
         ..ErrorBarFigure::default()
     }
-    .svg()?;
+    .drawn()?;
     Ok(figure(
         svg,
         "**The region × of Fig. 4(a).** On the way to t\\* all three modes follow the power laws of a singularity.",

@@ -3,11 +3,11 @@
 use super::super::claims::check;
 use super::super::context::Context;
 use super::{Silent, at, figure, power};
-use crate::figures::{ExpectedLine, LineStyle, SurvivalCurve, SurvivalFigure, SurvivalStep};
 use crate::report::Section;
 use crate::saddle::{Saddle, saddle};
 use crate::{Error, Plan};
 use motiform_analysis::Stay;
+use motiform_figures::{Drawn, ExpectedLine, Figure, LineStyle, SurvivalCurve, SurvivalFigure, SurvivalStep};
 
 /// Time for the starts to reach the saddle.
 const SETTLE: f64 = 100.0;
@@ -31,7 +31,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     Ok(())
 }
 
-fn picture(found: &[(f64, Saddle)], runs: usize) -> Result<String, Error> {
+fn picture(found: &[(f64, Saddle)], runs: usize) -> Result<Drawn, Error> {
     let step = |s: &motiform_analysis::SurvivalStep| SurvivalStep {
         t: s.time,
         share: s.share,
@@ -61,7 +61,7 @@ fn picture(found: &[(f64, Saddle)], runs: usize) -> Result<String, Error> {
         lines: found.iter().zip(styles).filter_map(law).collect(),
         ..SurvivalFigure::default()
     };
-    Ok(figure.svg()?)
+    Ok(figure.drawn()?)
 }
 
 /// The share that has not escaped at `t`.

@@ -4,12 +4,12 @@ use super::super::claims::{check, claim, differs};
 use super::super::context::Context;
 use super::{Silent, at, figure, power};
 use crate::analyse::lyapunov;
-use crate::figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use crate::report::{Claim, Section};
 use crate::saddle::saddle;
 use crate::{Error, Plan};
 use motiform_analysis::Estimate;
 use motiform_dynamics::Outcome;
+use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, Figure, LineStyle, Measured};
 use rayon::prelude::*;
 
 /// Values of kappa2.
@@ -115,7 +115,7 @@ fn picture(runs: &[Run], saddles: &[Left], span: f64) -> Result<crate::report::R
         zero_line: true,
         ..ErrorBarFigure::default()
     }
-    .svg()?;
+    .drawn()?;
     Ok(figure(svg, "**Fig. 4(b), computed**, with the values that the paper could not get."))
 }
 

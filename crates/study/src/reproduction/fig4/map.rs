@@ -6,10 +6,10 @@ use super::figure;
 use super::places::{Extent, Place, agreement, places};
 use crate::Error;
 use crate::draw::phase_diagram;
-use crate::figures::PhaseDiagram;
 use crate::report::{Claim, Section};
 use crate::scan::Axis;
 use motiform_analysis::Regime;
+use motiform_figures::{Figure, PhaseDiagram};
 
 /// Where the triangle relaxes faster than this there shall be nothing but circles and straight lines. The text gives no number;
 /// the measured table has other motions up to 0.4.
@@ -50,7 +50,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
         caption: vec![caption],
         ..drawn
     }
-    .svg()?;
+    .drawn()?;
     section.figures.push(figure(
         svg,
         "**Fig. 4(a), computed.** Each cell is classified by mathematics, never by eye; cells with more than one motion are \

@@ -18,11 +18,11 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
         &dataset,
         &[
             (
-                "path.svg",
+                "path",
                 "**Fig. 5(b), computed.** A chaotic path. Another start gives another path of the same kind.",
             ),
-            ("series.svg", "(b) Speed, turning rate and the two deformations against time."),
-            ("motion.png", "(b) The motion, animated."),
+            ("series", "(b) Speed, turning rate and the two deformations against time."),
+            ("motion", "(b) The motion, animated."),
         ],
     )?);
     section.claims.extend([exponent(context, &study)?, lasting(context, &study)?]);

@@ -4,10 +4,10 @@ use super::super::claims::check;
 use super::super::context::Context;
 use super::super::fig4::figure;
 use super::chaos;
-use crate::figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use crate::report::{Claim, Section};
 use crate::{Dataset, Error, Study};
 use motiform_analysis::Estimate;
+use motiform_figures::{Drawn, ErrorBarFigure, ErrorBarSeries, ExpectedLine, Figure, LineStyle, Measured};
 use rayon::prelude::*;
 
 /// Size of the difference at the start.
@@ -116,7 +116,7 @@ fn rate(all: &[Vec<f64>], lambda: Estimate) -> Claim {
     )
 }
 
-fn picture(all: &[Vec<f64>], lambda: Estimate) -> Result<String, Error> {
+fn picture(all: &[Vec<f64>], lambda: Estimate) -> Result<Drawn, Error> {
     let rows = all.iter().map(Vec::len).max().unwrap_or(0);
     let point = |row: usize| {
         let found = mean(&logarithms(all, row));
@@ -139,5 +139,5 @@ fn picture(all: &[Vec<f64>], lambda: Estimate) -> Result<String, Error> {
         }],
         ..ErrorBarFigure::default()
     };
-    Ok(figure.svg()?)
+    Ok(figure.drawn()?)
 }

@@ -3,11 +3,11 @@
 use super::super::claims::check;
 use super::super::context::Context;
 use super::super::fig4::figure;
-use crate::figures::palette::CATEGORIES;
-use crate::figures::{SpectrumCurve, SpectrumFigure};
 use crate::report::{Claim, Section};
 use crate::{Dataset, Error};
 use motiform_analysis::{Spectrum, welch, zero_one};
+use motiform_figures::palette::CATEGORIES;
+use motiform_figures::{Drawn, Figure, SpectrumCurve, SpectrumFigure};
 
 /// Time between samples: the fastest oscillation has a period of some ten time units.
 const DT: f64 = 0.5;
@@ -47,7 +47,7 @@ fn spectrum(dataset: &Dataset) -> Result<Spectrum, Error> {
     Ok(welch(speed(dataset), DT, SEGMENT)?)
 }
 
-fn picture(zigzag: &Spectrum, chaos: &Spectrum) -> Result<String, Error> {
+fn picture(zigzag: &Spectrum, chaos: &Spectrum) -> Result<Drawn, Error> {
     let curve = |index: usize, label: &str, spectrum: &Spectrum| SpectrumCurve {
         label: label.to_owned(),
         colour: CATEGORIES[index],
@@ -65,7 +65,7 @@ fn picture(zigzag: &Spectrum, chaos: &Spectrum) -> Result<String, Error> {
         curves: vec![curve(0, "(a) zigzag", zigzag), curve(1, "(b) chaos", chaos)],
         ..SpectrumFigure::default()
     };
-    Ok(figure.svg()?)
+    Ok(figure.drawn()?)
 }
 
 /// The share of the frequencies that is needed to hold 99 % of the power.

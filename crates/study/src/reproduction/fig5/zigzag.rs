@@ -18,11 +18,11 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
         &dataset,
         &[
             (
-                "path.svg",
+                "path",
                 "**Fig. 5(a), computed.** The path from left to right, with outlines at equal distances.",
             ),
-            ("series.svg", "(a) Speed, turning rate and the two deformations against time."),
-            ("motion.png", "(a) The motion, animated."),
+            ("series", "(a) Speed, turning rate and the two deformations against time."),
+            ("motion", "(a) The motion, animated."),
         ],
     )?);
     section.claims.extend([mirrored(&verdict), rightwards(&dataset), angle(&verdict)]);

@@ -3,9 +3,9 @@
 use super::super::claims::differs;
 use super::onset::{Onsets, WINDOWS};
 use crate::Error;
-use crate::figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
-use crate::report::{Claim, Picture, ReportFigure};
+use crate::report::{Claim, ReportFigure};
 use motiform_dynamics::VectorField as _;
+use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, Figure, LineStyle, Measured};
 use motiform_models::cell::{CellField, CellParameters};
 
 /// How far, as a part of the length, such a point may lie from its window to be near it.
@@ -124,5 +124,5 @@ pub(super) fn figure() -> Result<ReportFigure, Error> {
         ..ErrorBarFigure::default()
     };
     let caption = "Neutral curves of the modes of the circle, with the damping *g*_1 of long waves as a second parameter.";
-    Ok(ReportFigure { caption: caption.to_owned(), picture: Picture::Svg(figure.svg()?) })
+    Ok(ReportFigure::new(figure.drawn()?, caption))
 }

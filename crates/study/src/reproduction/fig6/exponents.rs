@@ -2,9 +2,9 @@
 
 use super::super::context::{Context, Quiet};
 use super::lengths::{modes_for, study};
-use crate::figures::{ErrorBarFigure, ErrorBarSeries, Measured};
 use crate::{Error, Plan, analyse};
 use motiform_analysis::Estimate;
+use motiform_figures::{Drawn, ErrorBarFigure, ErrorBarSeries, Figure, Measured};
 use rayon::prelude::*;
 
 /// Hundredths of the lengths.
@@ -40,7 +40,7 @@ impl Exponents {
         self.found.iter().find(|entry| (entry.0 - length).abs() < 1e-9).map(|entry| entry.1)
     }
 
-    pub(super) fn svg(&self) -> Result<String, Error> {
+    pub(super) fn drawn(&self) -> Result<Drawn, Error> {
         let point = |(x, e): &(f64, Estimate)| Measured { x: *x, y: e.value, error: e.error };
         let figure = ErrorBarFigure {
             caption: vec![format!(
@@ -57,6 +57,6 @@ impl Exponents {
             zero_line: true,
             ..ErrorBarFigure::default()
         };
-        Ok(figure.svg()?)
+        Ok(figure.drawn()?)
     }
 }

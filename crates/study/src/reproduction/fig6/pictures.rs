@@ -5,9 +5,9 @@ use super::exponents::Exponents;
 use super::lengths::Lengths;
 use super::tracks::Track;
 use crate::Error;
-use crate::figures::{BoundaryLine, ErrorBarFigure, ErrorBarSeries, LineStyle, Measured};
-use crate::report::{Picture, ReportFigure};
+use crate::report::ReportFigure;
 use motiform_analysis::Regime;
+use motiform_figures::{BoundaryLine, Drawn, ErrorBarFigure, ErrorBarSeries, Figure, LineStyle, Measured};
 use rayon::prelude::*;
 
 /// The paper's windows.
@@ -33,15 +33,13 @@ pub(super) fn all(
     exponents: &Exponents,
     tracks: &[Track],
 ) -> Result<Vec<ReportFigure>, Error> {
-    let svg =
-        |caption: &str, svg: String| ReportFigure { caption: caption.to_owned(), picture: Picture::Svg(svg) };
     let mut figures = vec![
-        svg(
-            "Which motion random starts lead to, over the length. Brackets: the paper's windows.",
+        ReportFigure::new(
             windows(lengths)?,
+            "Which motion random starts lead to, over the length. Brackets: the paper's windows.",
         ),
-        svg("Mean speed over the length (motionless shapes are left out).", speeds(lengths)?),
-        svg("Largest Lyapunov exponent in *W*_2.", exponents.svg()?),
+        ReportFigure::new(speeds(lengths)?, "Mean speed over the length (motionless shapes are left out)."),
+        ReportFigure::new(exponents.drawn()?, "Largest Lyapunov exponent in *W*_2."),
     ];
     figures.push(super::codimension::figure()?);
     let drawn: Vec<Vec<ReportFigure>> = tracks
@@ -53,7 +51,7 @@ pub(super) fn all(
     Ok(figures)
 }
 
-fn windows(lengths: &Lengths) -> Result<String, Error> {
+fn windows(lengths: &Lengths) -> Result<Drawn, Error> {
     let bracket = |(n, (from, to, style)): (usize, (f64, f64, LineStyle))| BoundaryLine {
         label: format!("*W*_{} of the paper: {from:.1} to {to:.1}", n + 1),
         style,
@@ -63,7 +61,7 @@ fn windows(lengths: &Lengths) -> Result<String, Error> {
     strip("length *L*", &lengths.0, lines, Vec::new())
 }
 
-fn speeds(lengths: &Lengths) -> Result<String, Error> {
+fn speeds(lengths: &Lengths) -> Result<Drawn, Error> {
     let series = |regime: Regime| {
         let point = |(length, summary): &(f64, crate::scan::CellSummary)| {
             let motion = summary.motions.iter().find(|motion| motion.regime == regime)?;
@@ -79,5 +77,5 @@ fn speeds(lengths: &Lengths) -> Result<String, Error> {
         logarithmic_y: true,
         ..ErrorBarFigure::default()
     };
-    Ok(figure.svg()?)
+    Ok(figure.drawn()?)
 }

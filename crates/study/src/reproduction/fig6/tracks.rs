@@ -1,10 +1,11 @@
 //! Fig. 6(a) to (d): the four motions that the paper shows.
 
 use super::super::context::Context;
+use super::super::fig5::drawings;
 use super::boundary::Boundary;
 use super::lengths::modes_for;
-use crate::report::{Picture, ReportFigure};
-use crate::{Dataset, Error, Study, draw};
+use crate::report::ReportFigure;
+use crate::{Dataset, Error, Study};
 use motiform_analysis::{Verdict, welch};
 use rayon::prelude::*;
 
@@ -85,24 +86,15 @@ impl Track {
             false => format!(", turns of {} degrees", turns.join(" and ")),
         };
         let words = [
-            ("path.svg", format!("Fig. 6({letter}), *L* = {length}: {}{turns}.", self.verdict.regime)),
-            ("phi.svg", format!("*φ*(*s*, *t*) of the motion above, *L* = {length}.")),
+            ("path", format!("Fig. 6({letter}), *L* = {length}: {}{turns}.", self.verdict.regime)),
+            ("phi", format!("*φ*(*s*, *t*) of the motion above, *L* = {length}.")),
             (
-                "spectrum.svg",
+                "spectrum",
                 format!("Power spectra of the modes of *φ* at *L* = {length} (inset of Fig. 6(a))."),
             ),
-            ("motion.png", format!("The motion at *L* = {length}, animated.")),
+            ("motion", format!("The motion at *L* = {length}, animated.")),
         ];
-        let pictures = draw::draw(&self.dataset, false)?;
-        let figure = |(name, caption): (&str, String)| {
-            let bytes = &pictures.iter().find(|picture| picture.name == name)?.bytes;
-            let picture = match name.ends_with("svg") {
-                true => Picture::Svg(String::from_utf8_lossy(bytes).into_owned()),
-                false => Picture::Png(bytes.clone()),
-            };
-            Some(ReportFigure { caption, picture })
-        };
-        Ok(words.into_iter().filter_map(figure).collect())
+        drawings(&self.dataset, &words.each_ref().map(|(name, caption)| (*name, caption.as_str())))
     }
 }
 

@@ -4,9 +4,9 @@ use super::super::claims::{claim, differs};
 use super::super::context::Context;
 use super::super::fig6::Track;
 use crate::Error;
-use crate::figures::{ErrorBarFigure, ErrorBarSeries, Measured};
-use crate::report::{Claim, Picture, ReportFigure};
+use crate::report::{Claim, ReportFigure};
 use motiform_analysis::{Regime, Verdict};
+use motiform_figures::{ErrorBarFigure, ErrorBarSeries, Figure, Measured};
 use rayon::prelude::*;
 
 /// Modes that are looked at.
@@ -78,7 +78,7 @@ impl Zigzags {
             ..ErrorBarFigure::default()
         };
         let caption = "Which modes of the boundary carry the zigzags of the active cell: time average of |*φ_n*|. Mode 1 is no deformation of its own: it follows from the others where the boundary is nearly closed.";
-        Ok(ReportFigure { caption: caption.to_owned(), picture: Picture::Svg(figure.svg()?) })
+        Ok(ReportFigure::new(figure.drawn()?, caption))
     }
 }
 

@@ -1,0 +1,119 @@
+//! Strokes, fills and letters on a pixmap.
+
+use resvg::tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform,
+};
+use skrifa::MetadataProvider as _;
+use skrifa::instance::{LocationRef, Size};
+use skrifa::outline::{DrawSettings, OutlinePen};
+
+use crate::fonts;
+use crate::geometry::Point;
+use crate::palette::{Colour, INK};
+use crate::text::Label;
+
+/// Strokes a polyline, or a polygon if `closed`; fewer than two points draw nothing.
+pub(super) fn stroke(pixmap: &mut Pixmap, points: &[Point], closed: bool, colour: Colour, width: f32) {
+    let style = Stroke { width, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
+    if let Some(path) = path_of(points, closed) {
+        pixmap.stroke_path(&path, &paint(colour, 1.0), &style, Transform::identity(), None);
+    }
+}
+
+/// Fills a closed polygon; fewer than two points draw nothing.
+pub(super) fn fill(pixmap: &mut Pixmap, points: &[Point], colour: Colour, opacity: f32) {
+    if let Some(path) = path_of(points, true) {
+        fill_path(pixmap, &path, colour, opacity);
+    }
+}
+
+/// Fills a disc.
+pub(super) fn disc(pixmap: &mut Pixmap, [x, y]: Point, radius: f32, colour: Colour) {
+    if let Some(path) = PathBuilder::from_circle(x as f32, y as f32, radius) {
+        fill_path(pixmap, &path, colour, 1.0);
+    }
+}
+
+/// Writes a label with its baseline starting at `at`.
+pub(super) fn write(pixmap: &mut Pixmap, label: &Label, at: Point, size: f64) {
+    let mut pen = Letters { builder: PathBuilder::new(), at: [at[0] as f32, at[1] as f32] };
+    for run in label.runs() {
+        let Some(font) = run.face.font() else { continue };
+        let scale = Size::new((size * run.script.scale()) as f32);
+        pen.at[1] = (at[1] + size * run.script.drop()) as f32;
+        for character in run.text.chars() {
+            let glyph = font.charmap().map(character).and_then(|id| font.outline_glyphs().get(id));
+            if let Some(glyph) = glyph {
+                // an outline that fails to draw leaves a blank of its width
+                let _ = glyph.draw(DrawSettings::unhinted(scale, LocationRef::default()), &mut pen);
+            }
+            pen.at[0] += (size * run.script.scale() * fonts::advance(run.face, character)) as f32;
+        }
+    }
+    if let Some(path) = pen.builder.finish() {
+        fill_path(pixmap, &path, INK, 1.0);
+    }
+}
+
+fn fill_path(pixmap: &mut Pixmap, path: &Path, colour: Colour, opacity: f32) {
+    pixmap.fill_path(path, &paint(colour, opacity), FillRule::Winding, Transform::identity(), None);
+}
+
+fn paint(Colour(r, g, b): Colour, opacity: f32) -> Paint<'static> {
+    let mut paint = Paint::default();
+    let mut colour = Color::from_rgba8(r, g, b, 255);
+    colour.set_alpha(opacity);
+    paint.set_color(colour);
+    paint
+}
+
+fn path_of(points: &[Point], closed: bool) -> Option<Path> {
+    let (first, rest) = points.split_first()?;
+    let mut builder = PathBuilder::new();
+    builder.move_to(first[0] as f32, first[1] as f32);
+    for [x, y] in rest {
+        builder.line_to(*x as f32, *y as f32);
+    }
+    if closed {
+        builder.close();
+    }
+    builder.finish()
+}
+
+/// Collects glyph outlines (y up) as one path (y down).
+struct Letters {
+    builder: PathBuilder,
+    at: [f32; 2],
+}
+
+impl Letters {
+    fn place(&self, x: f32, y: f32) -> (f32, f32) {
+        (self.at[0] + x, self.at[1] - y)
+    }
+}
+
+impl OutlinePen for Letters {
+    fn move_to(&mut self, x: f32, y: f32) {
+        let (x, y) = self.place(x, y);
+        self.builder.move_to(x, y);
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        let (x, y) = self.place(x, y);
+        self.builder.line_to(x, y);
+    }
+
+    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
+        let ((cx, cy), (x, y)) = (self.place(cx, cy), self.place(x, y));
+        self.builder.quad_to(cx, cy, x, y);
+    }
+
+    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
+        let ((ax, ay), (bx, by), (x, y)) = (self.place(ax, ay), self.place(bx, by), self.place(x, y));
+        self.builder.cubic_to(ax, ay, bx, by, x, y);
+    }
+
+    fn close(&mut self) {
+        self.builder.close();
+    }
+}

@@ -1,0 +1,169 @@
+//! What can be wrong with the data of a figure.
+
+/// Why a figure cannot be drawn. Every message names the datum and the remedy.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FigureError {
+    /// There is nothing to draw.
+    #[error("{what} is empty; give at least one value")]
+    Empty {
+        /// The list in question.
+        what: &'static str,
+    },
+    /// A number is NaN or infinite.
+    #[error("{what} number {index} is {value}; leave undefined values out (or `None`) instead")]
+    NotFinite {
+        /// The list in question.
+        what: &'static str,
+        /// Position in the list, from 0.
+        index: usize,
+        /// The offending value.
+        value: f64,
+    },
+    /// A number is finite, but its figure has no sensible axes.
+    #[error("{what} number {index} is {value:e}; cut the data where it exceeds {limit:e}")]
+    TooLarge {
+        /// The list in question.
+        what: &'static str,
+        /// Position in the list, from 0.
+        index: usize,
+        /// The offending value.
+        value: f64,
+        /// The largest magnitude that is drawn.
+        limit: f64,
+    },
+    /// Two lists that belong together differ in length.
+    #[error("{what} has {got} values for {expected} times; give one value (or `None`) per time")]
+    Shape {
+        /// The list in question.
+        what: String,
+        /// Length it must have.
+        expected: usize,
+        /// Length it has.
+        got: usize,
+    },
+    /// A spectrum differs in length from its frequencies.
+    #[error("spectrum '{curve}' has {got} values for {expected} frequencies; give one value per frequency")]
+    Powers {
+        /// Label of the curve.
+        curve: String,
+        /// Number of frequencies.
+        expected: usize,
+        /// Number of values.
+        got: usize,
+    },
+    /// A field does not fill its grid.
+    #[error(
+        "the field has {got} values for {columns} times and {rows} places; give {columns} x {rows} values"
+    )]
+    Cells {
+        /// Number of times.
+        columns: usize,
+        /// Number of places.
+        rows: usize,
+        /// Number of values.
+        got: usize,
+    },
+    /// A width that cannot be read.
+    #[error("{text:?} is no width: write it with a unit (mm, cm, in, px), such as 86mm or 1200px")]
+    Width {
+        /// What was given.
+        text: String,
+    },
+    /// Times do not increase.
+    #[error("{what} number {index} is smaller than the one before it; sort the data by time")]
+    Unsorted {
+        /// The list in question.
+        what: &'static str,
+        /// Position in the list, from 0.
+        index: usize,
+    },
+    /// Values that must increase do not.
+    #[error("{what} number {index} is not above the one before it; sort the values and give each once")]
+    NotIncreasing {
+        /// The list in question.
+        what: &'static str,
+        /// Position in the list, from 0.
+        index: usize,
+    },
+    /// A cell of a phase diagram is not at a cell centre.
+    #[error("cell number {index} lies at ({x}, {y}), which is no cell centre; give it a value of each axis")]
+    OffGrid {
+        /// Position in the list of cells, from 0.
+        index: usize,
+        /// Its place across.
+        x: f64,
+        /// Its place upwards.
+        y: f64,
+    },
+    /// Two cells of a phase diagram are at one place.
+    #[error("cell number {index} lies where an earlier one does; merge their shares")]
+    SameCell {
+        /// Position in the list of cells, from 0.
+        index: usize,
+    },
+    /// The shares of a cell are not those of a whole.
+    #[error("the shares of cell number {index} add up to {sum}; give shares of at least 0 that add up to 1")]
+    Shares {
+        /// Position in the list of cells, from 0.
+        index: usize,
+        /// Their sum.
+        sum: f64,
+    },
+    /// A size in pixels or a rate is out of range.
+    #[error("{what} is {value}; choose it between {min} and {max}")]
+    OutOfRange {
+        /// The setting in question.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// Smallest allowed value.
+        min: f64,
+        /// Largest allowed value.
+        max: f64,
+    },
+    /// The text handed to the rasteriser is no SVG document.
+    #[error("cannot read the svg: {source}; give the text that a figure's `svg` returned")]
+    Svg {
+        /// What the parser found.
+        #[from]
+        source: resvg::usvg::Error,
+    },
+    /// The PNG encoder failed.
+    #[error("cannot encode the png: {source}; try a smaller image")]
+    Png {
+        /// What the encoder found.
+        #[from]
+        source: png::EncodingError,
+    },
+    /// The PDF writer failed.
+    #[error("cannot write the pdf: {why}; keep the svg, which holds the same drawing")]
+    Pdf {
+        /// What the writer found.
+        why: String,
+    },
+}
+
+/// Result of a drawing function.
+pub type Result<T> = std::result::Result<T, FigureError>;
+
+/// Largest magnitude drawn: beyond it the products of a layout could overflow.
+const LIMIT: f64 = 1e100;
+
+/// Refuses values that are not finite, or too large for an axis.
+pub(crate) fn check_finite(what: &'static str, values: impl IntoIterator<Item = f64>) -> Result<()> {
+    for (index, value) in values.into_iter().enumerate() {
+        if !value.is_finite() {
+            return Err(FigureError::NotFinite { what, index, value });
+        }
+        if value.abs() > LIMIT {
+            return Err(FigureError::TooLarge { what, index, value, limit: LIMIT });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a setting outside its range.
+pub(crate) fn check_range(what: &'static str, value: f64, min: f64, max: f64) -> Result<()> {
+    if (min..=max).contains(&value) { Ok(()) } else { Err(FigureError::OutOfRange { what, value, min, max }) }
+}

@@ -1,0 +1,74 @@
+//! Drawing: plain data in, SVG text out. Knows no model, no study file, no solver.
+//!
+//! Eight figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`], [`SpaceTimeFigure`], [`SpectrumFigure`],
+//! [`PhaseDiagram`], [`ErrorBarFigure`], [`SurvivalFigure`]) return SVG text that stands alone (fonts and pictures are
+//! inside); [`png()`] and, under the feature `pdf`, `pdf` turn that text into files; [`Animation`] returns an animated
+//! PNG. The same data give the same bytes: numbers are rounded to 0.01 pixel and no system font is used. All texts are
+//! markup, see [`Label`]; every regime has its [`RegimeMark`].
+
+mod animation;
+pub mod axes;
+mod block;
+mod clip;
+mod colour_bar;
+mod error;
+mod error_bars;
+mod expected;
+mod figure;
+mod fonts;
+mod framed;
+pub mod geometry;
+mod glyph;
+mod heat_map;
+mod html;
+mod legend;
+mod line_style;
+mod log_ticks;
+mod marks;
+pub mod paint;
+pub mod palette;
+mod path;
+#[cfg(feature = "pdf")]
+mod pdf;
+mod phase_diagram;
+mod picture;
+mod raster;
+mod return_map;
+mod series;
+mod simplify;
+mod space_time;
+mod spectrum;
+mod stripes;
+mod style;
+mod survival;
+pub mod svg;
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod tests_of_measurements;
+#[cfg(test)]
+mod tests_of_phase_diagrams;
+mod text;
+pub mod ticks;
+
+pub use animation::{Animation, Camera, Frame};
+pub use error::{FigureError, Result};
+pub use error_bars::{ErrorBarFigure, ErrorBarSeries, Measured};
+pub use expected::ExpectedLine;
+pub use figure::{Drawn, Figure};
+pub use glyph::Glyph;
+pub use line_style::LineStyle;
+pub use marks::{REGIMES, RegimeMark, regime_mark};
+pub use path::{OutlineStamp, PathFigure, PathPoint, SectionLine};
+#[cfg(feature = "pdf")]
+pub use pdf::pdf;
+pub use phase_diagram::{BoundaryLine, Cell, PhaseDiagram};
+pub use raster::{DEFAULT_SCALE, png};
+pub use return_map::ReturnMapFigure;
+pub use series::{Curve, Panel, SeriesFigure};
+pub use simplify::simplify;
+pub use space_time::SpaceTimeFigure;
+pub use spectrum::{SpectrumCurve, SpectrumFigure};
+pub use style::{Style, Width};
+pub use survival::{SurvivalCurve, SurvivalFigure, SurvivalStep};
+pub use text::{Label, literal};

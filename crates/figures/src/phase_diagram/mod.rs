@@ -1,0 +1,196 @@
+//! Which motion occurs where: regimes over one or two parameters.
+
+mod cells;
+mod labels;
+mod mosaic;
+mod strip;
+mod tiles;
+
+use super::axes::{Axes, Scale};
+use super::clip::clip;
+use super::error::{FigureError, Result, check_finite};
+use super::figure::{Csv, figure};
+use super::framed::Framed;
+use super::geometry::{Point, Range, Rect};
+use super::legend::{Entry, Mark};
+use super::line_style::LineStyle;
+use super::marks::{REGIMES, RegimeMark};
+use super::paint::Paint;
+use super::palette::{Colour, WHITE};
+use super::svg::Svg;
+use cells::Cells;
+
+/// Most cells a side that get markers.
+const TILES: usize = 40;
+
+/// What was found at one place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cell {
+    /// Place across, one of the diagram's `x`.
+    pub x: f64,
+    /// Place upwards, one of the diagram's `y`; of no account in a strip.
+    pub y: f64,
+    /// Regimes by name (see [`super::regime_mark`]) with their shares of the initial states, which add up to 1.
+    pub shares: Vec<(String, f64)>,
+}
+
+/// A line of a theory, such as a bifurcation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BoundaryLine {
+    /// Markup for the legend.
+    pub label: String,
+    /// Dashes.
+    pub style: LineStyle,
+    /// Points in units of the axes; what lies outside the frame is cut off.
+    pub points: Vec<Point>,
+}
+
+/// A phase diagram. Up to 40 x 40 cells carry markers on a pale ground; finer ones are coloured, with
+/// one marker in each wide region. Where several motions
+/// occur, stripes show their shares, and the two most frequent ones have their markers side by side.
+///
+/// With at most one value of `y` the diagram is a strip: over each `x` stands a bar of the shares, the markers above.
+///
+/// # Units   those of the values; texts are markup (see [`super::Label`])
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PhaseDiagram {
+    /// Line above the legend.
+    pub title: String,
+    /// Paragraphs below the axes.
+    pub caption: Vec<String>,
+    /// Label of the x axis.
+    pub x_label: String,
+    /// Label of the y axis; a strip has its own.
+    pub y_label: String,
+    /// Cell centres across, increasing.
+    pub x: Vec<f64>,
+    /// Cell centres upwards, increasing; empty or a single value for a strip.
+    pub y: Vec<f64>,
+    /// What was found; places without a cell stay white.
+    pub cells: Vec<Cell>,
+    /// Lines in front of the cells, behind their markers. In a strip their y runs from 0 to 1.
+    pub lines: Vec<BoundaryLine>,
+}
+
+impl PhaseDiagram {
+    /// Draws the figure.
+    ///
+    /// # Errors   no cell or no x, a number that is not finite, centres that do not increase, a cell at no centre or at
+    /// that of an earlier one, or shares that do not add up to 1
+    pub fn svg(&self) -> Result<String> {
+        check_finite("boundary line value", self.lines.iter().flat_map(|l| &l.points).flatten().copied())?;
+        let strip = self.y.len() < 2;
+        let cells = Cells::new(&self.x, if strip { &[] } else { &self.y }, &self.cells)?;
+        let look = Look::of(strip, cells.size());
+        let (w, h) = look.frame(cells.size());
+        let [x, y] = cells.ranges();
+        let scale = Scale { frame: Rect { x: 0.0, y: 0.0, w, h }, x, y };
+        let y_label = if strip { "share of initial states" } else { &self.y_label };
+        let sheet = Framed {
+            title: &self.title,
+            caption: &self.caption,
+            legend: self.legend(&cells, look),
+            axes: Axes::new(scale, Some(&self.x_label), y_label),
+            grid: false,
+            head: if strip { strip::HEAD } else { 0.0 },
+        };
+        sheet.svg(|svg, scale| self.draw(svg, scale, &cells, look))
+    }
+
+    fn draw(&self, svg: &mut Svg, scale: &Scale, cells: &Cells, look: Look) -> Result<()> {
+        match look {
+            Look::Strip => strip::draw(svg, scale, cells),
+            Look::Tiles => tiles::draw_grounds(svg, scale, cells),
+            Look::Mosaic => svg.image(scale.frame, &mosaic::png(scale, cells)?),
+        }
+        self.draw_lines(svg, scale);
+        match look {
+            Look::Tiles => tiles::draw_markers(svg, scale, cells),
+            Look::Mosaic => labels::draw(svg, scale, cells),
+            Look::Strip => {}
+        }
+        Ok(())
+    }
+
+    fn legend(&self, cells: &Cells, look: Look) -> Vec<Entry> {
+        let present = REGIMES.iter().enumerate().filter(|(rank, _)| cells.has(*rank));
+        let mut entries: Vec<_> = present.map(|(_, mark)| Entry::new(look.key(*mark), mark.name)).collect();
+        if let (Some([one, other]), true) = (cells.first_pair(), look != Look::Strip) {
+            let stripes = Mark::Stripes(look.ground(&REGIMES[one]), look.ground(&REGIMES[other]));
+            entries.push(Entry::new(stripes, "more than one motion, stripes by share"));
+        }
+        entries.extend(self.lines.iter().map(|l| Entry::new(Mark::Line(l.style.paint()), &l.label)));
+        entries
+    }
+
+    fn draw_lines(&self, svg: &mut Svg, scale: &Scale) {
+        for line in &self.lines {
+            let points: Vec<_> = line.points.iter().map(|p| scale.map(*p)).collect();
+            for piece in clip(&points, scale.frame) {
+                svg.polyline(&piece, false, &Paint::stroke(WHITE, 3.6).opacity(0.85));
+                svg.polyline(&piece, false, &line.style.paint());
+            }
+        }
+    }
+
+    /// A row per cell and regime, and one per point of each line, which has no share.
+    fn csv(&self) -> String {
+        let strip = self.y.len() < 2;
+        let mut csv = Csv::new(["regime or line", &self.x_label, &self.y_label, "share"]);
+        for cell in &self.cells {
+            for (regime, share) in &cell.shares {
+                csv.row(&[regime], [Some(cell.x), (!strip).then_some(cell.y), Some(*share)]);
+            }
+        }
+        for line in &self.lines {
+            line.points.iter().for_each(|[x, y]| csv.row(&[&line.label], [Some(*x), Some(*y), None]));
+        }
+        csv.finish()
+    }
+}
+
+figure!(PhaseDiagram);
+
+/// How cells are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Look {
+    /// Markers on pale tiles.
+    Tiles,
+    /// Coloured cells.
+    Mosaic,
+    /// Bars over one axis.
+    Strip,
+}
+
+impl Look {
+    fn of(strip: bool, (columns, rows): (usize, usize)) -> Self {
+        match strip {
+            true => Self::Strip,
+            false if columns <= TILES && rows <= TILES => Self::Tiles,
+            false => Self::Mosaic,
+        }
+    }
+
+    /// Size of the frame in pixels: cells of a handy size, whole half-pixels where there are many.
+    fn frame(self, (columns, rows): (usize, usize)) -> (f64, f64) {
+        let snapped = |cell: f64| if cell > 0.5 { (2.0 * cell).round() / 2.0 } else { cell };
+        let (columns, rows) = (columns as f64, rows as f64);
+        if self == Self::Strip {
+            return (columns * snapped(520.0 / columns).min(130.0), 150.0);
+        }
+        let (w, h) = ((500.0 / columns).min(56.0), (460.0 / rows).min(56.0));
+        let (w, h) = (w.min(1.8 * h), h.min(1.4 * w));
+        ((columns * snapped(w)).max(280.0), (rows * snapped(h)).max(160.0))
+    }
+
+    fn ground(self, mark: &RegimeMark) -> Colour {
+        if self == Self::Tiles { mark.tint() } else { mark.area }
+    }
+
+    fn key(self, mark: RegimeMark) -> Mark {
+        match self {
+            Self::Tiles => Mark::Regime(mark, mark.tint()),
+            Self::Mosaic | Self::Strip => Mark::Area(mark),
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! Words and size of a figure as somebody wants them, in place of its own.
+
+use super::error::{FigureError, Result, check_range};
+use super::figure::{Drawn, Figure};
+use super::raster::DEFAULT_SCALE;
+use std::str::FromStr;
+
+/// Title, caption and width of figures.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Style {
+    /// Title in place of the figure's own (markup; an empty one leaves the line out).
+    pub title: Option<String>,
+    /// Leaves the caption out.
+    pub no_caption: bool,
+    /// Width of the sheet; everything on it is scaled.
+    pub width: Option<Width>,
+}
+
+/// A width of a sheet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Width {
+    /// On paper, in millimetres, 10 to 2000: a PNG has 300 dots per inch.
+    Millimetres(f64),
+    /// On a screen, in pixels, 50 to 10000: a PNG has as many.
+    Pixels(f64),
+}
+
+/// Reads `86mm`, `8.6cm`, `3.4in` or `1200px`.
+impl FromStr for Width {
+    type Err = FigureError;
+
+    fn from_str(text: &str) -> Result<Self> {
+        let unknown = || FigureError::Width { text: text.to_owned() };
+        let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+        let number: f64 = digits.trim().parse().map_err(|_| unknown())?;
+        match &text[digits.len()..] {
+            "px" => check_range("width in pixels", number, 50.0, 1e4).map(|()| Self::Pixels(number)),
+            unit => {
+                let millimetres = match unit {
+                    "mm" => number,
+                    "cm" => 10.0 * number,
+                    "in" => 25.4 * number,
+                    _ => return Err(unknown()),
+                };
+                check_range("width in mm", millimetres, 10.0, 2000.0).map(|()| Self::Millimetres(millimetres))
+            }
+        }
+    }
+}
+
+impl Style {
+    /// Draws a figure with these words, at this size.
+    ///
+    /// # Errors   those of the figure
+    pub fn draw(&self, figure: &mut dyn Figure) -> Result<Drawn> {
+        let (title, caption) = figure.words();
+        if let Some(given) = &self.title {
+            title.clone_from(given);
+        }
+        if self.no_caption {
+            caption.clear();
+        }
+        let drawn = figure.drawn()?;
+        Ok(match self.width {
+            Some(width) => Drawn { svg: resized(&drawn.svg, width), ..drawn },
+            None => drawn,
+        })
+    }
+
+    /// Pixels of a PNG per unit of the SVG.
+    #[must_use]
+    pub fn png_scale(&self) -> f64 {
+        match self.width {
+            None => DEFAULT_SCALE,
+            Some(Width::Millimetres(_)) => 300.0 / 96.0, // a unit is 1/96 inch
+            Some(Width::Pixels(_)) => 1.0,
+        }
+    }
+}
+
+/// The same sheet at another size: the first tag says both its size and the part of the plane that it shows.
+fn resized(svg: &str, width: Width) -> String {
+    let sheet = || {
+        let (before, rest) = svg.split_once(" width=\"")?;
+        let (old_width, rest) = rest.split_once("\" height=\"")?;
+        let (old_height, rest) = rest.split_once('"')?;
+        let ratio = old_height.parse::<f64>().ok()? / old_width.parse::<f64>().ok()?;
+        let (size, unit) = match width {
+            Width::Millimetres(size) => (size, "mm"),
+            Width::Pixels(size) => (size, ""),
+        };
+        let height = (size * ratio * 100.0).round() / 100.0;
+        Some(format!("{before} width=\"{size}{unit}\" height=\"{height}{unit}\"{rest}"))
+    };
+    sheet().unwrap_or_else(|| svg.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ReturnMapFigure;
+
+    fn figure() -> ReturnMapFigure {
+        ReturnMapFigure {
+            title: "Own title".into(),
+            caption: vec!["Own caption.".into()],
+            points: vec![[0.0, 1.0], [1.0, 0.5]],
+            ..ReturnMapFigure::default()
+        }
+    }
+
+    #[test]
+    fn widths_have_units() {
+        let read = |text: &str| text.parse::<Width>().expect("a width");
+        assert_eq!(read("86mm"), Width::Millimetres(86.0));
+        assert_eq!(read("8.6 cm"), Width::Millimetres(86.0));
+        assert_eq!(read("3.5in"), Width::Millimetres(25.4 * 3.5));
+        assert_eq!(read("1200px"), Width::Pixels(1200.0));
+        for bad in ["86", "mm", "", "1e9mm", "-5px", "nanmm", "3furlong"] {
+            assert!(bad.parse::<Width>().is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn words_are_replaced_and_the_sheet_has_the_width() {
+        let style =
+            Style { title: Some("Another".into()), no_caption: true, width: Some(Width::Millimetres(86.0)) };
+        let drawn = style.draw(&mut figure()).expect("a figure");
+        assert!(drawn.svg.contains(">Another<") && !drawn.svg.contains("Own"), "{}", drawn.svg);
+        assert!(drawn.svg.contains(" width=\"86mm\""));
+        let png = crate::png(&drawn.svg, style.png_scale(), &[]).expect("a picture");
+        let reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().expect("a header");
+        assert_eq!(reader.info().width, 1016); // 86 mm at 300 dots per inch, rounded up
+        let plain = Style::default().draw(&mut figure()).expect("a figure");
+        assert_eq!(plain.svg, figure().svg().expect("a figure"));
+    }
+
+    #[test]
+    fn pixels_are_those_of_the_picture() {
+        let style = Style { width: Some(Width::Pixels(700.0)), ..Style::default() };
+        let drawn = style.draw(&mut figure()).expect("a figure");
+        let png = crate::png(&drawn.svg, style.png_scale(), &[]).expect("a picture");
+        let reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().expect("a header");
+        assert_eq!(reader.info().width, 700);
+    }
+}
