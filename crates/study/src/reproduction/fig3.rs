@@ -70,7 +70,7 @@ fn drawn(dataset: &Dataset, radial: &Dataset) -> Result<Vec<ReportFigure>, Error
         match name {
             "path" => figures.push(ReportFigure::new(drawn, "(a) The beginning of the path: a rosette.")),
             "return-map" => {
-                figures.push(ReportFigure::new(drawn, "(b) The return map of *x* on the paper's line."))
+                figures.push(ReportFigure::new(drawn, "(b) The return map of *x* on the paper's line."));
             }
             _ => {}
         }
