@@ -218,9 +218,6 @@ pub(crate) struct ScanOptions {
     /// Most model time that naming one motion may take; 0 is the model's default
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) budget: Option<f64>,
-    /// Fused multiply-add: faster, other last digits (the same ones on every machine)
-    #[arg(long)]
-    pub(crate) fast: bool,
     /// Output folder (default: MODEL-PRESET-scan here)
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,

@@ -1,7 +1,7 @@
-//! Vector registers against `f64`: every operation, on every instruction set of this machine, over one register and two.
+//! Vector registers against `f64`: every operation, on every instruction set of this machine.
 
 use motiform_dynamics::scalar::MOST_LANES;
-use motiform_dynamics::simd::{Arithmetic, InstructionSet, LaneKernel, run_lanes_on};
+use motiform_dynamics::simd::{InstructionSet, LaneKernel, run_lanes_on};
 use motiform_dynamics::{Bundle, Mask};
 use proptest::prelude::*;
 
@@ -16,11 +16,10 @@ struct Results {
 }
 
 /// All operations on three numbers per lane.
-struct Operations<'i, const PAIRED: bool>(&'i [[f64; MOST_LANES]; 3]);
+struct Operations<'i>(&'i [[f64; MOST_LANES]; 3]);
 
-impl<const PAIRED: bool> LaneKernel for Operations<'_, PAIRED> {
+impl LaneKernel for Operations<'_> {
     type Output = Results;
-    const PAIRED: bool = PAIRED;
 
     #[inline(always)]
     fn run<B: Bundle>(self) -> Results {
@@ -62,10 +61,9 @@ impl<const PAIRED: bool> LaneKernel for Operations<'_, PAIRED> {
 }
 
 /// The same over `f64`, one lane at a time.
-fn expected(input: &[[f64; MOST_LANES]; 3], lane: usize, fused: bool) -> ([f64; NUMBERS], [bool; MASKS]) {
+fn expected(input: &[[f64; MOST_LANES]; 3], lane: usize) -> ([f64; NUMBERS], [bool; MASKS]) {
     let [a, b, c] = input.map(|lanes| lanes[lane]);
     let mask = Mask(0b1010_0110_0101_1001);
-    let product = |x: f64, y: f64, z: f64| if fused { f64::mul_add(x, y, z) } else { x * y + z };
     let numbers = [
         a + b,
         a - b,
@@ -73,8 +71,8 @@ fn expected(input: &[[f64; MOST_LANES]; 3], lane: usize, fused: bool) -> ([f64; 
         a / b,
         a * 0.3,
         -a,
-        product(a, b, c),
-        product(c, b, a),
+        a * b + c,
+        c * b + a,
         b * a,
         a.abs(),
         a.abs().sqrt(),
@@ -103,16 +101,13 @@ fn expected(input: &[[f64; MOST_LANES]; 3], lane: usize, fused: bool) -> ([f64; 
 
 fn check(input: &[[f64; MOST_LANES]; 3]) {
     for set in InstructionSet::available() {
-        for arithmetic in [Arithmetic::Reproducible, Arithmetic::Fused] {
-            compare(input, &run_lanes_on(set, arithmetic, Operations::<false>(input)), (set, arithmetic));
-            compare(input, &run_lanes_on(set, arithmetic, Operations::<true>(input)), (set, arithmetic));
-        }
+        compare(input, &run_lanes_on(set, Operations(input)), set);
     }
 }
 
-fn compare(input: &[[f64; MOST_LANES]; 3], got: &Results, how: (InstructionSet, Arithmetic)) {
+fn compare(input: &[[f64; MOST_LANES]; 3], got: &Results, how: InstructionSet) {
     for lane in 0..got.lanes {
-        let (numbers, masks) = expected(input, lane, how.1 == Arithmetic::Fused);
+        let (numbers, masks) = expected(input, lane);
         for (i, expected) in numbers.into_iter().enumerate() {
             let got = got.numbers[i][lane];
             let same = got.to_bits() == expected.to_bits() || got.is_nan() && expected.is_nan();
@@ -177,7 +172,7 @@ fn rough_powers_are_rough_but_the_same_everywhere() {
             let input = std::array::from_fn(|lane| (0.37 * f64::from(exponent) + 0.21 * lane as f64).exp());
             let exact = |x: f64| x.powf(numerator as f64 / 256.0);
             for set in InstructionSet::available() {
-                let (got, lanes) = run_lanes_on(set, Arithmetic::Reproducible, Power(input, numerator));
+                let (got, lanes) = run_lanes_on(set, Power(input, numerator));
                 for lane in 0..lanes {
                     let alone = Bundle::rough_power(input[lane], numerator);
                     assert_eq!(got[lane].to_bits(), alone.to_bits(), "{set:?} {numerator}");

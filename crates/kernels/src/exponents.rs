@@ -4,7 +4,6 @@ use motiform_analysis::Result;
 use motiform_analysis::lyapunov::{
     Lyapunov, LyapunovSettings, TangentMember, lyapunov_in_lanes, runs_in_lanes,
 };
-use motiform_dynamics::simd::Arithmetic;
 use motiform_dynamics::{Equivariant, StepControl};
 use motiform_models::tensor::Tensor;
 use motiform_models::tensor::fourier::{DIM, FourierField, terms};
@@ -43,11 +42,5 @@ pub fn exponents_of_tensor(
         let field = FourierField::<f64, { terms::COMMON }>(tensor.field().0);
         Some(TangentMember { body: Body(*tensor), field, start, settings: *settings })
     };
-    lyapunov_in_lanes::<_, _, DIM, DIM, { DIM * (1 + DIM) }>(
-        (rtol, atol),
-        Arithmetic::Reproducible,
-        &mut member,
-        done,
-        stopped,
-    );
+    lyapunov_in_lanes::<_, _, DIM, DIM, { DIM * (1 + DIM) }>((rtol, atol), &mut member, done, stopped);
 }

@@ -3,7 +3,6 @@
 use motiform_analysis::Result;
 use motiform_analysis::regime::{Candidate, Settings, Verdict, classify_in_lanes};
 use motiform_dynamics::Model;
-use motiform_dynamics::simd::Arithmetic;
 use motiform_models::tensor::Tensor;
 use motiform_models::tensor::fourier::{DIM, FourierField, terms};
 
@@ -25,25 +24,23 @@ pub fn covering(needed: u32) -> u32 {
 
 /// Names the motion of all rows that `next` gives, whose terms must be within `covering` (a set that [`covering()`]
 /// gave); each verdict goes to `done` with the row's number. Verdicts are those of [`motiform_analysis::classify`] to the
-/// last bit (in reproducible arithmetic). When `stopped` says so, the rest is left.
+/// last bit. When `stopped` says so, the rest is left.
 pub fn classify_tensors(
     covering: u32,
     settings: &Settings,
-    arithmetic: Arithmetic,
     next: &mut dyn FnMut() -> Option<TensorRow>,
     done: &mut dyn FnMut(usize, Result<Option<Verdict>>),
     stopped: &dyn Fn() -> bool,
 ) {
     if covering == terms::COMMON {
-        classify::<{ terms::COMMON }>(settings, arithmetic, next, done, stopped);
+        classify::<{ terms::COMMON }>(settings, next, done, stopped);
     } else {
-        classify::<{ terms::ALL }>(settings, arithmetic, next, done, stopped);
+        classify::<{ terms::ALL }>(settings, next, done, stopped);
     }
 }
 
 fn classify<const TERMS: u32>(
     settings: &Settings,
-    arithmetic: Arithmetic,
     next: &mut dyn FnMut() -> Option<TensorRow>,
     done: &mut dyn FnMut(usize, Result<Option<Verdict>>),
     stopped: &dyn Fn() -> bool,
@@ -52,5 +49,5 @@ fn classify<const TERMS: u32>(
         let TensorRow { body, tensor, start } = next()?;
         Some(Candidate { body, field: FourierField::<f64, TERMS>(tensor.field().0), start })
     };
-    classify_in_lanes::<_, DIM, { 2 * DIM }>(settings, arithmetic, &mut candidate, done, stopped);
+    classify_in_lanes::<_, DIM, { 2 * DIM }>(settings, &mut candidate, done, stopped);
 }

@@ -4,15 +4,15 @@
 
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::ensemble::{StiffEnd, StiffMember, StiffPropagation, propagate_stiff};
-use motiform_dynamics::simd::{Arithmetic, InstructionSet};
+use motiform_dynamics::simd::InstructionSet;
 use motiform_dynamics::steppers::{ETDRK4, EXPONENTIAL_STEPPERS};
 use motiform_dynamics::{ExponentialOrbit, Integration as _, Outcome, Request, StepControl};
 use motiform_models::cell::{CellField, CellParameters};
 
 const BOUND: f64 = 1e3;
 
-fn how(arithmetic: Arithmetic, instructions: InstructionSet) -> StiffPropagation {
-    StiffPropagation { method: &ETDRK4, step: 0.02, arithmetic, instructions, escape_norm: BOUND, threads: 1 }
+fn how(instructions: InstructionSet) -> StiffPropagation {
+    StiffPropagation { method: &ETDRK4, step: 0.02, instructions, escape_norm: BOUND, threads: 1 }
 }
 
 /// Cells of lengths 19 to 23 with their own starts and spans, some with the variational term.
@@ -48,7 +48,7 @@ fn lanes_compute_the_bits_of_single_orbits() {
     for method in EXPONENTIAL_STEPPERS {
         for modes in [17, 18, 19, 20] {
             let members = members(37, modes, |i| 0.31 * (i % 7) as f64 + 0.013 * i as f64);
-            let how = |set| StiffPropagation { method, ..how(Arithmetic::Reproducible, set) };
+            let how = |set| StiffPropagation { method, ..how(set) };
             let single: Vec<_> = members.iter().map(|m| alone(m, &how(InstructionSet::Portable))).collect();
             for set in InstructionSet::available() {
                 for threads in [1, 2] {
@@ -61,23 +61,6 @@ fn lanes_compute_the_bits_of_single_orbits() {
     }
 }
 
-#[test]
-fn fused_lanes_agree_on_every_machine_and_nearly_with_the_others() {
-    let members = members(20, 42, |_| 10.0);
-    let exact = propagate_stiff(&members, &how(Arithmetic::Reproducible, InstructionSet::widest())).unwrap();
-    let fused: Vec<_> = InstructionSet::available()
-        .into_iter()
-        .map(|set| propagate_stiff(&members, &how(Arithmetic::Fused, set)).unwrap())
-        .collect();
-    for ends in &fused {
-        assert_eq!(bits(ends), bits(&fused[0]));
-        for (a, b) in ends.iter().zip(&exact) {
-            assert_eq!((a.outcome, a.steps), (b.outcome, b.steps));
-            assert!(a.u.iter().zip(&b.u).all(|(x, y)| (x - y).abs() < 1e-9));
-        }
-    }
-}
-
 /// One huge start, and one whose first step is not finite, among others that arrive.
 #[test]
 fn an_escaped_member_ends_as_a_single_orbit_does() {
@@ -86,7 +69,7 @@ fn an_escaped_member_ends_as_a_single_orbit_does() {
         members[i].start.iter_mut().for_each(|x| *x *= size);
     }
     for set in InstructionSet::available() {
-        let how = how(Arithmetic::Reproducible, set);
+        let how = how(set);
         let ends = propagate_stiff(&members, &how).unwrap();
         for (i, (end, member)) in ends.iter().zip(&members).enumerate() {
             let single = alone(member, &how);
@@ -103,7 +86,7 @@ fn an_escaped_member_ends_as_a_single_orbit_does() {
 
 #[test]
 fn members_that_do_not_fit_are_refused() {
-    let how = how(Arithmetic::Reproducible, InstructionSet::widest());
+    let how = how(InstructionSet::widest());
     assert_eq!(propagate_stiff::<CellField<f64>>(&[], &how), Ok(vec![]));
     let mixed: Vec<_> = members(1, 20, |_| 1.0).into_iter().chain(members(1, 21, |_| 1.0)).collect();
     assert!(propagate_stiff(&mixed, &how).is_err());

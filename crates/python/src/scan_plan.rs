@@ -51,14 +51,13 @@ impl ScanPlan {
     /// The plan of a study's scan. An axis is a name with the text of its values as on the command line, or an array;
     /// what is not given is that of the study.
     #[new]
-    #[pyo3(signature = (study, axes=None, samples=None, seed=None, budget=None, fast=None))]
+    #[pyo3(signature = (study, axes=None, samples=None, seed=None, budget=None))]
     fn new(
         study: &Study,
         axes: Option<Vec<(String, Bound<'_, PyAny>)>>,
         samples: Option<u64>,
         seed: Option<u64>,
         budget: Option<f64>,
-        fast: Option<bool>,
     ) -> PyResult<Self> {
         let mut study = study.0.clone();
         let scan = &mut study.scan;
@@ -68,7 +67,6 @@ impl ScanPlan {
         }
         scan.samples = samples.unwrap_or(scan.samples);
         scan.budget = budget.unwrap_or(scan.budget);
-        scan.fast = fast.unwrap_or(scan.fast);
         study.run.seed = seed.unwrap_or(study.run.seed);
         Inner::new(&study).map(Self).map_err(of_keywords)
     }

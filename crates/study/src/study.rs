@@ -54,13 +54,11 @@ pub struct ScanSettings {
     pub samples: u64,
     /// Most model time that naming one motion may take; 0 chooses the model's default.
     pub budget: f64,
-    /// Fused multiply-add: faster, other last digits (the same on every machine). For the tensor model with dop853.
-    pub fast: bool,
 }
 
 impl Default for ScanSettings {
     fn default() -> Self {
-        Self { axes: Vec::new(), samples: 1, budget: 0.0, fast: false }
+        Self { axes: Vec::new(), samples: 1, budget: 0.0 }
     }
 }
 
@@ -321,7 +319,6 @@ fn read_scan(study: &Study, mut table: Table<'_>) -> Result<ScanSettings, Error>
     }
     table.whole("samples", &mut scan.samples)?;
     table.number("budget", &mut scan.budget)?;
-    table.yes_or_no("fast", &mut scan.fast)?;
     table.finish()?;
     Ok(scan)
 }

@@ -125,7 +125,6 @@ mod tests {
             axes: vec![Axis::parse("gamma=0.1:0.7:5").unwrap(), Axis::parse("kappa2=0.3").unwrap()],
             samples: 4,
             budget: 12.0,
-            fast: true,
         };
         study.return_map = Some(ReturnMapSettings { y: 1.0, x_min: -2.0, x_max: 3.5, centre: true });
         study.figure =

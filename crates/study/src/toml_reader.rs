@@ -108,14 +108,6 @@ impl<'i> Table<'i> {
         Ok(())
     }
 
-    /// Takes `true` or `false` into `place`, if it is there.
-    pub(crate) fn yes_or_no(&mut self, key: &str, place: &mut bool) -> Result<(), Error> {
-        if let Some(value) = self.take(key) {
-            *place = value.value.get_ref().as_bool().ok_or_else(|| value.wrong("true or false"))?;
-        }
-        Ok(())
-    }
-
     /// Takes a whole number of at least 0 into `place`, if it is there.
     pub(crate) fn whole(&mut self, key: &str, place: &mut u64) -> Result<(), Error> {
         if let Some(value) = self.take(key) {

@@ -435,3 +435,16 @@ fn parts_that_vanish_are_counted() {
     std::fs::write(parts.path(2), "nothing").unwrap();
     assert_eq!(scan.lost(), 2);
 }
+
+/// A run with `--force` that was killed leaves a folder beside the scan; the next run removes it.
+#[test]
+fn what_a_killed_run_left_is_removed_when_a_scan_goes_on() {
+    let place = TempDir::new().unwrap();
+    let folder = place.path().join("scan");
+    drop(Scan::open(&folder, &plan(), Shard::WHOLE, Opening::New).unwrap());
+    let left = place.path().join(".scan.0123456789abcdef.partial");
+    std::fs::create_dir(&left).unwrap();
+    let scan = Scan::open(&folder, &plan(), Shard::WHOLE, Opening::Resume).unwrap();
+    assert!(!left.exists());
+    assert!(scan.swept()[0].contains("left by a run that was killed"), "{:?}", scan.swept());
+}

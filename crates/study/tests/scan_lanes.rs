@@ -10,12 +10,11 @@ use motiform_study::ScanPlan;
 use motiform_study::scan::{Axis, Classify, Evaluate};
 use std::collections::BTreeSet;
 
-fn plan(name: &str, axes: [&str; 2], samples: u64, fast: bool) -> ScanPlan {
+fn plan(name: &str, axes: [&str; 2], samples: u64) -> ScanPlan {
     let study = preset(name, |study| {
         study.scan.axes = axes.map(|text| Axis::parse(text).unwrap()).into();
         study.scan.samples = samples;
         study.scan.budget = 8000.0;
-        study.scan.fast = fast;
     });
     ScanPlan::new(&study).unwrap()
 }
@@ -50,7 +49,7 @@ fn text(verdict: &Verdict) -> String {
 
 #[test]
 fn lanes_and_single_orbits_agree_on_the_reduced_model() {
-    let plan = plan("fig1", ["kappa2=-0.22:0.22:9", "gamma=-0.16:0.12:7"], 1, false);
+    let plan = plan("fig1", ["kappa2=-0.22:0.22:9", "gamma=-0.16:0.12:7"], 1);
     let (lanes, single) = (in_lanes(&plan), one_by_one(&plan));
     for (row, (a, b)) in lanes.iter().zip(&single).enumerate() {
         assert_eq!(text(a), text(b), "row {row}");
@@ -61,7 +60,7 @@ fn lanes_and_single_orbits_agree_on_the_reduced_model() {
 
 #[test]
 fn lanes_and_single_orbits_agree_on_chaos_and_blow_up() {
-    let plan = plan("fig4", ["kappa2=0.1:0.8:8", "kappa3=0.1:0.3:2"], 2, false);
+    let plan = plan("fig4", ["kappa2=0.1:0.8:8", "kappa3=0.1:0.3:2"], 2);
     let (lanes, single) = (in_lanes(&plan), one_by_one(&plan));
     for (row, (a, b)) in lanes.iter().zip(&single).enumerate() {
         assert_eq!(text(a), text(b), "row {row}");
@@ -70,25 +69,4 @@ fn lanes_and_single_orbits_agree_on_chaos_and_blow_up() {
     for regime in [Regime::Chaotic, Regime::BlowUp, Regime::Circular] {
         assert!(seen.contains(regime.name()), "{seen:?}");
     }
-}
-
-#[test]
-fn fast_rows_do_not_depend_on_their_company() {
-    let plan = plan("fig4", ["kappa2=0.2:1.4:5", "kappa3=0.1:0.5:3"], 1, true);
-    let (together, alone) = (in_lanes(&plan), one_by_one(&plan));
-    for (row, (a, b)) in together.iter().zip(&alone).enumerate() {
-        assert_eq!(text(a), text(b), "row {row}");
-    }
-}
-
-#[test]
-fn fast_is_refused_where_there_is_no_kernel() {
-    let study = preset("fig1", |study| {
-        study.scan.axes = vec![Axis::parse("kappa2=0.1:0.2:2").unwrap()];
-        study.run.stepper = "rk4".to_owned();
-        study.run.step = Some(0.01);
-        study.scan.fast = true;
-    });
-    let message = ScanPlan::new(&study).unwrap_err().to_string();
-    assert!(message.contains("fast") && message.contains("dop853"), "{message}");
 }

@@ -8,7 +8,7 @@ use crate::symmetry::speed_beside;
 use motiform_dynamics::drive::Sink;
 use motiform_dynamics::ensemble::{Entry, InLanes, Landed, Leaving, Members, Turn, Why, run_adaptive};
 use motiform_dynamics::scalar::MOST_LANES;
-use motiform_dynamics::simd::{Arithmetic, LaneKernel, run_lanes};
+use motiform_dynamics::simd::{LaneKernel, has_lanes, run_wide};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::steppers::unrolled::Dop853;
 use motiform_dynamics::{Bundle, Equivariant, Mask, Outcome, StepControl};
@@ -27,21 +27,20 @@ pub struct TangentMember<B, F, const N: usize> {
     pub settings: LyapunovSettings,
 }
 
-/// Whether exponents with these settings are computed in lanes: DOP853 with error control.
+/// Whether exponents with these settings are computed in lanes: DOP853 with error control, on a machine that has them.
 #[must_use]
 pub fn runs_in_lanes(settings: &LyapunovSettings) -> bool {
     let Method::Explicit(tableau) = settings.method else { return false };
-    tableau.name == "dop853" && matches!(settings.control, StepControl::Adaptive { .. })
+    has_lanes() && tableau.name == "dop853" && matches!(settings.control, StepControl::Adaptive { .. })
 }
 
 /// The `K` largest exponents of every member, each handed to `done` with its number in the order that `next` gave them:
-/// the same bits as [`super::lyapunov()`] gives one by one (reproducible arithmetic). `D` must be `N (1 + K)`, the
+/// the same bits as [`super::lyapunov()`] gives one by one. `D` must be `N (1 + K)`, the
 /// members' settings must ask for `K` exponents with the same control, see [`runs_in_lanes`].
 ///
 /// A member that escapes or fails is run again alone, which says how it ended. When `stopped` says so, the rest is left.
 pub fn lyapunov_in_lanes<B, F, const N: usize, const K: usize, const D: usize>(
     control: (f64, f64),
-    arithmetic: Arithmetic,
     next: &mut dyn FnMut() -> Option<TangentMember<B, F, N>>,
     done: &mut dyn FnMut(usize, Result<Lyapunov>),
     stopped: &dyn Fn() -> bool,
@@ -49,7 +48,7 @@ pub fn lyapunov_in_lanes<B, F, const N: usize, const K: usize, const D: usize>(
     B: AsRef<dyn Equivariant>,
     F: InLanes,
 {
-    run_lanes(arithmetic, Run::<B, F, N, K, D> { control, next, done, stopped });
+    let _ = run_wide(Run::<B, F, N, K, D> { control, next, done, stopped });
 }
 
 /// The work of one thread.

@@ -2,7 +2,7 @@
 //!
 //! A [`Search`] asks for looks and exponents. Here a lane of a bundle makes each look; a search that asks for an exponent
 //! leaves its lane and waits until some tens of them can be measured together. Verdicts are those of [`super::classify()`], to
-//! the last bit of every number in them (reproducible arithmetic).
+//! the last bit of every number in them.
 
 use super::chaos::exponent_settings;
 use super::classify::{Ask, Search};
@@ -14,7 +14,7 @@ use crate::Result;
 use crate::lyapunov::{TangentMember, lyapunov_in_lanes, runs_in_lanes};
 use motiform_dynamics::drive::Sink;
 use motiform_dynamics::ensemble::{Entry, InLanes, Leaving, Members, Pace, Stepped, Turn, Why, run_adaptive};
-use motiform_dynamics::simd::{Arithmetic, LaneKernel, run_lanes};
+use motiform_dynamics::simd::{LaneKernel, run_wide};
 use motiform_dynamics::steppers::unrolled::Dop853;
 use motiform_dynamics::{Bundle, Equivariant, Mask, Orbit, Outcome, StepControl};
 use std::collections::VecDeque;
@@ -44,7 +44,6 @@ pub fn classifies_in_lanes(settings: &Settings) -> bool {
 /// so, what is under way is left.
 pub fn classify_in_lanes<F: InLanes + Clone, const N: usize, const D: usize>(
     settings: &Settings,
-    arithmetic: Arithmetic,
     next: &mut dyn FnMut() -> Option<Candidate<F, N>>,
     done: &mut dyn FnMut(usize, Result<Option<Verdict>>),
     stopped: &dyn Fn() -> bool,
@@ -53,11 +52,11 @@ pub fn classify_in_lanes<F: InLanes + Clone, const N: usize, const D: usize>(
     let mut desk =
         Desk { settings, next, done, stopped, count: 0, ready: VecDeque::new(), waiting: Vec::new() };
     loop {
-        run_lanes(arithmetic, Looks::<F, N> { desk: &mut desk });
-        if desk.waiting.is_empty() || (desk.stopped)() {
+        let ran = run_wide(Looks::<F, N> { desk: &mut desk });
+        if ran.is_none() || desk.waiting.is_empty() || (desk.stopped)() {
             return;
         }
-        desk.measure::<D>((rtol, atol), arithmetic);
+        desk.measure::<D>((rtol, atol));
     }
 }
 
@@ -127,7 +126,7 @@ impl<F: InLanes + Clone, const N: usize> Desk<'_, F, N> {
     }
 
     /// Measures the exponents of all searches that wait for one.
-    fn measure<const D: usize>(&mut self, control: (f64, f64), arithmetic: Arithmetic) {
+    fn measure<const D: usize>(&mut self, control: (f64, f64)) {
         let waiting = std::mem::take(&mut self.waiting);
         let mut left = waiting.iter();
         let mut next = || {
@@ -141,7 +140,7 @@ impl<F: InLanes + Clone, const N: usize> Desk<'_, F, N> {
         };
         let mut runs: Vec<_> = waiting.iter().map(|_| None).collect();
         let mut done = |number: usize, run| runs[number] = Some(run);
-        lyapunov_in_lanes::<_, F, N, 1, D>(control, arithmetic, &mut next, &mut done, self.stopped);
+        lyapunov_in_lanes::<_, F, N, 1, D>(control, &mut next, &mut done, self.stopped);
         for (mut parked, run) in waiting.into_iter().zip(runs) {
             let Some(run) = run else { continue }; // stopped
             let ask = run.and_then(|run| {

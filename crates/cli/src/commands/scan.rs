@@ -67,7 +67,6 @@ fn study(options: &ScanOptions) -> Result<Study, Error> {
     }
     scan.samples = options.samples.unwrap_or(scan.samples);
     scan.budget = options.budget.unwrap_or(scan.budget);
-    scan.fast |= options.fast;
     study.random = options.random.or(study.random);
     study.run.seed = options.seed.unwrap_or(study.run.seed);
     study.perturb = options.perturb.unwrap_or(study.perturb);

@@ -34,7 +34,7 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
         ));
     }
     if let Some(error) = undrawn {
-        return Err(error.context("the tables are written, the figures are not, or not all"));
+        return Err(error);
     }
     Ok(End::from(&*dataset.manifest.outcome))
 }
@@ -123,14 +123,19 @@ impl Target {
                 };
                 let (pictures, undrawn) = match drawn {
                     Ok(pictures) => (pictures, None),
-                    Err(error @ Error::Figure(_)) => (Vec::new(), Some(error.into())),
+                    Err(error @ Error::Figure(_)) => (
+                        Vec::new(),
+                        Some(
+                            anyhow::Error::new(error).context("the tables are written, the figures are not"),
+                        ),
+                    ),
                     Err(error) => return Err(error.into()),
                 };
                 let (films, unfilmed) = match film::convert(&pictures, &options.drawing.film) {
                     Ok(films) => (films, None),
-                    Err(error) => (Vec::new(), Some(error)),
+                    Err(error) => (Vec::new(), Some(error.context("all but the film is written"))),
                 };
-                let undrawn: Option<anyhow::Error> = undrawn.or(unfilmed);
+                let undrawn = undrawn.or(unfilmed);
                 for picture in pictures.into_iter().chain(films) {
                     staging.write(&picture.name, &picture.bytes)?;
                 }

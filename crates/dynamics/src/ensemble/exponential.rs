@@ -9,7 +9,7 @@ use super::lane_table::LaneTable;
 use crate::drive::drive;
 use crate::orbit::check_start;
 use crate::scalar::MOST_LANES;
-use crate::simd::{Arithmetic, InstructionSet, LaneKernel, run_lanes_on};
+use crate::simd::{InstructionSet, LaneKernel, run_lanes_on};
 use crate::steppers::ExponentialTableau;
 use crate::steppers::exponential::Node;
 use crate::{
@@ -70,8 +70,6 @@ pub struct StiffPropagation {
     pub method: &'static ExponentialTableau,
     /// Its step (the last one of a member may be shorter).
     pub step: f64,
-    /// Rounding of products and sums.
-    pub arithmetic: Arithmetic,
     /// Instructions to use, if this machine has them.
     pub instructions: InstructionSet,
     /// A state beyond this norm has escaped.
@@ -82,8 +80,7 @@ pub struct StiffPropagation {
 
 /// Runs every member to its end, over `threads` threads, each with as many at a time as there are lanes.
 ///
-/// The ends do not depend on threads or instruction set, and are those of [`ExponentialOrbit`] to the last bit
-/// (reproducible arithmetic).
+/// The ends do not depend on threads or instruction set, and are those of [`ExponentialOrbit`] to the last bit.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a step or a start that makes no sense, [`Error::Shape`] if the members differ in dimension.
@@ -98,7 +95,7 @@ pub fn propagate_stiff<F: StiffInLanes>(
         check_start(member.field.dim(), member.t_end, &member.start)?;
     }
     let queue = Queue { members, next: AtomicUsize::new(0), ends: Mutex::new(vec![None; members.len()]) };
-    let work = || run_lanes_on(how.instructions, how.arithmetic, Run { queue: &queue, how });
+    let work = || run_lanes_on(how.instructions, Run { queue: &queue, how });
     std::thread::scope(|scope| {
         for _ in 1..how.threads.min(members.len() / 8) {
             scope.spawn(work);

@@ -5,7 +5,7 @@
 //! orbits ([`Members`]): what is watched is watched in the lanes, and no orbit is stored.
 //!
 //! A lane computes the bits that [`crate::Orbit`] computes for the same member, with the same sequence of steps, for every
-//! width and instruction set (`tests/ensemble.rs`); with fused arithmetic, those that any machine computes with it.
+//! width and instruction set (`tests/ensemble.rs`).
 
 mod adaptive;
 mod clock;

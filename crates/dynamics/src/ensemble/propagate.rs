@@ -4,9 +4,9 @@ use super::{Entry, Leaving, Members, Turn, Why, run_adaptive, run_fixed};
 use crate::drive::drive;
 use crate::orbit::check_start;
 use crate::scalar::MOST_LANES;
-use crate::simd::{Arithmetic, InstructionSet, LaneKernel, run_lanes_on};
-use crate::steppers::unrolled::{Dop853, Dopri5, Method, Rk4, is_chain};
-use crate::steppers::{DOP853, DOPRI5, RK4, Tableau};
+use crate::simd::{InstructionSet, LaneKernel, run_lanes_on};
+use crate::steppers::unrolled::{Dop853, Method, Rk4};
+use crate::steppers::{DOP853, RK4, Tableau};
 use crate::{Bundle, Error, Mask, Orbit, Outcome, Request, StepControl, VectorField};
 use std::marker::PhantomData;
 use std::sync::Mutex;
@@ -64,8 +64,6 @@ pub struct Propagation {
     pub method: &'static Tableau,
     /// Its control.
     pub control: StepControl,
-    /// Rounding of products and sums.
-    pub arithmetic: Arithmetic,
     /// The instructions to use, or the widest ones if this machine does not have them.
     pub instructions: InstructionSet,
     /// A state beyond this norm has escaped.
@@ -76,14 +74,13 @@ pub struct Propagation {
 
 /// The methods that run in lanes.
 #[must_use]
-pub fn lane_methods() -> [&'static Tableau; 3] {
-    [&RK4, &DOPRI5, &DOP853]
+pub fn lane_methods() -> [&'static Tableau; 2] {
+    [&RK4, &DOP853]
 }
 
 /// Runs every member to its end: over `threads` threads, eight at a time on each.
 ///
-/// The ends do not depend on threads or instruction set, and are those of [`crate::Orbit`] to the last bit (reproducible
-/// arithmetic).
+/// The ends do not depend on threads or instruction set, and are those of [`crate::Orbit`] to the last bit.
 ///
 /// # Errors
 /// What [`StepControl::validate`] and [`Orbit::new`] refuse; [`Error::NoLanes`] for a method without lanes.
@@ -102,7 +99,6 @@ pub fn propagate<F: InLanes, const D: usize>(
     let queue = Queue { members, next: AtomicUsize::new(0), ends: Mutex::new(vec![None; members.len()]) };
     match how.method.name {
         "rk4" => queue.work_through::<Rk4>(how),
-        "dopri5" => queue.work_through::<Dopri5>(how),
         _ => queue.work_through::<Dop853>(how),
     }
     let ends = queue.ends.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -140,11 +136,7 @@ impl<F: InLanes, const D: usize> Queue<'_, F, D> {
 
     /// The work of one thread.
     fn work<M: Method>(&self, how: &Propagation) {
-        run_lanes_on(
-            how.instructions,
-            how.arithmetic,
-            Run::<F, M, D> { queue: self, how, method: PhantomData },
-        );
+        run_lanes_on(how.instructions, Run::<F, M, D> { queue: self, how, method: PhantomData });
     }
 }
 
@@ -157,7 +149,6 @@ struct Run<'q, F, M, const D: usize> {
 
 impl<F: InLanes, M: Method, const D: usize> LaneKernel for Run<'_, F, M, D> {
     type Output = ();
-    const PAIRED: bool = is_chain(M::TABLEAU);
 
     #[inline(always)]
     fn run<B: Bundle>(self) {

@@ -62,7 +62,6 @@ impl<T: Scalar, const K: usize> Dual<T, K> {
 impl<T: Scalar, const K: usize> Scalar for Dual<T, K> {
     type Real = T::Real;
     const IN_KERNEL: bool = T::IN_KERNEL;
-    const FUSED: bool = T::FUSED;
 
     #[inline(always)]
     fn constant(self, value: f64) -> Self {

@@ -6,15 +6,15 @@ use std::ops::{Add, AddAssign, Div, Index, Mul, Neg, Sub, SubAssign};
 /// `N` independent `f64`, one orbit in each lane.
 ///
 /// Every operation is the plain IEEE operation lane by lane, so lane `i` holds exactly the bits that the same computation
-/// gives over `f64`, for any `N`; with `FUSED`, those it gives over `f64` with [`Scalar::mul_add`] rounded once.
+/// gives over `f64`, for any `N`.
 ///
 /// This is the portable bundle, and the oracle of the others. Where speed matters [`crate::simd`] puts eight lanes into
 /// vector registers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
-pub struct Lanes<const N: usize, const FUSED: bool = false>(pub [f64; N]);
+pub struct Lanes<const N: usize>(pub [f64; N]);
 
-impl<const N: usize, const FUSED: bool> Lanes<N, FUSED> {
+impl<const N: usize> Lanes<N> {
     /// Lane by lane `operation(self, other)`.
     #[inline(always)]
     fn zip(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
@@ -26,7 +26,7 @@ impl<const N: usize, const FUSED: bool> Lanes<N, FUSED> {
     }
 }
 
-impl<const N: usize, const FUSED: bool> Index<usize> for Lanes<N, FUSED> {
+impl<const N: usize> Index<usize> for Lanes<N> {
     type Output = f64;
 
     fn index(&self, lane: usize) -> &f64 {
@@ -34,10 +34,9 @@ impl<const N: usize, const FUSED: bool> Index<usize> for Lanes<N, FUSED> {
     }
 }
 
-impl<const N: usize, const FUSED: bool> Scalar for Lanes<N, FUSED> {
+impl<const N: usize> Scalar for Lanes<N> {
     type Real = Self;
     const IN_KERNEL: bool = true;
-    const FUSED: bool = FUSED;
 
     #[inline(always)]
     fn constant(self, value: f64) -> Self {
@@ -47,18 +46,6 @@ impl<const N: usize, const FUSED: bool> Scalar for Lanes<N, FUSED> {
     #[inline(always)]
     fn lift(self, real: Self) -> Self {
         real
-    }
-
-    #[inline(always)]
-    fn mul_add(self, factor: Self, addend: Self) -> Self {
-        if !FUSED {
-            return self * factor + addend;
-        }
-        let mut out = self;
-        for lane in 0..N {
-            out.0[lane] = f64::mul_add(self.0[lane], factor.0[lane], addend.0[lane]);
-        }
-        out
     }
 
     #[inline(always)]
@@ -86,7 +73,7 @@ impl<const N: usize, const FUSED: bool> Scalar for Lanes<N, FUSED> {
     }
 }
 
-impl<const N: usize, const FUSED: bool> Bundle for Lanes<N, FUSED> {
+impl<const N: usize> Bundle for Lanes<N> {
     const LANES: usize = N;
 
     #[inline(always)]
@@ -146,7 +133,7 @@ impl<const N: usize, const FUSED: bool> Bundle for Lanes<N, FUSED> {
     }
 }
 
-impl<const N: usize, const FUSED: bool> Add for Lanes<N, FUSED> {
+impl<const N: usize> Add for Lanes<N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -154,7 +141,7 @@ impl<const N: usize, const FUSED: bool> Add for Lanes<N, FUSED> {
     }
 }
 
-impl<const N: usize, const FUSED: bool> Sub for Lanes<N, FUSED> {
+impl<const N: usize> Sub for Lanes<N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -162,7 +149,7 @@ impl<const N: usize, const FUSED: bool> Sub for Lanes<N, FUSED> {
     }
 }
 
-impl<const N: usize, const FUSED: bool> Mul for Lanes<N, FUSED> {
+impl<const N: usize> Mul for Lanes<N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -170,7 +157,7 @@ impl<const N: usize, const FUSED: bool> Mul for Lanes<N, FUSED> {
     }
 }
 
-impl<const N: usize, const FUSED: bool> Div for Lanes<N, FUSED> {
+impl<const N: usize> Div for Lanes<N> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
@@ -178,7 +165,7 @@ impl<const N: usize, const FUSED: bool> Div for Lanes<N, FUSED> {
     }
 }
 
-impl<const N: usize, const FUSED: bool> Mul<f64> for Lanes<N, FUSED> {
+impl<const N: usize> Mul<f64> for Lanes<N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
@@ -186,7 +173,7 @@ impl<const N: usize, const FUSED: bool> Mul<f64> for Lanes<N, FUSED> {
     }
 }
 
-impl<const N: usize, const FUSED: bool> Neg for Lanes<N, FUSED> {
+impl<const N: usize> Neg for Lanes<N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -194,14 +181,14 @@ impl<const N: usize, const FUSED: bool> Neg for Lanes<N, FUSED> {
     }
 }
 
-impl<const N: usize, const FUSED: bool> AddAssign for Lanes<N, FUSED> {
+impl<const N: usize> AddAssign for Lanes<N> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<const N: usize, const FUSED: bool> SubAssign for Lanes<N, FUSED> {
+impl<const N: usize> SubAssign for Lanes<N> {
     #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;

@@ -45,9 +45,6 @@ pub trait Scalar:
     /// Whether a value of this type lives in a kernel that was compiled for the widest instructions already.
     const IN_KERNEL: bool = false;
 
-    /// Whether [`Scalar::mul_add`] rounds once.
-    const FUSED: bool = false;
-
     /// The constant `value`, of the same kind as `self` (same lanes; derivative zero).
     fn constant(self, value: f64) -> Self;
 
@@ -60,28 +57,27 @@ pub trait Scalar:
     /// `real` as a constant: derivative zero.
     fn lift(self, real: Self::Real) -> Self;
 
-    /// `self * factor + addend`. Rounded twice, but once over bundles with fused arithmetic: here the two arithmetics differ, and
-    /// where [`Scalar::FUSED`] is asked.
+    /// `self * factor + addend`, rounded twice: never a fused operation, so that every machine computes the same bits.
     #[inline(always)]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
         self * factor + addend
     }
 
-    /// `self + (a b - c d)`, each operation rounded; or, fused, `(self + a b) - c d` in two: a complex product, summed up.
+    /// `self + (a b - c d)`: a complex product, summed up.
     #[inline(always)]
     #[must_use]
     fn add_difference(self, (a, b): (Self, Self), (c, d): (Self, Self)) -> Self {
-        if Self::FUSED { (-c).mul_add(d, a.mul_add(b, self)) } else { self + (a * b - c * d) }
+        self + (a * b - c * d)
     }
 
-    /// `self + (a b + c d)`, rounded like [`Scalar::add_difference`].
+    /// `self + (a b + c d)`.
     #[inline(always)]
     #[must_use]
     fn add_sum(self, (a, b): (Self, Self), (c, d): (Self, Self)) -> Self {
-        if Self::FUSED { c.mul_add(d, a.mul_add(b, self)) } else { self + (a * b + c * d) }
+        self + (a * b + c * d)
     }
 
-    /// `self + real * x`, rounded like [`Scalar::mul_add`].
+    /// `self + real * x`.
     fn add_scaled(self, x: Self, real: Self::Real) -> Self;
 
     /// Sine and cosine (`self` in rad), by `libm` lane by lane: the same bits on every machine.

@@ -2,18 +2,16 @@
 //!
 //! Two kinds of work are compiled once for each instruction set and dispatched here:
 //! * a [`Kernel`] is plain loops over `f64`, left to the compiler;
-//! * a [`LaneKernel`] is written over a [`Bundle`]: one orbit in each lane, as many as a register or two hold; one lane where there are no vector
+//! * a [`LaneKernel`] is written over a [`Bundle`]: one orbit in each lane; one lane where there are no vector
 //!   registers to speak of.
 //!
-//! [`Arithmetic::Reproducible`] never fuses a multiplication with an addition, so every machine and every width computes
-//! the same bits. [`Arithmetic::Fused`] does so wherever [`crate::Scalar::mul_add`] is written: other last bits than the
-//! reproducible ones, but again the same on every machine, for a fused operation is exactly rounded.
+//! A multiplication is never fused with an addition, so every machine and every width computes the same bits.
 
 mod packed;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-pub use packed::{Packed, Pair, Registers};
+pub use packed::{Packed, Registers};
 
 use crate::scalar::{Bundle, Lanes};
 
@@ -32,22 +30,8 @@ pub trait LaneKernel {
     /// What it computes.
     type Output;
 
-    /// Whether two registers side by side are faster than one: where the work fits into few registers and waits for
-    /// itself.
-    const PAIRED: bool = false;
-
     /// Does the work with bundles of type `B`.
     fn run<B: Bundle>(self) -> Self::Output;
-}
-
-/// Whether products and sums are rounded one by one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Arithmetic {
-    /// Every operation is rounded: the bits of a single orbit over `f64`.
-    #[default]
-    Reproducible,
-    /// `a b + c` is rounded once: faster, other last bits.
-    Fused,
 }
 
 /// The instruction sets that lanes are compiled for.
@@ -104,21 +88,33 @@ pub fn run<K: Kernel>(kernel: K) -> K::Output {
 }
 
 /// Runs a lane kernel with the widest instructions there are.
-///
-/// On a machine without fused instructions [`Arithmetic::Fused`] gives the same bits as on any other, slowly.
-pub fn run_lanes<K: LaneKernel>(arithmetic: Arithmetic, kernel: K) -> K::Output {
-    run_lanes_on(InstructionSet::widest(), arithmetic, kernel)
+pub fn run_lanes<K: LaneKernel>(kernel: K) -> K::Output {
+    run_lanes_on(InstructionSet::widest(), kernel)
+}
+
+/// As [`run_lanes`] where there are vector registers; `None`, and nothing done, where there are none: single orbits give the same
+/// bits, and no kernel needs to be compiled for one lane.
+pub fn run_wide<K: LaneKernel>(kernel: K) -> Option<K::Output> {
+    #[cfg(target_arch = "x86_64")]
+    if has_lanes() {
+        return Some(x86::run_lanes(InstructionSet::widest(), kernel));
+    }
+    let _ = kernel;
+    None
+}
+
+/// Whether this machine has vector registers that lanes are compiled for.
+#[must_use]
+pub fn has_lanes() -> bool {
+    InstructionSet::widest() > InstructionSet::Portable
 }
 
 /// As [`run_lanes`], with the instructions of `set`, or the widest ones if this machine does not have them.
-pub fn run_lanes_on<K: LaneKernel>(set: InstructionSet, arithmetic: Arithmetic, kernel: K) -> K::Output {
+pub fn run_lanes_on<K: LaneKernel>(set: InstructionSet, kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
     if set.min(InstructionSet::widest()) > InstructionSet::Portable {
-        return x86::run_lanes(set, arithmetic, kernel);
+        return x86::run_lanes(set, kernel);
     }
     let _ = set;
-    match arithmetic {
-        Arithmetic::Reproducible => kernel.run::<Lanes<1, false>>(),
-        Arithmetic::Fused => kernel.run::<Lanes<1, true>>(),
-    }
+    kernel.run::<Lanes<1>>()
 }

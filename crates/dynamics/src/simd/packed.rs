@@ -24,8 +24,6 @@ pub trait Registers: Copy + Send + Sync + 'static {
     fn mul(self, other: Self) -> Self;
     /// `a / b`.
     fn div(self, other: Self) -> Self;
-    /// `a b + c`, rounded once.
-    fn fused(self, factor: Self, addend: Self) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
     /// Absolute value.
@@ -42,96 +40,12 @@ pub trait Registers: Copy + Send + Sync + 'static {
     fn select(mask: u16, a: Self, b: Self) -> Self;
 }
 
-/// Two registers side by side: twice the lanes, and twice the work that does not wait for itself.
-#[derive(Clone, Copy)]
-pub struct Pair<R>(R, R);
-
-impl<R: Registers> Registers for Pair<R> {
-    const LANES: usize = 2 * R::LANES;
-
-    #[inline(always)]
-    fn load(lanes: &[f64]) -> Self {
-        Self(R::load(lanes), R::load(&lanes[R::LANES..]))
-    }
-
-    #[inline(always)]
-    fn store(self, lanes: &mut [f64]) {
-        self.0.store(lanes);
-        self.1.store(&mut lanes[R::LANES..]);
-    }
-
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        Self(R::splat(value), R::splat(value))
-    }
-
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self(self.0.add(other.0), self.1.add(other.1))
-    }
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self(self.0.sub(other.0), self.1.sub(other.1))
-    }
-
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Self(self.0.mul(other.0), self.1.mul(other.1))
-    }
-
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        Self(self.0.div(other.0), self.1.div(other.1))
-    }
-
-    #[inline(always)]
-    fn fused(self, factor: Self, addend: Self) -> Self {
-        Self(self.0.fused(factor.0, addend.0), self.1.fused(factor.1, addend.1))
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(self.0.sqrt(), self.1.sqrt())
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self(self.0.abs(), self.1.abs())
-    }
-
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Self(self.0.max(other.0), self.1.max(other.1))
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Self(self.0.min(other.0), self.1.min(other.1))
-    }
-
-    #[inline(always)]
-    fn less(self, other: Self) -> u16 {
-        self.0.less(other.0) | self.1.less(other.1) << R::LANES
-    }
-
-    #[inline(always)]
-    fn at_most(self, other: Self) -> u16 {
-        self.0.at_most(other.0) | self.1.at_most(other.1) << R::LANES
-    }
-
-    #[inline(always)]
-    fn select(mask: u16, a: Self, b: Self) -> Self {
-        Self(R::select(mask, a.0, b.0), R::select(mask >> R::LANES, a.1, b.1))
-    }
-}
-
-/// Orbits side by side in vector registers; `FUSED` says whether [`Scalar::mul_add`] rounds once.
+/// Orbits side by side in vector registers.
 #[derive(Clone, Copy)]
 #[repr(transparent)]
-pub struct Packed<R, const FUSED: bool>(R);
+pub struct Packed<R>(R);
 
-impl<R: Registers, const FUSED: bool> fmt::Debug for Packed<R, FUSED> {
+impl<R: Registers> fmt::Debug for Packed<R> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut lanes = [0.0; MOST_LANES];
         self.0.store(&mut lanes);
@@ -139,10 +53,9 @@ impl<R: Registers, const FUSED: bool> fmt::Debug for Packed<R, FUSED> {
     }
 }
 
-impl<R: Registers, const FUSED: bool> Scalar for Packed<R, FUSED> {
+impl<R: Registers> Scalar for Packed<R> {
     type Real = Self;
     const IN_KERNEL: bool = true;
-    const FUSED: bool = FUSED;
 
     #[inline(always)]
     fn constant(self, value: f64) -> Self {
@@ -157,11 +70,6 @@ impl<R: Registers, const FUSED: bool> Scalar for Packed<R, FUSED> {
     #[inline(always)]
     fn scale(self, real: Self) -> Self {
         real * self
-    }
-
-    #[inline(always)]
-    fn mul_add(self, factor: Self, addend: Self) -> Self {
-        if FUSED { Self(self.0.fused(factor.0, addend.0)) } else { self * factor + addend }
     }
 
     #[inline(always)]
@@ -186,7 +94,7 @@ impl<R: Registers, const FUSED: bool> Scalar for Packed<R, FUSED> {
     }
 }
 
-impl<R: Registers, const FUSED: bool> Bundle for Packed<R, FUSED> {
+impl<R: Registers> Bundle for Packed<R> {
     const LANES: usize = R::LANES;
 
     #[inline(always)]
@@ -240,7 +148,7 @@ impl<R: Registers, const FUSED: bool> Bundle for Packed<R, FUSED> {
     }
 }
 
-impl<R: Registers, const FUSED: bool> Add for Packed<R, FUSED> {
+impl<R: Registers> Add for Packed<R> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -248,7 +156,7 @@ impl<R: Registers, const FUSED: bool> Add for Packed<R, FUSED> {
     }
 }
 
-impl<R: Registers, const FUSED: bool> Sub for Packed<R, FUSED> {
+impl<R: Registers> Sub for Packed<R> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -256,7 +164,7 @@ impl<R: Registers, const FUSED: bool> Sub for Packed<R, FUSED> {
     }
 }
 
-impl<R: Registers, const FUSED: bool> Mul for Packed<R, FUSED> {
+impl<R: Registers> Mul for Packed<R> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -264,7 +172,7 @@ impl<R: Registers, const FUSED: bool> Mul for Packed<R, FUSED> {
     }
 }
 
-impl<R: Registers, const FUSED: bool> Div for Packed<R, FUSED> {
+impl<R: Registers> Div for Packed<R> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
@@ -272,7 +180,7 @@ impl<R: Registers, const FUSED: bool> Div for Packed<R, FUSED> {
     }
 }
 
-impl<R: Registers, const FUSED: bool> Mul<f64> for Packed<R, FUSED> {
+impl<R: Registers> Mul<f64> for Packed<R> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
@@ -280,7 +188,7 @@ impl<R: Registers, const FUSED: bool> Mul<f64> for Packed<R, FUSED> {
     }
 }
 
-impl<R: Registers, const FUSED: bool> Neg for Packed<R, FUSED> {
+impl<R: Registers> Neg for Packed<R> {
     type Output = Self;
     /// `-0 - a`, which is `-a` for every number.
     #[inline(always)]
@@ -289,14 +197,14 @@ impl<R: Registers, const FUSED: bool> Neg for Packed<R, FUSED> {
     }
 }
 
-impl<R: Registers, const FUSED: bool> AddAssign for Packed<R, FUSED> {
+impl<R: Registers> AddAssign for Packed<R> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<R: Registers, const FUSED: bool> SubAssign for Packed<R, FUSED> {
+impl<R: Registers> SubAssign for Packed<R> {
     #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;

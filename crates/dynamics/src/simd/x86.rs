@@ -10,7 +10,7 @@
 
 #![allow(unsafe_code, reason = "vector instructions; see above")]
 
-use super::{Arithmetic, InstructionSet, Kernel, LaneKernel, Packed, Pair, Registers};
+use super::{InstructionSet, Kernel, LaneKernel, Packed, Registers};
 use std::arch::x86_64::*;
 use std::sync::OnceLock;
 
@@ -47,32 +47,22 @@ fn loops<K: Kernel>(kernel: K) -> K::Output {
 }
 
 /// Runs a lane kernel with the instructions of `set`, or the widest there are; one of the two must not be portable.
-pub(super) fn run_lanes<K: LaneKernel>(set: InstructionSet, arithmetic: Arithmetic, kernel: K) -> K::Output {
-    match (set.min(widest()), arithmetic) {
+pub(super) fn run_lanes<K: LaneKernel>(set: InstructionSet, kernel: K) -> K::Output {
+    match set.min(widest()) {
         // SAFETY: `widest` has found the instructions of both functions.
-        (InstructionSet::Avx512, Arithmetic::Reproducible) => unsafe { avx512::<K, false>(kernel) },
-        (InstructionSet::Avx512, Arithmetic::Fused) => unsafe { avx512::<K, true>(kernel) },
-        (_, Arithmetic::Reproducible) => unsafe { avx2::<K, false>(kernel) },
-        (_, Arithmetic::Fused) => unsafe { avx2::<K, true>(kernel) },
+        InstructionSet::Avx512 => unsafe { avx512(kernel) },
+        _ => unsafe { avx2(kernel) },
     }
 }
 
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn avx512<K: LaneKernel, const FUSED: bool>(kernel: K) -> K::Output {
-    if const { K::PAIRED } {
-        kernel.run::<Packed<Pair<Zmm>, FUSED>>()
-    } else {
-        kernel.run::<Packed<Zmm, FUSED>>()
-    }
+fn avx512<K: LaneKernel>(kernel: K) -> K::Output {
+    kernel.run::<Packed<Zmm>>()
 }
 
 #[target_feature(enable = "avx2,fma")]
-fn avx2<K: LaneKernel, const FUSED: bool>(kernel: K) -> K::Output {
-    if const { K::PAIRED } {
-        kernel.run::<Packed<Pair<Ymm>, FUSED>>()
-    } else {
-        kernel.run::<Packed<Ymm, FUSED>>()
-    }
+fn avx2<K: LaneKernel>(kernel: K) -> K::Output {
+    kernel.run::<Packed<Ymm>>()
 }
 
 /// One 512-bit register.
@@ -118,11 +108,6 @@ impl Registers for Zmm {
     #[inline(always)]
     fn div(self, other: Self) -> Self {
         unsafe { Self(_mm512_div_pd(self.0, other.0)) }
-    }
-
-    #[inline(always)]
-    fn fused(self, factor: Self, addend: Self) -> Self {
-        unsafe { Self(_mm512_fmadd_pd(self.0, factor.0, addend.0)) }
     }
 
     #[inline(always)]
@@ -206,11 +191,6 @@ impl Registers for Ymm {
     #[inline(always)]
     fn div(self, other: Self) -> Self {
         unsafe { Self(_mm256_div_pd(self.0, other.0)) }
-    }
-
-    #[inline(always)]
-    fn fused(self, factor: Self, addend: Self) -> Self {
-        unsafe { Self(_mm256_fmadd_pd(self.0, factor.0, addend.0)) }
     }
 
     #[inline(always)]

@@ -5,7 +5,7 @@
 //! compiler keeps them in registers, runs out of these and moves them to and fro (docs/lanes.md).
 
 use super::tableau::{ErrorEstimate, Tableau, Term};
-use super::{DOP853, DOPRI5, RK4};
+use super::{DOP853, RK4};
 use crate::control::Tolerance;
 use crate::{Bundle, VectorField};
 
@@ -20,13 +20,6 @@ pub trait Method: Copy + Send + Sync + 'static {
 pub struct Rk4;
 impl Method for Rk4 {
     const TABLEAU: &'static Tableau = &RK4;
-}
-
-/// [`DOPRI5`] as a type.
-#[derive(Clone, Copy, Debug)]
-pub struct Dopri5;
-impl Method for Dopri5 {
-    const TABLEAU: &'static Tableau = &DOPRI5;
 }
 
 /// [`DOP853`] as a type.

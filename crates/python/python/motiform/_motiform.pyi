@@ -92,7 +92,6 @@ class ScanPlan:
         samples: int | None = None,
         seed: int | None = None,
         budget: float | None = None,
-        fast: bool | None = None,
     ) -> None: ...
     @staticmethod
     def of_json(text: str) -> ScanPlan: ...

@@ -33,7 +33,6 @@ def scan(
     random: Random | None = None,
     seed: int | None = None,
     budget: float | None = None,
-    fast: bool | None = None,
     why: bool = False,
     threads: int | None = None,
     executor: Executor | None = None,
@@ -59,8 +58,6 @@ def scan(
         directions, the norm log-uniform between these (a hundredth of the model's typical size to all of it for several).
     budget
         Most model time for naming one motion; 0 is the model's default.
-    fast
-        Fused multiply-add: faster, other last digits (the same on every machine).
     why
         Keep the evidence of each row as text: it takes more memory than all numbers.
     threads
@@ -85,7 +82,7 @@ def scan(
     """
     made = None if axes is None else [(name, _axis(name, values)) for name, values in axes.items()]
     study = model._study if random is None else model._study.with_(None, None, {"random": random})
-    plan = _motiform.ScanPlan(study, made, samples, seed, budget, fast)
+    plan = _motiform.ScanPlan(study, made, samples, seed, budget)
     xr.Dataset({"first": ("x", [0])})  # xarray imports much at its first dataset: not when Ctrl-C waits for one
     with Bar(progress, plan.cells, "cells") as bar:
         if out is not None:

@@ -66,7 +66,7 @@ pub(super) fn remove(path: &Path) {
 }
 
 /// Removes what killed runs left on their way to `target`, and puts back what one of them was about to replace. Says what it did.
-pub(super) fn sweep(target: &Path) -> Vec<String> {
+pub(crate) fn sweep(target: &Path) -> Vec<String> {
     let folder = target.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let Some(name) = target.file_name() else { return Vec::new() };
     let name = name.to_string_lossy();

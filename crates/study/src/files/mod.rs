@@ -13,5 +13,6 @@ mod staging;
 pub use csv_table::table_to_csv;
 pub use folder::{Format, read_dataset, read_table_file, write_dataset, write_table};
 pub use hdf5::{Fields, read_fields, write_fields};
+pub(crate) use leftovers::sweep;
 pub use parquet_input::decoding;
 pub use staging::{Staging, replace_file};

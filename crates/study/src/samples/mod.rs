@@ -13,7 +13,6 @@ pub use escapes::{EscapeLimits, Escapes};
 use motiform_analysis::regime::{Settings, Verdict, classifies_in_lanes};
 use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings};
 use motiform_dynamics::Outcome;
-use motiform_dynamics::simd::Arithmetic;
 use motiform_kernels::{TensorRow, classify_tensors, covering, exponents_of_tensor, has_exponents};
 use motiform_models::tensor::Tensor;
 pub use shares::{Basins, MotionShare, Starts};
@@ -74,7 +73,7 @@ fn classify_in_lanes(plan: &Plan, tensor: &Tensor, settings: &Settings, asked: &
     };
     let stopped = || asked.crowd.monitor.stopped();
     let terms = covering(tensor.terms());
-    classify_tensors(terms, settings, Arithmetic::Reproducible, &mut next, &mut done, &stopped);
+    classify_tensors(terms, settings, &mut next, &mut done, &stopped);
 }
 
 /// Exponents of many orbits.

@@ -50,20 +50,6 @@ fn one_by_one<E: Evaluate + ?Sized>(
     }
 }
 
-/// One row through the kernel that all rows of the plan go through: fused arithmetic exists only there.
-fn alone_in_lanes(
-    evaluate: &Classify,
-    plan: &ScanPlan,
-    row: (usize, usize),
-    stop: &dyn Monitor,
-) -> Result<Option<Verdict>, Error> {
-    let (mut row, mut verdict) = (Some(row), Ok(None));
-    let mut next = || row.take();
-    let mut done = |_: usize, found| verdict = found;
-    evaluate.evaluate_all(plan, &mut next, &mut done, stop);
-    verdict
-}
-
 /// Names the motion of each row.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Classify;
@@ -77,9 +63,6 @@ impl Evaluate for Classify {
         stop: &dyn Monitor,
     ) -> Result<Option<Verdict>, Error> {
         let c = &plan.computation;
-        if c.fast {
-            return alone_in_lanes(self, plan, (cell, sample), stop);
-        }
         let model = plan.model_of(cell)?;
         let start = plan.start(cell, sample, model.as_ref())?;
         let bounds = (c.escape_norm, c.max_steps);

@@ -6,7 +6,6 @@ use crate::Error;
 use crate::analyse::settings_of;
 use crate::simulate::Monitor;
 use motiform_analysis::regime::{Settings, Verdict, classifies_in_lanes};
-use motiform_dynamics::simd::Arithmetic;
 use motiform_kernels::{TensorRow, classify_tensors, covering};
 use motiform_models::tensor::Tensor;
 use std::cell::RefCell;
@@ -26,11 +25,6 @@ pub(super) fn classify(
     let Some((settings, terms)) = kernel(plan) else { return false };
     Work { single, plan, settings, terms: covering(terms), next, done, stop }.run();
     true
-}
-
-/// Whether the rows of a plan are classified in lanes.
-pub(super) fn has_kernel(plan: &ScanPlan) -> bool {
-    kernel(plan).is_some()
 }
 
 /// The settings, and the terms that the corners of the plan need; `None` where there is no kernel.
@@ -65,8 +59,6 @@ impl Work<'_> {
     /// Runs the kernel with these terms; a row that has others is classified by itself.
     fn run(self) {
         let Self { single, plan, settings, terms, next, done, stop } = self;
-        let fast = plan.computation.fast;
-        let arithmetic = if fast { Arithmetic::Fused } else { Arithmetic::Reproducible };
         let done = RefCell::new(done);
         // Numbers of the rows in lanes, by the numbers that the lanes give them.
         let rows = RefCell::new(BTreeMap::new());
@@ -91,7 +83,7 @@ impl Work<'_> {
             }
         };
         let stopped = || stop.stopped();
-        classify_tensors(terms, &settings, arithmetic, &mut candidate, &mut decided, &stopped);
+        classify_tensors(terms, &settings, &mut candidate, &mut decided, &stopped);
     }
 }
 

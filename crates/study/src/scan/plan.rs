@@ -1,6 +1,6 @@
 //! A plan of a scan: every number that its rows depend on, and nothing else.
 
-use super::{Axis, lanes};
+use super::Axis;
 use crate::plan::{
     Control, LONGEST, Named, check, check_no_noise, check_stability, check_steps, control, sha256_hex,
     stepper,
@@ -61,9 +61,6 @@ pub struct ScanComputation {
     pub escape_norm: f64,
     /// Most model time that one evaluation may take; 0 is the evaluation's default.
     pub budget: f64,
-    /// Fused multiply-add. Plans without it are those of earlier versions, to the byte.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub fast: bool,
 }
 
 impl ScanPlan {
@@ -100,15 +97,10 @@ impl ScanPlan {
             max_steps: run.max_steps,
             escape_norm: run.escape_norm,
             budget: scan.budget,
-            fast: scan.fast,
         };
         let title = crate::titles::of_scan(study, info);
         let plan = Self { name: study.name.clone(), title, computation };
         plan.check_cells()?;
-        if scan.fast && !lanes::has_kernel(&plan) {
-            let remedy = "only the tensor model with dop853 and a tolerance has fused kernels: leave it out";
-            return Err(Error::Setting { key: "fast", value: "true".to_owned(), remedy });
-        }
         Ok(plan)
     }
 

@@ -6,6 +6,7 @@ use super::part::{PARTIAL, PartError};
 use super::work::{Ended, Store, compute};
 use super::{Parts, Row, ScanPlan, Shard};
 use crate::Error;
+use crate::files::sweep;
 use crate::simulate::Monitor;
 use std::fs::{self, File};
 use std::path::Path;
@@ -41,9 +42,10 @@ impl Scan {
     /// [`Error::ScanExists`], [`Error::NotOurs`], [`Error::NoScan`], [`Error::OtherScan`], [`Error::Busy`],
     /// [`Error::Unwritable`], [`Error::WriteFailed`].
     pub fn open(path: &Path, plan: &ScanPlan, shard: Shard, opening: Opening) -> Result<Self, Error> {
+        let mut swept = sweep(path);
         let there = path.symlink_metadata().is_ok();
         if there && opening == Opening::Resume {
-            return Self::resume(path, plan, shard);
+            return Ok(Self { swept, ..Self::resume(path, plan, shard)? });
         }
         if there && !ScanFolder::is_one(path) {
             return Err(Error::NotOurs { path: path.to_owned() });
@@ -54,7 +56,7 @@ impl Scan {
         let replaced = if there { Some(lock(path, path)?) } else { None };
         let staging = stage(path, plan, there)?;
         let new = lock(staging.path(), path)?;
-        let swept = staging.swept().to_vec();
+        swept.extend_from_slice(staging.swept());
         staging.commit()?;
         let whole = vec![false; plan.parts()];
         Ok(Self {
