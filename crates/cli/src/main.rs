@@ -45,7 +45,7 @@ fn prepare() {
     }
     let shown = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
-        if !motiform_study::files::decoding() {
+        if !motiform_files::decoding() {
             shown(panic);
         }
     }));

@@ -1,7 +1,7 @@
 //! A progress bar with rate and remaining time for what takes longer than two seconds, and Ctrl-C.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-use motiform_study::simulate::Monitor;
+use motiform_lab::simulate::Monitor;
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};

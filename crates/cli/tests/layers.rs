@@ -6,25 +6,48 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::process::Command;
 
 /// Each crate, and the crates below it that it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &[&str]); 10] = [
+const LAYERS: [(&str, &[&str]); 13] = [
     ("motiform-dynamics", &[]),
     ("motiform-models", &["motiform-dynamics"]),
     ("motiform-analysis", &["motiform-dynamics"]),
     ("motiform-kernels", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
+    ("motiform-study", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
+    ("motiform-files", &["motiform-dynamics", "motiform-models", "motiform-study"]),
     ("motiform-figures", &[]),
     (
-        "motiform-study",
+        "motiform-lab",
         &[
             "motiform-analysis",
             "motiform-dynamics",
             "motiform-figures",
+            "motiform-files",
             "motiform-kernels",
             "motiform-models",
+            "motiform-study",
+        ],
+    ),
+    (
+        "motiform-paper",
+        &[
+            "motiform-analysis",
+            "motiform-dynamics",
+            "motiform-figures",
+            "motiform-lab",
+            "motiform-models",
+            "motiform-study",
         ],
     ),
     (
         "motiform-explorer",
-        &["motiform-analysis", "motiform-dynamics", "motiform-figures", "motiform-models", "motiform-study"],
+        &[
+            "motiform-analysis",
+            "motiform-dynamics",
+            "motiform-figures",
+            "motiform-files",
+            "motiform-lab",
+            "motiform-models",
+            "motiform-study",
+        ],
     ),
     (
         "motiform",
@@ -33,11 +56,25 @@ const LAYERS: [(&str, &[&str]); 10] = [
             "motiform-dynamics",
             "motiform-explorer",
             "motiform-figures",
+            "motiform-files",
+            "motiform-lab",
+            "motiform-models",
+            "motiform-paper",
+            "motiform-study",
+        ],
+    ),
+    (
+        "motiform-py",
+        &[
+            "motiform-analysis",
+            "motiform-dynamics",
+            "motiform-figures",
+            "motiform-files",
+            "motiform-lab",
             "motiform-models",
             "motiform-study",
         ],
     ),
-    ("motiform-py", &["motiform-analysis", "motiform-dynamics", "motiform-models", "motiform-study"]),
     ("xtask", &[]),
 ];
 

@@ -1,9 +1,10 @@
 //! What the page begins with: the registry, and for each preset where to look and how fast.
 
 use crate::protocol::SectionKind;
+use motiform_lab::registry;
 use motiform_models::ModelInfo;
 use motiform_study::study::ReturnMapSettings;
-use motiform_study::{Error, Study, presets, registry};
+use motiform_study::{Error, Study, presets};
 use serde_json::{Value, json};
 
 /// A side of a plane of parameters: name, low, high.

@@ -1,6 +1,6 @@
 //! A desk: one thread, and the last job put on it. Whatever is put there makes what lay there stale, at once.
 
-use motiform_study::simulate::Monitor;
+use motiform_lab::simulate::Monitor;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;

@@ -2,6 +2,7 @@
 
 use crate::answers::{Answers, Gone};
 use motiform_figures::{DEFAULT_SCALE, png};
+use motiform_lab::draw::undrawable;
 use motiform_study::Error;
 use std::sync::mpsc::{SyncSender, TrySendError, sync_channel};
 use std::thread::JoinHandle;
@@ -77,7 +78,9 @@ fn deliver(order: Order, answers: &Answers) -> Result<(), Gone> {
     let Order { id, subject, what, make } = order;
     let ending = what.rsplit('.').next().unwrap_or_default();
     let content = make().and_then(|made| match made {
-        Some(Made::Svg(svg)) if ending == "png" => Ok(Some(png(&svg, DEFAULT_SCALE, &[])?)),
+        Some(Made::Svg(svg)) if ending == "png" => {
+            Ok(Some(png(&svg, DEFAULT_SCALE, &[]).map_err(undrawable)?))
+        }
         Some(Made::Svg(svg)) => Ok(Some(svg.into_bytes())),
         Some(Made::Bytes(bytes)) => Ok(Some(bytes)),
         None => Ok(None),

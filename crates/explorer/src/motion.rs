@@ -5,9 +5,10 @@ use crate::desk::{Current, Desk, lock};
 use crate::map::numbers;
 use motiform_analysis::Estimate;
 use motiform_analysis::regime::Regime;
-use motiform_study::scan::Row;
-use motiform_study::simulate::Monitor;
-use motiform_study::{Plan, analyse};
+use motiform_lab::analyse;
+use motiform_lab::scan::Row;
+use motiform_lab::simulate::Monitor;
+use motiform_study::Plan;
 use serde_json::{Value, json};
 use std::sync::{Arc, Mutex};
 

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 mod common;
-#[path = "../../study/tests/common/mutate.rs"]
+#[path = "../../lab/tests/common/mutate.rs"]
 mod mutate;
 
 use common::{Page, Running};

@@ -5,9 +5,10 @@
 mod common;
 
 use common::{Page, Running};
+use motiform_lab::analyse;
 use motiform_models::ModelInfo;
 use motiform_study::presets::PRESETS;
-use motiform_study::{Plan, Study, analyse, presets};
+use motiform_study::{Plan, Study, presets};
 use serde_json::Value;
 use std::time::Duration;
 use tungstenite::Message;

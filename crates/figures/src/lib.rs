@@ -33,6 +33,7 @@ mod pdf;
 mod phase_diagram;
 mod picture;
 mod raster;
+pub mod report;
 mod return_map;
 mod series;
 mod simplify;

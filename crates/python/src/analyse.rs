@@ -5,7 +5,7 @@ use crate::run::{Columns, TableArrays};
 use crate::study::{Study, plan};
 use crate::watch::Watch;
 use motiform_dynamics::Direction;
-use motiform_study::samples::{self, Basins, Escapes, Samples};
+use motiform_lab::samples::{self, Basins, Escapes, Samples};
 use motiform_study::{Error, Plan, Random};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
@@ -37,9 +37,8 @@ pub(crate) fn classify(
 ) -> PyResult<String> {
     let perturbed = study.0.perturbed().map_err(python)?.0;
     let plan = Plan::new(&perturbed).map_err(python)?;
-    let verdict = answer(Watch::here(py, progress, |monitor| {
-        motiform_study::analyse::classify(&plan, budget, monitor)
-    }))?;
+    let verdict =
+        answer(Watch::here(py, progress, |monitor| motiform_lab::analyse::classify(&plan, budget, monitor)))?;
     let mut entry = serde_json::to_value(&verdict).map_err(of_json)?;
     entry["accuracy"] = accuracy(&plan)?;
     Ok(entry.to_string())
@@ -94,7 +93,7 @@ pub(crate) fn lyapunov(
 ) -> PyResult<String> {
     let plan = plan(study).map_err(python)?;
     let found = answer(Watch::here(py, progress, |monitor| {
-        motiform_study::analyse::lyapunov(&plan, count, (transient, t_end), monitor).map(Some)
+        motiform_lab::analyse::lyapunov(&plan, count, (transient, t_end), monitor).map(Some)
     }))?;
     let text = serde_json::to_string(&json!({
         "accuracy": accuracy(&plan)?,
@@ -121,7 +120,7 @@ pub(crate) fn equilibria(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
     let found = answer(Watch::here(py, progress, |monitor| {
-        motiform_study::equilibria::equilibria(&plan(study)?, starts, monitor)
+        motiform_lab::equilibria::equilibria(&plan(study)?, starts, monitor)
     }))?;
     serde_json::to_string(&found).map_err(of_json)
 }
@@ -153,7 +152,7 @@ pub(crate) fn section(
     let mut study = study.clone();
     study.0.run.dt_out = 0.0; // there are no rows: those of a preset may be too many for this span
     let (table, outcome) = answer(Watch::here(py, progress, |monitor| {
-        motiform_study::section::section(&plan(&study)?, (coordinate, value), direction, monitor).map(Some)
+        motiform_lab::section::section(&plan(&study)?, (coordinate, value), direction, monitor).map(Some)
     }))?;
     let ended = serde_json::to_string(&outcome).map_err(of_json)?;
     Ok((Columns::new(py, table)?.parts(py), (ended, outcome.is_complete(), outcome.to_string())))

@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 /// Rates of a study's model in its coordinates.
 #[pyclass(frozen, module = "motiform._motiform")]
 pub(crate) struct Flow {
-    flow: Mutex<motiform_study::flow::Flow<Box<dyn Model>>>,
+    flow: Mutex<motiform_lab::flow::Flow<Box<dyn Model>>>,
 }
 
 #[pymethods]
@@ -20,7 +20,7 @@ impl Flow {
     fn new(study: &Study) -> PyResult<Self> {
         let values = study.0.values().map_err(python)?;
         let model = study.0.info().map_err(python)?.build(&values).map_err(|error| python(error.into()))?;
-        Ok(Self { flow: Mutex::new(motiform_study::flow::Flow::new(model)) })
+        Ok(Self { flow: Mutex::new(motiform_lab::flow::Flow::new(model)) })
     }
 
     /// The rates of many states, (state, entry); the entries are the coordinates, or these and `x, y`.

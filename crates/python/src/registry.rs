@@ -6,5 +6,5 @@ use pyo3::prelude::*;
 /// The registry as JSON.
 #[pyfunction]
 pub(crate) fn registry() -> PyResult<String> {
-    serde_json::to_string(&motiform_study::registry::registry().map_err(python)?).map_err(of_json)
+    serde_json::to_string(&motiform_lab::registry::registry().map_err(python)?).map_err(of_json)
 }

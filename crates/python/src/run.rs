@@ -4,8 +4,9 @@ use crate::errors::{of_json, python};
 use crate::study::{Study, plan};
 use crate::watch::Watch;
 use motiform_dynamics::{Model, Outline};
+use motiform_lab::{draw, naming};
 use motiform_study::table::Table;
-use motiform_study::{Dataset, Manifest, draw, naming};
+use motiform_study::{Dataset, Manifest};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -184,7 +185,7 @@ pub(crate) fn simulate(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Run, Option<PyErr>)> {
     let (dataset, raised) =
-        Watch::here(py, progress, |monitor| motiform_study::simulate::simulate(&plan(study)?, monitor));
+        Watch::here(py, progress, |monitor| motiform_lab::simulate::simulate(&plan(study)?, monitor));
     Ok((Run::new(py, dataset.map_err(python)?)?, raised))
 }
 
@@ -193,7 +194,7 @@ pub(crate) fn simulate(
 pub(crate) fn seconds_of_run(study: &Study, count: u32) -> PyResult<f64> {
     let began = Instant::now();
     for _ in 0..count {
-        let run = plan(study).and_then(|plan| motiform_study::simulate::simulate(&plan, &()));
+        let run = plan(study).and_then(|plan| motiform_lab::simulate::simulate(&plan, &()));
         black_box(run.map_err(python)?);
     }
     Ok(began.elapsed().as_secs_f64() / f64::from(count))

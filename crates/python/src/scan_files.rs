@@ -3,7 +3,7 @@
 use crate::errors::python;
 use crate::scan_plan::{Arrays, ScanPlan, arrays};
 use crate::watch::Watch;
-use motiform_study::scan::{
+use motiform_lab::scan::{
     Classify, Opening, Scan, ScanFolder, ScanTable, Shard, for_each_part, merge as merge_folders,
 };
 use numpy::PyReadonlyArray1;

@@ -3,7 +3,7 @@
 use crate::errors::{of_json, of_keywords, python};
 use crate::study::{Study, number};
 use crate::watch::Watch;
-use motiform_study::scan::{Axis, Classify, Row, ScanTable, Store, compute, rows_of};
+use motiform_lab::scan::{Axis, Classify, Row, ScanTable, Store, compute, rows_of};
 use motiform_study::{Error, ScanPlan as Inner};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};

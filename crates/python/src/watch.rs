@@ -1,6 +1,6 @@
 //! How Python watches and stops what runs without the interpreter's lock.
 
-use motiform_study::simulate::Monitor;
+use motiform_lab::simulate::Monitor;
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};

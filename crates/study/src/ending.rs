@@ -27,7 +27,8 @@ pub enum Part {
 
 impl Ending {
     /// The end of a transient that began at the time `-length`, counted from there.
-    pub(crate) fn of_transient(outcome: Outcome, length: f64) -> Self {
+    #[must_use]
+    pub fn of_transient(outcome: Outcome, length: f64) -> Self {
         Self { outcome: outcome.later(length), during: Some(Part::Transient) }
     }
 }

@@ -252,8 +252,8 @@ pub enum Error {
         reason: String,
     },
     /// A figure could not be drawn.
-    #[error(transparent)]
-    Figure(#[from] motiform_figures::FigureError),
+    #[error("{0}")]
+    Figure(String),
 }
 
 impl Error {
@@ -263,11 +263,15 @@ impl Error {
         matches!(self, Self::WriteFailed { .. } | Self::PartFailed { .. } | Self::Figure(_))
     }
 
-    pub(crate) fn unreadable(path: &Path, reason: impl std::fmt::Display) -> Self {
+    /// [`Error::Unreadable`] of a path, with the reason in words.
+    #[must_use]
+    pub fn unreadable(path: &Path, reason: impl std::fmt::Display) -> Self {
         Self::Unreadable { path: path.to_owned(), reason: reason.to_string() }
     }
 
-    pub(crate) fn write_failed(path: &Path, reason: impl std::fmt::Display) -> Self {
+    /// [`Error::WriteFailed`] of a path, with the reason in words.
+    #[must_use]
+    pub fn write_failed(path: &Path, reason: impl std::fmt::Display) -> Self {
         Self::WriteFailed { path: path.to_owned(), reason: reason.to_string() }
     }
 }

@@ -40,7 +40,7 @@ pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
 }
 
 /// A random shape as the model computes with it: each coordinate uniform in `-size..size`, from this seed and stream.
-pub(crate) fn random_shape(model: &dyn Model, size: f64, seed: u64, stream: u64) -> Vec<f64> {
+pub fn random_shape(model: &dyn Model, size: f64, seed: u64, stream: u64) -> Vec<f64> {
     let mut random = Uniform::new(seed, stream);
     let coordinates: Vec<f64> = model.coordinates().iter().map(|_| size * random.next()).collect();
     let mut shape = vec![0.0; model.dim()];
@@ -49,10 +49,12 @@ pub(crate) fn random_shape(model: &dyn Model, size: f64, seed: u64, stream: u64)
 }
 
 /// Uniform numbers in -1..1 from ChaCha8, addressed by (seed, stream): the same on every machine.
-pub(crate) struct Uniform(ChaCha8Rng);
+pub struct Uniform(ChaCha8Rng);
 
 impl Uniform {
-    pub(crate) fn new(seed: u64, stream: u64) -> Self {
+    /// The stream of this number of the generator with this seed.
+    #[must_use]
+    pub fn new(seed: u64, stream: u64) -> Self {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());
         let mut generator = ChaCha8Rng::from_seed(key);
@@ -60,7 +62,8 @@ impl Uniform {
         Self(generator)
     }
 
-    pub(crate) fn next(&mut self) -> f64 {
+    /// The next number, within -1 to 1.
+    pub fn next(&mut self) -> f64 {
         (self.0.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 }

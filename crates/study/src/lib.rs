@@ -1,37 +1,24 @@
-//! Studies: file -> [`Study`] -> [`Plan`] -> [`Dataset`] -> figure. One function per arrow; the same verbs serve the
-//! command line, Python and the explorer.
+//! Studies as data: a file or a preset -> [`Study`] (as typed) -> [`Plan`] or [`ScanPlan`] (explicit, checked, hashed). A run gives a
+//! [`Dataset`]: tables, and a manifest that says where they come from.
+//!
+//! Nothing here computes, draws or writes.
 
-pub mod analyse;
 pub mod dataset;
-pub mod draw;
 mod ending;
-pub mod equilibria;
 mod error;
-pub mod fields;
-pub mod files;
-pub mod flow;
-mod initial;
-pub mod live;
+pub mod initial;
+pub mod input;
 mod named;
-pub mod naming;
 mod perturbation;
 pub mod plan;
 pub mod presets;
 mod random;
-mod readings;
-pub mod registry;
-pub mod report;
-pub mod reproduction;
 mod run_settings;
-pub mod saddle;
-pub mod samples;
 pub mod scan;
-pub mod section;
-pub mod simulate;
 pub mod study;
 mod study_toml;
 pub mod table;
-mod titles;
+pub mod titles;
 mod toml_reader;
 
 pub use dataset::{Dataset, Manifest};

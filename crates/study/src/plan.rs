@@ -18,7 +18,7 @@ pub const PLAN_FORMAT: u32 = 2;
 const MOST_ROWS: f64 = 2e7;
 
 /// Longest model time: beyond it, time itself has too few digits for steps of order 1.
-pub(crate) const LONGEST: f64 = 1e9;
+pub const LONGEST: f64 = 1e9;
 
 /// Most steps of a run: hours of computing.
 const MOST_STEPS: f64 = 1e10;
@@ -228,11 +228,15 @@ impl Plan {
 }
 
 /// SHA-256 in hexadecimal.
-pub(crate) fn sha256_hex(bytes: &[u8]) -> String {
+pub fn sha256_hex(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().fold(String::new(), |hex, byte| hex + &format!("{byte:02x}"))
 }
 
-pub(crate) fn check(key: &'static str, value: f64, ok: bool, remedy: &'static str) -> Result<(), Error> {
+/// Whether a setting is finite and `ok`.
+///
+/// # Errors
+/// [`Error::Setting`] with the remedy.
+pub fn check(key: &'static str, value: f64, ok: bool, remedy: &'static str) -> Result<(), Error> {
     if ok && value.is_finite() {
         Ok(())
     } else {
@@ -260,7 +264,7 @@ fn noise(study: &Study, model: &dyn Model, look: f64) -> Result<Option<NoiseSett
 }
 
 /// Refuses a study with noise where only the flow without it has an answer.
-pub(crate) fn check_no_noise(amplitude: f64) -> Result<(), Error> {
+pub fn check_no_noise(amplitude: f64) -> Result<(), Error> {
     check(
         "noise",
         amplitude,
@@ -270,7 +274,7 @@ pub(crate) fn check_no_noise(amplitude: f64) -> Result<(), Error> {
 }
 
 /// An explicit method is stable where its step times every rate of the linear part is small.
-pub(crate) fn check_stability(model: &dyn Model, method: Method, control: Control) -> Result<(), Error> {
+pub fn check_stability(model: &dyn Model, method: Method, control: Control) -> Result<(), Error> {
     let (Method::Explicit(tableau), Control::Fixed { step }) = (method, control) else { return Ok(()) };
     let mut rates = vec![0.0; model.dim()];
     Semilinear::<f64>::linear(model, &mut rates);
@@ -282,12 +286,7 @@ pub(crate) fn check_stability(model: &dyn Model, method: Method, control: Contro
 
 /// Refuses a run that could not end: steps that are too many for the time, because they are fixed and tiny, or because the fastest
 /// rate of the linear part keeps an explicit method to steps of some times its inverse.
-pub(crate) fn check_steps(
-    model: &dyn Model,
-    method: Method,
-    control: Control,
-    time: f64,
-) -> Result<(), Error> {
+pub fn check_steps(model: &dyn Model, method: Method, control: Control, time: f64) -> Result<(), Error> {
     if let Control::Fixed { step } = control {
         let remedy = "that is over 10 thousand million steps: give a larger step, or a shorter time";
         return check("step", step, time / step <= MOST_STEPS, remedy);
@@ -311,7 +310,7 @@ fn check_start(model: &dyn Model, initial: &Named) -> Result<(), Error> {
 }
 
 /// A shape must be a body.
-pub(crate) fn check_closed(model: &dyn Model, shape: &[f64]) -> Result<(), Error> {
+pub fn check_closed(model: &dyn Model, shape: &[f64]) -> Result<(), Error> {
     match model.obstacle(shape) {
         Some(Obstacle::Closure { residual }) => Err(Error::NotClosed { residual }),
         _ => Ok(()),
@@ -335,14 +334,22 @@ pub fn check_figure(figure: &FigureSettings) -> Result<(), Error> {
     Ok(())
 }
 
-pub(crate) fn stepper(name: &str) -> Result<Method, Error> {
+/// A stepper by name.
+///
+/// # Errors
+/// An unknown name, with the nearest one.
+pub fn stepper(name: &str) -> Result<Method, Error> {
     Method::find(name).ok_or_else(|| {
         let known = Method::names();
         Error::UnknownStepper { name: name.to_owned(), nearest: nearest_of(name, &known), known }
     })
 }
 
-pub(crate) fn control(study: &Study, method: Method) -> Result<Control, Error> {
+/// The step control that a study asks for.
+///
+/// # Errors
+/// [`Error::Setting`]; a step and a tolerance together.
+pub fn control(study: &Study, method: Method) -> Result<Control, Error> {
     let run = &study.run;
     let control = match run.step {
         None if method.is_adaptive() => {

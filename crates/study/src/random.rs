@@ -96,7 +96,7 @@ impl Random {
     }
 
     /// The coordinates of the start with this seed and stream, `count` of them.
-    pub(crate) fn coordinates(&self, info: &ModelInfo, count: usize, seed: u64, stream: u64) -> Vec<f64> {
+    pub fn coordinates(&self, info: &ModelInfo, count: usize, seed: u64, stream: u64) -> Vec<f64> {
         let mut random = Uniform::new(seed, stream);
         match *self {
             Self::Within(size) => (0..count).map(|_| size * random.next()).collect(),
@@ -111,7 +111,7 @@ impl Random {
     }
 
     /// The same as the model computes with it.
-    pub(crate) fn shape(&self, info: &ModelInfo, model: &dyn Model, seed: u64, stream: u64) -> Vec<f64> {
+    pub fn shape(&self, info: &ModelInfo, model: &dyn Model, seed: u64, stream: u64) -> Vec<f64> {
         let coordinates = self.coordinates(info, model.coordinates().len(), seed, stream);
         let mut shape = vec![0.0; model.dim()];
         model.encode(&coordinates, &mut shape);

@@ -1,6 +1,6 @@
 //! A study as typed: everything optional, nothing computed yet.
 
-use crate::files::input;
+use crate::input;
 use crate::random::Random;
 pub use crate::run_settings::RunSettings;
 use crate::scan::Axis;

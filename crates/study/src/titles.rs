@@ -1,7 +1,6 @@
 //! What figures are called: as typed, else by the verdict, else by the parameters. Never by the motion of a preset that other
 //! parameters were given to ([`Study::set`] takes its title away).
 
-use crate::draw::number;
 use crate::{Dataset, Plan, Study, presets};
 use motiform_models::ModelInfo;
 
@@ -52,6 +51,23 @@ impl Dataset {
     }
 }
 
+/// A number as people write it: `0.9`, `-1`, `10^{-9}`, `2.5×10^{6}`.
+#[must_use]
+pub fn number(x: f64) -> String {
+    if x == 0.0 || (1e-3..1e5).contains(&x.abs()) {
+        let text = format!("{x:.6}");
+        return text.trim_end_matches('0').trim_end_matches('.').to_owned();
+    }
+    let text = format!("{x:.3e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let mantissa = mantissa.trim_end_matches('0').trim_end_matches('.');
+    match mantissa {
+        "1" => format!("10^{{{exponent}}}"),
+        "-1" => format!("-10^{{{exponent}}}"),
+        _ => format!("{mantissa}×10^{{{exponent}}}"),
+    }
+}
+
 /// Title of a scan: as typed, if it is not that of a preset, which speaks of one motion.
 pub(crate) fn of_scan(study: &Study, info: &ModelInfo) -> String {
     if study.title.is_empty() || presets::says(info.name, &study.title) {
@@ -61,7 +77,9 @@ pub(crate) fn of_scan(study: &Study, info: &ModelInfo) -> String {
     }
 }
 
-pub(crate) fn capital(name: &str) -> String {
+/// The same with a capital letter.
+#[must_use]
+pub fn capital(name: &str) -> String {
     let mut letters = name.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

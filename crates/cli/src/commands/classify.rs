@@ -5,8 +5,9 @@ use crate::commands::subject;
 use crate::output::{End, estimate, print, warn};
 use crate::progress::Watch;
 use motiform_analysis::{Regime, Verdict};
-use motiform_study::samples::{self, Basins, Escapes, Samples};
-use motiform_study::{Plan, analyse};
+use motiform_lab::analyse;
+use motiform_lab::samples::{self, Basins, Escapes, Samples};
+use motiform_study::Plan;
 use serde_json::{Value, json};
 use std::fmt::Write;
 

@@ -4,9 +4,9 @@ use super::film;
 use crate::args::{DrawingOptions, FigureOptions};
 use crate::output::{End, print};
 use motiform_figures::Style;
-use motiform_study::draw::{FigureFormat, Picture, draw, draw_scan};
-use motiform_study::files::{read_dataset, replace_file};
-use motiform_study::scan::ScanFolder;
+use motiform_files::{read_dataset, replace_file};
+use motiform_lab::draw::{FigureFormat, Picture, draw, draw_scan};
+use motiform_lab::scan::ScanFolder;
 use motiform_study::study::FigureSettings;
 use motiform_study::{Dataset, Error, plan};
 

@@ -2,10 +2,10 @@
 
 use crate::args::FilmFormat;
 use anyhow::{Context, bail};
-use motiform_study::draw::Picture;
+use motiform_lab::draw::Picture;
 use std::process::{Command, Stdio};
 
-/// The animation that [`motiform_study::draw::draw`] makes.
+/// The animation that [`motiform_lab::draw::draw`] makes.
 const ANIMATION: &str = "motion.png";
 
 /// Whether ffmpeg is there, if a film is asked for: to be asked before anything is computed.

@@ -6,9 +6,10 @@ use crate::output::{End, estimate, print};
 use crate::progress::Watch;
 use motiform_analysis::{Estimate, Lyapunov};
 use motiform_dynamics::Outcome;
-use motiform_study::saddle::{Saddle, saddle as find_saddle};
-use motiform_study::samples::{self, Escapes, Exponents, Samples, Starts};
-use motiform_study::{Error, Plan, analyse};
+use motiform_lab::analyse;
+use motiform_lab::saddle::{Saddle, saddle as find_saddle};
+use motiform_lab::samples::{self, Escapes, Exponents, Samples, Starts};
+use motiform_study::{Error, Plan};
 use serde_json::json;
 use std::fmt::Write;
 

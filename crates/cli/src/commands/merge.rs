@@ -3,7 +3,7 @@
 use crate::args::MergeOptions;
 use crate::commands::scan::show;
 use crate::output::{End, warn};
-use motiform_study::scan::{ScanFolder, Totals, merge};
+use motiform_lab::scan::{ScanFolder, Totals, merge};
 
 pub(crate) fn run(options: &MergeOptions) -> anyhow::Result<End> {
     let merged = merge(&options.folders, &options.out, options.force)?;

@@ -3,11 +3,12 @@
 use crate::args::ReproduceOptions;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Watch;
+use motiform_figures::report::{Claim, Counts, Picture, Report};
 use motiform_figures::{DEFAULT_SCALE, png};
+use motiform_files::replace_file;
+use motiform_lab::draw::undrawable;
+use motiform_paper::{Options, reproduce};
 use motiform_study::Error;
-use motiform_study::files::replace_file;
-use motiform_study::report::{Claim, Counts, Picture, Report};
-use motiform_study::reproduction::{Options, reproduce};
 use serde_json::json;
 use std::fmt::Write;
 use std::path::Path;
@@ -48,7 +49,7 @@ fn write_figures(report: &Report, out: &Path) -> Result<(), Error> {
             match &figure.picture {
                 Picture::Svg(svg) => {
                     replace_file(&file("svg"), svg.as_bytes())?;
-                    replace_file(&file("png"), &png(svg, DEFAULT_SCALE, &[])?)?;
+                    replace_file(&file("png"), &png(svg, DEFAULT_SCALE, &[]).map_err(undrawable)?)?;
                 }
                 Picture::Png(bytes) => replace_file(&file("png"), bytes)?,
             }

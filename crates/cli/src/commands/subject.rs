@@ -1,8 +1,8 @@
 //! What a command is about: a file or a model, a preset, then what is set by hand.
 
 use crate::args::{MethodOptions, MotionOptions, SamplesOptions, SubjectOptions};
+use motiform_lab::samples::Samples;
 use motiform_models::ModelInfo;
-use motiform_study::samples::Samples;
 use motiform_study::{Error, Plan, Random, Study, presets};
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 
 use super::setting::{Seen, Setting, decode, state_of};
 use motiform_dynamics::Normal;
-use motiform_study::live::start;
+use motiform_lab::live::start;
 use motiform_study::{Error, Plan, Random};
 use std::collections::BTreeMap;
 

@@ -9,9 +9,9 @@ use crate::answers::{Answers, Gone};
 use crate::desk::{Desk, lock};
 use crate::export::{Made, Maker};
 use crate::protocol::MapWindow;
+use motiform_lab::draw::{exponents, phase_diagram, sheet};
+use motiform_lab::scan::{CellSummary, Row, rows_to_csv};
 use motiform_study::Study;
-use motiform_study::draw::{exponents, phase_diagram};
-use motiform_study::scan::{CellSummary, Row, rows_to_csv};
 use serde_json::{Value, json};
 use sight::Sight;
 use std::sync::{Arc, Mutex};
@@ -95,9 +95,9 @@ impl Map {
             };
             Ok(match file {
                 MapFile::Csv => Some(Made::Bytes(rows_to_csv(&plan, &rows))),
-                MapFile::Diagram => Some(Made::Svg(phase_diagram(&plan, &cells())?.svg()?)),
+                MapFile::Diagram => Some(Made::Svg(sheet(&phase_diagram(&plan, &cells())?)?.svg)),
                 MapFile::Exponents => match exponents(&plan, &cells())? {
-                    Some(figure) => Some(Made::Svg(figure.svg()?)),
+                    Some(figure) => Some(Made::Svg(sheet(&figure)?.svg)),
                     None => None,
                 },
             })
@@ -116,7 +116,7 @@ pub(crate) enum MapFile {
 
 /// The numbers of a row that are defined.
 pub(crate) fn numbers(row: &Row) -> Value {
-    let defined = motiform_study::scan::NUMBERS.iter().zip(row.numbers).filter(|entry| entry.1.is_finite());
+    let defined = motiform_lab::scan::NUMBERS.iter().zip(row.numbers).filter(|entry| entry.1.is_finite());
     defined
         .map(|((name, _), value)| ((*name).to_owned(), json!(value)))
         .collect::<serde_json::Map<_, _>>()

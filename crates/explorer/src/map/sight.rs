@@ -5,9 +5,9 @@ use super::lattice::{Cells, Lattice, level};
 use super::store::Store;
 use crate::catalogue::is_whole;
 use crate::protocol::Side;
+use motiform_lab::scan::{Axis, Row, ScanComputation};
 use motiform_models::ModelInfo;
 use motiform_models::parameters::{ParameterSpec, index_of};
-use motiform_study::scan::{Axis, Row, ScanComputation};
 use motiform_study::{Error, Plan, ScanPlan, Study};
 
 /// Most and fewest cells along an axis.

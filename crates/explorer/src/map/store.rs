@@ -1,6 +1,6 @@
 //! What is known of the plane: rows by their parameters, in bounded memory.
 
-use motiform_study::scan::Row;
+use motiform_lab::scan::Row;
 use std::collections::HashMap;
 
 /// Most rows that are kept, at about 300 bytes each.

@@ -1,37 +1,10 @@
-//! Scans: a model over one or two axes of parameters, several initial states per cell, each evaluated to a verdict.
-//!
-//! [`ScanPlan`] -> [`Scan`] (a folder being computed) -> [`ScanFolder`] (read) -> [`Totals`], [`CellSummary`].
-//!
-//! A scan is a list of *rows*, one per cell and initial state. Everything about a row follows from the plan and its
-//! number alone, so threads, shards, kills and resumes change no bit. Rows are stored in *parts*: whole files, fixed by
-//! the plan, each carrying the hash of the plan and a digest of its own bytes.
+//! Scans as data: axes of parameters, and the plan with every number that the rows depend on.
 
 mod axis;
-mod columns;
-mod evaluate;
-mod folder;
-mod lanes;
-mod merge;
-mod part;
 mod plan;
-mod queue;
-mod rows;
-mod run;
 mod shard;
 mod start;
-mod summary;
-mod table;
-mod work;
 
 pub use axis::Axis;
-pub use evaluate::{Classify, Evaluate};
-pub use folder::{ScanFolder, ScanManifest, default_folder};
-pub use merge::{Merged, merge};
-pub use part::{PartError, Parts, read_part};
 pub use plan::{SCAN_FORMAT, ScanComputation, ScanPlan};
-pub use rows::{NUMBERS, Row, rows_to_csv};
-pub use run::{Opening, Scan};
 pub use shard::Shard;
-pub use summary::{CellSummary, Motion, Totals, cells, for_each_part};
-pub use table::ScanTable;
-pub use work::{Ended, Store, compute, rows_of};

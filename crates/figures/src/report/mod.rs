@@ -1,0 +1,118 @@
+//! A report: claims, what was found, and how it was decided, as one HTML page that needs nothing else.
+//!
+//! Knows no model, no analysis and no file. All texts are markup (see [`Label`]); an empty line parts paragraphs.
+
+mod claim;
+mod page;
+mod section;
+mod sentence;
+#[cfg(test)]
+mod tests;
+
+pub use claim::{Claim, Counts, Source, Verdict};
+pub use sentence::Sentence;
+
+use crate::{Drawn, Label};
+
+/// A page of sections.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Report {
+    /// Heading of the page.
+    pub title: String,
+    /// What the page is about.
+    pub about: String,
+    /// Parts, in this order.
+    pub sections: Vec<Section>,
+    /// The paper, sentence by sentence: shown with the claims that check it; without any, nothing is shown.
+    pub sentences: Vec<Sentence>,
+}
+
+/// A part of a report, such as one figure of a paper.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Section {
+    /// Heading.
+    pub title: String,
+    /// What is shown and asked.
+    pub about: String,
+    /// Names and values of what was set.
+    pub parameters: Vec<(String, String)>,
+    /// Pictures, in this order.
+    pub figures: Vec<ReportFigure>,
+    /// Claims, in this order.
+    pub claims: Vec<Claim>,
+}
+
+/// A picture and the words below it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReportFigure {
+    /// Words below the picture; they also stand for it where it cannot be seen.
+    pub caption: String,
+    /// The picture.
+    pub picture: Picture,
+    /// The numbers that are drawn, as a CSV table; none for animations.
+    pub data: Option<String>,
+}
+
+impl ReportFigure {
+    /// A drawn figure, with its data.
+    #[must_use]
+    pub fn new(drawn: Drawn, caption: impl Into<String>) -> Self {
+        Self { caption: caption.into(), picture: Picture::Svg(drawn.svg), data: Some(drawn.data) }
+    }
+
+    /// An animation.
+    #[must_use]
+    pub fn film(png: Vec<u8>, caption: impl Into<String>) -> Self {
+        Self { caption: caption.into(), picture: Picture::Png(png), data: None }
+    }
+}
+
+/// A picture as a file's content.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Picture {
+    /// SVG text that stands alone.
+    Svg(String),
+    /// A PNG, animated or not.
+    Png(Vec<u8>),
+}
+
+impl Report {
+    /// The claims of the paper, over all sections.
+    #[must_use]
+    pub fn counts(&self) -> Counts {
+        Counts::of(self.claims().filter(|claim| !claim.is_ours()))
+    }
+
+    /// The checks of ours, over all sections.
+    #[must_use]
+    pub fn checks(&self) -> Counts {
+        Counts::of(self.claims().filter(|claim| claim.is_ours()))
+    }
+
+    fn claims(&self) -> impl Iterator<Item = &Claim> {
+        self.sections.iter().flat_map(|section| &section.claims)
+    }
+
+    /// Whether no claim and no check fails. One that differs for a reason is no failure; a report without claims has none.
+    #[must_use]
+    pub fn all_hold(&self) -> bool {
+        self.counts().fail + self.checks().fail == 0
+    }
+
+    /// The page: HTML that refers to nothing outside itself.
+    #[must_use]
+    pub fn html(&self) -> String {
+        page::html(self)
+    }
+}
+
+/// Markup as HTML within a line.
+fn inline(markup: &str) -> String {
+    Label::parse(markup).html()
+}
+
+/// Markup as HTML paragraphs; nothing for nothing.
+fn paragraphs(markup: &str) -> String {
+    let parts = markup.split("\n\n").map(str::trim).filter(|part| !part.is_empty());
+    parts.map(|part| format!("<p>{}</p>\n", inline(part))).collect()
+}

@@ -1,0 +1,137 @@
+//! The page around the sections: head, verdict, summary table, contents.
+
+use super::{Claim, Counts, Report, Section, inline, paragraphs, section, sentence};
+use crate::Label;
+use crate::svg::escape;
+
+const STYLE: &str = include_str!("style.css");
+
+pub(super) fn html(report: &Report) -> String {
+    let sections: String = (1..).zip(&report.sections).map(|(number, s)| section::html(number, s)).collect();
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n\
+         <title>{}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{}</h1>\n{}{}</header>\n\
+         {}<main>\n{sections}</main>\n{}{}\n</body>\n</html>\n",
+        escape(&Label::parse(&report.title).plain()),
+        inline(&report.title),
+        paragraphs(&report.about),
+        total(report),
+        contents(report),
+        summary(report),
+        sentence::html(report),
+    )
+}
+
+/// The counts of the whole report as sentences: the paper's claims, then the checks of ours.
+fn total(report: &Report) -> String {
+    let line = |counts: Counts, one: &str, many: &str| {
+        if counts == Counts::default() {
+            return String::new();
+        }
+        let badge = |n: usize, class: &str, symbol: &str, words: &str| {
+            let class = if n == 0 { "none" } else { class };
+            format!("<span class=\"badge {class}\">{symbol} {words}</span>")
+        };
+        let all = counts.hold + counts.differ + counts.fail;
+        format!(
+            "<p class=\"total\">{all} {}: {} {} {}</p>\n",
+            if all == 1 { one } else { many },
+            badge(counts.hold, "holds", "✓", &held(counts.hold)),
+            badge(counts.differ, "differs", "≠", &differing(counts.differ)),
+            badge(counts.fail, "fails", "✗", &failed(counts.fail))
+        )
+    };
+    line(report.counts(), "claim of the paper", "claims of the paper")
+        + &line(report.checks(), "check of ours", "checks of ours")
+}
+
+/// All claims of the paper in one table, all checks in another.
+fn summary(report: &Report) -> String {
+    let claims = table(report, false, "The paper says");
+    let checks = table(report, true, "We check");
+    if claims.is_empty() && checks.is_empty() {
+        return String::new();
+    }
+    let part = |title: &str, table: String| match table.is_empty() {
+        true => table,
+        false => format!("<h2>{title}</h2>\n{table}"),
+    };
+    let parts = part("Summary: claims of the paper", claims) + &part("Summary: checks of ours", checks);
+    format!("<section id=\"summary\">\n{parts}</section>\n")
+}
+
+/// The claims of one source.
+fn table(report: &Report, ours: bool, says: &str) -> String {
+    let row = |i: usize, j: usize, claim: &Claim| {
+        format!(
+            "<tr><td><a href=\"#c{i}-{j}\">{i}.{j}</a></td><td data-name=\"{says}\">{}</td>\
+             <td data-name=\"Found\">{}</td><td data-name=\"Verdict\">{}</td></tr>\n",
+            inline(&claim.says),
+            inline(&claim.finds),
+            section::badge(&claim.verdict)
+        )
+    };
+    let mut rows = String::new();
+    for (i, section) in (1..).zip(&report.sections) {
+        let wanted = (1..).zip(&section.claims).filter(|entry| entry.1.is_ours() == ours);
+        rows.extend(wanted.map(|(j, claim)| row(i, j, claim)));
+    }
+    if rows.is_empty() {
+        return rows;
+    }
+    format!(
+        "<table class=\"claims\">\n\
+         <thead><tr><th scope=\"col\">No.</th><th scope=\"col\">{says}</th><th scope=\"col\">We find</th>\
+         <th scope=\"col\">Verdict</th></tr></thead>\n<tbody>\n{rows}</tbody>\n</table>\n"
+    )
+}
+
+/// Links to the sections with their counts.
+fn contents(report: &Report) -> String {
+    let item = |(i, s): (usize, &Section)| {
+        let of = |ours| Counts::of(s.claims.iter().filter(|claim| claim.is_ours() == ours));
+        format!("<li><a href=\"#s{i}\">{}</a> {}</li>\n", inline(&s.title), counted(of(false), of(true)))
+    };
+    let items: String = (1..).zip(&report.sections).map(item).collect();
+    if items.is_empty() {
+        return items;
+    }
+    let last = match report.sentences.is_empty() {
+        true => "",
+        false => "<p><a href=\"#sentences\">The paper, sentence by sentence</a></p>\n",
+    };
+    format!(
+        "<nav id=\"contents\" aria-label=\"Contents\">\n<h2>Contents</h2>\n<ol>\n{items}</ol>\n{last}</nav>\n"
+    )
+}
+
+/// "3 held, 1 differs; checks: 2 held": what is 0 is left out.
+fn counted(claims: Counts, checks: Counts) -> String {
+    let words = |Counts { hold, differ, fail }: Counts| {
+        let parts = [(hold, held(hold)), (differ, differing(differ)), (fail, failed(fail))];
+        let parts: Vec<_> = parts.into_iter().filter(|(n, _)| *n > 0).map(|(_, words)| words).collect();
+        parts.join(", ")
+    };
+    let all = match (words(claims), words(checks)) {
+        (claims, checks) if claims.is_empty() && checks.is_empty() => "no claim".to_owned(),
+        (claims, checks) if checks.is_empty() => claims,
+        (claims, checks) if claims.is_empty() => format!("checks: {checks}"),
+        (claims, checks) => format!("{claims}; checks: {checks}"),
+    };
+    let failing = if claims.fail + checks.fail > 0 { " failing" } else { "" };
+    format!("<span class=\"counts{failing}\">{all}</span>")
+}
+
+fn held(n: usize) -> String {
+    format!("{n} held")
+}
+
+fn differing(n: usize) -> String {
+    format!("{n} {}", if n == 1 { "differs" } else { "differ" })
+}
+
+fn failed(n: usize) -> String {
+    format!("{n} failed")
+}

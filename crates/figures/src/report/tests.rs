@@ -1,0 +1,137 @@
+//! What holds for every report.
+
+use super::*;
+use crate::{ReturnMapFigure, png};
+
+fn claim(verdict: Verdict) -> Claim {
+    Claim {
+        source: Source::Paper(vec![7]),
+        says: "*κ*_2 < 0.5 & <script>alert(1)</script>".into(),
+        finds: "*λ*_1 = -0.02 \"within\" 10^{-3}".into(),
+        how: "mean of 20 runs".into(),
+        verdict,
+    }
+}
+
+fn check(verdict: Verdict) -> Claim {
+    Claim { source: Source::Ours, ..claim(verdict) }
+}
+
+fn report() -> Report {
+    let svg =
+        ReturnMapFigure { points: vec![[0.0, 1.0]], ..ReturnMapFigure::default() }.svg().expect("a figure");
+    let bytes = png(&svg, 0.5, &[]).expect("a png");
+    let figure = |picture| ReportFigure { caption: "a \"quoted\" *x*_1".into(), picture, data: None };
+    let explanation = || "the paper's *a*_1 is rounded".to_owned();
+    let first = Section {
+        title: "Phase diagram, *κ*_2 > 0".into(),
+        about: "One.\n\nTwo <b>.".into(),
+        parameters: vec![("*a*_1".into(), "-1".into())],
+        figures: vec![figure(Picture::Svg(svg)), figure(Picture::Png(bytes))],
+        claims: vec![claim(Verdict::Holds), claim(Verdict::Differs { explanation: explanation() })],
+    };
+    let second = Section {
+        title: "Chaos".into(),
+        claims: vec![
+            claim(Verdict::Holds),
+            claim(Verdict::Fails { explanation: explanation() }),
+            check(Verdict::Holds),
+        ],
+        ..Section::default()
+    };
+    let third = Section { title: "Outlook".into(), ..Section::default() };
+    let sentence = |numbers, unchecked: Option<&str>| Sentence {
+        numbers,
+        part: "Results".into(),
+        words: "It <moves>.".into(),
+        unchecked: unchecked.map(str::to_owned),
+    };
+    Report {
+        title: "Report <1> *x*".into(),
+        about: String::new(),
+        sections: vec![first, second, third],
+        sentences: vec![sentence((1, 6), Some("background")), sentence((7, 7), None), sentence((8, 8), None)],
+    }
+}
+
+#[test]
+fn texts_are_escaped_and_markup_is_set() {
+    let html = report().html();
+    assert!(!html.contains("<script>") && !html.contains("Two <b>"));
+    assert!(html.contains("<i>κ</i><sub>2</sub> &lt; 0.5 &amp; &lt;script&gt;"));
+    assert!(html.contains("<title>Report &lt;1&gt; x</title>"));
+    assert!(html.contains("alt=\"a &quot;quoted&quot; x1\""));
+    assert!(html.contains("<p>One.</p>\n<p>Two &lt;b&gt;.</p>"));
+}
+
+#[test]
+fn counts_are_those_of_the_claims() {
+    let report = report();
+    assert_eq!(report.counts(), Counts { hold: 2, differ: 1, fail: 1 });
+    let html = report.html();
+    assert!(html.contains("4 claims of the paper: ") && html.contains("✓ 2 held"));
+    assert!(html.contains("1 check of ours: ") && html.contains("✓ 1 held"));
+    for counts in [">1 held, 1 differs<", ">1 held, 1 failed; checks: 1 held<", ">no claim<"] {
+        assert!(html.contains(counts), "{counts}");
+    }
+    assert_eq!(html.matches("✗ fails").count(), 3, "in the summary, at the claim and at its sentence");
+}
+
+#[test]
+fn checks_of_ours_are_counted_apart() {
+    let mut report = report();
+    assert_eq!(report.checks(), Counts { hold: 1, differ: 0, fail: 0 });
+    let html = report.html();
+    assert_eq!(html.matches("<h3>Check 2.3").count(), 1);
+    assert_eq!((html.matches("<dt>The paper says").count(), html.matches("<dt>We check").count()), (4, 1));
+    report.sections[1].claims = vec![check(Verdict::Fails { explanation: String::new() })];
+    assert_eq!(report.counts().fail, 0);
+    assert!(!report.all_hold(), "a check that fails spoils the whole as well");
+}
+
+#[test]
+fn every_sentence_has_its_claims_or_its_reason() {
+    let html = report().html();
+    let rows: Vec<&str> = html.split("<tr>").filter(|row| row.contains("It &lt;moves&gt;.")).collect();
+    assert_eq!(rows.len(), 3);
+    assert!(rows[0].contains("1–6") && rows[0].contains("not checked: background"));
+    assert_eq!(rows[1].matches("href=\"#c").count(), 4, "all claims of the paper, not the check");
+    assert!(rows[2].contains("not part of this run"));
+    assert!(html.contains("2 of 8 sentences"));
+}
+
+#[test]
+fn only_a_failure_spoils_the_whole() {
+    let mut report = report();
+    assert!(!report.all_hold());
+    report.sections[1].claims.retain(|claim| !matches!(claim.verdict, Verdict::Fails { .. }));
+    assert!(report.all_hold(), "one claim still differs");
+    assert!(Report::default().all_hold());
+}
+
+#[test]
+fn the_page_needs_nothing_else() {
+    let html = report().html();
+    assert!(!html.contains("http") && !html.contains("url(") && !html.contains("@import"));
+    assert!(!html.contains("<link") && !html.contains("<script"));
+    let sources = html.matches("src=\"").count();
+    assert_eq!((sources, html.matches("src=\"data:image/").count()), (2, 2));
+}
+
+#[test]
+fn every_link_leads_somewhere_and_names_are_given_once() {
+    let html = report().html();
+    let after = |mark: &str| -> Vec<String> {
+        html.split(mark).skip(1).filter_map(|rest| Some(rest.split_once('"')?.0.to_owned())).collect()
+    };
+    let (targets, names) = (after("href=\"#"), after(" id=\""));
+    assert!(targets.len() == 13 && targets.iter().all(|t| names.contains(t)), "{targets:?} in {names:?}");
+    let once: std::collections::HashSet<_> = names.iter().collect();
+    assert_eq!(once.len(), names.len());
+}
+
+#[test]
+fn an_empty_report_is_a_page() {
+    let html = Report::default().html();
+    assert!(html.starts_with("<!DOCTYPE html>") && !html.contains("Summary") && !html.contains("Contents"));
+}

@@ -1,0 +1,103 @@
+//! Reading Parquet files that may be damaged: every count is checked against the data before anything is made for it.
+
+use parquet::column::reader::ColumnReaderImpl;
+use parquet::data_type::DataType;
+use parquet::errors::{ParquetError, Result};
+use parquet::file::metadata::ParquetMetaData;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use std::cell::Cell;
+use std::fs::File;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+/// Rows that are read at a time: what a page claims to hold is never believed beyond this.
+const BATCH: usize = 1 << 16;
+
+thread_local! {
+    static DECODING: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Whether this thread reads a Parquet file now: the library panics on some damaged files, which is caught and becomes an error. A
+/// program's panic hook may stay quiet meanwhile.
+#[must_use]
+pub fn decoding() -> bool {
+    DECODING.get()
+}
+
+/// Opens a file, checks its footer against its length, and reads it.
+pub fn read<T>(path: &Path, contents: impl FnOnce(&SerializedFileReader<File>) -> Result<T>) -> Result<T> {
+    let length = path.metadata()?;
+    if !length.is_file() {
+        return Err(wrong("it is no file"));
+    }
+    DECODING.set(true);
+    let read = catch_unwind(AssertUnwindSafe(|| {
+        let reader = SerializedFileReader::new(File::open(path)?)?;
+        check(reader.metadata(), length.len())?;
+        contents(&reader)
+    }));
+    DECODING.set(false);
+    read.unwrap_or_else(|_| Err(wrong("it is damaged")))
+}
+
+/// The footer must fit the file: the library asserts some of this, and believes the rest.
+fn check(metadata: &ParquetMetaData, length: u64) -> Result<()> {
+    let length = i64::try_from(length).unwrap_or(i64::MAX);
+    let mut rows = 0_i64;
+    for group in metadata.row_groups() {
+        rows = rows.checked_add(group.num_rows()).unwrap_or(-1);
+        for chunk in group.columns() {
+            let start = chunk.dictionary_page_offset().unwrap_or(chunk.data_page_offset());
+            let end = start.checked_add(chunk.compressed_size()).unwrap_or(-1);
+            if start < 0 || chunk.compressed_size() < 0 || end > length || end < 0 {
+                return Err(wrong("a column lies outside the file"));
+            }
+            if group.num_rows() < 0 || chunk.num_values() != group.num_rows() {
+                return Err(wrong(&format!(
+                    "a column has {} values where its group has {} rows",
+                    chunk.num_values(),
+                    group.num_rows()
+                )));
+            }
+        }
+    }
+    if rows != metadata.file_metadata().num_rows() {
+        let said = metadata.file_metadata().num_rows();
+        return Err(wrong(&format!("its footer says {said} rows, its groups {rows}")));
+    }
+    Ok(())
+}
+
+/// The values of a column of `rows` rows and, for a column with nulls, which rows have one (1) or none (0).
+pub fn column<T: DataType>(
+    input: &mut ColumnReaderImpl<T>,
+    rows: i64,
+    nulls: bool,
+) -> Result<(Vec<T::T>, Vec<i16>)> {
+    let rows = usize::try_from(rows).map_err(|_| wrong("a group has less than no rows"))?;
+    let (mut values, mut levels, mut read) = (Vec::new(), Vec::new(), 0);
+    while read < rows {
+        let levels = nulls.then_some(&mut levels);
+        let records = input.read_records(BATCH.min(rows - read), levels, None, &mut values)?.0;
+        if records == 0 {
+            return Err(wrong(&format!("a column has {read} rows where the footer says {rows}")));
+        }
+        read += records;
+    }
+    Ok((values, levels))
+}
+
+/// A column of numbers with NaN for each null.
+pub fn numbers(values: Vec<f64>, levels: &[i16]) -> Vec<f64> {
+    let mut defined = values.into_iter();
+    levels
+        .iter()
+        .map(|&level| if level == 0 { f64::NAN } else { defined.next().unwrap_or(f64::NAN) })
+        .collect()
+}
+
+/// An error of this reason.
+#[must_use]
+pub fn wrong(what: &str) -> ParquetError {
+    ParquetError::General(what.to_owned())
+}

@@ -1,0 +1,148 @@
+//! A plan, and a question about its motion: which one is it, and do neighbouring orbits separate?
+
+use crate::simulate::Monitor;
+use motiform_analysis::regime::{Settings, Verdict};
+use motiform_analysis::{Lyapunov, LyapunovSettings, SoFar};
+use motiform_dynamics::steppers::Method;
+use motiform_dynamics::{Model, Sink};
+use motiform_models::ModelInfo;
+use motiform_study::plan::{Control, LONGEST, check, check_no_noise};
+use motiform_study::{Error, Plan};
+use std::ops::ControlFlow;
+
+/// Names the motion that starts from the plan's initial state, spending at most `budget` model time (the model's
+/// default, if 0); `None` if the monitor asked to stop. The plan's transient and recording do not matter.
+///
+/// # Errors
+/// Input that only the numerics can refuse.
+pub fn classify(plan: &Plan, budget: f64, monitor: &dyn Monitor) -> Result<Option<Verdict>, Error> {
+    let (model, shape) = start(plan)?;
+    let settings = settings(plan, budget)?;
+    Ok(motiform_analysis::classify(model.as_ref(), &shape, &settings, &mut Stop::new(monitor))?)
+}
+
+/// The classifier's settings for a plan.
+///
+/// # Errors
+/// A budget below 0, an unknown model or stepper.
+pub fn settings(plan: &Plan, budget: f64) -> Result<Settings, Error> {
+    let (info, c) = (plan.info()?, &plan.computation);
+    let allowed = (0.0..=LONGEST).contains(&budget);
+    check("budget", budget, allowed, "give a model time above 0, at most 1e9, or 0 for the model's default")?;
+    let bounds = (c.escape_norm, c.max_steps);
+    Ok(settings_of(info, plan.method()?, c.control, bounds, budget))
+}
+
+/// The classifier's settings: looks and budget (where that is 0) are the model's, the rest is the plan's.
+pub(crate) fn settings_of(
+    info: &ModelInfo,
+    method: Method,
+    control: Control,
+    (escape_norm, max_steps): (f64, u64),
+    budget: f64,
+) -> Settings {
+    let budget = if budget > 0.0 { budget } else { info.budget };
+    Settings { method, control: control.into(), first_look: info.look, budget, escape_norm, max_steps }
+}
+
+/// The `count` largest Lyapunov exponents of the plan's motion, averaged over `t_end` after `transient` (where not
+/// given: twenty looks of the model after four).
+///
+/// # Errors
+/// A count the model does not have; input that only the numerics can refuse.
+pub fn lyapunov(
+    plan: &Plan,
+    count: usize,
+    (transient, t_end): (Option<f64>, Option<f64>),
+    monitor: &dyn Monitor,
+) -> Result<Lyapunov, Error> {
+    lyapunov_followed(plan, count, (transient, t_end), monitor, &mut |_| {})
+}
+
+/// As [`lyapunov`], shown to `follow` while it is averaged.
+///
+/// # Errors
+/// As [`lyapunov`].
+pub fn lyapunov_followed(
+    plan: &Plan,
+    count: usize,
+    times: (Option<f64>, Option<f64>),
+    monitor: &dyn Monitor,
+    follow: &mut dyn FnMut(SoFar<'_>),
+) -> Result<Lyapunov, Error> {
+    let (model, shape) = start(plan)?;
+    let settings = lyapunov_settings(plan, count, times)?;
+    let mut stop = Stop::over(monitor, settings.transient + settings.span);
+    Ok(motiform_analysis::lyapunov_followed(model.as_ref(), &shape, &settings, &mut stop, follow)?)
+}
+
+/// What [`lyapunov`] computes for a plan.
+pub(crate) fn lyapunov_settings(
+    plan: &Plan,
+    count: usize,
+    (transient, t_end): (Option<f64>, Option<f64>),
+) -> Result<LyapunovSettings, Error> {
+    let (info, c) = (plan.info()?, &plan.computation);
+    let dim = c.initial.0.len() - 2; // without the position
+    if count == 0 || count > dim {
+        return Err(Error::Count { count, dim });
+    }
+    let (transient, span) = (transient.unwrap_or(4.0 * info.look), t_end.unwrap_or(20.0 * info.look));
+    check("transient", transient, transient <= LONGEST, "give a time of at most 1e9")?;
+    check("t_end", span, span <= LONGEST, "give a time of at most 1e9")?;
+    Ok(LyapunovSettings {
+        count,
+        method: plan.method()?,
+        control: c.control.into(),
+        transient,
+        span,
+        escape_norm: c.escape_norm,
+        max_steps: c.max_steps,
+    })
+}
+
+/// The model of a plan that has no noise: questions are asked of the flow.
+pub(crate) fn model(plan: &Plan) -> Result<Box<dyn Model>, Error> {
+    check_no_noise(plan.computation.noise.map_or(0.0, |noise| noise.largest()))?;
+    Ok(plan.info()?.build(&plan.computation.parameters.values())?)
+}
+
+/// The model of a plan, and its initial shape.
+fn start(plan: &Plan) -> Result<(Box<dyn Model>, Vec<f64>), Error> {
+    let model = model(plan)?;
+    let mut shape = vec![0.0; model.dim()];
+    model.encode(&plan.computation.initial.values()[..model.dim()], &mut shape);
+    Ok((model, shape))
+}
+
+/// Listens for the stop, and tells the monitor how far a run of known length is.
+pub(crate) struct Stop<'m> {
+    monitor: &'m dyn Monitor,
+    ticks: u32,
+    /// Length of the run; 0 where it is not known.
+    total: f64,
+}
+
+impl<'m> Stop<'m> {
+    pub(crate) fn new(monitor: &'m dyn Monitor) -> Self {
+        Self::over(monitor, 0.0)
+    }
+
+    /// For a run of length `total` (0 where it is not known).
+    pub(crate) fn over(monitor: &'m dyn Monitor, total: f64) -> Self {
+        Self { monitor, ticks: 0, total }
+    }
+}
+
+impl Sink for Stop<'_> {
+    fn tick(&mut self, t: f64) -> ControlFlow<()> {
+        self.ticks = self.ticks.wrapping_add(1);
+        if !self.ticks.is_multiple_of(64) {
+            return ControlFlow::Continue(());
+        }
+        if self.total > 0.0 {
+            self.monitor.progress(t / self.total);
+        }
+        if self.monitor.stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}

@@ -1,0 +1,165 @@
+//! The body along its path: which rows are shown, and how large it is drawn.
+
+use motiform_dynamics::{Model, Outline};
+use motiform_models::ModelInfo;
+use motiform_study::table::Table;
+use motiform_study::{Dataset, Error};
+use std::ops::Range;
+
+/// A dataset with its model, and the choices that all figures share.
+pub(super) struct Body<'d> {
+    pub(super) dataset: &'d Dataset,
+    pub(super) info: &'static ModelInfo,
+    pub(super) model: Box<dyn Model>,
+    rows: Range<usize>,
+    /// Undeformed radius R0 (model length).
+    pub(super) radius: f64,
+    /// Drawn size of an outline over its true size against the path.
+    pub(super) scale: f64,
+}
+
+/// An undeformed outline is drawn about this large against the longer side of the path.
+const TARGET: f64 = 0.032;
+
+/// The deformation is at most about this part of the radius where R0 is chosen for it.
+const DEFORMATION: f64 = 0.45;
+
+impl<'d> Body<'d> {
+    pub(super) fn new(dataset: &'d Dataset) -> Result<Self, Error> {
+        let plan = &dataset.manifest.plan;
+        let info = plan.info()?;
+        let model = info.build(&plan.computation.parameters.values())?;
+        let rows = window(&dataset.trajectory, plan.figure.from, plan.figure.to);
+        let mut body = Self { dataset, info, model, rows, radius: 1.0, scale: 1.0 };
+        body.radius = match body.model.radius() {
+            Some(fixed) => fixed,
+            None if plan.figure.radius > 0.0 => plan.figure.radius,
+            None => body.fitting_radius(),
+        };
+        body.scale = if plan.figure.scale > 0.0 { plan.figure.scale } else { body.readable_scale(TARGET) };
+        Ok(body)
+    }
+
+    /// The rows that are shown.
+    pub(super) fn rows(&self) -> Range<usize> {
+        self.rows.clone()
+    }
+
+    pub(super) fn column(&self, name: &str) -> &[f64] {
+        self.dataset.trajectory.get(name).unwrap_or(&[])
+    }
+
+    pub(super) fn time(&self, row: usize) -> f64 {
+        self.column("t")[row]
+    }
+
+    pub(super) fn position(&self, row: usize) -> [f64; 2] {
+        [self.column("x")[row], self.column("y")[row]]
+    }
+
+    /// The shape at a row.
+    pub(super) fn shape(&self, row: usize) -> Vec<f64> {
+        let named: Vec<f64> = self.model.coordinates().iter().map(|c| self.column(c.name)[row]).collect();
+        let mut shape = named.clone();
+        self.model.encode(&named, &mut shape);
+        shape
+    }
+
+    /// The outline at a row, in the plane, at `scale` times its size; `None` where the shape is no curve.
+    pub(super) fn outline(&self, row: usize, scale: f64, points: usize) -> Option<Vec<[f64; 2]>> {
+        let [x, y] = self.position(row);
+        match self.model.outline(&self.shape(row), self.radius, points) {
+            Outline::Curve(curve) => {
+                Some(curve.iter().map(|p| [x + scale * p[0], y + scale * p[1]]).collect())
+            }
+            Outline::NotACurve { .. } | Outline::NotClosed { .. } => None,
+        }
+    }
+
+    /// The boundary's field at a row, for models that have one.
+    pub(super) fn profile(&self, row: usize, points: usize) -> Option<Vec<f64>> {
+        self.model.profile(&self.shape(row), points)
+    }
+
+    /// Length of the undeformed boundary.
+    pub(super) fn arc_length(&self) -> f64 {
+        std::f64::consts::TAU * self.radius
+    }
+
+    /// Longer side of the box around the shown path.
+    pub(super) fn extent(&self) -> f64 {
+        let side = |name| {
+            let shown = &self.column(name)[self.rows()];
+            let (low, high) = shown.iter().fold((f64::MAX, f64::MIN), |(a, b), &x| (a.min(x), b.max(x)));
+            high - low
+        };
+        f64::max(side("x"), side("y"))
+    }
+
+    /// Length of the shown path.
+    pub(super) fn length(&self) -> f64 {
+        self.rows().skip(1).map(|row| distance(self.position(row - 1), self.position(row))).sum()
+    }
+
+    /// Rows at equal distances along the path, about `count` of them, the first and the last included.
+    pub(super) fn rows_along(&self, count: usize) -> Vec<usize> {
+        let spacing = self.length() / (count.max(2) - 1) as f64;
+        let mut chosen = vec![self.rows.start];
+        let (mut travelled, mut next) = (0.0, spacing);
+        for row in self.rows().skip(1) {
+            travelled += distance(self.position(row - 1), self.position(row));
+            if spacing > 0.0 && travelled >= next - 1e-9 * spacing {
+                chosen.push(row);
+                next = (travelled / spacing).floor().mul_add(spacing, spacing);
+            }
+        }
+        let last = self.rows.end - 1;
+        if spacing > 0.0 && chosen.last() != Some(&last) {
+            chosen.push(last);
+        }
+        chosen
+    }
+
+    /// R0 does not enter the dynamics: a round number that shows the deformation and keeps the outline a curve.
+    fn fitting_radius(&self) -> f64 {
+        let deformation = self.rows().map(|row| self.model.deformation(&self.shape(row))).fold(0.0, f64::max);
+        radius_for(deformation)
+    }
+
+    /// 1 where an undeformed outline at its true size is about `target` of the longer side of the path, else a round
+    /// factor that makes it so.
+    pub(super) fn readable_scale(&self, target: f64) -> f64 {
+        let share = self.radius / self.extent();
+        if !share.is_finite() || (0.5 * target..=1.6 * target).contains(&share) {
+            1.0
+        } else {
+            round_up(target / share / 1.3)
+        }
+    }
+}
+
+/// A round undeformed radius for a body whose largest deformation (as in [`Model::deformation`]) is this.
+#[must_use]
+pub fn radius_for(deformation: f64) -> f64 {
+    if deformation < 1e-6 || !deformation.is_finite() { 1.0 } else { round_up(deformation / DEFORMATION) }
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    libm::hypot(b[0] - a[0], b[1] - a[1])
+}
+
+/// The next of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten.
+fn round_up(x: f64) -> f64 {
+    let power = libm::pow(10.0, x.log10().floor());
+    let steps = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
+    let mantissa = steps.into_iter().find(|step| step * power >= x * (1.0 - 1e-12)).unwrap_or(10.0);
+    mantissa * power
+}
+
+/// The rows with `from <= t <= to` (`to = 0`: the end).
+fn window(trajectory: &Table, from: f64, to: f64) -> Range<usize> {
+    let times = trajectory.get("t").unwrap_or(&[]);
+    let start = times.partition_point(|&t| t < from);
+    let end = if to == 0.0 { times.len() } else { times.partition_point(|&t| t <= to) };
+    start..end.max(start)
+}

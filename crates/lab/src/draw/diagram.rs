@@ -1,0 +1,184 @@
+//! Scans: which motion occurs where, and the largest exponent along one axis.
+
+use super::{FigureFormat, Picture, add, words};
+use crate::scan::{Axis, CellSummary, ScanFolder, cells};
+use motiform_analysis::regime::Regime;
+use motiform_figures::{
+    BoundaryLine, Cell, ErrorBarFigure, ErrorBarSeries, LineStyle, Measured, PhaseDiagram,
+};
+use motiform_models::ModelInfo;
+use motiform_models::parameters::Parameters;
+use motiform_models::tensor::TensorParameters;
+use motiform_models::tensor::reduced::{Line, Reduced};
+use motiform_study::{Error, ScanPlan};
+
+/// Points of an analytic line.
+const POINTS: usize = 600;
+
+/// Draws the figures of a scan: `_diagram`, and with one axis `_exponent` where exponents are known (as SVG and PNG, and
+/// PDF if asked and built in). The underscore keeps them out of the way of those who read all parts as one table. A scan
+/// without any computed cell gives no pictures.
+///
+/// # Errors
+/// [`Error::Unreadable`], an unknown model, or numbers that no axis can hold.
+pub fn draw_scan(folder: &ScanFolder, format: &FigureFormat) -> Result<Vec<Picture>, Error> {
+    let plan = folder.plan();
+    let cells: Vec<CellSummary> = cells(folder)?.into_iter().flatten().collect();
+    let mut pictures = Vec::new();
+    if cells.is_empty() {
+        return Ok(pictures);
+    }
+    add(&mut pictures, "_diagram", &mut phase_diagram(plan, &cells)?, format)?;
+    if let Some(mut figure) = exponents(plan, &cells)? {
+        add(&mut pictures, "_exponent", &mut figure, format)?;
+    }
+    Ok(pictures)
+}
+
+/// The phase diagram of a scan over one or two axes, with the analytic lines where the model is the paper's reduced one.
+///
+/// # Errors
+/// An unknown model.
+pub fn phase_diagram(plan: &ScanPlan, cells: &[CellSummary]) -> Result<PhaseDiagram, Error> {
+    let info = plan.info()?;
+    let axes = &plan.computation.axes;
+    let cell = |cell: &CellSummary| {
+        let at = plan.axis_values(cell.cell);
+        Cell { x: at[0], y: at.get(1).copied().unwrap_or(0.0), shares: cell.shares() }
+    };
+    let label = |axis: Option<&Axis>| axis.map_or_else(String::new, |axis| symbol(info, &axis.name));
+    let values = |axis: Option<&Axis>| axis.map_or_else(Vec::new, |axis| sorted(&axis.values));
+    Ok(PhaseDiagram {
+        title: plan.title.clone(),
+        caption: caption(plan, info, cells),
+        x_label: label(axes.first()),
+        y_label: label(axes.get(1)),
+        x: values(axes.first()),
+        y: values(axes.get(1)),
+        cells: cells.iter().map(cell).collect(),
+        lines: boundary_lines(plan),
+    })
+}
+
+/// The largest Lyapunov exponent against the parameter of a scan's only axis; `None` with two axes, or where no motion
+/// has one.
+///
+/// # Errors
+/// An unknown model.
+pub fn exponents(plan: &ScanPlan, cells: &[CellSummary]) -> Result<Option<ErrorBarFigure>, Error> {
+    let info = plan.info()?;
+    let [axis] = &plan.computation.axes[..] else { return Ok(None) };
+    let series: Vec<ErrorBarSeries> =
+        Regime::ALL.into_iter().filter_map(|regime| exponents_of(regime, plan, cells)).collect();
+    if series.is_empty() {
+        return Ok(None);
+    }
+    let mut caption = caption(plan, info, cells);
+    caption.push(
+        "Medians over the initial states that lead to the same motion; bars: medians of the half widths of the 95 % \
+         confidence intervals. Exponents of fixed shapes and of periodic orbits are those of the linearised motion; the \
+         neutral directions of the symmetry make them exactly 0 wherever the body moves."
+            .to_owned(),
+    );
+    Ok(Some(ErrorBarFigure {
+        title: format!("{}: largest Lyapunov exponent", plan.title),
+        caption,
+        x_label: symbol(info, &axis.name),
+        y_label: "*λ*_1 (1/time)".to_owned(),
+        series,
+        zero_line: true,
+        ..ErrorBarFigure::default()
+    }))
+}
+
+/// The exponents of one regime.
+fn exponents_of(regime: Regime, plan: &ScanPlan, cells: &[CellSummary]) -> Option<ErrorBarSeries> {
+    let point = |cell: &CellSummary| {
+        let motion = cell.motions.iter().find(|motion| motion.regime == regime)?;
+        let (y, error) = (motion.median("lambda_1")?, motion.median("lambda_1_error")?);
+        let x = *plan.axis_values(cell.cell).first()?;
+        (y.is_finite() && error.is_finite()).then_some(Measured { x, y, error: error.abs() })
+    };
+    let mut points: Vec<Measured> = cells.iter().filter_map(point).collect();
+    points.sort_by(|a, b| a.x.total_cmp(&b.x));
+    (!points.is_empty()).then(|| ErrorBarSeries { label: regime.name().to_owned(), points, joined: false })
+}
+
+/// What was scanned, in words.
+fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary]) -> Vec<String> {
+    let c = &plan.computation;
+    let (count, all) = (cells.len(), plan.cells());
+    let computed =
+        if count < all { format!("{count} of {all} cells are computed") } else { format!("{all} cells") };
+    let random = format!("{}, seed {}", c.random.words(), c.seed);
+    let states = match (c.samples, c.initial.is_empty()) {
+        (1, false) => "one initial state each, the given one".to_owned(),
+        (1, true) => format!("one random initial state each, {random}"),
+        (samples, false) => format!("{samples} initial states each, the given one and random ones, {random}"),
+        (samples, true) => format!("{samples} random initial states each, {random}"),
+    };
+    let method = format!("Computed by {}, {}.", words::stepper(&c.stepper), words::control(c.control));
+    vec![words::named(info, &c.parameters), format!("{computed}, {states}. {method}")]
+}
+
+/// How figures write a parameter.
+fn symbol(info: &ModelInfo, name: &str) -> String {
+    let spec = info.parameters().iter().find(|spec| spec.name == name);
+    spec.map_or_else(|| name.to_owned(), |spec| spec.symbol.to_owned())
+}
+
+/// Cell centres in the order of an axis.
+fn sorted(values: &[f64]) -> Vec<f64> {
+    let mut values = values.to_vec();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// The couplings of a plan that is the reduced model over the plane (kappa2, gamma), in either order.
+fn reduced(plan: &ScanPlan) -> Option<Reduced> {
+    let c = &plan.computation;
+    if c.model != TensorParameters::MODEL || c.axes.len() != 2 {
+        return None;
+    }
+    let mut parameters = TensorParameters::default();
+    for (name, value) in &c.parameters.0 {
+        parameters.set(name, *value).ok()?;
+    }
+    let named = |name: &str| c.axes.iter().any(|axis| axis.name == name);
+    (named("kappa2") && named("gamma")).then(|| Reduced::of(&parameters))?
+}
+
+/// The analytic lines over a scan of the reduced tensor model over (kappa2, gamma); none for other models and planes.
+#[must_use]
+pub fn boundary_lines(plan: &ScanPlan) -> Vec<BoundaryLine> {
+    let Some(reduced) = reduced(plan) else { return Vec::new() };
+    let axes = &plan.computation.axes;
+    let swapped = axes[0].name == "gamma";
+    let range = |name: &str| {
+        let values = axes.iter().find(|axis| axis.name == name).map(|axis| sorted(&axis.values));
+        let values = values.unwrap_or_default();
+        let (low, high) = (values[0], values[values.len() - 1]);
+        let room = (high - low) / values.len() as f64; // the outer halves of the outer cells
+        (low - room, high + room)
+    };
+    let (kappa2, gamma) = (range("kappa2"), range("gamma"));
+    let points = |line: Line| reduced.line(line, kappa2, gamma, POINTS);
+    let mut motionless = points(Line::CircleToStraight);
+    motionless.reverse();
+    motionless.extend(points(Line::EllipseToStraight));
+    let all = [
+        ("motionless | straight", LineStyle::Solid, motionless),
+        ("straight | circular", LineStyle::Dashed, points(Line::StraightToCircular)),
+        ("stability limit of straight (Hopf)", LineStyle::Dotted, points(Line::StraightHopf)),
+        ("circular | quasi-periodic", LineStyle::DashDotted, points(Line::CircularToQuasiPeriodic)),
+        ("quasi-periodic | rectangular", LineStyle::LongDashed, points(Line::QuasiPeriodicToRectangular)),
+    ];
+    let oriented =
+        |points: Vec<[f64; 2]>| points.into_iter().map(|[k, g]| if swapped { [g, k] } else { [k, g] });
+    let line = |(label, style, points): (&str, LineStyle, Vec<[f64; 2]>)| BoundaryLine {
+        label: label.to_owned(),
+        style,
+        points: oriented(points).collect(),
+    };
+    all.into_iter().filter(|entry| entry.2.len() > 1).map(line).collect()
+}

@@ -1,0 +1,90 @@
+//! Figures of what was read off a body that moves while somebody looks on ([`crate::live`]).
+
+use super::words;
+use crate::live::Spectra;
+use motiform_analysis::Estimate;
+use motiform_figures::palette::CATEGORIES;
+use motiform_figures::{
+    ErrorBarFigure, ErrorBarSeries, Measured, ReturnMapFigure, SpectrumCurve, SpectrumFigure,
+};
+use motiform_study::{Error, Plan};
+
+/// Power spectra; `None` while there are none.
+///
+/// # Errors
+/// An unknown model, or numbers that no axis can hold.
+pub fn spectrum(plan: &Plan, spectra: &Spectra) -> Result<Option<String>, Error> {
+    if spectra.curves.is_empty() {
+        return Ok(None);
+    }
+    let curves = spectra.curves.iter().zip(CATEGORIES).map(|((_, symbol, power), colour)| SpectrumCurve {
+        label: (*symbol).to_owned(),
+        colour,
+        power: power.clone(),
+    });
+    let method = format!("Welch's method: {} segments, Hann window, half overlapping.", spectra.segments);
+    let figure = SpectrumFigure {
+        title: format!("{}: power spectrum", plan.title()),
+        caption: vec![parameters(plan)?, method],
+        y_label: "power spectral density (value^2 × time)".to_owned(),
+        frequencies: spectra.frequencies.clone(),
+        curves: curves.collect(),
+        ..SpectrumFigure::default()
+    };
+    Ok(Some(super::sheet(&figure)?.svg))
+}
+
+/// A return map of the values `xs`, which are called `symbol` (markup); `what` says what they are. `None` for fewer than two.
+///
+/// # Errors
+/// An unknown model, or numbers that no axis can hold.
+pub fn return_map(plan: &Plan, xs: &[f64], symbol: &str, what: &str) -> Result<Option<String>, Error> {
+    if xs.len() < 2 {
+        return Ok(None);
+    }
+    let figure = ReturnMapFigure {
+        title: format!("{}: return map", plan.title()),
+        caption: vec![parameters(plan)?, what.to_owned(), format!("{} returns.", xs.len() - 1)],
+        x_label: format!("{symbol}_*n*"),
+        y_label: format!("{symbol}_{{*n*+1}}"),
+        points: xs.windows(2).map(|pair| [pair[0], pair[1]]).collect(),
+    };
+    Ok(Some(super::sheet(&figure)?.svg))
+}
+
+/// Lyapunov exponents against the time that they are averaged over; `None` while there are none.
+///
+/// # Errors
+/// An unknown model, or numbers that no axis can hold.
+pub fn exponents(plan: &Plan, history: &[(f64, Vec<Estimate>)]) -> Result<Option<String>, Error> {
+    let count = history.iter().map(|(_, estimates)| estimates.len()).max().unwrap_or(0);
+    if count == 0 {
+        return Ok(None);
+    }
+    let series = |k: usize| {
+        let point = |(time, estimates): &(f64, Vec<Estimate>)| {
+            let estimate = estimates.get(k).filter(|estimate| estimate.error.is_finite())?;
+            Some(Measured { x: *time, y: estimate.value, error: estimate.error })
+        };
+        let points = history.iter().filter_map(point).collect();
+        ErrorBarSeries { label: format!("*λ*_{}", k + 1), points, joined: true }
+    };
+    let figure = ErrorBarFigure {
+        title: format!("{}: Lyapunov exponents", plan.title()),
+        caption: vec![
+            parameters(plan)?,
+            "Exponents of the motion from the state at the last change, without noise. Bars: 95 % confidence intervals."
+                .to_owned(),
+        ],
+        x_label: "averaging time (model time)".to_owned(),
+        y_label: "Lyapunov exponent (inverse model time)".to_owned(),
+        series: (0..count).map(series).filter(|series| !series.points.is_empty()).collect(),
+        zero_line: true,
+        ..ErrorBarFigure::default()
+    };
+    Ok(Some(super::sheet(&figure)?.svg))
+}
+
+fn parameters(plan: &Plan) -> Result<String, Error> {
+    Ok(words::named(plan.info()?, &plan.computation.parameters))
+}

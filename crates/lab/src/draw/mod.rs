@@ -1,0 +1,148 @@
+//! Dataset to figures: what is drawn, and with what words. The drawing itself is in [`motiform_figures`].
+
+mod body;
+mod diagram;
+mod film;
+pub mod live;
+mod path;
+mod return_map;
+mod series;
+mod space_time;
+mod spectrum;
+mod words;
+
+use body::Body;
+pub use body::radius_for;
+pub use diagram::{boundary_lines, draw_scan, exponents, phase_diagram};
+use motiform_figures::{Drawn, Figure, FigureError, Style, png};
+use motiform_study::{Dataset, Error};
+
+/// What a figure refuses, as an error of a study.
+#[must_use]
+#[allow(clippy::needless_pass_by_value, reason = "for map_err")]
+pub fn undrawable(error: FigureError) -> Error {
+    Error::Figure(error.to_string())
+}
+
+/// Draws a figure, with its data.
+///
+/// # Errors
+/// [`Error::Figure`]: numbers that no axis can hold.
+pub fn sheet(figure: &dyn Figure) -> Result<Drawn, Error> {
+    figure.drawn().map_err(undrawable)
+}
+
+/// A file ready to be written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// File name.
+    pub name: String,
+    /// Content.
+    pub bytes: Vec<u8>,
+}
+
+/// How figures become files.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct FigureFormat {
+    /// PDF as well, where that is built in.
+    pub pdf: bool,
+    /// Words and size in place of the figures' own.
+    pub style: Style,
+}
+
+/// Draws every figure of a dataset: `path`, `series`, and where the model or the plan has them `return-map`, `phi` and
+/// `spectrum` (as SVG and PNG, and PDF if asked and built in), and the animation `motion.png`.
+///
+/// A dataset whose shown window has fewer than two rows gives no pictures.
+///
+/// # Errors
+/// An unknown model, or numbers that no axis can hold.
+pub fn draw(dataset: &Dataset, format: &FigureFormat) -> Result<Vec<Picture>, Error> {
+    let body = Body::new(dataset)?;
+    if body.rows().len() < 2 {
+        return Ok(Vec::new());
+    }
+    let animated = dataset.manifest.plan.figure.animation;
+    // The film takes about as long as the rest: one thread each.
+    let (film, stills) = std::thread::scope(|scope| {
+        let film =
+            scope.spawn(|| animated.then(|| film::animation(&body).apng()).transpose().map_err(undrawable));
+        let stills = stills(&body, format);
+        (film.join(), stills)
+    });
+    let mut pictures = stills?;
+    let film = film.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+    pictures.extend(film.map(|bytes| Picture { name: "motion.png".to_owned(), bytes }));
+    Ok(pictures)
+}
+
+fn stills(body: &Body<'_>, format: &FigureFormat) -> Result<Vec<Picture>, Error> {
+    let mut pictures = Vec::new();
+    for (name, mut figure) in figures(body) {
+        add(&mut pictures, name, figure.as_mut(), format)?;
+    }
+    Ok(pictures)
+}
+
+/// The still figures of a dataset with their data, by name: what [`draw`] makes files of. None with fewer than two rows.
+///
+/// # Errors
+/// As [`draw`].
+pub fn drawn(dataset: &Dataset) -> Result<Vec<(&'static str, Drawn)>, Error> {
+    let body = Body::new(dataset)?;
+    if body.rows().len() < 2 {
+        return Ok(Vec::new());
+    }
+    figures(&body).into_iter().map(|(name, figure)| Ok((name, sheet(figure.as_ref())?))).collect()
+}
+
+/// One still figure of a dataset as SVG: `path` or `series`; `None` for other names, and with fewer than two rows.
+///
+/// # Errors
+/// As [`draw`].
+pub fn still(dataset: &Dataset, name: &str) -> Result<Option<String>, Error> {
+    let body = Body::new(dataset)?;
+    if body.rows().len() < 2 {
+        return Ok(None);
+    }
+    Ok(match name {
+        "path" => Some(path::figure(&body).svg().map_err(undrawable)?),
+        "series" => Some(series::figure(&body).svg().map_err(undrawable)?),
+        _ => None,
+    })
+}
+
+/// The animation of a dataset as an animated PNG; `None` with fewer than two rows.
+///
+/// # Errors
+/// As [`draw`].
+pub fn film(dataset: &Dataset) -> Result<Option<Vec<u8>>, Error> {
+    let body = Body::new(dataset)?;
+    Ok(if body.rows().len() < 2 { None } else { Some(film::animation(&body).apng().map_err(undrawable)?) })
+}
+
+fn figures(body: &Body<'_>) -> Vec<(&'static str, Box<dyn Figure>)> {
+    let mut all: Vec<(&'static str, Box<dyn Figure>)> =
+        vec![("path", Box::new(path::figure(body))), ("series", Box::new(series::figure(body)))];
+    all.extend(return_map::figure(body).map(|figure| ("return-map", Box::new(figure) as _)));
+    all.extend(space_time::figure(body).map(|figure| ("phi", Box::new(figure) as _)));
+    all.extend(spectrum::figure(body).map(|figure| ("spectrum", Box::new(figure) as _)));
+    all
+}
+
+fn add(
+    pictures: &mut Vec<Picture>,
+    name: &str,
+    figure: &mut dyn Figure,
+    format: &FigureFormat,
+) -> Result<(), Error> {
+    let svg = format.style.draw(figure).map_err(undrawable)?.svg;
+    let mut push = |ending: &str, bytes| pictures.push(Picture { name: format!("{name}.{ending}"), bytes });
+    push("svg", svg.clone().into_bytes());
+    push("png", png(&svg, format.style.png_scale(), &[]).map_err(undrawable)?);
+    #[cfg(feature = "pdf")]
+    if format.pdf {
+        push("pdf", motiform_figures::pdf(&svg).map_err(undrawable)?);
+    }
+    Ok(())
+}

@@ -1,0 +1,117 @@
+//! Captions: the parameter set, the method, the scale of what is drawn. All of it from the manifest.
+
+use super::body::Body;
+use motiform_dynamics::Outcome;
+use motiform_models::ModelInfo;
+use motiform_study::plan::{Control, Named, NoiseSettings};
+use motiform_study::titles::capital;
+pub(super) use motiform_study::titles::number;
+
+/// A space at which no line breaks.
+const SPACE: char = '\u{a0}';
+
+/// `Tensor model: γ = 1, κ_2 = 0.9, ...; all others 0.`
+pub(super) fn parameters(body: &Body<'_>) -> String {
+    named(body.info, &body.dataset.manifest.plan.computation.parameters)
+}
+
+/// The same for these values of a model.
+pub(super) fn named(info: &ModelInfo, values: &Named) -> String {
+    let specs = info.parameters();
+    let set: Vec<String> = specs
+        .iter()
+        .filter_map(|spec| Some((spec, values.get(spec.name).filter(|&value| value != 0.0)?)))
+        .map(|(spec, value)| format!("{}{SPACE}={SPACE}{}", spec.symbol, number(value)))
+        .collect();
+    let others =
+        if set.len() < specs.len() { format!("; all other parameters{SPACE}0") } else { String::new() };
+    format!("{} model: {}{others}.", capital(info.name), set.join(", "))
+}
+
+/// How it was computed, and how the run ended if it did not complete.
+pub(super) fn method(body: &Body<'_>) -> String {
+    let manifest = &body.dataset.manifest;
+    let c = &manifest.plan.computation;
+    let (title, control) = (stepper(&c.stepper), control(c.control));
+    let early = manifest.outcome.during.is_some();
+    let transient = match c.transient {
+        length if early => {
+            format!(
+                " The run did not survive its transient of {} time units: shown is its end.",
+                number(length)
+            )
+        }
+        length if length > 0.0 => format!(" The first {} time units are not shown.", number(length)),
+        _ => String::new(),
+    };
+    let noise = c.noise.map_or_else(String::new, |noise| self::noise(noise, body.model.velocities(), c.seed));
+    let end = match manifest.outcome.outcome {
+        Outcome::Completed { .. } => String::new(),
+        Outcome::Escaped { t, singular: true, .. } => {
+            format!(" The solution blows up at *t** = {}.", number(t))
+        }
+        other => format!(" The run ended early: {other}."),
+    };
+    let end = end.replace("*t** =", "*t*\\* =");
+    format!("Computed by {title}, {control}.{noise}{transient}{end}")
+}
+
+/// The noise, its amplitudes and seed.
+fn noise(noise: NoiseSettings, velocities: usize, seed: u64) -> String {
+    let NoiseSettings { velocity, shape, .. } = noise;
+    let of = if velocities == 0 {
+        format!("{} on each coordinate of the shape", number(shape))
+    } else if velocity == shape {
+        format!("{} on each coordinate of velocity and shape", number(shape))
+    } else {
+        format!("{} on each coordinate of the velocity, {} of the shape", number(velocity), number(shape))
+    };
+    format!(" White noise of amplitude {of}, seed {seed}.")
+}
+
+/// What a stepper is called, without the kind of its control.
+pub(super) fn stepper(name: &str) -> &str {
+    let title = motiform_dynamics::steppers::Method::find(name).map_or(name, |method| method.title());
+    [", fixed step", ", adaptive"].iter().find_map(|kind| title.find(kind)).map_or(title, |at| &title[..at])
+}
+
+/// `tolerances 10^-9 (relative) and 10^-12`, or the step.
+pub(super) fn control(control: Control) -> String {
+    match control {
+        Control::Adaptive { rtol, atol } => {
+            format!("relative tolerance {}, absolute {}", number(rtol), number(atol))
+        }
+        Control::Fixed { step } => format!("step {}", number(step)),
+    }
+}
+
+/// R0 and the size of the drawn outlines.
+pub(super) fn outlines(body: &Body<'_>) -> String {
+    let size = if body.scale == 1.0 {
+        "drawn at true size against the path".to_owned()
+    } else {
+        format!("drawn at {} times true size against the path", number(body.scale))
+    };
+    if body.model.radius().is_some() {
+        return format!("Outlines: the closed boundary, {size}.");
+    }
+    let radius = number(body.radius);
+    format!("Outlines: *R*_0{SPACE}={SPACE}{radius}, {size}; the deformation itself is not exaggerated.")
+}
+
+/// Where the return map's section lies and what was put on the origin.
+pub(super) fn section(body: &Body<'_>) -> Option<String> {
+    let manifest = &body.dataset.manifest;
+    let map = manifest.plan.computation.return_map.as_ref()?;
+    let ends = if map.x_min > -1e300 || map.x_max < 1e300 {
+        format!(", {} < *x* < {}", number(map.x_min), number(map.x_max))
+    } else {
+        String::new()
+    };
+    let centre = if manifest.centre.is_some() {
+        " The centre of the annulus (the time average of the path) was put on the origin."
+    } else {
+        ""
+    };
+    Some(format!("Section: the segment *y* = {}{ends}, crossed in either direction.{centre}", number(map.y)))
+}

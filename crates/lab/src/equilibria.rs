@@ -1,0 +1,100 @@
+//! The steady motions of a plan: shapes that do not change but for a steady rotation.
+
+use crate::analyse;
+use crate::simulate::Monitor;
+use motiform_analysis::RelativeEquilibrium;
+use motiform_dynamics::{Model, escape::norm};
+use motiform_study::initial::random_shape;
+use motiform_study::plan::{Named, check};
+use motiform_study::{Error, Plan};
+use serde::Serialize;
+
+/// A steady motion: at rest, straight, or circular.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Equilibrium {
+    /// Its shape, one of those that differ by a rotation.
+    pub shape: Named,
+    /// Speed of the centre of mass (model length per model time).
+    pub speed: f64,
+    /// Turning rate (rad per model time).
+    pub turning_rate: f64,
+    /// Eigenvalues of the reduced linearisation, real and imaginary parts, largest real part first (inverse model time).
+    pub eigenvalues: Vec<(f64, f64)>,
+    /// Number of eigenvalues with a positive real part, beyond round-off: 0 is stable.
+    pub unstable: usize,
+    /// What Newton's method left of `f(u) - omega G u`.
+    pub residual: f64,
+    /// The part of the random starts that led here.
+    pub share: f64,
+}
+
+/// Starts are drawn in these sizes in turn: the states of these models have entries of about 1.
+const SIZES: [f64; 6] = [0.01, 0.1, 0.3, 1.0, 2.0, 4.0];
+
+/// Equilibria nearer to each other than this, relative to their size, are one. Where eigenvalues vanish, Newton's method
+/// gives few digits.
+const SAME: f64 = 1e-6;
+
+/// The equilibria that Newton's method finds from the circle and from `starts` random shapes of several sizes, the most
+/// stable first; mirror images count as different. There may be others: nothing proves that these are all.
+///
+/// `None` if the monitor asked to stop.
+///
+/// # Errors
+/// A plan with noise; what the model refuses of its parameters.
+pub fn equilibria(
+    plan: &Plan,
+    starts: usize,
+    monitor: &dyn Monitor,
+) -> Result<Option<Vec<Equilibrium>>, Error> {
+    check("starts", starts as f64, starts > 0, "give at least 1")?;
+    let model = analyse::model(plan)?;
+    let circle = vec![0.0; model.dim()];
+    let mut found: Vec<(RelativeEquilibrium, usize)> = Vec::new();
+    for start in 0..=starts {
+        if monitor.stopped() {
+            return Ok(None);
+        }
+        let size = SIZES[start % SIZES.len()];
+        let guess = match start {
+            0 => circle.clone(),
+            _ => random_shape(model.as_ref(), size, plan.computation.seed, start as u64),
+        };
+        if let Some(equilibrium) = RelativeEquilibrium::find(model.as_ref(), &guess) {
+            count(&mut found, equilibrium, model.as_ref(), start > 0);
+        }
+        monitor.progress((start + 1) as f64 / (starts + 1) as f64);
+    }
+    found.sort_by(|a, b| a.0.growth().total_cmp(&b.0.growth()));
+    Ok(Some(found.into_iter().map(|(found, hits)| describe(model.as_ref(), found, hits, starts)).collect()))
+}
+
+/// Adds an equilibrium, or a hit to the one that it is.
+fn count(
+    found: &mut Vec<(RelativeEquilibrium, usize)>,
+    new: RelativeEquilibrium,
+    model: &dyn Model,
+    drawn: bool,
+) {
+    let size = norm(&new.shape).max(1e-3);
+    let same = found.iter_mut().find(|(known, _)| known.distance(model, &new.shape) < SAME * size);
+    match same {
+        Some((_, hits)) => *hits += usize::from(drawn),
+        None => found.push((new, usize::from(drawn))),
+    }
+}
+
+fn describe(model: &dyn Model, found: RelativeEquilibrium, hits: usize, starts: usize) -> Equilibrium {
+    let mut values = vec![0.0; model.coordinates().len()];
+    model.decode(&found.shape, &mut values);
+    let names = model.coordinates().iter().map(|coordinate| coordinate.name.to_owned());
+    Equilibrium {
+        shape: Named(names.zip(values).collect()),
+        speed: found.speed(),
+        turning_rate: found.turning_rate,
+        unstable: found.eigenvalues.iter().filter(|value| value.0 > found.resolution()).count(),
+        residual: found.residual,
+        share: hits as f64 / starts as f64,
+        eigenvalues: found.eigenvalues,
+    }
+}

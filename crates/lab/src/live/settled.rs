@@ -1,0 +1,36 @@
+//! Where a body is when somebody begins to look.
+
+use crate::simulate::{Monitor, after_transient};
+use motiform_dynamics::{Model, Outcome};
+use motiform_study::{Error, Plan};
+use std::time::{Duration, Instant};
+
+/// The start of a plan's body: the shape as `model`, the plan's own, computes with it, then x and y.
+#[must_use]
+pub fn start(plan: &Plan, model: &dyn Model) -> Vec<f64> {
+    let mut state = plan.computation.initial.values();
+    let shape = state.len() - 2;
+    let values = state[..shape].to_vec();
+    model.encode(&values, &mut state[..shape]);
+    state
+}
+
+/// The state after the plan's transient, or as far into it as `within` allows; the start where the motion does not last so long.
+/// The position is that of the start.
+///
+/// # Errors
+/// Input that only the numerics can refuse.
+pub fn settled(plan: &Plan, model: &dyn Model, within: Duration) -> Result<Vec<f64>, Error> {
+    let (ended, state) = after_transient(plan, model, &Patience(Instant::now() + within))?;
+    let usable = ended.is_none_or(|ending| matches!(*ending, Outcome::Interrupted { .. }));
+    Ok(if usable { state } else { start(plan, model) })
+}
+
+/// Stops when its time is over.
+struct Patience(Instant);
+
+impl Monitor for Patience {
+    fn stopped(&self) -> bool {
+        Instant::now() > self.0
+    }
+}

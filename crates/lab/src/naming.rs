@@ -1,0 +1,32 @@
+//! The motion that was simulated, by name: a short look from where the run ended.
+
+use crate::analyse;
+use crate::simulate::Monitor;
+use motiform_analysis::regime::{Regime, Verdict};
+use motiform_dynamics::Outcome;
+use motiform_study::{Error, Manifest};
+
+/// Model time to spend, in looks of the model: a motion that has settled is decided within the first.
+const LOOKS: f64 = 2.0;
+
+/// Names the motion at the end of a run, spending a few looks of the model on it. `None` where that does not decide; of a
+/// run that did not complete, or is under noise; and where the monitor asked to stop. The whole question is asked by
+/// [`analyse::classify`].
+///
+/// # Errors
+/// Input that only the numerics can refuse.
+///
+/// # Checked by  tests/naming.rs: the presets' motions, other parameters, noise, blow-up
+pub fn name(manifest: &Manifest, monitor: &dyn Monitor) -> Result<Option<Verdict>, Error> {
+    let mut plan = manifest.plan.clone();
+    let complete = matches!(*manifest.outcome, Outcome::Completed { .. });
+    if !complete || plan.computation.noise.is_some() || monitor.stopped() {
+        return Ok(None);
+    }
+    for (entry, state) in plan.computation.initial.0.iter_mut().zip(&manifest.state.0) {
+        entry.1 = state.1;
+    }
+    let budget = LOOKS * plan.info()?.look;
+    let verdict = analyse::classify(&plan, budget, monitor)?;
+    Ok(verdict.filter(|verdict| verdict.regime != Regime::Undetermined))
+}

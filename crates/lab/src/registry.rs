@@ -1,0 +1,78 @@
+//! Everything that has a name, as JSON: models, parameters, presets, steppers, regimes. Front ends are made of it.
+
+use crate::scan::NUMBERS;
+use motiform_analysis::regime::{Attractor, Regime};
+use motiform_dynamics::steppers::Method;
+use motiform_figures::regime_mark;
+use motiform_models::{MODELS, ModelInfo};
+use motiform_study::presets::{PRESETS, find};
+use motiform_study::{Error, Study, dataset};
+use serde_json::{Value, json};
+
+/// The registry.
+///
+/// # Errors
+/// A preset or a model that does not stand up to its own checks.
+pub fn registry() -> Result<Value, Error> {
+    let named = |entries: &[(&str, &str)]| -> Vec<Value> {
+        entries.iter().map(|(name, meaning)| json!({ "name": name, "meaning": meaning })).collect()
+    };
+    Ok(json!({
+        "version": dataset::VERSION,
+        "models": MODELS.iter().map(model).collect::<Result<Vec<_>, _>>()?,
+        "presets": PRESETS.iter().map(|preset| self::preset(preset.model, preset.name)).collect::<Result<Vec<_>, _>>()?,
+        "steppers": Method::names(),
+        "regimes": Regime::ALL.map(regime),
+        "attractors": Attractor::ALL.map(Attractor::name),
+        "numbers": named(&NUMBERS),
+    }))
+}
+
+fn preset(model: &str, name: &str) -> Result<Value, Error> {
+    let study = find(ModelInfo::find(model)?, name)?;
+    let given: serde_json::Map<String, Value> =
+        study.parameters.iter().map(|(name, value)| (name.clone(), json!(value))).collect();
+    let Study { title, about, free, .. } = study;
+    Ok(
+        json!({ "name": name, "model": model, "title": title, "about": about, "free": free, "parameters": given }),
+    )
+}
+
+fn model(info: &'static ModelInfo) -> Result<Value, Error> {
+    let defaults: Vec<f64> = info.parameters().iter().map(|spec| spec.default).collect();
+    let body = info.build(&defaults)?;
+    Ok(json!({
+        "name": info.name,
+        "title": info.title,
+        "equations": info.equations,
+        "source": info.source,
+        "run": Study::of_model(info).run,
+        "look": info.look,
+        "budget": info.budget,
+        "parameters": info.parameters().iter().map(|spec| json!({
+            "name": spec.name,
+            "symbol": spec.symbol,
+            "default": spec.default,
+            "range": spec.range,
+            "allowed": spec.allowed,
+            "equation": spec.equation,
+            "meaning": spec.meaning,
+        })).collect::<Vec<_>>(),
+        "coordinates": info.coordinates(&defaults).iter()
+            .map(|c| json!({ "name": c.name, "meaning": c.meaning })).collect::<Vec<_>>(),
+        "observables": body.observables().iter()
+            .map(|o| json!({ "name": o.name, "symbol": o.symbol, "meaning": o.meaning })).collect::<Vec<_>>(),
+    }))
+}
+
+fn regime(regime: Regime) -> Value {
+    let mark = regime_mark(regime.name());
+    json!({
+        "name": regime.name(),
+        "meaning": regime.meaning(),
+        "colour": mark.colour.to_string(),
+        "area": mark.area.to_string(),
+        "tint": mark.tint().to_string(),
+        "glyph": format!("{:?}", mark.glyph),
+    })
+}

@@ -1,0 +1,136 @@
+//! Chaos that does not last: the exponent of the chaotic saddle, and the rate at which orbits leave it.
+
+use crate::analyse::{self, Stop};
+use crate::simulate::Monitor;
+use motiform_analysis::{
+    Estimate, Lyapunov, LyapunovSettings, Stay, SurvivalStep, escape_rate, lyapunov, survival,
+};
+use motiform_dynamics::Outcome;
+use motiform_study::initial::random_shape;
+use motiform_study::{Error, Plan};
+use rayon::prelude::*;
+use serde::Serialize;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Size of the random starts.
+const RANDOM: f64 = 0.01;
+
+/// The part of a first look that is left out before an escape: there the orbit is on its way out, no longer chaotic.
+const WAY_OUT: f64 = 0.25;
+
+/// What many runs from random starts say about a chaotic saddle.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Saddle {
+    /// Largest exponent on the saddle (inverse model time), with its 95 % error from the spread over the runs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exponent: Option<Estimate>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub missing: String,
+    /// Escape rate kappa (inverse model time) of the exponential tail, with its 95 % error.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rate: Option<Estimate>,
+    /// Runs.
+    pub runs: usize,
+    /// Runs that escaped.
+    pub escaped: usize,
+    /// How long each was watched at most.
+    pub t_end: f64,
+    /// The share that stays, over time.
+    #[serde(skip)]
+    pub survival: Vec<SurvivalStep>,
+}
+
+/// The chaotic saddle of a plan's parameters: `samples` runs of `t_end` at most (default: ten looks of the model) from
+/// random starts, growth counted from `transient` (default: half a look) to a quarter of a look before the escape.
+///
+/// lambda_1 = sum of growth / sum of time over all stretches; its error is that of a ratio of sums over independent runs.
+/// `None` if the monitor asked to stop.
+///
+/// # Errors
+/// Input that only the numerics can refuse.
+///
+/// # Not     where a harmless attractor catches some of the runs: their stretches count as well (see `escaped`)
+pub fn saddle(
+    plan: &Plan,
+    samples: usize,
+    (transient, t_end): (Option<f64>, Option<f64>),
+    monitor: &dyn Monitor,
+) -> Result<Option<Saddle>, Error> {
+    let (info, c) = (plan.info()?, &plan.computation);
+    let model = analyse::model(plan)?;
+    let settings = LyapunovSettings {
+        count: 1,
+        method: plan.method()?,
+        control: c.control.into(),
+        transient: transient.unwrap_or(0.5 * info.look),
+        span: t_end.unwrap_or(10.0 * info.look),
+        escape_norm: c.escape_norm,
+        max_steps: c.max_steps,
+    };
+    let done = AtomicUsize::new(0);
+    let one = |sample: usize| -> Result<Lyapunov, Error> {
+        let start = random_shape(model.as_ref(), RANDOM, c.seed, sample as u64 + 1);
+        let found = lyapunov(model.as_ref(), &start, &settings, &mut Stop::new(monitor))?;
+        monitor.progress(done.fetch_add(1, Ordering::Relaxed) as f64 / samples as f64);
+        Ok(found)
+    };
+    let runs: Vec<Lyapunov> = (0..samples).into_par_iter().map(one).collect::<Result<_, _>>()?;
+    if runs.iter().any(|run| matches!(run.outcome, Outcome::Interrupted { .. })) {
+        return Ok(None);
+    }
+    Ok(Some(summarise(&runs, &settings, WAY_OUT * info.look)?))
+}
+
+fn summarise(runs: &[Lyapunov], settings: &LyapunovSettings, way_out: f64) -> Result<Saddle, Error> {
+    let stay = |run: &Lyapunov| match run.outcome {
+        Outcome::Escaped { t, .. } => Stay { time: t, escaped: true },
+        other => Stay { time: other.t(), escaped: false },
+    };
+    let stays: Vec<Stay> = runs.iter().map(stay).collect();
+    let stretches: Vec<(f64, f64)> = runs
+        .iter()
+        .zip(&stays)
+        .map(|(run, stay)| {
+            stretch(run, if stay.escaped { stay.time - way_out } else { f64::INFINITY }, settings)
+        })
+        .collect();
+    let exponent = ratio(&stretches);
+    let missing = if exponent.is_some() {
+        ""
+    } else {
+        "too few runs stayed long enough; ask for a shorter --transient"
+    };
+    Ok(Saddle {
+        exponent,
+        missing: missing.to_owned(),
+        rate: escape_rate(&stays, settings.transient).ok().map(|found| found.rate),
+        runs: runs.len(),
+        escaped: stays.iter().filter(|stay| stay.escaped).count(),
+        t_end: settings.transient + settings.span,
+        survival: survival(&stays)?,
+    })
+}
+
+/// Growth and duration of a run's chaotic stretch.
+fn stretch(run: &Lyapunov, until: f64, settings: &LyapunovSettings) -> (f64, f64) {
+    let mut before = settings.transient;
+    let (mut growth, mut time) = (0.0, 0.0);
+    for (t, rates) in run.history.iter().take_while(|entry| entry.0 <= until) {
+        growth += rates[0] * (t - before);
+        time += t - before;
+        before = *t;
+    }
+    (growth, time)
+}
+
+/// `sum g / sum d` with its 95 % error, from at least eight runs.
+fn ratio(stretches: &[(f64, f64)]) -> Option<Estimate> {
+    let used: Vec<(f64, f64)> = stretches.iter().copied().filter(|stretch| stretch.1 > 0.0).collect();
+    let time: f64 = used.iter().map(|stretch| stretch.1).sum();
+    let value = used.iter().map(|stretch| stretch.0).sum::<f64>() / time;
+    let squares: f64 = used.iter().map(|(g, d)| (g - value * d) * (g - value * d)).sum();
+    let n = used.len() as f64;
+    let error = 1.96 * (squares * n / (n - 1.0)).sqrt() / time;
+    (used.len() >= 8 && value.is_finite()).then_some(Estimate { value, error })
+}

@@ -1,0 +1,271 @@
+//! A question about one motion, asked of many initial states: which motions are there, and do the orbits agree?
+
+mod crowd;
+mod escapes;
+mod shares;
+
+use crate::analyse::{self, Stop};
+use crate::simulate::Monitor;
+use crowd::{Asked, Crowd};
+pub use escapes::{EscapeLimits, Escapes};
+use motiform_analysis::regime::{Settings, Verdict, classifies_in_lanes};
+use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings};
+use motiform_dynamics::Outcome;
+use motiform_kernels::{TensorRow, classify_tensors, covering, exponents_of_tensor, has_exponents};
+use motiform_models::tensor::Tensor;
+use motiform_study::plan::check;
+use motiform_study::{Error, Plan, Random};
+pub use shares::{Basins, MotionShare, Starts};
+use std::collections::BTreeMap;
+
+/// Who is asked: the plan's own initial state, then random ones.
+#[derive(Clone, Copy, Debug)]
+pub struct Samples {
+    /// How many.
+    pub count: usize,
+    /// The distribution of the random ones: that of the plan's own, unless that one was given.
+    pub random: Random,
+    /// Whether the plan's own initial state was given and not drawn.
+    pub given: bool,
+    /// Threads.
+    pub threads: usize,
+}
+
+impl Samples {
+    fn check(&self) -> Result<(), Error> {
+        check("samples", self.count as f64, self.count > 0, "give at least 1")?;
+        self.random.check()
+    }
+}
+
+/// The motions that the samples lead to, in their order; `None` if the monitor asked to stop. Verdicts are those of
+/// [`analyse::classify`] for each initial state.
+///
+/// # Errors
+/// Input that only the numerics can refuse.
+pub fn classify(
+    plan: &Plan,
+    samples: Samples,
+    budget: f64,
+    monitor: &dyn Monitor,
+) -> Result<Option<Vec<Verdict>>, Error> {
+    samples.check()?;
+    let settings = analyse::settings(plan, budget)?;
+    let crowd = Crowd::new(plan, samples, monitor)?;
+    let tensor = crowd.tensor().filter(|_| classifies_in_lanes(&settings));
+    crowd.run(|asked| match tensor {
+        Some(tensor) => classify_in_lanes(plan, tensor, &settings, asked),
+        None => asked.one_by_one(|start| {
+            let stop = &mut Stop::new(monitor);
+            Ok(motiform_analysis::classify(crowd.model.as_ref(), start, &settings, stop)?)
+        }),
+    })
+}
+
+fn classify_in_lanes(plan: &Plan, tensor: &Tensor, settings: &Settings, asked: &Asked<'_, '_, Verdict>) {
+    let mut next = || {
+        let start = asked.next()?.try_into().ok()?;
+        let body = plan.info().ok()?.build(&plan.computation.parameters.values()).ok()?;
+        Some(TensorRow { body, tensor: *tensor, start })
+    };
+    let mut done = |number, found: motiform_analysis::Result<Option<Verdict>>| {
+        asked.done(number, found.map_err(Error::from));
+    };
+    let stopped = || asked.crowd.monitor.stopped();
+    let terms = covering(tensor.terms());
+    classify_tensors(terms, settings, &mut next, &mut done, &stopped);
+}
+
+/// Exponents of many orbits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exponents {
+    /// Of each orbit, in the order of the samples.
+    pub orbits: Vec<Lyapunov>,
+    /// The means over the orbits that lasted, largest first; empty if none did. The error is the larger one of what the
+    /// orbits' own errors and what their spread make of it.
+    pub means: Vec<Estimate>,
+    /// Whether the largest exponents of all orbits that lasted agree: if not, there are several attractors, and the means
+    /// mean little.
+    pub agree: bool,
+}
+
+/// The exponents of the samples' orbits; `None` if the monitor asked to stop. Each is that of [`analyse::lyapunov`] for its
+/// initial state.
+///
+/// # Errors
+/// As [`analyse::lyapunov`].
+pub fn lyapunov(
+    plan: &Plan,
+    samples: Samples,
+    count: usize,
+    spans: (Option<f64>, Option<f64>),
+    monitor: &dyn Monitor,
+) -> Result<Option<Exponents>, Error> {
+    samples.check()?;
+    let settings = analyse::lyapunov_settings(plan, count, spans)?;
+    let crowd = Crowd::new(plan, samples, monitor)?;
+    let tensor = crowd.tensor().filter(|tensor| has_exponents(tensor, &settings));
+    let orbits = crowd.run(|asked| match tensor {
+        Some(tensor) => exponents_in_lanes(tensor, &settings, asked),
+        None => asked.one_by_one(|start| {
+            let stop = &mut Stop::new(monitor);
+            let found = motiform_analysis::lyapunov(crowd.model.as_ref(), start, &settings, stop)?;
+            Ok((!matches!(found.outcome, Outcome::Interrupted { .. })).then_some(found))
+        }),
+    })?;
+    Ok(orbits.map(summarise))
+}
+
+impl Exponents {
+    /// Why the means have no error; `None` if they have one, or there are none.
+    #[must_use]
+    pub fn without_error(&self) -> Option<String> {
+        self.orbits.iter().find_map(Lyapunov::without_error)
+    }
+}
+
+fn exponents_in_lanes(tensor: &Tensor, settings: &LyapunovSettings, asked: &Asked<'_, '_, Lyapunov>) {
+    let mut next = || asked.next()?.try_into().ok();
+    let mut done = |number, found: motiform_analysis::Result<Lyapunov>| {
+        let lasted =
+            |found: Lyapunov| (!matches!(found.outcome, Outcome::Interrupted { .. })).then_some(found);
+        asked.done(number, found.map(lasted).map_err(Error::from));
+    };
+    let stopped = || asked.crowd.monitor.stopped();
+    exponents_of_tensor(tensor, settings, &mut next, &mut done, &stopped);
+}
+
+/// Largest exponents that differ by more than so many of their errors are not those of one attractor.
+const APART: f64 = 3.0;
+
+fn summarise(orbits: Vec<Lyapunov>) -> Exponents {
+    let lasted: Vec<&[Estimate]> =
+        orbits.iter().map(|orbit| &orbit.exponents[..]).filter(|exponents| !exponents.is_empty()).collect();
+    let count = lasted.first().map_or(0, |exponents| exponents.len());
+    let means: Vec<Estimate> = (0..count)
+        .map(|place| mean(&lasted.iter().map(|exponents| exponents[place]).collect::<Vec<_>>()))
+        .collect();
+    let far = |exponents: &&[Estimate]| {
+        let (own, mean) = (exponents[0], means[0]);
+        (own.value - mean.value).abs() > APART * libm::hypot(own.error, mean.error)
+    };
+    let agree = !lasted.iter().any(far);
+    Exponents { agree, means, orbits }
+}
+
+/// The mean of independent estimates with its 95 % error.
+fn mean(estimates: &[Estimate]) -> Estimate {
+    let n = estimates.len() as f64;
+    let value = estimates.iter().map(|estimate| estimate.value).sum::<f64>() / n;
+    let own = estimates.iter().map(|estimate| estimate.error * estimate.error).sum::<f64>().sqrt() / n;
+    let squares: f64 =
+        estimates.iter().map(|estimate| (estimate.value - value) * (estimate.value - value)).sum();
+    let spread = if estimates.len() > 1 { 1.96 * (squares / (n - 1.0) / n).sqrt() } else { 0.0 };
+    Estimate { value, error: own.max(spread) }
+}
+
+/// How many samples lead to each motion, the most frequent first.
+#[must_use]
+pub fn motions(verdicts: &[Verdict]) -> Vec<(&'static str, usize)> {
+    let mut counts: BTreeMap<_, usize> = BTreeMap::new();
+    for verdict in verdicts {
+        *counts.entry(verdict.regime).or_default() += 1;
+    }
+    let mut counts: Vec<_> = counts.into_iter().map(|(regime, count)| (regime.name(), count)).collect();
+    counts.sort_by_key(|entry| std::cmp::Reverse(entry.1)); // stable: the order of legends
+    counts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motiform_study::Study;
+
+    fn plan(text: &str) -> Plan {
+        Plan::new(&Study::parse(text, "text", "test").unwrap()).unwrap()
+    }
+
+    fn samples(count: usize, threads: usize) -> Samples {
+        Samples { count, random: 0.1.into(), given: false, threads }
+    }
+
+    /// Many together, in lanes and on threads, are each by itself, to the bit.
+    #[test]
+    fn verdicts_are_those_of_each_initial_state() {
+        for text in ["preset = \"fig5b\"", "preset = \"fig5b\"\n[run]\nstepper = \"dopri5\""] {
+            let plan = plan(text);
+            let found = classify(&plan, samples(5, 2), 0.0, &()).unwrap().unwrap();
+            assert_eq!(found, classify(&plan, samples(5, 1), 0.0, &()).unwrap().unwrap());
+            assert_eq!(found[0], analyse::classify(&plan, 0.0, &()).unwrap().unwrap());
+            let crowd = Crowd::new(&plan, samples(5, 1), &()).unwrap();
+            let settings = analyse::settings(&plan, 0.0).unwrap();
+            let alone = motiform_analysis::classify(
+                crowd.model.as_ref(),
+                &crowd.start(3).unwrap(),
+                &settings,
+                &mut (),
+            )
+            .unwrap();
+            assert_eq!(found[3], alone.unwrap());
+            assert_eq!(motions(&found)[0], ("chaotic", 5));
+        }
+    }
+
+    #[test]
+    fn exponents_are_those_of_each_orbit_and_their_mean_is_sharper() {
+        let (plan, spans) = (plan("preset = \"fig5b\""), (Some(100.0), Some(1000.0)));
+        let found = lyapunov(&plan, samples(12, 2), 6, spans, &()).unwrap().unwrap();
+        assert_eq!(found.orbits[0], analyse::lyapunov(&plan, 6, spans, &()).unwrap());
+        let crowd = Crowd::new(&plan, samples(12, 1), &()).unwrap();
+        let settings = analyse::lyapunov_settings(&plan, 6, spans).unwrap();
+        let alone =
+            motiform_analysis::lyapunov(crowd.model.as_ref(), &crowd.start(7).unwrap(), &settings, &mut ());
+        assert_eq!(found.orbits[7], alone.unwrap());
+        assert!(found.agree && found.means[0].error < 0.6 * found.orbits[0].exponents[0].error);
+        let fewer = lyapunov(&plan, samples(3, 2), 2, spans, &()).unwrap().unwrap();
+        assert_eq!(
+            fewer.orbits[2],
+            lyapunov(&plan, samples(3, 1), 2, spans, &()).unwrap().unwrap().orbits[2]
+        );
+    }
+
+    /// One orbit of another motion among many is seen.
+    #[test]
+    fn orbits_of_two_attractors_do_not_agree() {
+        let estimate = |value, error| Estimate { value, error };
+        let one = mean(&[estimate(1.0, 0.3), estimate(1.2, 0.4)]);
+        assert!((one.value - 1.1).abs() < 1e-15 && (one.error - 0.25).abs() < 1e-15);
+        let spread = mean(&[estimate(0.0, 1e-3), estimate(1.0, 1e-3)]);
+        assert!((spread.error - 1.96 * 0.5).abs() < 1e-12);
+        let orbit = |value| Lyapunov {
+            exponents: vec![estimate(value, 0.01)],
+            neutral: 1,
+            history: Vec::new(),
+            reduced_speeds: Vec::new(),
+            time: 1.0,
+            transient: 0.0,
+            outcome: Outcome::Completed { t: 1.0 },
+            shape: Vec::new(),
+        };
+        assert!(summarise(vec![orbit(0.5), orbit(0.51)]).agree);
+        let crowd = [0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.0].map(orbit).to_vec();
+        assert!(!summarise(crowd).agree);
+    }
+
+    struct Stopped;
+
+    impl Monitor for Stopped {
+        fn stopped(&self) -> bool {
+            true
+        }
+    }
+
+    #[test]
+    fn a_stop_is_heard_and_nonsense_refused() {
+        let plan = plan("preset = \"fig5b\"");
+        assert_eq!(classify(&plan, samples(4, 2), 0.0, &Stopped).unwrap(), None);
+        assert_eq!(lyapunov(&plan, samples(4, 2), 6, (None, None), &Stopped).unwrap(), None);
+        assert!(classify(&plan, samples(0, 1), 0.0, &()).is_err());
+        assert!(lyapunov(&plan, samples(4, 1), 7, (None, None), &()).is_err());
+    }
+}

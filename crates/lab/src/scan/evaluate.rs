@@ -1,0 +1,85 @@
+//! What is computed for one row.
+
+use super::{ScanPlan, lanes};
+use crate::analyse::{Stop, settings_of};
+use crate::simulate::Monitor;
+use motiform_analysis::regime::{Verdict, classify};
+use motiform_study::Error;
+
+/// What is asked of each row.
+pub trait Evaluate: Sync {
+    /// The verdict on initial state `sample` of `cell`, a function of the plan and these two numbers alone; `None` if
+    /// `stop` asked to stop.
+    ///
+    /// # Errors
+    /// Input that only the numerics can refuse; the row then says so and is undetermined.
+    fn evaluate(
+        &self,
+        plan: &ScanPlan,
+        cell: usize,
+        sample: usize,
+        stop: &dyn Monitor,
+    ) -> Result<Option<Verdict>, Error>;
+
+    /// The verdicts on all rows that `next` gives (cell and sample), on this thread; each is handed to `done` with the row's
+    /// number in that order. Rows may be answered in any order. An implementation may compute many of them together, but
+    /// every verdict must be that of [`Evaluate::evaluate`].
+    fn evaluate_all(
+        &self,
+        plan: &ScanPlan,
+        next: &mut dyn FnMut() -> Option<(usize, usize)>,
+        done: &mut dyn FnMut(usize, Result<Option<Verdict>, Error>),
+        stop: &dyn Monitor,
+    ) {
+        one_by_one(self, plan, next, done, stop);
+    }
+}
+
+/// Each row by itself.
+fn one_by_one<E: Evaluate + ?Sized>(
+    evaluate: &E,
+    plan: &ScanPlan,
+    next: &mut dyn FnMut() -> Option<(usize, usize)>,
+    done: &mut dyn FnMut(usize, Result<Option<Verdict>, Error>),
+    stop: &dyn Monitor,
+) {
+    let mut number = 0;
+    while let Some((cell, sample)) = next() {
+        done(number, evaluate.evaluate(plan, cell, sample, stop));
+        number += 1;
+    }
+}
+
+/// Names the motion of each row.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Classify;
+
+impl Evaluate for Classify {
+    fn evaluate(
+        &self,
+        plan: &ScanPlan,
+        cell: usize,
+        sample: usize,
+        stop: &dyn Monitor,
+    ) -> Result<Option<Verdict>, Error> {
+        let c = &plan.computation;
+        let model = plan.model_of(cell)?;
+        let start = plan.start(cell, sample, model.as_ref())?;
+        let bounds = (c.escape_norm, c.max_steps);
+        let settings = settings_of(plan.info()?, plan.method()?, c.control, bounds, c.budget);
+        Ok(classify(model.as_ref(), &start, &settings, &mut Stop::new(stop))?)
+    }
+
+    /// In the lanes of vector registers, where the model and the method have such kernels.
+    fn evaluate_all(
+        &self,
+        plan: &ScanPlan,
+        next: &mut dyn FnMut() -> Option<(usize, usize)>,
+        done: &mut dyn FnMut(usize, Result<Option<Verdict>, Error>),
+        stop: &dyn Monitor,
+    ) {
+        if !lanes::classify(self, plan, next, done, stop) {
+            one_by_one(self, plan, next, done, stop);
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! The folder of a scan: `_manifest.json`, locked while it is computed, and parts.
+//!
+//! The manifest's name begins with `_`: readers of Parquet folders (pandas, pyarrow, polars) skip such names, so that they open the
+//! folder as one table.
+
+use super::{Parts, ScanPlan};
+use motiform_files::{Staging, disk};
+use motiform_study::Error;
+use motiform_study::dataset::VERSION;
+use motiform_study::input;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::fs::{File, TryLockError};
+use std::path::{Path, PathBuf};
+
+const MANIFEST: &str = "_manifest.json";
+
+/// Provenance of a scan. Knows no host, no user, no time of day, and neither threads nor shards.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ScanManifest {
+    /// Version of motiform that began it.
+    pub motiform: String,
+    /// SHA-256 of the plan's computation.
+    pub plan_hash: String,
+    /// The plan.
+    pub plan: ScanPlan,
+}
+
+/// A folder that holds a scan, or as much of it as is computed.
+#[derive(Clone, Debug)]
+pub struct ScanFolder {
+    path: PathBuf,
+    manifest: ScanManifest,
+}
+
+impl ScanFolder {
+    /// Reads the manifest of a folder.
+    ///
+    /// # Errors
+    /// [`Error::NoScan`] where it is missing or damaged.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let no_scan = |reason: String| Error::NoScan { path: path.to_owned(), reason };
+        let text =
+            input::manifest(&path.join(MANIFEST)).map_err(|error| no_scan(format!("{MANIFEST}: {error}")))?;
+        let manifest: ScanManifest =
+            serde_json::from_str(&text).map_err(|error| no_scan(format!("{MANIFEST}: {error}")))?;
+        if manifest.plan.hash() != manifest.plan_hash {
+            return Err(no_scan(format!("{MANIFEST} was changed: its plan does not give its hash")));
+        }
+        Ok(Self { path: path.to_owned(), manifest })
+    }
+
+    /// Whether there is a scan in a folder.
+    #[must_use]
+    pub fn is_one(path: &Path) -> bool {
+        let manifest = input::manifest(&path.join(MANIFEST)).unwrap_or_default();
+        let manifest: Value = serde_json::from_str(&manifest).unwrap_or_default();
+        manifest["motiform"].is_string() && manifest["plan_hash"].is_string()
+    }
+
+    /// Where it is.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Its provenance.
+    #[must_use]
+    pub fn manifest(&self) -> &ScanManifest {
+        &self.manifest
+    }
+
+    /// Its plan.
+    #[must_use]
+    pub fn plan(&self) -> &ScanPlan {
+        &self.manifest.plan
+    }
+
+    /// The files of its parts.
+    #[must_use]
+    pub fn parts(&self) -> Parts {
+        Parts::new(&self.path, self.plan())
+    }
+}
+
+/// The folder of a scan whose place is not given.
+#[must_use]
+pub fn default_folder(plan: &ScanPlan) -> String {
+    let model = &plan.computation.model;
+    if plan.name == *model { format!("{model}-scan") } else { format!("{model}-{}-scan", plan.name) }
+}
+
+/// The lock of a folder, which is on its manifest: a file of its own could be deleted under a running scan. Held as long as the file is
+/// open: the system releases it when the process ends, however it ends.
+pub(super) fn lock(folder: &Path, shown: &Path) -> Result<File, Error> {
+    let unwritable = |reason| Error::Unwritable { path: shown.to_owned(), reason };
+    let file = File::options().read(true).write(true).open(folder.join(MANIFEST));
+    let file = file.map_err(unwritable)?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err(Error::Busy { path: shown.to_owned() }),
+        Err(TryLockError::Error(reason)) => Err(unwritable(reason)),
+    }
+}
+
+/// Prepares a folder with its manifest beside `target`; it gets its name when the staging is committed.
+pub(super) fn stage(target: &Path, plan: &ScanPlan, force: bool) -> Result<Staging, Error> {
+    let staging = Staging::replacing(target, force, ScanFolder::is_one)?;
+    let manifest = ScanManifest { motiform: VERSION.to_owned(), plan_hash: plan.hash(), plan: plan.clone() };
+    let failed = |reason: String| Error::write_failed(&target.join(MANIFEST), reason);
+    let mut json = serde_json::to_vec_pretty(&manifest).map_err(|error| failed(error.to_string()))?;
+    json.push(b'\n');
+    disk::write(&staging.path().join(MANIFEST), &json).map_err(|error| failed(error.to_string()))?;
+    Ok(staging)
+}
+
+/// What differs between two plans: `key = there, not asked`.
+pub(super) fn differences(there: &ScanPlan, asked: &ScanPlan) -> String {
+    let (there, asked) = (&there.computation, &asked.computation);
+    let json = |computation| serde_json::to_value(computation).unwrap_or_default();
+    let (mut left, mut right) = (json(there), json(asked));
+    let mut found = Vec::new();
+    if there.format != asked.format {
+        found.push(format!(
+            "it was computed by another version of motiform with other numbers: format {} there, {} here",
+            there.format, asked.format
+        ));
+    }
+    if there.axes != asked.axes {
+        let say = |axes: &[super::Axis]| {
+            axes.iter().map(|axis| format!("[{axis}]")).collect::<Vec<_>>().join(" x ")
+        };
+        found.push(format!("axes: {} there, {} asked", say(&there.axes), say(&asked.axes)));
+    }
+    for side in [&mut left, &mut right] {
+        if let Some(object) = side.as_object_mut() {
+            object.remove("axes");
+            object.remove("format");
+        }
+    }
+    compare("", &left, &right, &mut found);
+    found.join("; ")
+}
+
+/// Appends what differs, key by key.
+fn compare(key: &str, there: &Value, asked: &Value, found: &mut Vec<String>) {
+    let (Some(left), Some(right)) = (there.as_object(), asked.as_object()) else {
+        if there != asked {
+            found.push(format!("{key}: {} there, {} asked", shown(there), shown(asked)));
+        }
+        return;
+    };
+    let new = right.keys().filter(|name| !left.contains_key(*name));
+    for name in left.keys().chain(new) {
+        let path = if key.is_empty() { name.clone() } else { format!("{key}.{name}") };
+        compare(&path, &there[name], &asked[name], found);
+    }
+}
+
+fn shown(value: &Value) -> String {
+    if value.is_null() { "none".to_owned() } else { value.to_string() }
+}

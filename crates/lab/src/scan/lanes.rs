@@ -1,0 +1,97 @@
+//! Rows of the tensor model, classified in the lanes of vector registers.
+
+use super::ScanPlan;
+use super::evaluate::Evaluate;
+use crate::analyse::settings_of;
+use crate::simulate::Monitor;
+use motiform_analysis::regime::{Settings, Verdict, classifies_in_lanes};
+use motiform_kernels::{TensorRow, classify_tensors, covering};
+use motiform_models::tensor::Tensor;
+use motiform_study::Error;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+type Next<'n> = &'n mut dyn FnMut() -> Option<(usize, usize)>;
+type Done<'d> = &'d mut dyn FnMut(usize, Result<Option<Verdict>, Error>);
+
+/// Classifies all rows that `next` gives, in lanes; says `false`, and takes none, where there is no kernel for the plan.
+pub(super) fn classify(
+    single: &dyn Evaluate,
+    plan: &ScanPlan,
+    next: Next<'_>,
+    done: Done<'_>,
+    stop: &dyn Monitor,
+) -> bool {
+    let Some((settings, terms)) = kernel(plan) else { return false };
+    Work { single, plan, settings, terms: covering(terms), next, done, stop }.run();
+    true
+}
+
+/// The settings, and the terms that the corners of the plan need; `None` where there is no kernel.
+fn kernel(plan: &ScanPlan) -> Option<(Settings, u32)> {
+    let c = &plan.computation;
+    let bounds = (c.escape_norm, c.max_steps);
+    let settings = settings_of(plan.info().ok()?, plan.method().ok()?, c.control, bounds, c.budget);
+    if !classifies_in_lanes(&settings) {
+        return None;
+    }
+    let corners = [0, plan.cells() - 1].map(|cell| tensor(plan, cell).map(|tensor| tensor.terms()));
+    Some((settings, corners[0]? | corners[1]?))
+}
+
+/// The model of a cell, if it is a tensor model.
+fn tensor(plan: &ScanPlan, cell: usize) -> Option<Tensor> {
+    plan.model_of(cell).ok()?.as_any()?.downcast_ref().copied()
+}
+
+/// The rows of one thread.
+struct Work<'w> {
+    single: &'w dyn Evaluate,
+    plan: &'w ScanPlan,
+    settings: Settings,
+    terms: u32,
+    next: Next<'w>,
+    done: Done<'w>,
+    stop: &'w dyn Monitor,
+}
+
+impl Work<'_> {
+    /// Runs the kernel with these terms; a row that has others is classified by itself.
+    fn run(self) {
+        let Self { single, plan, settings, terms, next, done, stop } = self;
+        let done = RefCell::new(done);
+        // Numbers of the rows in lanes, by the numbers that the lanes give them.
+        let rows = RefCell::new(BTreeMap::new());
+        let (mut taken, mut riding) = (0, 0);
+        let mut candidate = || loop {
+            let (cell, sample) = next()?;
+            let row = taken;
+            taken += 1;
+            match row_in_lanes(plan, terms, cell, sample) {
+                Ok(Some(candidate)) => {
+                    rows.borrow_mut().insert(riding, row);
+                    riding += 1;
+                    return Some(candidate);
+                }
+                Ok(None) => (done.borrow_mut())(row, single.evaluate(plan, cell, sample, stop)),
+                Err(error) => (done.borrow_mut())(row, Err(error)),
+            }
+        };
+        let mut decided = |number: usize, verdict: motiform_analysis::Result<Option<Verdict>>| {
+            if let Some(row) = rows.borrow_mut().remove(&number) {
+                (done.borrow_mut())(row, verdict.map_err(Error::from));
+            }
+        };
+        let stopped = || stop.stopped();
+        classify_tensors(terms, &settings, &mut candidate, &mut decided, &stopped);
+    }
+}
+
+/// A row for a lane of the kernel with these terms; `None` if it needs others.
+fn row_in_lanes(plan: &ScanPlan, terms: u32, cell: usize, sample: usize) -> Result<Option<TensorRow>, Error> {
+    let body = plan.model_of(cell)?;
+    let start = plan.start(cell, sample, body.as_ref())?;
+    let Some(&tensor) = body.as_any().and_then(|any| any.downcast_ref::<Tensor>()) else { return Ok(None) };
+    let Ok(start) = start.try_into() else { return Ok(None) };
+    Ok((tensor.terms() & !terms == 0).then_some(TensorRow { body, tensor, start }))
+}

@@ -1,0 +1,91 @@
+//! Folders with shards of one scan, put together.
+
+use super::folder::{ScanFolder, differences, stage};
+use super::part::PartError;
+use super::rows::same_rows;
+use super::{Parts, ScanPlan, read_part};
+use motiform_study::Error;
+use std::path::{Path, PathBuf};
+
+/// What came of putting folders together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Merged {
+    /// Parts that no folder holds.
+    pub missing: usize,
+    /// Damaged parts, each with what is wrong; they were left out.
+    pub damaged: Vec<String>,
+    /// What was found and removed of merges to the same place that were killed, in sentences.
+    pub swept: Vec<String>,
+}
+
+/// Puts the parts of `folders` into a new folder at `out`, which appears whole or not at all. Missing parts are no
+/// error: the new folder can be resumed.
+///
+/// # Errors
+/// [`Error::Unmergeable`] for folders of different scans, [`Error::Conflict`] for a part that two folders hold with
+/// different numbers, [`Error::NoScan`], and what cannot be written.
+pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged, Error> {
+    let folders = folders.iter().map(|path| ScanFolder::read(path)).collect::<Result<Vec<_>, _>>()?;
+    let Some((first, others)) = folders.split_first() else {
+        return Ok(Merged { missing: 0, damaged: Vec::new(), swept: Vec::new() });
+    };
+    for other in others {
+        if other.manifest().plan_hash != first.manifest().plan_hash {
+            return Err(Error::Unmergeable {
+                first: other.path().to_owned(),
+                second: first.path().to_owned(),
+                differences: differences(other.plan(), first.plan()),
+            });
+        }
+    }
+    let plan = first.plan();
+    if !force && out.symlink_metadata().is_ok() {
+        return Err(Error::Exists { path: out.to_owned() });
+    }
+    let staging = stage(out, plan, force)?;
+    let target = Parts::new(staging.path(), plan);
+    let sources: Vec<Parts> = folders.iter().map(ScanFolder::parts).collect();
+    let mut merged = Merged { missing: 0, damaged: Vec::new(), swept: staging.swept().to_vec() };
+    for part in 0..plan.parts() {
+        let Some(source) = choose(plan, &sources, part, &mut merged.damaged)? else {
+            merged.missing += 1;
+            continue;
+        };
+        let failed = |error: std::io::Error| {
+            let name = target.path(part);
+            Error::write_failed(&out.join(name.file_name().unwrap_or_default()), error)
+        };
+        let path = source.path(part);
+        let bytes = std::fs::read(&path).map_err(|error| Error::unreadable(&path, error))?;
+        target.put(part, &bytes).map_err(failed)?;
+    }
+    staging.commit()?;
+    Ok(merged)
+}
+
+/// The first folder that holds a part whole; all that do must hold the same numbers.
+fn choose<'p>(
+    plan: &ScanPlan,
+    sources: &'p [Parts],
+    part: usize,
+    damaged: &mut Vec<String>,
+) -> Result<Option<&'p Parts>, Error> {
+    let mut chosen: Option<(&Parts, String)> = None;
+    for source in sources {
+        match (source.check(part), &chosen) {
+            (Err(PartError::Missing), _) => {}
+            (Err(PartError::Damaged(how)), _) => damaged.push(how),
+            (Err(PartError::InTheWay(path)), _) => damaged.push(format!("{} is no file", path.display())),
+            (Ok(digest), None) => chosen = Some((source, digest)),
+            (Ok(digest), Some((first, known))) => {
+                // Other bytes may hold the same numbers: written by another version, say.
+                let same = digest == *known
+                    || same_rows(&read_part(plan, first, part)?, &read_part(plan, source, part)?);
+                if !same {
+                    return Err(Error::Conflict { first: first.path(part), second: source.path(part) });
+                }
+            }
+        }
+    }
+    Ok(chosen.map(|found| found.0))
+}

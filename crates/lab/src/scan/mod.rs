@@ -1,0 +1,30 @@
+//! Scans: a model over one or two axes of parameters, several initial states per cell, each evaluated to a verdict.
+//!
+//! [`ScanPlan`] -> [`Scan`] (a folder being computed) -> [`ScanFolder`] (read) -> [`Totals`], [`CellSummary`].
+//!
+//! A scan is a list of *rows*, one per cell and initial state. Everything about a row follows from the plan and its
+//! number alone, so threads, shards, kills and resumes change no bit. Rows are stored in *parts*: whole files, fixed by
+//! the plan, each carrying the hash of the plan and a digest of its own bytes.
+
+mod evaluate;
+mod folder;
+mod lanes;
+mod merge;
+mod part;
+mod queue;
+mod rows;
+mod run;
+mod summary;
+mod table;
+mod work;
+
+pub use evaluate::{Classify, Evaluate};
+pub use folder::{ScanFolder, ScanManifest, default_folder};
+pub use merge::{Merged, merge};
+pub use motiform_study::scan::{Axis, SCAN_FORMAT, ScanComputation, ScanPlan, Shard};
+pub use part::{PartError, Parts, read_part};
+pub use rows::{NUMBERS, Row, rows_to_csv};
+pub use run::{Opening, Scan};
+pub use summary::{CellSummary, Motion, Totals, cells, for_each_part};
+pub use table::ScanTable;
+pub use work::{Ended, Store, compute, rows_of};

@@ -1,0 +1,187 @@
+//! A row of a scan: one cell, one initial state, its verdict.
+
+use super::ScanPlan;
+use motiform_analysis::regime::{Attractor, Regime, Verdict};
+use motiform_files::columns::{Column, Values, to_csv};
+use motiform_study::Error;
+
+/// The numbers of a row, in file order: name and meaning.
+pub const NUMBERS: [(&str, &str); 13] = [
+    (
+        "margin",
+        "how clear the decision is: its number's distance from the limit, in units of its own uncertainty",
+    ),
+    ("speed_mean", "time average of |v| (model length per model time)"),
+    ("speed_min", "smallest |v| (model length per model time)"),
+    ("speed_max", "largest |v| (model length per model time)"),
+    ("turning_rate", "mean turning rate of the heading (rad per model time)"),
+    ("period", "period of the reduced motion (model time)"),
+    ("net_rotation", "net rotation of the body per period (rad, in -pi..pi)"),
+    ("drift", "distance travelled per period (model length)"),
+    ("swing", "peak-to-peak swing of the heading over one period (rad)"),
+    ("lambda_1", "largest Lyapunov exponent (inverse model time)"),
+    ("lambda_1_error", "half width of its 95 % confidence interval"),
+    ("escape_time", "the blow-up time t* (model time)"),
+    ("time", "model time that the decision took"),
+];
+
+/// One initial state of one cell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The cell.
+    pub cell: usize,
+    /// The initial state.
+    pub sample: usize,
+    /// The motion.
+    pub regime: Regime,
+    /// The kind of reduced attractor.
+    pub attractor: Attractor,
+    /// As in [`NUMBERS`]; NaN where it has no meaning (null in files).
+    pub numbers: [f64; NUMBERS.len()],
+    /// The evidence in one sentence.
+    pub why: String,
+}
+
+impl Row {
+    /// The row of a verdict.
+    #[must_use]
+    pub fn new(cell: usize, sample: usize, verdict: Verdict) -> Self {
+        let v = &verdict;
+        let lambda = v.exponents.first();
+        let numbers = [
+            v.margin,
+            v.speed.map(|speed| speed.mean),
+            v.speed.map(|speed| speed.min),
+            v.speed.map(|speed| speed.max),
+            v.turning_rate,
+            v.period,
+            v.net_rotation,
+            v.drift,
+            v.swing,
+            lambda.map(|exponent| exponent.value),
+            lambda.map(|exponent| exponent.error).filter(|error| error.is_finite()),
+            v.escape_time,
+            Some(v.time),
+        ];
+        // One undefined number: the sign and payload of a NaN mean nothing.
+        let numbers = numbers.map(|number| number.filter(|value| !value.is_nan()).unwrap_or(f64::NAN));
+        Self { cell, sample, regime: v.regime, attractor: v.attractor, numbers, why: verdict.why }
+    }
+
+    /// The row of an evaluation: `None` if it was stopped; what the numerics refuse is a row that says so.
+    #[must_use]
+    pub fn of_evaluation(
+        cell: usize,
+        sample: usize,
+        verdict: Result<Option<Verdict>, Error>,
+    ) -> Option<Self> {
+        let verdict = verdict.unwrap_or_else(|error| {
+            let why = format!("refused: {error}");
+            Some(Verdict::new(Regime::Undetermined, Attractor::Unknown, why, 0.0))
+        });
+        verdict.map(|verdict| Self::new(cell, sample, verdict))
+    }
+
+    /// A number by its name in [`NUMBERS`]; `None` where it has no meaning.
+    #[must_use]
+    pub fn number(&self, name: &str) -> Option<f64> {
+        let place = NUMBERS.iter().position(|known| known.0 == name)?;
+        Some(self.numbers[place]).filter(|value| !value.is_nan())
+    }
+}
+
+/// Equality of bits, so that an undefined number equals itself.
+pub(super) fn same_rows(a: &[Row], b: &[Row]) -> bool {
+    let same = |(a, b): (&Row, &Row)| {
+        a.numbers.map(f64::to_bits) == b.numbers.map(f64::to_bits)
+            && (a.cell, a.sample, a.regime, a.attractor, &a.why)
+                == (b.cell, b.sample, b.regime, b.attractor, &b.why)
+    };
+    a.len() == b.len() && a.iter().zip(b).all(same)
+}
+
+/// The columns of a part, in file order.
+pub(super) fn to_columns(plan: &ScanPlan, rows: &[Row]) -> Vec<Column> {
+    let whole = |of: fn(&Row) -> usize| -> Values {
+        Values::Whole(rows.iter().map(|row| i64::try_from(of(row)).unwrap_or(i64::MAX)).collect())
+    };
+    let text = |of: fn(&Row) -> &str| Values::Text(rows.iter().map(|row| of(row).to_owned()).collect());
+    let mut columns = vec![
+        Column::new(
+            "cell",
+            "number of the cell: i1 + n1 i2 for place i1 on the first axis",
+            whole(|row| row.cell),
+        ),
+        Column::new("sample", "number of the initial state", whole(|row| row.sample)),
+    ];
+    for (place, axis) in plan.computation.axes.iter().enumerate() {
+        let values = rows.iter().map(|row| plan.axis_values(row.cell)[place]).collect();
+        columns.push(Column::new(&axis.name, "the parameter", Values::Number(values)));
+    }
+    columns.push(Column::new("regime", "the motion", text(|row| row.regime.name())));
+    columns.push(Column::new("attractor", "the kind of reduced attractor", text(|row| row.attractor.name())));
+    for (place, (name, meaning)) in NUMBERS.iter().enumerate() {
+        let values = rows.iter().map(|row| row.numbers[place]).collect();
+        columns.push(Column::new(name, meaning, Values::Number(values)));
+    }
+    columns.push(Column::new("why", "the evidence in one sentence", text(|row| &row.why)));
+    columns
+}
+
+/// Rows of a plan as the text of a CSV file, with the columns of a part.
+#[must_use]
+pub fn rows_to_csv(plan: &ScanPlan, rows: &[Row]) -> Vec<u8> {
+    to_csv(&to_columns(plan, rows))
+}
+
+/// The inverse of [`to_columns`]; `None` where the columns are not those of a part of this plan.
+pub(super) fn from_columns(plan: &ScanPlan, columns: Vec<Column>) -> Option<Vec<Row>> {
+    let axes = plan.computation.axes.len();
+    let (mut whole, mut numbers, mut texts) = (Vec::new(), Vec::new(), Vec::new());
+    for column in columns {
+        match column.values {
+            Values::Whole(values) => whole.push(values),
+            Values::Number(values) => numbers.push(values),
+            Values::Text(values) => texts.push(values),
+        }
+    }
+    let ([cells, samples], [regimes, attractors, whys]) = (&whole[..], &mut texts[..]) else { return None };
+    let numbers = numbers.get(axes..).filter(|numbers| numbers.len() == NUMBERS.len())?;
+    let row = |place: usize| {
+        let mut row = Row {
+            cell: usize::try_from(cells[place]).ok()?,
+            sample: usize::try_from(samples[place]).ok()?,
+            regime: Regime::find(&regimes[place])?,
+            attractor: Attractor::find(&attractors[place])?,
+            numbers: [f64::NAN; NUMBERS.len()],
+            why: std::mem::take(&mut whys[place]),
+        };
+        for (number, column) in row.numbers.iter_mut().zip(numbers) {
+            *number = column[place];
+        }
+        Some(row)
+    };
+    (0..cells.len()).map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motiform_models::MODELS;
+
+    #[test]
+    fn attractors_are_called_as_in_json() {
+        for attractor in Attractor::ALL {
+            assert_eq!(serde_json::to_value(attractor).unwrap(), attractor.name());
+        }
+    }
+
+    /// An axis becomes a column: no parameter may be called like one of ours.
+    #[test]
+    fn no_parameter_has_the_name_of_a_column() {
+        let ours = ["cell", "sample", "regime", "attractor", "why"];
+        for spec in MODELS.iter().flat_map(motiform_models::ModelInfo::parameters) {
+            assert!(!ours.contains(&spec.name) && !NUMBERS.iter().any(|known| known.0 == spec.name));
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! What a scan found, read part by part.
+
+use super::{NUMBERS, PartError, Row, ScanFolder, read_part};
+use motiform_analysis::regime::Regime;
+use motiform_study::Error;
+
+/// What a scan found in all, in memory that does not grow with the cells.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Totals {
+    /// Cells that are computed.
+    pub cells: usize,
+    /// Rows that are computed.
+    pub rows: usize,
+    /// Rows of each regime, in the order of [`Regime::ALL`].
+    pub regimes: [usize; Regime::ALL.len()],
+    /// Cells with more than one motion, undetermined rows left aside.
+    pub multistable: usize,
+    /// Cells with an undetermined row.
+    pub undetermined: usize,
+    /// Cells with a row that blew up.
+    pub escaped: usize,
+    /// Cells that are not computed yet.
+    pub missing: usize,
+    /// Parts that are damaged, each with what is wrong (their cells count as missing).
+    pub damaged: Vec<String>,
+}
+
+impl Totals {
+    /// Reads a folder.
+    ///
+    /// # Errors
+    /// [`Error::Unreadable`].
+    pub fn of(folder: &ScanFolder) -> Result<Self, Error> {
+        let mut totals = Self::default();
+        totals.damaged = for_each_part(folder, |rows| {
+            for cell in rows.chunk_by(|a, b| a.cell == b.cell) {
+                totals.add(cell);
+            }
+        })?;
+        totals.missing = folder.plan().cells() - totals.cells;
+        Ok(totals)
+    }
+
+    fn add(&mut self, cell: &[Row]) {
+        let motions = motions(cell);
+        let has = |regime| motions.iter().any(|motion| motion.regime == regime);
+        let decided = motions.iter().filter(|motion| motion.regime != Regime::Undetermined).count();
+        self.cells += 1;
+        self.rows += cell.len();
+        self.multistable += usize::from(decided > 1);
+        self.undetermined += usize::from(has(Regime::Undetermined));
+        self.escaped += usize::from(has(Regime::BlowUp));
+        for (count, regime) in self.regimes.iter_mut().zip(Regime::ALL) {
+            *count += cell.iter().filter(|row| row.regime == regime).count();
+        }
+    }
+
+    /// The regimes that occur, with their number of rows.
+    pub fn regimes(&self) -> impl Iterator<Item = (Regime, usize)> {
+        Regime::ALL.into_iter().zip(self.regimes).filter(|entry| entry.1 > 0)
+    }
+}
+
+/// One cell: its motions, the most frequent first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellSummary {
+    /// The cell.
+    pub cell: usize,
+    /// Its rows.
+    pub rows: usize,
+    /// The motions that its initial states lead to; never empty.
+    pub motions: Vec<Motion>,
+}
+
+impl CellSummary {
+    /// The summary of the rows of one cell, at least one.
+    #[must_use]
+    pub fn of(cell: usize, rows: &[Row]) -> Self {
+        Self { cell, rows: rows.len(), motions: motions(rows) }
+    }
+
+    /// The motions by name with their shares, as diagrams take them.
+    #[must_use]
+    pub fn shares(&self) -> Vec<(String, f64)> {
+        self.motions.iter().map(|motion| (motion.regime.name().to_owned(), motion.share)).collect()
+    }
+}
+
+/// The initial states of one cell that lead to the same regime.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    /// The regime.
+    pub regime: Regime,
+    /// Number of initial states.
+    pub rows: usize,
+    /// Their share of the cell, 0 to 1.
+    pub share: f64,
+    /// Median of each number over those rows that have it, as in [`NUMBERS`]; NaN where none has. Motions are never
+    /// averaged with each other.
+    pub medians: [f64; NUMBERS.len()],
+}
+
+impl Motion {
+    /// The median of a number by its name in [`NUMBERS`]; `None` where it has no meaning.
+    #[must_use]
+    pub fn median(&self, name: &str) -> Option<f64> {
+        let place = NUMBERS.iter().position(|known| known.0 == name)?;
+        Some(self.medians[place]).filter(|value| !value.is_nan())
+    }
+}
+
+/// The cells of a scan by their number, for drawing: `None` where a cell is not computed. One entry per cell is in
+/// memory here, and nowhere else.
+///
+/// # Errors
+/// [`Error::Unreadable`].
+pub fn cells(folder: &ScanFolder) -> Result<Vec<Option<CellSummary>>, Error> {
+    let mut all = vec![None; folder.plan().cells()];
+    for_each_part(folder, |rows| {
+        for rows in rows.chunk_by(|a, b| a.cell == b.cell) {
+            let cell = rows[0].cell;
+            if let Some(place) = all.get_mut(cell) {
+                *place = Some(CellSummary::of(cell, rows));
+            }
+        }
+    })?;
+    Ok(all)
+}
+
+/// Hands the rows of each part that is there and whole to `use_rows`, in order; returns what is wrong with the others.
+///
+/// # Errors
+/// [`Error::Unreadable`].
+pub fn for_each_part(folder: &ScanFolder, mut use_rows: impl FnMut(&[Row])) -> Result<Vec<String>, Error> {
+    let (plan, parts) = (folder.plan(), folder.parts());
+    let mut damaged = Vec::new();
+    for part in 0..plan.parts() {
+        match parts.check(part) {
+            Ok(_) => use_rows(&read_part(plan, &parts, part)?),
+            Err(PartError::Missing) => {}
+            Err(PartError::Damaged(how)) => damaged.push(how),
+            Err(PartError::InTheWay(path)) => damaged.push(format!("{} is no file", path.display())),
+        }
+    }
+    Ok(damaged)
+}
+
+/// The motions of a cell's rows, the most frequent first, in the order of legends where equally frequent.
+fn motions(rows: &[Row]) -> Vec<Motion> {
+    let of = |regime| {
+        let same: Vec<&Row> = rows.iter().filter(|row| row.regime == regime).collect();
+        let medians = std::array::from_fn(|place| median(same.iter().map(|row| row.numbers[place])));
+        Motion { regime, rows: same.len(), share: same.len() as f64 / rows.len() as f64, medians }
+    };
+    let mut motions: Vec<Motion> = Regime::ALL.into_iter().map(of).filter(|motion| motion.rows > 0).collect();
+    motions.sort_by_key(|motion| std::cmp::Reverse(motion.rows)); // stable
+    motions
+}
+
+/// The median of the numbers that are defined; NaN if none is.
+fn median(numbers: impl Iterator<Item = f64>) -> f64 {
+    let mut defined: Vec<f64> = numbers.filter(|number| !number.is_nan()).collect();
+    defined.sort_by(f64::total_cmp);
+    let middle = defined.len() / 2;
+    match defined.len() {
+        0 => f64::NAN,
+        n if n % 2 == 1 => defined[middle],
+        _ => 0.5 * defined[middle - 1] + 0.5 * defined[middle],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motiform_analysis::regime::{Attractor, Verdict};
+
+    fn row(sample: usize, regime: Regime, period: f64) -> Row {
+        let verdict = Verdict::new(regime, Attractor::Unknown, String::new(), 1.0);
+        Row::new(3, sample, Verdict { period: Some(period), ..verdict })
+    }
+
+    #[test]
+    fn motions_are_counted_and_never_averaged_with_each_other() {
+        let rows = [
+            row(0, Regime::Zigzag, 4.0),
+            row(1, Regime::Straight, f64::NAN),
+            row(2, Regime::Zigzag, 7.0),
+            row(3, Regime::Zigzag, 5.0),
+        ];
+        let found = motions(&rows);
+        assert_eq!((found[0].regime, found[0].rows, found[0].share), (Regime::Zigzag, 3, 0.75));
+        assert_eq!(found[0].median("period"), Some(5.0));
+        assert_eq!(
+            (found[1].regime, found[1].share, found[1].median("period")),
+            (Regime::Straight, 0.25, None)
+        );
+        let mut totals = Totals::default();
+        totals.add(&rows);
+        totals.add(&[row(0, Regime::BlowUp, 1.0), row(1, Regime::Undetermined, 1.0)]);
+        assert_eq!((totals.cells, totals.rows, totals.multistable), (2, 6, 1));
+        assert_eq!((totals.undetermined, totals.escaped), (1, 1));
+    }
+}

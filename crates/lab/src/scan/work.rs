@@ -1,0 +1,187 @@
+//! Computing the parts of a scan over threads, wherever the rows go.
+
+use super::evaluate::Evaluate;
+use super::queue::{Job, Queue, held};
+use super::{Row, ScanPlan};
+use crate::simulate::Monitor;
+use motiform_analysis::regime::Verdict;
+use motiform_study::Error;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// Where finished parts go: files, or memory.
+pub trait Store: Sync {
+    /// Takes all rows of a part, in order.
+    ///
+    /// # Errors
+    /// What keeps it from storing them; the computation then ends.
+    fn put(&self, part: usize, rows: Vec<Row>) -> Result<(), Error>;
+}
+
+/// How a computation ended that did not fail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ended {
+    /// Whether everything of the shard is computed; if not, the monitor stopped it.
+    pub complete: bool,
+    /// Cells computed and written.
+    pub cells: usize,
+    /// Most rows that were in memory at once.
+    pub most_rows: usize,
+}
+
+/// Computes `parts` of a plan over `threads` threads, handing each to `store` when its last row is there. Rows under way
+/// are stopped soon when `monitor` says so.
+///
+/// # Errors
+/// What the store refuses: the parts put before stay where they are.
+pub fn compute(
+    plan: &ScanPlan,
+    parts: Vec<usize>,
+    evaluate: &dyn Evaluate,
+    threads: usize,
+    monitor: &dyn Monitor,
+    store: &dyn Store,
+) -> Result<Ended, Error> {
+    let cells: usize = parts.iter().map(|&part| plan.cells_of(part).len()).sum();
+    let total = cells * plan.computation.samples;
+    let work = Work {
+        plan,
+        store,
+        evaluate,
+        monitor,
+        total,
+        queue: Mutex::new(Queue::new(plan, parts.into_iter())),
+        failure: Mutex::new(None),
+        failed: AtomicBool::new(false),
+        rows: AtomicUsize::new(0),
+        cells: AtomicUsize::new(0),
+        held: AtomicUsize::new(0),
+        most: AtomicUsize::new(0),
+    };
+    // Plain threads: the queue is the whole scheduler, and a pool would only hide it.
+    std::thread::scope(|scope| {
+        for _ in 1..threads.min(total) {
+            scope.spawn(|| work.compute());
+        }
+        work.compute();
+    });
+    if let Some(error) = held(&work.failure).take() {
+        return Err(error);
+    }
+    let done = work.cells.into_inner();
+    Ok(Ended { complete: done == cells, cells: done, most_rows: work.most.into_inner() })
+}
+
+/// The rows of the first of some cells, in order, on this thread: of one cell, and of more while `go_on` says so. `None`
+/// if the monitor asked to stop. The same rows as those of the whole scan.
+#[must_use]
+pub fn rows_of(
+    plan: &ScanPlan,
+    cells: Range<usize>,
+    go_on: &dyn Fn() -> bool,
+    evaluate: &dyn Evaluate,
+    monitor: &dyn Monitor,
+) -> Option<Vec<Row>> {
+    let samples = plan.computation.samples;
+    let (first, count) = (cells.start, cells.len() * samples);
+    let place = |number: usize| (first + number / samples, number % samples);
+    let mut rows: Vec<Option<Row>> = Vec::new();
+    let given = RefCell::new(0);
+    let mut next = || {
+        let mut given = given.borrow_mut();
+        let number = *given;
+        // Cells are whole: a stop comes before the first row of one.
+        let on = number < count
+            && (number == 0 || !number.is_multiple_of(samples) || go_on())
+            && !monitor.stopped();
+        *given += usize::from(on);
+        on.then(|| place(number))
+    };
+    let mut done = |number: usize, verdict| {
+        let (cell, sample) = place(number);
+        rows.resize_with(rows.len().max(number + 1), || None);
+        rows[number] = Row::of_evaluation(cell, sample, verdict);
+    };
+    evaluate.evaluate_all(plan, &mut next, &mut done, monitor);
+    let whole = !monitor.stopped() && rows.len() == given.into_inner();
+    rows.into_iter().collect::<Option<Vec<_>>>().filter(|_| whole)
+}
+
+/// What the threads share.
+struct Work<'w> {
+    plan: &'w ScanPlan,
+    store: &'w dyn Store,
+    evaluate: &'w dyn Evaluate,
+    monitor: &'w dyn Monitor,
+    /// Rows to compute.
+    total: usize,
+    queue: Mutex<Queue<'w>>,
+    failure: Mutex<Option<Error>>,
+    failed: AtomicBool,
+    /// Rows computed, cells written, rows in memory, and the most of these.
+    rows: AtomicUsize,
+    cells: AtomicUsize,
+    held: AtomicUsize,
+    most: AtomicUsize,
+}
+
+impl Work<'_> {
+    /// One thread: rows until none is left, or a stop.
+    fn compute(&self) {
+        // The rows under way, by their number on this thread.
+        let jobs = RefCell::new(BTreeMap::new());
+        let mut handed_out = 0;
+        let mut next = || {
+            if self.stopped() {
+                return None;
+            }
+            let job = held(&self.queue).next()?;
+            let row = (job.cell, job.sample);
+            jobs.borrow_mut().insert(handed_out, job);
+            handed_out += 1;
+            Some(row)
+        };
+        let mut done = |number: usize, verdict| {
+            if let Some(job) = jobs.borrow_mut().remove(&number) {
+                self.done(&job, verdict);
+            }
+        };
+        self.evaluate.evaluate_all(self.plan, &mut next, &mut done, self);
+    }
+
+    /// Takes in the verdict on a row.
+    fn done(&self, job: &Job, verdict: Result<Option<Verdict>, Error>) {
+        let Some(row) = Row::of_evaluation(job.cell, job.sample, verdict) else { return };
+        let count = self.held.fetch_add(1, Ordering::Relaxed) + 1;
+        self.most.fetch_max(count, Ordering::Relaxed);
+        if let Some(rows) = job.done(row) {
+            self.put(job.pending.part, rows);
+        }
+        let rows = self.rows.fetch_add(1, Ordering::Relaxed) + 1;
+        self.monitor.progress(rows as f64 / self.total as f64);
+    }
+
+    fn put(&self, part: usize, rows: Vec<Row>) {
+        let count = rows.len();
+        match self.store.put(part, rows) {
+            Ok(()) => {
+                self.cells.fetch_add(self.plan.cells_of(part).len(), Ordering::Relaxed);
+            }
+            Err(error) => {
+                held(&self.failure).get_or_insert(error);
+                self.failed.store(true, Ordering::Relaxed);
+            }
+        }
+        self.held.fetch_sub(count, Ordering::Relaxed);
+    }
+}
+
+/// What an evaluation listens to: the caller's stop, or a failure in another thread.
+impl Monitor for Work<'_> {
+    fn stopped(&self) -> bool {
+        self.failed.load(Ordering::Relaxed) || self.monitor.stopped()
+    }
+}

@@ -1,0 +1,104 @@
+//! A plan, and where its orbit crosses a surface: one coordinate at a fixed value.
+
+use crate::analyse::Stop;
+use crate::simulate::{Monitor, after_transient};
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::section::Crossing;
+use motiform_dynamics::{Direction, InPlane, Model, Request, Section, Sink, Trajectory};
+use motiform_study::plan::check;
+use motiform_study::table::Table;
+use motiform_study::{Ending, Error, Plan};
+use std::ops::ControlFlow;
+
+/// The crossings of `coordinate = value` (a coordinate of the shape, or `x`, `y`) while the plan records: a table with
+/// `t`, `x`, `y`, all coordinates and `rising` (1 where the coordinate grows), and how the run ended.
+///
+/// Crossings are located to round-off, with steps of the method itself.
+///
+/// # Errors
+/// An unknown coordinate, a value that is not finite, a plan with noise.
+pub fn section(
+    plan: &Plan,
+    (coordinate, value): (&str, f64),
+    direction: Direction,
+    monitor: &dyn Monitor,
+) -> Result<(Table, Ending), Error> {
+    let c = &plan.computation;
+    check("value", value, true, "give a finite number")?;
+    let place = plan.info()?.coordinate(&c.parameters.values(), coordinate)?;
+    let model = crate::analyse::model(plan)?;
+    let weights = reading(model.as_ref(), place);
+    let (ended, start) = after_transient(plan, model.as_ref(), monitor)?;
+    let mut trajectory = Trajectory::new(start.len());
+    if let Some(ending) = ended {
+        return Ok((table(model.as_ref(), &trajectory), ending));
+    }
+    let body = InPlane(model.as_ref());
+    let mut orbit = plan.method()?.orbit(&body, c.control.into(), 0.0, &start)?;
+    let g = |_t: f64, u: &[f64]| weights.iter().zip(u).map(|(w, x)| w * x).sum::<f64>() - value;
+    let sections = [Section { g: &g, direction, terminal: false }];
+    let request = Request {
+        max_steps: c.max_steps,
+        escape_norm: c.escape_norm,
+        watched: model.dim(),
+        sections: &sections,
+        ..Request::until(c.t_end, start.len())
+    };
+    let mut sink = Both(&mut trajectory, Stop::over(monitor, c.t_end));
+    let outcome = drive(orbit.as_mut(), &request, &mut sink)?;
+    Ok((table(model.as_ref(), &trajectory), outcome.into()))
+}
+
+/// The weights that read coordinate `place` off a state `(shape, x, y)`: coordinates are linear in the state.
+fn reading(model: &dyn Model, place: usize) -> Vec<f64> {
+    let dim = model.dim();
+    let mut weights = vec![0.0; dim + 2];
+    if place >= dim {
+        weights[place] = 1.0;
+        return weights;
+    }
+    let (mut unit, mut coordinates) = (vec![0.0; dim], vec![0.0; dim]);
+    for entry in 0..dim {
+        unit.fill(0.0);
+        unit[entry] = 1.0;
+        model.decode(&unit, &mut coordinates);
+        weights[entry] = coordinates[place];
+    }
+    weights
+}
+
+/// Crossings go to the trajectory, ticks to the monitor.
+struct Both<'b>(&'b mut Trajectory, Stop<'b>);
+
+impl Sink for Both<'_> {
+    fn crossing(&mut self, crossing: &Crossing<'_>) {
+        self.0.crossing(crossing);
+    }
+
+    fn tick(&mut self, t: f64) -> ControlFlow<()> {
+        self.1.tick(t)
+    }
+}
+
+fn table(model: &dyn Model, trajectory: &Trajectory) -> Table {
+    let found = trajectory.crossings();
+    let mut columns = vec![Vec::with_capacity(found.len()); model.coordinates().len()];
+    let mut coordinates = vec![0.0; columns.len()];
+    for crossing in found {
+        model.decode(&crossing.state[..model.dim()], &mut coordinates);
+        for (column, &value) in columns.iter_mut().zip(&coordinates) {
+            column.push(value);
+        }
+    }
+    let place = |back: usize| found.iter().map(|c| c.state[c.state.len() - back]).collect();
+    let mut table = Table::default();
+    table.push("t", "time of the crossing", found.iter().map(|c| c.t).collect());
+    table.push("x", "position of the centre of mass (model length)", place(2));
+    table.push("y", "position of the centre of mass (model length)", place(1));
+    for (coordinate, values) in model.coordinates().iter().zip(columns) {
+        table.push(coordinate.name, coordinate.meaning, values);
+    }
+    let rising = found.iter().map(|c| f64::from(u8::from(c.rising))).collect();
+    table.push("rising", "1 where the coordinate grows, 0 where it falls", rising);
+    table
+}

@@ -1,0 +1,314 @@
+//! Plan to dataset: the run itself.
+
+use crate::live::start;
+use crate::readings::{crossings, measures, motion};
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::escape::norm;
+use motiform_dynamics::model::velocity;
+use motiform_dynamics::section::Crossing;
+use motiform_dynamics::{
+    Direction, InPlane, Integration, Model, Noise, NoisyOrbit, Normal, Outcome, Request, Section, Sink,
+    StepControl, Trajectory,
+};
+use motiform_study::dataset::{Dataset, Manifest, VERSION};
+use motiform_study::plan::{Computation, Control, Named, Plan};
+use motiform_study::{Ending, Error};
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// How the caller watches and stops a run.
+pub trait Monitor: Sync {
+    /// The part of the work that is done, 0 to 1; called often.
+    fn progress(&self, _done: f64) {}
+
+    /// A part of the work is finished; the text says which, and how it went.
+    fn note(&self, _text: &str) {}
+
+    /// Whether to stop here and keep what there is.
+    fn stopped(&self) -> bool {
+        false
+    }
+}
+
+/// Nobody watches.
+impl Monitor for () {}
+
+/// A flag that stops a run.
+impl Monitor for AtomicBool {
+    fn stopped(&self) -> bool {
+        self.load(Ordering::Relaxed)
+    }
+}
+
+/// Runs a plan.
+///
+/// # Errors
+/// Input that only the numerics can refuse. A run that ends early is a [`Dataset`] with its [`Outcome`].
+pub fn simulate(plan: &Plan, monitor: &dyn Monitor) -> Result<Dataset, Error> {
+    let info = plan.info()?;
+    let model = info.build(&plan.computation.parameters.values())?;
+    let body = InPlane(model.as_ref());
+    let run = Run { plan, computation: &plan.computation, model: model.as_ref(), body: &body, monitor };
+    run.all()
+}
+
+/// The state `(shape, x, y)` after the plan's transient, and how the run ended if it ended before that was over.
+pub(crate) fn after_transient(
+    plan: &Plan,
+    model: &dyn Model,
+    monitor: &dyn Monitor,
+) -> Result<(Option<Ending>, Vec<f64>), Error> {
+    let run = Run { plan, computation: &plan.computation, model, body: &InPlane(model), monitor };
+    let stretch = run.transient(0.0, 1.0)?;
+    Ok((stretch.early(), stretch.last))
+}
+
+struct Run<'r> {
+    plan: &'r Plan,
+    computation: &'r Computation,
+    model: &'r dyn Model,
+    body: &'r InPlane<&'r dyn Model>,
+    monitor: &'r dyn Monitor,
+}
+
+/// A part of a run: how it ended, and what was recorded of it.
+struct Stretch {
+    ending: Ending,
+    trajectory: Trajectory,
+    last: Vec<f64>,
+    steps: u64,
+    rejected: u64,
+}
+
+impl Stretch {
+    /// How it ended, if that was before its end.
+    fn early(&self) -> Option<Ending> {
+        (!self.ending.is_complete()).then_some(self.ending)
+    }
+}
+
+impl Run<'_> {
+    fn all(&self) -> Result<Dataset, Error> {
+        let centring = self.computation.return_map.as_ref().is_some_and(|map| map.centre);
+        let passes = if centring { 2.0 } else { 1.0 };
+        let settled = self.transient(0.0, passes)?;
+        if let Some(ending) = settled.early() {
+            return Ok(self.dataset(&Stretch { trajectory: self.before(ending)?, ..settled }, None));
+        }
+        let (start, end) = (settled.last, self.computation.t_end);
+        let first = self.record(&start, (0.0, end), passes, 0.0)?;
+        if !(centring && first.ending.is_complete()) {
+            return Ok(self.dataset(&first, None));
+        }
+        // The flow does not depend on the position: the second pass is the first one, moved.
+        let path = first.trajectory.iter().map(|(t, u)| (t, [u[u.len() - 2], u[u.len() - 1]]));
+        let last = first.trajectory.times().last().copied().unwrap_or(1.0);
+        let centre = centre_of(path, 0.0, last);
+        let mut moved = start;
+        let place = moved.len() - 2;
+        moved[place] -= centre[0];
+        moved[place + 1] -= centre[1];
+        let second = self.record(&moved, (0.0, end), passes, 1.0)?;
+        Ok(self.dataset(&second, Some(centre)))
+    }
+
+    /// The shape's way through the transient, but for its last part of length `rest`; position put back.
+    fn transient(&self, rest: f64, passes: f64) -> Result<Stretch, Error> {
+        let c = self.computation;
+        let mut last = start(self.plan, self.model);
+        let shape = ..last.len() - 2;
+        let method = self.plan.method()?;
+        let orbit = method.shape_orbit(self.model, c.control.into(), -c.transient, &last[shape])?;
+        let mut orbit = noisy(c, orbit, self.model, 0)?;
+        let total = c.transient + passes * c.t_end;
+        let mut sink = Watched::new(None, self.monitor, (-c.transient, 0.0, total));
+        let request = Request { t_end: -rest, ..self.request(&[]) };
+        let outcome = drive(orbit.as_mut(), &request, &mut sink)?;
+        last[shape].copy_from_slice(orbit.state());
+        let counters = orbit.counters();
+        let ending = Ending::of_transient(outcome, c.transient);
+        let trajectory = Trajectory::new(last.len());
+        Ok(Stretch { ending, trajectory, last, steps: counters.steps, rejected: counters.rejected })
+    }
+
+    /// What there is to see of a run that ended during its transient: its last time, as long as the recording would have
+    /// been. Noise is not drawn a second time, and who interrupts does not wait: nothing then.
+    fn before(&self, ending: Ending) -> Result<Trajectory, Error> {
+        let c = self.computation;
+        let nothing = Trajectory::new(self.model.dim() + 2);
+        let lasted = ending.t_last();
+        if c.noise.is_some() || matches!(*ending, Outcome::Interrupted { .. }) || lasted == 0.0 {
+            return Ok(nothing);
+        }
+        let from = (lasted - c.t_end).max(0.0);
+        let settled = self.transient(c.transient - from, 1.0)?;
+        Ok(self.record(&settled.last, (from, lasted), 1.0, 0.0)?.trajectory)
+    }
+
+    fn request<'g>(&self, sections: &'g [Section<'g>]) -> Request<'g> {
+        let c = self.computation;
+        Request {
+            max_steps: c.max_steps,
+            escape_norm: c.escape_norm,
+            watched: self.model.dim(),
+            sections,
+            ..Request::until(c.t_end, self.model.dim() + 2)
+        }
+    }
+
+    fn record(
+        &self,
+        start: &[f64],
+        (from, to): (f64, f64),
+        passes: f64,
+        pass: f64,
+    ) -> Result<Stretch, Error> {
+        let c = self.computation;
+        let orbit = self.plan.method()?.orbit(self.body, c.control.into(), from, start)?;
+        let mut orbit = noisy(c, orbit, self.model, 1)?;
+        let mut trajectory = Trajectory::new(start.len());
+        let height = c.return_map.as_ref().map_or(0.0, |map| map.y);
+        let above = |_t: f64, u: &[f64]| u[u.len() - 1] - height;
+        let sections = [Section { g: &above, direction: Direction::Either, terminal: false }];
+        let wanted = if c.return_map.is_some() { &sections[..] } else { &[] };
+        let request = Request { t_end: to, sample_every: Some(c.dt_out), ..self.request(wanted) };
+        let total = c.transient + passes * c.t_end;
+        let done = c.transient + pass * c.t_end;
+        let mut sink = Watched::new(Some(&mut trajectory), self.monitor, (from, done, total));
+        let outcome = drive(orbit.as_mut(), &request, &mut sink)?;
+        let counters = orbit.counters();
+        let last = orbit.state().to_vec();
+        let ending = Ending::from(outcome);
+        Ok(Stretch { ending, trajectory, last, steps: counters.steps, rejected: counters.rejected })
+    }
+
+    /// The local error of a fixed step at the end of the run, by halving it; `None` for adaptive steps, and where the
+    /// step cannot be made.
+    fn step_error(&self, shape: &[f64]) -> Option<f64> {
+        let Control::Fixed { step } = self.computation.control else { return None };
+        let method = self.plan.method().ok()?;
+        let after = |h: f64| {
+            let mut orbit =
+                method.shape_orbit(self.model, StepControl::Fixed { step: h }, 0.0, shape).ok()?;
+            while orbit.t() < step {
+                orbit.advance(step).ok()?;
+            }
+            Some(orbit.state().to_vec())
+        };
+        let (whole, halves) = (after(step)?, after(0.5 * step)?);
+        let difference: Vec<f64> = whole.iter().zip(&halves).map(|(a, b)| a - b).collect();
+        let relative = norm(&difference) / norm(&halves);
+        relative.is_finite().then_some(relative)
+    }
+
+    fn dataset(&self, recording: &Stretch, centre: Option<[f64; 2]>) -> Dataset {
+        let (shape, position) = recording.last.split_at(recording.last.len() - 2);
+        let mut values = shape.to_vec();
+        self.model.decode(shape, &mut values);
+        let names = self.model.coordinates().iter().map(|c| c.name.to_owned());
+        let manifest = Manifest {
+            motiform: VERSION.to_owned(),
+            plan: self.plan.clone(),
+            plan_hash: self.plan.hash(),
+            seed: self.computation.seed,
+            outcome: finite(recording.ending),
+            regime: None,
+            steps: recording.steps,
+            rejected_steps: recording.rejected,
+            state: Named(names.zip(values).collect()),
+            position: [position[0], position[1]],
+            velocity: velocity(self.model, shape),
+            measures: measures(self.model, shape),
+            step_error: self.step_error(shape),
+            centre,
+        };
+        let map = self.computation.return_map.as_ref();
+        Dataset {
+            manifest,
+            trajectory: motion(self.model, &recording.trajectory, self.computation),
+            crossings: map.map(|map| crossings(&recording.trajectory, map)),
+        }
+    }
+}
+
+/// The orbit of `model` with the plan's noise, if it has any. Every stretch has a stream of deviates of its own, far from those
+/// of the starts: a run's transient is number 0, its recording 1.
+pub(crate) fn noisy<'o>(
+    computation: &Computation,
+    orbit: Box<dyn Integration + 'o>,
+    model: &dyn Model,
+    stretch: u64,
+) -> Result<Box<dyn Integration + 'o>, Error> {
+    let Some(settings) = computation.noise else { return Ok(orbit) };
+    let noise = Noise::on(model, settings.velocity, settings.shape, settings.step);
+    let normal = Normal::new(computation.seed, u64::MAX - stretch);
+    Ok(Box::new(NoisyOrbit::new(orbit, noise, normal)?))
+}
+
+/// The norm of a finite state may overflow. Files hold no infinity: it becomes the largest number.
+pub(crate) fn finite(mut ending: Ending) -> Ending {
+    if let Outcome::Escaped { norm, .. } = &mut ending.outcome {
+        *norm = norm.min(f64::MAX);
+    }
+    ending
+}
+
+/// A sink that records, reports progress and listens for the stop.
+struct Watched<'w> {
+    trajectory: Option<&'w mut Trajectory>,
+    monitor: &'w dyn Monitor,
+    start: f64,
+    done: f64,
+    total: f64,
+    ticks: u32,
+}
+
+impl<'w> Watched<'w> {
+    /// From the time `start` on, with the part `done` of `total` behind it.
+    fn new(
+        trajectory: Option<&'w mut Trajectory>,
+        monitor: &'w dyn Monitor,
+        (start, done, total): (f64, f64, f64),
+    ) -> Self {
+        Self { trajectory, monitor, start, done, total, ticks: 0 }
+    }
+}
+
+impl Sink for Watched<'_> {
+    fn sample(&mut self, t: f64, u: &[f64]) {
+        if let Some(trajectory) = &mut self.trajectory {
+            trajectory.sample(t, u);
+        }
+    }
+
+    fn crossing(&mut self, crossing: &Crossing<'_>) {
+        if let Some(trajectory) = &mut self.trajectory {
+            trajectory.crossing(crossing);
+        }
+    }
+
+    fn tick(&mut self, t: f64) -> ControlFlow<()> {
+        self.ticks = self.ticks.wrapping_add(1);
+        if self.ticks.is_multiple_of(256) {
+            self.monitor.progress((self.done + t - self.start) / self.total);
+            if self.monitor.stopped() {
+                return ControlFlow::Break(());
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+/// The time average of the position with a smooth window that vanishes with all its derivatives at both ends: for a
+/// periodic or quasi-periodic path it converges to the centre faster than any power of the time.
+pub(crate) fn centre_of(path: impl Iterator<Item = (f64, [f64; 2])>, start: f64, end: f64) -> [f64; 2] {
+    let (mut weight_sum, mut centre) = (0.0, [0.0; 2]);
+    for (t, [x, y]) in path {
+        let s = (t - start) / (end - start);
+        let weight = if s > 0.0 && s < 1.0 { libm::exp(-1.0 / (s * (1.0 - s))) } else { 0.0 };
+        weight_sum += weight;
+        centre[0] += weight * x;
+        centre[1] += weight * y;
+    }
+    if weight_sum > 0.0 { centre.map(|sum| sum / weight_sum) } else { [0.0; 2] }
+}

@@ -1,0 +1,119 @@
+//! What every chapter needs: studies run, motions named, scans made and kept.
+
+use motiform_analysis::Verdict;
+use motiform_dynamics::Outcome;
+use motiform_lab::analyse;
+use motiform_lab::scan::{CellSummary, Classify, Opening, Scan, Shard, cells};
+use motiform_lab::simulate::{Monitor, simulate};
+use motiform_study::{Dataset, Error, Plan, Random, ScanPlan, Study, presets};
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Where and how a chapter works.
+pub(super) struct Context<'c> {
+    /// Scans are kept in folders here.
+    pub(super) out: &'c Path,
+    /// Less evidence in less time.
+    pub(super) quick: bool,
+    pub(super) threads: usize,
+    pub(super) monitor: &'c dyn Monitor,
+}
+
+impl Context<'_> {
+    /// `full`, or `quick` in a quick run.
+    pub(super) fn choose<T>(&self, full: T, quick: T) -> T {
+        if self.quick { quick } else { full }
+    }
+
+    /// Listens for the stop alone.
+    pub(super) fn quiet(&self) -> impl Monitor + '_ {
+        Quiet(self.monitor)
+    }
+
+    /// The study of a preset with changes.
+    pub(super) fn preset(
+        &self,
+        name: &str,
+        change: impl FnOnce(&mut Study) -> Result<(), Error>,
+    ) -> Result<Study, Error> {
+        let info = presets::model_of(name)
+            .ok_or(Error::UnknownFigure { name: name.to_owned(), known: Vec::new() })?;
+        let mut study = presets::find(info, name)?;
+        change(&mut study)?;
+        Ok(study)
+    }
+
+    /// Runs a study.
+    pub(super) fn simulate(&self, study: &Study) -> Result<Dataset, Error> {
+        let dataset = simulate(&Plan::new(study)?, &Quiet(self.monitor))?;
+        match *dataset.manifest.outcome {
+            Outcome::Interrupted { .. } => Err(Error::Interrupted),
+            _ => Ok(dataset),
+        }
+    }
+
+    /// Names the motion of a study.
+    pub(super) fn classify(&self, study: &Study) -> Result<Verdict, Error> {
+        analyse::classify(&Plan::new(study)?, 0.0, &Quiet(self.monitor))?.ok_or(Error::Interrupted)
+    }
+
+    /// Makes a scan (or goes on with it) in the folder `name`, and reads it: its plan, and one summary per cell.
+    pub(super) fn scan(&self, name: &str, study: &Study) -> Result<(ScanPlan, Vec<CellSummary>), Error> {
+        // as in the paper, motions grow from small perturbations of a circle
+        let study = Study { random: study.random.or(Some(Random::SMALL)), ..study.clone() };
+        let plan = ScanPlan::new(&study)?;
+        let folder = self.out.join(format!("{name}{}-scan", if self.quick { "-quick" } else { "" }));
+        let scan = Scan::open(&folder, &plan, Shard::WHOLE, Opening::Resume)?;
+        if !scan.run(&Classify, self.threads, self.monitor)?.complete {
+            return Err(Error::Interrupted);
+        }
+        let cells = cells(scan.folder())?.into_iter().flatten().collect();
+        Ok((plan, cells))
+    }
+}
+
+/// How far chapters are that are rebuilt side by side.
+pub(super) struct Progress<'m> {
+    monitor: &'m dyn Monitor,
+    /// Of each chapter: its share of the work, and the part of it that is done (bits of a number that only grows).
+    parts: Vec<(f64, AtomicU64)>,
+}
+
+impl<'m> Progress<'m> {
+    pub(super) fn new(monitor: &'m dyn Monitor, work: &[f64]) -> Self {
+        let total: f64 = work.iter().sum();
+        Self { monitor, parts: work.iter().map(|work| (work / total, AtomicU64::new(0))).collect() }
+    }
+}
+
+/// The part of the whole that a chapter is.
+pub(super) struct Share<'p> {
+    pub(super) progress: &'p Progress<'p>,
+    pub(super) index: usize,
+}
+
+impl Monitor for Share<'_> {
+    fn progress(&self, done: f64) {
+        // The bits of numbers from 0 on are ordered like the numbers.
+        self.progress.parts[self.index].1.fetch_max(done.max(0.0).to_bits(), Ordering::Relaxed);
+        let part = |(share, done): &(f64, AtomicU64)| share * f64::from_bits(done.load(Ordering::Relaxed));
+        self.progress.monitor.progress(self.progress.parts.iter().map(part).sum());
+    }
+
+    fn note(&self, text: &str) {
+        self.progress.monitor.note(text);
+    }
+
+    fn stopped(&self) -> bool {
+        self.progress.monitor.stopped()
+    }
+}
+
+/// Listens for the stop and says nothing.
+pub(super) struct Quiet<'m>(pub(super) &'m dyn Monitor);
+
+impl Monitor for Quiet<'_> {
+    fn stopped(&self) -> bool {
+        self.0.stopped()
+    }
+}

@@ -1,0 +1,79 @@
+//! Fig. 6: the active cell, whose only parameter is its length.
+
+mod boundary;
+mod branches;
+mod codimension;
+mod edges;
+mod exponents;
+mod first_window;
+mod lengths;
+mod onset;
+mod pictures;
+mod quasi;
+mod scheme;
+mod succession;
+mod tracks;
+mod tracks_claims;
+mod windows;
+mod zigzags;
+
+pub(super) use branches::Branch;
+pub(super) use lengths::{modes_for, study};
+pub(super) use tracks::Track;
+
+use super::context::Context;
+use edges::Edges;
+use exponents::Exponents;
+use lengths::Lengths;
+use motiform_figures::report::Section;
+use motiform_study::Error;
+use onset::Onsets;
+use quasi::Search;
+use zigzags::Zigzags;
+
+const ABOUT: &str = "The active cell model has one parameter, the length *L* of its boundary. Shapes that stay as they are \
+(motionless, straight, circular) are followed in *L* and their stability is computed, which gives the edges of the motions to \
+five digits; random starts are classified in between. The paper's windows *W*_1, *W*_2 and *W*_3 are drawn as brackets. As in \
+the paper, the error function that closes the boundary acts on the velocity and on the drawn boundary; it is not fed back into \
+the shape (with feedback nothing would move up to *L* = 15). Its modes have the prior width *n*^{-4}.";
+
+pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
+    let edges = Edges::find(context)?;
+    let onsets = Onsets::find(context)?;
+    let lengths = Lengths::scan(context)?;
+    context.monitor.progress(0.5);
+    let quasi = Search::make(context)?;
+    let exponents = Exponents::find(context)?;
+    context.monitor.progress(0.7);
+    let tracks = tracks::all(context)?;
+    let zigzags = Zigzags::follow(context, &tracks[2])?;
+    context.monitor.progress(0.9);
+    let mut claims = windows::claims(&edges, &lengths, &zigzags, &quasi, &onsets);
+    claims.extend(succession::claims(&lengths, &tracks));
+    claims.extend(tracks_claims::claims(&tracks, &exponents));
+    claims.push(scheme::claim_of(context)?);
+    Ok(Section {
+        title: "Fig. 6: the active cell".to_owned(),
+        about: ABOUT.to_owned(),
+        parameters: parameters(context, &lengths),
+        figures: pictures::all(&lengths, &exponents, &tracks)?,
+        claims,
+    })
+}
+
+fn parameters(context: &Context<'_>, lengths: &Lengths) -> Vec<(String, String)> {
+    let text = |name: &str, value: &str| (name.to_owned(), value.to_owned());
+    vec![
+        text("*g*_2, *g*_3, *g*_5", "1, 1, -1 (*g*_1 = *g*_4 = 0)"),
+        text("*α*_2, *α*_3", "0, -4·10^{-4} *L*"),
+        text(
+            "modes",
+            "10 up to *L* = 15, 15 up to 22.8, 20 up to 31 (the shortest wave has *k* ≥ 4; the paper: *N* = 128)",
+        ),
+        text("stepper", "krogstad4 (exponential, order 4), relative tolerance 10^{-6}, absolute 10^{-7}"),
+        (
+            "scan".to_owned(),
+            format!("{} lengths, {} random starts each", lengths.0.len(), context.choose(2, 1)),
+        ),
+    ]
+}

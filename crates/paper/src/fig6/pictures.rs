@@ -1,0 +1,82 @@
+//! The figures of the chapter.
+
+use super::super::strip::strip;
+use super::exponents::Exponents;
+use super::lengths::Lengths;
+use super::tracks::Track;
+use motiform_analysis::Regime;
+use motiform_figures::report::ReportFigure;
+use motiform_figures::{BoundaryLine, Drawn, ErrorBarFigure, ErrorBarSeries, LineStyle, Measured};
+use motiform_lab::draw::sheet;
+use motiform_study::Error;
+use rayon::prelude::*;
+
+/// The paper's windows.
+const WINDOWS: [(f64, f64, LineStyle); 3] =
+    [(12.0, 14.4, LineStyle::Solid), (21.0, 21.9, LineStyle::Dashed), (29.0, 29.9, LineStyle::Dotted)];
+
+/// What moves: the regimes that have a speed.
+const MOVING: [Regime; 7] = [
+    Regime::Straight,
+    Regime::PulsatingStraight,
+    Regime::Circular,
+    Regime::Rectangular,
+    Regime::QuasiPeriodic,
+    Regime::Zigzag,
+    Regime::Chaotic,
+];
+
+/// Letters of the figure.
+const LETTERS: [&str; 4] = ["a", "b", "c", "d"];
+
+pub(super) fn all(
+    lengths: &Lengths,
+    exponents: &Exponents,
+    tracks: &[Track],
+) -> Result<Vec<ReportFigure>, Error> {
+    let mut figures = vec![
+        ReportFigure::new(
+            windows(lengths)?,
+            "Which motion random starts lead to, over the length. Brackets: the paper's windows.",
+        ),
+        ReportFigure::new(speeds(lengths)?, "Mean speed over the length (motionless shapes are left out)."),
+        ReportFigure::new(exponents.drawn()?, "Largest Lyapunov exponent in *W*_2."),
+    ];
+    figures.push(super::codimension::figure()?);
+    let drawn: Vec<Vec<ReportFigure>> = tracks
+        .par_iter()
+        .zip(&LETTERS[..])
+        .map(|(track, letter)| track.figures(letter))
+        .collect::<Result<_, _>>()?;
+    figures.extend(drawn.into_iter().flatten());
+    Ok(figures)
+}
+
+fn windows(lengths: &Lengths) -> Result<Drawn, Error> {
+    let bracket = |(n, (from, to, style)): (usize, (f64, f64, LineStyle))| BoundaryLine {
+        label: format!("*W*_{} of the paper: {from:.1} to {to:.1}", n + 1),
+        style,
+        points: vec![[from, 0.0], [from, 0.97], [to, 0.97], [to, 0.0]],
+    };
+    let lines = WINDOWS.into_iter().enumerate().map(bracket).collect();
+    strip("length *L*", &lengths.0, lines, Vec::new())
+}
+
+fn speeds(lengths: &Lengths) -> Result<Drawn, Error> {
+    let series = |regime: Regime| {
+        let point = |(length, summary): &(f64, motiform_lab::scan::CellSummary)| {
+            let motion = summary.motions.iter().find(|motion| motion.regime == regime)?;
+            Some(Measured { x: *length, y: motion.median("speed_mean")?, error: 0.0 })
+        };
+        let points: Vec<Measured> = lengths.0.iter().filter_map(point).collect();
+        ErrorBarSeries { label: regime.name().to_owned(), points, joined: false }
+    };
+    let figure = ErrorBarFigure {
+        x_label: "length *L*".to_owned(),
+        y_label: "mean speed (model length per model time)".to_owned(),
+        series: MOVING.into_iter().map(series).filter(|series| !series.points.is_empty()).collect(),
+        logarithmic_y: true,
+        ..ErrorBarFigure::default()
+    };
+    sheet(&figure)
+}

@@ -1,0 +1,130 @@
+//! The third window: the zigzag, followed from Fig. 6(c) to other lengths.
+
+use super::super::claims::{claim, differs};
+use super::super::context::Context;
+use super::edges::Edges;
+use super::lengths::study;
+use super::tracks::Track;
+use super::windows::words;
+use motiform_analysis::Regime;
+use motiform_figures::report::Claim;
+use motiform_lab::scan::{Axis, CellSummary};
+use motiform_study::Error;
+
+/// Lengths at which the zigzag is started, in hundredths.
+const FULL: [u32; 19] = [
+    2890, 2900, 2905, 2910, 2915, 2920, 2930, 2935, 2940, 2945, 2950, 2960, 2970, 2980, 2990, 3000, 3010,
+    3020, 3030,
+];
+const QUICK: [u32; 6] = [2910, 2920, 2940, 2960, 3000, 3020];
+
+/// Modes; enough for the longest.
+const MODES: usize = 20;
+
+/// The lengths inside which the zigzag may have lost its mirror symmetry (measured: 29.4 and 29.45).
+const GAP: (f64, f64) = (29.25, 29.55);
+
+/// What the zigzag becomes at a length.
+struct Kept {
+    length: f64,
+    regime: Regime,
+    /// Period, and net rotation per period (degrees), where it has them.
+    period: Option<f64>,
+    rotation: Option<f64>,
+    /// The largest exponent.
+    exponent: Option<f64>,
+}
+
+impl Kept {
+    fn words(&self) -> String {
+        let turned = match (self.rotation, self.period) {
+            (Some(rotation), Some(period)) => format!(", turned by {rotation:+.1}° per {period:.1}"),
+            _ => String::new(),
+        };
+        let parting = match (self.regime, self.exponent) {
+            (Regime::Chaotic, Some(exponent)) => format!(", *λ*_1 = {exponent:.4}"),
+            _ => String::new(),
+        };
+        format!("{} at {}{turned}{parting}", self.regime, self.length)
+    }
+}
+
+/// At which lengths a zigzag stays one.
+pub(super) struct Zigzags(Vec<Kept>);
+
+impl Zigzags {
+    /// Starts at the state in which the run at *L* = 29.2 ended.
+    pub(super) fn follow(context: &Context<'_>, track: &Track) -> Result<Self, Error> {
+        let mut study = study(29.2, MODES)?;
+        for (name, value) in &track.dataset.manifest.state.0 {
+            study.set_initial(name, *value)?;
+        }
+        let values = context.choose(FULL.to_vec(), QUICK.to_vec());
+        let values = values.into_iter().map(|hundredths| f64::from(hundredths) / 100.0).collect();
+        study.scan.axes = vec![Axis { name: "length".to_owned(), values }];
+        study.scan.budget = context.choose(5e4, 2e4);
+        let (plan, cells) = context.scan("fig6-zigzag", &study)?;
+        let kept = |cell: &CellSummary| {
+            let motion = &cell.motions[0];
+            Kept {
+                length: plan.axis_values(cell.cell)[0],
+                regime: motion.regime,
+                period: motion.median("period"),
+                rotation: motion.median("net_rotation").map(f64::to_degrees),
+                exponent: motion.median("lambda_1"),
+            }
+        };
+        Ok(Self(cells.iter().map(kept).collect()))
+    }
+
+    /// Shortest and longest length with a zigzag, and their neighbours without.
+    fn ends(&self) -> Option<[(f64, f64); 2]> {
+        let zigzag = |kept: &Kept| kept.regime == Regime::Zigzag;
+        let first = self.0.iter().position(zigzag)?;
+        let last = self.0.iter().rposition(zigzag)?;
+        let before = self.0[..first].last()?.length;
+        let after = self.0.get(last + 1)?.length;
+        Some([(before, self.0[first].length), (self.0[last].length, after)])
+    }
+
+    pub(super) fn claim(&self, edges: &Edges) -> Claim {
+        let ends = self.ends().unwrap_or([(f64::NAN, f64::NAN); 2]);
+        let [(before, first), (last, after)] = ends;
+        let inside = || self.0.iter().filter(|kept| (first..=last).contains(&kept.length));
+        let others: Vec<&Kept> = inside().filter(|kept| kept.regime != Regime::Zigzag).collect();
+        let says = "Zigzag motions emerge in *W*_3 = [29.0, 29.9].";
+        let how = "the motion of Fig. 6(c), started at each of these lengths and named again; every length between the first and the last \
+                   zigzag counts; the paper's edges to within the spacing, 0.1 to 0.2";
+        let list: Vec<String> = others.iter().map(|kept| kept.words()).collect();
+        let finds = format!(
+            "a zigzag at {} of {} lengths from *L* = {first} (not at {before}) to {last} (not at {after}); {}. The three-fold shape is stable \
+             there as well (up to {}), the four-fold one from {}: which one is reached depends on the start",
+            inside().count() - others.len(),
+            inside().count(),
+            if list.is_empty() { "at none of them another motion".to_owned() } else { list.join("; ") },
+            words(edges.three_fold.1),
+            words(edges.four_fold)
+        );
+        let edges_fit = (first - 29.0).abs() < 0.21 && (last - 29.9).abs() < 0.21;
+        if others.is_empty() {
+            return claim(&[137, 138], says, finds, how, edges_fit);
+        }
+        let broken = |kept: &&Kept| {
+            let wild = matches!(kept.regime, Regime::QuasiPeriodic | Regime::Chaotic | Regime::Undetermined);
+            wild && kept.length > GAP.0 && kept.length < GAP.1
+        };
+        differs(
+            &[137, 138],
+            says,
+            finds,
+            how,
+            "inside the window lies a gap in which the zigzag has lost its mirror symmetry: it rotates slowly (quasi-periodic), and at one \
+             end of the gap it is weakly chaotic; on a picture this looks like a zigzag",
+            edges_fit
+                && others.iter().all(broken)
+                && others.iter().any(|kept| {
+                    kept.regime == Regime::QuasiPeriodic && kept.rotation.is_some_and(|r| r.abs() > 1.0)
+                }),
+        )
+    }
+}

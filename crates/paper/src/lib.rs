@@ -1,0 +1,116 @@
+//! The paper, rebuilt: every figure computed anew, every claim checked, one report.
+//!
+//! One file or folder per figure, one for the equations and one for the discussion; each gives a [`Section`] with its pictures and its claims. What all of them need is in
+//! `context.rs`.
+
+mod claims;
+mod context;
+mod equations;
+mod fig1;
+mod fig2;
+mod fig3;
+mod fig4;
+mod fig5;
+mod fig6;
+mod models;
+mod sentences;
+mod strip;
+
+use context::{Context, Progress, Share};
+use motiform_figures::report::{Counts, Report, Section};
+use motiform_lab::simulate::Monitor;
+use motiform_study::Error;
+use rayon::prelude::*;
+pub use sentences::{checked_in, entry_of};
+use std::path::Path;
+
+/// What to rebuild, and how.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The figures, by name (see [`names`]); all of them if empty.
+    pub figures: Vec<String>,
+    /// Coarser scans and shorter runs: the same claims with less evidence.
+    pub quick: bool,
+    /// Threads of the scans; changes no number.
+    pub threads: usize,
+}
+
+impl Options {
+    /// Whether every figure asked for is one of the paper's.
+    ///
+    /// # Errors
+    /// [`Error::UnknownFigure`] with all names.
+    pub fn check(&self) -> Result<(), Error> {
+        match self.figures.iter().find(|name| !names().contains(&name.as_str())) {
+            Some(name) => Err(Error::UnknownFigure { name: name.clone(), known: names() }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A part of the paper: its name, the share of the work it is, and what rebuilds it.
+struct Chapter {
+    name: &'static str,
+    work: f64,
+    rebuild: fn(&Context<'_>) -> Result<Section, Error>,
+}
+
+/// In the order of the paper.
+const CHAPTERS: &[Chapter] = &[
+    Chapter { name: "equations", work: 1.0, rebuild: equations::section },
+    Chapter { name: "fig1", work: 3.0, rebuild: fig1::section },
+    Chapter { name: "fig2", work: 1.0, rebuild: fig2::section },
+    Chapter { name: "fig3", work: 0.5, rebuild: fig3::section },
+    Chapter { name: "fig4", work: 3.0, rebuild: fig4::section },
+    Chapter { name: "fig5", work: 1.0, rebuild: fig5::section },
+    Chapter { name: "fig6", work: 8.0, rebuild: fig6::section },
+    Chapter { name: "models", work: 0.5, rebuild: models::section },
+];
+
+/// The names of what can be rebuilt.
+#[must_use]
+pub fn names() -> Vec<&'static str> {
+    CHAPTERS.iter().map(|chapter| chapter.name).collect()
+}
+
+/// `fig1: 12 hold, 3 differ, 0 fail`, over the claims of the paper and the checks of ours.
+fn finished(name: &str, section: &Section) -> String {
+    let Counts { hold, differ, fail } = Counts::of(section.claims.iter());
+    format!("{name}: {hold} hold, {differ} differ, {fail} fail")
+}
+
+/// Rebuilds the paper, or parts of it. Scans are kept in folders inside `out`, so that an interrupted run goes on where it
+/// was; `out` must exist.
+///
+/// # Errors
+/// An unknown name; [`Error::Interrupted`] if the monitor asked to stop; files that cannot be written.
+pub fn reproduce(options: &Options, out: &Path, monitor: &dyn Monitor) -> Result<Report, Error> {
+    options.check()?;
+    let wanted = |chapter: &&Chapter| {
+        options.figures.is_empty() || options.figures.iter().any(|name| name == chapter.name)
+    };
+    let chapters: Vec<&Chapter> = CHAPTERS.iter().filter(wanted).collect();
+    let progress = Progress::new(monitor, &chapters.iter().map(|chapter| chapter.work).collect::<Vec<_>>());
+    // Much of a chapter is one long run after the other: chapters side by side keep all cores busy.
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(options.threads)
+        .build()
+        .map_err(|error| Error::Threads { threads: options.threads, reason: error.to_string() })?;
+    let rebuild = |(index, chapter): (usize, &&Chapter)| {
+        let share = Share { progress: &progress, index };
+        let context = Context { out, quick: options.quick, threads: options.threads, monitor: &share };
+        let section = (chapter.rebuild)(&context)?;
+        share.progress(1.0);
+        share.note(&finished(chapter.name, &section));
+        Ok(section)
+    };
+    let sections = pool.install(|| {
+        chapters.par_iter().enumerate().with_max_len(1).map(rebuild).collect::<Result<Vec<_>, Error>>()
+    })?;
+    Ok(Report {
+        title: "Dynamics of a deformable self-propelled domain, rebuilt".to_owned(),
+        about: claims::ABOUT.to_owned(),
+        sections,
+        sentences: sentences::sentences(),
+    })
+}

@@ -1,0 +1,25 @@
+//! A scan over one parameter as a strip.
+
+use motiform_figures::{BoundaryLine, Cell, Drawn, PhaseDiagram};
+use motiform_lab::draw::sheet;
+use motiform_lab::scan::CellSummary;
+use motiform_study::Error;
+
+/// What was found at each value, increasing, and lines in front of it.
+pub(super) fn strip(
+    x_label: &str,
+    points: &[(f64, CellSummary)],
+    lines: Vec<BoundaryLine>,
+    caption: Vec<String>,
+) -> Result<Drawn, Error> {
+    let cell = |(x, summary): &(f64, CellSummary)| Cell { x: *x, y: 0.0, shares: summary.shares() };
+    let figure = PhaseDiagram {
+        caption,
+        x_label: x_label.to_owned(),
+        x: points.iter().map(|point| point.0).collect(),
+        cells: points.iter().map(cell).collect(),
+        lines,
+        ..PhaseDiagram::default()
+    };
+    sheet(&figure)
+}

@@ -1,0 +1,28 @@
+//! What every chapter's report must fulfil.
+
+use motiform_figures::report::{Report, Verdict};
+use motiform_paper::{checked_in, entry_of};
+use std::collections::BTreeSet;
+
+/// Prints and checks a report of these chapters: nothing fails, what differs has its reason, claims name sentences, and every
+/// sentence that the table gives to a chapter has a claim in it.
+pub(crate) fn check(report: &Report, chapters: &[&str]) {
+    assert_eq!(report.sections.len(), chapters.len());
+    for (section, chapter) in report.sections.iter().zip(chapters) {
+        let mut checked = BTreeSet::new();
+        for claim in &section.claims {
+            println!("{} {}\n    {}", claim.verdict.words(), claim.says, claim.finds);
+            assert_eq!(claim.is_ours(), claim.sentences().is_empty(), "{}", claim.says);
+            checked.extend(claim.sentences().iter().map(|sentence| entry_of(*sentence).unwrap()));
+            assert!(claim.verdict.explanation().is_none_or(|why| why.len() > 20), "{}", claim.says);
+        }
+        let promised: BTreeSet<u16> = checked_in(chapter).into_iter().collect();
+        assert_eq!(checked, promised, "{chapter}: the table of sentences and the claims differ");
+        assert!(!section.figures.is_empty(), "{chapter}");
+    }
+    for claim in report.sections.iter().flat_map(|section| &section.claims) {
+        let failed = matches!(claim.verdict, Verdict::Fails { .. });
+        assert!(!failed, "{}\nfound: {}\n{:?}", claim.says, claim.finds, claim.verdict);
+    }
+    assert!(report.all_hold());
+}
