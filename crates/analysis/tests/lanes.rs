@@ -47,7 +47,7 @@ fn together<const K: usize, const D: usize>(count: usize) -> Vec<Lyapunov> {
         let body = tensor(member);
         let field = FourierField::<f64, { terms::PAPER }>(body.field().0);
         let settings = settings(member, K);
-        Some(TangentMember { body: Body(body), field, start: start(member), settings })
+        Some(TangentMember { key: member, body: Body(body), field, start: start(member), settings })
     };
     let mut runs = vec![None; count];
     let mut done = |number: usize, run: motiform_analysis::Result<Lyapunov>| {

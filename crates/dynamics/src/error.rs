@@ -24,12 +24,6 @@ pub enum Error {
         /// The range in words, e.g. `above 0`.
         range: &'static str,
     },
-    /// A method does not run in lanes.
-    #[error("stepper {stepper} does not run in lanes: choose rk4 (fixed step), dopri5 or dop853")]
-    NoLanes {
-        /// Name of the method.
-        stepper: &'static str,
-    },
     /// A fixed-step method was asked to control its step.
     #[error("stepper {stepper} has no error estimate: give it a fixed step, or choose an adaptive stepper")]
     NoErrorEstimate {

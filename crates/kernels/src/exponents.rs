@@ -24,12 +24,12 @@ pub fn has_exponents(tensor: &Tensor, settings: &LyapunovSettings) -> bool {
 }
 
 /// All exponents of the orbits of one tensor model that begin where `next` says; each answer goes to `done` with the start's
-/// number. The same bits as [`motiform_analysis::lyapunov()`] gives one by one. When `stopped` says so, the rest is left.
+/// key. The same bits as [`motiform_analysis::lyapunov()`] gives one by one. When `stopped` says so, the rest is left.
 /// Nothing, where [`has_exponents`] says no.
 pub fn exponents_of_tensor(
     tensor: &Tensor,
     settings: &LyapunovSettings,
-    next: &mut dyn FnMut() -> Option<[f64; DIM]>,
+    next: &mut dyn FnMut() -> Option<(usize, [f64; DIM])>,
     done: &mut dyn FnMut(usize, Result<Lyapunov>),
     stopped: &dyn Fn() -> bool,
 ) {
@@ -38,9 +38,9 @@ pub fn exponents_of_tensor(
         return;
     }
     let mut member = || {
-        let start = next()?;
+        let (key, start) = next()?;
         let field = FourierField::<f64, { terms::COMMON }>(tensor.field().0);
-        Some(TangentMember { body: Body(*tensor), field, start, settings: *settings })
+        Some(TangentMember { key, body: Body(*tensor), field, start, settings: *settings })
     };
     lyapunov_in_lanes::<_, _, DIM, DIM, { DIM * (1 + DIM) }>((rtol, atol), &mut member, done, stopped);
 }

@@ -8,6 +8,8 @@ use motiform_models::tensor::fourier::{DIM, FourierField, terms};
 
 /// One body to classify.
 pub struct TensorRow {
+    /// What its verdict is handed back with.
+    pub key: usize,
     /// The body.
     pub body: Box<dyn Model>,
     /// The same, for its coefficients.
@@ -23,7 +25,7 @@ pub fn covering(needed: u32) -> u32 {
 }
 
 /// Names the motion of all rows that `next` gives, whose terms must be within `covering` (a set that [`covering()`]
-/// gave); each verdict goes to `done` with the row's number. Verdicts are those of [`motiform_analysis::classify`] to the
+/// gave); each verdict goes to `done` with the row's key. Verdicts are those of [`motiform_analysis::classify`] to the
 /// last bit. When `stopped` says so, the rest is left.
 pub fn classify_tensors(
     covering: u32,
@@ -46,8 +48,8 @@ fn classify<const TERMS: u32>(
     stopped: &dyn Fn() -> bool,
 ) {
     let mut candidate = || {
-        let TensorRow { body, tensor, start } = next()?;
-        Some(Candidate { body, field: FourierField::<f64, TERMS>(tensor.field().0), start })
+        let TensorRow { key, body, tensor, start } = next()?;
+        Some(Candidate { key, body, field: FourierField::<f64, TERMS>(tensor.field().0), start })
     };
     classify_in_lanes::<_, DIM, { 2 * DIM }>(settings, &mut candidate, done, stopped);
 }

@@ -24,7 +24,9 @@ fn in_lanes(plan: &ScanPlan) -> Vec<Verdict> {
     let samples = plan.computation.samples;
     let mut rows = (0..plan.rows()).map(|row| (row / samples, row % samples));
     let mut verdicts = vec![None; plan.rows()];
-    let mut done = |row: usize, verdict: Result<Option<Verdict>, motiform_study::Error>| {
+    let mut done = |(cell, sample): (usize, usize),
+                    verdict: Result<Option<Verdict>, motiform_study::Error>| {
+        let row = cell * samples + sample;
         assert!(verdicts[row].replace(verdict.unwrap().unwrap()).is_none(), "row {row} came twice");
     };
     Classify.evaluate_all(plan, &mut || rows.next(), &mut done, &());

@@ -1,98 +1,99 @@
-//! Members of an ensemble against single orbits: the same ends to the bit, on every instruction set and thread count.
+//! Members of an ensemble against single orbits: the same states to the bit, on every instruction set.
 
-use motiform_dynamics::ensemble::{End, Member, Propagation, propagate};
-use motiform_dynamics::simd::InstructionSet;
-use motiform_dynamics::steppers::{DOP853, RK4, Tableau};
-use motiform_dynamics::{Orbit, Outcome, Request, StepControl, drive::drive};
+use motiform_dynamics::ensemble::{Member, Propagation, Queue, propagate, propagate_on};
+use motiform_dynamics::simd::{InstructionSet, has_lanes};
+use motiform_dynamics::steppers::DOP853;
+use motiform_dynamics::{InPlane, Orbit, Outcome, Request, StepControl, drive::drive};
 use motiform_models::tensor::TensorParameters;
 use motiform_models::tensor::fourier::{Coefficients, DIM, FourierField, terms};
 
 type Field = FourierField<f64, { terms::PAPER }>;
 
-const ESCAPE: f64 = 1e6;
+/// Shape and position.
+const STATE: usize = DIM + 2;
 
-/// Members of the full model (paper, Simulations II) with unequal time spans, so that lanes change hands.
-fn members(
-    kappa2: impl Fn(usize) -> f64,
-    span: impl Fn(usize) -> f64,
-    count: usize,
-) -> Vec<Member<Field, DIM>> {
-    let start = [0.5, 0.1, 0.1, -0.2, 0.05, 0.1];
+type States = Option<Vec<[f64; STATE]>>;
+
+/// Members of the full model (paper, Simulations II).
+fn members(kappa2: impl Fn(usize) -> f64, count: usize) -> Vec<Member<Field, STATE>> {
+    let start = [0.5, 0.1, 0.1, -0.2, 0.05, 0.1, 3.0, -2.0];
     let member = |i: usize| {
         let parameters = TensorParameters::full(kappa2(i), 0.1);
         let start = std::array::from_fn(|j| start[j] * (1.0 + 0.1 * (0.7 * i as f64 + 1.3 * j as f64).sin()));
-        Member { field: FourierField(Coefficients::from(&parameters)), start, t_end: span(i) }
+        Member { key: i, field: FourierField(Coefficients::from(&parameters)), start }
     };
     (0..count).map(member).collect()
 }
 
-fn mixed(count: usize) -> Vec<Member<Field, DIM>> {
-    members(|i| 0.45 + 0.2 * i as f64 / count as f64, |i| 3.0 + 11.7 * (i % 5) as f64, count)
+fn how(times: &[f64], rtol: f64) -> Propagation<'_> {
+    Propagation { times, rtol, atol: 1e-2 * rtol, escape_norm: 1e6 }
 }
 
-fn how(method: &'static Tableau, control: StepControl) -> Propagation {
-    Propagation { method, control, instructions: InstructionSet::widest(), escape_norm: ESCAPE, threads: 1 }
+/// A member as a single orbit, driven from time to time.
+fn alone(member: &Member<Field, STATE>, how: &Propagation<'_>) -> States {
+    let body = InPlane(member.field);
+    let control = StepControl::Adaptive { rtol: how.rtol, atol: how.atol };
+    let mut orbit = Orbit::new(&body, &DOP853, control, 0.0, &member.start).expect("valid");
+    let mut states = Vec::new();
+    for &t in how.times {
+        if t > 0.0 {
+            let request = Request { escape_norm: how.escape_norm, watched: DIM, ..Request::until(t, STATE) };
+            let outcome = drive(&mut orbit, &request, &mut ()).expect("valid");
+            if !matches!(outcome, Outcome::Completed { .. }) {
+                return None;
+            }
+        }
+        states.push(std::array::from_fn(|i| motiform_dynamics::Integration::state(&orbit)[i]));
+    }
+    Some(states)
 }
 
-fn adaptive(method: &'static Tableau, rtol: f64) -> Propagation {
-    how(method, StepControl::Adaptive { rtol, atol: 1e-2 * rtol })
+/// All members at once, on some instructions.
+fn together(members: &[Member<Field, STATE>], how: &Propagation<'_>, set: InstructionSet) -> Vec<States> {
+    let mut left = members.iter().copied();
+    let mut found: Vec<Option<States>> = vec![None; members.len()];
+    let mut done = |key: usize, states: States| assert!(found[key].replace(states).is_none());
+    let queue = Queue { next: &mut || left.next(), done: &mut done, stopped: &|| false };
+    propagate_on(set, how, queue);
+    found.into_iter().map(|states| states.expect("every member is told of")).collect()
 }
 
-/// The end of a member as a single orbit.
-fn alone(member: &Member<Field, DIM>, how: &Propagation) -> End<DIM> {
-    let mut orbit = Orbit::new(&member.field, how.method, how.control, 0.0, &member.start).expect("valid");
-    let request = Request { escape_norm: how.escape_norm, ..Request::until(member.t_end, DIM) };
-    let outcome = drive(&mut orbit, &request, &mut ()).expect("valid");
-    let u = std::array::from_fn(|i| orbit.state()[i]);
-    End { outcome, u, steps: orbit.counters().steps, rejected: orbit.counters().rejected }
-}
-
-fn bits(ends: &[End<DIM>]) -> Vec<[u64; DIM]> {
-    ends.iter().map(|end| end.u.map(f64::to_bits)).collect()
-}
-
-/// Every way to run the members gives the ends of the single orbits.
-fn check(members: &[Member<Field, DIM>], how: &Propagation) {
+fn check(members: &[Member<Field, STATE>], how: &Propagation<'_>) -> Vec<States> {
     let single: Vec<_> = members.iter().map(|member| alone(member, how)).collect();
-    for instructions in InstructionSet::available() {
-        for threads in [1, 2] {
-            let ends = propagate(members, &Propagation { instructions, threads, ..*how }).expect("valid");
-            let name = how.method.name;
-            assert_eq!(bits(&ends), bits(&single), "{name} {instructions:?}, {threads} threads");
-            assert_eq!(ends, single, "{name} {instructions:?}, {threads} threads");
-        }
+    for set in InstructionSet::available() {
+        assert_eq!(format!("{:?}", together(members, how, set)), format!("{single:?}"), "{set:?}");
     }
+    single
 }
 
 #[test]
-fn adaptive_members_end_where_single_orbits_end() {
+fn members_pass_where_single_orbits_pass() {
+    let some = members(|i| 0.45 + 0.2 * i as f64 / 37.0, 37);
     for rtol in [1e-6, 1e-9, 1e-12] {
-        check(&mixed(37), &adaptive(&DOP853, rtol));
+        let states = check(&some, &how(&[0.0, 0.25, 3.0, 3.5, 41.7], rtol));
+        assert!(states.iter().all(Option::is_some));
     }
-}
-
-/// Spans that are no multiple of the step, and some that are.
-#[test]
-fn fixed_steps_end_where_single_orbits_end() {
-    for method in [&RK4, &DOP853] {
-        for step in [0.01, 0.05, 0.037] {
-            check(&mixed(37), &how(method, StepControl::Fixed { step }));
-        }
-    }
+    check(&some, &how(&[0.0], 1e-9));
 }
 
 /// Members that leave every bound do so among others that do not.
 #[test]
 fn blow_up_is_the_same_in_company() {
-    let some = members(|i| 0.1 + 0.01 * i as f64, |i| 100.0 + 50.0 * (i % 3) as f64, 30);
-    let how = adaptive(&DOP853, 1e-9);
-    let ends: Vec<_> = some.iter().map(|member| alone(member, &how)).collect();
-    let arrived = ends.iter().filter(|end| matches!(end.outcome, Outcome::Completed { .. })).count();
-    assert!(arrived < ends.len(), "no member of this set escapes");
-    check(&some, &how);
-    check(&some, &how_fixed());
+    let states = check(&members(|i| 0.1 + 0.01 * i as f64, 30), &how(&[50.0, 200.0], 1e-9));
+    let arrived = states.iter().flatten().count();
+    assert!(0 < arrived && arrived < states.len(), "{arrived} of {} arrive", states.len());
 }
 
-fn how_fixed() -> Propagation {
-    how(&RK4, StepControl::Fixed { step: 0.02 })
+#[test]
+fn a_stop_leaves_what_is_under_way() {
+    let (some, how) = (members(|_| 0.5, 40), how(&[1e4], 1e-9));
+    let mut left = some.iter().copied();
+    let (mut told, asked) = (0, std::cell::Cell::new(0));
+    let stopped = || {
+        asked.set(asked.get() + 1);
+        asked.get() > 20
+    };
+    let queue = Queue { next: &mut || left.next(), done: &mut |_, _| told += 1, stopped: &stopped };
+    assert_eq!(propagate(&how, queue), has_lanes());
+    assert_eq!(told, 0);
 }

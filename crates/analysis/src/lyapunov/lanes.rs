@@ -17,6 +17,8 @@ use std::ops::ControlFlow;
 /// One orbit whose exponents are asked for.
 #[derive(Clone, Debug)]
 pub struct TangentMember<B, F, const N: usize> {
+    /// What its exponents are handed back with.
+    pub key: usize,
     /// The body.
     pub body: B,
     /// Its field.
@@ -34,7 +36,7 @@ pub fn runs_in_lanes(settings: &LyapunovSettings) -> bool {
     has_lanes() && tableau.name == "dop853" && matches!(settings.control, StepControl::Adaptive { .. })
 }
 
-/// The `K` largest exponents of every member, each handed to `done` with its number in the order that `next` gave them:
+/// The `K` largest exponents of every member, each handed to `done` with its key:
 /// the same bits as [`super::lyapunov()`] gives one by one. `D` must be `N (1 + K)`, the
 /// members' settings must ask for `K` exponents with the same control, see [`runs_in_lanes`].
 ///
@@ -70,7 +72,6 @@ impl<B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, cons
         let mut crew = Crew::<L, B, F, N, K, D> {
             field: F::tangent(first.field.bundle()),
             first: Some(first),
-            count: 0,
             escape: L::splat(0.0),
             stop: L::splat(0.0),
             riding: std::array::from_fn(|_| None),
@@ -85,7 +86,6 @@ impl<B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, cons
 
 /// A member in its lane.
 struct Rider<B, F, const N: usize> {
-    number: usize,
     member: TangentMember<B, F, N>,
     protocol: Protocol,
 }
@@ -94,7 +94,6 @@ struct Rider<B, F, const N: usize> {
 struct Crew<'r, L: Bundle, B, F: InLanes, const N: usize, const K: usize, const D: usize> {
     field: F::Tangent<L, K>,
     first: Option<TangentMember<B, F, N>>,
-    count: usize,
     escape: L,
     /// Ends of the stretches under way.
     stop: L,
@@ -112,7 +111,7 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
     fn alone(&mut self, rider: &Rider<B, F, N>) {
         let TangentMember { body, start, settings, .. } = &rider.member;
         let mut stop = Stop(self.stopped);
-        (self.done)(rider.number, lyapunov(body.as_ref(), start, settings, &mut stop));
+        (self.done)(rider.member.key, lyapunov(body.as_ref(), start, settings, &mut stop));
     }
 
     /// Tells the lanes in `due` what their vectors have grown to, and takes the ends of their next stretches. A lane that has
@@ -161,9 +160,7 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
                 return None;
             }
             let member = self.first.take().or_else(|| (self.next)())?;
-            let number = self.count;
-            self.count += 1;
-            let mut rider = Rider { number, protocol: Protocol::new(&member.settings, N), member };
+            let mut rider = Rider { protocol: Protocol::new(&member.settings, N), member };
             let Some(Stretch { stop, limit }) = rider.protocol.begin(0.0) else {
                 self.alone(&rider);
                 continue;
@@ -221,7 +218,7 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
         }
         let (body, outcome) = (rider.member.body.as_ref(), Outcome::Completed { t: leaving.t });
         let result = rider.protocol.result(body, &leaving.u[..N], outcome, leaving.steps);
-        (self.done)(rider.number, result);
+        (self.done)(rider.member.key, result);
         Turn::Done
     }
 }

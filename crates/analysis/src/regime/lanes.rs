@@ -22,6 +22,8 @@ use std::ops::ControlFlow;
 
 /// A motion to classify.
 pub struct Candidate<F, const N: usize> {
+    /// What its verdict is handed back with.
+    pub key: usize,
     /// The body.
     pub body: Box<dyn Equivariant>,
     /// Its field.
@@ -40,7 +42,7 @@ pub fn classifies_in_lanes(settings: &Settings) -> bool {
 }
 
 /// Classifies all motions that `next` gives, in lanes on this thread; each verdict is handed to `done` with the motion's
-/// number, as soon as it is there. `settings` must be such that [`classifies_in_lanes`]; `D` is `2 N`. When `stopped` says
+/// key, as soon as it is there. `settings` must be such that [`classifies_in_lanes`]; `D` is `2 N`. When `stopped` says
 /// so, what is under way is left.
 pub fn classify_in_lanes<F: InLanes + Clone, const N: usize, const D: usize>(
     settings: &Settings,
@@ -49,8 +51,7 @@ pub fn classify_in_lanes<F: InLanes + Clone, const N: usize, const D: usize>(
     stopped: &dyn Fn() -> bool,
 ) {
     let StepControl::Adaptive { rtol, atol } = settings.control else { return };
-    let mut desk =
-        Desk { settings, next, done, stopped, count: 0, ready: VecDeque::new(), waiting: Vec::new() };
+    let mut desk = Desk { settings, next, done, stopped, ready: VecDeque::new(), waiting: Vec::new() };
     loop {
         let ran = run_wide(Looks::<F, N> { desk: &mut desk });
         if ran.is_none() || desk.waiting.is_empty() || (desk.stopped)() {
@@ -62,7 +63,6 @@ pub fn classify_in_lanes<F: InLanes + Clone, const N: usize, const D: usize>(
 
 /// A search whose orbit is in no lane.
 struct Parked<F, const N: usize> {
-    number: usize,
     candidate: Candidate<F, N>,
     search: Search,
     t: f64,
@@ -78,7 +78,6 @@ struct Desk<'d, F, const N: usize> {
     next: &'d mut dyn FnMut() -> Option<Candidate<F, N>>,
     done: &'d mut dyn FnMut(usize, Result<Option<Verdict>>),
     stopped: &'d dyn Fn() -> bool,
-    count: usize,
     /// For a lane.
     ready: VecDeque<Parked<F, N>>,
     /// For an exponent.
@@ -98,11 +97,9 @@ impl<F: InLanes + Clone, const N: usize> Desk<'_, F, N> {
             return None;
         }
         let candidate = (self.next)()?;
-        let number = self.count;
-        self.count += 1;
         let (search, ask) = Search::new(self.settings, &candidate.start);
         let span = if let Ask::Look(span) = ask { span } else { 0.0 };
-        Some(Parked { number, u: candidate.start, candidate, search, t: 0.0, pace: None, span })
+        Some(Parked { u: candidate.start, candidate, search, t: 0.0, pace: None, span })
     }
 
     /// Files a search by what it asks for; gives it back if that is a look.
@@ -119,8 +116,10 @@ impl<F: InLanes + Clone, const N: usize> Desk<'_, F, N> {
                 parked.span = span;
                 self.waiting.push(parked);
             }
-            Ok(Ask::Nothing(verdict)) => (self.done)(parked.number, Ok(verdict.map(|verdict| *verdict))),
-            Err(error) => (self.done)(parked.number, Err(error)),
+            Ok(Ask::Nothing(verdict)) => {
+                (self.done)(parked.candidate.key, Ok(verdict.map(|verdict| *verdict)))
+            }
+            Err(error) => (self.done)(parked.candidate.key, Err(error)),
         }
         None
     }
@@ -128,10 +127,11 @@ impl<F: InLanes + Clone, const N: usize> Desk<'_, F, N> {
     /// Measures the exponents of all searches that wait for one.
     fn measure<const D: usize>(&mut self, control: (f64, f64)) {
         let waiting = std::mem::take(&mut self.waiting);
-        let mut left = waiting.iter();
+        let mut left = waiting.iter().enumerate();
         let mut next = || {
-            let parked = left.next()?;
+            let (key, parked) = left.next()?;
             Some(TangentMember {
+                key,
                 body: Borrowed(parked.candidate.body.as_ref()),
                 field: parked.candidate.field.clone(),
                 start: parked.u,
@@ -139,7 +139,7 @@ impl<F: InLanes + Clone, const N: usize> Desk<'_, F, N> {
             })
         };
         let mut runs: Vec<_> = waiting.iter().map(|_| None).collect();
-        let mut done = |number: usize, run| runs[number] = Some(run);
+        let mut done = |key: usize, run| runs[key] = Some(run);
         lyapunov_in_lanes::<_, F, N, 1, D>(control, &mut next, &mut done, self.stopped);
         for (mut parked, run) in waiting.into_iter().zip(runs) {
             let Some(run) = run else { continue }; // stopped

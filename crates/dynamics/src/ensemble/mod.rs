@@ -8,19 +8,13 @@
 //! width and instruction set (`tests/ensemble.rs`).
 
 mod adaptive;
-mod clock;
 mod dense;
-mod exponential;
-mod fixed;
 mod lane;
-mod lane_table;
 mod propagate;
 mod tangent;
 
 pub use adaptive::run_adaptive;
 pub use dense::LaneDense;
-pub use exponential::{StiffEnd, StiffInLanes, StiffLanes, StiffMember, StiffPropagation, propagate_stiff};
-pub use fixed::run_fixed;
 pub use lane::{Entry, Landed, Leaving, Members, Pace, Stepped, Turn, Why};
-pub use propagate::{End, InLanes, Member, Propagation, lane_methods, propagate};
+pub use propagate::{InLanes, Member, Propagation, Queue, propagate, propagate_on};
 pub use tangent::LaneTangent;

@@ -4,8 +4,8 @@
 //! knows the table. Slopes stay in memory and are read where they are needed, some components at a time: left to itself the
 //! compiler keeps them in registers, runs out of these and moves them to and fro (docs/lanes.md).
 
+use super::DOP853;
 use super::tableau::{ErrorEstimate, Tableau, Term};
-use super::{DOP853, RK4};
 use crate::control::Tolerance;
 use crate::{Bundle, VectorField};
 
@@ -13,13 +13,6 @@ use crate::{Bundle, VectorField};
 pub trait Method: Copy + Send + Sync + 'static {
     /// Its table.
     const TABLEAU: &'static Tableau;
-}
-
-/// [`RK4`] as a type.
-#[derive(Clone, Copy, Debug)]
-pub struct Rk4;
-impl Method for Rk4 {
-    const TABLEAU: &'static Tableau = &RK4;
 }
 
 /// [`DOP853`] as a type.
@@ -102,24 +95,6 @@ const fn node(tableau: &'static Tableau, stage: usize) -> f64 {
     if stage < tableau.nodes.len() { tableau.nodes[stage] } else { 0.0 }
 }
 
-/// Whether each stage starts from the slope before it alone, times a power of two, and the weights name all slopes in their
-/// order: RK4.
-pub(crate) const fn is_chain(tableau: &'static Tableau) -> bool {
-    let stages = tableau.stages();
-    let mut chain = stages <= 4 && tableau.weights.len() == stages;
-    let mut stage = 1;
-    while chain && stage < stages {
-        let (from, factor) = term(tableau, stage, 0);
-        let power_of_two = factor.to_bits().trailing_zeros() >= 52;
-        chain = terms(tableau, stage) == 1
-            && from + 1 == stage
-            && power_of_two
-            && tableau.weights[stage].0 == stage;
-        stage += 1;
-    }
-    chain
-}
-
 /// Where a step starts and how long it is, lane by lane.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneStep<'u, B, const D: usize> {
@@ -189,45 +164,6 @@ impl<B: Bundle, const D: usize> StepSlopes<B, D> {
     /// One step: `u_new = u + h sum_i b_i k_i`. Slope 0 must hold `f(t, u)`.
     #[inline(always)]
     pub fn step<M: Method, F: VectorField<B>>(&mut self, field: &F, at: &LaneStep<'_, B, D>) {
-        if const { is_chain(M::TABLEAU) } {
-            self.chain::<M, F>(field, at);
-        } else {
-            self.rows::<M, F>(field, at);
-        }
-    }
-
-    /// A step of a method that [`is_chain`]: the new state's sum grows as the slopes come, so one slope is held at a time.
-    #[inline(always)]
-    fn chain<M: Method, F: VectorField<B>>(&mut self, field: &F, at: &LaneStep<'_, B, D>) {
-        let (mut slope, mut sum, mut argument) = (self.k[0], self.k[0], *at.u);
-        for i in 0..D {
-            sum[i] = slope[i] * const { term(M::TABLEAU, WEIGHTS, 0).1 };
-        }
-        macro_rules! stages {
-            ($($stage:literal)*) => {$(
-                if const { $stage < M::TABLEAU.stages() } {
-                    // A power of two: (h a) k is h (a k).
-                    let h = at.h * const { term(M::TABLEAU, $stage, 0).1 };
-                    for i in 0..D {
-                        argument[i] = at.u[i].add_scaled(slope[i], h);
-                    }
-                    field.eval(at.t + at.h * const { node(M::TABLEAU, $stage) }, &argument, &mut slope);
-                    let weight = B::splat(const { term(M::TABLEAU, WEIGHTS, $stage).1 });
-                    for i in 0..D {
-                        sum[i] = slope[i].mul_add(weight, sum[i]);
-                    }
-                }
-            )*};
-        }
-        stages!(1 2 3);
-        for i in 0..D {
-            self.k[NEW][i] = at.u[i].add_scaled(sum[i], at.h);
-        }
-    }
-
-    /// A step of any method, the slopes kept in memory.
-    #[inline(always)]
-    fn rows<M: Method, F: VectorField<B>>(&mut self, field: &F, at: &LaneStep<'_, B, D>) {
         self.k[START] = *at.u;
         let this = std::hint::black_box(self);
         macro_rules! advance {

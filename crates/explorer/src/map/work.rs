@@ -174,15 +174,16 @@ impl Work<'_> {
     /// One thread: cells until none is left.
     fn run(&self) {
         let columns = self.view.columns();
-        // The cells under way, by the number that this thread gave them.
-        let taken = std::cell::RefCell::new(Vec::new());
+        // The cells under way, by their number in the plan.
+        let taken = std::cell::RefCell::new(std::collections::BTreeMap::new());
         let mut next = || {
             let cell = *lock(&self.next).next().filter(|_| !self.stopped())?;
-            taken.borrow_mut().push(cell);
-            Some((number(columns, &cell), 0))
+            let number = number(columns, &cell);
+            taken.borrow_mut().insert(number, cell);
+            Some((number, 0))
         };
-        let mut done = |given: usize, verdict: Result<Option<Verdict>, Error>| {
-            let cell = taken.borrow()[given];
+        let mut done = |(number, _): (usize, usize), verdict: Result<Option<Verdict>, Error>| {
+            let Some(cell) = taken.borrow_mut().remove(&number) else { return };
             if self.put(cell, verdict).is_err() {
                 self.gone.store(true, Ordering::Relaxed);
             }

@@ -53,8 +53,7 @@ impl<'c> Crowd<'c> {
         let answers: Mutex<Vec<Option<A>>> = Mutex::new(self.asked.iter().map(|_| None).collect());
         let failure = Mutex::new(None);
         let work = || {
-            let taken = Mutex::default();
-            ask(&Asked { crowd: self, next: &next, taken, answers: &answers, failure: &failure });
+            ask(&Asked { crowd: self, next: &next, answers: &answers, failure: &failure });
         };
         std::thread::scope(|scope| {
             for _ in 1..self.samples.threads.min(self.asked.len()) {
@@ -73,25 +72,20 @@ impl<'c> Crowd<'c> {
 pub(super) struct Asked<'a, 'c, A> {
     pub(super) crowd: &'a Crowd<'c>,
     next: &'a AtomicUsize,
-    /// Places among those asked, in the order in which this thread took them.
-    taken: Mutex<Vec<usize>>,
     answers: &'a Mutex<Vec<Option<A>>>,
     failure: &'a Mutex<Option<Error>>,
 }
 
 impl<A> Asked<'_, '_, A> {
-    /// The next initial state.
-    pub(super) fn next(&self) -> Option<Vec<f64>> {
+    /// The next initial state, with its place among those asked.
+    pub(super) fn next(&self) -> Option<(usize, Vec<f64>)> {
         let place = self.next.fetch_add(1, Ordering::Relaxed);
         let sample = *self.crowd.asked.get(place)?;
         if self.crowd.monitor.stopped() {
             return None;
         }
         match self.crowd.start(sample) {
-            Ok(start) => {
-                self.taken.lock().unwrap_or_else(PoisonError::into_inner).push(place);
-                Some(start)
-            }
+            Ok(start) => Some((place, start)),
             Err(error) => {
                 self.fail(error);
                 None
@@ -99,9 +93,8 @@ impl<A> Asked<'_, '_, A> {
         }
     }
 
-    /// The answer for the initial state that [`Asked::next`] gave as number `number`; none, if it was stopped.
-    pub(super) fn done(&self, number: usize, answer: Result<Option<A>, Error>) {
-        let place = self.taken.lock().unwrap_or_else(PoisonError::into_inner)[number];
+    /// The answer for the initial state that [`Asked::next`] gave with this place; none, if it was stopped.
+    pub(super) fn done(&self, place: usize, answer: Result<Option<A>, Error>) {
         match answer {
             Ok(answer) => {
                 let mut answers = self.answers.lock().unwrap_or_else(PoisonError::into_inner);
@@ -118,10 +111,8 @@ impl<A> Asked<'_, '_, A> {
     }
 
     pub(super) fn one_by_one(&self, answer: impl Fn(&[f64]) -> Result<Option<A>, Error>) {
-        let mut number = 0;
-        while let Some(start) = self.next() {
-            self.done(number, answer(&start));
-            number += 1;
+        while let Some((place, start)) = self.next() {
+            self.done(place, answer(&start));
         }
     }
 }

@@ -64,12 +64,13 @@ pub fn classify(
 
 fn classify_in_lanes(plan: &Plan, tensor: &Tensor, settings: &Settings, asked: &Asked<'_, '_, Verdict>) {
     let mut next = || {
-        let start = asked.next()?.try_into().ok()?;
+        let (key, start) = asked.next()?;
+        let start = start.try_into().ok()?;
         let body = plan.info().ok()?.build(&plan.computation.parameters.values()).ok()?;
-        Some(TensorRow { body, tensor: *tensor, start })
+        Some(TensorRow { key, body, tensor: *tensor, start })
     };
-    let mut done = |number, found: motiform_analysis::Result<Option<Verdict>>| {
-        asked.done(number, found.map_err(Error::from));
+    let mut done = |key, found: motiform_analysis::Result<Option<Verdict>>| {
+        asked.done(key, found.map_err(Error::from));
     };
     let stopped = || asked.crowd.monitor.stopped();
     let terms = covering(tensor.terms());
@@ -125,11 +126,14 @@ impl Exponents {
 }
 
 fn exponents_in_lanes(tensor: &Tensor, settings: &LyapunovSettings, asked: &Asked<'_, '_, Lyapunov>) {
-    let mut next = || asked.next()?.try_into().ok();
-    let mut done = |number, found: motiform_analysis::Result<Lyapunov>| {
+    let mut next = || {
+        let (key, start) = asked.next()?;
+        Some((key, start.try_into().ok()?))
+    };
+    let mut done = |key, found: motiform_analysis::Result<Lyapunov>| {
         let lasted =
             |found: Lyapunov| (!matches!(found.outcome, Outcome::Interrupted { .. })).then_some(found);
-        asked.done(number, found.map(lasted).map_err(Error::from));
+        asked.done(key, found.map(lasted).map_err(Error::from));
     };
     let stopped = || asked.crowd.monitor.stopped();
     exponents_of_tensor(tensor, settings, &mut next, &mut done, &stopped);

@@ -6,6 +6,9 @@ use crate::simulate::Monitor;
 use motiform_analysis::regime::{Verdict, classify};
 use motiform_study::Error;
 
+/// Where verdicts go, each with the cell and the initial state that it is about.
+pub type Done<'d> = &'d mut dyn FnMut((usize, usize), Result<Option<Verdict>, Error>);
+
 /// What is asked of each row.
 pub trait Evaluate: Sync {
     /// The verdict on initial state `sample` of `cell`, a function of the plan and these two numbers alone; `None` if
@@ -21,14 +24,14 @@ pub trait Evaluate: Sync {
         stop: &dyn Monitor,
     ) -> Result<Option<Verdict>, Error>;
 
-    /// The verdicts on all rows that `next` gives (cell and sample), on this thread; each is handed to `done` with the row's
-    /// number in that order. Rows may be answered in any order. An implementation may compute many of them together, but
+    /// The verdicts on all rows that `next` gives (cell and sample), on this thread; each is handed to `done` with these
+    /// two. Rows may be answered in any order. An implementation may compute many of them together, but
     /// every verdict must be that of [`Evaluate::evaluate`].
     fn evaluate_all(
         &self,
         plan: &ScanPlan,
         next: &mut dyn FnMut() -> Option<(usize, usize)>,
-        done: &mut dyn FnMut(usize, Result<Option<Verdict>, Error>),
+        done: Done<'_>,
         stop: &dyn Monitor,
     ) {
         one_by_one(self, plan, next, done, stop);
@@ -40,13 +43,11 @@ fn one_by_one<E: Evaluate + ?Sized>(
     evaluate: &E,
     plan: &ScanPlan,
     next: &mut dyn FnMut() -> Option<(usize, usize)>,
-    done: &mut dyn FnMut(usize, Result<Option<Verdict>, Error>),
+    done: Done<'_>,
     stop: &dyn Monitor,
 ) {
-    let mut number = 0;
     while let Some((cell, sample)) = next() {
-        done(number, evaluate.evaluate(plan, cell, sample, stop));
-        number += 1;
+        done((cell, sample), evaluate.evaluate(plan, cell, sample, stop));
     }
 }
 
@@ -75,7 +76,7 @@ impl Evaluate for Classify {
         &self,
         plan: &ScanPlan,
         next: &mut dyn FnMut() -> Option<(usize, usize)>,
-        done: &mut dyn FnMut(usize, Result<Option<Verdict>, Error>),
+        done: Done<'_>,
         stop: &dyn Monitor,
     ) {
         if !lanes::classify(self, plan, next, done, stop) {

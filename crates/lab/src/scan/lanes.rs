@@ -1,7 +1,7 @@
 //! Rows of the tensor model, classified in the lanes of vector registers.
 
 use super::ScanPlan;
-use super::evaluate::Evaluate;
+use super::evaluate::{Done, Evaluate};
 use crate::analyse::settings_of;
 use crate::simulate::Monitor;
 use motiform_analysis::regime::{Settings, Verdict, classifies_in_lanes};
@@ -9,10 +9,8 @@ use motiform_kernels::{TensorRow, classify_tensors, covering};
 use motiform_models::tensor::Tensor;
 use motiform_study::Error;
 use std::cell::RefCell;
-use std::collections::BTreeMap;
 
 type Next<'n> = &'n mut dyn FnMut() -> Option<(usize, usize)>;
-type Done<'d> = &'d mut dyn FnMut(usize, Result<Option<Verdict>, Error>);
 
 /// Classifies all rows that `next` gives, in lanes; says `false`, and takes none, where there is no kernel for the plan.
 pub(super) fn classify(
@@ -60,27 +58,17 @@ impl Work<'_> {
     fn run(self) {
         let Self { single, plan, settings, terms, next, done, stop } = self;
         let done = RefCell::new(done);
-        // Numbers of the rows in lanes, by the numbers that the lanes give them.
-        let rows = RefCell::new(BTreeMap::new());
-        let (mut taken, mut riding) = (0, 0);
+        let samples = plan.computation.samples;
         let mut candidate = || loop {
             let (cell, sample) = next()?;
-            let row = taken;
-            taken += 1;
             match row_in_lanes(plan, terms, cell, sample) {
-                Ok(Some(candidate)) => {
-                    rows.borrow_mut().insert(riding, row);
-                    riding += 1;
-                    return Some(candidate);
-                }
-                Ok(None) => (done.borrow_mut())(row, single.evaluate(plan, cell, sample, stop)),
-                Err(error) => (done.borrow_mut())(row, Err(error)),
+                Ok(Some(candidate)) => return Some(candidate),
+                Ok(None) => (done.borrow_mut())((cell, sample), single.evaluate(plan, cell, sample, stop)),
+                Err(error) => (done.borrow_mut())((cell, sample), Err(error)),
             }
         };
-        let mut decided = |number: usize, verdict: motiform_analysis::Result<Option<Verdict>>| {
-            if let Some(row) = rows.borrow_mut().remove(&number) {
-                (done.borrow_mut())(row, verdict.map_err(Error::from));
-            }
+        let mut decided = |key: usize, verdict: motiform_analysis::Result<Option<Verdict>>| {
+            (done.borrow_mut())((key / samples, key % samples), verdict.map_err(Error::from));
         };
         let stopped = || stop.stopped();
         classify_tensors(terms, &settings, &mut candidate, &mut decided, &stopped);
@@ -93,5 +81,10 @@ fn row_in_lanes(plan: &ScanPlan, terms: u32, cell: usize, sample: usize) -> Resu
     let start = plan.start(cell, sample, body.as_ref())?;
     let Some(&tensor) = body.as_any().and_then(|any| any.downcast_ref::<Tensor>()) else { return Ok(None) };
     let Ok(start) = start.try_into() else { return Ok(None) };
-    Ok((tensor.terms() & !terms == 0).then_some(TensorRow { body, tensor, start }))
+    Ok((tensor.terms() & !terms == 0).then_some(TensorRow {
+        key: cell * plan.computation.samples + sample,
+        body,
+        tensor,
+        start,
+    }))
 }

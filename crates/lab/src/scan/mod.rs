@@ -18,7 +18,7 @@ mod summary;
 mod table;
 mod work;
 
-pub use evaluate::{Classify, Evaluate};
+pub use evaluate::{Classify, Done, Evaluate};
 pub use folder::{ScanFolder, ScanManifest, default_folder};
 pub use merge::{Merged, merge};
 pub use motiform_study::scan::{Axis, SCAN_FORMAT, ScanComputation, ScanPlan, Shard};

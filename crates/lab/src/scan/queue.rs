@@ -1,69 +1,54 @@
-//! Who computes which row next.
+//! Which row is computed next, and which parts are complete.
 //!
 //! Rows are handed out in order, one at a time: a slow row holds up one thread, while the others go on with the rows
 //! behind it, in the next parts where need be. A part is under way only while some thread holds one of its rows, so at
 //! most one part per thread (and the one being handed out) is in memory.
 
 use super::{Row, ScanPlan};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The rows still to be handed out.
+/// The rows still to be handed out, and the parts under way.
 pub(super) struct Queue<'q> {
     plan: &'q ScanPlan,
     parts: Box<dyn Iterator<Item = usize> + Send + 'q>,
-    open: Option<(Arc<Pending>, usize)>,
-}
-
-/// A part of which some rows are missing.
-pub(super) struct Pending {
-    pub(super) part: usize,
-    first_cell: usize,
-    samples: usize,
-    rows: usize,
-    done: Mutex<(Vec<Option<Row>>, usize)>,
-}
-
-/// One row to compute.
-pub(super) struct Job {
-    pub(super) pending: Arc<Pending>,
-    pub(super) cell: usize,
-    pub(super) sample: usize,
-    place: usize,
+    /// Rows of the last part that was begun, as `cell * samples + sample`.
+    open: Range<usize>,
+    /// By number of the part: its rows, and how many of them are there.
+    pending: BTreeMap<usize, (Vec<Option<Row>>, usize)>,
 }
 
 impl<'q> Queue<'q> {
     pub(super) fn new(plan: &'q ScanPlan, parts: impl Iterator<Item = usize> + Send + 'q) -> Self {
-        Self { plan, parts: Box::new(parts), open: None }
+        Self { plan, parts: Box::new(parts), open: 0..0, pending: BTreeMap::new() }
     }
 
-    /// The next row, if any is left.
-    pub(super) fn next(&mut self) -> Option<Job> {
-        if self.open.as_ref().is_none_or(|(pending, place)| *place == pending.rows) {
-            self.open = Some((Arc::new(Pending::new(self.plan, self.parts.next()?)), 0));
+    /// Cell and initial state of the next row, if any is left.
+    pub(super) fn next(&mut self) -> Option<(usize, usize)> {
+        let samples = self.plan.computation.samples;
+        if self.open.is_empty() {
+            let part = self.parts.next()?;
+            let cells = self.plan.cells_of(part);
+            self.open = cells.start * samples..cells.end * samples;
+            self.pending.insert(part, (vec![None; self.open.len()], 0));
         }
-        let (pending, next) = self.open.as_mut()?;
-        let place = *next;
-        *next += 1;
-        let (cell, sample) = (pending.first_cell + place / pending.samples, place % pending.samples);
-        Some(Job { pending: Arc::clone(pending), cell, sample, place })
+        let row = self.open.next()?;
+        Some((row / samples, row % samples))
     }
-}
 
-impl Pending {
-    fn new(plan: &ScanPlan, part: usize) -> Self {
-        let (cells, samples) = (plan.cells_of(part), plan.computation.samples);
-        let rows = cells.len() * samples;
-        Self { part, first_cell: cells.start, samples, rows, done: Mutex::new((vec![None; rows], 0)) }
-    }
-}
-
-impl Job {
-    /// Takes in the row; returns all rows of the part, in order, if it was the last one.
-    pub(super) fn done(&self, row: Row) -> Option<Vec<Row>> {
-        let mut done = held(&self.pending.done);
-        done.0[self.place] = Some(row);
-        done.1 += 1;
-        (done.1 == self.pending.rows).then(|| std::mem::take(&mut done.0).into_iter().flatten().collect())
+    /// Takes in a row; gives back the part and all its rows, in order, if it was the last one.
+    pub(super) fn done(&mut self, cell: usize, sample: usize, row: Row) -> Option<(usize, Vec<Row>)> {
+        let part = cell / self.plan.cells_per_part();
+        let first = self.plan.cells_of(part).start;
+        let (rows, count) = self.pending.get_mut(&part)?;
+        rows[(cell - first) * self.plan.computation.samples + sample] = Some(row);
+        *count += 1;
+        if *count < rows.len() {
+            return None;
+        }
+        let (rows, _) = self.pending.remove(&part)?;
+        Some((part, rows.into_iter().flatten().collect()))
     }
 }
 

@@ -1,13 +1,12 @@
 //! Computing the parts of a scan over threads, wherever the rows go.
 
 use super::evaluate::Evaluate;
-use super::queue::{Job, Queue, held};
+use super::queue::{Queue, held};
 use super::{Row, ScanPlan};
 use crate::simulate::Monitor;
 use motiform_analysis::regime::Verdict;
 use motiform_study::Error;
 use std::cell::RefCell;
-use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -87,7 +86,6 @@ pub fn rows_of(
 ) -> Option<Vec<Row>> {
     let samples = plan.computation.samples;
     let (first, count) = (cells.start, cells.len() * samples);
-    let place = |number: usize| (first + number / samples, number % samples);
     let mut rows: Vec<Option<Row>> = Vec::new();
     let given = RefCell::new(0);
     let mut next = || {
@@ -98,10 +96,10 @@ pub fn rows_of(
             && (number == 0 || !number.is_multiple_of(samples) || go_on())
             && !monitor.stopped();
         *given += usize::from(on);
-        on.then(|| place(number))
+        on.then(|| (first + number / samples, number % samples))
     };
-    let mut done = |number: usize, verdict| {
-        let (cell, sample) = place(number);
+    let mut done = |(cell, sample): (usize, usize), verdict| {
+        let number = (cell - first) * samples + sample;
         rows.resize_with(rows.len().max(number + 1), || None);
         rows[number] = Row::of_evaluation(cell, sample, verdict);
     };
@@ -131,34 +129,19 @@ struct Work<'w> {
 impl Work<'_> {
     /// One thread: rows until none is left, or a stop.
     fn compute(&self) {
-        // The rows under way, by their number on this thread.
-        let jobs = RefCell::new(BTreeMap::new());
-        let mut handed_out = 0;
-        let mut next = || {
-            if self.stopped() {
-                return None;
-            }
-            let job = held(&self.queue).next()?;
-            let row = (job.cell, job.sample);
-            jobs.borrow_mut().insert(handed_out, job);
-            handed_out += 1;
-            Some(row)
-        };
-        let mut done = |number: usize, verdict| {
-            if let Some(job) = jobs.borrow_mut().remove(&number) {
-                self.done(&job, verdict);
-            }
-        };
+        let mut next = || if self.stopped() { None } else { held(&self.queue).next() };
+        let mut done = |(cell, sample): (usize, usize), verdict| self.done(cell, sample, verdict);
         self.evaluate.evaluate_all(self.plan, &mut next, &mut done, self);
     }
 
     /// Takes in the verdict on a row.
-    fn done(&self, job: &Job, verdict: Result<Option<Verdict>, Error>) {
-        let Some(row) = Row::of_evaluation(job.cell, job.sample, verdict) else { return };
+    fn done(&self, cell: usize, sample: usize, verdict: Result<Option<Verdict>, Error>) {
+        let Some(row) = Row::of_evaluation(cell, sample, verdict) else { return };
         let count = self.held.fetch_add(1, Ordering::Relaxed) + 1;
         self.most.fetch_max(count, Ordering::Relaxed);
-        if let Some(rows) = job.done(row) {
-            self.put(job.pending.part, rows);
+        let whole = held(&self.queue).done(cell, sample, row);
+        if let Some((part, rows)) = whole {
+            self.put(part, rows);
         }
         let rows = self.rows.fetch_add(1, Ordering::Relaxed) + 1;
         self.monitor.progress(rows as f64 / self.total as f64);

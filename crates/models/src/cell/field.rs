@@ -10,10 +10,9 @@
 //! Source: paper, the equation for phi_t with g1 .. g5.
 
 use super::CellParameters;
-use super::convolution::{PADDING, in_blocks, in_rows};
-use motiform_dynamics::ensemble::{StiffInLanes, StiffLanes};
+use super::convolution::in_rows;
 use motiform_dynamics::simd::{self, Kernel};
-use motiform_dynamics::{Bundle, Complex, Lanes, Scalar, Semilinear, System, VectorField};
+use motiform_dynamics::{Lanes, Scalar, Semilinear, System, VectorField};
 
 /// Most modes that can be computed (a convolution keeps its operands on the stack).
 pub const MAX_MODES: usize = 128;
@@ -119,51 +118,6 @@ impl<T: Scalar<Real = P>, P: Scalar<Real = P>> Kernel for Quadratic<'_, T, P> {
 
     #[inline(always)]
     fn run(self) {
-        let (bending, stretching) = (self.field.bending, self.field.stretching);
-        if T::IN_KERNEL {
-            let zero = self.u[0].zero();
-            let mut waves = [Complex::new(zero, zero); MAX_MODES + PADDING];
-            in_blocks((bending, stretching), &mut waves, self.u, self.du);
-        } else {
-            in_rows((bending, stretching), self.u, self.du);
-        }
-    }
-}
-
-/// The quadratic terms of (C) for the cells of a bundle.
-#[derive(Clone, Debug)]
-pub struct CellLanes<B> {
-    bending: B,
-    stretching: Option<B>,
-    waves: Vec<Complex<B>>,
-}
-
-impl<B: Bundle> StiffLanes<B> for CellLanes<B> {
-    #[inline(always)]
-    fn nonlinear(&mut self, _t: B, u: &[B], du: &mut [B]) {
-        in_blocks((self.bending, self.stretching), &mut self.waves, u, du);
-    }
-}
-
-impl StiffInLanes for CellField<f64> {
-    type Lanes<B: Bundle> = CellLanes<B>;
-
-    const COMPLEX: bool = true;
-
-    fn lanes<B: Bundle>(&self) -> CellLanes<B> {
-        let zero = B::splat(0.0);
-        CellLanes {
-            bending: B::splat(self.bending),
-            stretching: self.stretching.map(B::splat),
-            waves: vec![Complex::new(zero, zero); self.modes() + PADDING],
-        }
-    }
-
-    fn put<B: Bundle>(&self, lane: usize, lanes: &mut CellLanes<B>) {
-        lanes.bending = lanes.bending.with_lane(lane, self.bending);
-        if self.stretching.is_some() || lanes.stretching.is_some() {
-            let others = lanes.stretching.unwrap_or(B::splat(0.0));
-            lanes.stretching = Some(others.with_lane(lane, self.stretching.unwrap_or(0.0)));
-        }
+        in_rows((self.field.bending, self.field.stretching), self.u, self.du);
     }
 }

@@ -14,7 +14,7 @@ pub mod reduction;
 mod velocity;
 
 pub use closure::MAX_CLOSURE_MODES;
-pub use field::{CellField, CellLanes, MAX_MODES};
+pub use field::{CellField, MAX_MODES};
 pub use outline::Boundary;
 pub use parameters::CellParameters;
 
