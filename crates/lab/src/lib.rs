@@ -3,11 +3,13 @@
 
 pub mod analyse;
 pub mod draw;
+pub mod ensemble;
 pub mod equilibria;
 pub mod fields;
 pub mod flow;
 pub mod live;
 pub mod naming;
+mod pool;
 mod readings;
 pub mod registry;
 pub mod saddle;

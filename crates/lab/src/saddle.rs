@@ -1,6 +1,7 @@
 //! Chaos that does not last: the exponent of the chaotic saddle, and the rate at which orbits leave it.
 
 use crate::analyse::{self, Stop};
+use crate::pool::spread;
 use crate::simulate::Monitor;
 use motiform_analysis::{
     Estimate, Lyapunov, LyapunovSettings, Stay, SurvivalStep, escape_rate, lyapunov, survival,
@@ -8,9 +9,7 @@ use motiform_analysis::{
 use motiform_dynamics::Outcome;
 use motiform_study::initial::random_shape;
 use motiform_study::{Error, Plan};
-use rayon::prelude::*;
 use serde::Serialize;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Size of the random starts.
 const RANDOM: f64 = 0.01;
@@ -55,6 +54,7 @@ pub fn saddle(
     plan: &Plan,
     samples: usize,
     (transient, t_end): (Option<f64>, Option<f64>),
+    threads: usize,
     monitor: &dyn Monitor,
 ) -> Result<Option<Saddle>, Error> {
     let (info, c) = (plan.info()?, &plan.computation);
@@ -68,18 +68,13 @@ pub fn saddle(
         escape_norm: c.escape_norm,
         max_steps: c.max_steps,
     };
-    let done = AtomicUsize::new(0);
-    let one = |sample: usize| -> Result<Lyapunov, Error> {
+    let one = |sample: usize| {
         let start = random_shape(model.as_ref(), RANDOM, c.seed, sample as u64 + 1);
         let found = lyapunov(model.as_ref(), &start, &settings, &mut Stop::new(monitor))?;
-        monitor.progress(done.fetch_add(1, Ordering::Relaxed) as f64 / samples as f64);
-        Ok(found)
+        Ok((!matches!(found.outcome, Outcome::Interrupted { .. })).then_some(found))
     };
-    let runs: Vec<Lyapunov> = (0..samples).into_par_iter().map(one).collect::<Result<_, _>>()?;
-    if runs.iter().any(|run| matches!(run.outcome, Outcome::Interrupted { .. })) {
-        return Ok(None);
-    }
-    Ok(Some(summarise(&runs, &settings, WAY_OUT * info.look)?))
+    let runs = spread(samples, threads, monitor, |jobs| jobs.each(one))?;
+    runs.map(|runs| summarise(&runs, &settings, WAY_OUT * info.look)).transpose()
 }
 
 fn summarise(runs: &[Lyapunov], settings: &LyapunovSettings, way_out: f64) -> Result<Saddle, Error> {

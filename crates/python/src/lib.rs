@@ -1,10 +1,11 @@
-//! The native module of the Python package `motiform`: it parses and calls; the work is done by `motiform-study`.
+//! The native module of the Python package `motiform`: it parses and calls; the work is done by `motiform-lab`.
 //!
 //! Everything here is private to the package (`motiform._motiform`); what users see stands in `python/motiform`.
 
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
 
 mod analyse;
+mod ensemble;
 mod errors;
 mod flow;
 mod read;
@@ -22,6 +23,8 @@ use pyo3::prelude::*;
 mod _motiform {
     #[pymodule_export]
     use super::analyse::{classify, equilibria, lyapunov, motions, section};
+    #[pymodule_export]
+    use super::ensemble::{ensemble, random_starts};
     #[pymodule_export]
     use super::flow::Flow;
     #[pymodule_export]

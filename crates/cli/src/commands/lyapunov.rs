@@ -178,7 +178,8 @@ fn many_summary(
 /// `--saddle`: the exponent of chaos that does not last.
 fn saddle(options: &LyapunovOptions, plan: &Plan, samples: usize) -> anyhow::Result<End> {
     let watch = Watch::new(samples as f64, "runs");
-    let found = find_saddle(plan, samples, (options.transient, options.t_end), &watch);
+    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let found = find_saddle(plan, samples, (options.transient, options.t_end), threads, &watch);
     watch.finish();
     let Some(found) = found? else { return Ok(End::Interrupted) };
     print(&if options.motion.json { serde_json::to_string(&found)? } else { saddle_summary(&found)? })?;

@@ -1,7 +1,7 @@
 //! How many of many starts blow up, when, and at what rate chaos loses them.
 
 use super::Samples;
-use super::crowd::Crowd;
+use super::population::Population;
 use crate::analyse::{self, Stop};
 use crate::simulate::Monitor;
 use motiform_analysis::{Lyapunov, Regime, Share, Stay, Verdict, escape_limits};
@@ -75,9 +75,9 @@ impl Escapes {
         let gone: Vec<f64> =
             all().filter(is(Regime::BlowUp)).map(|(_, v)| v.escape_time.unwrap_or(v.time)).collect();
         let chaotic: Vec<usize> = all().filter(is(Regime::Chaotic)).map(|(sample, _)| sample).collect();
-        let crowd = Crowd::new(plan, samples, monitor)?;
+        let population = Population::new(plan, samples, monitor)?;
         let look = plan.info()?.look;
-        if crowd.tensor().is_none() {
+        if population.tensor().is_none() {
             let seen = |&sample: &usize| Stay { time: verdicts[sample].time, escaped: false };
             let stays: Vec<Stay> = chaotic.iter().map(seen).collect();
             let until = stays.iter().map(|stay| stay.time).fold(0.0, f64::max);
@@ -85,7 +85,7 @@ impl Escapes {
         }
         let asked: Vec<usize> = chaotic.iter().copied().take(FOLLOWED).collect();
         let left_out = chaotic.len() - asked.len();
-        let stays = follow(plan, &crowd.among(asked), until)?;
+        let stays = follow(plan, &population.among(asked), until)?;
         Ok(stays.and_then(|stays| Self::new(&gone, &stays, left_out, until, look)))
     }
 
@@ -207,11 +207,11 @@ fn rate(gone: &[f64], stays: &[Stay], look: f64) -> Option<EscapeLimits> {
     Some(EscapeLimits { value: escapes as f64 / watched, lower, upper, escapes, watched })
 }
 
-/// How long those in the crowd stay, to `until` at most; `None` if the monitor asked to stop.
-fn follow(plan: &Plan, crowd: &Crowd<'_>, until: f64) -> Result<Option<Vec<Stay>>, Error> {
+/// How long those in the population stay, to `until` at most; `None` if the monitor asked to stop.
+fn follow(plan: &Plan, population: &Population<'_>, until: f64) -> Result<Option<Vec<Stay>>, Error> {
     let (method, c) = (plan.method()?, &plan.computation);
-    let model = crowd.model.as_ref();
-    crowd.run(|asked| {
+    let model = population.model.as_ref();
+    population.run(|asked| {
         asked.one_by_one(|start| {
             let mut orbit = method.shape_orbit(model, c.control.into(), 0.0, start)?;
             let request = Request {
@@ -219,7 +219,7 @@ fn follow(plan: &Plan, crowd: &Crowd<'_>, until: f64) -> Result<Option<Vec<Stay>
                 escape_norm: c.escape_norm,
                 ..Request::until(until, start.len())
             };
-            Ok(stay(&drive(orbit.as_mut(), &request, &mut Stop::new(crowd.monitor))?))
+            Ok(stay(&drive(orbit.as_mut(), &request, &mut Stop::new(population.monitor))?))
         });
     })
 }

@@ -1,12 +1,11 @@
 //! A question about one motion, asked of many initial states: which motions are there, and do the orbits agree?
 
-mod crowd;
 mod escapes;
+mod population;
 mod shares;
 
 use crate::analyse::{self, Stop};
 use crate::simulate::Monitor;
-use crowd::{Asked, Crowd};
 pub use escapes::{EscapeLimits, Escapes};
 use motiform_analysis::regime::{Settings, Verdict, classifies_in_lanes};
 use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings};
@@ -15,6 +14,7 @@ use motiform_kernels::{TensorRow, classify_tensors, covering, exponents_of_tenso
 use motiform_models::tensor::Tensor;
 use motiform_study::plan::check;
 use motiform_study::{Error, Plan, Random};
+use population::{Asked, Population};
 pub use shares::{Basins, MotionShare, Starts};
 use std::collections::BTreeMap;
 
@@ -51,18 +51,18 @@ pub fn classify(
 ) -> Result<Option<Vec<Verdict>>, Error> {
     samples.check()?;
     let settings = analyse::settings(plan, budget)?;
-    let crowd = Crowd::new(plan, samples, monitor)?;
-    let tensor = crowd.tensor().filter(|_| classifies_in_lanes(&settings));
-    crowd.run(|asked| match tensor {
+    let population = Population::new(plan, samples, monitor)?;
+    let tensor = population.tensor().filter(|_| classifies_in_lanes(&settings));
+    population.run(|asked| match tensor {
         Some(tensor) => classify_in_lanes(plan, tensor, &settings, asked),
         None => asked.one_by_one(|start| {
             let stop = &mut Stop::new(monitor);
-            Ok(motiform_analysis::classify(crowd.model.as_ref(), start, &settings, stop)?)
+            Ok(motiform_analysis::classify(population.model.as_ref(), start, &settings, stop)?)
         }),
     })
 }
 
-fn classify_in_lanes(plan: &Plan, tensor: &Tensor, settings: &Settings, asked: &Asked<'_, '_, Verdict>) {
+fn classify_in_lanes(plan: &Plan, tensor: &Tensor, settings: &Settings, asked: &Asked<'_, '_, '_, Verdict>) {
     let mut next = || {
         let (key, start) = asked.next()?;
         let start = start.try_into().ok()?;
@@ -70,9 +70,9 @@ fn classify_in_lanes(plan: &Plan, tensor: &Tensor, settings: &Settings, asked: &
         Some(TensorRow { key, body, tensor: *tensor, start })
     };
     let mut done = |key, found: motiform_analysis::Result<Option<Verdict>>| {
-        asked.done(key, found.map_err(Error::from));
+        asked.jobs.done(key, found.map_err(Error::from));
     };
-    let stopped = || asked.crowd.monitor.stopped();
+    let stopped = || asked.population.monitor.stopped();
     let terms = covering(tensor.terms());
     classify_tensors(terms, settings, &mut next, &mut done, &stopped);
 }
@@ -104,13 +104,13 @@ pub fn lyapunov(
 ) -> Result<Option<Exponents>, Error> {
     samples.check()?;
     let settings = analyse::lyapunov_settings(plan, count, spans)?;
-    let crowd = Crowd::new(plan, samples, monitor)?;
-    let tensor = crowd.tensor().filter(|tensor| has_exponents(tensor, &settings));
-    let orbits = crowd.run(|asked| match tensor {
+    let population = Population::new(plan, samples, monitor)?;
+    let tensor = population.tensor().filter(|tensor| has_exponents(tensor, &settings));
+    let orbits = population.run(|asked| match tensor {
         Some(tensor) => exponents_in_lanes(tensor, &settings, asked),
         None => asked.one_by_one(|start| {
             let stop = &mut Stop::new(monitor);
-            let found = motiform_analysis::lyapunov(crowd.model.as_ref(), start, &settings, stop)?;
+            let found = motiform_analysis::lyapunov(population.model.as_ref(), start, &settings, stop)?;
             Ok((!matches!(found.outcome, Outcome::Interrupted { .. })).then_some(found))
         }),
     })?;
@@ -125,7 +125,7 @@ impl Exponents {
     }
 }
 
-fn exponents_in_lanes(tensor: &Tensor, settings: &LyapunovSettings, asked: &Asked<'_, '_, Lyapunov>) {
+fn exponents_in_lanes(tensor: &Tensor, settings: &LyapunovSettings, asked: &Asked<'_, '_, '_, Lyapunov>) {
     let mut next = || {
         let (key, start) = asked.next()?;
         Some((key, start.try_into().ok()?))
@@ -133,9 +133,9 @@ fn exponents_in_lanes(tensor: &Tensor, settings: &LyapunovSettings, asked: &Aske
     let mut done = |key, found: motiform_analysis::Result<Lyapunov>| {
         let lasted =
             |found: Lyapunov| (!matches!(found.outcome, Outcome::Interrupted { .. })).then_some(found);
-        asked.done(key, found.map(lasted).map_err(Error::from));
+        asked.jobs.done(key, found.map(lasted).map_err(Error::from));
     };
-    let stopped = || asked.crowd.monitor.stopped();
+    let stopped = || asked.population.monitor.stopped();
     exponents_of_tensor(tensor, settings, &mut next, &mut done, &stopped);
 }
 
@@ -201,11 +201,11 @@ mod tests {
             let found = classify(&plan, samples(5, 2), 0.0, &()).unwrap().unwrap();
             assert_eq!(found, classify(&plan, samples(5, 1), 0.0, &()).unwrap().unwrap());
             assert_eq!(found[0], analyse::classify(&plan, 0.0, &()).unwrap().unwrap());
-            let crowd = Crowd::new(&plan, samples(5, 1), &()).unwrap();
+            let population = Population::new(&plan, samples(5, 1), &()).unwrap();
             let settings = analyse::settings(&plan, 0.0).unwrap();
             let alone = motiform_analysis::classify(
-                crowd.model.as_ref(),
-                &crowd.start(3).unwrap(),
+                population.model.as_ref(),
+                &population.start(3).unwrap(),
                 &settings,
                 &mut (),
             )
@@ -220,10 +220,14 @@ mod tests {
         let (plan, spans) = (plan("preset = \"fig5b\""), (Some(100.0), Some(1000.0)));
         let found = lyapunov(&plan, samples(12, 2), 6, spans, &()).unwrap().unwrap();
         assert_eq!(found.orbits[0], analyse::lyapunov(&plan, 6, spans, &()).unwrap());
-        let crowd = Crowd::new(&plan, samples(12, 1), &()).unwrap();
+        let population = Population::new(&plan, samples(12, 1), &()).unwrap();
         let settings = analyse::lyapunov_settings(&plan, 6, spans).unwrap();
-        let alone =
-            motiform_analysis::lyapunov(crowd.model.as_ref(), &crowd.start(7).unwrap(), &settings, &mut ());
+        let alone = motiform_analysis::lyapunov(
+            population.model.as_ref(),
+            &population.start(7).unwrap(),
+            &settings,
+            &mut (),
+        );
         assert_eq!(found.orbits[7], alone.unwrap());
         assert!(found.agree && found.means[0].error < 0.6 * found.orbits[0].exponents[0].error);
         let fewer = lyapunov(&plan, samples(3, 2), 2, spans, &()).unwrap().unwrap();
@@ -252,8 +256,8 @@ mod tests {
             shape: Vec::new(),
         };
         assert!(summarise(vec![orbit(0.5), orbit(0.51)]).agree);
-        let crowd = [0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.0].map(orbit).to_vec();
-        assert!(!summarise(crowd).agree);
+        let population = [0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.0].map(orbit).to_vec();
+        assert!(!summarise(population).agree);
     }
 
     struct Stopped;

@@ -7,7 +7,6 @@
 use super::{Row, ScanPlan};
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The rows still to be handed out, and the parts under way.
 pub(super) struct Queue<'q> {
@@ -50,9 +49,4 @@ impl<'q> Queue<'q> {
         let (rows, _) = self.pending.remove(&part)?;
         Some((part, rows.into_iter().flatten().collect()))
     }
-}
-
-/// The lock, also where another thread panicked with it: what it guards is whole at every point.
-pub(super) fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

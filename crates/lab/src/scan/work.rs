@@ -1,8 +1,9 @@
 //! Computing the parts of a scan over threads, wherever the rows go.
 
 use super::evaluate::Evaluate;
-use super::queue::{Queue, held};
+use super::queue::Queue;
 use super::{Row, ScanPlan};
+use crate::pool::held;
 use crate::simulate::Monitor;
 use motiform_analysis::regime::Verdict;
 use motiform_study::Error;

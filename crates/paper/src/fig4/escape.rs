@@ -20,7 +20,8 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     for kappa2 in values {
         let plan = Plan::new(&at(context, *kappa2, 0.1)?)?;
         let times = (Some(SETTLE), Some(t_end));
-        let one = saddle(&plan, runs, times, &Silent(context.monitor))?.ok_or(Error::Interrupted)?;
+        let one = saddle(&plan, runs, times, context.threads, &Silent(context.monitor))?
+            .ok_or(Error::Interrupted)?;
         found.push((*kappa2, one));
     }
     section.figures.push(figure(

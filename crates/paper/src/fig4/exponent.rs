@@ -83,8 +83,9 @@ fn run(context: &Context<'_>, (kappa2, seed): (f64, u64), span: f64) -> Result<R
 
 fn left(context: &Context<'_>, kappa2: f64) -> Result<Option<Left>, Error> {
     let plan = Plan::new(&at(context, kappa2, 0.1)?)?;
-    let found = saddle(&plan, context.choose(100, 24), (None, None), &Silent(context.monitor))?
-        .ok_or(Error::Interrupted)?;
+    let found =
+        saddle(&plan, context.choose(100, 24), (None, None), context.threads, &Silent(context.monitor))?
+            .ok_or(Error::Interrupted)?;
     let of = |exponent| Left { kappa2, exponent, escaped: found.escaped, runs: found.runs };
     Ok(found.exponent.map(of))
 }

@@ -61,8 +61,14 @@ fn exponent(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
 /// Does the chaos end in a blow-up, as it does at smaller kappa2?
 fn lasting(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
     let (runs, t_end) = context.choose((100, 20_000.0), (24, 5000.0));
-    let found = saddle(&Plan::new(study)?, runs, (Some(100.0), Some(t_end)), &Silent(context.monitor))?
-        .ok_or(Error::Interrupted)?;
+    let found = saddle(
+        &Plan::new(study)?,
+        runs,
+        (Some(100.0), Some(t_end)),
+        context.threads,
+        &Silent(context.monitor),
+    )?
+    .ok_or(Error::Interrupted)?;
     let watched = watched(&found);
     let finds = if found.escaped == 0 {
         format!(

@@ -12,6 +12,7 @@ All quantities are in the models' own units of time and length; parameters have 
 from ._registry import MODELS, PRESETS, REGIMES, STEPPERS
 from ._registry import VERSION as __version__
 from .bodies import Cell, Tensor
+from .ensembles import Ensemble, ensemble
 from .errors import EndedEarly, Incomplete, Interrupted, WorkersLost
 from .models import Model, preset, study
 from .reading import read
@@ -28,6 +29,7 @@ __all__ = [
     "Cell",
     "Crossings",
     "EndedEarly",
+    "Ensemble",
     "Equilibrium",
     "Estimate",
     "Exponents",
@@ -43,6 +45,7 @@ __all__ = [
     "Verdict",
     "WorkersLost",
     "__version__",
+    "ensemble",
     "merge",
     "preset",
     "read",

@@ -13,6 +13,10 @@ _Table = tuple[list[str], list[str], _Floats]
 Arrays = tuple[_Codes, _Codes, list[_Floats], list[str] | None]
 
 def registry() -> str: ...
+def random_starts(study: Study, count: int) -> list[list[float]]: ...
+def ensemble(
+    study: Study, parameters: _Floats, starts: _Floats, times: list[float], threads: int, progress: _Progress = None
+) -> tuple[_Floats, str]: ...
 
 class Study:
     @staticmethod

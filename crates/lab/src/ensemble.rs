@@ -1,0 +1,185 @@
+//! Many orbits of one model at given times: from many starts, with many values of the parameters, or both.
+
+use crate::analyse::Stop;
+use crate::pool::{Jobs, spread};
+use crate::simulate::Monitor;
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::ensemble::Propagation;
+use motiform_dynamics::simd::has_lanes;
+use motiform_dynamics::{InPlane, Model, Outcome, Request, StepControl};
+use motiform_kernels::{STATE, TensorStart, has_ensemble, propagate_tensors};
+use motiform_models::tensor::Tensor;
+use motiform_study::plan::{check, check_closed, check_no_noise, check_steps};
+use motiform_study::{Error, Plan, Random};
+
+/// One orbit of an ensemble.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Member {
+    /// All parameters of the model, in registry order.
+    pub parameters: Vec<f64>,
+    /// The model's coordinates at time 0, then x and y.
+    pub start: Vec<f64>,
+}
+
+/// `count` members with the plan's parameters and random starts at the origin, from the plan's seed.
+///
+/// # Errors
+/// An unknown model, or a distribution that makes no sense.
+pub fn random_members(plan: &Plan, count: usize, random: Random) -> Result<Vec<Member>, Error> {
+    random.check()?;
+    let (info, c) = (plan.info()?, &plan.computation);
+    let parameters = c.parameters.values();
+    let dim = info.build(&parameters)?.coordinates().len();
+    let member = |sample: usize| {
+        let mut start = random.coordinates(info, dim, c.seed, sample as u64 + 1);
+        start.extend([0.0, 0.0]);
+        Member { parameters: parameters.clone(), start }
+    };
+    Ok((0..count).map(member).collect())
+}
+
+/// Where one orbit was at the times asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track {
+    /// The model's coordinates, then x and y, for each time that it reached.
+    pub states: Vec<Vec<f64>>,
+    /// How it ended: [`Outcome::Completed`] if it reached all times.
+    pub outcome: Outcome,
+}
+
+/// The tracks of `members`, in their order, at `times` (increasing, the first one not before 0), by the method and the tolerances of
+/// `plan`; `None` if the monitor asked to stop. The plan's own parameters, start, transient and time span are not used.
+///
+/// Tensor models with the paper's terms run in the lanes of vector registers where the method is dop853 with a tolerance. A track does
+/// not depend on the other members, on `threads`, or on the machine.
+///
+/// # Errors
+/// Parameters or a start that the model refuses, times that are not increasing, a plan with noise.
+///
+/// # Checked by  tests/ensemble.rs: tracks against single runs to the bit, for both models
+pub fn tracks(
+    plan: &Plan,
+    members: &[Member],
+    times: &[f64],
+    threads: usize,
+    monitor: &dyn Monitor,
+) -> Result<Option<Vec<Track>>, Error> {
+    check_no_noise(plan.computation.noise.map_or(0.0, |noise| noise.largest()))?;
+    check_times(times)?;
+    let bodies: Vec<Body> =
+        members.iter().map(|member| Body::new(plan, member, times)).collect::<Result<_, _>>()?;
+    let lanes = lanes(plan, times).filter(|_| bodies.iter().all(|body| body.tensor().is_some()));
+    spread(members.len(), threads, monitor, |jobs| match &lanes {
+        Some(how) => in_lanes(plan, &bodies, how, jobs, monitor),
+        None => jobs.each(|job| bodies[job].track(plan, times, monitor)),
+    })
+}
+
+fn check_times(times: &[f64]) -> Result<(), Error> {
+    let remedy = "give increasing times, the first one not before 0";
+    let mut before = 0.0;
+    for (place, &t) in times.iter().enumerate() {
+        check("times", t, t > before || (place == 0 && t == 0.0), remedy)?;
+        before = t;
+    }
+    Ok(())
+}
+
+/// How lanes run, where the plan's method has lanes.
+fn lanes<'t>(plan: &Plan, times: &'t [f64]) -> Option<Propagation<'t>> {
+    let c = &plan.computation;
+    let StepControl::Adaptive { rtol, atol } = c.control.into() else { return None };
+    let suited = has_lanes() && c.stepper == "dop853";
+    suited.then_some(Propagation { times, rtol, atol, escape_norm: c.escape_norm })
+}
+
+/// The model of a member, and its state at the start.
+struct Body {
+    model: Box<dyn Model>,
+    start: Vec<f64>,
+}
+
+impl Body {
+    fn new(plan: &Plan, member: &Member, times: &[f64]) -> Result<Self, Error> {
+        let info = plan.info()?;
+        let model = info.build(&member.parameters)?;
+        let dim = model.coordinates().len();
+        let whole = member.start.len() == dim + 2;
+        check("start", member.start.len() as f64, whole, "give the model's coordinates, then x and y")?;
+        for &value in &member.start {
+            check("start", value, true, "give finite numbers")?;
+        }
+        let mut start = vec![0.0; model.dim()];
+        model.encode(&member.start[..dim], &mut start);
+        check_closed(model.as_ref(), &start)?;
+        let span = times.last().copied().unwrap_or(0.0);
+        check_steps(model.as_ref(), plan.method()?, plan.computation.control, span)?;
+        start.extend_from_slice(&member.start[dim..]);
+        Ok(Self { model, start })
+    }
+
+    /// The model, if it is one that runs in lanes.
+    fn tensor(&self) -> Option<&Tensor> {
+        self.model.as_any()?.downcast_ref().filter(|tensor| has_ensemble(tensor))
+    }
+
+    /// A state as the model's coordinates, x and y.
+    fn named(&self, state: &[f64]) -> Vec<f64> {
+        let (shape, position) = state.split_at(state.len() - 2);
+        let mut named = vec![0.0; self.model.coordinates().len()];
+        self.model.decode(shape, &mut named);
+        named.extend_from_slice(position);
+        named
+    }
+
+    /// The track of a single orbit; `None` if it was stopped.
+    fn track(&self, plan: &Plan, times: &[f64], monitor: &dyn Monitor) -> Result<Option<Track>, Error> {
+        let c = &plan.computation;
+        let body = InPlane(self.model.as_ref());
+        let mut orbit = plan.method()?.orbit(&body, c.control.into(), 0.0, &self.start)?;
+        let (mut states, mut outcome) = (Vec::new(), Outcome::Completed { t: 0.0 });
+        for &t in times {
+            if t > 0.0 {
+                let request = Request {
+                    max_steps: c.max_steps,
+                    escape_norm: c.escape_norm,
+                    watched: self.model.dim(),
+                    ..Request::until(t, self.start.len())
+                };
+                outcome = drive(orbit.as_mut(), &request, &mut Stop::new(monitor))?;
+            }
+            match outcome {
+                Outcome::Completed { .. } => states.push(self.named(orbit.state())),
+                Outcome::Interrupted { .. } => return Ok(None),
+                _ => break,
+            }
+        }
+        Ok(Some(Track { states, outcome }))
+    }
+}
+
+/// Tracks in lanes, on this thread.
+fn in_lanes(
+    plan: &Plan,
+    bodies: &[Body],
+    how: &Propagation<'_>,
+    jobs: &Jobs<'_, Track>,
+    monitor: &dyn Monitor,
+) {
+    let mut next = || {
+        let key = jobs.next()?;
+        let body = &bodies[key];
+        Some(TensorStart { key, tensor: *body.tensor()?, start: body.start.as_slice().try_into().ok()? })
+    };
+    let mut done = |job: usize, states: Option<Vec<[f64; STATE]>>| {
+        let track = match states {
+            Some(states) => Ok(Some(Track {
+                outcome: Outcome::Completed { t: how.times.last().copied().unwrap_or(0.0) },
+                states: states.iter().map(|state| bodies[job].named(state)).collect(),
+            })),
+            None => bodies[job].track(plan, how.times, monitor),
+        };
+        jobs.done(job, track);
+    };
+    propagate_tensors(how, &mut next, &mut done, &|| monitor.stopped());
+}

@@ -1,0 +1,108 @@
+//! Work spread over threads: jobs are numbered, each thread takes the next one, and answers come back in the order of the jobs.
+
+use crate::simulate::Monitor;
+use motiform_study::Error;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// The jobs that are left, and the answers that are there.
+pub(crate) struct Jobs<'p, A> {
+    count: usize,
+    next: AtomicUsize,
+    /// The answers, how many there are, and what went wrong first.
+    found: Mutex<(Vec<Option<A>>, usize, Option<Error>)>,
+    monitor: &'p dyn Monitor,
+}
+
+impl<A> Jobs<'_, A> {
+    /// The number of the next job; `None` if there is none, or it is time to stop. A thread may hold several jobs at once.
+    pub(crate) fn next(&self) -> Option<usize> {
+        if self.monitor.stopped() || held(&self.found).2.is_some() {
+            return None;
+        }
+        Some(self.next.fetch_add(1, Ordering::Relaxed)).filter(|job| *job < self.count)
+    }
+
+    /// The answer to a job; `None` if it was stopped. After an error no thread takes another job.
+    pub(crate) fn done(&self, job: usize, answer: Result<Option<A>, Error>) {
+        let mut found = held(&self.found);
+        let (answers, count, failure) = &mut *found;
+        match answer {
+            Ok(answer) => {
+                *count += usize::from(answer.is_some());
+                answers[job] = answer;
+            }
+            Err(error) => {
+                failure.get_or_insert(error);
+            }
+        }
+        let part = *count as f64 / self.count as f64;
+        drop(found);
+        self.monitor.progress(part);
+    }
+
+    /// Jobs one after the other, until none is left.
+    pub(crate) fn each(&self, answer: impl Fn(usize) -> Result<Option<A>, Error>) {
+        while let Some(job) = self.next() {
+            self.done(job, answer(job));
+        }
+    }
+}
+
+/// Answers to `count` jobs, in their order, by `work` on each of `threads` threads; `None` if the monitor asked to stop.
+///
+/// # Errors
+/// The first error of a job.
+pub(crate) fn spread<A: Send>(
+    count: usize,
+    threads: usize,
+    monitor: &dyn Monitor,
+    work: impl Fn(&Jobs<'_, A>) + Sync,
+) -> Result<Option<Vec<A>>, Error> {
+    let answers = (0..count).map(|_| None).collect();
+    let jobs = Jobs { count, next: AtomicUsize::new(0), found: Mutex::new((answers, 0, None)), monitor };
+    std::thread::scope(|scope| {
+        for _ in 1..threads.min(count) {
+            scope.spawn(|| work(&jobs));
+        }
+        work(&jobs);
+    });
+    let (answers, _, failure) = jobs.found.into_inner().unwrap_or_else(PoisonError::into_inner);
+    match failure {
+        Some(error) => Err(error),
+        None => Ok(answers.into_iter().collect()),
+    }
+}
+
+/// The lock, also where another thread panicked with it: what it guards is whole at every point.
+pub(crate) fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::AtomicBool;
+
+    #[test]
+    fn answers_come_in_the_order_of_the_jobs() {
+        for threads in [1, 3, 100] {
+            let squares = spread(50, threads, &(), |jobs| jobs.each(|job| Ok(Some(job * job)))).unwrap();
+            assert_eq!(squares, Some((0..50).map(|job| job * job).collect()));
+        }
+        assert_eq!(spread(0, 2, &(), |jobs: &Jobs<'_, u8>| jobs.each(|_| Ok(None))).unwrap(), Some(vec![]));
+    }
+
+    #[test]
+    fn an_error_ends_it_and_a_stop_leaves_nothing() {
+        let count = AtomicUsize::new(0);
+        let fail = |job| {
+            count.fetch_add(1, Ordering::Relaxed);
+            if job == 3 { Err(Error::Interrupted) } else { Ok(Some(job)) }
+        };
+        assert!(spread(1000, 1, &(), |jobs| jobs.each(fail)).is_err());
+        assert_eq!(count.into_inner(), 4);
+        let stop = AtomicBool::new(true);
+        assert_eq!(spread(5, 2, &stop, |jobs| jobs.each(|job| Ok(Some(job)))).unwrap(), None);
+    }
+}
