@@ -29,7 +29,7 @@ pub struct Manifest {
     pub seed: u64,
     /// How the run ended.
     pub outcome: Ending,
-    /// The regime that the motion was named with, where a short look from its end decided ([`motiform_lab::naming`]).
+    /// The regime that the motion was named with, where a short look from its end decided.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub regime: Option<String>,
     /// Accepted steps of the recorded part (of the transient, if the run ended there).

@@ -42,7 +42,7 @@ pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
 /// A random shape as the model computes with it: each coordinate uniform in `-size..size`, from this seed and stream.
 pub fn random_shape(model: &dyn Model, size: f64, seed: u64, stream: u64) -> Vec<f64> {
     let mut random = Uniform::new(seed, stream);
-    let coordinates: Vec<f64> = model.coordinates().iter().map(|_| size * random.next()).collect();
+    let coordinates: Vec<f64> = model.coordinates().iter().map(|_| size * random.draw()).collect();
     let mut shape = vec![0.0; model.dim()];
     model.encode(&coordinates, &mut shape);
     shape
@@ -63,7 +63,7 @@ impl Uniform {
     }
 
     /// The next number, within -1 to 1.
-    pub fn next(&mut self) -> f64 {
+    pub fn draw(&mut self) -> f64 {
         (self.0.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 }

@@ -59,7 +59,7 @@ impl Study {
         let mut random = Uniform::new(self.run.seed, STREAM);
         let (mut study, mut names) = (self.clone(), Vec::new());
         for coordinate in coordinates {
-            let value = size * random.next();
+            let value = size * random.draw();
             let everywhere = corners.iter().all(|values| info.coordinate(values, coordinate.name).is_ok());
             if given(coordinate.name).unwrap_or(0.0) == 0.0 && everywhere {
                 study.set_initial(coordinate.name, value)?;

@@ -99,9 +99,9 @@ impl Random {
     pub fn coordinates(&self, info: &ModelInfo, count: usize, seed: u64, stream: u64) -> Vec<f64> {
         let mut random = Uniform::new(seed, stream);
         match *self {
-            Self::Within(size) => (0..count).map(|_| size * random.next()).collect(),
+            Self::Within(size) => (0..count).map(|_| size * random.draw()).collect(),
             Self::Sizes { min, max } => {
-                let size = min * libm::exp(0.5 * (1.0 + random.next()) * libm::log(max / min));
+                let size = min * libm::exp(0.5 * (1.0 + random.draw()) * libm::log(max / min));
                 let direction: Vec<f64> =
                     (0..count).map(|place| (info.weight)(place) * normal(&mut random)).collect();
                 let norm = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -136,6 +136,6 @@ impl std::fmt::Display for Random {
 
 /// A normal number: Box and Muller (1958), Ann. Math. Stat. 29, 610. The radius needs a number above 0, and 1 - (0..1) is one.
 fn normal(random: &mut Uniform) -> f64 {
-    let radius = (-2.0 * libm::log(1.0 - 0.5 * (1.0 + random.next()))).sqrt();
-    radius * libm::cos(std::f64::consts::PI * random.next())
+    let radius = (-2.0 * libm::log(1.0 - 0.5 * (1.0 + random.draw()))).sqrt();
+    radius * libm::cos(std::f64::consts::PI * random.draw())
 }

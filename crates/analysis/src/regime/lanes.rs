@@ -117,7 +117,7 @@ impl<F: InLanes + Clone, const N: usize> Desk<'_, F, N> {
                 self.waiting.push(parked);
             }
             Ok(Ask::Nothing(verdict)) => {
-                (self.done)(parked.candidate.key, Ok(verdict.map(|verdict| *verdict)))
+                (self.done)(parked.candidate.key, Ok(verdict.map(|verdict| *verdict)));
             }
             Err(error) => (self.done)(parked.candidate.key, Err(error)),
         }

@@ -147,7 +147,7 @@ impl Sink for Watch<'_> {
 fn run(context: &Context<'_>, length: f64, g: [f64; 2], quartic: f64) -> Result<Ran, Error> {
     let body = Bounded::new(length, g, quartic);
     let mut random = Uniform::new(3, 0);
-    let start: Vec<f64> = (0..body.dim()).map(|_| 0.01 * random.next()).collect();
+    let start: Vec<f64> = (0..body.dim()).map(|_| 0.01 * random.draw()).collect();
     let control = StepControl::Adaptive { rtol: 1e-8, atol: 1e-11 };
     let mut orbit = ExponentialOrbit::new(&body, &KROGSTAD4, control, 0.0, &start)?;
     let time = context.choose(6000.0, 2000.0);

@@ -67,7 +67,7 @@ impl Fit {
 /// The monomials that turn with amplitude `n` (0 to 2) and go over into their conjugates in the mirror: by numbers.
 fn allowed(n: usize) -> Vec<Monomial> {
     let mut random = Uniform::new(11, 0);
-    let (z, angle) = (state(&mut random), 1.0 + random.next().abs());
+    let (z, angle) = (state(&mut random), 1.0 + random.draw().abs());
     let phase = turned([C::new(1.0, 0.0); 3], angle)[n];
     let mirror: Z = z.map(C::conj);
     let keeps = |m: &Monomial| {

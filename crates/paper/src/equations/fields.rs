@@ -38,7 +38,7 @@ pub(super) fn turned(z: Z, angle: f64) -> Z {
 
 /// A random state, each part in -1..1.
 pub(super) fn state(random: &mut Uniform) -> Z {
-    std::array::from_fn(|_| C::new(random.next(), random.next()))
+    std::array::from_fn(|_| C::new(random.draw(), random.draw()))
 }
 
 /// All 21 parameters, uniform in 0..1.
@@ -47,7 +47,7 @@ pub(super) fn parameters(seed: u64) -> TensorParameters {
     let mut parameters = TensorParameters::default();
     for spec in TensorParameters::specs() {
         // a name from the registry is never refused, nor is a value within 0..1
-        let _ = parameters.set(spec.name, random.next().abs());
+        let _ = parameters.set(spec.name, random.draw().abs());
     }
     parameters
 }

@@ -40,7 +40,7 @@ fn contracted() -> Claim {
     let mut random = Uniform::new(8, 0);
     let (mut worst, mut defect): (f64, f64) = (0.0, 0.0);
     for _ in 0..1000 {
-        let (z, theta) = (state(&mut random), std::f64::consts::PI * random.next());
+        let (z, theta) = (state(&mut random), std::f64::consts::PI * random.draw());
         let t = tensors(z);
         let (sin, cos) = libm::sincos(theta);
         let n = [cos, sin];

@@ -16,7 +16,7 @@ fn invariance() -> Claim {
     let (mut worst, mut broken): (f64, f64) = (0.0, f64::INFINITY);
     for seed in 0..1000 {
         let (parameters, z) = (parameters(seed), state(&mut random));
-        let angle = std::f64::consts::PI * random.next();
+        let angle = std::f64::consts::PI * random.draw();
         let (moved, rate) = (rates(&parameters, turned(z, angle)), rates(&parameters, z));
         let size = rate.iter().map(|c| libm::hypot(c.re, c.im)).fold(0.0, f64::max);
         let off = |a: Z, b: Z| a.iter().zip(b).map(|(a, b)| apart(*a, b)).fold(0.0, f64::max) / size;
@@ -45,7 +45,7 @@ fn isotropy() -> Claim {
     let mut random = Uniform::new(6, 0);
     let mut worst: f64 = 0.0;
     for _ in 0..1000 {
-        let (z, angle) = (state(&mut random), std::f64::consts::PI * random.next());
+        let (z, angle) = (state(&mut random), std::f64::consts::PI * random.draw());
         let turned_plane = amplitudes(&rotated(&tensors(z), angle));
         let phases = turned(z, -angle);
         worst = turned_plane.iter().zip(phases).map(|(a, b)| apart(*a, b)).fold(worst, f64::max);

@@ -95,7 +95,7 @@ impl Term {
 /// A random function on the grid.
 pub(super) fn random(seed: u64) -> Vec<f64> {
     let mut uniform = Uniform::new(seed, 0);
-    let modes: Vec<[f64; 2]> = (0..MODES).map(|_| [uniform.next(), uniform.next()]).collect();
+    let modes: Vec<[f64; 2]> = (0..MODES).map(|_| [uniform.draw(), uniform.draw()]).collect();
     let at = |j: usize| {
         let wave = |(n, [c, s]): (usize, &[f64; 2])| {
             let (sin, cos) = libm::sincos(TAU * (n * j) as f64 / POINTS as f64);

@@ -14,7 +14,7 @@ struct Shape(Vec<[f64; 2]>);
 
 impl Shape {
     fn random(random: &mut Uniform) -> Self {
-        Self((1..=MODES).map(|n| [0.4 * random.next(), 0.4 * random.next()].map(|x| x / n as f64)).collect())
+        Self((1..=MODES).map(|n| [0.4 * random.draw(), 0.4 * random.draw()].map(|x| x / n as f64)).collect())
     }
 
     /// phi and its first two derivatives at `s`.

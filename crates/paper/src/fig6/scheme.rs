@@ -53,8 +53,8 @@ fn start(length: f64, modes: usize, time: f64) -> Result<Study, Error> {
     let mut study = study(length, modes)?;
     let mut random = motiform_study::initial::Uniform::new(7, 0);
     for n in 1..=6 {
-        study.set_initial(&format!("c{n}"), 0.3 * random.next())?;
-        study.set_initial(&format!("s{n}"), 0.3 * random.next())?;
+        study.set_initial(&format!("c{n}"), 0.3 * random.draw())?;
+        study.set_initial(&format!("s{n}"), 0.3 * random.draw())?;
     }
     (study.run.transient, study.run.t_end, study.run.dt_out) = (0.0, time, time);
     (study.run.rtol, study.run.atol) = (1e-10, Some(1e-12));

@@ -24,7 +24,7 @@ pub(super) fn exact() -> Result<Claim, Error> {
         let (cell, tensor) =
             (CellField::new(&parameters, 3), FourierField::all(reduce(&parameters, Slaved::Nothing)));
         for _ in 0..STATES {
-            let shape: [f64; 6] = std::array::from_fn(|_| random.next());
+            let shape: [f64; 6] = std::array::from_fn(|_| random.draw());
             let (mut rate, mut expected) = ([0.0; 6], [0.0; 6]);
             cell.eval(0.0, &shape, &mut rate);
             tensor.eval(0.0, &amplitudes(&shape), &mut expected);
