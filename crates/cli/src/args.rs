@@ -1,14 +1,17 @@
 //! The command line: one place for its words.
 
+mod drawing;
 mod help;
+mod scan;
 mod subject;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+pub(crate) use drawing::{DrawingOptions, FilmFormat};
 #[cfg(feature = "explorer")]
 use help::EXPLORE_HELP;
 use help::{CLASSIFY_HELP, EXAMPLES, LYAPUNOV_HELP, REPRODUCE_HELP, SCAN_HELP, SIMULATE_HELP};
-use motiform_figures::Width;
 use motiform_study::Random;
+pub(crate) use scan::{MergeOptions, ScanOptions};
 use std::path::PathBuf;
 pub(crate) use subject::{MethodOptions, SamplesOptions, SubjectOptions};
 
@@ -195,107 +198,6 @@ pub(crate) struct ExploreOptions {
 }
 
 #[derive(Args)]
-pub(crate) struct ScanOptions {
-    #[command(flatten)]
-    pub(crate) subject: SubjectOptions,
-    /// Vary a parameter (once or twice): NAME=LOW:HIGH:COUNT, both ends included, or NAME=v1,v2,v3
-    #[arg(long = "axis", value_name = "NAME=LOW:HIGH:COUNT")]
-    pub(crate) axes: Vec<String>,
-    /// Initial states per cell (default: 1); several are drawn from all sizes of --random
-    #[arg(long, value_name = "M", value_parser = whole, allow_hyphen_values = true)]
-    pub(crate) samples: Option<u64>,
-    /// Random initial states: SIZE is each coordinate within +-SIZE (default for one state: 0.01), MIN:MAX is all directions and
-    /// log-uniform sizes (default for several: 0.01 to 1 times the model's typical size)
-    #[arg(long, value_name = "SIZE|MIN:MAX", value_parser = random, allow_hyphen_values = true)]
-    pub(crate) random: Option<Random>,
-    /// Seed of the random initial states
-    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
-    pub(crate) seed: Option<u64>,
-    /// Zeros of a given start become random values within SIZE times its largest value (default: 1e-6), because an
-    /// orbit never leaves an exact symmetry; 0 keeps the exact start
-    #[arg(long, value_name = "SIZE", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) perturb: Option<f64>,
-    /// Most model time that naming one motion may take; 0 is the model's default
-    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) budget: Option<f64>,
-    /// Output folder (default: MODEL-PRESET-scan here)
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Go on with the scan in the output folder (start it, if there is none)
-    #[arg(long, conflicts_with = "force")]
-    pub(crate) resume: bool,
-    /// Compute one of N shares; `motiform merge` puts the folders together
-    #[arg(long, value_name = "I/N")]
-    pub(crate) shard: Option<String>,
-    /// Threads (default: all cores); changes no number
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
-    pub(crate) threads: Option<u16>,
-    /// Replace an earlier scan
-    #[arg(long)]
-    pub(crate) force: bool,
-    /// Leave the figures out
-    #[arg(long)]
-    pub(crate) no_figures: bool,
-    /// Print the summary as one JSON object
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
-#[derive(Args)]
-pub(crate) struct MergeOptions {
-    /// Folders written by `motiform scan` with the same plan
-    #[arg(value_name = "DIR", required = true)]
-    pub(crate) folders: Vec<PathBuf>,
-    /// Output folder
-    #[arg(long, value_name = "DIR", required = true)]
-    pub(crate) out: PathBuf,
-    /// Replace an earlier scan
-    #[arg(long)]
-    pub(crate) force: bool,
-    /// Print the summary as one JSON object
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
-#[derive(Args)]
-pub(crate) struct DrawingOptions {
-    /// Do not draw the animation
-    #[arg(long)]
-    pub(crate) no_animation: bool,
-    /// Radius R0 of the undeformed body (default: so that the deformation is seen)
-    #[arg(long, value_name = "R0", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) radius: Option<f64>,
-    /// Size of the drawn outlines against the path (default: readable)
-    #[arg(long, value_name = "F", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) scale: Option<f64>,
-    /// Number of outlines along the path
-    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
-    pub(crate) outlines: Option<u64>,
-    /// Draw from this time
-    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) from: Option<f64>,
-    /// Draw to this time
-    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) to: Option<f64>,
-    /// Title of the figures in place of their own (*letters* between asterisks are italic, _ begins an index)
-    #[arg(long, value_name = "TEXT")]
-    pub(crate) title: Option<String>,
-    /// Leave the captions out
-    #[arg(long)]
-    pub(crate) no_caption: bool,
-    /// Width of the figures, e.g. 86mm, 3.4in or 1200px (default: as drawn, about 170 mm)
-    #[arg(long, value_name = "WIDTH", value_parser = width)]
-    pub(crate) width: Option<Width>,
-    /// Also write the animation in this format (needs ffmpeg); give it twice for both
-    #[arg(long, value_name = "FORMAT", conflicts_with = "no_animation")]
-    pub(crate) film: Vec<FilmFormat>,
-    /// Also write PDF figures
-    #[cfg(feature = "pdf")]
-    #[arg(long)]
-    pub(crate) pdf: bool,
-}
-
-#[derive(Args)]
 pub(crate) struct CheckOptions {
     /// The study file
     #[arg(value_name = "STUDY.toml", required_unless_present = "schema")]
@@ -327,19 +229,6 @@ pub(crate) struct CompletionsOptions {
 pub(crate) enum TableFormat {
     Parquet,
     Csv,
-}
-
-/// Formats of films that other programs show.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum FilmFormat {
-    /// H.264 video
-    Mp4,
-    /// Animated GIF, 256 colours
-    Gif,
-}
-
-fn width(text: &str) -> Result<Width, String> {
-    text.parse().map_err(|error: motiform_figures::FigureError| error.to_string())
 }
 
 fn number(text: &str) -> Result<f64, String> {

@@ -1,13 +1,18 @@
 //! One orbit of a stiff semilinear field, step by step.
 
 use crate::control::Tolerance;
-use crate::interpolant::{Ends, Interpolant};
+use crate::interpolant::Interpolant;
 use crate::model::drift;
-use crate::orbit::{Counters, DenseStep, StepFailure, check_start, fixed_step};
 use crate::step_sizes::StepTables;
 use crate::steppers::ExponentialTableau;
-use crate::steppers::exponential::{self, Stages, StepTable};
-use crate::{Dual, Error, Integration, Semilinear, Shape, StepControl};
+use crate::steppers::exponential::{self, Stages};
+use crate::stepping::{Counters, StepFailure, check_start, fixed_step};
+use crate::{Dual, Error, Semilinear, Shape, StepControl};
+
+mod integration;
+mod problem;
+
+use problem::{DriftOf, End, Problem, Start};
 
 /// An initial-value problem `u' = Lambda u + N(t, u)` in progress, by an exponential method.
 ///
@@ -71,17 +76,6 @@ pub struct ExponentialOrbit<'f, F: ?Sized> {
 
 /// Steps below this (model time) are no steps.
 const SMALLEST: f64 = 1e-18;
-
-/// Velocity and its derivative along the flow: `(shape, rate) -> (v, v')`, with the field they belong to.
-type DriftOf<'f, F> = fn(&'f F, &[f64], &[f64]) -> ([f64; 2], [f64; 2]);
-
-/// State, rates and acceleration at one end of a step.
-#[derive(Clone, Debug)]
-struct End {
-    state: Vec<f64>,
-    slope: Vec<f64>,
-    acceleration: [f64; 2],
-}
 
 impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
     /// An orbit of `field` from `u` at time `t`.
@@ -282,136 +276,5 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
         self.accepted = true;
         self.counters.steps += 1;
         Ok(())
-    }
-}
-
-/// The start of a step and its size.
-struct Start<'e> {
-    t: f64,
-    h: f64,
-    end: &'e End,
-}
-
-/// The equations: shape, and drift if there is a position.
-struct Problem<'p, 'f, F: ?Sized> {
-    field: &'f F,
-    drift: Option<DriftOf<'f, F>>,
-    lambda: &'p [f64],
-    rough: bool,
-}
-
-impl<F: Semilinear<f64> + ?Sized> Problem<'_, '_, F> {
-    /// One step of shape and position, with the rates at its end.
-    fn step(
-        &self,
-        tableau: &ExponentialTableau,
-        table: &StepTable,
-        at: &Start<'_>,
-        stages: &mut Stages,
-        out: &mut End,
-    ) {
-        let dim = self.lambda.len();
-        let from = (at.t, &at.end.state[..dim]);
-        exponential::step(tableau, self.field, from, table, stages, &mut out.state[..dim]);
-        self.evaluate(at.t + at.h, stages.get_mut(tableau.stages()), out);
-        out.travel(at.end, at.h, dim);
-    }
-
-    /// The rates at `end`: `N` into `nonlinear`, `Lambda u + N` and the velocity into its slope.
-    fn evaluate(&self, t: f64, nonlinear: &mut [f64], end: &mut End) {
-        let dim = self.lambda.len();
-        self.field.nonlinear(t, &end.state[..dim], nonlinear);
-        let (slope, velocity) = end.slope.split_at_mut(dim);
-        for (((x, &l), &n), &u) in slope.iter_mut().zip(self.lambda).zip(&*nonlinear).zip(&end.state) {
-            *x = l * u + n;
-        }
-        if let Some(drift) = self.drift {
-            let (v, acceleration) = drift(self.field, &end.state[..dim], slope);
-            velocity.copy_from_slice(&v);
-            end.acceleration = if self.rough { [0.0; 2] } else { acceleration };
-        }
-    }
-}
-
-impl End {
-    /// Sets the entries from `dim` on, the position, from those at the step's start: Euler-Maclaurin.
-    fn travel(&mut self, start: &Self, h: f64, dim: usize) {
-        for (axis, place) in (dim..self.state.len()).enumerate() {
-            let mean = 0.5 * (start.slope[place] + self.slope[place]);
-            let bend = (start.acceleration[axis] - self.acceleration[axis]) / 12.0;
-            self.state[place] = start.state[place] + h * (mean + h * bend);
-        }
-    }
-}
-
-impl<F: Semilinear<f64> + ?Sized> Integration for ExponentialOrbit<'_, F> {
-    fn advance(&mut self, limit: f64) -> Result<(), StepFailure> {
-        match self.control {
-            StepControl::Fixed { step } => self.advance_fixed(step, limit),
-            StepControl::Adaptive { rtol, atol } => self.advance_adaptive(Tolerance { rtol, atol }, limit),
-        }
-    }
-
-    fn dense(&mut self) -> DenseStep<'_> {
-        if !self.prepared {
-            let new = if self.jumped { &self.landed } else { &self.new };
-            let ends = Ends { h: self.t - self.t_old, old: &self.old.state, new: &new.state };
-            self.interpolant.prepare_hermite((&self.old.slope, &new.slope), &ends);
-            self.prepared = true;
-        }
-        let (old, new) = (&self.old.state[..], &self.new.state[..]);
-        DenseStep { t_old: self.t_old, t: self.t, old, new, interpolant: &self.interpolant }
-    }
-
-    fn roughen(&mut self) {
-        self.rough = true;
-        self.new.acceleration = [0.0; 2];
-    }
-
-    fn step_to(&mut self, t: f64, out: &mut [f64]) {
-        self.restep_to(t);
-        out.copy_from_slice(&self.trial.state);
-    }
-
-    fn end_step_at(&mut self, t: f64) {
-        self.restep_to(t);
-        self.restep.copy_to(self.tableau.stages(), &mut self.stages);
-        std::mem::swap(&mut self.new, &mut self.trial);
-        self.t = t;
-        self.origin = (t, 0);
-        self.jumped = false;
-        self.prepared = false;
-    }
-
-    fn restart(&mut self, u: &[f64]) {
-        self.new.state.copy_from_slice(u);
-        let problem =
-            Problem { field: self.field, drift: self.drift, lambda: &self.lambda, rough: self.rough };
-        problem.evaluate(self.t, self.stages.get_mut(self.tableau.stages()), &mut self.new);
-        self.old.clone_from(&self.new);
-        self.t_old = self.t;
-        self.accepted = true;
-        self.jumped = false;
-        self.prepared = false;
-    }
-
-    fn t(&self) -> f64 {
-        self.t
-    }
-
-    fn t_old(&self) -> f64 {
-        self.t_old
-    }
-
-    fn state(&self) -> &[f64] {
-        &self.new.state
-    }
-
-    fn slope(&self) -> &[f64] {
-        &self.new.slope
-    }
-
-    fn counters(&self) -> Counters {
-        self.counters
     }
 }

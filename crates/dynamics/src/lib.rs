@@ -30,6 +30,7 @@ pub mod section;
 pub mod simd;
 mod step_sizes;
 pub mod steppers;
+mod stepping;
 pub mod tangent;
 mod trajectory;
 pub mod vector_field;

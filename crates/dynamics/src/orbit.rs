@@ -6,7 +6,11 @@ pub use crate::interpolant::DenseStep;
 use crate::interpolant::{Ends, Interpolant};
 use crate::steppers::runge_kutta::{self, Slopes, Step};
 use crate::steppers::{DOP853, Tableau};
-use crate::{Bundle, Error, Integration, Obstacle, StepControl, VectorField};
+pub use crate::stepping::{Counters, StepFailure};
+use crate::stepping::{check_start, fixed_step};
+use crate::{Bundle, Error, StepControl, VectorField};
+
+mod integration;
 
 /// An initial-value problem in progress. [`Orbit::advance`] takes one accepted step and allocates nothing.
 ///
@@ -52,52 +56,6 @@ pub struct Orbit<'f, F: ?Sized> {
     /// Whether the interpolant is that of the last step.
     prepared: bool,
     counters: Counters,
-}
-
-/// The work done so far.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counters {
-    /// Accepted steps.
-    pub steps: u64,
-    /// Rejected steps.
-    pub rejected: u64,
-}
-
-/// Why a step could not be taken. The orbit stays at the last accepted state.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum StepFailure {
-    /// The step that error control asks for is below the resolution of time.
-    Underflow {
-        /// That step.
-        step: f64,
-    },
-    /// A fixed step led to a state that is not finite.
-    NotFinite,
-    /// The model says why there is no step: the state it would lead to has no rates.
-    Obstacle(Obstacle),
-}
-
-/// Checks an initial time and state.
-pub(crate) fn check_start(dim: usize, t: f64, u: &[f64]) -> Result<(), Error> {
-    if u.len() != dim {
-        return Err(Error::Shape { what: "the initial state", expected: dim, got: u.len() });
-    }
-    for (name, value) in std::iter::once(("t", t)).chain(u.iter().map(|&x| ("initial state", x))) {
-        if !value.is_finite() {
-            return Err(Error::OutOfRange { name, value, range: "that is finite" });
-        }
-    }
-    Ok(())
-}
-
-/// End and size of the fixed step number `count + 1` from `start`, ending at `limit` at the latest.
-///
-/// Times are multiples of the step from the start, so that they carry no accumulated rounding.
-pub(crate) fn fixed_step(step: f64, t: f64, (start, count): (f64, u64), limit: f64) -> (f64, f64) {
-    let grid = start + step * (count + 1) as f64;
-    let t_new = if grid > limit - 1e-9 * step { limit } else { grid };
-    let h = if (t_new - t - step).abs() < 1e-9 * step { step } else { t_new - t };
-    (t_new, h)
 }
 
 impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
@@ -373,52 +331,6 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
     /// The work done so far.
     #[must_use]
     pub fn counters(&self) -> Counters {
-        self.counters
-    }
-}
-
-impl<F: VectorField<f64> + ?Sized> Integration for Orbit<'_, F> {
-    fn advance(&mut self, limit: f64) -> Result<(), StepFailure> {
-        self.advance(limit)
-    }
-
-    fn dense(&mut self) -> DenseStep<'_> {
-        self.dense()
-    }
-
-    fn step_to(&mut self, t: f64, out: &mut [f64]) {
-        self.step_to(t, out);
-    }
-
-    fn end_step_at(&mut self, t: f64) {
-        self.end_step_at(t);
-    }
-
-    fn restart(&mut self, u: &[f64]) {
-        self.restart(u);
-    }
-
-    fn restart_with(&mut self, u: &[f64], rates: &[f64]) {
-        self.restart_with(u, rates);
-    }
-
-    fn t(&self) -> f64 {
-        self.t
-    }
-
-    fn t_old(&self) -> f64 {
-        self.t_old
-    }
-
-    fn state(&self) -> &[f64] {
-        &self.u
-    }
-
-    fn slope(&self) -> &[f64] {
-        self.slope()
-    }
-
-    fn counters(&self) -> Counters {
         self.counters
     }
 }

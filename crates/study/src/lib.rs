@@ -3,6 +3,8 @@
 //!
 //! Nothing here computes, draws or writes.
 
+mod checks;
+mod control;
 pub mod dataset;
 mod ending;
 mod error;
@@ -16,6 +18,7 @@ mod random;
 mod run_settings;
 pub mod scan;
 pub mod study;
+mod study_reader;
 mod study_toml;
 pub mod table;
 pub mod titles;

@@ -1,12 +1,15 @@
 //! A plan: a study made explicit. Every number that a run depends on stands in it; nothing else does.
 
+use crate::checks::check_start;
+pub use crate::checks::{check, check_closed, check_figure, check_no_noise, check_stability, check_steps};
+pub use crate::control::{Control, NoiseSettings};
 use crate::error::nearest_of;
 pub use crate::named::Named;
 use crate::random::Random;
 use crate::study::{FigureSettings, ReturnMapSettings, Study};
 use crate::{Error, initial};
 use motiform_dynamics::steppers::Method;
-use motiform_dynamics::{Model, Noise, Obstacle, Semilinear, StepControl};
+use motiform_dynamics::{Model, Noise, Semilinear};
 use motiform_models::ModelInfo;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -19,12 +22,6 @@ const MOST_ROWS: f64 = 2e7;
 
 /// Longest model time: beyond it, time itself has too few digits for steps of order 1.
 pub const LONGEST: f64 = 1e9;
-
-/// Most steps of a run: hours of computing.
-const MOST_STEPS: f64 = 1e10;
-
-/// An adaptive explicit step times the fastest rate: the edge of stability of methods of order 5 and 8.
-const STEP_TIMES_RATE: f64 = 5.0;
 
 /// Step of steppers that cannot control it, where none is given: the paper's.
 const DEFAULT_STEP: f64 = 1e-3;
@@ -74,72 +71,6 @@ pub struct Computation {
     /// Noise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<NoiseSettings>,
-}
-
-/// Additive white noise: `du = f(u) dt + eta dW` for every coordinate u that people see ([`Noise::on`]).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct NoiseSettings {
-    /// Amplitude eta on the velocity, where that is an unknown (unit of velocity / sqrt(model time)).
-    pub velocity: f64,
-    /// Amplitude eta on the shape (unit of its coordinates / sqrt(model time)).
-    pub shape: f64,
-    /// Model time of a step of the noise, from the rates of the model alone ([`Noise::step_for`]).
-    pub step: f64,
-}
-
-/// `amplitude 0.001 on the shape and 0 on the velocity, steps of 0.0625`.
-impl std::fmt::Display for NoiseSettings {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { velocity, shape, step } = self;
-        write!(f, "amplitude {shape:?} on the shape, {velocity:?} on the velocity, steps of {step}")
-    }
-}
-
-impl NoiseSettings {
-    /// The larger amplitude.
-    #[must_use]
-    pub fn largest(&self) -> f64 {
-        self.velocity.max(self.shape)
-    }
-}
-
-/// [`StepControl`] as it is written to files.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
-#[allow(missing_docs, reason = "as in StepControl")]
-pub enum Control {
-    Adaptive { rtol: f64, atol: f64 },
-    Fixed { step: f64 },
-}
-
-impl Control {
-    /// The absolute tolerance; 0 for fixed steps.
-    #[must_use]
-    pub fn absolute_tolerance(self) -> f64 {
-        match self {
-            Self::Adaptive { atol, .. } => atol,
-            Self::Fixed { .. } => 0.0,
-        }
-    }
-}
-
-/// `rtol 1e-9, atol 1e-12`, or `step 0.001`.
-impl std::fmt::Display for Control {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Adaptive { rtol, atol } => write!(f, "rtol {rtol:e}, atol {atol:e}"),
-            Self::Fixed { step } => write!(f, "step {step:?}"),
-        }
-    }
-}
-
-impl From<Control> for StepControl {
-    fn from(control: Control) -> Self {
-        match control {
-            Control::Adaptive { rtol, atol } => Self::Adaptive { rtol, atol },
-            Control::Fixed { step } => Self::Fixed { step },
-        }
-    }
 }
 
 impl Plan {
@@ -232,20 +163,6 @@ pub fn sha256_hex(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().fold(String::new(), |hex, byte| hex + &format!("{byte:02x}"))
 }
 
-/// Whether a setting is finite and `ok`.
-///
-/// # Errors
-/// [`Error::Setting`] with the remedy.
-pub fn check(key: &'static str, value: f64, ok: bool, remedy: &'static str) -> Result<(), Error> {
-    if ok && value.is_finite() {
-        Ok(())
-    } else {
-        // Debug, for it writes 1e-300 and not 300 zeros.
-        let value = format!("{value:?}").trim_end_matches(".0").to_owned();
-        Err(Error::Setting { key, value, remedy })
-    }
-}
-
 /// The noise of a study, if it has any.
 fn noise(study: &Study, model: &dyn Model, look: f64) -> Result<Option<NoiseSettings>, Error> {
     let run = &study.run;
@@ -261,77 +178,6 @@ fn noise(study: &Study, model: &dyn Model, look: f64) -> Result<Option<NoiseSett
     // A look is some tens of the slowest ordinary time scale.
     let settings = NoiseSettings { velocity, shape: run.noise, step: Noise::step_for(&rates, look / 20.0) };
     Ok((settings.largest() > 0.0).then_some(settings))
-}
-
-/// Refuses a study with noise where only the flow without it has an answer.
-pub fn check_no_noise(amplitude: f64) -> Result<(), Error> {
-    check(
-        "noise",
-        amplitude,
-        amplitude == 0.0,
-        "motions are named, and exponents computed, without noise: set it to 0",
-    )
-}
-
-/// An explicit method is stable where its step times every rate of the linear part is small.
-pub fn check_stability(model: &dyn Model, method: Method, control: Control) -> Result<(), Error> {
-    let (Method::Explicit(tableau), Control::Fixed { step }) = (method, control) else { return Ok(()) };
-    let mut rates = vec![0.0; model.dim()];
-    Semilinear::<f64>::linear(model, &mut rates);
-    let fastest = rates.iter().fold(0.0, |fastest: f64, rate| fastest.max(-rate));
-    // The real stability intervals: 2 for orders 1 and 2, 2.785 for the classical method of order 4.
-    let largest = if tableau.order < 4 { 2.0 } else { 2.785 } / fastest;
-    if step > largest { Err(Error::UnstableStep { step, stepper: tableau.name, largest }) } else { Ok(()) }
-}
-
-/// Refuses a run that could not end: steps that are too many for the time, because they are fixed and tiny, or because the fastest
-/// rate of the linear part keeps an explicit method to steps of some times its inverse.
-pub fn check_steps(model: &dyn Model, method: Method, control: Control, time: f64) -> Result<(), Error> {
-    if let Control::Fixed { step } = control {
-        let remedy = "that is over 10 thousand million steps: give a larger step, or a shorter time";
-        return check("step", step, time / step <= MOST_STEPS, remedy);
-    }
-    let Method::Explicit(tableau) = method else { return Ok(()) };
-    let mut rates = vec![0.0; model.dim()];
-    Semilinear::<f64>::linear(model, &mut rates);
-    let rate = rates.iter().fold(0.0, |fastest: f64, rate| fastest.max(rate.abs()));
-    if rate * time / STEP_TIMES_RATE <= MOST_STEPS {
-        return Ok(());
-    }
-    Err(Error::Stiff { rate, time, stepper: tableau.name })
-}
-
-/// A start must be a body.
-fn check_start(model: &dyn Model, initial: &Named) -> Result<(), Error> {
-    let values = initial.values();
-    let mut shape = vec![0.0; model.dim()];
-    model.encode(&values[..model.dim()], &mut shape);
-    check_closed(model, &shape)
-}
-
-/// A shape must be a body.
-pub fn check_closed(model: &dyn Model, shape: &[f64]) -> Result<(), Error> {
-    match model.obstacle(shape) {
-        Some(Obstacle::Closure { residual }) => Err(Error::NotClosed { residual }),
-        _ => Ok(()),
-    }
-}
-
-/// Checks settings of figures that were changed after the plan was made.
-///
-/// # Errors
-/// [`Error::Setting`] naming the key, the value and the remedy.
-pub fn check_figure(figure: &FigureSettings) -> Result<(), Error> {
-    check("figure.radius", figure.radius, figure.radius >= 0.0, "give a radius above 0, or 0 to choose it")?;
-    check("figure.scale", figure.scale, figure.scale >= 0.0, "give a factor above 0, or 0 to choose it")?;
-    check("figure.from", figure.from, figure.from >= 0.0, "give a time of at least 0")?;
-    let after = figure.to == 0.0 || figure.to > figure.from;
-    check("figure.to", figure.to, after, "give a time after figure.from, or 0 for the end")?;
-    if figure.outlines > 2000 {
-        let value = figure.outlines.to_string();
-        return Err(Error::Setting { key: "figure.outlines", value, remedy: "give at most 2000" });
-    }
-    Ok(())
 }
 
 /// A stepper by name.

@@ -5,9 +5,9 @@
 //! the last bit of every number in them.
 
 use super::chaos::exponent_settings;
-use super::classify::{Ask, Search};
 use super::lane_look::LaneSight;
 use super::look::Look;
+use super::search::{Ask, Search};
 use super::settings::Settings;
 use super::verdict::Verdict;
 use crate::Result;

@@ -12,6 +12,7 @@ mod look;
 mod motion;
 mod recurrence;
 mod returns;
+mod search;
 mod settings;
 mod stay;
 mod steady_turns;

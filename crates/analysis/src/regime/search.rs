@@ -1,0 +1,335 @@
+//! The search for a verdict: the questions of [`super::classify()`] in their order, independent of how the orbits are computed.
+
+use super::growth::{Growth, in_motion};
+use super::heteroclinic::cycle;
+use super::look::{Look, RESTS, Rest};
+use super::recurrence::{Returns, periodic};
+use super::settings::{Settings, ended};
+use super::stay::Stay;
+use super::steady_turns::SteadyTurns;
+use super::verdict::{Attractor, Regime, Verdict};
+use super::{chaos, words};
+use crate::equilibrium::RelativeEquilibrium;
+use crate::isotropy::Isotropy;
+use crate::linear::norm;
+use crate::{Lyapunov, Result};
+use motiform_dynamics::{Equivariant, Outcome, Sink};
+
+/// What a search wants to see next.
+#[derive(Debug)]
+pub(super) enum Ask {
+    /// The orbit, for this long, from where it is.
+    Look(f64),
+    /// The largest exponent over this time, from where the orbit is, which goes on from where that run ends.
+    Exponent(f64),
+    /// Nothing: it has decided, or was interrupted.
+    Nothing(Option<Box<Verdict>>),
+}
+
+impl From<Verdict> for Ask {
+    fn from(verdict: Verdict) -> Self {
+        Self::Nothing(Some(Box::new(verdict)))
+    }
+}
+
+/// The decision on one motion, under way. It asks for observations and is told them: who makes them, one orbit or a lane of
+/// many, makes no difference to it.
+#[derive(Debug)]
+pub(super) struct Search {
+    settings: Settings,
+    /// Length of the look under way, and whether it is the first.
+    span: f64,
+    first: bool,
+    /// Where the orbit was last seen.
+    shape: Vec<f64>,
+    /// Model time spent, and to be spent at most.
+    time: f64,
+    budget: f64,
+    /// Whether the budget was doubled for an exponent that was nearly decided.
+    extended: bool,
+    /// Fastest change of the reduced shape so far.
+    fastest: f64,
+    /// Largest `|u|` so far: what distances are small against, for a circle has no size of its own.
+    largest: f64,
+    /// Complete rests of all looks.
+    rests: Vec<Rest>,
+    /// How tangent vectors grew in the runs so far.
+    growth: Vec<Growth>,
+    /// The stay at an unstable equilibrium that is under way.
+    stay: Stay,
+    /// Turns between rests in the last look that were all the same.
+    turns: Option<SteadyTurns>,
+    /// What kept the last look from deciding.
+    missing: String,
+    /// What the next observation is for.
+    pending: Pending,
+}
+
+/// What was asked for.
+#[derive(Debug)]
+enum Pending {
+    /// The next look.
+    Look,
+    /// Whether the orbit comes closer to the equilibrium beside it.
+    Approach { found: Box<RelativeEquilibrium>, before: f64, reached: f64, size: f64 },
+    /// An exponent; the look before.
+    Exponent(Box<Look>),
+}
+
+impl Search {
+    /// A search that begins at `start`.
+    pub(super) fn new(settings: &Settings, start: &[f64]) -> (Self, Ask) {
+        let mut search = Self {
+            settings: *settings,
+            span: settings.first_look.min(settings.budget),
+            first: true,
+            shape: start.to_vec(),
+            time: 0.0,
+            budget: settings.budget,
+            extended: false,
+            fastest: 0.0,
+            largest: norm(start),
+            rests: Vec::new(),
+            growth: Vec::new(),
+            stay: Stay::default(),
+            turns: None,
+            missing: "no motion had established itself".to_owned(),
+            pending: Pending::Look,
+        };
+        let ask = search.next();
+        (search, ask)
+    }
+
+    /// Asks for the next look, of length `span`.
+    fn next(&mut self) -> Ask {
+        self.pending = Pending::Look;
+        Ask::Look(self.span)
+    }
+
+    /// Takes in a look.
+    pub(super) fn looked<B: Equivariant + ?Sized>(
+        &mut self,
+        body: &B,
+        look: Look,
+        stop: &mut dyn Sink,
+    ) -> Result<Ask> {
+        if let Some(outcome) = ended(&look.outcome) {
+            return Ok(self.ended(&outcome, look.start));
+        }
+        self.time += look.end - look.start;
+        self.shape.clone_from(&look.last);
+        match std::mem::replace(&mut self.pending, Pending::Look) {
+            Pending::Approach { found, before, reached, size } => {
+                let after = found.distance(body, &self.shape);
+                if after > reached && after > 0.7 * before {
+                    // It may spiral in, or swing by. Nothing else is asked so near to a stable equilibrium: the last
+                    // swings of a spiral come back like a small periodic orbit.
+                    "the orbit did not come closer to the equilibrium beside it"
+                        .clone_into(&mut self.missing);
+                    return self.again(body, stop);
+                }
+                Ok(words::equilibrium(body, &found, (after / size, self.largest), &self.settings, self.time)
+                    .into())
+            }
+            _ => self.rests(body, look, stop),
+        }
+    }
+
+    /// The verdict, or the interruption, that a run ended with; the run's own clock showed `start` at its start.
+    fn ended(&mut self, outcome: &Outcome, start: f64) -> Ask {
+        let before = self.time;
+        match *outcome {
+            Outcome::Interrupted { .. } => Ask::Nothing(None),
+            Outcome::Escaped { t, singular, t_last, .. } => {
+                words::blow_up(singular, before + t - start, before + t_last - start).into()
+            }
+            _ => {
+                let why = format!("the run ended early: {outcome}");
+                let time = before + outcome.t() - start;
+                Verdict::new(Regime::Undetermined, Attractor::Unknown, why, time).into()
+            }
+        }
+    }
+
+    /// Is the orbit about to reach a stable relative equilibrium?
+    fn rests<B: Equivariant + ?Sized>(&mut self, body: &B, look: Look, stop: &mut dyn Sink) -> Result<Ask> {
+        self.fastest = self.fastest.max(look.fastest);
+        self.largest = self.largest.max(look.sizes.1);
+        // An orbit that began where it ends up was never fast: what is left of its changes is round-off.
+        if look.last_speed > 0.05 * self.fastest && !look.is_still(self.settings.hovering()) {
+            return self.recurs(body, look, stop);
+        }
+        let Some(found) = RelativeEquilibrium::find(body, &self.shape) else {
+            "no equilibrium was found where the orbit rests".clone_into(&mut self.missing);
+            return self.recurs(body, look, stop);
+        };
+        let size = norm(&found.shape).max(self.largest);
+        let before = found.distance(body, &self.shape);
+        let reached = (self.settings.hovering() * size).max(100.0 * self.settings.atol());
+        if found.growth() > -found.resolution() {
+            self.missing =
+                format!("the orbit rests at an unstable shape (growth rate {:.2e})", found.growth());
+            return if before > reached {
+                self.recurs(body, look, stop)
+            } else {
+                self.stays(body, look, &found, stop)
+            };
+        }
+        if before > CLOSE * size {
+            "the orbit was still on its way to an equilibrium".clone_into(&mut self.missing);
+            return self.recurs(body, look, stop);
+        }
+        if before > reached {
+            let wait = (-1.0 / found.growth()).min(self.settings.budget);
+            self.pending = Pending::Approach { found: Box::new(found), before, reached, size };
+            return Ok(Ask::Look(wait));
+        }
+        Ok(words::equilibrium(body, &found, (before / size, self.largest), &self.settings, self.time).into())
+    }
+
+    /// The orbit is at an unstable equilibrium: does it stay there? It is not asked whether neighbouring orbits separate: at a
+    /// saddle they do, at its own rate.
+    fn stays<B: Equivariant + ?Sized>(
+        &mut self,
+        body: &B,
+        mut look: Look,
+        found: &RelativeEquilibrium,
+        stop: &mut dyn Sink,
+    ) -> Result<Ask> {
+        let still = look.is_still(self.settings.hovering());
+        if self.stay.goes_on(look.end - look.start, still, found.growth()) {
+            return Ok(words::unstable(
+                body,
+                found,
+                self.largest,
+                self.stay.time(),
+                &self.settings,
+                self.time,
+            )
+            .into());
+        }
+        self.budget = self.budget.max(self.stay.budget(&self.settings, self.time, found.growth()));
+        self.rests.append(&mut look.rests);
+        if !still {
+            let start = look.resting.unwrap_or(look.start);
+            self.rests.push(Rest { start, end: look.end, shape: self.shape.clone(), whole: false });
+        } else if let Some(rest) = self.rests.last_mut().filter(|rest| !rest.whole) {
+            rest.end = look.end;
+        }
+        if let Some(cycle) = cycle(body, &self.rests, &self.settings) {
+            return Ok(words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, stop)?.into());
+        }
+        self.again(body, stop)
+    }
+
+    /// Does it rest near saddles, does its shape come back?
+    fn recurs<B: Equivariant + ?Sized>(
+        &mut self,
+        body: &B,
+        mut look: Look,
+        stop: &mut dyn Sink,
+    ) -> Result<Ask> {
+        self.stay = Stay::default();
+        self.rests.append(&mut look.rests);
+        if let Some(cycle) = cycle(body, &self.rests, &self.settings) {
+            return Ok(words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, stop)?.into());
+        }
+        match periodic(body, &look, &self.settings, stop) {
+            Returns::Stable(found, recurrence) => {
+                return Ok(
+                    words::periodic(body, &found, &recurrence, &self.settings, self.time, stop)?.into()
+                );
+            }
+            Returns::Unstable { growth } => {
+                self.missing =
+                    format!("the orbit stays on an unstable periodic orbit (largest multiplier {growth:.3})");
+                return self.again(body, stop);
+            }
+            Returns::None => {}
+        }
+        self.turns = SteadyTurns::of(body, &look, &self.settings);
+        if self.first || look.is_still(self.settings.hovering()) {
+            return self.again(body, stop);
+        }
+        self.pending = Pending::Exponent(Box::new(look));
+        Ok(Ask::Exponent(self.span))
+    }
+
+    /// Takes in an exponent: do neighbouring orbits separate?
+    pub(super) fn measured<B: Equivariant + ?Sized>(
+        &mut self,
+        body: &B,
+        run: &Lyapunov,
+        stop: &mut dyn Sink,
+    ) -> Result<Ask> {
+        if let Some(outcome) = ended(&run.outcome) {
+            return Ok(self.ended(&outcome, 0.0));
+        }
+        let Pending::Exponent(look) = std::mem::replace(&mut self.pending, Pending::Look) else {
+            return self.again(body, stop); // nothing was asked
+        };
+        self.time += run.time + run.transient;
+        self.shape.clone_from(&run.shape);
+        let run = match in_motion(run, RESTS, look.fastest) {
+            Ok(run) => run,
+            Err(missing) => {
+                self.missing = missing;
+                return self.again(body, stop);
+            }
+        };
+        let witness = chaos::Witness::of(&look);
+        self.growth.extend(Growth::of(&run, self.time));
+        let chaos = chaos::chaotic(&self.growth, &run, &witness, self.time)?;
+        // Out of a subspace of exact symmetry neighbouring orbits may separate at a rate that no chaos has made.
+        let symmetric = chaos.is_some() && !Isotropy::of(body, &self.shape, EXACT).is_trivial();
+        let decided = chaos.filter(|_| !symmetric).or_else(|| chaos::torus(&run, &witness, self.time));
+        if let Some(verdict) = decided {
+            return Ok(self.described(verdict, body, look.end - look.start, stop)?.into());
+        }
+        self.missing = if symmetric {
+            "the orbit keeps an exact symmetry, and neighbouring orbits leave it".to_owned()
+        } else {
+            chaos::missing(&self.growth, &witness)
+        };
+        self.again(body, stop)
+    }
+
+    /// Twice as long, or the end of the budget.
+    fn again<B: Equivariant + ?Sized>(&mut self, body: &B, stop: &mut dyn Sink) -> Result<Ask> {
+        self.first = false;
+        // An exponent that is nearly that of chaos gets more time, once: its error shrinks, the limit stays.
+        if self.time >= self.budget && !self.extended && chaos::is_near(&self.growth) {
+            self.extended = true;
+            self.budget *= 2.0;
+        }
+        self.span = (2.0 * self.span).min((self.budget - self.time).max(self.settings.first_look));
+        if self.time < self.budget {
+            return Ok(self.next());
+        }
+        if let Some(turns) = self.turns {
+            let verdict = turns.verdict(self.time);
+            return Ok(self.described(verdict, body, self.span, stop)?.into());
+        }
+        let why = format!("{} within the budget of {:.0}", self.missing, self.budget);
+        let verdict = Verdict::new(Regime::Undetermined, Attractor::Unknown, why, self.time);
+        Ok(self.described(verdict, body, self.span, stop)?.into())
+    }
+
+    fn described<B: Equivariant + ?Sized>(
+        &self,
+        mut verdict: Verdict,
+        body: &B,
+        span: f64,
+        stop: &mut dyn Sink,
+    ) -> Result<Verdict> {
+        let span = span.min(self.settings.first_look);
+        words::along(&mut verdict, body, &self.shape, span, &self.settings, stop)?;
+        Ok(verdict)
+    }
+}
+
+/// An equilibrium this near (against the size of the shape) may be where the orbit goes.
+const CLOSE: f64 = 1e-3;
+
+/// A shape that differs from its image by less than this part of its size has the symmetry exactly.
+const EXACT: f64 = 1e-12;

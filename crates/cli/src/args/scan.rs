@@ -1,0 +1,69 @@
+//! The words of `scan` and `merge`.
+
+use super::{SubjectOptions, number, random, whole};
+use clap::Args;
+use motiform_study::Random;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct ScanOptions {
+    #[command(flatten)]
+    pub(crate) subject: SubjectOptions,
+    /// Vary a parameter (once or twice): NAME=LOW:HIGH:COUNT, both ends included, or NAME=v1,v2,v3
+    #[arg(long = "axis", value_name = "NAME=LOW:HIGH:COUNT")]
+    pub(crate) axes: Vec<String>,
+    /// Initial states per cell (default: 1); several are drawn from all sizes of --random
+    #[arg(long, value_name = "M", value_parser = whole, allow_hyphen_values = true)]
+    pub(crate) samples: Option<u64>,
+    /// Random initial states: SIZE is each coordinate within +-SIZE (default for one state: 0.01), MIN:MAX is all directions and
+    /// log-uniform sizes (default for several: 0.01 to 1 times the model's typical size)
+    #[arg(long, value_name = "SIZE|MIN:MAX", value_parser = random, allow_hyphen_values = true)]
+    pub(crate) random: Option<Random>,
+    /// Seed of the random initial states
+    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
+    pub(crate) seed: Option<u64>,
+    /// Zeros of a given start become random values within SIZE times its largest value (default: 1e-6), because an
+    /// orbit never leaves an exact symmetry; 0 keeps the exact start
+    #[arg(long, value_name = "SIZE", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) perturb: Option<f64>,
+    /// Most model time that naming one motion may take; 0 is the model's default
+    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) budget: Option<f64>,
+    /// Output folder (default: MODEL-PRESET-scan here)
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Go on with the scan in the output folder (start it, if there is none)
+    #[arg(long, conflicts_with = "force")]
+    pub(crate) resume: bool,
+    /// Compute one of N shares; `motiform merge` puts the folders together
+    #[arg(long, value_name = "I/N")]
+    pub(crate) shard: Option<String>,
+    /// Threads (default: all cores); changes no number
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
+    pub(crate) threads: Option<u16>,
+    /// Replace an earlier scan
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Leave the figures out
+    #[arg(long)]
+    pub(crate) no_figures: bool,
+    /// Print the summary as one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct MergeOptions {
+    /// Folders written by `motiform scan` with the same plan
+    #[arg(value_name = "DIR", required = true)]
+    pub(crate) folders: Vec<PathBuf>,
+    /// Output folder
+    #[arg(long, value_name = "DIR", required = true)]
+    pub(crate) out: PathBuf,
+    /// Replace an earlier scan
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Print the summary as one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}

@@ -1,0 +1,99 @@
+//! What numbers of a study must be.
+
+use crate::Error;
+use crate::named::Named;
+use crate::plan::Control;
+use crate::study::FigureSettings;
+use motiform_dynamics::steppers::Method;
+use motiform_dynamics::{Model, Obstacle, Semilinear};
+
+/// Most steps of a run: hours of computing.
+const MOST_STEPS: f64 = 1e10;
+
+/// An adaptive explicit step times the fastest rate: the edge of stability of methods of order 5 and 8.
+const STEP_TIMES_RATE: f64 = 5.0;
+
+/// Whether a setting is finite and `ok`.
+///
+/// # Errors
+/// [`Error::Setting`] with the remedy.
+pub fn check(key: &'static str, value: f64, ok: bool, remedy: &'static str) -> Result<(), Error> {
+    if ok && value.is_finite() {
+        Ok(())
+    } else {
+        // Debug, for it writes 1e-300 and not 300 zeros.
+        let value = format!("{value:?}").trim_end_matches(".0").to_owned();
+        Err(Error::Setting { key, value, remedy })
+    }
+}
+
+/// Refuses a study with noise where only the flow without it has an answer.
+pub fn check_no_noise(amplitude: f64) -> Result<(), Error> {
+    check(
+        "noise",
+        amplitude,
+        amplitude == 0.0,
+        "motions are named, and exponents computed, without noise: set it to 0",
+    )
+}
+
+/// An explicit method is stable where its step times every rate of the linear part is small.
+pub fn check_stability(model: &dyn Model, method: Method, control: Control) -> Result<(), Error> {
+    let (Method::Explicit(tableau), Control::Fixed { step }) = (method, control) else { return Ok(()) };
+    let mut rates = vec![0.0; model.dim()];
+    Semilinear::<f64>::linear(model, &mut rates);
+    let fastest = rates.iter().fold(0.0, |fastest: f64, rate| fastest.max(-rate));
+    // The real stability intervals: 2 for orders 1 and 2, 2.785 for the classical method of order 4.
+    let largest = if tableau.order < 4 { 2.0 } else { 2.785 } / fastest;
+    if step > largest { Err(Error::UnstableStep { step, stepper: tableau.name, largest }) } else { Ok(()) }
+}
+
+/// Refuses a run that could not end: steps that are too many for the time, because they are fixed and tiny, or because the fastest
+/// rate of the linear part keeps an explicit method to steps of some times its inverse.
+pub fn check_steps(model: &dyn Model, method: Method, control: Control, time: f64) -> Result<(), Error> {
+    if let Control::Fixed { step } = control {
+        let remedy = "that is over 10 thousand million steps: give a larger step, or a shorter time";
+        return check("step", step, time / step <= MOST_STEPS, remedy);
+    }
+    let Method::Explicit(tableau) = method else { return Ok(()) };
+    let mut rates = vec![0.0; model.dim()];
+    Semilinear::<f64>::linear(model, &mut rates);
+    let rate = rates.iter().fold(0.0, |fastest: f64, rate| fastest.max(rate.abs()));
+    if rate * time / STEP_TIMES_RATE <= MOST_STEPS {
+        return Ok(());
+    }
+    Err(Error::Stiff { rate, time, stepper: tableau.name })
+}
+
+/// A start must be a body.
+pub(crate) fn check_start(model: &dyn Model, initial: &Named) -> Result<(), Error> {
+    let values = initial.values();
+    let mut shape = vec![0.0; model.dim()];
+    model.encode(&values[..model.dim()], &mut shape);
+    check_closed(model, &shape)
+}
+
+/// A shape must be a body.
+pub fn check_closed(model: &dyn Model, shape: &[f64]) -> Result<(), Error> {
+    match model.obstacle(shape) {
+        Some(Obstacle::Closure { residual }) => Err(Error::NotClosed { residual }),
+        _ => Ok(()),
+    }
+}
+
+/// Checks settings of figures that were changed after the plan was made.
+///
+/// # Errors
+/// [`Error::Setting`] naming the key, the value and the remedy.
+pub fn check_figure(figure: &FigureSettings) -> Result<(), Error> {
+    check("figure.radius", figure.radius, figure.radius >= 0.0, "give a radius above 0, or 0 to choose it")?;
+    check("figure.scale", figure.scale, figure.scale >= 0.0, "give a factor above 0, or 0 to choose it")?;
+    check("figure.from", figure.from, figure.from >= 0.0, "give a time of at least 0")?;
+    let after = figure.to == 0.0 || figure.to > figure.from;
+    check("figure.to", figure.to, after, "give a time after figure.from, or 0 for the end")?;
+    if figure.outlines > 2000 {
+        let value = figure.outlines.to_string();
+        return Err(Error::Setting { key: "figure.outlines", value, remedy: "give at most 2000" });
+    }
+    Ok(())
+}

@@ -1,0 +1,227 @@
+//! TOML text to study, table by table; and the schema of such texts.
+
+use crate::random::Random;
+use crate::run_settings::RunSettings;
+use crate::scan::Axis;
+use crate::study::{FigureSettings, ReturnMapSettings, ScanSettings, Study};
+use crate::toml_reader::{Source, Table, Value};
+use crate::{Error, presets};
+use motiform_models::{MODELS, ModelInfo};
+use schemars::JsonSchema;
+
+impl Study {
+    /// Reads a study from TOML text; `file` names it in messages, `name` becomes its short name.
+    ///
+    /// # Errors
+    /// [`Error::Study`] with line, column and remedy for malformed TOML, unknown keys (with the nearest name), wrong
+    /// types, numbers that are not finite, unknown models, parameters and presets.
+    pub fn parse(text: &str, file: &str, name: &str) -> Result<Self, Error> {
+        let mut top = Source { file, text }.parse()?;
+        let mut study = read_model(&mut top, file)?;
+        name.clone_into(&mut study.name);
+        if let Some(free) = top.take("free") {
+            study.free = read_free(&study, &free)?;
+        }
+        if let Some(mut table) = top.table("initial")? {
+            if let Some(value) = table.take("random") {
+                study.random = Some(read_random(&value)?);
+            }
+            table.number("perturb", &mut study.perturb)?;
+            read_initial(&mut study, table)?;
+        }
+        for (key, place) in [("title", &mut study.title), ("about", &mut study.about)] {
+            if let Some(text) = top.text(key)? {
+                *place = text;
+            }
+        }
+        if let Some(table) = top.table("run")? {
+            study.run.read(table)?;
+        }
+        if let Some(table) = top.table("scan")? {
+            study.scan = read_scan(&study, table)?;
+        }
+        if let Some(table) = top.table("return_map")? {
+            let preset = study.return_map.take();
+            study.return_map = Some(read_return_map(preset, table)?);
+        }
+        if let Some(table) = top.table("figure")? {
+            read_figure(&mut study.figure, table)?;
+        }
+        top.finish()?;
+        Ok(study)
+    }
+}
+
+/// `[model.NAME]` with parameters, on top of `preset = "..."` if given.
+fn read_model(top: &mut Table<'_>, file: &str) -> Result<Study, Error> {
+    let preset = top.take("preset");
+    let Some(mut models) = top.table("model")? else {
+        let preset = preset.ok_or_else(|| Error::Study {
+            file: file.to_owned(),
+            line: 1,
+            column: 1,
+            problem: format!("a study needs a table [model.NAME]: NAME is {}", names().join(" or ")),
+            excerpt: String::new(),
+        })?;
+        return from_preset(&preset, None);
+    };
+    let mut found = None;
+    for info in MODELS {
+        if let Some(table) = models.table(info.name)? {
+            found = Some((info, table));
+        }
+    }
+    models.finish()?;
+    let Some((info, mut table)) = found else {
+        return Err(Error::Study {
+            file: file.to_owned(),
+            line: 1,
+            column: 1,
+            problem: format!("[model] names no model: write [model.{}]", names().join("] or [model.")),
+            excerpt: String::new(),
+        });
+    };
+    let mut study = match &preset {
+        Some(value) => from_preset(value, Some(info))?,
+        None => Study::of_model(info),
+    };
+    for (name, value) in table.drain() {
+        let number = value.number()?;
+        study.set(&name, number).map_err(|error| value.name_error(error))?;
+    }
+    Ok(study)
+}
+
+fn names() -> Vec<&'static str> {
+    MODELS.iter().map(|info| info.name).collect()
+}
+
+fn from_preset(value: &Value<'_>, info: Option<&'static ModelInfo>) -> Result<Study, Error> {
+    let name = value.text()?;
+    let model = info.or_else(|| presets::model_of(&name)).unwrap_or(&MODELS[0]);
+    presets::find(model, &name).map_err(|error| value.error(error))
+}
+
+fn read_free(study: &Study, value: &Value<'_>) -> Result<Vec<String>, Error> {
+    let names = value.texts()?;
+    let info = study.info()?;
+    for name in &names {
+        motiform_models::parameters::index_of(info.parameters(), info.name, name)
+            .map_err(|error| value.error(error))?;
+    }
+    Ok(names)
+}
+
+fn read_initial(study: &mut Study, mut table: Table<'_>) -> Result<(), Error> {
+    for (name, value) in table.drain() {
+        let number = value.number()?;
+        study.set_initial(&name, number).map_err(|error| value.name_error(error))?;
+    }
+    Ok(())
+}
+
+/// One size as a number, or both ends of a range as a text.
+fn read_random(value: &Value<'_>) -> Result<Random, Error> {
+    let Ok(text) = value.text() else { return Ok(Random::Within(value.number()?)) };
+    Random::parse(&text).map_err(|error| value.error(error))
+}
+
+fn read_scan(study: &Study, mut table: Table<'_>) -> Result<ScanSettings, Error> {
+    let (info, mut scan) = (study.info()?, study.scan.clone());
+    if let Some(value) = table.take("axes") {
+        let axis = |text: &String| {
+            let axis = Axis::parse(text)?;
+            motiform_models::parameters::index_of(info.parameters(), info.name, &axis.name)?;
+            Ok::<_, Error>(axis)
+        };
+        let axes = value.texts()?.iter().map(axis).collect::<Result<_, Error>>();
+        scan.axes = axes.map_err(|error| value.error(error))?;
+    }
+    table.whole("samples", &mut scan.samples)?;
+    table.number("budget", &mut scan.budget)?;
+    table.finish()?;
+    Ok(scan)
+}
+
+fn read_return_map(
+    preset: Option<ReturnMapSettings>,
+    mut table: Table<'_>,
+) -> Result<ReturnMapSettings, Error> {
+    let whole_line = ReturnMapSettings { y: 0.0, x_min: -1e300, x_max: 1e300, centre: false };
+    let mut settings = preset.unwrap_or(whole_line);
+    table.number("y", &mut settings.y)?;
+    table.number("x_min", &mut settings.x_min)?;
+    table.number("x_max", &mut settings.x_max)?;
+    table.switch("centre", &mut settings.centre)?;
+    table.finish()?;
+    Ok(settings)
+}
+
+fn read_figure(figure: &mut FigureSettings, mut table: Table<'_>) -> Result<(), Error> {
+    table.number("radius", &mut figure.radius)?;
+    table.number("scale", &mut figure.scale)?;
+    table.whole("outlines", &mut figure.outlines)?;
+    table.number("from", &mut figure.from)?;
+    table.number("to", &mut figure.to)?;
+    table.switch("animation", &mut figure.animation)?;
+    table.finish()
+}
+
+/// The JSON schema of study files.
+#[must_use]
+pub fn schema() -> serde_json::Value {
+    let numbers = |names: Vec<(&str, String)>| {
+        let entries = names.into_iter().map(|(name, text)| {
+            (name.to_owned(), serde_json::json!({ "type": "number", "description": text }))
+        });
+        let properties: serde_json::Map<String, serde_json::Value> = entries.collect();
+        serde_json::json!({ "type": "object", "additionalProperties": false, "properties": properties })
+    };
+    let mut models = serde_json::Map::new();
+    let mut initial = Vec::new();
+    for info in MODELS {
+        let meanings = info.parameters().iter().map(|spec| (spec.name, spec.meaning.to_owned())).collect();
+        models.insert(info.name.to_owned(), numbers(meanings));
+        let defaults: Vec<f64> = info.parameters().iter().map(|spec| spec.default).collect();
+        initial.extend(info.coordinates(&defaults).iter().map(|c| (c.name, c.meaning.to_owned())));
+    }
+    initial.extend(["x", "y"].map(|name| (name, "position of the centre of mass".to_owned())));
+    let mut initial = numbers(initial);
+    initial["properties"]["random"] = serde_json::json!({
+        "type": ["number", "string"],
+        "description": "random starts: each coordinate within plus or minus this size, or \"MIN:MAX\" for log-uniform sizes in all directions",
+    });
+    initial["properties"]["perturb"] = serde_json::json!({
+        "type": "number",
+        "description": "classify and scan put random values within this part of the largest given one in the place of zeros, because an orbit never leaves an exact symmetry; 0 keeps the exact start",
+    });
+    serde_json::json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "motiform study",
+        "type": "object",
+        "additionalProperties": false,
+        "properties": {
+            "title": { "type": "string", "description": "title of the figures" },
+            "about": { "type": "string", "description": "one sentence on what to look at" },
+            "preset": { "type": "string", "description": "the preset to start from" },
+            "free": { "type": "array", "items": { "type": "string" }, "description": "parameters to vary" },
+            "model": { "type": "object", "additionalProperties": false, "properties": models },
+            "initial": initial,
+            "run": section::<RunSettings>(),
+            "scan": section::<ScanSettings>(),
+            "return_map": section::<ReturnMapSettings>(),
+            "figure": section::<FigureSettings>(),
+        },
+    })
+}
+
+/// The schema of one table; every key may be left out.
+fn section<T: JsonSchema>() -> serde_json::Value {
+    let mut schema = schemars::schema_for!(T).to_value();
+    if let Some(object) = schema.as_object_mut() {
+        object.remove("$schema");
+        object.remove("required");
+        object.insert("additionalProperties".to_owned(), false.into());
+    }
+    schema
+}
