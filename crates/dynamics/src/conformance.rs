@@ -20,14 +20,14 @@ where
 {
     let dim = field.dim();
     let bundle: Vec<Lanes<N>> =
-        (0..dim).map(|i| Lanes(std::array::from_fn(|lane| states[lane][i]))).collect();
+        (0..dim).map(|i| Lanes::from(std::array::from_fn(|lane| states[lane][i]))).collect();
     let mut rates = bundle.clone();
     lanes_field.eval(Lanes::splat(0.0), &bundle, &mut rates);
     let mut rate = vec![0.0; dim];
     let mut mismatches = 0;
     for (lane, state) in states.iter().enumerate() {
         field.eval(0.0, state, &mut rate);
-        let differs = rate.iter().zip(&rates).any(|(x, bundle)| x.to_bits() != bundle[lane].to_bits());
+        let differs = rate.iter().zip(&rates).any(|(x, bundle)| x.to_bits() != bundle.lane(lane).to_bits());
         mismatches += usize::from(differs);
     }
     mismatches

@@ -42,12 +42,18 @@ proptest! {
 fn marching_in_lanes_is_bitwise_the_single_orbit() {
     fn check<const N: usize>() {
         for tableau in STEPPERS {
-            let mut bundle: Vec<Lanes<N>> = vec![Lanes(std::array::from_fn(|lane| 1.0 + 0.1 * lane as f64))];
+            let mut bundle: Vec<Lanes<N>> =
+                vec![Lanes::from(std::array::from_fn(|lane| 1.0 + 0.1 * lane as f64))];
             march(tableau, &Lorentzian, Lanes::splat(0.0), Lanes::splat(0.01), 100, &mut bundle);
             for lane in 0..N {
                 let mut single = vec![1.0 + 0.1 * lane as f64];
                 march(tableau, &Lorentzian, 0.0, 0.01, 100, &mut single);
-                assert_eq!(single[0].to_bits(), bundle[0][lane].to_bits(), "{} lane {lane}", tableau.name);
+                assert_eq!(
+                    single[0].to_bits(),
+                    bundle[0].lane(lane).to_bits(),
+                    "{} lane {lane}",
+                    tableau.name
+                );
             }
         }
     }

@@ -4,14 +4,13 @@
 //! reaches nothing but what `protocol` says: no file is read or written for it. The page is built into the program.
 //! What is said between the two stands in `PROTOCOL.md`.
 //!
-//! Each page has a `session`: a body that moves when the page asks (`body`), and two desks (`desk`) at which the last
-//! job put there is the only one that counts: naming the motion and its exponents (`motion`), and the map (`map`).
+//! Each page has a `session`: a body that moves when the page asks (`body`), and two workers (`worker`), for which only the
+//! latest job counts: naming the motion and its exponents (`motion`), and the map (`map`).
 
 mod answers;
 mod body;
 mod catalogue;
 mod connection;
-mod desk;
 mod error;
 mod export;
 mod frames;
@@ -24,6 +23,7 @@ mod rate;
 mod server;
 mod session;
 mod share;
+mod worker;
 
 pub use error::Error;
 pub use guard::Token;

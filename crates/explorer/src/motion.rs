@@ -1,8 +1,8 @@
 //! Naming the present motion, then its Lyapunov exponents, for as long as it is the present one.
 
 use crate::answers::{Answers, Gone};
-use crate::desk::{Current, Desk, lock};
 use crate::map::numbers;
+use crate::worker::{Current, Worker, lock};
 use motiform_analysis::Estimate;
 use motiform_analysis::regime::Regime;
 use motiform_lab::analyse;
@@ -43,9 +43,9 @@ struct Known {
     complete: bool,
 }
 
-/// The desk at which motions are named.
+/// The worker that names motions.
 pub(crate) struct Naming {
-    desk: Desk<Motion>,
+    worker: Worker<Motion>,
     known: Arc<Mutex<Known>>,
 }
 
@@ -53,21 +53,21 @@ impl Naming {
     pub(crate) fn new(answers: Answers) -> std::io::Result<Self> {
         let known = Arc::new(Mutex::new(Known::default()));
         let shared = Arc::clone(&known);
-        let desk = Desk::new("naming", NICE, move |motion: Motion, current| {
+        let worker = Worker::new("naming", NICE, move |motion: Motion, current| {
             // A page that has gone takes its session along.
             let _ = Work { motion: &motion, current, answers: &answers, known: &shared }.run();
         })?;
-        Ok(Self { desk, known })
+        Ok(Self { worker, known })
     }
 
     /// Names this motion, in place of an earlier one.
     pub(crate) fn name(&self, motion: Motion) {
-        self.desk.put(motion);
+        self.worker.put(motion);
     }
 
     /// Stops: the body has changed.
     pub(crate) fn stop(&self) {
-        self.desk.clear();
+        self.worker.clear();
         *lock(&self.known) = Known::default();
     }
 
@@ -83,7 +83,7 @@ impl Naming {
     }
 }
 
-/// One motion on the desk.
+/// One motion to be named.
 struct Work<'w> {
     motion: &'w Motion,
     current: &'w Current<'w>,

@@ -112,14 +112,14 @@ proptest! {
     #[test]
     fn lanes_have_their_own_parameters(ps in prop::array::uniform4(parameters()), us in prop::array::uniform4(shape())) {
         let fields = ps.map(|p| Cell::new(&p).unwrap().field().clone());
-        let u: Vec<Lanes<4>> = (0..2 * MODES).map(|i| Lanes(std::array::from_fn(|lane| us[lane][i]))).collect();
+        let u: Vec<Lanes<4>> = (0..2 * MODES).map(|i| Lanes::from(std::array::from_fn(|lane| us[lane][i]))).collect();
         let mut du = u.clone();
         CellField::bundle(&fields).eval(Lanes::splat(0.0), &u, &mut du);
         for lane in 0..4 {
             let mut single = vec![0.0; 2 * MODES];
             fields[lane].eval(0.0, &us[lane], &mut single);
             for i in 0..2 * MODES {
-                prop_assert_eq!(single[i].to_bits(), du[i][lane].to_bits());
+                prop_assert_eq!(single[i].to_bits(), du[i].lane(lane).to_bits());
             }
         }
     }

@@ -82,17 +82,17 @@ proptest! {
         let mut index = 0;
         let bundle = each[0].map(|_| {
             index += 1;
-            Lanes::<8>(std::array::from_fn(|lane| lane_values[lane][index - 1]))
+            Lanes::<8>::from(std::array::from_fn(|lane| lane_values[lane][index - 1]))
         });
         let field = FourierField::all(bundle);
-        let u: Vec<Lanes<8>> = (0..6).map(|i| Lanes(std::array::from_fn(|lane| states[lane][i]))).collect();
+        let u: Vec<Lanes<8>> = (0..6).map(|i| Lanes::from(std::array::from_fn(|lane| states[lane][i]))).collect();
         let mut du = u.clone();
         field.eval(Lanes::splat(0.0), &u, &mut du);
         for lane in 0..8 {
             let mut single = [0.0; 6];
             FourierField::all(each[lane]).eval(0.0, &states[lane], &mut single);
             for i in 0..6 {
-                prop_assert_eq!(single[i].to_bits(), du[i][lane].to_bits());
+                prop_assert_eq!(single[i].to_bits(), du[i].lane(lane).to_bits());
             }
         }
     }

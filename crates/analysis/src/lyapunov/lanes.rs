@@ -1,12 +1,12 @@
 //! Exponents of many orbits, in lanes.
 
 use super::frame::orthonormalise;
-use super::protocol::{Protocol, Stretch};
+use super::renormalisation::{Renormalisation, Stretch};
 use super::{Lyapunov, LyapunovSettings, first_state, lyapunov};
 use crate::Result;
 use crate::symmetry::speed_beside;
 use motiform_dynamics::drive::Sink;
-use motiform_dynamics::ensemble::{Entry, InLanes, Landed, Leaving, Members, Turn, Why, run_adaptive};
+use motiform_dynamics::ensemble::{AfterStep, Entry, InLanes, LaneTask, Leaving, Then, Why, run_adaptive};
 use motiform_dynamics::scalar::MOST_LANES;
 use motiform_dynamics::simd::{LaneKernel, has_lanes, run_wide};
 use motiform_dynamics::steppers::Method;
@@ -69,35 +69,35 @@ impl<B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, cons
     #[inline(always)]
     fn run<L: Bundle>(self) {
         let Some(first) = (self.next)() else { return };
-        let mut crew = Crew::<L, B, F, N, K, D> {
+        let mut lanes = TangentLanes::<L, B, F, N, K, D> {
             field: F::tangent(first.field.bundle()),
             first: Some(first),
             escape: L::splat(0.0),
             stop: L::splat(0.0),
-            riding: std::array::from_fn(|_| None),
+            in_lanes: std::array::from_fn(|_| None),
             steps: 0,
             next: self.next,
             done: self.done,
             stopped: self.stopped,
         };
-        run_adaptive::<Dop853, L, D, _>(&mut crew, self.control);
+        run_adaptive::<Dop853, L, D, _>(&mut lanes, self.control);
     }
 }
 
 /// A member in its lane.
-struct Rider<B, F, const N: usize> {
+struct InLane<B, F, const N: usize> {
     member: TangentMember<B, F, N>,
-    protocol: Protocol,
+    renormalisation: Renormalisation,
 }
 
 /// The members in the lanes of one thread.
-struct Crew<'r, L: Bundle, B, F: InLanes, const N: usize, const K: usize, const D: usize> {
+struct TangentLanes<'r, L: Bundle, B, F: InLanes, const N: usize, const K: usize, const D: usize> {
     field: F::Tangent<L, K>,
     first: Option<TangentMember<B, F, N>>,
     escape: L,
     /// Ends of the stretches under way.
     stop: L,
-    riding: [Option<Rider<B, F, N>>; 16],
+    in_lanes: [Option<InLane<B, F, N>>; 16],
     steps: u32,
     next: &'r mut dyn FnMut() -> Option<TangentMember<B, F, N>>,
     done: &'r mut dyn FnMut(usize, Result<Lyapunov>),
@@ -105,20 +105,20 @@ struct Crew<'r, L: Bundle, B, F: InLanes, const N: usize, const K: usize, const 
 }
 
 impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, const D: usize>
-    Crew<'_, L, B, F, N, K, D>
+    TangentLanes<'_, L, B, F, N, K, D>
 {
     /// A member that its lane cannot finish, as a single orbit.
-    fn alone(&mut self, rider: &Rider<B, F, N>) {
-        let TangentMember { body, start, settings, .. } = &rider.member;
+    fn alone(&mut self, in_lane: &InLane<B, F, N>) {
+        let TangentMember { body, start, settings, .. } = &in_lane.member;
         let mut stop = Stop(self.stopped);
-        (self.done)(rider.member.key, lyapunov(body.as_ref(), start, settings, &mut stop));
+        (self.done)(in_lane.member.key, lyapunov(body.as_ref(), start, settings, &mut stop));
     }
 
     /// Tells the lanes in `due` what their vectors have grown to, and takes the ends of their next stretches. A lane that has
     /// none, or has spent its steps, is at its end.
     #[inline(always)]
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts")]
-    fn stretched(&mut self, due: Mask, landed: &mut Landed<'_, L, D>, lengths: &[L; K], speed: L) {
+    fn stretched(&mut self, due: Mask, landed: &mut AfterStep<'_, L, D>, lengths: &[L; K], speed: L) {
         let mut grown = [[0.0; MOST_LANES]; K];
         for (to, &from) in grown.iter_mut().zip(lengths) {
             from.store(to);
@@ -132,10 +132,10 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
         self.stop.store(&mut stop);
         landed.t_end.store(&mut end);
         for lane in due.lanes() {
-            let Some(rider) = &mut self.riding[lane] else { continue };
+            let Some(in_lane) = &mut self.in_lanes[lane] else { continue };
             let lengths = grown.map(|lanes| lanes[lane]);
-            let next = rider.protocol.stretched(t[lane], &lengths, speeds[lane], steps[lane] as u64);
-            let next = next.filter(|_| (work[lane] as u64) < rider.member.settings.max_steps);
+            let next = in_lane.renormalisation.stretched(t[lane], &lengths, speeds[lane], steps[lane] as u64);
+            let next = next.filter(|_| (work[lane] as u64) < in_lane.member.settings.max_steps);
             (stop[lane], end[lane]) = next.map_or((t[lane], t[lane]), |next| (next.stop, next.limit));
         }
         self.stop = L::load(&stop);
@@ -144,10 +144,10 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
 }
 
 impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, const D: usize>
-    Members<L, D> for Crew<'_, L, B, F, N, K, D>
+    LaneTask<L, D> for TangentLanes<'_, L, B, F, N, K, D>
 {
     type Field = F::Tangent<L, K>;
-    const LANDS: bool = true;
+    const AFTER_STEP: bool = true;
 
     #[inline(always)]
     fn field(&self) -> &Self::Field {
@@ -160,17 +160,17 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
                 return None;
             }
             let member = self.first.take().or_else(|| (self.next)())?;
-            let mut rider = Rider { protocol: Protocol::new(&member.settings, N), member };
-            let Some(Stretch { stop, limit }) = rider.protocol.begin(0.0) else {
-                self.alone(&rider);
+            let mut in_lane = InLane { renormalisation: Renormalisation::new(&member.settings, N), member };
+            let Some(Stretch { stop, limit }) = in_lane.renormalisation.begin(0.0) else {
+                self.alone(&in_lane);
                 continue;
             };
-            rider.member.field.put(lane, self.field.as_mut());
-            let norm = rider.member.settings.escape_norm;
+            in_lane.member.field.put(lane, self.field.as_mut());
+            let norm = in_lane.member.settings.escape_norm;
             self.escape = self.escape.with_lane(lane, norm * norm);
             let mut u = [0.0; D];
-            u.copy_from_slice(&first_state(&rider.member.start, K));
-            self.riding[lane] = Some(rider);
+            u.copy_from_slice(&first_state(&in_lane.member.start, K));
+            self.in_lanes[lane] = Some(in_lane);
             self.stop = self.stop.with_lane(lane, stop);
             return Some(Entry { t: 0.0, u, t_end: limit, pace: None });
         }
@@ -192,7 +192,7 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
 
     /// Lanes at the end of a stretch: their vectors are made orthonormal, all at once.
     #[inline(always)]
-    fn landed(&mut self, landed: &mut Landed<'_, L, D>) -> Mask {
+    fn after_step(&mut self, landed: &mut AfterStep<'_, L, D>) -> Mask {
         let due = self.stop.at_most(landed.t) & landed.accepted;
         if !due.any() {
             return due;
@@ -206,20 +206,20 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
         lost
     }
 
-    fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Turn {
-        let Some(rider) = self.riding[lane].take() else { return Turn::Done };
+    fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Then {
+        let Some(in_lane) = self.in_lanes[lane].take() else { return Then::Leave };
         if (self.stopped)() {
-            return Turn::Done;
+            return Then::Leave;
         }
         let work = leaving.steps + leaving.rejected;
-        if leaving.why != Why::Arrived || work >= rider.member.settings.max_steps {
-            self.alone(&rider);
-            return Turn::Done;
+        if leaving.why != Why::Arrived || work >= in_lane.member.settings.max_steps {
+            self.alone(&in_lane);
+            return Then::Leave;
         }
-        let (body, outcome) = (rider.member.body.as_ref(), Outcome::Completed { t: leaving.t });
-        let result = rider.protocol.result(body, &leaving.u[..N], outcome, leaving.steps);
-        (self.done)(rider.member.key, result);
-        Turn::Done
+        let (body, outcome) = (in_lane.member.body.as_ref(), Outcome::Completed { t: leaving.t });
+        let result = in_lane.renormalisation.result(body, &leaving.u[..N], outcome, leaving.steps);
+        (self.done)(in_lane.member.key, result);
+        Then::Leave
     }
 }
 

@@ -2,7 +2,7 @@
 
 mod frame;
 mod lanes;
-mod protocol;
+mod renormalisation;
 
 use crate::linear::{basis, norm};
 use crate::series_mean::{FEWEST_INDEPENDENT, independent_samples, mean_over};
@@ -12,7 +12,7 @@ pub use lanes::{TangentMember, lyapunov_in_lanes, runs_in_lanes};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Equivariant, Mask, Outcome, Request, Sink, StepControl, Tangent, VectorField};
-use protocol::{Protocol, Stretch};
+use renormalisation::{Renormalisation, Stretch};
 
 /// How to compute exponents.
 #[derive(Clone, Copy, Debug)]
@@ -179,11 +179,11 @@ pub fn lyapunov_followed<B: Equivariant + ?Sized>(
     follow: &mut dyn FnMut(SoFar<'_>),
 ) -> Result<Lyapunov> {
     let tangent = Tangent::new(body, settings.count);
-    let mut protocol = Protocol::new(settings, start.len());
+    let mut renormalisation = Renormalisation::new(settings, start.len());
     let state = first_state(start, settings.count);
     let mut lengths = vec![0.0; settings.count];
     let mut orbit = settings.method.shape_orbit(&tangent, settings.control, 0.0, &state)?;
-    let mut stretch = protocol.begin(orbit.t());
+    let mut stretch = renormalisation.begin(orbit.t());
     let mut outcome = Outcome::Completed { t: orbit.t() };
     while let Some(Stretch { stop, limit }) = stretch {
         let request = Request {
@@ -202,8 +202,8 @@ pub fn lyapunov_followed<B: Equivariant + ?Sized>(
         let (rate, vector_rates) = rates.split_at_mut(start.len());
         let lost = frame::orthonormalise(Mask::only(0), start.len(), vectors, vector_rates, &mut lengths);
         let speed = reduced_speed(body, shape, rate);
-        stretch = protocol.stretched(orbit.t(), &lengths, speed, orbit.counters().steps);
-        if let Some(so_far) = protocol.so_far(pace(shape, rate)) {
+        stretch = renormalisation.stretched(orbit.t(), &lengths, speed, orbit.counters().steps);
+        if let Some(so_far) = renormalisation.so_far(pace(shape, rate)) {
             follow(so_far);
         }
         if watch.tick(orbit.t()).is_break() {
@@ -213,7 +213,7 @@ pub fn lyapunov_followed<B: Equivariant + ?Sized>(
         if lost.any() { orbit.restart(&state) } else { orbit.restart_with(&state, &rates) }
     }
     let steps = orbit.counters().steps;
-    protocol.result(body, &orbit.state()[..start.len()], outcome, steps)
+    renormalisation.result(body, &orbit.state()[..start.len()], outcome, steps)
 }
 
 /// A start with `count` orthonormal tangent vectors in general position.

@@ -12,7 +12,7 @@ use motiform_dynamics::steppers::unrolled::{Dop853, LaneStep, StepSlopes};
 use motiform_dynamics::{Bundle, Equivariant, Mask, VectorField};
 
 /// What the lanes have seen so far.
-pub(super) struct LaneSight<L, const N: usize> {
+pub(super) struct LaneObserver<L, const N: usize> {
     /// The last time and value at which the rate of the size was not zero, in the lanes of `known`.
     t: L,
     value: L,
@@ -49,7 +49,7 @@ fn length<L: Bundle, const N: usize>(u: &[L; N]) -> L {
     sum.sqrt()
 }
 
-impl<L: Bundle, const N: usize> LaneSight<L, N> {
+impl<L: Bundle, const N: usize> LaneObserver<L, N> {
     #[inline(always)]
     pub(super) fn new() -> Self {
         let zero = L::splat(0.0);

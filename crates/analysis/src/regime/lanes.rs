@@ -5,7 +5,7 @@
 //! the last bit of every number in them.
 
 use super::chaos::exponent_settings;
-use super::lane_look::LaneSight;
+use super::lane_look::LaneObserver;
 use super::look::Look;
 use super::search::{Ask, Search};
 use super::settings::Settings;
@@ -13,7 +13,9 @@ use super::verdict::Verdict;
 use crate::Result;
 use crate::lyapunov::{TangentMember, lyapunov_in_lanes, runs_in_lanes};
 use motiform_dynamics::drive::Sink;
-use motiform_dynamics::ensemble::{Entry, InLanes, Leaving, Members, Pace, Stepped, Turn, Why, run_adaptive};
+use motiform_dynamics::ensemble::{
+    Entry, InLanes, LaneTask, Leaving, Pace, Stepped, Then, Why, run_adaptive,
+};
 use motiform_dynamics::simd::{LaneKernel, run_wide};
 use motiform_dynamics::steppers::unrolled::Dop853;
 use motiform_dynamics::{Bundle, Equivariant, Mask, Orbit, Outcome, StepControl};
@@ -51,18 +53,19 @@ pub fn classify_in_lanes<F: InLanes + Clone, const N: usize, const D: usize>(
     stopped: &dyn Fn() -> bool,
 ) {
     let StepControl::Adaptive { rtol, atol } = settings.control else { return };
-    let mut desk = Desk { settings, next, done, stopped, ready: VecDeque::new(), waiting: Vec::new() };
+    let mut scheduler =
+        Scheduler { settings, next, done, stopped, ready: VecDeque::new(), waiting: Vec::new() };
     loop {
-        let ran = run_wide(Looks::<F, N> { desk: &mut desk });
-        if ran.is_none() || desk.waiting.is_empty() || (desk.stopped)() {
+        let ran = run_wide(Looks::<F, N> { scheduler: &mut scheduler });
+        if ran.is_none() || scheduler.waiting.is_empty() || (scheduler.stopped)() {
             return;
         }
-        desk.measure::<D>((rtol, atol));
+        scheduler.measure::<D>((rtol, atol));
     }
 }
 
-/// A search whose orbit is in no lane.
-struct Parked<F, const N: usize> {
+/// A motion whose orbit is in no lane.
+struct Classification<F, const N: usize> {
     candidate: Candidate<F, N>,
     search: Search,
     t: f64,
@@ -72,26 +75,26 @@ struct Parked<F, const N: usize> {
     span: f64,
 }
 
-/// Who waits for what.
-struct Desk<'d, F, const N: usize> {
+/// The motions of one thread that are in no lane, and what each waits for.
+struct Scheduler<'d, F, const N: usize> {
     settings: &'d Settings,
     next: &'d mut dyn FnMut() -> Option<Candidate<F, N>>,
     done: &'d mut dyn FnMut(usize, Result<Option<Verdict>>),
     stopped: &'d dyn Fn() -> bool,
     /// For a lane.
-    ready: VecDeque<Parked<F, N>>,
+    ready: VecDeque<Classification<F, N>>,
     /// For an exponent.
-    waiting: Vec<Parked<F, N>>,
+    waiting: Vec<Classification<F, N>>,
 }
 
-impl<F: InLanes + Clone, const N: usize> Desk<'_, F, N> {
+impl<F: InLanes + Clone, const N: usize> Scheduler<'_, F, N> {
     /// The next search for a lane.
-    fn take(&mut self) -> Option<Parked<F, N>> {
+    fn take(&mut self) -> Option<Classification<F, N>> {
         if (self.stopped)() {
             return None;
         }
-        if let Some(parked) = self.ready.pop_front() {
-            return Some(parked);
+        if let Some(motion) = self.ready.pop_front() {
+            return Some(motion);
         }
         if self.waiting.len() >= WAITING {
             return None;
@@ -99,27 +102,27 @@ impl<F: InLanes + Clone, const N: usize> Desk<'_, F, N> {
         let candidate = (self.next)()?;
         let (search, ask) = Search::new(self.settings, &candidate.start);
         let span = if let Ask::Look(span) = ask { span } else { 0.0 };
-        Some(Parked { u: candidate.start, candidate, search, t: 0.0, pace: None, span })
+        Some(Classification { u: candidate.start, candidate, search, t: 0.0, pace: None, span })
     }
 
     /// Files a search by what it asks for; gives it back if that is a look.
-    fn file(&mut self, mut parked: Parked<F, N>, ask: Result<Ask>) -> Option<Parked<F, N>> {
+    fn file(&mut self, mut motion: Classification<F, N>, ask: Result<Ask>) -> Option<Classification<F, N>> {
         if (self.stopped)() {
             return None; // what was decided while it stopped may rest on half of a run
         }
         match ask {
             Ok(Ask::Look(span)) => {
-                parked.span = span;
-                return Some(parked);
+                motion.span = span;
+                return Some(motion);
             }
             Ok(Ask::Exponent(span)) => {
-                parked.span = span;
-                self.waiting.push(parked);
+                motion.span = span;
+                self.waiting.push(motion);
             }
             Ok(Ask::Nothing(verdict)) => {
-                (self.done)(parked.candidate.key, Ok(verdict.map(|verdict| *verdict)));
+                (self.done)(motion.candidate.key, Ok(verdict.map(|verdict| *verdict)));
             }
-            Err(error) => (self.done)(parked.candidate.key, Err(error)),
+            Err(error) => (self.done)(motion.candidate.key, Err(error)),
         }
         None
     }
@@ -129,37 +132,41 @@ impl<F: InLanes + Clone, const N: usize> Desk<'_, F, N> {
         let waiting = std::mem::take(&mut self.waiting);
         let mut left = waiting.iter().enumerate();
         let mut next = || {
-            let (key, parked) = left.next()?;
+            let (key, motion) = left.next()?;
             Some(TangentMember {
                 key,
-                body: Borrowed(parked.candidate.body.as_ref()),
-                field: parked.candidate.field.clone(),
-                start: parked.u,
-                settings: exponent_settings(self.settings, parked.span),
+                body: Borrowed(motion.candidate.body.as_ref()),
+                field: motion.candidate.field.clone(),
+                start: motion.u,
+                settings: exponent_settings(self.settings, motion.span),
             })
         };
         let mut runs: Vec<_> = waiting.iter().map(|_| None).collect();
         let mut done = |key: usize, run| runs[key] = Some(run);
         lyapunov_in_lanes::<_, F, N, 1, D>(control, &mut next, &mut done, self.stopped);
-        for (mut parked, run) in waiting.into_iter().zip(runs) {
+        for (mut motion, run) in waiting.into_iter().zip(runs) {
             let Some(run) = run else { continue }; // stopped
             let ask = run.and_then(|run| {
-                parked.u.copy_from_slice(&run.shape);
-                parked.search.measured(parked.candidate.body.as_ref(), &run, &mut Stop(self.stopped))
+                motion.u.copy_from_slice(&run.shape);
+                motion.search.measured(motion.candidate.body.as_ref(), &run, &mut Stop(self.stopped))
             });
-            let again = self.file(parked, ask);
+            let again = self.file(motion, ask);
             self.ready.extend(again);
         }
     }
 
     /// A look that a lane could not finish, by a single orbit from where it began.
-    fn alone(&mut self, parked: &mut Parked<F, N>, begun: (f64, [f64; N], Option<Pace>)) -> Result<Ask> {
+    fn alone(
+        &mut self,
+        motion: &mut Classification<F, N>,
+        begun: (f64, [f64; N], Option<Pace>),
+    ) -> Result<Ask> {
         let (t, u, pace) = begun;
-        let body = parked.candidate.body.as_ref();
+        let body = motion.candidate.body.as_ref();
         let mut orbit = Orbit::resume(body, self.settings.control, t, &u, pace)?;
-        let request = self.settings.request(t + parked.span, N);
-        let look = Look::take(body, &mut orbit, parked.span, &request, &mut Stop(self.stopped))?;
-        parked.search.looked(body, look, &mut Stop(self.stopped))
+        let request = self.settings.request(t + motion.span, N);
+        let look = Look::take(body, &mut orbit, motion.span, &request, &mut Stop(self.stopped))?;
+        motion.search.looked(body, look, &mut Stop(self.stopped))
     }
 }
 
@@ -174,7 +181,7 @@ impl AsRef<dyn Equivariant> for Borrowed<'_> {
 
 /// The looks of one thread, until all are decided or wait for an exponent.
 struct Looks<'l, 'd, F, const N: usize> {
-    desk: &'l mut Desk<'d, F, N>,
+    scheduler: &'l mut Scheduler<'d, F, N>,
 }
 
 impl<F: InLanes + Clone, const N: usize> LaneKernel for Looks<'_, '_, F, N> {
@@ -182,43 +189,43 @@ impl<F: InLanes + Clone, const N: usize> LaneKernel for Looks<'_, '_, F, N> {
 
     #[inline(always)]
     fn run<L: Bundle>(self) {
-        let StepControl::Adaptive { rtol, atol } = self.desk.settings.control else { return };
-        let Some(first) = self.desk.take() else { return };
-        let norm = self.desk.settings.escape_norm;
-        let mut crew = Crew::<L, F, N> {
+        let StepControl::Adaptive { rtol, atol } = self.scheduler.settings.control else { return };
+        let Some(first) = self.scheduler.take() else { return };
+        let norm = self.scheduler.settings.escape_norm;
+        let mut lanes = SearchLanes::<L, F, N> {
             field: first.candidate.field.bundle(),
-            desk: self.desk,
+            scheduler: self.scheduler,
             first: Some(first),
-            riding: std::array::from_fn(|_| None),
+            in_lanes: std::array::from_fn(|_| None),
             singles: std::array::from_fn(|_| None),
-            sight: LaneSight::new(),
+            observer: LaneObserver::new(),
             escape: L::splat(norm * norm),
             steps: 0,
         };
-        run_adaptive::<Dop853, L, N, _>(&mut crew, (rtol, atol));
+        run_adaptive::<Dop853, L, N, _>(&mut lanes, (rtol, atol));
     }
 }
 
 /// A search in its lane, and where its look began.
-struct Rider<F, const N: usize> {
-    parked: Parked<F, N>,
+struct InLane<F, const N: usize> {
+    motion: Classification<F, N>,
     begun: (f64, [f64; N], Option<Pace>),
 }
 
 /// The searches in the lanes.
-struct Crew<'l, 'd, L: Bundle, F: InLanes, const N: usize> {
+struct SearchLanes<'l, 'd, L: Bundle, F: InLanes, const N: usize> {
     field: F::Field<L>,
-    desk: &'l mut Desk<'d, F, N>,
-    first: Option<Parked<F, N>>,
-    riding: [Option<Rider<F, N>>; 16],
+    scheduler: &'l mut Scheduler<'d, F, N>,
+    first: Option<Classification<F, N>>,
+    in_lanes: [Option<InLane<F, N>>; 16],
     /// The fields of the lanes, one by one.
     singles: [Option<F>; 16],
-    sight: LaneSight<L, N>,
+    observer: LaneObserver<L, N>,
     escape: L,
     steps: u32,
 }
 
-impl<L: Bundle, F: InLanes + Clone, const N: usize> Members<L, N> for Crew<'_, '_, L, F, N> {
+impl<L: Bundle, F: InLanes + Clone, const N: usize> LaneTask<L, N> for SearchLanes<'_, '_, L, F, N> {
     type Field = F::Field<L>;
     const WATCHES: bool = true;
 
@@ -228,19 +235,19 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> Members<L, N> for Crew<'_, '
     }
 
     fn enter(&mut self, lane: usize) -> Option<Entry<N>> {
-        let parked = self.first.take().or_else(|| self.desk.take())?;
-        parked.candidate.field.put(lane, &mut self.field);
-        self.singles[lane] = Some(parked.candidate.field.clone());
-        let Parked { t, u, pace, span, .. } = parked;
-        self.sight.begin(lane, parked.candidate.body.as_ref(), t, &u);
-        self.riding[lane] = Some(Rider { parked, begun: (t, u, pace) });
+        let motion = self.first.take().or_else(|| self.scheduler.take())?;
+        motion.candidate.field.put(lane, &mut self.field);
+        self.singles[lane] = Some(motion.candidate.field.clone());
+        let Classification { t, u, pace, span, .. } = motion;
+        self.observer.begin(lane, motion.candidate.body.as_ref(), t, &u);
+        self.in_lanes[lane] = Some(InLane { motion, begun: (t, u, pace) });
         Some(Entry { t, u, t_end: t + span, pace })
     }
 
     #[inline(always)]
     fn outside(&mut self, u: &[L; N]) -> Mask {
         self.steps = self.steps.wrapping_add(1);
-        if self.steps.is_multiple_of(1024) && (self.desk.stopped)() {
+        if self.steps.is_multiple_of(1024) && (self.scheduler.stopped)() {
             return Mask::first(L::LANES);
         }
         let mut norm = L::splat(0.0);
@@ -252,30 +259,30 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> Members<L, N> for Crew<'_, '
 
     #[inline(always)]
     fn stepped(&mut self, step: &mut Stepped<'_, L, N, F::Field<L>>) -> Mask {
-        self.sight.stepped(step, &self.field, &self.singles);
+        self.observer.stepped(step, &self.field, &self.singles);
         Mask::default()
     }
 
-    fn leave(&mut self, lane: usize, leaving: &Leaving<N>) -> Turn {
-        let (rider, seen) = (self.riding[lane].take(), self.sight.end(lane));
-        let (Some(Rider { mut parked, begun }), Some(seen)) = (rider, seen) else { return Turn::Done };
-        if (self.desk.stopped)() {
-            return Turn::Done;
+    fn leave(&mut self, lane: usize, leaving: &Leaving<N>) -> Then {
+        let (in_lane, seen) = (self.in_lanes[lane].take(), self.observer.end(lane));
+        let (Some(InLane { mut motion, begun }), Some(seen)) = (in_lane, seen) else { return Then::Leave };
+        if (self.scheduler.stopped)() {
+            return Then::Leave;
         }
         let Leaving { why, t, u, pace, .. } = *leaving;
         let work = leaving.steps + leaving.rejected;
-        let ask = if why != Why::Arrived || work >= self.desk.settings.max_steps {
-            self.desk.alone(&mut parked, begun)
+        let ask = if why != Why::Arrived || work >= self.scheduler.settings.max_steps {
+            self.scheduler.alone(&mut motion, begun)
         } else {
             let look = seen.look((begun.0, t), Outcome::Completed { t }, u.to_vec());
-            parked.search.looked(parked.candidate.body.as_ref(), look, &mut Stop(self.desk.stopped))
+            motion.search.looked(motion.candidate.body.as_ref(), look, &mut Stop(self.scheduler.stopped))
         };
-        (parked.t, parked.u, parked.pace) = (t, u, Some(pace));
-        let Some(parked) = self.desk.file(parked, ask) else { return Turn::Done };
-        let span = parked.span;
-        self.sight.begin(lane, parked.candidate.body.as_ref(), t, &u);
-        self.riding[lane] = Some(Rider { parked, begun: (t, u, Some(pace)) });
-        Turn::On(t + span)
+        (motion.t, motion.u, motion.pace) = (t, u, Some(pace));
+        let Some(motion) = self.scheduler.file(motion, ask) else { return Then::Leave };
+        let span = motion.span;
+        self.observer.begin(lane, motion.candidate.body.as_ref(), t, &u);
+        self.in_lanes[lane] = Some(InLane { motion, begun: (t, u, Some(pace)) });
+        Then::Continue(t + span)
     }
 }
 

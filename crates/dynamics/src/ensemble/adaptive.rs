@@ -1,6 +1,6 @@
 //! Error control in lanes: each lane accepts, repeats and sizes its own steps.
 
-use super::lane::{Entry, Landed, Leaving, Members, Pace, Stepped, Turn, Why};
+use super::lane::{AfterStep, Entry, LaneTask, Leaving, Pace, Stepped, Then, Why};
 use crate::control::{Controller, Tolerance, pair_error};
 use crate::scalar::MOST_LANES;
 use crate::steppers::tableau::ErrorEstimate;
@@ -12,7 +12,7 @@ use std::marker::PhantomData;
 ///
 /// Call it in a [`crate::simd::LaneKernel`]. Nothing is allocated.
 #[inline(always)]
-pub fn run_adaptive<M: Method, B: Bundle, const D: usize, C: Members<B, D>>(
+pub fn run_adaptive<M: Method, B: Bundle, const D: usize, C: LaneTask<B, D>>(
     members: &mut C,
     (rtol, atol): (f64, f64),
 ) {
@@ -64,7 +64,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
 
     /// Tries one step in every lane.
     #[inline(always)]
-    fn advance<M: Method, C: Members<B, D>>(&mut self, members: &mut C, slopes: &mut StepSlopes<B, D>) {
+    fn advance<M: Method, C: LaneTask<B, D>>(&mut self, members: &mut C, slopes: &mut StepSlopes<B, D>) {
         let remaining = self.t_end - self.t;
         let last = remaining.at_most(self.h);
         // Two equal steps to the end rather than a full one and a crumb.
@@ -101,8 +101,8 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         for i in 0..D {
             slopes.k[0][i] = B::select(accepted, slopes.k[const { M::TABLEAU.stages() }][i], slopes.k[0][i]);
         }
-        if C::LANDS {
-            let anew = members.landed(&mut Landed {
+        if C::AFTER_STEP {
+            let anew = members.after_step(&mut AfterStep {
                 accepted: accepted & !called,
                 t: self.t,
                 t_end: &mut self.t_end,
@@ -117,7 +117,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         }
         let arrived = self.t_end.at_most(self.t) & self.active;
         if (failed | called | arrived).any() {
-            self.turn::<C>(members, failed, called, arrived);
+            self.stop::<C>(members, failed, called, arrived);
         }
     }
 
@@ -134,16 +134,16 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
 
     /// Lets the members of the lanes that have come to a stop say what they do next.
     #[inline(always)]
-    fn turn<C: Members<B, D>>(&mut self, members: &mut C, failed: Mask, called: Mask, arrived: Mask) {
+    fn stop<C: LaneTask<B, D>>(&mut self, members: &mut C, failed: Mask, called: Mask, arrived: Mask) {
         for lane in (failed | called | arrived).lanes() {
             let why = match (failed.has(lane), called.has(lane)) {
                 (true, _) => Why::Failed,
-                (_, true) => Why::Called,
+                (_, true) => Why::Requested,
                 _ => Why::Arrived,
             };
             match members.leave(lane, &self.leaving(lane, why)) {
-                Turn::Done => self.vacant |= Mask::only(lane),
-                Turn::On(t_end) => self.t_end = self.t_end.with_lane(lane, t_end),
+                Then::Leave => self.vacant |= Mask::only(lane),
+                Then::Continue(t_end) => self.t_end = self.t_end.with_lane(lane, t_end),
             }
         }
         self.active &= !self.vacant;
@@ -170,7 +170,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
 
     /// Evaluates the slopes of the lanes in `mask`.
     #[inline(always)]
-    fn slopes_of<C: Members<B, D>>(&self, members: &C, mask: Mask, rates: &mut [B; D]) {
+    fn slopes_of<C: LaneTask<B, D>>(&self, members: &C, mask: Mask, rates: &mut [B; D]) {
         let mut slope = *rates;
         members.field().eval(self.t, &self.u, &mut slope);
         for i in 0..D {
@@ -180,7 +180,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
 
     /// Gives the vacant lanes to the next members.
     #[inline(always)]
-    fn fill<M: Method, C: Members<B, D>>(&mut self, members: &mut C, slopes: &mut StepSlopes<B, D>) {
+    fn fill<M: Method, C: LaneTask<B, D>>(&mut self, members: &mut C, slopes: &mut StepSlopes<B, D>) {
         let (mut entered, mut paces) = (Mask::default(), [None; MOST_LANES]);
         for lane in std::mem::take(&mut self.vacant).lanes() {
             let Some(Entry { t, u, t_end, pace }) = members.enter(lane) else { continue };

@@ -1,21 +1,21 @@
-//! What the lanes of an ensemble ask of its members, and tell them.
+//! What is computed along the orbits in lanes: a task, its questions and its answers.
 
 use crate::steppers::unrolled::StepSlopes;
 use crate::{Bundle, Mask, VectorField};
 
-/// The members of an ensemble: a queue of initial-value problems, and what is done with each.
+/// A task for lanes: a queue of initial-value problems (the members), and what is done with each.
 ///
 /// `D` is the length of the state. Everything called once per step is written over the bundle; what is called for a single
 /// lane happens rarely. Implementations must be `#[inline(always)]` where they are called per step.
-pub trait Members<B: Bundle, const D: usize> {
+pub trait LaneTask<B: Bundle, const D: usize> {
     /// The field of all lanes, with each lane's own parameters.
     type Field: VectorField<B>;
 
-    /// Whether [`Members::stepped`] wants to be called.
+    /// Whether [`LaneTask::stepped`] wants to be called.
     const WATCHES: bool = false;
 
-    /// Whether [`Members::landed`] wants to be called.
-    const LANDS: bool = false;
+    /// Whether [`LaneTask::after_step`] wants to be called.
+    const AFTER_STEP: bool = false;
 
     /// The field.
     fn field(&self) -> &Self::Field;
@@ -24,14 +24,13 @@ pub trait Members<B: Bundle, const D: usize> {
     /// is left.
     fn enter(&mut self, lane: usize) -> Option<Entry<D>>;
 
-    /// After each step of the bundle. Lanes of the returned mask leave as [`Why::Called`], at the end of their step.
+    /// After each step of the bundle. Lanes of the returned mask leave as [`Why::Requested`], at the end of their step.
     #[inline(always)]
     fn stepped(&mut self, _step: &mut Stepped<'_, B, D, Self::Field>) -> Mask {
         Mask::default()
     }
 
-    /// Lanes that shall leave as [`Why::Called`] for the state they are in: asked after every adaptive step, and after
-    /// some tens of fixed ones.
+    /// Lanes that shall leave as [`Why::Requested`] for the state they are in: asked after every step.
     #[inline(always)]
     fn outside(&mut self, _u: &[B; D]) -> Mask {
         Mask::default()
@@ -40,12 +39,12 @@ pub trait Members<B: Bundle, const D: usize> {
     /// After each adaptive step: may give lanes that accepted theirs another state, with the rates there, and another end. The
     /// rates of the lanes of the returned mask are evaluated anew.
     #[inline(always)]
-    fn landed(&mut self, _landed: &mut Landed<'_, B, D>) -> Mask {
+    fn after_step(&mut self, _landed: &mut AfterStep<'_, B, D>) -> Mask {
         Mask::default()
     }
 
     /// The member in `lane` has come to a stop. What it does next.
-    fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Turn;
+    fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Then;
 }
 
 /// Where a member starts.
@@ -73,8 +72,8 @@ pub struct Pace {
 pub enum Why {
     /// It is at the end of its time span.
     Arrived,
-    /// Its members asked for it, see [`Members::stepped`].
-    Called,
+    /// Its members asked for it, see [`LaneTask::stepped`].
+    Requested,
     /// It has no next step: the size that error control asks for is below the resolution of time, or a fixed step led to a
     /// state that is not finite. Where exactly and why, [`crate::drive`] says of a single orbit.
     Failed,
@@ -99,15 +98,15 @@ pub struct Leaving<const D: usize> {
 
 /// What a member that has come to a stop does next.
 #[derive(Clone, Copy, Debug)]
-pub enum Turn {
+pub enum Then {
     /// Goes on to this time, as if it had not stopped.
-    On(f64),
+    Continue(f64),
     /// Makes room for the next member.
-    Done,
+    Leave,
 }
 
 /// Where the lanes stand after a step.
-pub struct Landed<'s, B, const D: usize> {
+pub struct AfterStep<'s, B, const D: usize> {
     /// Lanes whose step was accepted, and that go on.
     pub accepted: Mask,
     /// Time.

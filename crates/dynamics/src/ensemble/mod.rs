@@ -1,8 +1,8 @@
-//! Many orbits in lanes: eight at a time, each with its own parameters, time, step size and fate.
+//! Many orbits in lanes: eight at a time, each with its own parameters, time, step size and outcome.
 //!
 //! An ensemble is a queue of members. Each lane of a bundle holds one; a lane whose member has finished, escaped or failed
-//! is given the next one from the queue, so no hard orbit stalls the others. The members say what is done with their
-//! orbits ([`Members`]): what is watched is watched in the lanes, and no orbit is stored.
+//! is given the next one from the queue, so no hard orbit stalls the others. A [`LaneTask`] says what is computed along the
+//! orbits: it is computed in the lanes, and no orbit is stored.
 //!
 //! A lane computes the bits that [`crate::Orbit`] computes for the same member, with the same sequence of steps, for every
 //! width and instruction set (`tests/ensemble.rs`).
@@ -15,6 +15,6 @@ mod tangent;
 
 pub use adaptive::run_adaptive;
 pub use dense::LaneDense;
-pub use lane::{Entry, Landed, Leaving, Members, Pace, Stepped, Turn, Why};
+pub use lane::{AfterStep, Entry, LaneTask, Leaving, Pace, Stepped, Then, Why};
 pub use propagate::{InLanes, Member, Propagation, Queue, propagate, propagate_on};
 pub use tangent::LaneTangent;

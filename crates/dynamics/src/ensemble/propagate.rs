@@ -1,6 +1,6 @@
-//! Members from their starts to given times, in the plane.
+//! LaneTask from their starts to given times, in the plane.
 
-use super::{Entry, Leaving, Members, Turn, Why, run_adaptive};
+use super::{Entry, LaneTask, Leaving, Then, Why, run_adaptive};
 use crate::scalar::MOST_LANES;
 use crate::simd::{InstructionSet, LaneKernel, run_lanes_on, run_wide};
 use crate::steppers::unrolled::Dop853;
@@ -127,7 +127,7 @@ impl<B: Bundle, F: InLanes, const D: usize> LaneMembers<'_, '_, B, F, D> {
     }
 }
 
-impl<B: Bundle, F: InLanes, const D: usize> Members<B, D> for LaneMembers<'_, '_, B, F, D> {
+impl<B: Bundle, F: InLanes, const D: usize> LaneTask<B, D> for LaneMembers<'_, '_, B, F, D> {
     type Field = InPlane<F::Field<B>>;
 
     #[inline(always)]
@@ -164,20 +164,20 @@ impl<B: Bundle, F: InLanes, const D: usize> Members<B, D> for LaneMembers<'_, '_
         self.escape.less(norm)
     }
 
-    fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Turn {
-        let Some(mut track) = self.tracks[lane].take() else { return Turn::Done };
+    fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Then {
+        let Some(mut track) = self.tracks[lane].take() else { return Then::Leave };
         if leaving.why != Why::Arrived {
             if !(self.queue.stopped)() {
                 (self.queue.done)(track.key, None);
             }
-            return Turn::Done;
+            return Then::Leave;
         }
         track.states.push(leaving.u);
         if let Some(&t_end) = self.times.get(track.states.len()) {
             self.tracks[lane] = Some(track);
-            return Turn::On(t_end);
+            return Then::Continue(t_end);
         }
         (self.queue.done)(track.key, Some(track.states));
-        Turn::Done
+        Then::Leave
     }
 }

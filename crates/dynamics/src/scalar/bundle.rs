@@ -89,7 +89,7 @@ impl Not for Mask {
     }
 }
 
-/// Some real numbers side by side, one orbit each: `f64` itself (one lane), [`super::Lanes`], [`crate::simd::Packed`].
+/// Some real numbers side by side, one orbit each: `f64` itself (one lane), [`crate::Lanes`], [`crate::simd::Packed`].
 ///
 /// Whatever is written over a bundle computes in each lane the bits that it computes over `f64`.
 pub trait Bundle: Scalar<Real = Self> {

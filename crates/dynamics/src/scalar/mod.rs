@@ -10,12 +10,10 @@
 mod bundle;
 mod complex;
 mod dual;
-mod lanes;
 
 pub use bundle::{Bundle, MOST_LANES, Mask};
 pub use complex::Complex;
 pub use dual::Dual;
-pub use lanes::Lanes;
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};

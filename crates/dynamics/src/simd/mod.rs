@@ -7,13 +7,17 @@
 //!
 //! A multiplication is never fused with an addition, so every machine and every width computes the same bits.
 
+#[cfg(target_arch = "aarch64")]
+mod neon;
 mod packed;
+mod portable;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
 pub use packed::{Packed, Registers};
+pub use portable::Lanes;
 
-use crate::scalar::{Bundle, Lanes};
+use crate::scalar::Bundle;
 
 /// A piece of work worth vector instructions. `run` and all that it calls must be `#[inline(always)]` functions (not
 /// closures), or they are compiled for the smallest machine.
@@ -39,6 +43,8 @@ pub trait LaneKernel {
 pub enum InstructionSet {
     /// What every processor of this architecture has: one lane.
     Portable,
+    /// Pairs of 128-bit registers of 64-bit Arm processors, four lanes each.
+    Neon,
     /// 256-bit registers, four lanes each.
     Avx2,
     /// 512-bit registers, eight lanes each.
@@ -53,7 +59,11 @@ impl InstructionSet {
         {
             x86::widest()
         }
-        #[cfg(not(target_arch = "x86_64"))]
+        #[cfg(target_arch = "aarch64")]
+        {
+            Self::Neon
+        }
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
         {
             Self::Portable
         }
@@ -63,7 +73,9 @@ impl InstructionSet {
     #[must_use]
     pub fn available() -> Vec<Self> {
         let widest = Self::widest();
-        [Self::Portable, Self::Avx2, Self::Avx512].into_iter().filter(|&set| set <= widest).collect()
+        let arm = cfg!(target_arch = "aarch64");
+        let there = |set: &Self| *set <= widest && (arm || *set != Self::Neon);
+        [Self::Portable, Self::Neon, Self::Avx2, Self::Avx512].into_iter().filter(there).collect()
     }
 }
 
@@ -99,8 +111,15 @@ pub fn run_wide<K: LaneKernel>(kernel: K) -> Option<K::Output> {
     if has_lanes() {
         return Some(x86::run_lanes(InstructionSet::widest(), kernel));
     }
-    let _ = kernel;
-    None
+    #[cfg(target_arch = "aarch64")]
+    {
+        Some(kernel.run::<Packed<neon::Neon>>())
+    }
+    #[cfg(not(target_arch = "aarch64"))]
+    {
+        let _ = kernel;
+        None
+    }
 }
 
 /// Whether this machine has vector registers that lanes are compiled for.
@@ -114,6 +133,10 @@ pub fn run_lanes_on<K: LaneKernel>(set: InstructionSet, kernel: K) -> K::Output 
     #[cfg(target_arch = "x86_64")]
     if set.min(InstructionSet::widest()) > InstructionSet::Portable {
         return x86::run_lanes(set, kernel);
+    }
+    #[cfg(target_arch = "aarch64")]
+    if set > InstructionSet::Portable {
+        return kernel.run::<Packed<neon::Neon>>();
     }
     let _ = set;
     kernel.run::<Lanes<1>>()

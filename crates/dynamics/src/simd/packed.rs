@@ -148,37 +148,26 @@ impl<R: Registers> Bundle for Packed<R> {
     }
 }
 
-impl<R: Registers> Add for Packed<R> {
-    type Output = Self;
+impl<R: Registers> From<R> for Packed<R> {
     #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self(self.0.add(other.0))
+    fn from(registers: R) -> Self {
+        Self(registers)
     }
 }
 
-impl<R: Registers> Sub for Packed<R> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self(self.0.sub(other.0))
-    }
-}
+macro_rules! operators {
+    ($($operator:ident $method:ident),*) => {$(
+        impl<R: Registers> $operator for Packed<R> {
+            type Output = Self;
 
-impl<R: Registers> Mul for Packed<R> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Self(self.0.mul(other.0))
-    }
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(self.0.$method(other.0))
+            }
+        }
+    )*};
 }
-
-impl<R: Registers> Div for Packed<R> {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        Self(self.0.div(other.0))
-    }
-}
+operators!(Add add, Sub sub, Mul mul, Div div);
 
 impl<R: Registers> Mul<f64> for Packed<R> {
     type Output = Self;

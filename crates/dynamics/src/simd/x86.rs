@@ -35,9 +35,9 @@ pub(super) fn widest() -> InstructionSet {
 pub(super) fn run<K: Kernel>(kernel: K) -> K::Output {
     // 256 bits also where there are 512: short loops over slices gain nothing from wider registers.
     match widest() {
-        InstructionSet::Portable => kernel.run(),
         // SAFETY: `widest` has found AVX2 and FMA.
         InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { loops(kernel) },
+        _ => kernel.run(),
     }
 }
 
@@ -65,70 +65,83 @@ fn avx2<K: LaneKernel>(kernel: K) -> K::Output {
     kernel.run::<Packed<Ymm>>()
 }
 
+/// [`Registers`] for a register of `$lanes` lanes: what both widths have alike, and below what they have not.
+///
+/// SAFETY of every block: a value of `$name` exists only inside the function that was compiled for its instructions (see above). Loads
+/// and stores stay inside the slices, which are cut to the lanes first.
+macro_rules! registers {
+    ($name:ident, $lanes:literal, $load:ident $store:ident $splat:ident $add:ident $sub:ident $mul:ident $div:ident
+        $sqrt:ident $max:ident $min:ident, $($rest:tt)*) => {
+        impl Registers for $name {
+            const LANES: usize = $lanes;
+
+            #[inline(always)]
+            fn load(lanes: &[f64]) -> Self {
+                unsafe { Self($load(lanes[..$lanes].as_ptr())) }
+            }
+
+            #[inline(always)]
+            fn store(self, lanes: &mut [f64]) {
+                unsafe { $store(lanes[..$lanes].as_mut_ptr(), self.0) };
+            }
+
+            #[inline(always)]
+            fn splat(value: f64) -> Self {
+                unsafe { Self($splat(value)) }
+            }
+
+            #[inline(always)]
+            fn add(self, other: Self) -> Self {
+                unsafe { Self($add(self.0, other.0)) }
+            }
+
+            #[inline(always)]
+            fn sub(self, other: Self) -> Self {
+                unsafe { Self($sub(self.0, other.0)) }
+            }
+
+            #[inline(always)]
+            fn mul(self, other: Self) -> Self {
+                unsafe { Self($mul(self.0, other.0)) }
+            }
+
+            #[inline(always)]
+            fn div(self, other: Self) -> Self {
+                unsafe { Self($div(self.0, other.0)) }
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                unsafe { Self($sqrt(self.0)) }
+            }
+
+            // The instruction gives its second operand where neither is larger, or one is not a number.
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                unsafe { Self($max(other.0, self.0)) }
+            }
+
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                unsafe { Self($min(other.0, self.0)) }
+            }
+
+            $($rest)*
+        }
+    };
+}
+
 /// One 512-bit register.
 #[derive(Clone, Copy)]
 #[repr(transparent)]
 struct Zmm(__m512d);
 
-// SAFETY of every block: a `Zmm` exists only inside `avx512` (see above), so the processor has the instructions. Loads and
-// stores stay inside the slices, which are cut to the lanes first.
-impl Registers for Zmm {
-    const LANES: usize = 8;
-
-    #[inline(always)]
-    fn load(lanes: &[f64]) -> Self {
-        unsafe { Self(_mm512_loadu_pd(lanes[..8].as_ptr())) }
-    }
-
-    #[inline(always)]
-    fn store(self, lanes: &mut [f64]) {
-        unsafe { _mm512_storeu_pd(lanes[..8].as_mut_ptr(), self.0) };
-    }
-
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        unsafe { Self(_mm512_set1_pd(value)) }
-    }
-
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        unsafe { Self(_mm512_add_pd(self.0, other.0)) }
-    }
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        unsafe { Self(_mm512_sub_pd(self.0, other.0)) }
-    }
-
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        unsafe { Self(_mm512_mul_pd(self.0, other.0)) }
-    }
-
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        unsafe { Self(_mm512_div_pd(self.0, other.0)) }
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        unsafe { Self(_mm512_sqrt_pd(self.0)) }
-    }
+registers! { Zmm, 8, _mm512_loadu_pd _mm512_storeu_pd _mm512_set1_pd _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd
+    _mm512_sqrt_pd _mm512_max_pd _mm512_min_pd,
 
     #[inline(always)]
     fn abs(self) -> Self {
         unsafe { Self(_mm512_abs_pd(self.0)) }
-    }
-
-    // The instruction gives its second operand where neither is larger, or one is not a number.
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        unsafe { Self(_mm512_max_pd(other.0, self.0)) }
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        unsafe { Self(_mm512_min_pd(other.0, self.0)) }
     }
 
     #[inline(always)]
@@ -153,65 +166,12 @@ impl Registers for Zmm {
 #[repr(transparent)]
 struct Ymm(__m256d);
 
-// SAFETY of every block: a `Ymm` exists only inside `avx2` (see above), so the processor has the instructions. Loads and
-// stores stay inside the slices, which are cut to the lanes first.
-impl Registers for Ymm {
-    const LANES: usize = 4;
-
-    #[inline(always)]
-    fn load(lanes: &[f64]) -> Self {
-        unsafe { Self(_mm256_loadu_pd(lanes[..4].as_ptr())) }
-    }
-
-    #[inline(always)]
-    fn store(self, lanes: &mut [f64]) {
-        unsafe { _mm256_storeu_pd(lanes[..4].as_mut_ptr(), self.0) };
-    }
-
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        unsafe { Self(_mm256_set1_pd(value)) }
-    }
-
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        unsafe { Self(_mm256_add_pd(self.0, other.0)) }
-    }
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        unsafe { Self(_mm256_sub_pd(self.0, other.0)) }
-    }
-
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        unsafe { Self(_mm256_mul_pd(self.0, other.0)) }
-    }
-
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        unsafe { Self(_mm256_div_pd(self.0, other.0)) }
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        unsafe { Self(_mm256_sqrt_pd(self.0)) }
-    }
+registers! { Ymm, 4, _mm256_loadu_pd _mm256_storeu_pd _mm256_set1_pd _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd
+    _mm256_sqrt_pd _mm256_max_pd _mm256_min_pd,
 
     #[inline(always)]
     fn abs(self) -> Self {
         unsafe { Self(_mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0)) }
-    }
-
-    // The instruction gives its second operand where neither is larger, or one is not a number.
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        unsafe { Self(_mm256_max_pd(other.0, self.0)) }
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        unsafe { Self(_mm256_min_pd(other.0, self.0)) }
     }
 
     #[inline(always)]

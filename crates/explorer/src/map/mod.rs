@@ -6,9 +6,9 @@ mod store;
 mod work;
 
 use crate::answers::{Answers, Gone};
-use crate::desk::{Desk, lock};
 use crate::export::{Made, Maker};
 use crate::protocol::MapWindow;
+use crate::worker::{Worker, lock};
 use motiform_lab::draw::{exponents, phase_diagram, sheet};
 use motiform_lab::scan::{CellSummary, Row, rows_to_csv};
 use motiform_study::Study;
@@ -21,7 +21,7 @@ const NICE: i32 = 10;
 
 /// The map of a session.
 pub(crate) struct Map {
-    desk: Desk<Job>,
+    worker: Worker<Job>,
     sight: Arc<Mutex<Sight>>,
 }
 
@@ -35,21 +35,21 @@ impl Map {
     pub(crate) fn new(answers: Answers) -> std::io::Result<Self> {
         let sight = Arc::new(Mutex::new(Sight::default()));
         let shared = Arc::clone(&sight);
-        let desk = Desk::new("map", NICE, move |job: Job, current| {
+        let worker = Worker::new("map", NICE, move |job: Job, current| {
             // A page that has gone takes its session along.
             let _ = work::compute(&job, &shared, current, &answers);
         })?;
-        Ok(Self { desk, sight })
+        Ok(Self { worker, sight })
     }
 
     /// Computes a window, in place of the one under way.
     pub(crate) fn show(&self, job: Job) {
-        self.desk.put(job);
+        self.worker.put(job);
     }
 
     /// Stops computing, for the answer is no longer wanted.
     pub(crate) fn stop(&self) {
-        self.desk.clear();
+        self.worker.clear();
     }
 
     /// Whether the map in sight has this parameter as an axis.

@@ -3,8 +3,8 @@
 use super::sight::Sight;
 use super::{Done, Job};
 use crate::answers::{Answers, Gone};
-use crate::desk::{Current, lock};
 use crate::frames::{self, Cell};
+use crate::worker::{Current, lock};
 use motiform_analysis::regime::{Regime, Verdict};
 use motiform_figures::{BoundaryLine, LineStyle};
 use motiform_lab::draw::boundary_lines;

@@ -51,7 +51,7 @@ impl<const N: usize> CellField<Lanes<N>> {
     #[must_use]
     pub fn bundle(each: &[CellField<f64>; N]) -> Self {
         let gather =
-            |get: &dyn Fn(&CellField<f64>) -> f64| Lanes(std::array::from_fn(|lane| get(&each[lane])));
+            |get: &dyn Fn(&CellField<f64>) -> f64| Lanes::from(std::array::from_fn(|lane| get(&each[lane])));
         let stretched = each.iter().any(|field| field.stretching.is_some());
         Self {
             rates: (0..each[0].rates.len()).map(|n| gather(&|field| field.rates[n])).collect(),

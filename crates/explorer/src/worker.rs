@@ -1,12 +1,12 @@
-//! A desk: one thread, and the last job put on it. Whatever is put there makes what lay there stale, at once.
+//! A worker: one thread, and the latest job given to it. A new job makes the one before it stale at once.
 
 use motiform_lab::simulate::Monitor;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 
-/// A thread that works at the last job only.
-pub(crate) struct Desk<J> {
+/// A thread that works on the latest job only.
+pub(crate) struct Worker<J> {
     shared: Arc<Shared<J>>,
     thread: Option<JoinHandle<()>>,
 }
@@ -23,7 +23,7 @@ struct Slot<J> {
     closed: bool,
 }
 
-/// Whether a job still counts. A [`Monitor`], so that every computation of the study layer listens to it.
+/// Whether a job still counts. A [`Monitor`], so that every computation listens to it.
 pub(crate) struct Current<'d> {
     order: &'d AtomicU64,
     mine: u64,
@@ -35,8 +35,8 @@ impl Monitor for Current<'_> {
     }
 }
 
-impl<J: Send + 'static> Desk<J> {
-    /// A desk at which `work` is done, and waits (`nice` above 0) for whoever draws pictures.
+impl<J: Send + 'static> Worker<J> {
+    /// A worker that does `work`, at a lower priority (`nice` above 0) than the threads that draw.
     ///
     /// # Errors
     /// The system gives no thread.
@@ -47,23 +47,23 @@ impl<J: Send + 'static> Desk<J> {
     ) -> std::io::Result<Self> {
         let slot = Mutex::new(Slot { job: None, closed: false });
         let shared = Arc::new(Shared { slot, bell: Condvar::new(), order: AtomicU64::new(0) });
-        let desk = Arc::clone(&shared);
+        let worker = Arc::clone(&shared);
         let run = move || {
             give_way(nice);
-            while let Some((job, mine)) = desk.next() {
-                work(job, &Current { order: &desk.order, mine });
+            while let Some((job, mine)) = worker.next() {
+                work(job, &Current { order: &worker.order, mine });
             }
         };
         let thread = std::thread::Builder::new().name(name.to_owned()).spawn(run)?;
         Ok(Self { shared, thread: Some(thread) })
     }
 
-    /// Puts a job on the desk in place of whatever is there or under way.
+    /// Puts a job on the worker in place of whatever is there or under way.
     pub(crate) fn put(&self, job: J) {
         self.shared.order(Some(job), false);
     }
 
-    /// Clears the desk.
+    /// Clears the worker.
     pub(crate) fn clear(&self) {
         self.shared.order(None, false);
     }
@@ -93,7 +93,7 @@ impl<J> Shared<J> {
         self.bell.notify_one();
     }
 
-    /// Waits for a job; `None` when the desk is closed.
+    /// Waits for a job; `None` when the worker is closed.
     fn next(&self) -> Option<(J, u64)> {
         let mut slot = lock(&self.slot);
         loop {
@@ -108,7 +108,7 @@ impl<J> Shared<J> {
     }
 }
 
-impl<J> Drop for Desk<J> {
+impl<J> Drop for Worker<J> {
     /// Stops what is under way, and waits for it: no thread outlives its session.
     fn drop(&mut self) {
         self.shared.order(None, true);
@@ -129,24 +129,24 @@ mod tests {
     #[test]
     fn the_last_job_is_the_only_one_that_is_finished() {
         let (told, hear) = mpsc::channel();
-        let desk = Desk::new("test", 0, move |job: u32, current| {
+        let worker = Worker::new("test", 0, move |job: u32, current| {
             while job != 9 && !current.stopped() {
                 std::thread::sleep(Duration::from_millis(1));
             }
             told.send((job, current.stopped())).unwrap();
         })
         .unwrap();
-        desk.put(1);
+        worker.put(1);
         assert!(hear.recv_timeout(Duration::from_millis(20)).is_err(), "job 1 goes on");
-        desk.put(9);
+        worker.put(9);
         assert_eq!(hear.recv().unwrap(), (1, true));
         assert_eq!(hear.recv().unwrap(), (9, false));
-        desk.put(2);
+        worker.put(2);
         std::thread::sleep(Duration::from_millis(20));
-        desk.clear();
+        worker.clear();
         assert_eq!(hear.recv().unwrap(), (2, true));
-        desk.put(3);
-        drop(desk); // ends the job and the thread
+        worker.put(3);
+        drop(worker); // ends the job and the thread
         assert!(hear.iter().all(|(job, stopped)| job == 3 && stopped));
     }
 }

@@ -26,7 +26,7 @@ pub(crate) struct Stretch {
 
 /// A tangent flow under way, stretch by stretch: whoever runs the flow asks how far the next stretch goes.
 #[derive(Clone, Debug)]
-pub(crate) struct Protocol {
+pub(crate) struct Renormalisation {
     settings: LyapunovSettings,
     dim: usize,
     /// Usual length of a stretch: chosen while the flow settles, then kept.
@@ -46,7 +46,7 @@ pub(crate) struct Protocol {
     reduced_speeds: Vec<f64>,
 }
 
-impl Protocol {
+impl Renormalisation {
     /// Nothing done so far, for a shape of length `dim`.
     pub(crate) fn new(settings: &LyapunovSettings, dim: usize) -> Self {
         Self {
