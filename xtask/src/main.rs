@@ -1,5 +1,6 @@
 //! One way to do each chore: `cargo xtask test`, `cargo xtask deny`.
 
+mod dist;
 mod emulated;
 mod explorer;
 mod mutants;
@@ -17,6 +18,7 @@ usage: cargo xtask COMMAND
   quick    the Rust tests alone
   explorer the page of `motiform explore`: builds it, compares it with the committed one, tests it in Chromium
   python   the Python package: builds it into target/python and runs its tests there
+  dist     a wheel and a stripped program with checksums in target/dist; the wheel is installed and tried where no cargo is
   emulated the tests of lanes under qemu-user, as a processor without vector registers to speak of and as one with AVX2
            (needs qemu-user)
   mutants  [K/N] [OPTION..]: changes the mathematics in small ways, every N-th possible one from the K-th (0/100), and asks
@@ -32,6 +34,7 @@ const STEPS: &[(&str, &[&str])] = &[
     ),
     ("documentation", &["doc", "--release", "--workspace", "--no-deps", "--document-private-items"]),
     ("tests", TESTS),
+    ("PDF", &["test", "--release", "-p", "motiform-figures", "--features", "pdf", "--lib", "pdf"]),
 ];
 
 const TESTS: &[&str] = &["test", "--release", "--workspace", "--no-fail-fast"];
@@ -57,6 +60,7 @@ fn run() -> Result<()> {
         Some("explorer") => explorer::test(),
         Some("python") => python::test(),
         Some("mutants") => mutants::run(&std::env::args().skip(2).collect::<Vec<_>>()),
+        Some("dist") => dist::run(),
         Some("emulated") => emulated::run(),
         Some("deny") => cargo("dependencies", &["deny", "check"]),
         _ => {

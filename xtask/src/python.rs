@@ -2,20 +2,26 @@
 
 use crate::{root, step};
 use anyhow::{Result, bail};
+use std::path::PathBuf;
 use std::process::Command;
 
 /// Builds the package with everything its tests need into `target/python`, and runs them.
 pub(crate) fn test() -> Result<()> {
-    let root = root()?.canonicalize()?;
-    let environment = root.join("target/python");
+    let python = environment("target/python")?;
+    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", ".[test]"];
+    step("python package", Command::new(&python).args(install))?;
+    step("python tests", Command::new(&python).args(["-m", "pytest"]))
+}
+
+/// The interpreter of a virtual environment in this folder, made if it is not there.
+pub(crate) fn environment(folder: &str) -> Result<PathBuf> {
+    let environment = root()?.canonicalize()?.join(folder);
     let python = environment.join("bin/python");
     if !python.exists() {
         let interpreter = interpreter()?;
         step("python environment", Command::new(interpreter).args(["-m", "venv"]).arg(&environment))?;
     }
-    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", ".[test]"];
-    step("python package", Command::new(&python).args(install))?;
-    step("python tests", Command::new(&python).args(["-m", "pytest"]))
+    Ok(python)
 }
 
 /// A Python of version 3.10 or later: that of `PYTHON`, or `python3`.

@@ -22,24 +22,28 @@ pub(crate) fn add(a: &mut [f64], factor: f64, b: &[f64]) {
     }
 }
 
-/// Makes the vectors orthonormal in order (Gram-Schmidt, twice is enough) and returns the lengths that were divided
-/// out: the diagonal of R. A vector that depends on the earlier ones becomes 0, with length 0.
+/// Takes from a vector what lies along `others`, which are orthonormal (Gram-Schmidt, twice is enough); its lengths before and after.
+fn clean<V: AsRef<[f64]>>(vector: &mut [f64], others: &[V]) -> (f64, f64) {
+    let before = norm(vector);
+    for _ in 0..2 {
+        for other in others {
+            let along = dot(other.as_ref(), vector);
+            add(vector, -along, other.as_ref());
+        }
+    }
+    (before, norm(vector))
+}
+
+/// Makes the vectors orthonormal in order and returns the lengths that were divided out: the diagonal of R. A vector that depends on
+/// the earlier ones becomes 0, with length 0. (`lyapunov/frame` does the same in lanes, with the rates of the vectors.)
 pub(crate) fn orthonormalise(vectors: &mut [&mut [f64]]) -> Vec<f64> {
     let mut lengths = Vec::with_capacity(vectors.len());
     for k in 0..vectors.len() {
         let (done, rest) = vectors.split_at_mut(k);
-        let vector = &mut *rest[0];
-        let before = norm(vector);
-        for _ in 0..2 {
-            for other in &*done {
-                let along = dot(other, vector);
-                add(vector, -along, other);
-            }
-        }
-        let length = norm(vector);
+        let (before, length) = clean(rest[0], done);
         let kept = if length > 1e-14 * before { length } else { 0.0 };
         let factor = if kept > 0.0 { 1.0 / length } else { 0.0 };
-        vector.iter_mut().for_each(|x| *x *= factor);
+        rest[0].iter_mut().for_each(|x| *x *= factor);
         lengths.push(kept);
     }
     lengths
@@ -50,14 +54,7 @@ pub(crate) fn basis(columns: &[&[f64]], least: f64) -> Vec<Vec<f64>> {
     let mut out: Vec<Vec<f64>> = Vec::new();
     for column in columns {
         let mut vector = column.to_vec();
-        let before = norm(&vector);
-        for _ in 0..2 {
-            for other in &out {
-                let along = dot(other, &vector);
-                add(&mut vector, -along, other);
-            }
-        }
-        let length = norm(&vector);
+        let (before, length) = clean(&mut vector, &out);
         if length > least * before && length > 0.0 {
             vector.iter_mut().for_each(|x| *x /= length);
             out.push(vector);

@@ -1,4 +1,4 @@
-//! AVX-512 and AVX2: the only file with `unsafe`.
+//! AVX-512 and AVX2.
 //!
 //! Why: over plain arrays of eight numbers the compiler keeps no kernel of this size in vector registers. One fixed RK4
 //! step of the full tensor model, eight lanes: 320 to 570 ns over arrays, 46 to 54 ns over these registers (docs/lanes.md).
