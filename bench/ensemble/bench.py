@@ -1,6 +1,6 @@
 """motiform's lanes against their rivals: one command, one run, one table. See README.md.
 
-    python3 bench/ensemble/bench.py [--quick] [--only rk4,adaptive,lyapunov,short,cell,threads,precision]
+    python3 bench/ensemble/bench.py [--quick] [--only adaptive,lyapunov,short,threads,precision]
 """
 
 import argparse
@@ -14,7 +14,7 @@ from pathlib import Path
 
 import environment
 
-GROUPS = "rk4 adaptive lyapunov short cell threads precision".split()
+GROUPS = "adaptive lyapunov short threads precision".split()
 
 
 def arguments():
@@ -22,7 +22,7 @@ def arguments():
     parser.add_argument("--quick", action="store_true", help="a quarter of the work, three repeats: under 3 minutes")
     parser.add_argument("--only", default=",".join(GROUPS), help="some of " + ",".join(GROUPS))
     found = parser.parse_args()
-    found.only = ["rk4" if name == "peak" else name for name in found.only.split(",")]
+    found.only = found.only.split(",")
     unknown = set(found.only) - set(GROUPS)
     if unknown:
         parser.error(f"no group {', '.join(sorted(unknown))}; there are {', '.join(GROUPS)}")
@@ -79,8 +79,6 @@ def main():
     flags = " ".join(name for name, has in d["flags"].items() if has)
     say(f"{d['processor']}, {d['cores']} cores, {flags}; {d['kernel']}; load {d['load_at_start']}")
     say(", ".join(f"{name} {version}" for name, version in d["versions"].items()))
-    if "rk4" in chosen.only:
-        group("rk4", f"Fixed RK4, dt = {tasks.DT}, one core", tasks.rk4(scale, repeats))
     if "adaptive" in chosen.only:
         for rtol in (1e-9, 1e-12):
             rows = tasks.orbits("adaptive", tasks.T, rtol, scale, repeats, per_orbit=False)
@@ -92,8 +90,6 @@ def main():
     if "short" in chosen.only:
         rows = tasks.orbits("short", tasks.T_SHORT, 1e-9, scale, repeats, per_orbit=True)
         group("short", "Many short orbits, t = 10, tolerance 1e-9, one core", rows)
-    if "cell" in chosen.only:
-        group("cell", "Cell model, one core", tasks.cells(scale, repeats))
     if "threads" in chosen.only:
         rows, pairs = tasks.threads(scale, repeats)
         title = "Threads, all cores"

@@ -26,8 +26,7 @@ def verify(scale, quick):
     long, short = max(1000.0, round(10000 * scale)), max(200.0, round(1000 * scale))
     keys = {"members": 8, "interval": 5.0, "rtol": 1e-9, "threads": 1, "kappa2_low": KAPPA2, "kappa2_high": KAPPA2}
     runs = {
-        "motiform": (long, lambda: program.motiform("lyapunov", t=long, fast=0, **keys)),
-        "motiform fast": (long, lambda: program.motiform("lyapunov", t=long, fast=1, **keys)),
+        "motiform": (long, lambda: program.motiform("lyapunov", t=long, **keys)),
         "heyoka batch 8": (long, lambda: heyoka_rival.lyapunov(8, long, 1e-9, 5.0, **at)),
         "jitcode_lyap": (short, lambda: lyapunov_rivals.jitcode(8, short, 1e-9, 1.0, **at)),
         "pynamicalsys RK4": (short, lambda: lyapunov_rivals.pynamicalsys(8, short, **at)),

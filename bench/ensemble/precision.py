@@ -16,14 +16,12 @@ def makers(scale):
     """name -> (members, prepare(rtol))."""
     n, few = max(64, int(4096 * scale) // 8 * 8), max(64, int(1024 * scale) // 8 * 8)
 
-    def mine(method, fast):
-        keys = {"members": n, "t": T, "method": method, "fast": fast, "threads": 1}
+    def mine():
+        keys = {"members": n, "t": T, "threads": 1}
         return n, lambda rtol: program.motiform("adaptive", rtol=rtol, **keys)
 
     return {
-        "motiform dop853": mine("dop853", 0),
-        "motiform dop853 fast": mine("dop853", 1),
-        "motiform dopri5": mine("dopri5", 0),
+        "motiform dop853": mine(),
         "heyoka batch 8": (n, lambda rtol: heyoka_rival.adaptive(n, T, rtol)),
         "Rust differential-equations": (few, lambda rtol: program.rust(few, T, rtol)),
         "SciPy DOP853": (8, lambda rtol: scipy_rival.adaptive(8, T, rtol)),

@@ -8,9 +8,9 @@ def number(x):
     return f"{x:.3g}" if 0.01 <= abs(x) < 1000 else f"{x:.3e}"
 
 
-def leader(rows, fast):
-    """The quickest verified row of motiform: exact (the same bits everywhere) or fast."""
-    mine = [r for r in rows if r.name.startswith("motiform") and not r.failed and ("fast" in r.name) == fast]
+def leader(rows):
+    """The quickest verified row of motiform."""
+    mine = [r for r in rows if r.name.startswith("motiform") and not r.failed]
     return max(mine, key=lambda r: r.best, default=None)
 
 
@@ -26,21 +26,20 @@ def ratio(row, mine):
 
 
 def group(title, rows, notes=()):
-    exact, fast = leader(rows, False), leader(rows, True)
+    mine = leader(rows)
     lines = ["", title, "=" * len(title)]
-    lines.append(f"{'':40} {'best':>10} {'median':>10} {'unit':14} {'error':>8}      motiform/this          fast/this")
-    lines.append(f"{'':40} {'':>10} {'':>10} {'':14} {'':>8}      best     med.      best     med.")
+    lines.append(f"{'':40} {'best':>10} {'median':>10} {'unit':14} {'error':>8}      motiform/this")
+    lines.append(f"{'':40} {'':>10} {'':>10} {'':14} {'':>8}      best     med.")
     for row in rows:
         if row.failed:
             lines.append(f"{row.name:40} - {row.failed}")
             continue
         lines.append(
             f"{row.name:40} {number(row.best):>10} {number(row.median):>10} {row.unit:14} {row.error:8.1e}"
-            f"  {ratio(row, exact)}  {ratio(row, fast)}"
+            f"  {ratio(row, mine)}"
         )
-    for kind, mine in (("motiform", exact), ("fast", fast)):
-        if mine:
-            lines.append(f"  {kind} = {mine.name}")
+    if mine:
+        lines.append(f"  motiform = {mine.name}")
     return "\n".join(lines + [f"  {note}" for note in notes])
 
 

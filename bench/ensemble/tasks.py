@@ -1,16 +1,12 @@
 """The groups of the table: who competes in which, with how much work, verified against what."""
 
-import cell
 import environment
 import reference
-import workload as w
 from harness import Contestant, compete, relative
 from exponents import KAPPA2, mean_divergence
-from rivals import cell_rivals, heyoka_rival, jax_rival, lyapunov_rivals, numba_rival, program, scipy_rival
-from table import quotients
+from rivals import heyoka_rival, jax_rival, lyapunov_rivals, numba_rival, program, scipy_rival
 
 DT, STEPS, T, T_SHORT = 0.01, 1000, 20.0, 10.0
-WIDE = "-mprefer-vector-width=512"
 ALLOWED = 100  # error at the end of an adaptive orbit, as a multiple of the tolerance
 
 
@@ -19,63 +15,20 @@ def against(wanted, *arguments):
     return lambda check: relative(check, wanted(*arguments))
 
 
-def both(name, make):
-    """motiform twice: exact (the same bits on every machine), and fast."""
-    return [make(f"motiform {name}".strip(), 0), make(f"motiform {name} fast".replace("  ", " "), 1)]
-
-
-def rk4(scale, repeats):
-    """Row 1 and the peak, which is measured in turn with it."""
-    n = lambda full: max(64, int(full * scale) // 64 * 64)  # noqa: E731
-
-    def entry(name, members, prepare):
-        return Contestant(name, prepare, against(reference.rk4, members, STEPS, DT), 1e-12)
-
-    def mine(name, fast):
-        m = n(32768)
-        keys = {"members": m, "steps": STEPS, "dt": DT, "fast": fast, "threads": 1}
-        return entry(name, m, lambda: program.motiform("rk4", **keys))
-
-    c, few = n(16384), n(8192)
-    width = 8 if environment.processor()[1]["avx512f"] else 4
-    list_ = [
-        *both("", mine),
-        entry("C, gcc -O3 -march=native", c, lambda: program.c_rk4(c, STEPS, DT)),
-        entry("C, with 512-bit vectors", c, lambda: program.c_rk4(c, STEPS, DT, WIDE)),
-        entry("numba", few, lambda: numba_rival.rk4(few, STEPS, DT, False)),
-        entry("numba fastmath", few, lambda: numba_rival.rk4(few, STEPS, DT, True)),
-        entry("JAX, 1024 members", 1024, lambda: jax_rival.rk4(1024, STEPS, DT)),
-    ]
-    peak = lambda: program.peak(width, int(2e7 * scale))  # noqa: E731
-    list_.append(Contestant(f"peak: fused multiply-add, {64 * width} bit", peak, unit="GFLOP/s", scale=1e-9))
-    rows = compete(list_, "steps/s", repeats)
-    top, flops = rows[-1], w.rk4_flops()
-    notes = [f"{flops} additions and multiplications per step (counted by running workload.rk4_step on counting numbers)"]
-    if not top.failed:
-        for row in rows[:-1]:
-            if not row.failed:
-                used = row.best * flops * 1e-9
-                best, median = (100 * flops * 1e-9 * share for share in quotients(row, top))
-                share = f"{best:5.1f} % of the peak (neighbouring runs {median:.1f} %)"
-                notes.append(f"{row.name:34} {used:6.1f} GFLOP/s, {share}")
-    return rows, notes
-
-
 def orbits(task, t, rtol, scale, repeats, per_orbit):
-    """Rows 2 and 4: adaptive orbits to t, in time units or in orbits per second."""
+    """Rows 1 and 3: adaptive orbits to t, in time units or in orbits per second."""
     n = lambda full: max(8, int(full * scale) // 8 * 8)  # noqa: E731
 
     def entry(name, members, prepare):
         return Contestant(name, lambda: prepare(members), against(reference.end_states, members, t), ALLOWED * rtol)
 
     def mine(method):
-        keys = {"t": t, "rtol": rtol, "method": method, "threads": 1}
-        start = lambda fast: lambda m: program.motiform(task, members=m, fast=fast, **keys)  # noqa: E731
-        return both(method, lambda name, fast: entry(name, n(16384), start(fast)))
+        keys = {"t": t, "rtol": rtol, "threads": 1}
+        return entry(f"motiform {method}", n(16384), lambda m: program.motiform(task, members=m, **keys))
 
     heyoka = lambda **options: lambda m: heyoka_rival.adaptive(m, t, rtol, per_orbit=per_orbit, **options)  # noqa: E731
     list_ = [
-        *mine("dop853"),
+        mine("dop853"),
         entry("heyoka batch 8", n(16384), heyoka()),
         entry("heyoka batch 8 fast_math, avx512", n(16384), heyoka(**heyoka_rival.FAST)),
         entry("heyoka scalar", n(4096), heyoka(batch=1)),
@@ -93,7 +46,7 @@ def orbits(task, t, rtol, scale, repeats, per_orbit):
 
 
 def lyapunov(scale, repeats, quick):
-    """Row 3: all six exponents."""
+    """Row 2: all six exponents."""
     rtol, n = 1e-9, lambda full: max(8, int(full * scale) // 8 * 8)
 
     def entry(name, members, prepare, limit=1e-6):
@@ -112,9 +65,7 @@ def lyapunov(scale, repeats, quick):
     t = max(400.0, 2000.0 * scale)
     keys = {"members": n(256), "t": t, "rtol": rtol, "threads": 1, "kappa2_low": KAPPA2, "kappa2_high": KAPPA2}
     mean = lambda check: relative([sum(row) for row in check], [mean_divergence()] * len(check))  # noqa: E731
-    list_ = both("QR by growth", lambda name, fast: Contestant(
-        name, lambda: program.motiform("lyapunov", fast=fast, **keys), mean, 0.05
-    ))
+    list_ = [Contestant("motiform QR by growth", lambda: program.motiform("lyapunov", **keys), mean, 0.05)]
     for interval in (1.0, 5.0):
         start = lambda i=interval, **options: heyoka_rival.lyapunov(n(512), T, rtol, i, **options)  # noqa: E731
         list_.append(entry(f"heyoka batch 8, QR every {interval:g}", n(512), start))
@@ -132,39 +83,16 @@ def lyapunov(scale, repeats, quick):
     ]
 
 
-def cells(scale, repeats):
-    """Row 5: the cell model."""
-    steps, few = max(200, int(2000 * scale)), max(100, int(500 * scale))
-    low, high = cell.LENGTHS
-
-    def entry(name, members, steps, lengths, prepare):
-        return Contestant(name, prepare, against(cell_rivals.wanted, members, steps, *lengths), 1e-9)
-
-    def mine(name, fast):
-        keys = {"members": 64, "modes": cell.MODES, "step": cell.STEP, "steps": steps, "fast": fast, "threads": 1}
-        start = lambda: program.motiform("cell", length_low=low, length_high=high, **keys)  # noqa: E731
-        return entry(name, 64, steps, cell.LENGTHS, start)
-
-    list_ = both("64 members, own lengths", mine)
-    for n in (1, 8, 32, 64):  # 1: a member at a time
-        start = lambda n=n: cell_rivals.exponax_cell(n, steps)  # noqa: E731
-        list_.append(entry(f"exponax vmap of {n}, equal lengths", n, steps, cell.EQUAL, start))
-    start = lambda: cell_rivals.numpy_cell(64, few, low, high)  # noqa: E731
-    list_.append(entry("NumPy, 64 members, own lengths", 64, few, cell.LENGTHS, start))
-    return compete(list_, "steps/s", repeats), [f"N = {cell.N}, {cell.MODES} modes, ETDRK4, step {cell.STEP}; member-steps"]
-
-
 def threads(scale, repeats):
-    """Row 6: pairs (name, one thread, two threads), on all cores."""
+    """Row 4: pairs (name, one thread, two threads), on all cores."""
     n = lambda full: max(64, int(full * scale) // 64 * 64)  # noqa: E731
     m, few, rtol = n(32768), n(8192), 1e-9
-    states, scheme = against(reference.end_states, m, T), against(reference.rk4, m, STEPS, DT)
+    states = against(reference.end_states, m, T)
     motiform = program.motiform
     makers = [
-        ("motiform rk4", "steps/s", scheme, 1e-12, lambda k: motiform("rk4", members=m, steps=STEPS, dt=DT, fast=0, threads=k)),
         (
             "motiform dop853, rtol 1e-9", "time units/s", states, ALLOWED * rtol,
-            lambda k: motiform("adaptive", members=m, t=T, rtol=rtol, method="dop853", fast=0, threads=k),
+            lambda k: motiform("adaptive", members=m, t=T, rtol=rtol, threads=k),
         ),
         (
             "heyoka batch 8, tol 1e-9", "time units/s", states, ALLOWED * rtol,

@@ -27,7 +27,7 @@ impl AsRef<dyn Equivariant> for Body {
 pub fn spectra(options: &Options) -> Result<Value, Failure> {
     let (count, t) = (options.get("members", 64)?, options.get("t", 1000.0)?);
     let rtol: f64 = options.get("rtol", 1e-9)?;
-    let (control, arithmetic) = ((rtol, 1e-2 * rtol), options.arithmetic()?);
+    let control = (rtol, 1e-2 * rtol);
     let range = (options.get("kappa2_low", 0.45)?, options.get("kappa2_high", 0.65)?);
     let threads: usize = options.get("threads", 1)?;
     let settings = LyapunovSettings {
@@ -39,22 +39,20 @@ pub fn spectra(options: &Options) -> Result<Value, Failure> {
         escape_norm: 1e6,
         max_steps: 1_000_000_000,
     };
-    let members = members_between(count, t, range);
+    let members = members_between(count, range);
     let (taken, runs) = (AtomicUsize::new(0), Mutex::new(vec![None; count]));
     let work = || {
-        let numbers = Mutex::new(Vec::new());
         let mut next = || {
-            let number = taken.fetch_add(1, Ordering::Relaxed);
-            let (parameters, member) = members.get(number)?;
-            numbers.lock().ok()?.push(number);
-            Some(TangentMember { body: Body(Tensor::new(parameters)), field: member.field, start: member.start, settings })
+            let key = taken.fetch_add(1, Ordering::Relaxed);
+            let (parameters, field, start) = members.get(key)?;
+            Some(TangentMember { key, body: Body(Tensor::new(parameters)), field: *field, start: *start, settings })
         };
-        let mut done = |local: usize, run: Analysed<Lyapunov>| {
-            if let (Ok(numbers), Ok(mut runs)) = (numbers.lock(), runs.lock()) {
-                runs[numbers[local]] = run.ok();
+        let mut done = |key: usize, run: Analysed<Lyapunov>| {
+            if let Ok(mut runs) = runs.lock() {
+                runs[key] = run.ok();
             }
         };
-        lyapunov_in_lanes::<_, _, 6, 6, 42>(control, arithmetic, &mut next, &mut done, &|| false);
+        lyapunov_in_lanes::<_, _, 6, 6, 42>(control, &mut next, &mut done, &|| false);
     };
     let clock = Instant::now();
     std::thread::scope(|scope| {

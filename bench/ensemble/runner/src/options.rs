@@ -1,6 +1,5 @@
 //! `key=value` words.
 
-use motiform_dynamics::simd::Arithmetic;
 use std::collections::BTreeMap;
 use std::str::FromStr;
 
@@ -19,13 +18,5 @@ impl Options {
     pub fn get<T: FromStr>(&self, key: &str, default: T) -> Result<T, String> {
         let Some(value) = self.0.get(key) else { return Ok(default) };
         value.parse().map_err(|_| format!("{key}={value} is no number"))
-    }
-
-    pub fn word<'o>(&'o self, key: &str, default: &'o str) -> &'o str {
-        self.0.get(key).map_or(default, String::as_str)
-    }
-
-    pub fn arithmetic(&self) -> Result<Arithmetic, String> {
-        Ok(if self.get("fast", 0)? == 1 { Arithmetic::Fused } else { Arithmetic::Reproducible })
     }
 }
