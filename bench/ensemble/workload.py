@@ -75,26 +75,3 @@ def rk4_step(u, kappa2, h, h2, h3, h6):
     total, v = [p + h3 * r for p, r in zip(total, k)], [p + h * r for p, r in zip(u, k)]
     k = field(v, kappa2)
     return [p + h6 * r for p, r in zip(total, k)]
-
-
-class Counted:
-    """A number that counts the additions (subtractions too) and multiplications it takes part in."""
-
-    count = 0
-
-    def _one(self, _other):
-        Counted.count += 1
-        return self
-
-    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = _one
-
-
-def rk4_flops():
-    """Additions and multiplications of one RK4 step of one member, 1 each: `rk4_step` run on counted numbers.
-
-    What a compiler does with it (fused multiply-add, common subexpressions) is not asked: all programs are given the
-    same nominal count.
-    """
-    Counted.count = 0
-    rk4_step([Counted() for _ in range(6)], Counted(), *[Counted()] * 4)
-    return Counted.count

@@ -8,7 +8,7 @@ import subprocess
 import numpy as np
 
 import workload as w
-from environment import BUILD, HERE
+from environment import HERE
 from harness import Run, reason
 
 
@@ -29,17 +29,6 @@ def answer(command):
     return Run(found["seconds"], found["work"], None if check is None else np.array(check, dtype=float))
 
 
-def compiled(source, *flags):
-    """Path of a C program, compiled with exactly `gcc -O3 -march=native` and the given flags."""
-    BUILD.mkdir(exist_ok=True)
-    target = BUILD / "-".join([source, *(flag.strip("-").replace("=", "_") for flag in flags)])
-    command = ["gcc", "-O3", "-march=native", *flags, HERE / "c" / f"{source}.c", "-o", target, "-lm"]
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode:
-        raise Failed(done.stderr.strip().splitlines()[-1])
-    return target
-
-
 def cargo_binary(manifest, flags=""):
     """The program that `cargo build --release` makes of a manifest, with compiler flags where given."""
     command = ["cargo", "build", "--release", "--manifest-path", str(manifest), "--message-format=json-render-diagnostics"]
@@ -51,18 +40,6 @@ def cargo_binary(manifest, flags=""):
         raise Failed(done.stderr.strip().splitlines()[-1])
     found = [json.loads(line) for line in done.stdout.splitlines() if line.startswith("{")]
     return [entry["executable"] for entry in found if entry.get("executable")][-1]
-
-
-def c_rk4(n, steps, dt, *flags):
-    program = compiled("rk4", *flags)
-    numbers = [n, steps, dt, *w.COEFFICIENTS, *w.KAPPA2, *w.BASE]
-    return lambda: answer([program, *numbers])
-
-
-def peak(width, iterations):
-    flags = ["-mprefer-vector-width=512"] if width == 8 else []
-    program = compiled("peak", f"-DWIDTH={width}", *flags)
-    return lambda: answer([program, iterations, 0.999999, 1e-9])
 
 
 _built = {}

@@ -84,6 +84,11 @@ impl<S: System + ?Sized> System for &S {
         (**self).obstacle(u)
     }
 
+    #[inline(always)]
+    fn vectors(&self) -> Option<usize> {
+        (**self).vectors()
+    }
+
     fn project(&self, u: &[f64], projected: &mut [f64]) -> Result<bool, Obstacle> {
         (**self).project(u, projected)
     }
@@ -104,5 +109,45 @@ impl<T: Scalar, F: Semilinear<T> + ?Sized> Semilinear<T> for &F {
     #[inline(always)]
     fn nonlinear(&self, t: T::Real, u: &[T], du: &mut [T]) {
         (**self).nonlinear(t, u, du);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A system that answers nothing as the defaults do.
+    struct Odd;
+
+    impl System for Odd {
+        fn dim(&self) -> usize {
+            6
+        }
+
+        fn obstacle(&self, _u: &[f64]) -> Option<Obstacle> {
+            Some(Obstacle::Closure { residual: 0.5 })
+        }
+
+        fn vectors(&self) -> Option<usize> {
+            Some(3)
+        }
+
+        fn project(&self, _u: &[f64], projected: &mut [f64]) -> Result<bool, Obstacle> {
+            projected.fill(7.0);
+            Ok(true)
+        }
+    }
+
+    #[test]
+    fn a_reference_answers_as_the_system_does() {
+        fn answers<S: System>(
+            system: S,
+        ) -> (usize, Option<Obstacle>, Option<usize>, Result<bool, Obstacle>, f64) {
+            let mut projected = [0.0; 6];
+            let changed = system.project(&[0.0; 6], &mut projected);
+            (system.dim(), system.obstacle(&[0.0; 6]), system.vectors(), changed, projected[0])
+        }
+        assert_eq!(answers(&Odd), answers(Odd));
+        assert_eq!(answers(&Odd), (6, Some(Obstacle::Closure { residual: 0.5 }), Some(3), Ok(true), 7.0));
     }
 }

@@ -81,10 +81,6 @@ pub(crate) fn registry() -> Result<Value, Error> {
     for model in list(&mut all, "models") {
         let name = model["name"].as_str().unwrap_or_default().to_owned();
         model["plane"] = plane(&name);
-        for parameter in model["parameters"].as_array_mut().into_iter().flatten() {
-            let whole = parameter["meaning"].as_str().is_some_and(is_whole);
-            parameter["whole"] = json!(whole);
-        }
     }
     for preset in list(&mut all, "presets") {
         let name = preset["name"].as_str().unwrap_or_default().to_owned();
@@ -96,11 +92,6 @@ pub(crate) fn registry() -> Result<Value, Error> {
         preset["section"] = json!(if kind == SectionKind::Path { "path" } else { "speed" });
     }
     Ok(all)
-}
-
-/// Whether a parameter of this meaning is a whole number: every one of the registry says so.
-pub(crate) fn is_whole(meaning: &str) -> bool {
-    meaning.contains("(a whole number)")
 }
 
 /// The entries of a list of the registry.

@@ -2,18 +2,17 @@
 
 use std::collections::HashSet;
 
-use super::axes::{Axes, BELOW, Scale};
-use super::block::Block;
+use super::axes::{Axes, Scale};
 use super::error::{FigureError, Result, check_finite};
 use super::figure::{Csv, figure};
+use super::framed::Framed;
 use super::geometry::{Point, Range, Rect};
-use super::legend::{Entry, Legend, Mark};
+use super::legend::{Entry, Mark};
 use super::paint::Paint;
 use super::palette::{BLUE, GREY};
 use super::svg::Svg;
 
 const SIDE: f64 = 420.0;
-const MARGIN: f64 = 14.0;
 
 /// Scatter of x_(n+1) against x_n with the diagonal, on equal axes.
 ///
@@ -53,24 +52,18 @@ impl ReturnMapFigure {
         let range = Range::of(self.points.iter().flatten().copied());
         let range = range.ok_or(FigureError::Empty { what: "return map" })?.padded(0.05);
         let frame = Rect { x: 0.0, y: 0.0, w: SIDE, h: SIDE };
-        let axes = Axes::new(Scale { frame, x: range, y: range }, Some(&self.x_label), &self.y_label);
-        let left = MARGIN + axes.left_margin();
-        let inner = left - MARGIN + SIDE + 12.0;
-        let (title, caption) = (Block::title(&self.title, inner), Block::caption(&self.caption, inner));
-        let legend = Legend::flowed(self.legend(), SIDE);
-        let mut axes = axes.moved_to(left);
-        axes.scale.frame.y = MARGIN + title.height() + 4.0;
-        let key = axes.scale.frame.bottom() + BELOW;
-        let foot = key + legend.height() + 10.0;
-        let mut svg =
-            Svg::new((inner + 2.0 * MARGIN).ceil(), (foot + caption.height() + MARGIN - 6.0).ceil());
-        title.draw(&mut svg, [MARGIN, MARGIN]);
-        axes.draw_grid(&mut svg);
-        svg.clipped(axes.scale.frame, |svg| self.draw_data(svg, &axes.scale));
-        axes.draw(&mut svg);
-        legend.draw(&mut svg, [left, key]);
-        caption.draw(&mut svg, [MARGIN, foot]);
-        Ok(svg.finish())
+        let sheet = Framed {
+            title: &self.title,
+            caption: &self.caption,
+            legend: self.legend(),
+            axes: Axes::new(Scale { frame, x: range, y: range }, Some(&self.x_label), &self.y_label),
+            grid: true,
+            head: 0.0,
+        };
+        sheet.svg(|svg, scale| {
+            svg.clipped(scale.frame, |svg| self.draw_data(svg, scale));
+            Ok(())
+        })
     }
 
     fn legend(&self) -> Vec<Entry> {

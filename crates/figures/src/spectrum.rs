@@ -1,11 +1,11 @@
 //! Power spectral density against frequency, both logarithmic.
 
-use super::axes::{Axes, BELOW, Scale};
-use super::block::Block;
+use super::axes::{Axes, Scale};
 use super::error::{FigureError, Result, check_finite};
 use super::figure::{Csv, figure};
+use super::framed::Framed;
 use super::geometry::{Point, Range, Rect};
-use super::legend::{Entry, Legend, Mark};
+use super::legend::{Entry, Mark};
 use super::paint::Paint;
 use super::palette::Colour;
 use super::simplify::{envelope, simplify};
@@ -13,7 +13,6 @@ use super::svg::Svg;
 
 const WIDTH: f64 = 560.0;
 const HEIGHT: f64 = 300.0;
-const MARGIN: f64 = 14.0;
 
 /// The spectrum of one quantity.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,34 +64,26 @@ impl SpectrumFigure {
     /// # Errors   nothing above 0, a number that is not finite, frequencies that decrease, or a curve of another length
     pub fn svg(&self) -> Result<String> {
         self.check()?;
-        let axes = Axes::logarithmic(self.scale()?, &self.x_label, &self.y_label);
-        let left = MARGIN + axes.left_margin();
-        let inner = left - MARGIN + WIDTH + 16.0;
-        let (title, caption) = (Block::title(&self.title, inner), Block::caption(&self.caption, inner));
-        let legend = self.legend();
-        let key = MARGIN + title.height() + 4.0;
-        let mut axes = axes.moved_to(left);
-        axes.scale.frame.y = key + legend.height();
-        let foot = axes.scale.frame.bottom() + BELOW + 8.0;
-        let height = foot + caption.height() + MARGIN - 6.0;
-        let mut svg = Svg::new((inner + 2.0 * MARGIN).ceil(), height.ceil());
-        title.draw(&mut svg, [MARGIN, MARGIN]);
-        legend.draw(&mut svg, [left, key]);
-        axes.draw_grid(&mut svg);
-        svg.clipped(axes.scale.frame, |svg| {
-            for curve in &self.curves {
-                self.draw_curve(svg, curve, &axes.scale);
-            }
-        });
-        axes.draw(&mut svg);
-        caption.draw(&mut svg, [MARGIN, foot]);
-        Ok(svg.finish())
+        let sheet = Framed {
+            title: &self.title,
+            caption: &self.caption,
+            legend: self.legend(),
+            axes: Axes::logarithmic(self.scale()?, &self.x_label, &self.y_label),
+            grid: true,
+            head: 0.0,
+        };
+        sheet.svg(|svg, scale| {
+            svg.clipped(scale.frame, |svg| {
+                self.curves.iter().for_each(|curve| self.draw_curve(svg, curve, scale))
+            });
+            Ok(())
+        })
     }
 
-    fn legend(&self) -> Legend {
+    fn legend(&self) -> Vec<Entry> {
         let entry = |c: &SpectrumCurve| Entry::new(Mark::Line(paint(c)), &c.label);
         let several = self.curves.len() > 1;
-        Legend::flowed(if several { self.curves.iter().map(entry).collect() } else { Vec::new() }, WIDTH)
+        self.curves.iter().filter(|_| several).map(entry).collect()
     }
 
     /// log10 of frequency and power over all curves, each at least a decade wide.

@@ -55,6 +55,7 @@ fn model(info: &'static ModelInfo) -> Result<Value, Error> {
             "default": spec.default,
             "range": spec.range,
             "allowed": spec.allowed,
+            "whole": spec.whole,
             "equation": spec.equation,
             "meaning": spec.meaning,
         })).collect::<Vec<_>>(),

@@ -15,6 +15,8 @@ pub struct ParameterSpec {
     pub range: (f64, f64),
     /// Values that the model can be computed with.
     pub allowed: (f64, f64),
+    /// Whether only whole numbers make sense.
+    pub whole: bool,
     /// The equation it stands in.
     pub equation: &'static str,
     /// The term it multiplies and what it does, in one sentence.
@@ -71,13 +73,18 @@ pub(crate) const fn allowed(within: &[(f64, f64)]) -> (f64, f64) {
     }
 }
 
+/// Whether a parameter was declared as a whole number.
+pub(crate) const fn is_whole(kind: &[&str]) -> bool {
+    !kind.is_empty()
+}
+
 /// Declares a parameter struct together with its registry: `name = default in low .. high`, the range of interest, and
-/// where the model allows less than any number `within smallest .. largest`.
+/// where the model allows less than any number `within smallest .. largest`; a whole number is declared `as whole`.
 macro_rules! parameters {
     (
         $(#[$doc:meta])* $name:ident for $model:literal {
             $( $field:ident = $default:literal in $low:literal .. $high:literal
-               $( within $smallest:literal .. $largest:literal )?,
+               $( within $smallest:literal .. $largest:literal )? $( as $whole:ident )?,
                $symbol:literal, $equation:literal, $meaning:literal; )*
         }
     ) => {
@@ -104,6 +111,7 @@ macro_rules! parameters {
                         default: $default,
                         range: ($low, $high),
                         allowed: $crate::parameters::allowed(&[$( ($smallest, $largest) )?]),
+                        whole: $crate::parameters::is_whole(&[$( stringify!($whole) )?]),
                         equation: $equation,
                         meaning: $meaning,
                     },

@@ -3,7 +3,6 @@
 use super::Job;
 use super::lattice::{Cells, Lattice, level};
 use super::store::Store;
-use crate::catalogue::is_whole;
 use crate::protocol::Side;
 use motiform_lab::scan::{Axis, Row, ScanComputation};
 use motiform_models::ModelInfo;
@@ -66,7 +65,7 @@ impl Sight {
         if self.plane.as_ref() != Some(&plane) {
             *self = Self { plane: Some(plane), ..Self::default() };
             let lattice = |(side, spec): (&&Side, &&ParameterSpec)| {
-                Lattice::new(side.low, side.high, count, is_whole(spec.meaning))
+                Lattice::new(side.low, side.high, count, spec.whole)
             };
             self.lattices = sides.iter().zip(&specs).map(lattice).collect();
         }

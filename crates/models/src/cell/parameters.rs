@@ -19,10 +19,10 @@ parameters! {
         alpha2 = 0.0 in -0.1 .. 0.1, "*α*_2", "(VEL)", "alpha2 phi_s^2 n: pushes along the normal where the boundary is curved.";
         alpha3 = 0.0 in -0.1 .. 0.1, "*α*_3", "(VEL)", "alpha3 phi_ss^2 n: pushes along the normal where the curvature changes (added to alpha3_per_length times length).";
         alpha3_per_length = -4e-4 in -1e-3 .. 1e-3, "*α*_3/*L*", "(VEL)", "the same as a multiple of the length, as the paper gives it: alpha3 = -4e-4 length.";
-        modes = 21.0 in 8.0 .. 64.0 within 1.0 .. 128.0, "*M*", "modes", "number of modes of phi that are computed (a whole number): 21 are a grid of 64 points, 42 one of 128.";
-        closure_modes = 8.0 in 0.0 .. 12.0 within 0.0 .. 12.0, "*m*", "(CLOSE)", "number of modes of the error function that closes the boundary (a whole number); 0 leaves it open, 1 changes mode 1 alone.";
+        modes = 21.0 in 8.0 .. 64.0 within 1.0 .. 128.0 as whole, "*M*", "modes", "number of modes of phi that are computed (a whole number): 21 are a grid of 64 points, 42 one of 128.";
+        closure_modes = 8.0 in 0.0 .. 12.0 within 0.0 .. 12.0 as whole, "*m*", "(CLOSE)", "number of modes of the error function that closes the boundary (a whole number); 0 leaves it open, 1 changes mode 1 alone.";
         prior = 4.0 in 0.0 .. 6.0 within 0.0 .. 8.0, "*p*", "(CLOSE)", "how smooth the error function is expected to be: prior width n^-prior of its mode n; 0 is a flat prior.";
-        feedback = 0.0 in 0.0 .. 1.0 within 0.0 .. 1.0, "*f*", "(CLOSE)", "1 adds the error function to phi after every step (a whole number); then nothing moves up to a length of about 15 (measured: 16), which is why it is off.";
+        feedback = 0.0 in 0.0 .. 1.0 within 0.0 .. 1.0 as whole, "*f*", "(CLOSE)", "1 adds the error function to phi after every step (a whole number); then nothing moves up to a length of about 15 (measured: 16), which is why it is off.";
     }
 }
 

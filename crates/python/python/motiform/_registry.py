@@ -23,6 +23,7 @@ class Parameter:
     range: tuple[float, float]
     """Where interesting things happen."""
     allowed: tuple[float, float]
+    whole: bool
     """Values that the model can be computed with."""
     equation: str
     """The equation it stands in."""

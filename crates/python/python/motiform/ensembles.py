@@ -122,7 +122,8 @@ def _parameters(body: Model, varied: dict[str, Floats]) -> Floats:
     base = body.parameters
     for name, values in varied.items():
         if name not in base:
-            body.replace(**{name: float(values[0])})  # says which names there are
+            wrong: dict[str, Any] = {name: float(values[0])}
+            body.replace(**wrong)  # says which names there are
         if values.ndim != 1:
             raise ValueError(f"parameters[{name!r}] has {values.ndim} dimensions: give one value per member")
     members = max([1, *(len(values) for values in varied.values())])
