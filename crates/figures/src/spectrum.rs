@@ -74,7 +74,7 @@ impl SpectrumFigure {
         };
         sheet.svg(|svg, scale| {
             svg.clipped(scale.frame, |svg| {
-                self.curves.iter().for_each(|curve| self.draw_curve(svg, curve, scale))
+                self.curves.iter().for_each(|curve| self.draw_curve(svg, curve, scale));
             });
             Ok(())
         })

@@ -24,6 +24,7 @@ class Parameter:
     """Where interesting things happen."""
     allowed: tuple[float, float]
     whole: bool
+    """Whether only whole numbers make sense."""
     """Values that the model can be computed with."""
     equation: str
     """The equation it stands in."""
