@@ -17,7 +17,7 @@ use problem::{DriftOf, End, Problem, Start};
 /// An initial-value problem `u' = Lambda u + N(t, u)` in progress, by an exponential method.
 ///
 /// Adaptive steps have sizes `2^(k/4)`, so that the coefficients of a size are computed once:
-/// [`Integration::advance`] allocates only when a size is met for the first time. Dense output is cubic Hermite.
+/// [`crate::Integration::advance`] allocates only when a size is met for the first time. Dense output is cubic Hermite.
 ///
 /// The position of a body ([`ExponentialOrbit::in_plane`]) drives nothing, so it is no stage of the method but a
 /// quadrature: `x_new = x + h (v + v_new)/2 + h^2 (v' - v_new')/12`, order 4 like the method, for one evaluation of
@@ -69,7 +69,7 @@ pub struct ExponentialOrbit<'f, F: ?Sized> {
     /// Whether `N` at the current state is the end stage of the step just accepted.
     accepted: bool,
     prepared: bool,
-    /// Whether states are kicked ([`Integration::roughen`]): the position then is the trapezoidal rule.
+    /// Whether states are kicked ([`crate::Integration::roughen`]): the position then is the trapezoidal rule.
     rough: bool,
     counters: Counters,
 }

@@ -30,7 +30,7 @@ use crate::{Error, Integration};
 /// # Not       not for multiplicative noise. What an entry with `|lambda| h` far above 1 does to the others within a step is
 /// averaged too coarsely: its own law is right, its square in their rates is not
 /// # Checked by  tests/noise.rs: Brownian motion, Ornstein-Uhlenbeck (stiff entries, rows anywhere), weak order on a linear
-/// and a nonlinear flow, rotation, seeds; study/tests/noise.rs: both models
+/// and a nonlinear flow, rotation, seeds; lab/tests/noise.rs: both models
 pub struct NoisyOrbit<O> {
     orbit: O,
     noise: Noise,

@@ -279,7 +279,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         self.prepared = false;
     }
 
-    /// Goes on from the state `u` (of the same length) at the same time; see [`Integration::restart`].
+    /// Goes on from the state `u` (of the same length) at the same time; see [`crate::Integration::restart`].
     pub fn restart(&mut self, u: &[f64]) {
         self.field.eval(self.t, u, self.slopes.get_mut(self.tableau.stages()));
         self.place(u);

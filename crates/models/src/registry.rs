@@ -118,7 +118,7 @@ impl ModelInfo {
     /// The absolute tolerance that goes with a relative one, where none is given: `rtol / tolerance_ratio`. So `rtol` alone decides how
     /// accurate a run is.
     ///
-    /// # Checked by  study/tests/tolerances.rs: the global error against the request, for both models
+    /// # Checked by  lab/tests/tolerances.rs: the global error against the request, for both models
     #[must_use]
     pub fn absolute_tolerance(&self, rtol: f64) -> f64 {
         rtol / self.tolerance_ratio

@@ -27,7 +27,7 @@ use motiform_dynamics::{Equivariant, Sink};
 /// 0-1 test sees order, K < 0.3); a torus needs returns on a curve that early and late ones fill alike.
 ///
 /// An orbit that begins with an exact symmetry keeps it, and may end where no other orbit does: at an unstable shape. The verdict
-/// then says so ([`Attractor::Unstable`]); front ends perturb such starts.
+/// then says so ([`super::Attractor::Unstable`]); front ends perturb such starts.
 ///
 /// # Errors
 /// What the numerics refuse (a start of the wrong length, say). Everything that happens to the orbit is a verdict.
