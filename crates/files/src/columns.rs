@@ -1,15 +1,11 @@
 //! Typed columns as the bytes of one Parquet file, and back: whole numbers, numbers (null where undefined), texts.
 
 use crate::parquet_input::{column, numbers, read, wrong};
-use parquet::basic::{Compression, LogicalType, Repetition, Type as PhysicalType, ZstdLevel};
+use crate::parquet_output::{self, Field};
 use parquet::column::reader::ColumnReader;
-use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::data_type::ByteArray;
 use parquet::errors::Result;
-use parquet::file::metadata::KeyValue;
-use parquet::file::properties::WriterProperties;
 use parquet::file::reader::FileReader;
-use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
-use parquet::schema::types::Type;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -38,32 +34,13 @@ impl Column {
         Self { name: name.to_owned(), meaning, values }
     }
 
-    fn schema(&self) -> Result<Arc<Type>> {
-        let (physical, repetition, logical) = match self.values {
-            Values::Whole(_) => (PhysicalType::INT64, Repetition::REQUIRED, None),
-            Values::Number(_) => (PhysicalType::DOUBLE, Repetition::OPTIONAL, None),
-            Values::Text(_) => (PhysicalType::BYTE_ARRAY, Repetition::REQUIRED, Some(LogicalType::String)),
+    fn field(&self) -> Field<'_> {
+        let values = match &self.values {
+            Values::Whole(values) => parquet_output::Values::Whole(values),
+            Values::Number(values) => parquet_output::Values::Number(values),
+            Values::Text(values) => parquet_output::Values::Text(values),
         };
-        let field = Type::primitive_type_builder(&self.name, physical).with_repetition(repetition);
-        field.with_logical_type(logical).build().map(Arc::new)
-    }
-
-    fn write(&self, group: &mut SerializedRowGroupWriter<'_, Vec<u8>>) -> Result<()> {
-        let Some(mut out) = group.next_column()? else { return Ok(()) };
-        match &self.values {
-            Values::Whole(values) => out.typed::<Int64Type>().write_batch(values, None, None)?,
-            Values::Number(values) => {
-                let levels: Vec<i16> = values.iter().map(|value| i16::from(!value.is_nan())).collect();
-                let defined: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
-                out.typed::<DoubleType>().write_batch(&defined, Some(&levels), None)?
-            }
-            Values::Text(values) => {
-                let texts: Vec<ByteArray> =
-                    values.iter().map(|text| ByteArray::from(text.as_str())).collect();
-                out.typed::<ByteArrayType>().write_batch(&texts, None, None)?
-            }
-        };
-        out.close()
+        Field { name: &self.name, meaning: self.meaning, values }
     }
 }
 
@@ -90,26 +67,10 @@ pub fn to_csv(columns: &[Column]) -> Vec<u8> {
 }
 
 /// The file, with these entries in its metadata. The same columns give the same bytes.
-pub fn encode(columns: &[Column], mut metadata: Vec<(&str, String)>) -> Result<Vec<u8>> {
-    let fields = columns.iter().map(Column::schema).collect::<Result<Vec<_>>>()?;
-    let schema = Type::group_type_builder("schema").with_fields(fields).build()?;
-    let meanings: serde_json::Map<String, serde_json::Value> =
-        columns.iter().map(|column| (column.name.clone(), column.meaning.into())).collect();
-    metadata.push(("motiform.columns", serde_json::Value::Object(meanings).to_string()));
-    let entry = |(key, value): (&str, String)| KeyValue::new(key.to_owned(), value);
-    let properties = WriterProperties::builder()
-        .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
-        .set_dictionary_enabled(false)
-        .set_created_by("motiform".to_owned()) // the manifest knows the version
-        .set_key_value_metadata(Some(metadata.into_iter().map(entry).collect()))
-        .build();
-    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
-    let mut group = writer.next_row_group()?;
-    for column in columns {
-        column.write(&mut group)?;
-    }
-    group.close()?;
-    writer.into_inner()
+pub fn encode(columns: &[Column], metadata: Vec<(&str, String)>) -> Result<Vec<u8>> {
+    let fields: Vec<Field<'_>> = columns.iter().map(Column::field).collect();
+    // the manifest knows the version
+    parquet_output::write(Vec::new(), &fields, metadata, "motiform".to_owned())
 }
 
 /// The metadata entries of a file.

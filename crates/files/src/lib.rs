@@ -7,6 +7,7 @@ mod folder;
 mod hdf5;
 mod leftovers;
 pub mod parquet_input;
+mod parquet_output;
 mod parquet_table;
 mod staging;
 

@@ -1,22 +1,13 @@
 //! Tables as Parquet: one DOUBLE column each, null where a value is undefined; zstd; opens in pandas, polars, R, Julia.
 
 use super::parquet_input::{self, wrong};
+use super::parquet_output::{self, Field, Values};
 use motiform_study::Error;
 use motiform_study::table::{Column, Table};
-use parquet::basic::{Compression, Repetition, Type as PhysicalType, ZstdLevel};
 use parquet::column::reader::ColumnReader;
-use parquet::data_type::DoubleType;
 use parquet::errors::Result;
-use parquet::file::metadata::KeyValue;
-use parquet::file::properties::WriterProperties;
 use parquet::file::reader::FileReader;
-use parquet::file::writer::SerializedFileWriter;
-use parquet::schema::types::Type;
 use std::path::Path;
-use std::sync::Arc;
-
-/// Rows of a row group: bounded memory while writing and reading.
-const GROUP_ROWS: usize = 1 << 18;
 
 /// Writes the table; `metadata` (a JSON text) is kept under the key `motiform`, column meanings under
 /// `motiform.columns`.
@@ -25,50 +16,13 @@ pub(crate) fn write(table: &Table, metadata: &str, path: &Path) -> std::result::
 }
 
 fn try_write(table: &Table, metadata: &str, path: &Path) -> Result<()> {
-    let schema = Arc::new(schema(table)?);
-    let meanings: serde_json::Map<String, serde_json::Value> =
-        table.columns.iter().map(|c| (c.name.clone(), c.meaning.clone().into())).collect();
-    let properties = WriterProperties::builder()
-        .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
-        .set_dictionary_enabled(false)
-        .set_created_by(format!("motiform {}", motiform_study::dataset::VERSION))
-        .set_key_value_metadata(Some(vec![
-            KeyValue::new("motiform".to_owned(), metadata.to_owned()),
-            KeyValue::new("motiform.columns".to_owned(), serde_json::Value::Object(meanings).to_string()),
-        ]))
-        .build();
-    let file = std::fs::File::create(path)?;
-    let mut writer = SerializedFileWriter::new(file, schema, Arc::new(properties))?;
-    for start in (0..table.rows()).step_by(GROUP_ROWS) {
-        let mut group = writer.next_row_group()?;
-        for column in &table.columns {
-            let values = &column.values[start..table.rows().min(start + GROUP_ROWS)];
-            let Some(mut out) = group.next_column()? else { break };
-            write_column(out.typed::<DoubleType>(), values)?;
-            out.close()?;
-        }
-        group.close()?;
+    fn field(column: &Column) -> Field<'_> {
+        Field { name: &column.name, meaning: &column.meaning, values: Values::Number(&column.values) }
     }
-    writer.into_inner()?.sync_all()?;
-    Ok(())
-}
-
-fn schema(table: &Table) -> Result<Type> {
-    let field = |column: &Column| {
-        let field = Type::primitive_type_builder(&column.name, PhysicalType::DOUBLE);
-        field.with_repetition(Repetition::OPTIONAL).build().map(Arc::new)
-    };
-    let fields = table.columns.iter().map(field).collect::<Result<Vec<_>>>()?;
-    Type::group_type_builder("schema").with_fields(fields).build()
-}
-
-fn write_column(
-    out: &mut parquet::column::writer::ColumnWriterImpl<'_, DoubleType>,
-    values: &[f64],
-) -> Result<()> {
-    let levels: Vec<i16> = values.iter().map(|value| i16::from(!value.is_nan())).collect();
-    let defined: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
-    out.write_batch(&defined, Some(&levels), None)?;
+    let fields: Vec<Field<'_>> = table.columns.iter().map(field).collect();
+    let version = format!("motiform {}", motiform_study::dataset::VERSION);
+    let file = std::fs::File::create(path)?;
+    parquet_output::write(file, &fields, vec![("motiform", metadata.to_owned())], version)?.sync_all()?;
     Ok(())
 }
 

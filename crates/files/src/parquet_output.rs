@@ -1,0 +1,108 @@
+//! Writing Parquet files: zstd, no dictionaries, so that the same columns give the same bytes.
+
+use parquet::basic::{Compression, LogicalType, Repetition, Type as PhysicalType, ZstdLevel};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::errors::Result;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::schema::types::Type;
+use std::io::Write;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Rows of a row group: bounded memory while writing and reading.
+const GROUP_ROWS: usize = 1 << 18;
+
+/// A column to be written.
+pub(crate) struct Field<'c> {
+    pub(crate) name: &'c str,
+    /// What it is, with its unit.
+    pub(crate) meaning: &'c str,
+    pub(crate) values: Values<'c>,
+}
+
+/// Its values.
+#[derive(Clone, Copy)]
+pub(crate) enum Values<'c> {
+    Whole(&'c [i64]),
+    /// NaN is written as null.
+    Number(&'c [f64]),
+    Text(&'c [String]),
+}
+
+/// Writes columns of equal length with these entries in the metadata; meanings are an entry of their own, `motiform.columns`.
+pub(crate) fn write<W: Write + Send>(
+    out: W,
+    columns: &[Field<'_>],
+    mut metadata: Vec<(&str, String)>,
+    created_by: String,
+) -> Result<W> {
+    let fields = columns.iter().map(Field::schema).collect::<Result<Vec<_>>>()?;
+    let schema = Type::group_type_builder("schema").with_fields(fields).build()?;
+    let meanings: serde_json::Map<String, serde_json::Value> =
+        columns.iter().map(|column| (column.name.to_owned(), column.meaning.into())).collect();
+    metadata.push(("motiform.columns", serde_json::Value::Object(meanings).to_string()));
+    let entry = |(key, value): (&str, String)| KeyValue::new(key.to_owned(), value);
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
+        .set_dictionary_enabled(false)
+        .set_created_by(created_by)
+        .set_key_value_metadata(Some(metadata.into_iter().map(entry).collect()))
+        .build();
+    let mut writer = SerializedFileWriter::new(out, Arc::new(schema), Arc::new(properties))?;
+    let rows = columns.first().map_or(0, |column| column.values.len());
+    for start in (0..rows).step_by(GROUP_ROWS) {
+        let mut group = writer.next_row_group()?;
+        for column in columns {
+            column.values.write(start..rows.min(start + GROUP_ROWS), &mut group)?;
+        }
+        group.close()?;
+    }
+    writer.into_inner()
+}
+
+impl Field<'_> {
+    fn schema(&self) -> Result<Arc<Type>> {
+        let (physical, repetition, logical) = match self.values {
+            Values::Whole(_) => (PhysicalType::INT64, Repetition::REQUIRED, None),
+            Values::Number(_) => (PhysicalType::DOUBLE, Repetition::OPTIONAL, None),
+            Values::Text(_) => (PhysicalType::BYTE_ARRAY, Repetition::REQUIRED, Some(LogicalType::String)),
+        };
+        let field = Type::primitive_type_builder(self.name, physical).with_repetition(repetition);
+        field.with_logical_type(logical).build().map(Arc::new)
+    }
+}
+
+impl Values<'_> {
+    fn len(&self) -> usize {
+        match self {
+            Self::Whole(values) => values.len(),
+            Self::Number(values) => values.len(),
+            Self::Text(values) => values.len(),
+        }
+    }
+
+    fn write<W: Write + Send>(
+        &self,
+        rows: Range<usize>,
+        group: &mut SerializedRowGroupWriter<'_, W>,
+    ) -> Result<()> {
+        let Some(mut out) = group.next_column()? else { return Ok(()) };
+        match self {
+            Self::Whole(values) => out.typed::<Int64Type>().write_batch(&values[rows], None, None)?,
+            Self::Number(values) => {
+                let values = &values[rows];
+                let levels: Vec<i16> = values.iter().map(|value| i16::from(!value.is_nan())).collect();
+                let defined: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
+                out.typed::<DoubleType>().write_batch(&defined, Some(&levels), None)?
+            }
+            Self::Text(values) => {
+                let texts: Vec<ByteArray> =
+                    values[rows].iter().map(|text| ByteArray::from(text.as_str())).collect();
+                out.typed::<ByteArrayType>().write_batch(&texts, None, None)?
+            }
+        };
+        out.close()
+    }
+}
