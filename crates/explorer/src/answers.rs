@@ -1,7 +1,7 @@
 //! The way back to the page.
 
 use crate::frames;
-use serde_json::Value;
+use crate::protocol::{Refused, Said};
 use tokio::sync::mpsc;
 
 /// What the server says.
@@ -30,8 +30,8 @@ impl Answers {
     }
 
     /// Sends a JSON text. Waits while too many answers wait: only for threads of a session.
-    pub(crate) fn json(&self, value: &Value) -> Result<(), Gone> {
-        self.send(Answer::Text(value.to_string()))
+    pub(crate) fn say(&self, said: impl Into<Said>) -> Result<(), Gone> {
+        self.send(Answer::Text(text(&said.into())))
     }
 
     pub(crate) fn binary(&self, bytes: Vec<u8>) -> Result<(), Gone> {
@@ -45,7 +45,7 @@ impl Answers {
 
     /// Says why something cannot be done.
     pub(crate) fn refused(&self, id: Option<u32>, why: &str) -> Result<(), Gone> {
-        self.json(&refused(id, why))
+        self.say(Refused { id, why: why.to_owned() })
     }
 
     fn send(&self, answer: Answer) -> Result<(), Gone> {
@@ -53,7 +53,7 @@ impl Answers {
     }
 }
 
-/// What is said to a message that cannot be answered.
-pub(crate) fn refused(id: Option<u32>, why: &str) -> Value {
-    serde_json::json!({ "is": "refused", "id": id, "why": why })
+/// A message as JSON. Maps have texts as keys, and numbers that are not finite become `null`: nothing of this can fail.
+pub(crate) fn text(said: &Said) -> String {
+    serde_json::to_string(said).unwrap_or_default()
 }

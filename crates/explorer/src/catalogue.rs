@@ -1,6 +1,6 @@
 //! What the page begins with: the registry, and for each preset where to look and how fast.
 
-use crate::protocol::SectionKind;
+use crate::protocol::{Registry, SectionKind};
 use motiform_lab::registry;
 use motiform_models::ModelInfo;
 use motiform_study::study::ReturnMapSettings;
@@ -76,7 +76,7 @@ pub(crate) fn section(settings: Option<&ReturnMapSettings>) -> SectionKind {
 ///
 /// # Errors
 /// A preset or a model that does not stand up to its own checks.
-pub(crate) fn registry() -> Result<Value, Error> {
+pub(crate) fn registry() -> Result<Registry, Error> {
     let mut all = registry::registry()?;
     for model in list(&mut all, "models") {
         let name = model["name"].as_str().unwrap_or_default().to_owned();
@@ -91,7 +91,8 @@ pub(crate) fn registry() -> Result<Value, Error> {
         preset["plane"] = plane(&name);
         preset["section"] = json!(if kind == SectionKind::Path { "path" } else { "speed" });
     }
-    Ok(all)
+    serde_json::from_value(all)
+        .map_err(|error| Error::unreadable(std::path::Path::new("the registry"), error))
 }
 
 /// The entries of a list of the registry.
@@ -144,14 +145,14 @@ mod tests {
     /// The registry marks exactly those parameters as whole numbers whose fractions the model refuses.
     #[test]
     fn whole_numbers_are_known() {
-        for model in registry().unwrap()["models"].as_array().unwrap() {
-            let info = ModelInfo::find(model["name"].as_str().unwrap()).unwrap();
+        for model in registry().unwrap().models {
+            let info = ModelInfo::find(&model.name).unwrap();
             let defaults: Vec<f64> = info.parameters().iter().map(|spec| spec.default).collect();
-            for (place, parameter) in model["parameters"].as_array().unwrap().iter().enumerate() {
+            for (place, parameter) in model.parameters.iter().enumerate() {
                 let mut values = defaults.clone();
                 values[place] += if values[place] > 0.5 { -0.25 } else { 0.25 };
                 let refused = info.build(&values).is_err();
-                assert_eq!(parameter["whole"].as_bool().unwrap(), refused, "{}", parameter["name"]);
+                assert_eq!(parameter.whole, refused, "{}", parameter.name);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! One page: messages in, answers out, until one side leaves.
 
-use crate::answers::{Answer, Answers, refused};
-use crate::protocol::Ask;
+use crate::answers::{self, Answer, Answers};
+use crate::protocol::{Ask, Refused};
 use crate::rate::Bucket;
 use crate::session::{Greeting, Session};
 use axum::extract::ws::{CloseFrame, Message, WebSocket};
@@ -70,7 +70,10 @@ async fn talk(
                     Ok(ask) => if !session.ask(ask) {
                         return Some((POLICY, "too many messages wait"));
                     },
-                    Err(why) => socket.send(Message::text(refused(None, &why).to_string())).await.ok()?,
+                    Err(why) => {
+                        let refused = answers::text(&Refused { id: None, why }.into());
+                        socket.send(Message::text(refused)).await.ok()?;
+                    }
                 }
             }
             answer = waiting.recv() => {

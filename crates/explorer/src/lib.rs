@@ -27,4 +27,5 @@ mod worker;
 
 pub use error::Error;
 pub use guard::Token;
+pub use protocol::typescript;
 pub use server::{DEFAULT_PORT, Handle, Options, Server};

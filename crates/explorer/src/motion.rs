@@ -2,6 +2,7 @@
 
 use crate::answers::{Answers, Gone};
 use crate::map::numbers;
+use crate::protocol::{Exponent, Exponents, MotionNamed, NamingBegun};
 use crate::worker::{Current, Worker, lock};
 use motiform_analysis::Estimate;
 use motiform_analysis::regime::Regime;
@@ -9,7 +10,6 @@ use motiform_lab::analyse;
 use motiform_lab::scan::Row;
 use motiform_lab::simulate::Monitor;
 use motiform_study::Plan;
-use serde_json::{Value, json};
 use std::sync::{Arc, Mutex};
 
 /// Pictures go first.
@@ -108,20 +108,15 @@ impl Work<'_> {
     fn name(&self) -> Result<Option<Regime>, Gone> {
         let revision = self.motion.revision;
         if !self.motion.again {
-            self.answers.json(&json!({ "is": "naming", "revision": revision }))?;
+            self.answers.say(NamingBegun { revision })?;
         }
         let verdict = analyse::classify(&self.motion.plan, 0.0, self.current);
         let Some(row) = Row::of_evaluation(0, 0, verdict).filter(|_| !self.current.stopped()) else {
             return Ok(None);
         };
         lock(self.known).name = Some((revision, row.regime, row.number("time").unwrap_or(0.0)));
-        self.answers.json(&json!({
-            "is": "named",
-            "revision": revision,
-            "regime": row.regime.name(),
-            "why": row.why,
-            "numbers": numbers(&row),
-        }))?;
+        let numbers = numbers(&row);
+        self.answers.say(MotionNamed { revision, regime: row.regime.name(), why: row.why, numbers })?;
         Ok(Some(row.regime))
     }
 
@@ -134,7 +129,7 @@ impl Work<'_> {
         let (mut next, mut gone) = (0.0, Ok(()));
         let mut tell = |time: f64, exponents: Vec<Estimate>, done: bool| {
             if !self.current.stopped() && gone.is_ok() {
-                gone = self.answers.json(&message(self.motion.revision, time, &exponents, done));
+                gone = self.answers.say(message(self.motion.revision, time, &exponents, done));
                 lock(self.known).history.push((time, exponents));
             }
         };
@@ -162,9 +157,9 @@ impl Work<'_> {
     }
 }
 
-fn message(revision: u32, time: f64, exponents: &[Estimate], done: bool) -> Value {
+fn message(revision: u32, time: f64, exponents: &[Estimate], done: bool) -> Exponents {
     // An error that is not known yet is not a number: null.
-    let exponents: Vec<Value> =
-        exponents.iter().map(|e| json!({ "value": e.value, "error": e.error })).collect();
-    json!({ "is": "exponents", "revision": revision, "time": time, "exponents": exponents, "done": done })
+    let known =
+        |e: &Estimate| Exponent { value: e.value, error: Some(e.error).filter(|error| error.is_finite()) };
+    Exponents { revision, time, exponents: exponents.iter().map(known).collect(), done }
 }

@@ -1,10 +1,11 @@
 //! The session of one page: its threads, and the greeting.
 
 use crate::answers::Answers;
+use crate::answers::text;
 use crate::body::{self, Desks};
 use crate::protocol::Ask;
+use crate::protocol::{Hello, Registry};
 use motiform_study::dataset::VERSION;
-use serde_json::{Value, json};
 use std::sync::Arc;
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::JoinHandle;
@@ -18,9 +19,9 @@ pub(crate) struct Greeting(Arc<str>);
 
 impl Greeting {
     /// With the registry, and the command that starts this server again after it stopped.
-    pub(crate) fn new(registry: &Value, restart: &str) -> Self {
-        let hello = json!({ "is": "hello", "version": VERSION, "restart": restart, "registry": registry });
-        Self(hello.to_string().into())
+    pub(crate) fn new(registry: &Registry, restart: &str) -> Self {
+        let hello = Hello { version: VERSION, restart: restart.to_owned(), registry: registry.clone() };
+        Self(text(&hello.into()).into())
     }
 
     pub(crate) fn text(&self) -> &str {

@@ -78,7 +78,7 @@ mod tests {
         let seen = setting.start();
         let next = setting.with(&BTreeMap::from([("kappa2".to_owned(), 0.5)]), &seen).unwrap();
         assert_eq!((next.start(), next.revision()), (setting.start(), 2));
-        assert_eq!(next.told()["parameters"]["kappa2"], 0.5);
+        assert_eq!(next.told().parameters.get("kappa2"), Some(0.5));
         assert_eq!(next.motion().plan.computation.parameters.get("kappa2"), Some(0.5));
         assert!(setting.with(&BTreeMap::from([("kapa2".to_owned(), 0.5)]), &seen).is_err());
         let noisy = setting.with_noise(0.1, &seen).unwrap();

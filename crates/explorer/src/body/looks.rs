@@ -3,7 +3,7 @@
 use super::setting::Setting;
 use crate::export::{Made, Maker};
 use crate::motion::History;
-use crate::protocol::{Export, Section, SectionKind};
+use crate::protocol::{self, Export, Section, SectionKind, Spectrum, Strips};
 use motiform_dynamics::Outcome;
 use motiform_files::table_to_csv;
 use motiform_lab::draw;
@@ -11,7 +11,6 @@ use motiform_lab::live::{Record, crossings_of_path, dataset, maxima_of_speed, sp
 use motiform_study::study::ReturnMapSettings;
 use motiform_study::table::Table;
 use motiform_study::{Dataset, Study};
-use serde_json::{Value, json};
 
 /// Most points of a return map that are sent: the last ones.
 const MOST_RETURNS: usize = 3000;
@@ -87,24 +86,27 @@ impl Look<'_> {
 }
 
 /// Spectrum and return map, as the protocol has them.
-pub(super) fn strips(look: &Look<'_>, section: Section) -> Value {
+pub(super) fn strips(look: &Look<'_>, section: Section) -> Strips {
     let spectra = spectra(look.record, look.setting.model(), look.setting.plan().computation.dt_out);
     let returns = look.returns(section);
     let pairs = returns.values.windows(2).rev().take(MOST_RETURNS).rev();
-    let curve = |(name, symbol, power): &(&str, &str, Vec<f64>)| json!({ "name": name, "symbol": symbol, "power": shorts(power) });
-    json!({
-        "is": "strips",
-        "revision": look.setting.revision(),
-        "samples": look.record.len(),
-        "frequencies": shorts(&spectra.frequencies),
-        "spectra": spectra.curves.iter().map(curve).collect::<Vec<_>>(),
-        "returns": {
-            "section": if section.section == SectionKind::Path { "path" } else { "speed" },
-            "label": returns.symbol,
-            "y": returns.y,
-            "points": pairs.map(shorts).collect::<Vec<_>>(),
+    let curve = |(name, symbol, power): &(&'static str, &'static str, Vec<f64>)| Spectrum {
+        name,
+        symbol,
+        power: shorts(power),
+    };
+    Strips {
+        revision: look.setting.revision(),
+        samples: look.record.len(),
+        frequencies: shorts(&spectra.frequencies),
+        spectra: spectra.curves.iter().map(curve).collect(),
+        returns: protocol::Returns {
+            section: section.section,
+            label: returns.symbol.to_owned(),
+            y: returns.y,
+            points: pairs.map(|pair| [short(pair[0], DIGITS), short(pair[1], DIGITS)]).collect(),
         },
-    })
+    }
 }
 
 /// Enough digits for a picture.

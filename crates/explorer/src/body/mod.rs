@@ -65,7 +65,7 @@ fn first(asks: &Receiver<Ask>, desks: &Desks) -> Result<Option<Setting>, Gone> {
         };
         match Setting::begin(begin, 1) {
             Ok(setting) => {
-                desks.answers.json(&setting.begun())?;
+                desks.answers.say(setting.begun())?;
                 return Ok(Some(setting));
             }
             Err(error) => desks.answers.refused(None, &error.to_string())?,
@@ -81,7 +81,7 @@ fn play(stage: &mut Stage<'_>, asks: &Receiver<Ask>) -> Result<Option<Setting>, 
             None => {}
             Some(Ok((setting, answer))) => {
                 stage.desks().naming.stop();
-                stage.desks().answers.json(&answer)?;
+                stage.desks().answers.say(answer)?;
                 return Ok(Some(setting));
             }
             Some(Err(error)) => stage.desks().answers.refused(None, &error.to_string())?,

@@ -2,13 +2,12 @@
 
 use crate::catalogue::{self, Tempo};
 use crate::motion::Motion;
-use crate::protocol::Begin;
+use crate::protocol::{Begin, Begun, Changed, Observable};
 use motiform_dynamics::{InPlane, Model};
 use motiform_lab::draw::radius_for;
 use motiform_lab::live::{Record, Stretch, settled};
 use motiform_study::study::ReturnMapSettings;
 use motiform_study::{Error, Plan, Study};
-use serde_json::{Value, json};
 use std::time::Duration;
 
 /// A transient that takes longer is cut short: the page waits.
@@ -152,34 +151,33 @@ impl Setting {
         at(&self.study, self.model.as_ref(), state)
     }
 
-    pub(crate) fn begun(&self) -> Value {
+    pub(crate) fn begun(&self) -> Begun {
         let tempo = self.tempo();
         let observables = self.model.observables().iter();
-        json!({
-            "is": "begun",
-            "revision": self.revision,
-            "model": self.study.model,
-            "preset": self.preset,
-            "title": self.study.title,
-            "about": self.study.about,
-            "parameters": self.plan.computation.parameters,
-            "noise": self.study.run.noise,
-            "sample": tempo.sample,
-            "speed": tempo.speed,
-            "speeds": tempo.speeds,
-            "observables": observables
-                .map(|o| json!({ "name": o.name, "symbol": o.symbol, "meaning": o.meaning }))
-                .collect::<Vec<_>>(),
-        })
+        let text = str::to_owned;
+        Begun {
+            revision: self.revision,
+            model: self.study.model,
+            preset: self.preset.clone(),
+            title: self.study.title.clone(),
+            about: self.study.about.clone(),
+            parameters: self.plan.computation.parameters.clone(),
+            noise: self.study.run.noise,
+            sample: tempo.sample,
+            speed: tempo.speed,
+            speeds: tempo.speeds,
+            observables: observables
+                .map(|o| Observable { name: text(o.name), symbol: text(o.symbol), meaning: text(o.meaning) })
+                .collect(),
+        }
     }
 
-    pub(crate) fn told(&self) -> Value {
-        json!({
-            "is": "changed",
-            "revision": self.revision,
-            "parameters": self.plan.computation.parameters,
-            "noise": self.study.run.noise,
-        })
+    pub(crate) fn told(&self) -> Changed {
+        Changed {
+            revision: self.revision,
+            parameters: self.plan.computation.parameters.clone(),
+            noise: self.study.run.noise,
+        }
     }
 }
 
@@ -235,12 +233,12 @@ pub(super) mod tests {
     fn every_preset_begins() {
         for preset in PRESETS {
             let setting = begin(preset.model, preset.name);
-            assert_eq!(setting.begun()["preset"], preset.name);
+            assert_eq!(setting.begun().preset.as_deref(), Some(preset.name));
             assert!(setting.start().radius > 0.0);
         }
         for info in MODELS {
             let begin = Begin { model: info.name.to_owned(), ..Begin::default() };
-            assert_eq!(Setting::begin(&begin, 1).unwrap().begun()["model"], info.name);
+            assert_eq!(Setting::begin(&begin, 1).unwrap().begun().model, info.name);
         }
     }
 }

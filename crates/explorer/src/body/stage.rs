@@ -7,13 +7,14 @@ use crate::answers::Gone;
 use crate::export::Order;
 use crate::frames::Frame;
 use crate::map::{Job, MapFile};
-use crate::protocol::{Ask, Begin, Export, MapWindow, Section};
+use crate::protocol::{
+    Advance, Ask, Begin, Cell, Ended, Export, MapWindow, Noise, Said, Section, Set, Share,
+};
 use crate::share;
 use motiform_dynamics::{InPlane, Model, Outcome, Outline};
 use motiform_lab::draw::radius_for;
 use motiform_lab::live::{Record, Stretch};
 use motiform_study::Error;
-use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::time::Duration;
 
@@ -42,7 +43,7 @@ pub(super) struct Stage<'s> {
 }
 
 /// What the body is after a change, and what to say of it.
-pub(super) type Change = Result<(Setting, Value), Error>;
+pub(super) type Change = Result<(Setting, Said), Error>;
 
 impl<'s> Stage<'s> {
     pub(super) fn new(
@@ -73,18 +74,18 @@ impl<'s> Stage<'s> {
     /// Answers a message; one that changes the body gives what it is then, or why it cannot be.
     pub(super) fn answer(&mut self, ask: Ask) -> Result<Option<Change>, Gone> {
         match ask {
-            Ask::Advance { dt } => self.advance(dt)?,
+            Ask::Advance(Advance { dt }) => self.advance(dt)?,
             Ask::Strips(section) => self.strips(section)?,
-            Ask::Share {} => self.share()?,
+            Ask::Share(_) => self.share()?,
             Ask::Map(window) => self.map(window),
-            Ask::Unmap {} => self.desks.map.stop(),
-            Ask::Evidence { epoch, cell } => self.evidence(epoch, cell)?,
+            Ask::Unmap(_) => self.desks.map.stop(),
+            Ask::Evidence(Cell { epoch, cell }) => self.evidence(epoch, cell)?,
             Ask::Export(export) => self.export(&export)?,
             Ask::Begin(begin) => return Ok(Some(self.begin(&begin))),
-            Ask::Set { parameters } => return Ok(Some(self.set(&parameters))),
-            Ask::Noise { amplitude } => return Ok(Some(self.noise(amplitude))),
-            Ask::Kick {} => return Ok(Some(self.kick())),
-            Ask::Restart {} => return Ok(Some(self.restart())),
+            Ask::Set(Set { parameters }) => return Ok(Some(self.set(&parameters))),
+            Ask::Noise(Noise { amplitude }) => return Ok(Some(self.noise(amplitude))),
+            Ask::Kick(_) => return Ok(Some(self.kick())),
+            Ask::Restart(_) => return Ok(Some(self.restart())),
         }
         Ok(None)
     }
@@ -103,7 +104,7 @@ impl<'s> Stage<'s> {
         match self.stretch.outcome() {
             Some(outcome) if !self.ended => {
                 self.ended = true;
-                self.desks.answers.json(&ended(self.setting.revision(), &outcome))
+                self.desks.answers.say(ended(self.setting.revision(), &outcome))
             }
             _ => Ok(()),
         }
@@ -166,7 +167,7 @@ impl<'s> Stage<'s> {
     }
 
     fn strips(&self, section: Section) -> Result<(), Gone> {
-        self.desks.answers.json(&looks::strips(&self.look(), section))
+        self.desks.answers.say(looks::strips(&self.look(), section))
     }
 
     fn share(&self) -> Result<(), Gone> {
@@ -174,10 +175,7 @@ impl<'s> Stage<'s> {
         let texts = share::command(self.setting.preset(), &study)
             .and_then(|command| Ok((command, share::python(self.setting.preset(), &study)?)));
         match texts {
-            Ok((command, python)) => {
-                let answer = json!({ "is": "share", "command": command, "python": python });
-                self.desks.answers.json(&answer)
-            }
+            Ok((command, python)) => self.desks.answers.say(Share { command, python }),
             Err(error) => self.desks.answers.refused(None, &error.to_string()),
         }
     }
@@ -188,7 +186,7 @@ impl<'s> Stage<'s> {
 
     fn evidence(&self, epoch: u32, cell: [u16; 2]) -> Result<(), Gone> {
         match self.desks.map.evidence(epoch, cell) {
-            Some(evidence) => self.desks.answers.json(&evidence),
+            Some(evidence) => self.desks.answers.say(evidence),
             None => Ok(()), // of an earlier map
         }
     }
@@ -220,7 +218,7 @@ impl<'s> Stage<'s> {
     fn begin(&self, begin: &Begin) -> Change {
         let setting = Setting::begin(begin, self.setting.revision().wrapping_add(1))?;
         self.desks.map.stop();
-        let answer = setting.begun();
+        let answer = setting.begun().into();
         Ok((setting, answer))
     }
 
@@ -245,16 +243,16 @@ impl<'s> Stage<'s> {
     }
 }
 
-fn told(setting: Setting) -> (Setting, Value) {
-    let answer = setting.told();
+fn told(setting: Setting) -> (Setting, Said) {
+    let answer = setting.told().into();
     (setting, answer)
 }
 
-fn ended(revision: u32, outcome: &Outcome) -> Value {
+fn ended(revision: u32, outcome: &Outcome) -> Ended {
     let kind = match outcome {
         Outcome::Escaped { .. } => "blow-up",
         Outcome::ClosureFailed { .. } => "closure-failed",
         _ => "step-underflow",
     };
-    json!({ "is": "ended", "revision": revision, "outcome": kind, "text": outcome.to_string() })
+    Ended { revision, outcome: kind, text: outcome.to_string() }
 }

@@ -7,12 +7,12 @@ mod work;
 
 use crate::answers::{Answers, Gone};
 use crate::export::{Made, Maker};
-use crate::protocol::MapWindow;
+use crate::protocol::{Evidence, MapWindow, Values};
 use crate::worker::{Worker, lock};
 use motiform_lab::draw::{exponents, phase_diagram, sheet};
 use motiform_lab::scan::{CellSummary, Row, rows_to_csv};
 use motiform_study::Study;
-use serde_json::{Value, json};
+use serde_json::json;
 use sight::Sight;
 use std::sync::{Arc, Mutex};
 
@@ -64,23 +64,22 @@ impl Map {
     }
 
     /// What is known of a cell, as the protocol has it.
-    pub(crate) fn evidence(&self, epoch: u32, [i, j]: [u16; 2]) -> Option<Value> {
+    pub(crate) fn evidence(&self, epoch: u32, [i, j]: [u16; 2]) -> Option<Evidence> {
         let mut sight = lock(&self.sight);
         let map = sight.present().filter(|map| map.epoch == epoch)?;
         let at = map.at(usize::from(i), usize::from(j))?;
         let names: Vec<String> = map.plan.computation.axes.iter().map(|axis| axis.name.clone()).collect();
-        let parameters: serde_json::Map<String, Value> =
+        let parameters: Values =
             names.into_iter().zip(&at).map(|(name, value)| (name, json!(value))).collect();
         let row = sight.store.get(&at);
-        Some(json!({
-            "is": "evidence",
-            "epoch": epoch,
-            "cell": [i, j],
-            "parameters": parameters,
-            "regime": row.map(|row| row.regime.name()),
-            "why": row.map(|row| row.why.as_str()),
-            "numbers": row.map(numbers),
-        }))
+        Some(Evidence {
+            epoch,
+            cell: [i, j],
+            parameters,
+            regime: row.map(|row| row.regime.name()),
+            why: row.map_or_else(String::new, |row| row.why.clone()),
+            numbers: row.map(numbers),
+        })
     }
 
     /// Makes a file of the cells in sight that are computed.
@@ -115,12 +114,9 @@ pub(crate) enum MapFile {
 }
 
 /// The numbers of a row that are defined.
-pub(crate) fn numbers(row: &Row) -> Value {
+pub(crate) fn numbers(row: &Row) -> Values {
     let defined = motiform_lab::scan::NUMBERS.iter().zip(row.numbers).filter(|entry| entry.1.is_finite());
-    defined
-        .map(|((name, _), value)| ((*name).to_owned(), json!(value)))
-        .collect::<serde_json::Map<_, _>>()
-        .into()
+    defined.map(|((name, _), value)| ((*name).to_owned(), json!(value))).collect()
 }
 
 type Done = Result<(), Gone>;

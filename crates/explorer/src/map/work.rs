@@ -4,6 +4,7 @@ use super::sight::Sight;
 use super::{Done, Job};
 use crate::answers::{Answers, Gone};
 use crate::frames::{self, Cell};
+use crate::protocol::{Dashes, Grid, Line, MapStart, Mapped, Progress};
 use crate::worker::{Current, lock};
 use motiform_analysis::regime::{Regime, Verdict};
 use motiform_figures::{BoundaryLine, LineStyle};
@@ -11,7 +12,6 @@ use motiform_lab::draw::boundary_lines;
 use motiform_lab::scan::{Classify, Evaluate, Row};
 use motiform_lab::simulate::Monitor;
 use motiform_study::{Error, ScanPlan};
-use serde_json::{Value, json};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -28,7 +28,7 @@ pub(super) fn compute(job: &Job, sight: &Mutex<Sight>, current: &Current<'_>, an
     }
     let Some(view) = View::of(&mut seen, job.window.epoch) else { return Ok(()) };
     drop(seen);
-    answers.json(&view.announcement)?;
+    answers.say(view.announcement.clone())?;
     for known in view.known.chunks(4096) {
         answers.binary(frames::cells(view.epoch, known))?;
     }
@@ -56,7 +56,7 @@ pub(super) fn compute(job: &Job, sight: &Mutex<Sight>, current: &Current<'_>, an
 struct View {
     epoch: u32,
     plan: ScanPlan,
-    announcement: Value,
+    announcement: MapStart,
     /// Cells that are known already, and those that are not: the coarsest first.
     known: Vec<Cell>,
     wanted: Vec<Cell>,
@@ -68,20 +68,19 @@ impl View {
         let [columns, rows] = map.counts();
         let side = |axis: usize| {
             let cells = map.sides.get(axis)?;
-            Some(json!({
-                "name": map.plan.computation.axes[axis].name,
-                "first": cells.values.first(),
-                "step": cells.step,
-                "count": cells.values.len(),
-            }))
+            Some(Grid {
+                name: map.plan.computation.axes[axis].name.clone(),
+                first: *cells.values.first()?,
+                step: cells.step,
+                count: cells.values.len(),
+            })
         };
-        let announcement = json!({
-            "is": "map",
-            "epoch": epoch,
-            "x": side(0),
-            "y": side(1),
-            "lines": boundary_lines(&map.plan).iter().map(line).collect::<Vec<_>>(),
-        });
+        let announcement = MapStart {
+            epoch,
+            x: side(0)?,
+            y: side(1),
+            lines: boundary_lines(&map.plan).iter().map(line).collect(),
+        };
         let plan = map.plan.clone();
         let places = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
         let mut cells: Vec<Cell> = places
@@ -131,15 +130,15 @@ fn code(regime: Regime) -> u8 {
         .unwrap_or(u8::MAX)
 }
 
-fn line(line: &BoundaryLine) -> Value {
+fn line(line: &BoundaryLine) -> Line {
     let style = match line.style {
-        LineStyle::Solid => "solid",
-        LineStyle::Dashed => "dashed",
-        LineStyle::Dotted => "dotted",
-        LineStyle::DashDotted => "dash-dotted",
-        LineStyle::LongDashed => "long-dashed",
+        LineStyle::Solid => Dashes::Solid,
+        LineStyle::Dashed => Dashes::Dashed,
+        LineStyle::Dotted => Dashes::Dotted,
+        LineStyle::DashDotted => Dashes::DashDotted,
+        LineStyle::LongDashed => Dashes::LongDashed,
     };
-    json!({ "label": line.label, "style": style, "points": line.points })
+    Line { label: line.label.clone(), style, points: line.points.clone() }
 }
 
 /// What the threads share.
@@ -210,13 +209,13 @@ impl Work<'_> {
             return Ok(());
         }
         out.told = Instant::now();
-        self.answers.json(&self.progress(&out))
+        self.answers.say(self.progress(&out))
     }
 
-    fn progress(&self, out: &Out) -> Value {
+    fn progress(&self, out: &Out) -> Progress {
         let total = self.view.known.len() + self.view.wanted.len();
         let rate = out.computed as f64 / out.begun.elapsed().as_secs_f64().max(1e-3);
-        json!({ "is": "progress", "epoch": self.view.epoch, "done": out.done, "total": total, "rate": rate })
+        Progress { epoch: self.view.epoch, done: out.done, total, rate }
     }
 
     /// Sends what is left, and that it is all, if it is.
@@ -231,8 +230,7 @@ impl Work<'_> {
         }
         self.answers.binary(frames::cells(self.view.epoch, &out.cells))?;
         let seconds = begun.elapsed().as_secs_f64();
-        self.answers
-            .json(&json!({ "is": "mapped", "epoch": self.view.epoch, "cells": out.done, "seconds": seconds }))
+        self.answers.say(Mapped { epoch: self.view.epoch, cells: out.done, seconds })
     }
 }
 

@@ -1,7 +1,10 @@
-/** What the page and the server say to each other, as JSON; see PROTOCOL.md. */
+/** What the page and the server say to each other, as JSON; see PROTOCOL.md. Made from `src/protocol`: do not edit. */
 
 /** Named numbers. */
 export type Values = Record<string, number>;
+
+/** Where the return map is taken: at the maxima of the speed, or where the path crosses a line. */
+export type Section = "speed" | "path";
 
 export interface Parameter {
   name: string;
@@ -38,13 +41,12 @@ export interface Model {
   title: string;
   equations: string;
   source: string;
+  budget: number;
+  look: number;
   parameters: Parameter[];
   observables: Observable[];
   plane: Plane;
 }
-
-/** Where the return map is taken: maxima of the speed, or where the path crosses a line. */
-export type Section = "speed" | "path";
 
 export interface Preset {
   name: string;
@@ -67,60 +69,17 @@ export interface Regime {
   meaning: string;
 }
 
+/** Models, presets and regimes, in the order of lists and legends. */
 export interface Registry {
   models: Model[];
   presets: Preset[];
   regimes: Regime[];
 }
 
-export interface Hello {
-  is: "hello";
-  version: string;
-  restart: string;
-  registry: Registry;
-}
-
-export interface Begun {
-  is: "begun";
-  revision: number;
-  model: string;
-  preset: string | null;
-  title: string;
-  about: string;
-  parameters: Values;
-  noise: number;
-  sample: number;
-  speed: number;
-  speeds: [number, number];
-}
-
-export interface Changed {
-  is: "changed";
-  revision: number;
-  parameters: Values;
-  noise: number;
-}
-
-export interface Named {
-  is: "named";
-  revision: number;
-  regime: string;
-  why: string;
-  numbers: Values;
-}
-
 /** A running Lyapunov exponent with the half width of its 95 % interval. */
 export interface Exponent {
   value: number;
   error: number | null;
-}
-
-export interface Exponents {
-  is: "exponents";
-  revision: number;
-  time: number;
-  exponents: Exponent[];
-  done: boolean;
 }
 
 export interface Spectrum {
@@ -136,6 +95,81 @@ export interface Returns {
   points: [number, number][];
 }
 
+/** The centres of cells along one axis: `first + i step`. */
+export interface Grid {
+  name: string;
+  first: number;
+  step: number;
+  count: number;
+}
+
+/** A line of the theory in the plane of the map. */
+export interface Line {
+  label: string;
+  style: LineStyle;
+  points: [number, number][];
+}
+
+/** Dashes of a line of the theory. */
+export type LineStyle = "solid" | "dashed" | "dotted" | "dash-dotted" | "long-dashed";
+
+/** The first message; `restart` is the command that starts this server again. */
+export interface Hello {
+  is: "hello";
+  version: string;
+  restart: string;
+  registry: Registry;
+}
+
+/** A new body. */
+export interface Begun {
+  is: "begun";
+  revision: number;
+  model: string;
+  preset: string | null;
+  title: string;
+  about: string;
+  parameters: Values;
+  noise: number;
+  sample: number;
+  speed: number;
+  speeds: [number, number];
+  observables: Observable[];
+}
+
+/** The motion was changed: these parameters and this noise from now on. */
+export interface Changed {
+  is: "changed";
+  revision: number;
+  parameters: Values;
+  noise: number;
+}
+
+/** The motion is being named. */
+export interface NamingBegun {
+  is: "naming";
+  revision: number;
+}
+
+/** The name of the motion, with the numbers that are defined. */
+export interface Named {
+  is: "named";
+  revision: number;
+  regime: string;
+  why: string;
+  numbers: Values;
+}
+
+/** The largest exponents, averaged so far. */
+export interface Exponents {
+  is: "exponents";
+  revision: number;
+  time: number;
+  exponents: Exponent[];
+  done: boolean;
+}
+
+/** Power spectra and the return map of the motion since the last change. */
 export interface Strips {
   is: "strips";
   revision: number;
@@ -145,23 +179,7 @@ export interface Strips {
   returns: Returns;
 }
 
-/** The centres of cells along one axis: `first + i step`. */
-export interface Grid {
-  name: string;
-  first: number;
-  step: number;
-  count: number;
-}
-
-export type LineStyle = "solid" | "dashed" | "dotted" | "dash-dotted" | "long-dashed";
-
-/** A line of the theory in the plane of the map. */
-export interface Line {
-  label: string;
-  style: LineStyle;
-  points: [number, number][];
-}
-
+/** A map begins; its cells follow. */
 export interface MapStart {
   is: "map";
   epoch: number;
@@ -170,6 +188,7 @@ export interface MapStart {
   lines: Line[];
 }
 
+/** How far a map is: cells, and cells per second. */
 export interface Progress {
   is: "progress";
   epoch: number;
@@ -178,6 +197,7 @@ export interface Progress {
   rate: number;
 }
 
+/** A map is complete. */
 export interface Mapped {
   is: "mapped";
   epoch: number;
@@ -185,6 +205,7 @@ export interface Mapped {
   seconds: number;
 }
 
+/** The verdict on a cell; no regime and no words where it is not computed yet. */
 export interface Evidence {
   is: "evidence";
   epoch: number;
@@ -192,8 +213,10 @@ export interface Evidence {
   parameters: Values;
   regime: string | null;
   why: string;
+  numbers: Values | null;
 }
 
+/** The body goes on no further until the next change. */
 export interface Ended {
   is: "ended";
   revision: number;
@@ -201,12 +224,14 @@ export interface Ended {
   text: string;
 }
 
+/** The present study as a command and in Python. */
 export interface Share {
   is: "share";
   command: string;
   python: string;
 }
 
+/** A message that cannot be answered. */
 export interface Refused {
   is: "refused";
   id: number | null;
@@ -218,7 +243,7 @@ export type Answer =
   | Hello
   | Begun
   | Changed
-  | { is: "naming"; revision: number }
+  | NamingBegun
   | Named
   | Exponents
   | Strips
@@ -230,22 +255,9 @@ export type Answer =
   | Share
   | Refused;
 
-/** A new body; `null` leaves the start to the preset. */
-export interface Begin {
-  do: "begin";
-  model: string;
-  preset: string | null;
-  parameters: Values;
-  state: number[] | null;
-  position: [number, number] | null;
-  t: number;
-  noise: number;
-  seed: number;
-}
-
 /** Everything the page says. */
 export type Wish =
-  | Begin
+  | { do: "begin"; model: string; preset: string | null; parameters: Values; state: number[] | null; position: [number, number] | null; t: number; noise: number; seed: number }
   | { do: "set"; parameters: Values }
   | { do: "noise"; amplitude: number }
   | { do: "kick" }
@@ -257,3 +269,6 @@ export type Wish =
   | { do: "evidence"; epoch: number; cell: [number, number] }
   | { do: "share" }
   | { do: "export"; id: number; what: string; section: Section; y: number | null };
+
+/** A new body; `null` leaves the start to the preset. */
+export type Begin = Extract<Wish, { do: "begin" }>;
