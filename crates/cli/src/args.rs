@@ -28,25 +28,25 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// List the models, or one model's equations, parameters and presets
     Models(ModelsOptions),
-    /// Move one body: write its path, shape and figures
+    /// Simulate one body: write its path, shape and figures
     #[command(after_help = SIMULATE_HELP)]
     Simulate(Box<SimulateOptions>),
     /// Map the motions over one or two parameters, several initial states per cell, on all cores
     #[command(after_help = SCAN_HELP)]
     Scan(Box<ScanOptions>),
-    /// Put folders with shards of one scan together
+    /// Merge the folders of a scan that was computed in shards
     #[command(after_help = "Example: motiform merge shard1 shard2 shard3 --out whole")]
     Merge(MergeOptions),
-    /// Name a motion: the regime, the evidence for it, and how sure it is
+    /// Classify a motion: its regime, the evidence for it, and how certain it is
     #[command(after_help = CLASSIFY_HELP)]
     Classify(Box<ClassifyOptions>),
-    /// Lyapunov exponents with errors: do neighbouring motions part?
+    /// Lyapunov exponents with errors: do neighbouring orbits separate?
     #[command(after_help = LYAPUNOV_HELP)]
     Lyapunov(Box<LyapunovOptions>),
-    /// Rebuild the paper: every figure, every claim, one HTML report
+    /// Reproduce the paper: every figure, every claim, one HTML report
     #[command(after_help = REPRODUCE_HELP)]
     Reproduce(ReproduceOptions),
-    /// Play with the models in a browser: a map of motions, and a body that moves where you point
+    /// Explore the models in a browser: a map of motions, and a body that moves at the chosen parameters
     #[cfg(feature = "explorer")]
     #[command(after_help = EXPLORE_HELP)]
     Explore(ExploreOptions),
@@ -91,7 +91,7 @@ pub(crate) struct SimulateOptions {
     /// Amplitude of the noise on the velocity alone, in place of --noise (tensor)
     #[arg(long, value_name = "ETA", value_parser = number, allow_hyphen_values = true)]
     pub(crate) noise_velocity: Option<f64>,
-    /// Most steps to take
+    /// Maximum number of steps
     #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) max_steps: Option<u64>,
     /// Output folder (default: MODEL-PRESET here), or one table if it ends in .parquet or .csv
@@ -135,7 +135,7 @@ pub(crate) struct ClassifyOptions {
     /// orbit never leaves an exact symmetry; 0 keeps the exact start
     #[arg(long, value_name = "SIZE", value_parser = number, allow_hyphen_values = true)]
     pub(crate) perturb: Option<f64>,
-    /// Most model time to spend; 0 is the model's default
+    /// Maximum model time to spend; 0 is the model's default
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) budget: Option<f64>,
 }

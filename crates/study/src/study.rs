@@ -52,7 +52,7 @@ pub struct ScanSettings {
     pub axes: Vec<Axis>,
     /// Initial states per cell: all random, but the first one is that of `initial` where values are given.
     pub samples: u64,
-    /// Most model time that naming one motion may take; 0 chooses the model's default.
+    /// Maximum model time for classifying one motion; 0 chooses the model's default.
     pub budget: f64,
 }
 

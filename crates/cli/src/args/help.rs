@@ -3,7 +3,7 @@
 pub(super) const EXAMPLES: &str = "\
 Start here:
   motiform simulate tensor --preset fig5a       a zigzagging domain: numbers, figures, animation
-  motiform explore                              play with the models in a browser
+  motiform explore                              explore the models in a browser
   motiform models tensor                        its equations, parameters and presets
 
 Exit codes: 0 done; 1 finished, but some result is not what was asked (a run escaped, a disk is full);
@@ -59,10 +59,10 @@ Regimes, by the dynamics of the shape with rotations divided out:
   zigzag, quasi-periodic           a shape that comes back after a period, without or with a net rotation
   rectangular                      rests near motionless shapes, along a heteroclinic cycle that attracts
   chaotic                          the largest Lyapunov exponent is positive beyond its error
-  blow-up                          the shape leaves every bound in finite time
+  blow-up                          the shape grows without bound in finite time
   undetermined                     the evidence does not decide; it says what is missing (exit code 1)
-The transient of a preset does not matter here: looks at the motion get longer until the evidence decides.
---samples M tells the shares of the motions with 95 % intervals, what was sampled (--random), and how many starts blow up.";
+The transient of a preset does not matter here: the motion is followed for longer and longer until the evidence decides.
+--samples M reports the shares of the motions with 95 % intervals, what was sampled (--random), and how many starts blow up.";
 
 pub(super) const REPRODUCE_HELP: &str = "\
 Examples:
@@ -70,7 +70,7 @@ Examples:
   motiform reproduce fig4 fig5 --out paper
 
 The output folder holds report.html (figures, parameters, claim by claim: what the paper says, what we find, how it was
-decided, and why where they differ), its figures (figure-4.1.svg and .png), and the scans behind them.
+decided, and why where they differ), its figures (figure-4.1.svg and .png, .csv with their numbers), and the scans behind them.
 Exit code 1: a claim failed.";
 
 pub(super) const LYAPUNOV_HELP: &str = "\

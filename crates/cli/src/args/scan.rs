@@ -26,7 +26,7 @@ pub(crate) struct ScanOptions {
     /// orbit never leaves an exact symmetry; 0 keeps the exact start
     #[arg(long, value_name = "SIZE", value_parser = number, allow_hyphen_values = true)]
     pub(crate) perturb: Option<f64>,
-    /// Most model time that naming one motion may take; 0 is the model's default
+    /// Maximum model time for classifying one motion; 0 is the model's default
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) budget: Option<f64>,
     /// Output folder (default: MODEL-PRESET-scan here)

@@ -13,7 +13,7 @@ pub(crate) struct SubjectOptions {
     /// Start from a preset of the model, e.g. fig5a
     #[arg(long, value_name = "NAME")]
     pub(crate) preset: Option<String>,
-    /// Set a parameter (repeatable); axes of a scan win over it
+    /// Set a parameter (repeatable); the axes of a scan take precedence
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, f64)>,
 }
@@ -21,7 +21,7 @@ pub(crate) struct SubjectOptions {
 /// Many initial states in place of one.
 #[derive(Args)]
 pub(crate) struct SamplesOptions {
-    /// Ask this many initial states: the one given, if any is, and random ones of all sizes (see --random); on all cores
+    /// Use this many initial states: the given one, if there is one, and random ones of all sizes (see --random); on all cores
     #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(1..=1_000_000), allow_hyphen_values = true)]
     pub(crate) samples: Option<u32>,
     /// Threads for --samples (default: all cores); changes no number

@@ -57,7 +57,7 @@ def scan(
         How large random ones are: a size (each coordinate within ±size; 0.01 for one state per cell), or ``(min, max)``: all
         directions, the norm log-uniform between these (a hundredth of the model's typical size to all of it for several).
     budget
-        Most model time for naming one motion; 0 is the model's default.
+        Maximum model time for classifying one motion; 0 is the model's default.
     why
         Keep the evidence of each row as text: it takes more memory than all numbers.
     threads
