@@ -11,8 +11,8 @@ use crate::equilibrium::neutral_direction;
 use crate::linear::{add, apply, basis, complement, dot, norm, solve};
 use crate::periodic::{Flow, PeriodicOrbit, back, multipliers};
 use crate::symmetry::wrap;
-use motiform_dynamics::drive::{Sink, drive};
-use motiform_dynamics::{Equivariant, Request, System, Tangent, VectorField};
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::{Equivariant, Request, System, Tangent, VectorField, Watch};
 
 /// Over one part of the period deviations grow by less than this.
 const GROWTH: f64 = 30.0;
@@ -60,9 +60,9 @@ pub(crate) fn refine<B: Equivariant + ?Sized>(
     orbit: &PeriodicOrbit,
     flow: &Flow,
     tolerance: f64,
-    stop: &mut dyn Sink,
+    watch: &dyn Watch,
 ) -> Option<PeriodicOrbit> {
-    let (mut nodes, mut parts) = Nodes::along(body, orbit, flow, stop)?;
+    let (mut nodes, mut parts) = Nodes::along(body, orbit, flow, watch)?;
     let size = norm(&orbit.shape);
     let mut moved = f64::INFINITY;
     for _ in 0..STEPS {
@@ -78,7 +78,7 @@ pub(crate) fn refine<B: Equivariant + ?Sized>(
         if away.is_nan() || away > NEAR {
             return None;
         }
-        parts = nodes.parts(flow, stop)?;
+        parts = nodes.parts(flow, watch)?;
     }
     None
 }
@@ -89,7 +89,7 @@ impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
         body: &'b B,
         orbit: &PeriodicOrbit,
         flow: &Flow,
-        stop: &mut dyn Sink,
+        watch: &dyn Watch,
     ) -> Option<(Self, Vec<Part>)> {
         let PeriodicOrbit { time, angle, mirrored, .. } = *orbit;
         let mut count = 4;
@@ -98,7 +98,7 @@ impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
             let mut parts: Vec<Part> = Vec::new();
             for _ in 0..count {
                 let start = parts.last().map_or(&orbit.shape, |part| &part.end).clone();
-                parts.push(part(body, &start, time / count as f64, flow, stop)?);
+                parts.push(part(body, &start, time / count as f64, flow, watch)?);
                 nodes.shapes.push(start);
             }
             if parts.iter().all(|part| norm(&part.tangents) < GROWTH) {
@@ -109,9 +109,9 @@ impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
         None
     }
 
-    fn parts(&self, flow: &Flow, stop: &mut dyn Sink) -> Option<Vec<Part>> {
+    fn parts(&self, flow: &Flow, watch: &dyn Watch) -> Option<Vec<Part>> {
         let span = self.time / self.shapes.len() as f64;
-        self.shapes.iter().map(|shape| part(self.body, shape, span, flow, stop)).collect()
+        self.shapes.iter().map(|shape| part(self.body, shape, span, flow, watch)).collect()
     }
 
     fn back(&self, x: &mut [f64]) {
@@ -218,15 +218,16 @@ fn part<B: Equivariant + ?Sized>(
     start: &[f64],
     span: f64,
     flow: &Flow,
-    stop: &mut dyn Sink,
+    watch: &dyn Watch,
 ) -> Option<Part> {
     let dim = start.len();
     let field = Tangent::new(body, dim);
     let mut state = start.to_vec();
     state.extend((0..dim * dim).map(|i| if i / dim == i % dim { 1.0 } else { 0.0 }));
     let mut orbit = flow.method.shape_orbit(&field, flow.control, 0.0, &state).ok()?;
-    let request = Request { max_steps: flow.max_steps, watched: dim, ..Request::until(span, field.dim()) };
-    let outcome = drive(orbit.as_mut(), &request, stop).ok()?;
+    let request =
+        Request { max_steps: flow.max_steps, watched: dim, watch, ..Request::until(span, field.dim()) };
+    let outcome = drive(orbit.as_mut(), &request, &mut ()).ok()?;
     if !outcome.is_complete() {
         return None;
     }

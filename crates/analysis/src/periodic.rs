@@ -5,9 +5,9 @@ use crate::linear::{add, basis, dot, eigenvalues, least_squares, norm, orthonorm
 use crate::lyapunov::SplitMix;
 use crate::multiple_shooting::refine;
 use crate::symmetry::wrap;
-use motiform_dynamics::drive::{Sink, drive};
+use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::Method;
-use motiform_dynamics::{Equivariant, Request, StepControl, System, Tangent, VectorField};
+use motiform_dynamics::{Equivariant, Request, StepControl, System, Tangent, VectorField, Watch};
 
 /// A solution of `Phi_T(u) = R(angle) [M] u`: after the time T the shape is its own image.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,7 +79,7 @@ impl PeriodicOrbit {
         body: &B,
         guess: &PeriodicGuess<'_>,
         flow: &Flow,
-        stop: &mut dyn Sink,
+        watch: &dyn Watch,
     ) -> Option<Self> {
         let mut state = Newton::new(body, guess);
         let size = norm(guess.shape);
@@ -89,7 +89,7 @@ impl PeriodicOrbit {
         };
         let mut first = f64::INFINITY;
         for step in 0..STEPS {
-            let image = state.image(flow, stop)?;
+            let image = state.image(flow, watch)?;
             let residual = norm(&image.rest);
             if step == 0 {
                 first = residual;
@@ -103,7 +103,7 @@ impl PeriodicOrbit {
             if step > 0 && residual <= tolerance * size {
                 let found = state.describe(&image, residual)?;
                 return if state.is_small() && image.amplification() > SENSITIVE {
-                    refine(body, &found, flow, tolerance, stop)
+                    refine(body, &found, flow, tolerance, watch)
                 } else {
                     Some(found)
                 };
@@ -224,14 +224,18 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
         self.directions.len() == self.shape.len()
     }
 
-    fn image(&self, flow: &Flow, stop: &mut dyn Sink) -> Option<Image> {
+    fn image(&self, flow: &Flow, watch: &dyn Watch) -> Option<Image> {
         let dim = self.shape.len();
         let tangent = Tangent::new(self.body, self.directions.len());
         let start: Vec<f64> = self.shape.iter().chain(self.directions.iter().flatten()).copied().collect();
         let mut orbit = flow.method.shape_orbit(&tangent, flow.control, 0.0, &start).ok()?;
-        let request =
-            Request { max_steps: flow.max_steps, watched: dim, ..Request::until(self.time, tangent.dim()) };
-        let outcome = drive(orbit.as_mut(), &request, stop).ok()?;
+        let request = Request {
+            max_steps: flow.max_steps,
+            watched: dim,
+            watch,
+            ..Request::until(self.time, tangent.dim())
+        };
+        let outcome = drive(orbit.as_mut(), &request, &mut ()).ok()?;
         if !outcome.is_complete() {
             return None;
         }

@@ -54,12 +54,12 @@ fn together<const K: usize, const D: usize>(count: usize) -> Vec<Lyapunov> {
     let mut done = |number: usize, run: motiform_analysis::Result<Lyapunov>| {
         runs[number] = Some(run.unwrap());
     };
-    lyapunov_in_lanes::<_, _, 6, K, D>(TOLERANCES, &mut next, &mut done, &|| false);
+    lyapunov_in_lanes::<_, _, 6, K, D>(TOLERANCES, &mut next, &mut done, &());
     runs.into_iter().map(Option::unwrap).collect()
 }
 
 fn alone(member: usize, count: usize) -> Lyapunov {
-    lyapunov(&tensor(member), &start(member), &settings(member, count), &mut ()).unwrap()
+    lyapunov(&tensor(member), &start(member), &settings(member, count), &()).unwrap()
 }
 
 #[test]

@@ -24,7 +24,7 @@ fn settings(count: usize, transient: f64, span: f64) -> LyapunovSettings {
 }
 
 fn run<B: Equivariant>(body: &B, start: &[f64], settings: &LyapunovSettings) -> Lyapunov {
-    lyapunov(body, start, settings, &mut ()).unwrap()
+    lyapunov(body, start, settings, &()).unwrap()
 }
 
 fn published(system: &str) -> (Vec<f64>, f64) {
@@ -256,7 +256,7 @@ fn a_run_that_is_followed_is_the_same_run() {
     let start = [1.0, 1.0, 20.0];
     let alone = run(&Lorenz::default(), &start, &settings);
     let mut seen = Vec::new();
-    let followed = lyapunov_followed(&Lorenz::default(), &start, &settings, &mut (), &mut |so_far| {
+    let followed = lyapunov_followed(&Lorenz::default(), &start, &settings, &(), &mut |so_far| {
         seen.push((so_far.time(), so_far.exponents()));
     });
     assert_eq!(followed.unwrap(), alone);

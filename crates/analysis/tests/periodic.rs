@@ -37,7 +37,7 @@ fn plain<'s>(shape: &'s [f64], time: f64) -> PeriodicGuess<'s> {
 fn van_der_pol_has_its_period_and_the_multiplier_of_its_divergence() {
     let body = VanDerPol { mu: reference("van_der_pol", "mu") };
     let start = after(&body, &[2.0, 0.1], 20.0);
-    let orbit = PeriodicOrbit::find(&body, &plain(&start, 6.6), &FLOW, &mut ()).unwrap();
+    let orbit = PeriodicOrbit::find(&body, &plain(&start, 6.6), &FLOW, &()).unwrap();
     near(orbit.period(), reference("van_der_pol", "period"), 1e-10); // rtol 1e-12, some 60 steps
     assert_eq!((orbit.net_rotation(), orbit.multipliers.len()), (0.0, 1));
     let mut path = Trajectory::new(2);
@@ -55,7 +55,7 @@ fn the_hopf_circle_has_the_multiplier_of_its_normal_form() {
     let body = Hopf { mu: reference("hopf", "mu"), omega: reference("hopf", "omega") };
     let (radius, period) = (reference("hopf", "radius"), reference("hopf", "period"));
     let orbit =
-        PeriodicOrbit::find(&body, &plain(&[1.05 * radius, 0.02], 1.03 * period), &FLOW, &mut ()).unwrap();
+        PeriodicOrbit::find(&body, &plain(&[1.05 * radius, 0.02], 1.03 * period), &FLOW, &()).unwrap();
     near(orbit.period(), period, 1e-10);
     near(orbit.shape[0].hypot(orbit.shape[1]), radius, 1e-10);
     near(orbit.multipliers[0].0, (-2.0 * body.mu * period).exp(), 1e-10);
@@ -65,7 +65,7 @@ fn the_hopf_circle_has_the_multiplier_of_its_normal_form() {
 #[test]
 fn there_is_no_orbit_where_there_is_none() {
     let body = Hopf { mu: -0.3, omega: 2.0 };
-    assert!(PeriodicOrbit::find(&body, &plain(&[0.5, 0.0], 3.1), &FLOW, &mut ()).is_none());
+    assert!(PeriodicOrbit::find(&body, &plain(&[0.5, 0.0], 3.1), &FLOW, &()).is_none());
 }
 
 /// The eigenvalues of a matrix, largest modulus first.
@@ -90,7 +90,7 @@ fn the_zigzag_is_its_own_mirror_image_after_half_a_period() {
     let time = 0.5 * verdict.period.unwrap();
     let angle = align(&body, &after(&body, &start, time), &start, true).angle;
     let guess = PeriodicGuess { shape: &start, time, angle, mirrored: true };
-    let orbit = PeriodicOrbit::find(&body, &guess, &FLOW, &mut ()).unwrap();
+    let orbit = PeriodicOrbit::find(&body, &guess, &FLOW, &()).unwrap();
     near(orbit.period(), verdict.period.unwrap(), 1e-7); // the verdict's tolerance: 1e-9 per step
     assert_eq!(orbit.multipliers.len(), 4);
 

@@ -1,7 +1,7 @@
 //! A progress bar with rate and remaining time for what takes longer than two seconds, and Ctrl-C.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-use motiform_lab::simulate::Monitor;
+use motiform_dynamics::Watch;
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -12,14 +12,14 @@ const QUIET: Duration = Duration::from_secs(2);
 static STOPPED: AtomicBool = AtomicBool::new(false);
 
 /// Shows progress on a terminal and listens for Ctrl-C.
-pub(crate) struct Watch {
+pub(crate) struct Progress {
     bar: ProgressBar,
     started: Instant,
     /// The work in all.
     total: f64,
 }
 
-impl Watch {
+impl Progress {
     /// A watch over `total` of `unit` (model time, cells). The first Ctrl-C asks the run to stop, the second ends the program.
     pub(crate) fn new(total: f64, unit: &'static str) -> Self {
         // Fails only if a handler is set already: then the first one still works.
@@ -50,7 +50,7 @@ impl Watch {
     }
 }
 
-impl Monitor for Watch {
+impl Watch for Progress {
     fn progress(&self, done: f64) {
         if self.bar.is_hidden() && self.started.elapsed() > QUIET {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());

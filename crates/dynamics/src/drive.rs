@@ -3,7 +3,7 @@
 use crate::escape::{GrowthLaw, norm};
 use crate::orbit::StepFailure;
 use crate::section::{Crossing, Section, Watcher, polish};
-use crate::{Error, Integration, Obstacle, Outcome};
+use crate::{Error, Integration, Obstacle, Outcome, Watch};
 use std::ops::ControlFlow;
 
 /// What a run is asked to do.
@@ -23,10 +23,12 @@ pub struct Request<'g> {
     pub watched: usize,
     /// Sections to locate.
     pub sections: &'g [Section<'g>],
+    /// Hears how far the run is, and may stop it: asked after every 64th step.
+    pub watch: &'g dyn Watch,
 }
 
 impl Request<'_> {
-    /// A plain run to `t_end` on a state with `dim` entries: no samples, no sections, generous bounds.
+    /// A plain run to `t_end` on a state with `dim` entries: no samples, no sections, no watch, generous bounds.
     #[must_use]
     pub fn until(t_end: f64, dim: usize) -> Self {
         Self {
@@ -37,6 +39,7 @@ impl Request<'_> {
             escape_norm: 1e6,
             watched: dim,
             sections: &[],
+            watch: &(),
         }
     }
 
@@ -61,11 +64,6 @@ pub trait Sink {
 
     /// The end of every accepted step: state and rates.
     fn step(&mut self, _t: f64, _u: &[f64], _slope: &[f64]) {}
-
-    /// After every step: time reached. `Break` ends the run as interrupted.
-    fn tick(&mut self, _t: f64) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
 }
 
 /// Nothing is kept but the final state.
@@ -151,8 +149,11 @@ impl Run {
         if norm(&orbit.state()[watched]) > request.escape_norm {
             return ControlFlow::Break(self.left(orbit, request));
         }
-        if sink.tick(orbit.t()).is_break() {
-            return ControlFlow::Break(Outcome::Interrupted { t: orbit.t() });
+        if work.steps.is_multiple_of(64) {
+            request.watch.progress((orbit.t() - self.start) / (request.t_end - self.start));
+            if request.watch.stopped() {
+                return ControlFlow::Break(Outcome::Interrupted { t: orbit.t() });
+            }
         }
         ControlFlow::Continue(())
     }

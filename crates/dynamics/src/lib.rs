@@ -34,6 +34,7 @@ mod stepping;
 pub mod tangent;
 mod trajectory;
 pub mod vector_field;
+mod watch;
 
 pub use control::StepControl;
 pub use drive::{Request, Sink};
@@ -52,3 +53,4 @@ pub use simd::Lanes;
 pub use tangent::Tangent;
 pub use trajectory::{CrossingPoint, Trajectory};
 pub use vector_field::{Semilinear, System, VectorField};
+pub use watch::{Part, StopOnly, Watch};

@@ -6,9 +6,9 @@ use crate::protocol::{Exponent, Exponents, MotionNamed, NamingBegun};
 use crate::worker::{Current, Worker, lock};
 use motiform_analysis::Estimate;
 use motiform_analysis::regime::Regime;
+use motiform_dynamics::Watch;
 use motiform_lab::analyse;
 use motiform_lab::scan::Row;
-use motiform_lab::simulate::Monitor;
 use motiform_study::Plan;
 use std::sync::{Arc, Mutex};
 

@@ -1,6 +1,6 @@
 //! A worker: one thread, and the latest job given to it. A new job makes the one before it stale at once.
 
-use motiform_lab::simulate::Monitor;
+use motiform_dynamics::Watch;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
@@ -23,13 +23,13 @@ struct Slot<J> {
     closed: bool,
 }
 
-/// Whether a job still counts. A [`Monitor`], so that every computation listens to it.
+/// Whether a job still counts. It is a [`Watch`], so every computation stops when it no longer does.
 pub(crate) struct Current<'d> {
     order: &'d AtomicU64,
     mine: u64,
 }
 
-impl Monitor for Current<'_> {
+impl Watch for Current<'_> {
     fn stopped(&self) -> bool {
         self.order.load(Ordering::Relaxed) != self.mine
     }

@@ -1,5 +1,6 @@
 //! Orbits of tensor models from their starts to given times, in lanes.
 
+use motiform_dynamics::Watch;
 use motiform_dynamics::ensemble::{Member, Propagation, Queue, propagate};
 use motiform_models::tensor::Tensor;
 use motiform_models::tensor::fourier::{DIM, FourierField, terms};
@@ -30,11 +31,11 @@ pub fn propagate_tensors(
     how: &Propagation<'_>,
     next: &mut dyn FnMut() -> Option<TensorStart>,
     done: &mut dyn FnMut(usize, Option<Vec<[f64; STATE]>>),
-    stopped: &dyn Fn() -> bool,
+    watch: &dyn Watch,
 ) -> bool {
     let mut member = || {
         let TensorStart { key, tensor, start } = next()?;
         Some(Member { key, field: FourierField::<f64, { terms::COMMON }>(tensor.field().0), start })
     };
-    propagate(how, Queue { next: &mut member, done, stopped })
+    propagate(how, Queue { next: &mut member, done, watch })
 }

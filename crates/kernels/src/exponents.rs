@@ -4,7 +4,7 @@ use motiform_analysis::Result;
 use motiform_analysis::lyapunov::{
     Lyapunov, LyapunovSettings, TangentMember, lyapunov_in_lanes, runs_in_lanes,
 };
-use motiform_dynamics::{Equivariant, StepControl};
+use motiform_dynamics::{Equivariant, StepControl, Watch};
 use motiform_models::tensor::Tensor;
 use motiform_models::tensor::fourier::{DIM, FourierField, terms};
 
@@ -24,14 +24,14 @@ pub fn has_exponents(tensor: &Tensor, settings: &LyapunovSettings) -> bool {
 }
 
 /// All exponents of the orbits of one tensor model that begin where `next` says; each answer goes to `done` with the start's
-/// key. The same bits as [`motiform_analysis::lyapunov()`] gives one by one. When `stopped` says so, the rest is left.
+/// key. The same bits as [`motiform_analysis::lyapunov()`] gives one by one. When `watch` stops it, the rest is left.
 /// Nothing, where [`has_exponents`] says no.
 pub fn exponents_of_tensor(
     tensor: &Tensor,
     settings: &LyapunovSettings,
     next: &mut dyn FnMut() -> Option<(usize, [f64; DIM])>,
     done: &mut dyn FnMut(usize, Result<Lyapunov>),
-    stopped: &dyn Fn() -> bool,
+    watch: &dyn Watch,
 ) {
     let StepControl::Adaptive { rtol, atol } = settings.control else { return };
     if !has_exponents(tensor, settings) {
@@ -42,5 +42,5 @@ pub fn exponents_of_tensor(
         let field = FourierField::<f64, { terms::COMMON }>(tensor.field().0);
         Some(TangentMember { key, body: Body(*tensor), field, start, settings: *settings })
     };
-    lyapunov_in_lanes::<_, _, DIM, DIM, { DIM * (1 + DIM) }>((rtol, atol), &mut member, done, stopped);
+    lyapunov_in_lanes::<_, _, DIM, DIM, { DIM * (1 + DIM) }>((rtol, atol), &mut member, done, watch);
 }

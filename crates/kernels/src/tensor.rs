@@ -2,7 +2,7 @@
 
 use motiform_analysis::Result;
 use motiform_analysis::regime::{Candidate, Settings, Verdict, classify_in_lanes};
-use motiform_dynamics::Model;
+use motiform_dynamics::{Model, Watch};
 use motiform_models::tensor::Tensor;
 use motiform_models::tensor::fourier::{DIM, FourierField, terms};
 
@@ -26,18 +26,18 @@ pub fn covering(needed: u32) -> u32 {
 
 /// Names the motion of all rows that `next` gives, whose terms must be within `covering` (a set that [`covering()`]
 /// gave); each verdict goes to `done` with the row's key. Verdicts are those of [`motiform_analysis::classify`] to the
-/// last bit. When `stopped` says so, the rest is left.
+/// last bit. When `watch` stops it, the rest is left.
 pub fn classify_tensors(
     covering: u32,
     settings: &Settings,
     next: &mut dyn FnMut() -> Option<TensorRow>,
     done: &mut dyn FnMut(usize, Result<Option<Verdict>>),
-    stopped: &dyn Fn() -> bool,
+    watch: &dyn Watch,
 ) {
     if covering == terms::COMMON {
-        classify::<{ terms::COMMON }>(settings, next, done, stopped);
+        classify::<{ terms::COMMON }>(settings, next, done, watch);
     } else {
-        classify::<{ terms::ALL }>(settings, next, done, stopped);
+        classify::<{ terms::ALL }>(settings, next, done, watch);
     }
 }
 
@@ -45,11 +45,11 @@ fn classify<const TERMS: u32>(
     settings: &Settings,
     next: &mut dyn FnMut() -> Option<TensorRow>,
     done: &mut dyn FnMut(usize, Result<Option<Verdict>>),
-    stopped: &dyn Fn() -> bool,
+    watch: &dyn Watch,
 ) {
     let mut candidate = || {
         let TensorRow { key, body, tensor, start } = next()?;
         Some(Candidate { key, body, field: FourierField::<f64, TERMS>(tensor.field().0), start })
     };
-    classify_in_lanes::<_, DIM, { 2 * DIM }>(settings, &mut candidate, done, stopped);
+    classify_in_lanes::<_, DIM, { 2 * DIM }>(settings, &mut candidate, done, watch);
 }

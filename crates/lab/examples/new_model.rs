@@ -95,7 +95,7 @@ fn named(body: &Memory) -> Result<Verdict, Box<dyn std::error::Error>> {
         escape_norm: 1e6,
         max_steps: 1_000_000,
     };
-    Ok(classify(body, &START, &settings, &mut ())?.ok_or("interrupted")?)
+    Ok(classify(body, &START, &settings, &())?.ok_or("interrupted")?)
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

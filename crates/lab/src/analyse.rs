@@ -1,24 +1,23 @@
 //! A plan, and a question about its motion: which one is it, and do neighbouring orbits separate?
 
-use crate::simulate::Monitor;
 use motiform_analysis::regime::{Settings, Verdict};
 use motiform_analysis::{Lyapunov, LyapunovSettings, SoFar};
+use motiform_dynamics::Watch;
 use motiform_dynamics::steppers::Method;
-use motiform_dynamics::{Model, Sink};
+use motiform_dynamics::{Model, StopOnly};
 use motiform_models::ModelInfo;
 use motiform_study::plan::{Control, LONGEST, check, check_no_noise};
 use motiform_study::{Error, Plan};
-use std::ops::ControlFlow;
 
 /// Names the motion that starts from the plan's initial state, spending at most `budget` model time (the model's
 /// default, if 0); `None` if the monitor asked to stop. The plan's transient and recording do not matter.
 ///
 /// # Errors
 /// Input that only the numerics can refuse.
-pub fn classify(plan: &Plan, budget: f64, monitor: &dyn Monitor) -> Result<Option<Verdict>, Error> {
+pub fn classify(plan: &Plan, budget: f64, watch: &dyn Watch) -> Result<Option<Verdict>, Error> {
     let (model, shape) = start(plan)?;
     let settings = settings(plan, budget)?;
-    Ok(motiform_analysis::classify(model.as_ref(), &shape, &settings, &mut Stop::new(monitor))?)
+    Ok(motiform_analysis::classify(model.as_ref(), &shape, &settings, &StopOnly(watch))?)
 }
 
 /// The classifier's settings for a plan.
@@ -54,9 +53,9 @@ pub fn lyapunov(
     plan: &Plan,
     count: usize,
     (transient, t_end): (Option<f64>, Option<f64>),
-    monitor: &dyn Monitor,
+    watch: &dyn Watch,
 ) -> Result<Lyapunov, Error> {
-    lyapunov_followed(plan, count, (transient, t_end), monitor, &mut |_| {})
+    lyapunov_followed(plan, count, (transient, t_end), watch, &mut |_| {})
 }
 
 /// As [`lyapunov`], shown to `follow` while it is averaged.
@@ -67,13 +66,12 @@ pub fn lyapunov_followed(
     plan: &Plan,
     count: usize,
     times: (Option<f64>, Option<f64>),
-    monitor: &dyn Monitor,
+    watch: &dyn Watch,
     follow: &mut dyn FnMut(SoFar<'_>),
 ) -> Result<Lyapunov, Error> {
     let (model, shape) = start(plan)?;
     let settings = lyapunov_settings(plan, count, times)?;
-    let mut stop = Stop::over(monitor, settings.transient + settings.span);
-    Ok(motiform_analysis::lyapunov_followed(model.as_ref(), &shape, &settings, &mut stop, follow)?)
+    Ok(motiform_analysis::lyapunov_followed(model.as_ref(), &shape, &settings, watch, follow)?)
 }
 
 /// What [`lyapunov`] computes for a plan.
@@ -113,36 +111,4 @@ fn start(plan: &Plan) -> Result<(Box<dyn Model>, Vec<f64>), Error> {
     let mut shape = vec![0.0; model.dim()];
     model.encode(&plan.computation.initial.values()[..model.dim()], &mut shape);
     Ok((model, shape))
-}
-
-/// Listens for the stop, and tells the monitor how far a run of known length is.
-pub(crate) struct Stop<'m> {
-    monitor: &'m dyn Monitor,
-    ticks: u32,
-    /// Length of the run; 0 where it is not known.
-    total: f64,
-}
-
-impl<'m> Stop<'m> {
-    pub(crate) fn new(monitor: &'m dyn Monitor) -> Self {
-        Self::over(monitor, 0.0)
-    }
-
-    /// For a run of length `total` (0 where it is not known).
-    pub(crate) fn over(monitor: &'m dyn Monitor, total: f64) -> Self {
-        Self { monitor, ticks: 0, total }
-    }
-}
-
-impl Sink for Stop<'_> {
-    fn tick(&mut self, t: f64) -> ControlFlow<()> {
-        self.ticks = self.ticks.wrapping_add(1);
-        if !self.ticks.is_multiple_of(64) {
-            return ControlFlow::Continue(());
-        }
-        if self.total > 0.0 {
-            self.monitor.progress(t / self.total);
-        }
-        if self.monitor.stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    }
 }

@@ -1,12 +1,11 @@
 //! Many orbits of one model at given times: from many starts, with many values of the parameters, or both.
 
-use crate::analyse::Stop;
 use crate::pool::{Jobs, spread};
-use crate::simulate::Monitor;
+use motiform_dynamics::Watch;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::ensemble::Propagation;
 use motiform_dynamics::simd::has_lanes;
-use motiform_dynamics::{InPlane, Model, Outcome, Request, StepControl};
+use motiform_dynamics::{InPlane, Model, Outcome, Request, StepControl, StopOnly};
 use motiform_kernels::{STATE, TensorStart, has_ensemble, propagate_tensors};
 use motiform_models::tensor::Tensor;
 use motiform_study::plan::{check, check_closed, check_no_noise, check_steps};
@@ -62,16 +61,16 @@ pub fn tracks(
     members: &[Member],
     times: &[f64],
     threads: usize,
-    monitor: &dyn Monitor,
+    watch: &dyn Watch,
 ) -> Result<Option<Vec<Track>>, Error> {
     check_no_noise(plan.computation.noise.map_or(0.0, |noise| noise.largest()))?;
     check_times(times)?;
     let bodies: Vec<Body> =
         members.iter().map(|member| Body::new(plan, member, times)).collect::<Result<_, _>>()?;
     let lanes = lanes(plan, times).filter(|_| bodies.iter().all(|body| body.tensor().is_some()));
-    spread(members.len(), threads, monitor, |jobs| match &lanes {
-        Some(how) => in_lanes(plan, &bodies, how, jobs, monitor),
-        None => jobs.each(|job| bodies[job].track(plan, times, monitor)),
+    spread(members.len(), threads, watch, |jobs| match &lanes {
+        Some(how) => in_lanes(plan, &bodies, how, jobs, watch),
+        None => jobs.each(|job| bodies[job].track(plan, times, watch)),
     })
 }
 
@@ -133,7 +132,7 @@ impl Body {
     }
 
     /// The track of a single orbit; `None` if it was stopped.
-    fn track(&self, plan: &Plan, times: &[f64], monitor: &dyn Monitor) -> Result<Option<Track>, Error> {
+    fn track(&self, plan: &Plan, times: &[f64], watch: &dyn Watch) -> Result<Option<Track>, Error> {
         let c = &plan.computation;
         let body = InPlane(self.model.as_ref());
         let mut orbit = plan.method()?.orbit(&body, c.control.into(), 0.0, &self.start)?;
@@ -144,9 +143,10 @@ impl Body {
                     max_steps: c.max_steps,
                     escape_norm: c.escape_norm,
                     watched: self.model.dim(),
+                    watch: &StopOnly(watch),
                     ..Request::until(t, self.start.len())
                 };
-                outcome = drive(orbit.as_mut(), &request, &mut Stop::new(monitor))?;
+                outcome = drive(orbit.as_mut(), &request, &mut ())?;
             }
             match outcome {
                 Outcome::Completed { .. } => states.push(self.named(orbit.state())),
@@ -159,13 +159,7 @@ impl Body {
 }
 
 /// Tracks in lanes, on this thread.
-fn in_lanes(
-    plan: &Plan,
-    bodies: &[Body],
-    how: &Propagation<'_>,
-    jobs: &Jobs<'_, Track>,
-    monitor: &dyn Monitor,
-) {
+fn in_lanes(plan: &Plan, bodies: &[Body], how: &Propagation<'_>, jobs: &Jobs<'_, Track>, watch: &dyn Watch) {
     let mut next = || {
         let key = jobs.next()?;
         let body = &bodies[key];
@@ -177,9 +171,9 @@ fn in_lanes(
                 outcome: Outcome::Completed { t: how.times.last().copied().unwrap_or(0.0) },
                 states: states.iter().map(|state| bodies[job].named(state)).collect(),
             })),
-            None => bodies[job].track(plan, how.times, monitor),
+            None => bodies[job].track(plan, how.times, watch),
         };
         jobs.done(job, track);
     };
-    propagate_tensors(how, &mut next, &mut done, &|| monitor.stopped());
+    propagate_tensors(how, &mut next, &mut done, watch);
 }

@@ -1,8 +1,8 @@
 //! The steady motions of a plan: shapes that do not change but for a steady rotation.
 
 use crate::analyse;
-use crate::simulate::Monitor;
 use motiform_analysis::RelativeEquilibrium;
+use motiform_dynamics::Watch;
 use motiform_dynamics::{Model, escape::norm};
 use motiform_study::initial::random_shape;
 use motiform_study::plan::{Named, check};
@@ -42,17 +42,13 @@ const SAME: f64 = 1e-6;
 ///
 /// # Errors
 /// A plan with noise; what the model refuses of its parameters.
-pub fn equilibria(
-    plan: &Plan,
-    starts: usize,
-    monitor: &dyn Monitor,
-) -> Result<Option<Vec<Equilibrium>>, Error> {
+pub fn equilibria(plan: &Plan, starts: usize, watch: &dyn Watch) -> Result<Option<Vec<Equilibrium>>, Error> {
     check("starts", starts as f64, starts > 0, "give at least 1")?;
     let model = analyse::model(plan)?;
     let circle = vec![0.0; model.dim()];
     let mut found: Vec<(RelativeEquilibrium, usize)> = Vec::new();
     for start in 0..=starts {
-        if monitor.stopped() {
+        if watch.stopped() {
             return Ok(None);
         }
         let size = SIZES[start % SIZES.len()];
@@ -63,7 +59,7 @@ pub fn equilibria(
         if let Some(equilibrium) = RelativeEquilibrium::find(model.as_ref(), &guess) {
             count(&mut found, equilibrium, model.as_ref(), start > 0);
         }
-        monitor.progress((start + 1) as f64 / (starts + 1) as f64);
+        watch.progress((start + 1) as f64 / (starts + 1) as f64);
     }
     found.sort_by(|a, b| a.0.growth().total_cmp(&b.0.growth()));
     Ok(Some(found.into_iter().map(|(found, hits)| describe(model.as_ref(), found, hits, starts)).collect()))

@@ -1,9 +1,9 @@
 //! The motion that was simulated, by name: a short look from where the run ended.
 
 use crate::analyse;
-use crate::simulate::Monitor;
 use motiform_analysis::regime::{Regime, Verdict};
 use motiform_dynamics::Outcome;
+use motiform_dynamics::Watch;
 use motiform_study::{Error, Manifest};
 
 /// Model time to spend, in looks of the model: a motion that has settled is decided within the first.
@@ -17,16 +17,16 @@ const LOOKS: f64 = 2.0;
 /// Input that only the numerics can refuse.
 ///
 /// # Checked by  tests/naming.rs: the presets' motions, other parameters, noise, blow-up
-pub fn name(manifest: &Manifest, monitor: &dyn Monitor) -> Result<Option<Verdict>, Error> {
+pub fn name(manifest: &Manifest, watch: &dyn Watch) -> Result<Option<Verdict>, Error> {
     let mut plan = manifest.plan.clone();
     let complete = matches!(*manifest.outcome, Outcome::Completed { .. });
-    if !complete || plan.computation.noise.is_some() || monitor.stopped() {
+    if !complete || plan.computation.noise.is_some() || watch.stopped() {
         return Ok(None);
     }
     for (entry, state) in plan.computation.initial.0.iter_mut().zip(&manifest.state.0) {
         entry.1 = state.1;
     }
     let budget = LOOKS * plan.info()?.look;
-    let verdict = analyse::classify(&plan, budget, monitor)?;
+    let verdict = analyse::classify(&plan, budget, watch)?;
     Ok(verdict.filter(|verdict| verdict.regime != Regime::Undetermined))
 }

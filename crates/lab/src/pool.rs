@@ -1,6 +1,6 @@
 //! Work spread over threads: jobs are numbered, each thread takes the next one, and answers come back in the order of the jobs.
 
-use crate::simulate::Monitor;
+use motiform_dynamics::Watch;
 use motiform_study::Error;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -11,13 +11,13 @@ pub(crate) struct Jobs<'p, A> {
     next: AtomicUsize,
     /// The answers, how many there are, and what went wrong first.
     found: Mutex<(Vec<Option<A>>, usize, Option<Error>)>,
-    monitor: &'p dyn Monitor,
+    watch: &'p dyn Watch,
 }
 
 impl<A> Jobs<'_, A> {
     /// The number of the next job; `None` if there is none, or it is time to stop. A thread may hold several jobs at once.
     pub(crate) fn next(&self) -> Option<usize> {
-        if self.monitor.stopped() || held(&self.found).2.is_some() {
+        if self.watch.stopped() || held(&self.found).2.is_some() {
             return None;
         }
         Some(self.next.fetch_add(1, Ordering::Relaxed)).filter(|job| *job < self.count)
@@ -38,7 +38,7 @@ impl<A> Jobs<'_, A> {
         }
         let part = *count as f64 / self.count as f64;
         drop(found);
-        self.monitor.progress(part);
+        self.watch.progress(part);
     }
 
     /// Jobs one after the other, until none is left.
@@ -56,11 +56,11 @@ impl<A> Jobs<'_, A> {
 pub(crate) fn spread<A: Send>(
     count: usize,
     threads: usize,
-    monitor: &dyn Monitor,
+    watch: &dyn Watch,
     work: impl Fn(&Jobs<'_, A>) + Sync,
 ) -> Result<Option<Vec<A>>, Error> {
     let answers = (0..count).map(|_| None).collect();
-    let jobs = Jobs { count, next: AtomicUsize::new(0), found: Mutex::new((answers, 0, None)), monitor };
+    let jobs = Jobs { count, next: AtomicUsize::new(0), found: Mutex::new((answers, 0, None)), watch };
     std::thread::scope(|scope| {
         for _ in 1..threads.min(count) {
             scope.spawn(|| work(&jobs));

@@ -1,12 +1,12 @@
 //! Chaos that does not last: the exponent of the chaotic saddle, and the rate at which orbits leave it.
 
-use crate::analyse::{self, Stop};
+use crate::analyse;
 use crate::pool::spread;
-use crate::simulate::Monitor;
 use motiform_analysis::{
     Estimate, Lyapunov, LyapunovSettings, Stay, SurvivalStep, escape_rate, lyapunov, survival,
 };
 use motiform_dynamics::Outcome;
+use motiform_dynamics::{StopOnly, Watch};
 use motiform_study::initial::random_shape;
 use motiform_study::{Error, Plan};
 use serde::Serialize;
@@ -55,7 +55,7 @@ pub fn saddle(
     samples: usize,
     (transient, t_end): (Option<f64>, Option<f64>),
     threads: usize,
-    monitor: &dyn Monitor,
+    watch: &dyn Watch,
 ) -> Result<Option<Saddle>, Error> {
     let (info, c) = (plan.info()?, &plan.computation);
     let model = analyse::model(plan)?;
@@ -70,10 +70,10 @@ pub fn saddle(
     };
     let one = |sample: usize| {
         let start = random_shape(model.as_ref(), RANDOM, c.seed, sample as u64 + 1);
-        let found = lyapunov(model.as_ref(), &start, &settings, &mut Stop::new(monitor))?;
+        let found = lyapunov(model.as_ref(), &start, &settings, &StopOnly(watch))?;
         Ok((!matches!(found.outcome, Outcome::Interrupted { .. })).then_some(found))
     };
-    let runs = spread(samples, threads, monitor, |jobs| jobs.each(one))?;
+    let runs = spread(samples, threads, watch, |jobs| jobs.each(one))?;
     runs.map(|runs| summarise(&runs, &settings, WAY_OUT * info.look)).transpose()
 }
 

@@ -1,14 +1,12 @@
 //! A plan, and where its orbit crosses a surface: one coordinate at a fixed value.
 
-use crate::analyse::Stop;
-use crate::simulate::{Monitor, after_transient};
+use crate::simulate::after_transient;
+use motiform_dynamics::Watch;
 use motiform_dynamics::drive::drive;
-use motiform_dynamics::section::Crossing;
-use motiform_dynamics::{Direction, InPlane, Model, Request, Section, Sink, Trajectory};
+use motiform_dynamics::{Direction, InPlane, Model, Request, Section, Trajectory};
 use motiform_study::plan::check;
 use motiform_study::table::Table;
 use motiform_study::{Ending, Error, Plan};
-use std::ops::ControlFlow;
 
 /// The crossings of `coordinate = value` (a coordinate of the shape, or `x`, `y`) while the plan records: a table with
 /// `t`, `x`, `y`, all coordinates and `rising` (1 where the coordinate grows), and how the run ended.
@@ -21,14 +19,14 @@ pub fn section(
     plan: &Plan,
     (coordinate, value): (&str, f64),
     direction: Direction,
-    monitor: &dyn Monitor,
+    watch: &dyn Watch,
 ) -> Result<(Table, Ending), Error> {
     let c = &plan.computation;
     check("value", value, true, "give a finite number")?;
     let place = plan.info()?.coordinate(&c.parameters.values(), coordinate)?;
     let model = crate::analyse::model(plan)?;
     let weights = reading(model.as_ref(), place);
-    let (ended, start) = after_transient(plan, model.as_ref(), monitor)?;
+    let (ended, start) = after_transient(plan, model.as_ref(), watch)?;
     let mut trajectory = Trajectory::new(start.len());
     if let Some(ending) = ended {
         return Ok((table(model.as_ref(), &trajectory), ending));
@@ -42,10 +40,10 @@ pub fn section(
         escape_norm: c.escape_norm,
         watched: model.dim(),
         sections: &sections,
+        watch,
         ..Request::until(c.t_end, start.len())
     };
-    let mut sink = Both(&mut trajectory, Stop::over(monitor, c.t_end));
-    let outcome = drive(orbit.as_mut(), &request, &mut sink)?;
+    let outcome = drive(orbit.as_mut(), &request, &mut trajectory)?;
     Ok((table(model.as_ref(), &trajectory), outcome.into()))
 }
 
@@ -65,19 +63,6 @@ fn reading(model: &dyn Model, place: usize) -> Vec<f64> {
         weights[entry] = coordinates[place];
     }
     weights
-}
-
-/// Crossings go to the trajectory, ticks to the monitor.
-struct Both<'b>(&'b mut Trajectory, Stop<'b>);
-
-impl Sink for Both<'_> {
-    fn crossing(&mut self, crossing: &Crossing<'_>) {
-        self.0.crossing(crossing);
-    }
-
-    fn tick(&mut self, t: f64) -> ControlFlow<()> {
-        self.1.tick(t)
-    }
 }
 
 fn table(model: &dyn Model, trajectory: &Trajectory) -> Table {

@@ -5,50 +5,23 @@ use crate::readings::{crossings, measures, motion};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::escape::norm;
 use motiform_dynamics::model::velocity;
-use motiform_dynamics::section::Crossing;
 use motiform_dynamics::{
-    Direction, InPlane, Integration, Model, Noise, NoisyOrbit, Normal, Outcome, Request, Section, Sink,
-    StepControl, Trajectory,
+    Direction, InPlane, Integration, Model, Noise, NoisyOrbit, Normal, Outcome, Part, Request, Section,
+    StepControl, Trajectory, Watch,
 };
 use motiform_study::dataset::{Dataset, Manifest, VERSION};
 use motiform_study::plan::{Computation, Control, Named, Plan};
 use motiform_study::{Ending, Error};
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
-
-/// How the caller watches and stops a run.
-pub trait Monitor: Sync {
-    /// The part of the work that is done, 0 to 1; called often.
-    fn progress(&self, _done: f64) {}
-
-    /// A part of the work is finished; the text says which, and how it went.
-    fn note(&self, _text: &str) {}
-
-    /// Whether to stop here and keep what there is.
-    fn stopped(&self) -> bool {
-        false
-    }
-}
-
-/// Nobody watches.
-impl Monitor for () {}
-
-/// A flag that stops a run.
-impl Monitor for AtomicBool {
-    fn stopped(&self) -> bool {
-        self.load(Ordering::Relaxed)
-    }
-}
 
 /// Runs a plan.
 ///
 /// # Errors
 /// Input that only the numerics can refuse. A run that ends early is a [`Dataset`] with its [`Outcome`].
-pub fn simulate(plan: &Plan, monitor: &dyn Monitor) -> Result<Dataset, Error> {
+pub fn simulate(plan: &Plan, watch: &dyn Watch) -> Result<Dataset, Error> {
     let info = plan.info()?;
     let model = info.build(&plan.computation.parameters.values())?;
     let body = InPlane(model.as_ref());
-    let run = Run { plan, computation: &plan.computation, model: model.as_ref(), body: &body, monitor };
+    let run = Run { plan, computation: &plan.computation, model: model.as_ref(), body: &body, watch };
     run.all()
 }
 
@@ -56,9 +29,9 @@ pub fn simulate(plan: &Plan, monitor: &dyn Monitor) -> Result<Dataset, Error> {
 pub(crate) fn after_transient(
     plan: &Plan,
     model: &dyn Model,
-    monitor: &dyn Monitor,
+    watch: &dyn Watch,
 ) -> Result<(Option<Ending>, Vec<f64>), Error> {
-    let run = Run { plan, computation: &plan.computation, model, body: &InPlane(model), monitor };
+    let run = Run { plan, computation: &plan.computation, model, body: &InPlane(model), watch };
     let stretch = run.transient(0.0, 1.0)?;
     Ok((stretch.early(), stretch.last))
 }
@@ -68,7 +41,7 @@ struct Run<'r> {
     computation: &'r Computation,
     model: &'r dyn Model,
     body: &'r InPlane<&'r dyn Model>,
-    monitor: &'r dyn Monitor,
+    watch: &'r dyn Watch,
 }
 
 /// A part of a run: how it ended, and what was recorded of it.
@@ -121,9 +94,9 @@ impl Run<'_> {
         let orbit = method.shape_orbit(self.model, c.control.into(), -c.transient, &last[shape])?;
         let mut orbit = noisy(c, orbit, self.model, 0)?;
         let total = c.transient + passes * c.t_end;
-        let mut sink = Watched::new(None, self.monitor, (-c.transient, 0.0, total));
-        let request = Request { t_end: -rest, ..self.request(&[]) };
-        let outcome = drive(orbit.as_mut(), &request, &mut sink)?;
+        let watch = Part { watch: self.watch, from: 0.0, to: c.transient / total };
+        let request = Request { t_end: -rest, watch: &watch, ..self.request(&[]) };
+        let outcome = drive(orbit.as_mut(), &request, &mut ())?;
         last[shape].copy_from_slice(orbit.state());
         let counters = orbit.counters();
         let ending = Ending::of_transient(outcome, c.transient);
@@ -171,11 +144,12 @@ impl Run<'_> {
         let above = |_t: f64, u: &[f64]| u[u.len() - 1] - height;
         let sections = [Section { g: &above, direction: Direction::Either, terminal: false }];
         let wanted = if c.return_map.is_some() { &sections[..] } else { &[] };
-        let request = Request { t_end: to, sample_every: Some(c.dt_out), ..self.request(wanted) };
         let total = c.transient + passes * c.t_end;
-        let done = c.transient + pass * c.t_end;
-        let mut sink = Watched::new(Some(&mut trajectory), self.monitor, (from, done, total));
-        let outcome = drive(orbit.as_mut(), &request, &mut sink)?;
+        let share = |pass: f64| (c.transient + pass * c.t_end) / total;
+        let watch = Part { watch: self.watch, from: share(pass), to: share(pass + 1.0) };
+        let request =
+            Request { t_end: to, sample_every: Some(c.dt_out), watch: &watch, ..self.request(wanted) };
+        let outcome = drive(orbit.as_mut(), &request, &mut trajectory)?;
         let counters = orbit.counters();
         let last = orbit.state().to_vec();
         let ending = Ending::from(outcome);
@@ -251,52 +225,6 @@ pub(crate) fn finite(mut ending: Ending) -> Ending {
         *norm = norm.min(f64::MAX);
     }
     ending
-}
-
-/// A sink that records, reports progress and listens for the stop.
-struct Watched<'w> {
-    trajectory: Option<&'w mut Trajectory>,
-    monitor: &'w dyn Monitor,
-    start: f64,
-    done: f64,
-    total: f64,
-    ticks: u32,
-}
-
-impl<'w> Watched<'w> {
-    /// From the time `start` on, with the part `done` of `total` behind it.
-    fn new(
-        trajectory: Option<&'w mut Trajectory>,
-        monitor: &'w dyn Monitor,
-        (start, done, total): (f64, f64, f64),
-    ) -> Self {
-        Self { trajectory, monitor, start, done, total, ticks: 0 }
-    }
-}
-
-impl Sink for Watched<'_> {
-    fn sample(&mut self, t: f64, u: &[f64]) {
-        if let Some(trajectory) = &mut self.trajectory {
-            trajectory.sample(t, u);
-        }
-    }
-
-    fn crossing(&mut self, crossing: &Crossing<'_>) {
-        if let Some(trajectory) = &mut self.trajectory {
-            trajectory.crossing(crossing);
-        }
-    }
-
-    fn tick(&mut self, t: f64) -> ControlFlow<()> {
-        self.ticks = self.ticks.wrapping_add(1);
-        if self.ticks.is_multiple_of(256) {
-            self.monitor.progress((self.done + t - self.start) / self.total);
-            if self.monitor.stopped() {
-                return ControlFlow::Break(());
-            }
-        }
-        ControlFlow::Continue(())
-    }
 }
 
 /// The time average of the position with a smooth window that vanishes with all its derivatives at both ends: for a

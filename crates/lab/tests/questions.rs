@@ -3,9 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use motiform_dynamics::Direction;
+use motiform_dynamics::Watch;
 use motiform_lab::equilibria::equilibria;
 use motiform_lab::section::section;
-use motiform_lab::simulate::Monitor;
 use motiform_study::{Plan, Study};
 
 fn plan(text: &str) -> Plan {
@@ -62,7 +62,7 @@ fn a_straight_path_crosses_a_line_when_it_should() {
 
 struct Stopped;
 
-impl Monitor for Stopped {
+impl Watch for Stopped {
     fn stopped(&self) -> bool {
         true
     }

@@ -6,11 +6,11 @@ mod common;
 
 use common::preset;
 use motiform_analysis::regime::{Attractor, Regime, Spread, Verdict};
+use motiform_dynamics::Watch;
 use motiform_lab::scan::{
     Axis, Classify, Ended, Evaluate, Opening, PartError, Row, SCAN_FORMAT, Scan, ScanFolder, Shard, Totals,
     cells, for_each_part, merge,
 };
-use motiform_lab::simulate::Monitor;
 use motiform_study::{Error, ScanPlan, Study};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ impl Evaluate for Toy {
         plan: &ScanPlan,
         cell: usize,
         sample: usize,
-        stop: &dyn Monitor,
+        stop: &dyn Watch,
     ) -> Result<Option<Verdict>, Error> {
         if stop.stopped() {
             return Ok(None);
@@ -117,7 +117,7 @@ fn shards_merge_to_the_same_bytes() {
 /// Stops after so many questions.
 struct Patience(AtomicUsize);
 
-impl Monitor for Patience {
+impl Watch for Patience {
     fn stopped(&self) -> bool {
         self.0.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(1)).is_err()
     }
@@ -228,7 +228,7 @@ fn different_numbers_for_the_same_rows_are_refused() {
             _: &ScanPlan,
             _: usize,
             _: usize,
-            _: &dyn Monitor,
+            _: &dyn Watch,
         ) -> Result<Option<Verdict>, Error> {
             Ok(Some(Verdict::new(Regime::Chaotic, Attractor::Chaotic, String::new(), 1.0)))
         }
@@ -305,7 +305,7 @@ fn a_refused_row_is_undetermined() {
             _: &ScanPlan,
             _: usize,
             _: usize,
-            _: &dyn Monitor,
+            _: &dyn Watch,
         ) -> Result<Option<Verdict>, Error> {
             Err(Error::Setting { key: "key", value: "value".into(), remedy: "remedy" })
         }
@@ -329,7 +329,7 @@ fn memory_does_not_grow_with_the_cells() {
             _: &ScanPlan,
             _: usize,
             _: usize,
-            _: &dyn Monitor,
+            _: &dyn Watch,
         ) -> Result<Option<Verdict>, Error> {
             Ok(Some(Verdict::new(Regime::Motionless, Attractor::Equilibrium, String::new(), 0.0)))
         }

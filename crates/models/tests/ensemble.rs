@@ -3,9 +3,10 @@
 use motiform_dynamics::ensemble::{Member, Propagation, Queue, propagate, propagate_on};
 use motiform_dynamics::simd::{InstructionSet, has_lanes};
 use motiform_dynamics::steppers::DOP853;
-use motiform_dynamics::{InPlane, Orbit, Outcome, Request, StepControl, drive::drive};
+use motiform_dynamics::{InPlane, Orbit, Outcome, Request, StepControl, Watch, drive::drive};
 use motiform_models::tensor::TensorParameters;
 use motiform_models::tensor::fourier::{Coefficients, DIM, FourierField, terms};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 type Field = FourierField<f64, { terms::PAPER }>;
 
@@ -53,7 +54,7 @@ fn together(members: &[Member<Field, STATE>], how: &Propagation<'_>, set: Instru
     let mut left = members.iter().copied();
     let mut found: Vec<Option<States>> = vec![None; members.len()];
     let mut done = |key: usize, states: States| assert!(found[key].replace(states).is_none());
-    let queue = Queue { next: &mut || left.next(), done: &mut done, stopped: &|| false };
+    let queue = Queue { next: &mut || left.next(), done: &mut done, watch: &() };
     propagate_on(set, how, queue);
     found.into_iter().map(|states| states.expect("every member is told of")).collect()
 }
@@ -88,12 +89,17 @@ fn blow_up_is_the_same_in_company() {
 fn a_stop_leaves_what_is_under_way() {
     let (some, how) = (members(|_| 0.5, 40), how(&[1e4], 1e-9));
     let mut left = some.iter().copied();
-    let (mut told, asked) = (0, std::cell::Cell::new(0));
-    let stopped = || {
-        asked.set(asked.get() + 1);
-        asked.get() > 20
-    };
-    let queue = Queue { next: &mut || left.next(), done: &mut |_, _| told += 1, stopped: &stopped };
+    let (mut told, watch) = (0, AfterAsked(AtomicUsize::new(0)));
+    let queue = Queue { next: &mut || left.next(), done: &mut |_, _| told += 1, watch: &watch };
     assert_eq!(propagate(&how, queue), has_lanes());
     assert_eq!(told, 0);
+}
+
+/// Stops what has asked it twenty times.
+struct AfterAsked(AtomicUsize);
+
+impl Watch for AfterAsked {
+    fn stopped(&self) -> bool {
+        self.0.fetch_add(1, Ordering::Relaxed) >= 20
+    }
 }

@@ -206,7 +206,7 @@ fn classified_motions_are_those_expected() {
         assert!(expected.stable.contains(&motion), "{kappa2} {gamma}: {expected:?}");
         let model = model(&Reduced::PAPER, kappa2, gamma);
         let start = [0.01, 0.003, 0.008, -0.006, 0.0, 0.0];
-        let verdict = classify(&model, &start, &settings, &mut ()).unwrap().unwrap();
+        let verdict = classify(&model, &start, &settings, &()).unwrap().unwrap();
         assert!(expected.allows(verdict.regime.name()), "{kappa2} {gamma}: {verdict:?}");
     }
 }

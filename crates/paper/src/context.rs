@@ -1,10 +1,11 @@
 //! What every chapter needs: studies run, motions named, scans made and kept.
 
 use motiform_analysis::Verdict;
-use motiform_dynamics::Outcome;
+use motiform_dynamics::Watch;
+use motiform_dynamics::{Outcome, StopOnly};
 use motiform_lab::analyse;
 use motiform_lab::scan::{CellSummary, Classify, Opening, Scan, Shard, cells};
-use motiform_lab::simulate::{Monitor, simulate};
+use motiform_lab::simulate::simulate;
 use motiform_study::{Dataset, Error, Plan, Random, ScanPlan, Study, presets};
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -16,7 +17,7 @@ pub(super) struct Context<'c> {
     /// Less evidence in less time.
     pub(super) quick: bool,
     pub(super) threads: usize,
-    pub(super) monitor: &'c dyn Monitor,
+    pub(super) watch: &'c dyn Watch,
 }
 
 impl Context<'_> {
@@ -26,8 +27,8 @@ impl Context<'_> {
     }
 
     /// Listens for the stop alone.
-    pub(super) fn quiet(&self) -> impl Monitor + '_ {
-        Quiet(self.monitor)
+    pub(super) fn quiet(&self) -> impl Watch + '_ {
+        StopOnly(self.watch)
     }
 
     /// The study of a preset with changes.
@@ -45,7 +46,7 @@ impl Context<'_> {
 
     /// Runs a study.
     pub(super) fn simulate(&self, study: &Study) -> Result<Dataset, Error> {
-        let dataset = simulate(&Plan::new(study)?, &Quiet(self.monitor))?;
+        let dataset = simulate(&Plan::new(study)?, &StopOnly(self.watch))?;
         match *dataset.manifest.outcome {
             Outcome::Interrupted { .. } => Err(Error::Interrupted),
             _ => Ok(dataset),
@@ -54,7 +55,7 @@ impl Context<'_> {
 
     /// Names the motion of a study.
     pub(super) fn classify(&self, study: &Study) -> Result<Verdict, Error> {
-        analyse::classify(&Plan::new(study)?, 0.0, &Quiet(self.monitor))?.ok_or(Error::Interrupted)
+        analyse::classify(&Plan::new(study)?, 0.0, &StopOnly(self.watch))?.ok_or(Error::Interrupted)
     }
 
     /// Makes a scan (or goes on with it) in the folder `name`, and reads it: its plan, and one summary per cell.
@@ -64,7 +65,7 @@ impl Context<'_> {
         let plan = ScanPlan::new(&study)?;
         let folder = self.out.join(format!("{name}{}-scan", if self.quick { "-quick" } else { "" }));
         let scan = Scan::open(&folder, &plan, Shard::WHOLE, Opening::Resume)?;
-        if !scan.run(&Classify, self.threads, self.monitor)?.complete {
+        if !scan.run(&Classify, self.threads, self.watch)?.complete {
             return Err(Error::Interrupted);
         }
         let cells = cells(scan.folder())?.into_iter().flatten().collect();
@@ -74,15 +75,15 @@ impl Context<'_> {
 
 /// How far chapters are that are rebuilt side by side.
 pub(super) struct Progress<'m> {
-    monitor: &'m dyn Monitor,
+    watch: &'m dyn Watch,
     /// Of each chapter: its share of the work, and the part of it that is done (bits of a number that only grows).
     parts: Vec<(f64, AtomicU64)>,
 }
 
 impl<'m> Progress<'m> {
-    pub(super) fn new(monitor: &'m dyn Monitor, work: &[f64]) -> Self {
+    pub(super) fn new(watch: &'m dyn Watch, work: &[f64]) -> Self {
         let total: f64 = work.iter().sum();
-        Self { monitor, parts: work.iter().map(|work| (work / total, AtomicU64::new(0))).collect() }
+        Self { watch, parts: work.iter().map(|work| (work / total, AtomicU64::new(0))).collect() }
     }
 }
 
@@ -92,28 +93,19 @@ pub(super) struct Share<'p> {
     pub(super) index: usize,
 }
 
-impl Monitor for Share<'_> {
+impl Watch for Share<'_> {
     fn progress(&self, done: f64) {
         // The bits of numbers from 0 on are ordered like the numbers.
         self.progress.parts[self.index].1.fetch_max(done.max(0.0).to_bits(), Ordering::Relaxed);
         let part = |(share, done): &(f64, AtomicU64)| share * f64::from_bits(done.load(Ordering::Relaxed));
-        self.progress.monitor.progress(self.progress.parts.iter().map(part).sum());
+        self.progress.watch.progress(self.progress.parts.iter().map(part).sum());
     }
 
     fn note(&self, text: &str) {
-        self.progress.monitor.note(text);
+        self.progress.watch.note(text);
     }
 
     fn stopped(&self) -> bool {
-        self.progress.monitor.stopped()
-    }
-}
-
-/// Listens for the stop and says nothing.
-pub(super) struct Quiet<'m>(pub(super) &'m dyn Monitor);
-
-impl Monitor for Quiet<'_> {
-    fn stopped(&self) -> bool {
-        self.0.stopped()
+        self.progress.watch.stopped()
     }
 }

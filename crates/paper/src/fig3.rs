@@ -159,7 +159,7 @@ fn dimension_of_map(dataset: &Dataset) -> Result<(Dimension, usize), Error> {
 fn exponent(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
     let span = context.choose(40_000.0, 8_000.0);
     let run = analyse::lyapunov(&Plan::new(study)?, 1, (Some(3000.0), Some(span)), &context.quiet())?;
-    if context.monitor.stopped() {
+    if context.watch.stopped() {
         return Err(Error::Interrupted);
     }
     let Some(first) = run.exponents.first() else { return Err(Error::Interrupted) };

@@ -11,7 +11,6 @@ mod schemes;
 use super::context::Context;
 use motiform_figures::Drawn;
 use motiform_figures::report::{ReportFigure, Section};
-use motiform_lab::simulate::Monitor;
 use motiform_study::{Error, Random, Study};
 
 pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
@@ -64,15 +63,6 @@ fn parameters(study: &Study) -> Result<Vec<(String, String)>, Error> {
 /// A drawing with its words.
 pub(super) fn figure(drawn: Drawn, caption: impl Into<String>) -> ReportFigure {
     ReportFigure::new(drawn, caption)
-}
-
-/// Listens for the stop; says nothing of single runs.
-pub(super) struct Silent<'m>(pub(super) &'m dyn Monitor);
-
-impl Monitor for Silent<'_> {
-    fn stopped(&self) -> bool {
-        self.0.stopped()
-    }
 }
 
 /// A number with two digits and a power of ten, as people write it: `1.5×10^{-4}`, `10^{-9}`.

@@ -17,8 +17,8 @@ mod sentences;
 mod strip;
 
 use context::{Context, Progress, Share};
+use motiform_dynamics::Watch;
 use motiform_figures::report::{Counts, Report, Section};
-use motiform_lab::simulate::Monitor;
 use motiform_study::Error;
 use rayon::prelude::*;
 pub use sentences::{checked_in, entry_of};
@@ -84,13 +84,13 @@ fn finished(name: &str, section: &Section) -> String {
 ///
 /// # Errors
 /// An unknown name; [`Error::Interrupted`] if the monitor asked to stop; files that cannot be written.
-pub fn reproduce(options: &Options, out: &Path, monitor: &dyn Monitor) -> Result<Report, Error> {
+pub fn reproduce(options: &Options, out: &Path, watch: &dyn Watch) -> Result<Report, Error> {
     options.check()?;
     let wanted = |chapter: &&Chapter| {
         options.figures.is_empty() || options.figures.iter().any(|name| name == chapter.name)
     };
     let chapters: Vec<&Chapter> = CHAPTERS.iter().filter(wanted).collect();
-    let progress = Progress::new(monitor, &chapters.iter().map(|chapter| chapter.work).collect::<Vec<_>>());
+    let progress = Progress::new(watch, &chapters.iter().map(|chapter| chapter.work).collect::<Vec<_>>());
     // Much of a chapter is one long run after the other: chapters side by side keep all cores busy.
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads)
@@ -98,7 +98,7 @@ pub fn reproduce(options: &Options, out: &Path, monitor: &dyn Monitor) -> Result
         .map_err(|error| Error::Threads { threads: options.threads, reason: error.to_string() })?;
     let rebuild = |(index, chapter): (usize, &&Chapter)| {
         let share = Share { progress: &progress, index };
-        let context = Context { out, quick: options.quick, threads: options.threads, monitor: &share };
+        let context = Context { out, quick: options.quick, threads: options.threads, watch: &share };
         let section = (chapter.rebuild)(&context)?;
         share.progress(1.0);
         share.note(&finished(chapter.name, &section));

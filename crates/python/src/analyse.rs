@@ -3,7 +3,7 @@
 use crate::errors::{of_json, python};
 use crate::run::{Columns, TableArrays};
 use crate::study::{Study, plan};
-use crate::watch::Watch;
+use crate::watch::Caller;
 use motiform_dynamics::Direction;
 use motiform_lab::samples::{self, Basins, Escapes, Samples};
 use motiform_study::{Error, Plan, Random};
@@ -38,7 +38,7 @@ pub(crate) fn classify(
     let perturbed = study.0.perturbed().map_err(python)?.0;
     let plan = Plan::new(&perturbed).map_err(python)?;
     let verdict =
-        answer(Watch::here(py, progress, |monitor| motiform_lab::analyse::classify(&plan, budget, monitor)))?;
+        answer(Caller::here(py, progress, |watch| motiform_lab::analyse::classify(&plan, budget, watch)))?;
     let mut entry = serde_json::to_value(&verdict).map_err(of_json)?;
     entry["accuracy"] = accuracy(&plan)?;
     Ok(entry.to_string())
@@ -55,15 +55,15 @@ pub(crate) fn motions(
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
-    let (used, verdicts, basins, escapes) = answer(Watch::here(py, progress, |monitor| {
+    let (used, verdicts, basins, escapes) = answer(Caller::here(py, progress, |watch| {
         let mut study = Study(study.0.perturbed()?.0);
         let random = Random::of(study.0.random, samples as u64, study.0.info()?);
         study.0.random = Some(random); // the first of many is drawn like the others
         let given = study.0.initial.iter().any(|(name, _)| !["x", "y"].contains(&name.as_str()));
         let (plan, samples) =
             (plan(&study)?, Samples { count: samples, random, given, threads: threads.max(1) });
-        let Some(verdicts) = samples::classify(&plan, samples, budget, monitor)? else { return Ok(None) };
-        let escapes = Escapes::of_verdicts(&plan, samples, &verdicts, budget, monitor)?;
+        let Some(verdicts) = samples::classify(&plan, samples, budget, watch)? else { return Ok(None) };
+        let escapes = Escapes::of_verdicts(&plan, samples, &verdicts, budget, watch)?;
         let basins = Basins::new(&samples, &verdicts);
         Ok(Some((plan, verdicts, basins, escapes)))
     }))?;
@@ -92,8 +92,8 @@ pub(crate) fn lyapunov(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
     let plan = plan(study).map_err(python)?;
-    let found = answer(Watch::here(py, progress, |monitor| {
-        motiform_lab::analyse::lyapunov(&plan, count, (transient, t_end), monitor).map(Some)
+    let found = answer(Caller::here(py, progress, |watch| {
+        motiform_lab::analyse::lyapunov(&plan, count, (transient, t_end), watch).map(Some)
     }))?;
     let text = serde_json::to_string(&json!({
         "accuracy": accuracy(&plan)?,
@@ -119,8 +119,8 @@ pub(crate) fn equilibria(
     starts: usize,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
-    let found = answer(Watch::here(py, progress, |monitor| {
-        motiform_lab::equilibria::equilibria(&plan(study)?, starts, monitor)
+    let found = answer(Caller::here(py, progress, |watch| {
+        motiform_lab::equilibria::equilibria(&plan(study)?, starts, watch)
     }))?;
     serde_json::to_string(&found).map_err(of_json)
 }
@@ -151,8 +151,8 @@ pub(crate) fn section(
     };
     let mut study = study.clone();
     study.0.run.dt_out = 0.0; // there are no rows: those of a preset may be too many for this span
-    let (table, outcome) = answer(Watch::here(py, progress, |monitor| {
-        motiform_lab::section::section(&plan(&study)?, (coordinate, value), direction, monitor).map(Some)
+    let (table, outcome) = answer(Caller::here(py, progress, |watch| {
+        motiform_lab::section::section(&plan(&study)?, (coordinate, value), direction, watch).map(Some)
     }))?;
     let ended = serde_json::to_string(&outcome).map_err(of_json)?;
     Ok((Columns::new(py, table)?.parts(py), (ended, outcome.is_complete(), outcome.to_string())))

@@ -2,7 +2,7 @@
 
 use crate::errors::{of_json, python};
 use crate::study::{Study, plan};
-use crate::watch::Watch;
+use crate::watch::Caller;
 use motiform_lab::ensemble::{Member, Track, random_members, tracks};
 use motiform_study::{Error, Random};
 use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -38,10 +38,10 @@ pub(crate) fn ensemble<'py>(
     };
     let members = rows(&parameters)?.into_iter().zip(rows(&starts)?);
     let members: Vec<Member> = members.map(|(parameters, start)| Member { parameters, start }).collect();
-    let (found, raised) = Watch::here(py, progress, |monitor| {
+    let (found, raised) = Caller::here(py, progress, |watch| {
         let mut study = study.clone();
         study.0.run.dt_out = 0.0; // there are no rows: those of a preset may be too many for this span
-        tracks(&plan(&study)?, &members, &times, threads.max(1), monitor)
+        tracks(&plan(&study)?, &members, &times, threads.max(1), watch)
     });
     if let Some(raised) = raised {
         return Err(raised);

@@ -2,7 +2,7 @@
 
 use crate::errors::{of_json, python};
 use crate::study::{Study, plan};
-use crate::watch::Watch;
+use crate::watch::Caller;
 use motiform_dynamics::{Model, Outline};
 use motiform_lab::{draw, naming};
 use motiform_study::table::Table;
@@ -136,7 +136,7 @@ impl Run {
 
     /// The regime of the motion where a short look from the end of the run decides; `None` where it does not.
     fn regime(&self, py: Python<'_>) -> PyResult<Option<String>> {
-        let (verdict, raised) = Watch::here(py, None, |monitor| naming::name(&self.manifest, monitor));
+        let (verdict, raised) = Caller::here(py, None, |watch| naming::name(&self.manifest, watch));
         match raised {
             Some(error) => Err(error),
             None => Ok(verdict.map_err(python)?.map(|verdict| verdict.regime.name().to_owned())),
@@ -185,7 +185,7 @@ pub(crate) fn simulate(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Run, Option<PyErr>)> {
     let (dataset, raised) =
-        Watch::here(py, progress, |monitor| motiform_lab::simulate::simulate(&plan(study)?, monitor));
+        Caller::here(py, progress, |watch| motiform_lab::simulate::simulate(&plan(study)?, watch));
     Ok((Run::new(py, dataset.map_err(python)?)?, raised))
 }
 

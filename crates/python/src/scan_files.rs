@@ -2,7 +2,7 @@
 
 use crate::errors::python;
 use crate::scan_plan::{Arrays, ScanPlan, arrays};
-use crate::watch::Watch;
+use crate::watch::Caller;
 use motiform_lab::scan::{
     Classify, Opening, Scan, ScanFolder, ScanTable, Shard, for_each_part, merge as merge_folders,
 };
@@ -43,7 +43,7 @@ impl ScanFiles {
     #[pyo3(signature = (threads, progress=None))]
     fn run(&self, py: Python<'_>, threads: usize, progress: Option<Py<PyAny>>) -> PyResult<Option<PyErr>> {
         let (ended, raised) =
-            Watch::beside(py, progress, |monitor| self.0.run(&Classify, threads.max(1), monitor));
+            Caller::beside(py, progress, |watch| self.0.run(&Classify, threads.max(1), watch));
         ended.map_err(python)?;
         Ok(raised)
     }

@@ -2,7 +2,7 @@
 
 use crate::errors::{of_json, of_keywords, python};
 use crate::study::{Study, number};
-use crate::watch::Watch;
+use crate::watch::Caller;
 use motiform_lab::scan::{Axis, Classify, Row, ScanTable, Store, compute, rows_of};
 use motiform_study::{Error, ScanPlan as Inner};
 use numpy::{PyArray1, PyReadonlyArray1};
@@ -146,8 +146,8 @@ impl ScanPlan {
         let rows = self.0.rows();
         let store = Memory { plan: &self.0, table: Mutex::new(ScanTable::empty(rows, whys)) };
         let parts = (0..self.0.parts()).collect();
-        let (ended, raised) = Watch::beside(py, progress, |monitor| {
-            compute(&self.0, parts, &Classify, threads.max(1), monitor, &store)
+        let (ended, raised) = Caller::beside(py, progress, |watch| {
+            compute(&self.0, parts, &Classify, threads.max(1), watch, &store)
         });
         ended.map_err(python)?;
         let table = store.table.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -169,8 +169,8 @@ impl ScanPlan {
             return Err(PyValueError::new_err(format!("cells {first} to {last}: the scan has {cells}")));
         }
         let began = Instant::now();
-        let (rows, raised) = Watch::here(py, None, |monitor| {
-            rows_of(&self.0, first..last, &|| began.elapsed().as_secs_f64() < seconds, &Classify, monitor)
+        let (rows, raised) = Caller::here(py, None, |watch| {
+            rows_of(&self.0, first..last, &|| began.elapsed().as_secs_f64() < seconds, &Classify, watch)
         });
         if let Some(raised) = raised {
             return Err(raised);

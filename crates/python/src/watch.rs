@@ -1,6 +1,6 @@
 //! How Python watches and stops what runs without the interpreter's lock.
 
-use motiform_lab::simulate::Monitor;
+use motiform_dynamics::Watch;
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 const EVERY: Duration = Duration::from_millis(40);
 
 /// Looks at the interpreter's signals now and then, and tells a callable (`progress(fraction)`, or `None`) how far it is.
-pub(crate) struct Watch {
+pub(crate) struct Caller {
     progress: Option<Py<PyAny>>,
     done: AtomicU64,
     stop: AtomicBool,
@@ -21,7 +21,7 @@ pub(crate) struct Watch {
     own: bool,
 }
 
-impl Watch {
+impl Caller {
     fn new(progress: Option<Py<PyAny>>, own: bool) -> Self {
         Self {
             progress,
@@ -40,7 +40,7 @@ impl Watch {
     pub(crate) fn here<T: Send>(
         py: Python<'_>,
         progress: Option<Py<PyAny>>,
-        work: impl FnOnce(&dyn Monitor) -> T + Send,
+        work: impl FnOnce(&dyn Watch) -> T + Send,
     ) -> (T, Option<PyErr>) {
         let watch = Self::new(progress, true);
         let result = py.detach(|| work(&watch));
@@ -50,11 +50,11 @@ impl Watch {
     /// Runs `work`, which may use many threads, on a thread of its own, while this one looks at signals.
     ///
     /// # Errors
-    /// As [`Watch::here`].
+    /// As [`Caller::here`].
     pub(crate) fn beside<T: Send>(
         py: Python<'_>,
         progress: Option<Py<PyAny>>,
-        work: impl FnOnce(&dyn Monitor) -> T + Send,
+        work: impl FnOnce(&dyn Watch) -> T + Send,
     ) -> (T, Option<PyErr>) {
         let watch = Self::new(progress, false);
         let result = py.detach(|| {
@@ -98,7 +98,7 @@ impl Watch {
     }
 }
 
-impl Monitor for Watch {
+impl Watch for Caller {
     fn progress(&self, done: f64) {
         self.done.store(done.to_bits(), Ordering::Relaxed);
     }

@@ -52,7 +52,7 @@ pub fn spectra(options: &Options) -> Result<Value, Failure> {
                 runs[key] = run.ok();
             }
         };
-        lyapunov_in_lanes::<_, _, 6, 6, 42>(control, &mut next, &mut done, &|| false);
+        lyapunov_in_lanes::<_, _, 6, 6, 42>(control, &mut next, &mut done, &());
     };
     let clock = Instant::now();
     std::thread::scope(|scope| {

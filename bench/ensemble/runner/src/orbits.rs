@@ -48,7 +48,7 @@ pub fn adaptive(options: &Options, task: &str) -> Result<Value, Failure> {
                 ends[key] = states.map(|states| states[0]);
             }
         };
-        propagate(&how, Queue { next: &mut next, done: &mut done, stopped: &|| false });
+        propagate(&how, Queue { next: &mut next, done: &mut done, watch: &() });
     };
     let clock = Instant::now();
     std::thread::scope(|scope| {

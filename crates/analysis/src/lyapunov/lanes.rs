@@ -5,14 +5,12 @@ use super::renormalisation::{Renormalisation, Stretch};
 use super::{Lyapunov, LyapunovSettings, first_state, lyapunov};
 use crate::Result;
 use crate::symmetry::speed_beside;
-use motiform_dynamics::drive::Sink;
 use motiform_dynamics::ensemble::{AfterStep, Entry, InLanes, LaneTask, Leaving, Then, Why, run_adaptive};
 use motiform_dynamics::scalar::MOST_LANES;
 use motiform_dynamics::simd::{LaneKernel, has_lanes, run_wide};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::steppers::unrolled::Dop853;
-use motiform_dynamics::{Bundle, Equivariant, Mask, Outcome, StepControl};
-use std::ops::ControlFlow;
+use motiform_dynamics::{Bundle, Equivariant, Mask, Outcome, StepControl, Watch};
 
 /// One orbit whose exponents are asked for.
 #[derive(Clone, Debug)]
@@ -40,17 +38,17 @@ pub fn runs_in_lanes(settings: &LyapunovSettings) -> bool {
 /// the same bits as [`super::lyapunov()`] gives one by one. `D` must be `N (1 + K)`, the
 /// members' settings must ask for `K` exponents with the same control, see [`runs_in_lanes`].
 ///
-/// A member that escapes or fails is run again alone, which says how it ended. When `stopped` says so, the rest is left.
+/// A member that escapes or fails is run again alone, which says how it ended. When `watch` stops it, the rest is left.
 pub fn lyapunov_in_lanes<B, F, const N: usize, const K: usize, const D: usize>(
     control: (f64, f64),
     next: &mut dyn FnMut() -> Option<TangentMember<B, F, N>>,
     done: &mut dyn FnMut(usize, Result<Lyapunov>),
-    stopped: &dyn Fn() -> bool,
+    watch: &dyn Watch,
 ) where
     B: AsRef<dyn Equivariant>,
     F: InLanes,
 {
-    let _ = run_wide(Run::<B, F, N, K, D> { control, next, done, stopped });
+    let _ = run_wide(Run::<B, F, N, K, D> { control, next, done, watch });
 }
 
 /// The work of one thread.
@@ -58,7 +56,7 @@ struct Run<'r, B, F, const N: usize, const K: usize, const D: usize> {
     control: (f64, f64),
     next: &'r mut dyn FnMut() -> Option<TangentMember<B, F, N>>,
     done: &'r mut dyn FnMut(usize, Result<Lyapunov>),
-    stopped: &'r dyn Fn() -> bool,
+    watch: &'r dyn Watch,
 }
 
 impl<B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, const D: usize> LaneKernel
@@ -78,7 +76,7 @@ impl<B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, cons
             steps: 0,
             next: self.next,
             done: self.done,
-            stopped: self.stopped,
+            watch: self.watch,
         };
         run_adaptive::<Dop853, L, D, _>(&mut lanes, self.control);
     }
@@ -101,7 +99,7 @@ struct TangentLanes<'r, L: Bundle, B, F: InLanes, const N: usize, const K: usize
     steps: u32,
     next: &'r mut dyn FnMut() -> Option<TangentMember<B, F, N>>,
     done: &'r mut dyn FnMut(usize, Result<Lyapunov>),
-    stopped: &'r dyn Fn() -> bool,
+    watch: &'r dyn Watch,
 }
 
 impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, const D: usize>
@@ -110,8 +108,7 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
     /// A member that its lane cannot finish, as a single orbit.
     fn alone(&mut self, in_lane: &InLane<B, F, N>) {
         let TangentMember { body, start, settings, .. } = &in_lane.member;
-        let mut stop = Stop(self.stopped);
-        (self.done)(in_lane.member.key, lyapunov(body.as_ref(), start, settings, &mut stop));
+        (self.done)(in_lane.member.key, lyapunov(body.as_ref(), start, settings, self.watch));
     }
 
     /// Tells the lanes in `due` what their vectors have grown to, and takes the ends of their next stretches. A lane that has
@@ -156,7 +153,7 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
 
     fn enter(&mut self, lane: usize) -> Option<Entry<D>> {
         loop {
-            if (self.stopped)() {
+            if self.watch.stopped() {
                 return None;
             }
             let member = self.first.take().or_else(|| (self.next)())?;
@@ -180,7 +177,7 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
     #[inline(always)]
     fn outside(&mut self, u: &[L; D]) -> Mask {
         self.steps = self.steps.wrapping_add(1);
-        if self.steps.is_multiple_of(1024) && (self.stopped)() {
+        if self.steps.is_multiple_of(1024) && self.watch.stopped() {
             return Mask::first(L::LANES);
         }
         let mut norm = L::splat(0.0);
@@ -208,7 +205,7 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
 
     fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Then {
         let Some(in_lane) = self.in_lanes[lane].take() else { return Then::Leave };
-        if (self.stopped)() {
+        if self.watch.stopped() {
             return Then::Leave;
         }
         let work = leaving.steps + leaving.rejected;
@@ -220,14 +217,5 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
         let result = in_lane.renormalisation.result(body, &leaving.u[..N], outcome, leaving.steps);
         (self.done)(in_lane.member.key, result);
         Then::Leave
-    }
-}
-
-/// Listens to `stopped`.
-struct Stop<'s>(&'s dyn Fn() -> bool);
-
-impl Sink for Stop<'_> {
-    fn tick(&mut self, _t: f64) -> ControlFlow<()> {
-        if (self.0)() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }

@@ -11,7 +11,9 @@ use crate::{Estimate, Result};
 pub use lanes::{TangentMember, lyapunov_in_lanes, runs_in_lanes};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::Method;
-use motiform_dynamics::{Equivariant, Mask, Outcome, Request, Sink, StepControl, Tangent, VectorField};
+use motiform_dynamics::{
+    Equivariant, Mask, Outcome, Request, StepControl, StopOnly, Tangent, VectorField, Watch,
+};
 use renormalisation::{Renormalisation, Stretch};
 
 /// How to compute exponents.
@@ -140,7 +142,7 @@ pub fn lyapunov<B: Equivariant + ?Sized>(
     body: &B,
     start: &[f64],
     settings: &LyapunovSettings,
-    watch: &mut dyn Sink,
+    watch: &dyn Watch,
 ) -> Result<Lyapunov> {
     lyapunov_followed(body, start, settings, watch, &mut |_| {})
 }
@@ -175,7 +177,7 @@ pub fn lyapunov_followed<B: Equivariant + ?Sized>(
     body: &B,
     start: &[f64],
     settings: &LyapunovSettings,
-    watch: &mut dyn Sink,
+    watch: &dyn Watch,
     follow: &mut dyn FnMut(SoFar<'_>),
 ) -> Result<Lyapunov> {
     let tangent = Tangent::new(body, settings.count);
@@ -191,9 +193,10 @@ pub fn lyapunov_followed<B: Equivariant + ?Sized>(
             escape_norm: settings.escape_norm,
             watched: start.len(),
             stop_after: stop,
+            watch: &StopOnly(watch),
             ..Request::until(limit, start.len())
         };
-        outcome = drive(orbit.as_mut(), &request, watch)?;
+        outcome = drive(orbit.as_mut(), &request, &mut ())?;
         if !outcome.is_complete() {
             break;
         }
@@ -206,7 +209,8 @@ pub fn lyapunov_followed<B: Equivariant + ?Sized>(
         if let Some(so_far) = renormalisation.so_far(pace(shape, rate)) {
             follow(so_far);
         }
-        if watch.tick(orbit.t()).is_break() {
+        watch.progress(orbit.t() / (settings.transient + settings.span));
+        if watch.stopped() {
             outcome = Outcome::Interrupted { t: orbit.t() };
             break;
         }

@@ -7,7 +7,7 @@ use super::settings::Settings;
 use super::verdict::{Attractor, Regime, Verdict};
 use crate::lyapunov::{Lyapunov, LyapunovSettings, lyapunov};
 use crate::{Estimate, Result, escape_limits};
-use motiform_dynamics::{Equivariant, Sink};
+use motiform_dynamics::{Equivariant, Watch};
 
 /// Growth by less than this (natural logarithm) over all runs may be a power of time.
 const GROWN: f64 = 10.0;
@@ -27,9 +27,9 @@ pub(super) fn exponent<B: Equivariant + ?Sized>(
     shape: &[f64],
     span: f64,
     settings: &Settings,
-    stop: &mut dyn Sink,
+    watch: &dyn Watch,
 ) -> Result<Lyapunov> {
-    lyapunov(body, shape, &exponent_settings(settings, span), stop)
+    lyapunov(body, shape, &exponent_settings(settings, span), watch)
 }
 
 /// The settings of that run.

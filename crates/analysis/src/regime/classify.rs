@@ -16,7 +16,7 @@ use super::search::{Ask, Search};
 use super::settings::Settings;
 use super::verdict::Verdict;
 use crate::Result;
-use motiform_dynamics::{Equivariant, Sink};
+use motiform_dynamics::{Equivariant, Watch};
 
 /// Classifies the motion that starts from `start`; `None` if `stop` broke off.
 ///
@@ -37,7 +37,7 @@ pub fn classify<B: Equivariant + ?Sized>(
     body: &B,
     start: &[f64],
     settings: &Settings,
-    stop: &mut dyn Sink,
+    watch: &dyn Watch,
 ) -> Result<Option<Verdict>> {
     let mut orbit = settings.method.shape_orbit(body, settings.control, 0.0, start)?;
     let (mut search, mut ask) = Search::new(settings, start);
@@ -45,17 +45,17 @@ pub fn classify<B: Equivariant + ?Sized>(
         ask = match ask {
             Ask::Look(span) => {
                 let request = settings.request(orbit.t() + span, body.dim());
-                let look = Look::take(body, orbit.as_mut(), span, &request, stop)?;
-                search.looked(body, look, stop)?
+                let look = Look::take(body, orbit.as_mut(), span, &request, watch)?;
+                search.looked(body, look, watch)?
             }
             Ask::Exponent(span) => {
-                let run = chaos::exponent(body, orbit.state(), span, settings, stop)?;
+                let run = chaos::exponent(body, orbit.state(), span, settings, watch)?;
                 orbit.restart(&run.shape);
-                search.measured(body, &run, stop)?
+                search.measured(body, &run, watch)?
             }
             Ask::Nothing(verdict) => return Ok(verdict.map(|verdict| *verdict)),
         };
-        if stop.tick(orbit.t()).is_break() {
+        if watch.stopped() {
             return Ok(None); // what was decided while it stopped may rest on half of a run
         }
     }

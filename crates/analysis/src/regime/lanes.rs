@@ -12,15 +12,13 @@ use super::settings::Settings;
 use super::verdict::Verdict;
 use crate::Result;
 use crate::lyapunov::{TangentMember, lyapunov_in_lanes, runs_in_lanes};
-use motiform_dynamics::drive::Sink;
 use motiform_dynamics::ensemble::{
     Entry, InLanes, LaneTask, Leaving, Pace, Stepped, Then, Why, run_adaptive,
 };
 use motiform_dynamics::simd::{LaneKernel, run_wide};
 use motiform_dynamics::steppers::unrolled::Dop853;
-use motiform_dynamics::{Bundle, Equivariant, Mask, Orbit, Outcome, StepControl};
+use motiform_dynamics::{Bundle, Equivariant, Mask, Orbit, Outcome, StepControl, Watch};
 use std::collections::VecDeque;
-use std::ops::ControlFlow;
 
 /// A motion to classify.
 pub struct Candidate<F, const N: usize> {
@@ -50,14 +48,14 @@ pub fn classify_in_lanes<F: InLanes + Clone, const N: usize, const D: usize>(
     settings: &Settings,
     next: &mut dyn FnMut() -> Option<Candidate<F, N>>,
     done: &mut dyn FnMut(usize, Result<Option<Verdict>>),
-    stopped: &dyn Fn() -> bool,
+    watch: &dyn Watch,
 ) {
     let StepControl::Adaptive { rtol, atol } = settings.control else { return };
     let mut scheduler =
-        Scheduler { settings, next, done, stopped, ready: VecDeque::new(), waiting: Vec::new() };
+        Scheduler { settings, next, done, watch, ready: VecDeque::new(), waiting: Vec::new() };
     loop {
         let ran = run_wide(Looks::<F, N> { scheduler: &mut scheduler });
-        if ran.is_none() || scheduler.waiting.is_empty() || (scheduler.stopped)() {
+        if ran.is_none() || scheduler.waiting.is_empty() || scheduler.watch.stopped() {
             return;
         }
         scheduler.measure::<D>((rtol, atol));
@@ -80,7 +78,7 @@ struct Scheduler<'d, F, const N: usize> {
     settings: &'d Settings,
     next: &'d mut dyn FnMut() -> Option<Candidate<F, N>>,
     done: &'d mut dyn FnMut(usize, Result<Option<Verdict>>),
-    stopped: &'d dyn Fn() -> bool,
+    watch: &'d dyn Watch,
     /// For a lane.
     ready: VecDeque<Classification<F, N>>,
     /// For an exponent.
@@ -90,7 +88,7 @@ struct Scheduler<'d, F, const N: usize> {
 impl<F: InLanes + Clone, const N: usize> Scheduler<'_, F, N> {
     /// The next search for a lane.
     fn take(&mut self) -> Option<Classification<F, N>> {
-        if (self.stopped)() {
+        if self.watch.stopped() {
             return None;
         }
         if let Some(motion) = self.ready.pop_front() {
@@ -107,7 +105,7 @@ impl<F: InLanes + Clone, const N: usize> Scheduler<'_, F, N> {
 
     /// Files a search by what it asks for; gives it back if that is a look.
     fn file(&mut self, mut motion: Classification<F, N>, ask: Result<Ask>) -> Option<Classification<F, N>> {
-        if (self.stopped)() {
+        if self.watch.stopped() {
             return None; // what was decided while it stopped may rest on half of a run
         }
         match ask {
@@ -143,12 +141,12 @@ impl<F: InLanes + Clone, const N: usize> Scheduler<'_, F, N> {
         };
         let mut runs: Vec<_> = waiting.iter().map(|_| None).collect();
         let mut done = |key: usize, run| runs[key] = Some(run);
-        lyapunov_in_lanes::<_, F, N, 1, D>(control, &mut next, &mut done, self.stopped);
+        lyapunov_in_lanes::<_, F, N, 1, D>(control, &mut next, &mut done, self.watch);
         for (mut motion, run) in waiting.into_iter().zip(runs) {
             let Some(run) = run else { continue }; // stopped
             let ask = run.and_then(|run| {
                 motion.u.copy_from_slice(&run.shape);
-                motion.search.measured(motion.candidate.body.as_ref(), &run, &mut Stop(self.stopped))
+                motion.search.measured(motion.candidate.body.as_ref(), &run, self.watch)
             });
             let again = self.file(motion, ask);
             self.ready.extend(again);
@@ -165,8 +163,8 @@ impl<F: InLanes + Clone, const N: usize> Scheduler<'_, F, N> {
         let body = motion.candidate.body.as_ref();
         let mut orbit = Orbit::resume(body, self.settings.control, t, &u, pace)?;
         let request = self.settings.request(t + motion.span, N);
-        let look = Look::take(body, &mut orbit, motion.span, &request, &mut Stop(self.stopped))?;
-        motion.search.looked(body, look, &mut Stop(self.stopped))
+        let look = Look::take(body, &mut orbit, motion.span, &request, self.watch)?;
+        motion.search.looked(body, look, self.watch)
     }
 }
 
@@ -247,7 +245,7 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> LaneTask<L, N> for SearchLan
     #[inline(always)]
     fn outside(&mut self, u: &[L; N]) -> Mask {
         self.steps = self.steps.wrapping_add(1);
-        if self.steps.is_multiple_of(1024) && (self.scheduler.stopped)() {
+        if self.steps.is_multiple_of(1024) && self.scheduler.watch.stopped() {
             return Mask::first(L::LANES);
         }
         let mut norm = L::splat(0.0);
@@ -266,7 +264,7 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> LaneTask<L, N> for SearchLan
     fn leave(&mut self, lane: usize, leaving: &Leaving<N>) -> Then {
         let (in_lane, seen) = (self.in_lanes[lane].take(), self.observer.end(lane));
         let (Some(InLane { mut motion, begun }), Some(seen)) = (in_lane, seen) else { return Then::Leave };
-        if (self.scheduler.stopped)() {
+        if self.scheduler.watch.stopped() {
             return Then::Leave;
         }
         let Leaving { why, t, u, pace, .. } = *leaving;
@@ -275,7 +273,7 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> LaneTask<L, N> for SearchLan
             self.scheduler.alone(&mut motion, begun)
         } else {
             let look = seen.look((begun.0, t), Outcome::Completed { t }, u.to_vec());
-            motion.search.looked(motion.candidate.body.as_ref(), look, &mut Stop(self.scheduler.stopped))
+            motion.search.looked(motion.candidate.body.as_ref(), look, self.scheduler.watch)
         };
         (motion.t, motion.u, motion.pace) = (t, u, Some(pace));
         let Some(motion) = self.scheduler.file(motion, ask) else { return Then::Leave };
@@ -283,14 +281,5 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> LaneTask<L, N> for SearchLan
         self.observer.begin(lane, motion.candidate.body.as_ref(), t, &u);
         self.in_lanes[lane] = Some(InLane { motion, begun: (t, u, Some(pace)) });
         Then::Continue(t + span)
-    }
-}
-
-/// Listens to `stopped`.
-struct Stop<'s>(&'s dyn Fn() -> bool);
-
-impl Sink for Stop<'_> {
-    fn tick(&mut self, _t: f64) -> ControlFlow<()> {
-        if (self.0)() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }

@@ -4,8 +4,7 @@ use crate::linear::norm;
 use crate::symmetry::{align, gauge, gauge_rate, reduced_speed};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::section::Crossing;
-use motiform_dynamics::{Direction, Equivariant, Integration, Outcome, Request, Section, Sink};
-use std::ops::ControlFlow;
+use motiform_dynamics::{Direction, Equivariant, Integration, Outcome, Request, Section, Sink, Watch};
 
 /// An extreme of the shape's size ([`gauge`]): where a reduced orbit meets the section that it is watched on.
 #[derive(Clone, Debug)]
@@ -70,13 +69,13 @@ impl Look {
         orbit: &mut dyn Integration,
         time: f64,
         request: &Request<'_>,
-        stop: &mut dyn Sink,
+        watch: &dyn Watch,
     ) -> Result<Self, motiform_dynamics::Error> {
         let start = orbit.t();
         let rate = |_t: f64, u: &[f64]| gauge_rate(body, u);
         let sections = [Section { g: &rate, direction: Direction::Either, terminal: false }];
-        let request = Request { t_end: start + time, sections: &sections, ..*request };
-        let mut watcher = Watcher { body, seen: Seen::new(orbit.state()), stop };
+        let request = Request { t_end: start + time, sections: &sections, watch, ..*request };
+        let mut watcher = Watcher { body, seen: Seen::new(orbit.state()) };
         let outcome = drive(orbit, &request, &mut watcher)?;
         let Watcher { seen, .. } = watcher;
         Ok(seen.look((start, orbit.t()), outcome, orbit.state().to_vec()))
@@ -210,7 +209,6 @@ impl Seen {
 struct Watcher<'w, B: ?Sized> {
     body: &'w B,
     seen: Seen,
-    stop: &'w mut dyn Sink,
 }
 
 impl<B: Equivariant + ?Sized> Sink for Watcher<'_, B> {
@@ -235,9 +233,5 @@ impl<B: Equivariant + ?Sized> Sink for Watcher<'_, B> {
         }
         seen.fastest = seen.fastest.max(speed);
         seen.rests(t, u, speed, seen.fastest);
-    }
-
-    fn tick(&mut self, t: f64) -> ControlFlow<()> {
-        self.stop.tick(t)
     }
 }

@@ -5,8 +5,7 @@ use super::verdict::Spread;
 use crate::symmetry::wrap;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::model::velocity;
-use motiform_dynamics::{Equivariant, Request, Sink};
-use std::ops::ControlFlow;
+use motiform_dynamics::{Equivariant, Request, Sink, Watch};
 
 /// Samples of a path, equally spaced in time; the path starts at the origin.
 #[derive(Clone, Debug)]
@@ -26,12 +25,12 @@ impl Path {
         time: f64,
         steps: usize,
         settings: &Settings,
-        stop: &mut dyn Sink,
+        watch: &dyn Watch,
     ) -> Result<Self, motiform_dynamics::Error> {
-        let mut sampler = Sampler { body, atol: settings.atol(), path: Self::empty(), stop };
+        let mut sampler = Sampler { body, atol: settings.atol(), path: Self::empty() };
         let mut orbit = settings.method.shape_orbit(body, settings.control, 0.0, shape)?;
         let request =
-            Request { sample_every: Some(time / steps as f64), ..settings.request(time, shape.len()) };
+            Request { sample_every: Some(time / steps as f64), watch, ..settings.request(time, shape.len()) };
         drive(orbit.as_mut(), &request, &mut sampler)?;
         let mut path = sampler.path;
         let defined = path.velocities.iter().take_while(|v| v.iter().all(|x| x.is_finite())).count();
@@ -108,7 +107,6 @@ struct Sampler<'b, B: ?Sized> {
     body: &'b B,
     atol: f64,
     path: Path,
-    stop: &'b mut dyn Sink,
 }
 
 impl<B: Equivariant + ?Sized> Sink for Sampler<'_, B> {
@@ -116,9 +114,5 @@ impl<B: Equivariant + ?Sized> Sink for Sampler<'_, B> {
         self.path.times.push(t);
         self.path.velocities.push(velocity(self.body, u));
         self.path.resolution = self.path.resolution.max(self.body.speed_resolution(u, self.atol));
-    }
-
-    fn tick(&mut self, t: f64) -> ControlFlow<()> {
-        self.stop.tick(t)
     }
 }

@@ -6,8 +6,8 @@ use super::settings::Settings;
 use crate::isotropy::Isotropy;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
 use crate::symmetry::{align, wrap};
-use motiform_dynamics::Equivariant;
-use motiform_dynamics::drive::{Sink, drive};
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::{Equivariant, Request, Watch};
 
 /// Most returns to the section per period.
 const LONGEST: usize = 48;
@@ -99,7 +99,7 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     body: &B,
     look: &Look,
     settings: &Settings,
-    stop: &mut dyn Sink,
+    watch: &dyn Watch,
 ) -> Returns {
     let minima = look.minima();
     let diameter = look.diameter(body);
@@ -115,15 +115,15 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
             angle: recurrence.angle,
             mirrored: recurrence.mirrored,
         };
-        let Some(orbit) = PeriodicOrbit::find(body, &guess, &settings.flow(), stop) else { continue };
+        let Some(orbit) = PeriodicOrbit::find(body, &guess, &settings.flow(), watch) else { continue };
         // Against the latest swing: an equilibrium, approached in a spiral, is a periodic orbit of no size.
         let away = align(body, &orbit.shape, &last.shape, false).distance / swing;
         if away < ON && orbit.growth() > 1.0 + settings.accuracy() {
             return Returns::Unstable { growth: orbit.growth() };
         }
-        if orbit.growth() < 1.0 && away < NEAR && is_of_the_flow(body, &orbit, settings, stop) {
-            let (orbit, recurrence) = shortest(body, orbit, recurrence, settings, stop);
-            let (orbit, recurrence) = unmirrored(body, orbit, recurrence, settings, stop);
+        if orbit.growth() < 1.0 && away < NEAR && is_of_the_flow(body, &orbit, settings, watch) {
+            let (orbit, recurrence) = shortest(body, orbit, recurrence, settings, watch);
+            let (orbit, recurrence) = unmirrored(body, orbit, recurrence, settings, watch);
             return Returns::Stable(Box::new(orbit), recurrence);
         }
     }
@@ -137,14 +137,14 @@ fn unmirrored<B: Equivariant + ?Sized>(
     orbit: PeriodicOrbit,
     recurrence: Recurrence,
     settings: &Settings,
-    stop: &mut dyn Sink,
+    watch: &dyn Watch,
 ) -> (PeriodicOrbit, Recurrence) {
     let axis = Isotropy::of(body, &orbit.shape, SYMMETRIC).mirror;
     let Some(axis) = axis.filter(|_| orbit.mirrored) else { return (orbit, recurrence) };
     // M u = R(-axis) u, so R(angle) M u = R(angle - axis) u
     let angle = wrap(orbit.angle - axis);
     let guess = PeriodicGuess { shape: &orbit.shape, time: orbit.time, angle, mirrored: false };
-    match PeriodicOrbit::find(body, &guess, &settings.flow(), stop) {
+    match PeriodicOrbit::find(body, &guess, &settings.flow(), watch) {
         Some(found) => (found, Recurrence { mirrored: false, angle, ..recurrence }),
         None => (orbit, recurrence),
     }
@@ -156,13 +156,13 @@ pub(super) fn symmetry_of<B: Equivariant + ?Sized>(
     body: &B,
     orbit: &PeriodicOrbit,
     settings: &Settings,
-    stop: &mut dyn Sink,
+    watch: &dyn Watch,
 ) -> Result<Isotropy, motiform_dynamics::Error> {
     let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape)?;
     let mut all = Isotropy::of(body, &orbit.shape, SYMMETRIC);
     for moment in 1..MOMENTS {
         let t = orbit.time * moment as f64 / MOMENTS as f64;
-        drive(flow.as_mut(), &settings.request(t, body.dim()), stop)?;
+        drive(flow.as_mut(), &Request { watch, ..settings.request(t, body.dim()) }, &mut ())?;
         let here = Isotropy::of(body, flow.state(), SYMMETRIC);
         all.mirror = all.mirror.filter(|_| here.mirror.is_some());
         all.circle &= here.circle;
@@ -176,13 +176,13 @@ fn is_of_the_flow<B: Equivariant + ?Sized>(
     body: &B,
     orbit: &PeriodicOrbit,
     settings: &Settings,
-    stop: &mut dyn Sink,
+    watch: &dyn Watch,
 ) -> bool {
     let Ok(mut flow) = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape) else {
         return true;
     };
     let request = settings.request(orbit.time, body.dim());
-    let Ok(look) = Look::take(body, flow.as_mut(), orbit.time, &request, stop) else { return true };
+    let Ok(look) = Look::take(body, flow.as_mut(), orbit.time, &request, watch) else { return true };
     attracting_saddle(body, &look.slowest, settings).is_none()
 }
 
@@ -192,15 +192,15 @@ fn shortest<B: Equivariant + ?Sized>(
     orbit: PeriodicOrbit,
     recurrence: Recurrence,
     settings: &Settings,
-    stop: &mut dyn Sink,
+    watch: &dyn Watch,
 ) -> (PeriodicOrbit, Recurrence) {
     if recurrence.returns == 1 && (recurrence.mirrored || !body.is_symmetric()) {
         return (orbit, recurrence);
     }
-    let mut found = || -> Option<(PeriodicOrbit, Recurrence)> {
+    let found = || -> Option<(PeriodicOrbit, Recurrence)> {
         let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape).ok()?;
         let request = settings.request(2.2 * orbit.time, body.dim());
-        let look = Look::take(body, flow.as_mut(), 2.2 * orbit.time, &request, stop).ok()?;
+        let look = Look::take(body, flow.as_mut(), 2.2 * orbit.time, &request, watch).ok()?;
         let diameter = look.diameter(body);
         let minima = look.minima();
         let (start, later) = minima.split_first()?;
@@ -212,7 +212,7 @@ fn shortest<B: Equivariant + ?Sized>(
                 let shorter = time < 0.75 * orbit.time || mirrored && !orbit.mirrored;
                 if near.distance < 1e-2 * diameter && shorter {
                     let guess = PeriodicGuess { shape: &start.shape, time, angle: near.angle, mirrored };
-                    let found = PeriodicOrbit::find(body, &guess, &settings.flow(), stop)?;
+                    let found = PeriodicOrbit::find(body, &guess, &settings.flow(), watch)?;
                     let recurrence = Recurrence { returns: returns + 1, mirrored, time, angle: near.angle };
                     return (found.growth() < 1.0).then_some((found, recurrence));
                 }

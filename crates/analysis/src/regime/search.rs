@@ -13,7 +13,7 @@ use crate::equilibrium::RelativeEquilibrium;
 use crate::isotropy::Isotropy;
 use crate::linear::norm;
 use crate::{Lyapunov, Result};
-use motiform_dynamics::{Equivariant, Outcome, Sink};
+use motiform_dynamics::{Equivariant, Outcome, Watch};
 
 /// What a search wants to see next.
 #[derive(Debug)]
@@ -111,7 +111,7 @@ impl Search {
         &mut self,
         body: &B,
         look: Look,
-        stop: &mut dyn Sink,
+        watch: &dyn Watch,
     ) -> Result<Ask> {
         if let Some(outcome) = ended(&look.outcome) {
             return Ok(self.ended(&outcome, look.start));
@@ -126,12 +126,12 @@ impl Search {
                     // swings of a spiral come back like a small periodic orbit.
                     "the orbit did not come closer to the equilibrium beside it"
                         .clone_into(&mut self.missing);
-                    return self.again(body, stop);
+                    return self.again(body, watch);
                 }
                 Ok(words::equilibrium(body, &found, (after / size, self.largest), &self.settings, self.time)
                     .into())
             }
-            _ => self.rests(body, look, stop),
+            _ => self.rests(body, look, watch),
         }
     }
 
@@ -152,16 +152,16 @@ impl Search {
     }
 
     /// Is the orbit about to reach a stable relative equilibrium?
-    fn rests<B: Equivariant + ?Sized>(&mut self, body: &B, look: Look, stop: &mut dyn Sink) -> Result<Ask> {
+    fn rests<B: Equivariant + ?Sized>(&mut self, body: &B, look: Look, watch: &dyn Watch) -> Result<Ask> {
         self.fastest = self.fastest.max(look.fastest);
         self.largest = self.largest.max(look.sizes.1);
         // An orbit that began where it ends up was never fast: what is left of its changes is round-off.
         if look.last_speed > 0.05 * self.fastest && !look.is_still(self.settings.hovering()) {
-            return self.recurs(body, look, stop);
+            return self.recurs(body, look, watch);
         }
         let Some(found) = RelativeEquilibrium::find(body, &self.shape) else {
             "no equilibrium was found where the orbit rests".clone_into(&mut self.missing);
-            return self.recurs(body, look, stop);
+            return self.recurs(body, look, watch);
         };
         let size = norm(&found.shape).max(self.largest);
         let before = found.distance(body, &self.shape);
@@ -170,14 +170,14 @@ impl Search {
             self.missing =
                 format!("the orbit rests at an unstable shape (growth rate {:.2e})", found.growth());
             return if before > reached {
-                self.recurs(body, look, stop)
+                self.recurs(body, look, watch)
             } else {
-                self.stays(body, look, &found, stop)
+                self.stays(body, look, &found, watch)
             };
         }
         if before > CLOSE * size {
             "the orbit was still on its way to an equilibrium".clone_into(&mut self.missing);
-            return self.recurs(body, look, stop);
+            return self.recurs(body, look, watch);
         }
         if before > reached {
             let wait = (-1.0 / found.growth()).min(self.settings.budget);
@@ -194,7 +194,7 @@ impl Search {
         body: &B,
         mut look: Look,
         found: &RelativeEquilibrium,
-        stop: &mut dyn Sink,
+        watch: &dyn Watch,
     ) -> Result<Ask> {
         let still = look.is_still(self.settings.hovering());
         if self.stay.goes_on(look.end - look.start, still, found.growth()) {
@@ -217,9 +217,11 @@ impl Search {
             rest.end = look.end;
         }
         if let Some(cycle) = cycle(body, &self.rests, &self.settings) {
-            return Ok(words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, stop)?.into());
+            return Ok(
+                words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, watch)?.into()
+            );
         }
-        self.again(body, stop)
+        self.again(body, watch)
     }
 
     /// Does it rest near saddles, does its shape come back?
@@ -227,29 +229,31 @@ impl Search {
         &mut self,
         body: &B,
         mut look: Look,
-        stop: &mut dyn Sink,
+        watch: &dyn Watch,
     ) -> Result<Ask> {
         self.stay = Stay::default();
         self.rests.append(&mut look.rests);
         if let Some(cycle) = cycle(body, &self.rests, &self.settings) {
-            return Ok(words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, stop)?.into());
+            return Ok(
+                words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, watch)?.into()
+            );
         }
-        match periodic(body, &look, &self.settings, stop) {
+        match periodic(body, &look, &self.settings, watch) {
             Returns::Stable(found, recurrence) => {
                 return Ok(
-                    words::periodic(body, &found, &recurrence, &self.settings, self.time, stop)?.into()
+                    words::periodic(body, &found, &recurrence, &self.settings, self.time, watch)?.into()
                 );
             }
             Returns::Unstable { growth } => {
                 self.missing =
                     format!("the orbit stays on an unstable periodic orbit (largest multiplier {growth:.3})");
-                return self.again(body, stop);
+                return self.again(body, watch);
             }
             Returns::None => {}
         }
         self.turns = SteadyTurns::of(body, &look, &self.settings);
         if self.first || look.is_still(self.settings.hovering()) {
-            return self.again(body, stop);
+            return self.again(body, watch);
         }
         self.pending = Pending::Exponent(Box::new(look));
         Ok(Ask::Exponent(self.span))
@@ -260,13 +264,13 @@ impl Search {
         &mut self,
         body: &B,
         run: &Lyapunov,
-        stop: &mut dyn Sink,
+        watch: &dyn Watch,
     ) -> Result<Ask> {
         if let Some(outcome) = ended(&run.outcome) {
             return Ok(self.ended(&outcome, 0.0));
         }
         let Pending::Exponent(look) = std::mem::replace(&mut self.pending, Pending::Look) else {
-            return self.again(body, stop); // nothing was asked
+            return self.again(body, watch); // nothing was asked
         };
         self.time += run.time + run.transient;
         self.shape.clone_from(&run.shape);
@@ -274,7 +278,7 @@ impl Search {
             Ok(run) => run,
             Err(missing) => {
                 self.missing = missing;
-                return self.again(body, stop);
+                return self.again(body, watch);
             }
         };
         let witness = chaos::Witness::of(&look);
@@ -284,18 +288,18 @@ impl Search {
         let symmetric = chaos.is_some() && !Isotropy::of(body, &self.shape, EXACT).is_trivial();
         let decided = chaos.filter(|_| !symmetric).or_else(|| chaos::torus(&run, &witness, self.time));
         if let Some(verdict) = decided {
-            return Ok(self.described(verdict, body, look.end - look.start, stop)?.into());
+            return Ok(self.described(verdict, body, look.end - look.start, watch)?.into());
         }
         self.missing = if symmetric {
             "the orbit keeps an exact symmetry, and neighbouring orbits leave it".to_owned()
         } else {
             chaos::missing(&self.growth, &witness)
         };
-        self.again(body, stop)
+        self.again(body, watch)
     }
 
     /// Twice as long, or the end of the budget.
-    fn again<B: Equivariant + ?Sized>(&mut self, body: &B, stop: &mut dyn Sink) -> Result<Ask> {
+    fn again<B: Equivariant + ?Sized>(&mut self, body: &B, watch: &dyn Watch) -> Result<Ask> {
         self.first = false;
         // An exponent that is nearly that of chaos gets more time, once: its error shrinks, the limit stays.
         if self.time >= self.budget && !self.extended && chaos::is_near(&self.growth) {
@@ -308,11 +312,11 @@ impl Search {
         }
         if let Some(turns) = self.turns {
             let verdict = turns.verdict(self.time);
-            return Ok(self.described(verdict, body, self.span, stop)?.into());
+            return Ok(self.described(verdict, body, self.span, watch)?.into());
         }
         let why = format!("{} within the budget of {:.0}", self.missing, self.budget);
         let verdict = Verdict::new(Regime::Undetermined, Attractor::Unknown, why, self.time);
-        Ok(self.described(verdict, body, self.span, stop)?.into())
+        Ok(self.described(verdict, body, self.span, watch)?.into())
     }
 
     fn described<B: Equivariant + ?Sized>(
@@ -320,10 +324,10 @@ impl Search {
         mut verdict: Verdict,
         body: &B,
         span: f64,
-        stop: &mut dyn Sink,
+        watch: &dyn Watch,
     ) -> Result<Verdict> {
         let span = span.min(self.settings.first_look);
-        words::along(&mut verdict, body, &self.shape, span, &self.settings, stop)?;
+        words::along(&mut verdict, body, &self.shape, span, &self.settings, watch)?;
         Ok(verdict)
     }
 }

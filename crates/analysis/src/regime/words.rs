@@ -9,7 +9,7 @@ use super::verdict::{Attractor, Regime, Spread, Verdict};
 use crate::equilibrium::RelativeEquilibrium;
 use crate::periodic::PeriodicOrbit;
 use crate::{Estimate, Result};
-use motiform_dynamics::{Equivariant, Sink};
+use motiform_dynamics::{Equivariant, Watch};
 
 /// Samples of a period: enough for the legs of its path.
 const SAMPLES: usize = 720;
@@ -139,7 +139,7 @@ pub(super) fn rectangular<B: Equivariant + ?Sized>(
     shape: &[f64],
     settings: &Settings,
     time: f64,
-    stop: &mut dyn Sink,
+    watch: &dyn Watch,
 ) -> Result<Verdict> {
     let (out, inward) = (cycle.saddle.out, cycle.saddle.inward);
     let why = format!(
@@ -154,7 +154,7 @@ pub(super) fn rectangular<B: Equivariant + ?Sized>(
     // Rests may be known of which none was seen whole.
     let longest = cycle.rests.iter().copied().fold(0.0, f64::max);
     let time = if longest > 0.0 { 6.0 * longest } else { settings.first_look };
-    let path = Path::follow(body, shape, time, 4 * SAMPLES, settings, stop)?;
+    let path = Path::follow(body, shape, time, 4 * SAMPLES, settings, watch)?;
     verdict.speed = path.speed();
     verdict.legs = super::legs::between_rests(&path);
     Ok(verdict)
@@ -167,12 +167,12 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     recurrence: &Recurrence,
     settings: &Settings,
     time: f64,
-    stop: &mut dyn Sink,
+    watch: &dyn Watch,
 ) -> Result<Verdict> {
-    let path = Path::follow(body, &orbit.shape, orbit.period(), SAMPLES, settings, stop)?;
+    let path = Path::follow(body, &orbit.shape, orbit.period(), SAMPLES, settings, watch)?;
     let rotation = orbit.net_rotation();
     let no_turn = NO_TURN.max(settings.accuracy());
-    let symmetry = symmetry_of(body, orbit, settings, stop)?;
+    let symmetry = symmetry_of(body, orbit, settings, watch)?;
     let form = Form::of(&symmetry, orbit, &path, no_turn);
     let what = match form.regime() {
         Regime::QuasiPeriodic => format!("{}; turned by {rotation:.6} rad each period", form.meaning()),
@@ -221,9 +221,9 @@ pub(super) fn along<B: Equivariant + ?Sized>(
     shape: &[f64],
     time: f64,
     settings: &Settings,
-    stop: &mut dyn Sink,
+    watch: &dyn Watch,
 ) -> Result<()> {
-    let path = Path::follow(body, shape, time, SAMPLES, settings, stop)?;
+    let path = Path::follow(body, shape, time, SAMPLES, settings, watch)?;
     verdict.speed = path.speed();
     verdict.turning_rate = path.turning_rate();
     Ok(())

@@ -51,7 +51,7 @@ pub(crate) fn settings(model: &str) -> Settings {
 
 /// Names the motion from `start`.
 pub(crate) fn named<B: Equivariant + ?Sized>(body: &B, start: &[f64], settings: &Settings) -> Verdict {
-    classify(body, start, settings, &mut ()).unwrap().unwrap()
+    classify(body, start, settings, &()).unwrap().unwrap()
 }
 
 /// One letter per regime, as in the tables of the measured motions.

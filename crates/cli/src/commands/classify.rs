@@ -3,7 +3,7 @@
 use crate::args::ClassifyOptions;
 use crate::commands::subject;
 use crate::output::{End, estimate, print, warn};
-use crate::progress::Watch;
+use crate::progress::Progress;
 use motiform_analysis::{Regime, Verdict};
 use motiform_lab::analyse;
 use motiform_lab::samples::{self, Basins, Escapes, Samples};
@@ -23,7 +23,7 @@ pub(crate) fn run(options: &ClassifyOptions) -> anyhow::Result<End> {
     if let Some(samples) = samples {
         return many(options, &plan, samples, budget);
     }
-    let watch = Watch::new(analyse::settings(&plan, budget)?.budget, "model time");
+    let watch = Progress::new(analyse::settings(&plan, budget)?.budget, "model time");
     let verdict = analyse::classify(&plan, budget, &watch);
     watch.finish();
     let Some(verdict) = verdict? else { return Ok(End::Interrupted) };
@@ -33,11 +33,11 @@ pub(crate) fn run(options: &ClassifyOptions) -> anyhow::Result<End> {
 
 /// `--samples`: the motions that many initial states lead to.
 fn many(options: &ClassifyOptions, plan: &Plan, samples: Samples, budget: f64) -> anyhow::Result<End> {
-    let watch = Watch::new(samples.count as f64, "initial states");
+    let watch = Progress::new(samples.count as f64, "initial states");
     let verdicts = samples::classify(plan, samples, budget, &watch);
     watch.finish();
     let Some(verdicts) = verdicts? else { return Ok(End::Interrupted) };
-    let watch = Watch::new(samples.count as f64, "chaotic starts followed");
+    let watch = Progress::new(samples.count as f64, "chaotic starts followed");
     let escapes = Escapes::of_verdicts(plan, samples, &verdicts, budget, &watch);
     watch.finish();
     let escapes = escapes?;

@@ -3,7 +3,7 @@
 use crate::args::LyapunovOptions;
 use crate::commands::subject;
 use crate::output::{End, estimate, print};
-use crate::progress::Watch;
+use crate::progress::Progress;
 use motiform_analysis::{Estimate, Lyapunov};
 use motiform_dynamics::Outcome;
 use motiform_lab::analyse;
@@ -38,7 +38,7 @@ pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
         return many(options, &plan, samples, count);
     }
     let total = options.transient.unwrap_or(4.0 * info.look) + options.t_end.unwrap_or(20.0 * info.look);
-    let watch = Watch::new(total, "model time");
+    let watch = Progress::new(total, "model time");
     let found = analyse::lyapunov(&plan, count, (options.transient, options.t_end), &watch);
     watch.finish();
     let found = found?;
@@ -109,7 +109,7 @@ fn summary(plan: &Plan, found: &Lyapunov) -> anyhow::Result<String> {
 
 /// `--samples`: the exponents of many orbits.
 fn many(options: &LyapunovOptions, plan: &Plan, samples: Samples, count: usize) -> anyhow::Result<End> {
-    let watch = Watch::new(samples.count as f64, "orbits");
+    let watch = Progress::new(samples.count as f64, "orbits");
     let found = samples::lyapunov(plan, samples, count, (options.transient, options.t_end), &watch);
     watch.finish();
     let Some(found) = found? else { return Ok(End::Interrupted) };
@@ -177,7 +177,7 @@ fn many_summary(
 
 /// `--saddle`: the exponent of chaos that does not last.
 fn saddle(options: &LyapunovOptions, plan: &Plan, samples: usize) -> anyhow::Result<End> {
-    let watch = Watch::new(samples as f64, "runs");
+    let watch = Progress::new(samples as f64, "runs");
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let found = find_saddle(plan, samples, (options.transient, options.t_end), threads, &watch);
     watch.finish();

@@ -2,7 +2,7 @@
 
 use crate::args::ReproduceOptions;
 use crate::output::{End, plain, print, warn};
-use crate::progress::Watch;
+use crate::progress::Progress;
 use motiform_figures::report::{Claim, Counts, Picture, Report};
 use motiform_figures::{DEFAULT_SCALE, png};
 use motiform_files::replace_file;
@@ -24,7 +24,7 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     wanted.check()?;
     let unwritable = |reason| Error::Unwritable { path: out.clone(), reason };
     std::fs::create_dir_all(out).map_err(unwritable)?;
-    let watch = Watch::new(1000.0, "permille");
+    let watch = Progress::new(1000.0, "permille");
     let report = reproduce(&wanted, out, &watch);
     watch.finish();
     let report = match report {

@@ -4,7 +4,7 @@ use crate::args::ScanOptions;
 use crate::commands::figure::write_scan;
 use crate::commands::subject;
 use crate::output::{End, print, warn};
-use crate::progress::Watch;
+use crate::progress::Progress;
 use motiform_lab::draw::FigureFormat;
 use motiform_lab::scan::{Axis, Classify, Opening, Scan, ScanFolder, Shard, Totals, default_folder};
 use motiform_study::{Error, ScanPlan, Study};
@@ -29,7 +29,7 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
         warn(&format!("{damaged}; its cells are computed again"));
     }
     let left = scan.cells_left();
-    let watch = Watch::new(left as f64, "cells");
+    let watch = Progress::new(left as f64, "cells");
     let ended = scan.run(&Classify, threads(options), &watch);
     watch.finish();
     let ended = ended?;

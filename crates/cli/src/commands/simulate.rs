@@ -3,7 +3,7 @@
 use crate::args::{SimulateOptions, TableFormat};
 use crate::commands::{figure, film, subject};
 use crate::output::{End, plain, print, warn};
-use crate::progress::Watch;
+use crate::progress::Progress;
 use motiform_analysis::Verdict;
 use motiform_files::{Format, Staging, write_table};
 use motiform_lab::fields::write_dataset;
@@ -20,7 +20,7 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     let target = Target::prepare(options, &plan)?;
     target.swept().iter().for_each(|note| warn(note));
     let c = &plan.computation;
-    let watch = Watch::new(c.transient + c.t_end, "model time");
+    let watch = Progress::new(c.transient + c.t_end, "model time");
     let dataset =
         simulate(&plan, &watch).and_then(|dataset| Ok((naming::name(&dataset.manifest, &watch)?, dataset)));
     watch.finish();

@@ -1,6 +1,7 @@
 //! LaneTask from their starts to given times, in the plane.
 
 use super::{Entry, LaneTask, Leaving, Then, Why, run_adaptive};
+use crate::Watch;
 use crate::scalar::MOST_LANES;
 use crate::simd::{InstructionSet, LaneKernel, run_lanes_on, run_wide};
 use crate::steppers::unrolled::Dop853;
@@ -58,8 +59,8 @@ pub struct Queue<'q, F, const D: usize> {
     /// The states of a member at all times, with its key. `None` where a single orbit has to say what
     /// happened: it escaped, or has no next step.
     pub done: &'q mut dyn FnMut(usize, Option<Vec<[f64; D]>>),
-    /// Whether to stop; what is under way is left.
-    pub stopped: &'q dyn Fn() -> bool,
+    /// May stop the work; what is under way is left.
+    pub watch: &'q dyn Watch,
 }
 
 /// Runs the members in lanes on this thread, as many side by side as a register holds; `false`, and nothing done, on a machine
@@ -123,7 +124,7 @@ struct LaneMembers<'h, 'q, B: Bundle, F: InLanes, const D: usize> {
 impl<B: Bundle, F: InLanes, const D: usize> LaneMembers<'_, '_, B, F, D> {
     /// The next member, unless it is to stop.
     fn take(&mut self) -> Option<Member<F, D>> {
-        if (self.queue.stopped)() { None } else { self.first.take().or_else(|| (self.queue.next)()) }
+        if self.queue.watch.stopped() { None } else { self.first.take().or_else(|| (self.queue.next)()) }
     }
 }
 
@@ -154,7 +155,7 @@ impl<B: Bundle, F: InLanes, const D: usize> LaneTask<B, D> for LaneMembers<'_, '
     #[inline(always)]
     fn outside(&mut self, u: &[B; D]) -> Mask {
         self.steps = self.steps.wrapping_add(1);
-        if self.steps.is_multiple_of(1024) && (self.queue.stopped)() {
+        if self.steps.is_multiple_of(1024) && self.queue.watch.stopped() {
             return Mask::first(B::LANES);
         }
         let mut norm = B::splat(0.0);
@@ -167,7 +168,7 @@ impl<B: Bundle, F: InLanes, const D: usize> LaneTask<B, D> for LaneMembers<'_, '
     fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Then {
         let Some(mut track) = self.tracks[lane].take() else { return Then::Leave };
         if leaving.why != Why::Arrived {
-            if !(self.queue.stopped)() {
+            if !self.queue.watch.stopped() {
                 (self.queue.done)(track.key, None);
             }
             return Then::Leave;

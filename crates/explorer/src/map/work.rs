@@ -7,10 +7,10 @@ use crate::frames::{self, Cell};
 use crate::protocol::{Dashes, Grid, Line, MapStart, Mapped, Progress};
 use crate::worker::{Current, lock};
 use motiform_analysis::regime::{Regime, Verdict};
+use motiform_dynamics::Watch;
 use motiform_figures::{BoundaryLine, LineStyle};
 use motiform_lab::draw::boundary_lines;
 use motiform_lab::scan::{Classify, Evaluate, Row};
-use motiform_lab::simulate::Monitor;
 use motiform_study::{Error, ScanPlan};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -234,7 +234,7 @@ impl Work<'_> {
     }
 }
 
-impl Monitor for Work<'_> {
+impl Watch for Work<'_> {
     fn stopped(&self) -> bool {
         self.gone.load(Ordering::Relaxed) || self.current.stopped()
     }

@@ -1,6 +1,7 @@
 //! Where a body is when somebody begins to look.
 
-use crate::simulate::{Monitor, after_transient};
+use crate::simulate::after_transient;
+use motiform_dynamics::Watch;
 use motiform_dynamics::{Model, Outcome};
 use motiform_study::{Error, Plan};
 use std::time::{Duration, Instant};
@@ -29,7 +30,7 @@ pub fn settled(plan: &Plan, model: &dyn Model, within: Duration) -> Result<Vec<f
 /// Stops when its time is over.
 struct Patience(Instant);
 
-impl Monitor for Patience {
+impl Watch for Patience {
     fn stopped(&self) -> bool {
         Instant::now() > self.0
     }

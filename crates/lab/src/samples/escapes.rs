@@ -2,11 +2,11 @@
 
 use super::Samples;
 use super::population::Population;
-use crate::analyse::{self, Stop};
-use crate::simulate::Monitor;
+use crate::analyse;
 use motiform_analysis::{Lyapunov, Regime, Share, Stay, Verdict, escape_limits};
+use motiform_dynamics::Watch;
 use motiform_dynamics::drive::drive;
-use motiform_dynamics::{Outcome, Request};
+use motiform_dynamics::{Outcome, Request, StopOnly};
 use motiform_study::{Error, Plan};
 use serde::Serialize;
 
@@ -67,7 +67,7 @@ impl Escapes {
         samples: Samples,
         verdicts: &[Verdict],
         budget: f64,
-        monitor: &dyn Monitor,
+        watch: &dyn Watch,
     ) -> Result<Option<Self>, Error> {
         let until = analyse::settings(plan, budget)?.budget;
         let is = |regime| move |entry: &(usize, &Verdict)| entry.1.regime == regime;
@@ -75,7 +75,7 @@ impl Escapes {
         let gone: Vec<f64> =
             all().filter(is(Regime::BlowUp)).map(|(_, v)| v.escape_time.unwrap_or(v.time)).collect();
         let chaotic: Vec<usize> = all().filter(is(Regime::Chaotic)).map(|(sample, _)| sample).collect();
-        let population = Population::new(plan, samples, monitor)?;
+        let population = Population::new(plan, samples, watch)?;
         let look = plan.info()?.look;
         if population.tensor().is_none() {
             let seen = |&sample: &usize| Stay { time: verdicts[sample].time, escaped: false };
@@ -217,9 +217,10 @@ fn follow(plan: &Plan, population: &Population<'_>, until: f64) -> Result<Option
             let request = Request {
                 max_steps: c.max_steps,
                 escape_norm: c.escape_norm,
+                watch: &StopOnly(population.watch),
                 ..Request::until(until, start.len())
             };
-            Ok(stay(&drive(orbit.as_mut(), &request, &mut Stop::new(population.monitor))?))
+            Ok(stay(&drive(orbit.as_mut(), &request, &mut ())?))
         });
     })
 }

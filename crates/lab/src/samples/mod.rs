@@ -4,12 +4,12 @@ mod escapes;
 mod population;
 mod shares;
 
-use crate::analyse::{self, Stop};
-use crate::simulate::Monitor;
+use crate::analyse;
 pub use escapes::{EscapeLimits, Escapes};
 use motiform_analysis::regime::{Settings, Verdict, classifies_in_lanes};
 use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings};
-use motiform_dynamics::Outcome;
+use motiform_dynamics::Watch;
+use motiform_dynamics::{Outcome, StopOnly};
 use motiform_kernels::{TensorRow, classify_tensors, covering, exponents_of_tensor, has_exponents};
 use motiform_models::tensor::Tensor;
 use motiform_study::plan::check;
@@ -47,17 +47,16 @@ pub fn classify(
     plan: &Plan,
     samples: Samples,
     budget: f64,
-    monitor: &dyn Monitor,
+    watch: &dyn Watch,
 ) -> Result<Option<Vec<Verdict>>, Error> {
     samples.check()?;
     let settings = analyse::settings(plan, budget)?;
-    let population = Population::new(plan, samples, monitor)?;
+    let population = Population::new(plan, samples, watch)?;
     let tensor = population.tensor().filter(|_| classifies_in_lanes(&settings));
     population.run(|asked| match tensor {
         Some(tensor) => classify_in_lanes(plan, tensor, &settings, asked),
         None => asked.one_by_one(|start| {
-            let stop = &mut Stop::new(monitor);
-            Ok(motiform_analysis::classify(population.model.as_ref(), start, &settings, stop)?)
+            Ok(motiform_analysis::classify(population.model.as_ref(), start, &settings, &StopOnly(watch))?)
         }),
     })
 }
@@ -72,9 +71,8 @@ fn classify_in_lanes(plan: &Plan, tensor: &Tensor, settings: &Settings, asked: &
     let mut done = |key, found: motiform_analysis::Result<Option<Verdict>>| {
         asked.jobs.done(key, found.map_err(Error::from));
     };
-    let stopped = || asked.population.monitor.stopped();
     let terms = covering(tensor.terms());
-    classify_tensors(terms, settings, &mut next, &mut done, &stopped);
+    classify_tensors(terms, settings, &mut next, &mut done, asked.population.watch);
 }
 
 /// Exponents of many orbits.
@@ -100,17 +98,17 @@ pub fn lyapunov(
     samples: Samples,
     count: usize,
     spans: (Option<f64>, Option<f64>),
-    monitor: &dyn Monitor,
+    watch: &dyn Watch,
 ) -> Result<Option<Exponents>, Error> {
     samples.check()?;
     let settings = analyse::lyapunov_settings(plan, count, spans)?;
-    let population = Population::new(plan, samples, monitor)?;
+    let population = Population::new(plan, samples, watch)?;
     let tensor = population.tensor().filter(|tensor| has_exponents(tensor, &settings));
     let orbits = population.run(|asked| match tensor {
         Some(tensor) => exponents_in_lanes(tensor, &settings, asked),
         None => asked.one_by_one(|start| {
-            let stop = &mut Stop::new(monitor);
-            let found = motiform_analysis::lyapunov(population.model.as_ref(), start, &settings, stop)?;
+            let found =
+                motiform_analysis::lyapunov(population.model.as_ref(), start, &settings, &StopOnly(watch))?;
             Ok((!matches!(found.outcome, Outcome::Interrupted { .. })).then_some(found))
         }),
     })?;
@@ -135,8 +133,7 @@ fn exponents_in_lanes(tensor: &Tensor, settings: &LyapunovSettings, asked: &Aske
             |found: Lyapunov| (!matches!(found.outcome, Outcome::Interrupted { .. })).then_some(found);
         asked.jobs.done(key, found.map(lasted).map_err(Error::from));
     };
-    let stopped = || asked.population.monitor.stopped();
-    exponents_of_tensor(tensor, settings, &mut next, &mut done, &stopped);
+    exponents_of_tensor(tensor, settings, &mut next, &mut done, asked.population.watch);
 }
 
 /// Largest exponents that differ by more than so many of their errors are not those of one attractor.
@@ -207,7 +204,7 @@ mod tests {
                 population.model.as_ref(),
                 &population.start(3).unwrap(),
                 &settings,
-                &mut (),
+                &(),
             )
             .unwrap();
             assert_eq!(found[3], alone.unwrap());
@@ -226,7 +223,7 @@ mod tests {
             population.model.as_ref(),
             &population.start(7).unwrap(),
             &settings,
-            &mut (),
+            &(),
         );
         assert_eq!(found.orbits[7], alone.unwrap());
         assert!(found.agree && found.means[0].error < 0.6 * found.orbits[0].exponents[0].error);
@@ -262,7 +259,7 @@ mod tests {
 
     struct Stopped;
 
-    impl Monitor for Stopped {
+    impl Watch for Stopped {
         fn stopped(&self) -> bool {
             true
         }

@@ -3,8 +3,8 @@
 use super::Samples;
 use crate::analyse;
 use crate::pool::{Jobs, spread};
-use crate::simulate::Monitor;
 use motiform_dynamics::Model;
+use motiform_dynamics::Watch;
 use motiform_models::tensor::Tensor;
 use motiform_study::{Error, Plan};
 
@@ -14,14 +14,14 @@ pub(super) struct Population<'c> {
     samples: Samples,
     /// The numbers of the samples that are asked.
     chosen: Vec<usize>,
-    pub(super) monitor: &'c dyn Monitor,
+    pub(super) watch: &'c dyn Watch,
     pub(super) model: Box<dyn Model>,
 }
 
 impl<'c> Population<'c> {
-    pub(super) fn new(plan: &'c Plan, samples: Samples, monitor: &'c dyn Monitor) -> Result<Self, Error> {
+    pub(super) fn new(plan: &'c Plan, samples: Samples, watch: &'c dyn Watch) -> Result<Self, Error> {
         let chosen = (0..samples.count).collect();
-        Ok(Self { plan, samples, chosen, monitor, model: analyse::model(plan)? })
+        Ok(Self { plan, samples, chosen, watch, model: analyse::model(plan)? })
     }
 
     /// The same, with only some of the samples.
@@ -49,7 +49,7 @@ impl<'c> Population<'c> {
         &self,
         ask: impl Fn(&Asked<'_, '_, '_, A>) + Sync,
     ) -> Result<Option<Vec<A>>, Error> {
-        spread(self.chosen.len(), self.samples.threads, self.monitor, |jobs| {
+        spread(self.chosen.len(), self.samples.threads, self.watch, |jobs| {
             ask(&Asked { population: self, jobs });
         })
     }

@@ -1,9 +1,9 @@
 //! What is computed for one row.
 
 use super::{ScanPlan, lanes};
-use crate::analyse::{Stop, settings_of};
-use crate::simulate::Monitor;
+use crate::analyse::settings_of;
 use motiform_analysis::regime::{Verdict, classify};
+use motiform_dynamics::{StopOnly, Watch};
 use motiform_study::Error;
 
 /// Where verdicts go, each with the cell and the initial state that it is about.
@@ -21,7 +21,7 @@ pub trait Evaluate: Sync {
         plan: &ScanPlan,
         cell: usize,
         sample: usize,
-        stop: &dyn Monitor,
+        stop: &dyn Watch,
     ) -> Result<Option<Verdict>, Error>;
 
     /// The verdicts on all rows that `next` gives (cell and sample), on this thread; each is handed to `done` with these
@@ -32,7 +32,7 @@ pub trait Evaluate: Sync {
         plan: &ScanPlan,
         next: &mut dyn FnMut() -> Option<(usize, usize)>,
         done: Done<'_>,
-        stop: &dyn Monitor,
+        stop: &dyn Watch,
     ) {
         one_by_one(self, plan, next, done, stop);
     }
@@ -44,7 +44,7 @@ fn one_by_one<E: Evaluate + ?Sized>(
     plan: &ScanPlan,
     next: &mut dyn FnMut() -> Option<(usize, usize)>,
     done: Done<'_>,
-    stop: &dyn Monitor,
+    stop: &dyn Watch,
 ) {
     while let Some((cell, sample)) = next() {
         done((cell, sample), evaluate.evaluate(plan, cell, sample, stop));
@@ -61,14 +61,14 @@ impl Evaluate for Classify {
         plan: &ScanPlan,
         cell: usize,
         sample: usize,
-        stop: &dyn Monitor,
+        stop: &dyn Watch,
     ) -> Result<Option<Verdict>, Error> {
         let c = &plan.computation;
         let model = plan.model_of(cell)?;
         let start = plan.start(cell, sample, model.as_ref())?;
         let bounds = (c.escape_norm, c.max_steps);
         let settings = settings_of(plan.info()?, plan.method()?, c.control, bounds, c.budget);
-        Ok(classify(model.as_ref(), &start, &settings, &mut Stop::new(stop))?)
+        Ok(classify(model.as_ref(), &start, &settings, &StopOnly(stop))?)
     }
 
     /// In the lanes of vector registers, where the model and the method have such kernels.
@@ -77,7 +77,7 @@ impl Evaluate for Classify {
         plan: &ScanPlan,
         next: &mut dyn FnMut() -> Option<(usize, usize)>,
         done: Done<'_>,
-        stop: &dyn Monitor,
+        stop: &dyn Watch,
     ) {
         if !lanes::classify(self, plan, next, done, stop) {
             one_by_one(self, plan, next, done, stop);

@@ -3,8 +3,8 @@
 use super::ScanPlan;
 use super::evaluate::{Done, Evaluate};
 use crate::analyse::settings_of;
-use crate::simulate::Monitor;
 use motiform_analysis::regime::{Settings, Verdict, classifies_in_lanes};
+use motiform_dynamics::Watch;
 use motiform_kernels::{TensorRow, classify_tensors, covering};
 use motiform_models::tensor::Tensor;
 use motiform_study::Error;
@@ -18,7 +18,7 @@ pub(super) fn classify(
     plan: &ScanPlan,
     next: Next<'_>,
     done: Done<'_>,
-    stop: &dyn Monitor,
+    stop: &dyn Watch,
 ) -> bool {
     let Some((settings, terms)) = kernel(plan) else { return false };
     Work { single, plan, settings, terms: covering(terms), next, done, stop }.run();
@@ -50,7 +50,7 @@ struct Work<'w> {
     terms: u32,
     next: Next<'w>,
     done: Done<'w>,
-    stop: &'w dyn Monitor,
+    stop: &'w dyn Watch,
 }
 
 impl Work<'_> {
@@ -70,8 +70,7 @@ impl Work<'_> {
         let mut decided = |key: usize, verdict: motiform_analysis::Result<Option<Verdict>>| {
             (done.borrow_mut())((key / samples, key % samples), verdict.map_err(Error::from));
         };
-        let stopped = || stop.stopped();
-        classify_tensors(terms, &settings, &mut candidate, &mut decided, &stopped);
+        classify_tensors(terms, &settings, &mut candidate, &mut decided, stop);
     }
 }
 

@@ -5,7 +5,7 @@ use super::folder::{ScanFolder, differences, lock, stage};
 use super::part::{PARTIAL, PartError};
 use super::work::{Ended, Store, compute};
 use super::{Parts, Row, ScanPlan, Shard};
-use crate::simulate::Monitor;
+use motiform_dynamics::Watch;
 use motiform_files::sweep;
 use motiform_study::Error;
 use std::fs::{self, File};
@@ -145,14 +145,9 @@ impl Scan {
     ///
     /// # Errors
     /// [`Error::PartFailed`]: the parts written before are kept.
-    pub fn run(
-        &self,
-        evaluate: &dyn Evaluate,
-        threads: usize,
-        monitor: &dyn Monitor,
-    ) -> Result<Ended, Error> {
+    pub fn run(&self, evaluate: &dyn Evaluate, threads: usize, watch: &dyn Watch) -> Result<Ended, Error> {
         let files = Files { plan: self.folder.plan(), parts: self.folder.parts() };
-        compute(files.plan, self.parts_left().collect(), evaluate, threads, monitor, &files)
+        compute(files.plan, self.parts_left().collect(), evaluate, threads, watch, &files)
     }
 }
 

@@ -4,8 +4,8 @@ use super::evaluate::Evaluate;
 use super::queue::Queue;
 use super::{Row, ScanPlan};
 use crate::pool::held;
-use crate::simulate::Monitor;
 use motiform_analysis::regime::Verdict;
+use motiform_dynamics::Watch;
 use motiform_study::Error;
 use std::cell::RefCell;
 use std::ops::Range;
@@ -42,7 +42,7 @@ pub fn compute(
     parts: Vec<usize>,
     evaluate: &dyn Evaluate,
     threads: usize,
-    monitor: &dyn Monitor,
+    watch: &dyn Watch,
     store: &dyn Store,
 ) -> Result<Ended, Error> {
     let cells: usize = parts.iter().map(|&part| plan.cells_of(part).len()).sum();
@@ -51,7 +51,7 @@ pub fn compute(
         plan,
         store,
         evaluate,
-        monitor,
+        watch,
         total,
         queue: Mutex::new(Queue::new(plan, parts.into_iter())),
         failure: Mutex::new(None),
@@ -83,7 +83,7 @@ pub fn rows_of(
     cells: Range<usize>,
     go_on: &dyn Fn() -> bool,
     evaluate: &dyn Evaluate,
-    monitor: &dyn Monitor,
+    watch: &dyn Watch,
 ) -> Option<Vec<Row>> {
     let samples = plan.computation.samples;
     let (first, count) = (cells.start, cells.len() * samples);
@@ -93,9 +93,8 @@ pub fn rows_of(
         let mut given = given.borrow_mut();
         let number = *given;
         // Cells are whole: a stop comes before the first row of one.
-        let on = number < count
-            && (number == 0 || !number.is_multiple_of(samples) || go_on())
-            && !monitor.stopped();
+        let on =
+            number < count && (number == 0 || !number.is_multiple_of(samples) || go_on()) && !watch.stopped();
         *given += usize::from(on);
         on.then(|| (first + number / samples, number % samples))
     };
@@ -104,8 +103,8 @@ pub fn rows_of(
         rows.resize_with(rows.len().max(number + 1), || None);
         rows[number] = Row::of_evaluation(cell, sample, verdict);
     };
-    evaluate.evaluate_all(plan, &mut next, &mut done, monitor);
-    let whole = !monitor.stopped() && rows.len() == given.into_inner();
+    evaluate.evaluate_all(plan, &mut next, &mut done, watch);
+    let whole = !watch.stopped() && rows.len() == given.into_inner();
     rows.into_iter().collect::<Option<Vec<_>>>().filter(|_| whole)
 }
 
@@ -114,7 +113,7 @@ struct Work<'w> {
     plan: &'w ScanPlan,
     store: &'w dyn Store,
     evaluate: &'w dyn Evaluate,
-    monitor: &'w dyn Monitor,
+    watch: &'w dyn Watch,
     /// Rows to compute.
     total: usize,
     queue: Mutex<Queue<'w>>,
@@ -145,7 +144,7 @@ impl Work<'_> {
             self.put(part, rows);
         }
         let rows = self.rows.fetch_add(1, Ordering::Relaxed) + 1;
-        self.monitor.progress(rows as f64 / self.total as f64);
+        self.watch.progress(rows as f64 / self.total as f64);
     }
 
     fn put(&self, part: usize, rows: Vec<Row>) {
@@ -164,8 +163,8 @@ impl Work<'_> {
 }
 
 /// What an evaluation listens to: the caller's stop, or a failure in another thread.
-impl Monitor for Work<'_> {
+impl Watch for Work<'_> {
     fn stopped(&self) -> bool {
-        self.failed.load(Ordering::Relaxed) || self.monitor.stopped()
+        self.failed.load(Ordering::Relaxed) || self.watch.stopped()
     }
 }

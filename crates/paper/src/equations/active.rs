@@ -6,7 +6,7 @@ use super::super::fig6;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::KROGSTAD4;
 use motiform_dynamics::{
-    ExponentialOrbit, Outcome, Request, Semilinear, Sink, StepControl, System, VectorField,
+    ExponentialOrbit, Outcome, Request, Semilinear, Sink, StepControl, StopOnly, System, VectorField,
 };
 use motiform_figures::report::Claim;
 use motiform_figures::{Drawn, ErrorBarFigure, ErrorBarSeries, Measured};
@@ -16,7 +16,6 @@ use motiform_study::Error;
 use motiform_study::initial::Uniform;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
-use std::ops::ControlFlow;
 
 /// Lengths where the cell swims straight, in circles, irregularly, and where it rests on a three-fold shape.
 const LENGTHS: [f64; 4] = [9.0, 12.6, 21.6, 25.0];
@@ -126,21 +125,16 @@ impl Ran {
     }
 }
 
-/// Keeps the potential at equal times, and listens for the stop.
-struct Watch<'a> {
-    context: &'a Context<'a>,
+/// Keeps the potential at equal times.
+struct Descent<'a> {
     body: &'a Bounded,
     g4: f64,
     potential: Vec<f64>,
 }
 
-impl Sink for Watch<'_> {
+impl Sink for Descent<'_> {
     fn sample(&mut self, _t: f64, u: &[f64]) {
         self.potential.push(self.body.potential(u, self.g4));
-    }
-
-    fn tick(&mut self, _t: f64) -> ControlFlow<()> {
-        if self.context.monitor.stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 
@@ -151,13 +145,18 @@ fn run(context: &Context<'_>, length: f64, g: [f64; 2], quartic: f64) -> Result<
     let control = StepControl::Adaptive { rtol: 1e-8, atol: 1e-11 };
     let mut orbit = ExponentialOrbit::new(&body, &KROGSTAD4, control, 0.0, &start)?;
     let time = context.choose(6000.0, 2000.0);
-    let request = Request { sample_every: Some(10.0), escape_norm: 1e4, ..Request::until(time, body.dim()) };
-    let mut watch = Watch { context, body: &body, g4: g[0], potential: Vec::new() };
-    let outcome = drive(&mut orbit, &request, &mut watch)?;
-    if matches!(outcome, Outcome::Interrupted { .. }) || context.monitor.stopped() {
+    let request = Request {
+        sample_every: Some(10.0),
+        escape_norm: 1e4,
+        watch: &StopOnly(context.watch),
+        ..Request::until(time, body.dim())
+    };
+    let mut descent = Descent { body: &body, g4: g[0], potential: Vec::new() };
+    let outcome = drive(&mut orbit, &request, &mut descent)?;
+    if matches!(outcome, Outcome::Interrupted { .. }) || context.watch.stopped() {
         return Err(Error::Interrupted);
     }
-    let potential = watch.potential;
+    let potential = descent.potential;
     let mut rate = vec![0.0; body.dim()];
     body.eval(0.0, motiform_dynamics::Integration::state(&orbit), &mut rate);
     let moving = rate.iter().fold(0.0, |m: f64, x| m.max(x.abs()));

@@ -29,12 +29,12 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     claims.extend(couplings::claims());
     claims.extend(rotation::claims());
     claims.extend(tensor_motion::claims(context)?);
-    context.monitor.progress(0.3);
+    context.watch.progress(0.3);
     claims.extend(symmetries::claims());
     claims.extend(gradient::claims());
     let (rest, figure) = active::claim_of(context)?;
     claims.extend(rest);
-    context.monitor.progress(0.6);
+    context.watch.progress(0.6);
     claims.extend(long_waves::claims(context)?);
     claims.push(minimal::claim_of(context)?);
     claims.extend(velocity::claims());

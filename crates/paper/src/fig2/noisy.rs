@@ -5,14 +5,15 @@ use crate::context::Context;
 use motiform_analysis::{Ends, Estimate, PathSample, legs, series_mean};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::RK4;
-use motiform_dynamics::{InPlane, Noise, NoisyOrbit, Normal, Orbit, Request, Shape, Sink, StepControl};
+use motiform_dynamics::{
+    InPlane, Noise, NoisyOrbit, Normal, Orbit, Request, Shape, Sink, StepControl, StopOnly,
+};
 use motiform_figures::report::{Claim, ReportFigure};
 use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
 use motiform_models::tensor::reduced::Reduced;
 use motiform_models::tensor::{Tensor, TensorParameters};
 use motiform_study::Error;
-use std::ops::ControlFlow;
 
 /// Seed of the noise.
 const SEED: u64 = 2010;
@@ -73,34 +74,25 @@ fn path(context: &Context<'_>, eta: f64, stream: u64, time: f64) -> Result<Vec<P
     let orbit = Orbit::new(&body, &RK4, StepControl::Fixed { step: STEP }, 0.0, &start)?;
     let noise = Noise::on(&model, eta, eta, STEP);
     let mut noisy = NoisyOrbit::new(orbit, noise, Normal::new(SEED, stream))?;
-    let request = Request { sample_every: Some(STEP), watched: 6, ..Request::until(time, 8) };
-    let mut recorder = Recorder { model, context, path: Vec::new(), ticks: 0 };
+    let watch = &StopOnly(context.watch);
+    let request = Request { sample_every: Some(STEP), watched: 6, watch, ..Request::until(time, 8) };
+    let mut recorder = Recorder { model, path: Vec::new() };
     let outcome = drive(&mut noisy, &request, &mut recorder)?;
     if outcome.is_complete() { Ok(recorder.path) } else { Err(Error::Interrupted) }
 }
 
 /// Keeps the path after the transient.
-struct Recorder<'c> {
+struct Recorder {
     model: Tensor,
-    context: &'c Context<'c>,
     path: Vec<PathSample>,
-    ticks: u32,
 }
 
-impl Sink for Recorder<'_> {
+impl Sink for Recorder {
     fn sample(&mut self, t: f64, u: &[f64]) {
         if t >= TRANSIENT {
             let [vx, vy] = Shape::<f64>::velocity(&self.model, &u[..6]);
             self.path.push(PathSample { t, x: u[6], y: u[7], vx, vy });
         }
-    }
-
-    fn tick(&mut self, _t: f64) -> ControlFlow<()> {
-        self.ticks = self.ticks.wrapping_add(1);
-        if self.ticks.is_multiple_of(256) && self.context.monitor.stopped() {
-            return ControlFlow::Break(());
-        }
-        ControlFlow::Continue(())
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::super::claims::check;
 use super::super::context::Context;
-use super::{Silent, at, figure, power};
+use super::{at, figure, power};
 use motiform_analysis::Stay;
+use motiform_dynamics::StopOnly;
 use motiform_figures::report::Section;
 use motiform_figures::{Drawn, ExpectedLine, LineStyle, SurvivalCurve, SurvivalFigure, SurvivalStep};
 use motiform_lab::draw::sheet;
@@ -20,7 +21,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     for kappa2 in values {
         let plan = Plan::new(&at(context, *kappa2, 0.1)?)?;
         let times = (Some(SETTLE), Some(t_end));
-        let one = saddle(&plan, runs, times, context.threads, &Silent(context.monitor))?
+        let one = saddle(&plan, runs, times, context.threads, &StopOnly(context.watch))?
             .ok_or(Error::Interrupted)?;
         found.push((*kappa2, one));
     }

@@ -2,9 +2,9 @@
 
 use super::super::claims::{check, claim, differs};
 use super::super::context::Context;
-use super::{Silent, at, figure, power};
+use super::{at, figure, power};
 use motiform_analysis::Estimate;
-use motiform_dynamics::Outcome;
+use motiform_dynamics::{Outcome, StopOnly};
 use motiform_figures::report::{Claim, Section};
 use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::analyse::lyapunov;
@@ -74,7 +74,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
 fn run(context: &Context<'_>, (kappa2, seed): (f64, u64), span: f64) -> Result<Run, Error> {
     let mut study = at(context, kappa2, 0.1)?;
     study.run.seed = seed;
-    let found = lyapunov(&Plan::new(&study)?, COUNT, (Some(800.0), Some(span)), &Silent(context.monitor))?;
+    let found = lyapunov(&Plan::new(&study)?, COUNT, (Some(800.0), Some(span)), &StopOnly(context.watch))?;
     if matches!(found.outcome, Outcome::Interrupted { .. }) {
         return Err(Error::Interrupted);
     }
@@ -84,7 +84,7 @@ fn run(context: &Context<'_>, (kappa2, seed): (f64, u64), span: f64) -> Result<R
 fn left(context: &Context<'_>, kappa2: f64) -> Result<Option<Left>, Error> {
     let plan = Plan::new(&at(context, kappa2, 0.1)?)?;
     let found =
-        saddle(&plan, context.choose(100, 24), (None, None), context.threads, &Silent(context.monitor))?
+        saddle(&plan, context.choose(100, 24), (None, None), context.threads, &StopOnly(context.watch))?
             .ok_or(Error::Interrupted)?;
     let of = |exponent| Left { kappa2, exponent, escaped: found.escaped, runs: found.runs };
     Ok(found.exponent.map(of))

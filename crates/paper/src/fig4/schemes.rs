@@ -2,8 +2,9 @@
 
 use super::super::claims::claim;
 use super::super::context::Context;
-use super::{Silent, at, power};
+use super::{at, power};
 use motiform_analysis::Regime;
+use motiform_dynamics::StopOnly;
 use motiform_figures::report::Section;
 use motiform_lab::analyse::classify;
 use motiform_study::{Error, Plan, Study};
@@ -51,6 +52,6 @@ fn regime(context: &Context<'_>, (kappa2, kappa3): (f64, f64), step: Option<f64>
         "heun".clone_into(&mut study.run.stepper);
         study.run.step = Some(step);
     }
-    let verdict = classify(&Plan::new(&study)?, 0.0, &Silent(context.monitor))?;
+    let verdict = classify(&Plan::new(&study)?, 0.0, &StopOnly(context.watch))?;
     Ok(verdict.ok_or(Error::Interrupted)?.regime)
 }

@@ -2,10 +2,10 @@
 
 use super::super::claims::{check, claim};
 use super::super::context::Context;
-use super::super::fig4::{Silent, power};
+use super::super::fig4::power;
 use super::drawings;
 use motiform_analysis::Lyapunov;
-use motiform_dynamics::Outcome;
+use motiform_dynamics::{Outcome, StopOnly};
 use motiform_figures::report::{Claim, Section};
 use motiform_lab::analyse::lyapunov;
 use motiform_lab::saddle::{Saddle, saddle};
@@ -32,7 +32,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
 /// The exponent of the preset over a long run.
 pub(super) fn measure(context: &Context<'_>, study: &Study) -> Result<Lyapunov, Error> {
     let times = (Some(study.run.transient), Some(context.choose(40_000.0, 6000.0)));
-    let found = lyapunov(&Plan::new(study)?, 3, times, &Silent(context.monitor))?;
+    let found = lyapunov(&Plan::new(study)?, 3, times, &StopOnly(context.watch))?;
     match found.outcome {
         Outcome::Interrupted { .. } => Err(Error::Interrupted),
         _ => Ok(found),
@@ -66,7 +66,7 @@ fn lasting(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
         runs,
         (Some(100.0), Some(t_end)),
         context.threads,
-        &Silent(context.monitor),
+        &StopOnly(context.watch),
     )?
     .ok_or(Error::Interrupted)?;
     let watched = watched(&found);

@@ -1,8 +1,9 @@
 //! The largest Lyapunov exponent through the second window.
 
-use super::super::context::{Context, Quiet};
+use super::super::context::Context;
 use super::lengths::{modes_for, study};
 use motiform_analysis::Estimate;
+use motiform_dynamics::StopOnly;
 use motiform_figures::{Drawn, ErrorBarFigure, ErrorBarSeries, Measured};
 use motiform_lab::analyse;
 use motiform_lab::draw::sheet;
@@ -27,12 +28,12 @@ impl Exponents {
         let one = |hundredths: &u32| {
             let length = f64::from(*hundredths) / 100.0;
             let plan = Plan::new(&study(length, modes_for(length))?)?;
-            let found = analyse::lyapunov(&plan, 1, (Some(transient), Some(span)), &Quiet(context.monitor))?;
+            let found = analyse::lyapunov(&plan, 1, (Some(transient), Some(span)), &StopOnly(context.watch))?;
             Ok(found.exponents.first().map(|exponent| (length, *exponent)))
         };
         let found: Vec<Option<(f64, Estimate)>> =
             lengths.par_iter().map(one).collect::<Result<_, Error>>()?;
-        if context.monitor.stopped() {
+        if context.watch.stopped() {
             return Err(Error::Interrupted);
         }
         Ok(Self { found: found.into_iter().flatten().collect(), span })

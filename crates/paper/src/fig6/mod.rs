@@ -41,13 +41,13 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     let edges = Edges::find(context)?;
     let onsets = Onsets::find(context)?;
     let lengths = Lengths::scan(context)?;
-    context.monitor.progress(0.5);
+    context.watch.progress(0.5);
     let quasi = Search::make(context)?;
     let exponents = Exponents::find(context)?;
-    context.monitor.progress(0.7);
+    context.watch.progress(0.7);
     let tracks = tracks::all(context)?;
     let zigzags = Zigzags::follow(context, &tracks[2])?;
-    context.monitor.progress(0.9);
+    context.watch.progress(0.9);
     let mut claims = windows::claims(&edges, &lengths, &zigzags, &quasi, &onsets);
     claims.extend(succession::claims(&lengths, &tracks));
     claims.extend(tracks_claims::claims(&tracks, &exponents));

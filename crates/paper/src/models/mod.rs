@@ -18,7 +18,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     let mut claims = vec![reduction::exact()?];
     claims.extend(correspondence::claims(context)?);
     claims.push(chaos::claim_of(context)?);
-    context.monitor.progress(0.4);
+    context.watch.progress(0.4);
     let zigzags = zigzags::Zigzags::find(context)?;
     claims.extend(zigzags.claims());
     claims.extend(reduction::edges(context)?);

@@ -1,0 +1,56 @@
+//! The watch on a long computation: how far it is, and whether to stop.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whoever started a long computation: hears how far it is, and may stop it. Every method has a default that does nothing.
+pub trait Watch: Sync {
+    /// The part of the work that is done, 0 to 1; called often.
+    fn progress(&self, _done: f64) {}
+
+    /// A part of the work is finished; the text says which, and how it went.
+    fn note(&self, _text: &str) {}
+
+    /// Whether to stop here and keep what there is; called often.
+    fn stopped(&self) -> bool {
+        false
+    }
+}
+
+/// No watch: the computation runs to its end.
+impl Watch for () {}
+
+/// A flag that stops a computation.
+impl Watch for AtomicBool {
+    fn stopped(&self) -> bool {
+        self.load(Ordering::Relaxed)
+    }
+}
+
+/// A watch that is told of no progress: for a computation whose length is not known.
+pub struct StopOnly<'w>(pub &'w dyn Watch);
+
+impl Watch for StopOnly<'_> {
+    fn stopped(&self) -> bool {
+        self.0.stopped()
+    }
+}
+
+/// The watch on a part of the work, from the share `from` to the share `to` of the whole.
+pub struct Part<'w> {
+    /// The watch on the whole.
+    pub watch: &'w dyn Watch,
+    /// Share of the whole that is done when the part begins.
+    pub from: f64,
+    /// Share of the whole that is done when the part ends.
+    pub to: f64,
+}
+
+impl Watch for Part<'_> {
+    fn progress(&self, done: f64) {
+        self.watch.progress(self.from + (self.to - self.from) * done);
+    }
+
+    fn stopped(&self) -> bool {
+        self.watch.stopped()
+    }
+}
