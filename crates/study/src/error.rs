@@ -21,14 +21,6 @@ pub enum Error {
         /// What there is.
         known: Vec<&'static str>,
     },
-    /// The system gives no threads.
-    #[error("threads = {threads}: {reason}; give a smaller --threads")]
-    Threads {
-        /// How many were asked for.
-        threads: usize,
-        /// The system's reason.
-        reason: String,
-    },
     /// The caller asked to stop.
     #[error("interrupted")]
     Interrupted,

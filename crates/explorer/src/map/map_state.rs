@@ -1,4 +1,4 @@
-//! The window in sight, and what is known of its plane.
+//! The window that is shown, and what is known of its plane.
 
 use super::Job;
 use super::lattice::{Cells, Lattice, level};
@@ -14,7 +14,7 @@ const COUNTS: (u16, u16) = (8, 160);
 
 /// What is known of a plane, and the window of it that is shown.
 #[derive(Default)]
-pub(crate) struct Sight {
+pub(crate) struct MapState {
     /// The plan without the values of its axes: while it stays, rows stay.
     plane: Option<ScanComputation>,
     lattices: Vec<Lattice>,
@@ -50,7 +50,7 @@ impl Present {
     }
 }
 
-impl Sight {
+impl MapState {
     pub(crate) fn present(&self) -> Option<&Present> {
         self.present.as_ref()
     }
@@ -80,7 +80,7 @@ impl Sight {
         Ok(())
     }
 
-    /// The rows in sight that are computed, by their cell; `None` before the first window.
+    /// The rows shown that are computed, by their cell; `None` before the first window.
     pub(super) fn rows(&mut self) -> Option<(ScanPlan, Vec<Row>)> {
         let plan = self.present.as_ref()?.plan.clone();
         let row = |cell| {
