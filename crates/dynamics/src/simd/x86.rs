@@ -70,19 +70,21 @@ fn avx2<K: LaneKernel>(kernel: K) -> K::Output {
 /// SAFETY of every block: a value of `$name` exists only inside the function that was compiled for its instructions (see above). Loads
 /// and stores stay inside the slices, which are cut to the lanes first.
 macro_rules! registers {
-    ($name:ident, $lanes:literal, $load:ident $store:ident $splat:ident $add:ident $sub:ident $mul:ident $div:ident
+    ($name:ident, $lanes:literal, $splat:ident $add:ident $sub:ident $mul:ident $div:ident
         $sqrt:ident $max:ident $min:ident, $($rest:tt)*) => {
         impl Registers for $name {
             const LANES: usize = $lanes;
 
+            // Loads and stores are plain copies, no intrinsics: those would be calls where code that was not compiled for them
+            // reads single lanes.
             #[inline(always)]
             fn load(lanes: &[f64]) -> Self {
-                unsafe { Self($load(lanes[..$lanes].as_ptr())) }
+                unsafe { lanes[..$lanes].as_ptr().cast::<Self>().read_unaligned() }
             }
 
             #[inline(always)]
             fn store(self, lanes: &mut [f64]) {
-                unsafe { $store(lanes[..$lanes].as_mut_ptr(), self.0) };
+                unsafe { lanes[..$lanes].as_mut_ptr().cast::<Self>().write_unaligned(self) };
             }
 
             #[inline(always)]
@@ -136,7 +138,7 @@ macro_rules! registers {
 #[repr(transparent)]
 struct Zmm(__m512d);
 
-registers! { Zmm, 8, _mm512_loadu_pd _mm512_storeu_pd _mm512_set1_pd _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd
+registers! { Zmm, 8, _mm512_set1_pd _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd
     _mm512_sqrt_pd _mm512_max_pd _mm512_min_pd,
 
     #[inline(always)]
@@ -166,7 +168,7 @@ registers! { Zmm, 8, _mm512_loadu_pd _mm512_storeu_pd _mm512_set1_pd _mm512_add_
 #[repr(transparent)]
 struct Ymm(__m256d);
 
-registers! { Ymm, 4, _mm256_loadu_pd _mm256_storeu_pd _mm256_set1_pd _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd
+registers! { Ymm, 4, _mm256_set1_pd _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd
     _mm256_sqrt_pd _mm256_max_pd _mm256_min_pd,
 
     #[inline(always)]
