@@ -49,6 +49,15 @@ const DIRECTIONS: usize = 5;
 /// Systems up to this size are followed in all directions.
 const SMALL: usize = 8;
 
+/// Whether a system of this dimension is followed in all directions.
+pub(crate) const fn is_small(dim: usize) -> bool {
+    dim <= SMALL
+}
+
+/// Where tangent vectors of a large system grow beyond this, the try is given up: they agree to half of their digits, and span no
+/// space that Newton's method could solve in.
+const PARALLEL: f64 = 1e8;
+
 /// Where a small deviation grows by more than this on the way, several short shots are asked ([`refine`]).
 const SENSITIVE: f64 = 1e4;
 
@@ -81,6 +90,18 @@ impl PeriodicOrbit {
         flow: &Flow,
         watch: &dyn Watch,
     ) -> Option<Self> {
+        let mut effort = f64::INFINITY;
+        Self::find_within(body, guess, flow, &mut effort, watch)
+    }
+
+    /// As [`PeriodicOrbit::find`], but it integrates no more than `effort` of model time, and takes what it integrated from it.
+    pub(crate) fn find_within<B: Equivariant + ?Sized>(
+        body: &B,
+        guess: &PeriodicGuess<'_>,
+        flow: &Flow,
+        effort: &mut f64,
+        watch: &dyn Watch,
+    ) -> Option<Self> {
         let mut state = Newton::new(body, guess);
         let size = norm(guess.shape);
         let tolerance = match flow.control {
@@ -89,6 +110,10 @@ impl PeriodicOrbit {
         };
         let mut first = f64::INFINITY;
         for step in 0..STEPS {
+            *effort -= state.time;
+            if *effort < 0.0 {
+                return None;
+            }
             let image = state.image(flow, watch)?;
             let residual = norm(&image.rest);
             if step == 0 {
@@ -190,7 +215,7 @@ impl Image {
 impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
     fn new(body: &'b B, guess: &PeriodicGuess<'_>) -> Self {
         let dim = guess.shape.len();
-        let count = if dim <= SMALL { dim } else { DIRECTIONS };
+        let count = if is_small(dim) { dim } else { DIRECTIONS };
         let mut random = SplitMix(2);
         let mut directions: Vec<Vec<f64>> =
             (0..count).map(|_| (0..dim).map(|_| random.next()).collect()).collect();
@@ -229,9 +254,11 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
         let tangent = Tangent::new(self.body, self.directions.len());
         let start: Vec<f64> = self.shape.iter().chain(self.directions.iter().flatten()).copied().collect();
         let mut orbit = flow.method.shape_orbit(&tangent, flow.control, 0.0, &start).ok()?;
+        let (watched, escape_norm) = if self.is_small() { (dim, 1e6) } else { (tangent.dim(), PARALLEL) };
         let request = Request {
             max_steps: flow.max_steps,
-            watched: dim,
+            watched,
+            escape_norm,
             watch,
             ..Request::until(self.time, tangent.dim())
         };

@@ -47,7 +47,7 @@ pub use noise::{Noise, Normal};
 pub use noisy_orbit::NoisyOrbit;
 pub use orbit::Orbit;
 pub use outcome::{Obstacle, Outcome};
-pub use scalar::{Bundle, Complex, Dual, Mask, Scalar};
+pub use scalar::{Bundle, Complex, Dual, Mask, Row, Scalar};
 pub use section::{Direction, Section};
 pub use simd::Lanes;
 pub use tangent::Tangent;

@@ -232,13 +232,14 @@ impl Search {
         watch: &dyn Watch,
     ) -> Result<Ask> {
         self.stay = Stay::default();
+        let earlier = self.rests.len();
         self.rests.append(&mut look.rests);
         if let Some(cycle) = cycle(body, &self.rests, &self.settings) {
             return Ok(
                 words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, watch)?.into()
             );
         }
-        match periodic(body, &look, &self.settings, watch) {
+        match periodic(body, &look, &self.rests[earlier..], &self.settings, watch) {
             Returns::Stable(found, recurrence) => {
                 return Ok(
                     words::periodic(body, &found, &recurrence, &self.settings, self.time, watch)?.into()

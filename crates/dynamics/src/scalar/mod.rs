@@ -10,10 +10,12 @@
 mod bundle;
 mod complex;
 mod dual;
+mod row;
 
 pub use bundle::{Bundle, MOST_LANES, Mask};
 pub use complex::Complex;
 pub use dual::Dual;
+pub use row::{DualRow, Row};
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -39,6 +41,9 @@ pub trait Scalar:
 {
     /// The number without its derivative part: the type of parameters, times and step sizes.
     type Real: Scalar<Real = Self::Real>;
+
+    /// `N` of them in a row, for sums along it.
+    type Row<const N: usize>: Row<Self>;
 
     /// Whether a value of this type lives in a kernel that was compiled for the widest instructions already.
     const IN_KERNEL: bool = false;
@@ -90,6 +95,7 @@ pub trait Scalar:
 
 impl Scalar for f64 {
     type Real = f64;
+    type Row<const N: usize> = [Self; N];
 
     #[inline(always)]
     fn constant(self, value: f64) -> f64 {
