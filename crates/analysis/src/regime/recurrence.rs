@@ -124,7 +124,7 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     let most = settings.first_look.max(EFFORT * (look.end - look.start));
     let mut effort = if large { most } else { f64::INFINITY };
     for recurrence in recurrences(body, &minima, diameter).into_iter().take(TRIES) {
-        if large && passes_attracting_saddle(body, rests, (last.t - recurrence.time, last.t), settings) {
+        if passes_attracting_saddle(body, rests, (last.t - recurrence.time, last.t), settings) {
             continue;
         }
         let guess = PeriodicGuess {
