@@ -85,7 +85,7 @@ fn ctrl_c_keeps_whole_parts() {
     let kill = Command::new("bash").args(["-c", &format!("kill -INT {}", child.id())]).status().unwrap();
     assert!(kill.success());
     let done = Done::from(child.wait_with_output().unwrap()).expect(130);
-    assert!(done.stderr.contains("the same `motiform scan` with --resume goes on"), "{}", done.stderr);
+    assert!(done.stderr.contains("the same `motiform scan` with --resume continues"), "{}", done.stderr);
     let parts = count_parts(&folder.path("run"));
     assert!((1..150).contains(&parts), "{parts}");
     assert!(names(&folder.path("run")).iter().all(|name| !name.ends_with(".partial")));
@@ -173,7 +173,7 @@ fn two_processes_do_not_share_a_folder() {
         let done = folder.run(&format!("{long} --out run {words}")).expect_error(2);
         assert_eq!(
             done.stderr,
-            "error: another motiform computes in run: wait until it is done, or choose another --out\n"
+            "error: another motiform process computes in run: wait until it is done, or choose another --out\n"
         );
     }
     child.kill().unwrap();
@@ -188,7 +188,7 @@ fn a_full_disk() {
     let full = folder.bash(&format!("trap '' XFSZ; ulimit -f 4; exec $motiform {words}")).expect_error(1);
     assert!(full.stderr.starts_with("error: writing run/part-000"), "{}", full.stderr);
     assert!(
-        full.stderr.contains("File too large") && full.stderr.contains("make room, and --resume goes on")
+        full.stderr.contains("File too large") && full.stderr.contains("free some space, and --resume continues")
     );
     assert_eq!(names(&folder.path("run")), ["_manifest.json"]);
     scan(&folder, &format!("{words} --resume"));

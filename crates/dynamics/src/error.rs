@@ -25,7 +25,7 @@ pub enum Error {
         range: &'static str,
     },
     /// A fixed-step method was asked to control its step.
-    #[error("stepper {stepper} has no error estimate: give it a fixed step, or choose an adaptive stepper")]
+    #[error("stepper {stepper} has no error estimate: give a fixed step, or choose an adaptive stepper")]
     NoErrorEstimate {
         /// Name of the method.
         stepper: &'static str,

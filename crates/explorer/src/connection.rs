@@ -31,7 +31,7 @@ pub(crate) async fn serve(mut socket: WebSocket, greeting: Greeting, mut stop: w
                 None => return,
             }
         }
-        Err(_) => (FAILED, "the system gives no threads"),
+        Err(_) => (FAILED, "the system provides no threads"),
     };
     // The page may have gone already.
     let _ = socket.send(Message::Close(Some(CloseFrame { code, reason: reason.into() }))).await;

@@ -14,14 +14,14 @@ pub enum Error {
     },
     /// A token that cannot stand in an address, or is too easy to guess.
     #[error(
-        "token {token:?}: give 16 to 128 letters and digits, or leave it out: a random one is made for each start"
+        "token {token:?}: give 16 to 128 letters and digits, or leave it out: each start then uses a new random one"
     )]
     Token {
         /// The token given.
         token: String,
     },
     /// The system gives no random numbers.
-    #[error("the system gives no random numbers for the address: {0}")]
+    #[error("the system provides no random numbers for the address: {0}")]
     Random(getrandom::Error),
     /// The machine failed.
     #[error("the server failed: {0}")]

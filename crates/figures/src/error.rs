@@ -65,7 +65,7 @@ pub enum FigureError {
         got: usize,
     },
     /// A width that cannot be read.
-    #[error("{text:?} is no width: write it with a unit (mm, cm, in, px), such as 86mm or 1200px")]
+    #[error("{text:?} is not a width: write it with a unit (mm, cm, in, px), such as 86mm or 1200px")]
     Width {
         /// What was given.
         text: String,
@@ -87,7 +87,7 @@ pub enum FigureError {
         index: usize,
     },
     /// A cell of a phase diagram is not at a cell centre.
-    #[error("cell number {index} lies at ({x}, {y}), which is no cell centre; give it a value of each axis")]
+    #[error("cell number {index} lies at ({x}, {y}), which is not a cell centre; give it a value of each axis")]
     OffGrid {
         /// Position in the list of cells, from 0.
         index: usize,
@@ -97,7 +97,7 @@ pub enum FigureError {
         y: f64,
     },
     /// Two cells of a phase diagram are at one place.
-    #[error("cell number {index} lies where an earlier one does; merge their shares")]
+    #[error("cell number {index} has the same position as an earlier one; merge their shares")]
     SameCell {
         /// Position in the list of cells, from 0.
         index: usize,
@@ -137,7 +137,7 @@ pub enum FigureError {
         source: png::EncodingError,
     },
     /// The PDF writer failed.
-    #[error("cannot write the pdf: {why}; keep the svg, which holds the same drawing")]
+    #[error("cannot write the pdf: {why}; use the svg, which contains the same drawing")]
     Pdf {
         /// What the writer found.
         why: String,

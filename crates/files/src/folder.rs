@@ -88,7 +88,7 @@ pub fn write_dataset(
 pub fn read_dataset(folder: &Path) -> Result<Dataset, Error> {
     let path = folder.join(MANIFEST);
     let text = input::manifest(&path).map_err(|error| {
-        Error::unreadable(&path, format!("{error}; a dataset is a folder written by `motiform simulate`"))
+        Error::unreadable(&path, format!("{error}; give a folder written by `motiform simulate`"))
     })?;
     let manifest: Manifest = serde_json::from_str(&text).map_err(|error| Error::unreadable(&path, error))?;
     let model = model_of(&manifest).map_err(|error| Error::unreadable(&path, error))?;
@@ -117,7 +117,7 @@ pub fn read_table_file(path: &Path) -> Result<(Table, Option<Manifest>), Error> 
             let manifest = text.map(|text| serde_json::from_str(&text)).transpose();
             Ok((parquet_table::read(path)?, manifest.map_err(|error| Error::unreadable(path, error))?))
         }
-        None => Err(Error::unreadable(path, "it is no table: give a .parquet or .csv file")),
+        None => Err(Error::unreadable(path, "it is not a table: give a .parquet or .csv file")),
     }
 }
 

@@ -81,7 +81,7 @@ pub fn sweep(target: &Path) -> Vec<String> {
         if end == REPLACED && target.symlink_metadata().is_err() {
             if disk::rename(&path, target).is_ok() {
                 done.push(format!(
-                    "put {} back, which a run that was killed was about to replace",
+                    "restored {}, which a killed run was about to replace",
                     target.display()
                 ));
             }
@@ -89,7 +89,7 @@ pub fn sweep(target: &Path) -> Vec<String> {
         }
         remove(&path);
         if path.symlink_metadata().is_err() {
-            done.push(format!("removed {found}, left by a run that was killed"));
+            done.push(format!("removed {found}, left by a killed run"));
         }
     }
     done

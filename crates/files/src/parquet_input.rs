@@ -28,7 +28,7 @@ pub fn decoding() -> bool {
 pub fn read<T>(path: &Path, contents: impl FnOnce(&SerializedFileReader<File>) -> Result<T>) -> Result<T> {
     let length = path.metadata()?;
     if !length.is_file() {
-        return Err(wrong("it is no file"));
+        return Err(wrong("it is not a file"));
     }
     DECODING.set(true);
     let read = catch_unwind(AssertUnwindSafe(|| {

@@ -49,7 +49,7 @@ pub enum Error {
         max: f64,
     },
     /// A number that counts or switches, with a fraction.
-    #[error("{name} = {value} is no whole number: give it without a fraction")]
+    #[error("{name} = {value} is not a whole number: give it without a fraction")]
     NotWhole {
         /// Name of the number.
         name: &'static str,
@@ -68,7 +68,7 @@ pub enum Error {
     },
     /// The error function is to be added to a shape with fewer modes.
     #[error(
-        "modes = {modes} cannot take up the feedback of closure_modes = {closure_modes}: give as many modes, or feedback = 0"
+        "modes = {modes} cannot represent the feedback of closure_modes = {closure_modes}: give as many modes, or feedback = 0"
     )]
     NoRoomForFeedback {
         /// Number of modes of the shape.

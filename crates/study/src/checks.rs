@@ -52,7 +52,7 @@ pub fn check_stability(model: &dyn Model, method: Method, control: Control) -> R
 /// rate of the linear part keeps an explicit method to steps of some times its inverse.
 pub fn check_steps(model: &dyn Model, method: Method, control: Control, time: f64) -> Result<(), Error> {
     if let Control::Fixed { step } = control {
-        let remedy = "that is over 10 thousand million steps: give a larger step, or a shorter time";
+        let remedy = "this takes more than 10 thousand million steps: give a larger step, or a shorter time";
         return check("step", step, time / step <= MOST_STEPS, remedy);
     }
     let Method::Explicit(tableau) = method else { return Ok(()) };

@@ -14,7 +14,7 @@ pub enum Error {
     #[error(transparent)]
     Analysis(#[from] motiform_analysis::Error),
     /// No part of the paper of this name.
-    #[error("unknown figure {name:?}: what can be reproduced is {}", .known.join(", "))]
+    #[error("unknown figure {name:?}: choose one of {}", .known.join(", "))]
     UnknownFigure {
         /// The name given.
         name: String,
@@ -33,7 +33,7 @@ pub enum Error {
     #[error("interrupted")]
     Interrupted,
     /// More exponents than there are, or none.
-    #[error("count = {count}: this model has {dim} exponents; ask for 1 to {dim}")]
+    #[error("count = {count}: this model has {dim} exponents; give a count from 1 to {dim}")]
     Count {
         /// The number asked for.
         count: usize,
@@ -107,14 +107,14 @@ pub enum Error {
     },
     /// A scan folder that is there already.
     #[error(
-        "{} exists: --resume goes on with the scan in it, --force replaces it; or choose another --out", .path.display()
+        "{} exists: --resume continues the scan in it, --force replaces it; or choose another --out", .path.display()
     )]
     ScanExists {
         /// The folder.
         path: PathBuf,
     },
     /// A folder that is no scan.
-    #[error("{} holds no scan: {reason}; give a folder written by `motiform scan`", .path.display())]
+    #[error("{} contains no scan: {reason}; give a folder written by `motiform scan`", .path.display())]
     NoScan {
         /// The folder.
         path: PathBuf,
@@ -123,7 +123,7 @@ pub enum Error {
     },
     /// A folder that holds the scan of another plan.
     #[error(
-        "{} holds another scan than the one asked for ({differences}): choose another --out, or --force to replace it",
+        "{} contains a different scan from the one requested ({differences}): choose another --out, or --force to replace it",
         .path.display()
     )]
     OtherScan {
@@ -133,13 +133,13 @@ pub enum Error {
         differences: String,
     },
     /// Another process computes in the folder.
-    #[error("another motiform computes in {}: wait until it is done, or choose another --out", .path.display())]
+    #[error("another motiform process computes in {}: wait until it is done, or choose another --out", .path.display())]
     Busy {
         /// The folder.
         path: PathBuf,
     },
     /// Folders of different scans cannot be merged.
-    #[error("{} and {} hold different scans ({differences}): merge the shards of one scan", .first.display(), .second.display())]
+    #[error("{} and {} contain different scans ({differences}): merge the shards of one scan", .first.display(), .second.display())]
     Unmergeable {
         /// A folder.
         first: PathBuf,
@@ -150,7 +150,7 @@ pub enum Error {
     },
     /// Two folders hold the same part with different numbers.
     #[error(
-        "{} and {} hold different numbers for the same rows: one of them comes from another version of motiform; leave          one folder out",
+        "{} and {} contain different numbers for the same rows: one of them comes from another version of motiform; leave one folder out",
         .first.display(), .second.display()
     )]
     Conflict {
@@ -160,7 +160,7 @@ pub enum Error {
         second: PathBuf,
     },
     /// Writing a part broke off (a full disk, say).
-    #[error("writing {} failed: {reason}; whole parts are kept: make room, and --resume goes on", .path.display())]
+    #[error("writing {} failed: {reason}; complete parts are kept: free some space, and --resume continues", .path.display())]
     PartFailed {
         /// The part.
         path: PathBuf,
@@ -168,14 +168,14 @@ pub enum Error {
         reason: String,
     },
     /// Rows that are not those of a part.
-    #[error("these are not the rows of part {part}, in order: hand over one row per cell and initial state")]
+    #[error("these are not the rows of part {part}, in order: give one row per cell and initial state")]
     OtherRows {
         /// The part.
         part: usize,
     },
     /// A fixed step that an explicit method cannot take on this model.
     #[error(
-        "step = {step:?}: {stepper} is unstable above {largest:.1e} for this model; give a smaller step, or take an \
+        "step = {step:?}: {stepper} is unstable above {largest:.1e} for this model; give a smaller step, or use an \
          exponential stepper (krogstad4)"
     )]
     UnstableStep {
@@ -188,7 +188,7 @@ pub enum Error {
     },
     /// Rates so fast that an explicit method would never end.
     #[error(
-        "the fastest rate of this model is {rate:.1e}: {stepper} would need some {:.0e} steps for a time of {time:.0}; take the exponential \
+        "the fastest rate of this model is {rate:.1e}: {stepper} would need about {:.0e} steps for a time of {time:.0}; use the exponential \
          stepper krogstad4, or smaller parameters",
         rate * time / 5.0
     )]
@@ -202,7 +202,7 @@ pub enum Error {
     },
     /// A start whose boundary cannot be closed.
     #[error(
-        "the initial values describe no closed boundary (closing it leaves {residual:.1e} of its length): give \
+        "the initial values do not describe a closed boundary (the gap is {residual:.1e} of its length): give \
          smaller ones, or another prior or closure_modes"
     )]
     NotClosed {
@@ -216,13 +216,13 @@ pub enum Error {
         path: PathBuf,
     },
     /// The output exists and is not one of ours.
-    #[error("{} exists and is no motiform dataset: --force does not replace it, choose another --out", .path.display())]
+    #[error("{} exists and is not a motiform dataset: --force does not replace it, choose another --out", .path.display())]
     NotOurs {
         /// The path.
         path: PathBuf,
     },
     /// A folder that cannot be written into.
-    #[error("cannot write {}: {reason}; choose an --out in a folder that exists and that you may write to", .path.display())]
+    #[error("cannot write {}: {reason}; choose an --out in a folder that exists and is writable", .path.display())]
     Unwritable {
         /// The path.
         path: PathBuf,
@@ -230,7 +230,7 @@ pub enum Error {
         reason: std::io::Error,
     },
     /// Writing broke off (a full disk, say). Nothing half-written is left.
-    #[error("writing {} failed: {reason}; nothing was left behind, make room and run again", .path.display())]
+    #[error("writing {} failed: {reason}; nothing was left behind, free some space and run again", .path.display())]
     WriteFailed {
         /// The path.
         path: PathBuf,
@@ -238,7 +238,7 @@ pub enum Error {
         reason: String,
     },
     /// Something that is no file is where a file of ours belongs.
-    #[error("{} is no file, and a part of the scan belongs there: remove it, and --resume goes on", .path.display())]
+    #[error("{} is not a file, but a part of the scan belongs there: remove it, and --resume continues", .path.display())]
     InTheWay {
         /// The path.
         path: PathBuf,

@@ -17,13 +17,13 @@ pub fn text(path: &Path, most: u64) -> Result<String> {
     if bytes.len() as u64 > most {
         return Err(Error::new(ErrorKind::FileTooLarge, format!("it has more than {most} bytes")));
     }
-    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is no text (UTF-8)"))
+    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
 }
 
 /// The text of a manifest: of a file, for nobody ever writes into a pipe of that name.
 pub fn manifest(path: &Path) -> Result<String> {
     if !path.metadata()?.is_file() {
-        return Err(Error::new(ErrorKind::InvalidInput, "it is no file"));
+        return Err(Error::new(ErrorKind::InvalidInput, "it is not a file"));
     }
     text(path, MANIFEST)
 }

@@ -96,7 +96,7 @@ impl Plan {
             "dt_out",
             dt_out,
             run.t_end / dt_out <= MOST_ROWS,
-            "that is over 20 million rows: give a longer time",
+            "this gives more than 20 million rows: give a longer time",
         )?;
         check("escape_norm", run.escape_norm, run.escape_norm > 0.0, "give a number above 0")?;
         study.random.unwrap_or(Random::SMALL).check()?;

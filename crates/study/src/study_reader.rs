@@ -77,7 +77,7 @@ fn read_model(top: &mut Table<'_>, file: &str) -> Result<Study, Error> {
             file: file.to_owned(),
             line: 1,
             column: 1,
-            problem: format!("[model] names no model: write [model.{}]", names().join("] or [model.")),
+            problem: format!("[model] does not name a model: write [model.{}]", names().join("] or [model.")),
             excerpt: String::new(),
         });
     };

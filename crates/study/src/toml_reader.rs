@@ -212,14 +212,14 @@ impl<'i> Value<'i> {
 
     /// A text.
     pub(crate) fn text(&self) -> Result<String, Error> {
-        self.value.get_ref().as_str().map(str::to_owned).ok_or_else(|| self.wrong("a text in quotes"))
+        self.value.get_ref().as_str().map(str::to_owned).ok_or_else(|| self.wrong("a string in quotes"))
     }
 
     /// A list of texts.
     pub(crate) fn texts(&self) -> Result<Vec<String>, Error> {
-        let array = self.value.get_ref().as_array().ok_or_else(|| self.wrong("a list of texts"))?;
+        let array = self.value.get_ref().as_array().ok_or_else(|| self.wrong("a list of strings"))?;
         let text = |item: &Spanned<DeValue<'_>>| item.get_ref().as_str().map(str::to_owned);
-        array.iter().map(text).collect::<Option<_>>().ok_or_else(|| self.wrong("a list of texts"))
+        array.iter().map(text).collect::<Option<_>>().ok_or_else(|| self.wrong("a list of strings"))
     }
 
     /// A table.

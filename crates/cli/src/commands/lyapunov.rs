@@ -24,7 +24,7 @@ pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
             return Err(Error::Setting {
                 key,
                 value: value.to_string(),
-                remedy: "give a time above 0 (0 is a transient too)",
+                remedy: "give a time above 0 (the transient may be 0)",
             }
             .into());
         }

@@ -44,7 +44,7 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
     if !ended.complete {
         let done = ended.cells;
         warn(&format!(
-            "interrupted: {done} of {left} cells are done; the same `motiform scan` with --resume goes on"
+            "interrupted: {done} of {left} cells are done; the same `motiform scan` with --resume continues"
         ));
         return Ok(End::Interrupted);
     }

@@ -208,7 +208,7 @@ impl<'s> Stage<'s> {
             _ => looks::maker(&self.look(), export),
         };
         let Some(make) = make else {
-            let why = format!("there is no file {:?} to be had", export.what);
+            let why = format!("there is no file {:?}", export.what);
             return self.desks.answers.refused(Some(export.id), &why);
         };
         let subject = self.setting.preset().unwrap_or(self.setting.study().model).to_owned();

@@ -47,7 +47,7 @@ impl<'b> Stretch<'b> {
     /// sampled every `dt_out` from `t` on. Stretches of one seed need different `number`s for independent noise.
     ///
     /// # Errors
-    /// An unknown stepper; a state that is no number, or of another length.
+    /// An unknown stepper; a state that is not a number, or of another length.
     pub fn new(
         plan: &Plan,
         body: &'b InPlane<&'b dyn Model>,

@@ -130,7 +130,7 @@ pub(super) fn differences(there: &ScanPlan, asked: &ScanPlan) -> String {
         let say = |axes: &[super::Axis]| {
             axes.iter().map(|axis| format!("[{axis}]")).collect::<Vec<_>>().join(" x ")
         };
-        found.push(format!("axes: {} there, {} asked", say(&there.axes), say(&asked.axes)));
+        found.push(format!("axes: {} there, {} requested", say(&there.axes), say(&asked.axes)));
     }
     for side in [&mut left, &mut right] {
         if let Some(object) = side.as_object_mut() {
@@ -146,7 +146,7 @@ pub(super) fn differences(there: &ScanPlan, asked: &ScanPlan) -> String {
 fn compare(key: &str, there: &Value, asked: &Value, found: &mut Vec<String>) {
     let (Some(left), Some(right)) = (there.as_object(), asked.as_object()) else {
         if there != asked {
-            found.push(format!("{key}: {} there, {} asked", shown(there), shown(asked)));
+            found.push(format!("{key}: {} there, {} requested", shown(there), shown(asked)));
         }
         return;
     };

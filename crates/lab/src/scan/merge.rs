@@ -75,7 +75,7 @@ fn choose<'p>(
         match (source.check(part), &chosen) {
             (Err(PartError::Missing), _) => {}
             (Err(PartError::Damaged(how)), _) => damaged.push(how),
-            (Err(PartError::InTheWay(path)), _) => damaged.push(format!("{} is no file", path.display())),
+            (Err(PartError::InTheWay(path)), _) => damaged.push(format!("{} is not a file", path.display())),
             (Ok(digest), None) => chosen = Some((source, digest)),
             (Ok(digest), Some((first, known))) => {
                 // Other bytes may hold the same numbers: written by another version, say.

@@ -139,7 +139,7 @@ pub fn for_each_part(folder: &ScanFolder, mut use_rows: impl FnMut(&[Row])) -> R
             Ok(_) => use_rows(&read_part(plan, &parts, part)?),
             Err(PartError::Missing) => {}
             Err(PartError::Damaged(how)) => damaged.push(how),
-            Err(PartError::InTheWay(path)) => damaged.push(format!("{} is no file", path.display())),
+            Err(PartError::InTheWay(path)) => damaged.push(format!("{} is not a file", path.display())),
         }
     }
     Ok(damaged)
