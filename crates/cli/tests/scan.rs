@@ -70,7 +70,7 @@ fn killed_at_any_moment_and_resumed() {
     }
     assert!(killed >= 3, "the scan was over too soon to be killed");
     let done = scan(&folder, &format!("{MANY} --threads 1 --out run --resume"));
-    assert!(!done.stderr.contains("computed again"), "a kill damages no part: {}", done.stderr);
+    assert!(!done.stderr.contains("recomputed"), "a kill damages no part: {}", done.stderr);
     assert!(contents(&folder.path("run")) == whole);
     // Nothing is left to do: nothing changes.
     scan(&folder, &format!("{MANY} --out run --resume"));
@@ -160,7 +160,7 @@ fn damaged_parts_are_found_recomputed_and_said() {
     {
         assert!(done.stderr.contains(part), "{}", done.stderr);
     }
-    assert_eq!(done.stderr.matches("its cells are computed again").count(), 2);
+    assert_eq!(done.stderr.matches("its cells are recomputed").count(), 2);
     assert!(contents(&folder.path("run")) == whole);
 }
 

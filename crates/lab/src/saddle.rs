@@ -94,7 +94,7 @@ fn summarise(runs: &[Lyapunov], settings: &LyapunovSettings, way_out: f64) -> Re
     let missing = if exponent.is_some() {
         ""
     } else {
-        "too few runs stayed long enough; ask for a shorter --transient"
+        "too few runs stayed long enough; give a shorter transient"
     };
     Ok(Saddle {
         exponent,

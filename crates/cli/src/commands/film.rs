@@ -17,7 +17,7 @@ pub(crate) fn check(formats: &[FilmFormat]) -> anyhow::Result<()> {
     match version {
         Ok(output) if output.status.success() => Ok(()),
         _ => bail!(
-            "--film needs ffmpeg, which does not start: install it (Debian: apt-get install ffmpeg), or leave --film out and open \
+            "--film needs ffmpeg, which does not start: install it (Debian: apt-get install ffmpeg), or omit --film and open \
              {ANIMATION} in a browser"
         ),
     }

@@ -135,7 +135,7 @@ impl Target {
                 };
                 let (films, unfilmed) = match film::convert(&pictures, &options.drawing.film) {
                     Ok(films) => (films, None),
-                    Err(error) => (Vec::new(), Some(error.context("all but the film is written"))),
+                    Err(error) => (Vec::new(), Some(error.context("everything except the film is written"))),
                 };
                 let undrawn = undrawn.or(unfilmed);
                 for picture in pictures.into_iter().chain(films) {

@@ -56,7 +56,7 @@ pub(crate) fn study(options: &SubjectOptions) -> Result<Study, Error> {
             return Err(Error::Setting {
                 key: "--preset",
                 value: name.to_owned(),
-                remedy: "a study file names its own preset: write preset = \"...\" in it",
+                remedy: "a study file sets its own preset: write preset = \"...\" in the file",
             });
         }
         Study::read(path)?
