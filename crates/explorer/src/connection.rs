@@ -61,14 +61,14 @@ async fn talk(
                     Ok(Message::Binary(_)) => None,
                     Ok(Message::Close(_)) => return None,
                     Ok(Message::Ping(_) | Message::Pong(_)) => continue,
-                    Err(_) => return Some((TOO_BIG, "a message was too long, or none of this protocol")),
+                    Err(_) => return Some((TOO_BIG, "a message was too long, or does not belong to this protocol")),
                 };
                 if !bucket.take(Instant::now()) {
                     return Some((POLICY, "too many messages"));
                 }
-                match text.as_deref().ok_or_else(|| "the page speaks JSON texts".to_owned()).and_then(Ask::parse) {
+                match text.as_deref().ok_or_else(|| "messages must be JSON texts".to_owned()).and_then(Ask::parse) {
                     Ok(ask) => if !session.ask(ask) {
-                        return Some((POLICY, "too many messages wait"));
+                        return Some((POLICY, "too many messages are waiting"));
                     },
                     Err(why) => {
                         let refused = answers::text(&Refused { id: None, why }.into());
@@ -83,7 +83,7 @@ async fn talk(
                 };
                 socket.send(message).await.ok()?;
             }
-            () = &mut stopped => return Some((GOING_AWAY, "the server stops")),
+            () = &mut stopped => return Some((GOING_AWAY, "the server is stopping")),
         }
     }
 }

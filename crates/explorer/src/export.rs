@@ -58,7 +58,7 @@ impl Exports {
         match orders.try_send(order) {
             Ok(()) => Ok(()),
             Err(TrySendError::Full(order)) => {
-                self.answers.refused(Some(order.id), "other files are being made: wait for them")
+                self.answers.refused(Some(order.id), "other files are being created: wait for them")
             }
             Err(TrySendError::Disconnected(_)) => Err(Gone),
         }
@@ -95,7 +95,7 @@ fn deliver(order: Order, answers: &Answers) -> Result<(), Gone> {
     match content {
         Ok(Some(content)) => answers.file(id, &format!("motiform-{subject}-{what}"), mime, &content),
         Ok(None) => {
-            answers.refused(Some(id), "there is too little to make this file of yet: let the body move on")
+            answers.refused(Some(id), "there are not enough data for this file yet: let the body move on")
         }
         Err(error) => answers.refused(Some(id), &error.to_string()),
     }

@@ -60,7 +60,7 @@ fn live(asks: &Receiver<Ask>, desks: &Desks) -> Result<(), Gone> {
 fn first(asks: &Receiver<Ask>, desks: &Desks) -> Result<Option<Setting>, Gone> {
     while let Ok(ask) = asks.recv() {
         let Ask::Begin(begin) = &ask else {
-            desks.answers.refused(None, "there is no body yet: begin one first")?;
+            desks.answers.refused(None, "there is no body yet: send begin first")?;
             continue;
         };
         match Setting::begin(begin, 1) {
