@@ -75,7 +75,7 @@ pub(crate) fn section(settings: Option<&ReturnMapSettings>) -> SectionKind {
 /// The registry of the study layer, with what the page needs beside it.
 ///
 /// # Errors
-/// A preset or a model that does not stand up to its own checks.
+/// A preset or a model that fails its own checks.
 pub(crate) fn registry() -> Result<Registry, Error> {
     let mut all = registry::registry()?;
     for model in list(&mut all, "models") {

@@ -21,7 +21,7 @@ pub(crate) struct Frame {
     /// Rows of `columns` numbers.
     pub(crate) samples: Vec<f64>,
     pub(crate) columns: usize,
-    /// Relative to the position; `None` where the shape is no curve.
+    /// Relative to the position; `None` if the shape is not a curve.
     pub(crate) outline: Option<Vec<[f64; 2]>>,
 }
 

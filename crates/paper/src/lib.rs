@@ -83,7 +83,7 @@ fn finished(name: &str, section: &Section) -> String {
 /// was; `out` must exist.
 ///
 /// # Errors
-/// An unknown name; [`Error::Interrupted`] if the monitor asked to stop; files that cannot be written.
+/// An unknown name; [`Error::Interrupted`] if the watch stopped it; files that cannot be written.
 pub fn reproduce(options: &Options, out: &Path, watch: &dyn Watch) -> Result<Report, Error> {
     options.check()?;
     let wanted = |chapter: &&Chapter| {
