@@ -44,7 +44,7 @@ pub enum Outline {
     },
     /// The boundary could not be closed.
     NotClosed {
-        /// What is left of the closing condition, relative to the boundary's length.
+        /// The residual of the closing condition, relative to the length of the boundary.
         residual: f64,
     },
 }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub enum Obstacle {
     /// The boundary could not be closed, so the body has no velocity.
     Closure {
-        /// What is left of the closing condition, relative to the boundary's length.
+        /// The residual of the closing condition, relative to the length of the boundary.
         residual: f64,
     },
 }
@@ -45,7 +45,7 @@ pub enum Outcome {
     ClosureFailed {
         /// Time of the last state that has one.
         t: f64,
-        /// What is left of the closing condition, relative to the boundary's length.
+        /// The residual of the closing condition, relative to the length of the boundary.
         residual: f64,
     },
     /// The budget of steps was used up.

@@ -215,7 +215,7 @@ pub fn schema() -> serde_json::Value {
     })
 }
 
-/// The schema of one table; every key may be left out.
+/// The schema of one table; every key is optional.
 fn section<T: JsonSchema>() -> serde_json::Value {
     let mut schema = schemars::schema_for!(T).to_value();
     if let Some(object) = schema.as_object_mut() {

@@ -3,7 +3,7 @@
 use crate::Error;
 use serde::{Deserialize, Serialize};
 
-/// Most values of one axis.
+/// Maximum number of values of one axis.
 const MOST_VALUES: usize = 100_000;
 
 /// A parameter that a scan varies, with its values in the order of the cells.
@@ -42,7 +42,7 @@ impl Axis {
         format!("{}={}", self.name, values.join(","))
     }
 
-    /// Refuses an axis without values, with too many, or with one that is not finite or stands there twice.
+    /// Rejects an axis without values, with too many, or with one that is not finite or occurs twice.
     pub(super) fn check(&self) -> Result<(), Error> {
         let wrong = |problem: String| Error::Axis { text: self.name.clone(), problem };
         if self.values.is_empty() {
@@ -68,7 +68,7 @@ impl Axis {
     }
 }
 
-/// What people read: `kappa2 = 0.1 to 1.6 (64 values)`, or the values where they are few.
+/// For display: `kappa2 = 0.1 to 1.6 (64 values)`, or the values if they are few.
 impl std::fmt::Display for Axis {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self.values.as_slice() {
