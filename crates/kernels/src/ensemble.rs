@@ -11,7 +11,7 @@ pub const STATE: usize = DIM + 2;
 /// A tensor model, and where its orbit starts.
 #[derive(Clone, Copy)]
 pub struct TensorStart {
-    /// What its states are handed back with.
+    /// The key that is returned with its states.
     pub key: usize,
     /// The model, which must be such that [`has_ensemble`].
     pub tensor: Tensor,
@@ -26,7 +26,7 @@ pub fn has_ensemble(tensor: &Tensor) -> bool {
 }
 
 /// Runs the orbits that `next` gives, on this thread; `done` gets the states of each at all times, or `None` where a single orbit has to
-/// say what happened. `false`, and nothing done, on a machine without lanes. See [`propagate`].
+/// say what happened. `false`, without any work, on a machine without lanes. See [`propagate`].
 pub fn propagate_tensors(
     how: &Propagation<'_>,
     next: &mut dyn FnMut() -> Option<TensorStart>,
