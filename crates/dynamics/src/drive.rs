@@ -17,9 +17,9 @@ pub struct Request<'g> {
     pub sample_every: Option<f64>,
     /// Maximum number of steps (accepted and rejected).
     pub max_steps: u64,
-    /// The run has escaped when the norm of the monitored part of the state exceeds this.
+    /// The run has escaped when the norm of the watched part of the state exceeds this.
     pub escape_norm: f64,
-    /// Number of leading entries of the state that are monitored for escape (a position may become large).
+    /// Number of leading entries of the state that are watched for escape (a position may become large).
     pub watched: usize,
     /// Sections to locate.
     pub sections: &'g [Section<'g>],

@@ -1,4 +1,4 @@
-//! What the page begins with: the registry, and for each preset where to look and how fast.
+//! The initial data of the page: the registry, and for each preset its map window and speed.
 
 use crate::protocol::{Registry, SectionKind};
 use motiform_lab::registry;
@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 /// A side of a plane of parameters: name, low, high.
 type Side = (&'static str, f64, f64);
 
-/// How a preset is shown at first.
+/// The initial display of a preset.
 struct Showing {
     name: &'static str,
     /// Model time between samples.
@@ -45,7 +45,7 @@ const fn showing(name: &'static str, sample: f64, speed: f64, plane: (Side, Opti
     Showing { name, sample, speed, plane }
 }
 
-/// How fast a body is shown, in model time.
+/// The speed at which a body is shown, in model time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Tempo {
     /// Between samples.
@@ -59,20 +59,20 @@ pub(crate) struct Tempo {
 /// Samples per second at the highest speed that the page offers: 50 in each of 60 pictures.
 const MOST_SAMPLES: f64 = 3000.0;
 
-/// The tempo of a preset or a model.
+/// The speed of a preset or a model.
 pub(crate) fn tempo(name: &str) -> Tempo {
     let known = SHOWINGS.iter().find(|showing| showing.name == name);
     let (sample, speed) = known.map_or((0.05, 5.0), |showing| (showing.sample, showing.speed));
     Tempo { sample, speed, speeds: [2.0 * sample, MOST_SAMPLES * sample] }
 }
 
-/// The section that a preset's return map begins with: through the path, where the preset has one. Its height is left to the
-/// centre of the path: the paper's line for Fig. 3, `y = 3`, runs along the rim of the annulus, and misses some turns.
+/// The initial section of a preset's return map: through the path, if the preset has one. Its height is by default that of the
+/// centre of the path: the paper's line for Fig. 3, `y = 3`, lies near the rim of the annulus, and misses some turns.
 pub(crate) fn section(settings: Option<&ReturnMapSettings>) -> SectionKind {
     settings.map_or(SectionKind::Speed, |_| SectionKind::Path)
 }
 
-/// The registry of the study layer, with what the page needs beside it.
+/// The registry of the library, with additional data for the page.
 ///
 /// # Errors
 /// A preset or a model that fails its own checks.

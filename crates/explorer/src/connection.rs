@@ -1,4 +1,4 @@
-//! One page: messages in, answers out, until one side leaves.
+//! The connection to one page: incoming messages and answers, until one side disconnects.
 
 use crate::answers::{self, Answer, Answers};
 use crate::protocol::{Ask, Refused};
@@ -43,7 +43,7 @@ async fn stopped(stop: &mut watch::Receiver<bool>) {
     let _ = stop.wait_for(|stop| *stop).await;
 }
 
-/// Carries messages to and fro; returns why to close the connection, or `None` if the page has left.
+/// Transfers messages in both directions; returns the reason to close the connection, or `None` if the page has disconnected.
 async fn talk(
     socket: &mut WebSocket,
     session: &Session,

@@ -1,4 +1,4 @@
-//! Files to keep, made on a thread of their own while the body moves on.
+//! Files for export, created on a separate thread while the body moves on.
 
 use crate::answers::{Answers, Gone};
 use motiform_figures::{DEFAULT_SCALE, png};
@@ -7,18 +7,18 @@ use motiform_study::Error;
 use std::sync::mpsc::{SyncSender, TrySendError, sync_channel};
 use std::thread::JoinHandle;
 
-/// What was made.
+/// The created file.
 pub(crate) enum Made {
-    /// A drawing; it becomes a PNG where one is asked for.
+    /// A drawing; it is converted to PNG if requested.
     Svg(String),
     /// A file as it is.
     Bytes(Vec<u8>),
 }
 
-/// Makes a file from a snapshot; `None` where there is nothing to make it of yet.
+/// Makes a file from a snapshot; `None` if there are not enough data yet.
 pub(crate) type Maker = Box<dyn FnOnce() -> Result<Option<Made>, Error> + Send>;
 
-/// A file that was asked for.
+/// A requested file.
 pub(crate) struct Order {
     pub(crate) id: u32,
     /// The preset or the model.
@@ -27,7 +27,7 @@ pub(crate) struct Order {
     pub(crate) make: Maker,
 }
 
-/// Orders that may wait: there are about twice as many buttons.
+/// Length of the queue of requests: there are about twice as many buttons.
 const WAITING: usize = 8;
 
 /// The thread that makes files.

@@ -1,4 +1,4 @@
-//! A line that theory expects or a fit found.
+//! A line from theory or from a fit.
 
 use super::axes::{AxisKind, Scale};
 use super::clip::clip;

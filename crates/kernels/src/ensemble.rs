@@ -8,7 +8,7 @@ use motiform_models::tensor::fourier::{DIM, FourierField, terms};
 /// Shape and position.
 pub const STATE: usize = DIM + 2;
 
-/// A tensor model, and where its orbit starts.
+/// A tensor model, and the initial state of its orbit.
 #[derive(Clone, Copy)]
 pub struct TensorStart {
     /// The key that is returned with its states.
@@ -19,7 +19,7 @@ pub struct TensorStart {
     pub start: [f64; STATE],
 }
 
-/// Whether a model's orbits run in lanes: it has no other than the common terms.
+/// Whether a model's orbits run in lanes: it has only the common terms.
 #[must_use]
 pub fn has_ensemble(tensor: &Tensor) -> bool {
     tensor.terms() & !terms::COMMON == 0

@@ -29,7 +29,7 @@ pub(crate) fn run(options: &ExploreOptions) -> anyhow::Result<End> {
     Ok(End::Done)
 }
 
-/// Asks the desktop to open an address; whether it could be asked.
+/// Opens an address in the browser; returns whether this was possible.
 fn open(address: &str) -> bool {
     let (program, arguments): (&str, &[&str]) = if cfg!(target_os = "macos") {
         ("open", &[])

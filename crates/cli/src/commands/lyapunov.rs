@@ -13,7 +13,7 @@ use motiform_study::{Error, Plan};
 use serde_json::json;
 use std::fmt::Write;
 
-/// Exponents that are computed unless more are asked for.
+/// Default number of exponents.
 const COUNT: usize = 6;
 
 pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
@@ -175,7 +175,7 @@ fn many_summary(
     Ok(text)
 }
 
-/// `--saddle`: the exponent of chaos that does not last.
+/// `--saddle`: the exponent of transient chaos.
 fn saddle(options: &LyapunovOptions, plan: &Plan, samples: usize) -> anyhow::Result<End> {
     let watch = Progress::new(samples as f64, "runs");
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);

@@ -81,7 +81,7 @@ fn threads(options: &ScanOptions) -> usize {
     options.threads.map_or_else(all, usize::from)
 }
 
-/// Prints what a folder holds.
+/// Prints the contents of a folder.
 pub(crate) fn show(folder: &ScanFolder, totals: &Totals, as_json: bool) -> anyhow::Result<()> {
     print(&if as_json { json(folder, totals)? } else { summary(folder, totals)? })
 }

@@ -5,7 +5,7 @@
 //! The crate that offers safe registers uses AVX-512 only from Ice Lake on; what is used here is older (F, DQ, VL).
 //!
 //! Why it is sound: the instructions are called only through [`Zmm`] and [`Ymm`], both private to this module, which
-//! are handed out only as type arguments of kernels run by [`run_lanes`], after the processor was asked. A value of either
+//! are used only as type arguments of kernels run by [`run_lanes`], after the processor was asked. A value of either
 //! type therefore exists only where its instructions do. Tests: `tests/lanes.rs`, every operation against `f64`.
 
 #![allow(unsafe_code, reason = "vector instructions; see above")]

@@ -70,7 +70,7 @@ impl ReportFigure {
 /// A picture as a file's content.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Picture {
-    /// SVG text that stands alone.
+    /// Self-contained SVG text.
     Svg(String),
     /// A PNG, animated or not.
     Png(Vec<u8>),

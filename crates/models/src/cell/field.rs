@@ -1,4 +1,4 @@
-//! The shape equation (C) in Fourier modes: the form that is computed.
+//! The shape equation (C) in Fourier modes: the form used for computation.
 //!
 //! `phi(s) = sum_n phi_n exp(i k_n s)` with `phi_{-n} = conj(phi_n)`: only `n >= 1` is kept, so phi is real by
 //! construction and no anti-Hermitian part can grow. The mean `phi_0` is constant in time, because every term of (C)
@@ -14,7 +14,7 @@ use super::convolution::in_rows;
 use motiform_dynamics::simd::{self, Kernel};
 use motiform_dynamics::{Lanes, Scalar, Semilinear, System, VectorField};
 
-/// Most modes that can be computed (a convolution keeps its operands on the stack).
+/// Maximum number of modes (a convolution keeps its operands on the stack).
 pub const MAX_MODES: usize = 128;
 
 /// The shape field: state `(Re phi_1, Im phi_1, Re phi_2, Im phi_2, ...)`.
