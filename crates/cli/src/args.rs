@@ -232,12 +232,14 @@ pub(crate) enum TableFormat {
 }
 
 fn number(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| format!("{text:?} is not a number: write it like 0.5 or 1e-9"))?;
+    let value: f64 =
+        text.parse().map_err(|_| format!("{text:?} is not a number: write it like 0.5 or 1e-9"))?;
     if value.is_finite() { Ok(value) } else { Err(format!("{text} is not finite: give a finite number")) }
 }
 
 fn whole(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| format!("{text:?} is not a whole number from 0 to {}: write it like 7", u64::MAX))
+    text.parse()
+        .map_err(|_| format!("{text:?} is not a whole number from 0 to {}: write it like 7", u64::MAX))
 }
 
 fn random(text: &str) -> Result<Random, String> {

@@ -188,7 +188,8 @@ fn a_full_disk() {
     let full = folder.bash(&format!("trap '' XFSZ; ulimit -f 4; exec $motiform {words}")).expect_error(1);
     assert!(full.stderr.starts_with("error: writing run/part-000"), "{}", full.stderr);
     assert!(
-        full.stderr.contains("File too large") && full.stderr.contains("free some space, and --resume continues")
+        full.stderr.contains("File too large")
+            && full.stderr.contains("free some space, and --resume continues")
     );
     assert_eq!(names(&folder.path("run")), ["_manifest.json"]);
     scan(&folder, &format!("{words} --resume"));

@@ -87,7 +87,9 @@ pub enum FigureError {
         index: usize,
     },
     /// A cell of a phase diagram is not at a cell centre.
-    #[error("cell number {index} lies at ({x}, {y}), which is not a cell centre; give it a value of each axis")]
+    #[error(
+        "cell number {index} lies at ({x}, {y}), which is not a cell centre; give it a value of each axis"
+    )]
     OffGrid {
         /// Position in the list of cells, from 0.
         index: usize,

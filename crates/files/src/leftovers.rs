@@ -80,10 +80,7 @@ pub fn sweep(target: &Path) -> Vec<String> {
         }
         if end == REPLACED && target.symlink_metadata().is_err() {
             if disk::rename(&path, target).is_ok() {
-                done.push(format!(
-                    "restored {}, which a killed run was about to replace",
-                    target.display()
-                ));
+                done.push(format!("restored {}, which a killed run was about to replace", target.display()));
             }
             continue;
         }

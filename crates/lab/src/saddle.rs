@@ -91,11 +91,8 @@ fn summarise(runs: &[Lyapunov], settings: &LyapunovSettings, way_out: f64) -> Re
         })
         .collect();
     let exponent = ratio(&stretches);
-    let missing = if exponent.is_some() {
-        ""
-    } else {
-        "too few runs stayed long enough; give a shorter transient"
-    };
+    let missing =
+        if exponent.is_some() { "" } else { "too few runs stayed long enough; give a shorter transient" };
     Ok(Saddle {
         exponent,
         missing: missing.to_owned(),

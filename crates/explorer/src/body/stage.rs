@@ -93,7 +93,10 @@ impl<'s> Stage<'s> {
     /// Advances the body and sends a frame.
     fn advance(&mut self, dt: f64) -> Result<(), Gone> {
         if dt < 0.0 {
-            return self.desks.answers.refused(None, "the body moves forward in time only: give a dt of at least 0");
+            return self
+                .desks
+                .answers
+                .refused(None, "the body moves forward in time only: give a dt of at least 0");
         }
         let most = PICTURE.0 * self.setting.tempo().sample;
         let to = self.stretch.t() + dt.min(most);

@@ -60,9 +60,7 @@ impl Axis {
         let mut sorted = self.values.clone();
         sorted.sort_by(f64::total_cmp);
         match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
-            Some(twice) => {
-                Err(wrong(format!("the value {} occurs twice: give different values", twice[0])))
-            }
+            Some(twice) => Err(wrong(format!("the value {} occurs twice: give different values", twice[0]))),
             None => Ok(()),
         }
     }
@@ -89,9 +87,9 @@ fn range(text: &str, form: &str) -> Result<Vec<f64>, String> {
     let fields: Vec<&str> = text.split(':').map(str::trim).collect();
     let [low, high, count] = fields[..] else { return Err(form.to_owned()) };
     let (low, high) = (number(low)?, number(high)?);
-    let count: usize = count
-        .parse()
-        .map_err(|_| format!("COUNT = {count:?} is not a whole number: give the number of points, e.g. 64"))?;
+    let count: usize = count.parse().map_err(|_| {
+        format!("COUNT = {count:?} is not a whole number: give the number of points, e.g. 64")
+    })?;
     if count > MOST_VALUES {
         return Err(format!("COUNT = {count} is too many: give at most {MOST_VALUES}"));
     }
@@ -120,7 +118,8 @@ fn listed(text: &str) -> Result<Vec<f64>, String> {
 }
 
 fn number(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| format!("{text:?} is not a number: write it like 0.5 or 1e-9"))?;
+    let value: f64 =
+        text.parse().map_err(|_| format!("{text:?} is not a number: write it like 0.5 or 1e-9"))?;
     if value.is_finite() { Ok(value) } else { Err(format!("{text} is not finite: give a finite number")) }
 }
 
