@@ -2,7 +2,7 @@
 
 use crate::answers::Answers;
 use crate::answers::text;
-use crate::body::{self, Desks};
+use crate::body::{self, Services};
 use crate::protocol::Ask;
 use crate::protocol::{Hello, Registry};
 use motiform_study::dataset::VERSION;
@@ -42,9 +42,9 @@ impl Session {
     /// The system provides none.
     pub(crate) fn start(answers: Answers) -> std::io::Result<Self> {
         let (asks, heard) = sync_channel(WAITING);
-        let desks = Desks::new(&answers)?;
-        drop(answers); // the desks have their own: when they are gone, the page hears no more
-        let run = move || body::run(&heard, &desks);
+        let services = Services::new(&answers)?;
+        drop(answers); // the services have their own: when they are gone, the page hears no more
+        let run = move || body::run(&heard, &services);
         let thread = std::thread::Builder::new().name("body".to_owned()).spawn(run)?;
         Ok(Self { asks: Some(asks), thread: Some(thread) })
     }
@@ -57,7 +57,7 @@ impl Session {
 
 impl Drop for Session {
     fn drop(&mut self) {
-        self.asks = None; // ends the body, and with it the desks
+        self.asks = None; // ends the body, and with it the services
         if let Some(thread) = self.thread.take() {
             let _ = thread.join(); // its panic was reported by the thread itself
         }

@@ -9,7 +9,7 @@ pub mod fields;
 pub mod flow;
 pub mod live;
 pub mod naming;
-mod pool;
+pub mod pool;
 mod readings;
 pub mod registry;
 pub mod saddle;

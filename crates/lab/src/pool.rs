@@ -1,6 +1,6 @@
 //! Work distributed over threads: jobs are numbered, each thread takes the next one, and answers come back in the order of the jobs.
 
-use motiform_dynamics::Watch;
+use motiform_dynamics::{StopOnly, Watch};
 use motiform_study::Error;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -63,7 +63,9 @@ pub(crate) fn spread<A: Send>(
     let jobs = Jobs { count, next: AtomicUsize::new(0), found: Mutex::new((answers, 0, None)), watch };
     std::thread::scope(|scope| {
         for _ in 1..threads.min(count) {
-            scope.spawn(|| work(&jobs));
+            if std::thread::Builder::new().spawn_scoped(scope, || work(&jobs)).is_err() {
+                break; // the system gives no more threads: those that there are do the work
+            }
         }
         work(&jobs);
     });
@@ -72,6 +74,23 @@ pub(crate) fn spread<A: Send>(
         Some(error) => Err(error),
         None => Ok(answers.into_iter().collect()),
     }
+}
+
+/// The answer to each item, on `threads` threads, in the order of the items. Of a single item's answer nothing is told: the watch
+/// stops the work, and hears no progress.
+///
+/// # Errors
+/// The first error of an item; [`Error::Interrupted`] if the watch stopped the work.
+pub fn each<I: Sync, A: Send>(
+    items: &[I],
+    threads: usize,
+    watch: &dyn Watch,
+    answer: impl Fn(&I) -> Result<A, Error> + Sync,
+) -> Result<Vec<A>, Error> {
+    let found = spread(items.len(), threads, &StopOnly(watch), |jobs| {
+        jobs.each(|job| answer(&items[job]).map(Some));
+    })?;
+    found.ok_or(Error::Interrupted)
 }
 
 /// The lock, even if another thread panicked while holding it: the guarded data are consistent at every point.

@@ -21,7 +21,7 @@ pub fn simulate(plan: &Plan, watch: &dyn Watch) -> Result<Dataset, Error> {
     let info = plan.info()?;
     let model = info.build(&plan.computation.parameters.values())?;
     let body = InPlane(model.as_ref());
-    let run = Run { plan, computation: &plan.computation, model: model.as_ref(), body: &body, watch };
+    let run = Simulation { plan, computation: &plan.computation, model: model.as_ref(), body: &body, watch };
     run.all()
 }
 
@@ -31,12 +31,12 @@ pub(crate) fn after_transient(
     model: &dyn Model,
     watch: &dyn Watch,
 ) -> Result<(Option<Ending>, Vec<f64>), Error> {
-    let run = Run { plan, computation: &plan.computation, model, body: &InPlane(model), watch };
+    let run = Simulation { plan, computation: &plan.computation, model, body: &InPlane(model), watch };
     let stretch = run.transient(0.0, 1.0)?;
     Ok((stretch.early(), stretch.last))
 }
 
-struct Run<'r> {
+struct Simulation<'r> {
     plan: &'r Plan,
     computation: &'r Computation,
     model: &'r dyn Model,
@@ -60,7 +60,7 @@ impl Stretch {
     }
 }
 
-impl Run<'_> {
+impl Simulation<'_> {
     fn all(&self) -> Result<Dataset, Error> {
         let centring = self.computation.return_map.as_ref().is_some_and(|map| map.centre);
         let passes = if centring { 2.0 } else { 1.0 };

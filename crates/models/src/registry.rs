@@ -31,11 +31,24 @@ pub struct ModelInfo {
     pub budget: f64,
     /// Typical size of its shapes: the norm of their coordinates on the paper's motions, to one digit.
     pub size: f64,
+    /// How its bodies are shown at first.
+    pub display: Display,
     /// Size of coordinates in random shapes, by their index.
     pub weight: fn(usize) -> f64,
     parameters: fn() -> &'static [ParameterSpec],
     coordinates: fn(&[f64]) -> &'static [Coordinate],
     build: Build,
+}
+
+/// How the bodies of a model are shown at first, where a preset says nothing else.
+#[derive(Clone, Copy, Debug)]
+pub struct Display {
+    /// Model time between samples.
+    pub sample: f64,
+    /// Model time per second.
+    pub speed: f64,
+    /// Sides of the map, one or two: parameter, lowest and highest value.
+    pub plane: &'static [(&'static str, f64, f64)],
 }
 
 /// Makes a model from parameter values in registry order.
@@ -54,6 +67,11 @@ pub static MODELS: &[ModelInfo] = &[
         look: 200.0,
         budget: 4e4,
         size: 1.0,
+        display: Display {
+            sample: 0.05,
+            speed: 8.0,
+            plane: &[("kappa2", 0.05, 1.65), ("kappa3", 0.05, 1.05)],
+        },
         weight: |_| 1.0,
         parameters: TensorParameters::specs,
         coordinates: |_| &tensor::COORDINATES,
@@ -70,6 +88,7 @@ pub static MODELS: &[ModelInfo] = &[
         look: 1500.0,
         budget: 1e5,
         size: 4.0,
+        display: Display { sample: 0.5, speed: 80.0, plane: &[("length", 6.0, 32.0)] },
         weight: |place| 1.0 / ((place / 2 + 1) * (place / 2 + 1)) as f64, // mode n: as smooth as a boundary whose slope jumps
         parameters: CellParameters::specs,
         coordinates: |values| from_values::<CellParameters>(values).coordinates(),

@@ -4,6 +4,7 @@ use motiform_analysis::Verdict;
 use motiform_dynamics::Watch;
 use motiform_dynamics::{Outcome, StopOnly};
 use motiform_lab::analyse;
+use motiform_lab::pool;
 use motiform_lab::scan::{CellSummary, Classify, Opening, Scan, Shard, cells};
 use motiform_lab::simulate::simulate;
 use motiform_study::{Dataset, Error, Plan, Random, ScanPlan, Study, presets};
@@ -24,6 +25,15 @@ impl Context<'_> {
     /// `full`, or `quick` in a quick run.
     pub(super) fn choose<T>(&self, full: T, quick: T) -> T {
         if self.quick { quick } else { full }
+    }
+
+    /// `answer` to each item, on all threads, in the order of the items.
+    pub(super) fn each<I: Sync, A: Send>(
+        &self,
+        items: &[I],
+        answer: impl Fn(&I) -> Result<A, Error> + Sync,
+    ) -> Result<Vec<A>, Error> {
+        pool::each(items, self.threads, self.watch, answer)
     }
 
     /// Listens for the stop alone.

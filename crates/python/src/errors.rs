@@ -13,9 +13,7 @@ pub(crate) fn python(error: Error) -> PyErr {
         Error::Exists { .. } | Error::NotOurs { .. } | Error::ScanExists { .. } => {
             PyFileExistsError::new_err(text)
         }
-        Error::Unreadable { .. } | Error::Unwritable { .. } | Error::Busy { .. } | Error::Threads { .. } => {
-            PyOSError::new_err(text)
-        }
+        Error::Unreadable { .. } | Error::Unwritable { .. } | Error::Busy { .. } => PyOSError::new_err(text),
         failure if failure.is_machine_failure() => PyOSError::new_err(text),
         _ => PyValueError::new_err(text),
     }

@@ -2,10 +2,12 @@
 
 use crate::Error;
 use crate::named::Named;
-use crate::plan::Control;
-use crate::study::FigureSettings;
+use crate::plan::{Control, LONGEST};
+use crate::scan::Axis;
+use crate::study::{DisplaySettings, FigureSettings};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Model, Obstacle, Semilinear};
+use motiform_models::ModelInfo;
 
 /// Maximum number of steps of a run: hours of computing.
 const MOST_STEPS: f64 = 1e10;
@@ -94,6 +96,36 @@ pub fn check_figure(figure: &FigureSettings) -> Result<(), Error> {
     if figure.outlines > 2000 {
         let value = figure.outlines.to_string();
         return Err(Error::Setting { key: "figure.outlines", value, remedy: "give at most 2000" });
+    }
+    Ok(())
+}
+
+/// Checks how a body is to be shown.
+pub(crate) fn check_display(display: &DisplaySettings) -> Result<(), Error> {
+    let (sample, speed) = (display.sample, display.speed);
+    let usable = sample > 0.0 && sample <= LONGEST;
+    check("display.sample", sample, usable, "give a model time above 0, at most 1e9")?;
+    let [slowest, fastest] = display.speeds();
+    let usable = (slowest..=fastest).contains(&speed);
+    check("display.speed", speed, usable, "give a model time per second from 2 to 3000 times display.sample")
+}
+
+/// Checks the sides of the map that a body is shown on.
+pub(crate) fn check_plane(info: &ModelInfo, plane: &[Axis]) -> Result<(), Error> {
+    let wrong = |text: String, problem: String| Err(Error::Axis { text, problem });
+    if !(1..=2).contains(&plane.len()) || plane.iter().skip(1).any(|side| side.name == plane[0].name) {
+        let names: Vec<&str> = plane.iter().map(|side| side.name.as_str()).collect();
+        return wrong(names.join(", "), "a plane has one side or two, along different parameters".to_owned());
+    }
+    for side in plane {
+        let spec = info.parameters().iter().find(|spec| spec.name == side.name);
+        let (min, max) = spec.map_or((f64::MIN, f64::MAX), |spec| spec.allowed);
+        let allowed = |low: f64, high: f64| min <= low && low < high && high <= max;
+        if !matches!(side.values[..], [low, high] if allowed(low, high)) {
+            let problem =
+                format!("give its lowest and its highest value, {min} to {max}, e.g. {}=0.1,0.5", side.name);
+            return wrong(side.name.clone(), problem);
+        }
     }
     Ok(())
 }

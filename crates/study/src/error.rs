@@ -21,14 +21,6 @@ pub enum Error {
         /// The known names.
         known: Vec<&'static str>,
     },
-    /// The system provides no threads.
-    #[error("threads = {threads}: {reason}; give a smaller --threads")]
-    Threads {
-        /// The requested number.
-        threads: usize,
-        /// The system's reason.
-        reason: String,
-    },
     /// The caller stopped the computation.
     #[error("interrupted")]
     Interrupted,

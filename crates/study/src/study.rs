@@ -7,6 +7,7 @@ use crate::scan::Axis;
 pub use crate::study_reader::schema;
 use crate::{Error, presets};
 use motiform_models::ModelInfo;
+use motiform_models::registry::Display;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -41,6 +42,8 @@ pub struct Study {
     pub return_map: Option<ReturnMapSettings>,
     /// How to draw.
     pub figure: FigureSettings,
+    /// How the explorer shows it at first.
+    pub display: DisplaySettings,
 }
 
 /// The settings of a scan.
@@ -93,6 +96,38 @@ pub struct FigureSettings {
     pub animation: bool,
 }
 
+/// How the explorer shows a body at first. Nothing here changes a number.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct DisplaySettings {
+    /// Model time between the samples of the moving picture.
+    pub sample: f64,
+    /// Model time per second.
+    pub speed: f64,
+    /// Sides of the map, one or two: "kappa2=0.05,1.65" is the parameter with its lowest and highest value.
+    #[schemars(with = "Vec<String>")]
+    pub plane: Vec<Axis>,
+}
+
+/// Samples per second at the highest speed that the explorer offers: 50 in each of 60 pictures.
+const MOST_SAMPLES: f64 = 3000.0;
+
+impl DisplaySettings {
+    /// What suits most motions of a model.
+    #[must_use]
+    pub fn of_model(info: &ModelInfo) -> Self {
+        let side =
+            |&(name, low, high): &(&str, f64, f64)| Axis { name: name.to_owned(), values: vec![low, high] };
+        let Display { sample, speed, plane } = info.display;
+        Self { sample, speed, plane: plane.iter().map(side).collect() }
+    }
+
+    /// The lowest and the highest speed that the explorer offers (model time per second).
+    #[must_use]
+    pub fn speeds(&self) -> [f64; 2] {
+        [2.0 * self.sample, MOST_SAMPLES * self.sample]
+    }
+}
+
 impl Study {
     /// A study of `model` with its defaults and nothing else.
     #[must_use]
@@ -111,6 +146,7 @@ impl Study {
             scan: ScanSettings::default(),
             return_map: None,
             figure: FigureSettings { animation: true, ..FigureSettings::default() },
+            display: DisplaySettings::of_model(info),
         }
     }
 

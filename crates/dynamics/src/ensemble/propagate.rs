@@ -67,7 +67,7 @@ pub struct Queue<'q, F, const D: usize> {
 /// without lanes. The states are those of [`crate::Orbit`] over [`InPlane`] driven from one time to the next, to the last bit, on
 /// every instruction set.
 pub fn propagate<F: InLanes, const D: usize>(how: &Propagation<'_>, queue: Queue<'_, F, D>) -> bool {
-    run_wide(Run { how, queue }).is_some()
+    run_wide(PropagationKernel { how, queue }).is_some()
 }
 
 /// [`propagate`] with these instructions, or the widest ones if this machine does not have them.
@@ -76,20 +76,20 @@ pub fn propagate_on<F: InLanes, const D: usize>(
     how: &Propagation<'_>,
     queue: Queue<'_, F, D>,
 ) {
-    run_lanes_on(set, Run { how, queue });
+    run_lanes_on(set, PropagationKernel { how, queue });
 }
 
-struct Run<'h, 'q, F, const D: usize> {
+struct PropagationKernel<'h, 'q, F, const D: usize> {
     how: &'h Propagation<'h>,
     queue: Queue<'q, F, D>,
 }
 
-impl<F: InLanes, const D: usize> LaneKernel for Run<'_, '_, F, D> {
+impl<F: InLanes, const D: usize> LaneKernel for PropagationKernel<'_, '_, F, D> {
     type Output = ();
 
     #[inline(always)]
     fn run<B: Bundle>(self) {
-        let Run { how, queue } = self;
+        let PropagationKernel { how, queue } = self;
         let Some(first) = (queue.next)() else { return };
         let mut lanes = LaneMembers::<B, F, D> {
             field: InPlane(first.field.bundle()),

@@ -1,12 +1,12 @@
 //! A body between two changes: model, parameters, initial state.
 
-use crate::catalogue::{self, Tempo};
+use crate::catalogue;
 use crate::motion::Motion;
 use crate::protocol::{Begin, Begun, Changed, Observable};
 use motiform_dynamics::{InPlane, Model};
 use motiform_lab::draw::radius_for;
 use motiform_lab::live::{Record, Stretch, settled};
-use motiform_study::study::ReturnMapSettings;
+use motiform_study::study::{DisplaySettings, ReturnMapSettings};
 use motiform_study::{Error, Plan, Study};
 use std::time::Duration;
 
@@ -93,15 +93,15 @@ impl Setting {
         let body = InPlane(self.model());
         let mut record = Record::new(self.model(), 0.0, AHEAD.0);
         let mut stretch = Stretch::new(&self.quiet, &body, self.t, &self.state, 0)?;
-        let end = self.t + AHEAD.0 as f64 * self.tempo().sample;
+        let end = self.t + AHEAD.0 as f64 * self.study.display.sample;
         stretch.advance(end, AHEAD.1, &mut record, self.model());
         let dim = self.model.dim();
         let deformations = record.rows().map(|row| self.model.deformation(&row.state[..dim]));
         Ok(radius_for(deformations.filter(|deformation| deformation.is_finite()).fold(0.0, f64::max)))
     }
 
-    pub(crate) fn tempo(&self) -> Tempo {
-        catalogue::tempo(self.preset.as_deref().unwrap_or(self.study.model))
+    pub(crate) fn display(&self) -> &DisplaySettings {
+        &self.study.display
     }
 
     pub(crate) fn preset(&self) -> Option<&str> {
@@ -152,7 +152,7 @@ impl Setting {
     }
 
     pub(crate) fn begun(&self) -> Begun {
-        let tempo = self.tempo();
+        let display = self.display();
         let observables = self.model.observables().iter();
         let text = str::to_owned;
         Begun {
@@ -163,9 +163,9 @@ impl Setting {
             about: self.study.about.clone(),
             parameters: self.plan.computation.parameters.clone(),
             noise: self.study.run.noise,
-            sample: tempo.sample,
-            speed: tempo.speed,
-            speeds: tempo.speeds,
+            sample: display.sample,
+            speed: display.speed,
+            speeds: display.speeds(),
             observables: observables
                 .map(|o| Observable { name: text(o.name), symbol: text(o.symbol), meaning: text(o.meaning) })
                 .collect(),

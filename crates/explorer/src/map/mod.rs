@@ -1,7 +1,7 @@
 //! The map: the motions in a window of two parameters, first coarse, then increasingly fine.
 
 mod lattice;
-mod sight;
+mod map_state;
 mod store;
 mod work;
 
@@ -9,11 +9,11 @@ use crate::answers::{Answers, Gone};
 use crate::export::{Made, Maker};
 use crate::protocol::{Evidence, MapWindow, Values};
 use crate::worker::{Worker, lock};
+use map_state::MapState;
 use motiform_lab::draw::{exponents, phase_diagram, sheet};
 use motiform_lab::scan::{CellSummary, Row, rows_to_csv};
 use motiform_study::Study;
 use serde_json::json;
-use sight::Sight;
 use std::sync::{Arc, Mutex};
 
 /// Priority of the map, which uses all cores: frames and classification have precedence.
@@ -22,7 +22,7 @@ const NICE: i32 = 10;
 /// The map of a session.
 pub(crate) struct Map {
     worker: Worker<Job>,
-    sight: Arc<Mutex<Sight>>,
+    map_state: Arc<Mutex<MapState>>,
 }
 
 /// A window, over the parameters and with the start of a study.
@@ -33,13 +33,13 @@ pub(crate) struct Job {
 
 impl Map {
     pub(crate) fn new(answers: Answers) -> std::io::Result<Self> {
-        let sight = Arc::new(Mutex::new(Sight::default()));
-        let shared = Arc::clone(&sight);
+        let map_state = Arc::new(Mutex::new(MapState::default()));
+        let shared = Arc::clone(&map_state);
         let worker = Worker::new("map", NICE, move |job: Job, current| {
             // A page that has gone takes its session along.
             let _ = work::compute(&job, &shared, current, &answers);
         })?;
-        Ok(Self { worker, sight })
+        Ok(Self { worker, map_state })
     }
 
     /// Computes a window, replacing the one in progress.
@@ -54,24 +54,24 @@ impl Map {
 
     /// Whether the visible map has this parameter as an axis.
     pub(crate) fn has_axis(&self, name: &str) -> bool {
-        let sight = lock(&self.sight);
-        sight.present().is_some_and(|map| map.plan.computation.axes.iter().any(|axis| axis.name == name))
+        let map_state = lock(&self.map_state);
+        map_state.present().is_some_and(|map| map.plan.computation.axes.iter().any(|axis| axis.name == name))
     }
 
     /// Number of axes of the visible map.
     pub(crate) fn axes(&self) -> usize {
-        lock(&self.sight).present().map_or(0, |map| map.sides.len())
+        lock(&self.map_state).present().map_or(0, |map| map.sides.len())
     }
 
     /// The verdict on a cell, in the form of the protocol.
     pub(crate) fn evidence(&self, epoch: u32, [i, j]: [u16; 2]) -> Option<Evidence> {
-        let mut sight = lock(&self.sight);
-        let map = sight.present().filter(|map| map.epoch == epoch)?;
+        let mut map_state = lock(&self.map_state);
+        let map = map_state.present().filter(|map| map.epoch == epoch)?;
         let at = map.at(usize::from(i), usize::from(j))?;
         let names: Vec<String> = map.plan.computation.axes.iter().map(|axis| axis.name.clone()).collect();
         let parameters: Values =
             names.into_iter().zip(&at).map(|(name, value)| (name, json!(value))).collect();
-        let row = sight.store.get(&at);
+        let row = map_state.store.get(&at);
         Some(Evidence {
             epoch,
             cell: [i, j],
@@ -84,7 +84,7 @@ impl Map {
 
     /// Makes a file of the visible cells that are computed.
     pub(crate) fn maker(&self, file: MapFile) -> Maker {
-        let known = lock(&self.sight).rows();
+        let known = lock(&self.map_state).rows();
         Box::new(move || {
             let Some((plan, rows)) = known.filter(|(_, rows)| !rows.is_empty()) else { return Ok(None) };
             let cells = || {

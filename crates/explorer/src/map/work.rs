@@ -1,6 +1,6 @@
 //! Computation of a window: coarse cells first, from the centre outwards, on all cores.
 
-use super::sight::Sight;
+use super::map_state::MapState;
 use super::{Done, Job};
 use crate::answers::{Answers, Gone};
 use crate::frames::{self, Cell};
@@ -20,8 +20,13 @@ use std::time::{Duration, Instant};
 const EVERY: (Duration, Duration) = (Duration::from_millis(40), Duration::from_millis(120));
 
 /// Computes the missing cells of the window of a job, unless it becomes stale.
-pub(super) fn compute(job: &Job, sight: &Mutex<Sight>, current: &Current<'_>, answers: &Answers) -> Done {
-    let mut seen = lock(sight);
+pub(super) fn compute(
+    job: &Job,
+    map_state: &Mutex<MapState>,
+    current: &Current<'_>,
+    answers: &Answers,
+) -> Done {
+    let mut seen = lock(map_state);
     if let Err(error) = seen.turn(job) {
         drop(seen);
         return answers.refused(None, &error.to_string());
@@ -34,7 +39,7 @@ pub(super) fn compute(job: &Job, sight: &Mutex<Sight>, current: &Current<'_>, an
     }
     let work = Work {
         view: &view,
-        sight,
+        map_state,
         current,
         answers,
         gone: AtomicBool::new(false),
@@ -63,8 +68,8 @@ struct View {
 }
 
 impl View {
-    fn of(sight: &mut Sight, epoch: u32) -> Option<Self> {
-        let map = sight.present()?;
+    fn of(map_state: &mut MapState, epoch: u32) -> Option<Self> {
+        let map = map_state.present()?;
         let [columns, rows] = map.counts();
         let side = |axis: usize| {
             let cells = map.sides.get(axis)?;
@@ -97,7 +102,7 @@ impl View {
         cells.sort_by(|a, b| b.level.cmp(&a.level).then(distance(a).total_cmp(&distance(b))));
         let (mut known, mut wanted) = (Vec::new(), Vec::new());
         for cell in cells {
-            match sight.store.get(&plan.axis_values(number(columns, &cell))) {
+            match map_state.store.get(&plan.axis_values(number(columns, &cell))) {
                 Some(row) => known.push(told(cell, row)),
                 None => wanted.push(cell),
             }
@@ -144,7 +149,7 @@ fn line(line: &BoundaryLine) -> Line {
 /// What the threads share.
 struct Work<'w> {
     view: &'w View,
-    sight: &'w Mutex<Sight>,
+    map_state: &'w Mutex<MapState>,
     current: &'w Current<'w>,
     answers: &'w Answers,
     gone: AtomicBool,
@@ -194,7 +199,7 @@ impl Work<'_> {
         let number = number(self.view.columns(), &cell);
         let Some(row) = Row::of_evaluation(number, 0, verdict) else { return Ok(()) };
         let cell = told(cell, &row);
-        lock(self.sight).store.put(&self.view.plan.axis_values(number), row);
+        lock(self.map_state).store.put(&self.view.plan.axis_values(number), row);
         let mut out = lock(&self.out);
         out.cells.push(cell);
         out.done += 1;

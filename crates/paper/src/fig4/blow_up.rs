@@ -16,7 +16,6 @@ use motiform_figures::report::{ReportFigure, Section};
 use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
 use motiform_study::{Error, Study};
-use rayon::prelude::*;
 
 /// The place that is looked at.
 const PLACE: (f64, f64) = (0.3, 0.1);
@@ -122,7 +121,7 @@ fn times(context: &Context<'_>, start: &Study, methods: &[(&str, f64)]) -> Resul
         };
         Ok((format!("{name} {}", power(*accuracy)), t))
     };
-    methods.par_iter().map(one).collect()
+    context.each(methods, one)
 }
 
 /// The largest distance from the best value, and all distances in words.

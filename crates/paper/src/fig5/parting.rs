@@ -9,7 +9,6 @@ use motiform_figures::report::{Claim, Section};
 use motiform_figures::{Drawn, ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
 use motiform_study::{Dataset, Error, Study};
-use rayon::prelude::*;
 
 /// Size of the difference at the start.
 const TINY: f64 = 1e-8;
@@ -27,8 +26,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     let pairs = context.choose(200, 32);
     let study = context.preset("fig5b", |_| Ok(()))?;
     let starts = starts(context, &study, pairs)?;
-    let all: Vec<Vec<f64>> =
-        starts.par_iter().map(|start| distances(context, start)).collect::<Result<_, _>>()?;
+    let all: Vec<Vec<f64>> = context.each(&starts, |start| distances(context, start))?;
     let lambda = chaos::measure(context, &study)?.exponents.first().copied();
     let Some(lambda) = lambda else { return Ok(()) };
     section.figures.push(figure(

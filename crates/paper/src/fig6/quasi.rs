@@ -4,7 +4,6 @@ use super::super::context::Context;
 use super::lengths::study;
 use motiform_analysis::Regime;
 use motiform_study::Error;
-use rayon::prelude::*;
 
 /// Lengths through the edge between circular and rectangular motion.
 const FULL: [f64; 8] = [12.94, 12.955, 12.965, 12.97, 12.975, 12.98, 13.0, 13.03];
@@ -31,7 +30,7 @@ impl Search {
             study.run.seed = seed;
             Ok(context.classify(&study)?.regime)
         };
-        let regimes: Vec<Regime> = runs.par_iter().map(one).collect::<Result<_, Error>>()?;
+        let regimes: Vec<Regime> = context.each(&runs, one)?;
         let found = regimes.iter().filter(|regime| **regime == Regime::QuasiPeriodic).count();
         Ok(Self { lengths, runs: runs.len(), found, regimes })
     }

@@ -7,7 +7,6 @@ use super::lengths::modes_for;
 use motiform_analysis::{Verdict, welch};
 use motiform_figures::report::ReportFigure;
 use motiform_study::{Dataset, Error, Study};
-use rayon::prelude::*;
 
 /// Rows at which the boundary is measured.
 const MEASURED: usize = 200;
@@ -27,7 +26,7 @@ pub(crate) struct Track {
 
 /// Computes all four.
 pub(super) fn all(context: &Context<'_>) -> Result<Vec<Track>, Error> {
-    ["fig6a", "fig6b", "fig6c", "fig6d"].par_iter().map(|name| Track::of(context, name)).collect()
+    context.each(&["fig6a", "fig6b", "fig6c", "fig6d"], |name| Track::of(context, name))
 }
 
 impl Track {

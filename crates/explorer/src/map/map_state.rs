@@ -14,7 +14,7 @@ const COUNTS: (u16, u16) = (8, 160);
 
 /// The computed rows of a plane, and its visible window.
 #[derive(Default)]
-pub(crate) struct Sight {
+pub(crate) struct MapState {
     /// The plan without the values of its axes: while it stays, rows stay.
     plane: Option<ScanComputation>,
     lattices: Vec<Lattice>,
@@ -50,7 +50,7 @@ impl Present {
     }
 }
 
-impl Sight {
+impl MapState {
     pub(crate) fn present(&self) -> Option<&Present> {
         self.present.as_ref()
     }
