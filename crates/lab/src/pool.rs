@@ -76,8 +76,8 @@ pub(crate) fn spread<A: Send>(
     }
 }
 
-/// The answer to each item, on `threads` threads, in the order of the items. Of a single item's answer nothing is told: the watch
-/// stops the work, and hears no progress.
+/// The answer to each item, on `threads` threads, in the order of the items. The watch only stops the work:
+/// it receives no progress.
 ///
 /// # Errors
 /// The first error of an item; [`Error::Interrupted`] if the watch stopped the work.

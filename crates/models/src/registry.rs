@@ -31,7 +31,7 @@ pub struct ModelInfo {
     pub budget: f64,
     /// Typical size of its shapes: the norm of their coordinates on the paper's motions, to one digit.
     pub size: f64,
-    /// How its bodies are shown at first.
+    /// The initial display of its bodies.
     pub display: Display,
     /// Size of coordinates in random shapes, by their index.
     pub weight: fn(usize) -> f64,
@@ -40,7 +40,7 @@ pub struct ModelInfo {
     build: Build,
 }
 
-/// How the bodies of a model are shown at first, where a preset says nothing else.
+/// The initial display of the bodies of a model, unless a preset specifies another.
 #[derive(Clone, Copy, Debug)]
 pub struct Display {
     /// Model time between samples.

@@ -100,7 +100,7 @@ pub fn check_figure(figure: &FigureSettings) -> Result<(), Error> {
     Ok(())
 }
 
-/// Checks how a body is to be shown.
+/// Checks the display of a body.
 pub(crate) fn check_display(display: &DisplaySettings) -> Result<(), Error> {
     let (sample, speed) = (display.sample, display.speed);
     let usable = sample > 0.0 && sample <= LONGEST;

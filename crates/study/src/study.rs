@@ -42,7 +42,7 @@ pub struct Study {
     pub return_map: Option<ReturnMapSettings>,
     /// How to draw.
     pub figure: FigureSettings,
-    /// How the explorer shows it at first.
+    /// The initial display in the explorer.
     pub display: DisplaySettings,
 }
 
@@ -96,10 +96,10 @@ pub struct FigureSettings {
     pub animation: bool,
 }
 
-/// How the explorer shows a body at first. Nothing here changes a number.
+/// The initial display of a body in the explorer. These settings do not affect results.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct DisplaySettings {
-    /// Model time between the samples of the moving picture.
+    /// Model time between the samples of the animation.
     pub sample: f64,
     /// Model time per second.
     pub speed: f64,
@@ -112,7 +112,7 @@ pub struct DisplaySettings {
 const MOST_SAMPLES: f64 = 3000.0;
 
 impl DisplaySettings {
-    /// What suits most motions of a model.
+    /// The default display of a model.
     #[must_use]
     pub fn of_model(info: &ModelInfo) -> Self {
         let side =

@@ -59,7 +59,7 @@ impl Study {
     }
 }
 
-/// The table with the axes under `key`, if it is there, as texts.
+/// The table with the axes under `key`, if it exists, as strings.
 fn with_texts(mut table: Table, key: &str, axes: &[Axis]) -> Table {
     if let Some(value) = table.get_mut(key) {
         *value = axes.iter().map(Axis::to_text).collect::<Vec<_>>().into();
