@@ -266,7 +266,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         runge_kutta::step(self.tableau, self.field, &at, &mut self.restep, out);
     }
 
-    /// Moves the end of the last step back to `t` (by a true step from its start): the orbit goes on from there, and the
+    /// Moves the end of the last step back to `t` (by a true step from its start): the orbit continues from there, and the
     /// field does not correct it.
     pub fn end_step_at(&mut self, t: f64) {
         let mut state = std::mem::take(&mut self.scratch);

@@ -1,7 +1,7 @@
 //! Sections `g(t, u) = 0`: where an orbit crosses a surface, located to round-off in time.
 //!
 //! A sign change of `g` is looked for at several points inside each step (on the interpolant), its time is bracketed
-//! and found on the interpolant, and then polished with true steps of the method from the start of the step: the
+//! and found on the interpolant, and then refined with true steps of the method from the start of the step: the
 //! crossing has the accuracy of the orbit itself, not that of the interpolant.
 
 use crate::Integration;

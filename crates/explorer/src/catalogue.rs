@@ -65,7 +65,7 @@ mod tests {
 
     use super::*;
 
-    /// The registry marks exactly those parameters as whole numbers whose fractions the model refuses.
+    /// The registry marks exactly those parameters as whole numbers whose fractions the model rejects.
     #[test]
     fn whole_numbers_are_known() {
         for model in registry().unwrap().models {

@@ -48,7 +48,7 @@ pub(crate) fn settings_of(
 /// given: twenty looks of the model after four).
 ///
 /// # Errors
-/// A count the model does not have; input that only the numerics can refuse.
+/// A count the model does not have; input that only the numerics can reject.
 pub fn lyapunov(
     plan: &Plan,
     count: usize,

@@ -1,4 +1,4 @@
-//! The paper, rebuilt: every figure computed anew, every claim checked, one report.
+//! Reproduction of the paper: every figure recomputed, every claim checked, one report.
 //!
 //! One file or folder per figure, one for the equations and one for the discussion; each gives a [`Section`] with its pictures and its claims. What all of them need is in
 //! `context.rs`.

@@ -1,4 +1,4 @@
-//! A study, as Python holds it.
+//! A study, as represented in Python.
 
 use crate::errors::{of_keywords, python};
 use motiform_dynamics::model::Coordinate;

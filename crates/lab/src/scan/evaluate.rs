@@ -15,7 +15,7 @@ pub trait Evaluate: Sync {
     /// it was stopped.
     ///
     /// # Errors
-    /// Input that only the numerics can refuse; the row then states this and is undetermined.
+    /// Input that only the numerics can reject; the row then states this and is undetermined.
     fn evaluate(
         &self,
         plan: &ScanPlan,
@@ -38,7 +38,7 @@ pub trait Evaluate: Sync {
     }
 }
 
-/// Each row by itself.
+/// Each row separately.
 fn one_by_one<E: Evaluate + ?Sized>(
     evaluate: &E,
     plan: &ScanPlan,

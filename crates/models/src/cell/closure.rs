@@ -5,7 +5,7 @@
 //! (CLOSE) for `phi + eps`, by full Newton steps on the optimality (KKT) system from `eps = -(mode 1 of phi)`. With the
 //! smooth prior `p = 4` that start lies near the one solution that continues from the circle; flat priors have several.
 //! The start depends on phi alone, never on an earlier time, so the estimate is a function of the shape. The error
-//! function is not fed back into phi, unless `feedback = 1` asks for it.
+//! function is not fed back into phi, unless `feedback = 1`.
 //!
 //! Source: paper, Simulations III; the prior is ours (the paper does not give one).
 //! Unknowns are in angles, `k_1 eps(s) = sum_n a_n cos(k_n s) + b_n sin(k_n s)`, divided by `tau_n`.
