@@ -1,8 +1,8 @@
 //! The numerics of motiform: scalars, vector fields, steppers, events, outcomes.
 //!
-//! Nothing here knows a model, a file or a command line. The layers inside, from the bottom:
+//! This crate does not depend on any model, file or command line. The layers inside, from the bottom:
 //! * [`scalar`]: one equation, three scalars (`f64`, lanes, duals);
-//! * [`vector_field`], [`model`]: what moves;
+//! * [`vector_field`], [`model`]: fields and bodies;
 //! * [`steppers`]: explicit and exponential Runge-Kutta methods as data, and the step that runs each kind;
 //! * [`Orbit`], [`ExponentialOrbit`]: one initial-value problem, step by step, with error control, dense output and
 //!   exact re-steps; [`Integration`] is what they have in common;

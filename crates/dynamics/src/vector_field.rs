@@ -7,7 +7,7 @@ pub trait System {
     /// Number of scalars in the state.
     fn dim(&self) -> usize;
 
-    /// Why this state has no rates, where it has none. A rate that is not a number must have its reason here;
+    /// The reason why this state has no rates, if it has none. A rate that is not a number must have its reason here;
     /// asked only after one was met, so it may be slow.
     fn obstacle(&self, _u: &[f64]) -> Option<Obstacle> {
         None
@@ -28,7 +28,7 @@ pub trait System {
     /// `u` and `projected` have length [`System::dim`].
     ///
     /// # Errors
-    /// The [`Obstacle`], where the state has no correction: the step fails.
+    /// The [`Obstacle`], if the state has no correction: the step fails.
     fn project(&self, _u: &[f64], _projected: &mut [f64]) -> Result<bool, Obstacle> {
         Ok(false)
     }

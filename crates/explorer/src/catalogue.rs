@@ -1,4 +1,4 @@
-//! What the page begins with: the registry, and for each preset the map and the speed to begin with.
+//! The initial data of the page: the registry, and for each preset its initial map and speed.
 
 use crate::protocol::{Registry, SectionKind};
 use motiform_lab::registry;
@@ -8,16 +8,16 @@ use motiform_study::study::{DisplaySettings, ReturnMapSettings};
 use motiform_study::{Error, Study, presets};
 use serde_json::{Value, json};
 
-/// The section that a preset's return map begins with: through the path, where the preset has one. Its height is left to the
-/// centre of the path: the paper's line for Fig. 3, `y = 3`, runs along the rim of the annulus, and misses some turns.
+/// The initial section of a preset's return map: through the path, if the preset has one. Its height is by default that of the
+/// centre of the path: the paper's line for Fig. 3, `y = 3`, lies near the rim of the annulus, and misses some turns.
 pub(crate) fn section(settings: Option<&ReturnMapSettings>) -> SectionKind {
     settings.map_or(SectionKind::Speed, |_| SectionKind::Path)
 }
 
-/// The registry of the study layer, with what the page needs beside it.
+/// The registry of the library, with additional data for the page.
 ///
 /// # Errors
-/// A preset or a model that does not stand up to its own checks.
+/// A preset or a model that fails its own checks.
 pub(crate) fn registry() -> Result<Registry, Error> {
     let mut all = registry::registry()?;
     for model in list(&mut all, "models") {
@@ -65,7 +65,7 @@ mod tests {
 
     use super::*;
 
-    /// The registry marks exactly those parameters as whole numbers whose fractions the model refuses.
+    /// The registry marks exactly those parameters as whole numbers whose fractions the model rejects.
     #[test]
     fn whole_numbers_are_known() {
         for model in registry().unwrap().models {

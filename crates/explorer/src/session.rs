@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
-/// Messages that may wait for an answer.
+/// Length of the queue of messages.
 const WAITING: usize = 1024;
 
 /// The first message to every page.
@@ -18,7 +18,7 @@ const WAITING: usize = 1024;
 pub(crate) struct Greeting(Arc<str>);
 
 impl Greeting {
-    /// With the registry, and the command that starts this server again after it stopped.
+    /// With the registry, and the command that restarts this server.
     pub(crate) fn new(registry: &Registry, restart: &str) -> Self {
         let hello = Hello { version: VERSION, restart: restart.to_owned(), registry: registry.clone() };
         Self(text(&hello.into()).into())
@@ -29,7 +29,7 @@ impl Greeting {
     }
 }
 
-/// What works for one page. All its threads end with it.
+/// The threads that serve one page. All of them end with it.
 pub(crate) struct Session {
     asks: Option<SyncSender<Ask>>,
     thread: Option<JoinHandle<()>>,
@@ -39,7 +39,7 @@ impl Session {
     /// Starts the threads.
     ///
     /// # Errors
-    /// The system gives none.
+    /// The system provides none.
     pub(crate) fn start(answers: Answers) -> std::io::Result<Self> {
         let (asks, heard) = sync_channel(WAITING);
         let services = Services::new(&answers)?;
@@ -49,7 +49,7 @@ impl Session {
         Ok(Self { asks: Some(asks), thread: Some(thread) })
     }
 
-    /// Asks; `false` if too much waits already, or the session has ended.
+    /// Sends a request; `false` if the queue is full, or the session has ended.
     pub(crate) fn ask(&self, ask: Ask) -> bool {
         self.asks.as_ref().is_some_and(|asks| asks.try_send(ask).is_ok())
     }

@@ -1,21 +1,21 @@
-//! Work spread over threads: jobs are numbered, each thread takes the next one, and answers come back in the order of the jobs.
+//! Work distributed over threads: jobs are numbered, each thread takes the next one, and answers come back in the order of the jobs.
 
 use motiform_dynamics::{StopOnly, Watch};
 use motiform_study::Error;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The jobs that are left, and the answers that are there.
+/// The remaining jobs, and the answers so far.
 pub(crate) struct Jobs<'p, A> {
     count: usize,
     next: AtomicUsize,
-    /// The answers, how many there are, and what went wrong first.
+    /// The answers, their number, and the first error.
     found: Mutex<(Vec<Option<A>>, usize, Option<Error>)>,
     watch: &'p dyn Watch,
 }
 
 impl<A> Jobs<'_, A> {
-    /// The number of the next job; `None` if there is none, or it is time to stop. A thread may hold several jobs at once.
+    /// The number of the next job; `None` if there is none, or if the work was stopped. A thread may hold several jobs at once.
     pub(crate) fn next(&self) -> Option<usize> {
         if self.watch.stopped() || held(&self.found).2.is_some() {
             return None;
@@ -49,7 +49,7 @@ impl<A> Jobs<'_, A> {
     }
 }
 
-/// Answers to `count` jobs, in their order, by `work` on each of `threads` threads; `None` if the monitor asked to stop.
+/// Answers to `count` jobs, in their order, by `work` on each of `threads` threads; `None` if the watch stopped it.
 ///
 /// # Errors
 /// The first error of a job.
@@ -76,8 +76,8 @@ pub(crate) fn spread<A: Send>(
     }
 }
 
-/// The answer to each item, on `threads` threads, in the order of the items. Of a single item's answer nothing is told: the watch
-/// stops the work, and hears no progress.
+/// The answer to each item, on `threads` threads, in the order of the items. The watch only stops the work:
+/// it receives no progress.
 ///
 /// # Errors
 /// The first error of an item; [`Error::Interrupted`] if the watch stopped the work.
@@ -93,7 +93,7 @@ pub fn each<I: Sync, A: Send>(
     found.ok_or(Error::Interrupted)
 }
 
-/// The lock, also where another thread panicked with it: what it guards is whole at every point.
+/// The lock, even if another thread panicked while holding it: the guarded data are consistent at every point.
 pub(crate) fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,4 +1,4 @@
-//! Every model by name: what the front ends list, and how a model is made from named values.
+//! All models by name, for the front ends, and construction of a model from named values.
 
 use crate::cell::{Cell, CellParameters};
 use crate::error::{Error, nearest};
@@ -7,40 +7,40 @@ use crate::tensor::{self, Tensor, TensorParameters};
 use motiform_dynamics::Model;
 use motiform_dynamics::model::Coordinate;
 
-/// A model as the front ends see it.
+/// A model as presented to the front ends.
 #[derive(Debug)]
 pub struct ModelInfo {
     /// Name on the command line.
     pub name: &'static str,
-    /// One line that says what it is.
+    /// One-line description.
     pub title: &'static str,
     /// The equations, as text.
     pub equations: &'static str,
-    /// Where it comes from.
+    /// Its source.
     pub source: &'static str,
     /// The stepper to use by default.
     pub stepper: &'static str,
     /// The relative tolerance to use by default.
     pub rtol: f64,
-    /// Relative over absolute tolerance, where only the former is given: the inverse of the size below which an entry of the state counts
+    /// Ratio of relative to absolute tolerance, if only the former is given: the inverse of the size below which an entry of the state counts
     /// as small.
     pub tolerance_ratio: f64,
-    /// Some tens of its slowest ordinary time scale (model time): how long to look at a motion first.
+    /// Some tens of its slowest ordinary time scale (model time): the length of the first look at a motion.
     pub look: f64,
-    /// Most model time to spend on naming a motion, by default.
+    /// Default maximum model time for classifying a motion.
     pub budget: f64,
     /// Typical size of its shapes: the norm of their coordinates on the paper's motions, to one digit.
     pub size: f64,
-    /// How its bodies are shown at first.
+    /// The initial display of its bodies.
     pub display: Display,
-    /// How large coordinates are in random shapes, by their place.
+    /// Size of coordinates in random shapes, by their index.
     pub weight: fn(usize) -> f64,
     parameters: fn() -> &'static [ParameterSpec],
     coordinates: fn(&[f64]) -> &'static [Coordinate],
     build: Build,
 }
 
-/// How the bodies of a model are shown at first, where a preset says nothing else.
+/// The initial display of the bodies of a model, unless a preset specifies another.
 #[derive(Clone, Copy, Debug)]
 pub struct Display {
     /// Model time between samples.
@@ -96,7 +96,7 @@ pub static MODELS: &[ModelInfo] = &[
     },
 ];
 
-/// The parameters with these values, in registry order; those left out have their defaults.
+/// The parameters with these values, in registry order; omitted ones have their defaults.
 fn from_values<P: Parameters>(values: &[f64]) -> P {
     let mut parameters = P::default();
     for (index, &value) in values.iter().enumerate() {
@@ -134,8 +134,8 @@ impl ModelInfo {
         })
     }
 
-    /// The absolute tolerance that goes with a relative one, where none is given: `rtol / tolerance_ratio`. So `rtol` alone decides how
-    /// accurate a run is.
+    /// The absolute tolerance for a relative one, if none is given: `rtol / tolerance_ratio`. Thus `rtol` alone sets the accuracy
+    /// of a run.
     ///
     /// # Checked by  lab/tests/tolerances.rs: the global error against the request, for both models
     #[must_use]
@@ -173,8 +173,8 @@ impl ModelInfo {
     /// The model with these values, in registry order.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a value the model cannot be computed with (or that is not finite), and what the model
-    /// itself refuses.
+    /// [`Error::OutOfRange`] for a value the model cannot be computed with (or that is not finite), and what the model itself
+    /// rejects.
     pub fn build(&self, values: &[f64]) -> Result<Box<dyn Model>, Error> {
         for (spec, &value) in self.parameters().iter().zip(values) {
             let (min, max) = spec.allowed;

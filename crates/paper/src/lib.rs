@@ -1,4 +1,4 @@
-//! The paper, rebuilt: every figure computed anew, every claim checked, one report.
+//! Reproduction of the paper: every figure recomputed, every claim checked, one report.
 //!
 //! One file or folder per figure, one for the equations and one for the discussion; each gives a [`Section`] with its pictures and its claims. What all of them need is in
 //! `context.rs`.
@@ -83,7 +83,7 @@ fn finished(name: &str, section: &Section) -> String {
 /// was; `out` must exist.
 ///
 /// # Errors
-/// An unknown name; [`Error::Interrupted`] if the monitor asked to stop; files that cannot be written.
+/// An unknown name; [`Error::Interrupted`] if the watch stopped it; files that cannot be written.
 pub fn reproduce(options: &Options, out: &Path, watch: &dyn Watch) -> Result<Report, Error> {
     options.check()?;
     let wanted = |chapter: &&Chapter| {

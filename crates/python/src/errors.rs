@@ -1,4 +1,4 @@
-//! Our errors as Python's, with the same words as the command line's.
+//! Conversion of errors to Python exceptions, with the same texts as on the command line.
 
 use motiform_models::Error as ModelError;
 use motiform_study::Error;
@@ -27,7 +27,7 @@ pub(crate) fn of_keywords(error: Error) -> PyErr {
     }
 }
 
-/// JSON that cannot be written is a bug of ours, and said as such.
+/// JSON that cannot be written is a bug, and is reported as such.
 pub(crate) fn of_json(error: serde_json::Error) -> PyErr {
     PyValueError::new_err(format!("not the JSON of motiform: {error}"))
 }

@@ -1,4 +1,4 @@
-//! What numbers of a study must be.
+//! Checks of the numbers of a study.
 
 use crate::Error;
 use crate::named::Named;
@@ -9,7 +9,7 @@ use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Model, Obstacle, Semilinear};
 use motiform_models::ModelInfo;
 
-/// Most steps of a run: hours of computing.
+/// Maximum number of steps of a run: hours of computing.
 const MOST_STEPS: f64 = 1e10;
 
 /// An adaptive explicit step times the fastest rate: the edge of stability of methods of order 5 and 8.
@@ -29,7 +29,7 @@ pub fn check(key: &'static str, value: f64, ok: bool, remedy: &'static str) -> R
     }
 }
 
-/// Refuses a study with noise where only the flow without it has an answer.
+/// Rejects a study with noise if an analysis is defined only for the flow without noise.
 pub fn check_no_noise(amplitude: f64) -> Result<(), Error> {
     check(
         "noise",
@@ -50,11 +50,11 @@ pub fn check_stability(model: &dyn Model, method: Method, control: Control) -> R
     if step > largest { Err(Error::UnstableStep { step, stepper: tableau.name, largest }) } else { Ok(()) }
 }
 
-/// Refuses a run that could not end: steps that are too many for the time, because they are fixed and tiny, or because the fastest
+/// Rejects a run that would not end: too many steps for the time, because they are fixed and tiny, or because the fastest
 /// rate of the linear part keeps an explicit method to steps of some times its inverse.
 pub fn check_steps(model: &dyn Model, method: Method, control: Control, time: f64) -> Result<(), Error> {
     if let Control::Fixed { step } = control {
-        let remedy = "that is over 10 thousand million steps: give a larger step, or a shorter time";
+        let remedy = "this takes more than 10 thousand million steps: give a larger step, or a shorter time";
         return check("step", step, time / step <= MOST_STEPS, remedy);
     }
     let Method::Explicit(tableau) = method else { return Ok(()) };
@@ -67,7 +67,7 @@ pub fn check_steps(model: &dyn Model, method: Method, control: Control, time: f6
     Err(Error::Stiff { rate, time, stepper: tableau.name })
 }
 
-/// A start must be a body.
+/// An initial state must be a body.
 pub(crate) fn check_start(model: &dyn Model, initial: &Named) -> Result<(), Error> {
     let values = initial.values();
     let mut shape = vec![0.0; model.dim()];
@@ -100,7 +100,7 @@ pub fn check_figure(figure: &FigureSettings) -> Result<(), Error> {
     Ok(())
 }
 
-/// Checks how a body is to be shown.
+/// Checks the display of a body.
 pub(crate) fn check_display(display: &DisplaySettings) -> Result<(), Error> {
     let (sample, speed) = (display.sample, display.speed);
     let usable = sample > 0.0 && sample <= LONGEST;

@@ -81,7 +81,7 @@ fn read_model(top: &mut Table<'_>, file: &str) -> Result<Study, Error> {
             file: file.to_owned(),
             line: 1,
             column: 1,
-            problem: format!("[model] names no model: write [model.{}]", names().join("] or [model.")),
+            problem: format!("[model] does not name a model: write [model.{}]", names().join("] or [model.")),
             excerpt: String::new(),
         });
     };
@@ -237,7 +237,7 @@ pub fn schema() -> serde_json::Value {
     })
 }
 
-/// The schema of one table; every key may be left out.
+/// The schema of one table; every key is optional.
 fn section<T: JsonSchema>() -> serde_json::Value {
     let mut schema = schemars::schema_for!(T).to_value();
     if let Some(object) = schema.as_object_mut() {

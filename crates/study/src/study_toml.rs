@@ -8,7 +8,7 @@ use toml::{Table, Value};
 
 impl Study {
     /// The text of a study file that reads back as this study ([`Study::parse`]): what differs from the model's
-    /// defaults, with every digit. Its name is that of the file, and not in the text.
+    /// defaults, with every digit. Its name is that of the file, and is not in the text.
     ///
     /// # Errors
     /// An unknown model; [`Error::Setting`] for whole numbers of 2^63 and more, which TOML does not have.
@@ -59,7 +59,7 @@ impl Study {
     }
 }
 
-/// The table with the axes under `key`, if it is there, as texts.
+/// The table with the axes under `key`, if it exists, as strings.
 fn with_texts(mut table: Table, key: &str, axes: &[Axis]) -> Table {
     if let Some(value) = table.get_mut(key) {
         *value = axes.iter().map(Axis::to_text).collect::<Vec<_>>().into();

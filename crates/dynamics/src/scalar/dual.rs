@@ -1,4 +1,4 @@
-//! Numbers that carry their derivatives.
+//! Numbers with their derivatives.
 
 #![allow(
     clippy::suspicious_arithmetic_impl,

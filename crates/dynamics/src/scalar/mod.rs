@@ -1,4 +1,4 @@
-//! The numbers a model is written over: one equation, three scalars.
+//! The scalars of models: one equation, three scalars.
 //!
 //! A vector field is written once for any [`Scalar`]. Evaluated over
 //! * `f64` it moves one orbit,
@@ -22,8 +22,8 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A number that a vector field can be evaluated over.
 ///
-/// A constant is made *from a value at hand* ([`Scalar::constant`]), never from nothing, so that a lane type may
-/// carry what only a value knows (the CPU features it was made for).
+/// A constant is made *from an existing value* ([`Scalar::constant`]), so that a lane type may
+/// carry information of that value (the CPU features it was made for).
 pub trait Scalar:
     Copy
     + Debug

@@ -5,7 +5,7 @@
 //! The crate that offers safe registers uses AVX-512 only from Ice Lake on; what is used here is older (F, DQ, VL).
 //!
 //! Why it is sound: the instructions are called only through [`Zmm`] and [`Ymm`], both private to this module, which
-//! are handed out only as type arguments of kernels run by [`run_lanes`], after the processor was asked. A value of either
+//! are used only as type arguments of kernels run by [`run_lanes`], after the processor was asked. A value of either
 //! type therefore exists only where its instructions do. Tests: `tests/lanes.rs`, every operation against `f64`.
 
 #![allow(unsafe_code, reason = "vector instructions; see above")]
@@ -14,7 +14,7 @@ use super::{InstructionSet, Kernel, LaneKernel, Packed, Registers};
 use std::arch::x86_64::*;
 use std::sync::OnceLock;
 
-/// What this processor has.
+/// The instruction sets of this processor.
 pub(super) fn widest() -> InstructionSet {
     static WIDEST: OnceLock<InstructionSet> = OnceLock::new();
     *WIDEST.get_or_init(|| {
@@ -30,7 +30,7 @@ pub(super) fn widest() -> InstructionSet {
     })
 }
 
-/// Runs plain loops with the widest instructions there are.
+/// Runs plain loops with the widest available instructions.
 #[inline]
 pub(super) fn run<K: Kernel>(kernel: K) -> K::Output {
     // 256 bits also where there are 512: short loops over slices gain nothing from wider registers.
@@ -46,7 +46,7 @@ fn loops<K: Kernel>(kernel: K) -> K::Output {
     kernel.run()
 }
 
-/// Runs a lane kernel with the instructions of `set`, or the widest there are; one of the two must not be portable.
+/// Runs a lane kernel with the instructions of `set`, or the widest available; one of the two must not be portable.
 pub(super) fn run_lanes<K: LaneKernel>(set: InstructionSet, kernel: K) -> K::Output {
     match set.min(widest()) {
         // SAFETY: `widest` has found the instructions of both functions.
@@ -65,7 +65,7 @@ fn avx2<K: LaneKernel>(kernel: K) -> K::Output {
     kernel.run::<Packed<Ymm>>()
 }
 
-/// [`Registers`] for a register of `$lanes` lanes: what both widths have alike, and below what they have not.
+/// [`Registers`] for a register of `$lanes` lanes: common parts of both widths, and below the differences.
 ///
 /// SAFETY of every block: a value of `$name` exists only inside the function that was compiled for its instructions (see above). Loads
 /// and stores stay inside the slices, which are cut to the lanes first.

@@ -1,4 +1,4 @@
-//! The body of a session: its motion, and everything that is asked about it, on a thread of its own.
+//! The body of a session: its motion, and all requests about it, on a separate thread.
 
 mod changes;
 mod looks;
@@ -15,7 +15,7 @@ pub(crate) use setting::Setting;
 use stage::Stage;
 use std::sync::mpsc::Receiver;
 
-/// What a session computes beside the motion itself.
+/// Computations of a session in addition to the motion.
 pub(crate) struct Services {
     pub(crate) naming: Naming,
     pub(crate) map: Map,
@@ -34,7 +34,7 @@ impl Services {
     }
 }
 
-/// Answers what is asked until the page goes.
+/// Answers requests until the page disconnects.
 pub(crate) fn run(asks: &Receiver<Ask>, services: &Services) {
     // The only failure is that nobody listens any more.
     let _ = live(asks, services);
@@ -56,11 +56,11 @@ fn live(asks: &Receiver<Ask>, services: &Services) -> Result<(), Gone> {
     Ok(())
 }
 
-/// Waits for a body to begin with; `None` if the page goes.
+/// Waits for the first body; `None` if the page disconnects.
 fn first(asks: &Receiver<Ask>, services: &Services) -> Result<Option<Setting>, Gone> {
     while let Ok(ask) = asks.recv() {
         let Ask::Begin(begin) = &ask else {
-            services.answers.refused(None, "there is no body yet: begin one first")?;
+            services.answers.refused(None, "there is no body yet: send begin first")?;
             continue;
         };
         match Setting::begin(begin, 1) {
@@ -74,7 +74,7 @@ fn first(asks: &Receiver<Ask>, services: &Services) -> Result<Option<Setting>, G
     Ok(None)
 }
 
-/// Answers until the body changes (what it is then), or the page goes (`None`).
+/// Answers until the body changes (returns the new one), or the page disconnects (`None`).
 fn play(stage: &mut Stage<'_>, asks: &Receiver<Ask>) -> Result<Option<Setting>, Gone> {
     while let Ok(ask) = asks.recv() {
         match stage.answer(ask)? {

@@ -1,4 +1,4 @@
-//! A body between two changes: model, parameters, where it starts.
+//! A body between two changes: model, parameters, initial state.
 
 use crate::catalogue;
 use crate::motion::Motion;
@@ -10,16 +10,16 @@ use motiform_study::study::{DisplaySettings, ReturnMapSettings};
 use motiform_study::{Error, Plan, Study};
 use std::time::Duration;
 
-/// A transient that takes longer is cut short: the page waits.
+/// A transient that takes longer is truncated, because the page waits.
 const SETTLING: Duration = Duration::from_millis(300);
 
-/// A look ahead, to draw the body from the start with a radius that suits its deformation: samples, and time for it.
+/// A short integration ahead, to draw the body from the start with a radius that suits its deformation: samples, and time limit.
 const AHEAD: (usize, Duration) = (600, Duration::from_millis(30));
 
 /// What stays the same until the next change.
 pub(crate) struct Setting {
     preset: Option<String>,
-    /// As begun: its start is the one to restart from.
+    /// The study as started: a restart uses its initial state.
     study: Study,
     /// From the state below, with the noise and without.
     plan: Plan,
@@ -29,11 +29,11 @@ pub(crate) struct Setting {
     t: f64,
     /// The shape as the model computes with it, then x and y.
     state: Vec<f64>,
-    /// Undeformed radius that the body is drawn with.
+    /// Undeformed radius used for drawing.
     radius: f64,
 }
 
-/// Where a body is, and the undeformed radius that it is drawn with.
+/// The state of a body, and the undeformed radius used for drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Seen<'s> {
     pub(super) t: f64,
@@ -43,7 +43,7 @@ pub(super) struct Seen<'s> {
 }
 
 impl Setting {
-    /// The body that a page asks for.
+    /// The body that a page requests.
     pub(crate) fn begin(begin: &Begin, revision: u32) -> Result<Self, Error> {
         let mut study = catalogue::study(&begin.model, begin.preset.as_deref())?;
         for (name, value) in &begin.parameters {
@@ -82,7 +82,7 @@ impl Setting {
         Ok(Self { radius, ..next })
     }
 
-    /// The largest radius that the deformation asks for in the near future.
+    /// The largest radius required by the deformation in the near future.
     fn fitting_radius(&self) -> Result<f64, Error> {
         if let Some(fixed) = self.model.radius() {
             return Ok(fixed);
@@ -124,7 +124,7 @@ impl Setting {
         self.revision
     }
 
-    /// Where it starts.
+    /// Its initial state.
     pub(super) fn start(&self) -> Seen<'_> {
         Seen { t: self.t, state: &self.state, radius: self.radius }
     }
@@ -134,19 +134,19 @@ impl Setting {
         self.study.return_map.as_ref()
     }
 
-    /// What there is to name.
+    /// The motion to be classified.
     pub(crate) fn motion(&self) -> Motion {
         Motion { revision: self.revision, plan: self.quiet.clone(), again: false }
     }
 
-    /// The same motion, seen from a later state.
+    /// The same motion, from a later state.
     pub(crate) fn motion_at(&self, state: &[f64]) -> Result<Motion, Error> {
         let mut study = self.study_at(state);
         study.run.silence();
         Ok(Motion { revision: self.revision, plan: Plan::new(&study)?, again: true })
     }
 
-    /// The study that goes on from a state.
+    /// The study that continues from a state.
     pub(crate) fn study_at(&self, state: &[f64]) -> Study {
         at(&self.study, self.model.as_ref(), state)
     }

@@ -1,4 +1,4 @@
-//! The body in motion, as the page sees it.
+//! The moving body, as shown on the page.
 
 use super::Services;
 use super::looks::{self, Look};
@@ -18,10 +18,10 @@ use motiform_study::Error;
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-/// Samples that are kept: what spectra and return maps are made of.
+/// Number of samples that are kept for spectra and return maps.
 const KEPT: usize = 20_000;
 
-/// Most samples in a picture, and most time that computing one may take: 60 pictures per second leave 16 ms.
+/// Maximum number of samples in a frame, and maximum computing time of one: 60 frames per second leave 16 ms.
 const PICTURE: (f64, Duration) = (512.0, Duration::from_millis(12));
 
 /// Points of the outline.
@@ -32,17 +32,17 @@ pub(super) struct Stage<'s> {
     setting: &'s Setting,
     stretch: Stretch<'s>,
     record: Record,
-    /// Samples up to this time are with the page.
+    /// Samples up to this time have been sent to the page.
     told: f64,
     radius: f64,
     ended: bool,
-    /// The name was asked for at this time; it is asked for again when the body has moved on this many times longer than finding
+    /// The motion was classified at this time; this is repeated when the body has moved on this many times longer than finding
     /// the name took.
     named: (f64, f64),
     services: &'s Services,
 }
 
-/// What the body is after a change, and what to say of it.
+/// The body after a change, and the message about it.
 pub(super) type Change = Result<(Setting, Said), Error>;
 
 impl<'s> Stage<'s> {
@@ -71,7 +71,7 @@ impl<'s> Stage<'s> {
         self.services
     }
 
-    /// Answers a message; one that changes the body gives what it is then, or why it cannot be.
+    /// Answers a message; one that changes the body returns the new body, or the reason why it is impossible.
     pub(super) fn answer(&mut self, ask: Ask) -> Result<Option<Change>, Gone> {
         match ask {
             Ask::Advance(Advance { dt }) => self.advance(dt)?,
@@ -90,13 +90,13 @@ impl<'s> Stage<'s> {
         Ok(None)
     }
 
-    /// Moves on and shows where the body is.
+    /// Advances the body and sends a frame.
     fn advance(&mut self, dt: f64) -> Result<(), Gone> {
         if dt < 0.0 {
             return self
                 .services
                 .answers
-                .refused(None, "a body moves forward in time: give a dt of at least 0");
+                .refused(None, "the body moves forward in time only: give a dt of at least 0");
         }
         let most = PICTURE.0 * self.setting.display().sample;
         let to = self.stretch.t() + dt.min(most);
@@ -113,7 +113,7 @@ impl<'s> Stage<'s> {
         }
     }
 
-    /// A long transient may end on another motion than the one it was named after: asks again, less and less often.
+    /// A long transient may end on a different motion than the one found first: classifies again, at increasing intervals.
     fn name_again(&mut self) {
         let (asked, times) = self.named;
         let Some(took) = self.services.naming.took(self.setting.revision()) else { return };
@@ -211,7 +211,7 @@ impl<'s> Stage<'s> {
             _ => looks::maker(&self.look(), export),
         };
         let Some(make) = make else {
-            let why = format!("there is no file {:?} to be had", export.what);
+            let why = format!("there is no file {:?}", export.what);
             return self.services.answers.refused(Some(export.id), &why);
         };
         let subject = self.setting.preset().unwrap_or(self.setting.study().model).to_owned();

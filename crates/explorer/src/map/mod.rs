@@ -1,4 +1,4 @@
-//! The map: which motion happens where in a window of two parameters, coarse first, then ever finer.
+//! The map: the motions in a window of two parameters, first coarse, then increasingly fine.
 
 mod lattice;
 mod map_state;
@@ -16,7 +16,7 @@ use motiform_study::Study;
 use serde_json::json;
 use std::sync::{Arc, Mutex};
 
-/// All cores are at work for the map: pictures and names go first.
+/// Priority of the map, which uses all cores: frames and classification have precedence.
 const NICE: i32 = 10;
 
 /// The map of a session.
@@ -42,28 +42,28 @@ impl Map {
         Ok(Self { worker, map_state })
     }
 
-    /// Computes a window, in place of the one under way.
+    /// Computes a window, replacing the one in progress.
     pub(crate) fn show(&self, job: Job) {
         self.worker.put(job);
     }
 
-    /// Stops computing, for the answer is no longer wanted.
+    /// Stops computing, because the result is no longer needed.
     pub(crate) fn stop(&self) {
         self.worker.clear();
     }
 
-    /// Whether the map shown has this parameter as an axis.
+    /// Whether the visible map has this parameter as an axis.
     pub(crate) fn has_axis(&self, name: &str) -> bool {
         let map_state = lock(&self.map_state);
         map_state.present().is_some_and(|map| map.plan.computation.axes.iter().any(|axis| axis.name == name))
     }
 
-    /// How many axes the map shown has.
+    /// Number of axes of the visible map.
     pub(crate) fn axes(&self) -> usize {
         lock(&self.map_state).present().map_or(0, |map| map.sides.len())
     }
 
-    /// What is known of a cell, as the protocol has it.
+    /// The verdict on a cell, in the form of the protocol.
     pub(crate) fn evidence(&self, epoch: u32, [i, j]: [u16; 2]) -> Option<Evidence> {
         let mut map_state = lock(&self.map_state);
         let map = map_state.present().filter(|map| map.epoch == epoch)?;
@@ -82,7 +82,7 @@ impl Map {
         })
     }
 
-    /// Makes a file of the cells shown that are computed.
+    /// Makes a file of the visible cells that are computed.
     pub(crate) fn maker(&self, file: MapFile) -> Maker {
         let known = lock(&self.map_state).rows();
         Box::new(move || {
@@ -104,7 +104,7 @@ impl Map {
     }
 }
 
-/// What can be made of a map.
+/// The files that can be made of a map.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum MapFile {
     Csv,

@@ -1,4 +1,4 @@
-//! Computing a window: coarse cells first, from its middle outwards, on all cores.
+//! Computation of a window: coarse cells first, from the centre outwards, on all cores.
 
 use super::map_state::MapState;
 use super::{Done, Job};
@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 /// Between two messages with cells, and two with the progress.
 const EVERY: (Duration, Duration) = (Duration::from_millis(40), Duration::from_millis(120));
 
-/// Computes what is not known of the window of a job, unless it becomes stale.
+/// Computes the missing cells of the window of a job, unless it becomes stale.
 pub(super) fn compute(
     job: &Job,
     map_state: &Mutex<MapState>,
@@ -57,7 +57,7 @@ pub(super) fn compute(
     work.finish(begun)
 }
 
-/// What is to be done for a window.
+/// The work for a window.
 struct View {
     epoch: u32,
     plan: ScanPlan,
@@ -157,7 +157,7 @@ struct Work<'w> {
     out: Mutex<Out>,
 }
 
-/// Cells on their way to the page.
+/// Cells to be sent to the page.
 struct Out {
     cells: Vec<Cell>,
     done: usize,
@@ -223,7 +223,7 @@ impl Work<'_> {
         Progress { epoch: self.view.epoch, done: out.done, total, rate }
     }
 
-    /// Sends what is left, and that it is all, if it is.
+    /// Sends the remaining cells, and the message of completion if the map is complete.
     fn finish(self, begun: Instant) -> Done {
         let stopped = self.stopped();
         let out = self.out.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);

@@ -1,4 +1,4 @@
-//! The tensor model in Fourier amplitudes: the form that is computed.
+//! The tensor model in Fourier amplitudes: the form used for computation.
 //!
 //! With `z1 = v1 - i v2`, `z2 = (S11 - i S12)/2`, `z3 = (U111 + i U222)/2` the equations (V), (S), (U) become three
 //! complex ones with real coefficients. Source: paper, 'Coupled set of equations', (Z1), (Z2), (Z3) and the table of
@@ -70,7 +70,7 @@ impl From<&TensorParameters> for Coefficients<f64> {
     }
 }
 
-/// Sets of coupling terms: a kernel leaves out what its set does not name, without a second copy of the equations.
+/// Sets of coupling terms: a kernel omits the terms outside its set, without a second copy of the equations.
 pub mod terms {
     use super::Coefficients;
 
@@ -101,12 +101,12 @@ pub mod terms {
     pub const REDUCED: u32 = E11 | E21 | D22;
     /// The full model of the paper's Simulations II: `a1, b1, b2, d1, d2`.
     pub const PAPER: u32 = E11 | E21 | E22 | E31 | E32;
-    /// Both of these: what a scan over the paper's planes needs.
+    /// Both of these, for scans over the paper's planes.
     pub const COMMON: u32 = REDUCED | PAPER;
     /// All 21 parameters.
     pub const ALL: u32 = (1 << 18) - 1;
 
-    /// The smallest of the three sets above that holds all terms of `c`.
+    /// The smallest of the three sets above that contains all terms of `c`.
     #[must_use]
     pub fn enclosing(c: &Coefficients<f64>) -> u32 {
         let present = of(c);

@@ -106,7 +106,7 @@ impl Semilinear<f64> for Bounded {
     }
 }
 
-/// What a run does.
+/// The results of a run.
 struct Ran {
     length: f64,
     outcome: Outcome,

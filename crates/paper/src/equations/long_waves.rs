@@ -1,4 +1,4 @@
-//! The linear terms: what g2 and g3 do to the circle, and whether g1 matters.
+//! The linear terms: the effect of g2 and g3 on the circle, and whether g1 matters.
 
 use super::super::claims::claim;
 use super::super::context::Context;

@@ -21,7 +21,7 @@ const SEED: u64 = 2010;
 /// Step of the method, of the noise and between samples.
 const STEP: f64 = 0.2;
 
-/// Cut off: the way from the start to the cycle.
+/// Excluded: the path from the start to the cycle.
 const TRANSIENT: f64 = 500.0;
 
 /// One amplitude.

@@ -1,4 +1,4 @@
-//! Neighbours part: the rate at which a tiny difference grows.
+//! Separation of neighbouring orbits: the growth rate of a small difference.
 
 use super::super::claims::check;
 use super::super::context::Context;
@@ -13,10 +13,10 @@ use motiform_study::{Dataset, Error, Study};
 /// Size of the difference at the start.
 const TINY: f64 = 1e-8;
 
-/// The growth is read off between these times: the difference has turned its way, and is still small.
+/// The growth is measured between these times: the difference has aligned with the growing direction, and is still small.
 const BETWEEN: (f64, f64) = (20.0, 120.0);
 
-/// Time watched, and between samples.
+/// Observation time, and time between samples.
 const SPAN: (f64, f64) = (300.0, 5.0);
 
 /// The coordinates of the shape.

@@ -1,5 +1,5 @@
-//! Shapes of the cell that do not change but for a steady rotation, followed in length: where their stability ends is
-//! computed from their eigenvalues, not read off runs.
+//! Shapes of the cell that are constant up to a steady rotation, continued in length: where their stability ends is
+//! computed from their eigenvalues, not from runs.
 
 use super::super::context::Context;
 use super::lengths::study;

@@ -1,4 +1,4 @@
-//! Where each mode of the circle begins to grow: measured from runs, and held against the windows.
+//! The onset of growth of each mode of the circle: measured from runs, and compared with the windows.
 
 use super::super::claims::{claim, differs};
 use super::super::context::Context;

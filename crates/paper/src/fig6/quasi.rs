@@ -9,7 +9,7 @@ use motiform_study::Error;
 const FULL: [f64; 8] = [12.94, 12.955, 12.965, 12.97, 12.975, 12.98, 13.0, 13.03];
 const QUICK: [f64; 2] = [12.968, 12.98];
 
-/// What was looked at and found.
+/// The runs and their results.
 pub(super) struct Search {
     lengths: Vec<f64>,
     /// Runs.
