@@ -1,5 +1,6 @@
 //! Dynamics with the symmetry of the plane: the requirements of every analysis of a motion.
 
+use crate::tangent::Differentiable;
 use crate::{Dual, Semilinear, Shape};
 
 /// An autonomous shape, the velocity determined by it, exact derivatives of both, and how rotations of the plane
@@ -12,7 +13,7 @@ use crate::{Dual, Semilinear, Shape};
 /// The flow on shapes must commute with [`Equivariant::rotate`] and [`Equivariant::mirror`], the velocity must transform with
 /// them, and both act by orthogonal matrices: [`crate::conformance`] checks every model.
 pub trait Equivariant:
-    Semilinear<f64> + Semilinear<Dual<f64, 1>> + Shape<f64> + Shape<Dual<f64, 1>> + Send + Sync
+    Semilinear<f64> + Semilinear<Dual<f64, 1>> + Differentiable + Shape<f64> + Shape<Dual<f64, 1>> + Send + Sync
 {
     /// Whether the rotations and the reflection act at all.
     fn is_symmetric(&self) -> bool {
