@@ -6,6 +6,7 @@ mod args;
 mod commands;
 mod output;
 mod progress;
+mod remedy;
 
 use args::{Arguments, Command};
 use clap::Parser;

@@ -1,5 +1,6 @@
 //! Output for the user, and the exit code.
 
+use crate::remedy::remedy;
 use motiform_analysis::Estimate;
 use motiform_dynamics::Outcome;
 use motiform_figures::Label;
@@ -81,7 +82,9 @@ impl std::error::Error for StdoutFailed {}
 /// Prints an error on standard error: exit code 1 if the machine failed, 2 if the input is invalid.
 pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     // Standard error is the last resort: nothing is left to say if it fails too.
-    let _ = writeln!(io::stderr(), "error: {error:#}");
+    let remedy =
+        error.downcast_ref().and_then(remedy).map_or_else(String::new, |remedy| format!("; {remedy}"));
+    let _ = writeln!(io::stderr(), "error: {error:#}{remedy}");
     let machine =
         error.is::<StdoutFailed>() || error.downcast_ref::<Error>().is_some_and(Error::is_machine_failure);
     ExitCode::from(if machine { 1 } else { 2 })

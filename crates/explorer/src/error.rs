@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum Error {
     /// The port is not available.
-    #[error("port {port}: {reason}; give another --port, or none to take any free one")]
+    #[error("port {port}: {reason}; give another one, or 0 to take any free one")]
     Port {
         /// The requested port.
         port: u16,

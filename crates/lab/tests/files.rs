@@ -203,7 +203,7 @@ fn only_datasets_are_replaced() {
     let (ours, theirs) = (place.path().join("ours"), place.path().join("theirs"));
     write(&SHORT, Format::Csv, &ours);
     fs::write(ours.join("path.svg"), "an old figure").unwrap();
-    assert!(Staging::new(&ours, true, false).unwrap_err().to_string().contains("--force"));
+    assert!(Staging::new(&ours, true, false).unwrap_err().to_string().ends_with("ours exists"));
     write(&SHORT, Format::Parquet, &ours);
     let names: Vec<_> = listing(&ours).iter().map(|path| path.file_name().unwrap().to_owned()).collect();
     assert_eq!(

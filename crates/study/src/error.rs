@@ -91,16 +91,14 @@ pub enum Error {
     },
     /// A scan without an axis.
     #[error(
-        "nothing to vary: give --axis NAME=LOW:HIGH:COUNT with a parameter of the model{free}, or axes in [scan]"
+        "nothing to vary: a scan needs one or two axes, each with values of a parameter of the model{free}"
     )]
     NoAxis {
         /// The parameters that the study leaves free, in brackets.
         free: String,
     },
     /// A scan folder that already exists.
-    #[error(
-        "{} exists: --resume continues the scan in it, --force replaces it; or choose another --out", .path.display()
-    )]
+    #[error("{} exists and contains a scan", .path.display())]
     ScanExists {
         /// The folder.
         path: PathBuf,
@@ -115,7 +113,7 @@ pub enum Error {
     },
     /// A folder that contains the scan of another plan.
     #[error(
-        "{} contains a different scan from the one requested ({differences}): choose another --out, or --force to replace it",
+        "{} contains a different scan from the one requested ({differences})",
         .path.display()
     )]
     OtherScan {
@@ -125,7 +123,7 @@ pub enum Error {
         differences: String,
     },
     /// Another process is computing in the folder.
-    #[error("another motiform process computes in {}: wait until it is done, or choose another --out", .path.display())]
+    #[error("another motiform process computes in {}: wait until it is done", .path.display())]
     Busy {
         /// The folder.
         path: PathBuf,
@@ -152,7 +150,7 @@ pub enum Error {
         second: PathBuf,
     },
     /// Writing a part failed (for example because of a full disk).
-    #[error("writing {} failed: {reason}; complete parts are kept: free some space, and --resume continues", .path.display())]
+    #[error("writing {} failed: {reason}; complete parts are kept: free some space and resume the scan", .path.display())]
     PartFailed {
         /// The part.
         path: PathBuf,
@@ -202,19 +200,19 @@ pub enum Error {
         residual: f64,
     },
     /// The output exists.
-    #[error("{} exists: choose another --out, or --force to replace it", .path.display())]
+    #[error("{} exists", .path.display())]
     Exists {
         /// The path.
         path: PathBuf,
     },
     /// The output exists and was not written by motiform.
-    #[error("{} exists and is not a motiform dataset: --force does not replace it, choose another --out", .path.display())]
+    #[error("{} exists and is not a motiform dataset: it is not replaced", .path.display())]
     NotOurs {
         /// The path.
         path: PathBuf,
     },
     /// A folder without write access.
-    #[error("cannot write {}: {reason}; choose an --out in a folder that exists and is writable", .path.display())]
+    #[error("cannot write {}: {reason}", .path.display())]
     Unwritable {
         /// The path.
         path: PathBuf,
@@ -230,7 +228,7 @@ pub enum Error {
         reason: String,
     },
     /// Something other than a file is in the place of a file.
-    #[error("{} is not a file, but a part of the scan belongs there: remove it, and --resume continues", .path.display())]
+    #[error("{} is not a file, but a part of the scan belongs there: remove it and resume the scan", .path.display())]
     InTheWay {
         /// The path.
         path: PathBuf,
