@@ -19,7 +19,7 @@ struct Counted {
 
 impl Counted {
     fn count<T: Scalar<Real = f64>>(&self) {
-        let tangent = std::mem::size_of::<T>() > std::mem::size_of::<f64>();
+        let tangent = size_of::<T>() > size_of::<f64>();
         self.tangents.fetch_add(u64::from(tangent), Ordering::Relaxed);
     }
 }

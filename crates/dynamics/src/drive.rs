@@ -218,7 +218,7 @@ impl Run {
         let step = orbit.dense();
         for (index, (section, watcher)) in request.sections.iter().zip(&mut self.watchers).enumerate() {
             watcher.scan(section, (&step, request.pieces), &mut self.state, |t, rising| {
-                self.found.push((t, index, rising))
+                self.found.push((t, index, rising));
             });
         }
         self.found.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -42,8 +42,8 @@ impl<'f, F: System + ?Sized> Tangent<'f, F> {
     fn lift(&self, u: &[f64], du: &mut [f64], eval: impl Fn(&[Number], &mut [Number])) {
         match self.field.dim() {
             ..=8 => self.lift_on_stack::<8>(u, du, eval),
-            9..=64 => self.lift_on_stack::<64>(u, du, eval),
-            65..=256 => self.lift_on_stack::<256>(u, du, eval),
+            9..=48 => self.lift_on_stack::<48>(u, du, eval),
+            49..=256 => self.lift_on_stack::<256>(u, du, eval),
             dim => {
                 let mut room = vec![Number::constant_of(0.0); 2 * dim];
                 let (lifted, rates) = room.split_at_mut(dim);
