@@ -283,10 +283,13 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
 
     fn image(&self, flow: &Flow, watch: &dyn Watch) -> Option<Image> {
         let dim = self.shape.len();
-        let tangent = Tangent::new(self.body, self.directions.len());
+        let count = self.directions.len();
+        let small = self.is_small();
+        let tangent =
+            if small { Tangent::new(self.body, count) } else { Tangent::following(self.body, count) };
         let start: Vec<f64> = self.shape.iter().chain(self.directions.iter().flatten()).copied().collect();
         let mut orbit = flow.method.shape_orbit(&tangent, flow.control, 0.0, &start).ok()?;
-        let (watched, escape_norm) = if self.is_small() { (dim, 1e6) } else { (tangent.dim(), PARALLEL) };
+        let (watched, escape_norm) = if small { (dim, 1e6) } else { (tangent.dim(), PARALLEL) };
         let request = Request {
             max_steps: flow.max_steps,
             watched,

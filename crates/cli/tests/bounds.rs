@@ -97,7 +97,7 @@ fn racing_for_a_scan() {
     let codes: String =
         (1..=4).map(|n| std::fs::read_to_string(folder.path(&format!("code{n}"))).unwrap()).collect();
     let (locked, said) =
-        (codes.matches('2').count(), race.stdout.matches("another motiform computes").count());
+        (codes.matches('2').count(), race.stdout.matches("another motiform process computes").count());
     assert!(locked < 4 && locked == said, "{}", race.stdout);
     let done = folder.bash(&format!("{scan} --budget 300 --resume"));
     assert!(matches!(done.code, Some(0 | 1)), "{}", done.stderr);

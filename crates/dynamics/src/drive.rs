@@ -2,7 +2,7 @@
 
 use crate::escape::{GrowthLaw, norm};
 use crate::orbit::StepFailure;
-use crate::section::{Crossing, Section, Watcher, polish};
+use crate::section::{Crossing, PIECES, Section, Watcher, polish};
 use crate::{Error, Integration, Obstacle, Outcome, Watch};
 use std::ops::ControlFlow;
 
@@ -23,6 +23,9 @@ pub struct Request<'g> {
     pub watched: usize,
     /// Sections to locate.
     pub sections: &'g [Section<'g>],
+    /// How many pieces of a step are looked at for crossings, at least 1. ([`PIECES`] by default; fewer are enough where steps are far
+    /// shorter than the time between crossings.)
+    pub pieces: usize,
     /// Receives the progress of the run and may stop it; called after every 64th step.
     pub watch: &'g dyn Watch,
 }
@@ -39,6 +42,7 @@ impl Request<'_> {
             escape_norm: 1e6,
             watched: dim,
             sections: &[],
+            pieces: PIECES,
             watch: &(),
         }
     }
@@ -213,7 +217,9 @@ impl Run {
         self.found.clear();
         let step = orbit.dense();
         for (index, (section, watcher)) in request.sections.iter().zip(&mut self.watchers).enumerate() {
-            watcher.scan(section, &step, &mut self.state, |t, rising| self.found.push((t, index, rising)));
+            watcher.scan(section, (&step, request.pieces), &mut self.state, |t, rising| {
+                self.found.push((t, index, rising));
+            });
         }
         self.found.sort_by(|a, b| a.0.total_cmp(&b.0));
         for event in 0..self.found.len() {

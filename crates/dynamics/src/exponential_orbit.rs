@@ -159,7 +159,7 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
     fn choose_first_step(&mut self) {
         let StepControl::Adaptive { rtol, atol } = self.control else { return };
         let tolerance = Tolerance { rtol: rtol.sqrt(), atol: atol.sqrt() };
-        let shape = ..self.lambda.len();
+        let shape = ..self.field.controlling();
         let state = &self.new.state[shape];
         let rate = tolerance.norm(&self.new.slope[shape], state, state);
         self.tables.set_size((0.1 / rate).clamp(1e-6, 1.0));
@@ -203,11 +203,11 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
         }
     }
 
-    /// The norm of the estimated error of the step tried, on the shape.
+    /// The norm of the estimated error of the step tried, on the part of the shape that controls steps.
     fn error(&mut self, tolerance: Tolerance) -> f64 {
-        let shape = ..self.lambda.len();
+        let shape = ..self.field.controlling();
         exponential::error(self.tableau, self.tables.selected(), &self.stages, &mut self.errors);
-        tolerance.norm(&self.errors, &self.new.state[shape], &self.trial.state[shape])
+        tolerance.norm(&self.errors[shape], &self.new.state[shape], &self.trial.state[shape])
     }
 
     /// The end stage of the last step is the first stage of the next one.

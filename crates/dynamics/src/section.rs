@@ -41,7 +41,7 @@ pub struct Crossing<'u> {
     pub rising: bool,
 }
 
-/// Number of pieces of a step that are examined for sign changes. Two crossings within one piece are missed.
+/// How many pieces of a step are looked at for sign changes, unless a request says otherwise. Two crossings within one piece are missed.
 pub const PIECES: usize = 8;
 
 /// Follows the signs of one section along an orbit.
@@ -62,13 +62,13 @@ impl Watcher {
     pub(crate) fn scan(
         &mut self,
         section: &Section<'_>,
-        step: &DenseStep<'_>,
+        (step, pieces): (&DenseStep<'_>, usize),
         state: &mut [f64],
         mut found: impl FnMut(f64, bool),
     ) {
         let (start, end) = step.span();
-        for piece in 1..=PIECES {
-            let t = if piece == PIECES { end } else { start + (end - start) * piece as f64 / PIECES as f64 };
+        for piece in 1..=pieces.max(1) {
+            let t = if piece >= pieces { end } else { start + (end - start) * piece as f64 / pieces as f64 };
             let value = value_in(section, step, t, state);
             if value == 0.0 || value.is_nan() {
                 continue;

@@ -11,6 +11,7 @@ use crate::{Dual, Obstacle, Semilinear, System, VectorField};
 pub struct Tangent<'f, F: ?Sized> {
     field: &'f F,
     count: usize,
+    follow: bool,
 }
 
 type Number = Dual<f64, 1>;
@@ -27,7 +28,16 @@ impl<'f, F: System + ?Sized> Tangent<'f, F> {
     /// The tangent flow of `field` with `count` vectors.
     #[must_use]
     pub fn new(field: &'f F, count: usize) -> Self {
-        Self { field, count }
+        Self { field, count, follow: false }
+    }
+
+    /// As [`Tangent::new`], but the orbit alone controls the steps of exponential methods: the same steps as without tangent vectors.
+    ///
+    /// The vectors then are as accurate as those steps make them, which Newton's method does not mind. Vectors that have grown by a large
+    /// factor would ask for the digits of their smallest entries, in steps a hundred times shorter.
+    #[must_use]
+    pub fn following(field: &'f F, count: usize) -> Self {
+        Self { field, count, follow: true }
     }
 
     /// The field that the vectors are tangent to.
@@ -45,8 +55,8 @@ impl<'f, F: System + ?Sized> Tangent<'f, F> {
     ) {
         match self.field.dim() {
             ..=8 => self.lift_on_stack::<8, K>(u, du, eval),
-            9..=64 => self.lift_on_stack::<64, K>(u, du, eval),
-            65..=256 => self.lift_on_stack::<256, K>(u, du, eval),
+            9..=48 => self.lift_on_stack::<48, K>(u, du, eval),
+            49..=256 => self.lift_on_stack::<256, K>(u, du, eval),
             dim => {
                 let mut room = vec![Dual::constant_of(0.0); 2 * dim];
                 let (lifted, rates) = room.split_at_mut(dim);
@@ -112,6 +122,10 @@ impl<F: System + ?Sized> System for Tangent<'_, F> {
         self.field.obstacle(&u[..self.field.dim()])
     }
 
+    fn controlling(&self) -> usize {
+        if self.follow { self.field.dim() } else { self.dim() }
+    }
+
     fn vectors(&self) -> Option<usize> {
         Some(self.field.dim())
     }
@@ -154,4 +168,59 @@ pub fn jacobian<F: Differentiable + ?Sized>(field: &F, u: &[f64]) -> Vec<f64> {
     let mut rates = vec![0.0; state.len()];
     Tangent::new(field, dim).eval(0.0, &state, &mut rates);
     rates.split_off(dim)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::steppers::KROGSTAD4;
+    use crate::{ExponentialOrbit, Integration, Scalar, StepControl};
+
+    /// `x' = x - x^3`, with `x` as its own rotation's size: vectors grow while it leaves 0.
+    struct Leaving;
+
+    impl System for Leaving {
+        fn dim(&self) -> usize {
+            1
+        }
+    }
+
+    impl<T: Scalar> VectorField<T> for Leaving {
+        fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+            du[0] = u[0] - u[0] * u[0] * u[0];
+        }
+    }
+
+    impl<T: Scalar> Semilinear<T> for Leaving {
+        fn linear(&self, lambda: &mut [T::Real]) {
+            lambda[0] = lambda[0].constant(1.0);
+        }
+
+        fn nonlinear(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+            du[0] = -(u[0] * u[0] * u[0]);
+        }
+    }
+
+    fn run(field: &impl Semilinear<f64>, start: &[f64]) -> (Vec<f64>, u64) {
+        let control = StepControl::Adaptive { rtol: 1e-8, atol: 1e-10 };
+        let mut orbit = ExponentialOrbit::new(field, &KROGSTAD4, control, 0.0, start).expect("a fair start");
+        while orbit.t() < 8.0 {
+            orbit.advance(8.0).expect("a smooth field");
+        }
+        (orbit.state().to_vec(), orbit.counters().steps)
+    }
+
+    /// Vectors that follow change no step of the orbit, and are the derivative `(1 + (x0^-2 - 1) e^-2t)^-3/2 x0^-3 e^-2t` all the same.
+    #[test]
+    fn vectors_that_follow_leave_the_orbit_its_steps() {
+        let x0 = 1e-2;
+        let alone = run(&Leaving, &[x0]);
+        let followed = run(&Tangent::following(&Leaving, 1), &[x0, 1.0]);
+        let guided = run(&Tangent::new(&Leaving, 1), &[x0, 1.0]);
+        assert_eq!((alone.0[0], alone.1), (followed.0[0], followed.1));
+        assert_ne!(alone.1, guided.1);
+        let fade = libm::exp(-16.0);
+        let exact = fade * libm::pow(x0, -3.0) * libm::pow(1.0 + (libm::pow(x0, -2.0) - 1.0) * fade, -1.5);
+        assert!((followed.0[1] / exact - 1.0).abs() < 1e-5, "{} {exact}", followed.0[1]);
+    }
 }

@@ -12,6 +12,7 @@ use super::{chaos, words};
 use crate::equilibrium::RelativeEquilibrium;
 use crate::isotropy::Isotropy;
 use crate::linear::norm;
+use crate::periodic::is_small;
 use crate::{Lyapunov, Result};
 use motiform_dynamics::{Equivariant, Outcome, Watch};
 
@@ -299,7 +300,8 @@ impl Search {
         self.again(body, watch)
     }
 
-    /// Twice as long, or the end of the budget.
+    /// Twice as long, or the end of the budget. In a large system, where model time costs most, looks do not grow while an exponent is
+    /// nearly decided: it is asked for a little more time, not for as much again.
     fn again<B: Equivariant + ?Sized>(&mut self, body: &B, watch: &dyn Watch) -> Result<Ask> {
         self.first = false;
         // An exponent that is nearly that of chaos gets more time, once: its error shrinks, the limit stays.
@@ -307,7 +309,12 @@ impl Search {
             self.extended = true;
             self.budget *= 2.0;
         }
-        self.span = (2.0 * self.span).min((self.budget - self.time).max(self.settings.first_look));
+        let longer = if !is_small(body.dim()) && chaos::is_near(&self.growth) {
+            self.span.min(NEARLY * self.settings.first_look)
+        } else {
+            2.0 * self.span
+        };
+        self.span = longer.min((self.budget - self.time).max(self.settings.first_look));
         if self.time < self.budget {
             return Ok(self.next());
         }
@@ -332,6 +339,9 @@ impl Search {
         Ok(verdict)
     }
 }
+
+/// Looks of a large system whose exponent is nearly decided last for so many first looks at most.
+const NEARLY: f64 = 8.0;
 
 /// An equilibrium this near (against the size of the shape) may be where the orbit goes.
 const CLOSE: f64 = 1e-3;

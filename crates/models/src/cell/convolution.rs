@@ -4,7 +4,7 @@ use super::MAX_MODES;
 use motiform_dynamics::{Row, Scalar};
 
 /// Most modes in short rows: rows of [`MAX_MODES`] take longer to clear than to sum.
-const SHORT: usize = 32;
+const SHORT: usize = 24;
 
 /// `N(u)` of one orbit into `du`, with the coefficients of `(phi_ss^2)_s` and `(phi_s^2)_s`.
 #[inline(always)]
