@@ -1,6 +1,7 @@
 //! How the period of an orbit grows towards a connection of a saddle with itself.
 
 use crate::RelativeEquilibrium;
+use crate::linear::solve;
 
 /// How the time `T` of an orbit grows with the parameter `p`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,7 +13,7 @@ pub enum PeriodLaw {
         /// The rate (inverse model time).
         rate: f64,
     },
-    /// `T = amplitude / |p - p0|`: at the connection growth and decay at the saddle are equal (a resonance).
+    /// `T = amplitude / |p - p0|` to leading order: at the connection growth and decay at the saddle are equal (a resonance).
     Resonant {
         /// The amplitude.
         amplitude: f64,
@@ -72,7 +73,7 @@ const AGREE: f64 = 0.02;
 const NEAR: f64 = 1e-8;
 
 /// A resonant connection is recognised where the time has grown by this factor.
-const GROWN: f64 = 8.0;
+const GROWN: f64 = 2.0;
 
 impl Periods {
     /// A point of the branch: the time with its derivative along the branch, and the same of the parameter.
@@ -84,40 +85,59 @@ impl Periods {
         self.points.push((time.0, parameter.0, parameter.1 / time.1));
     }
 
-    /// The connection ahead, where one of the laws holds and little remains.
+    /// The connection ahead, where the logarithmic law holds and little remains.
     pub(super) fn connection(&self) -> Option<Connection> {
         let from = self.points.len().checked_sub(POINTS)?;
         let last = &self.points[from..];
-        let &(time, parameter, slope) = last.last()?;
-        let made = |law, remaining: f64| {
-            Some(Connection {
-                parameter: parameter + remaining,
-                remaining: remaining.abs(),
-                law,
-                saddle: None,
-            })
-        };
+        let &(_, parameter, slope) = last.last()?;
         // p - p0 = c exp(-rate T): ln|dp/dT| is linear in T
-        if let Some(rate) = exponent(last, |t| t)
-            && (slope / rate).abs() < NEAR * (1.0 + parameter.abs())
-        {
-            return made(PeriodLaw::Logarithmic { rate }, slope / rate);
-        }
-        // p - p0 = A/T: ln|dp/dT| is linear in ln T with slope -2
-        let power = exponent(last, libm::log)?;
-        let grown = time > GROWN * self.points.first()?.0;
-        if grown && (power - 2.0).abs() < AGREE {
-            return made(PeriodLaw::Resonant { amplitude: (slope * time * time).abs() }, slope * time);
-        }
-        None
+        let rate = exponent(last)?;
+        let remaining = slope / rate;
+        (remaining.abs() < NEAR * (1.0 + parameter.abs())).then(|| Connection {
+            parameter: parameter + remaining,
+            remaining: remaining.abs(),
+            law: PeriodLaw::Logarithmic { rate },
+            saddle: None,
+        })
+    }
+
+    /// The resonant connection ahead, for a branch whose flow cannot be resolved any further: at a resonance the distance to it falls so
+    /// slowly that a branch never comes near.
+    ///
+    /// `p = p0 + A/T + B/T^2 + C/T^3` through two points with their slopes; the points between them must lie on it.
+    pub(super) fn resonance(&self) -> Option<Connection> {
+        let apart = self.points.windows(2).rposition(|pair| pair[1].0 > 1.001 * pair[0].0)? + 1;
+        let last = self.points[apart];
+        let first = self.points.iter().position(|point| point.0 > last.0 / 1.6)?;
+        let tried = self.points.first()?.0 < last.0 / GROWN && apart - first >= POINTS;
+        let columns = |power: i32| {
+            let value = |t: f64| t.powi(-power);
+            let slope = |t: f64| -f64::from(power) * t.powi(-power - 1);
+            let (a, b) = (self.points[first].0, last.0);
+            vec![value(a), slope(a) * a, value(b), slope(b) * b]
+        };
+        let right = [self.points[first], last].map(|(t, p, q)| [p, q * t]).concat();
+        let fit =
+            solve(&[columns(0), columns(1), columns(2), columns(3)], &right, 1e-14).filter(|_| tried)?;
+        let at = |t: f64| fit[0] + (fit[1] + (fit[2] + fit[3] / t) / t) / t;
+        let remaining = fit[0] - last.1;
+        let fits =
+            self.points[first..apart].iter().all(|&(t, p, _)| (at(t) - p).abs() < 1e-3 * remaining.abs());
+        let tail = (fit[1] / last.0 + remaining).abs() < 0.3 * remaining.abs();
+        (fits && tail).then(|| Connection {
+            parameter: fit[0],
+            remaining: remaining.abs(),
+            law: PeriodLaw::Resonant { amplitude: fit[1].abs() },
+            saddle: None,
+        })
     }
 }
 
-/// `-d ln|dp/dT| / d g(T)`, where it is positive and the same over all pairs of neighbours.
-fn exponent(points: &[(f64, f64, f64)], g: fn(f64) -> f64) -> Option<f64> {
+/// `-d ln|dp/dT| / dT`, where it is positive and the same over all pairs of neighbours.
+fn exponent(points: &[(f64, f64, f64)]) -> Option<f64> {
     let between = |pair: &[(f64, f64, f64)]| {
         let [(t0, _, s0), (t1, _, s1)] = [pair[0], pair[1]];
-        if s0 * s1 > 0.0 { libm::log(s0 / s1) / (g(t1) - g(t0)) } else { f64::NAN }
+        if s0 * s1 > 0.0 { libm::log(s0 / s1) / (t1 - t0) } else { f64::NAN }
     };
     let all: Vec<f64> = points.windows(2).map(between).collect();
     let last = *all.last()?;

@@ -2,6 +2,7 @@
 
 use super::classes::Classes;
 use super::family::{Family, Neighbours};
+use super::graded::eigenvalues_of_product;
 use super::levels::Level;
 use super::point::Motion;
 use super::problem::{Failure, Linear, Problem};
@@ -9,14 +10,14 @@ use super::reduced_maps::reduced_maps;
 use super::shooting::{Segment, segment, shape_after};
 use super::special::{Broken, Special};
 use crate::linear::{add, dot, norm};
-use crate::periodic::{Flow, back, multipliers};
+use crate::periodic::{Flow, back};
 use crate::symmetry::wrap;
 use crate::{PeriodicOrbit, RelativeEquilibrium};
 use motiform_dynamics::{Equivariant, VectorField, Watch};
 use nalgebra::DMatrix;
 
 /// Parts over which a deviation grows by more than this are halved.
-const GROWTH: f64 = 100.0;
+const GROWTH: f64 = 1000.0;
 
 /// Most parts of an orbit.
 const PARTS: usize = 64;
@@ -182,7 +183,10 @@ impl Problem for Orbits<'_> {
 
     fn levels(&self, x: &[f64], local: &Local) -> Option<Vec<Vec<Level>>> {
         let maps = reduced_maps(self, x, local);
-        maps.iter().map(|map| multipliers(map).map(|values| Level::of_multipliers(&values))).collect()
+        if maps.iter().flatten().any(|map| !map.is_square()) {
+            return None;
+        }
+        maps.iter().map(|maps| eigenvalues_of_product(maps).map(|v| Level::of_multipliers(&v))).collect()
     }
 
     fn classify(&self, _x: &[f64], critical: Level, class: usize) -> Special {
@@ -243,29 +247,26 @@ impl Problem for Orbits<'_> {
         Some(self.parts * self.dim)
     }
 
-    /// `T/(2 pi)` times the largest reduced rate, over the largest shape.
-    fn amplitude(&self, x: &[f64], local: &Local) -> Option<f64> {
-        let fastest = speeds(local).into_iter().fold(0.0, f64::max);
-        let time = x[self.parts * self.dim] * if self.mirrored { 2.0 } else { 1.0 };
-        Some(fastest * time / (std::f64::consts::TAU * self.size(x)))
+    fn swing(&self, local: &Local) -> Option<Vec<f64>> {
+        Some(reduced_rates(local).concat())
     }
 
     fn saddle(&self, x: &[f64], local: &Local) -> Option<RelativeEquilibrium> {
-        let speeds = speeds(local);
+        let speeds: Vec<f64> = reduced_rates(local).iter().map(|rate| norm(rate)).collect();
         let slowest = (0..self.parts).min_by(|&a, &b| speeds[a].total_cmp(&speeds[b]))?;
         RelativeEquilibrium::find(local.body.as_ref(), self.node(x, slowest))
     }
 }
 
-/// How fast the reduced shape changes at the nodes.
-fn speeds(local: &Local) -> Vec<f64> {
+/// The rates at the nodes without the rotation.
+fn reduced_rates(local: &Local) -> Vec<Vec<f64>> {
     let rest = |(rate, spin): (&Vec<f64>, &Vec<f64>)| {
         let size = dot(spin, spin);
         let mut rest = rate.clone();
         if size > 0.0 {
             add(&mut rest, -dot(rate, spin) / size, spin);
         }
-        norm(&rest)
+        rest
     };
     local.rates.iter().zip(&local.spins).map(rest).collect()
 }

@@ -1,6 +1,6 @@
 //! Pseudo-arclength continuation with step control, over any equations.
 
-use super::correct::{Corrected, correct, normal, null_vectors, product, scaled, tangent};
+use super::correct::{Corrected, correct, normal, null_vectors, product, scaled};
 use super::homoclinic::Periods;
 use super::levels::{Level, unstable};
 use super::locate::locate;
@@ -8,6 +8,7 @@ use super::point::{End, Obstruction, Point};
 use super::problem::{Failure, Problem};
 use super::settings::Settings;
 use super::special::Special;
+use crate::linear::dot;
 use motiform_dynamics::Watch;
 use std::collections::VecDeque;
 
@@ -19,9 +20,6 @@ const CORRECTION: f64 = 3e-3;
 
 /// Least cosine of the angle between successive tangents.
 const STRAIGHT: f64 = 0.9;
-
-/// An orbit of smaller amplitude counts as an equilibrium.
-const FLAT: f64 = 3e-3;
 
 /// A solution with all that is known there.
 pub(super) struct Place<L> {
@@ -49,10 +47,12 @@ pub(super) fn place<P: Problem>(
     row: &[f64],
     arclength: f64,
 ) -> Result<Place<P::Local>, Failure> {
-    let Corrected { x, local, .. } = found;
-    let weights = problem.weights(&x);
+    let Corrected { x, local, direction, .. } = found;
     let broken = || Failure::Obstructed(Obstruction::Singular);
-    let tangent = tangent(problem.linear(&local), row, &weights).ok_or_else(broken)?;
+    let mut tangent = scaled(direction, &problem.weights(&x)).ok_or_else(broken)?;
+    if dot(row, &tangent) < 0.0 {
+        tangent.iter_mut().for_each(|t| *t = -*t);
+    }
     let levels = problem.levels(&x, &local).ok_or_else(broken)?;
     Ok(Place { x, local, tangent, levels, arclength })
 }
@@ -67,8 +67,6 @@ pub(super) struct Tracer<P: Problem> {
     count: usize,
     end: Option<End>,
     periods: Periods,
-    /// Amplitude of the last two points.
-    amplitudes: [Option<(f64, f64)>; 2],
 }
 
 impl<P: Problem> Tracer<P> {
@@ -123,7 +121,6 @@ impl<P: Problem> Tracer<P> {
             count: 0,
             end: None,
             periods: Periods::default(),
-            amplitudes: [None; 2],
         };
         let first = tracer.point(&tracer.place, None);
         tracer.queue.push_back(first);
@@ -165,7 +162,7 @@ impl<P: Problem> Tracer<P> {
             return None;
         }
         if let Err(end) = self.advance(watch) {
-            self.end = Some(end);
+            self.end = Some(self.explained(end));
         }
         self.next(watch)
     }
@@ -185,10 +182,14 @@ impl<P: Problem> Tracer<P> {
             if self.place.parameter() == edge {
                 return Err(End::RangeLeft);
             }
-            (new, length) = self.edge(new, edge, watch)?;
+            (new, length) = self.edge(&new, edge, watch)?;
         }
         self.check(&new)?;
-        for (at, special) in locate(&self.problem, &self.place, &new, length, watch) {
+        let found = locate(&self.problem, &self.place, &new, length, watch);
+        if let Some(end) = self.shrinks(&new, &found) {
+            return Err(end);
+        }
+        for (at, special) in found {
             let point = self.point(&at, Some(special));
             self.queue.push_back(point);
         }
@@ -236,7 +237,7 @@ impl<P: Problem> Tracer<P> {
     /// The solution between the present one and `beyond` whose parameter is `edge`.
     fn edge(
         &self,
-        beyond: Place<P::Local>,
+        beyond: &Place<P::Local>,
         edge: f64,
         watch: &dyn Watch,
     ) -> Result<(Place<P::Local>, f64), End> {
@@ -269,6 +270,26 @@ impl<P: Problem> Tracer<P> {
         if size > self.settings.largest_size { Err(End::BlowUp { size }) } else { Ok(()) }
     }
 
+    /// The reason behind the end of the computation, where the growth of the period says more.
+    fn explained(&self, end: End) -> End {
+        if !matches!(end, End::StepUnderflow { .. } | End::PeriodLimit { .. }) {
+            return end;
+        }
+        let saddle = || self.problem.saddle(&self.place.x, &self.place.local);
+        self.periods.resonance().map_or(end, |found| End::Homoclinic(Box::new(found.through(saddle()))))
+    }
+
+    /// Whether the orbits shrink to an equilibrium before `new`. The parameter has an extreme value there, as at a fold.
+    fn shrinks(&self, new: &Place<P::Local>, found: &[(Place<P::Local>, Special)]) -> Option<End> {
+        let (before, now) = (self.problem.swing(&self.place.local)?, self.problem.swing(&new.local)?);
+        if dot(&before, &now) >= 0.0 {
+            return None;
+        }
+        let at = found.iter().find(|(_, special)| *special == Special::Fold).map_or(new, |(at, _)| at);
+        let time = self.problem.time()?;
+        Some(End::Shrinks { parameter: at.parameter(), time: at.x[time] })
+    }
+
     /// Whether the branch of orbits ends at the present place.
     fn ends(&mut self) -> Result<(), End> {
         let Some(time) = self.problem.time().map(|place| (self.place.x[place], self.place.tangent[place]))
@@ -276,16 +297,6 @@ impl<P: Problem> Tracer<P> {
             return Ok(());
         };
         let parameter = self.place.parameter();
-        let amplitude = self.problem.amplitude(&self.place.x, &self.place.local);
-        self.amplitudes = [self.amplitudes[1], amplitude.map(|a| (a, parameter))];
-        if let [Some((before, p)), Some((now, q))] = self.amplitudes
-            && now < FLAT
-            && now < before
-        {
-            // the parameter is quadratic in the amplitude
-            let parameter = q + (q - p) * now * now / (before * before - now * now);
-            return Err(End::Shrinks { parameter, period: time.0 });
-        }
         self.periods.push(time, (parameter, self.place.slope()));
         if let Some(connection) = self.periods.connection() {
             let saddle = self.problem.saddle(&self.place.x, &self.place.local);
