@@ -71,7 +71,7 @@ impl Rows {
                 continue;
             }
             let factor = row[column] / above[column];
-            *row_end = (*row_end).max(self_end(end, dim));
+            *row_end = (*row_end).max(end.min(dim.saturating_sub(TAIL)));
             for range in [column + 1..end, tail..width] {
                 for (to, from) in row[range.clone()].iter_mut().zip(&above[range]) {
                     *to -= factor * from;
@@ -90,11 +90,6 @@ impl Rows {
         }
         x
     }
-}
-
-/// An end within the part before the tail.
-fn self_end(end: usize, dim: usize) -> usize {
-    end.min(dim.saturating_sub(TAIL))
 }
 
 #[cfg(test)]

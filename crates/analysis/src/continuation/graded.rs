@@ -62,14 +62,14 @@ mod tests {
     fn every_eigenvalue_keeps_its_digits() {
         // similar to diag(1e9, -3, 2, 1e-9) over each factor, by a rotation of the four axes
         let (sin, cos) = (0.6, 0.8);
-        let mut turn = DMatrix::identity(4, 4);
+        let mut turn: DMatrix<f64> = DMatrix::identity(4, 4);
         for i in 0..3 {
-            let mut plane = DMatrix::identity(4, 4);
+            let mut plane: DMatrix<f64> = DMatrix::identity(4, 4);
             plane[(i, i)] = cos;
             plane[(i, i + 1)] = -sin;
             plane[(i + 1, i)] = sin;
             plane[(i + 1, i + 1)] = cos;
-            turn *= plane;
+            turn *= &plane;
         }
         let shear = DMatrix::from_fn(4, 4, |i, j| {
             if i == j {
@@ -80,7 +80,7 @@ mod tests {
                 0.0
             }
         });
-        let to = &turn * shear;
+        let to: DMatrix<f64> = &turn * shear;
         let from = to.clone().try_inverse().expect("it is well conditioned");
         let diagonal = DMatrix::from_diagonal(&nalgebra::DVector::from_vec(vec![1e9, -3.0, 2.0, 1e-3]));
         // in separate factors no digits are lost

@@ -30,6 +30,7 @@ mod hopf;
 mod levels;
 mod locate;
 mod orbits;
+mod place;
 mod point;
 mod problem;
 mod reduced_maps;

@@ -72,49 +72,58 @@ impl Orbits<'_> {
     }
 
     fn fill(&self, x: &[f64], local: &Local) -> Linear {
-        let (dim, parts) = (self.dim, self.parts);
-        let (time, unknowns) = (parts * dim, self.unknowns());
-        let mut matrix = DMatrix::zeros(unknowns - 1, unknowns);
-        let mut residual = vec![0.0; unknowns - 1];
-        let body = local.body.as_ref();
+        let unknowns = self.unknowns();
+        let matrix = DMatrix::zeros(unknowns - 1, unknowns);
+        let mut linear = Linear { residual: vec![0.0; unknowns - 1], matrix };
         for (i, segment) in local.segments.iter().enumerate() {
-            let (last, rows) = (i + 1 == parts, i * dim);
-            let next = (i + 1) % parts;
-            let brought = |v: &[f64]| {
-                let mut v = v.to_vec();
-                if last {
-                    back(body, self.angle(x), self.mirrored, &mut v);
-                }
-                v
-            };
-            let mut put = |column: usize, factor: f64, v: &[f64]| {
-                for (k, value) in v.iter().enumerate() {
-                    matrix[(rows + k, column)] += factor * value;
-                }
-            };
-            for (j, column) in segment.tangents.chunks_exact(dim).enumerate() {
-                put(i * dim + j, 1.0, &brought(column));
-            }
-            put(time, 1.0 / parts as f64, &brought(&segment.slope));
-            if last && self.turns {
-                let mut spin = vec![0.0; dim];
-                body.spin(&segment.end, &mut spin);
-                put(time + 1, -1.0, &brought(&spin));
-            }
-            put(unknowns - 1, 1.0, &brought(&segment.by_parameter));
-            for k in 0..dim {
-                matrix[(rows + k, next * dim + k)] -= 1.0;
-            }
-            let mut rest = brought(&segment.end);
-            add(&mut rest, -1.0, self.node(x, next));
-            residual[rows..rows + dim].copy_from_slice(&rest);
+            self.fill_part(x, local.body.as_ref(), (i, segment), &mut linear);
         }
         for (row, direction) in self.neutral(local).iter().enumerate() {
             for (j, value) in direction.iter().enumerate() {
-                matrix[(time + row, j)] = *value;
+                linear.matrix[(self.parts * self.dim + row, j)] = *value;
             }
         }
-        Linear { residual, matrix }
+        linear
+    }
+
+    /// The equations of one part.
+    fn fill_part(
+        &self,
+        x: &[f64],
+        body: &dyn Equivariant,
+        (i, segment): (usize, &Segment),
+        linear: &mut Linear,
+    ) {
+        let (dim, time, rows) = (self.dim, self.parts * self.dim, i * self.dim);
+        let (last, next) = (i + 1 == self.parts, (i + 1) % self.parts);
+        let brought = |v: &[f64]| {
+            let mut v = v.to_vec();
+            if last {
+                back(body, self.angle(x), self.mirrored, &mut v);
+            }
+            v
+        };
+        let mut put = |column: usize, factor: f64, v: &[f64]| {
+            for (k, value) in v.iter().enumerate() {
+                linear.matrix[(rows + k, column)] += factor * value;
+            }
+        };
+        for (j, column) in segment.tangents.chunks_exact(dim).enumerate() {
+            put(i * dim + j, 1.0, &brought(column));
+        }
+        put(time, 1.0 / self.parts as f64, &brought(&segment.slope));
+        if last && self.turns {
+            let mut spin = vec![0.0; dim];
+            body.spin(&segment.end, &mut spin);
+            put(time + 1, -1.0, &brought(&spin));
+        }
+        put(self.unknowns() - 1, 1.0, &brought(&segment.by_parameter));
+        for k in 0..dim {
+            linear.matrix[(rows + k, next * dim + k)] -= 1.0;
+        }
+        let mut rest = brought(&segment.end);
+        add(&mut rest, -1.0, self.node(x, next));
+        linear.residual[rows..rows + dim].copy_from_slice(&rest);
     }
 
     /// The neutral directions of all nodes together, orthonormal: the rotation, then time.

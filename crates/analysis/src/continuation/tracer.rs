@@ -1,9 +1,10 @@
 //! Pseudo-arclength continuation with step control, over any equations.
 
-use super::correct::{Corrected, correct, normal, null_vectors, product, scaled};
+use super::correct::{correct, normal, null_vectors, product, scaled};
 use super::homoclinic::Periods;
-use super::levels::{Level, unstable};
+use super::levels::unstable;
 use super::locate::locate;
+use super::place::{Place, place};
 use super::point::{End, Obstruction, Point};
 use super::problem::{Failure, Problem};
 use super::settings::Settings;
@@ -15,53 +16,20 @@ use std::collections::VecDeque;
 /// Newton's method has converged with a step shorter than this.
 pub(super) const TOLERANCE: f64 = 1e-9;
 
-/// Length of the first correction that the step is chosen for: the second is about its square.
-const CORRECTION: f64 = 3e-3;
+/// Length of the first correction that the step is chosen for: the second is about its square. The first grows with the third power of
+/// the step.
+const CORRECTION: f64 = 1e-3;
 
 /// Least cosine of the angle between successive tangents.
 const STRAIGHT: f64 = 0.9;
-
-/// A solution with all that is known there.
-pub(super) struct Place<L> {
-    pub(super) x: Vec<f64>,
-    pub(super) local: L,
-    pub(super) tangent: Vec<f64>,
-    pub(super) levels: Vec<Vec<Level>>,
-    pub(super) arclength: f64,
-}
-
-impl<L> Place<L> {
-    pub(super) fn parameter(&self) -> f64 {
-        self.x.last().copied().unwrap_or(f64::NAN)
-    }
-
-    pub(super) fn slope(&self) -> f64 {
-        self.tangent.last().copied().unwrap_or(f64::NAN)
-    }
-}
-
-/// A solution, with its tangent on the side of `row`.
-pub(super) fn place<P: Problem>(
-    problem: &P,
-    found: Corrected<P::Local>,
-    row: &[f64],
-    arclength: f64,
-) -> Result<Place<P::Local>, Failure> {
-    let Corrected { x, local, direction, .. } = found;
-    let broken = || Failure::Obstructed(Obstruction::Singular);
-    let mut tangent = scaled(direction, &problem.weights(&x)).ok_or_else(broken)?;
-    if dot(row, &tangent) < 0.0 {
-        tangent.iter_mut().for_each(|t| *t = -*t);
-    }
-    let levels = problem.levels(&x, &local).ok_or_else(broken)?;
-    Ok(Place { x, local, tangent, levels, arclength })
-}
 
 /// A branch being followed.
 pub(super) struct Tracer<P: Problem> {
     problem: P,
     settings: Settings,
     place: Place<P::Local>,
+    /// The place before, and its tangent.
+    before: Option<(Vec<f64>, Vec<f64>)>,
     step: f64,
     queue: VecDeque<Point>,
     count: usize,
@@ -116,6 +84,7 @@ impl<P: Problem> Tracer<P> {
             problem,
             settings: *settings,
             place,
+            before: None,
             step: settings.first_step.abs().min(settings.largest_step),
             queue: VecDeque::new(),
             count: 0,
@@ -195,7 +164,8 @@ impl<P: Problem> Tracer<P> {
         }
         let point = self.point(&new, None);
         self.queue.push_back(point);
-        self.place = new;
+        let old = std::mem::replace(&mut self.place, new);
+        self.before = Some((old.x, old.tangent));
         if left { Err(End::RangeLeft) } else { self.ends() }
     }
 
@@ -205,7 +175,7 @@ impl<P: Problem> Tracer<P> {
             let length = self.step;
             let why = match self.attempt(length, watch) {
                 Ok((place, first)) => {
-                    let factor = (CORRECTION / first.max(1e-12)).sqrt().clamp(0.4, 1.6);
+                    let factor = libm::cbrt(CORRECTION / first.max(1e-12)).clamp(0.4, 1.5);
                     self.step =
                         (length * factor).clamp(self.settings.smallest_step, self.settings.largest_step);
                     return Ok((place, length));
@@ -224,7 +194,7 @@ impl<P: Problem> Tracer<P> {
         let old = &self.place;
         let weights = self.problem.weights(&old.x);
         let row = normal(&old.tangent, &weights);
-        let guess = old.x.iter().zip(&old.tangent).map(|(x, t)| x + length * t).collect();
+        let guess = self.guess(length, &weights);
         let found = correct(&self.problem, guess, &row, TOLERANCE, watch)?;
         let first = found.first;
         let new = place(&self.problem, found, &row, old.arclength + length)?;
@@ -232,6 +202,24 @@ impl<P: Problem> Tracer<P> {
             return Err(Failure::Obstructed(Obstruction::Newton));
         }
         Ok((new, first))
+    }
+
+    /// The place expected after `length`: the tangent turns on as it did on the last step. (A cubic through the last two places would
+    /// be closer, but Newton's steps leave what it says along the neutral directions as it is, and its errors there would grow.)
+    fn guess(&self, length: f64, weights: &[f64]) -> Vec<f64> {
+        let Place { x, tangent, .. } = &self.place;
+        let mut guess: Vec<f64> = x.iter().zip(tangent).map(|(x, t)| x + length * t).collect();
+        if let Some((before, slope)) = &self.before {
+            let moved: Vec<f64> = x.iter().zip(before).map(|(a, b)| a - b).collect();
+            let (gone, turned) = (product(weights, tangent, &moved), product(weights, tangent, slope));
+            if length < 2.0 * gone && turned > STRAIGHT {
+                let bend = 0.5 * length * length / gone;
+                for (i, value) in guess.iter_mut().enumerate() {
+                    *value += bend * (tangent[i] - slope[i] / turned);
+                }
+            }
+        }
+        guess
     }
 
     /// The solution between the present one and `beyond` whose parameter is `edge`.
@@ -322,6 +310,7 @@ impl<P: Problem> Tracer<P> {
             && let Ok(place) = place(&self.problem, found, &row, self.place.arclength)
         {
             self.place = place;
+            self.before = None;
         }
     }
 
