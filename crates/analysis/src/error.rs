@@ -111,6 +111,36 @@ pub enum Error {
         /// Largest distance that is small against the whole.
         largest: f64,
     },
+    /// A family has no body for a value of its parameter.
+    #[error("there is no body for the parameter value {value}: {why}; choose a range without it")]
+    NoBody {
+        /// The value.
+        value: f64,
+        /// The reason.
+        why: String,
+    },
+    /// A branch cannot start outside its range.
+    #[error("the start {start} lies outside the range {low} to {high}; give a range that holds it")]
+    OutsideRange {
+        /// Parameter of the start.
+        start: f64,
+        /// Beginning of the range.
+        low: f64,
+        /// End of the range.
+        high: f64,
+    },
+    /// The start of a branch is no solution of its equations.
+    #[error(
+        "there is no {what} near the start at the parameter {parameter}: {why}; give a motion of this kind, closer to it"
+    )]
+    NotOnABranch {
+        /// What was expected.
+        what: &'static str,
+        /// Parameter of the start.
+        parameter: f64,
+        /// What went wrong.
+        why: String,
+    },
     /// The numerics refused an input.
     #[error(transparent)]
     Dynamics(#[from] motiform_dynamics::Error),

@@ -5,6 +5,7 @@
 //! spectra, means with errors, legs, rests, returns, escapes.
 
 mod checks;
+pub mod continuation;
 pub mod equilibrium;
 mod error;
 mod escape;

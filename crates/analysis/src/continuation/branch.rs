@@ -1,0 +1,172 @@
+//! A branch as its users see it: an iterator over points.
+
+use super::classes::Classes;
+use super::equilibria::Equilibria;
+use super::family::Family;
+use super::orbits::Orbits;
+use super::point::{End, Point};
+use super::problem::Failure;
+use super::settings::Settings;
+use super::shooting::shape_after;
+use super::tracer::Tracer;
+use crate::linear::norm;
+use crate::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
+use motiform_dynamics::Watch;
+
+/// Parts of an orbit to begin with; more where it amplifies deviations.
+const PARTS: usize = 4;
+
+/// A branch of motions: an iterator over its points, special ones among them. Same start, same settings: same bits.
+///
+/// ```
+/// use motiform_analysis::RelativeEquilibrium;
+/// use motiform_analysis::continuation::{Branch, Settings, Special};
+/// use motiform_dynamics::Equivariant;
+/// use motiform_models::zoo::Hopf;
+///
+/// // z' = (mu + 2i) z - |z|^2 z: the rest loses its stability at mu = 0, and a stable oscillation begins.
+/// let family = |mu: f64| Ok(Box::new(Hopf { mu, omega: 2.0 }) as Box<dyn Equivariant>);
+/// let rest = RelativeEquilibrium::find(&Hopf { mu: -0.5, omega: 2.0 }, &[0.1, 0.0]).expect("it is stable");
+/// let mut branch = Branch::of_equilibria(&family, -0.5, &rest, &Settings::over(-0.5, 0.5), &())?;
+/// let special = branch.by_ref().find_map(|point| Some((point.parameter, point.special?))).expect("a Hopf bifurcation");
+/// assert!(special.0.abs() < 1e-8);
+/// let Special::Hopf(hopf) = special.1 else { unreachable!() };
+/// assert!((hopf.frequency - 2.0).abs() < 1e-9 && hopf.is_supercritical() == Some(true));
+/// # Ok::<(), motiform_analysis::Error>(())
+/// ```
+pub struct Branch<'f> {
+    kind: Kind<'f>,
+    watch: &'f dyn Watch,
+}
+
+enum Kind<'f> {
+    Equilibria(Box<Tracer<Equilibria<'f>>>),
+    Orbits(Box<Tracer<Orbits<'f>>>),
+}
+
+impl<'f> Branch<'f> {
+    /// The branch of relative equilibria through `start`, a solution for the parameter `parameter`. The first point is the start.
+    ///
+    /// # Errors
+    /// Settings out of range; [`Error::OutsideRange`]; [`Error::NotOnABranch`] if the start is no such motion of this family;
+    /// [`Error::NoBody`].
+    pub fn of_equilibria(
+        family: &'f dyn Family,
+        parameter: f64,
+        start: &RelativeEquilibrium,
+        settings: &Settings,
+        watch: &'f dyn Watch,
+    ) -> Result<Self> {
+        settings.check(parameter)?;
+        check_dim(family, parameter, &start.shape)?;
+        let problem = Equilibria::near(family, parameter, &start.shape, settings.width())?;
+        let mut x = start.shape.clone();
+        x.extend([start.turning_rate, parameter]);
+        let tracer = Tracer::start(problem, x, settings, watch)
+            .map_err(|f| refused("relative equilibrium", parameter, f))?;
+        Ok(Self { kind: Kind::Equilibria(Box::new(tracer)), watch })
+    }
+
+    /// The branch of relative periodic orbits through `start`, a solution for the parameter `parameter`. The first point is the
+    /// start. An orbit that comes back mirrored ([`PeriodicOrbit::mirrored`]) is followed over half its period.
+    ///
+    /// # Errors
+    /// As [`Branch::of_equilibria`].
+    pub fn of_orbits(
+        family: &'f dyn Family,
+        parameter: f64,
+        start: &PeriodicOrbit,
+        settings: &Settings,
+        watch: &'f dyn Watch,
+    ) -> Result<Self> {
+        settings.check(parameter)?;
+        check_dim(family, parameter, &start.shape)?;
+        let refused = |failure| refused("relative periodic orbit", parameter, failure);
+        let (problem, x) = shoot(family, parameter, start, settings, watch).map_err(refused)?;
+        let tracer = Tracer::start(problem, x, settings, watch).map_err(refused)?;
+        Ok(Self { kind: Kind::Orbits(Box::new(tracer)), watch })
+    }
+
+    pub(super) fn equilibria(tracer: Tracer<Equilibria<'f>>, watch: &'f dyn Watch) -> Self {
+        Self { kind: Kind::Equilibria(Box::new(tracer)), watch }
+    }
+
+    pub(super) fn orbits(tracer: Tracer<Orbits<'f>>, watch: &'f dyn Watch) -> Self {
+        Self { kind: Kind::Orbits(Box::new(tracer)), watch }
+    }
+
+    /// Why the branch ended; `None` while it goes on.
+    #[must_use]
+    pub fn end(&self) -> Option<&End> {
+        match &self.kind {
+            Kind::Equilibria(tracer) => tracer.end(),
+            Kind::Orbits(tracer) => tracer.end(),
+        }
+    }
+}
+
+impl Iterator for Branch<'_> {
+    type Item = Point;
+
+    fn next(&mut self) -> Option<Point> {
+        match &mut self.kind {
+            Kind::Equilibria(tracer) => tracer.next(self.watch),
+            Kind::Orbits(tracer) => tracer.next(self.watch),
+        }
+    }
+}
+
+fn check_dim(family: &dyn Family, parameter: f64, shape: &[f64]) -> Result<()> {
+    let expected = family.at(parameter)?.dim();
+    let got = shape.len();
+    if got == expected { Ok(()) } else { Err(Error::Shape { what: "the shape of the start", expected, got }) }
+}
+
+fn refused(what: &'static str, parameter: f64, failure: Failure) -> Error {
+    let why = match failure {
+        Failure::Stopped => "stopped from outside".to_owned(),
+        Failure::Obstructed(obstruction) => obstruction.to_string(),
+    };
+    Error::NotOnABranch { what, parameter, why }
+}
+
+/// Nodes along an orbit. A mirrored one is turned so that its image is `M u`, without rotation.
+fn shoot<'f>(
+    family: &'f dyn Family,
+    parameter: f64,
+    start: &PeriodicOrbit,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> std::result::Result<(Orbits<'f>, Vec<f64>), Failure> {
+    let body = family.at(parameter)?;
+    let mut node = start.shape.clone();
+    if start.mirrored {
+        body.rotate(-0.5 * start.angle, &mut node);
+    }
+    let span = start.time / PARTS as f64;
+    let mut nodes = vec![node];
+    for _ in 1..PARTS {
+        let last = nodes.last().map_or(&[][..], Vec::as_slice);
+        let next = shape_after(body.as_ref(), last, span, &settings.flow, watch)?;
+        nodes.push(next);
+    }
+    let shapes: Vec<&[f64]> = nodes.iter().map(Vec::as_slice).collect();
+    let problem = Orbits {
+        family,
+        flow: settings.flow,
+        classes: Classes::of(body.as_ref(), &shapes),
+        dim: start.shape.len(),
+        parts: PARTS,
+        mirrored: start.mirrored,
+        turns: body.is_symmetric() && !start.mirrored,
+        size: nodes.iter().map(|node| norm(node)).fold(0.0, f64::max),
+        width: settings.width(),
+    };
+    let mut x = nodes.concat();
+    x.push(start.time);
+    if problem.turns {
+        x.push(start.angle);
+    }
+    x.push(parameter);
+    Ok((problem, x))
+}

@@ -1,0 +1,123 @@
+//! The symmetry of a motion, and what it makes of deviations: even ones keep the mirror axis, odd ones do not.
+
+use crate::isotropy::Isotropy;
+use crate::linear::{add, basis, complement, dot, norm};
+use motiform_dynamics::Equivariant;
+use std::f64::consts::TAU;
+
+/// A mirror image counts as equal up to this part of the shape's size.
+const SAME: f64 = 1e-6;
+
+/// What all shapes of a branch have in common.
+#[derive(Clone, Debug)]
+pub(super) struct Classes {
+    /// Order of the rotations that leave the shapes unchanged.
+    folds: usize,
+    /// Whether every rotation leaves them unchanged.
+    pub(super) circle: bool,
+    /// The angle of `R(angle) M`, which leaves the shapes unchanged, if they have a mirror axis.
+    pub(super) axis: Option<f64>,
+    /// Orthonormal bases: even and odd deviations, or all of them.
+    pub(super) bases: Vec<Vec<Vec<f64>>>,
+}
+
+impl Classes {
+    /// The symmetry of the shapes `nodes`: that of all of them.
+    pub(super) fn of<B: Equivariant + ?Sized>(body: &B, nodes: &[&[f64]]) -> Self {
+        let Some(&first) = nodes.first() else { return Self::none(body.dim()) };
+        let Isotropy { mut folds, mut circle, mut mirror } = Isotropy::of(body, first, SAME);
+        for node in &nodes[1..] {
+            let other = Isotropy::of(body, node, SAME);
+            circle &= other.circle;
+            if other.folds != folds {
+                folds = 1;
+            }
+            mirror = mirror.filter(|&axis| {
+                let mut image = reflected(body, axis, node);
+                add(&mut image, -1.0, node);
+                norm(&image) <= SAME * norm(node)
+            });
+        }
+        let bases = match mirror {
+            Some(axis) => vec![half(body, axis, 1.0), half(body, axis, -1.0)],
+            None => Self::none(body.dim()).bases,
+        };
+        Self { folds, circle, axis: mirror, bases }
+    }
+
+    fn none(dim: usize) -> Self {
+        Self { folds: 1, circle: false, axis: None, bases: vec![complement(&[], dim)] }
+    }
+
+    /// Makes the symmetry of a shape exact.
+    pub(super) fn tidy<B: Equivariant + ?Sized>(&self, body: &B, shape: &mut [f64]) {
+        if let Some(axis) = self.axis {
+            let image = reflected(body, axis, shape);
+            shape.iter_mut().for_each(|x| *x *= 0.5);
+            add(shape, 0.5, &image);
+        }
+        if self.folds > 1 {
+            let mean = self.mean(body, shape);
+            shape.copy_from_slice(&mean);
+        }
+    }
+
+    /// Whether a deviation breaks rotations of the shape.
+    pub(super) fn breaks_rotations<B: Equivariant + ?Sized>(&self, body: &B, deviation: &[f64]) -> bool {
+        if self.circle {
+            return true;
+        }
+        let mut rest = self.mean(body, deviation);
+        add(&mut rest, -1.0, deviation);
+        norm(&rest) > 1e-3 * norm(deviation)
+    }
+
+    /// Bases of the classes without the directions `neutral`, which are orthonormal and lie within the classes.
+    pub(super) fn without(&self, neutral: &[Vec<f64>]) -> Vec<Vec<Vec<f64>>> {
+        let free = |class: &Vec<Vec<f64>>| {
+            let project = |direction: &Vec<f64>| {
+                let mut out = direction.clone();
+                for fixed in neutral {
+                    let along = dot(fixed, &out);
+                    add(&mut out, -along, fixed);
+                }
+                out
+            };
+            let images: Vec<Vec<f64>> = class.iter().map(project).filter(|x| norm(x) > 1e-5).collect();
+            basis(&images.iter().map(Vec::as_slice).collect::<Vec<_>>(), 1e-5)
+        };
+        self.bases.iter().map(free).collect()
+    }
+
+    /// The mean over the rotations that leave the shape unchanged.
+    fn mean<B: Equivariant + ?Sized>(&self, body: &B, x: &[f64]) -> Vec<f64> {
+        let mut sum = vec![0.0; x.len()];
+        for k in 0..self.folds {
+            let mut turned = x.to_vec();
+            body.rotate(TAU * k as f64 / self.folds as f64, &mut turned);
+            add(&mut sum, 1.0 / self.folds as f64, &turned);
+        }
+        sum
+    }
+}
+
+/// `R(axis) M shape`.
+fn reflected<B: Equivariant + ?Sized>(body: &B, axis: f64, shape: &[f64]) -> Vec<f64> {
+    let mut image = shape.to_vec();
+    body.mirror(&mut image);
+    body.rotate(axis, &mut image);
+    image
+}
+
+/// An orthonormal basis of the deviations with `R(axis) M x = sign x`.
+fn half<B: Equivariant + ?Sized>(body: &B, axis: f64, sign: f64) -> Vec<Vec<f64>> {
+    let part = |unit: &Vec<f64>| {
+        let mut out = reflected(body, axis, unit);
+        out.iter_mut().for_each(|x| *x *= 0.5 * sign);
+        add(&mut out, 0.5, unit);
+        out
+    };
+    let images: Vec<Vec<f64>> =
+        complement(&[], body.dim()).iter().map(part).filter(|x| norm(x) > 1e-6).collect();
+    basis(&images.iter().map(Vec::as_slice).collect::<Vec<_>>(), 1e-6)
+}

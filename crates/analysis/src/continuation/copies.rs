@@ -1,0 +1,90 @@
+//! Whether two motions are the same up to the symmetry and time.
+
+use super::point::Motion;
+use super::shooting::shape_after;
+use crate::linear::norm;
+use crate::periodic::Flow;
+use crate::symmetry::align;
+use crate::{PeriodicOrbit, RelativeEquilibrium};
+use motiform_dynamics::Equivariant;
+
+/// Places along an orbit at which it is compared.
+const PLACES: usize = 200;
+
+/// Whether two motions of one body are images of each other under rotations, the mirror and shifts of time, up to the part
+/// `tolerance` of their size.
+///
+/// # Checked by  tests/continuation.rs: copies of one orbit, and different ones of the same period
+#[must_use]
+pub fn same_motion(body: &dyn Equivariant, a: &Motion, b: &Motion, flow: &Flow, tolerance: f64) -> bool {
+    match (a, b) {
+        (Motion::Equilibrium(a), Motion::Equilibrium(b)) => same_shape(body, a, b, tolerance),
+        (Motion::Orbit { orbit: a, .. }, Motion::Orbit { orbit: b, .. }) => {
+            same_orbit(body, a, b, flow, tolerance)
+        }
+        _ => false,
+    }
+}
+
+fn same_shape(
+    body: &dyn Equivariant,
+    a: &RelativeEquilibrium,
+    b: &RelativeEquilibrium,
+    tolerance: f64,
+) -> bool {
+    distance(body, &a.shape, &b.shape) <= tolerance * norm(&a.shape).max(norm(&b.shape)).max(1e-12)
+}
+
+/// Distance of two shapes up to rotations and the mirror.
+fn distance(body: &dyn Equivariant, a: &[f64], b: &[f64]) -> f64 {
+    align(body, a, b, false).distance.min(align(body, a, b, true).distance)
+}
+
+fn same_orbit(
+    body: &dyn Equivariant,
+    a: &PeriodicOrbit,
+    b: &PeriodicOrbit,
+    flow: &Flow,
+    tolerance: f64,
+) -> bool {
+    if (a.period() / b.period() - 1.0).abs() > tolerance {
+        return false;
+    }
+    let span = b.period() / PLACES as f64;
+    let mut shape = b.shape.clone();
+    let mut best = (f64::INFINITY, shape.clone());
+    let mut before = shape.clone();
+    for _ in 0..=PLACES {
+        let here = distance(body, &a.shape, &shape);
+        if here < best.0 {
+            best = (here, before.clone());
+        }
+        let Ok(next) = shape_after(body, &shape, span, flow, &()) else { return false };
+        before = std::mem::replace(&mut shape, next);
+    }
+    nearest(body, &a.shape, &best.1, 2.0 * span, flow) <= tolerance * norm(&a.shape)
+}
+
+/// Distance of `shape` from the stretch of orbit of length `span` from `start` on: the smallest of a function with one minimum, by
+/// golden sections.
+fn nearest(body: &dyn Equivariant, shape: &[f64], start: &[f64], span: f64, flow: &Flow) -> f64 {
+    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let at = |t: f64| {
+        shape_after(body, start, t, flow, &()).map_or(f64::INFINITY, |place| distance(body, shape, &place))
+    };
+    let (mut low, mut high) = (0.0, span);
+    let (mut a, mut b) = (high - golden * (high - low), low + golden * (high - low));
+    let (mut fa, mut fb) = (at(a), at(b));
+    for _ in 0..50 {
+        if fa < fb {
+            (high, b, fb) = (b, a, fa);
+            a = high - golden * (high - low);
+            fa = at(a);
+        } else {
+            (low, a, fa) = (a, b, fb);
+            b = low + golden * (high - low);
+            fb = at(b);
+        }
+    }
+    fa.min(fb)
+}

@@ -1,0 +1,95 @@
+//! Newton's method in a plane across a branch, and the directions of branches.
+
+use super::elimination::newton_step;
+use super::point::Obstruction;
+use super::problem::{Failure, Linear, Problem};
+use motiform_dynamics::Watch;
+
+/// Steps that Newton's method may take.
+const STEPS: usize = 10;
+
+/// A solution, and how it was reached.
+pub(super) struct Corrected<L> {
+    /// The unknowns.
+    pub(super) x: Vec<f64>,
+    /// What was computed beside them: one Newton step, shorter than the tolerance, lies between.
+    pub(super) local: L,
+    /// Length of the first step.
+    pub(super) first: f64,
+    /// A direction of the branch there, on the side of the plane's normal.
+    pub(super) direction: Vec<f64>,
+}
+
+/// `sum_i weight_i a_i b_i`.
+pub(super) fn product(weights: &[f64], a: &[f64], b: &[f64]) -> f64 {
+    weights.iter().zip(a).zip(b).map(|((w, x), y)| w * x * y).sum()
+}
+
+/// The solution near `guess` in the plane through it that is normal to `row`. Has converged with the first step shorter than
+/// `tolerance`, or where round-off stops the progress not far above it.
+pub(super) fn correct<P: Problem>(
+    problem: &P,
+    guess: Vec<f64>,
+    row: &[f64],
+    tolerance: f64,
+    watch: &dyn Watch,
+) -> Result<Corrected<P::Local>, Failure> {
+    let weights = problem.weights(&guess);
+    let mut x = guess;
+    let (mut first, mut last) = (f64::INFINITY, f64::INFINITY);
+    for count in 0..STEPS {
+        if !problem.is_sound(&x) {
+            break;
+        }
+        let local = problem.local(&x, watch)?;
+        let (step, direction) = newton_step(problem.linear(&local), row).ok_or(SINGULAR)?;
+        let size = product(&weights, &step, &step).sqrt();
+        for (value, change) in x.iter_mut().zip(&step) {
+            *value += change;
+        }
+        if count == 0 {
+            first = size;
+        }
+        let stalled = size < 1e3 * tolerance && size > 0.1 * last;
+        if size <= tolerance || stalled {
+            problem.tidy(&mut x);
+            return Ok(Corrected { x, local, first, direction });
+        }
+        if !size.is_finite() || count >= 2 && size > 0.5 * last {
+            break;
+        }
+        last = size;
+    }
+    Err(Failure::Obstructed(Obstruction::Newton))
+}
+
+const SINGULAR: Failure = Failure::Obstructed(Obstruction::Singular);
+
+/// The vectors that the equations do not see to first order: those whose part in the equations is smaller than `least` of the
+/// largest, smallest first. There is one where a branch is alone.
+pub(super) fn null_vectors(linear: &Linear, least: f64, weights: &[f64]) -> Vec<Vec<f64>> {
+    let dim = linear.matrix.ncols();
+    let mut square = linear.matrix.clone().resize_vertically(dim, 0.0);
+    for (j, weight) in weights.iter().enumerate() {
+        square.column_mut(j).scale_mut(1.0 / weight.sqrt());
+    }
+    let Some(svd) = square.try_svd(false, true, f64::EPSILON, 10_000) else { return Vec::new() };
+    let Some(rows) = svd.v_t else { return Vec::new() };
+    let largest = svd.singular_values.max();
+    let mut order: Vec<usize> = (0..dim).filter(|&i| svd.singular_values[i] <= least * largest).collect();
+    order.sort_by(|&a, &b| svd.singular_values[a].total_cmp(&svd.singular_values[b]));
+    let unscaled = |&i: &usize| rows.row(i).iter().zip(weights).map(|(v, w)| v / w.sqrt()).collect();
+    order.iter().map(unscaled).collect()
+}
+
+/// The same direction with length 1.
+pub(super) fn scaled(mut direction: Vec<f64>, weights: &[f64]) -> Option<Vec<f64>> {
+    let length = product(weights, &direction, &direction).sqrt();
+    direction.iter_mut().for_each(|x| *x /= length);
+    direction.iter().all(|x| x.is_finite()).then_some(direction)
+}
+
+/// `weights_i direction_i`: the row whose plane is normal to a direction.
+pub(super) fn normal(direction: &[f64], weights: &[f64]) -> Vec<f64> {
+    direction.iter().zip(weights).map(|(x, w)| w * x).collect()
+}

@@ -1,0 +1,186 @@
+//! The equations of relative equilibria along a parameter.
+
+use super::classes::Classes;
+use super::family::{Family, Neighbours};
+use super::hopf::first_lyapunov;
+use super::levels::Level;
+use super::point::Motion;
+use super::problem::{Failure, Linear, Problem};
+use super::special::{Broken, Hopf, Special};
+use crate::RelativeEquilibrium;
+use crate::equilibrium::neutral_direction;
+use crate::linear::{add, apply, eigenvalues, norm, restrict};
+use motiform_dynamics::tangent::jacobian;
+use motiform_dynamics::{Equivariant, VectorField, Watch, model};
+use nalgebra::DMatrix;
+
+/// `f(u, p) - omega G u = 0` and `Gu . du = 0`; unknowns `(u, omega, p)`. Without a neutral direction (a circle, a system without
+/// symmetry) omega means nothing and is held instead.
+pub(super) struct Equilibria<'f> {
+    pub(super) family: &'f dyn Family,
+    pub(super) classes: Classes,
+    /// Length of the state.
+    pub(super) dim: usize,
+    /// Units of the shape and of the parameter.
+    pub(super) size: f64,
+    pub(super) width: f64,
+}
+
+/// The equations at one place.
+pub(super) struct Local {
+    pub(super) body: Box<dyn Equivariant>,
+    pub(super) linear: Linear,
+    /// `Df - omega G`, column by column.
+    pub(super) matrix: Vec<f64>,
+    pub(super) neutral: Vec<Vec<f64>>,
+}
+
+impl<'f> Equilibria<'f> {
+    /// The equations near a relative equilibrium, whose symmetry the branch keeps.
+    pub(super) fn near(
+        family: &'f dyn Family,
+        parameter: f64,
+        shape: &[f64],
+        width: f64,
+    ) -> Result<Self, crate::Error> {
+        let body = family.at(parameter)?;
+        let classes = Classes::of(body.as_ref(), &[shape]);
+        let size = norm(shape);
+        let size = if size > 1e-6 { size } else { 1.0 };
+        Ok(Self { family, classes, dim: shape.len(), size, width })
+    }
+}
+
+/// The columns of `Df - omega G`.
+fn linearisation(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> {
+    let mut matrix = jacobian(body, shape);
+    let dim = shape.len();
+    let (mut unit, mut spin) = (vec![0.0; dim], vec![0.0; dim]);
+    for (j, column) in matrix.chunks_exact_mut(dim).enumerate() {
+        unit[j] = 1.0;
+        body.spin(&unit, &mut spin); // the action is linear
+        unit[j] = 0.0;
+        add(column, -omega, &spin);
+    }
+    matrix
+}
+
+impl Problem for Equilibria<'_> {
+    type Local = Local;
+
+    fn local(&self, x: &[f64], _watch: &dyn Watch) -> Result<Local, Failure> {
+        let (dim, shape) = (self.dim, &x[..self.dim]);
+        let (omega, parameter) = (x[dim], x[dim + 1]);
+        let Neighbours { body, above, below, width } = Neighbours::of(self.family, parameter)?;
+        let mut spin = vec![0.0; dim];
+        body.spin(shape, &mut spin);
+        let matrix = linearisation(body.as_ref(), shape, omega);
+        let rate = |body: &dyn Equivariant| {
+            let mut rate = vec![0.0; dim];
+            VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
+            rate
+        };
+        let mut residual = rate(body.as_ref());
+        add(&mut residual, -omega, &spin);
+        let mut slope = rate(above.as_ref());
+        add(&mut slope, -1.0, &rate(below.as_ref()));
+        let mut all = DMatrix::zeros(dim + 1, dim + 2);
+        for i in 0..dim {
+            for j in 0..dim {
+                all[(i, j)] = matrix[j * dim + i];
+            }
+            all[(i, dim)] = -spin[i];
+            all[(i, dim + 1)] = slope[i] / width;
+        }
+        let neutral = neutral_direction(body.as_ref(), shape);
+        match neutral.first() {
+            Some(direction) => direction.iter().enumerate().for_each(|(j, g)| all[(dim, j)] = *g),
+            None => all[(dim, dim)] = 1.0,
+        }
+        residual.push(0.0);
+        Ok(Local { body, linear: Linear { residual, matrix: all }, matrix, neutral })
+    }
+
+    fn linear<'l>(&self, local: &'l Local) -> &'l Linear {
+        &local.linear
+    }
+
+    fn weights(&self, _x: &[f64]) -> Vec<f64> {
+        let mut weights = vec![1.0 / (self.size * self.size); self.dim];
+        weights.extend([1.0, 1.0 / (self.width * self.width)]);
+        weights
+    }
+
+    fn tidy(&self, x: &mut [f64]) {
+        let Ok(body) = self.family.at(x[self.dim + 1]) else { return };
+        self.classes.tidy(body.as_ref(), &mut x[..self.dim]);
+        if self.classes.axis.is_some() {
+            x[self.dim] = 0.0;
+        }
+    }
+
+    fn levels(&self, _x: &[f64], local: &Local) -> Option<Vec<Vec<Level>>> {
+        let classes = self.classes.without(&local.neutral);
+        let of = |class: &Vec<Vec<f64>>| {
+            eigenvalues(&restrict(class, |v| apply(&local.matrix, v))).map(|v| Level::of_eigenvalues(&v))
+        };
+        classes.iter().map(of).collect()
+    }
+
+    fn classify(&self, x: &[f64], critical: Level, class: usize) -> Special {
+        let Ok(local) = self.local(x, &()) else { return Special::BranchPoint };
+        if critical.angle != 0.0 {
+            let frequency = critical.angle.abs();
+            let first_lyapunov = first_lyapunov(local.body.as_ref(), &x[..self.dim], frequency);
+            return Special::Hopf(Hopf { frequency, first_lyapunov });
+        }
+        let body = local.body.as_ref();
+        let vector = self.critical_vector(&local, class);
+        match vector {
+            Some(v) if self.classes.breaks_rotations(body, &v) => {
+                Special::Pitchfork { breaks: Broken::Rotations }
+            }
+            _ if class == 1 => Special::Pitchfork { breaks: Broken::Mirror },
+            _ => Special::BranchPoint,
+        }
+    }
+
+    fn motion(&self, x: &[f64], local: &Local, levels: &[Vec<Level>]) -> Motion {
+        let shape = x[..self.dim].to_vec();
+        let mut eigenvalues: Vec<(f64, f64)> =
+            levels.iter().flatten().map(|level| (level.growth, level.angle)).collect();
+        eigenvalues.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1)));
+        let neutral = local.neutral.len();
+        Motion::Equilibrium(RelativeEquilibrium {
+            velocity: model::velocity(local.body.as_ref(), &shape),
+            turning_rate: if neutral == 0 { 0.0 } else { x[self.dim] },
+            residual: norm(&local.linear.residual),
+            eigenvalues,
+            neutral,
+            scale: local.matrix.iter().fold(0.0, |m: f64, a| m.max(a.abs())),
+            shape,
+        })
+    }
+
+    fn size(&self, x: &[f64]) -> f64 {
+        norm(&x[..self.dim])
+    }
+}
+
+impl Equilibria<'_> {
+    /// The direction of class `class` that neither grows nor decays at a steady bifurcation.
+    fn critical_vector(&self, local: &Local, class: usize) -> Option<Vec<f64>> {
+        let bases = self.classes.without(&local.neutral);
+        let basis = bases.get(class)?;
+        let columns = restrict(basis, |v| apply(&local.matrix, v));
+        let dim = columns.len();
+        let svd =
+            DMatrix::from_fn(dim, dim, |i, j| columns[j][i]).try_svd(false, true, f64::EPSILON, 1000)?;
+        let (place, _) = svd.singular_values.argmin();
+        let mut out = vec![0.0; self.dim];
+        for (direction, &part) in basis.iter().zip(svd.v_t?.row(place).iter()) {
+            add(&mut out, part, direction);
+        }
+        Some(out)
+    }
+}

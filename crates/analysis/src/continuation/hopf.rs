@@ -1,0 +1,168 @@
+//! The kind of a Hopf bifurcation: its first Lyapunov coefficient, for relative equilibria too.
+
+use crate::equilibrium::neutral_direction;
+use crate::linear::{add, complement, dot};
+use motiform_dynamics::{Dual, Equivariant, VectorField};
+use nalgebra::{Complex, DMatrix, DVector};
+
+type Number = Dual<f64, 1>;
+type Vector = DVector<Complex<f64>>;
+
+/// The reduced field on the slice normal to the group orbit through a shape `u`:
+/// `g(w) = Q' (f - xi G)(u + Q w)`, `xi = Gu . f(u + Q w) / Gu . G(u + Q w)`, with `Q` a basis of the slice.
+///
+/// In it a relative equilibrium is an equilibrium, without the neutral direction.
+struct Slice<'b> {
+    body: &'b dyn Equivariant,
+    shape: &'b [f64],
+    neutral: Vec<Vec<f64>>,
+    basis: Vec<Vec<f64>>,
+}
+
+impl Slice<'_> {
+    /// `Dg(w) y`, exactly.
+    fn derivative(&self, w: &[f64], y: &[f64]) -> Vec<f64> {
+        let dim = self.shape.len();
+        let mut shape = self.shape.to_vec();
+        let mut direction = vec![0.0; dim];
+        for ((basis, a), b) in self.basis.iter().zip(w).zip(y) {
+            add(&mut shape, *a, basis);
+            add(&mut direction, *b, basis);
+        }
+        let lifted: Vec<Number> =
+            shape.iter().zip(&direction).map(|(&value, &d)| Dual { value, derivative: [d] }).collect();
+        let mut rates = lifted.clone();
+        VectorField::<Number>::eval(self.body, 0.0, &lifted, &mut rates);
+        let rate: Vec<f64> = rates.iter().map(|r| r.value).collect();
+        let mut out: Vec<f64> = rates.iter().map(|r| r.derivative[0]).collect();
+        if let Some(neutral) = self.neutral.first() {
+            let (mut spin, mut turned) = (vec![0.0; dim], vec![0.0; dim]);
+            self.body.spin(&shape, &mut spin);
+            self.body.spin(&direction, &mut turned);
+            let along = dot(neutral, &spin);
+            let xi = dot(neutral, &rate) / along;
+            let slope = (dot(neutral, &out) - xi * dot(neutral, &turned)) / along;
+            add(&mut out, -xi, &turned);
+            add(&mut out, -slope, &spin);
+        }
+        self.basis.iter().map(|row| dot(row, &out)).collect()
+    }
+
+    /// `Dg(h y) x` at `h = -2, -1, 1, 2` steps, and at 0.
+    fn stencil(&self, x: &[f64], y: &[f64], h: f64) -> [Vec<f64>; 5] {
+        [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| {
+            let at: Vec<f64> = y.iter().map(|value| k * h * value).collect();
+            self.derivative(&at, x)
+        })
+    }
+
+    /// `D^2 g (x, y)`, by differences of fourth order.
+    fn second(&self, x: &[f64], y: &[f64], h: f64) -> Vec<f64> {
+        let [a, b, _, d, e] = self.stencil(x, y, h);
+        (0..x.len()).map(|i| (a[i] - e[i] + 8.0 * (d[i] - b[i])) / (12.0 * h)).collect()
+    }
+
+    /// `D^3 g (x, y, y)`, by differences of fourth order.
+    fn third(&self, x: &[f64], y: &[f64], h: f64) -> Vec<f64> {
+        let [a, b, c, d, e] = self.stencil(x, y, h);
+        let at = |i: usize| (16.0 * (b[i] + d[i]) - a[i] - e[i] - 30.0 * c[i]) / (12.0 * h * h);
+        (0..x.len()).map(at).collect()
+    }
+
+    /// `D^2 g (x, y)` for complex vectors.
+    fn bilinear(&self, x: &Vector, y: &Vector, h: f64) -> Vector {
+        let part = |v: &Vector, f: fn(&Complex<f64>) -> f64| v.iter().map(f).collect::<Vec<f64>>();
+        let ([xr, xi], [yr, yi]) =
+            ([part(x, |z| z.re), part(x, |z| z.im)], [part(y, |z| z.re), part(y, |z| z.im)]);
+        let (rr, ii) = (self.second(&xr, &yr, h), self.second(&xi, &yi, h));
+        let (ri, ir) = (self.second(&xr, &yi, h), self.second(&xi, &yr, h));
+        DVector::from_fn(x.len(), |i, _| Complex::new(rr[i] - ii[i], ri[i] + ir[i]))
+    }
+
+    /// `D^3 g (q, q, conj q)`.
+    fn trilinear(&self, q: &Vector, h: f64) -> Vector {
+        let a: Vec<f64> = q.iter().map(|z| z.re).collect();
+        let b: Vec<f64> = q.iter().map(|z| z.im).collect();
+        let (aaa, abb) = (self.third(&a, &a, h), self.third(&a, &b, h));
+        let (baa, bbb) = (self.third(&b, &a, h), self.third(&b, &b, h));
+        DVector::from_fn(q.len(), |i, _| Complex::new(aaa[i] + abb[i], baa[i] + bbb[i]))
+    }
+}
+
+/// The critical vector of a Hopf bifurcation in the full space, `(re, im)`: orbits begin as `u + epsilon Re(q e^(i frequency t))`,
+/// seen from the frame that turns with the shape.
+pub(super) fn critical_pair(
+    body: &dyn Equivariant,
+    shape: &[f64],
+    frequency: f64,
+) -> Option<(Vec<f64>, Vec<f64>)> {
+    let slice = slice(body, shape);
+    let q = null_vector(&matrix(&slice), Complex::new(0.0, frequency))?;
+    let (mut re, mut im) = (vec![0.0; shape.len()], vec![0.0; shape.len()]);
+    for (direction, z) in slice.basis.iter().zip(q.iter()) {
+        add(&mut re, z.re, direction);
+        add(&mut im, z.im, direction);
+    }
+    Some((re, im))
+}
+
+fn slice<'b>(body: &'b dyn Equivariant, shape: &'b [f64]) -> Slice<'b> {
+    let neutral = neutral_direction(body, shape);
+    let basis = complement(&neutral, shape.len());
+    Slice { body, shape, neutral, basis }
+}
+
+/// `Dg(0)`.
+fn matrix(slice: &Slice<'_>) -> DMatrix<Complex<f64>> {
+    let dim = slice.basis.len();
+    let origin = vec![0.0; dim];
+    let mut out = DMatrix::zeros(dim, dim);
+    for j in 0..dim {
+        let mut unit = origin.clone();
+        unit[j] = 1.0;
+        for (i, value) in slice.derivative(&origin, &unit).into_iter().enumerate() {
+            out[(i, j)] = Complex::new(value, 0.0);
+        }
+    }
+    out
+}
+
+/// The first Lyapunov coefficient of the reduced motion at a Hopf bifurcation, for a critical vector of length 1:
+/// `l1 = Re( <p, C(q,q,q*)> - 2 <p, B(q, A^-1 B(q,q*))> + <p, B(q*, (2 i omega - A)^-1 B(q,q))> ) / (2 omega)`.
+///
+/// Source: Kuznetsov (2004), Elements of Applied Bifurcation Theory, eq. (5.62).
+///
+/// # Checked by  tests/continuation.rs: the normal form (exact), the reduced model's formula
+pub(super) fn first_lyapunov(body: &dyn Equivariant, shape: &[f64], frequency: f64) -> Option<f64> {
+    let slice = slice(body, shape);
+    let a = matrix(&slice);
+    let dim = a.nrows();
+    let imaginary = Complex::new(0.0, frequency);
+    let q = null_vector(&a, imaginary)?;
+    let p = null_vector(&a.transpose(), -imaginary)?;
+    let p = &p / p.dotc(&q).conj(); // <p, q> = 1
+    let size = shape.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let h = 3e-3 * if size > 0.0 { size } else { 1.0 };
+    let conjugate = q.map(|z| z.conj());
+    let mean = a.clone().lu().solve(&slice.bilinear(&q, &conjugate, h))?;
+    let twice = DMatrix::identity(dim, dim) * (imaginary * 2.0) - &a;
+    let second = twice.lu().solve(&slice.bilinear(&q, &q, h))?;
+    let sum = p.dotc(&slice.trilinear(&q, h)) - p.dotc(&slice.bilinear(&q, &mean, h)) * 2.0
+        + p.dotc(&slice.bilinear(&conjugate, &second, h));
+    let coefficient = sum.re / (2.0 * frequency);
+    coefficient.is_finite().then_some(coefficient)
+}
+
+/// The vector of length 1 that `A - value` takes to 0, by inverse iteration.
+fn null_vector(a: &DMatrix<Complex<f64>>, value: Complex<f64>) -> Option<Vector> {
+    let dim = a.nrows();
+    let shift = value * (1.0 + 1e-9); // off the eigenvalue, so that the matrix has an inverse
+    let inverse = (a - DMatrix::identity(dim, dim) * shift).lu();
+    let mut vector = DVector::from_fn(dim, |i, _| Complex::new(1.0, 0.3 / (1.0 + i as f64)));
+    for _ in 0..4 {
+        vector = inverse.solve(&vector)?;
+        let length = vector.norm();
+        vector /= Complex::new(length, 0.0);
+    }
+    vector.iter().all(|z| z.re.is_finite() && z.im.is_finite()).then_some(vector)
+}

@@ -1,0 +1,51 @@
+//! Continuation: a motion followed through a parameter, stable or not, with the places where it is born, changes and dies.
+//!
+//! A [`Family`] says which body belongs to a parameter value. A [`Branch`] is an **iterator over points**: the loop belongs to the
+//! caller, who may stop at any point, and [`Branch::end`] says why it ended by itself. Special points come in their place among the
+//! others, each with its [`Special`]; [`switch`] gives the branches that cross there.
+//!
+//! * relative equilibria ([`Branch::of_equilibria`]): `f(u, p) = omega G u`, unknowns `(u, omega, p)`;
+//! * relative periodic orbits ([`Branch::of_orbits`]): `Phi_T(u) = R(angle) [M] u` by multiple shooting on the full shape equations,
+//!   unknowns `(nodes, T, angle, p)`. An orbit that is its own mirror image after half a period is the solution of the problem over
+//!   that half, without any rotation.
+//!
+//! Newton's steps are orthogonal to the directions along the orbit and along the group, so no section and no coordinate can break
+//! down. Eigenvalues and multipliers are those of the reduced motion: the neutral directions are divided out exactly, before any
+//! eigenvalue is computed. (At a drift pitchfork the critical and the neutral direction form a Jordan block: of the unreduced
+//! matrix only half of the digits are right.) Special points are solved for: every iterate is a solution of the equations.
+//!
+//! Source: pseudo-arclength: Keller (1977), in Applications of Bifurcation Theory; relative orbits: Wulff and Schebesch (2006),
+//! SIAM J. Appl. Dyn. Syst. 5, 235; normal forms: Kuznetsov (2004), Elements of Applied Bifurcation Theory.
+
+mod branch;
+mod classes;
+mod copies;
+mod correct;
+mod elimination;
+mod equilibria;
+mod family;
+mod graded;
+mod homoclinic;
+mod hopf;
+mod levels;
+mod locate;
+mod orbits;
+mod place;
+mod point;
+mod problem;
+mod reduced_maps;
+mod settings;
+mod shooting;
+mod special;
+mod switch;
+mod tracer;
+mod variation;
+
+pub use branch::Branch;
+pub use copies::same_motion;
+pub use family::Family;
+pub use homoclinic::{Connection, PeriodLaw};
+pub use point::{End, Motion, Point};
+pub use settings::Settings;
+pub use special::{Broken, Hopf, Special};
+pub use switch::switch;

@@ -1,0 +1,281 @@
+//! The equations of relative periodic orbits along a parameter.
+
+use super::classes::Classes;
+use super::family::{Family, Neighbours};
+use super::graded::eigenvalues_of_product;
+use super::levels::Level;
+use super::point::Motion;
+use super::problem::{Failure, Linear, Problem};
+use super::reduced_maps::reduced_maps;
+use super::shooting::{Segment, segment, shape_after};
+use super::special::{Broken, Special};
+use crate::linear::{add, dot, norm};
+use crate::periodic::{Flow, back};
+use crate::symmetry::wrap;
+use crate::{PeriodicOrbit, RelativeEquilibrium};
+use motiform_dynamics::{Equivariant, VectorField, Watch};
+use nalgebra::DMatrix;
+
+/// Parts over which a deviation grows by more than this are halved.
+const GROWTH: f64 = 1000.0;
+
+/// Most parts of an orbit.
+const PARTS: usize = 64;
+
+/// `Phi_(T/m)(u_i) = u_(i+1)`, and the last one's image is `R(angle) [M] u_0`; unknowns `(u_0 .. u_(m-1), T, [angle], p)`. The nodes
+/// move normal to the flow and to the group. There is an angle where it is a neutral direction too: without the mirror, in a
+/// body with symmetry.
+pub(super) struct Orbits<'f> {
+    pub(super) family: &'f dyn Family,
+    pub(super) flow: Flow,
+    pub(super) classes: Classes,
+    pub(super) dim: usize,
+    /// Number of nodes.
+    pub(super) parts: usize,
+    pub(super) mirrored: bool,
+    /// Whether the angle is an unknown.
+    pub(super) turns: bool,
+    pub(super) size: f64,
+    pub(super) width: f64,
+}
+
+/// The equations at one place.
+pub(super) struct Local {
+    pub(super) body: Box<dyn Equivariant>,
+    pub(super) linear: Linear,
+    pub(super) segments: Vec<Segment>,
+    /// `f` and `Gu` at the nodes.
+    pub(super) rates: Vec<Vec<f64>>,
+    pub(super) spins: Vec<Vec<f64>>,
+}
+
+impl Orbits<'_> {
+    /// Number of unknowns.
+    pub(super) fn unknowns(&self) -> usize {
+        self.parts * self.dim + 2 + usize::from(self.turns)
+    }
+
+    pub(super) fn node<'x>(&self, x: &'x [f64], i: usize) -> &'x [f64] {
+        &x[i * self.dim..(i + 1) * self.dim]
+    }
+
+    fn span(&self, x: &[f64]) -> f64 {
+        x[self.parts * self.dim] / self.parts as f64
+    }
+
+    pub(super) fn angle(&self, x: &[f64]) -> f64 {
+        if self.turns { x[self.parts * self.dim + 1] } else { 0.0 }
+    }
+
+    fn parameter(&self, x: &[f64]) -> f64 {
+        x[self.unknowns() - 1]
+    }
+
+    fn fill(&self, x: &[f64], local: &Local) -> Linear {
+        let unknowns = self.unknowns();
+        let matrix = DMatrix::zeros(unknowns - 1, unknowns);
+        let mut linear = Linear { residual: vec![0.0; unknowns - 1], matrix };
+        for (i, segment) in local.segments.iter().enumerate() {
+            self.fill_part(x, local.body.as_ref(), (i, segment), &mut linear);
+        }
+        for (row, direction) in self.neutral(local).iter().enumerate() {
+            for (j, value) in direction.iter().enumerate() {
+                linear.matrix[(self.parts * self.dim + row, j)] = *value;
+            }
+        }
+        linear
+    }
+
+    /// The equations of one part.
+    fn fill_part(
+        &self,
+        x: &[f64],
+        body: &dyn Equivariant,
+        (i, segment): (usize, &Segment),
+        linear: &mut Linear,
+    ) {
+        let (dim, time, rows) = (self.dim, self.parts * self.dim, i * self.dim);
+        let (last, next) = (i + 1 == self.parts, (i + 1) % self.parts);
+        let brought = |v: &[f64]| {
+            let mut v = v.to_vec();
+            if last {
+                back(body, self.angle(x), self.mirrored, &mut v);
+            }
+            v
+        };
+        let mut put = |column: usize, factor: f64, v: &[f64]| {
+            for (k, value) in v.iter().enumerate() {
+                linear.matrix[(rows + k, column)] += factor * value;
+            }
+        };
+        for (j, column) in segment.tangents.chunks_exact(dim).enumerate() {
+            put(i * dim + j, 1.0, &brought(column));
+        }
+        put(time, 1.0 / self.parts as f64, &brought(&segment.slope));
+        if last && self.turns {
+            let mut spin = vec![0.0; dim];
+            body.spin(&segment.end, &mut spin);
+            put(time + 1, -1.0, &brought(&spin));
+        }
+        put(self.unknowns() - 1, 1.0, &brought(&segment.by_parameter));
+        for k in 0..dim {
+            linear.matrix[(rows + k, next * dim + k)] -= 1.0;
+        }
+        let mut rest = brought(&segment.end);
+        add(&mut rest, -1.0, self.node(x, next));
+        linear.residual[rows..rows + dim].copy_from_slice(&rest);
+    }
+
+    /// The neutral directions of all nodes together, orthonormal: the rotation, then time.
+    fn neutral(&self, local: &Local) -> Vec<Vec<f64>> {
+        let mut out: Vec<Vec<f64>> = Vec::new();
+        if self.turns {
+            out.push(local.spins.concat());
+        }
+        out.push(local.rates.concat());
+        crate::linear::orthonormalise(&mut out.iter_mut().map(Vec::as_mut_slice).collect::<Vec<_>>());
+        out
+    }
+}
+
+impl Problem for Orbits<'_> {
+    type Local = Local;
+
+    fn local(&self, x: &[f64], watch: &dyn Watch) -> Result<Local, Failure> {
+        let neighbours = Neighbours::of(self.family, self.parameter(x))?;
+        let span = self.span(x);
+        let nodes = || (0..self.parts).map(|i| self.node(x, i));
+        let segments: Result<Vec<Segment>, Failure> =
+            nodes().map(|node| segment(&neighbours, node, span, &self.flow, watch)).collect();
+        let body = neighbours.body;
+        let mut out = vec![0.0; self.dim];
+        let mut along = |write: &dyn Fn(&[f64], &mut [f64])| -> Vec<Vec<f64>> {
+            let each = |node| {
+                write(node, &mut out);
+                out.clone()
+            };
+            nodes().map(each).collect()
+        };
+        let rates = along(&|u, du| VectorField::<f64>::eval(body.as_ref(), 0.0, u, du));
+        let spins = along(&|u, du| body.spin(u, du));
+        let linear = Linear { residual: Vec::new(), matrix: DMatrix::zeros(0, 0) };
+        let mut local = Local { body, linear, segments: segments?, rates, spins };
+        local.linear = self.fill(x, &local);
+        Ok(local)
+    }
+
+    fn linear<'l>(&self, local: &'l Local) -> &'l Linear {
+        &local.linear
+    }
+
+    fn weights(&self, x: &[f64]) -> Vec<f64> {
+        let nodes = self.parts * self.dim;
+        let mut weights = vec![1.0 / (self.parts as f64 * self.size * self.size); nodes];
+        weights.push(1.0 / (x[nodes] * x[nodes]));
+        if self.turns {
+            weights.push(1.0);
+        }
+        weights.push(1.0 / (self.width * self.width));
+        weights
+    }
+
+    fn is_sound(&self, x: &[f64]) -> bool {
+        x.iter().all(|value| value.is_finite()) && x[self.parts * self.dim] > 0.0
+    }
+
+    fn tidy(&self, x: &mut [f64]) {
+        let Ok(body) = self.family.at(self.parameter(x)) else { return };
+        for node in x[..self.parts * self.dim].chunks_exact_mut(self.dim) {
+            self.classes.tidy(body.as_ref(), node);
+        }
+    }
+
+    fn levels(&self, x: &[f64], local: &Local) -> Option<Vec<Vec<Level>>> {
+        let maps = reduced_maps(self, x, local);
+        if maps.iter().flatten().any(|map| !map.is_square()) {
+            return None;
+        }
+        maps.iter().map(|maps| eigenvalues_of_product(maps).map(|v| Level::of_multipliers(&v))).collect()
+    }
+
+    fn classify(&self, _x: &[f64], critical: Level, class: usize) -> Special {
+        if critical.angle == 0.0 {
+            return match class {
+                1 => Special::Pitchfork { breaks: Broken::Mirror },
+                _ => Special::BranchPoint,
+            };
+        }
+        if critical.angle.abs() < std::f64::consts::PI {
+            return Special::Torus { angle: critical.angle.abs() };
+        }
+        if self.mirrored { Special::SymmetryBreaking } else { Special::PeriodDoubling }
+    }
+
+    fn motion(&self, x: &[f64], local: &Local, levels: &[Vec<Level>]) -> Motion {
+        let nodes: Vec<Vec<f64>> = (0..self.parts).map(|i| self.node(x, i).to_vec()).collect();
+        let multiplier = |level: &Level| {
+            let (sin, cos) = libm::sincos(level.angle);
+            let modulus = libm::exp(level.growth);
+            (modulus * cos, if level.angle.abs() == std::f64::consts::PI { 0.0 } else { modulus * sin })
+        };
+        let mut all: Vec<&Level> = levels.iter().flatten().collect();
+        all.sort_by(|a, b| b.growth.total_cmp(&a.growth).then(b.angle.total_cmp(&a.angle)));
+        let orbit = PeriodicOrbit {
+            shape: nodes[0].clone(),
+            time: x[self.parts * self.dim],
+            angle: wrap(self.angle(x)),
+            mirrored: self.mirrored,
+            residual: norm(&local.linear.residual),
+            multipliers: all.into_iter().map(multiplier).collect(),
+        };
+        Motion::Orbit { orbit, nodes }
+    }
+
+    fn refine(&mut self, x: &[f64], local: &Local, watch: &dyn Watch) -> Option<Vec<f64>> {
+        let grown = local.segments.iter().any(|segment| norm(&segment.tangents) > GROWTH);
+        if !grown || self.parts >= PARTS {
+            return None;
+        }
+        let half = 0.5 * self.span(x);
+        let mut out = Vec::new();
+        for i in 0..self.parts {
+            let node = self.node(x, i);
+            out.extend_from_slice(node);
+            out.extend(shape_after(local.body.as_ref(), node, half, &self.flow, watch).ok()?);
+        }
+        out.extend_from_slice(&x[self.parts * self.dim..]);
+        self.parts *= 2;
+        Some(out)
+    }
+
+    fn size(&self, x: &[f64]) -> f64 {
+        (0..self.parts).map(|i| norm(self.node(x, i))).fold(0.0, f64::max)
+    }
+
+    fn time(&self) -> Option<usize> {
+        Some(self.parts * self.dim)
+    }
+
+    fn swing(&self, local: &Local) -> Option<Vec<f64>> {
+        Some(reduced_rates(local).concat())
+    }
+
+    fn saddle(&self, x: &[f64], local: &Local) -> Option<RelativeEquilibrium> {
+        let speeds: Vec<f64> = reduced_rates(local).iter().map(|rate| norm(rate)).collect();
+        let slowest = (0..self.parts).min_by(|&a, &b| speeds[a].total_cmp(&speeds[b]))?;
+        RelativeEquilibrium::find(local.body.as_ref(), self.node(x, slowest))
+    }
+}
+
+/// The rates at the nodes without the rotation.
+fn reduced_rates(local: &Local) -> Vec<Vec<f64>> {
+    let rest = |(rate, spin): (&Vec<f64>, &Vec<f64>)| {
+        let size = dot(spin, spin);
+        let mut rest = rate.clone();
+        if size > 0.0 {
+            add(&mut rest, -dot(rate, spin) / size, spin);
+        }
+        rest
+    };
+    local.rates.iter().zip(&local.spins).map(rest).collect()
+}

@@ -1,0 +1,167 @@
+//! What a branch is made of.
+
+use super::homoclinic::Connection;
+use super::special::Special;
+use crate::{PeriodicOrbit, RelativeEquilibrium};
+use motiform_dynamics::Outcome;
+
+/// One motion of a branch.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Motion {
+    /// A shape that does not change but for a steady rotation.
+    Equilibrium(RelativeEquilibrium),
+    /// A shape that comes back turned or mirrored.
+    Orbit {
+        /// The orbit; its shape is the first node.
+        orbit: PeriodicOrbit,
+        /// Shapes along it at equal times, `orbit.time / nodes.len()` apart.
+        nodes: Vec<Vec<f64>>,
+    },
+}
+
+impl Motion {
+    /// The relative equilibrium, if it is one.
+    #[must_use]
+    pub fn equilibrium(&self) -> Option<&RelativeEquilibrium> {
+        match self {
+            Self::Equilibrium(equilibrium) => Some(equilibrium),
+            Self::Orbit { .. } => None,
+        }
+    }
+
+    /// The periodic orbit, if it is one.
+    #[must_use]
+    pub fn orbit(&self) -> Option<&PeriodicOrbit> {
+        match self {
+            Self::Equilibrium(_) => None,
+            Self::Orbit { orbit, .. } => Some(orbit),
+        }
+    }
+
+    /// A shape of the motion.
+    #[must_use]
+    pub fn shape(&self) -> &[f64] {
+        match self {
+            Self::Equilibrium(equilibrium) => &equilibrium.shape,
+            Self::Orbit { orbit, .. } => &orbit.shape,
+        }
+    }
+
+    /// Its shapes: one, or the nodes of an orbit.
+    #[must_use]
+    pub fn shapes(&self) -> Vec<&[f64]> {
+        match self {
+            Self::Equilibrium(equilibrium) => vec![&equilibrium.shape],
+            Self::Orbit { nodes, .. } => nodes.iter().map(Vec::as_slice).collect(),
+        }
+    }
+}
+
+/// One point of a branch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// The parameter.
+    pub parameter: f64,
+    /// Length along the branch from its start, in the units of [`super::Settings`].
+    pub arclength: f64,
+    /// The motion, with its eigenvalues or multipliers.
+    pub motion: Motion,
+    /// How many directions of the reduced motion grow: 0 if it is stable. At a special point that is the count of those that are not
+    /// critical.
+    pub unstable: usize,
+    /// Derivative of the parameter by the length along the branch: it changes its sign at a fold.
+    pub slope: f64,
+    /// What happens here, if the point was solved for as a special one.
+    pub special: Option<Special>,
+}
+
+impl Point {
+    /// Whether small deviations die out.
+    #[must_use]
+    pub fn is_stable(&self) -> bool {
+        self.unstable == 0 && self.special.is_none()
+    }
+}
+
+/// Why a branch ended. The last point handed out is the last good one.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum End {
+    /// The parameter left its range; the last point lies at the edge.
+    RangeLeft,
+    /// As many points as were asked for.
+    PointLimit,
+    /// The watch stopped it.
+    Stopped,
+    /// A shape grew beyond [`super::Settings::largest_size`].
+    BlowUp {
+        /// The size reached.
+        size: f64,
+    },
+    /// Newton's method failed even after the shortest step.
+    StepUnderflow {
+        /// Length of the step that failed.
+        step: f64,
+        /// Why it failed.
+        why: Obstruction,
+    },
+    /// The period grows without bound: the orbit approaches a connection of a saddle with itself.
+    Homoclinic(Box<Connection>),
+    /// The time of the orbit passed [`super::Settings::longest_time`], and grows by no law that was recognised.
+    PeriodLimit {
+        /// The time reached.
+        time: f64,
+    },
+    /// The orbit shrinks to a relative equilibrium: the branch ends at its Hopf bifurcation.
+    Shrinks {
+        /// The parameter there.
+        parameter: f64,
+        /// The time of the orbit there (half the period for a zigzag).
+        time: f64,
+    },
+}
+
+/// Why Newton's method failed.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Obstruction {
+    /// It did not converge to a point of the branch nearby.
+    Newton,
+    /// The equations are singular in more than one direction.
+    Singular,
+    /// The flow did not reach the end of a part of the orbit.
+    Flow(Outcome),
+    /// There is no body for a parameter value.
+    NoBody {
+        /// The reason.
+        why: String,
+    },
+}
+
+impl std::fmt::Display for Obstruction {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Newton => write!(f, "Newton's method does not converge"),
+            Self::Singular => write!(f, "the equations are singular"),
+            Self::Flow(outcome) => write!(f, "the flow {outcome}"),
+            Self::NoBody { why } => write!(f, "{why}"),
+        }
+    }
+}
+
+impl std::fmt::Display for End {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::RangeLeft => write!(f, "the parameter left its range"),
+            Self::PointLimit => write!(f, "as many points as were asked for"),
+            Self::Stopped => write!(f, "stopped from outside"),
+            Self::BlowUp { size } => write!(f, "the shape grew to {size:.3e}"),
+            Self::StepUnderflow { step, why } => write!(f, "no point after a step of {step:.1e}: {why}"),
+            Self::Homoclinic(connection) => write!(f, "{connection}"),
+            Self::PeriodLimit { time } => write!(f, "the time of the orbit grew to {time}"),
+            Self::Shrinks { parameter, .. } => {
+                write!(f, "the orbit shrinks to an equilibrium at {parameter:.9}")
+            }
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! The equations of a branch, as its tracer sees them.
+
+use super::levels::Level;
+use super::point::{Motion, Obstruction};
+use super::special::Special;
+use crate::{Error, RelativeEquilibrium};
+use motiform_dynamics::Watch;
+use nalgebra::DMatrix;
+
+/// Why there is no solution here.
+#[derive(Clone, Debug)]
+pub(super) enum Failure {
+    /// The watch stopped the computation.
+    Stopped,
+    /// The mathematics.
+    Obstructed(Obstruction),
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::Obstructed(Obstruction::NoBody { why: error.to_string() })
+    }
+}
+
+/// The equations at one place: `equations(x + dx) = residual + matrix dx`.
+pub(super) struct Linear {
+    /// What the equations leave; zeros in the rows that fix the neutral directions.
+    pub(super) residual: Vec<f64>,
+    /// Their derivatives: one row fewer than unknowns.
+    pub(super) matrix: DMatrix<f64>,
+}
+
+/// Equations with one unknown more than there are of them. The parameter is the last unknown.
+pub(super) trait Problem {
+    /// What was computed along with the equations at one place.
+    type Local;
+
+    /// The equations at `x`.
+    fn local(&self, x: &[f64], watch: &dyn Watch) -> Result<Self::Local, Failure>;
+
+    /// Their linear part.
+    fn linear<'l>(&self, local: &'l Self::Local) -> &'l Linear;
+
+    /// The unknowns' units, squared and inverted: `|dx|^2 = sum_i weight_i dx_i^2`.
+    fn weights(&self, x: &[f64]) -> Vec<f64>;
+
+    /// Restores what symmetry makes exact.
+    fn tidy(&self, _x: &mut [f64]) {}
+
+    /// Whether `x` is a solution that makes sense.
+    fn is_sound(&self, x: &[f64]) -> bool {
+        x.iter().all(|value| value.is_finite())
+    }
+
+    /// Growth of the reduced deviations, class by class, largest first.
+    fn levels(&self, x: &[f64], local: &Self::Local) -> Option<Vec<Vec<Level>>>;
+
+    /// What happens where a level of class `class` vanishes, and the branch does not turn back.
+    fn classify(&self, x: &[f64], critical: Level, class: usize) -> Special;
+
+    /// The motion, for whoever asked for the branch.
+    fn motion(&self, x: &[f64], local: &Self::Local, levels: &[Vec<Level>]) -> Motion;
+
+    /// The same solution in other unknowns, where these have become too few.
+    fn refine(&mut self, _x: &[f64], _local: &Self::Local, _watch: &dyn Watch) -> Option<Vec<f64>> {
+        None
+    }
+
+    /// The size of the largest shape.
+    fn size(&self, x: &[f64]) -> f64;
+
+    /// The place of the time among the unknowns, for orbits.
+    fn time(&self) -> Option<usize> {
+        None
+    }
+
+    /// How fast the reduced shapes of an orbit change, all nodes together: it changes its sign where an orbit shrinks to nothing and
+    /// the branch goes on with the same orbits, half a period later.
+    fn swing(&self, _local: &Self::Local) -> Option<Vec<f64>> {
+        None
+    }
+
+    /// The relative equilibrium that an orbit passes closest by.
+    fn saddle(&self, _x: &[f64], _local: &Self::Local) -> Option<RelativeEquilibrium> {
+        None
+    }
+}

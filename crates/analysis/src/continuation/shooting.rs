@@ -1,0 +1,79 @@
+//! The flow over the parts of an orbit.
+
+use super::family::Neighbours;
+use super::point::Obstruction;
+use super::problem::Failure;
+use super::variation::Variation;
+use crate::periodic::Flow;
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::{Equivariant, Outcome, Request, Semilinear, VectorField, Watch};
+
+/// What the flow over one part of an orbit gives.
+pub(super) struct Segment {
+    /// The shape at its end.
+    pub(super) end: Vec<f64>,
+    /// `f` there.
+    pub(super) slope: Vec<f64>,
+    /// `D Phi`, column by column.
+    pub(super) tangents: Vec<f64>,
+    /// `d Phi / dp`.
+    pub(super) by_parameter: Vec<f64>,
+}
+
+/// The flow from `start` over `span` with all its derivatives.
+pub(super) fn segment(
+    neighbours: &Neighbours,
+    start: &[f64],
+    span: f64,
+    flow: &Flow,
+    watch: &dyn Watch,
+) -> Result<Segment, Failure> {
+    let dim = start.len();
+    let variation = Variation::new(neighbours);
+    let mut state = Vec::new();
+    Variation::start(start, &mut state);
+    let end = run(&variation, &state, span, dim, flow, watch)?;
+    let (shape, vectors) = end.split_at(dim);
+    let (tangents, by_parameter) = vectors.split_at(dim * dim);
+    let mut slope = vec![0.0; dim];
+    VectorField::<f64>::eval(neighbours.body.as_ref(), 0.0, shape, &mut slope);
+    Ok(Segment {
+        end: shape.to_vec(),
+        slope,
+        tangents: tangents.to_vec(),
+        by_parameter: by_parameter.to_vec(),
+    })
+}
+
+/// The shape after `span`.
+pub(super) fn shape_after(
+    body: &dyn Equivariant,
+    start: &[f64],
+    span: f64,
+    flow: &Flow,
+    watch: &dyn Watch,
+) -> Result<Vec<f64>, Failure> {
+    run(body, start, span, start.len(), flow, watch)
+}
+
+fn run<F: Semilinear<f64> + ?Sized>(
+    field: &F,
+    start: &[f64],
+    span: f64,
+    watched: usize,
+    flow: &Flow,
+    watch: &dyn Watch,
+) -> Result<Vec<f64>, Failure> {
+    let mut orbit = flow
+        .method
+        .shape_orbit(field, flow.control, 0.0, start)
+        .map_err(|error| Failure::from(crate::Error::from(error)))?;
+    let request = Request { max_steps: flow.max_steps, watched, watch, ..Request::until(span, field.dim()) };
+    let outcome =
+        drive(orbit.as_mut(), &request, &mut ()).map_err(|error| Failure::from(crate::Error::from(error)))?;
+    match outcome {
+        Outcome::Interrupted { .. } => Err(Failure::Stopped),
+        _ if outcome.is_complete() => Ok(orbit.state().to_vec()),
+        _ => Err(Failure::Obstructed(Obstruction::Flow(outcome))),
+    }
+}

@@ -1,0 +1,79 @@
+//! Where a branch changes.
+
+/// What happens at a special point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Special {
+    /// The branch turns back: `dp/ds = 0`.
+    Fold,
+    /// A real eigenvalue 0 (multiplier +1) in a direction that breaks a symmetry of the motion: two symmetric copies branch off.
+    Pitchfork {
+        /// What the branch that leaves does without.
+        breaks: Broken,
+    },
+    /// A real eigenvalue 0 (multiplier +1) that keeps all symmetry, where the branch does not turn back: another one crosses it.
+    BranchPoint,
+    /// A pair of imaginary eigenvalues: an oscillation of the shape begins.
+    Hopf(Hopf),
+    /// Multiplier -1 over the period: an orbit of twice the period begins.
+    PeriodDoubling,
+    /// Multiplier -1 over half the period of an orbit that is its own mirror image: two orbits that are not, mirror images of each
+    /// other, begin.
+    SymmetryBreaking,
+    /// A pair of multipliers `exp(+-i angle)`: an invariant torus begins.
+    Torus {
+        /// The angle (rad, 0 to pi).
+        angle: f64,
+    },
+}
+
+/// Which symmetry a pitchfork breaks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Broken {
+    /// The mirror, of a shape that has a direction: the new shapes turn, left and right (a drift pitchfork).
+    Mirror,
+    /// Rotations (and perhaps a mirror) of a shape at rest: the new shapes have fewer axes.
+    Rotations,
+}
+
+/// A Hopf bifurcation of the reduced motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hopf {
+    /// Imaginary part of the critical eigenvalues (rad per model time).
+    pub frequency: f64,
+    /// The first Lyapunov coefficient, for a critical vector of length 1: below 0 the orbits that begin are stable (supercritical),
+    /// above 0 unstable (subcritical). `None` where it could not be computed.
+    ///
+    /// Source: Kuznetsov (2004), eq. (5.62).
+    pub first_lyapunov: Option<f64>,
+}
+
+impl Hopf {
+    /// Period of the oscillation that begins.
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        std::f64::consts::TAU / self.frequency
+    }
+
+    /// Whether the orbits that begin are stable within the directions that are critical.
+    #[must_use]
+    pub fn is_supercritical(&self) -> Option<bool> {
+        self.first_lyapunov.map(|coefficient| coefficient < 0.0)
+    }
+}
+
+impl Special {
+    /// Its name in files.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Fold => "fold",
+            Self::Pitchfork { .. } => "pitchfork",
+            Self::BranchPoint => "branch-point",
+            Self::Hopf(_) => "hopf",
+            Self::PeriodDoubling => "period-doubling",
+            Self::SymmetryBreaking => "symmetry-breaking",
+            Self::Torus { .. } => "torus",
+        }
+    }
+}

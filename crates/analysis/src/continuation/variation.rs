@@ -1,0 +1,84 @@
+//! The flow with its derivatives by the start and by the parameter.
+
+use super::family::Neighbours;
+use motiform_dynamics::{Equivariant, Semilinear, System, Tangent, VectorField};
+
+/// `u' = f(u, p)`, `w_i' = Df w_i` for as many vectors as there are unknowns, and `w' = Df w + df/dp`: a shape followed by vectors.
+pub(super) struct Variation<'n> {
+    tangent: Tangent<'n, dyn Equivariant>,
+    neighbours: &'n Neighbours,
+}
+
+impl<'n> Variation<'n> {
+    pub(super) fn new(neighbours: &'n Neighbours) -> Self {
+        let body: &dyn Equivariant = neighbours.body.as_ref();
+        Self { tangent: Tangent::new(body, body.dim() + 1), neighbours }
+    }
+
+    /// The state at the start of a part: the shape, the unit vectors and 0.
+    pub(super) fn start(shape: &[f64], out: &mut Vec<f64>) {
+        let dim = shape.len();
+        out.clear();
+        out.resize(dim * (dim + 2), 0.0);
+        out[..dim].copy_from_slice(shape);
+        for i in 0..dim {
+            out[dim * (1 + i) + i] = 1.0;
+        }
+    }
+
+    /// Adds `df/dp` to the rate of the last vector.
+    fn add_slope(&self, u: &[f64], du: &mut [f64]) {
+        let dim = self.neighbours.body.dim();
+        let Some(last) = du.len().checked_sub(dim) else { return };
+        let last = &mut du[last..];
+        match dim {
+            ..=8 => self.slope::<8>(&u[..dim], last),
+            9..=64 => self.slope::<64>(&u[..dim], last),
+            65..=256 => self.slope::<256>(&u[..dim], last),
+            _ => self.slope_in(&u[..dim], &mut vec![0.0; dim], last),
+        }
+    }
+
+    fn slope<const N: usize>(&self, u: &[f64], out: &mut [f64]) {
+        let mut rates = [0.0; N];
+        self.slope_in(u, &mut rates[..u.len()], out);
+    }
+
+    fn slope_in(&self, u: &[f64], rates: &mut [f64], out: &mut [f64]) {
+        for (body, sign) in [(&self.neighbours.above, 1.0), (&self.neighbours.below, -1.0)] {
+            VectorField::<f64>::eval(body.as_ref(), 0.0, u, rates);
+            for (to, from) in out.iter_mut().zip(&*rates) {
+                *to += sign * from / self.neighbours.width;
+            }
+        }
+    }
+}
+
+impl System for Variation<'_> {
+    fn dim(&self) -> usize {
+        self.tangent.dim()
+    }
+
+    fn vectors(&self) -> Option<usize> {
+        Some(self.neighbours.body.dim())
+    }
+}
+
+impl VectorField<f64> for Variation<'_> {
+    fn eval(&self, t: f64, u: &[f64], du: &mut [f64]) {
+        self.tangent.eval(t, u, du);
+        self.add_slope(u, du);
+    }
+}
+
+/// The linear part is that of the body, for every vector; what the parameter changes of it is in the rest.
+impl Semilinear<f64> for Variation<'_> {
+    fn linear(&self, lambda: &mut [f64]) {
+        Semilinear::<f64>::linear(&self.tangent, lambda);
+    }
+
+    fn nonlinear(&self, t: f64, u: &[f64], du: &mut [f64]) {
+        Semilinear::<f64>::nonlinear(&self.tangent, t, u, du);
+        self.add_slope(u, du);
+    }
+}
