@@ -82,8 +82,7 @@ impl std::error::Error for StdoutFailed {}
 /// Prints an error on standard error: exit code 1 if the machine failed, 2 if the input is invalid.
 pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     // Standard error is the last resort: nothing is left to say if it fails too.
-    let remedy =
-        error.downcast_ref().and_then(remedy).map_or_else(String::new, |remedy| format!("; {remedy}"));
+    let remedy = error.downcast_ref().and_then(remedy).unwrap_or_default();
     let _ = writeln!(io::stderr(), "error: {error:#}{remedy}");
     let machine =
         error.is::<StdoutFailed>() || error.downcast_ref::<Error>().is_some_and(Error::is_machine_failure);

@@ -203,7 +203,8 @@ fn one_process_at_a_time_and_one_plan_per_folder() {
     });
     let other = ScanPlan::new(&other).unwrap();
     let error = open(&at("scan"), &other, "1/1", Opening::Resume).unwrap_err().to_string();
-    for said in ["samples: 3 there, 4 asked", "parameters.a1: 1.0 there, 0.5 asked", "initial.v1: none there"]
+    for said in
+        ["samples: 3 there, 4 requested", "parameters.a1: 1.0 there, 0.5 requested", "initial.v1: none there"]
     {
         assert!(error.contains(said), "{error}");
     }

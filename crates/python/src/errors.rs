@@ -7,8 +7,7 @@ use pyo3::exceptions::{PyFileExistsError, PyKeyboardInterrupt, PyOSError, PyType
 
 /// `ValueError` for input that cannot be used, `OSError` (or `FileExistsError`) for files, `KeyboardInterrupt` for a stop.
 pub(crate) fn python(error: Error) -> PyErr {
-    let remedy = remedy(&error).map_or_else(String::new, |remedy| format!("; {remedy}"));
-    let text = format!("{error}{remedy}");
+    let text = format!("{error}{}", remedy(&error).unwrap_or_default());
     match error {
         Error::Interrupted => PyKeyboardInterrupt::new_err(text),
         Error::Exists { .. } | Error::NotOurs { .. } | Error::ScanExists { .. } => {
@@ -20,20 +19,20 @@ pub(crate) fn python(error: Error) -> PyErr {
     }
 }
 
-/// The keywords that mend an error, where there are some.
+/// The keywords that mend an error, where there are some: the end of its sentence.
 fn remedy(error: &Error) -> Option<&'static str> {
     Some(match error {
-        Error::NoAxis { .. } => "give axes={\"NAME\": values}",
+        Error::NoAxis { .. } => "; give axes={\"NAME\": values}",
         Error::ScanExists { .. } => {
             "resume=True continues it, overwrite=True replaces it; or choose another folder"
         }
         Error::OtherScan { .. } | Error::Exists { .. } => {
             "choose another one, or overwrite=True to replace it"
         }
-        Error::Busy { .. } => "or choose another folder",
-        Error::NotOurs { .. } => "choose another one",
-        Error::Unwritable { .. } => "choose a place in a folder that exists and is writable",
-        Error::PartFailed { .. } | Error::InTheWay { .. } => "resume=True continues it",
+        Error::Busy { .. } => ", or choose another folder",
+        Error::NotOurs { .. } => "; choose another one",
+        Error::Unwritable { .. } => "; choose a place in a folder that exists and is writable",
+        Error::PartFailed { .. } | Error::InTheWay { .. } => "; resume=True continues it",
         _ => return None,
     })
 }
