@@ -1,6 +1,6 @@
 //! The order of rows, and the parts that are complete.
 //!
-//! Rows are assigned in order, one at a time: a slow row occupies one thread, while the others continue with the following rows,
+//! Rows of a part are assigned in order, one at a time: a slow row occupies one thread, while the others continue with the following rows,
 //! if necessary in the next parts. A part is in progress only while a thread holds one of its rows, so at
 //! most one part per thread (and the one being assigned) is in memory.
 

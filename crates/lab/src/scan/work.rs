@@ -53,7 +53,7 @@ pub fn compute(
         evaluate,
         watch,
         total,
-        queue: Mutex::new(Queue::new(plan, parts.into_iter())),
+        queue: Mutex::new(Queue::new(plan, scattered(parts).into_iter())),
         failure: Mutex::new(None),
         failed: AtomicBool::new(false),
         rows: AtomicUsize::new(0),
@@ -73,6 +73,16 @@ pub fn compute(
     }
     let done = work.cells.into_inner();
     Ok(Ended { complete: done == cells, cells: done, most_rows: work.most.into_inner() })
+}
+
+/// The parts in the order of the van der Corput sequence: halves, quarters, eighths. Neighbouring cells cost alike, and some regions
+/// cost a hundred times as much as others: in this order every share of the parts is nearly the same share of the work, so that the time
+/// left can be estimated, and a region of expensive cells is not left for the end.
+fn scattered(mut parts: Vec<usize>) -> Vec<usize> {
+    parts.sort_unstable();
+    let mut numbered: Vec<(usize, usize)> = parts.into_iter().enumerate().collect();
+    numbered.sort_by_key(|(index, _)| index.reverse_bits());
+    numbered.into_iter().map(|(_, part)| part).collect()
 }
 
 /// The rows of the first of some cells, in order, on this thread: of one cell, and of further cells while `go_on` returns true. `None`
@@ -166,5 +176,23 @@ impl Work<'_> {
 impl Watch for Work<'_> {
     fn stopped(&self) -> bool {
         self.failed.load(Ordering::Relaxed) || self.watch.stopped()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::scattered;
+
+    #[test]
+    fn parts_are_spread_over_the_plane() {
+        assert_eq!(scattered((0..8).collect()), [0, 4, 2, 6, 1, 5, 3, 7]);
+        assert_eq!(scattered(vec![9, 5, 7]), [5, 9, 7]);
+        // Every share of the parts reaches over the whole: no gap is longer than twice the mean one.
+        let parts = scattered((0..1000).collect());
+        for count in [10, 100, 300] {
+            let mut first = parts[..count].to_vec();
+            first.sort_unstable();
+            assert!(first.windows(2).all(|pair| (pair[1] - pair[0]) * count <= 2 * 1024), "{count}");
+        }
     }
 }
