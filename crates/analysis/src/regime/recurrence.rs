@@ -42,7 +42,7 @@ pub(super) struct Recurrence {
     pub(super) angle: f64,
 }
 
-/// The recurrences of the last minimum that are close, shortest first.
+/// The shortest recurrences of the last minimum that are close, as many as are tried.
 pub(super) fn recurrences<B: Equivariant + ?Sized>(
     body: &B,
     minima: &[&Extreme],
@@ -62,6 +62,9 @@ pub(super) fn recurrences<B: Equivariant + ?Sized>(
             {
                 let time = last.t - before.t;
                 found.push(Recurrence { returns: returns + 1, mirrored, time, angle: near.angle });
+                if found.len() == TRIES {
+                    return found;
+                }
             }
         }
     }
@@ -123,7 +126,7 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     let large = !is_small(body.dim());
     let most = settings.first_look.max(EFFORT * (look.end - look.start));
     let mut effort = if large { most } else { f64::INFINITY };
-    for recurrence in recurrences(body, &minima, diameter).into_iter().take(TRIES) {
+    for recurrence in recurrences(body, &minima, diameter) {
         if passes_attracting_saddle(body, rests, (last.t - recurrence.time, last.t), settings) {
             continue;
         }
