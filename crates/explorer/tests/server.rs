@@ -174,7 +174,7 @@ fn a_port_that_is_taken_and_a_weak_token_are_said() {
     let server = Running::anywhere();
     let bind = |options: &Options| Server::bind(options).map(|_| ()).unwrap_err().to_string();
     let taken = bind(&Options { port: Some(server.port()), ..Options::default() });
-    assert!(taken.contains(&server.port().to_string()) && taken.contains("--port"), "{taken}");
+    assert!(taken.contains(&server.port().to_string()) && taken.contains("give another one"), "{taken}");
     let weak = bind(&Options { token: Some("1234".to_owned()), ..Options::default() });
     assert!(weak.contains("16 to 128"), "{weak}");
 }

@@ -149,7 +149,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let target = folder.path().join("run");
         fs::create_dir(replaced(&target)).unwrap();
-        assert!(sweep(&target)[0].contains("back"));
+        assert!(sweep(&target)[0].contains("restored"));
         assert!(target.is_dir());
     }
 }

@@ -216,7 +216,7 @@ fn only_datasets_are_replaced() {
     for manifest in ["", "{}", "[1, 2]", "{\"name\": \"an app\", \"manifest_version\": 3}"] {
         fs::write(theirs.join("manifest.json"), manifest).unwrap();
         let refusal = Staging::new(&theirs, true, true).unwrap_err().to_string();
-        assert!(refusal.contains("no motiform dataset"), "{refusal}");
+        assert!(refusal.contains("not a motiform dataset"), "{refusal}");
     }
     let file = place.path().join("file");
     fs::write(&file, "mine").unwrap();
