@@ -87,7 +87,7 @@ def test_axes_are_used_or_refused() -> None:
     body = motiform.preset("fig1")
     for axes, kind, words in [
         ({"kapa2": [0.1]}, TypeError, "kapa2"),
-        ({"kappa2": [0.1, 0.1]}, ValueError, "stands there twice"),
+        ({"kappa2": [0.1, 0.1]}, ValueError, "occurs twice"),
         ({"kappa2": [np.nan]}, ValueError, "not finite"),
         ({"kappa2": np.zeros((2, 2))}, ValueError, "dimensions"),
         ({"kappa2": ["a"]}, TypeError, "real numbers"),
