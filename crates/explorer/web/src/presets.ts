@@ -34,9 +34,15 @@ export class PresetBar {
     byId("about-text").replaceChildren(...prose(about, model.parameters));
     for (const chip of this.place.querySelectorAll<HTMLElement>(".chip")) {
       const chosen = chip.dataset.preset === preset;
-      if (chosen && chip.getAttribute("aria-pressed") !== "true") chip.scrollIntoView({ block: "nearest", inline: "nearest" });
+      if (chosen && chip.getAttribute("aria-pressed") !== "true") this.reveal(chip);
       chip.setAttribute("aria-pressed", String(chosen));
     }
+  }
+
+  /** Scrolls the bar to a chip. (`scrollIntoView` would move the place from which the tab key goes on, too.) */
+  private reveal(chip: HTMLElement): void {
+    const [bar, one] = [this.place.getBoundingClientRect(), chip.getBoundingClientRect()];
+    this.place.scrollLeft += Math.min(one.left - bar.left, 0) + Math.max(one.right - bar.right, 0);
   }
 
   /** Shows what the reader changed since: the sentence about the preset may hold no longer. */
