@@ -26,12 +26,12 @@ impl From<Error> for Failure {
 pub(super) struct Linear {
     /// What the equations leave; zeros in the rows that fix the neutral directions.
     pub(super) residual: Vec<f64>,
-    /// Their derivatives: one row fewer than unknowns.
+    /// Their derivatives: one row fewer than unknowns (two fewer over two parameters).
     pub(super) matrix: DMatrix<f64>,
 }
 
-/// Equations with one unknown more than there are of them. The parameter is the last unknown.
-pub(super) trait Problem {
+/// Equations with fewer of them than unknowns. The parameters are the last unknowns.
+pub(super) trait Equations {
     /// What was computed along with the equations at one place.
     type Local;
 
@@ -51,7 +51,10 @@ pub(super) trait Problem {
     fn is_sound(&self, x: &[f64]) -> bool {
         x.iter().all(|value| value.is_finite())
     }
+}
 
+/// The equations of a motion along one parameter, or over two.
+pub(super) trait Problem: Equations {
     /// Growth of the reduced deviations, class by class, largest first.
     fn levels(&self, x: &[f64], local: &Self::Local) -> Option<Vec<Vec<Level>>>;
 

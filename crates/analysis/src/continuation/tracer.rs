@@ -26,6 +26,9 @@ const HALVINGS: usize = 4;
 /// Where a step leads, its length, and what changes on it.
 type Examined<L> = (Place<L>, f64, Changes<L>);
 
+/// Where a branch ends on a step, and why.
+type Limit<L> = Option<(Place<L>, End)>;
+
 /// Where a branch began.
 struct First {
     parameter: f64,
@@ -175,7 +178,7 @@ impl<P: Problem> Tracer<P> {
     }
 
     /// The place on the way to `new` beyond which the branch does not go.
-    fn limit(&self, new: &Place<P::Local>, watch: &dyn Watch) -> Result<Option<(Place<P::Local>, End)>, End> {
+    fn limit(&self, new: &Place<P::Local>, watch: &dyn Watch) -> Result<Limit<P::Local>, End> {
         let (low, high) = self.settings.range;
         if !(low..=high).contains(&new.parameter()) {
             let edge = if new.parameter() < low { low } else { high };
@@ -188,11 +191,7 @@ impl<P: Problem> Tracer<P> {
     }
 
     /// The start, where the branch passes it again in the same direction before `new`.
-    fn closes(
-        &self,
-        new: &Place<P::Local>,
-        watch: &dyn Watch,
-    ) -> Result<Option<(Place<P::Local>, End)>, End> {
+    fn closes(&self, new: &Place<P::Local>, watch: &dyn Watch) -> Result<Limit<P::Local>, End> {
         let (old, first) = (&self.place, &self.first);
         let sides = [old, new].map(|place| place.parameter() - first.parameter);
         let along = [old, new].iter().all(|place| place.slope() * first.slope > 0.0);
