@@ -2,7 +2,7 @@
 //!
 //! A [`Family`] says which body belongs to a parameter value. A [`Branch`] is an **iterator over points**: the loop belongs to the
 //! caller, who may stop at any point, and [`Branch::end`] says why it ended by itself. Special points come in their place among the
-//! others, each with its [`Special`]; [`switch`] gives the branches that cross there.
+//! others, each with its [`Special`]; [`switch()`] gives the branches that cross there.
 //!
 //! * relative equilibria ([`Branch::of_equilibria`]): `f(u, p) = omega G u`, unknowns `(u, omega, p)`;
 //! * relative periodic orbits ([`Branch::of_orbits`]): `Phi_T(u) = R(angle) [M] u` by multiple shooting on the full shape equations,
