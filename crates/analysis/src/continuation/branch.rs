@@ -2,7 +2,7 @@
 
 use super::classes::Classes;
 use super::equilibria::Equilibria;
-use super::family::Family;
+use super::family::{Bodies, Family};
 use super::orbits::Orbits;
 use super::point::{End, Point};
 use super::problem::Failure;
@@ -11,7 +11,7 @@ use super::shooting::shape_after;
 use super::tracer::Tracer;
 use crate::linear::norm;
 use crate::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
-use motiform_dynamics::Watch;
+use motiform_dynamics::{Equivariant, Watch};
 
 /// Parts of an orbit to begin with; more where it amplifies deviations.
 const PARTS: usize = 4;
@@ -59,7 +59,7 @@ impl<'f> Branch<'f> {
     ) -> Result<Self> {
         settings.check(parameter)?;
         check_dim(family, parameter, &start.shape)?;
-        let problem = Equilibria::near(family, parameter, &start.shape, settings.width())?;
+        let problem = Equilibria::near(Bodies::One(family), &[parameter], &start.shape, &[settings.width()])?;
         let mut x = start.shape.clone();
         x.extend([start.turning_rate, parameter]);
         let tracer = Tracer::start(problem, x, settings, watch)
@@ -150,23 +150,42 @@ fn shoot<'f>(
         let next = shape_after(body.as_ref(), last, span, &settings.flow, watch)?;
         nodes.push(next);
     }
+    let mut start = start.clone();
+    start.angle = if start.mirrored { 0.0 } else { start.angle };
+    Ok(shoot_nodes(
+        Bodies::One(family),
+        body.as_ref(),
+        (&start, &nodes),
+        (&[parameter], &[settings.width()]),
+        settings,
+    ))
+}
+
+/// The equations of an orbit with these nodes, and the unknowns.
+pub(super) fn shoot_nodes<'f>(
+    bodies: Bodies<'f>,
+    body: &dyn Equivariant,
+    (orbit, nodes): (&PeriodicOrbit, &[Vec<f64>]),
+    (parameters, widths): (&[f64], &[f64]),
+    settings: &Settings,
+) -> (Orbits<'f>, Vec<f64>) {
     let shapes: Vec<&[f64]> = nodes.iter().map(Vec::as_slice).collect();
     let problem = Orbits {
-        family,
+        bodies,
         flow: settings.flow,
-        classes: Classes::of(body.as_ref(), &shapes),
-        dim: start.shape.len(),
-        parts: PARTS,
-        mirrored: start.mirrored,
-        turns: body.is_symmetric() && !start.mirrored,
+        classes: Classes::of(body, &shapes),
+        dim: body.dim(),
+        parts: nodes.len(),
+        mirrored: orbit.mirrored,
+        turns: body.is_symmetric() && !orbit.mirrored,
         size: nodes.iter().map(|node| norm(node)).fold(0.0, f64::max),
-        width: settings.width(),
+        widths: widths.to_vec(),
     };
     let mut x = nodes.concat();
-    x.push(start.time);
+    x.push(orbit.time);
     if problem.turns {
-        x.push(start.angle);
+        x.push(orbit.angle);
     }
-    x.push(parameter);
-    Ok((problem, x))
+    x.extend_from_slice(parameters);
+    (problem, x)
 }

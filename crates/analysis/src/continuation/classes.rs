@@ -1,7 +1,7 @@
 //! The symmetry of a motion, and what it makes of deviations: even ones keep the mirror axis, odd ones do not.
 
 use crate::isotropy::Isotropy;
-use crate::linear::{add, basis, complement, dot, norm};
+use crate::linear::{add, apply, basis, complement, dot, norm};
 use motiform_dynamics::Equivariant;
 use std::f64::consts::TAU;
 
@@ -56,10 +56,32 @@ impl Classes {
             shape.iter_mut().for_each(|x| *x *= 0.5);
             add(shape, 0.5, &image);
         }
-        if self.folds > 1 {
+        if self.folds > 1 || self.circle {
             let mean = self.mean(body, shape);
             shape.copy_from_slice(&mean);
         }
+    }
+
+    /// Column `j` of `A P + rest (1 - P)`, with `P` the projection on the deviations that keep all symmetry; `A` itself where there is none.
+    pub(super) fn kept<B: Equivariant + ?Sized>(
+        &self,
+        body: &B,
+        matrix: &[f64],
+        j: usize,
+        rest: f64,
+    ) -> Vec<f64> {
+        let dim = body.dim();
+        if self.axis.is_none() && self.folds == 1 && !self.circle {
+            return matrix[j * dim..(j + 1) * dim].to_vec();
+        }
+        let mut unit = vec![0.0; dim];
+        unit[j] = 1.0;
+        let mut kept = unit.clone();
+        self.tidy(body, &mut kept);
+        let mut out = apply(matrix, &kept);
+        add(&mut out, -rest, &kept);
+        add(&mut out, rest, &unit);
+        out
     }
 
     /// Whether a deviation breaks rotations of the shape.
@@ -92,10 +114,12 @@ impl Classes {
     /// The mean over the rotations that leave the shape unchanged.
     fn mean<B: Equivariant + ?Sized>(&self, body: &B, x: &[f64]) -> Vec<f64> {
         let mut sum = vec![0.0; x.len()];
-        for k in 0..self.folds {
+        // for a circle more turns than there are modes: what is left is what no rotation changes
+        let folds = if self.circle { x.len() + 1 } else { self.folds };
+        for k in 0..folds {
             let mut turned = x.to_vec();
-            body.rotate(TAU * k as f64 / self.folds as f64, &mut turned);
-            add(&mut sum, 1.0 / self.folds as f64, &turned);
+            body.rotate(TAU * k as f64 / folds as f64, &mut turned);
+            add(&mut sum, 1.0 / folds as f64, &turned);
         }
         sum
     }

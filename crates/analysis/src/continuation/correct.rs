@@ -2,7 +2,7 @@
 
 use super::elimination::newton_step;
 use super::point::Obstruction;
-use super::problem::{Failure, Linear, Problem};
+use super::problem::{Equations, Failure, Linear};
 use motiform_dynamics::Watch;
 
 /// Steps that Newton's method may take.
@@ -27,7 +27,7 @@ pub(super) fn product(weights: &[f64], a: &[f64], b: &[f64]) -> f64 {
 
 /// The solution near `guess` in the plane through it that is normal to `row`. Has converged with the first step shorter than
 /// `tolerance`, or where round-off stops the progress not far above it.
-pub(super) fn correct<P: Problem>(
+pub(super) fn correct<P: Equations>(
     problem: &P,
     guess: Vec<f64>,
     row: &[f64],
@@ -36,6 +36,7 @@ pub(super) fn correct<P: Problem>(
 ) -> Result<Corrected<P::Local>, Failure> {
     let weights = problem.weights(&guess);
     let mut x = guess;
+    problem.tidy(&mut x);
     let (mut first, mut last) = (f64::INFINITY, f64::INFINITY);
     for count in 0..STEPS {
         if !problem.is_sound(&x) {

@@ -1,11 +1,11 @@
 //! The equations of relative equilibria along a parameter.
 
 use super::classes::Classes;
-use super::family::{Family, Neighbours};
+use super::family::{Bodies, Neighbours, Sides};
 use super::hopf::first_lyapunov;
 use super::levels::Level;
 use super::point::Motion;
-use super::problem::{Failure, Linear, Problem};
+use super::problem::{Equations, Failure, Linear, Problem};
 use super::special::{Broken, Hopf, Special};
 use crate::RelativeEquilibrium;
 use crate::equilibrium::neutral_direction;
@@ -17,13 +17,14 @@ use nalgebra::DMatrix;
 /// `f(u, p) - omega G u = 0` and `Gu . du = 0`; unknowns `(u, omega, p)`. Without a neutral direction (a circle, a system without
 /// symmetry) omega means nothing and is held instead.
 pub(super) struct Equilibria<'f> {
-    pub(super) family: &'f dyn Family,
+    pub(super) bodies: Bodies<'f>,
     pub(super) classes: Classes,
     /// Length of the state.
     pub(super) dim: usize,
-    /// Units of the shape and of the parameter.
+    /// Unit of the shape.
     pub(super) size: f64,
-    pub(super) width: f64,
+    /// Units of the parameters.
+    pub(super) widths: Vec<f64>,
 }
 
 /// The equations at one place.
@@ -38,16 +39,16 @@ pub(super) struct Local {
 impl<'f> Equilibria<'f> {
     /// The equations near a relative equilibrium, whose symmetry the branch keeps.
     pub(super) fn near(
-        family: &'f dyn Family,
-        parameter: f64,
+        bodies: Bodies<'f>,
+        parameters: &[f64],
         shape: &[f64],
-        width: f64,
+        widths: &[f64],
     ) -> Result<Self, crate::Error> {
-        let body = family.at(parameter)?;
+        let body = bodies.at(parameters)?;
         let classes = Classes::of(body.as_ref(), &[shape]);
         let size = norm(shape);
         let size = if size > 1e-6 { size } else { 1.0 };
-        Ok(Self { family, classes, dim: shape.len(), size, width })
+        Ok(Self { bodies, classes, dim: shape.len(), size, widths: widths.to_vec() })
     }
 }
 
@@ -65,40 +66,18 @@ fn linearisation(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> 
     matrix
 }
 
-impl Problem for Equilibria<'_> {
+impl Equations for Equilibria<'_> {
     type Local = Local;
 
     fn local(&self, x: &[f64], _watch: &dyn Watch) -> Result<Local, Failure> {
-        let (dim, shape) = (self.dim, &x[..self.dim]);
-        let (omega, parameter) = (x[dim], x[dim + 1]);
-        let Neighbours { body, above, below, width } = Neighbours::of(self.family, parameter)?;
-        let mut spin = vec![0.0; dim];
-        body.spin(shape, &mut spin);
+        let (shape, omega) = (&x[..self.dim], x[self.dim]);
+        let Neighbours { body, sides } = Neighbours::of(self.bodies, x)?;
         let matrix = linearisation(body.as_ref(), shape, omega);
-        let rate = |body: &dyn Equivariant| {
-            let mut rate = vec![0.0; dim];
-            VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
-            rate
-        };
-        let mut residual = rate(body.as_ref());
-        add(&mut residual, -omega, &spin);
-        let mut slope = rate(above.as_ref());
-        add(&mut slope, -1.0, &rate(below.as_ref()));
-        let mut all = DMatrix::zeros(dim + 1, dim + 2);
-        for i in 0..dim {
-            for j in 0..dim {
-                all[(i, j)] = matrix[j * dim + i];
-            }
-            all[(i, dim)] = -spin[i];
-            all[(i, dim + 1)] = slope[i] / width;
-        }
         let neutral = neutral_direction(body.as_ref(), shape);
-        match neutral.first() {
-            Some(direction) => direction.iter().enumerate().for_each(|(j, g)| all[(dim, j)] = *g),
-            None => all[(dim, dim)] = 1.0,
-        }
-        residual.push(0.0);
-        Ok(Local { body, linear: Linear { residual, matrix: all }, matrix, neutral })
+        let linear = Linear { residual: Vec::new(), matrix: DMatrix::zeros(0, 0) };
+        let mut local = Local { body, linear, matrix, neutral };
+        local.linear = self.fill(shape, omega, &sides, &local);
+        Ok(local)
     }
 
     fn linear<'l>(&self, local: &'l Local) -> &'l Linear {
@@ -107,18 +86,21 @@ impl Problem for Equilibria<'_> {
 
     fn weights(&self, _x: &[f64]) -> Vec<f64> {
         let mut weights = vec![1.0 / (self.size * self.size); self.dim];
-        weights.extend([1.0, 1.0 / (self.width * self.width)]);
+        weights.push(1.0);
+        weights.extend(self.widths.iter().map(|width| 1.0 / (width * width)));
         weights
     }
 
     fn tidy(&self, x: &mut [f64]) {
-        let Ok(body) = self.family.at(x[self.dim + 1]) else { return };
+        let Ok(body) = self.bodies.at(x) else { return };
         self.classes.tidy(body.as_ref(), &mut x[..self.dim]);
         if self.classes.axis.is_some() {
             x[self.dim] = 0.0;
         }
     }
+}
 
+impl Problem for Equilibria<'_> {
     fn levels(&self, _x: &[f64], local: &Local) -> Option<Vec<Vec<Level>>> {
         let classes = self.classes.without(&local.neutral);
         let of = |class: &Vec<Vec<f64>>| {
@@ -162,12 +144,53 @@ impl Problem for Equilibria<'_> {
         })
     }
 
+    fn body<'l>(&self, local: &'l Local) -> &'l dyn Equivariant {
+        local.body.as_ref()
+    }
+
     fn size(&self, x: &[f64]) -> f64 {
         norm(&x[..self.dim])
     }
 }
 
+/// `f(shape)`.
+fn rate(body: &dyn Equivariant, shape: &[f64]) -> Vec<f64> {
+    let mut rate = vec![0.0; shape.len()];
+    VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
+    rate
+}
+
 impl Equilibria<'_> {
+    /// The equations. What breaks the symmetry of the shape is left to itself, `du = 0`: where such a deviation is critical the equations
+    /// of the motion itself stay regular.
+    fn fill(&self, shape: &[f64], omega: f64, sides: &[Sides], local: &Local) -> Linear {
+        let (dim, body) = (self.dim, local.body.as_ref());
+        let mut spin = vec![0.0; dim];
+        body.spin(shape, &mut spin);
+        let mut residual = rate(body, shape);
+        add(&mut residual, -omega, &spin);
+        residual.push(0.0);
+        let mut all = DMatrix::zeros(dim + 1, dim + 1 + sides.len());
+        let mut put = |column: usize, values: &[f64]| {
+            values.iter().enumerate().for_each(|(i, value)| all[(i, column)] = *value);
+        };
+        for j in 0..dim {
+            put(j, &self.classes.kept(body, &local.matrix, j, -1.0));
+        }
+        put(dim, &spin.iter().map(|g| -g).collect::<Vec<f64>>());
+        for (j, Sides { above, below, width }) in sides.iter().enumerate() {
+            let mut slope = rate(above.as_ref(), shape);
+            add(&mut slope, -1.0, &rate(below.as_ref(), shape));
+            slope.iter_mut().for_each(|value| *value /= width);
+            put(dim + 1 + j, &slope);
+        }
+        match local.neutral.first() {
+            Some(direction) => direction.iter().enumerate().for_each(|(j, g)| all[(dim, j)] = *g),
+            None => all[(dim, dim)] = 1.0,
+        }
+        Linear { residual, matrix: all }
+    }
+
     /// The direction of class `class` that neither grows nor decays at a steady bifurcation.
     fn critical_vector(&self, local: &Local, class: usize) -> Option<Vec<f64>> {
         let bases = self.classes.without(&local.neutral);

@@ -1,4 +1,4 @@
-//! Bodies that depend on one parameter.
+//! Bodies that depend on one parameter or two.
 
 use super::problem::Failure;
 use crate::{Error, Result};
@@ -32,10 +32,59 @@ impl<F: Fn(f64) -> Result<Box<dyn Equivariant>> + Sync> Family for F {
     }
 }
 
-/// A body and its two neighbours, whose difference is the derivative by the parameter.
+/// A body for every pair of values of two parameters. Any closure of this shape is one; what holds of a [`Family`] holds here.
+pub trait Family2: Sync {
+    /// The body for these values.
+    ///
+    /// # Errors
+    /// [`Error::NoBody`] where there is none, with the reason.
+    fn at(&self, parameters: [f64; 2]) -> Result<Box<dyn Equivariant>>;
+}
+
+impl<F: Fn([f64; 2]) -> Result<Box<dyn Equivariant>> + Sync> Family2 for F {
+    fn at(&self, parameters: [f64; 2]) -> Result<Box<dyn Equivariant>> {
+        self(parameters)
+    }
+}
+
+/// Bodies over one parameter or two.
+#[derive(Clone, Copy)]
+pub(super) enum Bodies<'f> {
+    /// Over one.
+    One(&'f dyn Family),
+    /// Over two.
+    Two(&'f dyn Family2),
+}
+
+impl Bodies<'_> {
+    /// Number of parameters.
+    pub(super) const fn count(self) -> usize {
+        match self {
+            Self::One(_) => 1,
+            Self::Two(_) => 2,
+        }
+    }
+
+    /// The body whose parameters are the last of the unknowns `x`.
+    pub(super) fn at(self, x: &[f64]) -> Result<Box<dyn Equivariant>> {
+        match (self, x) {
+            (Self::One(family), [.., p]) => family.at(*p),
+            (Self::Two(family), [.., p, q]) => family.at([*p, *q]),
+            _ => Err(Error::Shape { what: "the list of parameters", expected: self.count(), got: x.len() }),
+        }
+    }
+}
+
+/// A body and its neighbours, whose differences are the derivatives by the parameters.
 pub(super) struct Neighbours {
     /// The body itself.
     pub(super) body: Box<dyn Equivariant>,
+    /// Those on both sides, for each parameter.
+    pub(super) sides: Vec<Sides>,
+}
+
+/// Two neighbours of a body along one parameter.
+pub(super) struct Sides {
     /// The body beyond it.
     pub(super) above: Box<dyn Equivariant>,
     /// The body before it.
@@ -45,14 +94,23 @@ pub(super) struct Neighbours {
 }
 
 impl Neighbours {
-    /// The body at `parameter`, with neighbours so close that the central difference has about ten digits: more than a Newton step
-    /// needs, whose residual is exact. At the end of what the model allows the difference is one-sided.
-    pub(super) fn of(family: &dyn Family, parameter: f64) -> std::result::Result<Self, Failure> {
-        let step = 1e-5 * (1.0 + parameter.abs());
-        let at = |value: f64| family.at(value).map(|body| (value, body));
-        let (_, body) = at(parameter)?;
-        let (high, above) = at(parameter + step).or_else(|_: Error| at(parameter))?;
-        let (low, below) = at(parameter - step).or_else(|_: Error| at(parameter))?;
-        Ok(Self { body, above, below, width: high - low })
+    /// The body whose parameters are the last of `x`, with neighbours so close that the central difference has about ten digits: more
+    /// than a Newton step needs, whose residual is exact. At the end of what the model allows the difference is one-sided.
+    pub(super) fn of(bodies: Bodies<'_>, x: &[f64]) -> std::result::Result<Self, Failure> {
+        let parameters = &x[x.len() - bodies.count()..];
+        let body = bodies.at(parameters)?;
+        let mut sides = Vec::new();
+        for (i, &parameter) in parameters.iter().enumerate() {
+            let step = 1e-5 * (1.0 + parameter.abs());
+            let at = |value: f64| {
+                let mut moved = parameters.to_vec();
+                moved[i] = value;
+                bodies.at(&moved).map(|body| (value, body))
+            };
+            let (high, above) = at(parameter + step).or_else(|_: Error| at(parameter))?;
+            let (low, below) = at(parameter - step).or_else(|_: Error| at(parameter))?;
+            sides.push(Sides { above, below, width: high - low });
+        }
+        Ok(Self { body, sides })
     }
 }

@@ -18,22 +18,7 @@ const SEPARATE: f64 = 1e-12;
 /// Source: the periodic QR iteration: Bojanczyk, Golub, Van Dooren (1992), Proc. SPIE 1770, 31.
 pub(super) fn eigenvalues_of_product(factors: &[DMatrix<f64>]) -> Option<Vec<(f64, f64)>> {
     let dim = factors.first()?.nrows();
-    let mut frame = DMatrix::identity(dim, dim);
-    let mut triangles = Vec::new();
-    let mut before = frame.clone();
-    for _ in 0..ROUNDS {
-        before = frame.clone();
-        triangles.clear();
-        for factor in factors {
-            let image = factor * &frame;
-            if !image.iter().all(|x| x.is_finite()) {
-                return None;
-            }
-            let (q, r) = image.qr().unpack();
-            frame = q;
-            triangles.push(r);
-        }
-    }
+    let Frames { before, last: frame, triangles } = frames(factors, dim)?;
     let back = before.transpose() * &frame;
     let mut values = Vec::new();
     let mut from = 0;
@@ -52,6 +37,34 @@ pub(super) fn eigenvalues_of_product(factors: &[DMatrix<f64>]) -> Option<Vec<(f6
     }
     values.sort_by(|a, b| libm::hypot(b.0, b.1).total_cmp(&libm::hypot(a.0, a.1)));
     Some(values)
+}
+
+/// The frames before and after the last round, and the triangles of that round.
+struct Frames {
+    before: DMatrix<f64>,
+    last: DMatrix<f64>,
+    triangles: Vec<DMatrix<f64>>,
+}
+
+/// Frames taken around the product; `None` where a number is not finite.
+fn frames(factors: &[DMatrix<f64>], dim: usize) -> Option<Frames> {
+    let mut frame = DMatrix::identity(dim, dim);
+    let mut triangles = Vec::new();
+    let mut before = frame.clone();
+    for _ in 0..ROUNDS {
+        before = frame.clone();
+        triangles.clear();
+        for factor in factors {
+            let image = factor * &frame;
+            if !image.iter().all(|x| x.is_finite()) {
+                return None;
+            }
+            let (q, r) = image.qr().unpack();
+            frame = q;
+            triangles.push(r);
+        }
+    }
+    Some(Frames { before, last: frame, triangles })
 }
 
 #[cfg(test)]

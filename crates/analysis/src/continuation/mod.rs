@@ -14,6 +14,8 @@
 //! eigenvalue is computed. (At a drift pitchfork the critical and the neutral direction form a Jordan block: of the unreduced
 //! matrix only half of the digits are right.) Special points are solved for: every iterate is a solution of the equations.
 //!
+//! A [`Curve`] follows a special point through two parameters ([`Family2`]).
+//!
 //! Source: pseudo-arclength: Keller (1977), in Applications of Bifurcation Theory; relative orbits: Wulff and Schebesch (2006),
 //! SIAM J. Appl. Dyn. Syst. 5, 235; normal forms: Kuznetsov (2004), Elements of Applied Bifurcation Theory.
 
@@ -21,6 +23,11 @@ mod branch;
 mod classes;
 mod copies;
 mod correct;
+mod critical;
+mod curve;
+mod curve_steps;
+mod curve_tracer;
+mod degenerate;
 mod elimination;
 mod equilibria;
 mod family;
@@ -34,16 +41,20 @@ mod place;
 mod point;
 mod problem;
 mod reduced_maps;
+mod section;
 mod settings;
 mod shooting;
 mod special;
+mod steps;
 mod switch;
 mod tracer;
 mod variation;
 
 pub use branch::Branch;
 pub use copies::same_motion;
-pub use family::Family;
+pub use curve::{Curve, CurvePoint};
+pub use degenerate::Degenerate;
+pub use family::{Family, Family2};
 pub use homoclinic::{Connection, PeriodLaw};
 pub use point::{End, Motion, Point};
 pub use settings::Settings;

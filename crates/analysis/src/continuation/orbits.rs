@@ -1,11 +1,11 @@
 //! The equations of relative periodic orbits along a parameter.
 
 use super::classes::Classes;
-use super::family::{Family, Neighbours};
+use super::family::{Bodies, Neighbours};
 use super::graded::eigenvalues_of_product;
 use super::levels::Level;
 use super::point::Motion;
-use super::problem::{Failure, Linear, Problem};
+use super::problem::{Equations, Failure, Linear, Problem};
 use super::reduced_maps::reduced_maps;
 use super::shooting::{Segment, segment, shape_after};
 use super::special::{Broken, Special};
@@ -26,7 +26,7 @@ const PARTS: usize = 64;
 /// move normal to the flow and to the group. There is an angle where it is a neutral direction too: without the mirror, in a
 /// body with symmetry.
 pub(super) struct Orbits<'f> {
-    pub(super) family: &'f dyn Family,
+    pub(super) bodies: Bodies<'f>,
     pub(super) flow: Flow,
     pub(super) classes: Classes,
     pub(super) dim: usize,
@@ -36,7 +36,7 @@ pub(super) struct Orbits<'f> {
     /// Whether the angle is an unknown.
     pub(super) turns: bool,
     pub(super) size: f64,
-    pub(super) width: f64,
+    pub(super) widths: Vec<f64>,
 }
 
 /// The equations at one place.
@@ -52,7 +52,7 @@ pub(super) struct Local {
 impl Orbits<'_> {
     /// Number of unknowns.
     pub(super) fn unknowns(&self) -> usize {
-        self.parts * self.dim + 2 + usize::from(self.turns)
+        self.parts * self.dim + 1 + usize::from(self.turns) + self.bodies.count()
     }
 
     pub(super) fn node<'x>(&self, x: &'x [f64], i: usize) -> &'x [f64] {
@@ -67,14 +67,11 @@ impl Orbits<'_> {
         if self.turns { x[self.parts * self.dim + 1] } else { 0.0 }
     }
 
-    fn parameter(&self, x: &[f64]) -> f64 {
-        x[self.unknowns() - 1]
-    }
-
     fn fill(&self, x: &[f64], local: &Local) -> Linear {
         let unknowns = self.unknowns();
-        let matrix = DMatrix::zeros(unknowns - 1, unknowns);
-        let mut linear = Linear { residual: vec![0.0; unknowns - 1], matrix };
+        let rows = unknowns - self.bodies.count();
+        let matrix = DMatrix::zeros(rows, unknowns);
+        let mut linear = Linear { residual: vec![0.0; rows], matrix };
         for (i, segment) in local.segments.iter().enumerate() {
             self.fill_part(x, local.body.as_ref(), (i, segment), &mut linear);
         }
@@ -108,8 +105,8 @@ impl Orbits<'_> {
                 linear.matrix[(rows + k, column)] += factor * value;
             }
         };
-        for (j, column) in segment.tangents.chunks_exact(dim).enumerate() {
-            put(i * dim + j, 1.0, &brought(column));
+        for j in 0..dim {
+            put(i * dim + j, 1.0, &brought(&self.classes.kept(body, &segment.tangents, j, 0.0)));
         }
         put(time, 1.0 / self.parts as f64, &brought(&segment.slope));
         if last && self.turns {
@@ -117,7 +114,9 @@ impl Orbits<'_> {
             body.spin(&segment.end, &mut spin);
             put(time + 1, -1.0, &brought(&spin));
         }
-        put(self.unknowns() - 1, 1.0, &brought(&segment.by_parameter));
+        for (j, slope) in segment.by_parameter.chunks_exact(dim).enumerate() {
+            put(self.unknowns() - self.bodies.count() + j, 1.0, &brought(slope));
+        }
         for k in 0..dim {
             linear.matrix[(rows + k, next * dim + k)] -= 1.0;
         }
@@ -138,11 +137,11 @@ impl Orbits<'_> {
     }
 }
 
-impl Problem for Orbits<'_> {
+impl Equations for Orbits<'_> {
     type Local = Local;
 
     fn local(&self, x: &[f64], watch: &dyn Watch) -> Result<Local, Failure> {
-        let neighbours = Neighbours::of(self.family, self.parameter(x))?;
+        let neighbours = Neighbours::of(self.bodies, x)?;
         let span = self.span(x);
         let nodes = || (0..self.parts).map(|i| self.node(x, i));
         let segments: Result<Vec<Segment>, Failure> =
@@ -175,7 +174,7 @@ impl Problem for Orbits<'_> {
         if self.turns {
             weights.push(1.0);
         }
-        weights.push(1.0 / (self.width * self.width));
+        weights.extend(self.widths.iter().map(|width| 1.0 / (width * width)));
         weights
     }
 
@@ -184,12 +183,14 @@ impl Problem for Orbits<'_> {
     }
 
     fn tidy(&self, x: &mut [f64]) {
-        let Ok(body) = self.family.at(self.parameter(x)) else { return };
+        let Ok(body) = self.bodies.at(x) else { return };
         for node in x[..self.parts * self.dim].chunks_exact_mut(self.dim) {
             self.classes.tidy(body.as_ref(), node);
         }
     }
+}
 
+impl Problem for Orbits<'_> {
     fn levels(&self, x: &[f64], local: &Local) -> Option<Vec<Vec<Level>>> {
         let maps = reduced_maps(self, x, local);
         if maps.iter().flatten().any(|map| !map.is_square()) {
@@ -246,6 +247,10 @@ impl Problem for Orbits<'_> {
         out.extend_from_slice(&x[self.parts * self.dim..]);
         self.parts *= 2;
         Some(out)
+    }
+
+    fn body<'l>(&self, local: &'l Local) -> &'l dyn Equivariant {
+        local.body.as_ref()
     }
 
     fn size(&self, x: &[f64]) -> f64 {

@@ -89,6 +89,13 @@ impl Point {
 pub enum End {
     /// The parameter left its range; the last point lies at the edge.
     RangeLeft,
+    /// The branch came back to its start (up to the symmetry); the last point is the start again.
+    Closed,
+    /// A curve of special points ends in one of codimension two: beyond it the critical pair is real.
+    Degenerate {
+        /// Its kind.
+        kind: super::Degenerate,
+    },
     /// As many points as were asked for.
     PointLimit,
     /// The watch stopped it.
@@ -153,6 +160,8 @@ impl std::fmt::Display for End {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::RangeLeft => write!(f, "the parameter left its range"),
+            Self::Closed => write!(f, "the branch came back to its start"),
+            Self::Degenerate { kind } => write!(f, "the curve ends: {}", kind.name()),
             Self::PointLimit => write!(f, "as many points as were asked for"),
             Self::Stopped => write!(f, "stopped from outside"),
             Self::BlowUp { size } => write!(f, "the shape grew to {size:.3e}"),

@@ -4,7 +4,7 @@ use super::levels::Level;
 use super::point::{Motion, Obstruction};
 use super::special::Special;
 use crate::{Error, RelativeEquilibrium};
-use motiform_dynamics::Watch;
+use motiform_dynamics::{Equivariant, Watch};
 use nalgebra::DMatrix;
 
 /// Why there is no solution here.
@@ -26,12 +26,12 @@ impl From<Error> for Failure {
 pub(super) struct Linear {
     /// What the equations leave; zeros in the rows that fix the neutral directions.
     pub(super) residual: Vec<f64>,
-    /// Their derivatives: one row fewer than unknowns.
+    /// Their derivatives: one row fewer than unknowns (two fewer over two parameters).
     pub(super) matrix: DMatrix<f64>,
 }
 
-/// Equations with one unknown more than there are of them. The parameter is the last unknown.
-pub(super) trait Problem {
+/// Equations with fewer of them than unknowns. The parameters are the last unknowns.
+pub(super) trait Equations {
     /// What was computed along with the equations at one place.
     type Local;
 
@@ -51,7 +51,10 @@ pub(super) trait Problem {
     fn is_sound(&self, x: &[f64]) -> bool {
         x.iter().all(|value| value.is_finite())
     }
+}
 
+/// The equations of a motion along one parameter, or over two.
+pub(super) trait Problem: Equations {
     /// Growth of the reduced deviations, class by class, largest first.
     fn levels(&self, x: &[f64], local: &Self::Local) -> Option<Vec<Vec<Level>>>;
 
@@ -60,6 +63,9 @@ pub(super) trait Problem {
 
     /// The motion, for whoever asked for the branch.
     fn motion(&self, x: &[f64], local: &Self::Local, levels: &[Vec<Level>]) -> Motion;
+
+    /// The body at `x`.
+    fn body<'l>(&self, local: &'l Self::Local) -> &'l dyn Equivariant;
 
     /// The same solution in other unknowns, where these have become too few.
     fn refine(&mut self, _x: &[f64], _local: &Self::Local, _watch: &dyn Watch) -> Option<Vec<f64>> {

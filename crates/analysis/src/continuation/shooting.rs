@@ -16,7 +16,7 @@ pub(super) struct Segment {
     pub(super) slope: Vec<f64>,
     /// `D Phi`, column by column.
     pub(super) tangents: Vec<f64>,
-    /// `d Phi / dp`.
+    /// `d Phi / dp`, for every parameter.
     pub(super) by_parameter: Vec<f64>,
 }
 
@@ -31,7 +31,7 @@ pub(super) fn segment(
     let dim = start.len();
     let variation = Variation::new(neighbours);
     let mut state = Vec::new();
-    Variation::start(start, &mut state);
+    variation.start(start, &mut state);
     let end = run(&variation, &state, span, dim, flow, watch)?;
     let (shape, vectors) = end.split_at(dim);
     let (tangents, by_parameter) = vectors.split_at(dim * dim);

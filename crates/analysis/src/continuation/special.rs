@@ -25,6 +25,16 @@ pub enum Special {
         /// The angle (rad, 0 to pi).
         angle: f64,
     },
+    /// A change was seen between two points of the branch and could not be located, however short the steps. The point that carries
+    /// this is the one after it.
+    Unresolved {
+        /// The name of what it seems to be: that of another of these.
+        seen: &'static str,
+        /// The parameter before it.
+        from: f64,
+        /// The parameter after it.
+        to: f64,
+    },
 }
 
 /// Which symmetry a pitchfork breaks.
@@ -74,6 +84,7 @@ impl Special {
             Self::PeriodDoubling => "period-doubling",
             Self::SymmetryBreaking => "symmetry-breaking",
             Self::Torus { .. } => "torus",
+            Self::Unresolved { .. } => "unresolved",
         }
     }
 }

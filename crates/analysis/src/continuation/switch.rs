@@ -4,11 +4,11 @@ use super::branch::Branch;
 use super::classes::Classes;
 use super::correct::{null_vectors, product, scaled};
 use super::equilibria::Equilibria;
-use super::family::Family;
+use super::family::{Bodies, Family};
 use super::hopf::critical_pair;
 use super::orbits::Orbits;
 use super::point::{Motion, Point};
-use super::problem::Problem;
+use super::problem::{Equations, Problem};
 use super::settings::Settings;
 use super::special::Special;
 use super::tracer::Tracer;
@@ -26,7 +26,7 @@ const NODES: usize = 8;
 /// Vectors that the equations see less than this part of the largest are solutions to first order.
 const NULL: f64 = 1e-6;
 
-/// The branches that begin or cross at a special point, each on to one side from there; none at a fold or a torus.
+/// The branches that begin or cross at a special point, each on to one side from there; none at a fold or a torus, nor where the special point is unresolved.
 ///
 /// Where the two sides of a new branch are images of each other under the symmetry (a pitchfork, a symmetry breaking) or under time (a
 /// period doubling, a Hopf bifurcation), there is one: its copies are not followed. The first step does not know the direction of
@@ -43,7 +43,7 @@ pub fn switch<'f>(
     settings.check(point.parameter)?;
     let Some(special) = point.special else { return Ok(Vec::new()) };
     match (&point.motion, special) {
-        (_, Special::Fold | Special::Torus { .. }) => Ok(Vec::new()),
+        (_, Special::Fold | Special::Torus { .. } | Special::Unresolved { .. }) => Ok(Vec::new()),
         (Motion::Equilibrium(start), Special::Hopf(hopf)) => {
             begin(family, (point.parameter, start, hopf.frequency), settings, watch)
                 .map(|branch| vec![branch])
@@ -107,7 +107,7 @@ fn cross<'f>(
     settings: &Settings,
     watch: &'f dyn Watch,
 ) -> Result<Branch<'f>> {
-    let mut problem = Equilibria::near(family, parameter, &start.shape, settings.width())?;
+    let mut problem = Equilibria::near(Bodies::One(family), &[parameter], &start.shape, &[settings.width()])?;
     let body = family.at(parameter)?;
     problem.classes = Classes::of(body.as_ref(), &[]);
     let mut x = start.shape.clone();
@@ -161,7 +161,7 @@ fn orbits<'f>(
 ) -> Orbits<'f> {
     let size = nodes.iter().map(|node| norm(node)).fold(0.0, f64::max);
     Orbits {
-        family,
+        bodies: Bodies::One(family),
         flow: settings.flow,
         classes: Classes::of(body, &[]),
         dim: body.dim(),
@@ -169,7 +169,7 @@ fn orbits<'f>(
         mirrored,
         turns: body.is_symmetric() && !mirrored,
         size: if size > 1e-6 { size } else { 1.0 },
-        width: settings.width(),
+        widths: vec![settings.width()],
     }
 }
 

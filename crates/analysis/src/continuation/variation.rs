@@ -1,9 +1,10 @@
 //! The flow with its derivatives by the start and by the parameter.
 
-use super::family::Neighbours;
+use super::family::{Neighbours, Sides};
 use motiform_dynamics::{Equivariant, Semilinear, System, Tangent, VectorField};
 
-/// `u' = f(u, p)`, `w_i' = Df w_i` for as many vectors as there are unknowns, and `w' = Df w + df/dp`: a shape followed by vectors.
+/// `u' = f(u, p)`, `w_i' = Df w_i` for as many vectors as there are unknowns, and `w' = Df w + df/dp` for every parameter: a shape followed
+/// by vectors.
 pub(super) struct Variation<'n> {
     tangent: Tangent<'n, dyn Equivariant>,
     neighbours: &'n Neighbours,
@@ -12,44 +13,45 @@ pub(super) struct Variation<'n> {
 impl<'n> Variation<'n> {
     pub(super) fn new(neighbours: &'n Neighbours) -> Self {
         let body: &dyn Equivariant = neighbours.body.as_ref();
-        Self { tangent: Tangent::new(body, body.dim() + 1), neighbours }
+        Self { tangent: Tangent::new(body, body.dim() + neighbours.sides.len()), neighbours }
     }
 
     /// The state at the start of a part: the shape, the unit vectors and 0.
-    pub(super) fn start(shape: &[f64], out: &mut Vec<f64>) {
+    pub(super) fn start(&self, shape: &[f64], out: &mut Vec<f64>) {
         let dim = shape.len();
         out.clear();
-        out.resize(dim * (dim + 2), 0.0);
+        out.resize(dim * (dim + 1 + self.neighbours.sides.len()), 0.0);
         out[..dim].copy_from_slice(shape);
         for i in 0..dim {
             out[dim * (1 + i) + i] = 1.0;
         }
     }
 
-    /// Adds `df/dp` to the rate of the last vector.
+    /// Adds `df/dp` to the rates of the last vectors.
     fn add_slope(&self, u: &[f64], du: &mut [f64]) {
-        let dim = self.neighbours.body.dim();
-        let Some(last) = du.len().checked_sub(dim) else { return };
-        let last = &mut du[last..];
-        match dim {
-            ..=8 => self.slope::<8>(&u[..dim], last),
-            9..=64 => self.slope::<64>(&u[..dim], last),
-            65..=256 => self.slope::<256>(&u[..dim], last),
-            _ => self.slope_in(&u[..dim], &mut vec![0.0; dim], last),
+        let (dim, count) = (self.neighbours.body.dim(), self.neighbours.sides.len());
+        let Some(first) = du.len().checked_sub(count * dim) else { return };
+        for (sides, last) in self.neighbours.sides.iter().zip(du[first..].chunks_exact_mut(dim)) {
+            match dim {
+                ..=8 => slope::<8>(sides, &u[..dim], last),
+                9..=64 => slope::<64>(sides, &u[..dim], last),
+                65..=256 => slope::<256>(sides, &u[..dim], last),
+                _ => slope_in(sides, &u[..dim], &mut vec![0.0; dim], last),
+            }
         }
     }
+}
 
-    fn slope<const N: usize>(&self, u: &[f64], out: &mut [f64]) {
-        let mut rates = [0.0; N];
-        self.slope_in(u, &mut rates[..u.len()], out);
-    }
+fn slope<const N: usize>(sides: &Sides, u: &[f64], out: &mut [f64]) {
+    let mut rates = [0.0; N];
+    slope_in(sides, u, &mut rates[..u.len()], out);
+}
 
-    fn slope_in(&self, u: &[f64], rates: &mut [f64], out: &mut [f64]) {
-        for (body, sign) in [(&self.neighbours.above, 1.0), (&self.neighbours.below, -1.0)] {
-            VectorField::<f64>::eval(body.as_ref(), 0.0, u, rates);
-            for (to, from) in out.iter_mut().zip(&*rates) {
-                *to += sign * from / self.neighbours.width;
-            }
+fn slope_in(sides: &Sides, u: &[f64], rates: &mut [f64], out: &mut [f64]) {
+    for (body, sign) in [(&sides.above, 1.0), (&sides.below, -1.0)] {
+        VectorField::<f64>::eval(body.as_ref(), 0.0, u, rates);
+        for (to, from) in out.iter_mut().zip(&*rates) {
+            *to += sign * from / sides.width;
         }
     }
 }

@@ -1,0 +1,154 @@
+//! The condition that holds along a curve of special points, as a function that vanishes there.
+
+use super::levels::Level;
+use super::special::Special;
+
+/// What is critical along a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Condition {
+    /// An eigenvalue 0, or a multiplier +1.
+    Steady,
+    /// A multiplier -1.
+    Flip,
+    /// A pair of eigenvalues `+-i omega`, or of multipliers `exp(+-i angle)`.
+    Pair,
+}
+
+/// The condition, in the class of deviations where it holds.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Critical {
+    pub(super) condition: Condition,
+    pub(super) class: usize,
+    /// Whether the levels are those of multipliers.
+    pub(super) orbits: bool,
+}
+
+/// The condition at one place.
+#[derive(Clone, Debug)]
+pub(super) struct Reading {
+    /// Vanishes where the condition holds, and is smooth there.
+    pub(super) value: f64,
+    /// Of a pair: `omega^2`, or the cosine of the angle. They pass 0, or +-1, where the pair becomes real.
+    pub(super) angle: f64,
+    /// The ranks of the critical levels in their class.
+    pub(super) members: Vec<usize>,
+}
+
+impl Critical {
+    /// What is critical at a special point.
+    pub(super) fn of(special: Special, levels: &[Vec<Level>], orbits: bool) -> Option<(Self, Reading)> {
+        let (condition, angle) = match special {
+            Special::Fold | Special::Pitchfork { .. } | Special::BranchPoint => (Condition::Steady, 0.0),
+            Special::PeriodDoubling | Special::SymmetryBreaking => (Condition::Flip, 0.0),
+            Special::Hopf(hopf) => (Condition::Pair, hopf.frequency * hopf.frequency),
+            Special::Torus { angle } => (Condition::Pair, libm::cos(angle)),
+            Special::Unresolved { .. } => return None,
+        };
+        let read = |class| {
+            let critical = Self { condition, class, orbits };
+            critical.read(levels, angle).map(|reading| (critical, reading))
+        };
+        let off = |reading: &Reading| reading.value.abs() + (reading.angle - angle).abs();
+        let all = (0..levels.len()).filter_map(read);
+        all.min_by(|a, b| off(&a.1).total_cmp(&off(&b.1)))
+    }
+
+    /// The condition's value; of several pairs the one whose angle was `angle`.
+    pub(super) fn read(&self, levels: &[Vec<Level>], angle: f64) -> Option<Reading> {
+        let levels = levels.get(self.class)?;
+        match self.condition {
+            Condition::Steady => self.steady(levels, if self.orbits { 1.0 } else { 0.0 }),
+            Condition::Flip => self.steady(levels, -1.0),
+            Condition::Pair => self.pair(levels, angle),
+        }
+    }
+
+    fn number(&self, level: &Level) -> (f64, f64) {
+        if !self.orbits {
+            return (level.growth, level.angle);
+        }
+        let (sin, cos) = libm::sincos(level.angle);
+        let modulus = libm::exp(level.growth);
+        (modulus * cos, if self.is_real(level) { 0.0 } else { modulus * sin })
+    }
+
+    fn is_real(&self, level: &Level) -> bool {
+        level.angle == 0.0 || self.orbits && level.angle.abs() == std::f64::consts::PI
+    }
+
+    /// The product of the two smallest `lambda - centre`: where both vanish, each alone is not smooth.
+    fn steady(&self, levels: &[Level], centre: f64) -> Option<Reading> {
+        let number = |level: &Level| {
+            let (re, im) = self.number(level);
+            (re - centre, im)
+        };
+        let size = |&rank: &usize| {
+            let (re, im) = number(&levels[rank]);
+            libm::hypot(re, im)
+        };
+        let mut order: Vec<usize> = (0..levels.len()).collect();
+        order.sort_by(|a, b| size(a).total_cmp(&size(b)));
+        let first = *order.first()?;
+        let (re, im) = number(&levels[first]);
+        let value = match order.get(1) {
+            None => re,
+            Some(_) if im != 0.0 => re * re + im * im,
+            Some(&second) => match number(&levels[second]) {
+                (other, 0.0) => re * other,
+                (other, im) => re * (other * other + im * im),
+            },
+        };
+        Some(Reading { value, angle: 0.0, members: vec![first] })
+    }
+
+    /// The mean growth of the pair.
+    fn pair(&self, levels: &[Level], angle: f64) -> Option<Reading> {
+        let mut all = Vec::new();
+        let real: Vec<usize> = (0..levels.len()).filter(|&rank| self.is_real(&levels[rank])).collect();
+        for (i, &a) in real.iter().enumerate() {
+            all.extend(real[i + 1..].iter().filter_map(|&b| self.real_pair(levels, a, b)));
+        }
+        for (rank, level) in levels.iter().enumerate() {
+            if level.angle > 0.0 && !self.is_real(level) {
+                let angle = if self.orbits { libm::cos(level.angle) } else { level.angle * level.angle };
+                let twin = levels.iter().position(|other| other.angle == -level.angle);
+                let members = std::iter::once(rank).chain(twin).collect();
+                all.push(Reading { value: level.growth, angle, members });
+            }
+        }
+        let off = |reading: &Reading| {
+            let turned = reading.angle - angle;
+            reading.value * reading.value + turned.abs() * (1.0 + turned.abs())
+        };
+        all.into_iter().min_by(|a, b| off(a).total_cmp(&off(b)))
+    }
+
+    fn real_pair(&self, levels: &[Level], a: usize, b: usize) -> Option<Reading> {
+        let (x, y) = (self.number(&levels[a]).0, self.number(&levels[b]).0);
+        let value = 0.5 * (levels[a].growth + levels[b].growth);
+        let members = vec![a, b];
+        if !self.orbits {
+            return Some(Reading { value, angle: -0.25 * (x - y) * (x - y), members });
+        }
+        (x * y > 0.0).then(|| Reading { value, angle: 0.5 * (x + y) / (x * y).sqrt(), members })
+    }
+
+    /// The levels that are not critical: how many real ones and how many others grow, and the growth of those closest to 0; NaN where
+    /// there are none.
+    pub(super) fn others(&self, levels: &[Vec<Level>], reading: &Reading) -> [(usize, f64); 2] {
+        let mut out = [(0, f64::NAN); 2];
+        for (class, levels) in levels.iter().enumerate() {
+            for (rank, level) in levels.iter().enumerate() {
+                if class == self.class && reading.members.contains(&rank) {
+                    continue;
+                }
+                let (count, least) = &mut out[usize::from(!self.is_real(level))];
+                *count += usize::from(level.growth > 0.0);
+                if least.is_nan() || level.growth.abs() < least.abs() {
+                    *least = level.growth;
+                }
+            }
+        }
+        out
+    }
+}

@@ -1,0 +1,237 @@
+//! Curves of special points over two parameters, as their users see them.
+
+use super::branch::shoot_nodes;
+use super::curve_tracer::{CurveTracer, Spot, last_two};
+use super::degenerate::Degenerate;
+use super::equilibria::Equilibria;
+use super::family::{Bodies, Family2};
+use super::hopf::first_lyapunov;
+use super::orbits::Orbits;
+use super::point::{End, Motion, Point};
+use super::problem::{Failure, Problem};
+use super::settings::Settings;
+use super::special::{Hopf, Special};
+use crate::{Error, Result};
+use motiform_dynamics::Watch;
+use std::collections::VecDeque;
+
+/// One point of a curve of special points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurvePoint {
+    /// The two parameters.
+    pub parameters: [f64; 2],
+    /// Their derivatives by the length along the curve.
+    pub direction: [f64; 2],
+    /// Length along the curve from its start, in the units of [`Settings`].
+    pub arclength: f64,
+    /// The motion, with its eigenvalues or multipliers.
+    pub motion: Motion,
+    /// How many directions of the reduced motion grow, the critical ones left out.
+    pub unstable: usize,
+    /// What is critical; for a Hopf bifurcation with its frequency and its first Lyapunov coefficient here.
+    pub special: Special,
+    /// What else happens, if the point was solved for as one of codimension two.
+    pub degenerate: Option<Degenerate>,
+}
+
+/// A curve of special points over two parameters: an iterator over its points, those of codimension two in their place among the
+/// others. Same start, same settings: same bits.
+///
+/// The motions over two parameters are a surface `F(x, p, q) = 0`; it is smooth at folds too, and, within the deviations that keep the
+/// motion's symmetry, at pitchforks. On it the critical condition is one number: the product of the two eigenvalues closest to 0 (of
+/// multipliers, to +1 or -1), or the mean growth of a pair. Steps go along the line where it vanishes (pseudo-arclength in all unknowns
+/// and both parameters, so that the parameters may turn back); each point is found in a plane across the curve, by secants whose every
+/// iterate is a motion.
+///
+/// Source: Kuznetsov (2004), Elements of Applied Bifurcation Theory, chapter 10; Govaerts (2000), Numerical Methods for Bifurcations of
+/// Dynamical Equilibria.
+///
+/// # Checked by  tests/continuation_curves.rs: the lines of the reduced model, normal forms, points of the full model
+pub struct Curve<'f> {
+    kind: Kind<'f>,
+    watch: &'f dyn Watch,
+    queue: VecDeque<CurvePoint>,
+    end: Option<End>,
+    count: usize,
+}
+
+enum Kind<'f> {
+    Equilibria(Box<CurveTracer<Equilibria<'f>>>),
+    Orbits(Box<CurveTracer<Orbits<'f>>>),
+}
+
+impl<'f> Curve<'f> {
+    /// The curve through `point`, a special point of a branch in the first parameter at the value `second` of the second one. The range
+    /// of the settings is that of the first parameter, `range` that of the second. The curve starts towards larger values of the second
+    /// parameter if [`Settings::first_step`] is positive. The first point is the start.
+    ///
+    /// # Errors
+    /// Settings out of range; [`Error::OutsideRange`]; [`Error::NotOnABranch`] if the point is no special one of this family;
+    /// [`Error::NoBody`].
+    pub fn of(
+        family: &'f dyn Family2,
+        point: &Point,
+        second: f64,
+        settings: &Settings,
+        range: (f64, f64),
+        watch: &'f dyn Watch,
+    ) -> Result<Self> {
+        settings.check(point.parameter)?;
+        Settings { range, ..*settings }.check(second)?;
+        let parameters = [point.parameter, second];
+        let expected = family.at(parameters)?.dim();
+        let got = point.motion.shape().len();
+        if got != expected {
+            return Err(Error::Shape { what: "the shape of the start", expected, got });
+        }
+        let refused =
+            |why: String| Error::NotOnABranch { what: "special point", parameter: parameters[0], why };
+        let special = match point.special {
+            Some(Special::Unresolved { .. }) | None => {
+                return Err(refused("the point is not a located special point of a branch".to_owned()));
+            }
+            Some(special) => special,
+        };
+        let kind = Kind::start(family, (&point.motion, special), parameters, (settings, range), watch);
+        let kind = kind.map_err(|failure| match failure {
+            Failure::Stopped => refused("stopped from outside".to_owned()),
+            Failure::Obstructed(why) => refused(why.to_string()),
+        })?;
+        let mut curve = Self { kind, watch, queue: VecDeque::new(), end: None, count: 0 };
+        let first = curve.kind.here();
+        curve.queue.push_back(first);
+        Ok(curve)
+    }
+
+    /// Why the curve ended; `None` while it goes on.
+    #[must_use]
+    pub fn end(&self) -> Option<&End> {
+        self.end.as_ref().filter(|_| self.queue.is_empty())
+    }
+
+    /// The kinds of points of codimension two that are looked for: those that do not come were not found.
+    #[must_use]
+    pub fn sought(&self) -> Vec<Degenerate> {
+        match &self.kind {
+            Kind::Equilibria(tracer) => Degenerate::sought(tracer.special, false),
+            Kind::Orbits(tracer) => Degenerate::sought(tracer.special, true),
+        }
+    }
+}
+
+impl Iterator for Curve<'_> {
+    type Item = CurvePoint;
+
+    fn next(&mut self) -> Option<CurvePoint> {
+        if let Some(point) = self.queue.pop_front() {
+            self.count += usize::from(point.degenerate.is_none());
+            return Some(point);
+        }
+        if self.end.is_some() {
+            return None;
+        }
+        if self.count >= self.kind.settings().most_points {
+            self.end = Some(End::PointLimit);
+            return None;
+        }
+        self.end = self.kind.advance(&mut self.queue, self.watch);
+        self.next()
+    }
+}
+
+impl<'f> Kind<'f> {
+    fn start(
+        family: &'f dyn Family2,
+        (motion, special): (&Motion, Special),
+        parameters: [f64; 2],
+        (settings, range): (&Settings, (f64, f64)),
+        watch: &dyn Watch,
+    ) -> std::result::Result<Self, Failure> {
+        let (bodies, ranges) = (Bodies::Two(family), [settings.range, range]);
+        let widths = ranges.map(|(low, high)| high - low);
+        match motion {
+            Motion::Equilibrium(start) => {
+                let problem = Equilibria::near(bodies, &parameters, &start.shape, &widths)?;
+                let mut x = start.shape.clone();
+                x.push(start.turning_rate);
+                x.extend(parameters);
+                CurveTracer::start(problem, x, (special, false), (settings, ranges), watch)
+                    .map(|tracer| Self::Equilibria(Box::new(tracer)))
+            }
+            Motion::Orbit { orbit, nodes } => {
+                let body = family.at(parameters)?;
+                let (problem, x) =
+                    shoot_nodes(bodies, body.as_ref(), (orbit, nodes), (&parameters, &widths), settings);
+                CurveTracer::start(problem, x, (special, true), (settings, ranges), watch)
+                    .map(|tracer| Self::Orbits(Box::new(tracer)))
+            }
+        }
+    }
+
+    fn settings(&self) -> &Settings {
+        match self {
+            Self::Equilibria(tracer) => &tracer.settings,
+            Self::Orbits(tracer) => &tracer.settings,
+        }
+    }
+
+    fn here(&self) -> CurvePoint {
+        match self {
+            Self::Equilibria(tracer) => point(tracer, &tracer.spot, None),
+            Self::Orbits(tracer) => point(tracer, &tracer.spot, None),
+        }
+    }
+
+    fn advance(&mut self, queue: &mut VecDeque<CurvePoint>, watch: &dyn Watch) -> Option<End> {
+        match self {
+            Self::Equilibria(tracer) => advance(tracer, queue, watch),
+            Self::Orbits(tracer) => advance(tracer, queue, watch),
+        }
+    }
+}
+
+/// The points of one step.
+fn advance<P: Problem>(
+    tracer: &mut CurveTracer<P>,
+    queue: &mut VecDeque<CurvePoint>,
+    watch: &dyn Watch,
+) -> Option<End> {
+    let stretch = match tracer.advance(watch) {
+        Ok(stretch) => stretch,
+        Err(end) => return Some(end),
+    };
+    for event in &stretch.degenerate {
+        queue.push_back(point(tracer, event.spot.as_ref().unwrap_or(&tracer.spot), Some(event.kind)));
+    }
+    if !matches!(stretch.end, Some(End::Degenerate { .. })) {
+        queue.push_back(point(tracer, &tracer.spot, None));
+    }
+    stretch.end
+}
+
+fn point<P: Problem>(
+    tracer: &CurveTracer<P>,
+    spot: &Spot<P::Local>,
+    degenerate: Option<Degenerate>,
+) -> CurvePoint {
+    let special = match tracer.special {
+        Special::Hopf(_) => {
+            let body = tracer.problem.body(&spot.local);
+            let frequency = spot.reading.angle.max(0.0).sqrt();
+            let first_lyapunov = first_lyapunov(body, &spot.x[..body.dim()], frequency);
+            Special::Hopf(Hopf { frequency, first_lyapunov })
+        }
+        Special::Torus { .. } => Special::Torus { angle: libm::acos(spot.reading.angle.clamp(-1.0, 1.0)) },
+        other => other,
+    };
+    let [real, pairs] = tracer.critical.others(&spot.levels, &spot.reading);
+    CurvePoint {
+        parameters: spot.parameters(),
+        direction: last_two(&spot.frame.along),
+        arclength: spot.arclength,
+        motion: tracer.problem.motion(&spot.x, &spot.local, &spot.levels),
+        unstable: real.0 + pairs.0,
+        special,
+        degenerate,
+    }
+}

@@ -1,0 +1,206 @@
+//! Steps along a curve of special points, and what happens on them.
+
+use super::correct::product;
+use super::curve_tracer::{CurveTracer, Spot, last_two};
+use super::degenerate::{Degenerate, Seen, Sign};
+use super::point::{End, Obstruction};
+use super::problem::{Failure, Problem};
+use super::special::Special;
+use motiform_dynamics::Watch;
+
+/// Length of the correction that the step is chosen for.
+const CORRECTION: f64 = 1e-3;
+
+/// Least cosine of the angle between successive tangents.
+const STRAIGHT: f64 = 0.9;
+
+/// A place, and its distance from the beginning of the step.
+type At<L> = (Spot<L>, f64);
+
+/// A step, or a stretch of it: the new place and, on the way, points of codimension two. The end is that of the curve.
+pub(super) struct Stretch<L> {
+    pub(super) degenerate: Vec<Event<L>>,
+    pub(super) end: Option<End>,
+}
+
+/// A point of codimension two, the length `s` after the beginning of its step; without a place where it was not located.
+pub(super) struct Event<L> {
+    s: f64,
+    pub(super) spot: Option<Spot<L>>,
+    sign: Sign,
+    pub(super) kind: Degenerate,
+}
+
+impl<P: Problem> CurveTracer<P> {
+    /// The next special point and the length of the step to it.
+    fn reach(&mut self, watch: &dyn Watch) -> Result<(Spot<P::Local>, f64), End> {
+        loop {
+            let length = self.step;
+            let why = match self.at(length, watch) {
+                Ok((spot, off)) if self.is_straight(&spot) => {
+                    let factor = libm::cbrt(CORRECTION / off.abs().max(1e-12)).clamp(0.4, 1.5);
+                    self.step =
+                        (length * factor).clamp(self.settings.smallest_step, self.settings.largest_step);
+                    return Ok((spot, length));
+                }
+                Ok(_) => Obstruction::Newton,
+                Err(Failure::Stopped) => return Err(End::Stopped),
+                Err(Failure::Obstructed(why)) => why,
+            };
+            self.step = 0.4 * length;
+            if self.step < self.settings.smallest_step {
+                return Err(End::StepUnderflow { step: length, why });
+            }
+        }
+    }
+
+    fn is_straight(&self, new: &Spot<P::Local>) -> bool {
+        let weights = self.problem.weights(&new.x);
+        product(&weights, &self.spot.frame.along, &new.frame.along) > STRAIGHT
+    }
+
+    /// One step; the present place is the new one afterwards.
+    pub(super) fn advance(&mut self, watch: &dyn Watch) -> Result<Stretch<P::Local>, End> {
+        if watch.stopped() {
+            return Err(End::Stopped);
+        }
+        self.refine(watch);
+        let (mut new, mut length) = self.reach(watch)?;
+        let mut end = None;
+        if let Some((nearer, s)) = self.edge(&new, length, watch)? {
+            (new, length, end) = (nearer, s, Some(End::RangeLeft));
+        }
+        self.check(&new)?;
+        let mut degenerate = self.degenerate(&new, length, watch)?;
+        if let Some(last) = degenerate.iter().position(|event| event.sign.ends(&self.critical)) {
+            degenerate.truncate(last + 1);
+            end = Some(End::Degenerate { kind: degenerate[last].kind });
+        }
+        let old = std::mem::replace(&mut self.spot, new);
+        self.before = Some((old.x, length));
+        Ok(Stretch { degenerate, end })
+    }
+
+    fn check(&self, new: &Spot<P::Local>) -> Result<(), End> {
+        let size = self.problem.size(&new.x);
+        if size > self.settings.largest_size {
+            return Err(End::BlowUp { size });
+        }
+        match self.problem.time().map(|place| new.x[place]) {
+            Some(time) if time > self.settings.longest_time => Err(End::PeriodLimit { time }),
+            _ => Ok(()),
+        }
+    }
+
+    /// More unknowns, where an orbit needs them.
+    fn refine(&mut self, watch: &dyn Watch) {
+        let Some(x) = self.problem.refine(&self.spot.x, &self.spot.local, watch) else { return };
+        let old = last_two(&self.spot.frame.along);
+        self.spot.x = x;
+        self.before = None;
+        if let Ok(mut spot) = self.framed(watch) {
+            let [p, q] = last_two(&spot.frame.along);
+            if p * old[0] + q * old[1] < 0.0 {
+                spot.frame.turn();
+            }
+            self.spot = spot;
+        }
+    }
+
+    /// Where the curve leaves the box before `new`.
+    fn edge(
+        &self,
+        new: &Spot<P::Local>,
+        length: f64,
+        watch: &dyn Watch,
+    ) -> Result<Option<At<P::Local>>, End> {
+        let mut nearest: Option<At<P::Local>> = None;
+        for (i, (low, high)) in self.ranges.into_iter().enumerate() {
+            let value = nearest.as_ref().map_or(new, |found| &found.0).parameters()[i];
+            if (low..=high).contains(&value) {
+                continue;
+            }
+            let edge = if value < low { low } else { high };
+            let start = self.spot.parameters()[i] - edge;
+            if start.abs() <= 1e-12 * (high - low) {
+                return Err(End::RangeLeft);
+            }
+            let reach = nearest.as_ref().map_or(length, |found| found.1);
+            let off = |spot: &Spot<P::Local>| spot.parameters()[i] - edge;
+            let ends = ((0.0, start), (reach, value - edge));
+            nearest = Some(self.zero(ends, &off, watch).map_err(|failure| match failure {
+                Failure::Stopped => End::Stopped,
+                Failure::Obstructed(why) => End::StepUnderflow { step: self.step, why },
+            })?);
+        }
+        Ok(nearest)
+    }
+
+    /// The points of codimension two on the way to `new`, in their order.
+    fn degenerate(
+        &self,
+        new: &Spot<P::Local>,
+        length: f64,
+        watch: &dyn Watch,
+    ) -> Result<Vec<Event<P::Local>>, End> {
+        let mut out = Vec::new();
+        for (sign, kind) in Sign::all(&self.critical, self.special == Special::Fold) {
+            let value = |spot: &Spot<P::Local>| sign.value(&self.critical, &self.seen(spot));
+            let count = |spot: &Spot<P::Local>| sign.count(&self.critical, &self.seen(spot));
+            let (low, high) = (value(&self.spot), value(new));
+            let counts = (count(&self.spot), count(new));
+            let changes = low * high < 0.0 && (counts.0.is_none() || counts.0 != counts.1);
+            if !changes {
+                continue;
+            }
+            match self.zero(((0.0, low), (length, high)), &value, watch) {
+                Ok((spot, s)) if value(&spot).abs() < 1e-3 * low.abs().max(high.abs()) => {
+                    out.push(Event { s, spot: Some(spot), sign, kind });
+                }
+                Err(Failure::Stopped) => return Err(End::Stopped),
+                _ => out.push(Event { s: length, spot: None, sign, kind: Degenerate::Unresolved }),
+            }
+        }
+        out.sort_by(|a, b| a.s.total_cmp(&b.s));
+        Ok(out)
+    }
+
+    fn seen<'s>(&'s self, spot: &'s Spot<P::Local>) -> Seen<'s> {
+        let body = self.problem.body(&spot.local);
+        Seen {
+            body,
+            shape: &spot.x[..body.dim()],
+            levels: &spot.levels,
+            reading: &spot.reading,
+            directions: [last_two(&self.spot.frame.along), last_two(&spot.frame.along)],
+        }
+    }
+
+    /// Where a quantity vanishes between two lengths, by false position (the Illinois variant).
+    fn zero(
+        &self,
+        (mut low, mut high): ((f64, f64), (f64, f64)),
+        value: &dyn Fn(&Spot<P::Local>) -> f64,
+        watch: &dyn Watch,
+    ) -> Result<(Spot<P::Local>, f64), Failure> {
+        let (length, mut kept, mut last) = (high.0 - low.0, None, f64::INFINITY);
+        for _ in 0..60 {
+            let s = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+            let spot = self.at(s, watch)?.0;
+            let here = value(&spot);
+            if here == 0.0 || (s - last).abs() <= 1e-9 * length {
+                return Ok((spot, s));
+            }
+            last = s;
+            let side = here * low.1 > 0.0;
+            let weight = if kept == Some(side) { 0.5 } else { 1.0 };
+            if side {
+                (low, high.1) = ((s, here), weight * high.1);
+            } else {
+                (high, low.1) = ((s, here), weight * low.1);
+            }
+            kept = Some(side);
+        }
+        Err(Failure::Obstructed(Obstruction::Newton))
+    }
+}

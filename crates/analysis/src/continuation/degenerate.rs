@@ -1,0 +1,156 @@
+//! Points of codimension two on a curve of special points.
+
+use super::critical::{Condition, Critical, Reading};
+use super::hopf::first_lyapunov;
+use super::levels::Level;
+use super::special::Special;
+use motiform_dynamics::Equivariant;
+
+/// Where a curve of special points changes.
+///
+/// Source: Kuznetsov (2004), Elements of Applied Bifurcation Theory, chapters 8 and 9.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Degenerate {
+    /// Two curves of folds meet in a cusp: the parameters turn back.
+    Cusp,
+    /// The first Lyapunov coefficient of a Hopf bifurcation changes its sign: super- and subcritical ones meet.
+    Bautin,
+    /// The frequency of a Hopf bifurcation is 0, or a steady one has a second eigenvalue 0.
+    BogdanovTakens,
+    /// An eigenvalue 0 beside an imaginary pair (on a curve of folds: fold-Hopf).
+    ZeroHopf,
+    /// Two imaginary pairs.
+    DoubleHopf,
+    /// Multipliers that are roots of unity of this order, at a torus or twice the same multiplier: a strong resonance.
+    Resonance {
+        /// The order, 1 to 4.
+        order: u8,
+    },
+    /// Two different kinds of critical multipliers at once.
+    DoublyCritical,
+    /// One of them, seen between two points of the curve and not located.
+    Unresolved,
+}
+
+impl Degenerate {
+    /// Its name in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Cusp => "cusp",
+            Self::Bautin => "bautin",
+            Self::BogdanovTakens => "bogdanov-takens",
+            Self::ZeroHopf => "zero-hopf",
+            Self::DoubleHopf => "double-hopf",
+            Self::Resonance { order: 1 } => "resonance-1:1",
+            Self::Resonance { order: 2 } => "resonance-1:2",
+            Self::Resonance { order: 3 } => "resonance-1:3",
+            Self::Resonance { .. } => "resonance-1:4",
+            Self::DoublyCritical => "doubly-critical",
+            Self::Unresolved => "unresolved",
+        }
+    }
+
+    /// What is looked for along curves of this kind: what does not come was not found.
+    #[must_use]
+    pub fn sought(special: Special, orbits: bool) -> Vec<Self> {
+        match (special, orbits) {
+            (Special::Hopf(_), _) => {
+                vec![Self::Bautin, Self::BogdanovTakens, Self::ZeroHopf, Self::DoubleHopf]
+            }
+            (Special::Torus { .. }, _) => {
+                let orders = (1..=4).map(|order| Self::Resonance { order });
+                orders.chain([Self::DoublyCritical]).collect()
+            }
+            (Special::Fold, false) => vec![Self::Cusp, Self::BogdanovTakens, Self::ZeroHopf],
+            (_, false) => vec![Self::BogdanovTakens, Self::ZeroHopf],
+            (Special::Fold, true) => vec![Self::Cusp, Self::DoublyCritical],
+            (_, true) => vec![Self::DoublyCritical],
+        }
+    }
+}
+
+/// What changes its sign at such a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Sign {
+    /// The direction of the parameters, against the one at the beginning of the step.
+    Turn,
+    /// The first Lyapunov coefficient.
+    Lyapunov,
+    /// `omega^2`, or the cosine of the angle, less this.
+    Angle(f64),
+    /// The growth of another real level.
+    Real,
+    /// The growth of another pair.
+    Pair,
+}
+
+/// A place on a curve, as far as the signs need it.
+pub(super) struct Seen<'s> {
+    pub(super) body: &'s dyn Equivariant,
+    pub(super) shape: &'s [f64],
+    pub(super) levels: &'s [Vec<Level>],
+    pub(super) reading: &'s Reading,
+    /// Direction of the parameters, and the one at the beginning of the step.
+    pub(super) directions: [[f64; 2]; 2],
+}
+
+impl Sign {
+    /// Those that belong to curves of this kind, and what they stand for.
+    pub(super) fn all(critical: &Critical, fold: bool) -> Vec<(Self, Degenerate)> {
+        let (real, pair) = match (critical.orbits, critical.condition) {
+            (true, _) => (Degenerate::DoublyCritical, Degenerate::DoublyCritical),
+            (_, Condition::Pair) => (Degenerate::ZeroHopf, Degenerate::DoubleHopf),
+            _ => (Degenerate::BogdanovTakens, Degenerate::ZeroHopf),
+        };
+        let mut out = vec![(Self::Real, real), (Self::Pair, pair)];
+        if fold {
+            out.push((Self::Turn, Degenerate::Cusp));
+        }
+        if critical.condition == Condition::Pair {
+            if critical.orbits {
+                let orders = [(1.0, 1), (-1.0, 2), (-0.5, 3), (0.0, 4)];
+                out.extend(
+                    orders.map(|(cosine, order)| (Self::Angle(cosine), Degenerate::Resonance { order })),
+                );
+            } else {
+                out.push((Self::Lyapunov, Degenerate::Bautin));
+                out.push((Self::Angle(0.0), Degenerate::BogdanovTakens));
+            }
+        }
+        out
+    }
+
+    /// Whether the critical pair becomes real where it vanishes.
+    pub(super) fn ends(self, critical: &Critical) -> bool {
+        matches!(self, Self::Angle(value) if !critical.orbits || value.abs() == 1.0)
+    }
+
+    pub(super) fn value(self, critical: &Critical, seen: &Seen<'_>) -> f64 {
+        let others = || critical.others(seen.levels, seen.reading);
+        match self {
+            Self::Turn => {
+                let [a, b] = seen.directions;
+                a[0] * b[0] + a[1] * b[1]
+            }
+            Self::Lyapunov => {
+                let frequency = seen.reading.angle.max(0.0).sqrt();
+                first_lyapunov(seen.body, seen.shape, frequency).unwrap_or(f64::NAN)
+            }
+            Self::Angle(value) => seen.reading.angle - value,
+            Self::Real => others()[0].1,
+            Self::Pair => others()[1].1,
+        }
+    }
+
+    /// How many levels grow, for the signs of levels: it must change too.
+    pub(super) fn count(self, critical: &Critical, seen: &Seen<'_>) -> Option<usize> {
+        let others = || critical.others(seen.levels, seen.reading);
+        match self {
+            Self::Real => Some(others()[0].0),
+            Self::Pair => Some(others()[1].0),
+            _ => None,
+        }
+    }
+}
