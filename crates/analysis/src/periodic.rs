@@ -8,9 +8,10 @@ use crate::symmetry::wrap;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Equivariant, Request, StepControl, System, Tangent, VectorField, Watch};
+use serde::{Deserialize, Serialize};
 
 /// A solution of `Phi_T(u) = R(angle) [M] u`: after the time T the shape is its own image.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PeriodicOrbit {
     /// A shape on the orbit.
     pub shape: Vec<f64>,

@@ -1,9 +1,10 @@
 //! How the period of an orbit grows towards a connection of a saddle with itself.
 
 use crate::RelativeEquilibrium;
+use serde::{Deserialize, Serialize};
 
 /// How the time `T` of an orbit grows with the parameter `p`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum PeriodLaw {
     /// `T = const - ln|p - p0| / rate`: the saddle's leading eigenvalues are real and of different size. The fitted rate is that of
@@ -20,7 +21,7 @@ pub enum PeriodLaw {
 }
 
 /// Where a branch of periodic orbits ends because their period grows without bound.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Connection {
     /// The parameter `p0` of the connection.
     pub parameter: f64,

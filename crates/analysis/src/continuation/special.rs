@@ -1,7 +1,9 @@
 //! Where a branch changes.
 
+use serde::{Deserialize, Serialize};
+
 /// What happens at a special point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Special {
     /// The branch turns back: `dp/ds = 0`.
@@ -28,7 +30,7 @@ pub enum Special {
 }
 
 /// Which symmetry a pitchfork breaks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Broken {
     /// The mirror, of a shape that has a direction: the new shapes turn, left and right (a drift pitchfork).
     Mirror,
@@ -37,7 +39,7 @@ pub enum Broken {
 }
 
 /// A Hopf bifurcation of the reduced motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hopf {
     /// Imaginary part of the critical eigenvalues (rad per model time).
     pub frequency: f64,
