@@ -49,7 +49,7 @@ pub struct BranchSettings {
 pub struct BranchPlan {
     /// Short name of the study.
     pub name: String,
-    /// Title of the figures.
+    /// Title of the figures as typed, or nothing: see [`BranchPlan::title`].
     pub title: String,
     /// What is computed: the hash covers this.
     pub computation: BranchComputation,
@@ -166,6 +166,18 @@ impl BranchPlan {
     /// An unknown model.
     pub fn info(&self) -> Result<&'static ModelInfo, Error> {
         Ok(ModelInfo::find(&self.computation.start.model)?)
+    }
+
+    /// The title of the figures: the one typed, or one made of model and parameter.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let c = &self.computation;
+        if !self.title.is_empty() {
+            return self.title.clone();
+        }
+        let specs = self.info().map_or(&[][..], ModelInfo::parameters);
+        let symbol = specs.iter().find(|spec| spec.name == c.along.name).map_or("", |spec| spec.symbol);
+        format!("{} model: branches along {symbol}", crate::titles::capital(&c.start.model))
     }
 
     /// The value of the varied parameter at the start.

@@ -18,7 +18,7 @@ pub(crate) struct ContinueOptions {
     #[arg(long, value_name = "MOTION")]
     pub(crate) from: Option<String>,
     /// Maximum number of branches; 1 follows the motion alone, and nothing that begins on its branch
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = whole, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = whole, allow_hyphen_values = true)]
     pub(crate) branches: u64,
     /// Maximum number of points of a branch to each side
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = whole, allow_hyphen_values = true)]

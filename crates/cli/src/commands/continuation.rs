@@ -2,7 +2,7 @@
 
 use crate::args::{ContinueOptions, Observable};
 use crate::commands::subject;
-use crate::output::{End, print, warn};
+use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_files::Staging;
 use motiform_lab::continuation::{
@@ -101,7 +101,7 @@ fn pictures(observable: Observable, folder: &BranchFolder) -> Result<Vec<Picture
 fn text(folder: &BranchFolder, written: Option<&str>) -> anyhow::Result<String> {
     let BranchFolder { plan, found } = folder;
     let along = &plan.computation.along;
-    let mut text = format!("{} ({}), along {along}\n", plan.title, plan.computation.start.model);
+    let mut text = format!("{}, {}..{}\n", plain(&plan.title()), along.from, along.to);
     for (number, followed) in found.branches.iter().enumerate() {
         branch(&mut text, folder, (number, followed))?;
     }

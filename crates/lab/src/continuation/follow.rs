@@ -76,19 +76,14 @@ pub fn follow(plan: &BranchPlan, before: Option<Branches>, watch: &dyn Watch) ->
     if work.done.branches.is_empty() && !work.begin()? {
         return Ok(work.done);
     }
-    let mut asked = 0;
-    while asked < work.done.branches.len() {
-        for origin in Origin::on(asked, &work.done.branches[asked]) {
-            if work.done.links.iter().any(|link| link.origin == origin) {
-                continue;
-            }
-            if work.done.branches.len() >= plan.computation.branches {
-                work.done.left += 1;
-            } else if !work.grow(origin)? {
-                return Ok(work.done);
-            }
+    while let Some(origin) = work.next() {
+        if work.done.branches.len() >= plan.computation.branches {
+            work.done.left = work.open().count();
+            break;
         }
-        asked += 1;
+        if !work.grow(origin)? {
+            return Ok(work.done);
+        }
     }
     work.done.complete = true;
     Ok(work.done)
@@ -101,6 +96,19 @@ struct Work<'w> {
 }
 
 impl Work<'_> {
+    /// The origins that were not asked yet, in the order of the branches.
+    fn open(&self) -> impl Iterator<Item = Origin> {
+        let all =
+            self.done.branches.iter().enumerate().flat_map(|(number, branch)| Origin::on(number, branch));
+        all.filter(|origin| self.done.links.iter().all(|link| link.origin != *origin))
+    }
+
+    /// The open origin with the shortest period: what begins there is found soonest, and cascades of doublings come last.
+    fn next(&self) -> Option<Origin> {
+        let cost = |origin: &Origin| origin.cost(&self.done.branches);
+        self.open().min_by(|a, b| cost(a).total_cmp(&cost(b)))
+    }
+
     /// Follows the motion that the start settles on. Whether it came to its end.
     fn begin(&mut self) -> Result<bool, Error> {
         let plan = self.bodies.plan;

@@ -103,12 +103,11 @@ impl Branches {
         let origin = Origin::Special { branch, leg, point };
         let next = self.links.iter().find(|link| link.origin == origin).and_then(|link| link.branch);
         let begins = next.and_then(|next| self.branches.get(next)).filter(|next| next.origin == origin);
-        let onset = begins.and_then(|next| Some(next.legs.first()?.samples.first()?.point.unstable));
-        let sign = match special {
+        let first = begins.and_then(|next| Some(next.legs.first()?.samples.first()?.point.parameter));
+        let supercritical = match special {
             Special::Hopf(hopf) => hopf.is_supercritical(),
-            _ => None,
+            _ => first.and_then(|first| is_supercritical(&self.branches[branch].legs[leg], point, first)),
         };
-        let supercritical = sign.or_else(|| Some(onset? <= sample.point.unstable));
         let criticality = supercritical.map(|is| if is { "supercritical" } else { "subcritical" });
         Some(SpecialEntry {
             kind: special.name(),
@@ -126,6 +125,22 @@ impl Branches {
             branch: next,
         })
     }
+}
+
+/// Whether what begins at a point of a leg, and is seen first at the parameter `first`, lies on the side where the leg has more growing
+/// directions: then it is stable in the critical direction.
+fn is_supercritical(leg: &Leg, point: usize, first: f64) -> Option<bool> {
+    let ordinary = |sample: &&Sample| sample.point.special.is_none();
+    let before = leg.samples[..point].iter().rev().find(ordinary)?;
+    let after = leg.samples[point + 1..].iter().find(ordinary)?;
+    let here = leg.samples[point].point.parameter;
+    let beside = |sample: &Sample| (sample.point.parameter - here) * (first - here) > 0.0;
+    let (same, other) = match (beside(before), beside(after)) {
+        (true, false) => (before, after),
+        (false, true) => (after, before),
+        _ => return None, // the leg turns back here
+    };
+    Some(same.point.unstable > other.point.unstable)
 }
 
 /// The end of a leg, where it is a place of its own.

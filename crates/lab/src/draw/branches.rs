@@ -75,7 +75,7 @@ pub fn diagram(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Resul
     let along = &plan.computation.along;
     let spec = info.parameters().iter().find(|spec| spec.name == along.name);
     Ok(BranchDiagram {
-        title: plan.title.clone(),
+        title: plan.title(),
         caption: caption(plan, found)?,
         x_label: spec.map_or_else(|| along.name.clone(), |spec| spec.symbol.to_owned()),
         y_label: ordinate.label().to_owned(),
