@@ -94,6 +94,11 @@ fn main() {
     let up = follow("zigzag up", &mut Branch::of_orbits(&family, 0.9, &start, &orbits, &()).unwrap());
     let down =
         follow("zigzag down", &mut Branch::of_orbits(&family, 0.9, &start, &orbits.reversed(), &()).unwrap());
+    let fine = Settings { largest_step: 0.0045, ..Settings::over(0.5, 1.3) };
+    let some = &mut Branch::of_orbits(&family, 0.9, &start, &fine, &()).unwrap();
+    let _ = follow("zigzag in short steps", some);
+    let some = &mut Branch::of_orbits(&family, 0.9, &start, &fine.reversed(), &()).unwrap();
+    let _ = follow("zigzag in short steps", some);
     if std::env::args().len() < 2 {
         return;
     }

@@ -1,6 +1,6 @@
 //! Branches of motions against a parameter: a bifurcation diagram.
 
-use super::axes::{Axes, Scale};
+use super::axes::{Axes, AxisKind, Scale};
 use super::clip::clip;
 use super::error::{FigureError, Result, check_finite};
 use super::figure::{Csv, figure};
@@ -51,6 +51,8 @@ pub struct BranchDiagram {
     pub x_label: String,
     /// Label of what is shown against it.
     pub y_label: String,
+    /// Whether the values stand on a logarithmic axis.
+    pub logarithmic: bool,
     /// Range of the parameter; what lies outside is cut off.
     pub x: [f64; 2],
     /// The branches.
@@ -71,7 +73,7 @@ impl BranchDiagram {
             title: &self.title,
             caption: &self.caption,
             legend: self.legend(),
-            axes: Axes::new(self.scale()?, Some(&self.x_label), &self.y_label),
+            axes: Axes::of_kinds(self.scale()?, self.kinds(), &self.x_label, &self.y_label),
             grid: true,
             head: 0.0,
         };
@@ -79,9 +81,9 @@ impl BranchDiagram {
             // stable parts on top of unstable ones
             for stable in [false, true] {
                 let parts = self.parts.iter().filter(|part| part.stable == stable);
-                parts.for_each(|part| part.draw(svg, scale));
+                parts.for_each(|part| part.draw(svg, scale, self.kinds()));
             }
-            self.marks.iter().for_each(|mark| mark.draw(svg, scale));
+            self.marks.iter().for_each(|mark| mark.draw(svg, scale, self.kinds()));
             Ok(())
         })
     }
@@ -109,12 +111,17 @@ impl BranchDiagram {
     fn scale(&self) -> Result<Scale> {
         let shown = |p: &&Point| self.x[0] <= p[0] && p[0] <= self.x[1];
         let points = self.parts.iter().flat_map(|part| &part.points).filter(shown);
-        let range = Range::of(points.map(|p| p[1]));
+        let kind = self.kinds()[1];
+        let range = kind.range(points.filter_map(|p| kind.place(p[1])), 0.06);
         let (Some(y), Some(x)) = (range, Range::of(self.x)) else {
             return Err(FigureError::Empty { what: "list of points within the range" });
         };
         let frame = Rect { x: 0.0, y: 0.0, w: WIDTH, h: HEIGHT };
-        Ok(Scale { frame, x: x.padded(0.02), y: y.padded(0.06) })
+        Ok(Scale { frame, x: x.padded(0.02), y })
+    }
+
+    fn kinds(&self) -> [AxisKind; 2] {
+        [AxisKind::Linear, if self.logarithmic { AxisKind::Logarithmic } else { AxisKind::Linear }]
     }
 
     /// A row per point, part after part, then the special points.
@@ -141,8 +148,9 @@ fn paint(colour: Colour, stable: bool) -> Paint {
 }
 
 impl BranchPart {
-    fn draw(&self, svg: &mut Svg, scale: &Scale) {
-        let places: Vec<Point> = self.points.iter().map(|p| scale.map(*p)).collect();
+    fn draw(&self, svg: &mut Svg, scale: &Scale, kinds: [AxisKind; 2]) {
+        let place = |p: &Point| Some(scale.map([kinds[0].place(p[0])?, kinds[1].place(p[1])?]));
+        let places: Vec<Point> = self.points.iter().filter_map(place).collect();
         for piece in clip(&places, scale.frame) {
             svg.polyline(&piece, false, &paint(regime_mark(&self.regime).colour, self.stable));
         }
@@ -150,8 +158,9 @@ impl BranchPart {
 }
 
 impl BranchMark {
-    fn draw(&self, svg: &mut Svg, scale: &Scale) {
-        let [x, y] = scale.map(self.at);
+    fn draw(&self, svg: &mut Svg, scale: &Scale, kinds: [AxisKind; 2]) {
+        let (Some(x), Some(y)) = (kinds[0].place(self.at[0]), kinds[1].place(self.at[1])) else { return };
+        let [x, y] = scale.map([x, y]);
         let frame = scale.frame;
         if (frame.x..=frame.right()).contains(&x) && (frame.y..=frame.bottom()).contains(&y) {
             self.glyph.draw(svg, [x, y], 4.0, INK);

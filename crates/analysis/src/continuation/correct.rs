@@ -1,9 +1,9 @@
-//! Newton's method beside a plane, and the tangent of a branch.
+//! Newton's method in a plane across a branch, and the directions of branches.
 
+use super::elimination::newton_step;
 use super::point::Obstruction;
 use super::problem::{Failure, Linear, Problem};
 use motiform_dynamics::Watch;
-use nalgebra::{DMatrix, DVector};
 
 /// Steps that Newton's method may take.
 const STEPS: usize = 10;
@@ -16,6 +16,8 @@ pub(super) struct Corrected<L> {
     pub(super) local: L,
     /// Length of the first step.
     pub(super) first: f64,
+    /// A direction of the branch there, on the side of the plane's normal.
+    pub(super) direction: Vec<f64>,
 }
 
 /// `sum_i weight_i a_i b_i`.
@@ -40,7 +42,7 @@ pub(super) fn correct<P: Problem>(
             break;
         }
         let local = problem.local(&x, watch)?;
-        let step = newton_step(problem.linear(&local), row).ok_or(SINGULAR)?;
+        let (step, direction) = newton_step(problem.linear(&local), row).ok_or(SINGULAR)?;
         let size = product(&weights, &step, &step).sqrt();
         for (value, change) in x.iter_mut().zip(&step) {
             *value += change;
@@ -51,7 +53,7 @@ pub(super) fn correct<P: Problem>(
         let stalled = size < 1e3 * tolerance && size > 0.1 * last;
         if size <= tolerance || stalled {
             problem.tidy(&mut x);
-            return Ok(Corrected { x, local, first });
+            return Ok(Corrected { x, local, first, direction });
         }
         if !size.is_finite() || count >= 2 && size > 0.5 * last {
             break;
@@ -62,38 +64,6 @@ pub(super) fn correct<P: Problem>(
 }
 
 const SINGULAR: Failure = Failure::Obstructed(Obstruction::Singular);
-
-/// The matrix with `row` below it.
-fn bordered(linear: &Linear, row: &[f64]) -> DMatrix<f64> {
-    let last = linear.matrix.nrows();
-    let mut square = linear.matrix.clone().resize_vertically(last + 1, 0.0);
-    for (j, value) in row.iter().enumerate() {
-        square[(last, j)] = *value;
-    }
-    square
-}
-
-fn newton_step(linear: &Linear, row: &[f64]) -> Option<Vec<f64>> {
-    let mut right = DVector::zeros(row.len());
-    for (to, from) in right.iter_mut().zip(&linear.residual) {
-        *to = -from;
-    }
-    solve(bordered(linear, row), right)
-}
-
-fn solve(matrix: DMatrix<f64>, right: DVector<f64>) -> Option<Vec<f64>> {
-    let solution = matrix.lu().solve(&right)?;
-    let values: Vec<f64> = solution.iter().copied().collect();
-    values.iter().all(|value| value.is_finite()).then_some(values)
-}
-
-/// The direction of the branch at a solution, of length 1, on the side of `row`.
-pub(super) fn tangent(linear: &Linear, row: &[f64], weights: &[f64]) -> Option<Vec<f64>> {
-    let mut right = DVector::zeros(row.len());
-    right[row.len() - 1] = 1.0;
-    let direction = solve(bordered(linear, row), right)?;
-    scaled(direction, weights)
-}
 
 /// The vectors that the equations do not see to first order: those whose part in the equations is smaller than `least` of the
 /// largest, smallest first. There is one where a branch is alone.

@@ -1,6 +1,7 @@
 //! How the period of an orbit grows towards a connection of a saddle with itself.
 
 use crate::RelativeEquilibrium;
+use crate::linear::solve;
 use serde::{Deserialize, Serialize};
 
 /// How the time `T` of an orbit grows with the parameter `p`.
@@ -13,7 +14,7 @@ pub enum PeriodLaw {
         /// The rate (inverse model time).
         rate: f64,
     },
-    /// `T = amplitude / |p - p0|`: at the connection growth and decay at the saddle are equal (a resonance).
+    /// `T = amplitude / |p - p0|` to leading order: at the connection growth and decay at the saddle are equal (a resonance).
     Resonant {
         /// The amplitude.
         amplitude: f64,
@@ -66,14 +67,17 @@ pub(super) struct Periods {
 /// The law must hold over as many points.
 const POINTS: usize = 6;
 
-/// Fitted exponents over neighbouring points agree up to this part.
-const AGREE: f64 = 0.02;
+/// Rates over the two halves of the points agree up to this part: what remains of the parameter is then known to more than one digit.
+const AGREE: f64 = 0.05;
+
+/// The rate is fitted over the times above this part of the last one.
+const WINDOW: f64 = 0.85;
 
 /// The connection is reached where this much of the parameter remains.
-const NEAR: f64 = 1e-8;
+const NEAR: f64 = 1e-7;
 
-/// A resonant connection is recognised where the time has grown by this factor.
-const GROWN: f64 = 8.0;
+/// The resonant law is tried where the time has grown by this factor.
+const GROWN: f64 = 2.0;
 
 impl Periods {
     /// A point of the branch: the time with its derivative along the branch, and the same of the parameter.
@@ -85,43 +89,69 @@ impl Periods {
         self.points.push((time.0, parameter.0, parameter.1 / time.1));
     }
 
-    /// The connection ahead, where one of the laws holds and little remains.
+    /// The connection ahead, where the logarithmic law holds and little remains.
     pub(super) fn connection(&self) -> Option<Connection> {
-        let from = self.points.len().checked_sub(POINTS)?;
+        let time = self.points.last()?.0;
+        let from = self.points.iter().position(|point| point.0 > WINDOW * time)?;
         let last = &self.points[from..];
-        let &(time, parameter, slope) = last.last()?;
-        let made = |law, remaining: f64| {
-            Some(Connection {
-                parameter: parameter + remaining,
-                remaining: remaining.abs(),
-                law,
-                saddle: None,
-            })
-        };
+        if last.len() < POINTS {
+            return None;
+        }
+        let &(_, parameter, slope) = last.last()?;
         // p - p0 = c exp(-rate T): ln|dp/dT| is linear in T
-        if let Some(rate) = exponent(last, |t| t)
-            && (slope / rate).abs() < NEAR * (1.0 + parameter.abs())
-        {
-            return made(PeriodLaw::Logarithmic { rate }, slope / rate);
+        let rate = exponent(last)?;
+        let remaining = slope / rate;
+        (remaining.abs() < NEAR * (1.0 + parameter.abs())).then(|| Connection {
+            parameter: parameter + remaining,
+            remaining: remaining.abs(),
+            law: PeriodLaw::Logarithmic { rate },
+            saddle: None,
+        })
+    }
+
+    /// The resonant connection ahead, for a branch whose flow cannot be resolved any further: at a resonance the distance to it falls so
+    /// slowly that a branch never comes near. Of the fits to the last half of the times the one that its points lie on best: the very
+    /// last points carry the most round-off.
+    pub(super) fn resonance(&self) -> Option<Connection> {
+        let longest = self.points.last()?.0;
+        let late = (0..self.points.len()).filter(|&i| self.points[i].0 > 0.5 * longest);
+        let fits = late.filter_map(|last| self.resonant(last));
+        fits.min_by(|a, b| a.1.total_cmp(&b.1)).map(|fit| fit.0)
+    }
+
+    /// `p = p0 + A/T + B/T^2 + C/T^3` through the point number `last` and one well before it, with their slopes, and how far the points
+    /// between them are from it, as a part of what remains. The first term must be the largest one.
+    fn resonant(&self, last: usize) -> Option<(Connection, f64)> {
+        let (time, parameter, _) = self.points[last];
+        let first = self.points.iter().position(|point| point.0 > time / 1.6)?;
+        if last < first + POINTS || self.points.first()?.0 > time / GROWN {
+            return None;
         }
-        // p - p0 = A/T: ln|dp/dT| is linear in ln T with slope -2
-        let power = exponent(last, libm::log)?;
-        let grown = time > GROWN * self.points.first()?.0;
-        if grown && (power - 2.0).abs() < AGREE {
-            return made(PeriodLaw::Resonant { amplitude: (slope * time * time).abs() }, slope * time);
-        }
-        None
+        let ends = [self.points[first], self.points[last]];
+        let column = |power: i32| {
+            let value = |t: f64| [t.powi(-power), -f64::from(power) * t.powi(-power)]; // and t times the slope
+            ends.map(|(t, _, _)| value(t)).concat()
+        };
+        let fit = solve(&[0, 1, 2, 3].map(column), &ends.map(|(t, p, q)| [p, q * t]).concat(), 1e-14)?;
+        let at = |t: f64| fit[0] + (fit[1] + (fit[2] + fit[3] / t) / t) / t;
+        let remaining = (fit[0] - parameter).abs();
+        let off = |&(t, p, _): &(f64, f64, f64)| (at(t) - p).abs() / remaining;
+        let worst = self.points[first..last].iter().map(off).fold(0.0, f64::max);
+        let leads = (fit[1] / time).abs() > 0.7 * remaining && (fit[1] / time).abs() < 1.3 * remaining;
+        let law = PeriodLaw::Resonant { amplitude: fit[1].abs() };
+        let connection = Connection { parameter: fit[0], remaining, law, saddle: None };
+        (leads && worst < 1e-3).then_some((connection, worst))
     }
 }
 
-/// `-d ln|dp/dT| / d g(T)`, where it is positive and the same over all pairs of neighbours.
-fn exponent(points: &[(f64, f64, f64)], g: fn(f64) -> f64) -> Option<f64> {
+/// `-d ln|dp/dT| / dT` over all points, where it is positive and about the same over both halves of them.
+fn exponent(points: &[(f64, f64, f64)]) -> Option<f64> {
     let between = |pair: &[(f64, f64, f64)]| {
         let [(t0, _, s0), (t1, _, s1)] = [pair[0], pair[1]];
-        if s0 * s1 > 0.0 { libm::log(s0 / s1) / (g(t1) - g(t0)) } else { f64::NAN }
+        if s0 * s1 > 0.0 { libm::log(s0 / s1) / (t1 - t0) } else { f64::NAN }
     };
-    let all: Vec<f64> = points.windows(2).map(between).collect();
-    let last = *all.last()?;
-    let agree = all.iter().all(|rate| (rate - last).abs() < AGREE * last.abs());
-    (last > 0.0 && agree).then_some(last)
+    let (first, middle, last) = (points.first()?, points.get(points.len() / 2)?, points.last()?);
+    let (early, late) = (between(&[*first, *middle]), between(&[*middle, *last]));
+    let mean = between(&[*first, *last]);
+    (mean > 0.0 && (early - late).abs() < AGREE * mean).then_some(mean)
 }

@@ -1,10 +1,10 @@
 //! Special points between two points of a branch.
 
 use super::correct::{correct, normal, product};
+use super::place::{Place, place};
 use super::point::Obstruction;
 use super::problem::{Failure, Problem};
 use super::special::Special;
-use super::tracer::{Place, place};
 use motiform_dynamics::Watch;
 
 /// Newton's tolerance at special points.

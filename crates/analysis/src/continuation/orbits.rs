@@ -2,6 +2,7 @@
 
 use super::classes::Classes;
 use super::family::{Family, Neighbours};
+use super::graded::eigenvalues_of_product;
 use super::levels::Level;
 use super::point::Motion;
 use super::problem::{Failure, Linear, Problem};
@@ -9,14 +10,14 @@ use super::reduced_maps::reduced_maps;
 use super::shooting::{Segment, segment, shape_after};
 use super::special::{Broken, Special};
 use crate::linear::{add, dot, norm};
-use crate::periodic::{Flow, back, multipliers};
+use crate::periodic::{Flow, back};
 use crate::symmetry::wrap;
 use crate::{PeriodicOrbit, RelativeEquilibrium};
 use motiform_dynamics::{Equivariant, VectorField, Watch};
 use nalgebra::DMatrix;
 
 /// Parts over which a deviation grows by more than this are halved.
-const GROWTH: f64 = 100.0;
+const GROWTH: f64 = 1000.0;
 
 /// Most parts of an orbit.
 const PARTS: usize = 64;
@@ -71,49 +72,58 @@ impl Orbits<'_> {
     }
 
     fn fill(&self, x: &[f64], local: &Local) -> Linear {
-        let (dim, parts) = (self.dim, self.parts);
-        let (time, unknowns) = (parts * dim, self.unknowns());
-        let mut matrix = DMatrix::zeros(unknowns - 1, unknowns);
-        let mut residual = vec![0.0; unknowns - 1];
-        let body = local.body.as_ref();
+        let unknowns = self.unknowns();
+        let matrix = DMatrix::zeros(unknowns - 1, unknowns);
+        let mut linear = Linear { residual: vec![0.0; unknowns - 1], matrix };
         for (i, segment) in local.segments.iter().enumerate() {
-            let (last, rows) = (i + 1 == parts, i * dim);
-            let next = (i + 1) % parts;
-            let brought = |v: &[f64]| {
-                let mut v = v.to_vec();
-                if last {
-                    back(body, self.angle(x), self.mirrored, &mut v);
-                }
-                v
-            };
-            let mut put = |column: usize, factor: f64, v: &[f64]| {
-                for (k, value) in v.iter().enumerate() {
-                    matrix[(rows + k, column)] += factor * value;
-                }
-            };
-            for (j, column) in segment.tangents.chunks_exact(dim).enumerate() {
-                put(i * dim + j, 1.0, &brought(column));
-            }
-            put(time, 1.0 / parts as f64, &brought(&segment.slope));
-            if last && self.turns {
-                let mut spin = vec![0.0; dim];
-                body.spin(&segment.end, &mut spin);
-                put(time + 1, -1.0, &brought(&spin));
-            }
-            put(unknowns - 1, 1.0, &brought(&segment.by_parameter));
-            for k in 0..dim {
-                matrix[(rows + k, next * dim + k)] -= 1.0;
-            }
-            let mut rest = brought(&segment.end);
-            add(&mut rest, -1.0, self.node(x, next));
-            residual[rows..rows + dim].copy_from_slice(&rest);
+            self.fill_part(x, local.body.as_ref(), (i, segment), &mut linear);
         }
         for (row, direction) in self.neutral(local).iter().enumerate() {
             for (j, value) in direction.iter().enumerate() {
-                matrix[(time + row, j)] = *value;
+                linear.matrix[(self.parts * self.dim + row, j)] = *value;
             }
         }
-        Linear { residual, matrix }
+        linear
+    }
+
+    /// The equations of one part.
+    fn fill_part(
+        &self,
+        x: &[f64],
+        body: &dyn Equivariant,
+        (i, segment): (usize, &Segment),
+        linear: &mut Linear,
+    ) {
+        let (dim, time, rows) = (self.dim, self.parts * self.dim, i * self.dim);
+        let (last, next) = (i + 1 == self.parts, (i + 1) % self.parts);
+        let brought = |v: &[f64]| {
+            let mut v = v.to_vec();
+            if last {
+                back(body, self.angle(x), self.mirrored, &mut v);
+            }
+            v
+        };
+        let mut put = |column: usize, factor: f64, v: &[f64]| {
+            for (k, value) in v.iter().enumerate() {
+                linear.matrix[(rows + k, column)] += factor * value;
+            }
+        };
+        for (j, column) in segment.tangents.chunks_exact(dim).enumerate() {
+            put(i * dim + j, 1.0, &brought(column));
+        }
+        put(time, 1.0 / self.parts as f64, &brought(&segment.slope));
+        if last && self.turns {
+            let mut spin = vec![0.0; dim];
+            body.spin(&segment.end, &mut spin);
+            put(time + 1, -1.0, &brought(&spin));
+        }
+        put(self.unknowns() - 1, 1.0, &brought(&segment.by_parameter));
+        for k in 0..dim {
+            linear.matrix[(rows + k, next * dim + k)] -= 1.0;
+        }
+        let mut rest = brought(&segment.end);
+        add(&mut rest, -1.0, self.node(x, next));
+        linear.residual[rows..rows + dim].copy_from_slice(&rest);
     }
 
     /// The neutral directions of all nodes together, orthonormal: the rotation, then time.
@@ -182,7 +192,10 @@ impl Problem for Orbits<'_> {
 
     fn levels(&self, x: &[f64], local: &Local) -> Option<Vec<Vec<Level>>> {
         let maps = reduced_maps(self, x, local);
-        maps.iter().map(|map| multipliers(map).map(|values| Level::of_multipliers(&values))).collect()
+        if maps.iter().flatten().any(|map| !map.is_square()) {
+            return None;
+        }
+        maps.iter().map(|maps| eigenvalues_of_product(maps).map(|v| Level::of_multipliers(&v))).collect()
     }
 
     fn classify(&self, _x: &[f64], critical: Level, class: usize) -> Special {
@@ -243,29 +256,26 @@ impl Problem for Orbits<'_> {
         Some(self.parts * self.dim)
     }
 
-    /// `T/(2 pi)` times the largest reduced rate, over the largest shape.
-    fn amplitude(&self, x: &[f64], local: &Local) -> Option<f64> {
-        let fastest = speeds(local).into_iter().fold(0.0, f64::max);
-        let time = x[self.parts * self.dim] * if self.mirrored { 2.0 } else { 1.0 };
-        Some(fastest * time / (std::f64::consts::TAU * self.size(x)))
+    fn swing(&self, local: &Local) -> Option<Vec<f64>> {
+        Some(reduced_rates(local).concat())
     }
 
     fn saddle(&self, x: &[f64], local: &Local) -> Option<RelativeEquilibrium> {
-        let speeds = speeds(local);
+        let speeds: Vec<f64> = reduced_rates(local).iter().map(|rate| norm(rate)).collect();
         let slowest = (0..self.parts).min_by(|&a, &b| speeds[a].total_cmp(&speeds[b]))?;
         RelativeEquilibrium::find(local.body.as_ref(), self.node(x, slowest))
     }
 }
 
-/// How fast the reduced shape changes at the nodes.
-fn speeds(local: &Local) -> Vec<f64> {
+/// The rates at the nodes without the rotation.
+fn reduced_rates(local: &Local) -> Vec<Vec<f64>> {
     let rest = |(rate, spin): (&Vec<f64>, &Vec<f64>)| {
         let size = dot(spin, spin);
         let mut rest = rate.clone();
         if size > 0.0 {
             add(&mut rest, -dot(rate, spin) / size, spin);
         }
-        norm(&rest)
+        rest
     };
     local.rates.iter().zip(&local.spins).map(rest).collect()
 }

@@ -115,13 +115,11 @@ pub enum End {
     },
     /// The orbit shrinks to a relative equilibrium: the branch ends at its Hopf bifurcation.
     Shrinks {
-        /// The parameter, extrapolated to amplitude 0.
+        /// The parameter there.
         parameter: f64,
-        /// The period there.
-        period: f64,
+        /// The time of the orbit there (half the period for a zigzag).
+        time: f64,
     },
-    /// The branch came back to its start.
-    Closed,
 }
 
 /// Why Newton's method failed.
@@ -165,7 +163,6 @@ impl std::fmt::Display for End {
             Self::Shrinks { parameter, .. } => {
                 write!(f, "the orbit shrinks to an equilibrium at {parameter:.9}")
             }
-            Self::Closed => write!(f, "the branch is closed"),
         }
     }
 }

@@ -74,8 +74,9 @@ pub(super) trait Problem {
         None
     }
 
-    /// How far an orbit is from an equilibrium, in units of its size.
-    fn amplitude(&self, _x: &[f64], _local: &Self::Local) -> Option<f64> {
+    /// How fast the reduced shapes of an orbit change, all nodes together: it changes its sign where an orbit shrinks to nothing and
+    /// the branch goes on with the same orbits, half a period later.
+    fn swing(&self, _local: &Self::Local) -> Option<Vec<f64>> {
         None
     }
 

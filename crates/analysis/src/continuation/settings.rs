@@ -43,7 +43,7 @@ impl Settings {
             longest_time: f64::INFINITY,
             flow: Flow {
                 method: Method::Explicit(&DOP853),
-                control: StepControl::Adaptive { rtol: 1e-12, atol: 1e-14 },
+                control: StepControl::Adaptive { rtol: 1e-12, atol: 1e-16 },
                 max_steps: 1_000_000,
             },
         }

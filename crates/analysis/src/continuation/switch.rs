@@ -159,6 +159,7 @@ fn orbits<'f>(
     (nodes, mirrored): (&[Vec<f64>], bool),
     settings: &Settings,
 ) -> Orbits<'f> {
+    let size = nodes.iter().map(|node| norm(node)).fold(0.0, f64::max);
     Orbits {
         family,
         flow: settings.flow,
@@ -167,7 +168,7 @@ fn orbits<'f>(
         parts: nodes.len(),
         mirrored,
         turns: body.is_symmetric() && !mirrored,
-        size: nodes.iter().map(|node| norm(node)).fold(1e-6, f64::max),
+        size: if size > 1e-6 { size } else { 1.0 },
         width: settings.width(),
     }
 }

@@ -1,74 +1,40 @@
 //! Pseudo-arclength continuation with step control, over any equations.
 
-use super::correct::{Corrected, correct, normal, null_vectors, product, scaled, tangent};
+use super::correct::{correct, normal, null_vectors, product, scaled};
 use super::homoclinic::Periods;
-use super::levels::{Level, unstable};
+use super::levels::unstable;
 use super::locate::locate;
+use super::place::{Place, place};
 use super::point::{End, Obstruction, Point};
 use super::problem::{Failure, Problem};
 use super::settings::Settings;
 use super::special::Special;
+use crate::linear::dot;
 use motiform_dynamics::Watch;
 use std::collections::VecDeque;
 
 /// Newton's method has converged with a step shorter than this.
 pub(super) const TOLERANCE: f64 = 1e-9;
 
-/// Length of the first correction that the step is chosen for: the second is about its square.
-const CORRECTION: f64 = 3e-3;
+/// Length of the first correction that the step is chosen for: the second is about its square. The first grows with the third power of
+/// the step.
+const CORRECTION: f64 = 1e-3;
 
 /// Least cosine of the angle between successive tangents.
 const STRAIGHT: f64 = 0.9;
-
-/// An orbit of smaller amplitude counts as an equilibrium.
-const FLAT: f64 = 3e-3;
-
-/// A solution with all that is known there.
-pub(super) struct Place<L> {
-    pub(super) x: Vec<f64>,
-    pub(super) local: L,
-    pub(super) tangent: Vec<f64>,
-    pub(super) levels: Vec<Vec<Level>>,
-    pub(super) arclength: f64,
-}
-
-impl<L> Place<L> {
-    pub(super) fn parameter(&self) -> f64 {
-        self.x.last().copied().unwrap_or(f64::NAN)
-    }
-
-    pub(super) fn slope(&self) -> f64 {
-        self.tangent.last().copied().unwrap_or(f64::NAN)
-    }
-}
-
-/// A solution, with its tangent on the side of `row`.
-pub(super) fn place<P: Problem>(
-    problem: &P,
-    found: Corrected<P::Local>,
-    row: &[f64],
-    arclength: f64,
-) -> Result<Place<P::Local>, Failure> {
-    let Corrected { x, local, .. } = found;
-    let weights = problem.weights(&x);
-    let broken = || Failure::Obstructed(Obstruction::Singular);
-    let tangent = tangent(problem.linear(&local), row, &weights).ok_or_else(broken)?;
-    let levels = problem.levels(&x, &local).ok_or_else(broken)?;
-    Ok(Place { x, local, tangent, levels, arclength })
-}
 
 /// A branch being followed.
 pub(super) struct Tracer<P: Problem> {
     problem: P,
     settings: Settings,
     place: Place<P::Local>,
+    /// The place before, and its tangent.
+    before: Option<(Vec<f64>, Vec<f64>)>,
     step: f64,
     queue: VecDeque<Point>,
     count: usize,
     end: Option<End>,
     periods: Periods,
-    /// Amplitude of the last two points.
-    amplitudes: [Option<(f64, f64)>; 2],
 }
 
 impl<P: Problem> Tracer<P> {
@@ -118,12 +84,12 @@ impl<P: Problem> Tracer<P> {
             problem,
             settings: *settings,
             place,
+            before: None,
             step: settings.first_step.abs().min(settings.largest_step),
             queue: VecDeque::new(),
             count: 0,
             end: None,
             periods: Periods::default(),
-            amplitudes: [None; 2],
         };
         let first = tracer.point(&tracer.place, None);
         tracer.queue.push_back(first);
@@ -165,7 +131,7 @@ impl<P: Problem> Tracer<P> {
             return None;
         }
         if let Err(end) = self.advance(watch) {
-            self.end = Some(end);
+            self.end = Some(self.explained(end));
         }
         self.next(watch)
     }
@@ -185,16 +151,21 @@ impl<P: Problem> Tracer<P> {
             if self.place.parameter() == edge {
                 return Err(End::RangeLeft);
             }
-            (new, length) = self.edge(new, edge, watch)?;
+            (new, length) = self.edge(&new, edge, watch)?;
         }
         self.check(&new)?;
-        for (at, special) in locate(&self.problem, &self.place, &new, length, watch) {
+        let found = locate(&self.problem, &self.place, &new, length, watch);
+        if let Some(end) = self.shrinks(&new, &found) {
+            return Err(end);
+        }
+        for (at, special) in found {
             let point = self.point(&at, Some(special));
             self.queue.push_back(point);
         }
         let point = self.point(&new, None);
         self.queue.push_back(point);
-        self.place = new;
+        let old = std::mem::replace(&mut self.place, new);
+        self.before = Some((old.x, old.tangent));
         if left { Err(End::RangeLeft) } else { self.ends() }
     }
 
@@ -204,7 +175,7 @@ impl<P: Problem> Tracer<P> {
             let length = self.step;
             let why = match self.attempt(length, watch) {
                 Ok((place, first)) => {
-                    let factor = (CORRECTION / first.max(1e-12)).sqrt().clamp(0.4, 1.6);
+                    let factor = libm::cbrt(CORRECTION / first.max(1e-12)).clamp(0.4, 1.5);
                     self.step =
                         (length * factor).clamp(self.settings.smallest_step, self.settings.largest_step);
                     return Ok((place, length));
@@ -223,7 +194,7 @@ impl<P: Problem> Tracer<P> {
         let old = &self.place;
         let weights = self.problem.weights(&old.x);
         let row = normal(&old.tangent, &weights);
-        let guess = old.x.iter().zip(&old.tangent).map(|(x, t)| x + length * t).collect();
+        let guess = self.guess(length, &weights);
         let found = correct(&self.problem, guess, &row, TOLERANCE, watch)?;
         let first = found.first;
         let new = place(&self.problem, found, &row, old.arclength + length)?;
@@ -233,10 +204,28 @@ impl<P: Problem> Tracer<P> {
         Ok((new, first))
     }
 
+    /// The place expected after `length`: the tangent turns on as it did on the last step. (A cubic through the last two places would
+    /// be closer, but Newton's steps leave what it says along the neutral directions as it is, and its errors there would grow.)
+    fn guess(&self, length: f64, weights: &[f64]) -> Vec<f64> {
+        let Place { x, tangent, .. } = &self.place;
+        let mut guess: Vec<f64> = x.iter().zip(tangent).map(|(x, t)| x + length * t).collect();
+        if let Some((before, slope)) = &self.before {
+            let moved: Vec<f64> = x.iter().zip(before).map(|(a, b)| a - b).collect();
+            let (gone, turned) = (product(weights, tangent, &moved), product(weights, tangent, slope));
+            if length < 2.0 * gone && turned > STRAIGHT {
+                let bend = 0.5 * length * length / gone;
+                for (i, value) in guess.iter_mut().enumerate() {
+                    *value += bend * (tangent[i] - slope[i] / turned);
+                }
+            }
+        }
+        guess
+    }
+
     /// The solution between the present one and `beyond` whose parameter is `edge`.
     fn edge(
         &self,
-        beyond: Place<P::Local>,
+        beyond: &Place<P::Local>,
         edge: f64,
         watch: &dyn Watch,
     ) -> Result<(Place<P::Local>, f64), End> {
@@ -269,6 +258,26 @@ impl<P: Problem> Tracer<P> {
         if size > self.settings.largest_size { Err(End::BlowUp { size }) } else { Ok(()) }
     }
 
+    /// The reason behind the end of the computation, where the growth of the period says more.
+    fn explained(&self, end: End) -> End {
+        if !matches!(end, End::StepUnderflow { .. } | End::PeriodLimit { .. }) {
+            return end;
+        }
+        let saddle = || self.problem.saddle(&self.place.x, &self.place.local);
+        self.periods.resonance().map_or(end, |found| End::Homoclinic(Box::new(found.through(saddle()))))
+    }
+
+    /// Whether the orbits shrink to an equilibrium before `new`. The parameter has an extreme value there, as at a fold.
+    fn shrinks(&self, new: &Place<P::Local>, found: &[(Place<P::Local>, Special)]) -> Option<End> {
+        let (before, now) = (self.problem.swing(&self.place.local)?, self.problem.swing(&new.local)?);
+        if dot(&before, &now) >= 0.0 {
+            return None;
+        }
+        let at = found.iter().find(|(_, special)| *special == Special::Fold).map_or(new, |(at, _)| at);
+        let time = self.problem.time()?;
+        Some(End::Shrinks { parameter: at.parameter(), time: at.x[time] })
+    }
+
     /// Whether the branch of orbits ends at the present place.
     fn ends(&mut self) -> Result<(), End> {
         let Some(time) = self.problem.time().map(|place| (self.place.x[place], self.place.tangent[place]))
@@ -276,16 +285,6 @@ impl<P: Problem> Tracer<P> {
             return Ok(());
         };
         let parameter = self.place.parameter();
-        let amplitude = self.problem.amplitude(&self.place.x, &self.place.local);
-        self.amplitudes = [self.amplitudes[1], amplitude.map(|a| (a, parameter))];
-        if let [Some((before, p)), Some((now, q))] = self.amplitudes
-            && now < FLAT
-            && now < before
-        {
-            // the parameter is quadratic in the amplitude
-            let parameter = q + (q - p) * now * now / (before * before - now * now);
-            return Err(End::Shrinks { parameter, period: time.0 });
-        }
         self.periods.push(time, (parameter, self.place.slope()));
         if let Some(connection) = self.periods.connection() {
             let saddle = self.problem.saddle(&self.place.x, &self.place.local);
@@ -311,6 +310,7 @@ impl<P: Problem> Tracer<P> {
             && let Ok(place) = place(&self.problem, found, &row, self.place.arclength)
         {
             self.place = place;
+            self.before = None;
         }
     }
 

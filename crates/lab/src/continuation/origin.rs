@@ -124,9 +124,9 @@ impl Origin {
             }
             Self::Loop { branch, leg } => {
                 let leg = &branches[branch].legs[leg];
-                let found =
-                    single_loop(bodies, leg, &settings, watch)?.ok_or_else(|| nothing("loop", leg))?;
-                both(bodies, parameter(leg), &Start::Orbit(found), watch)
+                let found = single_loop(bodies, leg, &settings, watch)?;
+                let (parameter, found) = found.ok_or_else(|| nothing("loop", leg))?;
+                both(bodies, parameter, &Start::Orbit(found), watch)
             }
             Self::Shrinks { branch, leg } => {
                 let leg = &branches[branch].legs[leg];

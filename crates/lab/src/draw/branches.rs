@@ -1,7 +1,7 @@
 //! Branches: the bifurcation diagram, and the periods.
 
 use super::{Picture, undrawable, words};
-use crate::continuation::{Branches, Followed, Sample, is_stable};
+use crate::continuation::{Branches, Followed, Origin, Sample, is_stable};
 use motiform_analysis::continuation::{End, Special};
 use motiform_figures::{BranchDiagram, BranchMark, BranchPart, DEFAULT_SCALE, Figure, Glyph, png};
 use motiform_study::plan::Named;
@@ -79,8 +79,9 @@ pub fn diagram(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Resul
         caption: caption(plan, found)?,
         x_label: spec.map_or_else(|| along.name.clone(), |spec| spec.symbol.to_owned()),
         y_label: ordinate.label().to_owned(),
+        logarithmic: ordinate == Ordinate::Period,
         x: [along.from, along.to],
-        parts: found.branches.iter().flat_map(|followed| parts(followed, ordinate)).collect(),
+        parts: found.branches.iter().flat_map(|followed| all_parts(found, followed, ordinate)).collect(),
         marks: found.branches.iter().flat_map(|followed| marks(followed, ordinate)).collect(),
     })
 }
@@ -100,6 +101,29 @@ fn caption(plan: &BranchPlan, found: &Branches) -> Result<Vec<String>, Error> {
             "{count} branches by pseudo-arclength continuation, each drawn once for all its mirror images{left}.{unfinished}"
         ),
     ])
+}
+
+/// The parts of a branch, the first one drawn from the special point where it begins.
+fn all_parts(found: &Branches, followed: &Followed, ordinate: Ordinate) -> Vec<BranchPart> {
+    let mut all = parts(followed, ordinate);
+    if let (Some(at), [_], Some(first)) =
+        (birth(found, followed.origin, ordinate), &followed.legs[..], all.first_mut())
+    {
+        first.points.insert(0, at);
+    }
+    all
+}
+
+/// The special point where a branch begins, as a point of the new branch.
+fn birth(found: &Branches, origin: Origin, ordinate: Ordinate) -> Option<[f64; 2]> {
+    let Origin::Special { branch, leg, point } = origin else { return None };
+    let sample = &found.branches[branch].legs[leg].samples[point];
+    let value = match (ordinate, sample.point.special?) {
+        (Ordinate::Period, Special::Hopf(hopf)) => hopf.period(),
+        (Ordinate::Period, Special::PeriodDoubling) => 2.0 * sample.reading.period?,
+        _ => ordinate.read(sample)?,
+    };
+    Some([sample.point.parameter, value])
 }
 
 /// The parts of a branch, each with its stability and motion.

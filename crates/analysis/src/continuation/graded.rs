@@ -1,0 +1,94 @@
+//! Eigenvalues of a product of matrices, each with its own digits.
+
+use crate::periodic::multipliers;
+use nalgebra::DMatrix;
+
+/// Times that the frames are taken around the product: they converge by the ratio of neighbouring moduli each time.
+const ROUNDS: usize = 8;
+
+/// Coupling of a group of eigenvalues to larger ones below which they are separate.
+const SEPARATE: f64 = 1e-12;
+
+/// The eigenvalues of `A_m .. A_2 A_1` (`factors` in the order in which they act), largest modulus first.
+///
+/// Multiplied out, the large eigenvalues of the product would bury the small ones under their round-off. Instead orthonormal frames
+/// are taken around: `A_i Q_(i-1) = Q_i R_i` with triangular `R_i`, from the last frame on again, until the frames return up to
+/// rotations within groups of eigenvalues of similar modulus. The groups are then separate diagonal blocks, in every factor.
+///
+/// Source: the periodic QR iteration: Bojanczyk, Golub, Van Dooren (1992), Proc. SPIE 1770, 31.
+pub(super) fn eigenvalues_of_product(factors: &[DMatrix<f64>]) -> Option<Vec<(f64, f64)>> {
+    let dim = factors.first()?.nrows();
+    let mut frame = DMatrix::identity(dim, dim);
+    let mut triangles = Vec::new();
+    let mut before = frame.clone();
+    for _ in 0..ROUNDS {
+        before = frame.clone();
+        triangles.clear();
+        for factor in factors {
+            let image = factor * &frame;
+            if !image.iter().all(|x| x.is_finite()) {
+                return None;
+            }
+            let (q, r) = image.qr().unpack();
+            frame = q;
+            triangles.push(r);
+        }
+    }
+    let back = before.transpose() * &frame;
+    let mut values = Vec::new();
+    let mut from = 0;
+    while from < dim {
+        let apart = |end: &usize| {
+            *end == dim || back.view((*end, 0), (dim - end, *end)).iter().all(|x| x.abs() < SEPARATE)
+        };
+        let end = (from + 1..=dim).find(apart)?;
+        let size = end - from;
+        let block = |m: &DMatrix<f64>| m.view((from, from), (size, size)).into_owned();
+        let product = triangles.iter().fold(DMatrix::identity(size, size), |product, r| block(r) * product);
+        let matrix = block(&back) * product;
+        let columns: Vec<Vec<f64>> = matrix.column_iter().map(|c| c.iter().copied().collect()).collect();
+        values.extend(multipliers(&columns)?);
+        from = end;
+    }
+    values.sort_by(|a, b| libm::hypot(b.0, b.1).total_cmp(&libm::hypot(a.0, a.1)));
+    Some(values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_eigenvalue_keeps_its_digits() {
+        // similar to diag(1e9, -3, 2, 1e-9) over each factor, by a rotation of the four axes
+        let (sin, cos) = (0.6, 0.8);
+        let mut turn: DMatrix<f64> = DMatrix::identity(4, 4);
+        for i in 0..3 {
+            let mut plane: DMatrix<f64> = DMatrix::identity(4, 4);
+            plane[(i, i)] = cos;
+            plane[(i, i + 1)] = -sin;
+            plane[(i + 1, i)] = sin;
+            plane[(i + 1, i + 1)] = cos;
+            turn *= &plane;
+        }
+        let shear = DMatrix::from_fn(4, 4, |i, j| {
+            if i == j {
+                1.0
+            } else if i < j {
+                0.5
+            } else {
+                0.0
+            }
+        });
+        let to: DMatrix<f64> = &turn * shear;
+        let from = to.clone().try_inverse().expect("it is well conditioned");
+        let diagonal = DMatrix::from_diagonal(&nalgebra::DVector::from_vec(vec![1e9, -3.0, 2.0, 1e-3]));
+        // in separate factors no digits are lost
+        let factors = [from, diagonal.clone(), diagonal, to];
+        let values = eigenvalues_of_product(&factors).expect("they are finite");
+        let expected: [f64; 4] = [1e18, 9.0, 4.0, 1e-6];
+        for (value, expected) in values.iter().zip(expected) {
+            assert!((value.0 / expected - 1.0).abs() < 1e-6 && value.1 == 0.0, "{values:?}");
+        }
+    }
+}

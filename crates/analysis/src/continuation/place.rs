@@ -1,0 +1,43 @@
+//! A solution with its tangent and its levels.
+
+use super::correct::{Corrected, scaled};
+use super::levels::Level;
+use super::point::Obstruction;
+use super::problem::{Failure, Problem};
+use crate::linear::dot;
+
+/// A solution with all that is known there.
+pub(super) struct Place<L> {
+    pub(super) x: Vec<f64>,
+    pub(super) local: L,
+    pub(super) tangent: Vec<f64>,
+    pub(super) levels: Vec<Vec<Level>>,
+    pub(super) arclength: f64,
+}
+
+impl<L> Place<L> {
+    pub(super) fn parameter(&self) -> f64 {
+        self.x.last().copied().unwrap_or(f64::NAN)
+    }
+
+    pub(super) fn slope(&self) -> f64 {
+        self.tangent.last().copied().unwrap_or(f64::NAN)
+    }
+}
+
+/// A solution, with its tangent on the side of `row`.
+pub(super) fn place<P: Problem>(
+    problem: &P,
+    found: Corrected<P::Local>,
+    row: &[f64],
+    arclength: f64,
+) -> Result<Place<P::Local>, Failure> {
+    let Corrected { x, local, direction, .. } = found;
+    let broken = || Failure::Obstructed(Obstruction::Singular);
+    let mut tangent = scaled(direction, &problem.weights(&x)).ok_or_else(broken)?;
+    if dot(row, &tangent) < 0.0 {
+        tangent.iter_mut().for_each(|t| *t = -*t);
+    }
+    let levels = problem.levels(&x, &local).ok_or_else(broken)?;
+    Ok(Place { x, local, tangent, levels, arclength })
+}
