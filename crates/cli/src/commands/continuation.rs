@@ -123,7 +123,7 @@ fn branch(
     let motion = motion.map_or("", |motion| motion.name());
     let form = form.map_or(String::new(), |form| format!(" ({})", form.name()));
     writeln!(text, "branch {number:<3} {motion}{form}, {} points", followed.samples().count())?;
-    for [from, to] in stretches(followed) {
+    for [from, to] in stretches(&folder.found, followed) {
         writeln!(text, "           stable from {from:.9} to {to:.9}")?;
     }
     for special in folder.found.special(number) {

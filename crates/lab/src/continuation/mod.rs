@@ -15,6 +15,7 @@ mod known;
 mod origin;
 mod reading;
 pub mod settle;
+mod single_loop;
 mod stretches;
 mod summary;
 mod table;

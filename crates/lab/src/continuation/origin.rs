@@ -2,12 +2,11 @@
 
 use super::family::Bodies;
 use super::follow::{Followed, Leg, Sample};
-use super::settle::{Start, closed};
+use super::settle::Start;
+use super::single_loop::single_loop;
 use motiform_analysis::continuation::{Branch, End, Settings, Special, switch};
-use motiform_analysis::symmetry::align;
-use motiform_analysis::{Error as Refused, PeriodicOrbit, RelativeEquilibrium};
-use motiform_dynamics::drive::drive;
-use motiform_dynamics::{Equivariant, Request, Watch};
+use motiform_analysis::{Error as Refused, RelativeEquilibrium};
+use motiform_dynamics::Watch;
 use serde::{Deserialize, Serialize};
 
 /// What a branch was followed from. Branches, their legs and points are counted from 0 in the order in which they were found.
@@ -74,11 +73,11 @@ impl Origin {
         all
     }
 
-    /// The time over which what begins is computed, as far as it is known before: 0 for steady motions.
+    /// The period of what begins at a special point, and 0 at the end of a branch: ends are few, and lead to other kinds of motion.
     pub(super) fn cost(self, branches: &[Followed]) -> f64 {
         let period = |sample: Option<&Sample>| sample.and_then(|sample| sample.reading.period).unwrap_or(0.0);
         match self {
-            Self::Start | Self::Saddle { .. } | Self::Shrinks { .. } => 0.0,
+            Self::Start | Self::Saddle { .. } | Self::Loop { .. } | Self::Shrinks { .. } => 0.0,
             Self::Special { branch, leg, point } => {
                 let sample = &branches[branch].legs[leg].samples[point];
                 match sample.point.special {
@@ -87,8 +86,6 @@ impl Origin {
                     _ => period(Some(sample)),
                 }
             }
-            // the loop is entered where its time is about half of the leg's longest
-            Self::Loop { branch, leg } => 0.25 * period(branches[branch].legs[leg].samples.last()),
         }
     }
 
@@ -124,9 +121,8 @@ impl Origin {
             }
             Self::Loop { branch, leg } => {
                 let leg = &branches[branch].legs[leg];
-                let found = single_loop(bodies, leg, &settings, watch)?;
-                let (parameter, found) = found.ok_or_else(|| nothing("loop", leg))?;
-                both(bodies, parameter, &Start::Orbit(found), watch)
+                let saddle = saddle(leg).ok_or_else(|| nothing("saddle", leg))?;
+                single_loop(bodies, leg, saddle, watch)?.ok_or_else(|| nothing("loop", leg))
             }
             Self::Shrinks { branch, leg } => {
                 let leg = &branches[branch].legs[leg];
@@ -173,62 +169,4 @@ fn saddle(leg: &Leg) -> Option<&RelativeEquilibrium> {
 fn nothing(what: &'static str, leg: &Leg) -> Refused {
     let why = "Newton's method finds none from the last orbit of the branch".to_owned();
     Refused::NotOnABranch { what, parameter: parameter(leg), why }
-}
-
-/// An orbit along one loop of a connection, where the orbits of the leg pass one loop and then its mirror image. Beside the saddle both
-/// are nearly the same, up to the side on which they leave it: so the first guess is the shape closest to it. The closer an orbit is to
-/// the connection the better the guess, but the more Newton's method amplifies: several are tried, from the end backwards.
-fn single_loop(
-    bodies: &Bodies<'_>,
-    leg: &Leg,
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> Result<Option<(f64, PeriodicOrbit)>, Refused> {
-    let (Some(saddle), Some(longest)) = (saddle(leg), leg.samples.last().and_then(time)) else {
-        return Ok(None);
-    };
-    for part in PARTS {
-        let Some(sample) = leg.samples.iter().rev().find(|s| time(s) <= Some(part * longest)) else { break };
-        let (parameter, Some(orbit)) = (sample.point.parameter, sample.point.motion.orbit()) else { break };
-        let body = bodies.model(parameter)?;
-        let beside = beside(body.as_ref(), orbit, saddle, settings);
-        let found = beside
-            .and_then(|shape| closed(body.as_ref(), &shape, (orbit.time, false), &settings.flow, watch));
-        if let Some(found) = found {
-            return Ok(Some((parameter, found)));
-        }
-    }
-    Ok(None)
-}
-
-/// Times of the orbits that are tried, as parts of the longest.
-const PARTS: [f64; 6] = [1.0, 0.8, 0.65, 0.5, 0.4, 0.3];
-
-/// Shapes of an orbit of which the one closest to a saddle is taken.
-const PLACES: usize = 400;
-
-fn time(sample: &Sample) -> Option<f64> {
-    sample.point.motion.orbit().map(|orbit| orbit.time)
-}
-
-/// The shape of an orbit that is closest to a saddle, up to rotations and the mirror.
-fn beside(
-    body: &dyn Equivariant,
-    orbit: &PeriodicOrbit,
-    saddle: &RelativeEquilibrium,
-    settings: &Settings,
-) -> Option<Vec<f64>> {
-    let flow = &settings.flow;
-    let mut solution = flow.method.shape_orbit(body, flow.control, 0.0, &orbit.shape).ok()?;
-    let mut best = (f64::INFINITY, orbit.shape.clone());
-    for place in 0..PLACES {
-        let t = orbit.time * place as f64 / PLACES as f64;
-        drive(solution.as_mut(), &Request::until(t, orbit.shape.len()), &mut ()).ok()?;
-        let away = |mirrored| align(body, solution.state(), &saddle.shape, mirrored).distance;
-        let distance = away(false).min(away(true));
-        if distance < best.0 {
-            best = (distance, solution.state().to_vec());
-        }
-    }
-    Some(best.1)
 }

@@ -1,11 +1,12 @@
 //! Where a branch is stable.
 
-use super::follow::{Followed, Sample};
+use super::follow::{Branches, Followed, Sample};
+use super::origin::Origin;
 
 /// Ranges of the parameter over which a branch is stable, in its order, each from the smaller to the larger value. They end at special
 /// points, or where the branch does.
 #[must_use]
-pub fn stretches(followed: &Followed) -> Vec<[f64; 2]> {
+pub fn stretches(found: &Branches, followed: &Followed) -> Vec<[f64; 2]> {
     let samples: Vec<&Sample> = followed.samples().collect();
     let mut all: Vec<[f64; 2]> = Vec::new();
     let mut open: Option<[f64; 2]> = None;
@@ -21,7 +22,21 @@ pub fn stretches(followed: &Followed) -> Vec<[f64; 2]> {
         }
     }
     all.extend(open);
+    if let (Some(birth), Some(first)) = (birth(found, followed), all.first_mut())
+        && samples.len() > 1
+        && is_stable(samples[0], samples[1])
+    {
+        *first = [first[0].min(birth), first[1].max(birth)];
+    }
     all
+}
+
+/// The parameter of the special point where a branch of one leg begins.
+fn birth(found: &Branches, followed: &Followed) -> Option<f64> {
+    let (Origin::Special { branch, leg, point }, [_]) = (followed.origin, &followed.legs[..]) else {
+        return None;
+    };
+    Some(found.branches.get(branch)?.legs.get(leg)?.samples.get(point)?.point.parameter)
 }
 
 /// Whether a stretch between neighbours is stable: a special point itself is neither.

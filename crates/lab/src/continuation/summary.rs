@@ -65,7 +65,7 @@ fn entry(plan: &BranchPlan, found: &Branches, (number, followed): (usize, &Follo
     }
     put("origin", json!(followed.origin));
     put("points", followed.samples().count().into());
-    put("stable", json!(stretches(followed)));
+    put("stable", json!(stretches(found, followed)));
     put("special", special.into());
     put("end", ends.last().cloned().unwrap_or_default().into());
     put("ends", json!(ends));

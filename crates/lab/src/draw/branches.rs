@@ -92,6 +92,7 @@ fn caption(plan: &BranchPlan, found: &Branches) -> Result<Vec<String>, Error> {
     let count = found.branches.len();
     let left = match found.left {
         0 => String::new(),
+        1 => "; one point at which more may begin was left".to_owned(),
         left => format!("; {left} points at which more may begin were left"),
     };
     let unfinished = if found.complete { "" } else { " Interrupted: not all of them are followed." };
