@@ -50,14 +50,14 @@ fn the_zigzag_branch_has_its_symmetry_breakings() {
 #[test]
 fn one_command_leads_from_the_zigzag_to_the_hopf_bifurcation_of_circular_motion() {
     let folder = Folder::new();
-    let json = folder.run(&format!("{ZIGZAG} kappa2=0.75:1.6 --branches 4 --json")).expect(0).json();
+    let json = folder.run(&format!("{ZIGZAG} kappa2=0.75:1.6 --branches 5 --json")).expect(0).json();
     let motions: Vec<&str> = json["branches"]
         .as_array()
         .unwrap()
         .iter()
         .map(|branch| branch["motion"].as_str().unwrap())
         .collect();
-    assert_eq!(motions, ["zigzag", "straight", "quasi-periodic", "circular"]);
+    assert_eq!(motions, ["zigzag", "straight", "quasi-periodic", "circular", "quasi-periodic"]);
     let broken = places(&json, "symmetry-breaking");
     assert!(holds(&broken, 0.783547, 1e-6) && holds(&broken, 1.148047, 1e-6), "{broken:?}");
     assert!(holds(&places(&json, "homoclinic"), 1.344179, 1e-6));
@@ -126,9 +126,9 @@ fn what_cannot_be_followed_is_refused_with_the_reason() {
 #[test]
 fn the_reduced_models_lines_are_found() {
     let folder = Folder::new();
-    // straight -> circular at s = 0.1: gamma = 32 s^2 + 2 s, kappa2 = 4 s - 8 s^3 (physics of the reduced model, b1 = 0.5)
+    // straight -> circular at s = 0.1: gamma = 32 s^2 + 2 s, kappa2 = 4 s - 8 s^2 (a1 = 1, b1 = 0.5, b3 = 1)
     let s: f64 = 0.1;
-    let (gamma, expected) = (32.0 * s * s + 2.0 * s, 4.0 * s - 8.0 * s.powi(3));
+    let (gamma, expected) = (32.0 * s * s + 2.0 * s, 4.0 * s - 8.0 * s * s);
     let words = format!(
         "continue tensor --preset fig1 --set gamma={gamma} --set kappa2=0.6 --along kappa2=0.2:0.8 --json"
     );

@@ -53,6 +53,17 @@ impl Path {
         }
     }
 
+    /// This path, and after its end another one that begins with the shape that this one ends with.
+    pub(super) fn joined(mut self, next: &Self) -> Self {
+        let end = self.times.last().copied().unwrap_or(0.0);
+        self.times.extend(next.times.iter().skip(1).map(|t| end + t));
+        self.velocities.extend(next.velocities.iter().skip(1));
+        self.resolution = self.resolution.max(next.resolution);
+        self.largest = self.largest.max(next.largest);
+        self.integrate();
+        self
+    }
+
     /// Positions from velocities, by the trapezoidal rule.
     fn integrate(&mut self) {
         let mut at = [0.0; 2];

@@ -37,7 +37,7 @@ impl Reading {
         let model = bodies.model(point.parameter)?;
         let mut reading = match &point.motion {
             Motion::Equilibrium(found) => still(model.as_ref(), found),
-            Motion::Orbit { orbit, .. } => periodic(bodies, model.as_ref(), orbit, watch)?,
+            Motion::Orbit { orbit, nodes } => periodic(bodies, model.as_ref(), (orbit, nodes), watch)?,
         };
         model.decode(point.motion.shape(), &mut reading.state);
         Ok(reading)
@@ -68,10 +68,10 @@ fn still(model: &dyn Model, found: &RelativeEquilibrium) -> Reading {
 fn periodic(
     bodies: &Bodies<'_>,
     model: &dyn Model,
-    orbit: &PeriodicOrbit,
+    (orbit, nodes): (&PeriodicOrbit, &[Vec<f64>]),
     watch: &dyn Watch,
 ) -> Result<Reading, Error> {
-    let seen = repeating(model, orbit, &bodies.looks(), &motiform_dynamics::StopOnly(watch))?;
+    let seen = repeating(model, orbit, nodes, &bodies.looks(), &motiform_dynamics::StopOnly(watch))?;
     Ok(Reading {
         motion: seen.form.regime(),
         form: Some(seen.form),
