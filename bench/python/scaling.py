@@ -183,37 +183,37 @@ def page(found: dict[str, Any]) -> str:
 
     text.append("**Seconds of one core per cell**, one initial state each, default budget.\n")
     text.append(table(
-        ["scan", "cells", "mean, together", "mean, one by one", "median, one by one", "dearest cell", "dearest tenth of the cells"],
+        ["scan", "cells", "mean, together", "mean, one by one", "median, one by one", "slowest cell", "slowest tenth of the cells"],
         [[PLANES[name][0], str(c["cells"]), span(c["together"]) if c["together"] else "not measured", span(c["alone_mean"]),
           span(c["alone_median"]), f"{span(c['longest'])}: {c['where']}, {c['regime']}", f"{100 * c['tenth']:.0f} % of the time"]
          for name, c in costs.items()],
     ))  # fmt: skip
     text.append("**Bytes per row**: Parquet parts of a share of a scan of a million cells; result in memory.\n")
     rows = [[PLANES[name][0], f"{f['rows']:.0f}", f"{f['bytes']:.0f}", f"{f['all_parts']:.0f}"] for name, f in written.items()]
-    text.append(table(["scan", "rows looked at", "bytes per row on disk", "files of the whole"], rows))
+    text.append(table(["scan", "rows examined", "bytes per row on disk", "files of the whole scan"], rows))
     text.append(table(
         ["memory of a scan (resident)", ""],
         [["before it, package loaded", size(held["base"])],
          [f"{ROWS[0]:,} rows", size(held["small"])],
          [f"{ROWS[1]:,} rows", size(held["large"])],
          ["slope, bytes per row", f"{held['slope']:.0f}"],
-         ["of it the dataset itself", f"{held['data']:.0f}"]],
+         ["of which the dataset itself", f"{held['data']:.0f}"]],
     ))  # fmt: skip
-    text.append("**Overhead of an executor**: a pool of processes against as many threads, the same scan, the best of interleaved rounds.\n")
+    text.append("**Overhead of an executor**: a pool of processes compared with the same number of threads, the same scan, the best of interleaved rounds.\n")
     text.append(table(
         ["", ""],
         [["workers", str(tasks["workers"])],
-         ["threads, by the clock", span(tasks["local"])],
-         ["pool, by the clock", f"{span(tasks['pool'])} ({100 * (tasks['pool'] / tasks['local'] - 1):+.1f} %)"],
-         ["tasks, mean length", f"{tasks['tasks']}, {span(tasks['busy'] / tasks['tasks'])}"],
-         ["this process's own work (Python, pickling, merging)",
+         ["threads, wall time", span(tasks["local"])],
+         ["pool, wall time", f"{span(tasks['pool'])} ({100 * (tasks['pool'] / tasks['local'] - 1):+.1f} %)"],
+         ["tasks, mean duration", f"{tasks['tasks']}, {span(tasks['busy'] / tasks['tasks'])}"],
+         ["work of the calling process (Python, pickling, merging)",
           f"{span(tasks['python'])}, {100 * tasks['python'] / tasks['busy']:.2f} % of the workers' time"],
-         ["of it for each task", span(tasks["per_task"])],
-         [f"workers that one process can feed, with tasks of {executors.TASK_SECONDS:g} s",
+         ["of which per task", span(tasks["per_task"])],
+         [f"workers that one process can supply, with tasks of {executors.TASK_SECONDS:g} s",
           f"about {executors.TASK_SECONDS / tasks['per_task']:.0f}"]],
     ))  # fmt: skip
 
-    text.append(f"**What follows for {CELLS:,} cells**, computed from the numbers above. Assumed: nodes of {CORES} such cores, all busy.\n")
+    text.append(f"**Estimate for {CELLS:,} cells**, computed from the numbers above. Assumed: nodes of {CORES} such cores, all busy.\n")
     most = max(f["bytes"] for f in written.values())
     rows = []
     for name, c in costs.items():

@@ -1,4 +1,4 @@
-//! What users without Rust install: a wheel for any Linux with CPython 3.10 or later, and a stripped program, with checksums.
+//! Files for users without Rust: a wheel for any Linux with CPython 3.10 or later, and a stripped program, with checksums.
 
 use crate::python::environment;
 use crate::{cargo_command, root, step};
@@ -47,7 +47,7 @@ fn target(root: &Path) -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from)
 }
 
-/// Installs the wheel where no cargo is, and runs the README's Python block.
+/// Installs the wheel in an environment without cargo, and runs the README's Python block.
 fn installs(root: &Path, folder: &Path) -> Result<()> {
     let bare = environment("target/dist/environment")?;
     let wheel = fs::read_dir(folder)?.flatten().map(|entry| entry.path());

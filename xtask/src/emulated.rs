@@ -1,10 +1,10 @@
-//! The tests of lanes on processors that this machine is not: the portable path and AVX2, by qemu's user mode.
+//! The tests of lanes on emulated processors: the portable path and AVX2, with qemu's user mode.
 
 use crate::{cargo_command, step};
 use anyhow::{Result, bail};
 use std::process::{Command, Stdio};
 
-/// Emulated processors: one with nothing beyond SSE3, one with 256-bit registers and fused operations, no wider ones.
+/// Emulated processors: one with SSE3 at most, one with 256-bit registers and fused operations, no wider ones.
 const PROCESSORS: [&str; 2] = ["qemu64", "Haswell"];
 
 /// Operations lane by lane, exponents in lanes against single runs, and the digest of a scan.

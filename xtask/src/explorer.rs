@@ -1,4 +1,4 @@
-//! The page of `motiform explore`: that the committed one is what its sources give, and its tests in a real browser.
+//! The page of `motiform explore`: comparison of the committed page with its sources, and tests in a real browser.
 
 use crate::{cargo, root, step};
 use anyhow::{Context, Result, bail};
@@ -53,7 +53,7 @@ fn contents(folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     Ok(all)
 }
 
-/// The test files, sorted: Node 20 knows no patterns.
+/// The test files, sorted: Node 20 does not support patterns.
 fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut all = list(folder)?;
     all.retain(|path| path.to_string_lossy().ends_with(".test.mjs"));
@@ -66,7 +66,7 @@ fn list(folder: &Path) -> Result<Vec<PathBuf>> {
     entries.map(|entry| Ok(entry?.path())).collect()
 }
 
-/// The program that was just built, also where `CARGO_TARGET_DIR` points elsewhere.
+/// The program that was just built, also if `CARGO_TARGET_DIR` points elsewhere.
 fn binary(root: &Path) -> PathBuf {
     let target =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), |dir| root.join(dir));
@@ -134,7 +134,7 @@ fn works(name: &str) -> bool {
     command.status().is_ok_and(|status| status.success())
 }
 
-/// Installs Debian packages as root; whoever is not root, or elsewhere, is told what is missing.
+/// Installs Debian packages as root; otherwise, or on other systems, reports what is missing.
 fn install(packages: &[&str], what: &str) -> Result<()> {
     let root = Command::new("id").arg("-u").output().is_ok_and(|output| output.stdout == b"0\n");
     if !root || !works("apt-get") {

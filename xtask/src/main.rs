@@ -1,4 +1,4 @@
-//! One way to do each chore: `cargo xtask test`, `cargo xtask deny`.
+//! Development tasks: `cargo xtask test`, `cargo xtask deny`.
 
 mod dist;
 mod emulated;
@@ -25,7 +25,7 @@ usage: cargo xtask COMMAND
            the tests to notice; see docs/mutants.md (needs `cargo install --locked cargo-mutants`)
   deny     licences, advisories and sources of the dependencies (needs `cargo install --locked cargo-deny`)";
 
-/// Lints and documentation are checked with every feature on, so that optional parts cannot rot.
+/// Lints and documentation are checked with all features enabled, so that optional parts are tested too.
 const STEPS: &[(&str, &[&str])] = &[
     ("format", &["fmt", "--all", "--check"]),
     (

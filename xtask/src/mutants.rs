@@ -1,10 +1,10 @@
-//! Mutation tests: a sample of small changes to the mathematics, each of which some test must notice.
+//! Mutation tests: a sample of small changes to the mathematics, each of which a test must detect.
 
 use crate::step;
 use anyhow::{Context, Result, bail};
 use std::process::Command;
 
-/// What is not changed: systems and oracles that only tests use, and code that lanes run by the same source as one orbit.
+/// Excluded: systems and oracles that only tests use, and code that lanes share with single orbits.
 const LEFT_OUT: [&str; 4] = [
     "crates/models/src/zoo/*.rs",
     "crates/models/src/tensor/indices.rs",
@@ -12,10 +12,10 @@ const LEFT_OUT: [&str; 4] = [
     "crates/analysis/src/regime/lane_look.rs",
 ];
 
-/// The sample where none is asked for: of some 4,400 mutants every 100th, so some in every file.
+/// The default sample: every 100th of about 4,400 mutants, so some in every file.
 const SAMPLE: &str = "0/100";
 
-/// Runs cargo-mutants on a sample (`K/N`: every N-th mutant, from the K-th); `more` goes to cargo-mutants as it is.
+/// Runs cargo-mutants on a sample (`K/N`: every N-th mutant, from the K-th); `more` is passed to cargo-mutants unchanged.
 pub(crate) fn run(arguments: &[String]) -> Result<()> {
     let (sample, more) = match arguments.split_first() {
         Some((first, more)) if !first.starts_with('-') => (first.as_str(), more),
@@ -40,7 +40,7 @@ fn is_sample(text: &str) -> bool {
     text.split_once('/').and_then(parse).is_some_and(|(k, n)| k < n)
 }
 
-/// Whether cargo-mutants is there; otherwise says how to get it.
+/// Whether cargo-mutants is installed; otherwise reports how to install it.
 fn installed() -> Result<()> {
     let found = Command::new("cargo").args(["mutants", "--version"]).output().context("cargo")?;
     if !found.status.success() {

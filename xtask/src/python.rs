@@ -1,4 +1,4 @@
-//! The Python package: built as users build it, and tested in an environment of its own.
+//! The Python package: built as users build it, and tested in a separate environment.
 
 use crate::{root, step};
 use anyhow::{Result, bail};
@@ -13,7 +13,7 @@ pub(crate) fn test() -> Result<()> {
     step("python tests", Command::new(&python).args(["-m", "pytest"]))
 }
 
-/// The interpreter of a virtual environment in this folder, made if it is not there.
+/// The interpreter of a virtual environment in this folder, created if it does not exist.
 pub(crate) fn environment(folder: &str) -> Result<PathBuf> {
     let environment = root()?.canonicalize()?.join(folder);
     let python = environment.join("bin/python");

@@ -15,6 +15,7 @@ mod legs;
 mod linear;
 pub mod lyapunov;
 mod multiple_shooting;
+mod newton_picard;
 pub mod periodic;
 pub mod regime;
 mod rests;

@@ -1,13 +1,10 @@
 //! Relative periodic orbits: shapes that come back turned (and mirrored), after a period.
 
-use crate::equilibrium::neutral_direction;
-use crate::linear::{add, basis, dot, eigenvalues, least_squares, norm, orthonormalise};
-use crate::lyapunov::SplitMix;
+use crate::linear::{add, eigenvalues, norm};
 use crate::multiple_shooting::refine;
-use crate::symmetry::wrap;
-use motiform_dynamics::drive::drive;
+use crate::newton_picard::Newton;
 use motiform_dynamics::steppers::Method;
-use motiform_dynamics::{Equivariant, Request, StepControl, System, Tangent, VectorField, Watch};
+use motiform_dynamics::{Equivariant, StepControl, Watch};
 use serde::{Deserialize, Serialize};
 
 /// A solution of `Phi_T(u) = R(angle) [M] u`: after the time T the shape is its own image.
@@ -44,11 +41,19 @@ pub struct PeriodicGuess<'s> {
 /// Steps that Newton's method may take.
 const STEPS: usize = 12;
 
-/// Directions that are followed exactly; the others contract within a period and are iterated.
-const DIRECTIONS: usize = 5;
-
 /// Systems up to this size are followed in all directions.
 const SMALL: usize = 8;
+
+/// Whether a system of this dimension is followed in all directions.
+pub(crate) const fn is_small(dim: usize) -> bool {
+    dim <= SMALL
+}
+
+/// A shape whose image is farther from it than this part of its size does not return.
+const NO_RETURN: f64 = 0.6;
+
+/// Where deviations grow by more than this on the way, round-off alone is far above every tolerance at the end.
+const HOPELESS: f64 = 1e12;
 
 /// Where a small deviation grows by more than this on the way, several short shots are asked ([`refine`]).
 const SENSITIVE: f64 = 1e4;
@@ -82,14 +87,34 @@ impl PeriodicOrbit {
         flow: &Flow,
         watch: &dyn Watch,
     ) -> Option<Self> {
+        let mut effort = f64::INFINITY;
+        Self::find_within(body, guess, flow, &mut effort, watch)
+    }
+
+    /// As [`PeriodicOrbit::find`], but it integrates no more than `effort` of model time, and takes what it integrated from it.
+    pub(crate) fn find_within<B: Equivariant + ?Sized>(
+        body: &B,
+        guess: &PeriodicGuess<'_>,
+        flow: &Flow,
+        effort: &mut f64,
+        watch: &dyn Watch,
+    ) -> Option<Self> {
         let mut state = Newton::new(body, guess);
         let size = norm(guess.shape);
         let tolerance = match flow.control {
             StepControl::Adaptive { rtol, .. } => 30.0 * rtol,
             StepControl::Fixed { .. } => 1e-6,
         };
+        if state.miss(flow, watch)? > NO_RETURN * size {
+            return None;
+        }
         let mut first = f64::INFINITY;
+        let mut before = f64::INFINITY;
         for step in 0..STEPS {
+            *effort -= state.time;
+            if *effort < 0.0 {
+                return None;
+            }
             let image = state.image(flow, watch)?;
             let residual = norm(&image.rest);
             if step == 0 {
@@ -109,6 +134,14 @@ impl PeriodicOrbit {
                     Some(found)
                 };
             }
+            let amplification = image.amplification();
+            if state.is_small() && amplification > HOPELESS {
+                return None;
+            }
+            if step >= 2 && amplification > SENSITIVE && residual > 0.5 * before {
+                return None; // what is left is round-off
+            }
+            before = residual;
             // Where Newton's method works at all it gains a factor per step.
             if step >= 2 && residual > 0.5 * first || step >= 5 && residual > 0.05 * first {
                 return None;
@@ -156,162 +189,4 @@ pub(crate) fn multipliers(columns: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
     let mut values = eigenvalues(columns)?;
     values.sort_by(|a, b| libm::hypot(b.0, b.1).total_cmp(&libm::hypot(a.0, a.1)));
     Some(values)
-}
-
-/// The state of Newton's method.
-struct Newton<'b, B: ?Sized> {
-    body: &'b B,
-    shape: Vec<f64>,
-    time: f64,
-    angle: f64,
-    mirrored: bool,
-    /// Orthonormal tangent vectors.
-    directions: Vec<Vec<f64>>,
-}
-
-/// What the flow over T gives, brought back by the inverse of the symmetry.
-struct Image {
-    /// `P(u) - u`.
-    rest: Vec<f64>,
-    /// `DP` applied to the directions.
-    directions: Vec<Vec<f64>>,
-    /// `dP/dT`.
-    by_time: Vec<f64>,
-    /// `dP/d(angle)`.
-    by_angle: Vec<f64>,
-}
-
-impl Image {
-    /// By how much the longest direction has grown.
-    fn amplification(&self) -> f64 {
-        self.directions.iter().map(|direction| norm(direction)).fold(0.0, f64::max)
-    }
-}
-
-impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
-    fn new(body: &'b B, guess: &PeriodicGuess<'_>) -> Self {
-        let dim = guess.shape.len();
-        let count = if dim <= SMALL { dim } else { DIRECTIONS };
-        let mut random = SplitMix(2);
-        let mut directions: Vec<Vec<f64>> =
-            (0..count).map(|_| (0..dim).map(|_| random.next()).collect()).collect();
-        // The neutral directions are among the leading ones from the start.
-        VectorField::<f64>::eval(body, 0.0, guess.shape, &mut directions[0]);
-        if body.is_symmetric() && count > 1 {
-            body.spin(guess.shape, &mut directions[1]);
-        }
-        let mut newton = Self {
-            body,
-            shape: guess.shape.to_vec(),
-            time: guess.time,
-            angle: guess.angle,
-            mirrored: guess.mirrored,
-            directions,
-        };
-        newton.orthonormalise();
-        newton
-    }
-
-    fn orthonormalise(&mut self) {
-        orthonormalise(&mut self.directions.iter_mut().map(Vec::as_mut_slice).collect::<Vec<_>>());
-    }
-
-    fn back(&self, x: &mut [f64]) {
-        back(self.body, self.angle, self.mirrored, x);
-    }
-
-    /// Whether it is followed in all directions.
-    fn is_small(&self) -> bool {
-        self.directions.len() == self.shape.len()
-    }
-
-    fn image(&self, flow: &Flow, watch: &dyn Watch) -> Option<Image> {
-        let dim = self.shape.len();
-        let tangent = Tangent::new(self.body, self.directions.len());
-        let start: Vec<f64> = self.shape.iter().chain(self.directions.iter().flatten()).copied().collect();
-        let mut orbit = flow.method.shape_orbit(&tangent, flow.control, 0.0, &start).ok()?;
-        let request = Request {
-            max_steps: flow.max_steps,
-            watched: dim,
-            watch,
-            ..Request::until(self.time, tangent.dim())
-        };
-        let outcome = drive(orbit.as_mut(), &request, &mut ()).ok()?;
-        if !outcome.is_complete() {
-            return None;
-        }
-        let (end, vectors) = orbit.state().split_at(dim);
-        let mut by_time = end.to_vec();
-        VectorField::<f64>::eval(self.body, 0.0, end, &mut by_time);
-        let mut by_angle = end.to_vec();
-        self.body.spin(end, &mut by_angle);
-        by_angle.iter_mut().for_each(|x| *x = -*x);
-        let mut rest = end.to_vec();
-        let mut directions: Vec<Vec<f64>> = vectors.chunks_exact(dim).map(<[f64]>::to_vec).collect();
-        for x in [&mut rest, &mut by_time, &mut by_angle].into_iter().chain(&mut directions) {
-            self.back(x);
-        }
-        add(&mut rest, -1.0, &self.shape);
-        Some(Image { rest, directions, by_time, by_angle })
-    }
-
-    /// One Newton-Picard step.
-    fn step(&mut self, image: &Image) -> Option<()> {
-        let inside = |x: &[f64]| self.directions.iter().map(|q| dot(q, x)).collect::<Vec<f64>>();
-        let mut columns: Vec<Vec<f64>> = Vec::new();
-        for (k, direction) in image.directions.iter().enumerate() {
-            let mut column = inside(direction);
-            column[k] -= 1.0;
-            columns.push(column);
-        }
-        columns.push(inside(&image.by_time));
-        columns.push(inside(&image.by_angle));
-        let along = inside(&image.rest);
-        let target: Vec<f64> = along.iter().map(|x| -x).collect();
-        let solution = least_squares(&columns, &target)?;
-        let mut outside = image.rest.clone();
-        for (q, r) in self.directions.iter().zip(&along) {
-            add(&mut outside, -r, q);
-        }
-        let count = self.directions.len();
-        for (q, y) in self.directions.iter().zip(&solution) {
-            add(&mut self.shape, *y, q);
-        }
-        add(&mut self.shape, 1.0, &outside);
-        self.time += solution[count];
-        self.angle += solution[count + 1];
-        if !self.is_small() {
-            self.directions.clone_from(&image.directions);
-            self.orthonormalise();
-        }
-        (self.time > 0.0).then_some(())
-    }
-
-    fn describe(&self, image: &Image, residual: f64) -> Option<PeriodicOrbit> {
-        let mut flow = self.shape.clone();
-        VectorField::<f64>::eval(self.body, 0.0, &self.shape, &mut flow);
-        let mut fixed: Vec<Vec<f64>> = neutral_direction(self.body, &self.shape);
-        fixed.push(flow);
-        // Neutral directions first: the rest of the span is what remains of the others.
-        let columns: Vec<&[f64]> = fixed.iter().chain(&self.directions).map(Vec::as_slice).collect();
-        let neutral = basis(&columns[..fixed.len()], 1e-8).len();
-        let all = basis(&columns, 1e-5);
-        let free = &all[neutral..];
-        let act = |x: &[f64]| {
-            let mut out = vec![0.0; x.len()];
-            for (q, w) in self.directions.iter().zip(&image.directions) {
-                add(&mut out, dot(q, x), w);
-            }
-            out
-        };
-        let multipliers = multipliers(&crate::linear::restrict(free, act))?;
-        Some(PeriodicOrbit {
-            shape: self.shape.clone(),
-            time: self.time,
-            angle: wrap(self.angle),
-            mirrored: self.mirrored,
-            residual,
-            multipliers,
-        })
-    }
 }

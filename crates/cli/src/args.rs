@@ -1,4 +1,4 @@
-//! The command line: one place for its words.
+//! The command line: its arguments and their help texts.
 
 mod drawing;
 mod help;
@@ -20,8 +20,8 @@ pub(crate) use scan::{MergeOptions, ScanOptions};
 use std::path::PathBuf;
 pub(crate) use subject::{MethodOptions, SamplesOptions, SubjectOptions};
 
-/// The laboratory for deformable self-propelled domains: cells, droplets and other bodies whose shape and motion
-/// drive each other.
+/// A laboratory for deformable self-propelled domains: cells, droplets and other bodies whose shape and motion
+/// are coupled.
 #[derive(Parser)]
 #[command(name = "motiform", version, max_term_width = 100, arg_required_else_help = true, after_help = EXAMPLES)]
 pub(crate) struct Arguments {
@@ -36,7 +36,7 @@ pub(crate) enum Command {
     /// Simulate one body: write its path, shape and figures
     #[command(after_help = SIMULATE_HELP)]
     Simulate(Box<SimulateOptions>),
-    /// Map the motions over one or two parameters, several initial states per cell, on all cores
+    /// Compute a phase diagram over one or two parameters, with several initial states per cell, on all cores
     #[command(after_help = SCAN_HELP)]
     Scan(Box<ScanOptions>),
     /// Merge the folders of a scan that was computed in shards
@@ -45,7 +45,7 @@ pub(crate) enum Command {
     /// Classify a motion: its regime, the evidence for it, and how certain it is
     #[command(after_help = CLASSIFY_HELP)]
     Classify(Box<ClassifyOptions>),
-    /// Lyapunov exponents with errors: do neighbouring orbits separate?
+    /// Compute Lyapunov exponents with errors: do neighbouring orbits separate?
     #[command(after_help = LYAPUNOV_HELP)]
     Lyapunov(Box<LyapunovOptions>),
     /// Follow a motion along a parameter, stable or not: where it is born, changes and ends
@@ -64,9 +64,9 @@ pub(crate) enum Command {
     #[cfg(feature = "explorer")]
     #[command(after_help = EXPLORE_HELP)]
     Explore(ExploreOptions),
-    /// Check a study file and print the plan it stands for, without computing
+    /// Check a study file and print the resulting plan, without computing
     Check(CheckOptions),
-    /// Draw the figures of datasets and scans again, without computing
+    /// Redraw the figures of datasets and scans, without computing
     Figure(FigureOptions),
     /// Print shell completions
     #[command(
@@ -77,7 +77,7 @@ pub(crate) enum Command {
 
 #[derive(Args)]
 pub(crate) struct ModelsOptions {
-    /// Show this model whole
+    /// Show all details of this model
     pub(crate) model: Option<String>,
     /// Print one JSON object
     #[arg(long)]
@@ -93,25 +93,25 @@ pub(crate) struct SimulateOptions {
     /// Model time to record
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) t_end: Option<f64>,
-    /// Model time to run before recording
+    /// Model time to integrate before recording
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) transient: Option<f64>,
     /// Model time between recorded states (default: t-end / 2000)
     #[arg(long, value_name = "D", value_parser = number, allow_hyphen_values = true)]
     pub(crate) dt_out: Option<f64>,
-    /// Amplitude of additive white noise on the shape, and on the velocity where that is an unknown: see below
+    /// Amplitude of additive white noise on the shape, and on the velocity if it is an unknown: see below
     #[arg(long, value_name = "ETA", value_parser = number, allow_hyphen_values = true)]
     pub(crate) noise: Option<f64>,
-    /// Amplitude of the noise on the velocity alone, in place of --noise (tensor)
+    /// Amplitude of the noise on the velocity, instead of that of --noise (tensor)
     #[arg(long, value_name = "ETA", value_parser = number, allow_hyphen_values = true)]
     pub(crate) noise_velocity: Option<f64>,
     /// Maximum number of steps
     #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) max_steps: Option<u64>,
-    /// Output folder (default: MODEL-PRESET here), or one table if it ends in .parquet or .csv
+    /// Output folder (default: MODEL-PRESET in the current folder), or a single table if it ends in .parquet or .csv
     #[arg(long, value_name = "DIR|FILE")]
     pub(crate) out: Option<PathBuf>,
-    /// Replace an earlier dataset
+    /// Replace an existing dataset
     #[arg(long)]
     pub(crate) force: bool,
     /// Print the result as one JSON object; writes files only with --out
@@ -127,7 +127,7 @@ pub(crate) struct SimulateOptions {
     pub(crate) drawing: DrawingOptions,
 }
 
-/// What a command is about, for commands that ask about one motion.
+/// The motion that a command analyses.
 #[derive(Args)]
 pub(crate) struct MotionOptions {
     #[command(flatten)]
@@ -145,11 +145,11 @@ pub(crate) struct ClassifyOptions {
     pub(crate) motion: MotionOptions,
     #[command(flatten)]
     pub(crate) many: SamplesOptions,
-    /// Zeros of a given start become random values within SIZE times its largest value (default: 1e-6), because an
+    /// Replace zeros of a given start by random values within SIZE times its largest value (default: 1e-6), because an
     /// orbit never leaves an exact symmetry; 0 keeps the exact start
     #[arg(long, value_name = "SIZE", value_parser = number, allow_hyphen_values = true)]
     pub(crate) perturb: Option<f64>,
-    /// Maximum model time to spend; 0 is the model's default
+    /// Maximum model time to integrate; 0 is the model's default
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) budget: Option<f64>,
 }
@@ -160,33 +160,33 @@ pub(crate) struct LyapunovOptions {
     pub(crate) motion: MotionOptions,
     #[command(flatten)]
     pub(crate) many: SamplesOptions,
-    /// How many exponents, from the largest (default: all, but at most 6)
+    /// Number of exponents, from the largest (default: all, but at most 6)
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u16), allow_hyphen_values = true)]
     pub(crate) count: Option<u16>,
-    /// Model time to run before averaging (default: 800 for tensor, 6000 for cell)
+    /// Model time to integrate before averaging (default: 800 for tensor, 6000 for cell)
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) transient: Option<f64>,
     /// Model time to average over (default: 4000 for tensor, 30000 for cell)
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) t_end: Option<f64>,
-    /// For chaos that does not last: the exponent of the chaotic saddle, from this many initial states, with the rate at
-    /// which they escape
+    /// For transient chaos: compute the exponent of the chaotic saddle from this many initial states, with the rate of
+    /// escape
     #[arg(long, value_name = "M", value_parser = clap::value_parser!(u16).range(2..), allow_hyphen_values = true, conflicts_with_all = ["samples", "random"])]
     pub(crate) saddle: Option<u16>,
 }
 
 #[derive(Args)]
 pub(crate) struct ReproduceOptions {
-    /// equations (what follows from them as written), fig1, fig2, ... fig6, models (what both models have in common); everything if none is given
+    /// equations (consequences of the equations as written), fig1, fig2, ... fig6, models (what both models have in common); everything if none is given
     #[arg(value_name = "FIGURE")]
     pub(crate) figures: Vec<String>,
     /// Coarser scans and shorter runs: within a minute
     #[arg(long)]
     pub(crate) quick: bool,
-    /// Output folder; a run that was interrupted goes on there
+    /// Output folder; an interrupted run continues there
     #[arg(long, value_name = "DIR", default_value = "reproduction")]
     pub(crate) out: PathBuf,
-    /// Threads (default: all cores); changes no number
+    /// Number of threads (default: all cores); does not affect the results
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
     pub(crate) threads: Option<u16>,
     /// Print the claims as one JSON object
@@ -197,13 +197,13 @@ pub(crate) struct ReproduceOptions {
 #[cfg(feature = "explorer")]
 #[derive(Args)]
 pub(crate) struct ExploreOptions {
-    /// Begin with this preset, e.g. fig5a
+    /// Start with this preset, e.g. fig5a
     #[arg(long, value_name = "NAME")]
     pub(crate) preset: Option<String>,
     /// Port on this machine (default: 7373, or any free one)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..), allow_hyphen_values = true)]
     pub(crate) port: Option<u16>,
-    /// The secret part of the address (default: a new random one); with that of an earlier start its open pages go on
+    /// The secret part of the address (default: a new random one); with that of an earlier start, its open pages reconnect
     #[arg(long, value_name = "TOKEN")]
     pub(crate) token: Option<String>,
     /// Print the address without opening a browser
@@ -246,12 +246,14 @@ pub(crate) enum TableFormat {
 }
 
 fn number(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| format!("{text:?} is no number: write it like 0.5 or 1e-9"))?;
+    let value: f64 =
+        text.parse().map_err(|_| format!("{text:?} is not a number: write it like 0.5 or 1e-9"))?;
     if value.is_finite() { Ok(value) } else { Err(format!("{text} is not finite: give a finite number")) }
 }
 
 fn whole(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| format!("{text:?} is no whole number from 0 to {}: write it like 7", u64::MAX))
+    text.parse()
+        .map_err(|_| format!("{text:?} is not a whole number from 0 to {}: write it like 7", u64::MAX))
 }
 
 fn random(text: &str) -> Result<Random, String> {

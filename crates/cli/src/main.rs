@@ -1,11 +1,12 @@
-//! `motiform`: the laboratory for deformable self-propelled domains, on the command line.
+//! `motiform`: a laboratory for deformable self-propelled domains, on the command line.
 //!
-//! Parses, calls the study layer, shows. No physics and no time loop here.
+//! Parses, calls the library, displays. No physics and no time loop.
 
 mod args;
 mod commands;
 mod output;
 mod progress;
+mod remedy;
 
 use args::{Arguments, Command};
 use clap::Parser;
@@ -37,7 +38,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// What must hold before anything runs: a file that grows beyond its limit (`ulimit -f`) is an error and not the end of the process, and
+/// Settings made before anything runs: a file that grows beyond its limit (`ulimit -f`) is an error instead of ending the process, and
 /// panics of the Parquet library on damaged files, which are caught, are not shown.
 fn prepare() {
     #[cfg(unix)]

@@ -1,5 +1,6 @@
-//! What the user reads, and the exit code.
+//! Output for the user, and the exit code.
 
+use crate::remedy::remedy;
 use motiform_analysis::Estimate;
 use motiform_dynamics::Outcome;
 use motiform_figures::Label;
@@ -7,12 +8,12 @@ use motiform_study::Error;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// How a command ended that did not fail.
+/// How a successful command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum End {
-    /// Everything is as asked.
+    /// All results are as requested.
     Done,
-    /// Finished, but some result is not what was asked.
+    /// Finished, but some result is not as requested.
     NotAsAsked,
     /// Interrupted by the user.
     Interrupted,
@@ -38,14 +39,14 @@ impl From<&Outcome> for End {
     }
 }
 
-/// `0.0902 +- 2.1e-3`, or that there is no error.
+/// `0.0902 +- 2.1e-3`, or a note that there is no error.
 pub(crate) fn estimate(estimate: &Estimate, width: usize, digits: usize) -> String {
     let Estimate { value, error } = estimate;
     let error = if estimate.has_error() { format!("+- {error:.1e}") } else { "(no error)".to_owned() };
     format!("{value:>width$.digits$} {error}")
 }
 
-/// Prints `text` and a line end on standard output. A reader that went away is no error; a full disk is one.
+/// Prints `text` and a line end on standard output. A closed pipe is not an error; a full disk is.
 pub(crate) fn print(text: &str) -> anyhow::Result<()> {
     let mut out = io::stdout().lock();
     match writeln!(out, "{text}").and_then(|()| out.flush()) {
@@ -60,7 +61,7 @@ pub(crate) fn plain(label: &str) -> String {
     Label::parse(label).terminal()
 }
 
-/// Says on standard error what the user should know about a result.
+/// Prints a warning about a result on standard error.
 pub(crate) fn warn(text: &str) {
     // Nothing is lost if nobody listens.
     let _ = writeln!(io::stderr(), "warning: {text}");
@@ -78,10 +79,12 @@ impl std::fmt::Display for StdoutFailed {
 
 impl std::error::Error for StdoutFailed {}
 
-/// Says what went wrong on standard error: exit code 1 if the machine failed, 2 if the input cannot be used.
+/// Prints an error on standard error: exit code 1 if the machine failed, 2 if the input is invalid.
 pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     // Standard error is the last resort: nothing is left to say if it fails too.
-    let _ = writeln!(io::stderr(), "error: {error:#}");
+    let remedy =
+        error.downcast_ref().and_then(remedy).map_or_else(String::new, |remedy| format!("; {remedy}"));
+    let _ = writeln!(io::stderr(), "error: {error:#}{remedy}");
     let machine =
         error.is::<StdoutFailed>() || error.downcast_ref::<Error>().is_some_and(Error::is_machine_failure);
     ExitCode::from(if machine { 1 } else { 2 })

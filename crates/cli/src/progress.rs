@@ -1,4 +1,4 @@
-//! A progress bar with rate and remaining time for what takes longer than two seconds, and Ctrl-C.
+//! A progress bar with rate and remaining time for work that takes longer than two seconds, and Ctrl-C.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use motiform_dynamics::Watch;
@@ -6,21 +6,21 @@ use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// Nothing is drawn before this: short runs stay quiet.
+/// Nothing is drawn before this: short runs show no progress bar.
 const QUIET: Duration = Duration::from_secs(2);
 
 static STOPPED: AtomicBool = AtomicBool::new(false);
 
-/// Shows progress on a terminal and listens for Ctrl-C.
+/// Shows progress on a terminal and handles Ctrl-C.
 pub(crate) struct Progress {
     bar: ProgressBar,
     started: Instant,
-    /// The work in all.
+    /// The total work.
     total: f64,
 }
 
 impl Progress {
-    /// A watch over `total` of `unit` (model time, cells). The first Ctrl-C asks the run to stop, the second ends the program.
+    /// A watch over `total` of `unit` (model time, cells). The first Ctrl-C stops the run, the second ends the program.
     pub(crate) fn new(total: f64, unit: &'static str) -> Self {
         // Fails only if a handler is set already: then the first one still works.
         let _ = ctrlc::set_handler(|| {
@@ -44,7 +44,7 @@ impl Progress {
         Self { bar, started: Instant::now(), total }
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
     }

@@ -255,7 +255,7 @@ fn a_full_disk() {
             "{}",
             done.stderr
         );
-        assert!(done.stderr.contains("nothing was left behind, make room"), "{}", done.stderr);
+        assert!(done.stderr.contains("nothing was left behind, free some space"), "{}", done.stderr);
         assert_eq!(folder.names(), [""; 0], "{words}");
     }
 }

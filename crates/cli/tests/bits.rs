@@ -26,7 +26,7 @@ const RECORDED: [(&str, &str); 15] = [
     ("classify tensor --preset fig1 --set kappa2=-0.06 --set gamma=0.02", "b2bb801b441fcf9c"),
     ("classify tensor --preset fig5a", "0cafdcd169e2bcda"),
     ("classify tensor --preset fig5b --samples 8", "b4f0ac91c3932dc2"),
-    ("classify cell --set length=29.2", "2b3335bca55b8bab"),
+    ("classify cell --set length=29.2", "2436b8d8757fade6"),
     ("lyapunov tensor --preset fig5b --t-end 300", "433e3c0e67dae8f5"),
     ("lyapunov tensor --preset fig5b --t-end 300 --samples 9", "2e7734b1238e1aea"),
     ("lyapunov cell --set length=21.75 --transient 200 --t-end 200", "2c5f7a215658a3ff"),

@@ -45,12 +45,12 @@ fn devices_pipes_and_folders_are_no_files() {
     folder.run(scan).expect(0);
     for place in ["mkfifo scan/part-00001.parquet", "mkdir scan/part-00001.parquet"] {
         folder.bash(&format!("rm -rf scan/part-00001.parquet; {place}")).expect(0);
-        refused(&folder, &format!("{scan} --resume"), &["part-00001.parquet is no file", "remove it"]);
+        refused(&folder, &format!("{scan} --resume"), &["part-00001.parquet is not a file", "remove it"]);
     }
     folder.bash("rmdir scan/part-00001.parquet").expect(0);
     folder.run(&format!("{scan} --resume")).expect(0);
     folder.bash("rm scan/_manifest.json && mkfifo scan/_manifest.json").expect(0);
-    refused(&folder, &format!("{scan} --resume"), &["_manifest.json", "no file"]);
+    refused(&folder, &format!("{scan} --resume"), &["_manifest.json", "not a file"]);
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn a_leftover_of_the_same_process_number_blocks_nobody() {
     let words = "simulate tensor --preset fig5a --t-end 5 --transient 0 --no-figures --out run";
     let done = folder.run(words).expect(0);
     assert_eq!(folder.names(), ["run"]);
-    assert_eq!(done.stderr.matches("left by a run that was killed").count(), 200, "{}", done.stderr);
+    assert_eq!(done.stderr.matches("left by a killed run").count(), 200, "{}", done.stderr);
 }
 
 /// Two processes that resume one scan: one computes, the other says who does.
@@ -97,7 +97,7 @@ fn racing_for_a_scan() {
     let codes: String =
         (1..=4).map(|n| std::fs::read_to_string(folder.path(&format!("code{n}"))).unwrap()).collect();
     let (locked, said) =
-        (codes.matches('2').count(), race.stdout.matches("another motiform computes").count());
+        (codes.matches('2').count(), race.stdout.matches("another motiform process computes").count());
     assert!(locked < 4 && locked == said, "{}", race.stdout);
     let done = folder.bash(&format!("{scan} --budget 300 --resume"));
     assert!(matches!(done.code, Some(0 | 1)), "{}", done.stderr);

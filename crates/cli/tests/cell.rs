@@ -65,7 +65,7 @@ fn what_cannot_be_computed_is_refused_with_the_remedy() {
         ("--set modes=8.5", "without a fraction"),
         ("--set g3=0", "g3 = 0 is out of range"),
         ("--initial c99=1", "did you mean c9?"),
-        ("--stepper rk4 --step 0.1", "take an exponential stepper"),
+        ("--stepper rk4 --step 0.1", "use an exponential stepper"),
         ("--stepper ifrk4 --step -1", "step = -1 is out of range"),
     ] {
         let done = Folder::new().run(&format!("simulate cell {words} --json"));

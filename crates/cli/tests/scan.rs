@@ -70,7 +70,7 @@ fn killed_at_any_moment_and_resumed() {
     }
     assert!(killed >= 3, "the scan was over too soon to be killed");
     let done = scan(&folder, &format!("{MANY} --threads 1 --out run --resume"));
-    assert!(!done.stderr.contains("computed again"), "a kill damages no part: {}", done.stderr);
+    assert!(!done.stderr.contains("recomputed"), "a kill damages no part: {}", done.stderr);
     assert!(contents(&folder.path("run")) == whole);
     // Nothing is left to do: nothing changes.
     scan(&folder, &format!("{MANY} --out run --resume"));
@@ -85,7 +85,7 @@ fn ctrl_c_keeps_whole_parts() {
     let kill = Command::new("bash").args(["-c", &format!("kill -INT {}", child.id())]).status().unwrap();
     assert!(kill.success());
     let done = Done::from(child.wait_with_output().unwrap()).expect(130);
-    assert!(done.stderr.contains("the same `motiform scan` with --resume goes on"), "{}", done.stderr);
+    assert!(done.stderr.contains("the same `motiform scan` with --resume continues"), "{}", done.stderr);
     let parts = count_parts(&folder.path("run"));
     assert!((1..150).contains(&parts), "{parts}");
     assert!(names(&folder.path("run")).iter().all(|name| !name.ends_with(".partial")));
@@ -160,7 +160,7 @@ fn damaged_parts_are_found_recomputed_and_said() {
     {
         assert!(done.stderr.contains(part), "{}", done.stderr);
     }
-    assert_eq!(done.stderr.matches("its cells are computed again").count(), 2);
+    assert_eq!(done.stderr.matches("its cells are recomputed").count(), 2);
     assert!(contents(&folder.path("run")) == whole);
 }
 
@@ -173,7 +173,7 @@ fn two_processes_do_not_share_a_folder() {
         let done = folder.run(&format!("{long} --out run {words}")).expect_error(2);
         assert_eq!(
             done.stderr,
-            "error: another motiform computes in run: wait until it is done, or choose another --out\n"
+            "error: another motiform process computes in run: wait until it is done, or choose another --out\n"
         );
     }
     child.kill().unwrap();
@@ -188,7 +188,8 @@ fn a_full_disk() {
     let full = folder.bash(&format!("trap '' XFSZ; ulimit -f 4; exec $motiform {words}")).expect_error(1);
     assert!(full.stderr.starts_with("error: writing run/part-000"), "{}", full.stderr);
     assert!(
-        full.stderr.contains("File too large") && full.stderr.contains("make room, and --resume goes on")
+        full.stderr.contains("File too large")
+            && full.stderr.contains("free some space, and --resume continues")
     );
     assert_eq!(names(&folder.path("run")), ["_manifest.json"]);
     scan(&folder, &format!("{words} --resume"));

@@ -75,15 +75,15 @@ pub fn semilinear_defect<F: Semilinear<f64>>(field: &F, u: &[f64]) -> f64 {
     largest_difference(&split, &whole) / whole.iter().fold(1.0, |scale: f64, x| scale.max(x.abs()))
 }
 
-/// How far a model's flow and velocity are from commuting with a rotation by `angle` (relative).
+/// Relative deviation of a model's flow and velocity from commuting with a rotation by `angle`.
 pub fn rotation_defect<M: Equivariant + ?Sized>(model: &M, shape: &[f64], angle: f64) -> f64 {
     let (sin, cos) = libm::sincos(angle);
     let turn = |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
     symmetry_defect(model, shape, &|state: &mut [f64]| model.rotate(angle, state), &turn)
 }
 
-/// How far [`Equivariant::spin`] is from the derivative of [`Equivariant::rotate`] (central differences of step 1e-5), and
-/// rotations from keeping the length of a state.
+/// Deviation of [`Equivariant::spin`] from the derivative of [`Equivariant::rotate`] (central differences of step 1e-5), and
+/// of rotations from preserving the length of a state.
 pub fn spin_defect<M: Equivariant + ?Sized>(model: &M, shape: &[f64]) -> f64 {
     let h = 1e-5;
     let turned = |angle: f64| {
@@ -101,7 +101,7 @@ pub fn spin_defect<M: Equivariant + ?Sized>(model: &M, shape: &[f64]) -> f64 {
     largest_difference(&spin, &difference).max(stretched) / scale
 }
 
-/// How far a model's flow and velocity are from commuting with the mirror y -> -y (relative).
+/// Relative deviation of a model's flow and velocity from commuting with the reflection y -> -y.
 pub fn mirror_defect<M: Equivariant + ?Sized>(model: &M, shape: &[f64]) -> f64 {
     symmetry_defect(model, shape, &|state: &mut [f64]| model.mirror(state), &|[x, y]| [x, -y])
 }

@@ -1,4 +1,4 @@
-//! How long the next step may be.
+//! Control of the step size.
 
 use crate::steppers::Tableau;
 use crate::steppers::tableau::ErrorEstimate;
@@ -7,7 +7,7 @@ use crate::{Bundle, Error, Mask, VectorField, steppers::runge_kutta::Slopes};
 /// The choice of step size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepControl {
-    /// Every step has this size (the last may be shorter, to end at the end).
+    /// Every step has this size (the last one may be shorter).
     Fixed {
         /// Step size (model time), above 0.
         step: f64,
@@ -22,7 +22,7 @@ pub enum StepControl {
 }
 
 impl StepControl {
-    /// Checks the numbers, and that `tableau` can do what is asked.
+    /// Checks the numbers, and that `tableau` supports this control.
     ///
     /// # Errors
     /// [`Error::OutOfRange`], [`Error::NoErrorEstimate`].
@@ -30,7 +30,7 @@ impl StepControl {
         self.validate_for(tableau.name, tableau.is_adaptive())
     }
 
-    /// Checks the numbers, and that the method `stepper` can do what is asked.
+    /// Checks the numbers, and that the method `stepper` supports this control.
     pub(crate) fn validate_for(&self, stepper: &'static str, is_adaptive: bool) -> Result<(), Error> {
         let in_range = |name, value: f64, ok: bool, range| {
             if ok && value.is_finite() { Ok(()) } else { Err(Error::OutOfRange { name, value, range }) }
@@ -49,8 +49,8 @@ impl StepControl {
 /// Proportional-integral step-size control, lane by lane.
 ///
 /// `h_new = h * 0.9 * err^-(1/q - 0.75 beta) * err_old^beta`, within fixed factors; `q` is the order of the estimate
-/// plus one. After a rejection the step does not grow at once. The powers are rough ([`Bundle::rough_power`]): a factor
-/// of step size needs no digits.
+/// plus one. After a rejection the step does not grow immediately. The powers are approximate ([`Bundle::rough_power`]): a factor
+/// of step size need not be accurate.
 ///
 /// Source: Gustafsson (1991), ACM Trans. Math. Softw. 17, 533; Hairer, Norsett, Wanner, IV.2.
 #[derive(Clone, Debug)]
@@ -65,12 +65,12 @@ pub(crate) struct Controller<B> {
     rejected: Mask,
 }
 
-/// What becomes of a step.
+/// The decision on a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Judgement<B> {
     /// Lanes whose step is accepted; the others must repeat it.
     pub(crate) accepted: Mask,
-    /// What to multiply the step size with.
+    /// Factor of the step size.
     pub(crate) factor: B,
 }
 
@@ -88,7 +88,7 @@ impl<B: Bundle> Controller<B> {
         Self { exponent, beta, shrink, grow, previous: B::splat(1e-8), rejected: Mask::default() }
     }
 
-    /// Begins anew in the lanes of `mask`.
+    /// Resets the lanes of `mask`.
     #[inline(always)]
     pub(crate) fn reset(&mut self, mask: Mask) {
         self.previous = B::select(mask, B::splat(1e-8), self.previous);
@@ -101,13 +101,13 @@ impl<B: Bundle> Controller<B> {
         self.previous
     }
 
-    /// Goes on in one lane from an earlier [`Controller::previous`].
+    /// Continues in one lane from an earlier [`Controller::previous`].
     #[inline(always)]
     pub(crate) fn remember(&mut self, lane: usize, previous: f64) {
         self.previous = self.previous.with_lane(lane, previous);
     }
 
-    /// Judges steps by their squared error norms.
+    /// Accepts or rejects steps by their squared error norms.
     #[inline(always)]
     pub(crate) fn judge(&mut self, error: B) -> Judgement<B> {
         let one = B::splat(1.0);
@@ -138,7 +138,7 @@ impl Tolerance {
         B::splat(1.0) / (u.abs().max(v.abs()) * self.rtol + B::splat(self.atol))
     }
 
-    /// The weights of all entries. Where the state is made of `vectors` ([`crate::System::vectors`]), those after the first have one
+    /// The weights of all entries. If the state consists of `vectors` ([`crate::System::vectors`]), those after the first have one
     /// weight each: `1 / (atol + rtol max_i max(|u_i|, |v_i|))`.
     #[inline(always)]
     pub(crate) fn weights<B: Bundle>(&self, vectors: Option<usize>, u: &[B], v: &[B], out: &mut [B]) {
@@ -205,7 +205,7 @@ impl Tolerance {
         }
     }
 
-    /// A first step that suits the field near the start (Hairer, Norsett, Wanner, II.4). `slope` is the field at the
+    /// A first step suitable for the field near the start (Hairer, Norsett, Wanner, II.4). `slope` is the field at the
     /// start, `near` and `rate` are room for a state each.
     #[inline(always)]
     pub(crate) fn first_step<B: Bundle, F: VectorField<B> + ?Sized>(

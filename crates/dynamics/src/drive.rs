@@ -2,28 +2,31 @@
 
 use crate::escape::{GrowthLaw, norm};
 use crate::orbit::StepFailure;
-use crate::section::{Crossing, Section, Watcher, polish};
+use crate::section::{Crossing, PIECES, Section, Watcher, polish};
 use crate::{Error, Integration, Obstacle, Outcome, Watch};
 use std::ops::ControlFlow;
 
-/// What a run is asked to do.
+/// The settings of a run.
 pub struct Request<'g> {
     /// End of the time span.
     pub t_end: f64,
-    /// The run also ends with the first step that reaches this time: for one who wants no step cut short. Infinite for no such
+    /// The run also ends with the first step that reaches this time: for callers that do not want truncated steps. Infinite for no such
     /// time.
     pub stop_after: f64,
     /// Time between samples, the first at the start; `None` for no samples.
     pub sample_every: Option<f64>,
-    /// Most steps (accepted and rejected) the run may take: bounds every run.
+    /// Maximum number of steps (accepted and rejected).
     pub max_steps: u64,
     /// The run has escaped when the norm of the watched part of the state exceeds this.
     pub escape_norm: f64,
-    /// How many leading entries of the state are watched for escape (a position may travel far).
+    /// Number of leading entries of the state that are watched for escape (a position may become large).
     pub watched: usize,
     /// Sections to locate.
     pub sections: &'g [Section<'g>],
-    /// Hears how far the run is, and may stop it: asked after every 64th step.
+    /// How many pieces of a step are looked at for crossings, at least 1. ([`PIECES`] by default; fewer are enough where steps are far
+    /// shorter than the time between crossings.)
+    pub pieces: usize,
+    /// Receives the progress of the run and may stop it; called after every 64th step.
     pub watch: &'g dyn Watch,
 }
 
@@ -39,6 +42,7 @@ impl Request<'_> {
             escape_norm: 1e6,
             watched: dim,
             sections: &[],
+            pieces: PIECES,
             watch: &(),
         }
     }
@@ -54,7 +58,7 @@ impl Request<'_> {
     }
 }
 
-/// Where a run puts its results as it goes. Every method has a default that does nothing.
+/// Receives the results of a run as they are computed. Every method has a default that does nothing.
 pub trait Sink {
     /// A state of the sampling grid.
     fn sample(&mut self, _t: f64, _u: &[f64]) {}
@@ -66,13 +70,13 @@ pub trait Sink {
     fn step(&mut self, _t: f64, _u: &[f64], _slope: &[f64]) {}
 }
 
-/// Nothing is kept but the final state.
+/// Only the final state is kept.
 impl Sink for () {}
 
-/// Runs `orbit` as `request` says, handing results to `sink`. The final state stays in `orbit`.
+/// Runs `orbit` as specified by `request`, passing results to `sink`. The final state remains in `orbit`.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for a request that makes no sense; everything that happens on the way is an [`Outcome`].
+/// [`Error::OutOfRange`] for an invalid request; everything that happens during the run is an [`Outcome`].
 pub fn drive<O: Integration + ?Sized>(
     orbit: &mut O,
     request: &Request<'_>,
@@ -86,8 +90,8 @@ pub fn drive<O: Integration + ?Sized>(
     }
 }
 
-/// A run under way, one step at a time: for one who decides between the steps whether there is another. [`drive`] is this loop
-/// and nothing else.
+/// A run in progress, one step at a time, for callers that decide after each step whether to continue. [`drive`] is just
+/// this loop.
 pub struct Run {
     start: f64,
     next_sample: u64,
@@ -98,10 +102,10 @@ pub struct Run {
 }
 
 impl Run {
-    /// A run from the present state of `orbit`, which is its first sample where samples are asked for.
+    /// A run from the present state of `orbit`, which is its first sample if samples are requested.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a request that makes no sense.
+    /// [`Error::OutOfRange`] for an invalid request.
     pub fn new<O: Integration + ?Sized>(
         orbit: &O,
         request: &Request<'_>,
@@ -122,7 +126,7 @@ impl Run {
         })
     }
 
-    /// One step of `orbit`, the same as before, for the same request; `Break` if the run is over, before or with it.
+    /// One step of `orbit`, for the same orbit and request as before; `Break` if the run ended before or with this step.
     pub fn step<O: Integration + ?Sized>(
         &mut self,
         orbit: &mut O,
@@ -158,7 +162,7 @@ impl Run {
         ControlFlow::Continue(())
     }
 
-    /// The outcome of a run whose step could not be taken.
+    /// The outcome of a run whose next step is impossible.
     fn failed<O: Integration + ?Sized>(
         &self,
         orbit: &O,
@@ -176,7 +180,7 @@ impl Run {
         }
     }
 
-    /// Hands over the samples of the last step up to time `until`.
+    /// Passes on the samples of the last step up to time `until`.
     fn sample<O: Integration + ?Sized>(
         &mut self,
         orbit: &mut O,
@@ -200,7 +204,7 @@ impl Run {
         }
     }
 
-    /// Finds, polishes and hands over the crossings of the last step; the time of a terminal one ends the run.
+    /// Finds, refines and passes on the crossings of the last step; a terminal crossing ends the run.
     fn cross<O: Integration + ?Sized>(
         &mut self,
         orbit: &mut O,
@@ -213,7 +217,9 @@ impl Run {
         self.found.clear();
         let step = orbit.dense();
         for (index, (section, watcher)) in request.sections.iter().zip(&mut self.watchers).enumerate() {
-            watcher.scan(section, &step, &mut self.state, |t, rising| self.found.push((t, index, rising)));
+            watcher.scan(section, (&step, request.pieces), &mut self.state, |t, rising| {
+                self.found.push((t, index, rising));
+            });
         }
         self.found.sort_by(|a, b| a.0.total_cmp(&b.0));
         for event in 0..self.found.len() {
@@ -230,14 +236,14 @@ impl Run {
         None
     }
 
-    /// The outcome of a run that left its bounds.
+    /// The outcome of a run that exceeded its bounds.
     fn left<O: Integration + ?Sized>(&self, orbit: &O, request: &Request<'_>) -> Outcome {
         let t_last = orbit.t();
         let norm = norm(&orbit.state()[..request.watched]);
         self.escaped(orbit, request).unwrap_or(Outcome::Escaped { t: t_last, norm, singular: false, t_last })
     }
 
-    /// The blow-up that the growth of the last states points to, if they grow like a singularity that is near.
+    /// The blow-up implied by the growth of the last states, if they grow like a near singularity.
     fn escaped<O: Integration + ?Sized>(&self, orbit: &O, request: &Request<'_>) -> Option<Outcome> {
         let t_last = orbit.t();
         let norm = norm(&orbit.state()[..request.watched]);

@@ -1,20 +1,21 @@
-//! Dynamics with the symmetry of the plane: what every analysis of a motion asks for.
+//! Dynamics with the symmetry of the plane: the requirements of every analysis of a motion.
 
+use crate::tangent::Differentiable;
 use crate::{Dual, Semilinear, Shape};
 
-/// A shape that evolves by itself, the velocity read off it, exact derivatives of both, and how the plane's rotations
-/// and the mirror act on it.
+/// An autonomous shape, the velocity determined by it, exact derivatives of both, and how rotations of the plane
+/// and the reflection act on it.
 ///
-/// Everything that an analysis needs, and nothing that only people need ([`crate::Model`] adds that). The defaults are
+/// It contains only what analyses need ([`crate::Model`] adds names and drawing). The defaults are
 /// those of a system without symmetry; a body in the plane overrides them. Object-safe.
 ///
 /// # Symmetry
-/// The flow on shapes must commute with [`Equivariant::rotate`] and [`Equivariant::mirror`], the velocity must turn with
+/// The flow on shapes must commute with [`Equivariant::rotate`] and [`Equivariant::mirror`], the velocity must transform with
 /// them, and both act by orthogonal matrices: [`crate::conformance`] checks every model.
 pub trait Equivariant:
-    Semilinear<f64> + Semilinear<Dual<f64, 1>> + Shape<f64> + Shape<Dual<f64, 1>> + Send + Sync
+    Semilinear<f64> + Semilinear<Dual<f64, 1>> + Differentiable + Shape<f64> + Shape<Dual<f64, 1>> + Send + Sync
 {
-    /// Whether the rotations and the mirror act at all.
+    /// Whether the rotations and the reflection act at all.
     fn is_symmetric(&self) -> bool {
         false
     }
@@ -31,7 +32,7 @@ pub trait Equivariant:
     fn mirror(&self, _shape: &mut [f64]) {}
 
     /// Speeds below this are round-off for this shape, or below what a run with absolute tolerance `atol` resolves: the
-    /// body is at rest and has no heading. 0 where the velocity is itself an unknown, with digits of its own.
+    /// body is at rest and has no heading. 0 if the velocity is itself an unknown, with its own relative accuracy.
     fn speed_resolution(&self, _shape: &[f64], _atol: f64) -> f64 {
         0.0
     }

@@ -1,6 +1,6 @@
-//! What a caller can get wrong.
+//! Errors of input.
 
-/// An input that cannot be computed with. Failures of the mathematics are an [`crate::Outcome`] instead.
+/// An input that cannot be used. Failures of the mathematics are an [`crate::Outcome`] instead.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -9,23 +9,23 @@ pub enum Error {
     Shape {
         /// What was passed.
         what: &'static str,
-        /// The length it needs.
+        /// The required length.
         expected: usize,
-        /// The length it has.
+        /// The actual length.
         got: usize,
     },
-    /// A number lies outside what the method can use.
+    /// A number is outside the range of the method.
     #[error("{name} = {value} is out of range: give a number {range}")]
     OutOfRange {
         /// Name of the number.
         name: &'static str,
         /// Its value.
         value: f64,
-        /// The range in words, e.g. `above 0`.
+        /// The range as text, e.g. `above 0`.
         range: &'static str,
     },
-    /// A fixed-step method was asked to control its step.
-    #[error("stepper {stepper} has no error estimate: give it a fixed step, or choose an adaptive stepper")]
+    /// A fixed-step method cannot control its step.
+    #[error("stepper {stepper} has no error estimate: give a fixed step, or choose an adaptive stepper")]
     NoErrorEstimate {
         /// Name of the method.
         stepper: &'static str,

@@ -1,11 +1,11 @@
-//! When a solution blows up: the time of the singularity, from the law of its growth.
+//! The blow-up of a solution: the time of the singularity, from the law of growth.
 //!
 //! For `N(t) ~ C (t* - t)^-q` the ratio `r = N / N'` is `(t* - t) / q`: near the singularity time is a smooth function
-//! of `r`, and `t*` is its value at `r = 0`, whatever `C` and `q` are. Four states give it by polynomial
+//! of `r`, and `t*` is its value at `r = 0`, for all `C` and `q`. Four states give it by polynomial
 //! extrapolation in `r` (Neville), far more accurately than the last step's time. They are taken where `r` has shrunk
 //! by a fixed factor since the last one: a stiff approach takes steps much shorter than `t* - t`.
 
-/// How many states the extrapolation uses.
+/// Number of states used for the extrapolation.
 const POINTS: usize = 4;
 
 /// A state is recorded when its ratio is below this multiple of the last recorded one.
@@ -29,7 +29,7 @@ pub struct Singularity {
 }
 
 impl GrowthLaw {
-    /// Takes in a state and its slope. Where the ratio grows again, the record begins anew.
+    /// Adds a state and its slope. If the ratio grows again, the record restarts.
     pub fn observe(&mut self, t: f64, u: &[f64], slope: &[f64]) {
         let norm_squared: f64 = u.iter().map(|x| x * x).sum();
         let growth: f64 = u.iter().zip(slope).map(|(x, dx)| x * dx).sum();
@@ -47,7 +47,7 @@ impl GrowthLaw {
         }
     }
 
-    /// The singularity that the recorded states point to, if their growth is faster than exponential.
+    /// The singularity implied by the recorded states, if their growth is faster than exponential.
     ///
     /// `None` for fewer than two of them, and for exponents outside 0.05..20 (slower growth shows as a ratio that
     /// hardly shrinks).

@@ -17,14 +17,14 @@ use problem::{DriftOf, End, Problem, Start};
 /// An initial-value problem `u' = Lambda u + N(t, u)` in progress, by an exponential method.
 ///
 /// Adaptive steps have sizes `2^(k/4)`, so that the coefficients of a size are computed once:
-/// [`crate::Integration::advance`] allocates only when a size is met for the first time. Dense output is cubic Hermite.
+/// [`crate::Integration::advance`] allocates only when a size occurs for the first time. Dense output is cubic Hermite.
 ///
-/// The position of a body ([`ExponentialOrbit::in_plane`]) drives nothing, so it is no stage of the method but a
+/// The dynamics does not depend on the position of a body ([`ExponentialOrbit::in_plane`]), so it is not a stage of the method but a
 /// quadrature: `x_new = x + h (v + v_new)/2 + h^2 (v' - v_new')/12`, order 4 like the method, for one evaluation of
-/// the velocity per step instead of four. (Source: Euler-Maclaurin; Hairer, Norsett, Wanner, I, II.1.) Where noise kicks stiff
-/// entries the derivatives `v'` mean nothing, and the rule goes without them.
+/// the velocity per step instead of four. (Source: Euler-Maclaurin; Hairer, Norsett, Wanner, I, II.1.) If noise kicks stiff
+/// entries the derivatives `v'` are meaningless, and the rule omits them.
 ///
-/// Where the field corrects the end of a step ([`crate::System::project`]), the next step has its first stage and its
+/// If the field corrects the end of a step ([`crate::System::project`]), the next step has its first stage and its
 /// first velocity at the corrected state. Inside a step dense output and position are those of the flow: at its end the
 /// shape jumps, the position does not.
 ///
@@ -60,7 +60,7 @@ pub struct ExponentialOrbit<'f, F: ?Sized> {
     new: End,
     old: End,
     trial: End,
-    /// Where the last step ended before the field corrected it, if it did: `jumped`.
+    /// The end of the last step before the field corrected it, if it did: `jumped`.
     landed: End,
     jumped: bool,
     errors: Vec<f64>,
@@ -74,7 +74,7 @@ pub struct ExponentialOrbit<'f, F: ?Sized> {
     counters: Counters,
 }
 
-/// Steps below this (model time) are no steps.
+/// Minimum step (model time).
 const SMALLEST: f64 = 1e-18;
 
 impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
@@ -155,11 +155,11 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
         Ok(orbit)
     }
 
-    /// A first step on which the state changes by about its tolerance's square root; control does the rest.
+    /// A first step on which the state changes by about the square root of its tolerance; step-size control then adapts it.
     fn choose_first_step(&mut self) {
         let StepControl::Adaptive { rtol, atol } = self.control else { return };
         let tolerance = Tolerance { rtol: rtol.sqrt(), atol: atol.sqrt() };
-        let shape = ..self.lambda.len();
+        let shape = ..self.field.controlling();
         let state = &self.new.state[shape];
         let rate = tolerance.norm(&self.new.slope[shape], state, state);
         self.tables.set_size((0.1 / rate).clamp(1e-6, 1.0));
@@ -203,11 +203,11 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
         }
     }
 
-    /// The norm of the estimated error of the step tried, on the shape.
+    /// The norm of the estimated error of the step tried, on the part of the shape that controls steps.
     fn error(&mut self, tolerance: Tolerance) -> f64 {
-        let shape = ..self.lambda.len();
+        let shape = ..self.field.controlling();
         exponential::error(self.tableau, self.tables.selected(), &self.stages, &mut self.errors);
-        tolerance.norm(&self.errors, &self.new.state[shape], &self.trial.state[shape])
+        tolerance.norm(&self.errors[shape], &self.new.state[shape], &self.trial.state[shape])
     }
 
     /// The end stage of the last step is the first stage of the next one.
@@ -229,7 +229,7 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
         problem.step(self.tableau, self.tables.selected(), &at, &mut self.stages, &mut self.trial);
     }
 
-    /// Takes the last step again, but to `t`, into the trial end and the spare stages.
+    /// Repeats the last step, but to `t`, into the trial end and the spare stages.
     fn restep_to(&mut self, t: f64) {
         let h = t - self.t_old;
         self.stages.copy_to(0, &mut self.restep);
@@ -240,7 +240,7 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
         problem.step(self.tableau, self.tables.selected(), &at, &mut self.restep, &mut self.trial);
     }
 
-    /// Whether the trial step led to a state that can be gone on from.
+    /// Whether the trial step led to a state from which the orbit can continue.
     fn check(&self) -> Result<(), StepFailure> {
         let ends = [&self.new, &self.trial];
         if ends.iter().all(|end| end.state.iter().chain(&end.slope).all(|x| x.is_finite())) {
@@ -250,7 +250,7 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
         Err(reason.map_or(StepFailure::NotFinite, StepFailure::Obstacle))
     }
 
-    /// Has the field correct the trial step's end, if it does that, and evaluates it anew.
+    /// Lets the field correct the end of the trial step, if it does so, and re-evaluates it.
     fn project(&mut self, t_new: f64) -> Result<(), StepFailure> {
         let dim = self.lambda.len();
         let (shape, position) = self.landed.state.split_at_mut(dim);

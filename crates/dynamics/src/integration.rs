@@ -1,8 +1,8 @@
-//! What every integration has in common: all that the driver and the sections ask of an orbit.
+//! The common interface of integrations, used by the driver and the sections.
 
 use crate::orbit::{Counters, DenseStep, StepFailure};
 
-/// A boxed integration is one.
+/// A boxed integration is an integration.
 impl<O: Integration + ?Sized> Integration for Box<O> {
     fn advance(&mut self, limit: f64) -> Result<(), StepFailure> {
         (**self).advance(limit)
@@ -62,10 +62,10 @@ pub trait Integration {
     /// Takes one step, ending at `limit` (later than [`Integration::t`]) at the latest.
     ///
     /// # Errors
-    /// [`StepFailure`], with the orbit where it was.
+    /// [`StepFailure`]; the orbit is unchanged.
     fn advance(&mut self, limit: f64) -> Result<(), StepFailure>;
 
-    /// The last step as a function of time. Where the field corrects its states ([`crate::System::project`]) it is the
+    /// The last step as a function of time. If the field corrects its states ([`crate::System::project`]) it is the
     /// flow before the correction, which is a jump at the very end of the step.
     fn dense(&mut self) -> DenseStep<'_>;
 
@@ -74,25 +74,25 @@ pub trait Integration {
         self.dense().at(t, out);
     }
 
-    /// From now on states are kicked: nothing but the states themselves may rest on the smoothness of the past or on rates
+    /// From now on states are kicked: results may not rely on the smoothness of the past or on rates
     /// at the ends of steps.
     fn roughen(&mut self) {}
 
     /// Writes the state at `t` inside the last step by a true step of the method from its start.
     fn step_to(&mut self, t: f64, out: &mut [f64]);
 
-    /// Moves the end of the last step back to `t` (by a true step from its start): the orbit goes on from there. The
+    /// Moves the end of the last step back to `t` (by a true step from its start): the orbit continues from there. The
     /// state there lies inside the step, so it is not corrected ([`crate::System::project`]); the next step's end is.
     fn end_step_at(&mut self, t: f64);
 
-    /// Goes on from the state `u` at the same time: a jump after the last step. Step size, step grid and counters are
+    /// Continues from the state `u` at the same time: a jump after the last step. Step size, step grid and counters are
     /// kept, the last step is empty, and the field does not correct the state.
     ///
     /// # Shapes
     /// `u` has the length of [`Integration::state`].
     fn restart(&mut self, u: &[f64]);
 
-    /// As [`Integration::restart`], where the caller knows the rates at `u`; an integration that has no use for them computes
+    /// As [`Integration::restart`], if the caller knows the rates at `u`; an integration that does not use them computes
     /// its own.
     fn restart_with(&mut self, u: &[f64], _rates: &[f64]) {
         self.restart(u);

@@ -1,8 +1,8 @@
 //! The numerics of motiform: scalars, vector fields, steppers, events, outcomes.
 //!
-//! Nothing here knows a model, a file or a command line. The layers inside, from the bottom:
+//! This crate does not depend on any model, file or command line. The layers inside, from the bottom:
 //! * [`scalar`]: one equation, three scalars (`f64`, lanes, duals);
-//! * [`vector_field`], [`model`]: what moves;
+//! * [`vector_field`], [`model`]: fields and bodies;
 //! * [`steppers`]: explicit and exponential Runge-Kutta methods as data, and the step that runs each kind;
 //! * [`Orbit`], [`ExponentialOrbit`]: one initial-value problem, step by step, with error control, dense output and
 //!   exact re-steps; [`Integration`] is what they have in common;
@@ -47,7 +47,7 @@ pub use noise::{Noise, Normal};
 pub use noisy_orbit::NoisyOrbit;
 pub use orbit::Orbit;
 pub use outcome::{Obstacle, Outcome};
-pub use scalar::{Bundle, Complex, Dual, Mask, Scalar};
+pub use scalar::{Bundle, Complex, Dual, Mask, Row, Scalar};
 pub use section::{Direction, Section};
 pub use simd::Lanes;
 pub use tangent::Tangent;

@@ -2,7 +2,7 @@
 
 use crate::{Dual, Equivariant, Obstacle, Scalar, Semilinear, System, VectorField};
 
-/// A shape state that evolves by itself, and the velocity read off it: `x' = v(shape)`.
+/// An autonomous shape state, and the velocity determined by it: `x' = v(shape)`.
 ///
 /// Written once over the scalar, like the field.
 pub trait Shape<T: Scalar>: VectorField<T> {
@@ -10,23 +10,23 @@ pub trait Shape<T: Scalar>: VectorField<T> {
     fn velocity(&self, shape: &[T]) -> [T; 2];
 }
 
-/// One named number of a state as people type and read it, e.g. `s11`.
+/// A named coordinate of a state, e.g. `s11`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Coordinate {
     /// Name on the command line and in files, ASCII.
     pub name: &'static str,
-    /// One clause that says what it is.
+    /// Its meaning in one clause.
     pub meaning: &'static str,
 }
 
-/// A scalar read off the shape for people to look at, e.g. `|S|`.
+/// A scalar computed from the shape for display, e.g. `|S|`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Observable {
     /// Column name in files, ASCII.
     pub name: &'static str,
-    /// How figures write it (`*` around italic letters).
+    /// Notation in figures (`*` around italic letters).
     pub symbol: &'static str,
-    /// What it is, with its formula.
+    /// Its meaning, with its formula.
     pub meaning: &'static str,
 }
 
@@ -35,7 +35,7 @@ pub struct Observable {
 pub enum Outline {
     /// Points of a closed curve, anticlockwise, first point not repeated.
     Curve(Vec<[f64; 2]>),
-    /// The shape is no curve: the radius would be `radius <= 0` in the direction `angle` (rad).
+    /// The shape is not a curve: the radius would be `radius <= 0` in the direction `angle` (rad).
     NotACurve {
         /// Smallest value of `R(theta)`.
         radius: f64,
@@ -44,48 +44,48 @@ pub enum Outline {
     },
     /// The boundary could not be closed.
     NotClosed {
-        /// What is left of the closing condition, relative to the boundary's length.
+        /// The residual of the closing condition, relative to the length of the boundary.
         residual: f64,
     },
 }
 
-/// A deformable self-propelled body: its dynamics, and what people type, read and see of it.
+/// A deformable self-propelled body: its dynamics, its named coordinates and its outline.
 ///
-/// Everything that motiform asks of a body works for any implementation. The trait is object-safe, so studies hold
-/// a `Box<dyn Model>`; kernels use the concrete type. [`Semilinear`] says which part of the flow is stiff, for the
-/// exponential steppers (a model without one says `Lambda = 0`).
+/// All analyses of motiform work for any implementation. The trait is object-safe, so studies hold
+/// a `Box<dyn Model>`; kernels use the concrete type. [`Semilinear`] gives the stiff part of the flow, for the
+/// exponential steppers (a model without one returns `Lambda = 0`).
 pub trait Model: Equivariant {
-    /// The model itself, where there are kernels made for its type.
+    /// The model itself, if there are kernels for its type.
     fn as_any(&self) -> Option<&dyn std::any::Any> {
         None
     }
 
-    /// The numbers that people type and read for the shape, in file order.
+    /// The named coordinates of the shape, in file order.
     fn coordinates(&self) -> &[Coordinate];
 
-    /// Coordinates (as in [`Model::coordinates`]) to the state that is computed with: a linear map.
+    /// Coordinates (as in [`Model::coordinates`]) to the internal state: a linear map.
     fn encode(&self, coordinates: &[f64], shape: &mut [f64]);
 
     /// The inverse of [`Model::encode`].
     fn decode(&self, shape: &[f64], coordinates: &mut [f64]);
 
-    /// How many of the leading coordinates are the velocity itself, where it is an unknown.
+    /// Number of leading coordinates that are the velocity itself, if it is an unknown.
     fn velocities(&self) -> usize {
         0
     }
 
-    /// The scalars that figures show, beside speed and turning rate.
+    /// The scalars that figures show in addition to speed and turning rate.
     fn observables(&self) -> &[Observable];
 
     /// Writes the observables of a shape.
     fn observe(&self, shape: &[f64], out: &mut [f64]);
 
-    /// Quantities of the boundary that a run reports beside the shape (length, area, ...); none by default.
+    /// Quantities of the boundary that a run reports in addition to the shape (length, area, ...); none by default.
     fn measures(&self) -> &[Observable] {
         &[]
     }
 
-    /// Writes the measures of a shape; not a number where the boundary does not exist.
+    /// Writes the measures of a shape; NaN if the boundary does not exist.
     fn measure(&self, _shape: &[f64], _out: &mut [f64]) {}
 
     /// A scalar on the boundary (phi of the active cell, mean included) at `points` points of equal arc length;
@@ -94,7 +94,7 @@ pub trait Model: Equivariant {
         None
     }
 
-    /// Radius of the undeformed body, where the model fixes it; otherwise it is a choice of whoever draws.
+    /// Radius of the undeformed body, if the model fixes it; otherwise it is chosen for drawing.
     fn radius(&self) -> Option<f64> {
         None
     }
@@ -144,7 +144,7 @@ pub fn drift<M: Shape<Dual<f64, 1>> + ?Sized>(
     ([vx.value, vy.value], [vx.derivative[0], vy.derivative[0]])
 }
 
-/// Turning rate `(vx vy' - vy vx') / |v|^2` (rad per model time); `None` where the body is at rest.
+/// Turning rate `(vx vy' - vy vx') / |v|^2` (rad per model time); `None` if the body is at rest.
 #[must_use]
 pub fn turning_rate(velocity: [f64; 2], acceleration: [f64; 2]) -> Option<f64> {
     let speed_squared = velocity[0] * velocity[0] + velocity[1] * velocity[1];
@@ -167,7 +167,7 @@ impl<M: System> System for InPlane<M> {
         self.0.obstacle(&u[..u.len() - 2])
     }
 
-    /// That of the shape; the position stays.
+    /// As for the shape; the position is unchanged.
     fn project(&self, u: &[f64], projected: &mut [f64]) -> Result<bool, Obstacle> {
         let (shape, position) = u.split_at(u.len() - 2);
         let (projected, place) = projected.split_at_mut(shape.len());
@@ -216,7 +216,7 @@ impl<T: Scalar, M: Shape<T> + ?Sized> Shape<T> for &M {
     }
 }
 
-/// The velocity over `f64`, without spelling the scalar out.
+/// The velocity over `f64`, without naming the scalar.
 #[must_use]
 pub fn velocity<M: Shape<f64> + ?Sized>(model: &M, shape: &[f64]) -> [f64; 2] {
     Shape::<f64>::velocity(model, shape)

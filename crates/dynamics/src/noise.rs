@@ -1,4 +1,4 @@
-//! Noise: normal deviates with the same bits on every machine, and the law of what is added to an orbit.
+//! Noise: normal deviates with the same bits on every machine, and the law of the noise added to an orbit.
 
 use crate::{Error, Model, Semilinear};
 use rand_chacha::ChaCha8Rng;
@@ -60,7 +60,7 @@ pub struct Noise {
     ///
     /// # Units   unit of the entry / sqrt(model time): without the flow its variance would be `eta_i^2 t`
     pub amplitudes: Vec<f64>,
-    /// `lambda_i` of the same entries (inverse model time): 0 where nothing is known of them.
+    /// `lambda_i` of the same entries (inverse model time): 0 if unknown.
     pub rates: Vec<f64>,
     /// Model time `h` of one step of the noise, above 0 ([`Noise::step_for`]).
     pub step: f64,
@@ -93,7 +93,7 @@ impl Noise {
     ///
     /// `h = 2^floor(log2 min(slow/100, 0.1/rho))`,   `rho = min(max_i |lambda_i|, 20 max(max_i lambda_i, 5/slow))`.
     ///
-    /// Growth is always resolved, decay up to twenty times faster than that; what decays faster still is left to the exact
+    /// Growth is always resolved, decay up to twenty times faster than that; faster decay is left to the exact
     /// linear part. A power of 2, so that times carry no rounding.
     #[must_use]
     pub fn step_for(rates: &[f64], slow: f64) -> f64 {

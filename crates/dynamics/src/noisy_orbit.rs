@@ -11,13 +11,13 @@ use crate::{Error, Integration};
 ///
 /// `u_{n+1} = flow_h(u_n + K) + K'`,   `Var K_i = Var K'_i = eta_i^2 tanh(lambda_i h)/(2 lambda_i)`.
 ///
-/// Where the flow is linear with the rate `lambda_i` of that entry, both together leave `V_i(h)`, with
+/// If the flow is linear with the rate `lambda_i` of that entry, both together give the variance `V_i(h)`, with
 /// `V_i(t) = eta_i^2 (e^{2 lambda_i t} - 1)/(2 lambda_i)`: the exact law at any step, however stiff. Any other flow has weak
 /// order 2 in h.
 ///
 /// Inside a step the path is `flow_t(u_n + K) + X(t) - e^{lambda t} K`: X is the noise of the linear part alone, 0 at the
 /// start and `e^{lambda h} K + K'` at the end, and in between has the law of its bridge at every single time (the deviate
-/// that it needs is the combination of those of K and K' that its end does not use). So rows may lie anywhere: they do not
+/// that it needs is the combination of those of K and K' that its end does not use). Rows may therefore lie at any time: they do not
 /// change the path, no slope of a kicked state enters them, and a linear flow has its exact law there, too.
 ///
 /// It is an [`Integration`] again, so sections, escape bounds and samples work as for any orbit. A kick through a section is a
@@ -27,8 +27,8 @@ use crate::{Error, Integration};
 /// Anal. 24, 587; for the bridge of an Ornstein-Uhlenbeck process Gillespie (1996), Phys. Rev. E 54, 2084.
 ///
 /// # Errors    [`Error::OutOfRange`] and [`Error::Shape`] from [`NoisyOrbit::new`]
-/// # Not       not for multiplicative noise. What an entry with `|lambda| h` far above 1 does to the others within a step is
-/// averaged too coarsely: its own law is right, its square in their rates is not
+/// # Not       for multiplicative noise. The effect of an entry with `|lambda| h` far above 1 on the others within a step is
+/// averaged too coarsely: its own law is correct, its square in their rates is not
 /// # Checked by  tests/noise.rs: Brownian motion, Ornstein-Uhlenbeck (stiff entries, rows anywhere), weak order on a linear
 /// and a nonlinear flow, rotation, seeds; lab/tests/noise.rs: both models
 pub struct NoisyOrbit<O> {
@@ -37,7 +37,7 @@ pub struct NoisyOrbit<O> {
     kicks: Vec<Kick>,
     normal: Normal,
     start: f64,
-    /// Steps of the noise begun so far.
+    /// Steps of the noise started so far.
     steps: u64,
     state: Vec<f64>,
 }
@@ -96,7 +96,7 @@ impl<O: Integration> NoisyOrbit<O> {
     /// `orbit`, from its present time and state on, with noise drawn from `normal`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for an amplitude, rate or step that makes no sense, [`Error::Shape`] for more entries under
+    /// [`Error::OutOfRange`] for an invalid amplitude, rate or step, [`Error::Shape`] for more entries under
     /// noise than the state has, or rates of another number.
     pub fn new(mut orbit: O, noise: Noise, normal: Normal) -> Result<Self, Error> {
         noise.validate(orbit.state().len())?;
@@ -152,7 +152,7 @@ impl<O: Integration> Integration for NoisyOrbit<O> {
         Ok(())
     }
 
-    /// The flow between the kicks: good enough to find crossings, which [`Integration::step_to`] places on the path.
+    /// The flow between the kicks: sufficient to find crossings, which [`Integration::step_to`] places on the path.
     fn dense(&mut self) -> DenseStep<'_> {
         self.orbit.dense()
     }

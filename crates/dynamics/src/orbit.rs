@@ -1,4 +1,4 @@
-//! One orbit, step by step: the loop belongs to the caller.
+//! One orbit, step by step; the caller provides the loop.
 
 use crate::control::{Controller, Tolerance};
 use crate::ensemble::Pace;
@@ -45,7 +45,7 @@ pub struct Orbit<'f, F: ?Sized> {
     interpolant: Interpolant,
     /// Size of the next step to try (adaptive), or the fixed step.
     h: f64,
-    /// Fixed steps count from here, so that times carry no accumulated rounding.
+    /// Fixed steps count from here, so that times have no accumulated rounding error.
     origin: (f64, u64),
     /// Whether the current state's slope is the end slope of the step just accepted.
     accepted: bool,
@@ -63,7 +63,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
     ///
     /// # Errors
     /// [`Error::Shape`] if `u` is not the field's dimension, [`Error::OutOfRange`] for a time or state that is not
-    /// finite, and what [`StepControl::validate`] refuses.
+    /// finite, and the errors of [`StepControl::validate`].
     pub fn new(
         field: &'f F,
         tableau: &'static Tableau,
@@ -105,7 +105,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         Ok(orbit)
     }
 
-    /// An orbit by DOP853 that goes on from `u` at time `t` at the pace of an earlier stretch, or begins there: what a lane
+    /// An orbit by DOP853 that continues from `u` at time `t` at the pace of an earlier stretch, or starts there, for members that a lane
     /// of an ensemble could not finish.
     ///
     /// # Errors
@@ -135,7 +135,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
     /// Takes one step, ending at `limit` (later than [`Orbit::t`]) at the latest.
     ///
     /// # Errors
-    /// [`StepFailure`], with the orbit where it was.
+    /// [`StepFailure`]; the orbit is unchanged.
     pub fn advance(&mut self, limit: f64) -> Result<(), StepFailure> {
         match self.control {
             StepControl::Fixed { step } => self.advance_fixed(step, limit),
@@ -266,7 +266,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         runge_kutta::step(self.tableau, self.field, &at, &mut self.restep, out);
     }
 
-    /// Moves the end of the last step back to `t` (by a true step from its start): the orbit goes on from there, and the
+    /// Moves the end of the last step back to `t` (by a true step from its start): the orbit continues from there, and the
     /// field does not correct it.
     pub fn end_step_at(&mut self, t: f64) {
         let mut state = std::mem::take(&mut self.scratch);
@@ -279,13 +279,13 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         self.prepared = false;
     }
 
-    /// Goes on from the state `u` (of the same length) at the same time; see [`crate::Integration::restart`].
+    /// Continues from the state `u` (of the same length) at the same time; see [`crate::Integration::restart`].
     pub fn restart(&mut self, u: &[f64]) {
         self.field.eval(self.t, u, self.slopes.get_mut(self.tableau.stages()));
         self.place(u);
     }
 
-    /// As [`Orbit::restart`], with the rates there, which are not computed again.
+    /// As [`Orbit::restart`], with the rates there, which are not recomputed.
     pub fn restart_with(&mut self, u: &[f64], rates: &[f64]) {
         self.slopes.get_mut(self.tableau.stages()).copy_from_slice(rates);
         self.place(u);

@@ -1,4 +1,4 @@
-//! How a run ended: a value that every result carries.
+//! How a run ended: part of every result.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,12 +8,12 @@ use serde::{Deserialize, Serialize};
 pub enum Obstacle {
     /// The boundary could not be closed, so the body has no velocity.
     Closure {
-        /// What is left of the closing condition, relative to the boundary's length.
+        /// The residual of the closing condition, relative to the length of the boundary.
         residual: f64,
     },
 }
 
-/// The end of a run. Only [`Outcome::Completed`] reached its end; every other one says when and why not.
+/// The end of a run. Only [`Outcome::Completed`] reached its end; all others state when and why the run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -23,7 +23,7 @@ pub enum Outcome {
         /// End time.
         t: f64,
     },
-    /// Left every bound.
+    /// Exceeded the escape bound.
     Escaped {
         /// The blow-up time `t*` where `singular`, else the time at which the norm passed the bound.
         t: f64,
@@ -34,18 +34,18 @@ pub enum Outcome {
         /// Time of the last finite state; `t - t_last` is the extrapolated part.
         t_last: f64,
     },
-    /// The error control asked for steps below the resolution of time: the field is not smooth here, or not finite.
+    /// The error control required steps below the resolution of time: the field is not smooth here, or not finite.
     StepUnderflow {
         /// Time reached.
         t: f64,
-        /// The step it could not take.
+        /// The required step.
         step: f64,
     },
     /// The boundary of the body could not be closed: the shape has no velocity there.
     ClosureFailed {
         /// Time of the last state that has one.
         t: f64,
-        /// What is left of the closing condition, relative to the boundary's length.
+        /// The residual of the closing condition, relative to the length of the boundary.
         residual: f64,
     },
     /// The budget of steps was used up.
@@ -68,7 +68,7 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// Whether the run reached what was asked for.
+    /// Whether the run reached its requested end.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         matches!(self, Self::Completed { .. } | Self::Stopped { .. })
@@ -92,7 +92,7 @@ impl Outcome {
         self
     }
 
-    /// The time of the last state that there is: before that of a singularity ahead.
+    /// The time of the last state, which is before that of a singularity.
     #[must_use]
     pub fn t_last(&self) -> f64 {
         match *self {
@@ -101,7 +101,7 @@ impl Outcome {
         }
     }
 
-    /// The time that goes with the outcome.
+    /// The time of the outcome.
     #[must_use]
     pub fn t(&self) -> f64 {
         match *self {

@@ -1,13 +1,13 @@
 //! Sections `g(t, u) = 0`: where an orbit crosses a surface, located to round-off in time.
 //!
 //! A sign change of `g` is looked for at several points inside each step (on the interpolant), its time is bracketed
-//! and found on the interpolant, and then polished with true steps of the method from the start of the step: the
+//! and found on the interpolant, and then refined with true steps of the method from the start of the step: the
 //! crossing has the accuracy of the orbit itself, not that of the interpolant.
 
 use crate::Integration;
 use crate::orbit::DenseStep;
 
-/// The sense in which a section counts.
+/// The direction in which crossings count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// `g` grows through zero.
@@ -22,13 +22,13 @@ pub enum Direction {
 pub struct Section<'g> {
     /// The function whose zeros count.
     pub g: &'g (dyn Fn(f64, &[f64]) -> f64 + Sync),
-    /// The sense in which they count.
+    /// The direction in which they count.
     pub direction: Direction,
     /// Whether the run ends at the first crossing.
     pub terminal: bool,
 }
 
-/// One crossing, as handed to a sink.
+/// One crossing, as passed to a sink.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing<'u> {
     /// Index of the section in the request.
@@ -41,7 +41,7 @@ pub struct Crossing<'u> {
     pub rising: bool,
 }
 
-/// How many pieces of a step are looked at for sign changes. Two crossings within one piece are missed.
+/// How many pieces of a step are looked at for sign changes, unless a request says otherwise. Two crossings within one piece are missed.
 pub const PIECES: usize = 8;
 
 /// Follows the signs of one section along an orbit.
@@ -52,23 +52,23 @@ pub(crate) struct Watcher {
 }
 
 impl Watcher {
-    /// Starts at `(t, u)`. A start on the section itself is no crossing.
+    /// Starts at `(t, u)`. A start on the section itself is not a crossing.
     pub(crate) fn new(section: &Section<'_>, t: f64, u: &[f64]) -> Self {
         let value = (section.g)(t, u);
         Self { last: (value != 0.0).then_some((t, value)) }
     }
 
-    /// Looks through a step; calls `found(t, rising)` for each crossing, in order. `state` is scratch.
+    /// Examines a step; calls `found(t, rising)` for each crossing, in order. `state` is scratch.
     pub(crate) fn scan(
         &mut self,
         section: &Section<'_>,
-        step: &DenseStep<'_>,
+        (step, pieces): (&DenseStep<'_>, usize),
         state: &mut [f64],
         mut found: impl FnMut(f64, bool),
     ) {
         let (start, end) = step.span();
-        for piece in 1..=PIECES {
-            let t = if piece == PIECES { end } else { start + (end - start) * piece as f64 / PIECES as f64 };
+        for piece in 1..=pieces.max(1) {
+            let t = if piece >= pieces { end } else { start + (end - start) * piece as f64 / pieces as f64 };
             let value = value_in(section, step, t, state);
             if value == 0.0 || value.is_nan() {
                 continue;
@@ -98,7 +98,7 @@ fn value_in(section: &Section<'_>, step: &DenseStep<'_>, t: f64, state: &mut [f6
     (section.g)(t, state)
 }
 
-/// Polishes a crossing time with true steps of the method; leaves the state of the crossing in `state`.
+/// Refines a crossing time with true steps of the method; leaves the state of the crossing in `state`.
 pub(crate) fn polish<O: Integration + ?Sized>(
     section: &Section<'_>,
     orbit: &mut O,
@@ -123,7 +123,7 @@ pub fn slope_at((start, end): (f64, f64), guess: f64, mut g: impl FnMut(f64) -> 
 }
 
 /// The zero of `g` near `guess` by Newton's method with a fixed slope; `to` makes a true step to a time, writes the state
-/// there and says what `g` is.
+/// there and returns `g`.
 pub fn polished(
     (start, end): (f64, f64),
     guess: f64,

@@ -10,9 +10,9 @@ const LONGEST: f64 = 0.15;
 /// Step sizes per doubling.
 const PER_DOUBLING: f64 = 4.0;
 
-/// The tables met so far, the one in use, and the size that step control asks for.
+/// The tables computed so far, the one in use, and the size required by step control.
 pub(crate) struct StepTables {
-    /// By `k`; the fixed step is filed under [`FIXED`].
+    /// By `k`; the fixed step is stored under [`FIXED`].
     known: Vec<(i32, StepTable)>,
     /// For sizes used once: the last step to a limit, a step to a section.
     odd: StepTable,
@@ -32,7 +32,7 @@ impl StepTables {
     /// Tables for the rates `lambda` of the linear part.
     ///
     /// No step is longer than [`LONGEST`] over the fastest growth rate. Near an unstable equilibrium the error of a step is below
-    /// any tolerance, whatever its length; there long steps would damp an oscillation that grows, and the orbit would never
+    /// any tolerance, whatever its length; there long steps would damp a growing oscillation, and the orbit would never
     /// leave.
     pub(crate) fn new(tableau: &ExponentialTableau, lambda: &[f64]) -> Self {
         let fastest = lambda.iter().copied().fold(0.0, f64::max);
@@ -47,12 +47,12 @@ impl StepTables {
         }
     }
 
-    /// The step size that control asks for.
+    /// The step size required by step control.
     pub(crate) fn size(&self) -> f64 {
         libm::exp2(f64::from(self.k) / PER_DOUBLING)
     }
 
-    /// Asks for the largest size up to `h`.
+    /// Selects the largest size up to `h`.
     pub(crate) fn set_size(&mut self, h: f64) {
         self.k = exponent(h).min(self.most);
     }
@@ -62,7 +62,7 @@ impl StepTables {
         self.selected.map_or(&self.odd, |index| &self.known[index].1)
     }
 
-    /// Uses the size that control asks for.
+    /// Uses the size required by step control.
     pub(crate) fn select_size(&mut self, tableau: &ExponentialTableau, lambda: &[f64]) {
         self.select(self.k, self.size(), tableau, lambda);
     }
@@ -94,8 +94,8 @@ impl StepTables {
 
     /// Whether a step of size `h` with this error norm is good, and the size of the next one to try.
     ///
-    /// `h_new = 0.9 h err^(-1/order)`, within factors 0.2 and 4, rounded down; a step cut short by a limit (`last`)
-    /// says little about the next one. Source: Hairer, Norsett, Wanner, I, II.4.
+    /// `h_new = 0.9 h err^(-1/order)`, within factors 0.2 and 4, rounded down; a step truncated by a limit (`last`)
+    /// gives little information about the next one. Source: Hairer, Norsett, Wanner, I, II.4.
     pub(crate) fn judge(&mut self, error: f64, h: f64, order: u32, last: bool) -> bool {
         let good = error <= 1.0;
         let factor = 0.9 * libm::pow(error.max(1e-30), -1.0 / f64::from(order));

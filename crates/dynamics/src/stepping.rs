@@ -14,14 +14,14 @@ pub struct Counters {
 /// Why a step could not be taken. The orbit stays at the last accepted state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepFailure {
-    /// The step that error control asks for is below the resolution of time.
+    /// The step required by error control is below the resolution of time.
     Underflow {
         /// That step.
         step: f64,
     },
     /// A fixed step led to a state that is not finite.
     NotFinite,
-    /// The model says why there is no step: the state it would lead to has no rates.
+    /// The model gives the reason why no step is possible: the next state would have no rates.
     Obstacle(Obstacle),
 }
 

@@ -11,15 +11,33 @@ use crate::{Dual, Obstacle, Semilinear, System, VectorField};
 pub struct Tangent<'f, F: ?Sized> {
     field: &'f F,
     count: usize,
+    follow: bool,
 }
 
 type Number = Dual<f64, 1>;
+
+/// Several directions at once: one evaluation of the field for up to six of them.
+type Wide = Dual<f64, 6>;
+
+/// A field that tangent vectors can be followed in, one at a time and six at once. Every field that is written once over all scalars is one.
+pub trait Differentiable: VectorField<Dual<f64, 1>> + VectorField<Dual<f64, 6>> {}
+
+impl<F: VectorField<Dual<f64, 1>> + VectorField<Dual<f64, 6>> + ?Sized> Differentiable for F {}
 
 impl<'f, F: System + ?Sized> Tangent<'f, F> {
     /// The tangent flow of `field` with `count` vectors.
     #[must_use]
     pub fn new(field: &'f F, count: usize) -> Self {
-        Self { field, count }
+        Self { field, count, follow: false }
+    }
+
+    /// As [`Tangent::new`], but the orbit alone controls the steps of exponential methods: the same steps as without tangent vectors.
+    ///
+    /// The vectors then are as accurate as those steps make them, which Newton's method does not mind. Vectors that have grown by a large
+    /// factor would ask for the digits of their smallest entries, in steps a hundred times shorter.
+    #[must_use]
+    pub fn following(field: &'f F, count: usize) -> Self {
+        Self { field, count, follow: true }
     }
 
     /// The field that the vectors are tangent to.
@@ -28,14 +46,19 @@ impl<'f, F: System + ?Sized> Tangent<'f, F> {
         self.field
     }
 
-    /// Calls `eval(lifted state, rates)` once for every tangent vector and sorts what it writes into `du`.
-    fn lift(&self, u: &[f64], du: &mut [f64], eval: impl Fn(&[Number], &mut [Number])) {
+    /// Calls `eval(lifted state, rates)` once for every `K` tangent vectors and sorts what it writes into `du`.
+    fn lift<const K: usize>(
+        &self,
+        u: &[f64],
+        du: &mut [f64],
+        eval: impl Fn(&[Dual<f64, K>], &mut [Dual<f64, K>]),
+    ) {
         match self.field.dim() {
-            ..=8 => self.lift_on_stack::<8>(u, du, eval),
-            9..=64 => self.lift_on_stack::<64>(u, du, eval),
-            65..=256 => self.lift_on_stack::<256>(u, du, eval),
+            ..=8 => self.lift_on_stack::<8, K>(u, du, eval),
+            9..=48 => self.lift_on_stack::<48, K>(u, du, eval),
+            49..=256 => self.lift_on_stack::<256, K>(u, du, eval),
             dim => {
-                let mut room = vec![Number::constant_of(0.0); 2 * dim];
+                let mut room = vec![Dual::constant_of(0.0); 2 * dim];
                 let (lifted, rates) = room.split_at_mut(dim);
                 self.lift_in(lifted, rates, u, du, eval);
             }
@@ -43,44 +66,48 @@ impl<'f, F: System + ?Sized> Tangent<'f, F> {
     }
 
     #[inline(always)]
-    fn lift_on_stack<const N: usize>(
+    fn lift_on_stack<const N: usize, const K: usize>(
         &self,
         u: &[f64],
         du: &mut [f64],
-        eval: impl Fn(&[Number], &mut [Number]),
+        eval: impl Fn(&[Dual<f64, K>], &mut [Dual<f64, K>]),
     ) {
-        let (mut lifted, mut rates) = ([Number::constant_of(0.0); N], [Number::constant_of(0.0); N]);
+        let (mut lifted, mut rates) = ([Dual::constant_of(0.0); N], [Dual::constant_of(0.0); N]);
         let dim = self.field.dim();
         self.lift_in(&mut lifted[..dim], &mut rates[..dim], u, du, eval);
     }
 
     #[inline(always)]
-    fn lift_in(
+    fn lift_in<const K: usize>(
         &self,
-        lifted: &mut [Number],
-        rates: &mut [Number],
+        lifted: &mut [Dual<f64, K>],
+        rates: &mut [Dual<f64, K>],
         u: &[f64],
         du: &mut [f64],
-        eval: impl Fn(&[Number], &mut [Number]),
+        eval: impl Fn(&[Dual<f64, K>], &mut [Dual<f64, K>]),
     ) {
-        let (state, vectors) = u.split_at(lifted.len());
-        let (rate, vector_rates) = du.split_at_mut(lifted.len());
-        let zero = &[][..];
-        let mut vectors = vectors.chunks_exact(lifted.len().max(1));
-        let mut vector_rates = vector_rates.chunks_exact_mut(lifted.len().max(1));
-        for direction in 0..self.count.max(1) {
-            let vector = vectors.next().unwrap_or(zero);
+        let dim = lifted.len();
+        let (state, vectors) = u.split_at(dim);
+        let (rate, vector_rates) = du.split_at_mut(dim);
+        for first in (0..self.count.max(1)).step_by(K) {
+            let directions = K.min(self.count - first.min(self.count));
             for (i, (x, &value)) in lifted.iter_mut().zip(state).enumerate() {
-                *x = Dual { value, derivative: [vector.get(i).copied().unwrap_or(0.0)] };
+                let mut derivative = [0.0; K];
+                for k in 0..directions {
+                    derivative[k] = vectors[(first + k) * dim + i];
+                }
+                *x = Dual { value, derivative };
             }
             eval(lifted, rates);
-            if direction == 0 {
+            if first == 0 {
                 for (to, from) in rate.iter_mut().zip(&*rates) {
                     *to = from.value;
                 }
             }
-            for (to, from) in vector_rates.next().into_iter().flatten().zip(&*rates) {
-                *to = from.derivative[0];
+            for (i, from) in rates.iter().enumerate() {
+                for k in 0..directions {
+                    vector_rates[(first + k) * dim + i] = from.derivative[k];
+                }
             }
         }
     }
@@ -95,18 +122,26 @@ impl<F: System + ?Sized> System for Tangent<'_, F> {
         self.field.obstacle(&u[..self.field.dim()])
     }
 
+    fn controlling(&self) -> usize {
+        if self.follow { self.field.dim() } else { self.dim() }
+    }
+
     fn vectors(&self) -> Option<usize> {
         Some(self.field.dim())
     }
 }
 
-impl<F: VectorField<Number> + ?Sized> VectorField<f64> for Tangent<'_, F> {
+impl<F: Differentiable + ?Sized> VectorField<f64> for Tangent<'_, F> {
     fn eval(&self, t: f64, u: &[f64], du: &mut [f64]) {
-        self.lift(u, du, |lifted, rates| self.field.eval(t, lifted, rates));
+        if self.count > 2 {
+            self.lift(u, du, |lifted: &[Wide], rates: &mut [Wide]| self.field.eval(t, lifted, rates));
+        } else {
+            self.lift(u, du, |lifted: &[Number], rates: &mut [Number]| self.field.eval(t, lifted, rates));
+        }
     }
 }
 
-impl<F: Semilinear<Number> + ?Sized> Semilinear<f64> for Tangent<'_, F> {
+impl<F: Semilinear<Number> + Differentiable + ?Sized> Semilinear<f64> for Tangent<'_, F> {
     fn linear(&self, lambda: &mut [f64]) {
         let dim = self.field.dim();
         let (first, rest) = lambda.split_at_mut(dim);
@@ -117,13 +152,13 @@ impl<F: Semilinear<Number> + ?Sized> Semilinear<f64> for Tangent<'_, F> {
     }
 
     fn nonlinear(&self, t: f64, u: &[f64], du: &mut [f64]) {
-        self.lift(u, du, |lifted, rates| self.field.nonlinear(t, lifted, rates));
+        self.lift(u, du, |lifted: &[Number], rates: &mut [Number]| self.field.nonlinear(t, lifted, rates));
     }
 }
 
 /// The Jacobian `Df(u)`, column by column: entry `(i, j)` is at `j * dim + i`.
 #[must_use]
-pub fn jacobian<F: VectorField<Number> + ?Sized>(field: &F, u: &[f64]) -> Vec<f64> {
+pub fn jacobian<F: Differentiable + ?Sized>(field: &F, u: &[f64]) -> Vec<f64> {
     let dim = u.len();
     let mut state = vec![0.0; dim * (1 + dim)];
     state[..dim].copy_from_slice(u);
@@ -133,4 +168,59 @@ pub fn jacobian<F: VectorField<Number> + ?Sized>(field: &F, u: &[f64]) -> Vec<f6
     let mut rates = vec![0.0; state.len()];
     Tangent::new(field, dim).eval(0.0, &state, &mut rates);
     rates.split_off(dim)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::steppers::KROGSTAD4;
+    use crate::{ExponentialOrbit, Integration, Scalar, StepControl};
+
+    /// `x' = x - x^3`, with `x` as its own rotation's size: vectors grow while it leaves 0.
+    struct Leaving;
+
+    impl System for Leaving {
+        fn dim(&self) -> usize {
+            1
+        }
+    }
+
+    impl<T: Scalar> VectorField<T> for Leaving {
+        fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+            du[0] = u[0] - u[0] * u[0] * u[0];
+        }
+    }
+
+    impl<T: Scalar> Semilinear<T> for Leaving {
+        fn linear(&self, lambda: &mut [T::Real]) {
+            lambda[0] = lambda[0].constant(1.0);
+        }
+
+        fn nonlinear(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+            du[0] = -(u[0] * u[0] * u[0]);
+        }
+    }
+
+    fn run(field: &impl Semilinear<f64>, start: &[f64]) -> (Vec<f64>, u64) {
+        let control = StepControl::Adaptive { rtol: 1e-8, atol: 1e-10 };
+        let mut orbit = ExponentialOrbit::new(field, &KROGSTAD4, control, 0.0, start).expect("a fair start");
+        while orbit.t() < 8.0 {
+            orbit.advance(8.0).expect("a smooth field");
+        }
+        (orbit.state().to_vec(), orbit.counters().steps)
+    }
+
+    /// Vectors that follow change no step of the orbit, and are the derivative `(1 + (x0^-2 - 1) e^-2t)^-3/2 x0^-3 e^-2t` all the same.
+    #[test]
+    fn vectors_that_follow_leave_the_orbit_its_steps() {
+        let x0 = 1e-2;
+        let alone = run(&Leaving, &[x0]);
+        let followed = run(&Tangent::following(&Leaving, 1), &[x0, 1.0]);
+        let guided = run(&Tangent::new(&Leaving, 1), &[x0, 1.0]);
+        assert_eq!((alone.0[0], alone.1), (followed.0[0], followed.1));
+        assert_ne!(alone.1, guided.1);
+        let fade = libm::exp(-16.0);
+        let exact = fade * libm::pow(x0, -3.0) * libm::pow(1.0 + (libm::pow(x0, -2.0) - 1.0) * fade, -1.5);
+        assert!((followed.0[1] / exact - 1.0).abs() < 1e-5, "{} {exact}", followed.0[1]);
+    }
 }

@@ -7,10 +7,15 @@ pub trait System {
     /// Number of scalars in the state.
     fn dim(&self) -> usize;
 
-    /// Why this state has no rates, where it has none. A rate that is not a number must have its reason here;
+    /// The reason why this state has no rates, if it has none. A rate that is not a number must have its reason here;
     /// asked only after one was met, so it may be slow.
     fn obstacle(&self, _u: &[f64]) -> Option<Obstacle> {
         None
+    }
+
+    /// How many leading entries of the state control the steps of exponential methods: all of them, unless the others only follow.
+    fn controlling(&self) -> usize {
+        self.dim()
     }
 
     /// Length of the vectors that the state is made of, where it is a shape followed by vectors tangent to it. Error control
@@ -28,7 +33,7 @@ pub trait System {
     /// `u` and `projected` have length [`System::dim`].
     ///
     /// # Errors
-    /// The [`Obstacle`], where the state has no correction: the step fails.
+    /// The [`Obstacle`], if the state has no correction: the step fails.
     fn project(&self, _u: &[f64], _projected: &mut [f64]) -> Result<bool, Obstacle> {
         Ok(false)
     }
@@ -84,6 +89,10 @@ impl<S: System + ?Sized> System for &S {
         (**self).obstacle(u)
     }
 
+    fn controlling(&self) -> usize {
+        (**self).controlling()
+    }
+
     #[inline(always)]
     fn vectors(&self) -> Option<usize> {
         (**self).vectors()
@@ -128,6 +137,10 @@ mod tests {
             Some(Obstacle::Closure { residual: 0.5 })
         }
 
+        fn controlling(&self) -> usize {
+            4
+        }
+
         fn vectors(&self) -> Option<usize> {
             Some(3)
         }
@@ -142,12 +155,13 @@ mod tests {
     fn a_reference_answers_as_the_system_does() {
         fn answers<S: System>(
             system: S,
-        ) -> (usize, Option<Obstacle>, Option<usize>, Result<bool, Obstacle>, f64) {
+        ) -> (usize, usize, Option<Obstacle>, Option<usize>, Result<bool, Obstacle>, f64) {
             let mut projected = [0.0; 6];
             let changed = system.project(&[0.0; 6], &mut projected);
-            (system.dim(), system.obstacle(&[0.0; 6]), system.vectors(), changed, projected[0])
+            let sizes = (system.dim(), system.controlling());
+            (sizes.0, sizes.1, system.obstacle(&[0.0; 6]), system.vectors(), changed, projected[0])
         }
         assert_eq!(answers(&Odd), answers(Odd));
-        assert_eq!(answers(&Odd), (6, Some(Obstacle::Closure { residual: 0.5 }), Some(3), Ok(true), 7.0));
+        assert_eq!(answers(&Odd), (6, 4, Some(Obstacle::Closure { residual: 0.5 }), Some(3), Ok(true), 7.0));
     }
 }

@@ -1,16 +1,16 @@
-//! The watch on a long computation: how far it is, and whether to stop.
+//! The watch on a long computation: progress, and whether to stop.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Whoever started a long computation: hears how far it is, and may stop it. Every method has a default that does nothing.
+/// Observes a long computation for its caller: receives its progress, and may stop it. Every method has a default that does nothing.
 pub trait Watch: Sync {
-    /// The part of the work that is done, 0 to 1; called often.
+    /// Receives the fraction of the work that is done, 0 to 1; called often.
     fn progress(&self, _done: f64) {}
 
-    /// A part of the work is finished; the text says which, and how it went.
+    /// Called when a part of the work is finished; the text states which part, and its result.
     fn note(&self, _text: &str) {}
 
-    /// Whether to stop here and keep what there is; called often.
+    /// Whether to stop now and keep the results so far; called often.
     fn stopped(&self) -> bool {
         false
     }
@@ -26,7 +26,7 @@ impl Watch for AtomicBool {
     }
 }
 
-/// A watch that is told of no progress: for a computation whose length is not known.
+/// A watch that ignores progress: for a computation of unknown length.
 pub struct StopOnly<'w>(pub &'w dyn Watch);
 
 impl Watch for StopOnly<'_> {
@@ -39,7 +39,7 @@ impl Watch for StopOnly<'_> {
 pub struct Part<'w> {
     /// The watch on the whole.
     pub watch: &'w dyn Watch,
-    /// Share of the whole that is done when the part begins.
+    /// Share of the whole that is done when the part starts.
     pub from: f64,
     /// Share of the whole that is done when the part ends.
     pub to: f64,

@@ -127,7 +127,7 @@ proptest! {
     }
 }
 
-/// Zeros of both signs, infinities, what is no number, the smallest and the largest.
+/// Zeros of both signs, infinities, what is not a number, the smallest and the largest.
 #[test]
 fn special_numbers_are_those_of_f64() {
     let special = [

@@ -1,4 +1,4 @@
-//! One page: messages in, answers out, until one side leaves.
+//! The connection to one page: incoming messages and answers, until one side disconnects.
 
 use crate::answers::{self, Answer, Answers};
 use crate::protocol::{Ask, Refused};
@@ -31,7 +31,7 @@ pub(crate) async fn serve(mut socket: WebSocket, greeting: Greeting, mut stop: w
                 None => return,
             }
         }
-        Err(_) => (FAILED, "the system gives no threads"),
+        Err(_) => (FAILED, "the system provides no threads"),
     };
     // The page may have gone already.
     let _ = socket.send(Message::Close(Some(CloseFrame { code, reason: reason.into() }))).await;
@@ -43,7 +43,7 @@ async fn stopped(stop: &mut watch::Receiver<bool>) {
     let _ = stop.wait_for(|stop| *stop).await;
 }
 
-/// Carries messages to and fro; returns why to close the connection, or `None` if the page has left.
+/// Transfers messages in both directions; returns the reason to close the connection, or `None` if the page has disconnected.
 async fn talk(
     socket: &mut WebSocket,
     session: &Session,
@@ -61,14 +61,14 @@ async fn talk(
                     Ok(Message::Binary(_)) => None,
                     Ok(Message::Close(_)) => return None,
                     Ok(Message::Ping(_) | Message::Pong(_)) => continue,
-                    Err(_) => return Some((TOO_BIG, "a message was too long, or none of this protocol")),
+                    Err(_) => return Some((TOO_BIG, "a message was too long, or does not belong to this protocol")),
                 };
                 if !bucket.take(Instant::now()) {
                     return Some((POLICY, "too many messages"));
                 }
-                match text.as_deref().ok_or_else(|| "the page speaks JSON texts".to_owned()).and_then(Ask::parse) {
+                match text.as_deref().ok_or_else(|| "messages must be JSON texts".to_owned()).and_then(Ask::parse) {
                     Ok(ask) => if !session.ask(ask) {
-                        return Some((POLICY, "too many messages wait"));
+                        return Some((POLICY, "too many messages are waiting"));
                     },
                     Err(why) => {
                         let refused = answers::text(&Refused { id: None, why }.into());
@@ -83,7 +83,7 @@ async fn talk(
                 };
                 socket.send(message).await.ok()?;
             }
-            () = &mut stopped => return Some((GOING_AWAY, "the server stops")),
+            () = &mut stopped => return Some((GOING_AWAY, "the server is stopping")),
         }
     }
 }

@@ -1,32 +1,32 @@
-//! Why there is no server.
+//! Errors of the server.
 
 /// The server could not be started or went down.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// No such port to be had.
-    #[error("port {port}: {reason}; give another --port, or none to take any free one")]
+    /// The port is not available.
+    #[error("port {port}: {reason}; give another one, or 0 to take any free one")]
     Port {
-        /// The port asked for.
+        /// The requested port.
         port: u16,
         /// The system's reason.
         reason: std::io::Error,
     },
-    /// A token that cannot stand in an address, or is too easy to guess.
+    /// A token that is not allowed in an address, or is too easy to guess.
     #[error(
-        "token {token:?}: give 16 to 128 letters and digits, or leave it out: a random one is made for each start"
+        "token {token:?}: give 16 to 128 letters and digits, or leave it out: each start then uses a new random one"
     )]
     Token {
         /// The token given.
         token: String,
     },
-    /// The system gives no random numbers.
-    #[error("the system gives no random numbers for the address: {0}")]
+    /// The system provides no random numbers.
+    #[error("the system provides no random numbers for the address: {0}")]
     Random(getrandom::Error),
     /// The machine failed.
     #[error("the server failed: {0}")]
     Failed(#[from] std::io::Error),
-    /// What the program knows does not stand up to its own checks.
+    /// The data of the program fail its own checks.
     #[error(transparent)]
     Study(#[from] motiform_study::Error),
 }

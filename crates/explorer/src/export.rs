@@ -1,4 +1,4 @@
-//! Files to keep, made on a thread of their own while the body moves on.
+//! Files for export, created on a separate thread while the body moves on.
 
 use crate::answers::{Answers, Gone};
 use motiform_figures::{DEFAULT_SCALE, png};
@@ -7,18 +7,18 @@ use motiform_study::Error;
 use std::sync::mpsc::{SyncSender, TrySendError, sync_channel};
 use std::thread::JoinHandle;
 
-/// What was made.
+/// The created file.
 pub(crate) enum Made {
-    /// A drawing; it becomes a PNG where one is asked for.
+    /// A drawing; it is converted to PNG if requested.
     Svg(String),
     /// A file as it is.
     Bytes(Vec<u8>),
 }
 
-/// Makes a file from a snapshot; `None` where there is nothing to make it of yet.
+/// Makes a file from a snapshot; `None` if there are not enough data yet.
 pub(crate) type Maker = Box<dyn FnOnce() -> Result<Option<Made>, Error> + Send>;
 
-/// A file that was asked for.
+/// A requested file.
 pub(crate) struct Order {
     pub(crate) id: u32,
     /// The preset or the model.
@@ -27,7 +27,7 @@ pub(crate) struct Order {
     pub(crate) make: Maker,
 }
 
-/// Orders that may wait: there are about twice as many buttons.
+/// Length of the queue of requests: there are about twice as many buttons.
 const WAITING: usize = 8;
 
 /// The thread that makes files.
@@ -58,7 +58,7 @@ impl Exports {
         match orders.try_send(order) {
             Ok(()) => Ok(()),
             Err(TrySendError::Full(order)) => {
-                self.answers.refused(Some(order.id), "other files are being made: wait for them")
+                self.answers.refused(Some(order.id), "other files are being created: wait for them")
             }
             Err(TrySendError::Disconnected(_)) => Err(Gone),
         }
@@ -95,7 +95,7 @@ fn deliver(order: Order, answers: &Answers) -> Result<(), Gone> {
     match content {
         Ok(Some(content)) => answers.file(id, &format!("motiform-{subject}-{what}"), mime, &content),
         Ok(None) => {
-            answers.refused(Some(id), "there is too little to make this file of yet: let the body move on")
+            answers.refused(Some(id), "there are not enough data for this file yet: let the body move on")
         }
         Err(error) => answers.refused(Some(id), &error.to_string()),
     }

@@ -1,4 +1,4 @@
-//! Binary messages, as `PROTOCOL.md` lays them out.
+//! Binary messages, as described in `PROTOCOL.md`.
 
 use serde_json::json;
 
@@ -7,11 +7,11 @@ const FRAME: u8 = 1;
 const CELLS: u8 = 2;
 const FILE: u8 = 3;
 
-/// One picture of the body.
+/// One frame of the body.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Frame {
     pub(crate) revision: u32,
-    /// Computing took longer than a picture may: the body is not where it was asked to be.
+    /// Computing took too long for a frame: the body has not reached the requested time.
     pub(crate) behind: bool,
     pub(crate) t: f64,
     pub(crate) position: [f64; 2],
@@ -21,7 +21,7 @@ pub(crate) struct Frame {
     /// Rows of `columns` numbers.
     pub(crate) samples: Vec<f64>,
     pub(crate) columns: usize,
-    /// Relative to the position; `None` where the shape is no curve.
+    /// Relative to the position; `None` if the shape is not a curve.
     pub(crate) outline: Option<Vec<[f64; 2]>>,
 }
 

@@ -1,4 +1,4 @@
-//! Who may speak to the server: whoever knows the token, from a page of this server, under its own name.
+//! Access control: requests need the token, and must come from a page of this server under its own host name.
 
 use crate::Error;
 use axum::http::{HeaderMap, HeaderName, header};
@@ -43,7 +43,7 @@ impl Token {
         }
     }
 
-    /// As it stands in the address.
+    /// The token as text of the address.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.0
@@ -68,13 +68,13 @@ impl Names {
         Self { port }
     }
 
-    /// Whether a request was sent to this server under its own name: not through a name that somebody else made to point
+    /// Whether a request was sent to this server under its own name: not through another name that was made to point
     /// here (DNS rebinding).
     pub(crate) fn host_is_ours(&self, headers: &HeaderMap) -> bool {
         one(headers, header::HOST).is_some_and(|host| self.hosts().contains(&host.to_owned()))
     }
 
-    /// Whether a request comes from a page of this server: browsers always say where a WebSocket is opened from.
+    /// Whether a request comes from a page of this server: browsers always send the origin of a WebSocket.
     pub(crate) fn origin_is_ours(&self, headers: &HeaderMap) -> bool {
         let ours = self.hosts().map(|host| format!("http://{host}"));
         one(headers, header::ORIGIN).is_some_and(|origin| ours.contains(&origin.to_owned()))
@@ -85,7 +85,7 @@ impl Names {
     }
 }
 
-/// The value of a header that must be there exactly once.
+/// The value of a header that must occur exactly once.
 fn one(headers: &HeaderMap, name: HeaderName) -> Option<&str> {
     let mut values = headers.get_all(name).iter();
     let value = values.next()?.to_str().ok()?;

@@ -1,11 +1,11 @@
-//! `motiform explore`: parameter space in a browser.
+//! `motiform explore`: the explorer in a browser.
 //!
-//! A server for one person on one machine: it listens on 127.0.0.1 alone, every address carries a random token, and a page
-//! reaches nothing but what `protocol` says: no file is read or written for it. The page is built into the program.
-//! What is said between the two stands in `PROTOCOL.md`.
+//! A server for one user on one machine: it listens on 127.0.0.1 only, every address contains a random token, and a page
+//! can only send the messages of `protocol`: no file is read or written for it. The page is built into the program.
+//! `PROTOCOL.md` describes the messages between the two.
 //!
-//! Each page has a `session`: a body that moves when the page asks (`body`), and two workers (`worker`), for which only the
-//! latest job counts: naming the motion and its exponents (`motion`), and the map (`map`).
+//! Each page has a `session`: a body that moves when the page requests it (`body`), and two workers (`worker`), which run only the
+//! latest job: classification of the motion and its exponents (`motion`), and the map (`map`).
 
 mod answers;
 mod body;

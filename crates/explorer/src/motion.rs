@@ -1,4 +1,4 @@
-//! Naming the present motion, then its Lyapunov exponents, for as long as it is the present one.
+//! Classification of the present motion and computation of its Lyapunov exponents, as long as it is the present one.
 
 use crate::answers::{Answers, Gone};
 use crate::map::numbers;
@@ -18,7 +18,7 @@ const NICE: i32 = 3;
 /// Exponents that are followed.
 const COUNT: usize = 3;
 
-/// They are averaged over this many looks of the model after some others, and told at so many times on the way.
+/// They are averaged over this many looks of the model after some initial ones, and reported at this many times.
 const LOOKS: (f64, f64) = (2.0, 40.0);
 const POINTS: f64 = 200.0;
 
@@ -26,24 +26,24 @@ const POINTS: f64 = 200.0;
 pub(crate) struct Motion {
     pub(crate) revision: u32,
     pub(crate) plan: Plan,
-    /// Named before, but the body has moved on since: is it still true?
+    /// Classified before, but the body has moved on since: repeat the classification.
     pub(crate) again: bool,
 }
 
 /// The exponents so far, by averaging time.
 pub(crate) type History = Vec<(f64, Vec<Estimate>)>;
 
-/// What is known of the present motion.
+/// The results on the present motion.
 #[derive(Default)]
 struct Known {
     /// Its revision, its name, and the model time that it took to find that.
     name: Option<(u32, Regime, f64)>,
     history: History,
-    /// Nothing more is to come.
+    /// No further results will follow.
     complete: bool,
 }
 
-/// The worker that names motions.
+/// The worker that classifies motions.
 pub(crate) struct Naming {
     worker: Worker<Motion>,
     known: Arc<Mutex<Known>>,
@@ -60,7 +60,7 @@ impl Naming {
         Ok(Self { worker, known })
     }
 
-    /// Names this motion, in place of an earlier one.
+    /// Classifies this motion, replacing an earlier one.
     pub(crate) fn name(&self, motion: Motion) {
         self.worker.put(motion);
     }
@@ -71,7 +71,7 @@ impl Naming {
         *lock(&self.known) = Known::default();
     }
 
-    /// The model time that it took to name the motion of this revision, if it is named and has its exponents.
+    /// The model time used to classify the motion of this revision, if it is classified and has its exponents.
     pub(crate) fn took(&self, revision: u32) -> Option<f64> {
         let known = lock(&self.known);
         known.name.filter(|name| known.complete && name.0 == revision).map(|name| name.2)
@@ -83,7 +83,7 @@ impl Naming {
     }
 }
 
-/// One motion to be named.
+/// One motion to be classified.
 struct Work<'w> {
     motion: &'w Motion,
     current: &'w Current<'w>,
@@ -104,7 +104,7 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Names the motion; `None` if that is no longer wanted.
+    /// Classifies the motion; `None` if the result is no longer needed.
     fn name(&self) -> Result<Option<Regime>, Gone> {
         let revision = self.motion.revision;
         if !self.motion.again {

@@ -7,7 +7,7 @@ pub(crate) struct Asset {
     pub(crate) content: &'static [u8],
 }
 
-/// All of it; the page is built from `web/` by `npm run build`, and CI checks that it was.
+/// All files; the page is built from `web/` by `npm run build`, and CI checks this.
 const ASSETS: [Asset; 4] = [
     Asset { name: "", kind: "text/html; charset=utf-8", content: include_bytes!("../page/index.html") },
     Asset {

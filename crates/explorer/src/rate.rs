@@ -1,4 +1,4 @@
-//! How fast messages may come.
+//! Rate limit of messages.
 
 use std::time::Instant;
 

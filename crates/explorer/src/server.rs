@@ -1,4 +1,4 @@
-//! The server: addresses, and what is refused at the door.
+//! The server: addresses, and rejection of requests.
 
 use crate::connection;
 use crate::guard::{Names, Token};
@@ -17,27 +17,27 @@ use std::sync::Arc;
 use std::time::Duration;
 use tokio::sync::{Semaphore, watch};
 
-/// The port that is taken where none is asked for and it is free.
+/// The default port, if it is free.
 pub const DEFAULT_PORT: u16 = 7373;
 
-/// Most pages at a time: each has threads of its own.
+/// Maximum number of pages at a time: each has its own threads.
 const PAGES: u32 = 8;
 
-/// How long pages may take to hear that the server stops.
+/// Time for pages to receive the message that the server is stopping.
 const GOODBYE: Duration = Duration::from_secs(2);
 
-/// How to serve.
+/// Settings of the server.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// The port; without it [`DEFAULT_PORT`], or any free one.
+    /// The port; by default [`DEFAULT_PORT`], or any free one.
     pub port: Option<u16>,
-    /// The token of an earlier start, so that its pages go on.
+    /// The token of an earlier start, so that its pages reconnect.
     pub token: Option<String>,
-    /// The preset to begin with.
+    /// The initial preset.
     pub preset: Option<String>,
 }
 
-/// A server that has its port, and has not answered anybody yet.
+/// A server that has its port, but has not yet answered any request.
 pub struct Server {
     listener: TcpListener,
     shared: Arc<Shared>,
@@ -51,7 +51,7 @@ pub struct Server {
 pub struct Handle(watch::Sender<bool>);
 
 impl Handle {
-    /// Asks the server to stop: pages are told, threads end.
+    /// Stops the server: pages are notified, threads end.
     pub fn stop(&self) {
         self.0.send_replace(true);
     }
@@ -70,7 +70,7 @@ impl Server {
     /// Takes the port on 127.0.0.1.
     ///
     /// # Errors
-    /// A port that is taken, a token that is none, no random numbers.
+    /// A port in use, an invalid token, no random numbers.
     pub fn bind(options: &Options) -> Result<Self, Error> {
         let token = options.token.as_deref().map_or_else(Token::random, Token::given)?;
         let listen = |port| {
@@ -140,7 +140,7 @@ fn router(shared: Arc<Shared>) -> Router {
 }
 
 impl Shared {
-    /// Nobody learns from the answer whether the token or the name was wrong.
+    /// The answer does not reveal whether the token or the name was wrong.
     fn admits(&self, token: &str, headers: &HeaderMap) -> bool {
         let ours = self.names.host_is_ours(headers);
         self.token.is(token) && ours
@@ -163,7 +163,7 @@ async fn file(
     }
 }
 
-/// What a browser must not do with the page: load anything from elsewhere, show it inside another page, tell its address.
+/// Restrictions for the browser: not to load anything from other hosts, embed the page in another one, or reveal its address.
 const HEADERS: [(HeaderName, &str); 6] = [
     (
         header::CONTENT_SECURITY_POLICY,

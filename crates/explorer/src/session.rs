@@ -2,7 +2,7 @@
 
 use crate::answers::Answers;
 use crate::answers::text;
-use crate::body::{self, Desks};
+use crate::body::{self, Services};
 use crate::protocol::Ask;
 use crate::protocol::{Hello, Registry};
 use motiform_study::dataset::VERSION;
@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
-/// Messages that may wait for an answer.
+/// Length of the queue of messages.
 const WAITING: usize = 1024;
 
 /// The first message to every page.
@@ -18,7 +18,7 @@ const WAITING: usize = 1024;
 pub(crate) struct Greeting(Arc<str>);
 
 impl Greeting {
-    /// With the registry, and the command that starts this server again after it stopped.
+    /// With the registry, and the command that restarts this server.
     pub(crate) fn new(registry: &Registry, restart: &str) -> Self {
         let hello = Hello { version: VERSION, restart: restart.to_owned(), registry: registry.clone() };
         Self(text(&hello.into()).into())
@@ -29,7 +29,7 @@ impl Greeting {
     }
 }
 
-/// What works for one page. All its threads end with it.
+/// The threads that serve one page. All of them end with it.
 pub(crate) struct Session {
     asks: Option<SyncSender<Ask>>,
     thread: Option<JoinHandle<()>>,
@@ -39,17 +39,17 @@ impl Session {
     /// Starts the threads.
     ///
     /// # Errors
-    /// The system gives none.
+    /// The system provides none.
     pub(crate) fn start(answers: Answers) -> std::io::Result<Self> {
         let (asks, heard) = sync_channel(WAITING);
-        let desks = Desks::new(&answers)?;
-        drop(answers); // the desks have their own: when they are gone, the page hears no more
-        let run = move || body::run(&heard, &desks);
+        let services = Services::new(&answers)?;
+        drop(answers); // the services have their own: when they are gone, the page hears no more
+        let run = move || body::run(&heard, &services);
         let thread = std::thread::Builder::new().name("body".to_owned()).spawn(run)?;
         Ok(Self { asks: Some(asks), thread: Some(thread) })
     }
 
-    /// Asks; `false` if too much waits already, or the session has ended.
+    /// Sends a request; `false` if the queue is full, or the session has ended.
     pub(crate) fn ask(&self, ask: Ask) -> bool {
         self.asks.as_ref().is_some_and(|asks| asks.try_send(ask).is_ok())
     }
@@ -57,7 +57,7 @@ impl Session {
 
 impl Drop for Session {
     fn drop(&mut self) {
-        self.asks = None; // ends the body, and with it the desks
+        self.asks = None; // ends the body, and with it the services
         if let Some(thread) = self.thread.take() {
             let _ = thread.join(); // its panic was reported by the thread itself
         }

@@ -1,12 +1,12 @@
-//! The present study as a command and as Python: what the explorer shows can be had without it.
+//! The present study as a command and as Python: equivalent to what the explorer shows.
 
 use motiform_models::ModelInfo;
 use motiform_study::{Error, Study, presets};
 
-/// A state of more numbers than this is left to the study file.
+/// States with more numbers than this are only in the study file.
 const MOST_COORDINATES: usize = 8;
 
-/// What differs from the preset, and the state, as people type it.
+/// The differences from the preset, and the state, as typed on the command line.
 struct Said {
     preset: Option<String>,
     set: Vec<(String, f64)>,
@@ -40,7 +40,7 @@ fn bare(info: &'static ModelInfo, preset: Option<&str>) -> Result<Study, Error> 
     preset.map_or_else(|| Ok(Study::of_model(info)), |name| presets::find(info, name))
 }
 
-/// The command that runs the study from its state on. (The state of a cell, of some forty numbers, is left out: the study file has
+/// The command that runs the study from its state on. (The state of a cell, with about forty numbers, is omitted: the study file has
 /// it.)
 pub(crate) fn command(preset: Option<&str>, study: &Study) -> Result<String, Error> {
     let said = Said::of(preset, study)?;

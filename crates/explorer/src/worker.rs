@@ -1,4 +1,4 @@
-//! A worker: one thread, and the latest job given to it. A new job makes the one before it stale at once.
+//! A worker: one thread, and the latest job given to it. A new job immediately makes the previous one stale.
 
 use motiform_dynamics::Watch;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -23,7 +23,7 @@ struct Slot<J> {
     closed: bool,
 }
 
-/// Whether a job still counts. It is a [`Watch`], so every computation stops when it no longer does.
+/// Whether a job is still the latest. It is a [`Watch`], so every computation stops when it is not.
 pub(crate) struct Current<'d> {
     order: &'d AtomicU64,
     mine: u64,
@@ -39,7 +39,7 @@ impl<J: Send + 'static> Worker<J> {
     /// A worker that does `work`, at a lower priority (`nice` above 0) than the threads that draw.
     ///
     /// # Errors
-    /// The system gives no thread.
+    /// The system provides no thread.
     pub(crate) fn new(
         name: &str,
         nice: i32,
@@ -58,7 +58,7 @@ impl<J: Send + 'static> Worker<J> {
         Ok(Self { shared, thread: Some(thread) })
     }
 
-    /// Puts a job on the worker in place of whatever is there or under way.
+    /// Gives the worker a job, replacing any job that is waiting or in progress.
     pub(crate) fn put(&self, job: J) {
         self.shared.order(Some(job), false);
     }
@@ -69,12 +69,12 @@ impl<J: Send + 'static> Worker<J> {
     }
 }
 
-/// What a mutex guards, also after a panic of another thread: every job leaves it whole.
+/// The data of a mutex, even after a panic of another thread: every job leaves them consistent.
 pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Lets other threads go first, and so do the threads that this one starts. What the system refuses is no loss.
+/// Lowers the priority of this thread and of the threads that it starts. A refusal by the system is ignored.
 #[cfg(target_os = "linux")]
 fn give_way(nice: i32) {
     // On Linux a thread has a priority of its own; elsewhere this would slow the whole program down.
@@ -109,7 +109,7 @@ impl<J> Shared<J> {
 }
 
 impl<J> Drop for Worker<J> {
-    /// Stops what is under way, and waits for it: no thread outlives its session.
+    /// Stops the job in progress, and waits for it: no thread outlives its session.
     fn drop(&mut self) {
         self.shared.order(None, true);
         if let Some(thread) = self.thread.take() {

@@ -95,7 +95,7 @@ fn what_is_no_message_is_refused_and_the_connection_stays() {
     page.socket.send(Message::binary(vec![1, 2, 3])).unwrap();
     assert!(page.json("refused")["why"].as_str().unwrap().contains("JSON"));
     page.say(r#"{"do":"advance","dt":1}"#);
-    assert!(page.json("refused")["why"].as_str().unwrap().contains("begin one first"));
+    assert!(page.json("refused")["why"].as_str().unwrap().contains("send begin first"));
     // Input that makes no sense is refused with the name that was meant, and the body goes on.
     page.begin("tensor", Some("fig5a"));
     for (bad, says) in [

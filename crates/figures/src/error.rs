@@ -1,10 +1,10 @@
-//! What can be wrong with the data of a figure.
+//! Errors in the data of a figure.
 
 /// Why a figure cannot be drawn. Every message names the datum and the remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FigureError {
-    /// There is nothing to draw.
+    /// The data are empty.
     #[error("{what} is empty; give at least one value")]
     Empty {
         /// The list in question.
@@ -32,7 +32,7 @@ pub enum FigureError {
         /// The largest magnitude that is drawn.
         limit: f64,
     },
-    /// Two lists that belong together differ in length.
+    /// Two corresponding lists differ in length.
     #[error("{what} has {got} values for {expected} times; give one value (or `None`) per time")]
     Shape {
         /// The list in question.
@@ -65,7 +65,7 @@ pub enum FigureError {
         got: usize,
     },
     /// A width that cannot be read.
-    #[error("{text:?} is no width: write it with a unit (mm, cm, in, px), such as 86mm or 1200px")]
+    #[error("{text:?} is not a width: write it with a unit (mm, cm, in, px), such as 86mm or 1200px")]
     Width {
         /// What was given.
         text: String,
@@ -87,22 +87,24 @@ pub enum FigureError {
         index: usize,
     },
     /// A cell of a phase diagram is not at a cell centre.
-    #[error("cell number {index} lies at ({x}, {y}), which is no cell centre; give it a value of each axis")]
+    #[error(
+        "cell number {index} lies at ({x}, {y}), which is not a cell centre; give it a value of each axis"
+    )]
     OffGrid {
         /// Position in the list of cells, from 0.
         index: usize,
-        /// Its place across.
+        /// Its horizontal position.
         x: f64,
-        /// Its place upwards.
+        /// Its vertical position.
         y: f64,
     },
-    /// Two cells of a phase diagram are at one place.
-    #[error("cell number {index} lies where an earlier one does; merge their shares")]
+    /// Two cells of a phase diagram have the same position.
+    #[error("cell number {index} has the same position as an earlier one; merge their shares")]
     SameCell {
         /// Position in the list of cells, from 0.
         index: usize,
     },
-    /// The shares of a cell are not those of a whole.
+    /// The shares of a cell do not add up to 1.
     #[error("the shares of cell number {index} add up to {sum}; give shares of at least 0 that add up to 1")]
     Shares {
         /// Position in the list of cells, from 0.
@@ -122,7 +124,7 @@ pub enum FigureError {
         /// Largest allowed value.
         max: f64,
     },
-    /// The text handed to the rasteriser is no SVG document.
+    /// The text passed to the rasteriser is not an SVG document.
     #[error("cannot read the svg: {source}; give the text that a figure's `svg` returned")]
     Svg {
         /// What the parser found.
@@ -137,7 +139,7 @@ pub enum FigureError {
         source: png::EncodingError,
     },
     /// The PDF writer failed.
-    #[error("cannot write the pdf: {why}; keep the svg, which holds the same drawing")]
+    #[error("cannot write the pdf: {why}; use the svg, which contains the same drawing")]
     Pdf {
         /// What the writer found.
         why: String,
@@ -150,7 +152,7 @@ pub type Result<T> = std::result::Result<T, FigureError>;
 /// Largest magnitude drawn: beyond it the products of a layout could overflow.
 const LIMIT: f64 = 1e100;
 
-/// Refuses values that are not finite, or too large for an axis.
+/// Rejects values that are not finite, or too large for an axis.
 pub(crate) fn check_finite(what: &'static str, values: impl IntoIterator<Item = f64>) -> Result<()> {
     for (index, value) in values.into_iter().enumerate() {
         if !value.is_finite() {
@@ -163,7 +165,7 @@ pub(crate) fn check_finite(what: &'static str, values: impl IntoIterator<Item = 
     Ok(())
 }
 
-/// Refuses a setting outside its range.
+/// Rejects a setting outside its range.
 pub(crate) fn check_range(what: &'static str, value: f64, min: f64, max: f64) -> Result<()> {
     if (min..=max).contains(&value) { Ok(()) } else { Err(FigureError::OutOfRange { what, value, min, max }) }
 }

@@ -52,7 +52,7 @@ pub struct ErrorBarSeries {
 pub struct ErrorBarFigure {
     /// Line above the legend.
     pub title: String,
-    /// Paragraphs below the axes: above all, what the error bars are.
+    /// Paragraphs below the axes, in particular the meaning of the error bars.
     pub caption: Vec<String>,
     /// Label of the x axis.
     pub x_label: String,

@@ -1,4 +1,4 @@
-//! A line that theory expects or a fit found.
+//! A line from theory or from a fit.
 
 use super::axes::{AxisKind, Scale};
 use super::clip::clip;
@@ -15,7 +15,7 @@ pub struct ExpectedLine {
     /// Dashes.
     pub style: LineStyle,
     /// Points in data units, joined by straight lines on the axes as drawn. What lies outside the frame is cut off, and
-    /// so is what has no place on a logarithmic axis.
+    /// so are points without a place on a logarithmic axis.
     pub points: Vec<Point>,
 }
 

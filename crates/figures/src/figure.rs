@@ -1,17 +1,17 @@
-//! What all still figures have in common.
+//! Common interface of all static figures.
 
 use super::error::Result;
 use super::text::Label;
 use std::fmt::Write as _;
 
-/// A still figure: its words, its drawing, and the numbers that are drawn.
+/// A static figure: its texts, its drawing, and the plotted numbers.
 pub trait Figure {
-    /// Draws the sheet: SVG text that stands alone.
+    /// Draws the sheet as self-contained SVG text.
     ///
     /// # Errors   those of the figure's own `svg`
     fn sheet(&self) -> Result<String>;
 
-    /// What is drawn, as a CSV table with a header line: numbers in full precision, labels without markup.
+    /// The plotted data, as a CSV table with a header line: numbers in full precision, labels without markup.
     fn data(&self) -> String;
 
     /// The title and the paragraphs of the caption, to be changed before drawing.
@@ -28,7 +28,7 @@ pub trait Figure {
 /// A drawn figure, and the numbers behind it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Drawn {
-    /// SVG text that stands alone.
+    /// Self-contained SVG text.
     pub svg: String,
     /// A CSV table with a header line.
     pub data: String,

@@ -1,4 +1,4 @@
-//! The two faces that all figures are set in, and their advance widths.
+//! The two faces used in all figures, and their advance widths.
 
 use std::sync::{Arc, OnceLock};
 
@@ -63,7 +63,7 @@ pub(crate) fn has_glyph(character: char) -> bool {
         .all(|face| face.font().is_some_and(|font| font.charmap().map(character).is_some()))
 }
 
-/// The font database of the rasteriser: our two faces and nothing of the system.
+/// The font database of the rasteriser: our two faces and no system fonts.
 pub(crate) fn database() -> Arc<Database> {
     static DATABASE: OnceLock<Arc<Database>> = OnceLock::new();
     Arc::clone(DATABASE.get_or_init(|| {
@@ -75,7 +75,7 @@ pub(crate) fn database() -> Arc<Database> {
     }))
 }
 
-/// `@font-face` rules that make an SVG stand alone.
+/// `@font-face` rules that make an SVG self-contained.
 pub(crate) fn css() -> &'static str {
     static CSS: OnceLock<String> = OnceLock::new();
     CSS.get_or_init(|| {

@@ -7,7 +7,7 @@ use super::svg::Svg;
 
 const MARGIN: f64 = 14.0;
 
-/// What stands about the data of a figure with one frame. The frame's place is chosen here, its size is that of `axes`.
+/// The elements around the data of a figure with one frame. The position of the frame is chosen here, its size is that of `axes`.
 #[derive(Debug)]
 pub(super) struct Framed<'a> {
     /// Line above the legend.

@@ -1,4 +1,4 @@
-//! The key of a figure: a mark and a word each, in rows, always outside the data.
+//! The legend of a figure: rows of marks with labels, always outside the data.
 
 use super::geometry::{Point, Rect};
 use super::glyph::Glyph;
@@ -15,7 +15,7 @@ const GAP: f64 = 18.0;
 /// Height of a row, in pixels.
 pub(crate) const ROW: f64 = 19.0;
 
-/// What stands before the word.
+/// The mark before the label.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Mark {
     /// A line.
@@ -42,7 +42,7 @@ pub(crate) enum Mark {
     Band(Colour),
 }
 
-/// A mark and its word.
+/// A mark and its label.
 #[derive(Debug, Clone)]
 pub(crate) struct Entry {
     mark: Mark,

@@ -1,8 +1,8 @@
-//! Drawing: plain data in, SVG text out. Knows no model, no study file, no solver.
+//! Drawing: plain data in, SVG text out. Independent of models, study files and solvers.
 //!
 //! Nine figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`], [`SpaceTimeFigure`], [`SpectrumFigure`],
-//! [`PhaseDiagram`], [`BranchDiagram`], [`ErrorBarFigure`], [`SurvivalFigure`]) return SVG text that stands alone (fonts and pictures are
-//! inside); [`png()`] and, under the feature `pdf`, `pdf` turn that text into files; [`Animation`] returns an animated
+//! [`PhaseDiagram`], [`BranchDiagram`], [`ErrorBarFigure`], [`SurvivalFigure`]) return self-contained SVG text (fonts and pictures are
+//! inside); [`png()`] and, with the feature `pdf`, `pdf` convert that text to files; [`Animation`] returns an animated
 //! PNG. The same data give the same bytes: numbers are rounded to 0.01 pixel and no system font is used. All texts are
 //! markup, see [`Label`]; every regime has its [`RegimeMark`].
 

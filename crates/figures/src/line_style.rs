@@ -1,4 +1,4 @@
-//! How lines of one colour are told apart.
+//! Line styles that distinguish lines of one colour.
 
 use super::paint::Paint;
 use super::palette::INK;

@@ -1,16 +1,16 @@
 //! One marker and one colour for each kind of motion, in every figure and report.
 //!
-//! Colours: Okabe & Ito (2008), *Color Universal Design*. The shape alone tells the regimes apart, too.
+//! Colours: Okabe & Ito (2008), *Color Universal Design*. The regimes can also be distinguished by shape alone.
 
 use super::geometry::Point;
 use super::glyph::Glyph;
 use super::palette::{BLACK, BLUE, Colour, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, WHITE, YELLOW};
 use super::svg::Svg;
 
-/// How a regime is drawn.
+/// The appearance of a regime.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RegimeMark {
-    /// The word for it.
+    /// Its name.
     pub name: &'static str,
     /// Shape of its marker.
     pub glyph: Glyph,
@@ -20,7 +20,7 @@ pub struct RegimeMark {
     pub area: Colour,
 }
 
-/// All regimes, in the order of legends and stacked bars; the last stands for whatever has no other name.
+/// All regimes, in the order of legends and stacked bars; the last one represents all other names.
 pub const REGIMES: [RegimeMark; 10] = [
     RegimeMark { area: Colour(205, 205, 205), ..mark("motionless", Glyph::Ring, Colour(90, 90, 90)) },
     mark("straight", Glyph::Triangle, BLUE),

@@ -1,4 +1,4 @@
-//! Colours that survive colour blindness, grey printing and a white page.
+//! Colours that can be distinguished with colour blindness, in grey printing and on white paper.
 //!
 //! Categories: Okabe & Ito (2008), *Color Universal Design*. Time: viridis (Smith & van der Walt 2015, CC0),
 //! cut at 0.88 because its yellow end vanishes on white. Signed values: our own ramp, see [`signed_colour`].
@@ -141,7 +141,7 @@ pub(super) mod tests {
     }
 
     /// As a deuteranope sees it. Source: Machado, Oliveira & Fernandes (2009), IEEE TVCG 15, 1291, severity 1.0
-    /// (matrix applied to sRGB values, which is enough to tell colours apart).
+    /// (matrix applied to sRGB values, which is sufficient to distinguish colours).
     pub(crate) fn deuteranope(colour: Colour) -> [f64; 3] {
         seen(colour, [[0.367, 0.861, -0.228], [0.280, 0.673, 0.047], [-0.012, 0.043, 0.969]])
     }

@@ -13,7 +13,7 @@ use super::fonts::{Face, OWN_FAMILY};
 ///
 /// The writer brings an older parser than the rasteriser's (usvg 0.45), hence the second font database.
 ///
-/// # Errors   the text is no SVG, or the writer failed
+/// # Errors   the text is not SVG, or the writer failed
 pub fn pdf(svg: &str) -> Result<Vec<u8>> {
     let fail = |why: String| FigureError::Pdf { why };
     let mut fonts = Database::new();

@@ -1,4 +1,4 @@
-//! Words and size of a figure as somebody wants them, in place of its own.
+//! Requested title, caption and size of a figure, instead of the defaults.
 
 use super::error::{FigureError, Result, check_range};
 use super::figure::{Drawn, Figure};

@@ -28,7 +28,7 @@ pub enum Values {
 }
 
 impl Column {
-    /// A column; `meaning` says what it is, with its unit.
+    /// A column; `meaning` describes it, with its unit.
     #[must_use]
     pub fn new(name: &str, meaning: &'static str, values: Values) -> Self {
         Self { name: name.to_owned(), meaning, values }

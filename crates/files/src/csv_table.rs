@@ -51,7 +51,7 @@ pub(crate) fn read(path: &Path) -> Result<Table, Error> {
             let value = value.map_err(|_| {
                 Error::unreadable(
                     path,
-                    format!("row {}, column {}: {field:?} is no number", row + 2, column.name),
+                    format!("row {}, column {}: {field:?} is not a number", row + 2, column.name),
                 )
             })?;
             column.values.push(value);

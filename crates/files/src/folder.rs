@@ -1,4 +1,4 @@
-//! The folder of a dataset: `manifest.json`, `trajectory.*`, `crossings.*`, figures beside them.
+//! The folder of a dataset: `manifest.json`, `trajectory.*`, `crossings.*`, and figures.
 
 use super::Fields;
 use super::staging::{MANIFEST, Staging};
@@ -21,7 +21,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format that a file name asks for by its extension.
+    /// The format given by the extension of a file name.
     #[must_use]
     pub fn of_path(path: &Path) -> Option<Self> {
         match path.extension()?.to_str()? {
@@ -39,7 +39,7 @@ impl Format {
     }
 }
 
-/// Writes one table to `path` in the given format, the manifest inside where the format has room for it.
+/// Writes one table to `path` in the given format, with the manifest inside if the format supports it.
 ///
 /// # Errors
 /// [`Error::WriteFailed`].
@@ -54,7 +54,7 @@ pub fn write_table(table: &Table, manifest: &Manifest, format: Format, path: &Pa
     }
 }
 
-/// Writes the tables, the fields (where there are any) and the manifest of a dataset into a staged folder.
+/// Writes the tables, the fields (if any) and the manifest of a dataset into a staged folder.
 ///
 /// # Errors
 /// [`Error::WriteFailed`].
@@ -88,7 +88,7 @@ pub fn write_dataset(
 pub fn read_dataset(folder: &Path) -> Result<Dataset, Error> {
     let path = folder.join(MANIFEST);
     let text = input::manifest(&path).map_err(|error| {
-        Error::unreadable(&path, format!("{error}; a dataset is a folder written by `motiform simulate`"))
+        Error::unreadable(&path, format!("{error}; give a folder written by `motiform simulate`"))
     })?;
     let manifest: Manifest = serde_json::from_str(&text).map_err(|error| Error::unreadable(&path, error))?;
     let model = model_of(&manifest).map_err(|error| Error::unreadable(&path, error))?;
@@ -105,7 +105,7 @@ pub fn read_dataset(folder: &Path) -> Result<Dataset, Error> {
     Ok(Dataset { manifest, trajectory, crossings: Some(crossings) })
 }
 
-/// Reads one table, Parquet or CSV by its extension, and the manifest where the file carries one.
+/// Reads one table, Parquet or CSV by its extension, and the manifest if the file contains one.
 ///
 /// # Errors
 /// [`Error::Unreadable`].
@@ -117,7 +117,7 @@ pub fn read_table_file(path: &Path) -> Result<(Table, Option<Manifest>), Error> 
             let manifest = text.map(|text| serde_json::from_str(&text)).transpose();
             Ok((parquet_table::read(path)?, manifest.map_err(|error| Error::unreadable(path, error))?))
         }
-        None => Err(Error::unreadable(path, "it is no table: give a .parquet or .csv file")),
+        None => Err(Error::unreadable(path, "it is not a table: give a .parquet or .csv file")),
     }
 }
 
@@ -126,7 +126,7 @@ fn model_of(manifest: &Manifest) -> Result<Box<dyn Model>, Error> {
     Ok(plan.info()?.build(&plan.computation.parameters.values())?)
 }
 
-/// Refuses a table that lacks one of the columns `names`.
+/// Rejects a table without one of the columns `names`.
 fn require(table: &Table, path: &Path, names: impl IntoIterator<Item = &'static str>) -> Result<(), Error> {
     match names.into_iter().find(|name| table.get(name).is_none()) {
         Some(missing) => Err(Error::unreadable(path, format!("it has no column {missing}"))),

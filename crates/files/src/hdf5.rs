@@ -4,7 +4,7 @@ use hdf5_pure::{AttrValue, File, FileBuilder};
 use motiform_study::Error;
 use std::path::Path;
 
-/// Bytes of a chunk, about: what a reader of one time has to unpack.
+/// Approximate bytes of a chunk: what a reader of one time has to decompress.
 const CHUNK_BYTES: usize = 1 << 20;
 /// Level of the deflate compression; higher ones cost time and save little on numbers.
 const DEFLATE: u32 = 4;
@@ -43,10 +43,10 @@ struct Part<'a> {
 /// Writes the datasets `t` (t), `s` (s), `phi` (t, s) and `outline` (t, point, xy).
 ///
 /// Every dataset has the attributes `units`, `long_name` and `dims` (names of its dimensions, slowest first);
-/// `outline` has `undefined`, which says why values are NaN. Double precision, lossless compression.
+/// `outline` has `undefined`, which gives the reason for NaN values. Double precision, lossless compression.
 ///
 /// # Errors
-/// [`Error::WriteFailed`], also for lengths that do not belong together, or no time, arc or point.
+/// [`Error::WriteFailed`], also for inconsistent lengths, or without any time, arc or point.
 ///
 /// # Not
 /// HDF5 dimension scales: `hdf5-pure` 0.47 writes no `DIMENSION_LIST` (references of variable length), so `dims` names
@@ -72,7 +72,7 @@ pub fn write_fields(path: &Path, fields: &Fields) -> Result<(), Error> {
 /// Reads the fields back.
 ///
 /// # Errors
-/// [`Error::Unreadable`] for a file that is no HDF5, or has not these datasets with lengths that belong together.
+/// [`Error::Unreadable`] for a file that is not HDF5, or lacks these datasets with consistent lengths.
 pub fn read_fields(path: &Path) -> Result<Fields, Error> {
     let unreadable = |why: &dyn std::fmt::Display| Error::unreadable(path, why);
     let file = File::open(path).map_err(|error| unreadable(&error))?;

@@ -1,7 +1,7 @@
-//! Names of unfinished output, and what runs that were killed have left of it.
+//! Names of unfinished output, and leftovers of killed runs.
 //!
-//! Output is written under `.NAME.HEX.partial`, HEX a random number, and locked while its process lives: the system takes the
-//! lock away when a process ends, however it ends. What has such a name and no lock is a leftover.
+//! Output is written under `.NAME.HEX.partial`, where HEX is a random number, and locked while its process lives: the system releases the
+//! lock when the process ends, however it ends. A file or folder with such a name and no lock is a leftover.
 
 use super::disk;
 use std::collections::hash_map::RandomState;
@@ -11,28 +11,28 @@ use std::io::Result;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// What is made and not yet locked.
+/// Created and not yet locked.
 const NEW: &str = "new";
 
-/// What is being written.
+/// Being written.
 const PARTIAL: &str = "partial";
 
-/// What `--force` is about to replace, where two folders cannot be exchanged.
+/// The folder to be replaced, if two folders cannot be exchanged.
 const REPLACED: &str = "replaced";
 
-/// Something new and not yet locked is a leftover after this time; making and locking takes a moment.
+/// New output that is not yet locked is a leftover after this time; creating and locking takes a moment.
 const SHORT: Duration = Duration::from_secs(60);
 
-/// A place for unfinished output beside its target, with its lock.
+/// A place for unfinished output next to its target, with its lock.
 #[derive(Debug)]
 pub(crate) struct Place {
     pub(super) path: PathBuf,
-    /// Held as long as the place is; none where the system has no locks for it.
+    /// Held as long as the place exists; none if the system has no locks for it.
     _lock: Option<File>,
 }
 
 impl Place {
-    /// Makes a folder or an empty file for what will be called `target`.
+    /// Creates a folder or an empty file for the output that will be called `target`.
     pub(crate) fn make(target: &Path, folder: bool) -> Result<Self> {
         // Random by the standard library's own source, with no seed: two processes may have the same number (containers).
         let number = RandomState::new().build_hasher().finish();
@@ -59,13 +59,13 @@ fn beside(target: &Path, number: u64, end: &str) -> PathBuf {
     target.with_file_name(format!(".{name}.{number:016x}.{end}"))
 }
 
-/// Removes a file or a folder with all in it. A failure leaves what is there, under a name that says what it is.
+/// Removes a file, or a folder with its contents. After a failure the rest remains, under a name that marks it as a leftover.
 pub(crate) fn remove(path: &Path) {
     let folder = path.symlink_metadata().is_ok_and(|there| there.is_dir());
     let _ = if folder { fs::remove_dir_all(path) } else { fs::remove_file(path) };
 }
 
-/// Removes what killed runs left on their way to `target`, and puts back what one of them was about to replace. Says what it did.
+/// Removes leftovers of killed runs for `target`, and restores the folder that one of them was about to replace. Returns a description.
 pub fn sweep(target: &Path) -> Vec<String> {
     let folder = target.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let Some(name) = target.file_name() else { return Vec::new() };
@@ -80,16 +80,13 @@ pub fn sweep(target: &Path) -> Vec<String> {
         }
         if end == REPLACED && target.symlink_metadata().is_err() {
             if disk::rename(&path, target).is_ok() {
-                done.push(format!(
-                    "put {} back, which a run that was killed was about to replace",
-                    target.display()
-                ));
+                done.push(format!("restored {}, which a killed run was about to replace", target.display()));
             }
             continue;
         }
         remove(&path);
         if path.symlink_metadata().is_err() {
-            done.push(format!("removed {found}, left by a run that was killed"));
+            done.push(format!("removed {found}, left by a killed run"));
         }
     }
     done

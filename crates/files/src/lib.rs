@@ -1,4 +1,4 @@
-//! Datasets on disk: a folder that appears whole or not at all.
+//! Datasets on disk, written atomically.
 
 pub mod columns;
 mod csv_table;

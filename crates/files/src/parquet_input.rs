@@ -1,4 +1,4 @@
-//! Reading Parquet files that may be damaged: every count is checked against the data before anything is made for it.
+//! Reading Parquet files that may be damaged: every count is checked against the data before anything is allocated.
 
 use parquet::column::reader::ColumnReaderImpl;
 use parquet::data_type::DataType;
@@ -10,15 +10,15 @@ use std::fs::File;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-/// Rows that are read at a time: what a page claims to hold is never believed beyond this.
+/// Rows that are read at a time: the row count claimed by a page is never trusted beyond this.
 const BATCH: usize = 1 << 16;
 
 thread_local! {
     static DECODING: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether this thread reads a Parquet file now: the library panics on some damaged files, which is caught and becomes an error. A
-/// program's panic hook may stay quiet meanwhile.
+/// Whether this thread is reading a Parquet file: the library panics on some damaged files, which is caught and becomes an error. A
+/// program's panic hook may stay silent meanwhile.
 #[must_use]
 pub fn decoding() -> bool {
     DECODING.get()
@@ -28,7 +28,7 @@ pub fn decoding() -> bool {
 pub fn read<T>(path: &Path, contents: impl FnOnce(&SerializedFileReader<File>) -> Result<T>) -> Result<T> {
     let length = path.metadata()?;
     if !length.is_file() {
-        return Err(wrong("it is no file"));
+        return Err(wrong("it is not a file"));
     }
     DECODING.set(true);
     let read = catch_unwind(AssertUnwindSafe(|| {
@@ -40,7 +40,7 @@ pub fn read<T>(path: &Path, contents: impl FnOnce(&SerializedFileReader<File>) -
     read.unwrap_or_else(|_| Err(wrong("it is damaged")))
 }
 
-/// The footer must fit the file: the library asserts some of this, and believes the rest.
+/// The footer must be consistent with the file: the library asserts some of this, and trusts the rest.
 fn check(metadata: &ParquetMetaData, length: u64) -> Result<()> {
     let length = i64::try_from(length).unwrap_or(i64::MAX);
     let mut rows = 0_i64;

@@ -17,7 +17,7 @@ const GROUP_ROWS: usize = 1 << 18;
 /// A column to be written.
 pub(crate) struct Field<'c> {
     pub(crate) name: &'c str,
-    /// What it is, with its unit.
+    /// Its meaning, with its unit.
     pub(crate) meaning: &'c str,
     pub(crate) values: Values<'c>,
 }
@@ -31,7 +31,7 @@ pub(crate) enum Values<'c> {
     Text(&'c [String]),
 }
 
-/// Writes columns of equal length with these entries in the metadata; meanings are an entry of their own, `motiform.columns`.
+/// Writes columns of equal length with these entries in the metadata; meanings are a separate entry, `motiform.columns`.
 pub(crate) fn write<W: Write + Send>(
     out: W,
     columns: &[Field<'_>],

@@ -58,7 +58,7 @@ fn try_read(path: &Path) -> Result<Table> {
     })
 }
 
-/// What was written as `metadata`, if the file has it.
+/// The `metadata` that was written, if the file has it.
 pub(crate) fn read_metadata(path: &Path) -> std::result::Result<Option<String>, Error> {
     let read = parquet_input::read(path, |reader| {
         let entries = reader.metadata().file_metadata().key_value_metadata();

@@ -1,4 +1,4 @@
-//! Output that appears whole or not at all: everything is written beside its place and renamed when complete.
+//! Atomic output: everything is written next to its destination and renamed when complete.
 
 use super::disk;
 use super::leftovers::{Place, remove, replaced, sweep};
@@ -7,10 +7,10 @@ use motiform_study::input;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The name every dataset folder's manifest has.
+/// The name of the manifest in every dataset folder.
 pub(super) const MANIFEST: &str = "manifest.json";
 
-/// A place where output is written before it gets its name. Dropped without [`Staging::commit`], it leaves nothing.
+/// A place where output is written before it is renamed. Dropped without [`Staging::commit`], it leaves nothing behind.
 #[derive(Debug)]
 pub struct Staging {
     target: PathBuf,
@@ -25,12 +25,12 @@ impl Staging {
     /// Prepares a folder (`folder`) or a file at `target`, before any work is done.
     ///
     /// # Errors
-    /// [`Error::Exists`] without `force`; [`Error::NotOurs`] for a folder that is no dataset; [`Error::Unwritable`].
+    /// [`Error::Exists`] without `force`; [`Error::NotOurs`] for a folder that is not a dataset; [`Error::Unwritable`].
     pub fn new(target: &Path, folder: bool, force: bool) -> Result<Self, Error> {
         Self::prepare(target, folder, force, if folder { is_dataset } else { Path::is_file })
     }
 
-    /// Prepares a folder at `target` that may replace, with `force`, one that is `ours`.
+    /// Prepares a folder at `target`; with `force`, it may replace one that is `ours`.
     ///
     /// # Errors
     /// As [`Staging::new`].
@@ -57,7 +57,7 @@ impl Staging {
         Ok(Self { target: target.to_owned(), place, folder, force, committed: false, swept })
     }
 
-    /// What was found and removed of runs to this target that were killed, in sentences.
+    /// The leftovers of killed runs with this target that were found and removed, in sentences.
     #[must_use]
     pub fn swept(&self) -> &[String] {
         &self.swept
@@ -75,7 +75,7 @@ impl Staging {
         &self.target
     }
 
-    /// The same failure with the name that the output would have had.
+    /// The same failure with the final name of the output.
     #[must_use]
     pub fn shown(&self, error: Error) -> Error {
         match error {
@@ -93,13 +93,13 @@ impl Staging {
     /// Writes a file inside the folder.
     ///
     /// # Errors
-    /// [`Error::WriteFailed`], naming the file as it would have been called.
+    /// [`Error::WriteFailed`] with the final name of the file.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Error> {
         disk::write(&self.path().join(name), bytes)
             .map_err(|error| Error::write_failed(&self.target.join(name), error))
     }
 
-    /// Gives the output its name, replacing what was there if that was allowed.
+    /// Renames the output to its final name, replacing existing output if that was allowed.
     ///
     /// # Errors
     /// [`Error::Exists`] if something appeared there in the meantime, [`Error::WriteFailed`].
@@ -123,7 +123,7 @@ impl Staging {
         if self.folder { disk::sync_all(self.path()) } else { fs::File::open(self.path())?.sync_all() }
     }
 
-    /// Puts the folder in the place of the one that is there: at no moment is there none, where the system can exchange two.
+    /// Replaces the existing folder; if the system can exchange two folders, one exists at every moment.
     fn replace(&self) -> std::io::Result<()> {
         if disk::exchange(self.path(), &self.target) {
             remove(self.path()); // the old one, which has the unfinished one's name now
@@ -139,14 +139,14 @@ impl Staging {
     }
 }
 
-/// Whether a folder is one of ours. Many programs call a file `manifest.json`: it must say that motiform wrote it.
+/// Whether motiform wrote a folder. Many programs use the name `manifest.json`: the file must state that motiform wrote it.
 fn is_dataset(folder: &Path) -> bool {
     let manifest = input::manifest(&folder.join(MANIFEST)).unwrap_or_default();
     let manifest: serde_json::Value = serde_json::from_str(&manifest).unwrap_or_default();
     manifest["motiform"].is_string() && manifest["plan_hash"].is_string()
 }
 
-/// Writes a file whole or not at all, replacing an earlier one.
+/// Writes a file atomically, replacing an existing one.
 ///
 /// # Errors
 /// [`Error::Unwritable`], [`Error::WriteFailed`].

@@ -8,10 +8,10 @@ use motiform_models::tensor::fourier::{DIM, FourierField, terms};
 /// Shape and position.
 pub const STATE: usize = DIM + 2;
 
-/// A tensor model, and where its orbit starts.
+/// A tensor model, and the initial state of its orbit.
 #[derive(Clone, Copy)]
 pub struct TensorStart {
-    /// What its states are handed back with.
+    /// The key that is returned with its states.
     pub key: usize,
     /// The model, which must be such that [`has_ensemble`].
     pub tensor: Tensor,
@@ -19,14 +19,14 @@ pub struct TensorStart {
     pub start: [f64; STATE],
 }
 
-/// Whether a model's orbits run in lanes: it has no other than the common terms.
+/// Whether a model's orbits run in lanes: it has only the common terms.
 #[must_use]
 pub fn has_ensemble(tensor: &Tensor) -> bool {
     tensor.terms() & !terms::COMMON == 0
 }
 
 /// Runs the orbits that `next` gives, on this thread; `done` gets the states of each at all times, or `None` where a single orbit has to
-/// say what happened. `false`, and nothing done, on a machine without lanes. See [`propagate`].
+/// say what happened. `false`, without any work, on a machine without lanes. See [`propagate`].
 pub fn propagate_tensors(
     how: &Propagation<'_>,
     next: &mut dyn FnMut() -> Option<TensorStart>,

@@ -8,7 +8,7 @@ use motiform_dynamics::{Equivariant, StepControl, Watch};
 use motiform_models::tensor::Tensor;
 use motiform_models::tensor::fourier::{DIM, FourierField, terms};
 
-/// A tensor model as a body that is asked for exponents.
+/// A tensor model as a body for exponents.
 struct Body(Tensor);
 
 impl AsRef<dyn Equivariant> for Body {
@@ -17,15 +17,15 @@ impl AsRef<dyn Equivariant> for Body {
     }
 }
 
-/// Whether [`exponents_of_tensor`] can answer: all exponents, of a model within the common terms, by a method that has lanes.
+/// Whether [`exponents_of_tensor`] is applicable: all exponents, of a model within the common terms, by a method that has lanes.
 #[must_use]
 pub fn has_exponents(tensor: &Tensor, settings: &LyapunovSettings) -> bool {
     settings.count == DIM && tensor.terms() & !terms::COMMON == 0 && runs_in_lanes(settings)
 }
 
-/// All exponents of the orbits of one tensor model that begin where `next` says; each answer goes to `done` with the start's
+/// All exponents of the orbits of one tensor model with the initial states from `next`; each result is passed to `done` with the start's
 /// key. The same bits as [`motiform_analysis::lyapunov()`] gives one by one. When `watch` stops it, the rest is left.
-/// Nothing, where [`has_exponents`] says no.
+/// Does nothing if [`has_exponents`] is false.
 pub fn exponents_of_tensor(
     tensor: &Tensor,
     settings: &LyapunovSettings,

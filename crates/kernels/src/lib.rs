@@ -1,7 +1,7 @@
-//! What is compiled for the lanes of vector registers: an analysis times a model.
+//! Code compiled for the lanes of vector registers: an analysis applied to a model.
 //!
-//! An analysis never names a model, and a model no analysis; a kernel is their product, for each instruction set and
-//! arithmetic. Compiling it takes minutes, so it has a crate of its own, which changes rarely.
+//! An analysis never names a model, and a model never names an analysis; a kernel combines them, for each instruction set and
+//! arithmetic. Compiling it takes minutes, so it is in a separate crate, which changes rarely.
 
 mod ensemble;
 mod exponents;

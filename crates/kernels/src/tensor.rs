@@ -8,7 +8,7 @@ use motiform_models::tensor::fourier::{DIM, FourierField, terms};
 
 /// One body to classify.
 pub struct TensorRow {
-    /// What its verdict is handed back with.
+    /// The key that is returned with its verdict.
     pub key: usize,
     /// The body.
     pub body: Box<dyn Model>,
@@ -24,7 +24,7 @@ pub fn covering(needed: u32) -> u32 {
     if needed & !terms::COMMON == 0 { terms::COMMON } else { terms::ALL }
 }
 
-/// Names the motion of all rows that `next` gives, whose terms must be within `covering` (a set that [`covering()`]
+/// Classifies the motion of all rows that `next` gives, whose terms must be within `covering` (a set that [`covering()`]
 /// gave); each verdict goes to `done` with the row's key. Verdicts are those of [`motiform_analysis::classify`] to the
 /// last bit. When `watch` stops it, the rest is left.
 pub fn classify_tensors(

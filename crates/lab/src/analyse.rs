@@ -1,4 +1,4 @@
-//! A plan, and a question about its motion: which one is it, and do neighbouring orbits separate?
+//! Analyses of the motion of a plan: its regime and its Lyapunov exponents.
 
 use motiform_analysis::regime::{Settings, Verdict};
 use motiform_analysis::{Lyapunov, LyapunovSettings, SoFar};
@@ -9,11 +9,11 @@ use motiform_models::ModelInfo;
 use motiform_study::plan::{Control, LONGEST, check, check_no_noise};
 use motiform_study::{Error, Plan};
 
-/// Names the motion that starts from the plan's initial state, spending at most `budget` model time (the model's
-/// default, if 0); `None` if the monitor asked to stop. The plan's transient and recording do not matter.
+/// Classifies the motion that starts from the plan's initial state, within at most `budget` model time (the model's
+/// default, if 0); `None` if the watch stopped it. The plan's transient and recording do not matter.
 ///
 /// # Errors
-/// Input that only the numerics can refuse.
+/// Input that only the numerics can reject.
 pub fn classify(plan: &Plan, budget: f64, watch: &dyn Watch) -> Result<Option<Verdict>, Error> {
     let (model, shape) = start(plan)?;
     let settings = settings(plan, budget)?;
@@ -32,7 +32,7 @@ pub fn settings(plan: &Plan, budget: f64) -> Result<Settings, Error> {
     Ok(settings_of(info, plan.method()?, c.control, bounds, budget))
 }
 
-/// The classifier's settings: looks and budget (where that is 0) are the model's, the rest is the plan's.
+/// The classifier's settings: looks and budget (if that is 0) are those of the model, the rest is that of the plan.
 pub(crate) fn settings_of(
     info: &ModelInfo,
     method: Method,
@@ -44,11 +44,11 @@ pub(crate) fn settings_of(
     Settings { method, control: control.into(), first_look: info.look, budget, escape_norm, max_steps }
 }
 
-/// The `count` largest Lyapunov exponents of the plan's motion, averaged over `t_end` after `transient` (where not
+/// The `count` largest Lyapunov exponents of the plan's motion, averaged over `t_end` after `transient` (if not
 /// given: twenty looks of the model after four).
 ///
 /// # Errors
-/// A count the model does not have; input that only the numerics can refuse.
+/// A count the model does not have; input that only the numerics can reject.
 pub fn lyapunov(
     plan: &Plan,
     count: usize,
@@ -58,7 +58,7 @@ pub fn lyapunov(
     lyapunov_followed(plan, count, (transient, t_end), watch, &mut |_| {})
 }
 
-/// As [`lyapunov`], shown to `follow` while it is averaged.
+/// As [`lyapunov`]; `follow` receives the averages as they are computed.
 ///
 /// # Errors
 /// As [`lyapunov`].
@@ -99,7 +99,7 @@ pub(crate) fn lyapunov_settings(
     })
 }
 
-/// The model of a plan that has no noise: questions are asked of the flow.
+/// The model of a plan without noise: analyses refer to the flow.
 pub(crate) fn model(plan: &Plan) -> Result<Box<dyn Model>, Error> {
     check_no_noise(plan.computation.noise.map_or(0.0, |noise| noise.largest()))?;
     Ok(plan.info()?.build(&plan.computation.parameters.values())?)

@@ -23,7 +23,7 @@ pub struct Member {
 /// `count` members with the plan's parameters and random starts at the origin, from the plan's seed.
 ///
 /// # Errors
-/// An unknown model, or a distribution that makes no sense.
+/// An unknown model, or an invalid distribution.
 pub fn random_members(plan: &Plan, count: usize, random: Random) -> Result<Vec<Member>, Error> {
     random.check()?;
     let (info, c) = (plan.info()?, &plan.computation);
@@ -37,7 +37,7 @@ pub fn random_members(plan: &Plan, count: usize, random: Random) -> Result<Vec<M
     Ok((0..count).map(member).collect())
 }
 
-/// Where one orbit was at the times asked for.
+/// The states of one orbit at the requested times.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     /// The model's coordinates, then x and y, for each time that it reached.
@@ -46,14 +46,14 @@ pub struct Track {
     pub outcome: Outcome,
 }
 
-/// The tracks of `members`, in their order, at `times` (increasing, the first one not before 0), by the method and the tolerances of
-/// `plan`; `None` if the monitor asked to stop. The plan's own parameters, start, transient and time span are not used.
+/// The tracks of `members`, in their order, at `times` (increasing, the first one at least 0), with the method and the tolerances of
+/// `plan`; `None` if the watch stopped it. The plan's own parameters, start, transient and time span are not used.
 ///
-/// Tensor models with the paper's terms run in the lanes of vector registers where the method is dop853 with a tolerance. A track does
+/// Tensor models with the paper's terms run in the lanes of vector registers if the method is dop853 with a tolerance. A track does
 /// not depend on the other members, on `threads`, or on the machine.
 ///
 /// # Errors
-/// Parameters or a start that the model refuses, times that are not increasing, a plan with noise.
+/// Parameters or a start that the model rejects, times that are not increasing, a plan with noise.
 ///
 /// # Checked by  tests/ensemble.rs: tracks against single runs to the bit, for both models
 pub fn tracks(
@@ -84,7 +84,7 @@ fn check_times(times: &[f64]) -> Result<(), Error> {
     Ok(())
 }
 
-/// How lanes run, where the plan's method has lanes.
+/// The settings of lanes, if the plan's method has lanes.
 fn lanes<'t>(plan: &Plan, times: &'t [f64]) -> Option<Propagation<'t>> {
     let c = &plan.computation;
     let StepControl::Adaptive { rtol, atol } = c.control.into() else { return None };

@@ -1,4 +1,4 @@
-//! The steady motions of a plan: shapes that do not change but for a steady rotation.
+//! The steady motions of a plan: shapes that are constant up to a steady rotation.
 
 use crate::analyse;
 use crate::naming::steady;
@@ -15,7 +15,7 @@ use serde::Serialize;
 pub struct Equilibrium {
     /// Its name: motionless, straight or circular.
     pub motion: Regime,
-    /// Its shape, one of those that differ by a rotation.
+    /// Its shape; all rotated copies are equilibria too.
     pub shape: Named,
     /// Speed of the centre of mass (model length per model time).
     pub speed: f64,
@@ -25,26 +25,26 @@ pub struct Equilibrium {
     pub eigenvalues: Vec<(f64, f64)>,
     /// Number of eigenvalues with a positive real part, beyond round-off: 0 is stable.
     pub unstable: usize,
-    /// What Newton's method left of `f(u) - omega G u`.
+    /// The residual of `f(u) - omega G u` after Newton's method.
     pub residual: f64,
-    /// The part of the random starts that led here.
+    /// The fraction of the random starts that converged to it.
     pub share: f64,
 }
 
-/// Starts are drawn in these sizes in turn: the states of these models have entries of about 1.
+/// Starts are drawn with these sizes in turn: the states of these models have entries of about 1.
 const SIZES: [f64; 6] = [0.01, 0.1, 0.3, 1.0, 2.0, 4.0];
 
-/// Equilibria nearer to each other than this, relative to their size, are one. Where eigenvalues vanish, Newton's method
+/// Equilibria nearer to each other than this, relative to their size, are identified. If eigenvalues vanish, Newton's method
 /// gives few digits.
 const SAME: f64 = 1e-6;
 
 /// The equilibria that Newton's method finds from the circle and from `starts` random shapes of several sizes, the most
-/// stable first; mirror images count as different. There may be others: nothing proves that these are all.
+/// stable first; mirror images count as different. The list may be incomplete.
 ///
-/// `None` if the monitor asked to stop.
+/// `None` if the watch stopped it.
 ///
 /// # Errors
-/// A plan with noise; what the model refuses of its parameters.
+/// A plan with noise; parameters that the model rejects.
 pub fn equilibria(plan: &Plan, starts: usize, watch: &dyn Watch) -> Result<Option<Vec<Equilibrium>>, Error> {
     check("starts", starts as f64, starts > 0, "give at least 1")?;
     let model = analyse::model(plan)?;
@@ -68,7 +68,7 @@ pub fn equilibria(plan: &Plan, starts: usize, watch: &dyn Watch) -> Result<Optio
     Ok(Some(found.into_iter().map(|(found, hits)| describe(model.as_ref(), found, hits, starts)).collect()))
 }
 
-/// Adds an equilibrium, or a hit to the one that it is.
+/// Adds an equilibrium, or counts another start for an existing one.
 fn count(
     found: &mut Vec<(RelativeEquilibrium, usize)>,
     new: RelativeEquilibrium,

@@ -4,7 +4,7 @@ use motiform_dynamics::Outline;
 use motiform_files::{Fields, Format, Staging};
 use motiform_study::{Dataset, Error};
 
-/// Most times that are kept (rows are skipped evenly beyond it).
+/// Maximum number of times that are kept (beyond it, rows are skipped evenly).
 const TIMES: usize = 2000;
 
 /// Points along the boundary, of phi and of an outline.

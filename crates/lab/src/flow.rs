@@ -1,9 +1,9 @@
-//! The vector field in the coordinates that people read.
+//! The vector field in the named coordinates.
 
 use motiform_dynamics::model::velocity;
 use motiform_dynamics::{Model, VectorField};
 
-/// Rates and velocities of a model in its named coordinates ([`Model::coordinates`]), for integrators of others.
+/// Rates and velocities of a model in its named coordinates ([`Model::coordinates`]), for external integrators.
 #[derive(Debug)]
 pub struct Flow<M> {
     model: M,
@@ -48,7 +48,7 @@ impl<M: AsRef<dyn Model>> Flow<M> {
 mod tests {
     use motiform_models::MODELS;
 
-    /// What [`Model::encode`] promises, and rates in coordinates need: both maps are linear, and each other's inverse.
+    /// Property of [`Model::encode`] that rates in coordinates need: both maps are linear, and inverse to each other.
     #[test]
     fn coordinates_are_linear_in_the_state() {
         for info in MODELS {

@@ -1,4 +1,4 @@
-//! The laboratory: what carries plans out. A [`Plan`](motiform_study::Plan) is simulated, asked for its motion, its exponents and its
+//! The laboratory executes plans. A [`Plan`](motiform_study::Plan) is simulated, or analysed for its motion, its exponents and its
 //! steady shapes; a [`ScanPlan`](motiform_study::ScanPlan) is computed row by row; datasets and scans become figures.
 
 pub mod analyse;
@@ -10,7 +10,7 @@ pub mod fields;
 pub mod flow;
 pub mod live;
 pub mod naming;
-mod pool;
+pub mod pool;
 mod readings;
 pub mod registry;
 pub mod saddle;

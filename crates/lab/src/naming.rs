@@ -1,4 +1,4 @@
-//! The motion that was simulated, by name: a short look from where the run ended.
+//! The regime of a simulated motion, from a short integration after the end of the run.
 
 use crate::analyse;
 use motiform_analysis::RelativeEquilibrium;
@@ -8,15 +8,15 @@ use motiform_dynamics::Outcome;
 use motiform_dynamics::Watch;
 use motiform_study::{Error, Manifest};
 
-/// Model time to spend, in looks of the model: a motion that has settled is decided within the first.
+/// Maximum model time, in looks of the model: a motion that has settled is identified within the first.
 const LOOKS: f64 = 2.0;
 
-/// Names the motion at the end of a run, spending a few looks of the model on it. `None` where that does not decide; of a
-/// run that did not complete, or is under noise; and where the monitor asked to stop. The whole question is asked by
+/// Classifies the motion at the end of a run within a few looks of the model. `None` if this is inconclusive; for a
+/// run that did not complete, or is under noise; and if the watch stopped it. The full classification is done by
 /// [`analyse::classify`].
 ///
 /// # Errors
-/// Input that only the numerics can refuse.
+/// Input that only the numerics can reject.
 ///
 /// # Checked by  tests/naming.rs: the presets' motions, other parameters, noise, blow-up
 pub fn name(manifest: &Manifest, watch: &dyn Watch) -> Result<Option<Verdict>, Error> {

@@ -1,21 +1,21 @@
-//! Work spread over threads: jobs are numbered, each thread takes the next one, and answers come back in the order of the jobs.
+//! Work distributed over threads: jobs are numbered, each thread takes the next one, and answers come back in the order of the jobs.
 
-use motiform_dynamics::Watch;
+use motiform_dynamics::{StopOnly, Watch};
 use motiform_study::Error;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The jobs that are left, and the answers that are there.
+/// The remaining jobs, and the answers so far.
 pub(crate) struct Jobs<'p, A> {
     count: usize,
     next: AtomicUsize,
-    /// The answers, how many there are, and what went wrong first.
+    /// The answers, their number, and the first error.
     found: Mutex<(Vec<Option<A>>, usize, Option<Error>)>,
     watch: &'p dyn Watch,
 }
 
 impl<A> Jobs<'_, A> {
-    /// The number of the next job; `None` if there is none, or it is time to stop. A thread may hold several jobs at once.
+    /// The number of the next job; `None` if there is none, or if the work was stopped. A thread may hold several jobs at once.
     pub(crate) fn next(&self) -> Option<usize> {
         if self.watch.stopped() || held(&self.found).2.is_some() {
             return None;
@@ -49,7 +49,7 @@ impl<A> Jobs<'_, A> {
     }
 }
 
-/// Answers to `count` jobs, in their order, by `work` on each of `threads` threads; `None` if the monitor asked to stop.
+/// Answers to `count` jobs, in their order, by `work` on each of `threads` threads; `None` if the watch stopped it.
 ///
 /// # Errors
 /// The first error of a job.
@@ -63,7 +63,9 @@ pub(crate) fn spread<A: Send>(
     let jobs = Jobs { count, next: AtomicUsize::new(0), found: Mutex::new((answers, 0, None)), watch };
     std::thread::scope(|scope| {
         for _ in 1..threads.min(count) {
-            scope.spawn(|| work(&jobs));
+            if std::thread::Builder::new().spawn_scoped(scope, || work(&jobs)).is_err() {
+                break; // the system gives no more threads: those that there are do the work
+            }
         }
         work(&jobs);
     });
@@ -74,7 +76,24 @@ pub(crate) fn spread<A: Send>(
     }
 }
 
-/// The lock, also where another thread panicked with it: what it guards is whole at every point.
+/// The answer to each item, on `threads` threads, in the order of the items. The watch only stops the work:
+/// it receives no progress.
+///
+/// # Errors
+/// The first error of an item; [`Error::Interrupted`] if the watch stopped the work.
+pub fn each<I: Sync, A: Send>(
+    items: &[I],
+    threads: usize,
+    watch: &dyn Watch,
+    answer: impl Fn(&I) -> Result<A, Error> + Sync,
+) -> Result<Vec<A>, Error> {
+    let found = spread(items.len(), threads, &StopOnly(watch), |jobs| {
+        jobs.each(|job| answer(&items[job]).map(Some));
+    })?;
+    found.ok_or(Error::Interrupted)
+}
+
+/// The lock, even if another thread panicked while holding it: the guarded data are consistent at every point.
 pub(crate) fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,4 +1,4 @@
-//! What is read off recorded states: the tables of a dataset, the numbers of its manifest.
+//! Quantities computed from recorded states: the tables of a dataset, the numbers of its manifest.
 
 use motiform_dynamics::model::{turning_rate, velocity_and_acceleration};
 use motiform_dynamics::{Model, Trajectory};
@@ -6,7 +6,7 @@ use motiform_study::plan::{Computation, Named};
 use motiform_study::study::ReturnMapSettings;
 use motiform_study::table::Table;
 
-/// The trajectory as a table, with what is read off it.
+/// The trajectory as a table, with derived quantities.
 pub(crate) fn motion(model: &dyn Model, trajectory: &Trajectory, c: &Computation) -> Table {
     let atol = c.control.absolute_tolerance();
     // A velocity that is read off a shape under noise has no derivative.

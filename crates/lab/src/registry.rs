@@ -1,4 +1,4 @@
-//! Everything that has a name, as JSON: models, parameters, presets, steppers, regimes. Front ends are made of it.
+//! All names as JSON: models, parameters, presets, steppers, regimes. Front ends are built from it.
 
 use crate::scan::NUMBERS;
 use motiform_analysis::regime::{Attractor, Regime};
@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 /// The registry.
 ///
 /// # Errors
-/// A preset or a model that does not stand up to its own checks.
+/// A preset or a model that fails its own checks.
 pub fn registry() -> Result<Value, Error> {
     let named = |entries: &[(&str, &str)]| -> Vec<Value> {
         entries.iter().map(|(name, meaning)| json!({ "name": name, "meaning": meaning })).collect()

@@ -1,4 +1,4 @@
-//! Chaos that does not last: the exponent of the chaotic saddle, and the rate at which orbits leave it.
+//! Transient chaos: the exponent of the chaotic saddle, and the rate at which orbits leave it.
 
 use crate::analyse;
 use crate::pool::spread;
@@ -14,10 +14,10 @@ use serde::Serialize;
 /// Size of the random starts.
 const RANDOM: f64 = 0.01;
 
-/// The part of a first look that is left out before an escape: there the orbit is on its way out, no longer chaotic.
+/// The fraction of a first look that is excluded before an escape: there the orbit is escaping and no longer chaotic.
 const WAY_OUT: f64 = 0.25;
 
-/// What many runs from random starts say about a chaotic saddle.
+/// The properties of a chaotic saddle from many runs with random starts.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Saddle {
     /// Largest exponent on the saddle (inverse model time), with its 95 % error from the spread over the runs.
@@ -33,9 +33,9 @@ pub struct Saddle {
     pub runs: usize,
     /// Runs that escaped.
     pub escaped: usize,
-    /// How long each was watched at most.
+    /// Maximum observation time of each.
     pub t_end: f64,
-    /// The share that stays, over time.
+    /// The share that remains, over time.
     #[serde(skip)]
     pub survival: Vec<SurvivalStep>,
 }
@@ -44,12 +44,12 @@ pub struct Saddle {
 /// random starts, growth counted from `transient` (default: half a look) to a quarter of a look before the escape.
 ///
 /// lambda_1 = sum of growth / sum of time over all stretches; its error is that of a ratio of sums over independent runs.
-/// `None` if the monitor asked to stop.
+/// `None` if the watch stopped it.
 ///
 /// # Errors
-/// Input that only the numerics can refuse.
+/// Input that only the numerics can reject.
 ///
-/// # Not     where a harmless attractor catches some of the runs: their stretches count as well (see `escaped`)
+/// # Not     if a nonchaotic attractor attracts some of the runs: their stretches count as well (see `escaped`)
 pub fn saddle(
     plan: &Plan,
     samples: usize,
@@ -91,11 +91,8 @@ fn summarise(runs: &[Lyapunov], settings: &LyapunovSettings, way_out: f64) -> Re
         })
         .collect();
     let exponent = ratio(&stretches);
-    let missing = if exponent.is_some() {
-        ""
-    } else {
-        "too few runs stayed long enough; ask for a shorter --transient"
-    };
+    let missing =
+        if exponent.is_some() { "" } else { "too few runs stayed long enough; give a shorter transient" };
     Ok(Saddle {
         exponent,
         missing: missing.to_owned(),

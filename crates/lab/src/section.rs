@@ -1,4 +1,4 @@
-//! A plan, and where its orbit crosses a surface: one coordinate at a fixed value.
+//! The crossings of a plan's orbit with a surface: one coordinate at a fixed value.
 
 use crate::simulate::after_transient;
 use motiform_dynamics::Watch;
@@ -47,7 +47,7 @@ pub fn section(
     Ok((table(model.as_ref(), &trajectory), outcome.into()))
 }
 
-/// The weights that read coordinate `place` off a state `(shape, x, y)`: coordinates are linear in the state.
+/// The weights that give coordinate `place` of a state `(shape, x, y)`: coordinates are linear in the state.
 fn reading(model: &dyn Model, place: usize) -> Vec<f64> {
     let dim = model.dim();
     let mut weights = vec![0.0; dim + 2];

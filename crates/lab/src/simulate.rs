@@ -16,12 +16,12 @@ use motiform_study::{Ending, Error};
 /// Runs a plan.
 ///
 /// # Errors
-/// Input that only the numerics can refuse. A run that ends early is a [`Dataset`] with its [`Outcome`].
+/// Input that only the numerics can reject. A run that ends early is a [`Dataset`] with its [`Outcome`].
 pub fn simulate(plan: &Plan, watch: &dyn Watch) -> Result<Dataset, Error> {
     let info = plan.info()?;
     let model = info.build(&plan.computation.parameters.values())?;
     let body = InPlane(model.as_ref());
-    let run = Run { plan, computation: &plan.computation, model: model.as_ref(), body: &body, watch };
+    let run = Simulation { plan, computation: &plan.computation, model: model.as_ref(), body: &body, watch };
     run.all()
 }
 
@@ -31,12 +31,12 @@ pub(crate) fn after_transient(
     model: &dyn Model,
     watch: &dyn Watch,
 ) -> Result<(Option<Ending>, Vec<f64>), Error> {
-    let run = Run { plan, computation: &plan.computation, model, body: &InPlane(model), watch };
+    let run = Simulation { plan, computation: &plan.computation, model, body: &InPlane(model), watch };
     let stretch = run.transient(0.0, 1.0)?;
     Ok((stretch.early(), stretch.last))
 }
 
-struct Run<'r> {
+struct Simulation<'r> {
     plan: &'r Plan,
     computation: &'r Computation,
     model: &'r dyn Model,
@@ -60,7 +60,7 @@ impl Stretch {
     }
 }
 
-impl Run<'_> {
+impl Simulation<'_> {
     fn all(&self) -> Result<Dataset, Error> {
         let centring = self.computation.return_map.as_ref().is_some_and(|map| map.centre);
         let passes = if centring { 2.0 } else { 1.0 };
@@ -85,7 +85,7 @@ impl Run<'_> {
         Ok(self.dataset(&second, Some(centre)))
     }
 
-    /// The shape's way through the transient, but for its last part of length `rest`; position put back.
+    /// The shape through the transient, except for its last part of length `rest`; the position is reset.
     fn transient(&self, rest: f64, passes: f64) -> Result<Stretch, Error> {
         let c = self.computation;
         let mut last = start(self.plan, self.model);
@@ -104,8 +104,8 @@ impl Run<'_> {
         Ok(Stretch { ending, trajectory, last, steps: counters.steps, rejected: counters.rejected })
     }
 
-    /// What there is to see of a run that ended during its transient: its last time, as long as the recording would have
-    /// been. Noise is not drawn a second time, and who interrupts does not wait: nothing then.
+    /// The recorded part of a run that ended during its transient: its last interval, as long as the recording would have
+    /// been. Empty with noise, which is not drawn a second time, and after an interruption, which must not wait.
     fn before(&self, ending: Ending) -> Result<Trajectory, Error> {
         let c = self.computation;
         let nothing = Trajectory::new(self.model.dim() + 2);
@@ -156,8 +156,8 @@ impl Run<'_> {
         Ok(Stretch { ending, trajectory, last, steps: counters.steps, rejected: counters.rejected })
     }
 
-    /// The local error of a fixed step at the end of the run, by halving it; `None` for adaptive steps, and where the
-    /// step cannot be made.
+    /// The local error of a fixed step at the end of the run, by halving it; `None` for adaptive steps, and if the
+    /// step is impossible.
     fn step_error(&self, shape: &[f64]) -> Option<f64> {
         let Control::Fixed { step } = self.computation.control else { return None };
         let method = self.plan.method().ok()?;
@@ -205,7 +205,7 @@ impl Run<'_> {
     }
 }
 
-/// The orbit of `model` with the plan's noise, if it has any. Every stretch has a stream of deviates of its own, far from those
+/// The orbit of `model` with the plan's noise, if it has any. Every stretch has a separate stream of deviates, far from those
 /// of the starts: a run's transient is number 0, its recording 1.
 pub(crate) fn noisy<'o>(
     computation: &Computation,

@@ -377,7 +377,7 @@ fn bad_plans_are_refused() {
     assert!(refuse(|study| study.scan.budget = -1.0).contains("budget = -1"));
     assert!(refuse(|study| study.scan.axes[0].values[3] = 2e6).contains("out of range"));
     let cell = preset("fig6a", |study| study.scan.axes = vec![Axis::parse("modes=20:21:3").unwrap()]);
-    assert!(ScanPlan::new(&cell).unwrap_err().to_string().contains("no whole number"));
+    assert!(ScanPlan::new(&cell).unwrap_err().to_string().contains("not a whole number"));
 }
 
 /// The evaluation that comes with the program, on real orbits: the same for one and two threads.
@@ -446,5 +446,5 @@ fn what_a_killed_run_left_is_removed_when_a_scan_goes_on() {
     std::fs::create_dir(&left).unwrap();
     let scan = Scan::open(&folder, &plan(), Shard::WHOLE, Opening::Resume).unwrap();
     assert!(!left.exists());
-    assert!(scan.swept()[0].contains("left by a run that was killed"), "{:?}", scan.swept());
+    assert!(scan.swept()[0].contains("left by a killed run"), "{:?}", scan.swept());
 }

@@ -53,6 +53,9 @@ fn complaints_have_a_place_and_a_remedy() {
         "[model.tensor]\n[scan]\nsample = 4\n",
         "[model.tensor]\n[figure]\nanimation = \"no\"\n",
         "[model.tensor]\n[figures]\nscale = 1\n",
+        "[model.tensor]\n[display]\nspeed = 0.01\n",
+        "[model.tensor]\n[display]\nplane = [\"kappa2=1,0.5\"]\n",
+        "[model.tensor]\n[display]\nplane = [\"kappa2=0,1\", \"kappa2=0,2\"]\n",
         "run = 5\n[model.tensor]\n",
         "free = [\"kappa2\", 5]\n[model.tensor]\n",
         "free = [\"kapa2\"]\n[model.tensor]\n",
@@ -158,10 +161,12 @@ fn the_reader_accepts_every_key_of_the_schema() {
             "either" if key == "initial.random" => "0.5",
             "string" if key == "preset" => "\"fig5a\"",
             "string" => "\"text\"",
+            "number" if key == "display.speed" => "5",
             "number" => "0.5",
             "integer" => "3",
             "boolean" => "true",
             "array" if key == "scan.axes" => "[\"gamma=0:1:3\"]",
+            "array" if key == "display.plane" => "[\"gamma=0,1\"]",
             "array" => "[\"gamma\"]",
             other => panic!("{key}: {other}"),
         };
@@ -188,13 +193,13 @@ fn keys_that_the_reader_knows(info: &ModelInfo) -> BTreeSet<String> {
         let list = complaint.lines().next().unwrap().rsplit_once(" are ").unwrap().1;
         list.split(", ").map(str::to_owned).collect()
     };
-    for table in ["run", "scan", "return_map", "figure"] {
+    for table in ["run", "scan", "return_map", "figure", "display"] {
         let keys = listed(&complaint(&format!("[{model}]\n[{table}]\nzzz = 1\n")));
         known.extend(keys.iter().map(|key| format!("{table}.{key}")));
     }
     let initial = listed(&complaint(&format!("[{model}]\n[initial]\nzzz = 1\n")));
     known.extend(initial.iter().chain([&"random".to_owned()]).map(|key| format!("initial.{key}")));
-    let tables = ["model", "initial", "run", "scan", "return_map", "figure"];
+    let tables = ["model", "initial", "run", "scan", "return_map", "figure", "display"];
     let top = listed(&complaint(&format!("zzz = 1\n[{model}]\n")));
     known.extend(top.into_iter().filter(|key| !tables.contains(&key.as_str())));
     known

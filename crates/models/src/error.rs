@@ -1,10 +1,10 @@
-//! What a caller can get wrong about models.
+//! Errors of input to models.
 
 /// An input that names no model, parameter or coordinate, or a value that cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// No model of this name.
+    /// No model has this name.
     #[error("unknown model {name:?}{}: the models are {}", hint(.nearest), .known.join(", "))]
     UnknownModel {
         /// The name given.
@@ -49,7 +49,7 @@ pub enum Error {
         max: f64,
     },
     /// A number that counts or switches, with a fraction.
-    #[error("{name} = {value} is no whole number: give it without a fraction")]
+    #[error("{name} = {value} is not a whole number: give it without a fraction")]
     NotWhole {
         /// Name of the number.
         name: &'static str,
@@ -63,12 +63,12 @@ pub enum Error {
         modes: usize,
         /// Length of the boundary.
         length: f64,
-        /// The number it needs.
+        /// The required number.
         needed: usize,
     },
     /// The error function is to be added to a shape with fewer modes.
     #[error(
-        "modes = {modes} cannot take up the feedback of closure_modes = {closure_modes}: give as many modes, or feedback = 0"
+        "modes = {modes} cannot represent the feedback of closure_modes = {closure_modes}: give as many modes, or feedback = 0"
     )]
     NoRoomForFeedback {
         /// Number of modes of the shape.
@@ -82,7 +82,7 @@ fn hint(nearest: &Option<&'static str>) -> String {
     nearest.map_or_else(String::new, |name| format!(" (did you mean {name}?)"))
 }
 
-/// The candidate most similar to `name`, if it is similar enough to be a slip of the finger.
+/// The candidate most similar to `name`, if it is similar enough to be a typing error.
 #[must_use]
 pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let lower = name.to_lowercase();
@@ -94,7 +94,7 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
         .map(|(_, candidate)| candidate)
 }
 
-/// A number as people write it: 2000000, but 1e300 and not 300 zeros.
+/// A number in usual notation: 2000000, but 1e300 and not 300 zeros.
 fn written(value: f64) -> String {
     if value.abs() < 1e15 { value.to_string() } else { format!("{value:?}") }
 }

@@ -1,4 +1,4 @@
-//! The models of motiform: what moves. Every model is a shape state with a drift (see `motiform_dynamics::Model`).
+//! The models of motiform. Every model is a shape state with a drift (see `motiform_dynamics::Model`).
 //!
 //! Adding a model is one folder beside [`tensor`] and [`cell`] and one entry in [`registry::MODELS`].
 

@@ -7,19 +7,19 @@ use crate::error::{Error, nearest};
 pub struct ParameterSpec {
     /// The paper's name in ASCII, used everywhere.
     pub name: &'static str,
-    /// How figures write it: letters between `*` are italic, `_` starts a subscript.
+    /// Notation in figures: letters between `*` are italic, `_` starts a subscript.
     pub symbol: &'static str,
-    /// Value when nothing is given.
+    /// The default value.
     pub default: f64,
-    /// Where interesting things happen (axes and sliders).
+    /// The range of interest (axes and sliders).
     pub range: (f64, f64),
-    /// Values that the model can be computed with.
+    /// The allowed values.
     pub allowed: (f64, f64),
-    /// Whether only whole numbers make sense.
+    /// Whether only whole numbers are allowed.
     pub whole: bool,
-    /// The equation it stands in.
+    /// The equation in which it occurs.
     pub equation: &'static str,
-    /// The term it multiplies and what it does, in one sentence.
+    /// The term it multiplies and its effect, in one sentence.
     pub meaning: &'static str,
 }
 
@@ -79,7 +79,7 @@ pub(crate) const fn is_whole(kind: &[&str]) -> bool {
 }
 
 /// Declares a parameter struct together with its registry: `name = default in low .. high`, the range of interest, and
-/// where the model allows less than any number `within smallest .. largest`; a whole number is declared `as whole`.
+/// if the model does not allow every number, `within smallest .. largest`; a whole number is declared `as whole`.
 macro_rules! parameters {
     (
         $(#[$doc:meta])* $name:ident for $model:literal {

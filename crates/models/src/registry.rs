@@ -1,4 +1,4 @@
-//! Every model by name: what the front ends list, and how a model is made from named values.
+//! All models by name, for the front ends, and construction of a model from named values.
 
 use crate::cell::{Cell, CellParameters};
 use crate::error::{Error, nearest};
@@ -7,35 +7,48 @@ use crate::tensor::{self, Tensor, TensorParameters};
 use motiform_dynamics::Model;
 use motiform_dynamics::model::Coordinate;
 
-/// A model as the front ends see it.
+/// A model as presented to the front ends.
 #[derive(Debug)]
 pub struct ModelInfo {
     /// Name on the command line.
     pub name: &'static str,
-    /// One line that says what it is.
+    /// One-line description.
     pub title: &'static str,
     /// The equations, as text.
     pub equations: &'static str,
-    /// Where it comes from.
+    /// Its source.
     pub source: &'static str,
     /// The stepper to use by default.
     pub stepper: &'static str,
     /// The relative tolerance to use by default.
     pub rtol: f64,
-    /// Relative over absolute tolerance, where only the former is given: the inverse of the size below which an entry of the state counts
+    /// Ratio of relative to absolute tolerance, if only the former is given: the inverse of the size below which an entry of the state counts
     /// as small.
     pub tolerance_ratio: f64,
-    /// Some tens of its slowest ordinary time scale (model time): how long to look at a motion first.
+    /// Some tens of its slowest ordinary time scale (model time): the length of the first look at a motion.
     pub look: f64,
-    /// Most model time to spend on naming a motion, by default.
+    /// Default maximum model time for classifying a motion.
     pub budget: f64,
     /// Typical size of its shapes: the norm of their coordinates on the paper's motions, to one digit.
     pub size: f64,
-    /// How large coordinates are in random shapes, by their place.
+    /// The initial display of its bodies.
+    pub display: Display,
+    /// Size of coordinates in random shapes, by their index.
     pub weight: fn(usize) -> f64,
     parameters: fn() -> &'static [ParameterSpec],
     coordinates: fn(&[f64]) -> &'static [Coordinate],
     build: Build,
+}
+
+/// The initial display of the bodies of a model, unless a preset specifies another.
+#[derive(Clone, Copy, Debug)]
+pub struct Display {
+    /// Model time between samples.
+    pub sample: f64,
+    /// Model time per second.
+    pub speed: f64,
+    /// Sides of the map, one or two: parameter, lowest and highest value.
+    pub plane: &'static [(&'static str, f64, f64)],
 }
 
 /// Makes a model from parameter values in registry order.
@@ -54,6 +67,11 @@ pub static MODELS: &[ModelInfo] = &[
         look: 200.0,
         budget: 4e4,
         size: 1.0,
+        display: Display {
+            sample: 0.05,
+            speed: 8.0,
+            plane: &[("kappa2", 0.05, 1.65), ("kappa3", 0.05, 1.05)],
+        },
         weight: |_| 1.0,
         parameters: TensorParameters::specs,
         coordinates: |_| &tensor::COORDINATES,
@@ -70,6 +88,7 @@ pub static MODELS: &[ModelInfo] = &[
         look: 1500.0,
         budget: 1e5,
         size: 4.0,
+        display: Display { sample: 0.5, speed: 80.0, plane: &[("length", 6.0, 32.0)] },
         weight: |place| 1.0 / ((place / 2 + 1) * (place / 2 + 1)) as f64, // mode n: as smooth as a boundary whose slope jumps
         parameters: CellParameters::specs,
         coordinates: |values| from_values::<CellParameters>(values).coordinates(),
@@ -77,7 +96,7 @@ pub static MODELS: &[ModelInfo] = &[
     },
 ];
 
-/// The parameters with these values, in registry order; those left out have their defaults.
+/// The parameters with these values, in registry order; omitted ones have their defaults.
 fn from_values<P: Parameters>(values: &[f64]) -> P {
     let mut parameters = P::default();
     for (index, &value) in values.iter().enumerate() {
@@ -115,8 +134,8 @@ impl ModelInfo {
         })
     }
 
-    /// The absolute tolerance that goes with a relative one, where none is given: `rtol / tolerance_ratio`. So `rtol` alone decides how
-    /// accurate a run is.
+    /// The absolute tolerance for a relative one, if none is given: `rtol / tolerance_ratio`. Thus `rtol` alone sets the accuracy
+    /// of a run.
     ///
     /// # Checked by  lab/tests/tolerances.rs: the global error against the request, for both models
     #[must_use]
@@ -154,8 +173,8 @@ impl ModelInfo {
     /// The model with these values, in registry order.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a value the model cannot be computed with (or that is not finite), and what the model
-    /// itself refuses.
+    /// [`Error::OutOfRange`] for a value the model cannot be computed with (or that is not finite), and what the model itself
+    /// rejects.
     pub fn build(&self, values: &[f64]) -> Result<Box<dyn Model>, Error> {
         for (spec, &value) in self.parameters().iter().zip(values) {
             let (min, max) = spec.allowed;

@@ -121,7 +121,7 @@ fn a_feedback_that_fails_is_an_outcome() {
 fn feedback_is_on_or_off_and_needs_room() {
     let refuse = |p: CellParameters| Cell::new(&p).unwrap_err();
     let half = refuse(CellParameters { feedback: 0.5, ..Default::default() });
-    assert_eq!(half.to_string(), "feedback = 0.5 is no whole number: give it without a fraction");
+    assert_eq!(half.to_string(), "feedback = 0.5 is not a whole number: give it without a fraction");
     assert!(matches!(
         refuse(CellParameters { feedback: 2.0, ..Default::default() }),
         Error::OutOfRange { .. }

@@ -1,4 +1,4 @@
-//! Claims and their verdicts, in few words.
+//! Short constructors of claims and their verdicts.
 
 use motiform_figures::report::{Claim, Source, Verdict};
 
@@ -22,7 +22,7 @@ pub(super) fn claim(
     Claim { source: Source::Paper(sentences.to_vec()), ..check(says, finds, how, holds) }
 }
 
-/// A check of ours, which holds or fails.
+/// An additional check, which holds or fails.
 pub(super) fn check(says: &str, finds: impl Into<String>, how: &str, holds: bool) -> Claim {
     let verdict = if holds {
         Verdict::Holds

@@ -1,16 +1,17 @@
-//! What every chapter needs: studies run, motions named, scans made and kept.
+//! Common tools of all chapters: running studies, classifying motions, computing and storing scans.
 
 use motiform_analysis::Verdict;
 use motiform_dynamics::Watch;
 use motiform_dynamics::{Outcome, StopOnly};
 use motiform_lab::analyse;
+use motiform_lab::pool;
 use motiform_lab::scan::{CellSummary, Classify, Opening, Scan, Shard, cells};
 use motiform_lab::simulate::simulate;
 use motiform_study::{Dataset, Error, Plan, Random, ScanPlan, Study, presets};
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Where and how a chapter works.
+/// The settings of a chapter.
 pub(super) struct Context<'c> {
     /// Scans are kept in folders here.
     pub(super) out: &'c Path,
@@ -26,7 +27,16 @@ impl Context<'_> {
         if self.quick { quick } else { full }
     }
 
-    /// Listens for the stop alone.
+    /// `answer` to each item, on all threads, in the order of the items.
+    pub(super) fn each<I: Sync, A: Send>(
+        &self,
+        items: &[I],
+        answer: impl Fn(&I) -> Result<A, Error> + Sync,
+    ) -> Result<Vec<A>, Error> {
+        pool::each(items, self.threads, self.watch, answer)
+    }
+
+    /// A watch for stopping only.
     pub(super) fn quiet(&self) -> impl Watch + '_ {
         StopOnly(self.watch)
     }
@@ -53,12 +63,12 @@ impl Context<'_> {
         }
     }
 
-    /// Names the motion of a study.
+    /// Classifies the motion of a study.
     pub(super) fn classify(&self, study: &Study) -> Result<Verdict, Error> {
         analyse::classify(&Plan::new(study)?, 0.0, &StopOnly(self.watch))?.ok_or(Error::Interrupted)
     }
 
-    /// Makes a scan (or goes on with it) in the folder `name`, and reads it: its plan, and one summary per cell.
+    /// Computes a scan (or continues it) in the folder `name`, and reads it: its plan, and one summary per cell.
     pub(super) fn scan(&self, name: &str, study: &Study) -> Result<(ScanPlan, Vec<CellSummary>), Error> {
         // as in the paper, motions grow from small perturbations of a circle
         let study = Study { random: study.random.or(Some(Random::SMALL)), ..study.clone() };
@@ -73,7 +83,7 @@ impl Context<'_> {
     }
 }
 
-/// How far chapters are that are rebuilt side by side.
+/// Progress of chapters that are computed in parallel.
 pub(super) struct Progress<'m> {
     watch: &'m dyn Watch,
     /// Of each chapter: its share of the work, and the part of it that is done (bits of a number that only grows).
@@ -87,7 +97,7 @@ impl<'m> Progress<'m> {
     }
 }
 
-/// The part of the whole that a chapter is.
+/// The share of a chapter in the whole.
 pub(super) struct Share<'p> {
     pub(super) progress: &'p Progress<'p>,
     pub(super) index: usize,

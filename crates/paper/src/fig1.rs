@@ -1,4 +1,4 @@
-//! Fig. 1: the phase diagram of velocity and ellipse, against the lines that formulas give.
+//! Fig. 1: the phase diagram of velocity and ellipse, compared with the lines from formulas.
 
 mod correspondence;
 mod grid;
@@ -67,7 +67,7 @@ fn parameters(plan: &motiform_study::ScanPlan) -> Vec<(String, String)> {
     .to_vec()
 }
 
-/// The paper's regions, each where the formulas say it is.
+/// The paper's regions, each at the position given by the formulas.
 fn regions(grid: &Grid) -> Vec<Claim> {
     let says = [
         (Motion::Motionless, 91, "In the region indicated by the cross symbol the domain is motionless."),
@@ -115,7 +115,7 @@ fn order(grid: &Grid) -> Claim {
     )
 }
 
-/// Every cell against the formulas.
+/// Every cell compared with the formulas.
 fn agreement(grid: &Grid) -> Claim {
     let count = grid.agreement();
     let finds = format!(
@@ -130,7 +130,7 @@ fn agreement(grid: &Grid) -> Claim {
     claim(&[84, 90], "The phase diagram, obtained numerically.", finds, how, holds)
 }
 
-/// Each line with a sharp change, found by the scan; without sentences of the paper it is a check of ours.
+/// Each line with a sharp change, found by the scan; without sentences of the paper it is an additional check.
 fn lines(grid: &Grid) -> Vec<Claim> {
     use Line::{
         CircleToStraight, CircularToQuasiPeriodic, EllipseToStraight, QuasiPeriodicToRectangular,

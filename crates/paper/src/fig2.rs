@@ -1,4 +1,4 @@
-//! Fig. 2: rectangular motion, its rests, and what decides its turns.
+//! Fig. 2: rectangular motion, its rests, and the selection of its turns.
 
 mod noisy;
 

@@ -42,7 +42,7 @@ fn at(context: &Context<'_>, kappa2: f64, kappa3: f64) -> Result<Study, Error> {
     })
 }
 
-/// What a study sets, but for the two rates.
+/// The parameters of a study, except the two rates.
 fn parameters(study: &Study) -> Result<Vec<(String, String)>, Error> {
     let specs = study.info()?.parameters().iter().zip(study.values()?);
     let set = specs.filter(|(spec, value)| *value != 0.0 && !spec.name.starts_with("kappa"));
@@ -60,12 +60,12 @@ fn parameters(study: &Study) -> Result<Vec<(String, String)>, Error> {
     Ok(rows)
 }
 
-/// A drawing with its words.
+/// A drawing with its texts.
 pub(super) fn figure(drawn: Drawn, caption: impl Into<String>) -> ReportFigure {
     ReportFigure::new(drawn, caption)
 }
 
-/// A number with two digits and a power of ten, as people write it: `1.5×10^{-4}`, `10^{-9}`.
+/// A number with two digits and a power of ten, in usual notation: `1.5×10^{-4}`, `10^{-9}`.
 pub(super) fn power(x: f64) -> String {
     let text = format!("{x:.1e}");
     let Some((mantissa, exponent)) = text.split_once('e') else { return text };

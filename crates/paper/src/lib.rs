@@ -1,4 +1,4 @@
-//! The paper, rebuilt: every figure computed anew, every claim checked, one report.
+//! Reproduction of the paper: every figure recomputed, every claim checked, one report.
 //!
 //! One file or folder per figure, one for the equations and one for the discussion; each gives a [`Section`] with its pictures and its claims. What all of them need is in
 //! `context.rs`.
@@ -19,8 +19,8 @@ mod strip;
 use context::{Context, Progress, Share};
 use motiform_dynamics::Watch;
 use motiform_figures::report::{Counts, Report, Section};
+use motiform_lab::pool;
 use motiform_study::Error;
-use rayon::prelude::*;
 pub use sentences::{checked_in, entry_of};
 use std::path::Path;
 
@@ -83,7 +83,7 @@ fn finished(name: &str, section: &Section) -> String {
 /// was; `out` must exist.
 ///
 /// # Errors
-/// An unknown name; [`Error::Interrupted`] if the monitor asked to stop; files that cannot be written.
+/// An unknown name; [`Error::Interrupted`] if the watch stopped it; files that cannot be written.
 pub fn reproduce(options: &Options, out: &Path, watch: &dyn Watch) -> Result<Report, Error> {
     options.check()?;
     let wanted = |chapter: &&Chapter| {
@@ -92,11 +92,7 @@ pub fn reproduce(options: &Options, out: &Path, watch: &dyn Watch) -> Result<Rep
     let chapters: Vec<&Chapter> = CHAPTERS.iter().filter(wanted).collect();
     let progress = Progress::new(watch, &chapters.iter().map(|chapter| chapter.work).collect::<Vec<_>>());
     // Much of a chapter is one long run after the other: chapters side by side keep all cores busy.
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(options.threads)
-        .build()
-        .map_err(|error| Error::Threads { threads: options.threads, reason: error.to_string() })?;
-    let rebuild = |(index, chapter): (usize, &&Chapter)| {
+    let rebuild = |&(index, chapter): &(usize, &Chapter)| {
         let share = Share { progress: &progress, index };
         let context = Context { out, quick: options.quick, threads: options.threads, watch: &share };
         let section = (chapter.rebuild)(&context)?;
@@ -104,9 +100,8 @@ pub fn reproduce(options: &Options, out: &Path, watch: &dyn Watch) -> Result<Rep
         share.note(&finished(chapter.name, &section));
         Ok(section)
     };
-    let sections = pool.install(|| {
-        chapters.par_iter().enumerate().with_max_len(1).map(rebuild).collect::<Result<Vec<_>, Error>>()
-    })?;
+    let numbered: Vec<(usize, &Chapter)> = chapters.into_iter().enumerate().collect();
+    let sections = pool::each(&numbered, options.threads, watch, rebuild)?;
     Ok(Report {
         title: "Dynamics of a deformable self-propelled domain, rebuilt".to_owned(),
         about: claims::ABOUT.to_owned(),

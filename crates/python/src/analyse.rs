@@ -1,4 +1,4 @@
-//! Questions about one motion; answers as JSON, which the Python side makes into its classes.
+//! Analyses of one motion; results as JSON, which the Python side converts to its classes.
 
 use crate::errors::{of_json, python};
 use crate::run::{Columns, TableArrays};
@@ -11,7 +11,7 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 
-/// The answer, or what stopped it.
+/// The result, or what stopped the analysis.
 fn answer<T>((answer, raised): (Result<Option<T>, Error>, Option<PyErr>)) -> PyResult<T> {
     if let Some(raised) = raised {
         return Err(raised);
@@ -19,7 +19,7 @@ fn answer<T>((answer, raised): (Result<Option<T>, Error>, Option<PyErr>)) -> PyR
     answer.map_err(python)?.ok_or_else(|| PyKeyboardInterrupt::new_err("interrupted"))
 }
 
-/// What a motion is computed with: stepper, and its tolerances or step.
+/// The accuracy of a motion: stepper, and its tolerances or step.
 fn accuracy(plan: &Plan) -> PyResult<Value> {
     let mut entry = serde_json::to_value(plan.computation.control).map_err(of_json)?;
     entry["stepper"] = json!(plan.computation.stepper);
@@ -44,7 +44,7 @@ pub(crate) fn classify(
     Ok(entry.to_string())
 }
 
-/// The motions that many starts lead to, with their shares.
+/// The motions of many initial states, with their shares.
 #[pyfunction]
 #[pyo3(signature = (study, samples, budget=0.0, threads=1, progress=None))]
 pub(crate) fn motions(
@@ -125,7 +125,7 @@ pub(crate) fn equilibria(
     serde_json::to_string(&found).map_err(of_json)
 }
 
-/// Names, meanings and values of the crossings; how the run ended, as JSON; whether it was complete; the same in words.
+/// Names, meanings and values of the crossings; how the run ended, as JSON; whether it was complete; the same as text.
 type Crossings = (TableArrays, (String, bool, String));
 
 /// The crossings of `coordinate = value`.

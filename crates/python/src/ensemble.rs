@@ -58,7 +58,7 @@ pub(crate) fn ensemble<'py>(
     Ok((states, outcomes))
 }
 
-/// The outcome, whether it is complete, and the same in words.
+/// The outcome, whether it is complete, and the same as text.
 fn ended(track: &Track) -> (motiform_dynamics::Outcome, bool, String) {
     (track.outcome, track.outcome.is_complete(), track.outcome.to_string())
 }

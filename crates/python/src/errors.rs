@@ -1,4 +1,4 @@
-//! Our errors as Python's, with the same words as the command line's.
+//! Conversion of errors to Python exceptions, with the texts of the library and the keywords that mend them.
 
 use motiform_models::Error as ModelError;
 use motiform_study::Error;
@@ -7,18 +7,35 @@ use pyo3::exceptions::{PyFileExistsError, PyKeyboardInterrupt, PyOSError, PyType
 
 /// `ValueError` for input that cannot be used, `OSError` (or `FileExistsError`) for files, `KeyboardInterrupt` for a stop.
 pub(crate) fn python(error: Error) -> PyErr {
-    let text = error.to_string();
+    let remedy = remedy(&error).map_or_else(String::new, |remedy| format!("; {remedy}"));
+    let text = format!("{error}{remedy}");
     match error {
         Error::Interrupted => PyKeyboardInterrupt::new_err(text),
         Error::Exists { .. } | Error::NotOurs { .. } | Error::ScanExists { .. } => {
             PyFileExistsError::new_err(text)
         }
-        Error::Unreadable { .. } | Error::Unwritable { .. } | Error::Busy { .. } | Error::Threads { .. } => {
-            PyOSError::new_err(text)
-        }
+        Error::Unreadable { .. } | Error::Unwritable { .. } | Error::Busy { .. } => PyOSError::new_err(text),
         failure if failure.is_machine_failure() => PyOSError::new_err(text),
         _ => PyValueError::new_err(text),
     }
+}
+
+/// The keywords that mend an error, where there are some.
+fn remedy(error: &Error) -> Option<&'static str> {
+    Some(match error {
+        Error::NoAxis { .. } => "give axes={\"NAME\": values}",
+        Error::ScanExists { .. } => {
+            "resume=True continues it, overwrite=True replaces it; or choose another folder"
+        }
+        Error::OtherScan { .. } | Error::Exists { .. } => {
+            "choose another one, or overwrite=True to replace it"
+        }
+        Error::Busy { .. } => "or choose another folder",
+        Error::NotOurs { .. } => "choose another one",
+        Error::Unwritable { .. } => "choose a place in a folder that exists and is writable",
+        Error::PartFailed { .. } | Error::InTheWay { .. } => "resume=True continues it",
+        _ => return None,
+    })
 }
 
 /// As [`python()`], for names that were given as keywords: an unknown one is a `TypeError`, as Python has it.
@@ -29,7 +46,7 @@ pub(crate) fn of_keywords(error: Error) -> PyErr {
     }
 }
 
-/// JSON that cannot be written is a bug of ours, and said as such.
+/// JSON that cannot be written is a bug, and is reported as such.
 pub(crate) fn of_json(error: serde_json::Error) -> PyErr {
     PyValueError::new_err(format!("not the JSON of motiform: {error}"))
 }

@@ -1,6 +1,6 @@
 //! The native module of the Python package `motiform`: it parses and calls; the work is done by `motiform-lab`.
 //!
-//! Everything here is private to the package (`motiform._motiform`); what users see stands in `python/motiform`.
+//! Everything here is private to the package (`motiform._motiform`); the public interface is in `python/motiform`.
 
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
 

@@ -1,4 +1,4 @@
-//! Files that the binary writes.
+//! Files that the command line writes.
 
 use crate::errors::python;
 use crate::run::{Columns, Run, TableArrays};
@@ -16,7 +16,7 @@ pub(crate) fn read_run(py: Python<'_>, path: PathBuf) -> PyResult<Run> {
     Run::new(py, py.detach(|| read_dataset(&path)).map_err(python)?)
 }
 
-/// One table: a run, where the file carries its manifest and is the trajectory, else its columns.
+/// One table: a run, if the file contains its manifest and is the trajectory, otherwise its columns.
 #[pyfunction]
 pub(crate) fn read_table(py: Python<'_>, path: PathBuf) -> PyResult<(Option<Run>, Option<TableArrays>)> {
     match py.detach(|| read_table_file(&path)).map_err(python)? {
@@ -28,7 +28,7 @@ pub(crate) fn read_table(py: Python<'_>, path: PathBuf) -> PyResult<(Option<Run>
     }
 }
 
-/// The plan and the rows of a scan folder, and what is wrong with damaged parts.
+/// The plan and the rows of a scan folder, and descriptions of damaged parts.
 #[pyfunction]
 pub(crate) fn read_scan(
     py: Python<'_>,

@@ -1,4 +1,4 @@
-//! Everything that has a name. The Python side and its stubs are made of it.
+//! The registry of names. The Python side and its stubs are generated from it.
 
 use crate::errors::{of_json, python};
 use pyo3::prelude::*;

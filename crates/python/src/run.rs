@@ -1,4 +1,4 @@
-//! A run: its table as one NumPy array, and what is drawn of it.
+//! A run: its table as one NumPy array, and its outlines.
 
 use crate::errors::{of_json, python};
 use crate::study::{Study, plan};
@@ -18,7 +18,7 @@ use std::time::Instant;
 #[pyclass(frozen, module = "motiform._motiform")]
 pub(crate) struct Run {
     manifest: Manifest,
-    /// Made when the first outline asks for it: that of a cell takes longer than a short run.
+    /// Made for the first outline: that of a cell takes longer than a short run.
     model: OnceLock<Box<dyn Model>>,
     table: Columns,
     crossings: Option<Columns>,
@@ -89,7 +89,7 @@ impl Run {
 
 #[pymethods]
 impl Run {
-    /// A run made of what `manifest`, `table` and `crossings` give: for pickles.
+    /// A run from the results of `manifest`, `table` and `crossings`: for pickling.
     #[staticmethod]
     #[pyo3(signature = (manifest, table, crossings=None))]
     fn of(manifest: &str, table: TableArrays, crossings: Option<TableArrays>) -> PyResult<Self> {
@@ -112,7 +112,7 @@ impl Run {
         self.table.parts(py)
     }
 
-    /// The same of the return map's crossings, if there is one.
+    /// The same for the crossings of the return map, if there is one.
     fn crossings(&self, py: Python<'_>) -> Option<TableArrays> {
         self.crossings.as_ref().map(|table| table.parts(py))
     }
@@ -128,13 +128,13 @@ impl Run {
         self.manifest.outcome.is_complete()
     }
 
-    /// How the run ended, in words.
+    /// How the run ended, as text.
     #[getter]
     fn ended(&self) -> String {
         self.manifest.outcome.to_string()
     }
 
-    /// The regime of the motion where a short look from the end of the run decides; `None` where it does not.
+    /// The regime of the motion if a short integration from the end of the run is conclusive; otherwise `None`.
     fn regime(&self, py: Python<'_>) -> PyResult<Option<String>> {
         let (verdict, raised) = Caller::here(py, None, |watch| naming::name(&self.manifest, watch));
         match raised {
@@ -157,7 +157,7 @@ impl Run {
         Ok(draw::radius_for(largest))
     }
 
-    /// The boundary in a row about the centre of mass, (points, 2); `None` where the shape is no closed curve.
+    /// The boundary in a row about the centre of mass, (points, 2); `None` if the shape is not a closed curve.
     fn outline<'py>(
         &self,
         py: Python<'py>,
@@ -176,7 +176,7 @@ impl Run {
     }
 }
 
-/// Runs a study. The second value is what a signal or the callable raised: the run was stopped then.
+/// Runs a study. The second value is the exception of a signal or the callable, which stopped the run.
 #[pyfunction]
 #[pyo3(signature = (study, progress=None))]
 pub(crate) fn simulate(
@@ -189,7 +189,7 @@ pub(crate) fn simulate(
     Ok((Run::new(py, dataset.map_err(python)?)?, raised))
 }
 
-/// Seconds of one run without Python about it, the mean of `count`: what calls from Python are compared with.
+/// Seconds of one run without Python, the mean of `count`: a reference for calls from Python.
 #[pyfunction]
 pub(crate) fn seconds_of_run(study: &Study, count: u32) -> PyResult<f64> {
     let began = Instant::now();

@@ -29,7 +29,7 @@ impl ScanFiles {
         Scan::open(&path, &plan.0, shard, opening).map(Self).map_err(python)
     }
 
-    /// Damaged parts that were found, each with what is wrong; they are computed again.
+    /// Damaged parts that were found, each with a description; they are recomputed.
     fn damaged(&self) -> Vec<String> {
         self.0.damaged().to_vec()
     }
@@ -39,7 +39,7 @@ impl ScanFiles {
         self.0.parts_left().collect()
     }
 
-    /// Computes what is left on `threads` threads; returns what stopped it, if something did.
+    /// Computes the remaining parts on `threads` threads; returns what stopped it, if anything.
     #[pyo3(signature = (threads, progress=None))]
     fn run(&self, py: Python<'_>, threads: usize, progress: Option<Py<PyAny>>) -> PyResult<Option<PyErr>> {
         let (ended, raised) =
@@ -48,7 +48,7 @@ impl ScanFiles {
         Ok(raised)
     }
 
-    /// Keeps the rows of a part that an executor computed.
+    /// Stores the rows of a part that an executor computed.
     fn keep(
         &self,
         part: usize,
@@ -72,7 +72,7 @@ impl ScanFiles {
     }
 }
 
-/// Puts the folders of shards together; returns the number of missing parts and what is damaged.
+/// Merges the folders of shards; returns the number of missing parts and the damaged ones.
 #[pyfunction]
 pub(crate) fn merge(
     py: Python<'_>,
@@ -84,7 +84,7 @@ pub(crate) fn merge(
     Ok((merged.missing, merged.damaged))
 }
 
-/// The plan and the rows of a scan folder, and what is wrong with damaged parts.
+/// The plan and the rows of a scan folder, and descriptions of damaged parts.
 pub(crate) fn load(py: Python<'_>, path: PathBuf, whys: bool) -> PyResult<(ScanPlan, Arrays, Vec<String>)> {
     let loaded = py.detach(|| {
         let folder = ScanFolder::read(&path)?;

@@ -16,7 +16,7 @@ use std::time::Instant;
 #[pyclass(frozen, module = "motiform._motiform")]
 pub(crate) struct ScanPlan(pub(crate) Inner);
 
-/// Rows as arrays: codes of regimes and attractors (-1: not computed), numbers, and the evidence where it is asked for.
+/// Rows as arrays: codes of regimes and attractors (-1: not computed), numbers, and the evidence if requested.
 pub(crate) type Arrays = (Py<PyArray1<i8>>, Py<PyArray1<i8>>, Vec<Py<PyArray1<f64>>>, Option<Vec<String>>);
 
 /// A table as NumPy arrays, which take over the numbers' memory.
@@ -49,7 +49,7 @@ impl Store for Memory<'_> {
 #[pymethods]
 impl ScanPlan {
     /// The plan of a study's scan. An axis is a name with the text of its values as on the command line, or an array;
-    /// what is not given is that of the study.
+    /// settings that are not given are those of the study.
     #[new]
     #[pyo3(signature = (study, axes=None, samples=None, seed=None, budget=None))]
     fn new(
@@ -134,7 +134,7 @@ impl ScanPlan {
         axes.map(|axis| (axis.name.clone(), PyArray1::from_slice(py, &axis.values))).collect()
     }
 
-    /// Everything, on `threads` threads. Where the third value is an exception, it stopped the scan: rows are missing.
+    /// The whole scan, on `threads` threads. If the third value is an exception, it stopped the scan: rows are missing.
     #[pyo3(signature = (threads, whys, progress=None))]
     fn compute(
         &self,
@@ -155,7 +155,7 @@ impl ScanPlan {
     }
 
     /// The rows of the first of the cells `first..last`, on this thread: as many as begin within `seconds`. Returns them,
-    /// the cell to go on with, and the seconds that they took. One task of an executor.
+    /// the next cell, and the seconds that they took. One task of an executor.
     fn task(
         &self,
         py: Python<'_>,

@@ -1,4 +1,4 @@
-//! A study, as Python holds it.
+//! A study, as represented in Python.
 
 use crate::errors::{of_keywords, python};
 use motiform_dynamics::model::Coordinate;
@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyType};
 use std::path::PathBuf;
 
-/// A model with its parameters, a start and a run; never changed, only copied with changes.
+/// A model with its parameters, an initial state and run settings; immutable, only copied with changes.
 #[pyclass(frozen, module = "motiform._motiform")]
 #[derive(Clone)]
 pub(crate) struct Study(pub(crate) motiform_study::Study);

@@ -1,4 +1,4 @@
-//! How Python watches and stops what runs without the interpreter's lock.
+//! Progress and interruption of computations that run without the interpreter's lock.
 
 use motiform_dynamics::Watch;
 use pyo3::prelude::*;
@@ -7,17 +7,17 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Time between two looks at signals: Ctrl-C is answered within a few of these.
+/// Time between two checks for signals: Ctrl-C is handled within a few of these.
 const EVERY: Duration = Duration::from_millis(40);
 
-/// Looks at the interpreter's signals now and then, and tells a callable (`progress(fraction)`, or `None`) how far it is.
+/// Regularly checks the interpreter's signals, and reports progress to a callable (`progress(fraction)`, or `None`).
 pub(crate) struct Caller {
     progress: Option<Py<PyAny>>,
     done: AtomicU64,
     stop: AtomicBool,
     last: Mutex<Instant>,
     error: Mutex<Option<PyErr>>,
-    /// Whether the working thread looks by itself; otherwise another one does.
+    /// Whether the working thread checks signals itself; otherwise another thread does.
     own: bool,
 }
 
@@ -33,10 +33,10 @@ impl Caller {
         }
     }
 
-    /// Runs `work` on this thread without the interpreter's lock. Nothing but that is spent on work that is short.
+    /// Runs `work` on this thread without the interpreter's lock. Short work has no further overhead.
     ///
     /// # Errors
-    /// What a signal handler or the callable raised: `work` was stopped then, and what it gave comes with the error.
+    /// The exception of a signal handler or the callable, which stopped `work`; its result so far is returned with the error.
     pub(crate) fn here<T: Send>(
         py: Python<'_>,
         progress: Option<Py<PyAny>>,
@@ -47,7 +47,7 @@ impl Caller {
         (result, watch.raised())
     }
 
-    /// Runs `work`, which may use many threads, on a thread of its own, while this one looks at signals.
+    /// Runs `work`, which may use many threads, on a separate thread, while this one checks for signals.
     ///
     /// # Errors
     /// As [`Caller::here`].

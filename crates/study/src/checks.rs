@@ -1,13 +1,15 @@
-//! What numbers of a study must be.
+//! Checks of the numbers of a study.
 
 use crate::Error;
 use crate::named::Named;
-use crate::plan::Control;
-use crate::study::FigureSettings;
+use crate::plan::{Control, LONGEST};
+use crate::scan::Axis;
+use crate::study::{DisplaySettings, FigureSettings};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Model, Obstacle, Semilinear};
+use motiform_models::ModelInfo;
 
-/// Most steps of a run: hours of computing.
+/// Maximum number of steps of a run: hours of computing.
 const MOST_STEPS: f64 = 1e10;
 
 /// An adaptive explicit step times the fastest rate: the edge of stability of methods of order 5 and 8.
@@ -27,7 +29,7 @@ pub fn check(key: &'static str, value: f64, ok: bool, remedy: &'static str) -> R
     }
 }
 
-/// Refuses a study with noise where only the flow without it has an answer.
+/// Rejects a study with noise if an analysis is defined only for the flow without noise.
 pub fn check_no_noise(amplitude: f64) -> Result<(), Error> {
     check(
         "noise",
@@ -48,11 +50,11 @@ pub fn check_stability(model: &dyn Model, method: Method, control: Control) -> R
     if step > largest { Err(Error::UnstableStep { step, stepper: tableau.name, largest }) } else { Ok(()) }
 }
 
-/// Refuses a run that could not end: steps that are too many for the time, because they are fixed and tiny, or because the fastest
+/// Rejects a run that would not end: too many steps for the time, because they are fixed and tiny, or because the fastest
 /// rate of the linear part keeps an explicit method to steps of some times its inverse.
 pub fn check_steps(model: &dyn Model, method: Method, control: Control, time: f64) -> Result<(), Error> {
     if let Control::Fixed { step } = control {
-        let remedy = "that is over 10 thousand million steps: give a larger step, or a shorter time";
+        let remedy = "this takes more than 10 thousand million steps: give a larger step, or a shorter time";
         return check("step", step, time / step <= MOST_STEPS, remedy);
     }
     let Method::Explicit(tableau) = method else { return Ok(()) };
@@ -65,7 +67,7 @@ pub fn check_steps(model: &dyn Model, method: Method, control: Control, time: f6
     Err(Error::Stiff { rate, time, stepper: tableau.name })
 }
 
-/// A start must be a body.
+/// An initial state must be a body.
 pub(crate) fn check_start(model: &dyn Model, initial: &Named) -> Result<(), Error> {
     let values = initial.values();
     let mut shape = vec![0.0; model.dim()];
@@ -94,6 +96,36 @@ pub fn check_figure(figure: &FigureSettings) -> Result<(), Error> {
     if figure.outlines > 2000 {
         let value = figure.outlines.to_string();
         return Err(Error::Setting { key: "figure.outlines", value, remedy: "give at most 2000" });
+    }
+    Ok(())
+}
+
+/// Checks the display of a body.
+pub(crate) fn check_display(display: &DisplaySettings) -> Result<(), Error> {
+    let (sample, speed) = (display.sample, display.speed);
+    let usable = sample > 0.0 && sample <= LONGEST;
+    check("display.sample", sample, usable, "give a model time above 0, at most 1e9")?;
+    let [slowest, fastest] = display.speeds();
+    let usable = (slowest..=fastest).contains(&speed);
+    check("display.speed", speed, usable, "give a model time per second from 2 to 3000 times display.sample")
+}
+
+/// Checks the sides of the map that a body is shown on.
+pub(crate) fn check_plane(info: &ModelInfo, plane: &[Axis]) -> Result<(), Error> {
+    let wrong = |text: String, problem: String| Err(Error::Axis { text, problem });
+    if !(1..=2).contains(&plane.len()) || plane.iter().skip(1).any(|side| side.name == plane[0].name) {
+        let names: Vec<&str> = plane.iter().map(|side| side.name.as_str()).collect();
+        return wrong(names.join(", "), "a plane has one side or two, along different parameters".to_owned());
+    }
+    for side in plane {
+        let spec = info.parameters().iter().find(|spec| spec.name == side.name);
+        let (min, max) = spec.map_or((f64::MIN, f64::MAX), |spec| spec.allowed);
+        let allowed = |low: f64, high: f64| min <= low && low < high && high <= max;
+        if !matches!(side.values[..], [low, high] if allowed(low, high)) {
+            let problem =
+                format!("give its lowest and its highest value, {min} to {max}, e.g. {}=0.1,0.5", side.name);
+            return wrong(side.name.clone(), problem);
+        }
     }
     Ok(())
 }

@@ -1,14 +1,14 @@
-//! Step control and noise, as plans and files say them.
+//! Step control and noise, as written in plans and files.
 
 #[allow(unused_imports, reason = "for links of the documentation")]
 use motiform_dynamics::Noise;
 use motiform_dynamics::StepControl;
 use serde::{Deserialize, Serialize};
 
-/// Additive white noise: `du = f(u) dt + eta dW` for every coordinate u that people see ([`Noise::on`]).
+/// Additive white noise: `du = f(u) dt + eta dW` for every named coordinate u ([`Noise::on`]).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NoiseSettings {
-    /// Amplitude eta on the velocity, where that is an unknown (unit of velocity / sqrt(model time)).
+    /// Amplitude eta on the velocity, if that is an unknown (unit of velocity / sqrt(model time)).
     pub velocity: f64,
     /// Amplitude eta on the shape (unit of its coordinates / sqrt(model time)).
     pub shape: f64,

@@ -1,4 +1,4 @@
-//! What a run gave: tables, the outcome, and where it came from.
+//! The result of a run: tables, the outcome, and the provenance.
 
 use crate::Ending;
 use crate::plan::{Named, Plan};
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// The result of a simulation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dataset {
-    /// What was asked, how it ended.
+    /// The plan, and how the run ended.
     pub manifest: Manifest,
     /// The recorded motion: `t, x, y`, the coordinates of the shape, `speed`, `turning_rate`, observables.
     pub trajectory: Table,
@@ -16,7 +16,7 @@ pub struct Dataset {
     pub crossings: Option<Table>,
 }
 
-/// Provenance: enough to compute the same bits again. Knows no host, no user, no time of day.
+/// Provenance: everything needed to reproduce the same bits. Contains no host, user or time of day.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// Version of motiform that computed this.
@@ -29,7 +29,7 @@ pub struct Manifest {
     pub seed: u64,
     /// How the run ended.
     pub outcome: Ending,
-    /// The regime that the motion was named with, where a short look from its end decided.
+    /// The regime of the motion, if a short integration from its end was conclusive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub regime: Option<String>,
     /// Accepted steps of the recorded part (of the transient, if the run ended there).
@@ -42,13 +42,13 @@ pub struct Manifest {
     pub position: [f64; 2],
     /// The velocity at the end.
     pub velocity: [f64; 2],
-    /// What the model measures of its boundary at the end (length, area, ...).
+    /// Measures of the boundary at the end (length, area, ...).
     #[serde(default, skip_serializing_if = "Named::is_empty")]
     pub measures: Named,
-    /// For fixed steps: how far the last shape moves when one more step is made in two halves, relative to its size.
+    /// For fixed steps: the change of the last shape if one more step is made in two halves, relative to its size.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub step_error: Option<f64>,
-    /// The centre that was put on the origin, where the return map asked for that.
+    /// The centre that was shifted to the origin, if the return map required it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub centre: Option<[f64; 2]>,
 }

@@ -1,14 +1,14 @@
-//! How a run ended, and in which part of it.
+//! How a run ended, and in which part.
 
 use motiform_dynamics::Outcome;
 use serde::{Deserialize, Serialize};
 use std::ops::Deref;
 
-/// The outcome of a run, with the word that it did not even survive its transient. Times are model times since the start of
-/// the recording; of a run that ended during the transient since the start of that. They are never negative.
+/// The outcome of a run, with a note if it ended during its transient. Times are model times since the start of
+/// the recording or, for a run that ended during the transient, since the start of the transient. They are never negative.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ending {
-    /// The outcome; its `kind` and `t` stand beside `during` in files.
+    /// The outcome; files contain its `kind` and `t` next to `during`.
     #[serde(flatten)]
     pub outcome: Outcome,
     /// The part of the run, unless it is the recording.

@@ -1,4 +1,4 @@
-//! What can go wrong between a study file and a figure.
+//! Errors from the study file to the figure.
 
 use motiform_models::nearest;
 use std::path::{Path, PathBuf};
@@ -7,43 +7,35 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The numerics refused an input.
+    /// The numerics rejected an input.
     #[error(transparent)]
     Dynamics(#[from] motiform_dynamics::Error),
-    /// An analysis refused its input.
+    /// An analysis rejected its input.
     #[error(transparent)]
     Analysis(#[from] motiform_analysis::Error),
-    /// No part of the paper of this name.
-    #[error("unknown figure {name:?}: what can be reproduced is {}", .known.join(", "))]
+    /// No part of the paper has this name.
+    #[error("unknown figure {name:?}: choose one of {}", .known.join(", "))]
     UnknownFigure {
         /// The name given.
         name: String,
-        /// What there is.
+        /// The known names.
         known: Vec<&'static str>,
     },
-    /// The system gives no threads.
-    #[error("threads = {threads}: {reason}; give a smaller --threads")]
-    Threads {
-        /// How many were asked for.
-        threads: usize,
-        /// The system's reason.
-        reason: String,
-    },
-    /// The caller asked to stop.
+    /// The caller stopped the computation.
     #[error("interrupted")]
     Interrupted,
     /// More exponents than there are, or none.
-    #[error("count = {count}: this model has {dim} exponents; ask for 1 to {dim}")]
+    #[error("count = {count}: this model has {dim} exponents; give a count from 1 to {dim}")]
     Count {
-        /// The number asked for.
+        /// The requested number.
         count: usize,
         /// Dimension of the shape.
         dim: usize,
     },
-    /// The models refused a name or a value.
+    /// The models rejected a name or a value.
     #[error(transparent)]
     Models(#[from] motiform_models::Error),
-    /// A study file is wrong at a place.
+    /// A study file has an error.
     #[error("{file}:{line}:{column}: {problem}\n{excerpt}")]
     Study {
         /// The file, or the preset.
@@ -52,12 +44,12 @@ pub enum Error {
         line: usize,
         /// Column, from 1.
         column: usize,
-        /// What is wrong and how to mend it.
+        /// The error and its remedy.
         problem: String,
-        /// The line with a mark under the place.
+        /// The line, with the place marked below it.
         excerpt: String,
     },
-    /// No preset of this name.
+    /// No preset has this name.
     #[error("unknown preset {name:?} of model {model}{}: the presets are {}", hint(.nearest), .known.join(", "))]
     UnknownPreset {
         /// The name given.
@@ -69,7 +61,7 @@ pub enum Error {
         /// All presets of the model.
         known: Vec<&'static str>,
     },
-    /// No stepper of this name.
+    /// No stepper has this name.
     #[error("unknown stepper {name:?}{}: the steppers are {}", hint(.nearest), .known.join(", "))]
     UnknownStepper {
         /// The name given.
@@ -79,14 +71,14 @@ pub enum Error {
         /// All steppers.
         known: Vec<&'static str>,
     },
-    /// A setting that does not fit.
+    /// An invalid setting.
     #[error("{key} = {value}: {remedy}")]
     Setting {
         /// The key.
         key: &'static str,
         /// Its value, as text.
         value: String,
-        /// What would be right.
+        /// The remedy.
         remedy: &'static str,
     },
     /// An axis of a scan that cannot be used.
@@ -94,7 +86,7 @@ pub enum Error {
     Axis {
         /// The axis as given, or its parameter.
         text: String,
-        /// What is wrong and how to mend it.
+        /// The error and its remedy.
         problem: String,
     },
     /// A range to follow a motion along that cannot be used.
@@ -133,47 +125,45 @@ pub enum Error {
     },
     /// A scan without an axis.
     #[error(
-        "nothing to vary: give --axis NAME=LOW:HIGH:COUNT with a parameter of the model{free}, or axes in [scan]"
+        "nothing to vary: a scan needs one or two axes, each with values of a parameter of the model{free}"
     )]
     NoAxis {
         /// The parameters that the study leaves free, in brackets.
         free: String,
     },
-    /// A scan folder that is there already.
-    #[error(
-        "{} exists: --resume goes on with the scan in it, --force replaces it; or choose another --out", .path.display()
-    )]
+    /// A scan folder that already exists.
+    #[error("{} exists and contains a scan", .path.display())]
     ScanExists {
         /// The folder.
         path: PathBuf,
     },
-    /// A folder that is no scan.
-    #[error("{} holds no scan: {reason}; give a folder written by `motiform scan`", .path.display())]
+    /// A folder that is not a scan.
+    #[error("{} contains no scan: {reason}; give a folder written by `motiform scan`", .path.display())]
     NoScan {
         /// The folder.
         path: PathBuf,
-        /// Why not.
+        /// The reason.
         reason: String,
     },
-    /// A folder that holds the scan of another plan.
+    /// A folder that contains the scan of another plan.
     #[error(
-        "{} holds another scan than the one asked for ({differences}): choose another --out, or --force to replace it",
+        "{} contains a different scan from the one requested ({differences})",
         .path.display()
     )]
     OtherScan {
         /// The folder.
         path: PathBuf,
-        /// What differs: each key with the value there and the value asked for.
+        /// The differences: each key with its value in the folder and the requested value.
         differences: String,
     },
-    /// Another process computes in the folder.
-    #[error("another motiform computes in {}: wait until it is done, or choose another --out", .path.display())]
+    /// Another process is computing in the folder.
+    #[error("another motiform process computes in {}: wait until it is done", .path.display())]
     Busy {
         /// The folder.
         path: PathBuf,
     },
     /// Folders of different scans cannot be merged.
-    #[error("{} and {} hold different scans ({differences}): merge the shards of one scan", .first.display(), .second.display())]
+    #[error("{} and {} contain different scans ({differences}): merge the shards of one scan", .first.display(), .second.display())]
     Unmergeable {
         /// A folder.
         first: PathBuf,
@@ -182,9 +172,9 @@ pub enum Error {
         /// What differs.
         differences: String,
     },
-    /// Two folders hold the same part with different numbers.
+    /// Two folders contain the same part with different numbers.
     #[error(
-        "{} and {} hold different numbers for the same rows: one of them comes from another version of motiform; leave          one folder out",
+        "{} and {} contain different numbers for the same rows: one of them comes from another version of motiform; leave one folder out",
         .first.display(), .second.display()
     )]
     Conflict {
@@ -193,8 +183,8 @@ pub enum Error {
         /// The other one.
         second: PathBuf,
     },
-    /// Writing a part broke off (a full disk, say).
-    #[error("writing {} failed: {reason}; whole parts are kept: make room, and --resume goes on", .path.display())]
+    /// Writing a part failed (for example because of a full disk).
+    #[error("writing {} failed: {reason}; complete parts are kept: free some space and resume the scan", .path.display())]
     PartFailed {
         /// The part.
         path: PathBuf,
@@ -202,14 +192,14 @@ pub enum Error {
         reason: String,
     },
     /// Rows that are not those of a part.
-    #[error("these are not the rows of part {part}, in order: hand over one row per cell and initial state")]
+    #[error("these are not the rows of part {part}, in order: give one row per cell and initial state")]
     OtherRows {
         /// The part.
         part: usize,
     },
-    /// A fixed step that an explicit method cannot take on this model.
+    /// A fixed step at which an explicit method is unstable for this model.
     #[error(
-        "step = {step:?}: {stepper} is unstable above {largest:.1e} for this model; give a smaller step, or take an \
+        "step = {step:?}: {stepper} is unstable above {largest:.1e} for this model; give a smaller step, or use an \
          exponential stepper (krogstad4)"
     )]
     UnstableStep {
@@ -220,9 +210,9 @@ pub enum Error {
         /// The largest step that it can take.
         largest: f64,
     },
-    /// Rates so fast that an explicit method would never end.
+    /// Rates so fast that an explicit method would need too many steps.
     #[error(
-        "the fastest rate of this model is {rate:.1e}: {stepper} would need some {:.0e} steps for a time of {time:.0}; take the exponential \
+        "the fastest rate of this model is {rate:.1e}: {stepper} would need about {:.0e} steps for a time of {time:.0}; use the exponential \
          stepper krogstad4, or smaller parameters",
         rate * time / 5.0
     )]
@@ -234,45 +224,45 @@ pub enum Error {
         /// The stepper.
         stepper: &'static str,
     },
-    /// A start whose boundary cannot be closed.
+    /// An initial state whose boundary cannot be closed.
     #[error(
-        "the initial values describe no closed boundary (closing it leaves {residual:.1e} of its length): give \
+        "the initial values do not describe a closed boundary (the gap is {residual:.1e} of its length): give \
          smaller ones, or another prior or closure_modes"
     )]
     NotClosed {
-        /// What is left of the closing condition, relative to the boundary's length.
+        /// The residual of the closing condition, relative to the length of the boundary.
         residual: f64,
     },
     /// The output exists.
-    #[error("{} exists: choose another --out, or --force to replace it", .path.display())]
+    #[error("{} exists", .path.display())]
     Exists {
         /// The path.
         path: PathBuf,
     },
-    /// The output exists and is not one of ours.
-    #[error("{} exists and is no motiform dataset: --force does not replace it, choose another --out", .path.display())]
+    /// The output exists and was not written by motiform.
+    #[error("{} exists and is not a motiform dataset: it is not replaced", .path.display())]
     NotOurs {
         /// The path.
         path: PathBuf,
     },
-    /// A folder that cannot be written into.
-    #[error("cannot write {}: {reason}; choose an --out in a folder that exists and that you may write to", .path.display())]
+    /// A folder without write access.
+    #[error("cannot write {}: {reason}", .path.display())]
     Unwritable {
         /// The path.
         path: PathBuf,
-        /// The system's reason. (Not a `source`: the message says it already, and once is enough.)
+        /// The system's reason. (Not a `source`, because the message already contains it.)
         reason: std::io::Error,
     },
-    /// Writing broke off (a full disk, say). Nothing half-written is left.
-    #[error("writing {} failed: {reason}; nothing was left behind, make room and run again", .path.display())]
+    /// Writing failed (for example because of a full disk). No incomplete output is left.
+    #[error("writing {} failed: {reason}; nothing was left behind, free some space and run again", .path.display())]
     WriteFailed {
         /// The path.
         path: PathBuf,
         /// The reason.
         reason: String,
     },
-    /// Something that is no file is where a file of ours belongs.
-    #[error("{} is no file, and a part of the scan belongs there: remove it, and --resume goes on", .path.display())]
+    /// Something other than a file is in the place of a file.
+    #[error("{} is not a file, but a part of the scan belongs there: remove it and resume the scan", .path.display())]
     InTheWay {
         /// The path.
         path: PathBuf,
@@ -291,26 +281,26 @@ pub enum Error {
 }
 
 impl Error {
-    /// Whether the input was fine and the machine failed (exit code 1 rather than 2).
+    /// Whether the input was valid but the machine failed (exit code 1 rather than 2).
     #[must_use]
     pub fn is_machine_failure(&self) -> bool {
         matches!(self, Self::WriteFailed { .. } | Self::PartFailed { .. } | Self::Figure(_))
     }
 
-    /// [`Error::Unreadable`] of a path, with the reason in words.
+    /// [`Error::Unreadable`] of a path, with the reason as text.
     #[must_use]
     pub fn unreadable(path: &Path, reason: impl std::fmt::Display) -> Self {
         Self::Unreadable { path: path.to_owned(), reason: reason.to_string() }
     }
 
-    /// [`Error::WriteFailed`] of a path, with the reason in words.
+    /// [`Error::WriteFailed`] of a path, with the reason as text.
     #[must_use]
     pub fn write_failed(path: &Path, reason: impl std::fmt::Display) -> Self {
         Self::WriteFailed { path: path.to_owned(), reason: reason.to_string() }
     }
 }
 
-/// ` (did you mean NAME?)`, where there is one.
+/// ` (did you mean NAME?)`, if there is a similar name.
 pub(crate) fn hint(nearest: &Option<&'static str>) -> String {
     nearest.map_or_else(String::new, |name| format!(" (did you mean {name}?)"))
 }

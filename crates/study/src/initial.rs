@@ -1,4 +1,4 @@
-//! Where a run starts: given values, or a small random state.
+//! The initial state of a run: given values, or a small random state.
 
 use crate::Error;
 use crate::plan::Named;
@@ -39,7 +39,7 @@ pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
     Ok(Named(entries))
 }
 
-/// A random shape as the model computes with it: each coordinate uniform in `-size..size`, from this seed and stream.
+/// A random shape in the model's representation: each coordinate uniform in `-size..size`, from this seed and stream.
 pub fn random_shape(model: &dyn Model, size: f64, seed: u64, stream: u64) -> Vec<f64> {
     let mut random = Uniform::new(seed, stream);
     let coordinates: Vec<f64> = model.coordinates().iter().map(|_| size * random.draw()).collect();

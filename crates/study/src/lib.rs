@@ -1,7 +1,7 @@
-//! Studies as data: a file or a preset -> [`Study`] (as typed) -> [`Plan`] or [`ScanPlan`] (explicit, checked, hashed). A run gives a
-//! [`Dataset`]: tables, and a manifest that says where they come from.
+//! Studies as data: a file or a preset -> [`Study`] (as typed) -> [`Plan`] or [`ScanPlan`] (explicit, checked, hashed). A run produces a
+//! [`Dataset`]: tables, and a manifest with their provenance.
 //!
-//! Nothing here computes, draws or writes.
+//! This crate does not compute, draw or write.
 
 pub mod branches;
 mod checks;

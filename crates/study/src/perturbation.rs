@@ -1,4 +1,4 @@
-//! Given starts without exact symmetry: coordinates that are left at zero get small random values.
+//! Perturbation of given starts that breaks exact symmetry: coordinates left at zero get small random values.
 
 use crate::initial::Uniform;
 use crate::plan::check;
@@ -8,12 +8,12 @@ use std::fmt;
 /// Stream of the generator: far from those of random starts and of noise.
 const STREAM: u64 = u64::MAX / 2;
 
-/// What was added to a given start.
+/// The perturbation of a given start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Perturbation {
     /// The coordinates that were zero.
     pub names: Vec<String>,
-    /// They lie within plus and minus this now.
+    /// Their new values lie within plus and minus this.
     pub size: f64,
 }
 
@@ -34,14 +34,14 @@ impl Study {
     pub const PERTURB: f64 = 1e-6;
 
     /// The same study, with a small random value for each coordinate that its given start leaves at zero: uniform within
-    /// `perturb` times the largest value given (1 where all are zero). `None` beside it where nothing was changed: no start is given,
+    /// `perturb` times the largest value given (1 where all are zero). `None` with it if nothing was changed: no start is given,
     /// none of its coordinates is zero, or `perturb` is 0.
     ///
-    /// The flow keeps the symmetry of a start. A mirror symmetric one, a pure mode, or a circle may end at an unstable shape that no other
-    /// start leads to. Coordinates that a model has at some values of the scan's axes only stay as they are.
+    /// The flow preserves the symmetry of a start. A mirror symmetric start, a pure mode, or a circle may end at an unstable shape that no other
+    /// start leads to. Coordinates that a model has only at some values of the scan's axes are not changed.
     ///
     /// # Errors
-    /// A `perturb` below 0; what the model refuses of its parameters.
+    /// A `perturb` below 0; parameters that the model rejects.
     ///
     /// # Checked by  tests/perturbation.rs
     pub fn perturbed(&self) -> Result<(Self, Option<Perturbation>), Error> {
@@ -70,7 +70,7 @@ impl Study {
         Ok((study, perturbation))
     }
 
-    /// All parameters at the ends of the scan's axes, or those of the study where it has none.
+    /// All parameters at the ends of the scan's axes, or those of the study if it has none.
     fn corners(&self) -> Result<Vec<Vec<f64>>, Error> {
         let specs = self.info()?.parameters();
         let mut corners = vec![self.values()?];

@@ -1,4 +1,4 @@
-//! A plan: a study made explicit. Every number that a run depends on stands in it; nothing else does.
+//! A plan: a study made explicit. It contains exactly the numbers that a run depends on.
 
 use crate::checks::check_start;
 pub use crate::checks::{check, check_closed, check_figure, check_no_noise, check_stability, check_steps};
@@ -17,23 +17,23 @@ use sha2::{Digest, Sha256};
 /// Version of the meaning of a plan; part of the hash.
 pub const PLAN_FORMAT: u32 = 2;
 
-/// Most rows a trajectory may have (about 2 GB in memory).
+/// Maximum number of rows of a trajectory (about 2 GB in memory).
 const MOST_ROWS: f64 = 2e7;
 
-/// Longest model time: beyond it, time itself has too few digits for steps of order 1.
+/// Maximum model time: beyond it, the time has too few digits for steps of order 1.
 pub const LONGEST: f64 = 1e9;
 
-/// Step of steppers that cannot control it, where none is given: the paper's.
+/// Default step of steppers without step control: that of the paper.
 const DEFAULT_STEP: f64 = 1e-3;
 
-/// What will be computed, and how it is called and drawn.
+/// The computation, its name and how it is drawn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
     /// Short name of the study.
     pub name: String,
     /// Title of the figures as typed, or nothing: see [`Plan::title`].
     pub title: String,
-    /// What is computed: the hash covers this.
+    /// The computation; the hash covers this.
     pub computation: Computation,
     /// How it is drawn.
     pub figure: FigureSettings,
@@ -62,7 +62,7 @@ pub struct Computation {
     pub stepper: String,
     /// Step control.
     pub control: Control,
-    /// Most steps (transient and recording each).
+    /// Maximum number of steps (transient and recording each).
     pub max_steps: u64,
     /// A shape beyond this norm has escaped.
     pub escape_norm: f64,
@@ -74,7 +74,7 @@ pub struct Computation {
 }
 
 impl Plan {
-    /// Makes a study explicit and checks every number.
+    /// Resolves a study and checks every number.
     ///
     /// # Errors
     /// [`Error`] naming the key, the value and the remedy.
@@ -96,7 +96,7 @@ impl Plan {
             "dt_out",
             dt_out,
             run.t_end / dt_out <= MOST_ROWS,
-            "that is over 20 million rows: give a longer time",
+            "this gives more than 20 million rows: give a longer time",
         )?;
         check("escape_norm", run.escape_norm, run.escape_norm > 0.0, "give a number above 0")?;
         study.random.unwrap_or(Random::SMALL).check()?;
@@ -144,7 +144,7 @@ impl Plan {
     /// The registry entry of its model.
     ///
     /// # Errors
-    /// An unknown model (a plan read from a newer program's file, say).
+    /// An unknown model (for example in a plan written by a newer version).
     pub fn info(&self) -> Result<&'static ModelInfo, Error> {
         Ok(ModelInfo::find(&self.computation.model)?)
     }
@@ -191,7 +191,7 @@ pub fn stepper(name: &str) -> Result<Method, Error> {
     })
 }
 
-/// The step control that a study asks for.
+/// The step control of a study.
 ///
 /// # Errors
 /// [`Error::Setting`]; a step and a tolerance together.

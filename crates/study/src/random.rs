@@ -1,4 +1,4 @@
-//! Random initial states: how large they are, and in which directions.
+//! Random initial states: their sizes and directions.
 
 use crate::Error;
 use crate::initial::Uniform;
@@ -13,8 +13,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Random {
-    /// Each coordinate uniform in `-size..size`, independently. Small ones begin near the circle and follow its unstable
-    /// directions: all orbits may pass along the same one.
+    /// Each coordinate uniform in `-size..size`, independently. Small states start near the circle and follow its unstable
+    /// directions: all orbits may follow the same one.
     Within(f64),
     /// Sizes that sample basins: the norm r of the coordinates is log-uniform, `ln r` uniform in `ln min..ln max`, and the direction is
     /// isotropic: coordinates `r w_i g_i / |w g|` with normal `g_i` and the model's weights `w_i` (the same for both coordinates of
@@ -28,16 +28,16 @@ pub enum Random {
 }
 
 impl Random {
-    /// What one start is drawn from where nothing else is asked for.
+    /// The default distribution of a single start.
     pub const SMALL: Self = Self::Within(0.01);
 
-    /// What many starts are drawn from where nothing else is asked for: from a hundredth of the model's typical size to all of it.
+    /// The default distribution of several starts: from a hundredth of the model's typical size to the full size.
     #[must_use]
     pub fn basins(info: &ModelInfo) -> Self {
         Self::Sizes { min: 0.01 * info.size, max: info.size }
     }
 
-    /// The distribution of `samples` starts, if `given` is what was asked for.
+    /// The distribution of `samples` starts, where `given` is the requested one.
     #[must_use]
     pub fn of(given: Option<Self>, samples: u64, info: &ModelInfo) -> Self {
         given.unwrap_or_else(|| if samples > 1 { Self::basins(info) } else { Self::SMALL })
@@ -46,7 +46,7 @@ impl Random {
     /// Reads `0.3` ([`Random::Within`]) or `0.01:1` ([`Random::Sizes`]).
     ///
     /// # Errors
-    /// [`Error::Setting`] for another text, and what [`Random::check`] refuses.
+    /// [`Error::Setting`] for another text, and the errors of [`Random::check`].
     pub fn parse(text: &str) -> Result<Self, Error> {
         let wrong = || Error::Setting {
             key: "random",
@@ -62,7 +62,7 @@ impl Random {
         Ok(random)
     }
 
-    /// Refuses sizes that are none.
+    /// Rejects invalid sizes.
     ///
     /// # Errors
     /// [`Error::Setting`].
@@ -85,7 +85,7 @@ impl Random {
         }
     }
 
-    /// The distribution in words: `uniform within ±0.01`, `of size 0.01 to 1, log-uniform`.
+    /// The distribution as text: `uniform within ±0.01`, `of size 0.01 to 1, log-uniform`.
     #[must_use]
     pub fn words(&self) -> String {
         match self {
@@ -110,7 +110,7 @@ impl Random {
         }
     }
 
-    /// The same as the model computes with it.
+    /// The same in the model's representation.
     pub fn shape(&self, info: &ModelInfo, model: &dyn Model, seed: u64, stream: u64) -> Vec<f64> {
         let coordinates = self.coordinates(info, model.coordinates().len(), seed, stream);
         let mut shape = vec![0.0; model.dim()];

@@ -1,4 +1,4 @@
-//! A study as typed: everything optional, nothing computed yet.
+//! A study as typed: everything is optional, nothing is computed yet.
 
 use crate::input;
 use crate::random::Random;
@@ -7,50 +7,53 @@ use crate::scan::Axis;
 pub use crate::study_reader::schema;
 use crate::{Error, presets};
 use motiform_models::ModelInfo;
+use motiform_models::registry::Display;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// A study: a model with its parameters, a start, a run, and how to look at it.
+/// A study: a model with its parameters, initial state, run settings and drawing settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
     /// The model.
     pub model: &'static str,
-    /// Short name: the preset's, or the file's stem. Names the default output folder.
+    /// Short name: that of the preset, or the stem of the file. It is used for the default output folder.
     pub name: String,
     /// Title of the figures.
     pub title: String,
-    /// One sentence on what to look at.
+    /// One sentence on what the study shows.
     pub about: String,
-    /// The parameters that span the paper's diagram, where this study stands for one.
+    /// The parameters that span the paper's diagram, if this study represents one.
     pub free: Vec<String>,
     /// Parameters that are given, in registry order.
     pub parameters: Vec<(String, f64)>,
     /// Initial values that are given, in the order of the coordinates; the others are 0, or random if none is given.
     pub initial: Vec<(String, f64)>,
-    /// The distribution of random starts; without it one start is small ([`Random::SMALL`]), and many sample basins
+    /// The distribution of random starts; by default one start is small ([`Random::SMALL`]), and several sample basins
     /// ([`Random::basins`]).
     pub random: Option<Random>,
-    /// Size of the random values that naming a motion puts in the place of zeros of a given start, over its largest value: see
+    /// Size of the random values that replace zeros of a given start for classification, relative to its largest value: see
     /// [`Study::perturbed`].
     pub perturb: f64,
     /// The run.
     pub run: RunSettings,
     /// The scan.
     pub scan: ScanSettings,
-    /// The return map, if one is wanted.
+    /// The return map, if any.
     pub return_map: Option<ReturnMapSettings>,
     /// How to draw.
     pub figure: FigureSettings,
+    /// The initial display in the explorer.
+    pub display: DisplaySettings,
 }
 
-/// What a scan varies.
+/// The settings of a scan.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ScanSettings {
     /// One or two axes: "kappa2=0.1:1.6:64" is 64 values from 0.1 to 1.6, both ends included; "kappa2=0.1,0.2" lists
     /// them.
     #[schemars(with = "Vec<String>")]
     pub axes: Vec<Axis>,
-    /// Initial states per cell: all random, but the first one is that of `initial` where values are given.
+    /// Initial states per cell: all random, except that the first one is that of `initial` if values are given.
     pub samples: u64,
     /// Maximum model time for classifying one motion; 0 chooses the model's default.
     pub budget: f64,
@@ -71,17 +74,17 @@ pub struct ReturnMapSettings {
     pub x_min: f64,
     /// Right end.
     pub x_max: f64,
-    /// Put the centre of the path (its time average) on the origin first.
+    /// Shift the centre of the path (its time average) to the origin first.
     pub centre: bool,
 }
 
-/// How to draw a dataset. Nothing here changes a number.
+/// How to draw a dataset. These settings do not affect results.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, serde::Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct FigureSettings {
-    /// Radius R0 of the undeformed body (model length); 0 chooses it so that the deformation is seen.
+    /// Radius R0 of the undeformed body (model length); 0 chooses it so that the deformation is visible.
     pub radius: f64,
-    /// Size of the drawn outlines against the path; 0 chooses a readable size.
+    /// Scale of the outlines relative to the path; 0 chooses a readable scale.
     pub scale: f64,
     /// Number of outlines along the path; 0 chooses.
     pub outlines: u64,
@@ -91,6 +94,38 @@ pub struct FigureSettings {
     pub to: f64,
     /// Draw the animation.
     pub animation: bool,
+}
+
+/// The initial display of a body in the explorer. These settings do not affect results.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct DisplaySettings {
+    /// Model time between the samples of the animation.
+    pub sample: f64,
+    /// Model time per second.
+    pub speed: f64,
+    /// Sides of the map, one or two: "kappa2=0.05,1.65" is the parameter with its lowest and highest value.
+    #[schemars(with = "Vec<String>")]
+    pub plane: Vec<Axis>,
+}
+
+/// Samples per second at the highest speed that the explorer offers: 50 in each of 60 pictures.
+const MOST_SAMPLES: f64 = 3000.0;
+
+impl DisplaySettings {
+    /// The default display of a model.
+    #[must_use]
+    pub fn of_model(info: &ModelInfo) -> Self {
+        let side =
+            |&(name, low, high): &(&str, f64, f64)| Axis { name: name.to_owned(), values: vec![low, high] };
+        let Display { sample, speed, plane } = info.display;
+        Self { sample, speed, plane: plane.iter().map(side).collect() }
+    }
+
+    /// The lowest and the highest speed that the explorer offers (model time per second).
+    #[must_use]
+    pub fn speeds(&self) -> [f64; 2] {
+        [2.0 * self.sample, MOST_SAMPLES * self.sample]
+    }
 }
 
 impl Study {
@@ -111,13 +146,14 @@ impl Study {
             scan: ScanSettings::default(),
             return_map: None,
             figure: FigureSettings { animation: true, ..FigureSettings::default() },
+            display: DisplaySettings::of_model(info),
         }
     }
 
     /// Reads a study file.
     ///
     /// # Errors
-    /// [`Error::Unreadable`], and what [`Study::parse`] refuses.
+    /// [`Error::Unreadable`], and the errors of [`Study::parse`].
     pub fn read(path: &std::path::Path) -> Result<Self, Error> {
         let text = input::text(path, input::STUDY).map_err(|error| Error::unreadable(path, error))?;
         let stem =
@@ -128,7 +164,7 @@ impl Study {
     /// The registry entry of its model.
     ///
     /// # Errors
-    /// [`motiform_models::Error::UnknownModel`] if the model was renamed by hand.
+    /// [`motiform_models::Error::UnknownModel`] if the model name was changed manually.
     pub fn info(&self) -> Result<&'static ModelInfo, Error> {
         Ok(ModelInfo::find(self.model)?)
     }
@@ -143,7 +179,7 @@ impl Study {
         Ok(specs.map(|spec| given(spec.name).unwrap_or(spec.default)).collect())
     }
 
-    /// Sets a parameter, replacing an earlier value. Title and sentence of a preset, which were made for another value, go.
+    /// Sets a parameter, replacing an earlier value. Title and sentence of a preset, which refer to another value, are removed.
     ///
     /// # Errors
     /// An unknown name (with the nearest one).
@@ -158,7 +194,7 @@ impl Study {
         Ok(())
     }
 
-    /// Takes title and sentence of a preset away: they would speak of another motion. Those that somebody typed stay.
+    /// Removes title and sentence of a preset, because they describe another motion. Those typed by the user are kept.
     fn untitle(&mut self) {
         for text in [&mut self.title, &mut self.about] {
             if !text.is_empty() && presets::says(self.model, text) {
@@ -184,7 +220,7 @@ impl Study {
     }
 }
 
-/// Puts a value in the place that `order` gives its name: what was typed first makes no difference.
+/// Inserts a value at the position that `order` gives its name, independent of the order of typing.
 fn replace(list: &mut Vec<(String, f64)>, (name, value): (&str, f64), order: &[&str]) {
     list.retain(|(known, _)| known != name);
     list.push((name.to_owned(), value));

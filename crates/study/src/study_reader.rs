@@ -1,9 +1,10 @@
 //! TOML text to study, table by table; and the schema of such texts.
 
+use crate::checks::{check_display, check_plane};
 use crate::random::Random;
 use crate::run_settings::RunSettings;
 use crate::scan::Axis;
-use crate::study::{FigureSettings, ReturnMapSettings, ScanSettings, Study};
+use crate::study::{DisplaySettings, FigureSettings, ReturnMapSettings, ScanSettings, Study};
 use crate::toml_reader::{Source, Table, Value};
 use crate::{Error, presets};
 use motiform_models::{MODELS, ModelInfo};
@@ -47,6 +48,9 @@ impl Study {
         if let Some(table) = top.table("figure")? {
             read_figure(&mut study.figure, table)?;
         }
+        if let Some(table) = top.table("display")? {
+            study.display = read_display(&study, table)?;
+        }
         top.finish()?;
         Ok(study)
     }
@@ -77,7 +81,7 @@ fn read_model(top: &mut Table<'_>, file: &str) -> Result<Study, Error> {
             file: file.to_owned(),
             line: 1,
             column: 1,
-            problem: format!("[model] names no model: write [model.{}]", names().join("] or [model.")),
+            problem: format!("[model] does not name a model: write [model.{}]", names().join("] or [model.")),
             excerpt: String::new(),
         });
     };
@@ -129,18 +133,35 @@ fn read_random(value: &Value<'_>) -> Result<Random, Error> {
 fn read_scan(study: &Study, mut table: Table<'_>) -> Result<ScanSettings, Error> {
     let (info, mut scan) = (study.info()?, study.scan.clone());
     if let Some(value) = table.take("axes") {
-        let axis = |text: &String| {
-            let axis = Axis::parse(text)?;
-            motiform_models::parameters::index_of(info.parameters(), info.name, &axis.name)?;
-            Ok::<_, Error>(axis)
-        };
-        let axes = value.texts()?.iter().map(axis).collect::<Result<_, Error>>();
-        scan.axes = axes.map_err(|error| value.error(error))?;
+        scan.axes = read_axes(info, &value)?;
     }
     table.whole("samples", &mut scan.samples)?;
     table.number("budget", &mut scan.budget)?;
     table.finish()?;
     Ok(scan)
+}
+
+/// Axes along parameters of the model.
+fn read_axes(info: &ModelInfo, value: &Value<'_>) -> Result<Vec<Axis>, Error> {
+    let axis = |text: &String| {
+        let axis = Axis::parse(text)?;
+        motiform_models::parameters::index_of(info.parameters(), info.name, &axis.name)?;
+        Ok(axis)
+    };
+    value.texts()?.iter().map(axis).collect::<Result<_, Error>>().map_err(|error| value.error(error))
+}
+
+fn read_display(study: &Study, mut table: Table<'_>) -> Result<DisplaySettings, Error> {
+    let mut display = study.display.clone();
+    table.number("sample", &mut display.sample)?;
+    table.number("speed", &mut display.speed)?;
+    if let Some(value) = table.take("plane") {
+        display.plane = read_axes(study.info()?, &value)?;
+        check_plane(study.info()?, &display.plane).map_err(|error| value.error(error))?;
+    }
+    table.finish()?;
+    check_display(&display)?;
+    Ok(display)
 }
 
 fn read_return_map(
@@ -211,11 +232,12 @@ pub fn schema() -> serde_json::Value {
             "scan": section::<ScanSettings>(),
             "return_map": section::<ReturnMapSettings>(),
             "figure": section::<FigureSettings>(),
+            "display": section::<DisplaySettings>(),
         },
     })
 }
 
-/// The schema of one table; every key may be left out.
+/// The schema of one table; every key is optional.
 fn section<T: JsonSchema>() -> serde_json::Value {
     let mut schema = schemars::schema_for!(T).to_value();
     if let Some(object) = schema.as_object_mut() {

@@ -8,7 +8,7 @@ use toml::{Table, Value};
 
 impl Study {
     /// The text of a study file that reads back as this study ([`Study::parse`]): what differs from the model's
-    /// defaults, with every digit. Its name is that of the file, and not in the text.
+    /// defaults, with every digit. Its name is that of the file, and is not in the text.
     ///
     /// # Errors
     /// An unknown model; [`Error::Setting`] for whole numbers of 2^63 and more, which TOML does not have.
@@ -39,8 +39,12 @@ impl Study {
         let tables = [
             ("initial", initial),
             ("run", changed("run", &self.run, &bare.run)?),
-            ("scan", self.scan_table(&bare)?),
+            ("scan", with_texts(changed("scan", &self.scan, &bare.scan)?, "axes", &self.scan.axes)),
             ("figure", changed("figure", &self.figure, &bare.figure)?),
+            (
+                "display",
+                with_texts(changed("display", &self.display, &bare.display)?, "plane", &self.display.plane),
+            ),
         ];
         top.extend(
             tables
@@ -53,14 +57,14 @@ impl Study {
         }
         Ok(top.to_string())
     }
+}
 
-    fn scan_table(&self, bare: &Self) -> Result<Table, Error> {
-        let mut scan = changed("scan", &self.scan, &bare.scan)?;
-        if let Some(axes) = scan.get_mut("axes") {
-            *axes = self.scan.axes.iter().map(Axis::to_text).collect::<Vec<_>>().into();
-        }
-        Ok(scan)
+/// The table with the axes under `key`, if it exists, as strings.
+fn with_texts(mut table: Table, key: &str, axes: &[Axis]) -> Table {
+    if let Some(value) = table.get_mut(key) {
+        *value = axes.iter().map(Axis::to_text).collect::<Vec<_>>().into();
     }
+    table
 }
 
 fn numbers(entries: &[(String, f64)]) -> Table {
@@ -86,7 +90,7 @@ fn changed<T: Serialize>(key: &'static str, settings: &T, default: &T) -> Result
 mod tests {
     use super::*;
     use crate::presets::PRESETS;
-    use crate::study::{FigureSettings, ReturnMapSettings, RunSettings, ScanSettings};
+    use crate::study::{DisplaySettings, FigureSettings, ReturnMapSettings, RunSettings, ScanSettings};
 
     fn back(study: &Study) -> Study {
         Study::parse(&study.to_toml().unwrap(), "text", &study.name).unwrap()
@@ -129,6 +133,11 @@ mod tests {
         study.return_map = Some(ReturnMapSettings { y: 1.0, x_min: -2.0, x_max: 3.5, centre: true });
         study.figure =
             FigureSettings { radius: 1.0, scale: 2.0, outlines: 3, from: 4.0, to: 5.0, animation: false };
+        study.display = DisplaySettings {
+            sample: 0.1 + 0.2,
+            speed: 7.0,
+            plane: vec![Axis::parse("gamma=0.1,0.7").unwrap()],
+        };
         assert_eq!(back(&study), study, "{}", study.to_toml().unwrap());
     }
 

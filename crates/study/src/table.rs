@@ -5,7 +5,7 @@
 pub struct Column {
     /// Name, ASCII.
     pub name: String,
-    /// What it is, with its unit; for an undefined value, why.
+    /// Its meaning, with its unit; for an undefined value, the reason.
     pub meaning: String,
     /// The values; NaN where undefined (written as null, or an empty field).
     pub values: Vec<f64>,
@@ -37,7 +37,7 @@ impl Table {
     }
 }
 
-/// Equality of bits, so that NaN equals NaN: what 'the same dataset' means.
+/// Equality of bits, so that NaN equals NaN: the meaning of 'the same dataset'.
 #[must_use]
 pub fn same_bits(a: &Table, b: &Table) -> bool {
     let bits = |table: &Table| -> Vec<(String, Vec<u64>)> {

@@ -1,5 +1,5 @@
-//! What figures are called: as typed, else by the verdict, else by the parameters. Never by the motion of a preset that other
-//! parameters were given to ([`Study::set`] takes its title away).
+//! Titles of figures: as typed, otherwise from the verdict, otherwise from the parameters. Never from the motion of a preset with modified
+//! parameters ([`Study::set`] removes its title).
 
 use crate::{Dataset, Plan, Study, presets};
 use motiform_models::ModelInfo;
@@ -31,7 +31,7 @@ impl Plan {
         }
     }
 
-    /// The parameters that are not those of the preset of its name, or of the model, as `symbol = value`.
+    /// The parameters that differ from the preset of its name, or from the model's defaults, as `symbol = value`.
     fn changed(&self) -> Vec<String> {
         let Ok(info) = self.info() else { return Vec::new() };
         let bare = presets::find(info, &self.name).unwrap_or_else(|_| Study::of_model(info));
@@ -43,7 +43,7 @@ impl Plan {
 }
 
 impl Dataset {
-    /// Title of its figures: as typed, else by the regime that its motion was named with, else by its parameters.
+    /// Title of its figures: as typed, otherwise from the regime of its motion, otherwise from its parameters.
     #[must_use]
     pub fn title(&self) -> String {
         let (plan, regime) = (&self.manifest.plan, self.manifest.regime.as_deref());
@@ -68,7 +68,7 @@ pub fn number(x: f64) -> String {
     }
 }
 
-/// Title of a scan: as typed, if it is not that of a preset, which speaks of one motion.
+/// Title of a scan: as typed, unless it is that of a preset, which describes a single motion.
 pub(crate) fn of_scan(study: &Study, info: &ModelInfo) -> String {
     if study.title.is_empty() || presets::says(info.name, &study.title) {
         format!("Motions of the {} model", info.name)

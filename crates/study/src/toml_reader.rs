@@ -1,4 +1,4 @@
-//! Reading TOML tables key by key, so that every complaint has a line, a column and a remedy.
+//! Reading of TOML tables key by key, so that every error message has a line, a column and a remedy.
 
 use crate::Error;
 use motiform_models::nearest;
@@ -21,7 +21,7 @@ impl<'i> Source<'i> {
         Ok(Table { source: self, path: String::new(), entries: parsed.into_inner(), known: Vec::new() })
     }
 
-    /// A complaint about the text at `span`.
+    /// An error message about the text at `span`.
     pub(crate) fn error(self, span: Range<usize>, problem: &str) -> Error {
         let before = &self.text[..span.start.min(self.text.len())];
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
@@ -43,10 +43,10 @@ impl<'i> Source<'i> {
     }
 }
 
-/// Most characters of a complaint: it may quote a name of any length.
+/// Maximum length of an error message, which may quote a name of any length.
 const LONGEST: usize = 1000;
 
-/// A complaint without its middle, where it is too long to read.
+/// An error message, without its middle if it is too long to read.
 fn shortened(problem: &str) -> String {
     let count = problem.chars().count();
     if count <= LONGEST {
@@ -59,7 +59,7 @@ fn shortened(problem: &str) -> String {
 /// Characters of a line that are shown.
 const SHOWN: usize = 160;
 
-/// What is shown of a long line around the character `place`, and the place in that.
+/// The part of a long line that is shown around the character `place`, and the position in it.
 fn around(line: &str, place: usize) -> (String, usize) {
     if line.chars().count() <= SHOWN {
         return (line.to_owned(), place);
@@ -74,7 +74,7 @@ fn around(line: &str, place: usize) -> (String, usize) {
     }
 }
 
-/// A table whose keys are taken one by one; [`Table::finish`] refuses what is left.
+/// A table whose keys are taken one by one; [`Table::finish`] rejects the rest.
 pub(crate) struct Table<'i> {
     source: Source<'i>,
     /// Dotted name of the table, with a trailing dot; empty at the top.
@@ -92,7 +92,7 @@ pub(crate) struct Value<'i> {
 }
 
 impl<'i> Table<'i> {
-    /// Takes the value of `key`, if it is there.
+    /// Takes the value of `key`, if it exists.
     pub(crate) fn take(&mut self, key: &str) -> Option<Value<'i>> {
         self.known.push(key.to_owned());
         let (found, value) = self.entries.remove_entry(key)?;
@@ -100,7 +100,7 @@ impl<'i> Table<'i> {
         Some(Value { source: self.source, key, key_span: found.span(), value })
     }
 
-    /// Takes a number into `place`, if it is there.
+    /// Takes a number into `place`, if it exists.
     pub(crate) fn number(&mut self, key: &str, place: &mut f64) -> Result<(), Error> {
         if let Some(value) = self.take(key) {
             *place = value.number()?;
@@ -108,7 +108,7 @@ impl<'i> Table<'i> {
         Ok(())
     }
 
-    /// Takes a whole number of at least 0 into `place`, if it is there.
+    /// Takes a whole number of at least 0 into `place`, if it exists.
     pub(crate) fn whole(&mut self, key: &str, place: &mut u64) -> Result<(), Error> {
         if let Some(value) = self.take(key) {
             *place = value.whole()?;
@@ -116,7 +116,7 @@ impl<'i> Table<'i> {
         Ok(())
     }
 
-    /// Takes a switch into `place`, if it is there.
+    /// Takes a switch into `place`, if it exists.
     pub(crate) fn switch(&mut self, key: &str, place: &mut bool) -> Result<(), Error> {
         if let Some(value) = self.take(key) {
             *place = value.switch()?;
@@ -124,12 +124,12 @@ impl<'i> Table<'i> {
         Ok(())
     }
 
-    /// Takes a text, if it is there.
+    /// Takes a string, if it exists.
     pub(crate) fn text(&mut self, key: &str) -> Result<Option<String>, Error> {
         self.take(key).map(|value| value.text()).transpose()
     }
 
-    /// Takes a table, if it is there.
+    /// Takes a table, if it exists.
     pub(crate) fn table(&mut self, key: &str) -> Result<Option<Table<'i>>, Error> {
         self.take(key).map(Value::table).transpose()
     }
@@ -149,7 +149,7 @@ impl<'i> Table<'i> {
             .collect()
     }
 
-    /// Refuses keys that nobody took, with the nearest known name.
+    /// Rejects keys that were not taken, with the nearest known name.
     pub(crate) fn finish(self) -> Result<(), Error> {
         let Some((key, _)) = self.entries.iter().min_by_key(|(key, _)| key.span().start) else {
             return Ok(());
@@ -165,12 +165,12 @@ impl<'i> Table<'i> {
 }
 
 impl<'i> Value<'i> {
-    /// A complaint about this value.
+    /// An error message about this value.
     pub(crate) fn error(&self, problem: impl std::fmt::Display) -> Error {
         self.source.error(self.value.span(), &problem.to_string())
     }
 
-    /// A complaint about its name.
+    /// An error message about its name.
     pub(crate) fn name_error(&self, problem: impl std::fmt::Display) -> Error {
         self.source.error(self.key_span.clone(), &problem.to_string())
     }
@@ -212,14 +212,14 @@ impl<'i> Value<'i> {
 
     /// A text.
     pub(crate) fn text(&self) -> Result<String, Error> {
-        self.value.get_ref().as_str().map(str::to_owned).ok_or_else(|| self.wrong("a text in quotes"))
+        self.value.get_ref().as_str().map(str::to_owned).ok_or_else(|| self.wrong("a string in quotes"))
     }
 
     /// A list of texts.
     pub(crate) fn texts(&self) -> Result<Vec<String>, Error> {
-        let array = self.value.get_ref().as_array().ok_or_else(|| self.wrong("a list of texts"))?;
+        let array = self.value.get_ref().as_array().ok_or_else(|| self.wrong("a list of strings"))?;
         let text = |item: &Spanned<DeValue<'_>>| item.get_ref().as_str().map(str::to_owned);
-        array.iter().map(text).collect::<Option<_>>().ok_or_else(|| self.wrong("a list of texts"))
+        array.iter().map(text).collect::<Option<_>>().ok_or_else(|| self.wrong("a list of strings"))
     }
 
     /// A table.

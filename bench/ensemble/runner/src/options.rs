@@ -17,6 +17,6 @@ impl Options {
 
     pub fn get<T: FromStr>(&self, key: &str, default: T) -> Result<T, String> {
         let Some(value) = self.0.get(key) else { return Ok(default) };
-        value.parse().map_err(|_| format!("{key}={value} is no number"))
+        value.parse().map_err(|_| format!("{key}={value} is not a number"))
     }
 }

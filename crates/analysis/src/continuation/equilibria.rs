@@ -162,6 +162,10 @@ impl Problem for Equilibria<'_> {
         })
     }
 
+    fn body<'l>(&self, local: &'l Local) -> &'l dyn Equivariant {
+        local.body.as_ref()
+    }
+
     fn size(&self, x: &[f64]) -> f64 {
         norm(&x[..self.dim])
     }

@@ -1,7 +1,8 @@
 //! Special points between two points of a branch.
 
 use super::correct::{correct, normal, product};
-use super::place::{Place, place};
+use super::levels::Level;
+use super::place::{Before, Place, place};
 use super::point::Obstruction;
 use super::problem::{Failure, Problem};
 use super::special::Special;
@@ -12,6 +13,25 @@ const TIGHT: f64 = 1e-11;
 
 /// Most solutions on the way to a special point.
 const TRIES: usize = 60;
+
+/// The step from `old` to `new`, and the place before it.
+pub(super) struct Step<'s, L> {
+    pub(super) old: &'s Place<L>,
+    pub(super) new: &'s Place<L>,
+    pub(super) before: Option<&'s Before>,
+    pub(super) length: f64,
+}
+
+/// What changes on a step.
+pub(super) struct Changes<L> {
+    /// The special points, in their order.
+    pub(super) found: Vec<(Place<L>, Special)>,
+    /// The names of the changes that were seen but not located.
+    pub(super) missed: Vec<&'static str>,
+}
+
+/// The watch stopped the computation.
+pub(super) struct Stopped;
 
 /// What vanishes at a special point.
 #[derive(Clone, Copy)]
@@ -24,73 +44,130 @@ enum Test {
 
 impl Test {
     fn of<L>(self, place: &Place<L>) -> f64 {
+        self.value(&place.tangent, &place.levels)
+    }
+
+    fn value(self, tangent: &[f64], levels: &[Vec<Level>]) -> f64 {
         match self {
-            Self::Slope => place.slope(),
-            Self::Level(class, rank) => place
-                .levels
-                .get(class)
-                .and_then(|levels| levels.get(rank))
-                .map_or(f64::NAN, |level| level.growth),
+            Self::Slope => tangent.last().copied().unwrap_or(f64::NAN),
+            Self::Level(class, rank) => {
+                levels.get(class).and_then(|levels| levels.get(rank)).map_or(f64::NAN, |level| level.growth)
+            }
         }
     }
 }
 
-/// The special points between `old` and `new`, `length` apart, in their order.
+/// A test changes its sign between two lengths, with these values.
+struct Bracket {
+    test: Test,
+    low: (f64, f64),
+    high: (f64, f64),
+}
+
+/// The special points on a step.
 pub(super) fn locate<P: Problem>(
     problem: &P,
-    old: &Place<P::Local>,
-    new: &Place<P::Local>,
-    length: f64,
+    step: &Step<'_, P::Local>,
     watch: &dyn Watch,
-) -> Vec<(Place<P::Local>, Special)> {
-    let mut found: Vec<(Place<P::Local>, Special)> = Vec::new();
-    for test in tests(old, new) {
-        let Ok(at) = solve(problem, old, new, (test, length), watch) else { continue };
-        let special = match test {
-            Test::Slope => Special::Fold,
-            Test::Level(class, rank) => problem.classify(&at.x, at.levels[class][rank], class),
-        };
-        let close = |other: &Place<P::Local>| (other.arclength - at.arclength).abs() < 1e-4 * length;
-        let known = found.iter().any(|(other, kind)| {
-            let same = kind.name() == special.name();
-            close(other) && (same || *kind == Special::Fold && special == Special::BranchPoint)
-        });
-        if !known {
-            found.push((at, special));
+) -> Result<Changes<P::Local>, Stopped> {
+    let mut changes = Changes { found: Vec::new(), missed: Vec::new() };
+    for bracket in brackets(problem, step, watch) {
+        match solve(problem, step, &bracket, watch) {
+            Ok(at) => {
+                let special = kind(problem, &at, bracket.test);
+                if !is_known(&changes.found, &at, special, step.length) {
+                    changes.found.push((at, special));
+                }
+            }
+            Err(Failure::Stopped) => return Err(Stopped),
+            Err(Failure::Obstructed(_)) => {
+                let seen = kind(problem, step.new, bracket.test).name();
+                if !changes.missed.contains(&seen) {
+                    changes.missed.push(seen); // both of a complex pair are one change
+                }
+            }
         }
     }
-    found.sort_by(|a, b| a.0.arclength.total_cmp(&b.0.arclength));
-    found
+    changes.found.sort_by(|a, b| a.0.arclength.total_cmp(&b.0.arclength));
+    Ok(changes)
 }
 
-/// What changes its sign on the way; the slope first.
-fn tests<L>(old: &Place<L>, new: &Place<L>) -> Vec<Test> {
+fn kind<P: Problem>(problem: &P, at: &Place<P::Local>, test: Test) -> Special {
+    match test {
+        Test::Slope => Special::Fold,
+        Test::Level(class, rank) => problem.classify(&at.x, at.levels[class][rank], class),
+    }
+}
+
+/// Whether another test has led to the same point.
+fn is_known<L>(found: &[(Place<L>, Special)], at: &Place<L>, special: Special, length: f64) -> bool {
+    found.iter().any(|(other, kind)| {
+        let same = kind.name() == special.name();
+        let close = (other.arclength - at.arclength).abs() < 1e-4 * length;
+        close && (same || *kind == Special::Fold && special == Special::BranchPoint)
+    })
+}
+
+/// What changes its sign on the way; the slope first. Where a test seems to change it twice, a solution between decides.
+fn brackets<P: Problem>(problem: &P, step: &Step<'_, P::Local>, watch: &dyn Watch) -> Vec<Bracket> {
     let ranks = |(class, (a, b)): (usize, (&Vec<_>, &Vec<_>))| {
         let ranks = if a.len() == b.len() { a.len() } else { 0 };
         (0..ranks).map(move |rank| Test::Level(class, rank)).collect::<Vec<Test>>()
     };
-    let levels = old.levels.iter().zip(&new.levels).enumerate().flat_map(ranks);
-    let changes = |test: &Test| test.of(old) * test.of(new) < 0.0;
-    std::iter::once(Test::Slope).chain(levels).filter(changes).collect()
+    let levels = step.old.levels.iter().zip(&step.new.levels).enumerate().flat_map(ranks);
+    let mut out = Vec::new();
+    for test in std::iter::once(Test::Slope).chain(levels) {
+        let (low, high) = ((0.0, test.of(step.old)), (step.length, test.of(step.new)));
+        if low.1 * high.1 < 0.0 {
+            out.push(Bracket { test, low, high });
+        } else if let Some(s) = step.before.and_then(|before| dip(test, before, low, high))
+            && let Ok(middle) = between(problem, step, s, watch)
+        {
+            let middle = (s, test.of(&middle));
+            if middle.1 * low.1 < 0.0 {
+                out.push(Bracket { test, low, high: middle });
+                out.push(Bracket { test, low: middle, high });
+            }
+        }
+    }
+    out
+}
+
+/// Where a test of the same sign at both ends of a step comes so near to 0 that it may change its sign twice: the vertex of the
+/// parabola through its last three values, where that is less than half of the smaller one; or, for a test with a kink (two levels that
+/// change places), beyond the zero that the last step leads to.
+fn dip(test: Test, before: &Before, low: (f64, f64), high: (f64, f64)) -> Option<f64> {
+    let sign = low.1.signum();
+    let [first, a, b] = [test.value(&before.tangent, &before.levels), low.1, high.1].map(|v| sign * v);
+    if b <= 0.0 {
+        return None;
+    }
+    let length = high.0;
+    let slope = (a - first) / before.length;
+    let bend = ((b - a) / length - slope) / (length + before.length);
+    let (start, vertex) = (slope + bend * before.length, -0.5 * slope / bend - 0.5 * before.length);
+    if bend > 0.0 && vertex > 0.0 && vertex < length && a + 0.5 * start * vertex < 0.5 * a.min(b) {
+        return Some(vertex);
+    }
+    let zero = -a / slope;
+    (slope < 0.0 && zero < length).then_some(0.5 * (zero + length))
 }
 
 /// The solution at which the test vanishes, by false position (the Illinois variant): every iterate is a solution of the equations.
 fn solve<P: Problem>(
     problem: &P,
-    old: &Place<P::Local>,
-    new: &Place<P::Local>,
-    (test, length): (Test, f64),
+    step: &Step<'_, P::Local>,
+    &Bracket { test, mut low, mut high }: &Bracket,
     watch: &dyn Watch,
 ) -> Result<Place<P::Local>, Failure> {
-    let (mut low, mut high) = ((0.0, test.of(old)), (length, test.of(new)));
     let scale = low.1.abs().max(high.1.abs());
     let (mut kept_high, mut last) = (None, f64::INFINITY);
     for count in 1..=TRIES {
         let false_position = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
         let s = if count % 12 == 0 { 0.5 * (low.0 + high.0) } else { false_position };
-        let at = between(problem, old, new, (s, length), watch)?;
+        let at = between(problem, step, s, watch)?;
         let value = test.of(&at);
-        if value.abs() <= 1e-12 * scale || (s - last).abs() <= 1e-10 * length {
+        if value.abs() <= 1e-12 * scale || (s - last).abs() <= 1e-10 * step.length {
             return Ok(at);
         }
         last = s;
@@ -107,12 +184,11 @@ fn solve<P: Problem>(
     Err(Failure::Obstructed(Obstruction::Newton))
 }
 
-/// The solution at the length `s` after `old`, on the way to `new`.
+/// The solution at the length `s` after the beginning of a step.
 fn between<P: Problem>(
     problem: &P,
-    old: &Place<P::Local>,
-    new: &Place<P::Local>,
-    (s, length): (f64, f64),
+    &Step { old, new, length, .. }: &Step<'_, P::Local>,
+    s: f64,
     watch: &dyn Watch,
 ) -> Result<Place<P::Local>, Failure> {
     let weights = problem.weights(&old.x);

@@ -37,6 +37,7 @@ mod reduced_maps;
 mod settings;
 mod shooting;
 mod special;
+mod steps;
 mod switch;
 mod tracer;
 mod variation;

@@ -248,6 +248,10 @@ impl Problem for Orbits<'_> {
         Some(out)
     }
 
+    fn body<'l>(&self, local: &'l Local) -> &'l dyn Equivariant {
+        local.body.as_ref()
+    }
+
     fn size(&self, x: &[f64]) -> f64 {
         (0..self.parts).map(|i| norm(self.node(x, i))).fold(0.0, f64::max)
     }

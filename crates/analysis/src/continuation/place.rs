@@ -15,6 +15,15 @@ pub(super) struct Place<L> {
     pub(super) arclength: f64,
 }
 
+/// The place before the present one.
+pub(super) struct Before {
+    pub(super) x: Vec<f64>,
+    pub(super) tangent: Vec<f64>,
+    pub(super) levels: Vec<Vec<Level>>,
+    /// Length of the step from there.
+    pub(super) length: f64,
+}
+
 impl<L> Place<L> {
     pub(super) fn parameter(&self) -> f64 {
         self.x.last().copied().unwrap_or(f64::NAN)

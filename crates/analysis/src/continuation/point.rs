@@ -90,6 +90,8 @@ impl Point {
 pub enum End {
     /// The parameter left its range; the last point lies at the edge.
     RangeLeft,
+    /// The branch came back to its start (up to the symmetry); the last point is the start again.
+    Closed,
     /// As many points as were asked for.
     PointLimit,
     /// The watch stopped it.
@@ -154,6 +156,7 @@ impl std::fmt::Display for End {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::RangeLeft => write!(f, "the parameter left its range"),
+            Self::Closed => write!(f, "the branch came back to its start"),
             Self::PointLimit => write!(f, "as many points as were asked for"),
             Self::Stopped => write!(f, "stopped from outside"),
             Self::BlowUp { size } => write!(f, "the shape grew to {size:.3e}"),

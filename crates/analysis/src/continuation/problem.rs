@@ -4,7 +4,7 @@ use super::levels::Level;
 use super::point::{Motion, Obstruction};
 use super::special::Special;
 use crate::{Error, RelativeEquilibrium};
-use motiform_dynamics::Watch;
+use motiform_dynamics::{Equivariant, Watch};
 use nalgebra::DMatrix;
 
 /// Why there is no solution here.
@@ -60,6 +60,9 @@ pub(super) trait Problem {
 
     /// The motion, for whoever asked for the branch.
     fn motion(&self, x: &[f64], local: &Self::Local, levels: &[Vec<Level>]) -> Motion;
+
+    /// The body at `x`.
+    fn body<'l>(&self, local: &'l Self::Local) -> &'l dyn Equivariant;
 
     /// The same solution in other unknowns, where these have become too few.
     fn refine(&mut self, _x: &[f64], _local: &Self::Local, _watch: &dyn Watch) -> Option<Vec<f64>> {

@@ -1,6 +1,6 @@
 //! Where a branch changes.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, de};
 
 /// What happens at a special point.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,6 +26,17 @@ pub enum Special {
     Torus {
         /// The angle (rad, 0 to pi).
         angle: f64,
+    },
+    /// A change was seen between two points of the branch and could not be located, however short the steps. The point that carries
+    /// this is the one after it.
+    Unresolved {
+        /// The name of what it seems to be: that of another of these.
+        #[serde(deserialize_with = "known")]
+        seen: &'static str,
+        /// The parameter before it.
+        from: f64,
+        /// The parameter after it.
+        to: f64,
     },
 }
 
@@ -76,6 +87,26 @@ impl Special {
             Self::PeriodDoubling => "period-doubling",
             Self::SymmetryBreaking => "symmetry-breaking",
             Self::Torus { .. } => "torus",
+            Self::Unresolved { .. } => "unresolved",
         }
     }
+}
+
+/// All names.
+const NAMES: [&str; 8] = [
+    "fold",
+    "pitchfork",
+    "branch-point",
+    "hopf",
+    "period-doubling",
+    "symmetry-breaking",
+    "torus",
+    "unresolved",
+];
+
+/// One of the names, read back.
+fn known<'d, D: Deserializer<'d>>(input: D) -> Result<&'static str, D::Error> {
+    let name = String::deserialize(input)?;
+    let found = NAMES.into_iter().find(|known| *known == name);
+    found.ok_or_else(|| de::Error::unknown_variant(&name, &NAMES))
 }

@@ -1,11 +1,12 @@
 //! Pseudo-arclength continuation with step control, over any equations.
 
-use super::correct::{correct, normal, null_vectors, product, scaled};
+use super::copies::same_motion;
+use super::correct::{correct, normal, null_vectors, scaled};
 use super::homoclinic::Periods;
 use super::levels::unstable;
-use super::locate::locate;
-use super::place::{Place, place};
-use super::point::{End, Obstruction, Point};
+use super::locate::{Changes, Step, locate};
+use super::place::{Before, Place, place};
+use super::point::{End, Motion, Obstruction, Point};
 use super::problem::{Failure, Problem};
 use super::settings::Settings;
 use super::special::Special;
@@ -16,21 +17,32 @@ use std::collections::VecDeque;
 /// Newton's method has converged with a step shorter than this.
 pub(super) const TOLERANCE: f64 = 1e-9;
 
-/// Length of the first correction that the step is chosen for: the second is about its square. The first grows with the third power of
-/// the step.
-const CORRECTION: f64 = 1e-3;
+/// Least part of a shape by which a motion differs from the start of a branch.
+const SAME: f64 = 1e-6;
 
-/// Least cosine of the angle between successive tangents.
-const STRAIGHT: f64 = 0.9;
+/// Steps are halved so often where a change cannot be located.
+const HALVINGS: usize = 4;
+
+/// Where a step leads, its length, and what changes on it.
+type Examined<L> = (Place<L>, f64, Changes<L>);
+
+/// Where a branch began.
+struct First {
+    parameter: f64,
+    slope: f64,
+    motion: Motion,
+}
 
 /// A branch being followed.
 pub(super) struct Tracer<P: Problem> {
-    problem: P,
-    settings: Settings,
-    place: Place<P::Local>,
-    /// The place before, and its tangent.
-    before: Option<(Vec<f64>, Vec<f64>)>,
-    step: f64,
+    pub(super) problem: P,
+    pub(super) settings: Settings,
+    pub(super) place: Place<P::Local>,
+    pub(super) before: Option<Before>,
+    pub(super) step: f64,
+    /// How often in a row steps were halved because a change could not be located.
+    halvings: usize,
+    first: First,
     queue: VecDeque<Point>,
     count: usize,
     end: Option<End>,
@@ -80,7 +92,10 @@ impl<P: Problem> Tracer<P> {
     }
 
     fn at(problem: P, place: Place<P::Local>, settings: &Settings) -> Self {
+        let motion = problem.motion(&place.x, &place.local, &place.levels);
         let mut tracer = Self {
+            first: First { parameter: place.parameter(), slope: place.slope(), motion },
+            halvings: 0,
             problem,
             settings: *settings,
             place,
@@ -142,115 +157,94 @@ impl<P: Problem> Tracer<P> {
             return Err(End::Stopped);
         }
         self.refine(watch);
-        let (mut new, length) = self.reach(watch)?;
+        let (mut new, mut length) = self.reach(watch)?;
+        let mut last = None;
+        if let Some((nearer, end)) = self.limit(&new, watch)? {
+            length = nearer.arclength - self.place.arclength;
+            (new, last) = (nearer, Some(end));
+        }
+        self.check(&new)?;
+        let (new, length, changes) = self.examine(new, length, &mut last, watch)?;
+        if let Some(end) = self.shrinks(&new, &changes.found) {
+            return Err(end);
+        }
+        self.hand_out(&new, changes);
+        let old = std::mem::replace(&mut self.place, new);
+        self.before = Some(Before { x: old.x, tangent: old.tangent, levels: old.levels, length });
+        last.map_or_else(|| self.ends(), Err)
+    }
+
+    /// The place on the way to `new` beyond which the branch does not go.
+    fn limit(&self, new: &Place<P::Local>, watch: &dyn Watch) -> Result<Option<(Place<P::Local>, End)>, End> {
         let (low, high) = self.settings.range;
-        let mut length = length;
-        let left = !(low..=high).contains(&new.parameter());
-        if left {
+        if !(low..=high).contains(&new.parameter()) {
             let edge = if new.parameter() < low { low } else { high };
             if self.place.parameter() == edge {
                 return Err(End::RangeLeft);
             }
-            (new, length) = self.edge(&new, edge, watch)?;
+            return Ok(Some((self.edge(new, edge, watch)?, End::RangeLeft)));
         }
-        self.check(&new)?;
-        let found = locate(&self.problem, &self.place, &new, length, watch);
-        if let Some(end) = self.shrinks(&new, &found) {
-            return Err(end);
+        self.closes(new, watch)
+    }
+
+    /// The start, where the branch passes it again in the same direction before `new`.
+    fn closes(
+        &self,
+        new: &Place<P::Local>,
+        watch: &dyn Watch,
+    ) -> Result<Option<(Place<P::Local>, End)>, End> {
+        let (old, first) = (&self.place, &self.first);
+        let sides = [old, new].map(|place| place.parameter() - first.parameter);
+        let along = [old, new].iter().all(|place| place.slope() * first.slope > 0.0);
+        if self.count < 3 || !along || sides[0] * sides[1] > 0.0 || sides[0] == 0.0 {
+            return Ok(None);
         }
-        for (at, special) in found {
+        let at = self.edge(new, first.parameter, watch)?;
+        let motion = self.problem.motion(&at.x, &at.local, &at.levels);
+        let body = self.problem.body(&at.local);
+        let same = same_motion(body, &first.motion, &motion, &self.settings.flow, SAME);
+        Ok(same.then_some((at, End::Closed)))
+    }
+
+    /// What changes on the way to `new`. Where a change cannot be located, shorter steps are tried.
+    fn examine(
+        &mut self,
+        mut new: Place<P::Local>,
+        mut length: f64,
+        last: &mut Option<End>,
+        watch: &dyn Watch,
+    ) -> Result<Examined<P::Local>, End> {
+        let changes = |tracer: &Self, new: &Place<P::Local>, length| {
+            let step = Step { old: &tracer.place, new, before: tracer.before.as_ref(), length };
+            locate(&tracer.problem, &step, watch).map_err(|_| End::Stopped)
+        };
+        let mut found = changes(self, &new, length)?;
+        let mut halved = false;
+        while !found.missed.is_empty() && self.halvings < HALVINGS {
+            self.halvings += 1;
+            let Ok((nearer, _)) = self.attempt(0.5 * length, watch) else { break };
+            (new, length, halved, *last) = (nearer, 0.5 * length, true, None);
+            found = changes(self, &new, length)?;
+        }
+        if !halved {
+            self.halvings = 0;
+        }
+        Ok((new, length, found))
+    }
+
+    /// The points of a step.
+    fn hand_out(&mut self, new: &Place<P::Local>, changes: Changes<P::Local>) {
+        for (at, special) in changes.found {
             let point = self.point(&at, Some(special));
             self.queue.push_back(point);
         }
-        let point = self.point(&new, None);
+        let (from, to) = (self.place.parameter(), new.parameter());
+        for seen in changes.missed {
+            let point = self.point(new, Some(Special::Unresolved { seen, from, to }));
+            self.queue.push_back(point);
+        }
+        let point = self.point(new, None);
         self.queue.push_back(point);
-        let old = std::mem::replace(&mut self.place, new);
-        self.before = Some((old.x, old.tangent));
-        if left { Err(End::RangeLeft) } else { self.ends() }
-    }
-
-    /// The next solution and the length of the step to it.
-    fn reach(&mut self, watch: &dyn Watch) -> Result<(Place<P::Local>, f64), End> {
-        loop {
-            let length = self.step;
-            let why = match self.attempt(length, watch) {
-                Ok((place, first)) => {
-                    let factor = libm::cbrt(CORRECTION / first.max(1e-12)).clamp(0.4, 1.5);
-                    self.step =
-                        (length * factor).clamp(self.settings.smallest_step, self.settings.largest_step);
-                    return Ok((place, length));
-                }
-                Err(Failure::Stopped) => return Err(End::Stopped),
-                Err(Failure::Obstructed(why)) => why,
-            };
-            self.step = 0.4 * length;
-            if self.step < self.settings.smallest_step {
-                return Err(End::StepUnderflow { step: length, why });
-            }
-        }
-    }
-
-    fn attempt(&self, length: f64, watch: &dyn Watch) -> Result<(Place<P::Local>, f64), Failure> {
-        let old = &self.place;
-        let weights = self.problem.weights(&old.x);
-        let row = normal(&old.tangent, &weights);
-        let guess = self.guess(length, &weights);
-        let found = correct(&self.problem, guess, &row, TOLERANCE, watch)?;
-        let first = found.first;
-        let new = place(&self.problem, found, &row, old.arclength + length)?;
-        if product(&weights, &old.tangent, &new.tangent) < STRAIGHT {
-            return Err(Failure::Obstructed(Obstruction::Newton));
-        }
-        Ok((new, first))
-    }
-
-    /// The place expected after `length`: the tangent turns on as it did on the last step. (A cubic through the last two places would
-    /// be closer, but Newton's steps leave what it says along the neutral directions as it is, and its errors there would grow.)
-    fn guess(&self, length: f64, weights: &[f64]) -> Vec<f64> {
-        let Place { x, tangent, .. } = &self.place;
-        let mut guess: Vec<f64> = x.iter().zip(tangent).map(|(x, t)| x + length * t).collect();
-        if let Some((before, slope)) = &self.before {
-            let moved: Vec<f64> = x.iter().zip(before).map(|(a, b)| a - b).collect();
-            let (gone, turned) = (product(weights, tangent, &moved), product(weights, tangent, slope));
-            if length < 2.0 * gone && turned > STRAIGHT {
-                let bend = 0.5 * length * length / gone;
-                for (i, value) in guess.iter_mut().enumerate() {
-                    *value += bend * (tangent[i] - slope[i] / turned);
-                }
-            }
-        }
-        guess
-    }
-
-    /// The solution between the present one and `beyond` whose parameter is `edge`.
-    fn edge(
-        &self,
-        beyond: &Place<P::Local>,
-        edge: f64,
-        watch: &dyn Watch,
-    ) -> Result<(Place<P::Local>, f64), End> {
-        let old = &self.place;
-        let part = (edge - old.parameter()) / (beyond.parameter() - old.parameter());
-        let mut guess: Vec<f64> = old.x.iter().zip(&beyond.x).map(|(a, b)| a + part * (b - a)).collect();
-        let mut row = vec![0.0; guess.len()];
-        if let (Some(last), Some(one)) = (guess.last_mut(), row.last_mut()) {
-            (*last, *one) = (edge, 1.0);
-        }
-        let weights = self.problem.weights(&old.x);
-        let side = normal(&old.tangent, &weights);
-        let found = correct(&self.problem, guess, &row, TOLERANCE, watch)
-            .and_then(|found| place(&self.problem, found, &side, 0.0));
-        let mut new = found.map_err(|failure| match failure {
-            Failure::Stopped => End::Stopped,
-            Failure::Obstructed(why) => End::StepUnderflow { step: self.step, why },
-        })?;
-        if let Some(last) = new.x.last_mut() {
-            *last = edge;
-        }
-        let moved: Vec<f64> = new.x.iter().zip(&old.x).map(|(a, b)| a - b).collect();
-        let length = product(&weights, &old.tangent, &moved);
-        new.arclength = old.arclength + length;
-        Ok((new, length))
     }
 
     fn check(&self, new: &Place<P::Local>) -> Result<(), End> {

@@ -48,11 +48,11 @@ pub fn lyapunov_in_lanes<B, F, const N: usize, const K: usize, const D: usize>(
     B: AsRef<dyn Equivariant>,
     F: InLanes,
 {
-    let _ = run_wide(Run::<B, F, N, K, D> { control, next, done, watch });
+    let _ = run_wide(ExponentKernel::<B, F, N, K, D> { control, next, done, watch });
 }
 
 /// The work of one thread.
-struct Run<'r, B, F, const N: usize, const K: usize, const D: usize> {
+struct ExponentKernel<'r, B, F, const N: usize, const K: usize, const D: usize> {
     control: (f64, f64),
     next: &'r mut dyn FnMut() -> Option<TangentMember<B, F, N>>,
     done: &'r mut dyn FnMut(usize, Result<Lyapunov>),
@@ -60,7 +60,7 @@ struct Run<'r, B, F, const N: usize, const K: usize, const D: usize> {
 }
 
 impl<B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, const D: usize> LaneKernel
-    for Run<'_, B, F, N, K, D>
+    for ExponentKernel<'_, B, F, N, K, D>
 {
     type Output = ();
 

@@ -1,6 +1,7 @@
 //! A stretch of an orbit, watched: its extremes in size, its rests, its end.
 
 use crate::linear::norm;
+use crate::periodic::is_small;
 use crate::symmetry::{align, gauge, gauge_rate, reduced_speed};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::section::Crossing;
@@ -64,6 +65,9 @@ const KEPT: usize = 4096;
 
 impl Look {
     /// Follows `orbit` for `time`.
+    ///
+    /// In a large system extremes are looked for at the ends of steps only: its steps are those of its fast modes, a hundredth of the
+    /// time between extremes, and eight points of each would take more evaluations of the field than the step.
     pub(super) fn take<B: Equivariant + ?Sized>(
         body: &B,
         orbit: &mut dyn Integration,
@@ -74,7 +78,8 @@ impl Look {
         let start = orbit.t();
         let rate = |_t: f64, u: &[f64]| gauge_rate(body, u);
         let sections = [Section { g: &rate, direction: Direction::Either, terminal: false }];
-        let request = Request { t_end: start + time, sections: &sections, watch, ..*request };
+        let pieces = if is_small(body.dim()) { request.pieces } else { 1 };
+        let request = Request { t_end: start + time, sections: &sections, pieces, watch, ..*request };
         let mut watcher = Watcher { body, seen: Seen::new(orbit.state()) };
         let outcome = drive(orbit, &request, &mut watcher)?;
         let Watcher { seen, .. } = watcher;

@@ -18,6 +18,8 @@ mod settings;
 mod stay;
 mod steady_turns;
 #[cfg(test)]
+mod tests_of_saddles;
+#[cfg(test)]
 mod tests_of_thresholds;
 mod verdict;
 mod words;

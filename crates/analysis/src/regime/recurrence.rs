@@ -1,10 +1,10 @@
 //! Does the shape come back? Recurrences of the reduced orbit, polished by Newton's method.
 
 use super::heteroclinic::attracting_saddle;
-use super::look::{Extreme, Look};
+use super::look::{Extreme, Look, Rest};
 use super::settings::Settings;
 use crate::isotropy::Isotropy;
-use crate::periodic::{PeriodicGuess, PeriodicOrbit};
+use crate::periodic::{PeriodicGuess, PeriodicOrbit, is_small};
 use crate::symmetry::{align, wrap};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Equivariant, Request, Watch};
@@ -20,6 +20,11 @@ const NEAR: f64 = 0.2;
 
 /// Most recurrences that are tried.
 const TRIES: usize = 2;
+
+/// In a large system a try follows several tangent vectors over several periods, a hundred times the cost of a look of that length. All
+/// tries of a look may take this part of its model time, and at least the time of a first look: three or four periods find an orbit,
+/// so every period up to a sixteenth of the look is found.
+const EFFORT: f64 = 0.25;
 
 /// A shape of a periodic orbit that differs from its image by less than this part of its size is symmetric.
 pub(super) const SYMMETRIC: f64 = 1e-6;
@@ -53,7 +58,7 @@ pub(super) fn recurrences<B: Equivariant + ?Sized>(
         for &mirrored in images {
             let near = align(body, &last.shape, &before.shape, mirrored);
             if near.distance < CLOSE * diameter
-                && settles(body, minima, returns + 1, mirrored, near.distance, 1e-5 * diameter)
+                && settles(body, minima, (returns + 1, mirrored), near.distance, diameter)
             {
                 let time = last.t - before.t;
                 found.push(Recurrence { returns: returns + 1, mirrored, time, angle: near.angle });
@@ -63,20 +68,23 @@ pub(super) fn recurrences<B: Equivariant + ?Sized>(
     found
 }
 
-/// Whether the same recurrence a period earlier was no closer: an orbit that others approach is approached. `true` where the
-/// look is too short to tell, or both are at the resolution.
+/// Whether the same recurrence a period earlier was no closer: an orbit that others approach is approached. `true` where both are at
+/// the resolution.
+///
+/// Where the look is too short to tell, a small system may be tried. In a large one a try costs as much as hundreds of periods: it is
+/// asked for two close returns in a row. Chaos shows one close return in every look, and two of them as the square of that.
 fn settles<B: Equivariant + ?Sized>(
     body: &B,
     minima: &[&Extreme],
-    returns: usize,
-    mirrored: bool,
+    (returns, mirrored): (usize, bool),
     now: f64,
-    resolution: f64,
+    diameter: f64,
 ) -> bool {
+    let small = is_small(body.dim());
     let at = |back: usize| minima.len().checked_sub(1 + back).map(|index| minima[index]);
-    let (Some(middle), Some(early)) = (at(returns), at(2 * returns)) else { return true };
+    let (Some(middle), Some(early)) = (at(returns), at(2 * returns)) else { return small };
     let before = align(body, &middle.shape, &early.shape, mirrored).distance;
-    now <= 1.05 * before.max(resolution)
+    now <= 1.05 * before.max(1e-5 * diameter) && (small || before < CLOSE * diameter)
 }
 
 /// An unstable periodic orbit this near to the latest return, against the latest swing, is the motion itself.
@@ -94,10 +102,14 @@ pub(super) enum Returns {
     None,
 }
 
-/// The periodic orbit that the look ends on.
+/// The periodic orbit that the look ends on; `rests` are those of this look.
+///
+/// In a large system a recurrence that passes a saddle by which cycles attract is not tried: what Newton's method might find would be
+/// an orbit of the tolerance ([`is_of_the_flow`]), after tangent vectors have grown by `e^(lambda_+ T)` in a rest of length T.
 pub(super) fn periodic<B: Equivariant + ?Sized>(
     body: &B,
     look: &Look,
+    rests: &[Rest],
     settings: &Settings,
     watch: &dyn Watch,
 ) -> Returns {
@@ -108,14 +120,23 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
         return Returns::None;
     };
     let swing = align(body, &maximum.shape, &last.shape, false).distance;
+    let large = !is_small(body.dim());
+    let most = settings.first_look.max(EFFORT * (look.end - look.start));
+    let mut effort = if large { most } else { f64::INFINITY };
     for recurrence in recurrences(body, &minima, diameter).into_iter().take(TRIES) {
+        if passes_attracting_saddle(body, rests, (last.t - recurrence.time, last.t), settings) {
+            continue;
+        }
         let guess = PeriodicGuess {
             shape: &last.shape,
             time: recurrence.time,
             angle: recurrence.angle,
             mirrored: recurrence.mirrored,
         };
-        let Some(orbit) = PeriodicOrbit::find(body, &guess, &settings.flow(), watch) else { continue };
+        let Some(orbit) = PeriodicOrbit::find_within(body, &guess, &settings.flow(), &mut effort, watch)
+        else {
+            continue;
+        };
         // Against the latest swing: an equilibrium, approached in a spiral, is a periodic orbit of no size.
         let away = align(body, &orbit.shape, &last.shape, false).distance / swing;
         if away < ON && orbit.growth() > 1.0 + settings.accuracy() {
@@ -128,6 +149,18 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
         }
     }
     Returns::None
+}
+
+/// Whether one of the rests between two times was at a saddle by which cycles attract ([`attracting_saddle`]).
+pub(super) fn passes_attracting_saddle<B: Equivariant + ?Sized>(
+    body: &B,
+    rests: &[Rest],
+    (from, to): (f64, f64),
+    settings: &Settings,
+) -> bool {
+    let within = rests.iter().filter(|rest| rest.end > from && rest.start < to);
+    let shapes = within.rev().map(|rest| &rest.shape);
+    shapes.into_iter().any(|shape| attracting_saddle(body, shape, settings).is_some())
 }
 
 /// An orbit that is mirror symmetric at every moment is its own mirror image after any time: its period ends when the shape comes

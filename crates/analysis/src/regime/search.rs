@@ -12,6 +12,7 @@ use super::{chaos, words};
 use crate::equilibrium::RelativeEquilibrium;
 use crate::isotropy::Isotropy;
 use crate::linear::norm;
+use crate::periodic::is_small;
 use crate::{Lyapunov, Result};
 use motiform_dynamics::{Equivariant, Outcome, Watch};
 
@@ -237,13 +238,14 @@ impl Search {
         watch: &dyn Watch,
     ) -> Result<Ask> {
         self.stay = Stay::default();
+        let earlier = self.rests.len();
         self.rests.append(&mut look.rests);
         if let Some(cycle) = cycle(body, &self.rests, &self.settings) {
             return Ok(
                 words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, watch)?.into()
             );
         }
-        match periodic(body, &look, &self.settings, watch) {
+        match periodic(body, &look, &self.rests[earlier..], &self.settings, watch) {
             Returns::Stable(found, recurrence) => {
                 return Ok(
                     words::periodic(body, &found, &recurrence, &self.settings, self.time, watch)?.into()
@@ -303,7 +305,8 @@ impl Search {
         self.again(body, watch)
     }
 
-    /// Twice as long, or the end of the budget.
+    /// Twice as long, or the end of the budget. In a large system, where model time costs most, looks do not grow while an exponent is
+    /// nearly decided: it is asked for a little more time, not for as much again.
     fn again<B: Equivariant + ?Sized>(&mut self, body: &B, watch: &dyn Watch) -> Result<Ask> {
         self.first = false;
         // An exponent that is nearly that of chaos gets more time, once: its error shrinks, the limit stays.
@@ -311,7 +314,12 @@ impl Search {
             self.extended = true;
             self.budget *= 2.0;
         }
-        self.span = (2.0 * self.span).min((self.budget - self.time).max(self.settings.first_look));
+        let longer = if !is_small(body.dim()) && chaos::is_near(&self.growth) {
+            self.span.min(NEARLY * self.settings.first_look)
+        } else {
+            2.0 * self.span
+        };
+        self.span = longer.min((self.budget - self.time).max(self.settings.first_look));
         if self.time < self.budget {
             return Ok(self.next());
         }
@@ -336,6 +344,9 @@ impl Search {
         Ok(verdict)
     }
 }
+
+/// Looks of a large system whose exponent is nearly decided last for so many first looks at most.
+const NEARLY: f64 = 8.0;
 
 /// An equilibrium this near (against the size of the shape) may be where the orbit goes.
 const CLOSE: f64 = 1e-3;

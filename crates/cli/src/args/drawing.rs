@@ -1,4 +1,4 @@
-//! The words of figures, which `simulate` and `figure` share.
+//! Options of figures, shared by `simulate` and `figure`.
 
 use super::{number, whole};
 use clap::{Args, ValueEnum};
@@ -9,10 +9,10 @@ pub(crate) struct DrawingOptions {
     /// Do not draw the animation
     #[arg(long)]
     pub(crate) no_animation: bool,
-    /// Radius R0 of the undeformed body (default: so that the deformation is seen)
+    /// Radius R0 of the undeformed body (default: chosen so that the deformation is visible)
     #[arg(long, value_name = "R0", value_parser = number, allow_hyphen_values = true)]
     pub(crate) radius: Option<f64>,
-    /// Size of the drawn outlines against the path (default: readable)
+    /// Scale of the outlines relative to the path (default: chosen for readability)
     #[arg(long, value_name = "F", value_parser = number, allow_hyphen_values = true)]
     pub(crate) scale: Option<f64>,
     /// Number of outlines along the path
@@ -24,10 +24,10 @@ pub(crate) struct DrawingOptions {
     /// Draw to this time
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) to: Option<f64>,
-    /// Title of the figures in place of their own (*letters* between asterisks are italic, _ begins an index)
+    /// Title of the figures instead of the default (*letters* between asterisks are italic, _ starts a subscript)
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
-    /// Leave the captions out
+    /// Omit the captions
     #[arg(long)]
     pub(crate) no_caption: bool,
     /// Width of the figures, e.g. 86mm, 3.4in or 1200px (default: as drawn, about 170 mm)
@@ -42,7 +42,7 @@ pub(crate) struct DrawingOptions {
     pub(crate) pdf: bool,
 }
 
-/// Formats of films that other programs show.
+/// Video formats.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum FilmFormat {
     /// H.264 video

@@ -1,4 +1,4 @@
-//! What `--help` shows below the options: examples, and what the output holds.
+//! Texts that `--help` shows below the options: examples, and the contents of the output.
 
 pub(super) const EXAMPLES: &str = "\
 Start here:
@@ -8,8 +8,8 @@ Start here:
                                                 where its motion begins and ends
   motiform models tensor                        its equations, parameters and presets
 
-Exit codes: 0 done; 1 finished, but some result is not what was asked (a run escaped, a disk is full);
-2 bad input; 130 interrupted (what was computed until then is kept).";
+Exit codes: 0 success; 1 finished, but some result is not as requested (a run escaped, a disk is full);
+2 invalid input; 130 interrupted (results computed so far are kept).";
 
 pub(super) const SIMULATE_HELP: &str = "\
 Examples:
@@ -20,14 +20,15 @@ Examples:
   motiform simulate tensor --preset fig2 --noise 1e-6 --t-end 5000
   motiform simulate my-study.toml --json
 
-Noise: du = f(u) dt + ETA dW for every coordinate u that --initial names, each with a Wiener process W of its own. So without f
-its variance would be ETA^2 t: ETA has the unit of u per square root of model time. For tensor these are v1, v2 (velocity)
-and s11, s12, u111, u222 (shape), for cell c1, s1, c2, ... of phi. The law does not change with rotations. The path depends on
+Noise: du = f(u) dt + ETA dW for every coordinate u accepted by --initial, with independent Wiener processes W. Without f
+the variance would be ETA^2 t: ETA has the unit of u per square root of model time. For tensor the coordinates are v1, v2 (velocity)
+and s11, s12, u111, u222 (shape), for cell c1, s1, c2, ... of phi. The law is invariant under rotations. The path depends on
 the seed and the model's rates, not on --dt-out.
 
-The motion is named from where the run ends, if a short look decides (never with noise); `motiform classify` looks longer.
+The motion is classified from the end of the run if a short integration is conclusive (never with noise); `motiform classify` integrates
+for longer.
 
-The output folder holds
+The output folder contains
   manifest.json        plan, hash, version, seed, outcome
   trajectory.parquet   time, position, shape, speed, turning rate
   path, series         figures, as .svg and .png; motion.png is the animation
@@ -41,12 +42,12 @@ Examples:
   motiform scan tensor --preset fig4 --axis kappa2=0.9:1.3:9 --samples 32 --random 0.1:0.5
   motiform scan my-study.toml --shard 1/3 --out shard1
 
-The output folder holds
+The output folder contains
   _manifest.json       plan, hash, version
   part-*.parquet       one row per cell and initial state; pandas.read_parquet(DIR) reads them all
-  _diagram             which motion occurs where, as .svg and .png; _exponent with one axis, where exponents are known
-A scan that was interrupted or killed goes on with --resume. The numbers are the same for any number of threads, any
-shards and any interruption. Exit code 1: some cells are undetermined.";
+  _diagram             the phase diagram, as .svg and .png; with one axis also _exponent, if exponents are known
+--resume continues a scan that was interrupted or killed. The results do not depend on the number of threads,
+shards or interruptions. Exit code 1: some cells are undetermined.";
 
 pub(super) const CLASSIFY_HELP: &str = "\
 Examples:
@@ -57,13 +58,13 @@ Examples:
 
 Regimes, by the dynamics of the shape with rotations divided out:
   motionless, straight, circular   a fixed shape (at rest, moving, turning), stable by its eigenvalues
-  pulsating-straight               a shape that comes back and stays mirror symmetric: constant heading, changing speed
-  zigzag, quasi-periodic           a shape that comes back after a period, without or with a net rotation
-  rectangular                      rests near motionless shapes, along a heteroclinic cycle that attracts
-  chaotic                          the largest Lyapunov exponent is positive beyond its error
+  pulsating-straight               a periodic shape that is always mirror symmetric: constant heading, changing speed
+  zigzag, quasi-periodic           a shape that returns after a period, without or with a net rotation
+  rectangular                      rests near motionless shapes, along an attracting heteroclinic cycle
+  chaotic                          the largest Lyapunov exponent is positive by more than its error
   blow-up                          the shape grows without bound in finite time
-  undetermined                     the evidence does not decide; it says what is missing (exit code 1)
-The transient of a preset does not matter here: the motion is followed for longer and longer until the evidence decides.
+  undetermined                     the evidence is inconclusive; the output states what is missing (exit code 1)
+The transient of a preset is ignored: the motion is integrated for longer and longer until the evidence is conclusive.
 --samples M reports the shares of the motions with 95 % intervals, what was sampled (--random), and how many starts blow up.";
 
 pub(super) const CONTINUE_HELP: &str = "\
@@ -110,8 +111,8 @@ Examples:
   motiform reproduce --quick
   motiform reproduce fig4 fig5 --out paper
 
-The output folder holds report.html (figures, parameters, claim by claim: what the paper says, what we find, how it was
-decided, and why where they differ), its figures (figure-4.1.svg and .png, .csv with their numbers), and the scans behind them.
+The output folder contains report.html (figures, parameters, and for each claim: the statement of the paper, our result, how it was
+decided, and the reason for any difference), its figures (figure-4.1.svg and .png, .csv with their numbers), and the underlying scans.
 Exit code 1: a claim failed.";
 
 pub(super) const LYAPUNOV_HELP: &str = "\
@@ -121,9 +122,9 @@ Examples:
   motiform lyapunov tensor --preset fig5b --samples 32
   motiform lyapunov tensor --preset fig4 --set kappa2=0.3 --set kappa3=0.1 --saddle 200
 
-Errors are half widths of 95 % confidence intervals. The exponents that must be zero (the flow's own direction and
-the rotations') are a self-check. An average that is too short has no error, and says so (exit code 1). A run that escapes has no exponents:
-ask for the chaotic saddle's.";
+Errors are half widths of 95 % confidence intervals. The exponents that must be zero (those of the flow direction and
+the rotations) are a self-check. If an average is too short, no error is given and this is reported (exit code 1). A run that escapes has no
+exponents: use --saddle for the exponent of the chaotic saddle.";
 
 #[cfg(feature = "explorer")]
 pub(super) const EXPLORE_HELP: &str = "\
@@ -132,6 +133,6 @@ Examples:
   motiform explore --preset fig3
   motiform explore --port 8080 --no-open
 
-The page: a map of motions over two parameters (click into it), the body in motion, its speed, spectrum, return map and
-Lyapunov exponents, and a slider for every parameter. The server is for this machine alone: it listens on 127.0.0.1, its
-address holds a secret, and a page can neither read nor write files. Over ssh: ssh -L 7373:127.0.0.1:7373 HOST.";
+The page shows a map of motions over two parameters (click on it), the moving body, its speed, spectrum, return map and
+Lyapunov exponents, and a slider for every parameter. The server is for this machine only: it listens on 127.0.0.1, its
+address contains a secret, and a page can neither read nor write files. Over ssh: ssh -L 7373:127.0.0.1:7373 HOST.";

@@ -1,4 +1,4 @@
-//! The words of `scan` and `merge`.
+//! Options of `scan` and `merge`.
 
 use super::{SubjectOptions, number, random, whole};
 use clap::Args;
@@ -12,7 +12,7 @@ pub(crate) struct ScanOptions {
     /// Vary a parameter (once or twice): NAME=LOW:HIGH:COUNT, both ends included, or NAME=v1,v2,v3
     #[arg(long = "axis", value_name = "NAME=LOW:HIGH:COUNT")]
     pub(crate) axes: Vec<String>,
-    /// Initial states per cell (default: 1); several are drawn from all sizes of --random
+    /// Initial states per cell (default: 1); if more than one, they have all sizes of --random
     #[arg(long, value_name = "M", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) samples: Option<u64>,
     /// Random initial states: SIZE is each coordinate within +-SIZE (default for one state: 0.01), MIN:MAX is all directions and
@@ -22,29 +22,29 @@ pub(crate) struct ScanOptions {
     /// Seed of the random initial states
     #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) seed: Option<u64>,
-    /// Zeros of a given start become random values within SIZE times its largest value (default: 1e-6), because an
+    /// Replace zeros of a given start by random values within SIZE times its largest value (default: 1e-6), because an
     /// orbit never leaves an exact symmetry; 0 keeps the exact start
     #[arg(long, value_name = "SIZE", value_parser = number, allow_hyphen_values = true)]
     pub(crate) perturb: Option<f64>,
     /// Maximum model time for classifying one motion; 0 is the model's default
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) budget: Option<f64>,
-    /// Output folder (default: MODEL-PRESET-scan here)
+    /// Output folder (default: MODEL-PRESET-scan in the current folder)
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Go on with the scan in the output folder (start it, if there is none)
+    /// Continue the scan in the output folder (start it if there is none)
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,
-    /// Compute one of N shares; `motiform merge` puts the folders together
+    /// Compute share I of N; `motiform merge` combines the folders
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<String>,
-    /// Threads (default: all cores); changes no number
+    /// Number of threads (default: all cores); does not affect the results
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
     pub(crate) threads: Option<u16>,
-    /// Replace an earlier scan
+    /// Replace an existing scan
     #[arg(long)]
     pub(crate) force: bool,
-    /// Leave the figures out
+    /// Do not draw figures
     #[arg(long)]
     pub(crate) no_figures: bool,
     /// Print the summary as one JSON object
@@ -60,7 +60,7 @@ pub(crate) struct MergeOptions {
     /// Output folder
     #[arg(long, value_name = "DIR", required = true)]
     pub(crate) out: PathBuf,
-    /// Replace an earlier scan
+    /// Replace an existing scan
     #[arg(long)]
     pub(crate) force: bool,
     /// Print the summary as one JSON object

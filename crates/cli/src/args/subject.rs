@@ -1,10 +1,10 @@
-//! Options that several commands share: what they are about, and how it is computed.
+//! Options that several commands share: the subject of the computation, and the method.
 
 use super::{assignment, number, random, whole};
 use clap::Args;
 use motiform_study::Random;
 
-/// What a command is about.
+/// The subject of a command.
 #[derive(Args)]
 pub(crate) struct SubjectOptions {
     /// A model (`motiform models` lists them) or a study file ending in .toml
@@ -18,18 +18,18 @@ pub(crate) struct SubjectOptions {
     pub(crate) set: Vec<(String, f64)>,
 }
 
-/// Many initial states in place of one.
+/// Several initial states instead of one.
 #[derive(Args)]
 pub(crate) struct SamplesOptions {
-    /// Use this many initial states: the given one, if there is one, and random ones of all sizes (see --random); on all cores
+    /// Use this many initial states: the given one, if any, and random ones of all sizes (see --random); on all cores
     #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(1..=1_000_000), allow_hyphen_values = true)]
     pub(crate) samples: Option<u32>,
-    /// Threads for --samples (default: all cores); changes no number
+    /// Number of threads for --samples (default: all cores); does not affect the results
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
     pub(crate) threads: Option<u16>,
 }
 
-/// Where an orbit starts, and the method that computes it.
+/// The initial state of an orbit, and the numerical method.
 #[derive(Args)]
 pub(crate) struct MethodOptions {
     /// Set an initial value (repeatable); values not given are 0. Without any, the start is small and random
@@ -43,13 +43,13 @@ pub(crate) struct MethodOptions {
     /// krogstad4 (adaptive). Default: dop853 for tensor, krogstad4 for cell
     #[arg(long, value_name = "NAME")]
     pub(crate) stepper: Option<String>,
-    /// Fixed step (without it, adaptive steppers control their own; the others take 1e-3)
+    /// Fixed step (default: adaptive steppers control their step; the others use 1e-3)
     #[arg(long, value_name = "H", value_parser = number, allow_hyphen_values = true)]
     pub(crate) step: Option<f64>,
-    /// Relative tolerance of adaptive steppers: how accurate the run is
+    /// Relative tolerance of adaptive steppers: sets the accuracy of the run
     #[arg(long, value_name = "R", value_parser = number, allow_hyphen_values = true)]
     pub(crate) rtol: Option<f64>,
-    /// Absolute tolerance of adaptive steppers (default: it follows --rtol, a thousandth of it for tensor, a tenth for cell)
+    /// Absolute tolerance of adaptive steppers (default: a thousandth of --rtol for tensor, a tenth for cell)
     #[arg(long, value_name = "A", value_parser = number, allow_hyphen_values = true)]
     pub(crate) atol: Option<f64>,
     /// Seed of the random start, and of noise

@@ -37,7 +37,7 @@ fn many(options: &ClassifyOptions, plan: &Plan, samples: Samples, budget: f64) -
     let verdicts = samples::classify(plan, samples, budget, &watch);
     watch.finish();
     let Some(verdicts) = verdicts? else { return Ok(End::Interrupted) };
-    let watch = Progress::new(samples.count as f64, "chaotic starts followed");
+    let watch = Progress::new(samples.count as f64, "chaotic starts");
     let escapes = Escapes::of_verdicts(plan, samples, &verdicts, budget, &watch);
     watch.finish();
     let escapes = escapes?;
@@ -110,13 +110,13 @@ fn summary(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
     writeln!(text, "because        {}", verdict.why)?;
     if let Some(margin) = verdict.margin {
         let sure = if margin < 3.0 { "weak" } else { "clear" };
-        writeln!(text, "margin         {margin:.1} times the uncertainty of the deciding number ({sure})")?;
+        writeln!(text, "margin         {margin:.1} times the uncertainty of the decisive quantity ({sure})")?;
     }
     if let Some(form) = verdict.form {
         writeln!(text, "form           {}", form.name())?;
     }
     if let Some(lasted) = verdict.lasted {
-        writeln!(text, "lasted         {lasted:.0} model time at least; chaos may be a transient")?;
+        writeln!(text, "lasted         at least {lasted:.0} model time; chaos may be transient")?;
     }
     if let Some(speed) = verdict.speed {
         writeln!(text, "speed          {:.6} (from {:.6} to {:.6})", speed.mean, speed.min, speed.max)?;

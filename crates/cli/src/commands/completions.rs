@@ -14,7 +14,7 @@ pub(crate) fn run(options: &CompletionsOptions) -> anyhow::Result<End> {
     Ok(End::Done)
 }
 
-/// The command with the names that there are: models, presets, parameters. (When a line is read, a wrong name gets a
+/// The command with all known names: models, presets, parameters. (When a command line is parsed, a wrong name gets a
 /// better answer than a list.)
 fn known_names(command: Command) -> Command {
     let presets: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();

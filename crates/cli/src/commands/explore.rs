@@ -10,7 +10,7 @@ pub(crate) fn run(options: &ExploreOptions) -> anyhow::Result<End> {
     if let Some(name) = options.preset.as_ref().filter(|name| model_of(name).is_none()) {
         let known: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
         let value = name.clone();
-        anyhow::bail!("--preset {value}: there is no such preset; give one of {}", known.join(", "));
+        anyhow::bail!("--preset {value}: unknown preset; give one of {}", known.join(", "));
     }
     let server = Server::bind(&Options {
         port: options.port,
@@ -18,7 +18,7 @@ pub(crate) fn run(options: &ExploreOptions) -> anyhow::Result<End> {
         preset: options.preset.clone(),
     })?;
     let address = server.address();
-    print(&format!("the explorer is at\n  {address}\nfor this machine alone; Ctrl-C stops it"))?;
+    print(&format!("the explorer is running at\n  {address}\non this machine only; Ctrl-C stops it"))?;
     let handle = server.handle();
     // Fails only if a handler is set already: then the first Ctrl-C ends the program, and nothing is lost.
     let _ = ctrlc::set_handler(move || handle.stop());
@@ -29,7 +29,7 @@ pub(crate) fn run(options: &ExploreOptions) -> anyhow::Result<End> {
     Ok(End::Done)
 }
 
-/// Asks the desktop to open an address; whether it could be asked.
+/// Opens an address in the browser; returns whether this was possible.
 fn open(address: &str) -> bool {
     let (program, arguments): (&str, &[&str]) = if cfg!(target_os = "macos") {
         ("open", &[])

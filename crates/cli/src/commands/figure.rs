@@ -40,7 +40,7 @@ pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
     Ok(End::Done)
 }
 
-/// Puts what was given on the command line over the study's settings.
+/// Overrides the study's settings with those given on the command line.
 pub(crate) fn apply(options: &DrawingOptions, settings: &mut FigureSettings) {
     settings.radius = options.radius.unwrap_or(settings.radius);
     settings.scale = options.scale.unwrap_or(settings.scale);
@@ -50,7 +50,7 @@ pub(crate) fn apply(options: &DrawingOptions, settings: &mut FigureSettings) {
     settings.animation &= !options.no_animation;
 }
 
-/// Draws a scan into its folder; the names of its figures.
+/// Draws a scan into its folder; returns the names of its figures.
 pub(crate) fn write_scan(folder: &ScanFolder, format: &FigureFormat) -> Result<Vec<String>, Error> {
     let mut names = Vec::new();
     for picture in draw_scan(folder, format)? {

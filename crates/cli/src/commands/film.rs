@@ -1,4 +1,4 @@
-//! The animation as a film for other programs, by ffmpeg.
+//! The animation as MP4 or GIF, with ffmpeg.
 
 use crate::args::FilmFormat;
 use anyhow::{Context, bail};
@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 /// The animation that [`motiform_lab::draw::draw`] makes.
 const ANIMATION: &str = "motion.png";
 
-/// Whether ffmpeg is there, if a film is asked for: to be asked before anything is computed.
+/// Checks that ffmpeg is installed if a video is requested; called before anything is computed.
 pub(crate) fn check(formats: &[FilmFormat]) -> anyhow::Result<()> {
     if formats.is_empty() {
         return Ok(());
@@ -17,20 +17,20 @@ pub(crate) fn check(formats: &[FilmFormat]) -> anyhow::Result<()> {
     match version {
         Ok(output) if output.status.success() => Ok(()),
         _ => bail!(
-            "--film needs ffmpeg, which does not start: install it (Debian: apt-get install ffmpeg), or leave --film out and open \
+            "--film needs ffmpeg, which does not start: install it (Debian: apt-get install ffmpeg), or omit --film and open \
              {ANIMATION} in a browser"
         ),
     }
 }
 
-/// The animation among the pictures as films; nothing where there is none.
+/// The animation among the pictures as videos; nothing if there is none.
 pub(crate) fn convert(pictures: &[Picture], formats: &[FilmFormat]) -> anyhow::Result<Vec<Picture>> {
     let animation = pictures.iter().find(|picture| picture.name == ANIMATION);
     let film = |animation| formats.iter().map(move |format| encode(animation, *format));
     animation.into_iter().flat_map(film).collect()
 }
 
-/// Turns an animated PNG into a film.
+/// Converts an animated PNG to a video.
 fn encode(animation: &Picture, format: FilmFormat) -> anyhow::Result<Picture> {
     let (ending, arguments): (_, &[&str]) = match format {
         // players want even sides and this pixel format

@@ -13,7 +13,7 @@ use motiform_study::{Error, Plan};
 use serde_json::json;
 use std::fmt::Write;
 
-/// Exponents that are computed unless more are asked for.
+/// Default number of exponents.
 const COUNT: usize = 6;
 
 pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
@@ -24,7 +24,7 @@ pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
             return Err(Error::Setting {
                 key,
                 value: value.to_string(),
-                remedy: "give a time above 0 (0 is a transient too)",
+                remedy: "give a time above 0 (the transient may be 0)",
             }
             .into());
         }
@@ -69,7 +69,7 @@ fn summary(plan: &Plan, found: &Lyapunov) -> anyhow::Result<String> {
     if found.exponents.is_empty() {
         write!(text, "no exponents: the run {}", found.outcome)?;
         if matches!(found.outcome, Outcome::Escaped { .. }) {
-            write!(text, "\nFor the exponent of the chaos before the escape, ask for --saddle 200")?;
+            write!(text, "\nFor the exponent of the chaos before the escape, use --saddle 200")?;
         }
         return Ok(text);
     }
@@ -87,8 +87,8 @@ fn summary(plan: &Plan, found: &Lyapunov) -> anyhow::Result<String> {
             zeros.iter().all(|zero| zero.value.abs() <= 3.0 * zero.error),
         );
         let verdict = match (known, fine) {
-            (false, _) => "which says nothing: run longer",
-            (true, true) => "within their errors (bounds, which shrink like 1/time)",
+            (false, _) => "which is inconclusive: run longer",
+            (true, true) => "within their errors (bounds, which decrease like 1/time)",
             (true, false) => "outside their errors: run longer",
         };
         writeln!(
@@ -161,7 +161,7 @@ fn many_summary(
     }
     write!(text, "means over {lasted} of {} orbits; {}", found.orbits.len(), starts.sentence())?;
     if lasted < found.orbits.len() {
-        write!(text, "; the others did not last: for chaos before an escape, ask for --saddle 200")?;
+        write!(text, "; the others ended early: for chaos before an escape, use --saddle 200")?;
     }
     for line in escapes.into_iter().flat_map(|escapes| escapes.words(found.orbits.len())) {
         write!(text, "\nescape     {line}")?;
@@ -175,7 +175,7 @@ fn many_summary(
     Ok(text)
 }
 
-/// `--saddle`: the exponent of chaos that does not last.
+/// `--saddle`: the exponent of transient chaos.
 fn saddle(options: &LyapunovOptions, plan: &Plan, samples: usize) -> anyhow::Result<End> {
     let watch = Progress::new(samples as f64, "runs");
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
@@ -199,7 +199,7 @@ fn saddle_summary(found: &Saddle) -> anyhow::Result<String> {
     match found.rate {
         Some(rate) => writeln!(
             text,
-            "escape rate                      {:.3e} +- {:.1e} (mean stay {:.0})",
+            "escape rate                      {:.3e} +- {:.1e} (mean lifetime {:.0})",
             rate.value,
             rate.error,
             1.0 / rate.value

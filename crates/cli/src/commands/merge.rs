@@ -9,7 +9,7 @@ pub(crate) fn run(options: &MergeOptions) -> anyhow::Result<End> {
     let merged = merge(&options.folders, &options.out, options.force)?;
     merged.swept.iter().for_each(|note| warn(note));
     for damaged in &merged.damaged {
-        warn(&format!("{damaged}; it was left out"));
+        warn(&format!("{damaged}; it was omitted"));
     }
     let folder = ScanFolder::read(&options.out)?;
     let totals = Totals::of(&folder)?;

@@ -61,7 +61,7 @@ fn page(info: &'static ModelInfo) -> anyhow::Result<String> {
     Ok(text)
 }
 
-/// Most coordinates that a page lists.
+/// Maximum number of coordinates that are listed.
 const SHOWN: usize = 8;
 
 /// The coordinates for the default parameters.

@@ -29,7 +29,7 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     watch.finish();
     let report = match report {
         Err(Error::Interrupted) => {
-            warn(&format!("interrupted: the same command goes on with what is in {}", out.display()));
+            warn(&format!("interrupted: the same command continues with the results in {}", out.display()));
             return Ok(End::Interrupted);
         }
         report => report?,
@@ -97,7 +97,7 @@ fn summary(report: &Report, page: &Path) -> anyhow::Result<String> {
         format!("{hold} hold, {differ} differ for a known reason, {fail} fail")
     };
     writeln!(text, "claims of the paper: {}", counted(report.counts()))?;
-    writeln!(text, "checks of ours: {}", counted(report.checks()))?;
+    writeln!(text, "additional checks:   {}", counted(report.checks()))?;
     write!(text, "{}", page.display())?;
     Ok(text)
 }

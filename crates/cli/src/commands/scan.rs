@@ -26,7 +26,7 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
         warn(note);
     }
     for damaged in scan.damaged() {
-        warn(&format!("{damaged}; its cells are computed again"));
+        warn(&format!("{damaged}; its cells are recomputed"));
     }
     let left = scan.cells_left();
     let watch = Progress::new(left as f64, "cells");
@@ -39,19 +39,19 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
     let totals = Totals::of(scan.folder())?;
     show(scan.folder(), &totals, options.json)?;
     for damaged in &totals.damaged {
-        warn(&format!("{damaged}; it belongs to another shard, which --resume computes again"));
+        warn(&format!("{damaged}; it belongs to another shard, which --resume recomputes"));
     }
     if !ended.complete {
         let done = ended.cells;
         warn(&format!(
-            "interrupted: {done} of {left} cells are done; the same `motiform scan` with --resume goes on"
+            "interrupted: {done} of {left} cells are done; the same `motiform scan` with --resume continues"
         ));
         return Ok(End::Interrupted);
     }
     let lost = scan.lost();
     if lost > 0 {
         warn(&format!(
-            "{lost} of the parts that were written are gone or changed: something else works in this folder; --resume computes them again"
+            "{lost} of the parts that were written have disappeared or changed: another process uses this folder; --resume recomputes them"
         ));
         return Ok(End::NotAsAsked);
     }
@@ -81,7 +81,7 @@ fn threads(options: &ScanOptions) -> usize {
     options.threads.map_or_else(all, usize::from)
 }
 
-/// Prints what a folder holds.
+/// Prints the contents of a folder.
 pub(crate) fn show(folder: &ScanFolder, totals: &Totals, as_json: bool) -> anyhow::Result<()> {
     print(&if as_json { json(folder, totals)? } else { summary(folder, totals)? })
 }

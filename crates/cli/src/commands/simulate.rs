@@ -41,10 +41,10 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     Ok(End::from(&*dataset.manifest.outcome))
 }
 
-/// A fixed step whose own error is a larger part of the state than this deserves a word.
+/// A fixed step whose error is a larger fraction of the state than this gives a warning.
 const COARSE: f64 = 1e-4;
 
-/// The study that the options describe: a file or a model, a preset, then what is set by hand.
+/// The study that the options describe: a file or a model, a preset, then the options.
 fn study(options: &SimulateOptions) -> Result<Study, Error> {
     let mut study = subject::study(&options.subject)?;
     subject::apply(&options.method, &mut study)?;
@@ -69,7 +69,7 @@ fn study(options: &SimulateOptions) -> Result<Study, Error> {
     Ok(study)
 }
 
-/// Where the result goes.
+/// The destination of the result.
 enum Target {
     Nowhere,
     Folder(Staging),
@@ -90,7 +90,7 @@ impl Target {
         })
     }
 
-    /// What was found of killed runs.
+    /// Leftovers of killed runs that were found.
     fn swept(&self) -> &[String] {
         match self {
             Self::Nowhere => &[],
@@ -98,8 +98,8 @@ impl Target {
         }
     }
 
-    /// Writes everything and gives it its name; returns what was written, and why there are no figures: numbers that
-    /// no axis can hold are no reason to lose the numbers.
+    /// Writes everything and renames it; returns what was written, and why there are no figures: numbers that
+    /// do not fit on an axis must not prevent the tables from being written.
     fn write(
         self,
         options: &SimulateOptions,
@@ -135,7 +135,7 @@ impl Target {
                 };
                 let (films, unfilmed) = match film::convert(&pictures, &options.drawing.film) {
                     Ok(films) => (films, None),
-                    Err(error) => (Vec::new(), Some(error.context("all but the film is written"))),
+                    Err(error) => (Vec::new(), Some(error.context("everything except the film is written"))),
                 };
                 let undrawn = undrawn.or(unfilmed);
                 for picture in pictures.into_iter().chain(films) {

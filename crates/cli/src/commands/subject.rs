@@ -1,4 +1,4 @@
-//! What a command is about: a file or a model, a preset, then what is set by hand.
+//! The subject of a command: a file or a model, a preset, then the options.
 
 use crate::args::{MethodOptions, MotionOptions, SamplesOptions, SubjectOptions};
 use motiform_lab::samples::Samples;
@@ -13,7 +13,7 @@ pub(crate) fn motion(options: &MotionOptions) -> Result<Study, Error> {
     Ok(study)
 }
 
-/// The plan of a study that one motion is asked about, and the samples it is about, if they are many.
+/// The plan of a study for the analysis of one motion, and the samples if there are several.
 pub(crate) fn plan(mut study: Study, many: &SamplesOptions) -> Result<(Plan, Option<Samples>), Error> {
     let random = Random::of(study.random, many.samples.map_or(1, u64::from), study.info()?);
     study.random = Some(random); // the first of many is drawn like the others
@@ -22,7 +22,7 @@ pub(crate) fn plan(mut study: Study, many: &SamplesOptions) -> Result<(Plan, Opt
     Ok((plan, samples))
 }
 
-/// Many initial states of a study's model, if they are asked for.
+/// Several initial states of a study's model, if requested.
 fn samples(options: &SamplesOptions, study: &Study, random: Random) -> Option<Samples> {
     let count = options.samples? as usize;
     let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
@@ -30,7 +30,7 @@ fn samples(options: &SamplesOptions, study: &Study, random: Random) -> Option<Sa
     Some(Samples { count, random, given, threads: options.threads.map_or_else(all, usize::from) })
 }
 
-/// Puts what is given of start and method into a study.
+/// Applies the options of initial state and method to a study.
 pub(crate) fn apply(options: &MethodOptions, study: &mut Study) -> Result<(), Error> {
     for (name, value) in &options.initial {
         study.set_initial(name, *value)?;
@@ -56,7 +56,7 @@ pub(crate) fn study(options: &SubjectOptions) -> Result<Study, Error> {
             return Err(Error::Setting {
                 key: "--preset",
                 value: name.to_owned(),
-                remedy: "a study file names its own preset: write preset = \"...\" in it",
+                remedy: "a study file sets its own preset: write preset = \"...\" in the file",
             });
         }
         Study::read(path)?

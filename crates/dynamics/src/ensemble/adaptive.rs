@@ -10,7 +10,7 @@ use std::marker::PhantomData;
 
 /// Runs all members with the adaptive method `M`.
 ///
-/// Call it in a [`crate::simd::LaneKernel`]. Nothing is allocated.
+/// Call it in a [`crate::simd::LaneKernel`]. It does not allocate.
 #[inline(always)]
 pub fn run_adaptive<M: Method, B: Bundle, const D: usize, C: LaneTask<B, D>>(
     members: &mut C,
@@ -33,7 +33,7 @@ pub fn run_adaptive<M: Method, B: Bundle, const D: usize, C: LaneTask<B, D>>(
 struct Lanes<B, const D: usize> {
     tolerance: Tolerance,
     active: Mask,
-    /// Lanes that the next members shall have.
+    /// Lanes to be filled with the next members.
     vacant: Mask,
     t: B,
     t_end: B,
@@ -132,7 +132,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         }
     }
 
-    /// Lets the members of the lanes that have come to a stop say what they do next.
+    /// Asks the members of the lanes that have stopped for their next action.
     #[inline(always)]
     fn stop<C: LaneTask<B, D>>(&mut self, members: &mut C, failed: Mask, called: Mask, arrived: Mask) {
         for lane in (failed | called | arrived).lanes() {
@@ -178,7 +178,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         }
     }
 
-    /// Gives the vacant lanes to the next members.
+    /// Fills the vacant lanes with the next members.
     #[inline(always)]
     fn fill<M: Method, C: LaneTask<B, D>>(&mut self, members: &mut C, slopes: &mut StepSlopes<B, D>) {
         let (mut entered, mut paces) = (Mask::default(), [None; MOST_LANES]);

@@ -1,26 +1,26 @@
-//! What is computed along the orbits in lanes: a task, its questions and its answers.
+//! The computation along the orbits in lanes: a task, its requests and its results.
 
 use crate::steppers::unrolled::StepSlopes;
 use crate::{Bundle, Mask, VectorField};
 
-/// A task for lanes: a queue of initial-value problems (the members), and what is done with each.
+/// A task for lanes: a queue of initial-value problems (the members), and what is computed for each.
 ///
-/// `D` is the length of the state. Everything called once per step is written over the bundle; what is called for a single
-/// lane happens rarely. Implementations must be `#[inline(always)]` where they are called per step.
+/// `D` is the length of the state. Everything called once per step is written over the bundle; functions called for a single
+/// lane are called rarely. Implementations called per step must be `#[inline(always)]`.
 pub trait LaneTask<B: Bundle, const D: usize> {
     /// The field of all lanes, with each lane's own parameters.
     type Field: VectorField<B>;
 
-    /// Whether [`LaneTask::stepped`] wants to be called.
+    /// Whether [`LaneTask::stepped`] is to be called.
     const WATCHES: bool = false;
 
-    /// Whether [`LaneTask::after_step`] wants to be called.
+    /// Whether [`LaneTask::after_step`] is to be called.
     const AFTER_STEP: bool = false;
 
     /// The field.
     fn field(&self) -> &Self::Field;
 
-    /// Puts the parameters of the next member into `lane` of the field and says where it starts; `None` if no member
+    /// Puts the parameters of the next member into `lane` of the field and returns its start; `None` if no member
     /// is left.
     fn enter(&mut self, lane: usize) -> Option<Entry<D>>;
 
@@ -30,20 +30,20 @@ pub trait LaneTask<B: Bundle, const D: usize> {
         Mask::default()
     }
 
-    /// Lanes that shall leave as [`Why::Requested`] for the state they are in: asked after every step.
+    /// Lanes that leave as [`Why::Requested`] because of their state; called after every step.
     #[inline(always)]
     fn outside(&mut self, _u: &[B; D]) -> Mask {
         Mask::default()
     }
 
     /// After each adaptive step: may give lanes that accepted theirs another state, with the rates there, and another end. The
-    /// rates of the lanes of the returned mask are evaluated anew.
+    /// rates of the lanes of the returned mask are re-evaluated.
     #[inline(always)]
     fn after_step(&mut self, _landed: &mut AfterStep<'_, B, D>) -> Mask {
         Mask::default()
     }
 
-    /// The member in `lane` has come to a stop. What it does next.
+    /// The member in `lane` has stopped. Returns its next action.
     fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Then;
 }
 
@@ -56,30 +56,30 @@ pub struct Entry<const D: usize> {
     pub u: [f64; D],
     /// End of the time span.
     pub t_end: f64,
-    /// The pace of an earlier stretch, to go on as if it had not been left; `None` to begin.
+    /// The pace of an earlier stretch, to continue it seamlessly; `None` to start.
     pub pace: Option<Pace>,
 }
 
-/// What step-size control remembers of an orbit.
+/// The state of step-size control for an orbit.
 #[derive(Clone, Copy, Debug)]
 pub struct Pace {
     pub(crate) h: f64,
     pub(crate) previous: f64,
 }
 
-/// Why a member has come to a stop.
+/// Why a member has stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Why {
-    /// It is at the end of its time span.
+    /// It reached the end of its time span.
     Arrived,
-    /// Its members asked for it, see [`LaneTask::stepped`].
+    /// The task requested it, see [`LaneTask::stepped`].
     Requested,
-    /// It has no next step: the size that error control asks for is below the resolution of time, or a fixed step led to a
-    /// state that is not finite. Where exactly and why, [`crate::drive`] says of a single orbit.
+    /// No further step is possible: the size required by error control is below the resolution of time, or a fixed step led to a
+    /// state that is not finite. [`crate::drive`] determines where exactly and why for a single orbit.
     Failed,
 }
 
-/// A member that has come to a stop.
+/// A member that has stopped.
 #[derive(Clone, Copy, Debug)]
 pub struct Leaving<const D: usize> {
     /// Why.
@@ -96,18 +96,18 @@ pub struct Leaving<const D: usize> {
     pub rejected: u64,
 }
 
-/// What a member that has come to a stop does next.
+/// The next action of a member that has stopped.
 #[derive(Clone, Copy, Debug)]
 pub enum Then {
-    /// Goes on to this time, as if it had not stopped.
+    /// Continues to this time, as if it had not stopped.
     Continue(f64),
-    /// Makes room for the next member.
+    /// Leaves, so that the next member can enter.
     Leave,
 }
 
-/// Where the lanes stand after a step.
+/// The state of the lanes after a step.
 pub struct AfterStep<'s, B, const D: usize> {
-    /// Lanes whose step was accepted, and that go on.
+    /// Lanes whose step was accepted, and that continue.
     pub accepted: Mask,
     /// Time.
     pub t: B,
@@ -125,7 +125,7 @@ pub struct AfterStep<'s, B, const D: usize> {
 
 /// A step of the bundle, just made.
 pub struct Stepped<'s, B, const D: usize, F> {
-    /// Lanes whose step was accepted; the others stand where they were.
+    /// Lanes whose step was accepted; the others are unchanged.
     pub accepted: Mask,
     /// Time at the end of the step.
     pub t: B,
@@ -137,7 +137,7 @@ pub struct Stepped<'s, B, const D: usize, F> {
     pub u: &'s [B; D],
     /// State at its start.
     pub u_old: &'s [B; D],
-    /// Its slopes; the slope at its end is there, those of dense output are not.
+    /// Its slopes, including the slope at its end but not those of dense output.
     pub slopes: &'s mut StepSlopes<B, D>,
     /// Number of the slope at its end.
     pub end: usize,

@@ -1,10 +1,10 @@
 //! Many orbits in lanes: eight at a time, each with its own parameters, time, step size and outcome.
 //!
 //! An ensemble is a queue of members. Each lane of a bundle holds one; a lane whose member has finished, escaped or failed
-//! is given the next one from the queue, so no hard orbit stalls the others. A [`LaneTask`] says what is computed along the
-//! orbits: it is computed in the lanes, and no orbit is stored.
+//! is given the next one from the queue, so no slow orbit delays the others. A [`LaneTask`] defines what is computed along the
+//! orbits; this is done in the lanes, and no orbit is stored.
 //!
-//! A lane computes the bits that [`crate::Orbit`] computes for the same member, with the same sequence of steps, for every
+//! A lane computes the same bits as [`crate::Orbit`] for the same member, with the same sequence of steps, for every
 //! width and instruction set (`tests/ensemble.rs`).
 
 mod adaptive;

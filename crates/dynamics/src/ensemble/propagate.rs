@@ -1,4 +1,4 @@
-//! LaneTask from their starts to given times, in the plane.
+//! Members from their starts to given times, in the plane.
 
 use super::{Entry, LaneTask, Leaving, Then, Why, run_adaptive};
 use crate::Watch;
@@ -31,7 +31,7 @@ pub trait InLanes: VectorField<f64> + Sync {
 /// One initial-value problem of an ensemble. The state is the shape, then the position: `D` numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Member<F, const D: usize> {
-    /// What its states are handed back with.
+    /// The key that is returned with its states.
     pub key: usize,
     /// The field of its shape.
     pub field: F,
@@ -42,7 +42,7 @@ pub struct Member<F, const D: usize> {
 /// How an ensemble is run: by DOP853 with error control.
 #[derive(Clone, Copy, Debug)]
 pub struct Propagation<'t> {
-    /// Times at which the states are wanted, increasing, the first one not before 0.
+    /// Times at which the states are computed, increasing, the first one at least 0.
     pub times: &'t [f64],
     /// Relative tolerance.
     pub rtol: f64,
@@ -52,22 +52,22 @@ pub struct Propagation<'t> {
     pub escape_norm: f64,
 }
 
-/// Where members come from, and where their states go.
+/// Provides members, and receives their states.
 pub struct Queue<'q, F, const D: usize> {
-    /// The next member; `None` if no one is left.
+    /// The next member; `None` if there is none.
     pub next: &'q mut dyn FnMut() -> Option<Member<F, D>>,
-    /// The states of a member at all times, with its key. `None` where a single orbit has to say what
-    /// happened: it escaped, or has no next step.
+    /// The states of a member at all times, with its key. `None` if a single orbit has to determine what
+    /// happened: it escaped, or no further step is possible.
     pub done: &'q mut dyn FnMut(usize, Option<Vec<[f64; D]>>),
-    /// May stop the work; what is under way is left.
+    /// May stop the work; members in progress are dropped.
     pub watch: &'q dyn Watch,
 }
 
-/// Runs the members in lanes on this thread, as many side by side as a register holds; `false`, and nothing done, on a machine
-/// without lanes. The states are those of [`crate::Orbit`] over [`InPlane`] that is driven from time to time, to the last bit, on
+/// Runs the members in lanes on this thread, as many side by side as a register holds; `false`, without any work, on a machine
+/// without lanes. The states are those of [`crate::Orbit`] over [`InPlane`] driven from one time to the next, to the last bit, on
 /// every instruction set.
 pub fn propagate<F: InLanes, const D: usize>(how: &Propagation<'_>, queue: Queue<'_, F, D>) -> bool {
-    run_wide(Run { how, queue }).is_some()
+    run_wide(PropagationKernel { how, queue }).is_some()
 }
 
 /// [`propagate`] with these instructions, or the widest ones if this machine does not have them.
@@ -76,20 +76,20 @@ pub fn propagate_on<F: InLanes, const D: usize>(
     how: &Propagation<'_>,
     queue: Queue<'_, F, D>,
 ) {
-    run_lanes_on(set, Run { how, queue });
+    run_lanes_on(set, PropagationKernel { how, queue });
 }
 
-struct Run<'h, 'q, F, const D: usize> {
+struct PropagationKernel<'h, 'q, F, const D: usize> {
     how: &'h Propagation<'h>,
     queue: Queue<'q, F, D>,
 }
 
-impl<F: InLanes, const D: usize> LaneKernel for Run<'_, '_, F, D> {
+impl<F: InLanes, const D: usize> LaneKernel for PropagationKernel<'_, '_, F, D> {
     type Output = ();
 
     #[inline(always)]
     fn run<B: Bundle>(self) {
-        let Run { how, queue } = self;
+        let PropagationKernel { how, queue } = self;
         let Some(first) = (queue.next)() else { return };
         let mut lanes = LaneMembers::<B, F, D> {
             field: InPlane(first.field.bundle()),
@@ -122,7 +122,7 @@ struct LaneMembers<'h, 'q, B: Bundle, F: InLanes, const D: usize> {
 }
 
 impl<B: Bundle, F: InLanes, const D: usize> LaneMembers<'_, '_, B, F, D> {
-    /// The next member, unless it is to stop.
+    /// The next member, unless the work is to stop.
     fn take(&mut self) -> Option<Member<F, D>> {
         if self.queue.watch.stopped() { None } else { self.first.take().or_else(|| (self.queue.next)()) }
     }
@@ -151,7 +151,7 @@ impl<B: Bundle, F: InLanes, const D: usize> LaneTask<B, D> for LaneMembers<'_, '
         }
     }
 
-    /// Lanes whose shape is beyond the escape norm; all, when it is time to stop.
+    /// Lanes whose shape is beyond the escape norm; all if the work is to stop.
     #[inline(always)]
     fn outside(&mut self, u: &[B; D]) -> Mask {
         self.steps = self.steps.wrapping_add(1);

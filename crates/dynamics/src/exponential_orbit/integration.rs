@@ -1,4 +1,4 @@
-//! An exponential orbit as what the driver runs.
+//! An exponential orbit as an [`Integration`] for the driver.
 
 use super::ExponentialOrbit;
 use super::problem::Problem;

@@ -1,4 +1,4 @@
-//! An orbit as what the driver runs.
+//! An orbit as an [`Integration`] for the driver.
 
 use super::Orbit;
 use crate::interpolant::DenseStep;

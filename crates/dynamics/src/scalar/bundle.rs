@@ -3,7 +3,7 @@
 use super::Scalar;
 use std::ops::{BitAnd, BitAndAssign, BitOr, BitOrAssign, Not};
 
-/// Most lanes that any bundle has.
+/// Maximum number of lanes of any bundle.
 pub const MOST_LANES: usize = 16;
 
 /// One bit per lane, lane 0 the lowest.
@@ -89,9 +89,9 @@ impl Not for Mask {
     }
 }
 
-/// Some real numbers side by side, one orbit each: `f64` itself (one lane), [`crate::Lanes`], [`crate::simd::Packed`].
+/// Several real numbers, one per orbit: `f64` itself (one lane), [`crate::Lanes`], [`crate::simd::Packed`].
 ///
-/// Whatever is written over a bundle computes in each lane the bits that it computes over `f64`.
+/// Code written over a bundle computes in each lane the same bits as over `f64`.
 pub trait Bundle: Scalar<Real = Self> {
     /// Number of lanes, at most [`MOST_LANES`].
     const LANES: usize;

@@ -1,11 +1,11 @@
-//! Numbers that carry their derivatives.
+//! Numbers with their derivatives.
 
 #![allow(
     clippy::suspicious_arithmetic_impl,
     reason = "the product and quotient rules mix all four operations"
 )]
 
-use super::Scalar;
+use super::{DualRow, Scalar};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A value and its derivatives along `K` directions: `value + sum_k derivative[k] eps_k`, `eps_j eps_k = 0`.
@@ -61,6 +61,7 @@ impl<T: Scalar, const K: usize> Dual<T, K> {
 
 impl<T: Scalar, const K: usize> Scalar for Dual<T, K> {
     type Real = T::Real;
+    type Row<const N: usize> = DualRow<T, K, N>;
     const IN_KERNEL: bool = T::IN_KERNEL;
 
     #[inline(always)]

@@ -1,4 +1,4 @@
-//! The numbers a model is written over: one equation, three scalars.
+//! The scalars of models: one equation, three scalars.
 //!
 //! A vector field is written once for any [`Scalar`]. Evaluated over
 //! * `f64` it moves one orbit,
@@ -10,18 +10,20 @@
 mod bundle;
 mod complex;
 mod dual;
+mod row;
 
 pub use bundle::{Bundle, MOST_LANES, Mask};
 pub use complex::Complex;
 pub use dual::Dual;
+pub use row::{DualRow, Row};
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A number that a vector field can be evaluated over.
 ///
-/// A constant is made *from a value at hand* ([`Scalar::constant`]), never from nothing, so that a lane type may
-/// carry what only a value knows (the CPU features it was made for).
+/// A constant is made *from an existing value* ([`Scalar::constant`]), so that a lane type may
+/// carry information of that value (the CPU features it was made for).
 pub trait Scalar:
     Copy
     + Debug
@@ -39,6 +41,9 @@ pub trait Scalar:
 {
     /// The number without its derivative part: the type of parameters, times and step sizes.
     type Real: Scalar<Real = Self::Real>;
+
+    /// `N` of them in a row, for sums along it.
+    type Row<const N: usize>: Row<Self>;
 
     /// Whether a value of this type lives in a kernel that was compiled for the widest instructions already.
     const IN_KERNEL: bool = false;
@@ -90,6 +95,7 @@ pub trait Scalar:
 
 impl Scalar for f64 {
     type Real = f64;
+    type Row<const N: usize> = [Self; N];
 
     #[inline(always)]
     fn constant(self, value: f64) -> f64 {

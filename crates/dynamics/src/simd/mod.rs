@@ -2,8 +2,8 @@
 //!
 //! Two kinds of work are compiled once for each instruction set and dispatched here:
 //! * a [`Kernel`] is plain loops over `f64`, left to the compiler;
-//! * a [`LaneKernel`] is written over a [`Bundle`]: one orbit in each lane; one lane where there are no vector
-//!   registers to speak of.
+//! * a [`LaneKernel`] is written over a [`Bundle`]: one orbit in each lane; one lane if there are no suitable vector
+//!   registers.
 //!
 //! A multiplication is never fused with an addition, so every machine and every width computes the same bits.
 
@@ -19,8 +19,8 @@ pub use portable::Lanes;
 
 use crate::scalar::Bundle;
 
-/// A piece of work worth vector instructions. `run` and all that it calls must be `#[inline(always)]` functions (not
-/// closures), or they are compiled for the smallest machine.
+/// Work that benefits from vector instructions. `run` and all that it calls must be `#[inline(always)]` functions (not
+/// closures), otherwise they are compiled for the baseline instruction set.
 pub trait Kernel {
     /// What it computes.
     type Output;
@@ -41,7 +41,7 @@ pub trait LaneKernel {
 /// The instruction sets that lanes are compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum InstructionSet {
-    /// What every processor of this architecture has: one lane.
+    /// The baseline of this architecture: one lane.
     Portable,
     /// Pairs of 128-bit registers of 64-bit Arm processors, four lanes each.
     Neon,
@@ -69,7 +69,7 @@ impl InstructionSet {
         }
     }
 
-    /// All that this machine has, the narrowest first.
+    /// All those of this machine, the narrowest first.
     #[must_use]
     pub fn available() -> Vec<Self> {
         let widest = Self::widest();
@@ -86,7 +86,7 @@ impl Default for InstructionSet {
     }
 }
 
-/// Runs a kernel with the widest instructions there are.
+/// Runs a kernel with the widest available instructions.
 #[inline]
 pub fn run<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
@@ -99,12 +99,12 @@ pub fn run<K: Kernel>(kernel: K) -> K::Output {
     }
 }
 
-/// Runs a lane kernel with the widest instructions there are.
+/// Runs a lane kernel with the widest available instructions.
 pub fn run_lanes<K: LaneKernel>(kernel: K) -> K::Output {
     run_lanes_on(InstructionSet::widest(), kernel)
 }
 
-/// As [`run_lanes`] where there are vector registers; `None`, and nothing done, where there are none: single orbits give the same
+/// As [`run_lanes`] if there are vector registers; otherwise `None`, without any work: single orbits give the same
 /// bits, and no kernel needs to be compiled for one lane.
 pub fn run_wide<K: LaneKernel>(kernel: K) -> Option<K::Output> {
     #[cfg(target_arch = "x86_64")]

@@ -1,4 +1,4 @@
-//! NEON, which every 64-bit Arm processor has: two lanes in a register, four in the two that are used side by side.
+//! NEON, which every 64-bit Arm processor has: two lanes in a register, four in the pairs that are used.
 //!
 //! Why it is sound: the instructions are part of the architecture's baseline, so every processor that runs this has them; none of those
 //! used here takes a pointer. Tests: `tests/lanes.rs`, every operation against `f64`.

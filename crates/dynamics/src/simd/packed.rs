@@ -55,6 +55,7 @@ impl<R: Registers> fmt::Debug for Packed<R> {
 
 impl<R: Registers> Scalar for Packed<R> {
     type Real = Self;
+    type Row<const N: usize> = [Self; N];
     const IN_KERNEL: bool = true;
 
     #[inline(always)]

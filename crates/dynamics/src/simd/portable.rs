@@ -1,10 +1,10 @@
-//! Lanes in plain arrays: what every machine has, and the oracle of the others.
+//! Lanes in plain arrays: available on every machine, and the oracle of the others.
 
 use super::{Packed, Registers};
 
 /// `N` independent `f64`, one orbit in each lane: in each the bits that the same computation gives over `f64`, for any `N`.
 ///
-/// Where speed matters the lanes are in vector registers ([`super::run_lanes`]).
+/// For speed the lanes are in vector registers ([`super::run_lanes`]).
 pub type Lanes<const N: usize> = Packed<[f64; N]>;
 
 /// Lane by lane `operation(a, b)`.

@@ -5,7 +5,7 @@
 //! The crate that offers safe registers uses AVX-512 only from Ice Lake on; what is used here is older (F, DQ, VL).
 //!
 //! Why it is sound: the instructions are called only through [`Zmm`] and [`Ymm`], both private to this module, which
-//! are handed out only as type arguments of kernels run by [`run_lanes`], after the processor was asked. A value of either
+//! are used only as type arguments of kernels run by [`run_lanes`], after the processor was asked. A value of either
 //! type therefore exists only where its instructions do. Tests: `tests/lanes.rs`, every operation against `f64`.
 
 #![allow(unsafe_code, reason = "vector instructions; see above")]
@@ -14,7 +14,7 @@ use super::{InstructionSet, Kernel, LaneKernel, Packed, Registers};
 use std::arch::x86_64::*;
 use std::sync::OnceLock;
 
-/// What this processor has.
+/// The instruction sets of this processor.
 pub(super) fn widest() -> InstructionSet {
     static WIDEST: OnceLock<InstructionSet> = OnceLock::new();
     *WIDEST.get_or_init(|| {
@@ -30,7 +30,7 @@ pub(super) fn widest() -> InstructionSet {
     })
 }
 
-/// Runs plain loops with the widest instructions there are.
+/// Runs plain loops with the widest available instructions.
 #[inline]
 pub(super) fn run<K: Kernel>(kernel: K) -> K::Output {
     // 256 bits also where there are 512: short loops over slices gain nothing from wider registers.
@@ -46,7 +46,7 @@ fn loops<K: Kernel>(kernel: K) -> K::Output {
     kernel.run()
 }
 
-/// Runs a lane kernel with the instructions of `set`, or the widest there are; one of the two must not be portable.
+/// Runs a lane kernel with the instructions of `set`, or the widest available; one of the two must not be portable.
 pub(super) fn run_lanes<K: LaneKernel>(set: InstructionSet, kernel: K) -> K::Output {
     match set.min(widest()) {
         // SAFETY: `widest` has found the instructions of both functions.
@@ -65,24 +65,26 @@ fn avx2<K: LaneKernel>(kernel: K) -> K::Output {
     kernel.run::<Packed<Ymm>>()
 }
 
-/// [`Registers`] for a register of `$lanes` lanes: what both widths have alike, and below what they have not.
+/// [`Registers`] for a register of `$lanes` lanes: common parts of both widths, and below the differences.
 ///
 /// SAFETY of every block: a value of `$name` exists only inside the function that was compiled for its instructions (see above). Loads
 /// and stores stay inside the slices, which are cut to the lanes first.
 macro_rules! registers {
-    ($name:ident, $lanes:literal, $load:ident $store:ident $splat:ident $add:ident $sub:ident $mul:ident $div:ident
+    ($name:ident, $lanes:literal, $splat:ident $add:ident $sub:ident $mul:ident $div:ident
         $sqrt:ident $max:ident $min:ident, $($rest:tt)*) => {
         impl Registers for $name {
             const LANES: usize = $lanes;
 
+            // Loads and stores are plain copies, no intrinsics: those would be calls where code that was not compiled for them
+            // reads single lanes.
             #[inline(always)]
             fn load(lanes: &[f64]) -> Self {
-                unsafe { Self($load(lanes[..$lanes].as_ptr())) }
+                unsafe { lanes[..$lanes].as_ptr().cast::<Self>().read_unaligned() }
             }
 
             #[inline(always)]
             fn store(self, lanes: &mut [f64]) {
-                unsafe { $store(lanes[..$lanes].as_mut_ptr(), self.0) };
+                unsafe { lanes[..$lanes].as_mut_ptr().cast::<Self>().write_unaligned(self) };
             }
 
             #[inline(always)]
@@ -136,7 +138,7 @@ macro_rules! registers {
 #[repr(transparent)]
 struct Zmm(__m512d);
 
-registers! { Zmm, 8, _mm512_loadu_pd _mm512_storeu_pd _mm512_set1_pd _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd
+registers! { Zmm, 8, _mm512_set1_pd _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd
     _mm512_sqrt_pd _mm512_max_pd _mm512_min_pd,
 
     #[inline(always)]
@@ -166,7 +168,7 @@ registers! { Zmm, 8, _mm512_loadu_pd _mm512_storeu_pd _mm512_set1_pd _mm512_add_
 #[repr(transparent)]
 struct Ymm(__m256d);
 
-registers! { Ymm, 4, _mm256_loadu_pd _mm256_storeu_pd _mm256_set1_pd _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd
+registers! { Ymm, 4, _mm256_set1_pd _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd
     _mm256_sqrt_pd _mm256_max_pd _mm256_min_pd,
 
     #[inline(always)]

@@ -8,7 +8,7 @@ pub(super) const WEIGHTS: &[ExponentialTerm] =
 
 /// The classical exponential method of order 4, with the embedded third order by the slope at the end.
 ///
-/// Where `N` is stiff its order falls to 2 or 3; [`super::KROGSTAD4`] keeps more of it at the same cost.
+/// If `N` is stiff its order drops to 2 or 3; [`super::KROGSTAD4`] loses less order at the same cost.
 ///
 /// Source: Cox and Matthews (2002), J. Comput. Phys. 176, 430, eqs. (26)-(29). The embedded method replaces `N_3` by
 /// `N(u_new)` in the last weight: Whalen, Brio, Moloney (2015), J. Comput. Phys. 280, 579.

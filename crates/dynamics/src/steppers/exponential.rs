@@ -3,7 +3,7 @@
 use super::phi_functions::{etdrk4_weights, phi};
 use crate::Semilinear;
 
-/// What the coefficients of a method are made of, at `z = h lambda`.
+/// The functions in the coefficients of a method, at `z = h lambda`.
 #[derive(Clone, Copy, Debug)]
 pub struct PhiValues {
     /// `phi_0 .. phi_3` at `z / 2`.
@@ -34,7 +34,7 @@ pub enum Node {
     Full,
 }
 
-/// An explicit exponential Runge-Kutta method: everything a step needs.
+/// An explicit exponential Runge-Kutta method: all data of a step.
 ///
 /// With `N_i = N(t + c_i h, U_i)` the stages are `U_i = e^{c_i z} u + h sum_j a_ij(z) N_j` and the step is
 /// `u_new = e^z u + h sum_i b_i(z) N_i`, mode by mode with `z = h lambda`. Stage 0 is the start; index `stages()`
@@ -43,11 +43,11 @@ pub enum Node {
 pub struct ExponentialTableau {
     /// Name on the command line and in files.
     pub name: &'static str,
-    /// Name for people.
+    /// Display name.
     pub title: &'static str,
-    /// Order of the global error, where the solution is smooth on the step.
+    /// Order of the global error, if the solution is smooth on the step.
     pub order: u32,
-    /// The stages after the first: where they lie and their rows `a_ij`.
+    /// The stages after the first: their positions and rows `a_ij`.
     pub rows: &'static [(Node, &'static [ExponentialTerm])],
     /// Weights `b_i`.
     pub weights: &'static [ExponentialTerm],
@@ -74,7 +74,7 @@ impl ExponentialTableau {
         if self.order < 4 { self.order } else { 4 }
     }
 
-    /// The terms of a step, the estimate of its error left out.
+    /// The terms of a step, without the error estimate.
     pub(crate) fn step_terms(&self) -> impl Iterator<Item = &'static ExponentialTerm> {
         self.rows.iter().flat_map(|row| row.1).chain(self.weights)
     }
@@ -85,7 +85,7 @@ impl ExponentialTableau {
     }
 }
 
-/// The coefficients of a method for one step size: what makes exponential steps cheap, computed once per size.
+/// The coefficients of a method for one step size: computed once per size, which makes exponential steps cheap.
 #[derive(Clone, Debug)]
 pub(crate) struct StepTable {
     h: f64,
@@ -95,12 +95,12 @@ pub(crate) struct StepTable {
 }
 
 impl StepTable {
-    /// Room for the coefficients of `tableau` on `dim` modes.
+    /// Space for the coefficients of `tableau` on `dim` modes.
     pub(crate) fn new(tableau: &ExponentialTableau, dim: usize) -> Self {
         Self { h: f64::NAN, dim, values: vec![0.0; (2 + tableau.terms().count()) * dim] }
     }
 
-    /// Computes the coefficients for step size `h` (nothing to do where they are there already).
+    /// Computes the coefficients for step size `h` (unless they are already computed).
     pub(crate) fn fill(&mut self, tableau: &ExponentialTableau, lambda: &[f64], h: f64) {
         if self.h == h {
             return;

@@ -3,7 +3,7 @@
 use super::{EXPONENTIAL_STEPPERS, ExponentialTableau, STEPPERS, Tableau, find, find_exponential};
 use crate::{Error, ExponentialOrbit, InPlane, Integration, Model, Orbit, Semilinear, StepControl};
 
-/// A stepper of either kind, as a study names it.
+/// A stepper of either kind, as named in a study.
 #[derive(Clone, Copy, Debug)]
 pub enum Method {
     /// An explicit Runge-Kutta method.
@@ -35,7 +35,7 @@ impl Method {
         }
     }
 
-    /// Its name for people.
+    /// Its display name.
     #[must_use]
     pub fn title(self) -> &'static str {
         match self {
@@ -53,7 +53,7 @@ impl Method {
         }
     }
 
-    /// Checks that the method can do what `control` asks.
+    /// Checks that the method supports `control`.
     ///
     /// # Errors
     /// As [`StepControl::validate`].
@@ -61,7 +61,7 @@ impl Method {
         control.validate_for(self.name(), self.is_adaptive())
     }
 
-    /// An orbit of a field alone, from `shape` at time `t`: for a stretch whose path nobody asks for.
+    /// An orbit of a field alone, from `shape` at time `t`: for a stretch whose path is not needed.
     ///
     /// # Errors
     /// As [`Orbit::new`].

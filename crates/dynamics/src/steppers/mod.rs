@@ -1,4 +1,4 @@
-//! The steppers: one file each, and the registries that enrol them in every test.
+//! The steppers: one file each, and the registries that include them in every test.
 
 mod dop853;
 mod dopri5;

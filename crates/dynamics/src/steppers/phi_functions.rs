@@ -1,4 +1,4 @@
-//! The phi functions of exponential integrators, to the last digits for every real argument.
+//! The phi functions of exponential integrators, accurate for every real argument.
 //!
 //! `phi_0 = e^z`, `phi_k = (phi_{k-1} - 1/(k-1)!) / z`, so `phi_k(z) = sum_j z^j / (j+k)!`. Their differences in the
 //! weights of ETDRK4 cancel near `z = 0` (where 12 of 16 digits would be lost) and, to leading order, for large

@@ -67,7 +67,7 @@ impl<T: Scalar> Slopes<T> {
     }
 }
 
-/// Where a step starts and how long it is.
+/// The start of a step and its size.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<'u, T: Scalar> {
     /// Time at its start.

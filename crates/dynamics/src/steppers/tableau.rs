@@ -3,7 +3,7 @@
 /// One term of a linear combination of stages: `(stage, coefficient)`. Zero coefficients are left out.
 pub type Term = (usize, f64);
 
-/// An explicit Runge-Kutta method: everything a step needs, printable and comparable.
+/// An explicit Runge-Kutta method: all data of a step, printable and comparable.
 ///
 /// With stages `k_i = f(t + c_i h, u + h sum_j a_ij k_j)` the step is `u_new = u + h sum_i b_i k_i`.
 /// Index `s = stages()` stands for the slope at the end of the step, `f(t + h, u_new)`; dense output may add stages
@@ -12,7 +12,7 @@ pub type Term = (usize, f64);
 pub struct Tableau {
     /// Name on the command line and in files.
     pub name: &'static str,
-    /// Name for people.
+    /// Display name.
     pub title: &'static str,
     /// Order of the global error, `|error| ~ h^order`.
     pub order: u32,

@@ -1,4 +1,4 @@
-//! The ways in which a body changes. Each keeps what it does not change: above all, the state.
+//! Changes of a body. Each keeps everything that it does not change, in particular the state.
 
 use super::setting::{Seen, Setting, decode, state_of};
 use motiform_dynamics::Normal;
@@ -6,11 +6,11 @@ use motiform_lab::live::start;
 use motiform_study::{Error, Plan, Random};
 use std::collections::BTreeMap;
 
-/// A kick, as a part of the shape.
+/// Size of a kick, relative to the shape.
 const KICK: f64 = 0.2;
 
 impl Setting {
-    /// With these parameters from now on.
+    /// The body with these parameters.
     pub(super) fn with(&self, parameters: &BTreeMap<String, f64>, seen: &Seen<'_>) -> Result<Self, Error> {
         let mut study = self.study().clone();
         for (name, value) in parameters {
@@ -32,14 +32,14 @@ impl Setting {
         self.changed(study, seen.t, state, seen.radius)
     }
 
-    /// With this noise from now on.
+    /// The body with this noise.
     pub(super) fn with_noise(&self, amplitude: f64, seen: &Seen<'_>) -> Result<Self, Error> {
         let mut study = self.study().clone();
         study.run.noise = amplitude;
         self.changed(study, seen.t, seen.state.to_vec(), seen.radius)
     }
 
-    /// Kicked at random: every entry of the shape by a part of what it and its neighbours are.
+    /// The body after a random kick: every entry of the shape changes by a fraction of the size of it and its neighbours.
     pub(super) fn kicked(&self, seen: &Seen<'_>) -> Result<Self, Error> {
         let dim = self.model().dim();
         let mut normal = Normal::new(self.study().run.seed, (1 << 40) + u64::from(self.revision()));
@@ -58,7 +58,7 @@ impl Setting {
         self.changed(self.study().clone(), seen.t, kicked, seen.radius)
     }
 
-    /// At its start again, without the transient.
+    /// The body at its initial state, without the transient.
     pub(super) fn restarted(&self, radius: f64) -> Result<Self, Error> {
         let plan = Plan::new(self.study())?;
         self.changed(self.study().clone(), 0.0, start(&plan, self.model()), radius)

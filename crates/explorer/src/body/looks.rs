@@ -1,4 +1,4 @@
-//! What can be read off the recorded motion: strips for the page, files to keep.
+//! Results computed from the recorded motion: strips for the page, files for export.
 
 use super::setting::Setting;
 use crate::export::{Made, Maker};
@@ -12,7 +12,7 @@ use motiform_study::study::ReturnMapSettings;
 use motiform_study::table::Table;
 use motiform_study::{Dataset, Study};
 
-/// Most points of a return map that are sent: the last ones.
+/// Maximum number of points of a return map that are sent: the last ones.
 const MOST_RETURNS: usize = 3000;
 
 /// The motion since the last change.
@@ -25,7 +25,7 @@ pub(super) struct Look<'l> {
 /// A sequence whose return map is shown.
 struct Returns {
     values: Vec<f64>,
-    /// What they are called (markup), and what they are.
+    /// Their name (markup), and their description.
     symbol: &'static str,
     what: String,
     /// The height of the line that the path crosses.
@@ -64,7 +64,7 @@ impl Look<'_> {
     }
 
     /// The segment at this height, as wide as that of the preset. Without a height, the whole line through the centre of the
-    /// path: a body that circles crosses it upwards once in each turn, and its return map is of one piece.
+    /// path: a circling body crosses it upwards once in each turn, and its return map is connected.
     fn segment(&self, y: Option<f64>) -> ReturnMapSettings {
         let whole = ReturnMapSettings { y: 0.0, x_min: -1e300, x_max: 1e300, centre: true };
         match (y, self.setting.return_map()) {
@@ -85,7 +85,7 @@ impl Look<'_> {
     }
 }
 
-/// Spectrum and return map, as the protocol has them.
+/// Spectrum and return map, in the form of the protocol.
 pub(super) fn strips(look: &Look<'_>, section: Section) -> Strips {
     let spectra = spectra(look.record, look.setting.model(), look.setting.plan().computation.dt_out);
     let returns = look.returns(section);
@@ -116,7 +116,7 @@ fn shorts(values: &[f64]) -> Vec<f64> {
     values.iter().map(|&value| short(value, DIGITS)).collect()
 }
 
-/// A number with so many significant digits: its text is short.
+/// A number with this many significant digits, for a short text.
 fn short(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }
@@ -134,7 +134,7 @@ pub(super) fn exponents(look: &Look<'_>, history: History) -> Maker {
     Box::new(move || Ok(draw::live::exponents(&plan, &history)?.map(Made::Svg)))
 }
 
-/// Makes a file of the motion; `None` for a name that is none.
+/// Makes a file of the motion; `None` for an unknown name.
 pub(super) fn maker(look: &Look<'_>, export: &Export) -> Option<Maker> {
     let section = Section { section: export.section, y: export.y };
     let plan = look.setting.plan().clone();

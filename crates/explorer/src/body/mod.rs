@@ -1,4 +1,4 @@
-//! The body of a session: its motion, and everything that is asked about it, on a thread of its own.
+//! The body of a session: its motion, and all requests about it, on a separate thread.
 
 mod changes;
 mod looks;
@@ -15,15 +15,15 @@ pub(crate) use setting::Setting;
 use stage::Stage;
 use std::sync::mpsc::Receiver;
 
-/// What a session computes beside the motion itself.
-pub(crate) struct Desks {
+/// Computations of a session in addition to the motion.
+pub(crate) struct Services {
     pub(crate) naming: Naming,
     pub(crate) map: Map,
     pub(crate) exports: Exports,
     pub(crate) answers: Answers,
 }
 
-impl Desks {
+impl Services {
     pub(crate) fn new(answers: &Answers) -> std::io::Result<Self> {
         Ok(Self {
             naming: Naming::new(answers.clone())?,
@@ -34,57 +34,57 @@ impl Desks {
     }
 }
 
-/// Answers what is asked until the page goes.
-pub(crate) fn run(asks: &Receiver<Ask>, desks: &Desks) {
+/// Answers requests until the page disconnects.
+pub(crate) fn run(asks: &Receiver<Ask>, services: &Services) {
     // The only failure is that nobody listens any more.
-    let _ = live(asks, desks);
+    let _ = live(asks, services);
 }
 
-fn live(asks: &Receiver<Ask>, desks: &Desks) -> Result<(), Gone> {
-    let mut next = first(asks, desks)?;
+fn live(asks: &Receiver<Ask>, services: &Services) -> Result<(), Gone> {
+    let mut next = first(asks, services)?;
     while let Some(setting) = next {
-        desks.naming.name(setting.motion());
+        services.naming.name(setting.motion());
         let body = InPlane(setting.model());
-        next = match Stage::new(&setting, &body, desks) {
+        next = match Stage::new(&setting, &body, services) {
             Ok(mut stage) => play(&mut stage, asks)?,
             Err(error) => {
-                desks.answers.refused(None, &error.to_string())?;
-                first(asks, desks)?
+                services.answers.refused(None, &error.to_string())?;
+                first(asks, services)?
             }
         };
     }
     Ok(())
 }
 
-/// Waits for a body to begin with; `None` if the page goes.
-fn first(asks: &Receiver<Ask>, desks: &Desks) -> Result<Option<Setting>, Gone> {
+/// Waits for the first body; `None` if the page disconnects.
+fn first(asks: &Receiver<Ask>, services: &Services) -> Result<Option<Setting>, Gone> {
     while let Ok(ask) = asks.recv() {
         let Ask::Begin(begin) = &ask else {
-            desks.answers.refused(None, "there is no body yet: begin one first")?;
+            services.answers.refused(None, "there is no body yet: send begin first")?;
             continue;
         };
         match Setting::begin(begin, 1) {
             Ok(setting) => {
-                desks.answers.say(setting.begun())?;
+                services.answers.say(setting.begun())?;
                 return Ok(Some(setting));
             }
-            Err(error) => desks.answers.refused(None, &error.to_string())?,
+            Err(error) => services.answers.refused(None, &error.to_string())?,
         }
     }
     Ok(None)
 }
 
-/// Answers until the body changes (what it is then), or the page goes (`None`).
+/// Answers until the body changes (returns the new one), or the page disconnects (`None`).
 fn play(stage: &mut Stage<'_>, asks: &Receiver<Ask>) -> Result<Option<Setting>, Gone> {
     while let Ok(ask) = asks.recv() {
         match stage.answer(ask)? {
             None => {}
             Some(Ok((setting, answer))) => {
-                stage.desks().naming.stop();
-                stage.desks().answers.say(answer)?;
+                stage.services().naming.stop();
+                stage.services().answers.say(answer)?;
                 return Ok(Some(setting));
             }
-            Some(Err(error)) => stage.desks().answers.refused(None, &error.to_string())?,
+            Some(Err(error)) => stage.services().answers.refused(None, &error.to_string())?,
         }
     }
     Ok(None)

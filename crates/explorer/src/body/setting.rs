@@ -1,25 +1,25 @@
-//! A body between two changes: model, parameters, where it starts.
+//! A body between two changes: model, parameters, initial state.
 
-use crate::catalogue::{self, Tempo};
+use crate::catalogue;
 use crate::motion::Motion;
 use crate::protocol::{Begin, Begun, Changed, Observable};
 use motiform_dynamics::{InPlane, Model};
 use motiform_lab::draw::radius_for;
 use motiform_lab::live::{Record, Stretch, settled};
-use motiform_study::study::ReturnMapSettings;
+use motiform_study::study::{DisplaySettings, ReturnMapSettings};
 use motiform_study::{Error, Plan, Study};
 use std::time::Duration;
 
-/// A transient that takes longer is cut short: the page waits.
+/// A transient that takes longer is truncated, because the page waits.
 const SETTLING: Duration = Duration::from_millis(300);
 
-/// A look ahead, to draw the body from the start with a radius that suits its deformation: samples, and time for it.
+/// A short integration ahead, to draw the body from the start with a radius that suits its deformation: samples, and time limit.
 const AHEAD: (usize, Duration) = (600, Duration::from_millis(30));
 
 /// What stays the same until the next change.
 pub(crate) struct Setting {
     preset: Option<String>,
-    /// As begun: its start is the one to restart from.
+    /// The study as started: a restart uses its initial state.
     study: Study,
     /// From the state below, with the noise and without.
     plan: Plan,
@@ -29,11 +29,11 @@ pub(crate) struct Setting {
     t: f64,
     /// The shape as the model computes with it, then x and y.
     state: Vec<f64>,
-    /// Undeformed radius that the body is drawn with.
+    /// Undeformed radius used for drawing.
     radius: f64,
 }
 
-/// Where a body is, and the undeformed radius that it is drawn with.
+/// The state of a body, and the undeformed radius used for drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Seen<'s> {
     pub(super) t: f64,
@@ -43,7 +43,7 @@ pub(super) struct Seen<'s> {
 }
 
 impl Setting {
-    /// The body that a page asks for.
+    /// The body that a page requests.
     pub(crate) fn begin(begin: &Begin, revision: u32) -> Result<Self, Error> {
         let mut study = catalogue::study(&begin.model, begin.preset.as_deref())?;
         for (name, value) in &begin.parameters {
@@ -82,7 +82,7 @@ impl Setting {
         Ok(Self { radius, ..next })
     }
 
-    /// The largest radius that the deformation asks for in the near future.
+    /// The largest radius required by the deformation in the near future.
     fn fitting_radius(&self) -> Result<f64, Error> {
         if let Some(fixed) = self.model.radius() {
             return Ok(fixed);
@@ -93,15 +93,15 @@ impl Setting {
         let body = InPlane(self.model());
         let mut record = Record::new(self.model(), 0.0, AHEAD.0);
         let mut stretch = Stretch::new(&self.quiet, &body, self.t, &self.state, 0)?;
-        let end = self.t + AHEAD.0 as f64 * self.tempo().sample;
+        let end = self.t + AHEAD.0 as f64 * self.study.display.sample;
         stretch.advance(end, AHEAD.1, &mut record, self.model());
         let dim = self.model.dim();
         let deformations = record.rows().map(|row| self.model.deformation(&row.state[..dim]));
         Ok(radius_for(deformations.filter(|deformation| deformation.is_finite()).fold(0.0, f64::max)))
     }
 
-    pub(crate) fn tempo(&self) -> Tempo {
-        catalogue::tempo(self.preset.as_deref().unwrap_or(self.study.model))
+    pub(crate) fn display(&self) -> &DisplaySettings {
+        &self.study.display
     }
 
     pub(crate) fn preset(&self) -> Option<&str> {
@@ -124,7 +124,7 @@ impl Setting {
         self.revision
     }
 
-    /// Where it starts.
+    /// Its initial state.
     pub(super) fn start(&self) -> Seen<'_> {
         Seen { t: self.t, state: &self.state, radius: self.radius }
     }
@@ -134,25 +134,25 @@ impl Setting {
         self.study.return_map.as_ref()
     }
 
-    /// What there is to name.
+    /// The motion to be classified.
     pub(crate) fn motion(&self) -> Motion {
         Motion { revision: self.revision, plan: self.quiet.clone(), again: false }
     }
 
-    /// The same motion, seen from a later state.
+    /// The same motion, from a later state.
     pub(crate) fn motion_at(&self, state: &[f64]) -> Result<Motion, Error> {
         let mut study = self.study_at(state);
         study.run.silence();
         Ok(Motion { revision: self.revision, plan: Plan::new(&study)?, again: true })
     }
 
-    /// The study that goes on from a state.
+    /// The study that continues from a state.
     pub(crate) fn study_at(&self, state: &[f64]) -> Study {
         at(&self.study, self.model.as_ref(), state)
     }
 
     pub(crate) fn begun(&self) -> Begun {
-        let tempo = self.tempo();
+        let display = self.display();
         let observables = self.model.observables().iter();
         let text = str::to_owned;
         Begun {
@@ -163,9 +163,9 @@ impl Setting {
             about: self.study.about.clone(),
             parameters: self.plan.computation.parameters.clone(),
             noise: self.study.run.noise,
-            sample: tempo.sample,
-            speed: tempo.speed,
-            speeds: tempo.speeds,
+            sample: display.sample,
+            speed: display.speed,
+            speeds: display.speeds(),
             observables: observables
                 .map(|o| Observable { name: text(o.name), symbol: text(o.symbol), meaning: text(o.meaning) })
                 .collect(),

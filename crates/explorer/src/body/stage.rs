@@ -1,6 +1,6 @@
-//! The body in motion, as the page sees it.
+//! The moving body, as shown on the page.
 
-use super::Desks;
+use super::Services;
 use super::looks::{self, Look};
 use super::setting::{Seen, Setting, decode};
 use crate::answers::Gone;
@@ -18,10 +18,10 @@ use motiform_study::Error;
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-/// Samples that are kept: what spectra and return maps are made of.
+/// Number of samples that are kept for spectra and return maps.
 const KEPT: usize = 20_000;
 
-/// Most samples in a picture, and most time that computing one may take: 60 pictures per second leave 16 ms.
+/// Maximum number of samples in a frame, and maximum computing time of one: 60 frames per second leave 16 ms.
 const PICTURE: (f64, Duration) = (512.0, Duration::from_millis(12));
 
 /// Points of the outline.
@@ -32,24 +32,24 @@ pub(super) struct Stage<'s> {
     setting: &'s Setting,
     stretch: Stretch<'s>,
     record: Record,
-    /// Samples up to this time are with the page.
+    /// Samples up to this time have been sent to the page.
     told: f64,
     radius: f64,
     ended: bool,
-    /// The name was asked for at this time; it is asked for again when the body has moved on this many times longer than finding
+    /// The motion was classified at this time; this is repeated when the body has moved on this many times longer than finding
     /// the name took.
     named: (f64, f64),
-    desks: &'s Desks,
+    services: &'s Services,
 }
 
-/// What the body is after a change, and what to say of it.
+/// The body after a change, and the message about it.
 pub(super) type Change = Result<(Setting, Said), Error>;
 
 impl<'s> Stage<'s> {
     pub(super) fn new(
         setting: &'s Setting,
         body: &'s InPlane<&'s dyn Model>,
-        desks: &'s Desks,
+        services: &'s Services,
     ) -> Result<Self, Error> {
         let Seen { t, state, radius } = setting.start();
         let stretch = Stretch::new(setting.plan(), body, t, state, u64::from(setting.revision()))?;
@@ -63,22 +63,22 @@ impl<'s> Stage<'s> {
             radius,
             ended: false,
             named: (t, 1.0),
-            desks,
+            services,
         })
     }
 
-    pub(super) fn desks(&self) -> &'s Desks {
-        self.desks
+    pub(super) fn services(&self) -> &'s Services {
+        self.services
     }
 
-    /// Answers a message; one that changes the body gives what it is then, or why it cannot be.
+    /// Answers a message; one that changes the body returns the new body, or the reason why it is impossible.
     pub(super) fn answer(&mut self, ask: Ask) -> Result<Option<Change>, Gone> {
         match ask {
             Ask::Advance(Advance { dt }) => self.advance(dt)?,
             Ask::Strips(section) => self.strips(section)?,
             Ask::Share(_) => self.share()?,
             Ask::Map(window) => self.map(window),
-            Ask::Unmap(_) => self.desks.map.stop(),
+            Ask::Unmap(_) => self.services.map.stop(),
             Ask::Evidence(Cell { epoch, cell }) => self.evidence(epoch, cell)?,
             Ask::Export(export) => self.export(&export)?,
             Ask::Begin(begin) => return Ok(Some(self.begin(&begin))),
@@ -90,37 +90,40 @@ impl<'s> Stage<'s> {
         Ok(None)
     }
 
-    /// Moves on and shows where the body is.
+    /// Advances the body and sends a frame.
     fn advance(&mut self, dt: f64) -> Result<(), Gone> {
         if dt < 0.0 {
-            return self.desks.answers.refused(None, "a body moves forward in time: give a dt of at least 0");
+            return self
+                .services
+                .answers
+                .refused(None, "the body moves forward in time only: give a dt of at least 0");
         }
-        let most = PICTURE.0 * self.setting.tempo().sample;
+        let most = PICTURE.0 * self.setting.display().sample;
         let to = self.stretch.t() + dt.min(most);
         let there = self.stretch.advance(to, PICTURE.1, &mut self.record, self.setting.model());
         let frame = self.frame(!there || dt > most);
-        self.desks.answers.binary(frame.encode())?;
+        self.services.answers.binary(frame.encode())?;
         self.name_again();
         match self.stretch.outcome() {
             Some(outcome) if !self.ended => {
                 self.ended = true;
-                self.desks.answers.say(ended(self.setting.revision(), &outcome))
+                self.services.answers.say(ended(self.setting.revision(), &outcome))
             }
             _ => Ok(()),
         }
     }
 
-    /// A long transient may end on another motion than the one it was named after: asks again, less and less often.
+    /// A long transient may end on a different motion than the one found first: classifies again, at increasing intervals.
     fn name_again(&mut self) {
         let (asked, times) = self.named;
-        let Some(took) = self.desks.naming.took(self.setting.revision()) else { return };
+        let Some(took) = self.services.naming.took(self.setting.revision()) else { return };
         if self.ended || self.stretch.t() - asked < times * took.max(1.0) {
             return;
         }
         self.named = (self.stretch.t(), 2.0 * times);
         // A state that makes no plan is no body: the motion itself says so.
         if let Ok(motion) = self.setting.motion_at(self.stretch.state()) {
-            self.desks.naming.name(motion);
+            self.services.naming.name(motion);
         }
     }
 
@@ -167,7 +170,7 @@ impl<'s> Stage<'s> {
     }
 
     fn strips(&self, section: Section) -> Result<(), Gone> {
-        self.desks.answers.say(looks::strips(&self.look(), section))
+        self.services.answers.say(looks::strips(&self.look(), section))
     }
 
     fn share(&self) -> Result<(), Gone> {
@@ -175,57 +178,57 @@ impl<'s> Stage<'s> {
         let texts = share::command(self.setting.preset(), &study)
             .and_then(|command| Ok((command, share::python(self.setting.preset(), &study)?)));
         match texts {
-            Ok((command, python)) => self.desks.answers.say(Share { command, python }),
-            Err(error) => self.desks.answers.refused(None, &error.to_string()),
+            Ok((command, python)) => self.services.answers.say(Share { command, python }),
+            Err(error) => self.services.answers.refused(None, &error.to_string()),
         }
     }
 
     fn map(&self, window: MapWindow) {
-        self.desks.map.show(Job { window, study: self.setting.study().clone() });
+        self.services.map.show(Job { window, study: self.setting.study().clone() });
     }
 
     fn evidence(&self, epoch: u32, cell: [u16; 2]) -> Result<(), Gone> {
-        match self.desks.map.evidence(epoch, cell) {
-            Some(evidence) => self.desks.answers.say(evidence),
+        match self.services.map.evidence(epoch, cell) {
+            Some(evidence) => self.services.answers.say(evidence),
             None => Ok(()), // of an earlier map
         }
     }
 
     fn export(&self, export: &Export) -> Result<(), Gone> {
         let make = match export.what.as_str() {
-            "map.csv" => Some(self.desks.map.maker(MapFile::Csv)),
-            "map.svg" | "map.png" => Some(self.desks.map.maker(MapFile::Diagram)),
-            "map-exponents.svg" | "map-exponents.png" if self.desks.map.axes() == 2 => {
+            "map.csv" => Some(self.services.map.maker(MapFile::Csv)),
+            "map.svg" | "map.png" => Some(self.services.map.maker(MapFile::Diagram)),
+            "map-exponents.svg" | "map-exponents.png" if self.services.map.axes() == 2 => {
                 let why =
                     "exponents are drawn along one axis, and the map has two: choose none for one of them";
-                return self.desks.answers.refused(Some(export.id), why);
+                return self.services.answers.refused(Some(export.id), why);
             }
-            "map-exponents.svg" | "map-exponents.png" => Some(self.desks.map.maker(MapFile::Exponents)),
+            "map-exponents.svg" | "map-exponents.png" => Some(self.services.map.maker(MapFile::Exponents)),
             "exponent.svg" | "exponent.png" => {
-                Some(looks::exponents(&self.look(), self.desks.naming.history()))
+                Some(looks::exponents(&self.look(), self.services.naming.history()))
             }
             "study.toml" => Some(looks::study(self.setting.study_at(self.stretch.state()))),
             _ => looks::maker(&self.look(), export),
         };
         let Some(make) = make else {
-            let why = format!("there is no file {:?} to be had", export.what);
-            return self.desks.answers.refused(Some(export.id), &why);
+            let why = format!("there is no file {:?}", export.what);
+            return self.services.answers.refused(Some(export.id), &why);
         };
         let subject = self.setting.preset().unwrap_or(self.setting.study().model).to_owned();
-        self.desks.exports.put(Order { id: export.id, subject, what: export.what.clone(), make })
+        self.services.exports.put(Order { id: export.id, subject, what: export.what.clone(), make })
     }
 
     fn begin(&self, begin: &Begin) -> Change {
         let setting = Setting::begin(begin, self.setting.revision().wrapping_add(1))?;
-        self.desks.map.stop();
+        self.services.map.stop();
         let answer = setting.begun().into();
         Ok((setting, answer))
     }
 
     fn set(&self, parameters: &BTreeMap<String, f64>) -> Change {
         let setting = self.setting.with(parameters, &self.seen())?;
-        if parameters.keys().any(|name| !self.desks.map.has_axis(name)) {
-            self.desks.map.stop();
+        if parameters.keys().any(|name| !self.services.map.has_axis(name)) {
+            self.services.map.stop();
         }
         Ok(told(setting))
     }

@@ -1,10 +1,10 @@
-//! Where the cells of a map lie: on a lattice that does not move when the window does.
+//! The lattice of the cells of a map, which does not move with the window.
 
 /// The lattice of one axis at one level of detail: cell `k` has its centre at `anchor + k step`.
 ///
-/// Every level is half as fine as the next and part of it, to the bit: what is computed for one window serves another that
-/// overlaps it. The anchor lies a third of a cell off the edge of the first window, so that no cell of any level lies on a round
-/// number, where bifurcations like to be.
+/// Every level is half as fine as the next and part of it, to the bit: cells computed for one window are reused in another that
+/// overlaps it. The anchor is offset by a third of a cell from the edge of the first window, so that no cell of any level lies on a round
+/// number, where bifurcations often occur.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lattice {
     anchor: f64,

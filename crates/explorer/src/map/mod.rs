@@ -1,7 +1,7 @@
-//! The map: which motion happens where in a window of two parameters, coarse first, then ever finer.
+//! The map: the motions in a window of two parameters, first coarse, then increasingly fine.
 
 mod lattice;
-mod sight;
+mod map_state;
 mod store;
 mod work;
 
@@ -9,20 +9,20 @@ use crate::answers::{Answers, Gone};
 use crate::export::{Made, Maker};
 use crate::protocol::{Evidence, MapWindow, Values};
 use crate::worker::{Worker, lock};
+use map_state::MapState;
 use motiform_lab::draw::{exponents, phase_diagram, sheet};
 use motiform_lab::scan::{CellSummary, Row, rows_to_csv};
 use motiform_study::Study;
 use serde_json::json;
-use sight::Sight;
 use std::sync::{Arc, Mutex};
 
-/// All cores are at work for the map: pictures and names go first.
+/// Priority of the map, which uses all cores: frames and classification have precedence.
 const NICE: i32 = 10;
 
 /// The map of a session.
 pub(crate) struct Map {
     worker: Worker<Job>,
-    sight: Arc<Mutex<Sight>>,
+    map_state: Arc<Mutex<MapState>>,
 }
 
 /// A window, over the parameters and with the start of a study.
@@ -33,45 +33,45 @@ pub(crate) struct Job {
 
 impl Map {
     pub(crate) fn new(answers: Answers) -> std::io::Result<Self> {
-        let sight = Arc::new(Mutex::new(Sight::default()));
-        let shared = Arc::clone(&sight);
+        let map_state = Arc::new(Mutex::new(MapState::default()));
+        let shared = Arc::clone(&map_state);
         let worker = Worker::new("map", NICE, move |job: Job, current| {
             // A page that has gone takes its session along.
             let _ = work::compute(&job, &shared, current, &answers);
         })?;
-        Ok(Self { worker, sight })
+        Ok(Self { worker, map_state })
     }
 
-    /// Computes a window, in place of the one under way.
+    /// Computes a window, replacing the one in progress.
     pub(crate) fn show(&self, job: Job) {
         self.worker.put(job);
     }
 
-    /// Stops computing, for the answer is no longer wanted.
+    /// Stops computing, because the result is no longer needed.
     pub(crate) fn stop(&self) {
         self.worker.clear();
     }
 
-    /// Whether the map in sight has this parameter as an axis.
+    /// Whether the visible map has this parameter as an axis.
     pub(crate) fn has_axis(&self, name: &str) -> bool {
-        let sight = lock(&self.sight);
-        sight.present().is_some_and(|map| map.plan.computation.axes.iter().any(|axis| axis.name == name))
+        let map_state = lock(&self.map_state);
+        map_state.present().is_some_and(|map| map.plan.computation.axes.iter().any(|axis| axis.name == name))
     }
 
-    /// How many axes the map in sight has.
+    /// Number of axes of the visible map.
     pub(crate) fn axes(&self) -> usize {
-        lock(&self.sight).present().map_or(0, |map| map.sides.len())
+        lock(&self.map_state).present().map_or(0, |map| map.sides.len())
     }
 
-    /// What is known of a cell, as the protocol has it.
+    /// The verdict on a cell, in the form of the protocol.
     pub(crate) fn evidence(&self, epoch: u32, [i, j]: [u16; 2]) -> Option<Evidence> {
-        let mut sight = lock(&self.sight);
-        let map = sight.present().filter(|map| map.epoch == epoch)?;
+        let mut map_state = lock(&self.map_state);
+        let map = map_state.present().filter(|map| map.epoch == epoch)?;
         let at = map.at(usize::from(i), usize::from(j))?;
         let names: Vec<String> = map.plan.computation.axes.iter().map(|axis| axis.name.clone()).collect();
         let parameters: Values =
             names.into_iter().zip(&at).map(|(name, value)| (name, json!(value))).collect();
-        let row = sight.store.get(&at);
+        let row = map_state.store.get(&at);
         Some(Evidence {
             epoch,
             cell: [i, j],
@@ -82,9 +82,9 @@ impl Map {
         })
     }
 
-    /// Makes a file of the cells in sight that are computed.
+    /// Makes a file of the visible cells that are computed.
     pub(crate) fn maker(&self, file: MapFile) -> Maker {
-        let known = lock(&self.sight).rows();
+        let known = lock(&self.map_state).rows();
         Box::new(move || {
             let Some((plan, rows)) = known.filter(|(_, rows)| !rows.is_empty()) else { return Ok(None) };
             let cells = || {
@@ -104,7 +104,7 @@ impl Map {
     }
 }
 
-/// What can be made of a map.
+/// The files that can be made of a map.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum MapFile {
     Csv,

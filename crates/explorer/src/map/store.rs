@@ -1,33 +1,33 @@
-//! What is known of the plane: rows by their parameters, in bounded memory.
+//! The computed rows of a plane by their parameters, in bounded memory.
 
 use motiform_lab::scan::Row;
 use std::collections::HashMap;
 
-/// Most rows that are kept, at about 300 bytes each.
+/// Maximum number of rows that are kept, at about 300 bytes each.
 const MOST: usize = 60_000;
 
 /// Rows of cells, found by the bits of the values on the axes.
 #[derive(Default)]
 pub(crate) struct Store {
-    /// With the number of the map that asked for it last.
+    /// With the number of the map that last requested it.
     rows: HashMap<[u64; 2], (u32, Row)>,
     round: u32,
 }
 
 impl Store {
-    /// Begins a new map: its rows will be the last to go.
+    /// Starts a new map: its rows will be the last to be removed.
     pub(crate) fn begin(&mut self) {
         self.round = self.round.wrapping_add(1);
     }
 
-    /// The row of a cell with these values, now wanted by the present map.
+    /// The row of a cell with these values, now requested by the present map.
     pub(crate) fn get(&mut self, at: &[f64]) -> Option<&Row> {
         let (round, row) = self.rows.get_mut(&key(at))?;
         *round = self.round;
         Some(row)
     }
 
-    /// Keeps a row. Where there are too many, those of earlier maps go first.
+    /// Stores a row. If there are too many, those of earlier maps are removed first.
     pub(crate) fn put(&mut self, at: &[f64], row: Row) {
         if self.rows.len() >= MOST {
             let now = self.round;

@@ -1,6 +1,6 @@
-//! Computing a window: coarse cells first, from its middle outwards, on all cores.
+//! Computation of a window: coarse cells first, from the centre outwards, on all cores.
 
-use super::sight::Sight;
+use super::map_state::MapState;
 use super::{Done, Job};
 use crate::answers::{Answers, Gone};
 use crate::frames::{self, Cell};
@@ -19,9 +19,14 @@ use std::time::{Duration, Instant};
 /// Between two messages with cells, and two with the progress.
 const EVERY: (Duration, Duration) = (Duration::from_millis(40), Duration::from_millis(120));
 
-/// Computes what is not known of the window of a job, unless it becomes stale.
-pub(super) fn compute(job: &Job, sight: &Mutex<Sight>, current: &Current<'_>, answers: &Answers) -> Done {
-    let mut seen = lock(sight);
+/// Computes the missing cells of the window of a job, unless it becomes stale.
+pub(super) fn compute(
+    job: &Job,
+    map_state: &Mutex<MapState>,
+    current: &Current<'_>,
+    answers: &Answers,
+) -> Done {
+    let mut seen = lock(map_state);
     if let Err(error) = seen.turn(job) {
         drop(seen);
         return answers.refused(None, &error.to_string());
@@ -34,7 +39,7 @@ pub(super) fn compute(job: &Job, sight: &Mutex<Sight>, current: &Current<'_>, an
     }
     let work = Work {
         view: &view,
-        sight,
+        map_state,
         current,
         answers,
         gone: AtomicBool::new(false),
@@ -52,7 +57,7 @@ pub(super) fn compute(job: &Job, sight: &Mutex<Sight>, current: &Current<'_>, an
     work.finish(begun)
 }
 
-/// What is to be done for a window.
+/// The work for a window.
 struct View {
     epoch: u32,
     plan: ScanPlan,
@@ -63,8 +68,8 @@ struct View {
 }
 
 impl View {
-    fn of(sight: &mut Sight, epoch: u32) -> Option<Self> {
-        let map = sight.present()?;
+    fn of(map_state: &mut MapState, epoch: u32) -> Option<Self> {
+        let map = map_state.present()?;
         let [columns, rows] = map.counts();
         let side = |axis: usize| {
             let cells = map.sides.get(axis)?;
@@ -97,7 +102,7 @@ impl View {
         cells.sort_by(|a, b| b.level.cmp(&a.level).then(distance(a).total_cmp(&distance(b))));
         let (mut known, mut wanted) = (Vec::new(), Vec::new());
         for cell in cells {
-            match sight.store.get(&plan.axis_values(number(columns, &cell))) {
+            match map_state.store.get(&plan.axis_values(number(columns, &cell))) {
                 Some(row) => known.push(told(cell, row)),
                 None => wanted.push(cell),
             }
@@ -144,7 +149,7 @@ fn line(line: &BoundaryLine) -> Line {
 /// What the threads share.
 struct Work<'w> {
     view: &'w View,
-    sight: &'w Mutex<Sight>,
+    map_state: &'w Mutex<MapState>,
     current: &'w Current<'w>,
     answers: &'w Answers,
     gone: AtomicBool,
@@ -152,7 +157,7 @@ struct Work<'w> {
     out: Mutex<Out>,
 }
 
-/// Cells on their way to the page.
+/// Cells to be sent to the page.
 struct Out {
     cells: Vec<Cell>,
     done: usize,
@@ -194,7 +199,7 @@ impl Work<'_> {
         let number = number(self.view.columns(), &cell);
         let Some(row) = Row::of_evaluation(number, 0, verdict) else { return Ok(()) };
         let cell = told(cell, &row);
-        lock(self.sight).store.put(&self.view.plan.axis_values(number), row);
+        lock(self.map_state).store.put(&self.view.plan.axis_values(number), row);
         let mut out = lock(&self.out);
         out.cells.push(cell);
         out.done += 1;
@@ -218,7 +223,7 @@ impl Work<'_> {
         Progress { epoch: self.view.epoch, done: out.done, total, rate }
     }
 
-    /// Sends what is left, and that it is all, if it is.
+    /// Sends the remaining cells, and the message of completion if the map is complete.
     fn finish(self, begun: Instant) -> Done {
         let stopped = self.stopped();
         let out = self.out.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);

@@ -141,7 +141,7 @@ impl Ask {
     /// # Errors
     /// What is wrong with it, in one sentence.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
-        serde_json::from_str(text).map_err(|error| format!("this message says nothing: {error}"))
+        serde_json::from_str(text).map_err(|error| format!("this message cannot be read: {error}"))
     }
 }
 

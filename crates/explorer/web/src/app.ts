@@ -94,7 +94,7 @@ export class App implements Hearer {
   }
 
   private known(): Session {
-    if (!this.session) throw new Error("the server has not said hello yet");
+    if (!this.session) throw new Error("the server has not sent its first message yet");
     return this.session;
   }
 
@@ -173,7 +173,7 @@ export class App implements Hearer {
     const wanted = place?.speed ?? speed;
     const [least, most] = [0.999 * speeds[0], 1.001 * speeds[1]];
     if (wanted >= least && wanted <= most) return wanted;
-    toast(`Left aside in the address: speed=${pretty(wanted, 3)}`);
+    toast(`Ignored in the address: speed=${pretty(wanted, 3)}`);
     return speed;
   }
 
@@ -262,7 +262,7 @@ export class App implements Hearer {
 
   private openAddress(hash = location.hash): void {
     const { place, notes } = read(hash, this.known().registry);
-    if (notes.length) toast(`Left aside in the address: ${notes.join(", ")}`);
+    if (notes.length) toast(`Ignored in the address: ${notes.join(", ")}`);
     this.loop.playing = place.playing;
     this.controls.setPlaying(place.playing);
     this.open(place);

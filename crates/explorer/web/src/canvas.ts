@@ -13,7 +13,7 @@ export class Sheet {
     opaque = false,
   ) {
     const g = canvas.getContext("2d", { alpha: !opaque });
-    if (!g) throw new Error("this browser draws no canvases");
+    if (!g) throw new Error("this browser does not support canvas drawing");
     this.g = g;
     new ResizeObserver(() => {
       if (this.fit()) changed();

@@ -4,7 +4,7 @@
 export async function copy(text: string, button: HTMLButtonElement): Promise<void> {
   const before = button.dataset.label ?? button.textContent ?? "";
   button.dataset.label = before;
-  button.textContent = (await written(text)) ? "Copied" : "Select and copy it by hand";
+  button.textContent = (await written(text)) ? "Copied" : "Select and copy manually";
   window.setTimeout(() => (button.textContent = before), 1600);
 }
 

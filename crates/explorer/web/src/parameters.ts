@@ -75,7 +75,7 @@ export class ParameterPanel {
     for (const { parameter, mark } of this.rows) {
       const axis = parameter.name === x ? "x" : parameter.name === y ? "y" : "";
       mark.textContent = axis;
-      mark.title = axis ? `axis of the map (${axis === "x" ? "across" : "up"})` : "";
+      mark.title = axis ? `axis of the map (${axis === "x" ? "horizontal" : "vertical"})` : "";
     }
   }
 
@@ -100,12 +100,12 @@ export class ParameterPanel {
     const id = `about-${name}`;
     const step = whole ? 1 : roundStep((high - low) / STEPS);
     const round = (edge: number): string => String(snapped(step * Math.round(edge / step), step));
-    const about = make("button", { type: "button", class: "symbol-button", "aria-expanded": "false", "aria-controls": id, title: `${name}: ${meaning}`, "aria-label": `${name}: what it means` }, symbol(parameter.symbol));
+    const about = make("button", { type: "button", class: "symbol-button", "aria-expanded": "false", "aria-controls": id, title: `${name}: ${meaning}`, "aria-label": `${name}: meaning` }, symbol(parameter.symbol));
     const text = make("p", { id, class: "meaning", hidden: "" }, `${name}, equation ${equation}: ${meaning}`);
     const mark = make("span", { class: "axis-mark" });
     const slider = make("input", { type: "range", min: round(low), max: round(high), step: String(step), "aria-label": name });
     const number = make("input", { type: "number", min: String(allowed[0]), max: String(allowed[1]), step: whole ? "1" : "any", "aria-label": `${name}, value` });
-    const reset = make("button", { type: "button", class: "reset", title: "The preset\u2019s value again", "aria-label": `Reset ${name}` }, "\u21ba");
+    const reset = make("button", { type: "button", class: "reset", title: "Reset to the value of the preset", "aria-label": `Reset ${name}` }, "\u21ba");
     const refusal = make("p", { class: "refusal", role: "alert", hidden: "" });
     const element = make("div", { class: "parameter", "data-parameter": name, "data-testid": `parameter-${name}` }, about, mark, slider, number, reset, text, refusal);
     about.addEventListener("click", () => {

@@ -49,7 +49,7 @@ export class ShareMenu {
 
   /** Shows the text that was asked for. */
   show(share: Share): void {
-    setText(byId("dialog-title"), this.wanted === "command" ? "The same as a command" : "The same in Python");
+    setText(byId("dialog-title"), this.wanted === "command" ? "Equivalent command" : "Equivalent Python code");
     setText(byId("dialog-text"), share[this.wanted]);
     if (!this.dialog.open) this.dialog.showModal();
   }
@@ -90,13 +90,13 @@ export class ShareMenu {
   }
 
   private online(): boolean {
-    if (!this.host.connected()) toast("No connection: this needs the server.");
+    if (!this.host.connected()) toast("Not connected: this requires the server.");
     return this.host.connected();
   }
 
   private state(): void {
     const names = [...this.pending.values()];
-    setText(byId("export-state"), names.length ? `making ${names.join(", ")}\u2026` : "");
+    setText(byId("export-state"), names.length ? `creating ${names.join(", ")}\u2026` : "");
     document.documentElement.toggleAttribute("data-busy", names.length > 0);
   }
 

@@ -1,4 +1,4 @@
-//! What the film shows, and the still ground it is drawn on.
+//! The view of the film, and its static background.
 
 use super::{Animation, Camera};
 use crate::axes::{Axes, BELOW, Scale};

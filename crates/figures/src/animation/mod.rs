@@ -1,4 +1,4 @@
-//! The domain in motion: an animated PNG of the deforming outline and the trail of its centre.
+//! Animation of the domain: an animated PNG of the deforming outline and the trail of its centre.
 
 mod apng;
 mod brush;
@@ -54,7 +54,7 @@ pub struct Animation {
     pub y_label: String,
     /// Unit behind the number at the scale bar.
     pub unit: String,
-    /// A few words above the frame on the right, such as the scale of the body.
+    /// A short note above the frame on the right, such as the scale of the body.
     pub note: String,
 }
 

@@ -1,4 +1,4 @@
-//! Where the parts of a path figure lie.
+//! The layout of a path figure.
 
 use super::PathFigure;
 use crate::axes::{Axes, BELOW, Scale};

@@ -45,7 +45,7 @@ pub struct SectionLine {
 /// The sheet takes the shape of the data between 1:3 and 3:1; beyond that the shorter axis shows more of the plane.
 ///
 /// # Units   model length and time; texts are markup (see [`super::Label`])
-/// # Not     scaling outlines: whoever draws them larger than life passes them so and says so in the caption
+/// # Not     scaling outlines: a caller that draws them enlarged must pass enlarged outlines and state this in the caption
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathFigure {
     /// Line above the axes.

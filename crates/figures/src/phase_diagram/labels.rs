@@ -1,4 +1,4 @@
-//! Large grids: the marker of each wide region, once, so that colours are not all there is to read.
+//! Large grids: the marker of each wide region, once, so that the diagram can be read without colours.
 
 use super::super::geometry::Point;
 use super::super::marks::REGIMES;

@@ -1,4 +1,4 @@
-//! Which motion occurs where: regimes over one or two parameters.
+//! Phase diagrams: regimes over one or two parameters.
 
 mod cells;
 mod labels;
@@ -23,7 +23,7 @@ use cells::Cells;
 /// Most cells a side that get markers.
 const TILES: usize = 40;
 
-/// What was found at one place.
+/// The result at one point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cell {
     /// Place across, one of the diagram's `x`.
@@ -34,7 +34,7 @@ pub struct Cell {
     pub shares: Vec<(String, f64)>,
 }
 
-/// A line of a theory, such as a bifurcation.
+/// A line from theory, such as a bifurcation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BoundaryLine {
     /// Markup for the legend.
@@ -66,7 +66,7 @@ pub struct PhaseDiagram {
     pub x: Vec<f64>,
     /// Cell centres upwards, increasing; empty or a single value for a strip.
     pub y: Vec<f64>,
-    /// What was found; places without a cell stay white.
+    /// The results; points without a cell stay white.
     pub cells: Vec<Cell>,
     /// Lines in front of the cells, behind their markers. In a strip their y runs from 0 to 1.
     pub lines: Vec<BoundaryLine>,

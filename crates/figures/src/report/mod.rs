@@ -70,7 +70,7 @@ impl ReportFigure {
 /// A picture as a file's content.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Picture {
-    /// SVG text that stands alone.
+    /// Self-contained SVG text.
     Svg(String),
     /// A PNG, animated or not.
     Png(Vec<u8>),
@@ -93,7 +93,7 @@ impl Report {
         self.sections.iter().flat_map(|section| &section.claims)
     }
 
-    /// Whether no claim and no check fails. One that differs for a reason is no failure; a report without claims has none.
+    /// Whether no claim and no check fails. One that differs for a known reason is not a failure; a report without claims has none.
     #[must_use]
     pub fn all_hold(&self) -> bool {
         self.counts().fail + self.checks().fail == 0

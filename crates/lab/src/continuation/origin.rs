@@ -53,7 +53,9 @@ impl Origin {
         let mut all = Vec::new();
         for (leg, done) in followed.legs.iter().enumerate() {
             for (point, sample) in done.samples.iter().enumerate() {
-                let leads_on = |special| !matches!(special, Special::Fold | Special::Torus { .. });
+                let leads_on = |special| {
+                    !matches!(special, Special::Fold | Special::Torus { .. } | Special::Unresolved { .. })
+                };
                 if sample.point.special.is_some_and(leads_on) {
                     all.push(Self::Special { branch: number, leg, point });
                 }

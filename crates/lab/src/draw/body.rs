@@ -1,4 +1,4 @@
-//! The body along its path: which rows are shown, and how large it is drawn.
+//! The body along its path: the rows that are shown, and the size of the outlines.
 
 use motiform_dynamics::{Model, Outline};
 use motiform_models::ModelInfo;
@@ -14,14 +14,14 @@ pub(super) struct Body<'d> {
     rows: Range<usize>,
     /// Undeformed radius R0 (model length).
     pub(super) radius: f64,
-    /// Drawn size of an outline over its true size against the path.
+    /// Ratio of the drawn size of an outline to its true size relative to the path.
     pub(super) scale: f64,
 }
 
-/// An undeformed outline is drawn about this large against the longer side of the path.
+/// Approximate size of an undeformed outline relative to the longer side of the path.
 const TARGET: f64 = 0.032;
 
-/// The deformation is at most about this part of the radius where R0 is chosen for it.
+/// If R0 is chosen automatically, the deformation is at most about this fraction of the radius.
 const DEFORMATION: f64 = 0.45;
 
 impl<'d> Body<'d> {
@@ -65,7 +65,7 @@ impl<'d> Body<'d> {
         shape
     }
 
-    /// The outline at a row, in the plane, at `scale` times its size; `None` where the shape is no curve.
+    /// The outline at a row, in the plane, at `scale` times its size; `None` if the shape is not a curve.
     pub(super) fn outline(&self, row: usize, scale: f64, points: usize) -> Option<Vec<[f64; 2]>> {
         let [x, y] = self.position(row);
         match self.model.outline(&self.shape(row), self.radius, points) {
@@ -126,7 +126,7 @@ impl<'d> Body<'d> {
         radius_for(deformation)
     }
 
-    /// 1 where an undeformed outline at its true size is about `target` of the longer side of the path, else a round
+    /// 1 if an undeformed outline at its true size is about `target` of the longer side of the path, otherwise a round
     /// factor that makes it so.
     pub(super) fn readable_scale(&self, target: f64) -> f64 {
         let share = self.radius / self.extent();

@@ -176,6 +176,7 @@ fn mark(special: Special) -> (&'static str, Glyph) {
         Special::PeriodDoubling => ("period doubling", Glyph::Triangle),
         Special::SymmetryBreaking => ("symmetry breaking", Glyph::Square),
         Special::Torus { .. } => ("torus", Glyph::Ring),
+        Special::Unresolved { .. } => ("not located", Glyph::Question),
         _ => ("branch point", Glyph::DownTriangle),
     }
 }

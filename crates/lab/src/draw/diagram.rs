@@ -1,4 +1,4 @@
-//! Scans: which motion occurs where, and the largest exponent along one axis.
+//! Scans: phase diagrams, and the largest exponent along one axis.
 
 use super::{FigureFormat, Picture, add, words};
 use crate::scan::{Axis, CellSummary, ScanFolder, cells};
@@ -15,12 +15,12 @@ use motiform_study::{Error, ScanPlan};
 /// Points of an analytic line.
 const POINTS: usize = 600;
 
-/// Draws the figures of a scan: `_diagram`, and with one axis `_exponent` where exponents are known (as SVG and PNG, and
-/// PDF if asked and built in). The underscore keeps them out of the way of those who read all parts as one table. A scan
+/// Draws the figures of a scan: `_diagram`, and with one axis `_exponent` if exponents are known (as SVG and PNG, and
+/// PDF if requested and built in). Because of the underscore, readers of all parts as one table ignore them. A scan
 /// without any computed cell gives no pictures.
 ///
 /// # Errors
-/// [`Error::Unreadable`], an unknown model, or numbers that no axis can hold.
+/// [`Error::Unreadable`], an unknown model, or numbers that do not fit on an axis.
 pub fn draw_scan(folder: &ScanFolder, format: &FigureFormat) -> Result<Vec<Picture>, Error> {
     let plan = folder.plan();
     let cells: Vec<CellSummary> = cells(folder)?.into_iter().flatten().collect();
@@ -35,7 +35,7 @@ pub fn draw_scan(folder: &ScanFolder, format: &FigureFormat) -> Result<Vec<Pictu
     Ok(pictures)
 }
 
-/// The phase diagram of a scan over one or two axes, with the analytic lines where the model is the paper's reduced one.
+/// The phase diagram of a scan over one or two axes, with the analytic lines if the model is the paper's reduced one.
 ///
 /// # Errors
 /// An unknown model.
@@ -60,7 +60,7 @@ pub fn phase_diagram(plan: &ScanPlan, cells: &[CellSummary]) -> Result<PhaseDiag
     })
 }
 
-/// The largest Lyapunov exponent against the parameter of a scan's only axis; `None` with two axes, or where no motion
+/// The largest Lyapunov exponent against the parameter of a scan's only axis; `None` with two axes, or if no motion
 /// has one.
 ///
 /// # Errors
@@ -104,7 +104,7 @@ fn exponents_of(regime: Regime, plan: &ScanPlan, cells: &[CellSummary]) -> Optio
     (!points.is_empty()).then(|| ErrorBarSeries { label: regime.name().to_owned(), points, joined: false })
 }
 
-/// What was scanned, in words.
+/// Description of the scan.
 fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary]) -> Vec<String> {
     let c = &plan.computation;
     let (count, all) = (cells.len(), plan.cells());
@@ -121,7 +121,7 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary]) -> Vec<Stri
     vec![words::named(info, &c.parameters), format!("{computed}, {states}. {method}")]
 }
 
-/// How figures write a parameter.
+/// Notation of a parameter in figures.
 fn symbol(info: &ModelInfo, name: &str) -> String {
     let spec = info.parameters().iter().find(|spec| spec.name == name);
     spec.map_or_else(|| name.to_owned(), |spec| spec.symbol.to_owned())

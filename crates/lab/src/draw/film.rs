@@ -1,4 +1,4 @@
-//! The body in motion.
+//! The animation of the body.
 
 use super::body::Body;
 use super::{path, words};
@@ -10,13 +10,13 @@ const FRAMES: usize = 200;
 /// Points of an outline in the film.
 const OUTLINE_POINTS: usize = 64;
 
-/// The body's radius R0 against the longer side of the path: large enough to see its shape in a small picture.
+/// The body's radius R0 relative to the longer side of the path: large enough to show the shape in a small picture.
 const TARGET: f64 = 0.045;
 
-/// Where the body would have to be drawn larger than this, the camera goes along with it instead.
+/// If the body would have to be drawn larger than this, the camera follows it instead.
 const LARGEST: f64 = 4.0;
 
-/// Equal steps of time, so that the film shows the pace of the motion.
+/// Equal steps of time, so that the film shows the speed of the motion.
 pub(super) fn animation(body: &Body<'_>) -> Animation {
     let rows = body.rows();
     let last = rows.len() - 1;

@@ -1,4 +1,4 @@
-//! Figures of what was read off a body that moves while somebody looks on ([`crate::live`]).
+//! Figures of a body that is simulated interactively ([`crate::live`]).
 
 use super::words;
 use crate::live::Spectra;
@@ -9,10 +9,10 @@ use motiform_figures::{
 };
 use motiform_study::{Error, Plan};
 
-/// Power spectra; `None` while there are none.
+/// Power spectra; `None` if there are none yet.
 ///
 /// # Errors
-/// An unknown model, or numbers that no axis can hold.
+/// An unknown model, or numbers that do not fit on an axis.
 pub fn spectrum(plan: &Plan, spectra: &Spectra) -> Result<Option<String>, Error> {
     if spectra.curves.is_empty() {
         return Ok(None);
@@ -34,10 +34,10 @@ pub fn spectrum(plan: &Plan, spectra: &Spectra) -> Result<Option<String>, Error>
     Ok(Some(super::sheet(&figure)?.svg))
 }
 
-/// A return map of the values `xs`, which are called `symbol` (markup); `what` says what they are. `None` for fewer than two.
+/// A return map of the values `xs` with the name `symbol` (markup) and the description `what`. `None` for fewer than two.
 ///
 /// # Errors
-/// An unknown model, or numbers that no axis can hold.
+/// An unknown model, or numbers that do not fit on an axis.
 pub fn return_map(plan: &Plan, xs: &[f64], symbol: &str, what: &str) -> Result<Option<String>, Error> {
     if xs.len() < 2 {
         return Ok(None);
@@ -52,10 +52,10 @@ pub fn return_map(plan: &Plan, xs: &[f64], symbol: &str, what: &str) -> Result<O
     Ok(Some(super::sheet(&figure)?.svg))
 }
 
-/// Lyapunov exponents against the time that they are averaged over; `None` while there are none.
+/// Lyapunov exponents against the averaging time; `None` if there are none yet.
 ///
 /// # Errors
-/// An unknown model, or numbers that no axis can hold.
+/// An unknown model, or numbers that do not fit on an axis.
 pub fn exponents(plan: &Plan, history: &[(f64, Vec<Estimate>)]) -> Result<Option<String>, Error> {
     let count = history.iter().map(|(_, estimates)| estimates.len()).max().unwrap_or(0);
     if count == 0 {

@@ -1,4 +1,4 @@
-//! Dataset to figures: what is drawn, and with what words. The drawing itself is in [`motiform_figures`].
+//! Dataset to figures: their contents and texts. The drawing itself is in [`motiform_figures`].
 
 mod body;
 mod branches;
@@ -19,7 +19,7 @@ pub use diagram::{boundary_lines, draw_scan, exponents, phase_diagram};
 use motiform_figures::{Drawn, Figure, FigureError, Style, png};
 use motiform_study::{Dataset, Error};
 
-/// What a figure refuses, as an error of a study.
+/// The error of a figure, as an error of a study.
 #[must_use]
 #[allow(clippy::needless_pass_by_value, reason = "for map_err")]
 pub fn undrawable(error: FigureError) -> Error {
@@ -29,7 +29,7 @@ pub fn undrawable(error: FigureError) -> Error {
 /// Draws a figure, with its data.
 ///
 /// # Errors
-/// [`Error::Figure`]: numbers that no axis can hold.
+/// [`Error::Figure`]: numbers that do not fit on an axis.
 pub fn sheet(figure: &dyn Figure) -> Result<Drawn, Error> {
     figure.drawn().map_err(undrawable)
 }
@@ -46,19 +46,19 @@ pub struct Picture {
 /// How figures become files.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct FigureFormat {
-    /// PDF as well, where that is built in.
+    /// Also PDF, if that is built in.
     pub pdf: bool,
-    /// Words and size in place of the figures' own.
+    /// Title, caption and size instead of the defaults.
     pub style: Style,
 }
 
-/// Draws every figure of a dataset: `path`, `series`, and where the model or the plan has them `return-map`, `phi` and
-/// `spectrum` (as SVG and PNG, and PDF if asked and built in), and the animation `motion.png`.
+/// Draws every figure of a dataset: `path`, `series`, and if the model or the plan has them `return-map`, `phi` and
+/// `spectrum` (as SVG and PNG, and PDF if requested and built in), and the animation `motion.png`.
 ///
 /// A dataset whose shown window has fewer than two rows gives no pictures.
 ///
 /// # Errors
-/// An unknown model, or numbers that no axis can hold.
+/// An unknown model, or numbers that do not fit on an axis.
 pub fn draw(dataset: &Dataset, format: &FigureFormat) -> Result<Vec<Picture>, Error> {
     let body = Body::new(dataset)?;
     if body.rows().len() < 2 {
@@ -86,7 +86,7 @@ fn stills(body: &Body<'_>, format: &FigureFormat) -> Result<Vec<Picture>, Error>
     Ok(pictures)
 }
 
-/// The still figures of a dataset with their data, by name: what [`draw`] makes files of. None with fewer than two rows.
+/// The still figures of a dataset with their data, by name: the contents of the files of [`draw`]. None with fewer than two rows.
 ///
 /// # Errors
 /// As [`draw`].

@@ -7,7 +7,7 @@ use motiform_figures::{OutlineStamp, PathFigure, PathPoint, SectionLine};
 /// Points of a drawn outline.
 const OUTLINE_POINTS: usize = 96;
 
-/// Outlines per path: their distance is about this many of their radii.
+/// Number of outlines: their distance is about this many radii.
 const SPACING_RADII: f64 = 3.2;
 
 pub(super) fn figure(body: &Body<'_>) -> PathFigure {
@@ -37,7 +37,7 @@ pub(super) fn points(body: &Body<'_>) -> Vec<PathPoint> {
         .collect()
 }
 
-/// The outlines, and how many shapes are no curve.
+/// The outlines, and how many shapes are not curves.
 fn outlines(body: &Body<'_>) -> (Vec<OutlineStamp>, usize) {
     let rows = body.rows_along(count(body));
     let stamp = |&row: &usize| {

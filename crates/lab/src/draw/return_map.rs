@@ -1,4 +1,4 @@
-//! The return map: where the path crosses the section next, against where it crosses it now.
+//! The return map: the next crossing of the section against the present one.
 
 use super::body::Body;
 use super::words;

@@ -8,7 +8,7 @@ use motiform_figures::{Curve, Panel, SeriesFigure};
 /// An observable below this throughout is not drawn but mentioned.
 const NEGLIGIBLE: f64 = 1e-9;
 
-/// A measure that varies by less than this part of itself is called steady.
+/// A measure that varies by less than this fraction of itself is steady.
 const STEADY: f64 = 1e-6;
 
 pub(super) fn figure(body: &Body<'_>) -> SeriesFigure {
@@ -43,7 +43,7 @@ pub(super) fn figure(body: &Body<'_>) -> SeriesFigure {
     }
 }
 
-/// The measures of the boundary: those that vary as panels, those that stay as notes.
+/// The measures of the boundary: those that vary as panels, constant ones as notes.
 fn measures(body: &Body<'_>, panels: &mut Vec<Panel>, notes: &mut Vec<String>) {
     for measure in body.model.measures() {
         let shown = &body.column(measure.name)[body.rows()];

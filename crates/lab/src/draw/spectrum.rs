@@ -9,7 +9,7 @@ use motiform_figures::{SpectrumCurve, SpectrumFigure};
 /// Modes whose spectra are drawn.
 const MODES: usize = 4;
 
-/// Fewest samples a spectrum is made of.
+/// Minimum number of samples for a spectrum.
 const FEWEST: usize = 256;
 
 /// The spectra of modes 1 to 4 of phi over the whole recording; `None` for models without such modes, and for short

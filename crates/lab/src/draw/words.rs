@@ -1,4 +1,4 @@
-//! Captions: the parameter set, the method, the scale of what is drawn. All of it from the manifest.
+//! Captions: the parameter set, the method, the scale of the drawing. All of it comes from the manifest.
 
 use super::body::Body;
 use motiform_dynamics::Outcome;
@@ -7,7 +7,7 @@ use motiform_study::plan::{Control, Named, NoiseSettings};
 use motiform_study::titles::capital;
 pub(super) use motiform_study::titles::number;
 
-/// A space at which no line breaks.
+/// A non-breaking space.
 const SPACE: char = '\u{a0}';
 
 /// `Tensor model: γ = 1, κ_2 = 0.9, ...; all others 0.`
@@ -69,7 +69,7 @@ fn noise(noise: NoiseSettings, velocities: usize, seed: u64) -> String {
     format!(" White noise of amplitude {of}, seed {seed}.")
 }
 
-/// What a stepper is called, without the kind of its control.
+/// The name of a stepper, without the kind of its control.
 pub(super) fn stepper(name: &str) -> &str {
     let title = motiform_dynamics::steppers::Method::find(name).map_or(name, |method| method.title());
     [", fixed step", ", adaptive"].iter().find_map(|kind| title.find(kind)).map_or(title, |at| &title[..at])
@@ -99,7 +99,7 @@ pub(super) fn outlines(body: &Body<'_>) -> String {
     format!("Outlines: *R*_0{SPACE}={SPACE}{radius}, {size}; the deformation itself is not exaggerated.")
 }
 
-/// Where the return map's section lies and what was put on the origin.
+/// The position of the return map's section, and the point that was shifted to the origin.
 pub(super) fn section(body: &Body<'_>) -> Option<String> {
     let manifest = &body.dataset.manifest;
     let map = manifest.plan.computation.return_map.as_ref()?;

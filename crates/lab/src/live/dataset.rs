@@ -10,7 +10,7 @@ use motiform_study::plan::Named;
 use motiform_study::table::Table;
 use motiform_study::{Error, Plan};
 
-/// The record of a plan's model as a dataset: times begin at 0, and the plan in its manifest starts from the first state that
+/// The record of a plan's model as a dataset: times start at 0, and the plan in its manifest starts from the first state that
 /// is kept, so that `simulate` gives the same motion again (up to the steps that were taken, and without noise). `None` with fewer
 /// than two samples.
 ///

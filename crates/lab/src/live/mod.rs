@@ -1,7 +1,7 @@
-//! A body that moves while somebody looks on: its motion in stretches, between the changes that are made to it.
+//! A body that is simulated interactively: its motion is divided into stretches between changes.
 //!
-//! [`Stretch`] moves it, [`Record`] keeps what was seen since the last change, and [`spectra()`], [`maxima_of_speed`],
-//! [`crossings_of_path`] and [`dataset()`] say what can be read off that.
+//! [`Stretch`] moves it, [`Record`] keeps the samples since the last change, and [`spectra()`], [`maxima_of_speed`],
+//! [`crossings_of_path`] and [`dataset()`] evaluate them.
 
 mod dataset;
 mod record;

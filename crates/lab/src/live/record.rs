@@ -1,4 +1,4 @@
-//! What was seen of a motion since its last change.
+//! The samples of a motion since its last change.
 
 use crate::readings::pace;
 use motiform_dynamics::Model;
@@ -7,12 +7,12 @@ use motiform_dynamics::Model;
 #[derive(Clone, Debug)]
 pub struct Record {
     most: usize,
-    /// Entries of a state (shape, x, y), and of what is read off it (speed, turning rate, observables).
+    /// Entries of a state (shape, x, y), and of the quantities computed from it (speed, turning rate, observables).
     state: usize,
     read: usize,
     /// Absolute tolerance of the method: speeds that it does not resolve have no heading.
     atol: f64,
-    /// Whole rows: time, state, what is read off it.
+    /// Complete rows: time, state, quantities computed from it.
     numbers: Vec<f64>,
 }
 
@@ -54,13 +54,13 @@ impl Record {
         (self.numbers.len() / self.width()).min(self.most)
     }
 
-    /// Whether there is none.
+    /// Whether it is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.numbers.is_empty()
     }
 
-    /// Takes in a sample: its time, then its state.
+    /// Adds a sample: its time, then its state.
     pub(super) fn push(&mut self, model: &dyn Model, sample: &[f64]) {
         let width = self.width();
         if self.numbers.len() == 2 * self.most * width {

@@ -7,11 +7,11 @@ use motiform_dynamics::model::velocity;
 use motiform_study::study::ReturnMapSettings;
 use motiform_study::table::Table;
 
-/// A maximum is one where the speed varies by more than this part of its size: below, it is rounding.
+/// Maxima are accepted if the speed varies by more than this fraction of its size; smaller variations are rounding errors.
 const VARIES: f64 = 1e-7;
 
 /// The maxima of the speed, in order: each is the vertex of the parabola through three samples, so its error is of order
-/// `dt^4`. None where the speed does not vary.
+/// `dt^4`. None if the speed does not vary.
 #[must_use]
 pub fn maxima_of_speed(record: &Record) -> Vec<f64> {
     let speeds: Vec<f64> = record.rows().map(|row| row.read[0]).collect();
@@ -28,7 +28,7 @@ pub fn maxima_of_speed(record: &Record) -> Vec<f64> {
 }
 
 /// The crossings of a horizontal segment by the path, in either direction: `t, x, y, rising`, and the centre of the path, which
-/// is put on the origin first where the settings say so. Between samples the path is the cubic with their positions and
+/// is first shifted to the origin if the settings require it. Between samples the path is the cubic with their positions and
 /// velocities, an error of order `dt^4`.
 #[must_use]
 pub fn crossings_of_path(
@@ -84,7 +84,7 @@ struct Piece {
 }
 
 impl Piece {
-    /// A coordinate at part `s` of the way (cubic Hermite).
+    /// A coordinate at the fraction `s` of the interval (cubic Hermite).
     fn at(&self, s: f64, axis: usize) -> f64 {
         let r = 1.0 - s;
         let [a, b] = self.ends.map(|end| end[axis]);
@@ -92,7 +92,7 @@ impl Piece {
         r * r * ((1.0 + 2.0 * s) * a + s * da) + s * s * ((1.0 + 2.0 * r) * b - r * db)
     }
 
-    /// The part of the way at which the path passes a height, by bisection.
+    /// The fraction of the interval at which the path passes a height, by bisection.
     fn crossing(&self, height: f64, rising: bool) -> f64 {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..50 {

@@ -1,4 +1,4 @@
-//! Where a body is when somebody begins to look.
+//! The initial state of an interactive simulation.
 
 use crate::simulate::after_transient;
 use motiform_dynamics::Watch;
@@ -6,7 +6,7 @@ use motiform_dynamics::{Model, Outcome};
 use motiform_study::{Error, Plan};
 use std::time::{Duration, Instant};
 
-/// The start of a plan's body: the shape as `model`, the plan's own, computes with it, then x and y.
+/// The initial state of a plan's body: the shape in the representation of `model` (the plan's model), then x and y.
 #[must_use]
 pub fn start(plan: &Plan, model: &dyn Model) -> Vec<f64> {
     let mut state = plan.computation.initial.values();
@@ -16,18 +16,18 @@ pub fn start(plan: &Plan, model: &dyn Model) -> Vec<f64> {
     state
 }
 
-/// The state after the plan's transient, or as far into it as `within` allows; the start where the motion does not last so long.
+/// The state after the plan's transient, or as far into it as `within` allows; the initial state if the motion ends earlier.
 /// The position is that of the start.
 ///
 /// # Errors
-/// Input that only the numerics can refuse.
+/// Input that only the numerics can reject.
 pub fn settled(plan: &Plan, model: &dyn Model, within: Duration) -> Result<Vec<f64>, Error> {
     let (ended, state) = after_transient(plan, model, &Patience(Instant::now() + within))?;
     let usable = ended.is_none_or(|ending| matches!(*ending, Outcome::Interrupted { .. }));
     Ok(if usable { state } else { start(plan, model) })
 }
 
-/// Stops when its time is over.
+/// Stops after its time limit.
 struct Patience(Instant);
 
 impl Watch for Patience {

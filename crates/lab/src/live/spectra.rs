@@ -7,14 +7,14 @@ use motiform_dynamics::Model;
 /// Fewest samples that a spectrum is made of, and the longest segment.
 const SAMPLES: (usize, usize) = (256, 2048);
 
-/// A quantity that varies by less than this part of its size, or by less than that part of the largest one, is steady: its spectrum
-/// would be that of round-off, or of what is left of a decay.
+/// A quantity that varies by less than this fraction of its size, or by less than that fraction of the largest one, is steady: its spectrum
+/// would be that of round-off, or of the rest of a decay.
 const VARIES: (f64, f64) = (1e-7, 1e-12);
 
-/// Power spectra of the speed and of the model's observables, those that are steady left out.
+/// Power spectra of the speed and of the model's observables, except steady ones.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectra {
-    /// Cycles per model time, without the frequency 0; empty where the record is too short.
+    /// Cycles per model time, without the frequency 0; empty if the record is too short.
     pub frequencies: Vec<f64>,
     /// Of each quantity: name, symbol (markup) and power spectral density.
     pub curves: Vec<(&'static str, &'static str, Vec<f64>)>,

@@ -9,11 +9,11 @@ use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-/// A model time that nobody waits for.
+/// A model time beyond any practical use.
 const FOREVER: f64 = 1e15;
 
-/// A body in motion with fixed parameters. It takes whole steps of its method, whatever time is asked for, so the motion does not
-/// depend on how often one looks; what is shown lies inside the last step.
+/// A body in motion with fixed parameters. It takes whole steps of its method, whatever time is requested, so the motion does not
+/// depend on how often it is displayed; the displayed state lies inside the last step.
 ///
 /// # Checked by  live/tests.rs: the samples of `simulate`, to the bit, however one looks
 pub struct Stretch<'b> {
@@ -22,14 +22,14 @@ pub struct Stretch<'b> {
     request: Request<'static>,
     ahead: Ahead,
     outcome: Option<Outcome>,
-    /// Time that is shown, and the state `(shape, x, y)` then.
+    /// The displayed time, and the state `(shape, x, y)` at that time.
     shown: f64,
     state: Vec<f64>,
-    /// The sample on its way into the record.
+    /// The sample to be added to the record.
     sample: Vec<f64>,
 }
 
-/// Samples that are computed and not shown yet: time and state, one after the other.
+/// Samples that are computed and not displayed yet: time and state, one after the other.
 struct Ahead {
     width: usize,
     numbers: VecDeque<f64>,
@@ -47,7 +47,7 @@ impl<'b> Stretch<'b> {
     /// sampled every `dt_out` from `t` on. Stretches of one seed need different `number`s for independent noise.
     ///
     /// # Errors
-    /// An unknown stepper; a state that is no number, or of another length.
+    /// An unknown stepper; a state that is not a number, or of another length.
     pub fn new(
         plan: &Plan,
         body: &'b InPlane<&'b dyn Model>,
@@ -78,7 +78,7 @@ impl<'b> Stretch<'b> {
         })
     }
 
-    /// Moves on to time `to`, as far as `within` allows, and puts the samples up to there into `record`. Says whether the time
+    /// Advances to time `to`, as far as `within` allows, and adds the samples up to there to `record`. Returns whether the time
     /// was reached, or the motion has ended ([`Stretch::outcome`]).
     pub fn advance(&mut self, to: f64, within: Duration, record: &mut Record, model: &dyn Model) -> bool {
         let begun = Instant::now();
@@ -112,19 +112,19 @@ impl<'b> Stretch<'b> {
         }
     }
 
-    /// The time that is shown.
+    /// The displayed time.
     #[must_use]
     pub fn t(&self) -> f64 {
         self.shown
     }
 
-    /// The state that is shown: the shape as the model computes with it, then x and y.
+    /// The displayed state: the shape in the model's representation, then x and y.
     #[must_use]
     pub fn state(&self) -> &[f64] {
         &self.state
     }
 
-    /// How the motion ended, if it did: it goes on no further.
+    /// How the motion ended, if it did: it does not continue.
     #[must_use]
     pub fn outcome(&self) -> Option<Outcome> {
         self.outcome

@@ -1,4 +1,4 @@
-//! How many of many starts blow up, when, and at what rate chaos loses them.
+//! How many of many starts blow up, when, and their rate of escape from chaos.
 
 use super::Samples;
 use super::population::Population;
@@ -10,13 +10,13 @@ use motiform_dynamics::{Outcome, Request, StopOnly};
 use motiform_study::{Error, Plan};
 use serde::Serialize;
 
-/// Most chaotic starts that are followed: enough for a rate, and soon done.
+/// Maximum number of chaotic starts that are followed: enough for a rate, and fast.
 const FOLLOWED: usize = 32;
 
-/// What became of starts that blow up, or are chaotic and may do so.
+/// The results for starts that blow up, or are chaotic and may do so.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Escapes {
-    /// Starts that blew up while they were named, or within the first look.
+    /// Starts that blew up during classification, or within the first look.
     pub at_once: usize,
     /// Chaotic starts that were followed further.
     pub followed: usize,
@@ -29,13 +29,13 @@ pub struct Escapes {
     /// Time of the first blow-up (model time since the start).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first: Option<f64>,
-    /// Time by which half of those who blew up had done so.
+    /// Median time of the blow-ups.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub median: Option<f64>,
     /// Time of the last one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub last: Option<f64>,
-    /// The rate at which chaos loses orbits; absent where no chaos was watched.
+    /// The rate at which orbits leave the chaotic set; absent if no chaos was observed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rate: Option<EscapeLimits>,
 }
@@ -43,7 +43,7 @@ pub struct Escapes {
 /// An escape rate with its exact 95 % limits (inverse model time).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EscapeLimits {
-    /// Escapes over time watched.
+    /// Escapes per observation time.
     pub value: f64,
     /// Lower limit; 0 if there was no escape.
     pub lower: f64,
@@ -51,17 +51,17 @@ pub struct EscapeLimits {
     pub upper: f64,
     /// Escapes that count: those after the first look of the model, when orbits are near the chaotic set.
     pub escapes: usize,
-    /// Time watched, summed over the orbits.
+    /// Observation time, summed over the orbits.
     pub watched: f64,
 }
 
 impl Escapes {
-    /// What became of starts with these verdicts. Chaotic ones are followed to the end of the budget, up to 32 of them, where that
-    /// is cheap (the tensor model; others count as long as they were looked at). `Ok(None)` where nothing blew up and nothing is
-    /// chaotic, and where the monitor asked to stop.
+    /// The results for starts with these verdicts. Chaotic ones are followed to the end of the budget, up to 32 of them, where that
+    /// is cheap (the tensor model; others count for the time of their verdict). `Ok(None)` if nothing blew up and nothing is
+    /// chaotic, and if the watch stopped it.
     ///
     /// # Errors
-    /// Input that only the numerics can refuse.
+    /// Input that only the numerics can reject.
     pub fn of_verdicts(
         plan: &Plan,
         samples: Samples,
@@ -89,7 +89,7 @@ impl Escapes {
         Ok(stays.and_then(|stays| Self::new(&gone, &stays, left_out, until, look)))
     }
 
-    /// What became of orbits whose exponents were asked for: those that blew up, and those whose largest exponent is positive beyond
+    /// The results for orbits whose exponents were computed: those that blew up, and those whose largest exponent exceeds
     /// twice its error.
     ///
     /// # Errors
@@ -135,13 +135,13 @@ impl Escapes {
         self.at_once + self.lost
     }
 
-    /// Whether chaos was seen to end: then it is transient, for some starts at least.
+    /// Whether chaos was observed to end: then it is transient, at least for some starts.
     #[must_use]
     pub fn chaos_ends(&self) -> bool {
         self.lost > 0
     }
 
-    /// How many of `of` starts blew up, by when, and what that says about the chaos: one line each.
+    /// How many of `of` starts blew up, by when, and what follows for the chaos: one line each.
     #[must_use]
     pub fn words(&self, of: usize) -> Vec<String> {
         let mut lines = vec![match (self.first, self.median, self.last) {
@@ -194,7 +194,7 @@ impl EscapeLimits {
     }
 }
 
-/// The rate after the first look: what leaves before never came near the chaotic set.
+/// The rate after the first look: orbits that leave earlier never came near the chaotic set.
 fn rate(gone: &[f64], stays: &[Stay], look: f64) -> Option<EscapeLimits> {
     if stays.is_empty() {
         return None;
@@ -207,7 +207,7 @@ fn rate(gone: &[f64], stays: &[Stay], look: f64) -> Option<EscapeLimits> {
     Some(EscapeLimits { value: escapes as f64 / watched, lower, upper, escapes, watched })
 }
 
-/// How long those in the population stay, to `until` at most; `None` if the monitor asked to stop.
+/// How long the members of the population remain, up to `until`; `None` if the watch stopped it.
 fn follow(plan: &Plan, population: &Population<'_>, until: f64) -> Result<Option<Vec<Stay>>, Error> {
     let (method, c) = (plan.method()?, &plan.computation);
     let model = population.model.as_ref();

@@ -1,4 +1,4 @@
-//! A question about one motion, asked of many initial states: which motions are there, and do the orbits agree?
+//! Analyses of many initial states: which motions exist, and do the orbits agree?
 
 mod escapes;
 mod population;
@@ -18,7 +18,7 @@ use population::{Asked, Population};
 pub use shares::{Basins, MotionShare, Starts};
 use std::collections::BTreeMap;
 
-/// Who is asked: the plan's own initial state, then random ones.
+/// The initial states: that of the plan, then random ones.
 #[derive(Clone, Copy, Debug)]
 pub struct Samples {
     /// How many.
@@ -38,11 +38,11 @@ impl Samples {
     }
 }
 
-/// The motions that the samples lead to, in their order; `None` if the monitor asked to stop. Verdicts are those of
+/// The motions that the samples lead to, in their order; `None` if the watch stopped it. Verdicts are those of
 /// [`analyse::classify`] for each initial state.
 ///
 /// # Errors
-/// Input that only the numerics can refuse.
+/// Input that only the numerics can reject.
 pub fn classify(
     plan: &Plan,
     samples: Samples,
@@ -78,17 +78,17 @@ fn classify_in_lanes(plan: &Plan, tensor: &Tensor, settings: &Settings, asked: &
 /// Exponents of many orbits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exponents {
-    /// Of each orbit, in the order of the samples.
+    /// The result of each orbit, in the order of the samples.
     pub orbits: Vec<Lyapunov>,
-    /// The means over the orbits that lasted, largest first; empty if none did. The error is the larger one of what the
-    /// orbits' own errors and what their spread make of it.
+    /// The means over the orbits that lasted, largest first; empty if none did. The error is the larger of those from the
+    /// orbits' own errors and from their spread.
     pub means: Vec<Estimate>,
     /// Whether the largest exponents of all orbits that lasted agree: if not, there are several attractors, and the means
-    /// mean little.
+    /// are not meaningful.
     pub agree: bool,
 }
 
-/// The exponents of the samples' orbits; `None` if the monitor asked to stop. Each is that of [`analyse::lyapunov`] for its
+/// The exponents of the samples' orbits; `None` if the watch stopped it. Each is that of [`analyse::lyapunov`] for its
 /// initial state.
 ///
 /// # Errors
@@ -136,7 +136,7 @@ fn exponents_in_lanes(tensor: &Tensor, settings: &LyapunovSettings, asked: &Aske
     exponents_of_tensor(tensor, settings, &mut next, &mut done, asked.population.watch);
 }
 
-/// Largest exponents that differ by more than so many of their errors are not those of one attractor.
+/// Largest exponents that differ by more than this many errors do not belong to one attractor.
 const APART: f64 = 3.0;
 
 fn summarise(orbits: Vec<Lyapunov>) -> Exponents {

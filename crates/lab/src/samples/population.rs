@@ -1,4 +1,4 @@
-//! Many initial states of a plan, and a question asked of each.
+//! Many initial states of a plan, and an analysis of each.
 
 use super::Samples;
 use crate::analyse;
@@ -12,7 +12,7 @@ use motiform_study::{Error, Plan};
 pub(super) struct Population<'c> {
     plan: &'c Plan,
     samples: Samples,
-    /// The numbers of the samples that are asked.
+    /// The numbers of the selected samples.
     chosen: Vec<usize>,
     pub(super) watch: &'c dyn Watch,
     pub(super) model: Box<dyn Model>,
@@ -33,7 +33,7 @@ impl<'c> Population<'c> {
         self.model.as_any()?.downcast_ref()
     }
 
-    /// The initial shape of a sample, as the model computes with it.
+    /// The initial shape of a sample, in the model's representation.
     pub(super) fn start(&self, sample: usize) -> Result<Vec<f64>, Error> {
         let (model, c) = (self.model.as_ref(), &self.plan.computation);
         if sample > 0 {
@@ -44,7 +44,7 @@ impl<'c> Population<'c> {
         Ok(shape)
     }
 
-    /// Answers of all that are chosen, in order, by `ask` on each thread; `None` if the monitor asked to stop.
+    /// Results of all selected samples, in order, by `ask` on each thread; `None` if the watch stopped it.
     pub(super) fn run<A: Send>(
         &self,
         ask: impl Fn(&Asked<'_, '_, '_, A>) + Sync,
@@ -55,7 +55,7 @@ impl<'c> Population<'c> {
     }
 }
 
-/// What one thread is asked, and where it answers.
+/// The work of one thread, and where it puts the results.
 pub(super) struct Asked<'a, 'c, 'j, A> {
     pub(super) population: &'a Population<'c>,
     pub(super) jobs: &'a Jobs<'j, A>,

@@ -1,11 +1,11 @@
-//! Which motions many starts lead to: shares with intervals, and words that say what was sampled.
+//! The motions of many initial states: shares with intervals, and a description of what was sampled.
 
 use super::{Samples, motions};
 use motiform_analysis::{Share, Verdict};
 use motiform_study::Random;
 use serde::Serialize;
 
-/// What many starts lead to.
+/// The motions of many initial states.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Basins {
     /// The starts that were drawn.
@@ -19,7 +19,7 @@ pub struct Basins {
 pub struct Starts {
     /// How many were drawn.
     pub count: usize,
-    /// Whether there is a given one beside them, which counts in no share.
+    /// Whether there is an additional given one, which is not part of any share.
     pub given: bool,
     /// Their distribution.
     pub random: Random,
@@ -38,7 +38,7 @@ pub struct MotionShare {
 }
 
 impl Basins {
-    /// The shares of what these verdicts say of these samples. A start that was given is not drawn: it counts in no share.
+    /// The shares of these verdicts on these samples. A start that was given is not random and is not part of any share.
     #[must_use]
     pub fn new(samples: &Samples, verdicts: &[Verdict]) -> Self {
         let drawn = &verdicts[usize::from(samples.given).min(verdicts.len())..];

@@ -1,4 +1,4 @@
-//! What is computed for one row.
+//! The computation of one row.
 
 use super::{ScanPlan, lanes};
 use crate::analyse::settings_of;
@@ -6,16 +6,16 @@ use motiform_analysis::regime::{Verdict, classify};
 use motiform_dynamics::{StopOnly, Watch};
 use motiform_study::Error;
 
-/// Where verdicts go, each with the cell and the initial state that it is about.
+/// Receives verdicts, each with its cell and initial state.
 pub type Done<'d> = &'d mut dyn FnMut((usize, usize), Result<Option<Verdict>, Error>);
 
-/// What is asked of each row.
+/// The computation for each row.
 pub trait Evaluate: Sync {
     /// The verdict on initial state `sample` of `cell`, a function of the plan and these two numbers alone; `None` if
-    /// `stop` asked to stop.
+    /// it was stopped.
     ///
     /// # Errors
-    /// Input that only the numerics can refuse; the row then says so and is undetermined.
+    /// Input that only the numerics can reject; the row then states this and is undetermined.
     fn evaluate(
         &self,
         plan: &ScanPlan,
@@ -24,8 +24,8 @@ pub trait Evaluate: Sync {
         stop: &dyn Watch,
     ) -> Result<Option<Verdict>, Error>;
 
-    /// The verdicts on all rows that `next` gives (cell and sample), on this thread; each is handed to `done` with these
-    /// two. Rows may be answered in any order. An implementation may compute many of them together, but
+    /// The verdicts on all rows that `next` gives (cell and sample), on this thread; each is passed to `done` with these
+    /// two. Rows may be completed in any order. An implementation may compute many of them together, but
     /// every verdict must be that of [`Evaluate::evaluate`].
     fn evaluate_all(
         &self,
@@ -38,7 +38,7 @@ pub trait Evaluate: Sync {
     }
 }
 
-/// Each row by itself.
+/// Each row separately.
 fn one_by_one<E: Evaluate + ?Sized>(
     evaluate: &E,
     plan: &ScanPlan,
@@ -51,7 +51,7 @@ fn one_by_one<E: Evaluate + ?Sized>(
     }
 }
 
-/// Names the motion of each row.
+/// Classifies the motion of each row.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Classify;
 
@@ -71,7 +71,7 @@ impl Evaluate for Classify {
         Ok(classify(model.as_ref(), &start, &settings, &StopOnly(stop))?)
     }
 
-    /// In the lanes of vector registers, where the model and the method have such kernels.
+    /// In the lanes of vector registers, if there are such kernels for the model and the method.
     fn evaluate_all(
         &self,
         plan: &ScanPlan,

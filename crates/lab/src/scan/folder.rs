@@ -15,10 +15,10 @@ use std::path::{Path, PathBuf};
 
 const MANIFEST: &str = "_manifest.json";
 
-/// Provenance of a scan. Knows no host, no user, no time of day, and neither threads nor shards.
+/// Provenance of a scan. Contains no host, user, time of day, threads or shards.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScanManifest {
-    /// Version of motiform that began it.
+    /// Version of motiform that started it.
     pub motiform: String,
     /// SHA-256 of the plan's computation.
     pub plan_hash: String,
@@ -26,7 +26,7 @@ pub struct ScanManifest {
     pub plan: ScanPlan,
 }
 
-/// A folder that holds a scan, or as much of it as is computed.
+/// A folder that contains a scan, or the part of it that is computed.
 #[derive(Clone, Debug)]
 pub struct ScanFolder {
     path: PathBuf,
@@ -37,7 +37,7 @@ impl ScanFolder {
     /// Reads the manifest of a folder.
     ///
     /// # Errors
-    /// [`Error::NoScan`] where it is missing or damaged.
+    /// [`Error::NoScan`] if it is missing or damaged.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let no_scan = |reason: String| Error::NoScan { path: path.to_owned(), reason };
         let text =
@@ -83,14 +83,14 @@ impl ScanFolder {
     }
 }
 
-/// The folder of a scan whose place is not given.
+/// The default folder of a scan.
 #[must_use]
 pub fn default_folder(plan: &ScanPlan) -> String {
     let model = &plan.computation.model;
     if plan.name == *model { format!("{model}-scan") } else { format!("{model}-{}-scan", plan.name) }
 }
 
-/// The lock of a folder, which is on its manifest: a file of its own could be deleted under a running scan. Held as long as the file is
+/// The lock of a folder, which is on its manifest: a separate file could be deleted during a running scan. Held as long as the file is
 /// open: the system releases it when the process ends, however it ends.
 pub(super) fn lock(folder: &Path, shown: &Path) -> Result<File, Error> {
     let unwritable = |reason| Error::Unwritable { path: shown.to_owned(), reason };
@@ -103,7 +103,7 @@ pub(super) fn lock(folder: &Path, shown: &Path) -> Result<File, Error> {
     }
 }
 
-/// Prepares a folder with its manifest beside `target`; it gets its name when the staging is committed.
+/// Prepares a folder with its manifest beside `target`; it is renamed when the staging is committed.
 pub(super) fn stage(target: &Path, plan: &ScanPlan, force: bool) -> Result<Staging, Error> {
     let staging = Staging::replacing(target, force, ScanFolder::is_one)?;
     let manifest = ScanManifest { motiform: VERSION.to_owned(), plan_hash: plan.hash(), plan: plan.clone() };
@@ -114,7 +114,7 @@ pub(super) fn stage(target: &Path, plan: &ScanPlan, force: bool) -> Result<Stagi
     Ok(staging)
 }
 
-/// What differs between two plans: `key = there, not asked`.
+/// The differences between two plans: the values in the folder and the requested ones.
 pub(super) fn differences(there: &ScanPlan, asked: &ScanPlan) -> String {
     let (there, asked) = (&there.computation, &asked.computation);
     let json = |computation| serde_json::to_value(computation).unwrap_or_default();
@@ -130,7 +130,7 @@ pub(super) fn differences(there: &ScanPlan, asked: &ScanPlan) -> String {
         let say = |axes: &[super::Axis]| {
             axes.iter().map(|axis| format!("[{axis}]")).collect::<Vec<_>>().join(" x ")
         };
-        found.push(format!("axes: {} there, {} asked", say(&there.axes), say(&asked.axes)));
+        found.push(format!("axes: {} there, {} requested", say(&there.axes), say(&asked.axes)));
     }
     for side in [&mut left, &mut right] {
         if let Some(object) = side.as_object_mut() {
@@ -146,7 +146,7 @@ pub(super) fn differences(there: &ScanPlan, asked: &ScanPlan) -> String {
 fn compare(key: &str, there: &Value, asked: &Value, found: &mut Vec<String>) {
     let (Some(left), Some(right)) = (there.as_object(), asked.as_object()) else {
         if there != asked {
-            found.push(format!("{key}: {} there, {} asked", shown(there), shown(asked)));
+            found.push(format!("{key}: {} there, {} requested", shown(there), shown(asked)));
         }
         return;
     };

@@ -12,7 +12,7 @@ use std::cell::RefCell;
 
 type Next<'n> = &'n mut dyn FnMut() -> Option<(usize, usize)>;
 
-/// Classifies all rows that `next` gives, in lanes; says `false`, and takes none, where there is no kernel for the plan.
+/// Classifies all rows that `next` gives, in lanes; returns `false`, and takes none, if there is no kernel for the plan.
 pub(super) fn classify(
     single: &dyn Evaluate,
     plan: &ScanPlan,
@@ -25,7 +25,7 @@ pub(super) fn classify(
     true
 }
 
-/// The settings, and the terms that the corners of the plan need; `None` where there is no kernel.
+/// The settings, and the terms that the corners of the plan need; `None` if there is no kernel.
 fn kernel(plan: &ScanPlan) -> Option<(Settings, u32)> {
     let c = &plan.computation;
     let bounds = (c.escape_norm, c.max_steps);
@@ -54,7 +54,7 @@ struct Work<'w> {
 }
 
 impl Work<'_> {
-    /// Runs the kernel with these terms; a row that has others is classified by itself.
+    /// Runs the kernel with these terms; a row that has others is classified separately.
     fn run(self) {
         let Self { single, plan, settings, terms, next, done, stop } = self;
         let done = RefCell::new(done);

@@ -1,4 +1,4 @@
-//! Folders with shards of one scan, put together.
+//! Merging of folders with shards of one scan.
 
 use super::folder::{ScanFolder, differences, stage};
 use super::part::PartError;
@@ -7,23 +7,23 @@ use super::{Parts, ScanPlan, read_part};
 use motiform_study::Error;
 use std::path::{Path, PathBuf};
 
-/// What came of putting folders together.
+/// The result of a merge.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Merged {
-    /// Parts that no folder holds.
+    /// Parts that no folder contains.
     pub missing: usize,
-    /// Damaged parts, each with what is wrong; they were left out.
+    /// Damaged parts, each with a description; they were omitted.
     pub damaged: Vec<String>,
-    /// What was found and removed of merges to the same place that were killed, in sentences.
+    /// The leftovers of killed merges to the same destination that were found and removed, in sentences.
     pub swept: Vec<String>,
 }
 
-/// Puts the parts of `folders` into a new folder at `out`, which appears whole or not at all. Missing parts are no
+/// Merges the parts of `folders` into a new folder at `out`, which is created atomically. Missing parts are not an
 /// error: the new folder can be resumed.
 ///
 /// # Errors
-/// [`Error::Unmergeable`] for folders of different scans, [`Error::Conflict`] for a part that two folders hold with
-/// different numbers, [`Error::NoScan`], and what cannot be written.
+/// [`Error::Unmergeable`] for folders of different scans, [`Error::Conflict`] for a part that two folders contain with
+/// different numbers, [`Error::NoScan`], and errors of writing.
 pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged, Error> {
     let folders = folders.iter().map(|path| ScanFolder::read(path)).collect::<Result<Vec<_>, _>>()?;
     let Some((first, others)) = folders.split_first() else {
@@ -63,7 +63,7 @@ pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged, Err
     Ok(merged)
 }
 
-/// The first folder that holds a part whole; all that do must hold the same numbers.
+/// The first folder that contains an undamaged part; all that do must contain the same numbers.
 fn choose<'p>(
     plan: &ScanPlan,
     sources: &'p [Parts],
@@ -75,7 +75,7 @@ fn choose<'p>(
         match (source.check(part), &chosen) {
             (Err(PartError::Missing), _) => {}
             (Err(PartError::Damaged(how)), _) => damaged.push(how),
-            (Err(PartError::InTheWay(path)), _) => damaged.push(format!("{} is no file", path.display())),
+            (Err(PartError::InTheWay(path)), _) => damaged.push(format!("{} is not a file", path.display())),
             (Ok(digest), None) => chosen = Some((source, digest)),
             (Ok(digest), Some((first, known))) => {
                 // Other bytes may hold the same numbers: written by another version, say.

@@ -2,9 +2,9 @@
 //!
 //! [`ScanPlan`] -> [`Scan`] (a folder being computed) -> [`ScanFolder`] (read) -> [`Totals`], [`CellSummary`].
 //!
-//! A scan is a list of *rows*, one per cell and initial state. Everything about a row follows from the plan and its
-//! number alone, so threads, shards, kills and resumes change no bit. Rows are stored in *parts*: whole files, fixed by
-//! the plan, each carrying the hash of the plan and a digest of its own bytes.
+//! A scan is a list of *rows*, one per cell and initial state. A row is determined by the plan and its
+//! number alone, so threads, shards, kills and resumes do not change its bits. Rows are stored in *parts*: complete files, determined by
+//! the plan, each with the hash of the plan and a digest of its own bytes.
 
 mod evaluate;
 mod folder;

@@ -1,7 +1,7 @@
-//! A part of a scan: the rows of consecutive cells in one Parquet file that knows its plan and its own digest.
+//! A part of a scan: the rows of consecutive cells in one Parquet file that contains the hash of its plan and its own digest.
 //!
 //! The digest is SHA-256 over every byte of the file (its own 64 digits counted as zeros), kept in the file's
-//! metadata: any change of any byte is found, also one that Parquet would decode to other numbers without complaint.
+//! metadata: any change of any byte is detected, even one that Parquet would decode to other numbers without an error.
 
 use super::ScanPlan;
 use super::rows::{Row, from_columns, to_columns};
@@ -29,14 +29,14 @@ pub struct Parts {
     digits: usize,
 }
 
-/// What is wrong with the file of a part.
+/// A defect of the file of a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PartError {
-    /// It is not there.
+    /// It does not exist.
     Missing,
-    /// Something that is no file has its name.
+    /// Something other than a file has its name.
     InTheWay(PathBuf),
-    /// It is damaged, or not this part of this scan; the text says how that shows.
+    /// It is damaged, or not this part of this scan; the text gives the evidence.
     Damaged(String),
 }
 
@@ -83,7 +83,7 @@ impl Parts {
         Ok(said)
     }
 
-    /// Writes a part: whole, then renamed, so that it is there whole or not at all, also after a power cut.
+    /// Writes a part completely and then renames it, so that it is complete or absent, even after a power failure.
     pub(super) fn write(&self, plan: &ScanPlan, part: usize, rows: &[Row]) -> Result<(), Error> {
         let path = self.path(part);
         let failed = |reason: String| Error::PartFailed { path: path.clone(), reason };
@@ -121,17 +121,17 @@ impl Parts {
     }
 }
 
-/// What the names of half-written parts end in.
+/// The suffix of the names of incomplete parts.
 pub(super) const PARTIAL: &str = ".partial";
 
-/// Where a file holds its digest: behind the key come two bytes of framing (field type, length 64).
+/// The position of the digest in a file: the key is followed by two bytes of framing (field type, length 64).
 fn digest_place(bytes: &[u8]) -> Option<std::ops::Range<usize>> {
     let key = bytes.windows(DIGEST.len()).rposition(|window| window == DIGEST.as_bytes())?;
     let start = key + DIGEST.len() + 2;
     (start + DIGITS <= bytes.len()).then_some(start..start + DIGITS)
 }
 
-/// The rows of a part that [`Parts::check`] found whole.
+/// The rows of a part that [`Parts::check`] found undamaged.
 ///
 /// # Errors
 /// [`Error::Unreadable`].

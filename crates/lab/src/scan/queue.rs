@@ -1,20 +1,20 @@
-//! Which row is computed next, and which parts are complete.
+//! The order of rows, and the parts that are complete.
 //!
-//! Rows are handed out in order, one at a time: a slow row holds up one thread, while the others go on with the rows
-//! behind it, in the next parts where need be. A part is under way only while some thread holds one of its rows, so at
-//! most one part per thread (and the one being handed out) is in memory.
+//! Rows are assigned in order, one at a time: a slow row occupies one thread, while the others continue with the following rows,
+//! if necessary in the next parts. A part is in progress only while a thread holds one of its rows, so at
+//! most one part per thread (and the one being assigned) is in memory.
 
 use super::{Row, ScanPlan};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// The rows still to be handed out, and the parts under way.
+/// The rows still to be assigned, and the parts in progress.
 pub(super) struct Queue<'q> {
     plan: &'q ScanPlan,
     parts: Box<dyn Iterator<Item = usize> + Send + 'q>,
-    /// Rows of the last part that was begun, as `cell * samples + sample`.
+    /// Rows of the last part that was started, as `cell * samples + sample`.
     open: Range<usize>,
-    /// By number of the part: its rows, and how many of them are there.
+    /// By number of the part: its rows, and how many of them are computed.
     pending: BTreeMap<usize, (Vec<Option<Row>>, usize)>,
 }
 
@@ -36,7 +36,7 @@ impl<'q> Queue<'q> {
         Some((row / samples, row % samples))
     }
 
-    /// Takes in a row; gives back the part and all its rows, in order, if it was the last one.
+    /// Adds a row; returns the part and all its rows, in order, if it was the last one.
     pub(super) fn done(&mut self, cell: usize, sample: usize, row: Row) -> Option<(usize, Vec<Row>)> {
         let part = cell / self.plan.cells_per_part();
         let first = self.plan.cells_of(part).start;

@@ -36,7 +36,7 @@ pub struct Row {
     pub regime: Regime,
     /// The kind of reduced attractor.
     pub attractor: Attractor,
-    /// As in [`NUMBERS`]; NaN where it has no meaning (null in files).
+    /// As in [`NUMBERS`]; NaN if it is not defined (null in files).
     pub numbers: [f64; NUMBERS.len()],
     /// The evidence in one sentence.
     pub why: String,
@@ -68,7 +68,7 @@ impl Row {
         Self { cell, sample, regime: v.regime, attractor: v.attractor, numbers, why: verdict.why }
     }
 
-    /// The row of an evaluation: `None` if it was stopped; what the numerics refuse is a row that says so.
+    /// The row of an evaluation: `None` if it was stopped; if the numerics reject the input, the row states this.
     #[must_use]
     pub fn of_evaluation(
         cell: usize,
@@ -82,7 +82,7 @@ impl Row {
         verdict.map(|verdict| Self::new(cell, sample, verdict))
     }
 
-    /// A number by its name in [`NUMBERS`]; `None` where it has no meaning.
+    /// A number by its name in [`NUMBERS`]; `None` if it is not defined.
     #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
         let place = NUMBERS.iter().position(|known| known.0 == name)?;
@@ -176,7 +176,7 @@ mod tests {
         }
     }
 
-    /// An axis becomes a column: no parameter may be called like one of ours.
+    /// An axis becomes a column: no parameter may have the name of another column.
     #[test]
     fn no_parameter_has_the_name_of_a_column() {
         let ours = ["cell", "sample", "regime", "attractor", "why"];

@@ -1,4 +1,4 @@
-//! The folder of a scan that is being computed: open it, find what is missing, keep what is done.
+//! The folder of a scan that is being computed: opening it, finding missing parts, storing results.
 
 use super::evaluate::Evaluate;
 use super::folder::{ScanFolder, differences, lock, stage};
@@ -11,12 +11,12 @@ use motiform_study::Error;
 use std::fs::{self, File};
 use std::path::Path;
 
-/// What to do with a folder that is there already.
+/// What to do with an existing folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Opening {
-    /// Refuse it.
+    /// Reject it.
     New,
-    /// Go on with the scan in it.
+    /// Continue the scan in it.
     Resume,
     /// Replace the scan in it.
     Replace,
@@ -27,7 +27,7 @@ pub enum Opening {
 pub struct Scan {
     folder: ScanFolder,
     shard: Shard,
-    /// Whether each part is there and whole: one byte per part is all the memory that grows with the cells.
+    /// Whether each part exists and is undamaged: only this memory, one byte per part, grows with the cells.
     whole: Vec<bool>,
     damaged: Vec<String>,
     swept: Vec<String>,
@@ -36,7 +36,7 @@ pub struct Scan {
 }
 
 impl Scan {
-    /// Opens the folder of a scan, making it where it does not exist, and checks the parts in it.
+    /// Opens the folder of a scan, creating it if it does not exist, and checks the parts in it.
     ///
     /// # Errors
     /// [`Error::ScanExists`], [`Error::NotOurs`], [`Error::NoScan`], [`Error::OtherScan`], [`Error::Busy`],
@@ -96,7 +96,7 @@ impl Scan {
         &self.folder
     }
 
-    /// The damaged parts that were found, each with what is wrong; [`Scan::run`] computes them again.
+    /// The damaged parts that were found, each with a description; [`Scan::run`] recomputes them.
     #[must_use]
     pub fn damaged(&self) -> &[String] {
         &self.damaged
@@ -114,7 +114,7 @@ impl Scan {
         self.whole.iter().enumerate().filter_map(left)
     }
 
-    /// Keeps the rows of a part that were computed elsewhere.
+    /// Stores the rows of a part that were computed elsewhere.
     ///
     /// # Errors
     /// [`Error::PartFailed`]; [`Error::OtherRows`] if they are not the rows of this part, in order.
@@ -128,20 +128,20 @@ impl Scan {
         self.folder.parts().write(plan, part, rows)
     }
 
-    /// The parts of this scan that are not there, or not whole, though all of them were written: something else changed the folder.
+    /// The parts of this scan that are missing or damaged although all of them were written: another process changed the folder.
     #[must_use]
     pub fn lost(&self) -> usize {
         let parts = self.folder.parts();
         (0..self.whole.len()).filter(|&part| self.shard.holds(part) && parts.check(part).is_err()).count()
     }
 
-    /// What was found and removed of scans in this place that were killed while they began, in sentences.
+    /// The leftovers of scans in this folder that were killed at their start, found and removed, in sentences.
     #[must_use]
     pub fn swept(&self) -> &[String] {
         &self.swept
     }
 
-    /// Computes what is missing, over `threads` threads. Rows under way are stopped soon when `monitor` says so.
+    /// Computes the missing parts on `threads` threads. Rows in progress stop soon after `watch` requests it.
     ///
     /// # Errors
     /// [`Error::PartFailed`]: the parts written before are kept.
@@ -163,7 +163,7 @@ impl Store for Files<'_> {
     }
 }
 
-/// Removes what a killed process left half-written (we hold the lock: nobody writes here now).
+/// Removes incomplete files of a killed process (we hold the lock, so no other process writes here).
 fn remove_partial(folder: &Path) -> Result<(), Error> {
     let unwritable = |reason| Error::Unwritable { path: folder.to_owned(), reason };
     for entry in fs::read_dir(folder).map_err(unwritable)? {

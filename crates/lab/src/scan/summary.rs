@@ -1,10 +1,10 @@
-//! What a scan found, read part by part.
+//! The results of a scan, read part by part.
 
 use super::{NUMBERS, PartError, Row, ScanFolder, read_part};
 use motiform_analysis::regime::Regime;
 use motiform_study::Error;
 
-/// What a scan found in all, in memory that does not grow with the cells.
+/// The total results of a scan, in memory that does not grow with the cells.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Totals {
     /// Cells that are computed.
@@ -13,7 +13,7 @@ pub struct Totals {
     pub rows: usize,
     /// Rows of each regime, in the order of [`Regime::ALL`].
     pub regimes: [usize; Regime::ALL.len()],
-    /// Cells with more than one motion, undetermined rows left aside.
+    /// Cells with more than one motion, not counting undetermined rows.
     pub multistable: usize,
     /// Cells with an undetermined row.
     pub undetermined: usize,
@@ -21,7 +21,7 @@ pub struct Totals {
     pub escaped: usize,
     /// Cells that are not computed yet.
     pub missing: usize,
-    /// Parts that are damaged, each with what is wrong (their cells count as missing).
+    /// Damaged parts, each with a description (their cells count as missing).
     pub damaged: Vec<String>,
 }
 
@@ -95,13 +95,13 @@ pub struct Motion {
     pub rows: usize,
     /// Their share of the cell, 0 to 1.
     pub share: f64,
-    /// Median of each number over those rows that have it, as in [`NUMBERS`]; NaN where none has. Motions are never
-    /// averaged with each other.
+    /// Median of each number over the rows that have it, as in [`NUMBERS`]; NaN if none has. Different motions are never
+    /// averaged.
     pub medians: [f64; NUMBERS.len()],
 }
 
 impl Motion {
-    /// The median of a number by its name in [`NUMBERS`]; `None` where it has no meaning.
+    /// The median of a number by its name in [`NUMBERS`]; `None` if it is not defined.
     #[must_use]
     pub fn median(&self, name: &str) -> Option<f64> {
         let place = NUMBERS.iter().position(|known| known.0 == name)?;
@@ -109,8 +109,8 @@ impl Motion {
     }
 }
 
-/// The cells of a scan by their number, for drawing: `None` where a cell is not computed. One entry per cell is in
-/// memory here, and nowhere else.
+/// The cells of a scan by their number, for drawing: `None` if a cell is not computed. Only here is one entry per cell in
+/// memory.
 ///
 /// # Errors
 /// [`Error::Unreadable`].
@@ -127,7 +127,7 @@ pub fn cells(folder: &ScanFolder) -> Result<Vec<Option<CellSummary>>, Error> {
     Ok(all)
 }
 
-/// Hands the rows of each part that is there and whole to `use_rows`, in order; returns what is wrong with the others.
+/// Passes the rows of each undamaged part to `use_rows`, in order; returns descriptions of the defects of the others.
 ///
 /// # Errors
 /// [`Error::Unreadable`].
@@ -139,13 +139,13 @@ pub fn for_each_part(folder: &ScanFolder, mut use_rows: impl FnMut(&[Row])) -> R
             Ok(_) => use_rows(&read_part(plan, &parts, part)?),
             Err(PartError::Missing) => {}
             Err(PartError::Damaged(how)) => damaged.push(how),
-            Err(PartError::InTheWay(path)) => damaged.push(format!("{} is no file", path.display())),
+            Err(PartError::InTheWay(path)) => damaged.push(format!("{} is not a file", path.display())),
         }
     }
     Ok(damaged)
 }
 
-/// The motions of a cell's rows, the most frequent first, in the order of legends where equally frequent.
+/// The motions of a cell's rows, the most frequent first, in the order of legends if equally frequent.
 fn motions(rows: &[Row]) -> Vec<Motion> {
     let of = |regime| {
         let same: Vec<&Row> = rows.iter().filter(|row| row.regime == regime).collect();

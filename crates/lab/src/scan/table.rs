@@ -1,4 +1,4 @@
-//! The rows of a scan as columns in memory: what arrays are made of.
+//! The rows of a scan as columns in memory, the basis of arrays.
 
 use super::{NUMBERS, Row, ScanPlan};
 use motiform_analysis::regime::{Attractor, Regime};
@@ -6,13 +6,13 @@ use motiform_analysis::regime::{Attractor, Regime};
 /// Rows `first..` of a scan, column by column, in the order `row = cell * samples + sample`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ScanTable {
-    /// Place in [`Regime::ALL`]; [`ScanTable::MISSING`] where the row is not computed.
+    /// Place in [`Regime::ALL`]; [`ScanTable::MISSING`] if the row is not computed.
     pub regimes: Vec<u8>,
-    /// Place in [`Attractor::ALL`]; [`ScanTable::MISSING`] where the row is not computed.
+    /// Place in [`Attractor::ALL`]; [`ScanTable::MISSING`] if the row is not computed.
     pub attractors: Vec<u8>,
-    /// One column for each of [`NUMBERS`]; NaN where the number has no meaning for the motion.
+    /// One column for each of [`NUMBERS`]; NaN if the number is not defined for the motion.
     pub numbers: [Vec<f64>; NUMBERS.len()],
-    /// The evidence of each row, where it is kept: it takes more room than all numbers.
+    /// The evidence of each row, if it is kept: it takes more memory than all numbers.
     pub whys: Option<Vec<String>>,
 }
 
@@ -20,7 +20,7 @@ impl ScanTable {
     /// The code of a row that is not computed.
     pub const MISSING: u8 = u8::MAX;
 
-    /// A table for so many rows, none of them computed.
+    /// A table for this many rows, none of them computed.
     #[must_use]
     pub fn empty(rows: usize, whys: bool) -> Self {
         Self {
@@ -43,7 +43,7 @@ impl ScanTable {
         }
     }
 
-    /// The row in a place, which is that of `cell` and `sample`; `None` where it is not computed, or without evidence.
+    /// The row in a place, which is that of `cell` and `sample`; `None` if it is not computed, or without evidence.
     #[must_use]
     pub fn row(&self, place: usize, (cell, sample): (usize, usize)) -> Option<Row> {
         Some(Row {

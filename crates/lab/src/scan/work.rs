@@ -1,4 +1,4 @@
-//! Computing the parts of a scan over threads, wherever the rows go.
+//! Computation of the parts of a scan on threads, for any destination of the rows.
 
 use super::evaluate::Evaluate;
 use super::queue::Queue;
@@ -12,19 +12,19 @@ use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Where finished parts go: files, or memory.
+/// The destination of finished parts: files, or memory.
 pub trait Store: Sync {
-    /// Takes all rows of a part, in order.
+    /// Stores all rows of a part, in order.
     ///
     /// # Errors
-    /// What keeps it from storing them; the computation then ends.
+    /// The reason why they cannot be stored; the computation then ends.
     fn put(&self, part: usize, rows: Vec<Row>) -> Result<(), Error>;
 }
 
-/// How a computation ended that did not fail.
+/// How a successful computation ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ended {
-    /// Whether everything of the shard is computed; if not, the monitor stopped it.
+    /// Whether everything of the shard is computed; if not, the watch stopped it.
     pub complete: bool,
     /// Cells computed and written.
     pub cells: usize,
@@ -32,11 +32,11 @@ pub struct Ended {
     pub most_rows: usize,
 }
 
-/// Computes `parts` of a plan over `threads` threads, handing each to `store` when its last row is there. Rows under way
-/// are stopped soon when `monitor` says so.
+/// Computes `parts` of a plan on `threads` threads, passing each to `store` when its last row is computed. Rows in progress
+/// stop soon after `watch` requests it.
 ///
 /// # Errors
-/// What the store refuses: the parts put before stay where they are.
+/// Errors of the store: the parts stored before are kept.
 pub fn compute(
     plan: &ScanPlan,
     parts: Vec<usize>,
@@ -75,8 +75,8 @@ pub fn compute(
     Ok(Ended { complete: done == cells, cells: done, most_rows: work.most.into_inner() })
 }
 
-/// The rows of the first of some cells, in order, on this thread: of one cell, and of more while `go_on` says so. `None`
-/// if the monitor asked to stop. The same rows as those of the whole scan.
+/// The rows of the first of some cells, in order, on this thread: of one cell, and of further cells while `go_on` returns true. `None`
+/// if the watch stopped it. The same rows as those of the whole scan.
 #[must_use]
 pub fn rows_of(
     plan: &ScanPlan,
@@ -134,7 +134,7 @@ impl Work<'_> {
         self.evaluate.evaluate_all(self.plan, &mut next, &mut done, self);
     }
 
-    /// Takes in the verdict on a row.
+    /// Adds the verdict on a row.
     fn done(&self, cell: usize, sample: usize, verdict: Result<Option<Verdict>, Error>) {
         let Some(row) = Row::of_evaluation(cell, sample, verdict) else { return };
         let count = self.held.fetch_add(1, Ordering::Relaxed) + 1;
@@ -162,7 +162,7 @@ impl Work<'_> {
     }
 }
 
-/// What an evaluation listens to: the caller's stop, or a failure in another thread.
+/// What stops an evaluation: the caller's watch, or a failure in another thread.
 impl Watch for Work<'_> {
     fn stopped(&self) -> bool {
         self.failed.load(Ordering::Relaxed) || self.watch.stopped()

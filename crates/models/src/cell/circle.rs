@@ -3,7 +3,7 @@
 use super::kkt::MAX_UNKNOWNS;
 use motiform_dynamics::Scalar;
 
-/// Most points of a boundary that velocities are computed from.
+/// Maximum number of points of a boundary for computing velocities.
 pub(super) const MAX_POINTS: usize = 512;
 
 /// Equally spaced points `s_j` on the boundary with the values of `cos(k_n s_j)` and `sin(k_n s_j)`.
@@ -65,7 +65,7 @@ impl Circle {
         }
     }
 
-    /// Means over the points of `f cos(k_n s)` and `f sin(k_n s)`, for all `n < count`, at once: no sum waits for another.
+    /// Means over the points of `f cos(k_n s)` and `f sin(k_n s)`, for all `n < count`, at once, as independent sums.
     #[inline(always)]
     pub(super) fn moments<T: Scalar>(&self, count: usize, f: &[T]) -> [[T; 2]; MOMENTS] {
         let mut sums = [[f[0].zero(); MOMENTS]; 2];

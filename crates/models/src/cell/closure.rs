@@ -5,7 +5,7 @@
 //! (CLOSE) for `phi + eps`, by full Newton steps on the optimality (KKT) system from `eps = -(mode 1 of phi)`. With the
 //! smooth prior `p = 4` that start lies near the one solution that continues from the circle; flat priors have several.
 //! The start depends on phi alone, never on an earlier time, so the estimate is a function of the shape. The error
-//! function is not fed back into phi, unless `feedback = 1` asks for it.
+//! function is not fed back into phi, unless `feedback = 1`.
 //!
 //! Source: paper, Simulations III; the prior is ours (the paper does not give one).
 //! Unknowns are in angles, `k_1 eps(s) = sum_n a_n cos(k_n s) + b_n sin(k_n s)`, divided by `tau_n`.
@@ -14,7 +14,7 @@ use super::circle::{Circle, MAX_POINTS};
 use super::kkt::{Factors, MAX_UNKNOWNS, Matrix};
 use motiform_dynamics::Scalar;
 
-/// Most modes of the error function.
+/// Maximum number of modes of the error function.
 pub const MAX_CLOSURE_MODES: usize = MAX_UNKNOWNS / 2 - 1;
 
 /// A closure has converged when `|int n ds| / L` is below this, and the optimality conditions hold as well.
@@ -23,7 +23,7 @@ const TOLERANCE: f64 = 1e-13;
 /// Newton steps before giving up; it takes two to five where it converges.
 const STEPS: usize = 30;
 
-/// How a boundary is closed.
+/// The method of closing a boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Closure {
     /// Number of modes `m` of the error function; 0 for the bare normal.
@@ -41,9 +41,9 @@ pub(super) struct Normals<T> {
 /// A closed boundary.
 pub(super) struct Closed<T> {
     pub(super) normals: Normals<T>,
-    /// `|int n ds| / L` that is left.
+    /// The residual `|int n ds| / L`.
     pub(super) residual: f64,
-    /// Root mean square of `k_1 eps` (rad): how far the shape was from closed.
+    /// Root mean square of `k_1 eps` (rad): the deviation of the shape from a closed one.
     pub(super) correction: f64,
     /// Newton steps taken.
     pub(super) steps: usize,
@@ -103,7 +103,7 @@ impl Closure {
     /// `c cos(k_1 s) + s sin(k_1 s)`.
     ///
     /// # Errors
-    /// The residual, where Newton's method does not converge.
+    /// The residual, if Newton's method does not converge.
     #[inline(always)]
     pub(super) fn solve<T: Scalar<Real = f64>>(
         self,
@@ -129,7 +129,7 @@ impl Closure {
     /// [`Closure::solve`]. There is none of no modes.
     ///
     /// # Errors
-    /// The residual, where Newton's method does not converge.
+    /// The residual, if Newton's method does not converge.
     pub(super) fn estimate(
         self,
         circle: &Circle,
@@ -147,7 +147,7 @@ impl Closure {
         Ok(waves)
     }
 
-    /// Where Newton's method starts: `eps = -(mode 1 of phi)`, a width of 1.
+    /// The initial guess of Newton's method: `eps = -(mode 1 of phi)`, a width of 1.
     fn guess(first: [f64; 2]) -> Unknowns<f64> {
         let mut unknowns = [0.0; MAX_UNKNOWNS];
         (unknowns[0], unknowns[1]) = (-first[0], -first[1]);

@@ -1,8 +1,8 @@
-//! The shape equation (C) in Fourier modes: the form that is computed.
+//! The shape equation (C) in Fourier modes: the form used for computation.
 //!
 //! `phi(s) = sum_n phi_n exp(i k_n s)` with `phi_{-n} = conj(phi_n)`: only `n >= 1` is kept, so phi is real by
 //! construction and no anti-Hermitian part can grow. The mean `phi_0` is constant in time, because every term of (C)
-//! is a derivative: it is no unknown (see [`super::Cell::with_mean`]). With `k = k_1`, exactly dealiased:
+//! is a derivative: it is not an unknown (see [`super::Cell::with_mean`]). With `k = k_1`, exactly dealiased:
 //!
 //! `phi_n' = sigma_n phi_n + (i n/2) sum_{p+q=n} (g5 k^5 p^2 q^2 - g4 k^3 p q) phi_p phi_q`,
 //! `sigma_n = -g1 k_n^2 + g2 k_n^4 - g3 k_n^6`.
@@ -14,7 +14,7 @@ use super::convolution::in_rows;
 use motiform_dynamics::simd::{self, Kernel};
 use motiform_dynamics::{Lanes, Scalar, Semilinear, System, VectorField};
 
-/// Most modes that can be computed (a convolution keeps its operands on the stack).
+/// Maximum number of modes (a convolution keeps its operands on the stack).
 pub const MAX_MODES: usize = 128;
 
 /// The shape field: state `(Re phi_1, Im phi_1, Re phi_2, Im phi_2, ...)`.

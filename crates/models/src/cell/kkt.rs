@@ -2,7 +2,7 @@
 
 use motiform_dynamics::Scalar;
 
-/// Most unknowns: two per mode of the error function, and two multipliers.
+/// Maximum number of unknowns: two per mode of the error function, and two multipliers.
 pub(super) const MAX_UNKNOWNS: usize = 26;
 
 /// A square matrix of up to [`MAX_UNKNOWNS`] rows.
@@ -17,7 +17,7 @@ pub(super) struct Factors {
 }
 
 impl Factors {
-    /// Factors the leading `n` rows and columns; `None` where the matrix is singular or not finite.
+    /// Factors the leading `n` rows and columns; `None` if the matrix is singular or not finite.
     #[inline(always)]
     pub(super) fn new(mut rows: Matrix, n: usize) -> Option<Self> {
         let mut exchanges = [0; MAX_UNKNOWNS];

@@ -1,4 +1,4 @@
-//! The active cell model: a closed boundary that deforms by itself, and moves by its deformation.
+//! The active cell model: a closed boundary that deforms spontaneously, and moves as a result of its deformation.
 //!
 //! Source: paper, the equations for phi_t and v in 'Deformed domain'; Matsuo et al., its reference for the model.
 
@@ -86,8 +86,8 @@ impl Cell {
     }
 
     /// The same body with the mean of phi at `mean`: a normal-angle offset, which turns it by `2 pi mean / L` while the
-    /// points keep their labels s. The mean is constant in time, so it is no unknown of the state (it would add a
-    /// neutral direction that means nothing); [`Equivariant::rotate`] turns by a shift of s instead. [`Equivariant::mirror`] is then
+    /// points keep their labels s. The mean is constant in time, so it is not an unknown of the state (it would add a
+    /// neutral direction without meaning); [`Equivariant::rotate`] turns by a shift of s instead. [`Equivariant::mirror`] is then
     /// the mirror at the axis turned with the body.
     #[must_use]
     pub fn with_mean(mut self, mean: f64) -> Self {
@@ -288,7 +288,7 @@ impl Model for Cell {
         }
     }
 
-    /// Largest `| |X| - L / 2 pi |` over the boundary; not a number where it cannot be closed.
+    /// Largest `| |X| - L / 2 pi |` over the boundary; NaN if it cannot be closed.
     fn deformation(&self, shape: &[f64]) -> f64 {
         let radius = 1.0 / self.parameters.wavenumber();
         let Ok(boundary) = self.boundary(shape, 128) else { return f64::NAN };
@@ -296,7 +296,7 @@ impl Model for Cell {
     }
 }
 
-/// Lanes and duals come for free; this line fails to compile if they ever stop.
+/// The field works over lanes and duals; this line fails to compile if it does not.
 const _: fn() = || {
     fn takes<T: Scalar, F: Semilinear<T>>() {}
     takes::<Dual<f64, 6>, Cell>();

@@ -13,13 +13,13 @@ pub struct Boundary {
     pub length: f64,
     /// Enclosed area (negative parts of a curve that crosses itself count negative).
     pub area: f64,
-    /// `|int n ds| / L` that closing left.
+    /// The residual `|int n ds| / L` of the closure.
     pub closure_residual: f64,
     /// Root mean square of the error function in angles, `k_1 eps` (rad): how far the free solution was from closed.
     pub correction: f64,
-    /// Newton steps that closing took.
+    /// Newton steps of the closure.
     pub steps: usize,
-    /// Where the curve crosses itself first, if it does.
+    /// The first self-intersection of the curve, if any.
     pub crossing: Option<[f64; 2]>,
 }
 
@@ -35,7 +35,7 @@ impl Cell {
     /// `dX/ds = t = -i n`: the paper's n points inwards (`dt/ds = kappa n`, kappa > 0 on a circle run anticlockwise).
     ///
     /// # Errors
-    /// The residual of (CLOSE), where the boundary could not be closed.
+    /// The residual of (CLOSE), if the boundary could not be closed.
     pub fn boundary(&self, shape: &[f64], points: usize) -> Result<Boundary, f64> {
         let closed = self.close(shape)?;
         let curve =
@@ -128,7 +128,7 @@ fn centroid(points: &[[f64; 2]]) -> [f64; 2] {
     [x / (3.0 * area), y / (3.0 * area)]
 }
 
-/// Where a closed polygon crosses itself first, looking along it from its first point.
+/// The first self-intersection of a closed polygon, starting from its first point.
 #[must_use]
 pub fn first_crossing(points: &[[f64; 2]]) -> Option<[f64; 2]> {
     let n = points.len();
@@ -138,7 +138,7 @@ pub fn first_crossing(points: &[[f64; 2]]) -> Option<[f64; 2]> {
         .find_map(|(i, j)| crossing(edge(i), edge(j)))
 }
 
-/// Where two segments cross, if they do.
+/// The intersection of two segments, if any.
 fn crossing((a, b): ([f64; 2], [f64; 2]), (c, d): ([f64; 2], [f64; 2])) -> Option<[f64; 2]> {
     let (u, v) = ([b[0] - a[0], b[1] - a[1]], [d[0] - c[0], d[1] - c[1]]);
     let w = [c[0] - a[0], c[1] - a[1]];

@@ -7,8 +7,8 @@ use motiform_dynamics::model::Coordinate;
 parameters! {
     /// Parameters of the active cell model, named as in the paper, eqs. (C) and (VEL). All dimensionless.
     ///
-    /// The default is the paper's irregular motion, `length = 21.6`. The last four say how finely it is computed and
-    /// how the boundary is closed; they are parameters so that every result carries them.
+    /// The default is the paper's irregular motion, `length = 21.6`. The last four set the resolution and
+    /// the closure of the boundary; they are parameters so that every result records them.
     CellParameters for "cell" {
         length = 21.6 in 6.0 .. 32.0 within 0.01 .. 200.0, "*L*", "(C)", "length of the closed boundary; mode n of the shape is unstable for length > 2 pi n.";
         g1 = 0.0 in -1.0 .. 1.0, "*g*_1", "(C)", "g1 phi_ss: damps long waves for g1 > 0.";

@@ -11,7 +11,7 @@
 use super::{CellField, CellParameters};
 use crate::tensor::Coefficients;
 
-/// Which modes follow the others.
+/// The slaved modes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slaved {
     /// None: modes 1, 2, 3, truncated.

@@ -1,4 +1,4 @@
-//! The velocity (VEL): the closed boundary pushes along its normals.
+//! The velocity (VEL): forces along the normals of the closed boundary.
 
 use super::Cell;
 use super::circle::MAX_POINTS;
@@ -10,7 +10,7 @@ impl Cell {
     /// The closed boundary of a shape.
     ///
     /// # Errors
-    /// The residual of (CLOSE), where it could not be closed.
+    /// The residual of (CLOSE), if it could not be closed.
     #[inline(always)]
     pub(super) fn close<T: Scalar<Real = f64>>(&self, shape: &[T]) -> Result<Closed<T>, f64> {
         let (theta, first) = self.normal_angles(shape);
@@ -33,7 +33,7 @@ impl Cell {
     /// `phi + eps`: a shape that is closed without an error function.
     ///
     /// # Errors
-    /// The residual of (CLOSE), where it could not be closed.
+    /// The residual of (CLOSE), if it could not be closed.
     pub(super) fn feed_back(&self, shape: &[f64], closed: &mut [f64]) -> Result<(), f64> {
         let (theta, first) = self.normal_angles(shape);
         let waves = self.closure.estimate(&self.circle, &theta[..self.circle.points()], first)?;

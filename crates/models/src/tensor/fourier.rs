@@ -1,4 +1,4 @@
-//! The tensor model in Fourier amplitudes: the form that is computed.
+//! The tensor model in Fourier amplitudes: the form used for computation.
 //!
 //! With `z1 = v1 - i v2`, `z2 = (S11 - i S12)/2`, `z3 = (U111 + i U222)/2` the equations (V), (S), (U) become three
 //! complex ones with real coefficients. Source: paper, 'Coupled set of equations', (Z1), (Z2), (Z3) and the table of
@@ -70,7 +70,7 @@ impl From<&TensorParameters> for Coefficients<f64> {
     }
 }
 
-/// Sets of coupling terms: a kernel leaves out what its set does not name, without a second copy of the equations.
+/// Sets of coupling terms: a kernel omits the terms outside its set, without a second copy of the equations.
 pub mod terms {
     use super::Coefficients;
 
@@ -101,12 +101,12 @@ pub mod terms {
     pub const REDUCED: u32 = E11 | E21 | D22;
     /// The full model of the paper's Simulations II: `a1, b1, b2, d1, d2`.
     pub const PAPER: u32 = E11 | E21 | E22 | E31 | E32;
-    /// Both of these: what a scan over the paper's planes needs.
+    /// Both of these, for scans over the paper's planes.
     pub const COMMON: u32 = REDUCED | PAPER;
     /// All 21 parameters.
     pub const ALL: u32 = (1 << 18) - 1;
 
-    /// The smallest of the three sets above that holds all terms of `c`.
+    /// The smallest of the three sets above that contains all terms of `c`.
     #[must_use]
     pub fn enclosing(c: &Coefficients<f64>) -> u32 {
         let present = of(c);
@@ -202,11 +202,28 @@ fn damped<T: Scalar>(
 /// The linear rate as the first term of a growth rate, if one of the terms `ANY` follows.
 #[inline(always)]
 fn growth<T: Scalar, const ANY: u32, const TERMS: u32>(like: T, rate: Option<T::Real>) -> Option<T> {
-    if TERMS & ANY == 0 { None } else { rate.map(|rate| like.lift(rate)) }
+    match rate {
+        Some(rate) if TERMS & ANY != 0 => Some(like.lift(rate)),
+        _ => None,
+    }
+}
+
+/// The linear rate of amplitude `n`, if there are rates.
+#[inline(always)]
+#[allow(clippy::manual_map, reason = "a closure would not have the vector instructions")]
+fn rate_of<R: Copy>(rates: Option<[R; 3]>, n: usize) -> Option<R> {
+    match rates {
+        Some(rates) => Some(rates[n]),
+        None => None,
+    }
 }
 
 /// (Z1), (Z2), (Z3), with the linear terms where `rates` has them.
+///
+/// No closure in here: it would be compiled without the vector instructions of the lanes that call it, each operation a call of its own,
+/// and the whole field three times slower.
 #[inline(always)]
+#[allow(clippy::manual_map, reason = "see above")]
 fn amplitude_rates<T: Scalar, const TERMS: u32>(
     c: &Coefficients<T::Real>,
     [z1, z2, z3]: [Complex<T>; 3],
@@ -216,8 +233,10 @@ fn amplitude_rates<T: Scalar, const TERMS: u32>(
     let (z1c, z2c, z3c) = (z1.conj(), z2.conj(), z3.conj());
     let (z1z1, z2z2) = (z1.square(), z2.square());
 
-    let mut damping = rates.map(|rate| n1.lift(rate[0])); // (Z1), gamma
-    damping = Some(damping.map_or(n1.scale(c.d11), |sum| sum.add_scaled(n1, c.d11))); // (Z1), d11
+    let mut damping = Some(match rates {
+        Some(rate) => n1.lift(rate[0]).add_scaled(n1, c.d11), // (Z1), gamma and d11
+        None => n1.scale(c.d11),
+    });
     add!(damping, TERMS & D12, real n2, c.d12); // (Z1), d12
     add!(damping, TERMS & D13, real n3, c.d13); // (Z1), d13
     let mut sum = None;
@@ -227,8 +246,7 @@ fn amplitude_rates<T: Scalar, const TERMS: u32>(
     add!(sum, TERMS & E14, product z3c.scale(c.e14), z2z2); // (Z1), e14
     let dz1 = damped(sum, z1, damping, None);
 
-    let mut damping =
-        growth::<T, { terms::D21 | terms::D22 | terms::D23 }, TERMS>(n1, rates.map(|rate| rate[1])); // (Z2), -kappa2
+    let mut damping = growth::<T, { terms::D21 | terms::D22 | terms::D23 }, TERMS>(n1, rate_of(rates, 1)); // (Z2), -kappa2
     add!(damping, TERMS & D21, real n1, c.d21); // (Z2), d21
     add!(damping, TERMS & D22, real n2, c.d22); // (Z2), d22
     add!(damping, TERMS & D23, real n3, c.d23); // (Z2), d23
@@ -236,20 +254,22 @@ fn amplitude_rates<T: Scalar, const TERMS: u32>(
     add!(sum, TERMS & E21, scaled z1z1, c.e21); // (Z2), e21
     add!(sum, TERMS & E22, product z1c.scale(c.e22), z3); // (Z2), e22
     add!(sum, TERMS & E23, product(z2c * z1).scale(c.e23), z3); // (Z2), e23
-    let dz2 = damped(sum, z2, damping, rates.map(|rate| rate[1])); // (Z2), -kappa2
+    let dz2 = damped(sum, z2, damping, rate_of(rates, 1)); // (Z2), -kappa2
 
     // z1 (e31 z1 z1 + e32 z2), (Z3)
-    let mut damping =
-        growth::<T, { terms::D31 | terms::D32 | terms::D33 }, TERMS>(n1, rates.map(|rate| rate[2])); // (Z3), -kappa3
+    let mut damping = growth::<T, { terms::D31 | terms::D32 | terms::D33 }, TERMS>(n1, rate_of(rates, 2)); // (Z3), -kappa3
     add!(damping, TERMS & D31, real n1, c.d31); // (Z3), d31
     add!(damping, TERMS & D32, real n2, c.d32); // (Z3), d32
     add!(damping, TERMS & D33, real n3, c.d33); // (Z3), d33
     let mut by_z1 = None;
     add!(by_z1, TERMS & E31, scaled z1z1, c.e31); // (Z3), e31
     add!(by_z1, TERMS & E32, scaled z2, c.e32); // (Z3), e32
-    let mut sum = by_z1.map(|factor| z1 * factor);
+    let mut sum = match by_z1 {
+        Some(factor) => Some(z1 * factor),
+        None => None,
+    };
     add!(sum, TERMS & E33, product z1c.scale(c.e33), z2z2); // (Z3), e33
-    let dz3 = damped(sum, z3, damping, rates.map(|rate| rate[2])); // (Z3), -kappa3
+    let dz3 = damped(sum, z3, damping, rate_of(rates, 2)); // (Z3), -kappa3
 
     [dz1, dz2, dz3]
 }

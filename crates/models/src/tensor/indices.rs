@@ -1,4 +1,4 @@
-//! The tensor model written with indices, as the paper prints it: the oracle of the Fourier form.
+//! The tensor model written with indices, as printed in the paper: the oracle of the Fourier form.
 //!
 //! Slow and plain on purpose: loops over i, j, k = 1, 2 and nothing simplified, one term per line. Only tests use it.
 //! Source: paper, eqs. (V), (S), (U).

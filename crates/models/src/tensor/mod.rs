@@ -1,4 +1,4 @@
-//! The tensor model: velocity v, ellipse S and triangle U of one domain, coupled by symmetry alone.
+//! The tensor model: velocity v, elliptic deformation S and three-fold deformation U of one domain, with couplings determined by symmetry.
 //!
 //! Source: paper, eqs. (V), (S), (U); Ohta and Ohkuma (2009), Phys. Rev. Lett. 102, 154101.
 
@@ -210,7 +210,7 @@ impl Model for Tensor {
     }
 }
 
-/// Lanes and duals come for free; this line fails to compile if they ever stop.
+/// The field works over lanes and duals; this line fails to compile if it does not.
 const _: fn() = || {
     fn takes<T: Scalar, F: VectorField<T>>() {}
     takes::<Dual<f64, 6>, Tensor>();

@@ -1,7 +1,7 @@
 //! Systems with known answers: what the methods of `motiform-analysis` are tried on before a model is.
 //!
 //! Each is a plain field without linear part (`Lambda = 0`, `N = f`), written once over any scalar. What is known of it
-//! stands in its doc comment, with sources; the numbers that tests use are in `reference/zoo.toml`.
+//! is in its doc comment, with sources; the numbers that tests use are in `reference/zoo.toml`.
 
 mod heteroclinic;
 mod hopf;

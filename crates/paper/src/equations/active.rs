@@ -14,7 +14,6 @@ use motiform_lab::draw::sheet;
 use motiform_models::cell::{CellField, CellParameters};
 use motiform_study::Error;
 use motiform_study::initial::Uniform;
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// Lengths where the cell swims straight, in circles, irregularly, and where it rests on a three-fold shape.
@@ -107,7 +106,7 @@ impl Semilinear<f64> for Bounded {
     }
 }
 
-/// What a run does.
+/// The results of a run.
 struct Ran {
     length: f64,
     outcome: Outcome,
@@ -165,9 +164,7 @@ fn run(context: &Context<'_>, length: f64, g: [f64; 2], quartic: f64) -> Result<
 
 /// Sentences 57 and 58, and the figure of the potentials.
 pub(super) fn claim_of(context: &Context<'_>) -> Result<(Vec<Claim>, Drawn), Error> {
-    let all = |g: [f64; 2], quartic: f64| {
-        LENGTHS.par_iter().map(|length| run(context, *length, g, quartic)).collect::<Result<Vec<_>, Error>>()
-    };
+    let all = |g: [f64; 2], quartic: f64| context.each(&LENGTHS, |length| run(context, *length, g, quartic));
     let (free, bounded, active) = (all([1.0, 0.0], 0.0)?, all([1.0, 0.0], 1.0)?, all([0.0, -1.0], 0.0)?);
     let figure = picture(&bounded, &active)?;
     Ok((vec![unbounded(&free, &bounded), simple(&bounded, &active)], figure))

@@ -11,7 +11,7 @@ use motiform_study::initial::Uniform;
 const STATES: usize = 160;
 const SETS: u64 = 3;
 
-/// What round-off leaves of a coefficient that is not there: the condition of the fit is about 1e3.
+/// The size of an absent coefficient due to round-off: the condition of the fit is about 1e3.
 const NOTHING: f64 = 1e-9;
 
 pub(super) fn claims() -> Vec<Claim> {
@@ -25,7 +25,7 @@ struct Fit {
     monomials: Vec<Monomial>,
     /// For each amplitude the complex coefficient of each monomial.
     coefficients: [Vec<C>; 3],
-    /// What the monomials leave of the rates.
+    /// The residual of the rates.
     left: f64,
 }
 
@@ -131,7 +131,7 @@ fn reduced(fits: &[Fit]) -> Claim {
     )
 }
 
-/// The printed table against the coefficients that the fit finds.
+/// The printed table compared with the coefficients of the fit.
 fn table(fits: &[Fit]) -> Claim {
     type Row = (&'static str, usize, [u8; 6], fn(&TensorParameters) -> f64);
     let rows: [Row; 18] = [

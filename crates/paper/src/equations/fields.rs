@@ -94,7 +94,7 @@ impl Monomial {
         self.0[4] == 0 && self.0[5] == 0
     }
 
-    /// As people write it.
+    /// In usual notation.
     pub(super) fn words(self) -> String {
         let names = ["*z*_1", "*z̄*_1", "*z*_2", "*z̄*_2", "*z*_3", "*z̄*_3"];
         let factor = |(name, power): (&str, u8)| match power {

@@ -4,7 +4,7 @@ use super::super::claims::claim;
 use super::terms::{PAPER, Term, derivative, inner, random};
 use motiform_figures::report::Claim;
 
-/// What round-off leaves of a variational term.
+/// The size of round-off for a variational term.
 const NOTHING: f64 = 1e-8;
 
 pub(super) fn claims() -> [Claim; 2] {

@@ -1,4 +1,4 @@
-//! The linear terms: what g2 and g3 do to the circle, and whether g1 matters.
+//! The linear terms: the effect of g2 and g3 on the circle, and whether g1 matters.
 
 use super::super::claims::claim;
 use super::super::context::Context;
@@ -6,7 +6,6 @@ use super::super::fig6;
 use motiform_analysis::Regime;
 use motiform_figures::report::Claim;
 use motiform_study::{Error, Study};
-use rayon::prelude::*;
 
 /// Damping of long waves, against g2 = g3 = 1. From 1/4 on nothing grows at all.
 const G1: f64 = 0.02;
@@ -66,10 +65,10 @@ fn irrelevant(context: &Context<'_>) -> Result<Claim, Error> {
     // k^2 - k^4 = g1 at the onset: the lengths stretch like 1/k
     let stretch = (0.5 * (1.0 + (1.0 - 4.0 * G1).sqrt())).sqrt().recip();
     let places = &PLACES[..context.choose(7, 5)];
-    let found: Vec<Regime> = places
-        .par_iter()
-        .map(|(length, _)| Ok(context.classify(&body(stretch * length, &[("g1", G1)])?)?.regime))
-        .collect::<Result<_, Error>>()?;
+    let regime = |(length, _): &(f64, Regime)| -> Result<Regime, Error> {
+        Ok(context.classify(&body(stretch * length, &[("g1", G1)])?)?.regime)
+    };
+    let found = context.each(places, regime)?;
     let words = places.iter().zip(&found).map(|((length, without), with)| {
         let same = if with == without { String::new() } else { format!(" (without *g*_1: {without})") };
         format!("{with} at {:.2}{same}", stretch * length)

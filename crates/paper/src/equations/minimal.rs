@@ -1,4 +1,4 @@
-//! The coefficients that units take away.
+//! The coefficients that can be removed by a choice of units.
 
 use super::super::claims::claim;
 use super::super::context::Context;

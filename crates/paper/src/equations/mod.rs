@@ -1,4 +1,4 @@
-//! The equations: what the paper says of them before it simulates anything.
+//! The equations: statements of the paper before its simulations.
 
 mod active;
 mod couplings;

@@ -1,4 +1,4 @@
-//! The invariance of the equations, and what it comes from.
+//! The invariance of the equations, and its origin.
 
 use super::super::claims::claim;
 use super::fields::{C, Z, amplitudes, apart, parameters, rates, state, tensors, turned};

@@ -1,4 +1,4 @@
-//! What makes a body of the tensor model move: its own velocity, or its deformation; and what may be left out.
+//! What makes a body of the tensor model move: its own velocity, or its deformation; and what may be omitted.
 
 use super::super::claims::{claim, differs};
 use super::super::context::Context;
@@ -123,7 +123,7 @@ fn moved_by_deformation(context: &Context<'_>) -> Result<Claim, Error> {
     ))
 }
 
-/// A triangle that relaxes ever faster: the motion goes over into that without it.
+/// A triangle that relaxes ever faster: the motion approaches that without it.
 fn fast_triangle(context: &Context<'_>) -> Result<Claim, Error> {
     let run = |kappa3: f64, couplings: f64| -> Result<f64, Error> {
         let study = context.preset("fig1", |study| {

@@ -41,7 +41,7 @@ impl Term {
         }
     }
 
-    /// As people write it.
+    /// In usual notation.
     pub(super) fn words(self) -> String {
         let one = |p: u32| match p {
             0 => "*φ*".to_owned(),

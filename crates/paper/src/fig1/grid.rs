@@ -1,4 +1,4 @@
-//! The cells of the scan against the formulas.
+//! The cells of the scan compared with the formulas.
 
 use super::{check, claim};
 use motiform_analysis::regime::Regime;
@@ -17,7 +17,7 @@ const NEAR: f64 = 1.5;
 pub(super) struct Cell {
     kappa2: f64,
     gamma: f64,
-    /// The motions found, the most frequent first; undetermined ones are left out.
+    /// The motions found, the most frequent first; undetermined ones are omitted.
     found: Vec<Regime>,
     expected: Expected,
     /// Distance to the nearest analytic line, in cells.
@@ -118,7 +118,7 @@ impl Grid {
         self.cells.iter().filter(beside).partition(stable)
     }
 
-    /// The most frequent motions of the column nearest to `kappa2`, from below, repetitions left out.
+    /// The most frequent motions of the column nearest to `kappa2`, from below, without repetitions.
     pub(super) fn upwards(&self, kappa2: f64) -> Vec<&'static str> {
         let off = |cell: &&Cell| (cell.kappa2 - kappa2).abs();
         let Some(nearest) = self.cells.iter().min_by(|a, b| off(a).total_cmp(&off(b))) else {

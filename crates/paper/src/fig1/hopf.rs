@@ -14,7 +14,7 @@ const LEFT: [f64; 2] = [-0.1, -0.14];
 /// How far beyond the line (in gamma) runs are made at the right: a step, and four times that.
 const BEYOND: [f64; 2] = [1e-4, 4e-4];
 
-/// The same at the left, where the orbit leaves for good.
+/// The same at the left, where the orbit does not return.
 const FAR: f64 = 3e-3;
 
 /// How far before the line both motions are looked for, at the left.

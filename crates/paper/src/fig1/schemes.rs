@@ -1,11 +1,11 @@
-//! The paper's own scheme at places of each region.
+//! The paper's scheme at points of each region.
 
 use super::{Claim, Context, claim};
 use motiform_models::tensor::reduced::{Motion, Reduced};
 use motiform_study::{Dataset, Error};
 use std::f64::consts::TAU;
 
-/// Places well inside the regions, where motions establish themselves fast: one of each kind, then another.
+/// Points well inside the regions, where motions settle fast: one of each kind, then another.
 const PLACES: [(f64, f64); 10] = [
     (0.15, -0.1),
     (0.2, 0.04),

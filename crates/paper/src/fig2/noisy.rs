@@ -21,11 +21,11 @@ const SEED: u64 = 2010;
 /// Step of the method, of the noise and between samples.
 const STEP: f64 = 0.2;
 
-/// Cut off: the way from the start to the cycle.
+/// Excluded: the path from the start to the cycle.
 const TRANSIENT: f64 = 500.0;
 
 /// One amplitude.
-struct Run {
+struct NoisyRun {
     eta: f64,
     mean: Estimate,
     left: usize,
@@ -34,7 +34,7 @@ struct Run {
 
 /// Rests at several amplitudes of noise.
 pub(super) struct Rests {
-    runs: Vec<Run>,
+    runs: Vec<NoisyRun>,
     time: f64,
 }
 
@@ -48,12 +48,12 @@ pub(super) fn measure(context: &Context<'_>) -> Result<Rests, Error> {
     Ok(Rests { runs, time })
 }
 
-fn measured(context: &Context<'_>, eta: f64, stream: u64, time: f64) -> Result<Run, Error> {
+fn measured(context: &Context<'_>, eta: f64, stream: u64, time: f64) -> Result<NoisyRun, Error> {
     let path = path(context, eta, stream, time)?;
     let mean = series_mean(&durations(&path)?.0)?;
     let turns = legs(&path, Ends::Open)?.heading_turns;
     let left = turns.iter().filter(|turn| **turn > 0.0).count();
-    Ok(Run { eta, mean, left, turns: turns.len() })
+    Ok(NoisyRun { eta, mean, left, turns: turns.len() })
 }
 
 /// A path under noise.
@@ -120,7 +120,7 @@ impl Rests {
     pub(super) fn figure(&self) -> Result<ReportFigure, Error> {
         let theory = -1.0 / rates()[0];
         let height = self.line(theory).height;
-        let point = |run: &Run| Measured { x: run.eta, y: run.mean.value, error: run.mean.error };
+        let point = |run: &NoisyRun| Measured { x: run.eta, y: run.mean.value, error: run.mean.error };
         let ends = [1e-13, 1e-3].map(|eta: f64| [eta, height + theory * libm::log(eta)]);
         let figure = ErrorBarFigure {
             title: "Rectangular motion with noise: mean rest".to_owned(),

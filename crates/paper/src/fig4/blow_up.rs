@@ -16,9 +16,8 @@ use motiform_figures::report::{ReportFigure, Section};
 use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
 use motiform_study::{Error, Study};
-use rayon::prelude::*;
 
-/// The place that is looked at.
+/// The point that is examined.
 const PLACE: (f64, f64) = (0.3, 0.1);
 
 /// The start lies this long before the escape: the orbit is still on the chaotic saddle.
@@ -70,7 +69,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     Ok(())
 }
 
-/// A state on its way out, from the first random start that escapes.
+/// A state before the escape, from the first random start that escapes.
 fn start(context: &Context<'_>) -> Result<Option<Study>, Error> {
     for seed in 1..=200 {
         let mut study = at(context, PLACE.0, PLACE.1)?;
@@ -122,7 +121,7 @@ fn times(context: &Context<'_>, start: &Study, methods: &[(&str, f64)]) -> Resul
         };
         Ok((format!("{name} {}", power(*accuracy)), t))
     };
-    methods.par_iter().map(one).collect()
+    context.each(methods, one)
 }
 
 /// The largest distance from the best value, and all distances in words.
@@ -165,7 +164,7 @@ fn paper_steps(fixed: &[Ended], t_star: f64, c: f64) -> motiform_figures::report
     )
 }
 
-/// The cubic terms that the paper leaves out hold the motion.
+/// The cubic terms omitted in the paper bound the motion.
 fn bounded(context: &Context<'_>, start: &Study) -> Result<motiform_figures::report::Claim, Error> {
     let mut study = start.clone();
     study.set("b3", 0.01)?;

@@ -1,4 +1,4 @@
-//! How long the chaos lasts where it ends in a blow-up.
+//! The lifetime of the chaos where it ends in a blow-up.
 
 use super::super::claims::check;
 use super::super::context::Context;

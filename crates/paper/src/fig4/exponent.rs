@@ -11,7 +11,6 @@ use motiform_lab::analyse::lyapunov;
 use motiform_lab::draw::sheet;
 use motiform_lab::saddle::saddle;
 use motiform_study::{Error, Plan};
-use rayon::prelude::*;
 
 /// Values of kappa2.
 const FINE: [f64; 24] = [
@@ -57,8 +56,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     let span = context.choose(12_000.0, 3000.0);
     let starts: Vec<(f64, u64)> =
         values.iter().flat_map(|kappa2| (1..=STARTS).map(|seed| (*kappa2, seed))).collect();
-    let runs: Vec<Run> =
-        starts.par_iter().map(|start| run(context, *start, span)).collect::<Result<_, _>>()?;
+    let runs: Vec<Run> = context.each(&starts, |start| run(context, *start, span))?;
     let mut saddles = Vec::new();
     for kappa2 in values {
         if runs.iter().any(|run| run.kappa2 == *kappa2 && run.largest.is_none()) {

@@ -1,4 +1,4 @@
-//! Which motion occurs where.
+//! The phase diagram.
 
 use super::super::claims::{check, claim, differs};
 use super::super::context::Context;

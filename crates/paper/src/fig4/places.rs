@@ -1,4 +1,4 @@
-//! A scan of the plane, asked what occurs where; and the motions that were measured before this project.
+//! Motions found in a scan of the plane; and the motions that were measured before this project.
 
 use motiform_analysis::Regime;
 use motiform_lab::scan::CellSummary;

@@ -8,7 +8,6 @@ use motiform_dynamics::StopOnly;
 use motiform_figures::report::Section;
 use motiform_lab::analyse::classify;
 use motiform_study::{Error, Plan, Study};
-use rayon::prelude::*;
 
 /// A place in each region: kappa2, kappa3.
 const PLACES: [(f64, f64); 5] = [(1.4, 0.6), (0.5, 0.6), (0.9, 0.1), (0.5, 0.1), (0.05, 0.1)];
@@ -20,8 +19,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     let steps: &[f64] = context.choose(&STEPS, &STEPS[..1]);
     let schemes: Vec<Option<f64>> = std::iter::once(None).chain(steps.iter().copied().map(Some)).collect();
     let tasks: Vec<_> = PLACES.iter().flat_map(|place| schemes.iter().map(move |s| (*place, *s))).collect();
-    let regimes: Vec<Regime> =
-        tasks.par_iter().map(|(place, step)| regime(context, *place, *step)).collect::<Result<_, _>>()?;
+    let regimes: Vec<Regime> = context.each(&tasks, |(place, step)| regime(context, *place, *step))?;
     let rows: Vec<&[Regime]> = regimes.chunks(schemes.len()).collect();
     let words = |((kappa2, kappa3), row): (&(f64, f64), &&[Regime])| {
         let same = row.iter().all(|regime| *regime == row[0]);

@@ -1,4 +1,4 @@
-//! (b) The chaos: its exponent, and how long it lasts.
+//! (b) The chaos: its exponent, and its lifetime.
 
 use super::super::claims::{check, claim};
 use super::super::context::Context;

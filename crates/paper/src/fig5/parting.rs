@@ -1,4 +1,4 @@
-//! Neighbours part: the rate at which a tiny difference grows.
+//! Separation of neighbouring orbits: the growth rate of a small difference.
 
 use super::super::claims::check;
 use super::super::context::Context;
@@ -9,15 +9,14 @@ use motiform_figures::report::{Claim, Section};
 use motiform_figures::{Drawn, ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
 use motiform_study::{Dataset, Error, Study};
-use rayon::prelude::*;
 
 /// Size of the difference at the start.
 const TINY: f64 = 1e-8;
 
-/// The growth is read off between these times: the difference has turned its way, and is still small.
+/// The growth is measured between these times: the difference has aligned with the growing direction, and is still small.
 const BETWEEN: (f64, f64) = (20.0, 120.0);
 
-/// Time watched, and between samples.
+/// Observation time, and time between samples.
 const SPAN: (f64, f64) = (300.0, 5.0);
 
 /// The coordinates of the shape.
@@ -27,8 +26,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     let pairs = context.choose(200, 32);
     let study = context.preset("fig5b", |_| Ok(()))?;
     let starts = starts(context, &study, pairs)?;
-    let all: Vec<Vec<f64>> =
-        starts.par_iter().map(|start| distances(context, start)).collect::<Result<_, _>>()?;
+    let all: Vec<Vec<f64>> = context.each(&starts, |start| distances(context, start))?;
     let lambda = chaos::measure(context, &study)?.exponents.first().copied();
     let Some(lambda) = lambda else { return Ok(()) };
     section.figures.push(figure(

@@ -16,7 +16,7 @@ const DT: f64 = 0.5;
 /// Samples of a segment.
 const SEGMENT: usize = 4096;
 
-/// Time between samples of the 0-1 test: about the time in which the chaos forgets.
+/// Time between samples of the 0-1 test: about the correlation time of the chaos.
 const APART: f64 = 10.0;
 
 pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Error> {

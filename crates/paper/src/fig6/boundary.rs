@@ -1,4 +1,4 @@
-//! The boundary of the cell along the runs: how far from closed the solution is, and what closing it does to its length.
+//! The boundary of the cell along the runs: the deviation of the solution from a closed curve, and the effect of the closure on its length.
 
 use super::super::claims::claim;
 use super::tracks::Track;

@@ -1,5 +1,5 @@
-//! Shapes of the cell that do not change but for a steady rotation, followed in length: where their stability ends is
-//! computed from their eigenvalues, not read off runs.
+//! Shapes of the cell that are constant up to a steady rotation, continued in length: where their stability ends is
+//! computed from their eigenvalues, not from runs.
 
 use super::super::context::Context;
 use super::lengths::study;
@@ -7,7 +7,6 @@ use motiform_analysis::RelativeEquilibrium;
 use motiform_dynamics::Model as _;
 use motiform_models::cell::{Cell, CellParameters};
 use motiform_study::Error;
-use rayon::prelude::*;
 
 /// First step in length, and the accuracy of an edge.
 const STEP: (f64, f64) = (0.05, 1e-5);
@@ -44,7 +43,7 @@ impl Branch {
 
     /// The branches that random starts settle on at several lengths.
     pub(crate) fn all(context: &Context<'_>, places: &[(f64, usize)]) -> Result<Vec<Self>, Error> {
-        places.par_iter().map(|&(length, modes)| Self::settled(context, length, modes)).collect()
+        context.each(places, |&(length, modes)| Self::settled(context, length, modes))
     }
 
     /// The same branch computed with other modes.

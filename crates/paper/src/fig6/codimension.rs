@@ -1,4 +1,4 @@
-//! The points of codimension two: where two neighbouring modes of the circle begin to grow at once.
+//! The points of codimension two: where two neighbouring modes of the circle become unstable simultaneously.
 
 use super::super::claims::differs;
 use super::onset::{Onsets, WINDOWS};

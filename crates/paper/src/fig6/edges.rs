@@ -1,11 +1,11 @@
-//! Where each motion begins and ends, by the eigenvalues of the shapes that carry it.
+//! The range of each motion, from the eigenvalues of the corresponding shapes.
 
 use super::super::context::Context;
 use super::branches::{Branch, folds};
 use motiform_models::cell::{CellField, CellParameters};
 use motiform_study::Error;
 
-/// The lengths at which something changes. `None`: not within the lengths that were looked at.
+/// The lengths at which something changes. `None`: not within the examined lengths.
 pub(super) struct Edges {
     /// The largest growth rate, and k^2 there.
     pub(super) fastest: (f64, f64),

@@ -8,7 +8,6 @@ use motiform_figures::{Drawn, ErrorBarFigure, ErrorBarSeries, Measured};
 use motiform_lab::analyse;
 use motiform_lab::draw::sheet;
 use motiform_study::{Error, Plan};
-use rayon::prelude::*;
 
 /// Hundredths of the lengths.
 const FULL: [u32; 10] = [2120, 2130, 2140, 2150, 2160, 2170, 2180, 2185, 2190, 2200];
@@ -31,8 +30,7 @@ impl Exponents {
             let found = analyse::lyapunov(&plan, 1, (Some(transient), Some(span)), &StopOnly(context.watch))?;
             Ok(found.exponents.first().map(|exponent| (length, *exponent)))
         };
-        let found: Vec<Option<(f64, Estimate)>> =
-            lengths.par_iter().map(one).collect::<Result<_, Error>>()?;
+        let found: Vec<Option<(f64, Estimate)>> = context.each(&lengths, one)?;
         if context.watch.stopped() {
             return Err(Error::Interrupted);
         }

@@ -33,7 +33,7 @@ const STRETCHES: [Stretch; 3] = [
     },
 ];
 
-/// Model time that naming one motion may take: in a full, and in a quick run.
+/// Maximum model time for classifying one motion: in a full, and in a quick run.
 const BUDGET: (f64, f64) = (3e4, 1.2e4);
 
 /// A cell of this length.
@@ -50,7 +50,7 @@ pub(crate) fn modes_for(length: f64) -> usize {
     ((4.0 * length / std::f64::consts::TAU).ceil() as usize).max(8)
 }
 
-/// What random starts lead to, by length.
+/// The motions of random starts, by length.
 pub(super) struct Lengths(pub(super) Vec<(f64, CellSummary)>);
 
 impl Lengths {

@@ -1,4 +1,4 @@
-//! Where each mode of the circle begins to grow: measured from runs, and held against the windows.
+//! The onset of growth of each mode of the circle: measured from runs, and compared with the windows.
 
 use super::super::claims::{claim, differs};
 use super::super::context::Context;
@@ -7,7 +7,6 @@ use super::lengths::study;
 use super::windows::number;
 use motiform_figures::report::Claim;
 use motiform_study::Error;
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// Modes that are looked at.
@@ -26,7 +25,7 @@ pub(super) struct Onsets(pub(super) [f64; 4]);
 impl Onsets {
     /// Bisection in the length: does a small mode `n` grow or decay in a run?
     pub(super) fn find(context: &Context<'_>) -> Result<Self, Error> {
-        let found: Vec<f64> = MODES.par_iter().map(|n| onset(context, *n)).collect::<Result<_, Error>>()?;
+        let found: Vec<f64> = context.each(&MODES, |n| onset(context, *n))?;
         found.try_into().map(Self).map_err(|_| Error::Interrupted)
     }
 

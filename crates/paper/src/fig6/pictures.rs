@@ -9,7 +9,6 @@ use motiform_figures::report::ReportFigure;
 use motiform_figures::{BoundaryLine, Drawn, ErrorBarFigure, ErrorBarSeries, LineStyle, Measured};
 use motiform_lab::draw::sheet;
 use motiform_study::Error;
-use rayon::prelude::*;
 
 /// The paper's windows.
 const WINDOWS: [(f64, f64, LineStyle); 3] =
@@ -43,12 +42,9 @@ pub(super) fn all(
         ReportFigure::new(exponents.drawn()?, "Largest Lyapunov exponent in *W*_2."),
     ];
     figures.push(super::codimension::figure()?);
-    let drawn: Vec<Vec<ReportFigure>> = tracks
-        .par_iter()
-        .zip(&LETTERS[..])
-        .map(|(track, letter)| track.figures(letter))
-        .collect::<Result<_, _>>()?;
-    figures.extend(drawn.into_iter().flatten());
+    for (track, letter) in tracks.iter().zip(LETTERS) {
+        figures.extend(track.figures(letter)?);
+    }
     Ok(figures)
 }
 

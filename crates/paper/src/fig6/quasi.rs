@@ -4,13 +4,12 @@ use super::super::context::Context;
 use super::lengths::study;
 use motiform_analysis::Regime;
 use motiform_study::Error;
-use rayon::prelude::*;
 
 /// Lengths through the edge between circular and rectangular motion.
 const FULL: [f64; 8] = [12.94, 12.955, 12.965, 12.97, 12.975, 12.98, 13.0, 13.03];
 const QUICK: [f64; 2] = [12.968, 12.98];
 
-/// What was looked at and found.
+/// The runs and their results.
 pub(super) struct Search {
     lengths: Vec<f64>,
     /// Runs.
@@ -31,7 +30,7 @@ impl Search {
             study.run.seed = seed;
             Ok(context.classify(&study)?.regime)
         };
-        let regimes: Vec<Regime> = runs.par_iter().map(one).collect::<Result<_, Error>>()?;
+        let regimes: Vec<Regime> = context.each(&runs, one)?;
         let found = regimes.iter().filter(|regime| **regime == Regime::QuasiPeriodic).count();
         Ok(Self { lengths, runs: runs.len(), found, regimes })
     }

@@ -1,4 +1,4 @@
-//! All motions by the length alone, one after the other.
+//! The succession of motions with increasing length.
 
 use super::super::claims::claim;
 use super::lengths::Lengths;
@@ -56,7 +56,7 @@ fn kinds(lengths: &Lengths, tracks: &[Track]) -> Claim {
     )
 }
 
-/// The most frequent motions with growing length, repetitions left out.
+/// The most frequent motions with growing length, without repetitions.
 fn order(lengths: &Lengths, tracks: &[Track]) -> Claim {
     let mut seen: Vec<(f64, Regime)> =
         lengths.0.iter().filter_map(|point| Some((point.0, point.1.motions.first()?.regime))).collect();

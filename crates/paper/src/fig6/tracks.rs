@@ -7,7 +7,6 @@ use super::lengths::modes_for;
 use motiform_analysis::{Verdict, welch};
 use motiform_figures::report::ReportFigure;
 use motiform_study::{Dataset, Error, Study};
-use rayon::prelude::*;
 
 /// Rows at which the boundary is measured.
 const MEASURED: usize = 200;
@@ -27,11 +26,11 @@ pub(crate) struct Track {
 
 /// Computes all four.
 pub(super) fn all(context: &Context<'_>) -> Result<Vec<Track>, Error> {
-    ["fig6a", "fig6b", "fig6c", "fig6d"].par_iter().map(|name| Track::of(context, name)).collect()
+    context.each(&["fig6a", "fig6b", "fig6c", "fig6d"], |name| Track::of(context, name))
 }
 
 impl Track {
-    /// Runs a preset of the cell and names its motion, starting where the run ended.
+    /// Runs a preset of the cell and classifies its motion, starting from the end of the run.
     pub(crate) fn of(context: &Context<'_>, name: &str) -> Result<Self, Error> {
         let study = context.preset(name, |study| {
             let length = study.parameters.iter().find(|entry| entry.0 == "length").map_or(21.6, |e| e.1);
@@ -98,7 +97,7 @@ impl Track {
     }
 }
 
-/// The study that goes on where a run ended.
+/// The study that continues from the end of a run.
 pub(super) fn continued(study: &Study, dataset: &Dataset) -> Result<Study, Error> {
     let mut next = study.clone();
     for (name, value) in &dataset.manifest.state.0 {

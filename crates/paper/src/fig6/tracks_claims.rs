@@ -7,7 +7,7 @@ use motiform_analysis::Regime;
 use motiform_analysis::symmetry::wrap;
 use motiform_figures::report::Claim;
 
-/// Degrees that an angle read off a picture may be wrong by.
+/// Tolerance in degrees of an angle measured in a picture.
 const ANGLE: f64 = 6.0;
 
 pub(super) fn claims(tracks: &[Track], exponents: &Exponents) -> Vec<Claim> {
@@ -72,7 +72,7 @@ fn listed(track: &Track) -> String {
     )
 }
 
-/// Whether the turns are these, and nothing else.
+/// Whether the turns are exactly these.
 fn turns_are(track: &Track, wanted: &[f64]) -> bool {
     let turns = track.turns();
     turns.len() == wanted.len() && turns.iter().zip(wanted).all(|(a, b)| (a - b).abs() < ANGLE)

@@ -24,7 +24,7 @@ const MODES: usize = 20;
 /// The lengths inside which the zigzag may have lost its mirror symmetry (measured: 29.4 and 29.45).
 const GAP: (f64, f64) = (29.25, 29.55);
 
-/// What the zigzag becomes at a length.
+/// The continuation of the zigzag at a length.
 struct Kept {
     length: f64,
     regime: Regime,
@@ -49,7 +49,7 @@ impl Kept {
     }
 }
 
-/// At which lengths a zigzag stays one.
+/// The lengths at which a zigzag remains a zigzag.
 pub(super) struct Zigzags(Vec<Kept>);
 
 impl Zigzags {

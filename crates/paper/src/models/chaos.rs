@@ -5,14 +5,11 @@ use super::super::context::Context;
 use motiform_analysis::{Regime, Verdict};
 use motiform_figures::report::Claim;
 use motiform_study::Error;
-use rayon::prelude::*;
 
 /// Sentences 4, 184 and 185: the chaotic motions of Fig. 5(b) and Fig. 6(a), by the same classifier.
 pub(super) fn claim_of(context: &Context<'_>) -> Result<Claim, Error> {
-    let verdicts: Vec<Verdict> = ["fig5b", "fig6a"]
-        .par_iter()
-        .map(|name| context.classify(&context.preset(name, |_| Ok(()))?))
-        .collect::<Result<_, Error>>()?;
+    let classify = |name: &&str| context.classify(&context.preset(name, |_| Ok(()))?);
+    let verdicts = context.each(&["fig5b", "fig6a"], classify)?;
     let words = |v: &Verdict| match v.exponents.first() {
         Some(e) => {
             format!("{}, *λ*_1 = {:.4} ± {:.4} over {:.0} time units", v.regime, e.value, e.error, v.time)

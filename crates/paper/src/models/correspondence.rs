@@ -7,7 +7,6 @@ use super::steady::Steady;
 use motiform_analysis::{Regime, Verdict};
 use motiform_figures::report::Claim;
 use motiform_study::{Error, Study};
-use rayon::prelude::*;
 
 /// Numbers below this are zero: shapes are known to about 1e-10.
 const ZERO: f64 = 1e-7;
@@ -83,16 +82,14 @@ const MODULATED: ((f64, f64), f64) = ((-0.14, 0.05), 21.8);
 const RECTANGULAR: ((f64, f64), f64) = ((-0.1, -0.04), 13.2);
 
 pub(super) fn claims(context: &Context<'_>) -> Result<Vec<Claim>, Error> {
-    let mut claims: Vec<Claim> =
-        TERMS.par_iter().map(|term| term.check(context)).collect::<Result<_, Error>>()?;
+    let mut claims: Vec<Claim> = context.each(&TERMS, |term| term.check(context))?;
     let places = [MODULATED, RECTANGULAR];
     let studies: Vec<Study> = places
         .iter()
         .map(|(point, length)| Ok([tensor(context, *point)?, cell(*length)?]))
         .collect::<Result<Vec<_>, Error>>()?
         .concat();
-    let verdicts: Vec<Verdict> =
-        studies.par_iter().map(|study| context.classify(study)).collect::<Result<_, Error>>()?;
+    let verdicts: Vec<Verdict> = context.each(&studies, |study| context.classify(study))?;
     if let [a, b, c, d] = &verdicts[..] {
         claims.extend([modulated(a, b), runs(c, d)]);
     }

@@ -8,7 +8,6 @@ use motiform_figures::report::{Claim, ReportFigure};
 use motiform_figures::{ErrorBarFigure, ErrorBarSeries, Measured};
 use motiform_lab::draw::sheet;
 use motiform_study::Error;
-use rayon::prelude::*;
 
 /// Modes that are looked at.
 const MODES: usize = 6;
@@ -21,8 +20,7 @@ pub(super) struct Zigzags {
 impl Zigzags {
     pub(super) fn find(context: &Context<'_>) -> Result<Self, Error> {
         let tensor = context.classify(&context.preset("fig5a", |_| Ok(()))?)?;
-        let cells =
-            ["fig6c", "fig6d"].par_iter().map(|name| Track::of(context, name)).collect::<Result<_, _>>()?;
+        let cells = context.each(&["fig6c", "fig6d"], |name| Track::of(context, name))?;
         Ok(Self { tensor, cells })
     }
 

@@ -1,4 +1,4 @@
-"""motiform: the laboratory for deformable self-propelled domains.
+"""motiform: a laboratory for deformable self-propelled domains.
 
 >>> import motiform
 >>> body = motiform.preset("fig5a")            # or motiform.Tensor(kappa2=0.5, ...), motiform.Cell(length=21.6)
@@ -6,7 +6,7 @@
 >>> body.classify().regime
 >>> motiform.scan(motiform.preset("fig1"), {"kappa2": "-0.2:0.2:40", "gamma": "-0.1:0.1:40"})
 
-All quantities are in the models' own units of time and length; parameters have the paper's names.
+All quantities are in model units of time and length; parameters have the paper's names.
 """
 
 from ._registry import MODELS, PRESETS, REGIMES, STEPPERS

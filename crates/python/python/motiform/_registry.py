@@ -1,4 +1,4 @@
-"""What has a name in motiform, read once from the native module: models, parameters, presets, regimes."""
+"""The registry of motiform, read once from the native module: models, parameters, presets, regimes."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ class Parameter:
     name: str
     """The paper's name in ASCII."""
     symbol: str
-    """How figures write it: ``*`` around italic letters, ``_`` before a subscript."""
+    """Notation in figures: ``*`` around italic letters, ``_`` before a subscript."""
     default: float
     range: tuple[float, float]
-    """Where interesting things happen."""
+    """The range of interest."""
     allowed: tuple[float, float]
     whole: bool
-    """Whether only whole numbers make sense."""
-    """Values that the model can be computed with."""
+    """Whether only whole numbers are allowed."""
+    """The allowed values."""
     equation: str
-    """The equation it stands in."""
+    """The equation in which it occurs."""
     meaning: str
 
     @property
@@ -50,7 +50,7 @@ class ModelInfo:
     run: dict[str, Any]
     """The default run settings."""
     budget: float
-    """Most model time spent on naming one motion, by default."""
+    """Default of the maximum model time for classifying one motion."""
 
 
 @dataclass(frozen=True)
@@ -62,22 +62,22 @@ class Preset:
     title: str
     about: str
     free: tuple[str, ...]
-    """The parameters that span the paper's diagram, where the preset stands for one."""
+    """The parameters that span the paper's diagram, if the preset represents one."""
     parameters: dict[str, float]
     """The parameters that it sets; all others have their defaults."""
 
 
 @dataclass(frozen=True)
 class Regime:
-    """A kind of motion, and how every figure draws it."""
+    """A type of motion, and its appearance in figures."""
 
     name: str
     meaning: str
-    """What a body does in it, in one sentence."""
+    """The motion of the body, in one sentence."""
     colour: str
     area: str
     tint: str
-    """The pale ground behind a marker."""
+    """The pale background of a marker."""
     glyph: str
 
 

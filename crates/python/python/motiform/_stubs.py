@@ -41,7 +41,7 @@ def text() -> str:
 
 
 def main(arguments: list[str]) -> int:
-    """Writes the file, or says whether it is as it should be."""
+    """Writes the file, or checks whether it is up to date."""
     path = Path(__file__).with_name("bodies.pyi")
     if arguments == ["--check"]:
         same = path.exists() and path.read_text(encoding="utf-8") == text()

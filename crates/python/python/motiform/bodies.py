@@ -1,4 +1,4 @@
-"""The models by name, made of the registry. Their signatures stand in ``bodies.pyi``, which ``motiform._stubs`` writes."""
+"""The models by name, generated from the registry. Their signatures are in ``bodies.pyi``, which ``motiform._stubs`` writes."""
 
 from __future__ import annotations
 

@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Ensemble:
-    """Where many orbits were at given times."""
+    """The states of many orbits at given times."""
 
     t: Floats
     """The times, (T,)."""
     states: Floats
-    """Coordinates of the shape, then x and y: (members, T, entries). NaN at times that a member did not reach: `outcomes` says why."""
+    """Coordinates of the shape, then x and y: (members, T, entries). NaN at times that a member did not reach: `outcomes` gives the reason."""
     names: tuple[str, ...]
     """Names of the entries."""
     parameters: Mapping[str, Floats]
@@ -76,19 +76,19 @@ def ensemble(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Ensemble:
-    """The states of many orbits of `body` at the times `t`, or at the end `t`.
+    """Computes the states of many orbits of `body` at the times `t`, or at a single time `t`.
 
     The tensor model with the paper's couplings runs eight (or four) orbits at a time in the vector registers of each core, if the
-    stepper is dop853 with a tolerance. Every orbit has the bits that it has alone, whatever the others, the threads and the machine.
+    stepper is dop853 with a tolerance. Every orbit has the same bits as a single run, independent of the others, the threads and the machine.
 
     Parameters
     ----------
     t
-        Times, increasing, the first one not before 0; or one time, the end.
+        Increasing times, the first one at least 0; or one time, the end.
     starts
-        How many random starts at the origin (`random` and `seed` say which); or the starts themselves, (members, entries) with the
-        coordinates of the shape (:attr:`Model.coordinates`), and x and y if wanted. One start serves all members. Without it: one random start
-        for each member.
+        Number of random starts at the origin (determined by `random` and `seed`); or an array of starts, (members, entries) with the
+        coordinates of the shape (:attr:`Model.coordinates`), optionally followed by x and y. A single start is used for all members. By default one
+        random start for each member.
     parameters
         Values of some parameters by name: an array with one value per member, or a number.
 

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 
 class EndedEarly(UserWarning):
-    """A run did not reach its end: it escaped, or its step size or budget gave out. See ``outcome`` of the result."""
+    """A run did not reach its end: it escaped, its step size became too small, or its step budget was used up. See ``outcome`` of the result."""
 
 
 class Incomplete(UserWarning):
-    """A folder lacks rows, or holds damaged ones."""
+    """Rows of a folder are missing or damaged."""
 
 
 class WorkersLost(RuntimeWarning):
-    """An executor broke down; the rest of a scan is computed here."""
+    """An executor failed; the rest of a scan is computed in this process."""
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C during a long call. What was computed until then is in ``result``."""
+    """Ctrl-C during a long call. The results computed so far are in ``result``."""
 
     def __init__(self, result: object) -> None:
         super().__init__("interrupted; what was computed so far is the exception's result")
         self.result = result
-        """A shorter ``Trajectory``, or a ``Dataset`` with rows missing."""
+        """A shorter ``Trajectory``, or a ``Dataset`` with missing rows."""

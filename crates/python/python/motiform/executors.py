@@ -1,4 +1,4 @@
-"""A scan on any executor: tasks that are cut as they go, given out again when they are lost."""
+"""A scan on any executor: task sizes are adapted during the scan, and lost tasks are submitted again."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from .scans import Table
 
 TASK_SECONDS = 1.0
-"""A task begins no further cell after so long; the rest of its cells comes back to be given out again."""
+"""A task starts no further cell after this time (seconds); the rest of its cells is returned and submitted again."""
 LEAST_SECONDS = 0.2
-"""Tasks are not cut finer than this, by the speed seen so far."""
+"""Tasks are not made shorter than this (seconds), according to the speed measured so far."""
 TRIES = 5
 """How often the same cells may be lost before the scan gives up."""
 
@@ -36,14 +36,14 @@ def _plan(text: str) -> _motiform.ScanPlan:
 
 
 def task(text: str, first: int, last: int, why: bool, version: str) -> tuple[_motiform.Arrays, int, float]:
-    """Runs on a worker: the rows of cells from `first` on, the cell to go on with, the seconds. Idempotent."""
+    """Runs on a worker. Returns the rows of cells from `first` on, the next cell, and the seconds. Idempotent."""
     if version != VERSION:
-        raise RuntimeError(f"the worker has motiform {VERSION}, the scan was begun by {version}: install the same")
+        raise RuntimeError(f"the worker has motiform {VERSION}, but the scan was started by {version}: install the same version")
     return _plan(text).task(first, last, TASK_SECONDS, why)
 
 
 def workers(executor: Executor) -> int:
-    """How many tasks an executor runs at once, as far as it says."""
+    """Number of tasks that an executor runs at once, if it reports this."""
     client = getattr(executor, "_client", None)
     if client is not None and hasattr(client, "ncores"):  # dask.distributed
         return max(1, int(sum(client.ncores().values())))
@@ -61,7 +61,7 @@ def gather(
     files: _motiform.ScanFiles | None,
     progress: Callable[[float], object] | None,
 ) -> BaseException | None:
-    """Computes a plan on an executor into `table`, or what is left of `files`; returns what stopped it, if it was."""
+    """Computes a plan on an executor into `table`, or the remaining parts of `files`; returns the exception that stopped it, if any."""
     work = _Work(plan, executor, table, files, progress)
     del files
     try:
@@ -78,7 +78,7 @@ def gather(
 
 
 class _Work:
-    """The state of a scan under way."""
+    """The state of a running scan."""
 
     def __init__(
         self,
@@ -102,7 +102,7 @@ class _Work:
         self._broken = False
 
     def run(self) -> None:
-        """Until every cell is there."""
+        """Runs until every cell is computed."""
         while self._left or self._flying:
             while self._left and len(self._flying) < 2 * self._workers and not self._broken:
                 self._submit(self._cut())
@@ -116,17 +116,17 @@ class _Work:
             self._take(future)
 
     def cancel(self) -> None:
-        """Takes back what has not begun."""
+        """Cancels tasks that have not started."""
         for future in self._flying:
             future.cancel()
 
     def close(self) -> None:
-        """Gives the folder free, though a traceback may keep this object."""
+        """Releases the folder, even if a traceback keeps this object alive."""
         if self._keeper is not None:
             self._keeper.close()
 
     def _cut(self) -> Cells:
-        """The next cells: an even share of what is left, so that the last tasks end together, but no less than
+        """The next cells: an even share of the remaining ones, so that the last tasks end together, but no less than
         `LEAST_SECONDS` of work."""
         first, last, lost = self._left.popleft()
         share = -(-self._remaining // (3 * self._workers))
@@ -176,7 +176,7 @@ class _Work:
 
     def _break(self, error: BaseException) -> None:
         if not self._broken:
-            text = f"the executor broke down ({error or type(error).__name__}): the rest is computed in this process"
+            text = f"the executor failed ({error or type(error).__name__}): the rest is computed in this process"
             warnings.warn(text, WorkersLost, stacklevel=6)
         self._broken = True
 
@@ -188,7 +188,7 @@ class _Work:
 
 
 class _Keeper:
-    """Holds the rows of parts that are not whole yet, and hands whole ones to the files."""
+    """Holds the rows of incomplete parts, and writes complete parts to the files."""
 
     def __init__(self, plan: _motiform.ScanPlan, files: _motiform.ScanFiles) -> None:
         self._plan, self._files = plan, files
@@ -196,7 +196,7 @@ class _Keeper:
         self._waiting: dict[int, dict[int, _motiform.Arrays]] = {}
 
     def put(self, first: int, end: int, arrays: _motiform.Arrays) -> None:
-        """Takes in rows of cells ``first..end``, which lie in one part."""
+        """Adds rows of cells ``first..end``, which lie in one part."""
         part = first // self._size
         pieces = self._waiting.setdefault(part, {})
         pieces[first] = arrays
@@ -212,5 +212,5 @@ class _Keeper:
         del self._waiting[part]
 
     def close(self) -> None:
-        """Lets go of the files."""
+        """Releases the files."""
         del self._files

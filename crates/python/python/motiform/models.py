@@ -1,4 +1,4 @@
-"""A body: a model with its parameters, a start and a way to run."""
+"""A body: a model with parameters, an initial state and run settings."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ OnEnd = Literal["warn", "ignore", "raise"]
 M = TypeVar("M", bound="Model")
 
 Random = float | str | tuple[float, float]
-"""Random starts: a size (each coordinate within +-size), or the smallest and the largest norm, log-uniform in all directions."""
+"""Random initial states: a size (each coordinate within +-size), or the smallest and the largest norm (log-uniform, all directions)."""
 
 
 class Model:
-    """A model with its parameters. Never changed: :meth:`replace` gives another one.
+    """A model with its parameters. Immutable: :meth:`replace` returns a modified copy.
 
     Use :class:`Tensor`, :class:`Cell`, :func:`preset` or :func:`study`.
     """
@@ -56,7 +56,7 @@ class Model:
 
     @property
     def info(self) -> ModelInfo:
-        """The registry's entry: equations, source, parameters with meanings and ranges."""
+        """The entry of the registry: equations, source, parameters with meanings and ranges."""
         return MODELS[self._study.model]
 
     @property
@@ -66,12 +66,12 @@ class Model:
 
     @property
     def about(self) -> str:
-        """What to look at, for a preset."""
+        """For a preset: what it shows."""
         return self._study.about
 
     @property
     def free(self) -> list[str]:
-        """The parameters that span the paper's diagram, where the preset stands for one."""
+        """The parameters that span the paper's diagram, if the preset represents one."""
         return self._study.free
 
     @property
@@ -81,7 +81,7 @@ class Model:
 
     @property
     def initial(self) -> dict[str, float]:
-        """The initial values that are given; without any the start is random."""
+        """The given initial values; if there are none, the initial state is random."""
         return dict(self._study.initial())
 
     @property
@@ -136,30 +136,30 @@ class Model:
         Parameters
         ----------
         t_end
-            Time that is recorded (model time).
+            Recorded time (model time).
         transient
-            Time before the recording; the position is put back after it.
+            Time before the recording; the position is reset after it.
         dt_out
-            Time between rows; without it ``t_end / 2000``.
+            Time between rows; by default ``t_end / 2000``.
         initial
-            Initial values by name (the shape's coordinates, ``x``, ``y``); those not given are 0. Without any the start
-            is random, from `seed`.
+            Initial values by name (the shape's coordinates, ``x``, ``y``); those not given are 0. If none is given, the
+            initial state is random, from `seed`.
         random
-            How large a random start is: a size (each coordinate within ±size; 0.01 if not given), or ``(min, max)``: all
-            directions, the norm log-uniform between these.
+            Size of a random initial state: a size (each coordinate within ±size; by default 0.01), or ``(min, max)``: all
+            directions, with a log-uniform norm in this range.
         noise
             Amplitude eta of additive white noise: ``du = f(u) dt + eta dW`` for every coordinate ``u`` of the shape, and of
-            the velocity where that is an unknown (tensor), unless `noise_velocity` gives its amplitude.
+            the velocity if it is an unknown (tensor), unless `noise_velocity` gives its amplitude.
         stepper, rtol, atol, step
-            Method and step control; a `step` fixes it. `rtol` decides how accurate the run is: `atol` follows it
-            unless it is given (:attr:`Trajectory.tolerances` says both).
+            Method and step control; `step` gives a fixed step. `rtol` sets the accuracy of the run: `atol` follows it
+            unless it is given (:attr:`Trajectory.tolerances` contains both).
         escape_norm
             A shape beyond this norm has escaped.
         on_end
             What to do if the run does not reach `t_end`: ``"warn"`` (:class:`EndedEarly`), ``"ignore"`` (the default
-            where `escape_norm` or `max_steps` is given: then it was asked for) or ``"raise"`` (``RuntimeError``).
+            if `escape_norm` or `max_steps` is given, because an early end is then expected) or ``"raise"`` (``RuntimeError``).
 
-        What is not given is the model's, or the preset's. Ctrl-C raises :class:`Interrupted` with the shorter trajectory.
+        Settings that are not given are those of the model or the preset. Ctrl-C raises :class:`Interrupted` with the shorter trajectory.
         """
         given = {
             "t_end": t_end, "transient": transient, "dt_out": dt_out, "random": random, "seed": seed, "noise": noise,
@@ -187,9 +187,9 @@ class Model:
         seed: int | None = None,
         progress: Progress = None,
     ) -> Verdict:
-        """Names the motion, spending at most `budget` model time (0: the model's default), with the evidence.
+        """Classifies the motion within at most `budget` model time (0: the model's default), with the evidence.
 
-        The flow keeps an exact symmetry, so coordinates that `initial` leaves at zero get random values within `perturb` times its
+        The flow preserves exact symmetries, so coordinates that `initial` leaves at zero get random values within `perturb` times its
         largest value (1e-6 if not given; 0 keeps the exact start).
         """
         study = _with(self._study, initial, {"random": random, "perturb": perturb, "seed": seed})
@@ -207,10 +207,10 @@ class Model:
         threads: int | None = None,
         progress: Progress = None,
     ) -> Motions:
-        """Which motions `samples` starts lead to: shares with 95 % intervals, what was sampled, and what escapes.
+        """The motions of `samples` initial states: shares with 95 % intervals, what was sampled, and how many escape.
 
-        The starts are random (after the one in `initial`, if that is given): without `random` they have all directions and
-        log-uniform sizes from a hundredth of the model's typical size to all of it.
+        The initial states are random (after the one in `initial`, if given): without `random` they have all directions and
+        log-uniform sizes from a hundredth of the model's typical size to the full size.
         """
         study = _with(self._study, initial, {"random": random, "seed": seed})
         with Bar(progress, 100.0, "%") as bar:
@@ -229,7 +229,7 @@ class Model:
         on_end: OnEnd = "warn",
         progress: Progress = None,
     ) -> Exponents:
-        """The `count` largest Lyapunov exponents (at most 6, unless asked), with errors, averaged over `t_end`."""
+        """The `count` largest Lyapunov exponents (by default at most 6), with errors, averaged over `t_end`."""
         study = _with(self._study, initial, {"random": random, "seed": seed})
         count = min(6, len(study.coordinates())) if count is None else count
         with Bar(progress, 100.0, "%") as bar:
@@ -245,7 +245,7 @@ class Model:
 
     def equilibria(self, *, starts: int = 200, seed: int | None = None, progress: Progress = None) -> list[Equilibrium]:
         """The steady motions (at rest, straight, circular) that Newton's method finds from the circle and from random
-        shapes, the most stable first. Nothing proves that there are no others: more `starts` find more."""
+        shapes, the most stable first. The list may be incomplete; more `starts` may find more."""
         study = _with(self._study, None, {"seed": seed})
         with Bar(progress, starts, "starts") as bar:
             raw = json.loads(_motiform.equilibria(study, starts, bar.callable()))
@@ -298,7 +298,7 @@ class Model:
         on_end: OnEnd = "warn",
         progress: Progress = None,
     ) -> Crossings:
-        """Where the orbit crosses ``coordinate = value``, located to round-off."""
+        """The crossings of the orbit with ``coordinate = value``, located to round-off."""
         study = _with(self._study, initial, {"t_end": t_end, "transient": transient, "seed": seed})
         with Bar(progress, lambda: _span(study), "model time") as bar:
             found = _motiform.section(study, coordinate, value, direction, bar.callable())
@@ -310,8 +310,8 @@ class Model:
     def __call__(self, t: float, u: npt.ArrayLike) -> Floats:
         """The vector field: d/dt of the coordinates at `u`, for integrators such as ``scipy.integrate.solve_ivp``.
 
-        `u` holds the coordinates (:attr:`coordinates`), or these and ``x``, ``y``: (entries,), or (entries, m) for m
-        states at once. The result has the same shape. `t` plays no part.
+        `u` contains the coordinates (:attr:`coordinates`), optionally followed by ``x``, ``y``: (entries,), or (entries, m) for m
+        states at once. The result has the same shape. `t` is ignored.
         """
         states = _real(u)
         if states.ndim not in (1, 2):
@@ -360,7 +360,7 @@ def _span(study: _motiform.Study) -> float:
 
 
 def _real(values: npt.ArrayLike) -> Floats:
-    """An array of doubles; what is not real numbers is refused, not converted."""
+    """An array of doubles; values that are not real numbers are rejected, not converted."""
     array = np.asarray(values)
     if array.dtype.kind not in "fiub":
         raise TypeError(f"u must hold real numbers, not {array.dtype}")
@@ -377,7 +377,7 @@ def _ended_early(how: str, on_end: OnEnd) -> None:
 
 
 def _raised(raised: BaseException, result: object) -> BaseException:
-    """What stopped a call; a Ctrl-C carries the result so far."""
+    """The exception that stopped a call; after Ctrl-C it carries the result so far."""
     return Interrupted(result) if isinstance(raised, KeyboardInterrupt) else raised
 
 

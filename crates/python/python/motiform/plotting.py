@@ -1,4 +1,4 @@
-"""Figures by matplotlib, with the colours and markers of every figure of motiform."""
+"""Figures with matplotlib, in the colours and markers of all figures of motiform."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from .trajectory import Trajectory
 
 TIME = ListedColormap(plt.get_cmap("viridis")(np.linspace(0.0, 0.9, 256)), name="time")
-"""Without the brightest colours, which are lost on white paper."""
+"""Without the brightest colours, which are hard to see on white paper."""
 _ZIGZAG = Path([(-1.0, -0.5), (-0.5, 0.5), (0.0, -0.5), (0.5, 0.5), (1.0, -0.5)])
 _MARKERS: dict[str, Any] = {
     "Disc": "o", "Ring": "o", "Triangle": "^", "DownTriangle": "v", "Square": "s", "Diamond": "D",
@@ -64,7 +64,7 @@ def plot_path(run: Trajectory, ax: Axes | None, outlines: int) -> Axes:
 
 
 def drawn_scale(run: Trajectory) -> float:
-    """1 where the body's size suits its path; else a round factor that makes it seen."""
+    """1 if the size of the body suits its path; otherwise a round factor that makes it visible."""
     extent = float(np.ptp(run.position, axis=0).max()) if len(run) else 0.0
     if extent <= 0.0:
         return 1.0
@@ -88,7 +88,7 @@ def _rows_along(path: Any, count: int) -> list[int]:
 
 
 def animate(run: Trajectory, frames: int, interval: float) -> FuncAnimation:
-    """The body moving, with its trail; the camera stands still and shows the whole path."""
+    """The moving body, with its trail; the view is fixed and shows the whole path."""
     if frames < 1 or len(run) == 0:
         raise ValueError(f"frames = {frames} of {len(run)} rows: give at least 1 of at least 1")
     figure, ax = plt.subplots(layout="constrained")
@@ -119,7 +119,7 @@ def animate(run: Trajectory, frames: int, interval: float) -> FuncAnimation:
 
 
 def plot_scan(data: xr.Dataset, ax: Axes | None) -> Axes:
-    """The most frequent motion of each cell; where several occur, the others are told by ``ds.motiform.share``."""
+    """The most frequent motion of each cell; if several occur, ``ds.motiform.share`` gives the shares of the others."""
     ax = plt.subplots(layout="constrained")[1] if ax is None else ax
     axes: list[str] = list(data.attrs["axes"])
     shares = np.stack([data.motiform.share(regime.name).values for regime in REGIMES])
@@ -155,7 +155,7 @@ def plot_scan(data: xr.Dataset, ax: Axes | None) -> Axes:
 
 
 def _on_area(regime: Regime) -> dict[str, Any]:
-    """The marker of a regime on its own area: told apart without colours, too."""
+    """The marker of a regime on its own area, so that regimes can be distinguished without colours."""
     red, green, blue = to_rgb(regime.area)
     ink = "#ffffff" if 0.3 * red + 0.59 * green + 0.11 * blue < 0.45 else "#000000"
     hollow = regime.glyph in ("Ring", "Zigzag")
@@ -166,7 +166,7 @@ def _on_area(regime: Regime) -> dict[str, Any]:
 
 
 def _marked(cells: Any) -> tuple[Any, Any]:
-    """Rows and columns of those cells that get a marker: at most some twenty along each axis, but at least one."""
+    """Rows and columns of the cells that get a marker: at most about twenty along each axis, but at least one."""
     steps = [max(1, -(-size // 20)) for size in cells.shape]
     rows, columns = np.nonzero(cells)
     kept = (rows % steps[0] == steps[0] // 2) & (columns % steps[1] == steps[1] // 2)

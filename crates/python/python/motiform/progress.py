@@ -1,4 +1,4 @@
-"""Progress: a bar where tqdm is installed and the work takes over a second, nothing otherwise."""
+"""Progress: a bar if tqdm is installed and the work takes more than a second, otherwise nothing."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from types import TracebackType
 from typing import Any
 
 Progress = bool | Callable[[float], object] | None
-"""``None``: a bar if tqdm is there; ``True``: a bar, or ImportError; ``False``: nothing; or a callable that is given the
+"""``None``: a bar if tqdm is installed; ``True``: a bar, or ImportError; ``False``: nothing; or a callable that receives the
 fraction done, 0 to 1."""
 
 
 class Bar:
-    """Shows the fraction done of `total` units; made at the first report, for most calls are too short for one."""
+    """Shows the fraction done of `total` units; created at the first report, because most calls are too short for one."""
 
     def __init__(self, progress: Progress, total: float | Callable[[], float], unit: str) -> None:
         self._wanted, self._given, self._unit = progress, total, unit
@@ -21,7 +21,7 @@ class Bar:
         self._bar: Any = None
 
     def callable(self) -> Callable[[float], object] | None:
-        """What native code calls with the fraction done."""
+        """The callable to which native code passes the fraction done."""
         if self._wanted is False:
             return None
         return self._wanted if callable(self._wanted) else self._show

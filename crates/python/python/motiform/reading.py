@@ -1,4 +1,4 @@
-"""Reading every file that the binary writes."""
+"""Reading of all files that the command line writes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .trajectory import Trajectory, _frame, crossing_frame
 
 
 def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | Branches | xr.Dataset | pd.DataFrame | dict[str, Any]:
-    """What the binary wrote.
+    """Reads a file or folder written by the command line.
 
     ======================================  ===============================================
     folder of ``motiform simulate``         :class:`Trajectory`
@@ -56,7 +56,7 @@ def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | Bra
     if path.suffix == ".json":
         loaded: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         return loaded
-    raise ValueError(f"{path} holds no data of motiform: give a folder, or a .parquet, .csv, .h5 or .json file")
+    raise ValueError(f"{path} contains no data of motiform: give a folder, or a .parquet, .csv, .h5 or .json file")
 
 
 def _part(path: Path) -> pd.DataFrame:

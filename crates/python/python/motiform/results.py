@@ -1,4 +1,4 @@
-"""What analyses answer with."""
+"""Results of analyses."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ import pandas as pd
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a run ended. Only a complete run reached what was asked for."""
+    """How a run ended. Only a complete run reached its requested end."""
 
     kind: str
     """``completed``, ``escaped``, ``step-underflow``, ``closure-failed``, ``step-budget`` or ``interrupted``."""
     t: float
-    """The time that goes with it (model time): of the end, or the blow-up time t*."""
+    """The corresponding time (model time): the end of the run, or the blow-up time t*."""
     complete: bool
     text: str
-    """The same in words."""
+    """The outcome as text."""
     details: Mapping[str, Any] = field(default_factory=dict)
 
     def __str__(self) -> str:
@@ -68,7 +68,7 @@ class Accuracy:
 
 @dataclass(frozen=True)
 class Saddle:
-    """The rates of the saddles that a heteroclinic cycle rests at (inverse model time)."""
+    """The rates of the saddles of a heteroclinic cycle (inverse model time)."""
 
     out: float
     inward: float
@@ -76,7 +76,7 @@ class Saddle:
 
 @dataclass(frozen=True)
 class Verdict:
-    """A motion by name, with the evidence. What has no meaning for the motion is ``None``, or empty."""
+    """The regime of a motion, with the evidence. Numbers that are not defined for the motion are ``None``, or empty."""
 
     regime: str
     """motionless, straight, pulsating-straight, circular, rectangular, quasi-periodic, zigzag, chaotic, blow-up or
@@ -86,12 +86,12 @@ class Verdict:
     why: str
     """The evidence in one sentence."""
     time: float
-    """Model time that the decision took."""
+    """Model time used for the decision."""
     accuracy: Accuracy
     form: str | None = None
-    """The symmetry of a motion that repeats: mirror-zigzag, rotating-zigzag, pulsating-circular, ... (docs/regimes.md)."""
+    """The symmetry of a periodic motion: mirror-zigzag, rotating-zigzag, pulsating-circular, ... (docs/regimes.md)."""
     margin: float | None = None
-    """Distance of the deciding number from the limit, in units of its own uncertainty: 1 is weak, 10 is clear."""
+    """Distance of the decisive quantity from its threshold, in units of its own uncertainty: 1 is weak, 10 is clear."""
     speed: Spread | None = None
     """Speed of the centre of mass (model length per model time)."""
     turning_rate: float | None = None
@@ -105,7 +105,7 @@ class Verdict:
     swing: float | None = None
     """Peak-to-peak swing of the heading over one period (rad)."""
     lasted: float | None = None
-    """For chaos: the model time for which it was seen to last, at least."""
+    """For chaos: the model time for which it was observed to last, at least."""
     escape_time: float | None = None
     """The blow-up time t* (model time)."""
     saddle: Saddle | None = None
@@ -147,18 +147,18 @@ class Share:
 
 @dataclass(frozen=True)
 class Motions:
-    """What many starts lead to."""
+    """The motions of many initial states."""
 
     verdicts: tuple[Verdict, ...]
-    """Of each start, in order."""
+    """The verdict on each initial state, in order."""
     shares: tuple[Share, ...]
-    """Of the random ones, the most frequent motion first."""
+    """The shares of the random initial states, the most frequent motion first."""
     starts: Mapping[str, Any]
-    """What was sampled: ``count``, ``given`` (a start beside them that was given), ``random`` and the same in ``words``."""
+    """What was sampled: ``count``, ``given`` (an additional start that was given), ``random`` and the same as text in ``words``."""
     escapes: Mapping[str, Any] | None
-    """How many blew up, when, and the rate at which chaos loses orbits, with 95 % limits; ``None`` without chaos and blow-up."""
+    """How many blew up, when, and the rate of escape from chaos, with 95 % limits; ``None`` without chaos and blow-up."""
     text: str
-    """Shares and escapes in words."""
+    """Shares and escapes as text."""
 
     def __str__(self) -> str:
         return self.text
@@ -179,20 +179,20 @@ class Exponents:
     values: npt.NDArray[np.float64]
     """(count,)"""
     errors: npt.NDArray[np.float64]
-    """Half widths of the 95 % confidence intervals, (count,); infinite where the average is too short for one."""
+    """Half widths of the 95 % confidence intervals, (count,); infinite if the average is too short for an error."""
     neutral: int
-    """How many of them symmetry and time make 0: a check on the others."""
+    """The number of exponents that must be 0 by symmetry and time invariance: a check on the others."""
     time: float
-    """Averaged over so much model time, after `transient`."""
+    """Averaging time (model time), after `transient`."""
     transient: float
     outcome: Outcome
     accuracy: Accuracy
     without_error: str | None = None
-    """Why there are exponents without an error."""
+    """The reason why exponents have no error."""
 
     @property
     def sum(self) -> float:
-        """The mean rate at which volumes grow, where all exponents are there."""
+        """The mean growth rate of volumes, if all exponents were computed."""
         return float(self.values.sum())
 
     def __str__(self) -> str:
@@ -205,7 +205,7 @@ class Exponents:
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """A steady motion: a shape that does not change but for a steady rotation."""
+    """A steady motion: a shape that is constant up to a steady rotation."""
 
     kind: str
     """motionless, straight or circular."""
@@ -216,16 +216,16 @@ class Equilibrium:
     turning_rate: float
     """(rad per model time)"""
     eigenvalues: npt.NDArray[np.complex128]
-    """Of the reduced linearisation, largest real part first (inverse model time)."""
+    """Eigenvalues of the reduced linearisation, largest real part first (inverse model time)."""
     unstable: int
     """Number of growing directions."""
     residual: float
     share: float
-    """Part of the random starts from which Newton's method came here."""
+    """Fraction of the random starts from which Newton's method converged to this equilibrium."""
 
     @property
     def stable(self) -> bool:
-        """Whether no direction grows."""
+        """Whether there is no growing direction."""
         return self.unstable == 0
 
 
@@ -238,7 +238,7 @@ def equilibrium_of(raw: dict[str, Any]) -> Equilibrium:
 
 @dataclass(frozen=True)
 class Crossings:
-    """Where an orbit crosses a section."""
+    """The crossings of an orbit with a section."""
 
     table: pd.DataFrame
     """One row per crossing: ``t``, ``x``, ``y``, the coordinates of the shape, ``rising``."""

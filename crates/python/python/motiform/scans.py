@@ -1,4 +1,4 @@
-"""Scans: which motion happens where in parameter space."""
+"""Scans: phase diagrams of motions in parameter space."""
 
 from __future__ import annotations
 
@@ -42,43 +42,43 @@ def scan(
     shard: str | None = None,
     progress: Progress = None,
 ) -> xr.Dataset:
-    """Names the motion in every cell of one or two axes of parameters, from several initial states each.
+    """Classifies the motion in every cell of a grid over one or two parameters, from one or more initial states each.
 
     Parameters
     ----------
     model
-        The model; parameters that no axis varies are its.
+        The model; it provides the parameters that no axis varies.
     axes
         Parameter names with values: an array, or text as on the command line (``"0.1:1.6:64"`` is 64 values, both ends
-        included). Without it those of the model's study file.
+        included). By default those of the model's study file.
     samples
-        Initial states per cell: random, but the first one is the model's ``initial`` where that is given.
+        Initial states per cell: random, except that the first one is the model's ``initial`` if that is given.
     random
-        How large random ones are: a size (each coordinate within ±size; 0.01 for one state per cell), or ``(min, max)``: all
-        directions, the norm log-uniform between these (a hundredth of the model's typical size to all of it for several).
+        Size of random initial states: a size (each coordinate within ±size; by default 0.01 for one state per cell), or ``(min, max)``: all
+        directions, with a log-uniform norm in this range (by default a hundredth of the model's typical size to the full size for several).
     budget
         Maximum model time for classifying one motion; 0 is the model's default.
     why
-        Keep the evidence of each row as text: it takes more memory than all numbers.
+        Keep the evidence of each row as text; this takes more memory than all numbers.
     threads
-        Threads of this process; without it all cores.
+        Number of threads of this process; by default all cores.
     executor
         Any ``concurrent.futures.Executor`` (process pools, ``dask.distributed``'s ``client.get_executor()``,
-        ``mpi4py.futures``): work goes there in tasks of 0.2 s and more, lost ones are given out again.
+        ``mpi4py.futures``): work is submitted in tasks of 0.2 s or more, and lost tasks are submitted again.
     out, resume, overwrite, shard
-        A folder that keeps the rows as they come, what to do if it is there, and the share ``"I/N"`` of it to compute:
-        as the command line's ``--out --resume --force --shard``.
+        A folder to which the rows are written as they are computed, what to do if it exists, and the share ``"I/N"`` to compute;
+        as ``--out --resume --force --shard`` on the command line.
 
     Returns
     -------
     xarray.Dataset
         Dimensions: the axes (the first one last, so that it runs along x in figures) and ``sample``. Variables:
         ``regime`` and ``attractor`` (codes with CF ``flag_meanings``, -1 where missing; names by
-        ``ds.motiform.names()``) and the numbers of each motion with ``units``, NaN where a number has no meaning for
-        the motion. ``ds.motiform.to_pandas()`` gives a frame with categoricals, ``ds.motiform.plot()`` the diagram.
+        ``ds.motiform.names()``) and the numbers of each motion with ``units``, NaN where a number is not defined for
+        the motion. ``ds.motiform.to_pandas()`` returns a data frame with categoricals, ``ds.motiform.plot()`` plots the diagram.
 
-    The same bits whatever the threads, workers, interruptions and resumes. Ctrl-C raises :class:`Interrupted` with the
-    rows done so far.
+    The result has the same bits for any threads, workers, interruptions and resumes. Ctrl-C raises :class:`Interrupted` with the
+    rows computed so far.
     """
     made = None if axes is None else [(name, _axis(name, values)) for name, values in axes.items()]
     study = model._study if random is None else model._study.with_(None, None, {"random": random})
@@ -98,7 +98,7 @@ def scan(
                 del files  # gives the folder free; a traceback would keep it
             result = read_scan(out, why, quiet=shard is not None or raised is not None)
         elif shard is not None:
-            raise ValueError(f"shard = {shard!r}: a share of a scan is kept in a folder, give out=...")
+            raise ValueError(f"shard = {shard!r}: a share of a scan needs a folder, give out=...")
         elif executor is None:
             arrays, raised = plan.compute(_threads(threads), why, bar.callable())
             result = dataset(plan, arrays)
@@ -112,14 +112,14 @@ def scan(
 
 
 def merge(folders: Sequence[Path], out: Path, *, overwrite: bool = False) -> xr.Dataset:
-    """Puts the folders of a scan's shards together in `out`, and reads it."""
+    """Merges the folders of a scan's shards into `out`, and reads it."""
     _, damaged = _motiform.merge([os.fspath(folder) for folder in folders], os.fspath(out), overwrite)
     _warn_of(damaged)
     return read_scan(out, False)
 
 
 def read_scan(path: Path, why: bool, *, quiet: bool = False) -> xr.Dataset:
-    """The dataset of a scan folder; rows that are missing have the regime -1."""
+    """The dataset of a scan folder; missing rows have the regime -1."""
     plan, arrays, damaged = _motiform.read_scan(os.fspath(path), why)
     _warn_of(damaged)
     missing = int(np.count_nonzero(arrays[0] < 0))
@@ -188,20 +188,20 @@ def dataset(plan: _motiform.ScanPlan, arrays: _motiform.Arrays) -> xr.Dataset:
 
 
 def _flags(meaning: str, names: Sequence[str]) -> dict[str, Any]:
-    """A categorical by the CF conventions."""
+    """A categorical variable according to the CF conventions."""
     values = np.arange(len(names), dtype=np.int8)
     return {"long_name": meaning, "flag_values": values, "flag_meanings": " ".join(names)}
 
 
 @xr.register_dataset_accessor("motiform")  # type: ignore[no-untyped-call]
 class ScanAccessor:
-    """What the dataset of a scan can do: ``ds.motiform``."""
+    """Methods of the dataset of a scan: ``ds.motiform``."""
 
     def __init__(self, data: xr.Dataset) -> None:
         self._data = data
 
     def names(self, variable: str = "regime") -> xr.DataArray:
-        """The names of ``regime`` (or ``attractor``) codes; an empty one where a row is missing."""
+        """The names of ``regime`` (or ``attractor``) codes; empty where a row is missing."""
         codes = self._data[variable]
         names = np.array([*codes.attrs["flag_meanings"].split(), ""])
         return xr.DataArray(names[codes.values], codes.coords, codes.dims, attrs={"long_name": codes.long_name})
@@ -216,7 +216,7 @@ class ScanAccessor:
 
     def to_pandas(self, *, cells: bool = False) -> pd.DataFrame:
         """One row per cell and sample; ``regime`` and ``attractor`` are categoricals in the order of legends. `cells`
-        adds the number of each cell, by which files are ordered."""
+        adds the number of each cell, which is the order of rows in files."""
         frame = self._data.to_dataframe(dim_order=list(self._data["regime"].dims)).reset_index()
         if cells:
             frame.insert(0, "cell", np.arange(len(frame)) // self._data.sizes["sample"])

@@ -22,7 +22,7 @@ Floats = npt.NDArray[np.float64]
 
 
 def _unit(meaning: str) -> str:
-    """The unit that a meaning ends with, in brackets."""
+    """The unit in brackets at the end of a meaning."""
     start, end = meaning.rfind("("), meaning.rfind(")")
     return meaning[start + 1 : end] if 0 <= start < end else ""
 
@@ -34,8 +34,8 @@ def _unpickled(manifest: str, table: Any, crossings: Any) -> Trajectory:
 class Trajectory:
     """A recorded motion: columns over time, in one block of memory.
 
-    ``trajectory["s11"]`` and the properties below are views of that block wherever possible. All quantities are in the
-    model's own units of time and length.
+    ``trajectory["s11"]`` and the properties below are views of that block if possible. All quantities are in
+    model units of time and length.
     """
 
     def __init__(self, run: _motiform.Run) -> None:
@@ -60,7 +60,7 @@ class Trajectory:
         return list(self._place)
 
     def meaning(self, name: str) -> str:
-        """What a column is, with its unit."""
+        """The meaning of a column, with its unit."""
         return self._meanings[name]
 
     def __getitem__(self, name: str) -> Floats:
@@ -106,13 +106,13 @@ class Trajectory:
 
     @property
     def S(self) -> Floats:
-        """The ellipse's tensor S_ij of the tensor model, (rows, 2, 2)."""
+        """The tensor S_ij of the elliptic deformation (tensor model), (rows, 2, 2)."""
         a, b = self["s11"], self["s12"]
         return np.stack((np.stack((a, b), axis=-1), np.stack((b, -a), axis=-1)), axis=-2)
 
     @property
     def U(self) -> Floats:
-        """The triangle's tensor U_ijk of the tensor model, (rows, 2, 2, 2)."""
+        """The tensor U_ijk of the three-fold deformation (tensor model), (rows, 2, 2, 2)."""
         a, b = self["u111"], self["u222"]
         tensor = np.empty((len(self), 2, 2, 2))
         tensor[:, 0, 0, 0], tensor[:, 1, 1, 1] = a, b
@@ -132,7 +132,7 @@ class Trajectory:
 
     @cached_property
     def manifest(self) -> dict[str, Any]:
-        """Provenance: the plan with every number, its hash, how the run ended, the final state."""
+        """Provenance: the complete plan, its hash, how the run ended, the final state."""
         manifest: dict[str, Any] = json.loads(self._run.manifest())
         return manifest
 
@@ -148,18 +148,18 @@ class Trajectory:
 
     @cached_property
     def regime(self) -> str | None:
-        """The motion's name, where a short look from the end of the run decides; never under noise, nor of a run that ended
-        early. :meth:`Model.classify` looks longer and says why."""
+        """The regime of the motion, if a short integration from the end of the run is conclusive; ``None`` under noise and for runs that
+        ended early. :meth:`Model.classify` integrates for longer and gives the evidence."""
         return self._run.regime()
 
     @cached_property
     def crossings(self) -> pd.DataFrame | None:
-        """The crossings of the return map's segment, where the study has one: ``t``, ``x``, ``y``, ``rising``."""
+        """The crossings of the return map's segment, if the study has one: ``t``, ``x``, ``y``, ``rising``."""
         found = self._run.crossings()
         return None if found is None else crossing_frame(*found)
 
     def to_pandas(self) -> pd.DataFrame:
-        """A frame with one column each; meanings in ``frame.attrs``."""
+        """A data frame of all columns; meanings in ``frame.attrs``."""
         return _frame(self.names, [self._meanings[name] for name in self.names], self._block)
 
     def to_xarray(self) -> xr.Dataset:
@@ -176,7 +176,7 @@ class Trajectory:
 
     @cached_property
     def radius(self) -> float:
-        """Radius of the undeformed body (model length): the model's, or a round one that shows the deformation."""
+        """Radius of the undeformed body (model length): that of the model, or a round number at which the deformation is visible."""
         return self._run.radius()
 
     def row(self, t: float) -> int:
@@ -192,7 +192,7 @@ class Trajectory:
         """The boundary in the plane at the recorded time nearest to `t`, (points, 2) in model lengths.
 
         `radius` is that of the undeformed body (:attr:`radius`); `scale` enlarges the body about its centre. ``None``
-        where the shape is no closed curve.
+        if the shape is not a closed curve.
         """
         if points < 3:
             raise ValueError(f"points = {points}: give at least 3")
@@ -201,13 +201,13 @@ class Trajectory:
         return None if curve is None else scale * curve + self.position[row]
 
     def plot(self, ax: Axes | None = None, *, outlines: int = 12) -> Axes:
-        """The path with `outlines` of the body along it."""
+        """Plots the path, with `outlines` of the body along it."""
         from .plotting import plot_path
 
         return plot_path(self, ax, outlines)
 
     def animate(self, *, frames: int = 120, interval: float = 40.0) -> FuncAnimation:
-        """A film of the moving body; in a notebook show it with ``HTML(film.to_jshtml())``. `interval` in ms."""
+        """An animation of the moving body; in a notebook show it with ``HTML(film.to_jshtml())``. `interval` in ms."""
         from .plotting import animate
 
         return animate(self, frames, interval)

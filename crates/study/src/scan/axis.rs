@@ -3,7 +3,7 @@
 use crate::Error;
 use serde::{Deserialize, Serialize};
 
-/// Most values of one axis.
+/// Maximum number of values of one axis.
 const MOST_VALUES: usize = 100_000;
 
 /// A parameter that a scan varies, with its values in the order of the cells.
@@ -42,7 +42,7 @@ impl Axis {
         format!("{}={}", self.name, values.join(","))
     }
 
-    /// Refuses an axis without values, with too many, or with one that is not finite or stands there twice.
+    /// Rejects an axis without values, with too many, or with one that is not finite or occurs twice.
     pub(super) fn check(&self) -> Result<(), Error> {
         let wrong = |problem: String| Error::Axis { text: self.name.clone(), problem };
         if self.values.is_empty() {
@@ -60,15 +60,13 @@ impl Axis {
         let mut sorted = self.values.clone();
         sorted.sort_by(f64::total_cmp);
         match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
-            Some(twice) => {
-                Err(wrong(format!("the value {} stands there twice: give different ones", twice[0])))
-            }
+            Some(twice) => Err(wrong(format!("the value {} occurs twice: give different values", twice[0]))),
             None => Ok(()),
         }
     }
 }
 
-/// What people read: `kappa2 = 0.1 to 1.6 (64 values)`, or the values where they are few.
+/// For display: `kappa2 = 0.1 to 1.6 (64 values)`, or the values if they are few.
 impl std::fmt::Display for Axis {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self.values.as_slice() {
@@ -89,9 +87,9 @@ fn range(text: &str, form: &str) -> Result<Vec<f64>, String> {
     let fields: Vec<&str> = text.split(':').map(str::trim).collect();
     let [low, high, count] = fields[..] else { return Err(form.to_owned()) };
     let (low, high) = (number(low)?, number(high)?);
-    let count: usize = count
-        .parse()
-        .map_err(|_| format!("COUNT = {count:?} is no whole number: give the number of points, e.g. 64"))?;
+    let count: usize = count.parse().map_err(|_| {
+        format!("COUNT = {count:?} is not a whole number: give the number of points, e.g. 64")
+    })?;
     if count > MOST_VALUES {
         return Err(format!("COUNT = {count} is too many: give at most {MOST_VALUES}"));
     }
@@ -120,7 +118,8 @@ fn listed(text: &str) -> Result<Vec<f64>, String> {
 }
 
 fn number(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| format!("{text:?} is no number: write it like 0.5 or 1e-9"))?;
+    let value: f64 =
+        text.parse().map_err(|_| format!("{text:?} is not a number: write it like 0.5 or 1e-9"))?;
     if value.is_finite() { Ok(value) } else { Err(format!("{text} is not finite: give a finite number")) }
 }
 

@@ -1,4 +1,4 @@
-//! Scans as data: axes of parameters, and the plan with every number that the rows depend on.
+//! Scans as data: axes of parameters, and the plan with all numbers that the rows depend on.
 
 mod axis;
 mod plan;

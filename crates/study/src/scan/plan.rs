@@ -1,4 +1,4 @@
-//! A plan of a scan: every number that its rows depend on, and nothing else.
+//! The plan of a scan: exactly the numbers that its rows depend on.
 
 use super::Axis;
 use crate::plan::{
@@ -12,23 +12,23 @@ use motiform_models::{ModelInfo, parameters};
 use serde::{Deserialize, Serialize};
 
 /// Version of a scan's numbers; part of the hash. Raised whenever a plan's meaning or a row's bits change (tests/scan.rs notices), so that no
-/// folder ever holds rows of two programs that compute differently.
+/// folder ever contains rows of two programs that compute differently.
 pub const SCAN_FORMAT: u32 = 2;
 
-/// Most cells of a scan, and most initial states per cell.
+/// Maximum number of cells of a scan, and of initial states per cell.
 const MOST: (usize, u64) = (100_000_000, 100_000);
 
-/// Most cells and rows of a part: a kill loses little, and memory is bounded. About 256 parts if there are fewer cells.
+/// Maximum number of cells and rows of a part: a kill loses little, and memory is bounded. About 256 parts if there are fewer cells.
 const PART: (usize, usize, usize) = (64, 4096, 256);
 
-/// What will be computed, and how it is called.
+/// The computation and its name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScanPlan {
     /// Short name of the study.
     pub name: String,
     /// Title of the figures.
     pub title: String,
-    /// What is computed: the hash covers this.
+    /// The computation; the hash covers this.
     pub computation: ScanComputation,
 }
 
@@ -49,25 +49,25 @@ pub struct ScanComputation {
     pub seed: u64,
     /// The distribution of the random starts.
     pub random: Random,
-    /// The start of sample 0 where given (values not named are 0); empty if that one is random too.
+    /// The start of sample 0 if given (values not named are 0); empty if that one is random too.
     pub initial: Named,
     /// Stepper.
     pub stepper: String,
     /// Step control.
     pub control: Control,
-    /// Most steps of one run.
+    /// Maximum number of steps of one run.
     pub max_steps: u64,
     /// A shape beyond this norm has escaped.
     pub escape_norm: f64,
-    /// Most model time that one evaluation may take; 0 is the evaluation's default.
+    /// Maximum model time of one evaluation; 0 is the evaluation's default.
     pub budget: f64,
 }
 
 impl ScanPlan {
-    /// Makes the scan of a study explicit and checks every number. A given start is perturbed ([`Study::perturbed`]).
+    /// Resolves the scan of a study and checks every number. A given start is perturbed ([`Study::perturbed`]).
     ///
     /// # Errors
-    /// [`Error`] naming the key, the value and the remedy; what a model refuses at the values of an axis.
+    /// [`Error`] naming the key, the value and the remedy; values of an axis that a model rejects.
     pub fn new(study: &Study) -> Result<Self, Error> {
         let study = &study.perturbed()?.0;
         let info = study.info()?;
@@ -104,8 +104,8 @@ impl ScanPlan {
         Ok(plan)
     }
 
-    /// Builds the model and its start at every value of each axis (the other axis at its ends): what one of them
-    /// refuses is said before anything is computed.
+    /// Builds the model and its start at every value of each axis (the other axis at its ends): errors
+    /// are reported before anything is computed.
     fn check_cells(&self) -> Result<(), Error> {
         let axes = &self.computation.axes;
         let first = axes.first().map_or(1, |axis| axis.values.len());
@@ -141,7 +141,7 @@ impl ScanPlan {
         self.cells() * self.computation.samples
     }
 
-    /// Cells of a part (the last one may have fewer). The plan alone decides it.
+    /// Cells of a part (the last one may have fewer). It depends on the plan alone.
     #[must_use]
     pub fn cells_per_part(&self) -> usize {
         let (cells, rows, parts) = PART;
@@ -189,7 +189,7 @@ impl ScanPlan {
     /// The registry entry of its model.
     ///
     /// # Errors
-    /// An unknown model (a plan read from a newer program's file, say).
+    /// An unknown model (for example in a plan written by a newer version).
     pub fn info(&self) -> Result<&'static ModelInfo, Error> {
         Ok(ModelInfo::find(&self.computation.model)?)
     }
@@ -203,7 +203,7 @@ impl ScanPlan {
     }
 }
 
-/// The numbers that a scan uses beside its axes.
+/// The numbers that a scan uses in addition to its axes.
 fn check_settings(study: &Study) -> Result<(), Error> {
     let (run, scan) = (&study.run, &study.scan);
     check("escape_norm", run.escape_norm, run.escape_norm > 0.0, "give a number above 0")?;

@@ -1,4 +1,4 @@
-//! The model and the start of one row: functions of the plan and the row's place alone.
+//! The model and the start of one row: functions of the plan and the row's position alone.
 
 use super::ScanPlan;
 use crate::Error;
@@ -9,17 +9,17 @@ impl ScanPlan {
     /// The model of a cell.
     ///
     /// # Errors
-    /// What the model refuses of its parameters.
+    /// Parameters that the model rejects.
     pub fn model_of(&self, cell: usize) -> Result<Box<dyn Model>, Error> {
         Ok(self.info()?.build(&self.parameters_of(cell)?)?)
     }
 
-    /// The initial shape of a row, as `model` computes with it: the given values for sample 0, if any are; else drawn
+    /// The initial shape of a row, in the representation of `model`: the given values for sample 0, if any; otherwise drawn
     /// from the plan's distribution ([`crate::Random`]) by the generator's stream `cell * samples + sample + 1` (stream 0 is
     /// that of a single run).
     ///
     /// # Errors
-    /// [`Error::NotClosed`] for given values that are no body; a given name that the model does not have here.
+    /// [`Error::NotClosed`] for given values that do not describe a body; a given name that the model does not have here.
     pub fn start(&self, cell: usize, sample: usize, model: &dyn Model) -> Result<Vec<f64>, Error> {
         let c = &self.computation;
         if sample > 0 || c.initial.is_empty() {

@@ -4,7 +4,7 @@ import { byId, setText } from "../dom";
 import { swatch } from "../glyphs";
 import type { Regime } from "../protocol";
 
-export const NAMING = "naming\u2026";
+export const NAMING = "classifying\u2026";
 /** A name is spoken once it has stood this long. */
 const SPOKEN_AFTER = 1200;
 

@@ -152,8 +152,8 @@ export class BodyPanel {
     const digits = Math.min(6, Math.max(2, Math.ceil(Math.log10(this.camera.scale / (this.enlarged > 1 ? 1 : 20)))));
     setText(byId("clock-x"), fixed(frame.x, digits));
     setText(byId("clock-y"), fixed(frame.y, digits));
-    const late = frame.behind ? "computing is slower than this speed: the body is behind" : "";
-    setText(byId("body-note"), frame.outlined || !frame.outline.length && !this.outline ? late : "the outline is no curve here");
+    const late = frame.behind ? "computation is slower than this speed: the body lags behind" : "";
+    setText(byId("body-note"), frame.outlined || !frame.outline.length && !this.outline ? late : "the outline is not a closed curve here");
   }
 
   /** Time of the first sample in sight. */

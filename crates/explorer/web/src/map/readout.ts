@@ -51,7 +51,7 @@ export class Readout {
   leave(): void {
     this.cell = null;
     this.place.replaceChildren();
-    this.show(undefined, "Point at the map for the evidence, click to take the body there; drag and wheel move the window.");
+    this.show(undefined, "Point at the map for the evidence; click to set the parameters of the body; drag to pan, wheel to zoom.");
   }
 
   answer(evidence: Evidence): void {

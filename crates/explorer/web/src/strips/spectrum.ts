@@ -44,7 +44,7 @@ export class SpectrumStrip {
     const enough = from >= 0 && frequencies.length - from > 1;
     const usable = enough && peak > ROUND_OFF;
     byId("spectrum-empty").hidden = usable;
-    setText(byId("spectrum-empty"), enough ? "steady: nothing fluctuates" : "collecting samples\u2026");
+    setText(byId("spectrum-empty"), enough ? "steady: no fluctuations" : "collecting samples\u2026");
     const shown = usable ? spectra.slice(0, CURVES) : [];
     this.keys = shown.length;
     const powers = Array.from({ length: CURVES }, (_, i) => shown[i]?.power.slice(from).map((p) => (p > 0 ? p : null)) ?? []);

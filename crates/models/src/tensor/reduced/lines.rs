@@ -35,7 +35,7 @@ impl Line {
         Self::QuasiPeriodicToRectangular,
     ];
 
-    /// What happens on it, in words.
+    /// Description of the transition.
     #[must_use]
     pub const fn title(self) -> &'static str {
         match self {
@@ -140,7 +140,7 @@ impl Reduced {
         if cosine.abs() < 1.0 { [q * rho, gamma] } else { [f64::NAN, f64::NAN] }
     }
 
-    /// What divides kappa2 to give the square of an ellipse.
+    /// Divisor of kappa2 that gives the square of an ellipse.
     fn unit(&self) -> f64 {
         32.0 * self.a1 / self.b1 + 8.0 * self.b3
     }

@@ -69,7 +69,7 @@ impl Motion {
     }
 }
 
-/// What the formulas expect at one place of the plane.
+/// The motions predicted by the formulas at a point of the plane.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Expected {
     /// Motions that are stable.

@@ -1,4 +1,4 @@
-//! The window in sight, and what is known of its plane.
+//! The visible window, and the computed rows of its plane.
 
 use super::Job;
 use super::lattice::{Cells, Lattice, level};
@@ -9,12 +9,12 @@ use motiform_models::ModelInfo;
 use motiform_models::parameters::{ParameterSpec, index_of};
 use motiform_study::{Error, Plan, ScanPlan, Study};
 
-/// Most and fewest cells along an axis.
+/// Maximum and minimum number of cells along an axis.
 const COUNTS: (u16, u16) = (8, 160);
 
-/// What is known of a plane, and the window of it that is shown.
+/// The computed rows of a plane, and its visible window.
 #[derive(Default)]
-pub(crate) struct Sight {
+pub(crate) struct MapState {
     /// The plan without the values of its axes: while it stays, rows stay.
     plane: Option<ScanComputation>,
     lattices: Vec<Lattice>,
@@ -31,7 +31,7 @@ pub(crate) struct Present {
 }
 
 impl Present {
-    /// The number of cells along the axes; 1 for an axis that is none.
+    /// The number of cells along the axes; 1 for a missing axis.
     pub(crate) fn counts(&self) -> [usize; 2] {
         [0, 1].map(|axis| self.sides.get(axis).map_or(1, |side| side.values.len()))
     }
@@ -42,7 +42,7 @@ impl Present {
         (i < columns && j < rows).then(|| self.plan.axis_values(i + columns * j))
     }
 
-    /// How coarse a look a cell belongs to.
+    /// The level of a cell.
     pub(crate) fn level(&self, i: usize, j: usize) -> u8 {
         let number = |side: &Cells, place: usize| side.first + i64::try_from(place).unwrap_or(0);
         let levels = self.sides.iter().zip([i, j]).map(|(side, place)| level(number(side, place)));
@@ -50,12 +50,12 @@ impl Present {
     }
 }
 
-impl Sight {
+impl MapState {
     pub(crate) fn present(&self) -> Option<&Present> {
         self.present.as_ref()
     }
 
-    /// Turns to the window of a job. What is known of the plane is kept, where it is the same plane.
+    /// Switches to the window of a job. Computed rows are kept if the plane is the same.
     pub(super) fn turn(&mut self, job: &Job) -> Result<(), Error> {
         let info = job.study.info()?;
         let sides: Vec<&Side> = std::iter::once(&job.window.x).chain(&job.window.y).collect();
@@ -80,7 +80,7 @@ impl Sight {
         Ok(())
     }
 
-    /// The rows in sight that are computed, by their cell; `None` before the first window.
+    /// The visible rows that are computed, by their cell; `None` before the first window.
     pub(super) fn rows(&mut self) -> Option<(ScanPlan, Vec<Row>)> {
         let plan = self.present.as_ref()?.plan.clone();
         let row = |cell| {
@@ -96,7 +96,7 @@ fn axis(side: &Side, values: Vec<f64>) -> Axis {
     Axis { name: side.name.clone(), values }
 }
 
-/// The parameter of a side that makes sense.
+/// The parameter of a valid side.
 fn spec(info: &'static ModelInfo, side: &Side) -> Result<&'static ParameterSpec, Error> {
     let spec = &info.parameters()[index_of(info.parameters(), info.name, &side.name)?];
     if side.low < side.high && side.low.abs().max(side.high.abs()) < 1e9 && side.high - side.low > 1e-12 {

@@ -1,0 +1,100 @@
+//! Steps along a branch.
+
+use super::correct::{correct, normal, product};
+use super::place::{Before, Place, place};
+use super::point::{End, Obstruction};
+use super::problem::{Failure, Problem};
+use super::tracer::{TOLERANCE, Tracer};
+use motiform_dynamics::Watch;
+
+/// Length of the first correction that the step is chosen for: the second is about its square. The first grows with the third power of
+/// the step.
+const CORRECTION: f64 = 1e-3;
+
+/// Least cosine of the angle between successive tangents.
+const STRAIGHT: f64 = 0.9;
+
+impl<P: Problem> Tracer<P> {
+    /// The next solution and the length of the step to it.
+    pub(super) fn reach(&mut self, watch: &dyn Watch) -> Result<(Place<P::Local>, f64), End> {
+        loop {
+            let length = self.step;
+            let why = match self.attempt(length, watch) {
+                Ok((place, first)) => {
+                    let factor = libm::cbrt(CORRECTION / first.max(1e-12)).clamp(0.4, 1.5);
+                    self.step =
+                        (length * factor).clamp(self.settings.smallest_step, self.settings.largest_step);
+                    return Ok((place, length));
+                }
+                Err(Failure::Stopped) => return Err(End::Stopped),
+                Err(Failure::Obstructed(why)) => why,
+            };
+            self.step = 0.4 * length;
+            if self.step < self.settings.smallest_step {
+                return Err(End::StepUnderflow { step: length, why });
+            }
+        }
+    }
+
+    pub(super) fn attempt(&self, length: f64, watch: &dyn Watch) -> Result<(Place<P::Local>, f64), Failure> {
+        let old = &self.place;
+        let weights = self.problem.weights(&old.x);
+        let row = normal(&old.tangent, &weights);
+        let guess = self.guess(length, &weights);
+        let found = correct(&self.problem, guess, &row, TOLERANCE, watch)?;
+        let first = found.first;
+        let new = place(&self.problem, found, &row, old.arclength + length)?;
+        if product(&weights, &old.tangent, &new.tangent) < STRAIGHT {
+            return Err(Failure::Obstructed(Obstruction::Newton));
+        }
+        Ok((new, first))
+    }
+
+    /// The place expected after `length`: the tangent turns on as it did on the last step. (A cubic through the last two places would
+    /// be closer, but Newton's steps leave what it says along the neutral directions as it is, and its errors there would grow.)
+    fn guess(&self, length: f64, weights: &[f64]) -> Vec<f64> {
+        let Place { x, tangent, .. } = &self.place;
+        let mut guess: Vec<f64> = x.iter().zip(tangent).map(|(x, t)| x + length * t).collect();
+        if let Some(Before { x: before, tangent: slope, .. }) = &self.before {
+            let moved: Vec<f64> = x.iter().zip(before).map(|(a, b)| a - b).collect();
+            let (gone, turned) = (product(weights, tangent, &moved), product(weights, tangent, slope));
+            if length < 2.0 * gone && turned > STRAIGHT {
+                let bend = 0.5 * length * length / gone;
+                for (i, value) in guess.iter_mut().enumerate() {
+                    *value += bend * (tangent[i] - slope[i] / turned);
+                }
+            }
+        }
+        guess
+    }
+
+    /// The solution between the present one and `beyond` whose parameter is `edge`.
+    pub(super) fn edge(
+        &self,
+        beyond: &Place<P::Local>,
+        edge: f64,
+        watch: &dyn Watch,
+    ) -> Result<Place<P::Local>, End> {
+        let old = &self.place;
+        let part = (edge - old.parameter()) / (beyond.parameter() - old.parameter());
+        let mut guess: Vec<f64> = old.x.iter().zip(&beyond.x).map(|(a, b)| a + part * (b - a)).collect();
+        let mut row = vec![0.0; guess.len()];
+        if let (Some(last), Some(one)) = (guess.last_mut(), row.last_mut()) {
+            (*last, *one) = (edge, 1.0);
+        }
+        let weights = self.problem.weights(&old.x);
+        let side = normal(&old.tangent, &weights);
+        let found = correct(&self.problem, guess, &row, TOLERANCE, watch)
+            .and_then(|found| place(&self.problem, found, &side, 0.0));
+        let mut new = found.map_err(|failure| match failure {
+            Failure::Stopped => End::Stopped,
+            Failure::Obstructed(why) => End::StepUnderflow { step: self.step, why },
+        })?;
+        if let Some(last) = new.x.last_mut() {
+            *last = edge;
+        }
+        let moved: Vec<f64> = new.x.iter().zip(&old.x).map(|(a, b)| a - b).collect();
+        new.arclength = old.arclength + product(&weights, &old.tangent, &moved);
+        Ok(new)
+    }
+}

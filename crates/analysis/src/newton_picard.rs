@@ -1,0 +1,195 @@
+//! The Newton-Picard step: Newton's method in the span of the leading tangent vectors, fixed-point iteration in the rest.
+//!
+//! Source: Lust, Roose, Spence, Champneys (1998), SIAM J. Sci. Comput. 19, 1188.
+
+use crate::equilibrium::neutral_direction;
+use crate::linear::{add, basis, dot, least_squares, norm, orthonormalise};
+use crate::lyapunov::SplitMix;
+use crate::periodic::{Flow, PeriodicGuess, PeriodicOrbit, back, is_small, multipliers};
+use crate::symmetry::wrap;
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::{Equivariant, Request, System, Tangent, VectorField, Watch};
+
+/// Directions that are followed exactly; the others contract within a period and are iterated.
+const DIRECTIONS: usize = 5;
+
+/// Where tangent vectors of a large system grow beyond this, the try is given up: they agree to half of their digits, and span no
+/// space that Newton's method could solve in.
+const PARALLEL: f64 = 1e8;
+
+/// The state of Newton's method.
+pub(crate) struct Newton<'b, B: ?Sized> {
+    body: &'b B,
+    pub(crate) shape: Vec<f64>,
+    pub(crate) time: f64,
+    angle: f64,
+    mirrored: bool,
+    /// Orthonormal tangent vectors.
+    directions: Vec<Vec<f64>>,
+}
+
+/// What the flow over T gives, brought back by the inverse of the symmetry.
+pub(crate) struct Image {
+    /// `P(u) - u`.
+    pub(crate) rest: Vec<f64>,
+    /// `DP` applied to the directions.
+    directions: Vec<Vec<f64>>,
+    /// `dP/dT`.
+    by_time: Vec<f64>,
+    /// `dP/d(angle)`.
+    by_angle: Vec<f64>,
+}
+
+impl Image {
+    /// By how much the longest direction has grown.
+    pub(crate) fn amplification(&self) -> f64 {
+        self.directions.iter().map(|direction| norm(direction)).fold(0.0, f64::max)
+    }
+}
+
+impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
+    pub(crate) fn new(body: &'b B, guess: &PeriodicGuess<'_>) -> Self {
+        let dim = guess.shape.len();
+        let count = if is_small(dim) { dim } else { DIRECTIONS };
+        let mut random = SplitMix(2);
+        let mut directions: Vec<Vec<f64>> =
+            (0..count).map(|_| (0..dim).map(|_| random.next()).collect()).collect();
+        // The neutral directions are among the leading ones from the start.
+        VectorField::<f64>::eval(body, 0.0, guess.shape, &mut directions[0]);
+        if body.is_symmetric() && count > 1 {
+            body.spin(guess.shape, &mut directions[1]);
+        }
+        let mut newton = Self {
+            body,
+            shape: guess.shape.to_vec(),
+            time: guess.time,
+            angle: guess.angle,
+            mirrored: guess.mirrored,
+            directions,
+        };
+        newton.orthonormalise();
+        newton
+    }
+
+    fn orthonormalise(&mut self) {
+        orthonormalise(&mut self.directions.iter_mut().map(Vec::as_mut_slice).collect::<Vec<_>>());
+    }
+
+    fn back(&self, x: &mut [f64]) {
+        back(self.body, self.angle, self.mirrored, x);
+    }
+
+    /// Whether it is followed in all directions.
+    pub(crate) fn is_small(&self) -> bool {
+        self.directions.len() == self.shape.len()
+    }
+
+    /// `|P(u) - u|`, by the flow alone: a seventh of the cost of an [`Image`] in a small system.
+    pub(crate) fn miss(&self, flow: &Flow, watch: &dyn Watch) -> Option<f64> {
+        let mut orbit = flow.method.shape_orbit(self.body, flow.control, 0.0, &self.shape).ok()?;
+        let dim = self.shape.len();
+        let request = Request { max_steps: flow.max_steps, watch, ..Request::until(self.time, dim) };
+        if !drive(orbit.as_mut(), &request, &mut ()).ok()?.is_complete() {
+            return None;
+        }
+        let mut rest = orbit.state().to_vec();
+        self.back(&mut rest);
+        add(&mut rest, -1.0, &self.shape);
+        Some(norm(&rest))
+    }
+
+    pub(crate) fn image(&self, flow: &Flow, watch: &dyn Watch) -> Option<Image> {
+        let dim = self.shape.len();
+        let count = self.directions.len();
+        let small = self.is_small();
+        let tangent =
+            if small { Tangent::new(self.body, count) } else { Tangent::following(self.body, count) };
+        let start: Vec<f64> = self.shape.iter().chain(self.directions.iter().flatten()).copied().collect();
+        let mut orbit = flow.method.shape_orbit(&tangent, flow.control, 0.0, &start).ok()?;
+        let (watched, escape_norm) = if small { (dim, 1e6) } else { (tangent.dim(), PARALLEL) };
+        let request = Request {
+            max_steps: flow.max_steps,
+            watched,
+            escape_norm,
+            watch,
+            ..Request::until(self.time, tangent.dim())
+        };
+        let outcome = drive(orbit.as_mut(), &request, &mut ()).ok()?;
+        if !outcome.is_complete() {
+            return None;
+        }
+        let (end, vectors) = orbit.state().split_at(dim);
+        let mut by_time = end.to_vec();
+        VectorField::<f64>::eval(self.body, 0.0, end, &mut by_time);
+        let mut by_angle = end.to_vec();
+        self.body.spin(end, &mut by_angle);
+        by_angle.iter_mut().for_each(|x| *x = -*x);
+        let mut rest = end.to_vec();
+        let mut directions: Vec<Vec<f64>> = vectors.chunks_exact(dim).map(<[f64]>::to_vec).collect();
+        for x in [&mut rest, &mut by_time, &mut by_angle].into_iter().chain(&mut directions) {
+            self.back(x);
+        }
+        add(&mut rest, -1.0, &self.shape);
+        Some(Image { rest, directions, by_time, by_angle })
+    }
+
+    /// One Newton-Picard step.
+    pub(crate) fn step(&mut self, image: &Image) -> Option<()> {
+        let inside = |x: &[f64]| self.directions.iter().map(|q| dot(q, x)).collect::<Vec<f64>>();
+        let mut columns: Vec<Vec<f64>> = Vec::new();
+        for (k, direction) in image.directions.iter().enumerate() {
+            let mut column = inside(direction);
+            column[k] -= 1.0;
+            columns.push(column);
+        }
+        columns.push(inside(&image.by_time));
+        columns.push(inside(&image.by_angle));
+        let along = inside(&image.rest);
+        let target: Vec<f64> = along.iter().map(|x| -x).collect();
+        let solution = least_squares(&columns, &target)?;
+        let mut outside = image.rest.clone();
+        for (q, r) in self.directions.iter().zip(&along) {
+            add(&mut outside, -r, q);
+        }
+        let count = self.directions.len();
+        for (q, y) in self.directions.iter().zip(&solution) {
+            add(&mut self.shape, *y, q);
+        }
+        add(&mut self.shape, 1.0, &outside);
+        self.time += solution[count];
+        self.angle += solution[count + 1];
+        if !self.is_small() {
+            self.directions.clone_from(&image.directions);
+            self.orthonormalise();
+        }
+        (self.time > 0.0).then_some(())
+    }
+
+    pub(crate) fn describe(&self, image: &Image, residual: f64) -> Option<PeriodicOrbit> {
+        let mut flow = self.shape.clone();
+        VectorField::<f64>::eval(self.body, 0.0, &self.shape, &mut flow);
+        let mut fixed: Vec<Vec<f64>> = neutral_direction(self.body, &self.shape);
+        fixed.push(flow);
+        // Neutral directions first: the rest of the span is what remains of the others.
+        let columns: Vec<&[f64]> = fixed.iter().chain(&self.directions).map(Vec::as_slice).collect();
+        let neutral = basis(&columns[..fixed.len()], 1e-8).len();
+        let all = basis(&columns, 1e-5);
+        let free = &all[neutral..];
+        let act = |x: &[f64]| {
+            let mut out = vec![0.0; x.len()];
+            for (q, w) in self.directions.iter().zip(&image.directions) {
+                add(&mut out, dot(q, x), w);
+            }
+            out
+        };
+        let multipliers = multipliers(&crate::linear::restrict(free, act))?;
+        Some(PeriodicOrbit {
+            shape: self.shape.clone(),
+            time: self.time,
+            angle: wrap(self.angle),
+            mirrored: self.mirrored,
+            residual,
+            multipliers,
+        })
+    }
+}
