@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Deserializer, Serialize, de};
 
+/// A name of the list below. (Not spelled out in the field: serde would take it for text borrowed from its input.)
+type Name = &'static str;
+
 /// What happens at a special point.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -32,7 +35,7 @@ pub enum Special {
     Unresolved {
         /// The name of what it seems to be: that of another of these.
         #[serde(deserialize_with = "known")]
-        seen: &'static str,
+        seen: Name,
         /// The parameter before it.
         from: f64,
         /// The parameter after it.

@@ -5,8 +5,8 @@ use super::follow::{Followed, Leg, Sample};
 use super::settle::Start;
 use super::single_loop::single_loop;
 use motiform_analysis::continuation::{Branch, End, Settings, Special, switch};
-use motiform_analysis::{Error as Refused, RelativeEquilibrium};
-use motiform_dynamics::Watch;
+use motiform_analysis::{Error as Refused, Isotropy, RelativeEquilibrium};
+use motiform_dynamics::{Equivariant, Watch};
 use serde::{Deserialize, Serialize};
 
 /// What a branch was followed from. Branches, their legs and points are counted from 0 in the order in which they were found.
@@ -150,7 +150,10 @@ pub(super) fn both<'f>(
     let (low, high) = settings.range;
     let sides = [(parameter > low, settings.reversed()), (parameter < high, settings)];
     let leg = |settings: &Settings| match start {
-        Start::Equilibrium(start) => Branch::of_equilibria(bodies, parameter, start, settings, watch),
+        Start::Equilibrium(start) => {
+            let body = bodies.model(parameter)?;
+            Branch::of_equilibria(bodies, parameter, &upright(body.as_ref(), start), settings, watch)
+        }
         Start::Orbit(start) => Branch::of_orbits(bodies, parameter, start, settings, watch),
     };
     sides.iter().filter(|(inside, _)| *inside).map(|(_, settings)| leg(settings)).collect()
@@ -172,3 +175,15 @@ fn nothing(what: &'static str, leg: &Leg) -> Refused {
     let why = "Newton's method finds none from the last orbit of the branch".to_owned();
     Refused::NotOnABranch { what, parameter: parameter(leg), why }
 }
+
+/// The same motion turned so that its mirror axis, if it has one, is that of the plane.
+fn upright(body: &dyn Equivariant, start: &RelativeEquilibrium) -> RelativeEquilibrium {
+    let mut turned = start.clone();
+    if let Some(axis) = Isotropy::of(body, &start.shape, SYMMETRIC).mirror {
+        body.rotate(-0.5 * axis, &mut turned.shape);
+    }
+    turned
+}
+
+/// A shape that differs from its image by less than this part of its size is symmetric.
+const SYMMETRIC: f64 = 1e-8;
