@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 /// A solution of `f(u) = omega G u`, with `G` the infinitesimal rotation: at rest or straight (`omega = 0`), or
 /// circular.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RelativeEquilibrium {
     /// The shape.
     pub shape: Vec<f64>,

@@ -5,9 +5,10 @@ use crate::multiple_shooting::refine;
 use crate::newton_picard::Newton;
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Equivariant, StepControl, Watch};
+use serde::{Deserialize, Serialize};
 
 /// A solution of `Phi_T(u) = R(angle) [M] u`: after the time T the shape is its own image.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PeriodicOrbit {
     /// A shape on the orbit.
     pub shape: Vec<f64>,

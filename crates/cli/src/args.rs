@@ -2,6 +2,7 @@
 
 mod drawing;
 mod help;
+mod motions;
 mod scan;
 mod subject;
 
@@ -9,8 +10,12 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 pub(crate) use drawing::{DrawingOptions, FilmFormat};
 #[cfg(feature = "explorer")]
 use help::EXPLORE_HELP;
-use help::{CLASSIFY_HELP, EXAMPLES, LYAPUNOV_HELP, REPRODUCE_HELP, SCAN_HELP, SIMULATE_HELP};
+use help::{
+    CLASSIFY_HELP, CONTINUE_HELP, EQUILIBRIA_HELP, EXAMPLES, LYAPUNOV_HELP, REPRODUCE_HELP, SCAN_HELP,
+    SECTION_HELP, SIMULATE_HELP,
+};
 use motiform_study::Random;
+pub(crate) use motions::{ContinueOptions, Crossing, EquilibriaOptions, Observable, SectionOptions};
 pub(crate) use scan::{MergeOptions, ScanOptions};
 use std::path::PathBuf;
 pub(crate) use subject::{MethodOptions, SamplesOptions, SubjectOptions};
@@ -43,6 +48,15 @@ pub(crate) enum Command {
     /// Compute Lyapunov exponents with errors: do neighbouring orbits separate?
     #[command(after_help = LYAPUNOV_HELP)]
     Lyapunov(Box<LyapunovOptions>),
+    /// Follow a motion along a parameter, stable or not: where it is born, changes and ends
+    #[command(after_help = CONTINUE_HELP)]
+    Continue(Box<ContinueOptions>),
+    /// Find the steady motions at one point, stable or not: at rest, straight, circular
+    #[command(after_help = EQUILIBRIA_HELP)]
+    Equilibria(Box<EquilibriaOptions>),
+    /// Find where a motion crosses a surface: one coordinate at a fixed value
+    #[command(after_help = SECTION_HELP)]
+    Section(Box<SectionOptions>),
     /// Reproduce the paper: every figure, every claim, one HTML report
     #[command(after_help = REPRODUCE_HELP)]
     Reproduce(ReproduceOptions),

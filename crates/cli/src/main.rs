@@ -22,6 +22,9 @@ fn main() -> ExitCode {
         Command::Merge(options) => commands::merge::run(&options),
         Command::Classify(options) => commands::classify::run(&options),
         Command::Lyapunov(options) => commands::lyapunov::run(&options),
+        Command::Continue(options) => commands::continuation::run(&options),
+        Command::Equilibria(options) => commands::equilibria::run(&options),
+        Command::Section(options) => commands::section::run(&options),
         Command::Reproduce(options) => commands::reproduce::run(&options),
         #[cfg(feature = "explorer")]
         Command::Explore(options) => commands::explore::run(&options),

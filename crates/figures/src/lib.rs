@@ -1,7 +1,7 @@
 //! Drawing: plain data in, SVG text out. Independent of models, study files and solvers.
 //!
-//! Eight figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`], [`SpaceTimeFigure`], [`SpectrumFigure`],
-//! [`PhaseDiagram`], [`ErrorBarFigure`], [`SurvivalFigure`]) return self-contained SVG text (fonts and pictures are
+//! Nine figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`], [`SpaceTimeFigure`], [`SpectrumFigure`],
+//! [`PhaseDiagram`], [`BranchDiagram`], [`ErrorBarFigure`], [`SurvivalFigure`]) return self-contained SVG text (fonts and pictures are
 //! inside); [`png()`] and, with the feature `pdf`, `pdf` convert that text to files; [`Animation`] returns an animated
 //! PNG. The same data give the same bytes: numbers are rounded to 0.01 pixel and no system font is used. All texts are
 //! markup, see [`Label`]; every regime has its [`RegimeMark`].
@@ -9,6 +9,7 @@
 mod animation;
 pub mod axes;
 mod block;
+mod branches;
 mod clip;
 mod colour_bar;
 mod error;
@@ -53,6 +54,7 @@ mod text;
 pub mod ticks;
 
 pub use animation::{Animation, Camera, Frame};
+pub use branches::{BranchDiagram, BranchMark, BranchPart};
 pub use error::{FigureError, Result};
 pub use error_bars::{ErrorBarFigure, ErrorBarSeries, Measured};
 pub use expected::ExpectedLine;

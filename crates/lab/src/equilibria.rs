@@ -1,7 +1,8 @@
 //! The steady motions of a plan: shapes that are constant up to a steady rotation.
 
 use crate::analyse;
-use motiform_analysis::RelativeEquilibrium;
+use crate::naming::steady;
+use motiform_analysis::{Regime, RelativeEquilibrium};
 use motiform_dynamics::Watch;
 use motiform_dynamics::{Model, escape::norm};
 use motiform_study::initial::random_shape;
@@ -12,6 +13,8 @@ use serde::Serialize;
 /// A steady motion: at rest, straight, or circular.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Equilibrium {
+    /// Its name: motionless, straight or circular.
+    pub motion: Regime,
     /// Its shape; all rotated copies are equilibria too.
     pub shape: Named,
     /// Speed of the centre of mass (model length per model time).
@@ -85,6 +88,7 @@ fn describe(model: &dyn Model, found: RelativeEquilibrium, hits: usize, starts: 
     model.decode(&found.shape, &mut values);
     let names = model.coordinates().iter().map(|coordinate| coordinate.name.to_owned());
     Equilibrium {
+        motion: steady(model, &found),
         shape: Named(names.zip(values).collect()),
         speed: found.speed(),
         turning_rate: found.turning_rate,

@@ -5,6 +5,7 @@
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
 
 mod analyse;
+mod branches;
 mod ensemble;
 mod errors;
 mod flow;
@@ -23,6 +24,8 @@ use pyo3::prelude::*;
 mod _motiform {
     #[pymodule_export]
     use super::analyse::{classify, equilibria, lyapunov, motions, section};
+    #[pymodule_export]
+    use super::branches::{follow_branches, read_branches};
     #[pymodule_export]
     use super::ensemble::{ensemble, random_starts};
     #[pymodule_export]

@@ -89,6 +89,40 @@ pub enum Error {
         /// The error and its remedy.
         problem: String,
     },
+    /// A range to follow a motion along that cannot be used.
+    #[error("along {text}: {problem}")]
+    Along {
+        /// The range as given.
+        text: String,
+        /// What is wrong and how to mend it.
+        problem: String,
+    },
+    /// No motion of this name can be followed.
+    #[error("unknown start {name:?}{}: the motions that can be followed are {}", hint(.nearest), .known.join(", "))]
+    Origin {
+        /// The name given.
+        name: String,
+        /// The most similar name.
+        nearest: Option<&'static str>,
+        /// The motions.
+        known: Vec<&'static str>,
+    },
+    /// The motion that a start settles on is not one to begin with.
+    #[error("the start settles on {found} motion ({why}), {problem}")]
+    Start {
+        /// The regime found.
+        found: &'static str,
+        /// Its evidence.
+        why: String,
+        /// Why it cannot be followed, and the remedy.
+        problem: String,
+    },
+    /// A folder that holds other branches.
+    #[error("{} holds other branches than those asked for: choose another --out, or --force to replace it", .path.display())]
+    OtherBranches {
+        /// The folder.
+        path: PathBuf,
+    },
     /// A scan without an axis.
     #[error(
         "nothing to vary: a scan needs one or two axes, each with values of a parameter of the model{free}"

@@ -3,6 +3,7 @@
 //!
 //! This crate does not compute, draw or write.
 
+pub mod branches;
 mod checks;
 mod control;
 pub mod dataset;
@@ -24,6 +25,7 @@ pub mod table;
 pub mod titles;
 mod toml_reader;
 
+pub use branches::BranchPlan;
 pub use dataset::{Dataset, Manifest};
 pub use ending::Ending;
 pub use error::Error;

@@ -2,9 +2,10 @@
 
 use crate::RelativeEquilibrium;
 use crate::linear::solve;
+use serde::{Deserialize, Serialize};
 
 /// How the time `T` of an orbit grows with the parameter `p`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum PeriodLaw {
     /// `T = const - ln|p - p0| / rate`: the saddle's leading eigenvalues are real and of different size. The fitted rate is that of
@@ -21,7 +22,7 @@ pub enum PeriodLaw {
 }
 
 /// Where a branch of periodic orbits ends because their period grows without bound.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Connection {
     /// The parameter `p0` of the connection.
     pub parameter: f64,

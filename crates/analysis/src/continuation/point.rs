@@ -4,9 +4,10 @@ use super::homoclinic::Connection;
 use super::special::Special;
 use crate::{PeriodicOrbit, RelativeEquilibrium};
 use motiform_dynamics::Outcome;
+use serde::{Deserialize, Serialize};
 
 /// One motion of a branch.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Motion {
     /// A shape that does not change but for a steady rotation.
     Equilibrium(RelativeEquilibrium),
@@ -58,7 +59,7 @@ impl Motion {
 }
 
 /// One point of a branch.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// The parameter.
     pub parameter: f64,
@@ -84,7 +85,7 @@ impl Point {
 }
 
 /// Why a branch ended. The last point handed out is the last good one.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum End {
     /// The parameter left its range; the last point lies at the edge.
@@ -129,7 +130,7 @@ pub enum End {
 }
 
 /// Why Newton's method failed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Obstruction {
     /// It did not converge to a point of the branch nearby.

@@ -1,7 +1,12 @@
 //! Where a branch changes.
 
+use serde::{Deserialize, Deserializer, Serialize, de};
+
+/// A name of the list below. (Not spelled out in the field: serde would take it for text borrowed from its input.)
+type Name = &'static str;
+
 /// What happens at a special point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Special {
     /// The branch turns back: `dp/ds = 0`.
@@ -29,7 +34,8 @@ pub enum Special {
     /// this is the one after it.
     Unresolved {
         /// The name of what it seems to be: that of another of these.
-        seen: &'static str,
+        #[serde(deserialize_with = "known")]
+        seen: Name,
         /// The parameter before it.
         from: f64,
         /// The parameter after it.
@@ -38,7 +44,7 @@ pub enum Special {
 }
 
 /// Which symmetry a pitchfork breaks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Broken {
     /// The mirror, of a shape that has a direction: the new shapes turn, left and right (a drift pitchfork).
     Mirror,
@@ -47,7 +53,7 @@ pub enum Broken {
 }
 
 /// A Hopf bifurcation of the reduced motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hopf {
     /// Imaginary part of the critical eigenvalues (rad per model time).
     pub frequency: f64,
@@ -87,4 +93,23 @@ impl Special {
             Self::Unresolved { .. } => "unresolved",
         }
     }
+}
+
+/// All names.
+const NAMES: [&str; 8] = [
+    "fold",
+    "pitchfork",
+    "branch-point",
+    "hopf",
+    "period-doubling",
+    "symmetry-breaking",
+    "torus",
+    "unresolved",
+];
+
+/// One of the names, read back.
+fn known<'d, D: Deserializer<'d>>(input: D) -> Result<&'static str, D::Error> {
+    let name = String::deserialize(input)?;
+    let found = NAMES.into_iter().find(|known| *known == name);
+    found.ok_or_else(|| de::Error::unknown_variant(&name, &NAMES))
 }

@@ -39,6 +39,19 @@ pub fn classify<B: Equivariant + ?Sized>(
     settings: &Settings,
     watch: &dyn Watch,
 ) -> Result<Option<Verdict>> {
+    Ok(settle(body, start, settings, watch)?.map(|(verdict, _)| verdict))
+}
+
+/// As [`classify()`], with the shape that the orbit had when it was decided: one on the motion, or close to it.
+///
+/// # Errors
+/// As [`classify()`].
+pub fn settle<B: Equivariant + ?Sized>(
+    body: &B,
+    start: &[f64],
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Result<Option<(Verdict, Vec<f64>)>> {
     let mut orbit = settings.method.shape_orbit(body, settings.control, 0.0, start)?;
     let (mut search, mut ask) = Search::new(settings, start);
     loop {
@@ -53,7 +66,7 @@ pub fn classify<B: Equivariant + ?Sized>(
                 orbit.restart(&run.shape);
                 search.measured(body, &run, watch)?
             }
-            Ask::Nothing(verdict) => return Ok(verdict.map(|verdict| *verdict)),
+            Ask::Nothing(verdict) => return Ok(verdict.map(|verdict| (*verdict, search.into_shape()))),
         };
         if watch.stopped() {
             return Ok(None); // what was decided while it stopped may rest on half of a run

@@ -11,6 +11,7 @@ mod legs;
 mod look;
 mod motion;
 mod recurrence;
+mod repeating;
 mod returns;
 mod search;
 mod settings;
@@ -23,8 +24,9 @@ mod tests_of_thresholds;
 mod verdict;
 mod words;
 
-pub use classify::classify;
+pub use classify::{classify, settle};
 pub use form::Form;
 pub use lanes::{Candidate, classifies_in_lanes, classify_in_lanes};
+pub use repeating::{Repeating, repeating};
 pub use settings::Settings;
 pub use verdict::{Attractor, Regime, Spread, Verdict};

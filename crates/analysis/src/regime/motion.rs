@@ -2,6 +2,7 @@
 
 use super::settings::Settings;
 use super::verdict::Spread;
+use crate::linear::norm;
 use crate::symmetry::wrap;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::model::velocity;
@@ -15,6 +16,8 @@ pub(super) struct Path {
     pub(super) velocities: Vec<[f64; 2]>,
     /// The largest speed that is round-off.
     pub(super) resolution: f64,
+    /// The largest size `|u|` of a shape on the way.
+    pub(super) largest: f64,
 }
 
 impl Path {
@@ -41,7 +44,24 @@ impl Path {
     }
 
     fn empty() -> Self {
-        Self { times: Vec::new(), positions: Vec::new(), velocities: Vec::new(), resolution: 0.0 }
+        Self {
+            times: Vec::new(),
+            positions: Vec::new(),
+            velocities: Vec::new(),
+            resolution: 0.0,
+            largest: 0.0,
+        }
+    }
+
+    /// This path, and after its end another one that begins with the shape that this one ends with.
+    pub(super) fn joined(mut self, next: &Self) -> Self {
+        let end = self.times.last().copied().unwrap_or(0.0);
+        self.times.extend(next.times.iter().skip(1).map(|t| end + t));
+        self.velocities.extend(next.velocities.iter().skip(1));
+        self.resolution = self.resolution.max(next.resolution);
+        self.largest = self.largest.max(next.largest);
+        self.integrate();
+        self
     }
 
     /// Positions from velocities, by the trapezoidal rule.
@@ -114,5 +134,6 @@ impl<B: Equivariant + ?Sized> Sink for Sampler<'_, B> {
         self.path.times.push(t);
         self.path.velocities.push(velocity(self.body, u));
         self.path.resolution = self.path.resolution.max(self.body.speed_resolution(u, self.atol));
+        self.path.largest = self.path.largest.max(norm(u));
     }
 }

@@ -27,7 +27,7 @@ const TRIES: usize = 2;
 const EFFORT: f64 = 0.25;
 
 /// A shape of a periodic orbit that differs from its image by less than this part of its size is symmetric.
-const SYMMETRIC: f64 = 1e-6;
+pub(super) const SYMMETRIC: f64 = 1e-6;
 
 /// Moments of a period at which the symmetry is looked at.
 const MOMENTS: usize = 8;

@@ -101,6 +101,11 @@ impl Search {
         (search, ask)
     }
 
+    /// The shape that the orbit had when it was last seen.
+    pub(super) fn into_shape(self) -> Vec<f64> {
+        self.shape
+    }
+
     /// Asks for the next look, of length `span`.
     fn next(&mut self) -> Ask {
         self.pending = Pending::Look;

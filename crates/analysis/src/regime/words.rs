@@ -12,10 +12,10 @@ use crate::{Estimate, Result};
 use motiform_dynamics::{Equivariant, Watch};
 
 /// Samples of a period: enough for the legs of its path.
-const SAMPLES: usize = 720;
+pub(super) const SAMPLES: usize = 720;
 
 /// Net rotations below this part of a turn per period are none.
-const NO_TURN: f64 = 1e-6;
+pub(super) const NO_TURN: f64 = 1e-6;
 
 /// A run that left every bound at time `t`.
 pub(super) fn blow_up(singular: bool, t: f64, time: f64) -> Verdict {

@@ -4,6 +4,8 @@ pub(super) const EXAMPLES: &str = "\
 Start here:
   motiform simulate tensor --preset fig5a       a zigzagging domain: numbers, figures, animation
   motiform explore                              explore the models in a browser
+  motiform continue tensor --preset fig5a --along kappa2=0.3:1.6
+                                                where its motion begins and ends
   motiform models tensor                        its equations, parameters and presets
 
 Exit codes: 0 success; 1 finished, but some result is not as requested (a run escaped, a disk is full);
@@ -64,6 +66,45 @@ Regimes, by the dynamics of the shape with rotations divided out:
   undetermined                     the evidence is inconclusive; the output states what is missing (exit code 1)
 The transient of a preset is ignored: the motion is integrated for longer and longer until the evidence is conclusive.
 --samples M reports the shares of the motions with 95 % intervals, what was sampled (--random), and how many starts blow up.";
+
+pub(super) const CONTINUE_HELP: &str = "\
+Examples:
+  motiform continue tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.9 --from zigzag --along kappa2=0.3:1.6
+  motiform continue tensor --preset fig4 --set kappa3=0.3 --set kappa2=1.5 --along kappa2=0.3:3 --branches 3
+  motiform continue cell --set length=12.6 --from circular --along length=12:13.5 --json
+
+The start is simulated until its motion is named, as `motiform classify` does. That motion is followed to both sides of the range by
+pseudo-arclength, through folds and whether or not it is stable. What begins at its special points is followed too, and so on,
+each branch once, mirror images not twice:
+  fold                branch turns back               hopf                a shape begins to pulsate
+  pitchfork           a symmetry of a steady shape breaks (drift pitchfork: straight motion begins to turn)
+  symmetry-breaking   left and right of a zigzag differ: it begins to rotate
+  period-doubling     it repeats after two periods    torus               a second frequency begins
+  homoclinic          the end of a motion whose period grows without bound: it passes by a steady one
+Special points are solved for. stable: ranges of the parameter where small deviations die out. subcritical: what begins is unstable.
+
+The output folder holds
+  points.parquet       a row per point: parameter, motion, stability, period, speed, multiplier, state
+  summary.json         what --json prints
+  branches, period     the diagram and the periods against the parameter, as .svg, .png and .csv
+  manifest.json        plan, hash, version; branches.json: from where --resume goes on
+Ctrl-C keeps what was followed. The numbers do not depend on interruptions.";
+
+pub(super) const EQUILIBRIA_HELP: &str = "\
+Examples:
+  motiform equilibria tensor --preset fig4 --set kappa2=0.9 --set kappa3=0.1
+  motiform equilibria cell --set length=12.6 --starts 50 --json
+
+Newton's method from the circle and from random shapes of several sizes. Nothing proves that these are all; shapes that many starts
+lead to have a large share. unstable: number of growing directions; 0 is stable. Mirror images are listed apart.";
+
+pub(super) const SECTION_HELP: &str = "\
+Examples:
+  motiform section tensor --preset fig5a --at v2=0
+  motiform section tensor --preset fig5b --at s12=0 --direction either --t-end 2000 > crossings.csv
+  motiform section tensor --preset fig5a --at y=1 --json
+
+Crossings are located to round-off. A table (CSV) goes to standard output; each crossing has the time t, the place x, y, all coordinates of the shape, and rising (1 or 0).";
 
 pub(super) const REPRODUCE_HELP: &str = "\
 Examples:

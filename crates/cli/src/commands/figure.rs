@@ -5,16 +5,23 @@ use crate::args::{DrawingOptions, FigureOptions};
 use crate::output::{End, print};
 use motiform_figures::Style;
 use motiform_files::{read_dataset, replace_file};
-use motiform_lab::draw::{FigureFormat, Picture, draw, draw_scan};
+use motiform_lab::continuation::BranchFolder;
+use motiform_lab::draw::{FigureFormat, Ordinate, Picture, draw, draw_branches, draw_scan};
 use motiform_lab::scan::ScanFolder;
 use motiform_study::study::FigureSettings;
 use motiform_study::{Dataset, Error, plan};
+use std::path::Path;
 
 pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
     film::check(&options.drawing.film)?;
     for folder in &options.datasets {
         if ScanFolder::is_one(folder) {
             let names = write_scan(&ScanFolder::read(folder)?, &format(&options.drawing))?;
+            print(&format!("{}: {}", folder.display(), names.join(" ")))?;
+            continue;
+        }
+        if BranchFolder::is_one(folder) {
+            let names = write_branches(folder)?;
             print(&format!("{}: {}", folder.display(), names.join(" ")))?;
             continue;
         }
@@ -48,6 +55,17 @@ pub(crate) fn write_scan(folder: &ScanFolder, format: &FigureFormat) -> Result<V
     let mut names = Vec::new();
     for picture in draw_scan(folder, format)? {
         replace_file(&folder.path().join(&picture.name), &picture.bytes)?;
+        names.push(picture.name);
+    }
+    Ok(names)
+}
+
+/// Draws branches into their folder; the names of the figures.
+fn write_branches(path: &Path) -> Result<Vec<String>, Error> {
+    let BranchFolder { plan, found } = BranchFolder::read(path)?;
+    let mut names = Vec::new();
+    for picture in draw_branches(&plan, &found, Ordinate::Speed)? {
+        replace_file(&path.join(&picture.name), &picture.bytes)?;
         names.push(picture.name);
     }
     Ok(names)

@@ -3,6 +3,8 @@
 pub(crate) mod check;
 pub(crate) mod classify;
 pub(crate) mod completions;
+pub(crate) mod continuation;
+pub(crate) mod equilibria;
 #[cfg(feature = "explorer")]
 pub(crate) mod explore;
 pub(crate) mod figure;
@@ -12,5 +14,6 @@ pub(crate) mod merge;
 pub(crate) mod models;
 pub(crate) mod reproduce;
 pub(crate) mod scan;
+pub(crate) mod section;
 pub(crate) mod simulate;
 pub(crate) mod subject;

@@ -1,6 +1,7 @@
 //! Dataset to figures: their contents and texts. The drawing itself is in [`motiform_figures`].
 
 mod body;
+mod branches;
 mod diagram;
 mod film;
 pub mod live;
@@ -13,6 +14,7 @@ mod words;
 
 use body::Body;
 pub use body::radius_for;
+pub use branches::{Ordinate, diagram as branch_diagram, draw_branches};
 pub use diagram::{boundary_lines, draw_scan, exponents, phase_diagram};
 use motiform_figures::{Drawn, Figure, FigureError, Style, png};
 use motiform_study::{Dataset, Error};

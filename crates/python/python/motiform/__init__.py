@@ -12,6 +12,7 @@ All quantities are in model units of time and length; parameters have the paper'
 from ._registry import MODELS, PRESETS, REGIMES, STEPPERS
 from ._registry import VERSION as __version__
 from .bodies import Cell, Tensor
+from .branches import Branch, Branches
 from .ensembles import Ensemble, ensemble
 from .errors import EndedEarly, Incomplete, Interrupted, WorkersLost
 from .models import Model, preset, study
@@ -26,6 +27,8 @@ __all__ = [
     "REGIMES",
     "STEPPERS",
     "Accuracy",
+    "Branch",
+    "Branches",
     "Cell",
     "Crossings",
     "EndedEarly",

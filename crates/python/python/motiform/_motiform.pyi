@@ -83,6 +83,14 @@ def lyapunov(
     t_end: float | None = None,
     progress: _Progress = None,
 ) -> str: ...
+def follow_branches(
+    study: Study,
+    along: tuple[str, float, float],
+    from_: str | None,
+    counts: tuple[int, int],
+    progress: _Progress = None,
+) -> tuple[str, bytes, BaseException | None]: ...
+def read_branches(path: str) -> tuple[str, bytes, BaseException | None]: ...
 def equilibria(study: Study, starts: int, progress: _Progress = None) -> str: ...
 def section(
     study: Study, coordinate: str, value: float, direction: str, progress: _Progress = None

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from . import _motiform
 from ._registry import MODELS, ModelInfo
+from .branches import Branches, branches_of
 from .errors import EndedEarly, Interrupted
 from .progress import Bar, Progress
 from .results import (
@@ -249,6 +250,40 @@ class Model:
         with Bar(progress, starts, "starts") as bar:
             raw = json.loads(_motiform.equilibria(study, starts, bar.callable()))
         return [equilibrium_of(entry) for entry in raw]
+
+    def branches(
+        self,
+        along: tuple[str, float, float],
+        *,
+        from_: str | None = None,
+        branches: int = 8,
+        points: int = 2000,
+        initial: Mapping[str, float] | None = None,
+        seed: int | None = None,
+        progress: Progress = None,
+    ) -> Branches:
+        """The motion that the start settles on, followed along a parameter, stable or not, with what begins on the way.
+
+        >>> body = motiform.preset("fig4").replace(kappa2=0.9, kappa3=0.1)
+        >>> found = body.branches(("kappa2", 0.3, 1.6), from_="zigzag", branches=2)
+        >>> found.special[["kind", "kappa2", "period"]]
+        >>> found.plot("turning_rate")
+
+        `along` is a parameter with its range, which holds the start. `from_` names the motion that the start must settle on
+        (motionless, straight, circular, zigzag, quasi-periodic, pulsating-straight). At most so many `branches` are followed,
+        each over at most so many `points` to a side.
+        """
+        study = _with(self._study, initial, {"seed": seed})
+        name, low, high = along
+        with Bar(progress, branches, "branches") as bar:
+            found = _motiform.follow_branches(
+                study, (name, float(low), float(high)), from_, (branches, points), bar.callable()
+            )
+        text, table, raised = found
+        result = branches_of(text, table)
+        if raised is not None:
+            raise _raised(raised, result)
+        return result
 
     def section(
         self,

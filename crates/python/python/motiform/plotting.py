@@ -19,6 +19,7 @@ from ._registry import MODELS, REGIMES, Regime
 if TYPE_CHECKING:
     import xarray as xr
 
+    from .branches import Branches
     from .trajectory import Trajectory
 
 TIME = ListedColormap(plt.get_cmap("viridis")(np.linspace(0.0, 0.9, 256)), name="time")
@@ -170,3 +171,38 @@ def _marked(cells: Any) -> tuple[Any, Any]:
     rows, columns = np.nonzero(cells)
     kept = (rows % steps[0] == steps[0] // 2) & (columns % steps[1] == steps[1] // 2)
     return (rows[kept], columns[kept]) if kept.any() else (rows[:1], columns[:1])
+
+
+_SPECIAL = {
+    "fold": (6, 2, 0), "pitchfork": "D", "hopf": "o", "period-doubling": "^", "symmetry-breaking": "s", "torus": "P",
+    "branch-point": "v",
+}  # fmt: skip
+
+
+def plot_branches(found: Branches, y: str, ax: Axes | None) -> Axes:
+    """Thick where stable, thin and dashed where not, in the colours of the motions; markers at special points."""
+    ax = plt.subplots(layout="constrained")[1] if ax is None else ax
+    colours = {regime.name: regime.colour for regime in REGIMES}
+    motions: list[str] = []
+    for branch in found.branches:
+        table = branch.points
+        at, value = table[found.along].to_numpy(), np.abs(table[y].to_numpy(float))
+        plain = (table["special"] == "").to_numpy()
+        stable, motion = table["stable"].to_numpy(), table["motion"].to_numpy()
+        for k in range(len(table) - 1):
+            known = k if plain[k] else k + 1
+            style: dict[str, Any] = {"lw": 2.6} if stable[known] else {"lw": 1.0, "ls": (0, (4, 2))}
+            ax.plot(at[k : k + 2], value[k : k + 2], color=colours[motion[known]], **style)
+            if motion[known] not in motions:
+                motions.append(motion[known])
+    keys = [Line2D([], [], color=colours[name], lw=2.6, label=name) for name in motions]
+    points = found.points
+    for kind, marker in _SPECIAL.items():
+        here = points[points["special"] == kind]
+        if len(here):
+            style = {"marker": marker, "color": "0.13", "ls": "none", "ms": 5}
+            ax.plot(here[found.along], here[y].abs(), zorder=3, **style)
+            keys.append(Line2D([], [], label=kind, **style))
+    ax.legend(handles=keys, fontsize="small")
+    ax.set(xlabel=found.along, ylabel=y)
+    return ax

@@ -207,6 +207,8 @@ class Exponents:
 class Equilibrium:
     """A steady motion: a shape that is constant up to a steady rotation."""
 
+    kind: str
+    """motionless, straight or circular."""
     shape: dict[str, float]
     """Its coordinates; all its rotations are equilibria too."""
     speed: float
@@ -226,18 +228,12 @@ class Equilibrium:
         """Whether there is no growing direction."""
         return self.unstable == 0
 
-    @property
-    def kind(self) -> str:
-        """motionless, straight or circular."""
-        if self.speed < 1e-9:
-            return "motionless"
-        return "straight" if abs(self.turning_rate) < 1e-9 else "circular"
-
 
 def equilibrium_of(raw: dict[str, Any]) -> Equilibrium:
     """The equilibrium of the native module's JSON."""
     eigenvalues = np.array([complex(*pair) for pair in raw["eigenvalues"]], dtype=np.complex128)
-    return Equilibrium(**{**raw, "eigenvalues": eigenvalues})
+    rest = {key: value for key, value in raw.items() if key != "motion"}
+    return Equilibrium(**{**rest, "kind": raw["motion"], "eigenvalues": eigenvalues})
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,65 @@
+//! What a body does on a periodic orbit that is given, stable or not.
+
+use super::form::Form;
+use super::motion::Path;
+use super::recurrence::SYMMETRIC;
+use super::settings::Settings;
+use super::verdict::Spread;
+use super::words::{NO_TURN, SAMPLES};
+use crate::isotropy::Isotropy;
+use crate::periodic::PeriodicOrbit;
+use motiform_dynamics::{Equivariant, Watch};
+
+/// What a body does over one period.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Repeating {
+    /// The kind of the motion.
+    pub form: Form,
+    /// Speed of the centre of mass (model length per model time).
+    pub speed: Option<Spread>,
+    /// Mean turning rate of the heading (rad per model time), exactly 0 where a symmetry makes it so; `None` where the body stops on
+    /// the way.
+    pub turning_rate: Option<f64>,
+    /// The largest size `|u|` of a shape.
+    pub size: f64,
+}
+
+/// The motion on a relative periodic orbit, by its symmetry and its path. `nodes` are shapes along it at equal times, the first one
+/// that of the orbit: an unstable orbit is left by whoever follows it for long, so each part is followed from its own node. Method and
+/// tolerance are those of `settings`; its looks and budgets do not matter.
+///
+/// # Errors
+/// What the numerics refuse.
+pub fn repeating<B: Equivariant + ?Sized>(
+    body: &B,
+    orbit: &PeriodicOrbit,
+    nodes: &[Vec<f64>],
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> crate::Result<Repeating> {
+    let mut path: Option<Path> = None;
+    let span = orbit.time / nodes.len() as f64;
+    for node in nodes {
+        let part = Path::follow(body, node, span, SAMPLES.div_ceil(nodes.len()), settings, watch)?;
+        path = Some(path.map_or_else(|| part.clone(), |path| path.joined(&part)));
+    }
+    let Some(path) = path else {
+        return Err(crate::Error::Shape { what: "the list of nodes", expected: 1, got: 0 });
+    };
+    let symmetry = symmetry(body, nodes);
+    let form = Form::of(&symmetry, orbit, &path, NO_TURN.max(settings.accuracy()));
+    let straight = orbit.mirrored || symmetry.mirror.is_some();
+    let turning_rate = if straight { Some(0.0) } else { path.turning_rate() };
+    Ok(Repeating { form, speed: path.speed(), turning_rate, size: path.largest })
+}
+
+/// The symmetry that every node has.
+fn symmetry<B: Equivariant + ?Sized>(body: &B, nodes: &[Vec<f64>]) -> Isotropy {
+    let all = nodes.iter().map(|node| Isotropy::of(body, node, SYMMETRIC));
+    let common = |a: Isotropy, b: Isotropy| Isotropy {
+        mirror: a.mirror.filter(|_| b.mirror.is_some()),
+        circle: a.circle && b.circle,
+        folds: if a.folds == b.folds { a.folds } else { 1 },
+    };
+    all.reduce(common).unwrap_or(Isotropy { folds: 1, circle: false, mirror: None })
+}

@@ -1,0 +1,99 @@
+//! The words of `continue`, `equilibria` and `section`: commands about motions that may be unstable.
+
+use super::{MethodOptions, MotionOptions, SubjectOptions, number, whole};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct ContinueOptions {
+    #[command(flatten)]
+    pub(crate) subject: SubjectOptions,
+    #[command(flatten)]
+    pub(crate) method: MethodOptions,
+    /// The parameter to vary, with its range; the start lies inside
+    #[arg(long, value_name = "NAME=LOW:HIGH")]
+    pub(crate) along: String,
+    /// The motion that the start must settle on: motionless, straight, circular, zigzag, quasi-periodic or pulsating-straight
+    /// (default: whatever it settles on)
+    #[arg(long, value_name = "MOTION")]
+    pub(crate) from: Option<String>,
+    /// Maximum number of branches; 1 follows the motion alone, and nothing that begins on its branch
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = whole, allow_hyphen_values = true)]
+    pub(crate) branches: u64,
+    /// Maximum number of points of a branch to each side
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = whole, allow_hyphen_values = true)]
+    pub(crate) points: u64,
+    /// What the diagram shows against the parameter
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = Observable::Speed)]
+    pub(crate) observable: Observable,
+    /// Zeros of a given start become random values within SIZE times its largest value (default: 1e-6), because an
+    /// orbit never leaves an exact symmetry; 0 keeps the exact start
+    #[arg(long, value_name = "SIZE", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) perturb: Option<f64>,
+    /// Output folder (default: MODEL-PRESET-branches here)
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Go on with the branches in the output folder (begin, if there is none)
+    #[arg(long, conflicts_with = "force")]
+    pub(crate) resume: bool,
+    /// Replace earlier branches
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Leave the figures out
+    #[arg(long)]
+    pub(crate) no_figures: bool,
+    /// Print the summary as one JSON object; writes files only with --out
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// What a diagram shows.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Observable {
+    /// Mean speed
+    Speed,
+    /// Mean turning rate of the heading
+    TurningRate,
+    /// Largest size of the shape
+    Size,
+    /// Net rotation per period
+    NetRotation,
+}
+
+#[derive(Args)]
+pub(crate) struct EquilibriaOptions {
+    #[command(flatten)]
+    pub(crate) motion: MotionOptions,
+    /// How many random shapes Newton's method starts from, beside the circle
+    #[arg(long, value_name = "M", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=1_000_000), allow_hyphen_values = true)]
+    pub(crate) starts: u32,
+}
+
+#[derive(Args)]
+pub(crate) struct SectionOptions {
+    #[command(flatten)]
+    pub(crate) motion: MotionOptions,
+    /// The surface: a coordinate of the shape, or x or y, at a fixed value
+    #[arg(long, value_name = "NAME=VALUE", value_parser = super::assignment, allow_hyphen_values = true)]
+    pub(crate) at: (String, f64),
+    /// Which crossings count
+    #[arg(long, value_enum, default_value_t = Crossing::Rising)]
+    pub(crate) direction: Crossing,
+    /// Model time to record
+    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) t_end: Option<f64>,
+    /// Model time to run before recording
+    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) transient: Option<f64>,
+}
+
+/// Which crossings count.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Crossing {
+    /// Where the coordinate grows
+    Rising,
+    /// Where it falls
+    Falling,
+    /// Both
+    Either,
+}

@@ -1,0 +1,53 @@
+//! `motiform equilibria`.
+
+use crate::args::EquilibriaOptions;
+use crate::commands::subject;
+use crate::output::{End, print};
+use crate::progress::Progress;
+use motiform_lab::equilibria::{Equilibrium, equilibria};
+use motiform_study::Plan;
+use serde_json::json;
+use std::fmt::Write;
+
+pub(crate) fn run(options: &EquilibriaOptions) -> anyhow::Result<End> {
+    let plan = Plan::new(&subject::motion(&options.motion)?)?;
+    let watch = Progress::new(f64::from(options.starts), "starts");
+    let found = equilibria(&plan, options.starts as usize, &watch);
+    watch.finish();
+    let Some(found) = found? else { return Ok(End::Interrupted) };
+    let text = if options.motion.json {
+        serde_json::to_string(&json!({
+            "model": plan.computation.model,
+            "parameters": plan.computation.parameters,
+            "equilibria": found,
+        }))?
+    } else {
+        table(&found)?
+    };
+    print(&text)?;
+    Ok(End::Done)
+}
+
+fn table(found: &[Equilibrium]) -> anyhow::Result<String> {
+    let mut text = format!(
+        "{:<12} {:>12} {:>13} {:>9} {:>8}  leading eigenvalues\n",
+        "motion", "speed", "turning rate", "unstable", "share"
+    );
+    for one in found {
+        let values = one.eigenvalues.iter().take(3).map(|&(re, im)| match im {
+            0.0 => format!("{re:.6}"),
+            im => format!("{re:.6}{im:+.6}i"),
+        });
+        writeln!(
+            text,
+            "{:<12} {:>12.8} {:>13.8} {:>9} {:>6.1} %  {}",
+            one.motion,
+            one.speed,
+            one.turning_rate,
+            one.unstable,
+            100.0 * one.share,
+            values.collect::<Vec<_>>().join(", ")
+        )?;
+    }
+    Ok(text.trim_end().to_owned())
+}

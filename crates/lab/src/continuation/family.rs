@@ -1,0 +1,64 @@
+//! The bodies along a branch: one model, one of its parameters varied.
+
+use crate::analyse::settings_of;
+use motiform_analysis::continuation::{Family, Settings};
+use motiform_analysis::periodic::Flow;
+use motiform_analysis::{Error as Refused, regime};
+use motiform_dynamics::steppers::Method;
+use motiform_dynamics::{Equivariant, Model, StepControl};
+use motiform_models::ModelInfo;
+use motiform_study::{BranchPlan, Error};
+
+/// Tolerance of the flow along orbits for models that need an exponential stepper.
+const STIFF: StepControl = StepControl::Adaptive { rtol: 1e-10, atol: 1e-12 };
+
+/// The bodies of a plan, by the value of its parameter.
+pub(super) struct Bodies<'p> {
+    pub(super) plan: &'p BranchPlan,
+    info: &'static ModelInfo,
+    method: Method,
+}
+
+impl<'p> Bodies<'p> {
+    pub(super) fn new(plan: &'p BranchPlan) -> Result<Self, Error> {
+        let method = motiform_study::plan::stepper(&plan.computation.start.stepper)?;
+        Ok(Self { plan, info: plan.info()?, method })
+    }
+
+    /// The model at a value of the parameter.
+    pub(super) fn model(&self, parameter: f64) -> Result<Box<dyn Model>, Refused> {
+        self.info
+            .build(&self.plan.parameters_at(parameter))
+            .map_err(|error| Refused::NoBody { value: parameter, why: error.to_string() })
+    }
+
+    /// How branches are followed, first towards larger values.
+    pub(super) fn settings(&self) -> Settings {
+        let c = &self.plan.computation;
+        let mut settings = Settings::over(c.along.from, c.along.to);
+        settings.most_points = c.points;
+        settings.largest_size = c.start.escape_norm;
+        settings.longest_time = LOOKS * self.info.look;
+        if matches!(self.method, Method::Exponential(_)) {
+            settings.flow = Flow { method: self.method, control: STIFF, max_steps: settings.flow.max_steps };
+        }
+        settings
+    }
+
+    /// How the motion of the start is named, and the path on an orbit is computed: with the plan's own method.
+    pub(super) fn looks(&self) -> regime::Settings {
+        let start = &self.plan.computation.start;
+        let bounds = (start.escape_norm, start.max_steps);
+        settings_of(self.info, self.method, start.control, bounds, 0.0)
+    }
+}
+
+/// An orbit whose time is longer than so many looks of the model is followed no further.
+const LOOKS: f64 = 10.0;
+
+impl Family for Bodies<'_> {
+    fn at(&self, parameter: f64) -> Result<Box<dyn Equivariant>, Refused> {
+        let model: Box<dyn Equivariant> = self.model(parameter)?;
+        Ok(model)
+    }
+}

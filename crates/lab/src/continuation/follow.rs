@@ -1,0 +1,253 @@
+//! The work: branches followed one after the other, each from where the ones before lead to.
+
+use super::family::Bodies;
+use super::known::known;
+use super::origin::{Origin, both};
+use super::reading::Reading;
+use super::settle::settle;
+use motiform_analysis::continuation::{Branch, End, Motion, Point};
+use motiform_analysis::regime::{Form, Regime};
+use motiform_dynamics::Watch;
+use motiform_study::{BranchPlan, Error};
+use serde::{Deserialize, Serialize};
+
+/// A point of a branch with what is read off it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sample {
+    /// The point. The nodes of an orbit are kept where a branch may begin: at special points, first and last ones.
+    pub point: Point,
+    /// The reading.
+    pub reading: Reading,
+}
+
+/// A branch from where it begins to one of its ends.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Leg {
+    /// Its points, the first one where it begins.
+    pub samples: Vec<Sample>,
+    /// Why it ended.
+    pub end: End,
+}
+
+/// A branch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Followed {
+    /// What it was followed from.
+    pub origin: Origin,
+    /// One leg, or two with the same first point: towards smaller and towards larger values of the parameter, or to both sides of
+    /// where it crosses another branch.
+    pub legs: Vec<Leg>,
+}
+
+/// What an origin led to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Link {
+    /// The origin.
+    pub origin: Origin,
+    /// The branch that begins there, or lies there: it may have been followed from elsewhere before. `None` if none was found.
+    pub branch: Option<usize>,
+}
+
+/// Branches, as far as they are followed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Branches {
+    /// The branches in the order in which they were found.
+    pub branches: Vec<Followed>,
+    /// What was found at each origin, in the order in which they were asked.
+    pub links: Vec<Link>,
+    /// How many origins were left because there were enough branches.
+    pub left: usize,
+    /// Whether everything was done that was asked for: not interrupted.
+    pub complete: bool,
+}
+
+/// A new branch is compared with the others over so many points.
+const COMPARED: usize = 8;
+
+/// Follows the branches of a plan, after those that `before` holds of an interrupted run.
+///
+/// Interrupted by the watch, the last branch ends with [`End::Stopped`], and the result is not complete.
+///
+/// # Errors
+/// [`Error::Start`]; what the models and the numerics refuse.
+pub fn follow(plan: &BranchPlan, before: Option<Branches>, watch: &dyn Watch) -> Result<Branches, Error> {
+    let bodies = Bodies::new(plan)?;
+    let mut work = Work { bodies: &bodies, watch, done: before.map_or_else(Branches::none, Branches::whole) };
+    if work.done.branches.is_empty() && !work.begin()? {
+        return Ok(work.done);
+    }
+    while let Some(origin) = work.next() {
+        if work.done.branches.len() >= plan.computation.branches {
+            work.done.left = work.open().count();
+            break;
+        }
+        if !work.grow(origin)? {
+            return Ok(work.done);
+        }
+    }
+    work.done.complete = true;
+    Ok(work.done)
+}
+
+struct Work<'w> {
+    bodies: &'w Bodies<'w>,
+    watch: &'w dyn Watch,
+    done: Branches,
+}
+
+impl Work<'_> {
+    /// The origins that were not asked yet, in the order of the branches.
+    fn open(&self) -> impl Iterator<Item = Origin> {
+        let all =
+            self.done.branches.iter().enumerate().flat_map(|(number, branch)| Origin::on(number, branch));
+        all.filter(|origin| self.done.links.iter().all(|link| link.origin != *origin))
+    }
+
+    /// The open origin with the shortest period: what begins there is found soonest, and cascades of doublings come last.
+    fn next(&self) -> Option<Origin> {
+        let cost = |origin: &Origin| origin.cost(&self.done.branches);
+        self.open().min_by(|a, b| cost(a).total_cmp(&cost(b)))
+    }
+
+    /// Follows the motion that the start settles on. Whether it came to its end.
+    fn begin(&mut self) -> Result<bool, Error> {
+        let plan = self.bodies.plan;
+        let Some((start, _)) = settle(plan, self.watch)? else { return Ok(false) };
+        let legs = both(self.bodies, plan.start_value(), &start, self.watch)?;
+        let mut followed = Followed { origin: Origin::Start, legs: Vec::new() };
+        for leg in legs {
+            followed.legs.push(self.leg(leg, &mut |_| false)?.unwrap_or_else(Leg::none));
+        }
+        Ok(self.keep(followed))
+    }
+
+    /// Follows what begins at an origin. Whether it came to its end.
+    fn grow(&mut self, origin: Origin) -> Result<bool, Error> {
+        let Ok(legs) = origin.legs(self.bodies, &self.done.branches, self.watch) else {
+            return Ok(!self.watch.stopped() && self.link(origin, None));
+        };
+        let settings = self.bodies.settings();
+        let mut followed = Followed { origin, legs: Vec::new() };
+        for (number, leg) in legs.into_iter().enumerate() {
+            let (mut seen, mut on) = (0, None);
+            let mut is_known = |sample: &Sample| {
+                if number == 0 && seen < COMPARED && on.is_none() {
+                    seen += 1;
+                    on = known(self.bodies, &self.done.branches, sample, &settings, self.watch);
+                }
+                on.is_some()
+            };
+            match self.leg(leg, &mut is_known)? {
+                Some(leg) => followed.legs.push(leg),
+                None => return Ok(self.link(origin, on)),
+            }
+        }
+        Ok(if followed.legs.is_empty() { self.link(origin, None) } else { self.keep(followed) })
+    }
+
+    /// The points of a leg; `None` as soon as `is_known` says that it is on a branch already followed.
+    fn leg(
+        &self,
+        mut branch: Branch<'_>,
+        is_known: &mut dyn FnMut(&Sample) -> bool,
+    ) -> Result<Option<Leg>, Error> {
+        let mut samples: Vec<Sample> = Vec::new();
+        while let Some(point) = branch.next() {
+            let sample = Sample { reading: Reading::of(self.bodies, &point, self.watch)?, point };
+            if self.watch.stopped() {
+                return Ok(Some(Leg { samples, end: End::Stopped })); // what was read may be half of it
+            }
+            if is_known(&sample) {
+                return Ok(None);
+            }
+            if let [_, .., last] = &mut samples[..]
+                && last.point.special.is_none()
+            {
+                last.forget_nodes();
+            }
+            samples.push(sample);
+            self.progress(samples.len());
+        }
+        let end = branch.end().cloned().unwrap_or(End::Stopped);
+        Ok(Some(Leg { samples, end }))
+    }
+
+    /// How far the work is: branches, of as many as there may be, and the points of this one.
+    fn progress(&self, points: usize) {
+        let c = &self.bodies.plan.computation;
+        let part = (points as f64 / TYPICAL).min(1.0);
+        self.watch.progress((self.done.branches.len() as f64 + part) / c.branches as f64);
+    }
+
+    /// Whether the branch came to its end.
+    fn keep(&mut self, followed: Followed) -> bool {
+        let whole = followed.is_whole();
+        let (number, origin) = (self.done.branches.len(), followed.origin);
+        self.done.branches.push(followed);
+        whole && self.link(origin, Some(number))
+    }
+
+    fn link(&mut self, origin: Origin, branch: Option<usize>) -> bool {
+        self.done.links.push(Link { origin, branch });
+        true
+    }
+}
+
+/// Points of a branch, roughly: for the progress bar alone.
+const TYPICAL: f64 = 200.0;
+
+impl Sample {
+    fn forget_nodes(&mut self) {
+        if let Motion::Orbit { nodes, .. } = &mut self.point.motion {
+            nodes.clear();
+        }
+    }
+}
+
+impl Leg {
+    const fn none() -> Self {
+        Self { samples: Vec::new(), end: End::Stopped }
+    }
+}
+
+impl Followed {
+    /// Whether it came to all its ends.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.legs.iter().all(|leg| leg.end != End::Stopped)
+    }
+
+    /// Its points in order: the first leg backwards, then the second.
+    pub fn samples(&self) -> impl Iterator<Item = &Sample> {
+        let (first, rest) = self.legs.split_at(self.legs.len().min(1));
+        let (back, ahead) = if rest.is_empty() { (&[][..], first) } else { (first, rest) };
+        let first = |legs: &[Leg]| legs.first().and_then(|leg| Some(leg.samples.first()?.point.clone()));
+        let shared = usize::from(!back.is_empty() && first(back) == first(ahead));
+        let back = back.iter().flat_map(|leg| leg.samples.iter().rev());
+        back.chain(ahead.iter().flat_map(move |leg| leg.samples.iter().skip(shared)))
+    }
+
+    /// The kind of motion that most of its points have, with the most frequent form.
+    #[must_use]
+    pub fn motion(&self) -> (Option<Regime>, Option<Form>) {
+        let count = |kind: &dyn Fn(&Sample) -> bool| self.samples().filter(|sample| kind(sample)).count();
+        let regime = Regime::ALL.into_iter().max_by_key(|&regime| count(&|s| s.reading.motion == regime));
+        let forms = Form::ALL.into_iter().filter(|form| regime == Some(form.regime()));
+        let form = forms.map(|form| (count(&|s| s.reading.form == Some(form)), form));
+        (regime, form.filter(|entry| entry.0 > 0).max_by_key(|entry| entry.0).map(|entry| entry.1))
+    }
+}
+
+impl Branches {
+    const fn none() -> Self {
+        Self { branches: Vec::new(), links: Vec::new(), left: 0, complete: false }
+    }
+
+    /// Without the branch that was interrupted.
+    fn whole(mut self) -> Self {
+        self.branches.retain(Followed::is_whole);
+        self.left = 0;
+        self.complete = false;
+        self
+    }
+}

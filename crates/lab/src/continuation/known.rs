@@ -1,0 +1,79 @@
+//! Is a motion on a branch that was followed already?
+
+use super::family::Bodies;
+use super::follow::{Followed, Sample};
+use motiform_analysis::continuation::{Motion, Settings, same_motion};
+use motiform_analysis::periodic::PeriodicGuess;
+use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium};
+use motiform_dynamics::{Equivariant, Watch};
+
+/// Two motions are one if they agree up to this part of their size: well above what Newton's method leaves, well below the distance
+/// from a special point at which a new branch is entered.
+const SAME: f64 = 1e-6;
+
+/// Periods, speeds and sizes of neighbours on a branch that differ from the motion's by more than this part are of other motions.
+const NEAR: f64 = 0.1;
+
+/// The branch that `sample` lies on, up to rotations, the mirror and time: the neighbours about its parameter, brought to the same value
+/// of it by Newton's method, are compared.
+pub(super) fn known(
+    bodies: &Bodies<'_>,
+    branches: &[Followed],
+    sample: &Sample,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Option<usize> {
+    let parameter = sample.point.parameter;
+    let body = bodies.model(parameter).ok()?;
+    let is_here = |neighbour: &Sample| {
+        let found = moved(body.as_ref(), neighbour, settings, watch);
+        found.is_some_and(|found| {
+            same_motion(body.as_ref(), &sample.point.motion, &found, &settings.flow, SAME)
+        })
+    };
+    let holds = |branch: &Followed| {
+        let pairs = branch.legs.iter().flat_map(|leg| leg.samples.windows(2));
+        pairs.filter(|pair| about(pair, sample)).any(|pair| {
+            let far = |sample: &Sample| (sample.point.parameter - parameter).abs();
+            is_here(if far(&pair[0]) <= far(&pair[1]) { &pair[0] } else { &pair[1] })
+        })
+    };
+    branches.iter().position(holds)
+}
+
+/// Whether the motion may lie between two neighbours.
+fn about(pair: &[Sample], sample: &Sample) -> bool {
+    let within = |read: &dyn Fn(&Sample) -> f64, part: f64| {
+        let (a, b, x) = (read(&pair[0]), read(&pair[1]), read(sample));
+        let room = part * x.abs() + 1e-12;
+        a.min(b) - room <= x && x <= a.max(b) + room
+    };
+    let kind = |sample: &Sample| sample.point.motion.orbit().map(|orbit| orbit.mirrored);
+    kind(&pair[0]) == kind(sample)
+        && within(&|sample| sample.point.parameter, 1e-12)
+        && within(&|sample| sample.reading.period.unwrap_or(0.0), NEAR)
+        && within(&|sample| sample.reading.size, NEAR)
+        && within(&|sample| sample.reading.speed[0], NEAR)
+}
+
+/// A motion of a neighbouring body as one of this body.
+fn moved(
+    body: &dyn Equivariant,
+    neighbour: &Sample,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Option<Motion> {
+    match &neighbour.point.motion {
+        Motion::Equilibrium(near) => RelativeEquilibrium::find(body, &near.shape).map(Motion::Equilibrium),
+        Motion::Orbit { orbit: near, .. } => {
+            let guess = PeriodicGuess {
+                shape: &near.shape,
+                time: near.time,
+                angle: near.angle,
+                mirrored: near.mirrored,
+            };
+            let orbit = PeriodicOrbit::find(body, &guess, &settings.flow, watch)?;
+            Some(Motion::Orbit { orbit, nodes: Vec::new() })
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! Branches: the motion that a start settles on, followed along a parameter, stable or not, and what begins and ends on the way.
+//!
+//! A [`BranchPlan`](motiform_study::BranchPlan) is carried out by [`follow`]: the plan's own start is simulated until its motion is named
+//! ([`settle`](mod@settle)), polished by Newton's method, and followed to both sides of the range. Then every special point and every end
+//! of a branch is asked what begins there ([`Origin`]), in the order in which they were found, so that the same plan gives the same
+//! bits. A motion that lies on a branch already followed is recognised and not followed twice.
+//!
+//! A branch is the unit of work: one that was interrupted is kept as far as it came, and followed from its beginning when the work is
+//! taken up again ([`BranchFolder`]).
+
+mod family;
+mod folder;
+mod follow;
+mod known;
+mod origin;
+mod reading;
+pub mod settle;
+mod single_loop;
+mod stretches;
+mod summary;
+mod table;
+
+pub use folder::{BranchFolder, default_folder};
+pub use follow::{Branches, Followed, Leg, Link, Sample, follow};
+pub use origin::Origin;
+pub use reading::Reading;
+pub(crate) use stretches::is_stable;
+pub use stretches::stretches;
+pub use summary::{SpecialEntry, summary};
+pub use table::columns;

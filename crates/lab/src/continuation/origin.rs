@@ -1,0 +1,189 @@
+//! Where a branch begins.
+
+use super::family::Bodies;
+use super::follow::{Followed, Leg, Sample};
+use super::settle::Start;
+use super::single_loop::single_loop;
+use motiform_analysis::continuation::{Branch, End, Settings, Special, switch};
+use motiform_analysis::{Error as Refused, Isotropy, RelativeEquilibrium};
+use motiform_dynamics::{Equivariant, Watch};
+use serde::{Deserialize, Serialize};
+
+/// What a branch was followed from. Branches, their legs and points are counted from 0 in the order in which they were found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", tag = "kind")]
+pub enum Origin {
+    /// The motion that the plan's start settles on.
+    Start,
+    /// A special point: what begins or crosses there.
+    Special {
+        /// The branch.
+        branch: usize,
+        /// Its leg.
+        leg: usize,
+        /// The point of the leg.
+        point: usize,
+    },
+    /// The end of a leg at a homoclinic connection: the saddle.
+    Saddle {
+        /// The branch.
+        branch: usize,
+        /// Its leg.
+        leg: usize,
+    },
+    /// The same where both loops of the connection belong to one orbit, which is its own mirror image: an orbit along one of them.
+    Loop {
+        /// The branch.
+        branch: usize,
+        /// Its leg.
+        leg: usize,
+    },
+    /// The end of a leg where an orbit shrinks to a steady motion: that motion.
+    Shrinks {
+        /// The branch.
+        branch: usize,
+        /// Its leg.
+        leg: usize,
+    },
+}
+
+impl Origin {
+    /// What may begin on a branch, in the order of its legs.
+    pub(super) fn on(number: usize, followed: &Followed) -> Vec<Self> {
+        let mut all = Vec::new();
+        for (leg, done) in followed.legs.iter().enumerate() {
+            for (point, sample) in done.samples.iter().enumerate() {
+                let leads_on = |special| {
+                    !matches!(special, Special::Fold | Special::Torus { .. } | Special::Unresolved { .. })
+                };
+                if sample.point.special.is_some_and(leads_on) {
+                    all.push(Self::Special { branch: number, leg, point });
+                }
+            }
+            match &done.end {
+                End::Homoclinic(_) => {
+                    all.push(Self::Saddle { branch: number, leg });
+                    let last = done.samples.last().and_then(|sample| sample.point.motion.orbit());
+                    if last.is_some_and(|orbit| orbit.mirrored) {
+                        all.push(Self::Loop { branch: number, leg });
+                    }
+                }
+                End::Shrinks { .. } => all.push(Self::Shrinks { branch: number, leg }),
+                _ => {}
+            }
+        }
+        all
+    }
+
+    /// The period of what begins at a special point, and 0 at the end of a branch: ends are few, and lead to other kinds of motion.
+    pub(super) fn cost(self, branches: &[Followed]) -> f64 {
+        let period = |sample: Option<&Sample>| sample.and_then(|sample| sample.reading.period).unwrap_or(0.0);
+        match self {
+            Self::Start | Self::Saddle { .. } | Self::Loop { .. } | Self::Shrinks { .. } => 0.0,
+            Self::Special { branch, leg, point } => {
+                let sample = &branches[branch].legs[leg].samples[point];
+                match sample.point.special {
+                    Some(Special::Hopf(hopf)) => hopf.period(),
+                    Some(Special::PeriodDoubling) => 2.0 * period(Some(sample)),
+                    _ => period(Some(sample)),
+                }
+            }
+        }
+    }
+
+    /// The branch on which it lies.
+    #[must_use]
+    pub const fn branch(self) -> Option<usize> {
+        match self {
+            Self::Start => None,
+            Self::Special { branch, .. }
+            | Self::Saddle { branch, .. }
+            | Self::Loop { branch, .. }
+            | Self::Shrinks { branch, .. } => Some(branch),
+        }
+    }
+
+    /// The legs that begin here: one to each side, or those on which new motions leave.
+    pub(super) fn legs<'f>(
+        self,
+        bodies: &'f Bodies<'_>,
+        branches: &[Followed],
+        watch: &'f dyn Watch,
+    ) -> Result<Vec<Branch<'f>>, Refused> {
+        let settings = bodies.settings();
+        match self {
+            Self::Start => Ok(Vec::new()),
+            Self::Special { branch, leg, point } => {
+                switch(bodies, &branches[branch].legs[leg].samples[point].point, &settings, watch)
+            }
+            Self::Saddle { branch, leg } => {
+                let leg = &branches[branch].legs[leg];
+                let saddle = saddle(leg).ok_or_else(|| nothing("saddle", leg))?;
+                both(bodies, parameter(leg), &Start::Equilibrium(saddle.clone()), watch)
+            }
+            Self::Loop { branch, leg } => {
+                let leg = &branches[branch].legs[leg];
+                let saddle = saddle(leg).ok_or_else(|| nothing("saddle", leg))?;
+                single_loop(bodies, leg, saddle, watch)?.ok_or_else(|| nothing("loop", leg))
+            }
+            Self::Shrinks { branch, leg } => {
+                let leg = &branches[branch].legs[leg];
+                let body = bodies.model(parameter(leg))?;
+                let shape = leg.samples.last().map_or(&[][..], |sample| sample.point.motion.shape());
+                let found = RelativeEquilibrium::find(body.as_ref(), shape)
+                    .ok_or_else(|| nothing("steady motion", leg))?;
+                both(bodies, parameter(leg), &Start::Equilibrium(found), watch)
+            }
+        }
+    }
+}
+
+/// The branch through a motion, towards smaller values of the parameter and towards larger ones; where it lies at the edge of the range,
+/// to one side.
+pub(super) fn both<'f>(
+    bodies: &'f Bodies<'_>,
+    parameter: f64,
+    start: &Start,
+    watch: &'f dyn Watch,
+) -> Result<Vec<Branch<'f>>, Refused> {
+    let settings = bodies.settings();
+    let (low, high) = settings.range;
+    let sides = [(parameter > low, settings.reversed()), (parameter < high, settings)];
+    let leg = |settings: &Settings| match start {
+        Start::Equilibrium(start) => {
+            let body = bodies.model(parameter)?;
+            Branch::of_equilibria(bodies, parameter, &upright(body.as_ref(), start), settings, watch)
+        }
+        Start::Orbit(start) => Branch::of_orbits(bodies, parameter, start, settings, watch),
+    };
+    sides.iter().filter(|(inside, _)| *inside).map(|(_, settings)| leg(settings)).collect()
+}
+
+/// The parameter of a leg's last point.
+fn parameter(leg: &Leg) -> f64 {
+    leg.samples.last().map_or(f64::NAN, |sample| sample.point.parameter)
+}
+
+fn saddle(leg: &Leg) -> Option<&RelativeEquilibrium> {
+    match &leg.end {
+        End::Homoclinic(connection) => connection.saddle.as_ref(),
+        _ => None,
+    }
+}
+
+fn nothing(what: &'static str, leg: &Leg) -> Refused {
+    let why = "Newton's method finds none from the last orbit of the branch".to_owned();
+    Refused::NotOnABranch { what, parameter: parameter(leg), why }
+}
+
+/// The same motion turned so that its mirror axis, if it has one, is that of the plane.
+fn upright(body: &dyn Equivariant, start: &RelativeEquilibrium) -> RelativeEquilibrium {
+    let mut turned = start.clone();
+    if let Some(axis) = Isotropy::of(body, &start.shape, SYMMETRIC).mirror {
+        body.rotate(-0.5 * axis, &mut turned.shape);
+    }
+    turned
+}
+
+/// A shape that differs from its image by less than this part of its size is symmetric.
+const SYMMETRIC: f64 = 1e-8;

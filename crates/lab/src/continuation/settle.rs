@@ -1,0 +1,98 @@
+//! The motion that a start settles on, as Newton's method has it.
+
+use super::family::Bodies;
+use motiform_analysis::continuation::Settings;
+use motiform_analysis::periodic::{Flow, PeriodicGuess};
+use motiform_analysis::regime::{Form, settle as settled};
+use motiform_analysis::symmetry::align;
+use motiform_analysis::{Attractor, PeriodicOrbit, RelativeEquilibrium, Verdict};
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::{Equivariant, Request, StopOnly, Watch};
+use motiform_study::{BranchPlan, Error};
+
+/// A motion to begin with.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Start {
+    /// A shape that does not change but for a steady rotation.
+    Equilibrium(RelativeEquilibrium),
+    /// A shape that comes back.
+    Orbit(PeriodicOrbit),
+}
+
+/// The motion that the plan's start settles on, with its verdict; `None` if the watch stopped it.
+///
+/// # Errors
+/// [`Error::Start`] if it is not the motion asked for, or none that can be followed.
+pub fn settle(plan: &BranchPlan, watch: &dyn Watch) -> Result<Option<(Start, Verdict)>, Error> {
+    let bodies = Bodies::new(plan)?;
+    let model = bodies.model(plan.start_value())?;
+    let mut shape = vec![0.0; model.dim()];
+    model.encode(&plan.computation.start.initial.values()[..model.dim()], &mut shape);
+    let found = settled(model.as_ref(), &shape, &bodies.looks(), &StopOnly(watch))?;
+    let Some((verdict, shape)) = found else { return Ok(None) };
+    check(plan, &verdict)?;
+    let start = polish(model.as_ref(), &verdict, &shape, &bodies.settings(), watch);
+    match start {
+        Some(start) => Ok(Some((start, verdict))),
+        None if watch.stopped() => Ok(None),
+        None => Err(refused(&verdict, "where Newton's method finds no such motion: start elsewhere")),
+    }
+}
+
+/// Refuses a motion that is not the one asked for, or is neither steady nor repeats.
+fn check(plan: &BranchPlan, verdict: &Verdict) -> Result<(), Error> {
+    if !matches!(verdict.attractor, Attractor::Equilibrium | Attractor::Unstable | Attractor::Periodic) {
+        return Err(refused(
+            verdict,
+            "which neither is steady nor repeats, so that there is no branch of it: choose another start or other \
+             parameters",
+        ));
+    }
+    match plan.computation.origin {
+        Some(asked) if asked != verdict.regime => Err(refused(
+            verdict,
+            &format!(
+                "not on {asked} motion as asked for: choose another start (an initial state, a seed) or other parameters, \
+                 or begin with the motion it settles on"
+            ),
+        )),
+        _ => Ok(()),
+    }
+}
+
+fn refused(verdict: &Verdict, problem: &str) -> Error {
+    Error::Start { found: verdict.regime.name(), why: verdict.why.clone(), problem: problem.to_owned() }
+}
+
+/// The motion as Newton's method has it, from a shape close to it.
+fn polish(
+    body: &dyn Equivariant,
+    verdict: &Verdict,
+    shape: &[f64],
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Option<Start> {
+    let Some(period) = verdict.period else {
+        return RelativeEquilibrium::find(body, shape).map(Start::Equilibrium);
+    };
+    let mirrored = verdict.form == Some(Form::MirrorZigzag);
+    let time = if mirrored { 0.5 * period } else { period };
+    closed(body, shape, (time, mirrored), &settings.flow, watch).map(Start::Orbit)
+}
+
+/// The orbit near `shape` that comes back after nearly `time`.
+pub(super) fn closed(
+    body: &dyn Equivariant,
+    shape: &[f64],
+    (time, mirrored): (f64, bool),
+    flow: &Flow,
+    watch: &dyn Watch,
+) -> Option<PeriodicOrbit> {
+    let mut orbit = flow.method.shape_orbit(body, flow.control, 0.0, shape).ok()?;
+    let request =
+        Request { max_steps: flow.max_steps, watch: &StopOnly(watch), ..Request::until(time, shape.len()) };
+    drive(orbit.as_mut(), &request, &mut ()).ok()?;
+    let angle = align(body, orbit.state(), shape, mirrored).angle;
+    let guess = PeriodicGuess { shape, time, angle, mirrored };
+    PeriodicOrbit::find(body, &guess, flow, watch)
+}

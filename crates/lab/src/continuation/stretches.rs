@@ -1,0 +1,57 @@
+//! Where a branch is stable.
+
+use super::follow::{Branches, Followed, Sample};
+use super::origin::Origin;
+
+/// Ranges of the parameter over which a branch is stable, in its order, each from the smaller to the larger value. They end at special
+/// points, or where the branch does.
+#[must_use]
+pub fn stretches(found: &Branches, followed: &Followed) -> Vec<[f64; 2]> {
+    let samples: Vec<&Sample> = followed.samples().collect();
+    let mut all: Vec<[f64; 2]> = Vec::new();
+    let mut open: Option<[f64; 2]> = None;
+    for pair in samples.windows(2) {
+        let [a, b] = [pair[0], pair[1]].map(|sample| sample.point.parameter);
+        let joint = pair[0].point.special.is_some();
+        if !is_stable(pair[0], pair[1]) {
+            all.extend(open.take());
+        } else if let Some(range) = open.as_mut().filter(|_| !joint || goes_on(&samples, pair[0])) {
+            *range = [range[0].min(a).min(b), range[1].max(a).max(b)];
+        } else {
+            all.extend(open.replace([a.min(b), a.max(b)]));
+        }
+    }
+    all.extend(open);
+    if let (Some(birth), Some(first)) = (birth(found, followed), all.first_mut())
+        && samples.len() > 1
+        && is_stable(samples[0], samples[1])
+    {
+        *first = [first[0].min(birth), first[1].max(birth)];
+    }
+    all
+}
+
+/// The parameter of the special point where a branch of one leg begins.
+fn birth(found: &Branches, followed: &Followed) -> Option<f64> {
+    let (Origin::Special { branch, leg, point }, [_]) = (followed.origin, &followed.legs[..]) else {
+        return None;
+    };
+    Some(found.branches.get(branch)?.legs.get(leg)?.samples.get(point)?.point.parameter)
+}
+
+/// Whether a stretch between neighbours is stable: a special point itself is neither.
+#[must_use]
+pub(crate) fn is_stable(a: &Sample, b: &Sample) -> bool {
+    let known = |sample: &Sample| sample.point.special.is_none().then_some(sample.point.unstable == 0);
+    known(a).or_else(|| known(b)).unwrap_or(false)
+}
+
+/// Whether the parameter goes on in one direction through a special point: it does not at a fold.
+fn goes_on(samples: &[&Sample], at: &Sample) -> bool {
+    let Some(place) = samples.iter().position(|sample| std::ptr::eq(*sample, at)) else { return false };
+    let parameter = |place: usize| samples.get(place).map(|sample| sample.point.parameter);
+    match (place.checked_sub(1).and_then(parameter), parameter(place), parameter(place + 1)) {
+        (Some(before), Some(here), Some(after)) => (here - before) * (after - here) > 0.0,
+        _ => false,
+    }
+}

@@ -1,0 +1,157 @@
+//! Branches in a few numbers: what `--json` prints and `summary.json` holds.
+
+use super::follow::{Branches, Followed, Leg, Sample};
+use super::origin::Origin;
+use super::stretches::stretches;
+use motiform_analysis::continuation::{Broken, End, Special};
+use motiform_study::BranchPlan;
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+/// A place where a branch changes or ends.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SpecialEntry {
+    /// `hopf`, `fold`, `pitchfork`, `branch-point`, `symmetry-breaking`, `period-doubling`, `torus`, or the end `homoclinic`.
+    pub kind: &'static str,
+    /// The value of the parameter.
+    pub parameter: f64,
+    /// Period of the motion, or of the one that begins (model time).
+    pub period: Option<f64>,
+    /// `supercritical` where what begins is stable in the critical directions, or `subcritical`.
+    pub criticality: Option<&'static str>,
+    /// What a pitchfork breaks: the `mirror` symmetry, or `rotations`.
+    pub breaks: Option<&'static str>,
+    /// The branch that begins or lies there, from 0.
+    pub branch: Option<usize>,
+}
+
+impl SpecialEntry {
+    fn value(&self, parameter: &str) -> Value {
+        let mut object = Map::new();
+        object.insert("kind".to_owned(), self.kind.into());
+        object.insert(parameter.to_owned(), self.parameter.into());
+        let words = [("criticality", self.criticality), ("breaks", self.breaks)];
+        object.extend(self.period.map(|period| ("period".to_owned(), period.into())));
+        object.extend(words.into_iter().filter_map(|(key, word)| Some((key.to_owned(), word?.into()))));
+        object.extend(self.branch.map(|branch| ("branch".to_owned(), branch.into())));
+        object.into()
+    }
+}
+
+/// The summary as JSON: `{"branches": [{"motion", "origin", "stable", "special", "ends", "end", ...}], ...}`.
+#[must_use]
+pub fn summary(plan: &BranchPlan, found: &Branches) -> Value {
+    let c = &plan.computation;
+    let entries = found.branches.iter().enumerate();
+    json!({
+        "model": c.start.model,
+        "parameters": c.start.parameters,
+        "along": c.along,
+        "complete": found.complete,
+        "origins_left": found.left,
+        "branches": entries.map(|(number, followed)| entry(plan, found, (number, followed))).collect::<Vec<_>>(),
+    })
+}
+
+fn entry(plan: &BranchPlan, found: &Branches, (number, followed): (usize, &Followed)) -> Value {
+    let name = &plan.computation.along.name;
+    let (motion, form) = followed.motion();
+    let ends: Vec<String> = followed.legs.iter().map(|leg| ending(leg)).collect();
+    let special: Vec<Value> = found.special(number).iter().map(|entry| entry.value(name)).collect();
+    let mut object = json!({ "motion": motion });
+    let mut put = |key: &str, value: Value| object[key] = value;
+    if let Some(form) = form {
+        put("form", json!(form));
+    }
+    put("origin", json!(followed.origin));
+    put("points", followed.samples().count().into());
+    put("stable", json!(stretches(found, followed)));
+    put("special", special.into());
+    put("end", ends.last().cloned().unwrap_or_default().into());
+    put("ends", json!(ends));
+    object
+}
+
+/// How a leg ended, in words.
+fn ending(leg: &Leg) -> String {
+    leg.end.to_string()
+}
+
+impl Branches {
+    /// The special points of a branch in its order, homoclinic ends among them.
+    #[must_use]
+    pub fn special(&self, number: usize) -> Vec<SpecialEntry> {
+        let Some(followed) = self.branches.get(number) else { return Vec::new() };
+        let mut all: Vec<Vec<SpecialEntry>> = followed
+            .legs
+            .iter()
+            .enumerate()
+            .map(|(leg, done)| {
+                let points = done.samples.iter().enumerate();
+                let inside = points.filter_map(|(point, sample)| self.entry((number, leg, point), sample));
+                inside.chain(end(done)).collect()
+            })
+            .collect();
+        if let [back, _, ..] = &mut all[..] {
+            back.reverse();
+        }
+        all.concat()
+    }
+
+    fn entry(&self, (branch, leg, point): (usize, usize, usize), sample: &Sample) -> Option<SpecialEntry> {
+        let special = sample.point.special?;
+        let origin = Origin::Special { branch, leg, point };
+        let next = self.links.iter().find(|link| link.origin == origin).and_then(|link| link.branch);
+        let begins = next.and_then(|next| self.branches.get(next)).filter(|next| next.origin == origin);
+        let first = begins.and_then(|next| Some(next.legs.first()?.samples.first()?.point.parameter));
+        let supercritical = match special {
+            Special::Hopf(hopf) => hopf.is_supercritical(),
+            _ => first.and_then(|first| is_supercritical(&self.branches[branch].legs[leg], point, first)),
+        };
+        let criticality = supercritical.map(|is| if is { "supercritical" } else { "subcritical" });
+        Some(SpecialEntry {
+            kind: special.name(),
+            parameter: sample.point.parameter,
+            period: match special {
+                Special::Hopf(hopf) => Some(hopf.period()),
+                _ => sample.reading.period,
+            },
+            criticality: criticality.filter(|_| special != Special::BranchPoint),
+            breaks: match special {
+                Special::Pitchfork { breaks: Broken::Mirror } => Some("mirror"),
+                Special::Pitchfork { breaks: Broken::Rotations } => Some("rotations"),
+                _ => None,
+            },
+            branch: next,
+        })
+    }
+}
+
+/// Whether what begins at a point of a leg, and is seen first at the parameter `first`, lies on the side where the leg has more growing
+/// directions: then it is stable in the critical direction.
+fn is_supercritical(leg: &Leg, point: usize, first: f64) -> Option<bool> {
+    let ordinary = |sample: &&Sample| sample.point.special.is_none();
+    let before = leg.samples[..point].iter().rev().find(ordinary)?;
+    let after = leg.samples[point + 1..].iter().find(ordinary)?;
+    let here = leg.samples[point].point.parameter;
+    let beside = |sample: &Sample| (sample.point.parameter - here) * (first - here) > 0.0;
+    let (same, other) = match (beside(before), beside(after)) {
+        (true, false) => (before, after),
+        (false, true) => (after, before),
+        _ => return None, // the leg turns back here
+    };
+    Some(same.point.unstable > other.point.unstable)
+}
+
+/// The end of a leg, where it is a place of its own.
+fn end(leg: &Leg) -> Option<SpecialEntry> {
+    let End::Homoclinic(connection) = &leg.end else { return None };
+    Some(SpecialEntry {
+        kind: "homoclinic",
+        parameter: connection.parameter,
+        period: None,
+        criticality: None,
+        breaks: None,
+        branch: None,
+    })
+}

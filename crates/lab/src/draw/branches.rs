@@ -1,0 +1,182 @@
+//! Branches: the bifurcation diagram, and the periods.
+
+use super::{Picture, undrawable, words};
+use crate::continuation::{Branches, Followed, Origin, Sample, is_stable};
+use motiform_analysis::continuation::{End, Special};
+use motiform_figures::{BranchDiagram, BranchMark, BranchPart, DEFAULT_SCALE, Figure, Glyph, png};
+use motiform_study::plan::Named;
+use motiform_study::{BranchPlan, Error};
+
+/// What a diagram shows against the parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ordinate {
+    /// Mean speed.
+    Speed,
+    /// Mean turning rate; undefined where the body stops.
+    TurningRate,
+    /// Largest size of the shape.
+    Size,
+    /// Net rotation per period.
+    NetRotation,
+    /// Period.
+    Period,
+}
+
+impl Ordinate {
+    fn label(self) -> &'static str {
+        match self {
+            Self::Speed => "mean speed",
+            Self::TurningRate => "mean turning rate (rad/time)",
+            Self::Size => "largest size |*u*| of the shape",
+            Self::NetRotation => "net rotation per period (rad)",
+            Self::Period => "period (time)",
+        }
+    }
+
+    fn read(self, sample: &Sample) -> Option<f64> {
+        let reading = &sample.reading;
+        match self {
+            Self::Speed => Some(reading.speed[0]),
+            // left and right are mirror images: one of them is followed
+            Self::TurningRate => reading.turning_rate.map(f64::abs),
+            Self::Size => Some(reading.size),
+            Self::NetRotation => reading.net_rotation.map(f64::abs),
+            Self::Period => reading.period,
+        }
+    }
+}
+
+/// Draws `branches` (the diagram) and, where motions repeat, `period`: as SVG and PNG, with their numbers as CSV. Branches without
+/// points give no pictures.
+///
+/// # Errors
+/// An unknown model, or numbers that no axis can hold.
+pub fn draw_branches(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Result<Vec<Picture>, Error> {
+    let mut pictures = Vec::new();
+    for (name, ordinate) in [("branches", ordinate), ("period", Ordinate::Period)] {
+        let figure = diagram(plan, found, ordinate)?;
+        if figure.parts.is_empty() {
+            continue;
+        }
+        let drawn = figure.drawn().map_err(undrawable)?;
+        let image = png(&drawn.svg, DEFAULT_SCALE, &[]).map_err(undrawable)?;
+        let files = [("svg", drawn.svg.into_bytes()), ("png", image), ("csv", drawn.data.into_bytes())];
+        pictures.extend(files.map(|(ending, bytes)| Picture { name: format!("{name}.{ending}"), bytes }));
+    }
+    Ok(pictures)
+}
+
+/// The diagram of branches.
+///
+/// # Errors
+/// An unknown model.
+pub fn diagram(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Result<BranchDiagram, Error> {
+    let info = plan.info()?;
+    let along = &plan.computation.along;
+    let spec = info.parameters().iter().find(|spec| spec.name == along.name);
+    Ok(BranchDiagram {
+        title: plan.title(),
+        caption: caption(plan, found)?,
+        x_label: spec.map_or_else(|| along.name.clone(), |spec| spec.symbol.to_owned()),
+        y_label: ordinate.label().to_owned(),
+        logarithmic: ordinate == Ordinate::Period,
+        x: [along.from, along.to],
+        parts: found.branches.iter().flat_map(|followed| all_parts(found, followed, ordinate)).collect(),
+        marks: found.branches.iter().flat_map(|followed| marks(followed, ordinate)).collect(),
+    })
+}
+
+fn caption(plan: &BranchPlan, found: &Branches) -> Result<Vec<String>, Error> {
+    let c = &plan.computation;
+    let fixed = c.start.parameters.0.iter().filter(|entry| entry.0 != c.along.name).cloned().collect();
+    let count = found.branches.len();
+    let left = match found.left {
+        0 => String::new(),
+        1 => "; one point at which more may begin was left".to_owned(),
+        left => format!("; {left} points at which more may begin were left"),
+    };
+    let unfinished = if found.complete { "" } else { " Interrupted: not all of them are followed." };
+    Ok(vec![
+        words::named(plan.info()?, &Named(fixed)),
+        format!(
+            "{count} branches by pseudo-arclength continuation, each drawn once for all its mirror images{left}.{unfinished}"
+        ),
+    ])
+}
+
+/// The parts of a branch, the first one drawn from the special point where it begins.
+fn all_parts(found: &Branches, followed: &Followed, ordinate: Ordinate) -> Vec<BranchPart> {
+    let mut all = parts(followed, ordinate);
+    if let (Some(at), [_], Some(first)) =
+        (birth(found, followed.origin, ordinate), &followed.legs[..], all.first_mut())
+    {
+        first.points.insert(0, at);
+    }
+    all
+}
+
+/// The special point where a branch begins, as a point of the new branch.
+fn birth(found: &Branches, origin: Origin, ordinate: Ordinate) -> Option<[f64; 2]> {
+    let Origin::Special { branch, leg, point } = origin else { return None };
+    let sample = &found.branches[branch].legs[leg].samples[point];
+    let value = match (ordinate, sample.point.special?) {
+        (Ordinate::Period, Special::Hopf(hopf)) => hopf.period(),
+        (Ordinate::Period, Special::PeriodDoubling) => 2.0 * sample.reading.period?,
+        _ => ordinate.read(sample)?,
+    };
+    Some([sample.point.parameter, value])
+}
+
+/// The parts of a branch, each with its stability and motion.
+fn parts(followed: &Followed, ordinate: Ordinate) -> Vec<BranchPart> {
+    let samples: Vec<&Sample> = followed.samples().collect();
+    let mut all: Vec<BranchPart> = Vec::new();
+    let mut open = false;
+    for pair in samples.windows(2) {
+        let at = |sample: &Sample| Some([sample.point.parameter, ordinate.read(sample)?]);
+        let (Some(from), Some(to)) = (at(pair[0]), at(pair[1])) else {
+            open = false;
+            continue;
+        };
+        let named = if pair[0].point.special.is_none() { pair[0] } else { pair[1] };
+        let (regime, stable) = (named.reading.motion.name(), is_stable(pair[0], pair[1]));
+        match all.last_mut().filter(|last| open && last.regime == regime && last.stable == stable) {
+            Some(last) => last.points.push(to),
+            None => all.push(BranchPart { regime: regime.to_owned(), stable, points: vec![from, to] }),
+        }
+        open = true;
+    }
+    all
+}
+
+/// The special points of a branch, and the homoclinic connections that it ends at.
+fn marks(followed: &Followed, ordinate: Ordinate) -> Vec<BranchMark> {
+    let mut all = Vec::new();
+    for leg in &followed.legs {
+        for sample in &leg.samples {
+            let Some((special, y)) = sample.point.special.zip(ordinate.read(sample)) else { continue };
+            let (label, glyph) = mark(special);
+            all.push(BranchMark { label: label.to_owned(), glyph, at: [sample.point.parameter, y] });
+        }
+        if let (End::Homoclinic(_), Some(last)) = (&leg.end, leg.samples.last())
+            && let Some(y) = ordinate.read(last)
+        {
+            let at = [last.point.parameter, y];
+            all.push(BranchMark { label: "homoclinic".to_owned(), glyph: Glyph::Cross, at });
+        }
+    }
+    all
+}
+
+fn mark(special: Special) -> (&'static str, Glyph) {
+    match special {
+        Special::Fold => ("fold", Glyph::Star),
+        Special::Pitchfork { .. } => ("pitchfork", Glyph::Diamond),
+        Special::Hopf(_) => ("Hopf", Glyph::Disc),
+        Special::PeriodDoubling => ("period doubling", Glyph::Triangle),
+        Special::SymmetryBreaking => ("symmetry breaking", Glyph::Square),
+        Special::Torus { .. } => ("torus", Glyph::Ring),
+        Special::Unresolved { .. } => ("not located", Glyph::Question),
+        _ => ("branch point", Glyph::DownTriangle),
+    }
+}

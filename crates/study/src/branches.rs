@@ -1,0 +1,196 @@
+//! Branches as data: which motion is followed, along which parameter, how far.
+
+use crate::plan::{Computation, check, check_no_noise, sha256_hex};
+use crate::{Error, Plan, Study};
+use motiform_analysis::Regime;
+use motiform_models::ModelInfo;
+use motiform_models::parameters::index_of;
+use serde::{Deserialize, Serialize};
+
+/// Version of the meaning of a plan of branches; part of the hash. A change that moves a number raises it.
+pub const BRANCH_FORMAT: u32 = 1;
+
+/// The regimes that are steady or repeat: motions that can be followed.
+pub const FOLLOWED: [Regime; 6] = [
+    Regime::Motionless,
+    Regime::Straight,
+    Regime::Circular,
+    Regime::Zigzag,
+    Regime::QuasiPeriodic,
+    Regime::PulsatingStraight,
+];
+
+/// A parameter that is varied, with its range.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Along {
+    /// The parameter.
+    pub name: String,
+    /// Beginning of the range.
+    pub from: f64,
+    /// End of the range, above its beginning.
+    pub to: f64,
+}
+
+/// Which branches are followed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BranchSettings {
+    /// The parameter and its range.
+    pub along: Along,
+    /// The motion that the start must settle on; any that can be followed, if `None`.
+    pub origin: Option<Regime>,
+    /// Most points of a branch to each side, special ones not counted.
+    pub points: usize,
+    /// Most branches; 1 follows the motion itself and none that begins on it.
+    pub branches: usize,
+}
+
+/// What will be computed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BranchPlan {
+    /// Short name of the study.
+    pub name: String,
+    /// Title of the figures as typed, or nothing: see [`BranchPlan::title`].
+    pub title: String,
+    /// What is computed: the hash covers this.
+    pub computation: BranchComputation,
+}
+
+/// Everything that the numbers depend on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BranchComputation {
+    /// [`BRANCH_FORMAT`].
+    pub format: u32,
+    /// The parameter and its range.
+    pub along: Along,
+    /// The motion that the start must settle on.
+    pub origin: Option<Regime>,
+    /// Most points to each side.
+    pub points: usize,
+    /// Most branches.
+    pub branches: usize,
+    /// The start: model, parameters, initial state, method.
+    pub start: Computation,
+}
+
+impl Along {
+    /// Reads `NAME=LOW:HIGH`.
+    ///
+    /// # Errors
+    /// [`Error::Along`] with the remedy.
+    pub fn parse(text: &str) -> Result<Self, Error> {
+        let read = || {
+            let (name, range) = text.split_once('=')?;
+            let (from, to) = range.split_once(':')?;
+            let (from, to): (f64, f64) = (from.trim().parse().ok()?, to.trim().parse().ok()?);
+            let name = name.trim().to_owned();
+            (!name.is_empty() && from.is_finite() && to.is_finite()).then_some(Self { name, from, to })
+        };
+        read().ok_or_else(|| wrong(text.to_owned(), "write NAME=LOW:HIGH, e.g. kappa2=0.3:1.6".to_owned()))
+    }
+
+    fn check(&self, info: &'static ModelInfo, value: f64) -> Result<(), Error> {
+        let spec = &info.parameters()[index_of(info.parameters(), info.name, &self.name)?];
+        let refuse = |problem: String| Err(wrong(self.to_string(), problem));
+        let (from, to, (min, max)) = (self.from, self.to, spec.allowed);
+        if spec.whole {
+            return refuse(format!("{} is a whole number: nothing can be followed along it", self.name));
+        }
+        if from >= to {
+            return refuse("the range must rise: give LOW below HIGH".to_owned());
+        }
+        if from < min || to > max {
+            return refuse(format!("{} can be from {min} to {max}: give a range inside", self.name));
+        }
+        if !(from..=to).contains(&value) {
+            let name = &self.name;
+            return refuse(format!(
+                "the start, {name} = {value}, is outside: give a range that holds it, or start inside with \
+                 --set {name}=VALUE"
+            ));
+        }
+        Ok(())
+    }
+}
+
+impl std::fmt::Display for Along {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}={}:{}", self.name, self.from, self.to)
+    }
+}
+
+fn wrong(text: String, problem: String) -> Error {
+    Error::Along { text, problem }
+}
+
+/// The regime of a kind of start.
+///
+/// # Errors
+/// [`Error::Origin`] for a name that is none, or that of a motion that cannot be followed.
+pub fn origin(name: &str) -> Result<Regime, Error> {
+    let known = FOLLOWED.map(Regime::name);
+    FOLLOWED.into_iter().find(|regime| regime.name() == name).ok_or_else(|| Error::Origin {
+        name: name.to_owned(),
+        nearest: crate::error::nearest_of(name, &known),
+        known: known.to_vec(),
+    })
+}
+
+impl BranchPlan {
+    /// Makes a study and the settings explicit and checks every number.
+    ///
+    /// # Errors
+    /// [`Error`] naming the key, the value and the remedy.
+    pub fn new(study: &Study, settings: &BranchSettings) -> Result<Self, Error> {
+        let BranchSettings { along, origin, points, branches } = settings.clone();
+        let plan = Plan::new(study)?;
+        let start = plan.computation;
+        check_no_noise(start.noise.map_or(0.0, |noise| noise.largest()))?;
+        let info = study.info()?;
+        let value = start.parameters.get(&along.name).unwrap_or(f64::NAN);
+        along.check(info, value)?;
+        check("points", points as f64, (2..=1_000_000).contains(&points), "give from 2 to 1000000")?;
+        check("branches", branches as f64, (1..=1000).contains(&branches), "give from 1 to 1000")?;
+        let computation = BranchComputation { format: BRANCH_FORMAT, along, origin, points, branches, start };
+        Ok(Self { name: plan.name, title: plan.title, computation })
+    }
+
+    /// SHA-256 of the computation as compact JSON, in hexadecimal: equal hashes mean equal numbers.
+    #[must_use]
+    pub fn hash(&self) -> String {
+        sha256_hex(&serde_json::to_vec(&self.computation).unwrap_or_default())
+    }
+
+    /// The registry entry of its model.
+    ///
+    /// # Errors
+    /// An unknown model.
+    pub fn info(&self) -> Result<&'static ModelInfo, Error> {
+        Ok(ModelInfo::find(&self.computation.start.model)?)
+    }
+
+    /// The title of the figures: the one typed, or one made of model and parameter.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let c = &self.computation;
+        if !self.title.is_empty() {
+            return self.title.clone();
+        }
+        let specs = self.info().map_or(&[][..], ModelInfo::parameters);
+        let symbol = specs.iter().find(|spec| spec.name == c.along.name).map_or("", |spec| spec.symbol);
+        format!("{} model: branches along {symbol}", crate::titles::capital(&c.start.model))
+    }
+
+    /// The value of the varied parameter at the start.
+    #[must_use]
+    pub fn start_value(&self) -> f64 {
+        self.computation.start.parameters.get(&self.computation.along.name).unwrap_or(f64::NAN)
+    }
+
+    /// The parameters with the varied one at `value`, in registry order.
+    #[must_use]
+    pub fn parameters_at(&self, value: f64) -> Vec<f64> {
+        let c = &self.computation;
+        let entries = c.start.parameters.0.iter();
+        entries.map(|(name, fixed)| if *name == c.along.name { value } else { *fixed }).collect()
+    }
+}
