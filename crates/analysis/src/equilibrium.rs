@@ -232,7 +232,7 @@ fn linearisation<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64) -
 }
 
 /// The direction of the group orbit, as a unit vector; none for a circle.
-pub(crate) fn neutral_direction<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> Vec<Vec<f64>> {
+pub fn neutral_direction<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> Vec<Vec<f64>> {
     let mut spin = vec![0.0; shape.len()];
     body.spin(shape, &mut spin);
     let size = norm(&spin);

@@ -5,14 +5,13 @@
 //! spectra, means with errors, legs, rests, returns, escapes.
 
 mod checks;
-pub mod continuation;
 pub mod equilibrium;
 mod error;
 mod escape;
 mod estimate;
 mod isotropy;
 mod legs;
-mod linear;
+pub mod linear;
 pub mod lyapunov;
 mod multiple_shooting;
 mod newton_picard;

@@ -3,20 +3,20 @@
 use nalgebra::{DMatrix, DVector, Dyn, SVD};
 
 /// A complex number `(re, im)`.
-pub(crate) type ComplexPair = (f64, f64);
+pub type ComplexPair = (f64, f64);
 
 /// `sum_i a_i b_i`.
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 /// Euclidean length.
-pub(crate) fn norm(a: &[f64]) -> f64 {
+pub fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()
 }
 
 /// `a += factor b`.
-pub(crate) fn add(a: &mut [f64], factor: f64, b: &[f64]) {
+pub fn add(a: &mut [f64], factor: f64, b: &[f64]) {
     for (x, y) in a.iter_mut().zip(b) {
         *x += factor * y;
     }
@@ -36,7 +36,7 @@ fn clean<V: AsRef<[f64]>>(vector: &mut [f64], others: &[V]) -> (f64, f64) {
 
 /// Makes the vectors orthonormal in order and returns the lengths that were divided out: the diagonal of R. A vector that depends on
 /// the earlier ones becomes 0, with length 0. (`lyapunov/frame` does the same in lanes, with the rates of the vectors.)
-pub(crate) fn orthonormalise(vectors: &mut [&mut [f64]]) -> Vec<f64> {
+pub fn orthonormalise(vectors: &mut [&mut [f64]]) -> Vec<f64> {
     let mut lengths = Vec::with_capacity(vectors.len());
     for k in 0..vectors.len() {
         let (done, rest) = vectors.split_at_mut(k);
@@ -50,7 +50,7 @@ pub(crate) fn orthonormalise(vectors: &mut [&mut [f64]]) -> Vec<f64> {
 }
 
 /// An orthonormal basis of what the columns span (those that depend on earlier ones are left out).
-pub(crate) fn basis(columns: &[&[f64]], least: f64) -> Vec<Vec<f64>> {
+pub fn basis(columns: &[&[f64]], least: f64) -> Vec<Vec<f64>> {
     let mut out: Vec<Vec<f64>> = Vec::new();
     for column in columns {
         let mut vector = column.to_vec();
@@ -65,7 +65,7 @@ pub(crate) fn basis(columns: &[&[f64]], least: f64) -> Vec<Vec<f64>> {
 
 /// The smallest `x` that minimises `|sum_j columns_j x_j - rhs|`, by singular values above `1e-10` of the largest.
 /// `None` where a number is not finite.
-pub(crate) fn least_squares(columns: &[Vec<f64>], rhs: &[f64]) -> Option<Vec<f64>> {
+pub fn least_squares(columns: &[Vec<f64>], rhs: &[f64]) -> Option<Vec<f64>> {
     let svd = singular_values(columns, rhs)?;
     let least = 1e-10 * largest(&svd);
     let x = svd.solve(&DVector::from_column_slice(rhs), least).ok()?;
@@ -73,7 +73,7 @@ pub(crate) fn least_squares(columns: &[Vec<f64>], rhs: &[f64]) -> Option<Vec<f64
 }
 
 /// The `x` with `sum_j columns_j x_j = rhs`; `None` where a singular value is below the part `least` of the largest.
-pub(crate) fn solve(columns: &[Vec<f64>], rhs: &[f64], least: f64) -> Option<Vec<f64>> {
+pub fn solve(columns: &[Vec<f64>], rhs: &[f64], least: f64) -> Option<Vec<f64>> {
     let svd = singular_values(columns, rhs)?;
     let smallest = svd.singular_values.iter().copied().fold(f64::INFINITY, f64::min);
     if smallest <= least * largest(&svd) {
@@ -97,7 +97,7 @@ fn largest(svd: &SVD<f64, Dyn, Dyn>) -> f64 {
 
 /// The eigenvalues of a matrix given by its columns, largest real part first (then largest imaginary part). `None`
 /// where a number is not finite or the iteration does not end.
-pub(crate) fn eigenvalues(columns: &[Vec<f64>]) -> Option<Vec<ComplexPair>> {
+pub fn eigenvalues(columns: &[Vec<f64>]) -> Option<Vec<ComplexPair>> {
     let dim = columns.len();
     if dim == 0 {
         return Some(Vec::new());
@@ -113,7 +113,7 @@ pub(crate) fn eigenvalues(columns: &[Vec<f64>]) -> Option<Vec<ComplexPair>> {
 }
 
 /// `basis^T A basis`, with the columns of `A` applied by `act`.
-pub(crate) fn restrict(basis: &[Vec<f64>], act: impl Fn(&[f64]) -> Vec<f64>) -> Vec<Vec<f64>> {
+pub fn restrict(basis: &[Vec<f64>], act: impl Fn(&[f64]) -> Vec<f64>) -> Vec<Vec<f64>> {
     basis
         .iter()
         .map(|column| {
@@ -124,7 +124,7 @@ pub(crate) fn restrict(basis: &[Vec<f64>], act: impl Fn(&[f64]) -> Vec<f64>) -> 
 }
 
 /// `A x` for a matrix stored column by column.
-pub(crate) fn apply(matrix: &[f64], x: &[f64]) -> Vec<f64> {
+pub fn apply(matrix: &[f64], x: &[f64]) -> Vec<f64> {
     let mut out = vec![0.0; x.len()];
     for (column, &factor) in matrix.chunks_exact(x.len()).zip(x) {
         add(&mut out, factor, column);
@@ -133,7 +133,7 @@ pub(crate) fn apply(matrix: &[f64], x: &[f64]) -> Vec<f64> {
 }
 
 /// Unit vectors that complete `fixed` (orthonormal) to a basis of the whole space.
-pub(crate) fn complement(fixed: &[Vec<f64>], dim: usize) -> Vec<Vec<f64>> {
+pub fn complement(fixed: &[Vec<f64>], dim: usize) -> Vec<Vec<f64>> {
     let unit = |i: usize| (0..dim).map(|j| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
     let units: Vec<Vec<f64>> = (0..dim).map(unit).collect();
     let columns: Vec<&[f64]> = fixed.iter().chain(&units).map(Vec::as_slice).collect();

@@ -177,7 +177,7 @@ impl PeriodicOrbit {
 }
 
 /// The inverse of the symmetry `R(angle) [M]`: `M R(-angle)`.
-pub(crate) fn back<B: Equivariant + ?Sized>(body: &B, angle: f64, mirrored: bool, x: &mut [f64]) {
+pub fn back<B: Equivariant + ?Sized>(body: &B, angle: f64, mirrored: bool, x: &mut [f64]) {
     body.rotate(-angle, x);
     if mirrored {
         body.mirror(x);
@@ -185,7 +185,7 @@ pub(crate) fn back<B: Equivariant + ?Sized>(body: &B, angle: f64, mirrored: bool
 }
 
 /// The eigenvalues of a reduced map, largest modulus first.
-pub(crate) fn multipliers(columns: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
+pub fn multipliers(columns: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
     let mut values = eigenvalues(columns)?;
     values.sort_by(|a, b| libm::hypot(b.0, b.1).total_cmp(&libm::hypot(a.0, a.1)));
     Some(values)

@@ -6,10 +6,11 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::process::Command;
 
 /// Each crate, and the crates below it that it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &[&str]); 13] = [
+const LAYERS: [(&str, &[&str]); 14] = [
     ("motiform-dynamics", &[]),
     ("motiform-models", &["motiform-dynamics"]),
     ("motiform-analysis", &["motiform-dynamics"]),
+    ("motiform-continuation", &["motiform-analysis", "motiform-dynamics"]),
     ("motiform-kernels", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
     ("motiform-study", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
     ("motiform-files", &["motiform-dynamics", "motiform-models", "motiform-study"]),
@@ -18,6 +19,7 @@ const LAYERS: [(&str, &[&str]); 13] = [
         "motiform-lab",
         &[
             "motiform-analysis",
+            "motiform-continuation",
             "motiform-dynamics",
             "motiform-figures",
             "motiform-files",

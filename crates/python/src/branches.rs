@@ -23,7 +23,8 @@ pub(crate) fn follow_branches<'py>(
     study: &Study,
     along: (String, f64, f64),
     from_: Option<&str>,
-    (branches, points): (usize, usize),
+    branches: usize,
+    points: usize,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Followed<'py>> {
     let (name, from, to) = along;

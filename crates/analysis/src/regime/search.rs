@@ -4,7 +4,7 @@ use super::growth::{Growth, in_motion};
 use super::heteroclinic::cycle;
 use super::look::{Look, RESTS, Rest};
 use super::recurrence::{Returns, periodic};
-use super::settings::{Settings, ended};
+use super::settings::{CLOSE, EXACT, NEARLY, Settings, ended};
 use super::stay::Stay;
 use super::steady_turns::SteadyTurns;
 use super::verdict::{Attractor, Regime, Verdict};
@@ -344,12 +344,3 @@ impl Search {
         Ok(verdict)
     }
 }
-
-/// Looks of a large system whose exponent is nearly decided last for so many first looks at most.
-const NEARLY: f64 = 8.0;
-
-/// An equilibrium this near (against the size of the shape) may be where the orbit goes.
-const CLOSE: f64 = 1e-3;
-
-/// A shape that differs from its image by less than this part of its size has the symmetry exactly.
-const EXACT: f64 = 1e-12;

@@ -1,9 +1,9 @@
 //! The bodies along a branch: one model, one of its parameters varied.
 
 use crate::analyse::settings_of;
-use motiform_analysis::continuation::{Family, Settings};
 use motiform_analysis::periodic::Flow;
 use motiform_analysis::{Error as Refused, regime};
+use motiform_continuation::{Family, Settings};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Equivariant, Model, StepControl};
 use motiform_models::ModelInfo;

@@ -5,8 +5,8 @@ use super::known::known;
 use super::origin::{Origin, both};
 use super::reading::Reading;
 use super::settle::settle;
-use motiform_analysis::continuation::{Branch, End, Motion, Point};
 use motiform_analysis::regime::{Form, Regime};
+use motiform_continuation::{Branch, End, Motion, Point};
 use motiform_dynamics::Watch;
 use motiform_study::{BranchPlan, Error};
 use serde::{Deserialize, Serialize};
@@ -152,7 +152,7 @@ impl Work<'_> {
         is_known: &mut dyn FnMut(&Sample) -> bool,
     ) -> Result<Option<Leg>, Error> {
         let mut samples: Vec<Sample> = Vec::new();
-        while let Some(point) = branch.next() {
+        for point in branch.by_ref() {
             let sample = Sample { reading: Reading::of(self.bodies, &point, self.watch)?, point };
             if self.watch.stopped() {
                 return Ok(Some(Leg { samples, end: End::Stopped })); // what was read may be half of it

@@ -2,9 +2,9 @@
 
 use super::family::Bodies;
 use super::follow::{Followed, Sample};
-use motiform_analysis::continuation::{Motion, Settings, same_motion};
 use motiform_analysis::periodic::PeriodicGuess;
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium};
+use motiform_continuation::{Motion, Settings, same_motion};
 use motiform_dynamics::{Equivariant, Watch};
 
 /// Two motions are one if they agree up to this part of their size: well above what Newton's method leaves, well below the distance

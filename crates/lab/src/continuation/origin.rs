@@ -4,8 +4,8 @@ use super::family::Bodies;
 use super::follow::{Followed, Leg, Sample};
 use super::settle::Start;
 use super::single_loop::single_loop;
-use motiform_analysis::continuation::{Branch, End, Settings, Special, switch};
 use motiform_analysis::{Error as Refused, Isotropy, RelativeEquilibrium};
+use motiform_continuation::{Branch, End, Settings, Special, switch};
 use motiform_dynamics::{Equivariant, Watch};
 use serde::{Deserialize, Serialize};
 

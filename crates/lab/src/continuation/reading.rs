@@ -2,9 +2,9 @@
 
 use super::family::Bodies;
 use crate::naming::steady;
-use motiform_analysis::continuation::{Motion, Point};
 use motiform_analysis::regime::{Form, Regime, repeating};
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium};
+use motiform_continuation::{Motion, Point};
 use motiform_dynamics::{Model, Watch, escape::norm};
 use motiform_study::Error;
 use serde::{Deserialize, Serialize};

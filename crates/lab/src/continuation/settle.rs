@@ -1,11 +1,11 @@
 //! The motion that a start settles on, as Newton's method has it.
 
 use super::family::Bodies;
-use motiform_analysis::continuation::Settings;
 use motiform_analysis::periodic::{Flow, PeriodicGuess};
 use motiform_analysis::regime::{Form, settle as settled};
 use motiform_analysis::symmetry::align;
 use motiform_analysis::{Attractor, PeriodicOrbit, RelativeEquilibrium, Verdict};
+use motiform_continuation::Settings;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Equivariant, Request, StopOnly, Watch};
 use motiform_study::{BranchPlan, Error};

@@ -4,10 +4,10 @@ use super::family::Bodies;
 use super::follow::{Leg, Sample};
 use super::origin::both;
 use super::settle::Start;
-use motiform_analysis::continuation::Branch;
 use motiform_analysis::periodic::Flow;
 use motiform_analysis::symmetry::align;
 use motiform_analysis::{Error as Refused, PeriodicOrbit, RelativeEquilibrium};
+use motiform_continuation::Branch;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Equivariant, Request, Watch, escape::norm};
 

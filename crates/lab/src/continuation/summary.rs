@@ -3,7 +3,7 @@
 use super::follow::{Branches, Followed, Leg, Sample};
 use super::origin::Origin;
 use super::stretches::stretches;
-use motiform_analysis::continuation::{Broken, End, Special};
+use motiform_continuation::{Broken, End, Special};
 use motiform_study::BranchPlan;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -56,7 +56,7 @@ pub fn summary(plan: &BranchPlan, found: &Branches) -> Value {
 fn entry(plan: &BranchPlan, found: &Branches, (number, followed): (usize, &Followed)) -> Value {
     let name = &plan.computation.along.name;
     let (motion, form) = followed.motion();
-    let ends: Vec<String> = followed.legs.iter().map(|leg| ending(leg)).collect();
+    let ends: Vec<String> = followed.legs.iter().map(ending).collect();
     let special: Vec<Value> = found.special(number).iter().map(|entry| entry.value(name)).collect();
     let mut object = json!({ "motion": motion });
     let mut put = |key: &str, value: Value| object[key] = value;

@@ -2,7 +2,7 @@
 
 use super::{Picture, undrawable, words};
 use crate::continuation::{Branches, Followed, Origin, Sample, is_stable};
-use motiform_analysis::continuation::{End, Special};
+use motiform_continuation::{End, Special};
 use motiform_figures::{BranchDiagram, BranchMark, BranchPart, DEFAULT_SCALE, Figure, Glyph, png};
 use motiform_study::plan::Named;
 use motiform_study::{BranchPlan, Error};

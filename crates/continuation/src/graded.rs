@@ -1,6 +1,6 @@
 //! Eigenvalues of a product of matrices, each with its own digits.
 
-use crate::periodic::multipliers;
+use motiform_analysis::periodic::multipliers;
 use nalgebra::DMatrix;
 
 /// Times that the frames are taken around the product: they converge by the ratio of neighbouring moduli each time.

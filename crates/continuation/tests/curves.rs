@@ -5,12 +5,12 @@
 mod common;
 
 use common::{full, near, reduced};
-use motiform_analysis::continuation::{
-    Branch, Curve, CurvePoint, Degenerate, End, Family, Family2, Point, Settings, Special, switch,
-};
 use motiform_analysis::periodic::PeriodicGuess;
 use motiform_analysis::symmetry::align;
 use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
+use motiform_continuation::{
+    Branch, Curve, CurvePoint, Degenerate, End, Family, Family2, Point, Settings, Special, switch,
+};
 use motiform_dynamics::{Equivariant, Request, Scalar, VectorField, drive::drive};
 use motiform_models::tensor::reduced::Reduced;
 

@@ -12,8 +12,8 @@ use super::problem::{Equations, Problem};
 use super::settings::Settings;
 use super::special::Special;
 use super::tracer::Tracer;
-use crate::linear::{add, norm};
-use crate::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
+use motiform_analysis::linear::{add, norm};
+use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_dynamics::{Equivariant, Watch};
 use std::f64::consts::TAU;
 
@@ -226,7 +226,7 @@ fn begin<'f>(
 fn is_odd(body: &dyn Equivariant, shape: &[f64], deviation: &[f64]) -> bool {
     let classes = Classes::of(body, &[shape]);
     let even = |basis: &Vec<Vec<f64>>| {
-        basis.iter().map(|v| crate::linear::dot(v, deviation).abs()).fold(0.0, f64::max)
+        basis.iter().map(|v| motiform_analysis::linear::dot(v, deviation).abs()).fold(0.0, f64::max)
     };
     classes.axis.is_some() && even(&classes.bases[0]) < 1e-6 * norm(deviation)
 }

@@ -3,7 +3,7 @@
 use super::levels::Level;
 use super::point::{Motion, Obstruction};
 use super::special::Special;
-use crate::{Error, RelativeEquilibrium};
+use motiform_analysis::{Error, RelativeEquilibrium};
 use motiform_dynamics::{Equivariant, Watch};
 use nalgebra::DMatrix;
 

@@ -2,10 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "an example may fail")]
 
-use motiform_analysis::continuation::{Branch, Point, Settings, Special, switch};
 use motiform_analysis::periodic::PeriodicGuess;
 use motiform_analysis::symmetry::align;
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, Result};
+use motiform_continuation::{Branch, Point, Settings, Special, switch};
 use motiform_dynamics::{Equivariant, Request, drive::drive};
 use motiform_models::tensor::{Tensor, TensorParameters};
 use std::time::Instant;

@@ -2,10 +2,10 @@
 
 use super::point::Motion;
 use super::shooting::shape_after;
-use crate::linear::norm;
-use crate::periodic::Flow;
-use crate::symmetry::align;
-use crate::{PeriodicOrbit, RelativeEquilibrium};
+use motiform_analysis::linear::norm;
+use motiform_analysis::periodic::Flow;
+use motiform_analysis::symmetry::align;
+use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium};
 use motiform_dynamics::Equivariant;
 
 /// Places along an orbit at which it is compared.

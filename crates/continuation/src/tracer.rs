@@ -10,7 +10,7 @@ use super::point::{End, Motion, Obstruction, Point};
 use super::problem::{Failure, Problem};
 use super::settings::Settings;
 use super::special::Special;
-use crate::linear::dot;
+use motiform_analysis::linear::dot;
 use motiform_dynamics::Watch;
 use std::collections::VecDeque;
 

@@ -1,7 +1,7 @@
 //! How a branch is followed.
 
-use crate::periodic::Flow;
-use crate::{Error, Result};
+use motiform_analysis::periodic::Flow;
+use motiform_analysis::{Error, Result};
 use motiform_dynamics::StepControl;
 use motiform_dynamics::steppers::{DOP853, Method};
 

@@ -9,8 +9,8 @@ use super::problem::Failure;
 use super::settings::Settings;
 use super::shooting::shape_after;
 use super::tracer::Tracer;
-use crate::linear::norm;
-use crate::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
+use motiform_analysis::linear::norm;
+use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_dynamics::{Equivariant, Watch};
 
 /// Parts of an orbit to begin with; more where it amplifies deviations.
@@ -20,7 +20,7 @@ const PARTS: usize = 4;
 ///
 /// ```
 /// use motiform_analysis::RelativeEquilibrium;
-/// use motiform_analysis::continuation::{Branch, Settings, Special};
+/// use motiform_continuation::{Branch, Settings, Special};
 /// use motiform_dynamics::Equivariant;
 /// use motiform_models::zoo::Hopf;
 ///

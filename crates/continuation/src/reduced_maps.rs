@@ -1,8 +1,8 @@
 //! The maps of an orbit's parts without its neutral directions.
 
 use super::orbits::{Local, Orbits};
-use crate::linear::{apply, basis, dot};
-use crate::periodic::back;
+use motiform_analysis::linear::{apply, basis, dot};
+use motiform_analysis::periodic::back;
 use nalgebra::DMatrix;
 
 /// The maps of reduced deviations over the parts of the period in their order, class by class; the last one brings back.

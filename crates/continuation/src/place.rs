@@ -4,7 +4,7 @@ use super::correct::{Corrected, scaled};
 use super::levels::Level;
 use super::point::Obstruction;
 use super::problem::{Failure, Problem};
-use crate::linear::dot;
+use motiform_analysis::linear::dot;
 
 /// A solution with all that is known there.
 pub(super) struct Place<L> {

@@ -2,7 +2,7 @@
 
 use super::homoclinic::Connection;
 use super::special::Special;
-use crate::{PeriodicOrbit, RelativeEquilibrium};
+use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium};
 use motiform_dynamics::Outcome;
 use serde::{Deserialize, Serialize};
 

@@ -5,12 +5,10 @@
 mod common;
 
 use common::{full, near, reduced};
-use motiform_analysis::continuation::{
-    Branch, End, Motion, PeriodLaw, Point, Settings, Special, same_motion, switch,
-};
 use motiform_analysis::periodic::PeriodicGuess;
 use motiform_analysis::symmetry::align;
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, Result};
+use motiform_continuation::{Branch, End, Motion, PeriodLaw, Point, Settings, Special, same_motion, switch};
 use motiform_dynamics::{Equivariant, Request, Scalar, StopOnly, VectorField, Watch, drive::drive};
 use motiform_models::tensor::reduced::Reduced;
 use std::sync::atomic::AtomicBool;

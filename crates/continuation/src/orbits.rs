@@ -9,10 +9,10 @@ use super::problem::{Equations, Failure, Linear, Problem};
 use super::reduced_maps::reduced_maps;
 use super::shooting::{Segment, segment, shape_after};
 use super::special::{Broken, Special};
-use crate::linear::{add, dot, norm};
-use crate::periodic::{Flow, back};
-use crate::symmetry::wrap;
-use crate::{PeriodicOrbit, RelativeEquilibrium};
+use motiform_analysis::linear::{add, dot, norm};
+use motiform_analysis::periodic::{Flow, back};
+use motiform_analysis::symmetry::wrap;
+use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium};
 use motiform_dynamics::{Equivariant, VectorField, Watch};
 use nalgebra::DMatrix;
 
@@ -132,7 +132,9 @@ impl Orbits<'_> {
             out.push(local.spins.concat());
         }
         out.push(local.rates.concat());
-        crate::linear::orthonormalise(&mut out.iter_mut().map(Vec::as_mut_slice).collect::<Vec<_>>());
+        motiform_analysis::linear::orthonormalise(
+            &mut out.iter_mut().map(Vec::as_mut_slice).collect::<Vec<_>>(),
+        );
         out
     }
 }

@@ -5,8 +5,8 @@
 mod common;
 
 use common::{full, near, reduced};
-use motiform_analysis::continuation::{Branch, Broken, End, Family, Hopf, Point, Settings, Special, switch};
 use motiform_analysis::{Error, RelativeEquilibrium, Result};
+use motiform_continuation::{Branch, Broken, End, Family, Hopf, Point, Settings, Special, switch};
 use motiform_dynamics::{Equivariant, Scalar, VectorField};
 use motiform_models::tensor::reduced::Reduced;
 use motiform_models::zoo;

@@ -1,7 +1,7 @@
 //! How the period of an orbit grows towards a connection of a saddle with itself.
 
-use crate::RelativeEquilibrium;
-use crate::linear::solve;
+use motiform_analysis::RelativeEquilibrium;
+use motiform_analysis::linear::solve;
 use serde::{Deserialize, Serialize};
 
 /// How the time `T` of an orbit grows with the parameter `p`.

@@ -5,9 +5,9 @@
 mod common;
 
 use common::near;
-use motiform_analysis::continuation::{Branch, End, Family, Point, Settings, Special, switch};
 use motiform_analysis::periodic::PeriodicGuess;
 use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
+use motiform_continuation::{Branch, End, Family, Point, Settings, Special, switch};
 use motiform_dynamics::{Equivariant, Scalar, Semilinear, Shape, System, VectorField};
 use motiform_models::zoo;
 

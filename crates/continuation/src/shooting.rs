@@ -4,7 +4,7 @@ use super::family::Neighbours;
 use super::point::Obstruction;
 use super::problem::Failure;
 use super::variation::Variation;
-use crate::periodic::Flow;
+use motiform_analysis::periodic::Flow;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Equivariant, Outcome, Request, Semilinear, VectorField, Watch};
 
@@ -67,10 +67,10 @@ fn run<F: Semilinear<f64> + ?Sized>(
     let mut orbit = flow
         .method
         .shape_orbit(field, flow.control, 0.0, start)
-        .map_err(|error| Failure::from(crate::Error::from(error)))?;
+        .map_err(|error| Failure::from(motiform_analysis::Error::from(error)))?;
     let request = Request { max_steps: flow.max_steps, watched, watch, ..Request::until(span, field.dim()) };
-    let outcome =
-        drive(orbit.as_mut(), &request, &mut ()).map_err(|error| Failure::from(crate::Error::from(error)))?;
+    let outcome = drive(orbit.as_mut(), &request, &mut ())
+        .map_err(|error| Failure::from(motiform_analysis::Error::from(error)))?;
     match outcome {
         Outcome::Interrupted { .. } => Err(Failure::Stopped),
         _ if outcome.is_complete() => Ok(orbit.state().to_vec()),

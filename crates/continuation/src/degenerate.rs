@@ -9,7 +9,7 @@ use motiform_dynamics::Equivariant;
 /// Where a curve of special points changes.
 ///
 /// Source: Kuznetsov (2004), Elements of Applied Bifurcation Theory, chapters 8 and 9.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub enum Degenerate {
     /// Two curves of folds meet in a cusp: the parameters turn back.

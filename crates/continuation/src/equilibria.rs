@@ -7,9 +7,9 @@ use super::levels::Level;
 use super::point::Motion;
 use super::problem::{Equations, Failure, Linear, Problem};
 use super::special::{Broken, Hopf, Special};
-use crate::RelativeEquilibrium;
-use crate::equilibrium::neutral_direction;
-use crate::linear::{add, apply, eigenvalues, norm, restrict};
+use motiform_analysis::RelativeEquilibrium;
+use motiform_analysis::equilibrium::neutral_direction;
+use motiform_analysis::linear::{add, apply, eigenvalues, norm, restrict};
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField, Watch, model};
 use nalgebra::DMatrix;
@@ -43,7 +43,7 @@ impl<'f> Equilibria<'f> {
         parameters: &[f64],
         shape: &[f64],
         widths: &[f64],
-    ) -> Result<Self, crate::Error> {
+    ) -> Result<Self, motiform_analysis::Error> {
         let body = bodies.at(parameters)?;
         let classes = Classes::of(body.as_ref(), &[shape]);
         let size = norm(shape);

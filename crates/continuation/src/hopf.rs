@@ -1,7 +1,7 @@
 //! The kind of a Hopf bifurcation: its first Lyapunov coefficient, for relative equilibria too.
 
-use crate::equilibrium::neutral_direction;
-use crate::linear::{add, complement, dot};
+use motiform_analysis::equilibrium::neutral_direction;
+use motiform_analysis::linear::{add, complement, dot};
 use motiform_dynamics::{Dual, Equivariant, VectorField};
 use nalgebra::{Complex, DMatrix, DVector};
 

@@ -1,7 +1,7 @@
 //! The symmetry of a motion, and what it makes of deviations: even ones keep the mirror axis, odd ones do not.
 
-use crate::isotropy::Isotropy;
-use crate::linear::{add, apply, basis, complement, dot, norm};
+use motiform_analysis::Isotropy;
+use motiform_analysis::linear::{add, apply, basis, complement, dot, norm};
 use motiform_dynamics::Equivariant;
 use std::f64::consts::TAU;
 

@@ -1,7 +1,7 @@
 //! Bodies that depend on one parameter or two.
 
 use super::problem::Failure;
-use crate::{Error, Result};
+use motiform_analysis::{Error, Result};
 use motiform_dynamics::Equivariant;
 
 /// A body for every value of a parameter.
@@ -9,7 +9,7 @@ use motiform_dynamics::Equivariant;
 /// Any closure of this shape is one:
 ///
 /// ```
-/// use motiform_analysis::continuation::Family;
+/// use motiform_continuation::Family;
 /// use motiform_dynamics::Equivariant;
 /// use motiform_models::zoo::Hopf;
 /// let family = |mu: f64| Ok(Box::new(Hopf { mu, omega: 2.0 }) as Box<dyn Equivariant>);
