@@ -12,6 +12,7 @@ mod escape;
 mod estimate;
 mod isotropy;
 mod legs;
+mod lifetime;
 mod linear;
 pub mod lyapunov;
 mod multiple_shooting;
@@ -33,6 +34,10 @@ pub use escape::{EscapeRate, Stay, SurvivalStep, escape_limits, escape_rate, sur
 pub use estimate::Estimate;
 pub use isotropy::Isotropy;
 pub use legs::{CornerKind, Ends, Leg, Legs, PathSample, legs};
+pub use lifetime::{
+    Critical, ExponentialLife, Goodness, LifeCount, LifeLaws, MeanLife, PowerLawLife, compare_life_laws,
+    mean_life,
+};
 pub use lyapunov::{Lyapunov, LyapunovSettings, SoFar, lyapunov, lyapunov_followed};
 pub use periodic::PeriodicOrbit;
 pub use regime::{Attractor, Regime, Settings, Spread, Verdict, classify};
