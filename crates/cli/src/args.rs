@@ -2,6 +2,7 @@
 
 mod drawing;
 mod help;
+mod lifetimes;
 mod scan;
 mod subject;
 
@@ -10,6 +11,7 @@ pub(crate) use drawing::{DrawingOptions, FilmFormat};
 #[cfg(feature = "explorer")]
 use help::EXPLORE_HELP;
 use help::{CLASSIFY_HELP, EXAMPLES, LYAPUNOV_HELP, REPRODUCE_HELP, SCAN_HELP, SIMULATE_HELP};
+pub(crate) use lifetimes::LifetimesOptions;
 use motiform_study::Random;
 pub(crate) use scan::{MergeOptions, ScanOptions};
 use std::path::PathBuf;
@@ -43,6 +45,9 @@ pub(crate) enum Command {
     /// Compute Lyapunov exponents with errors: do neighbouring orbits separate?
     #[command(after_help = LYAPUNOV_HELP)]
     Lyapunov(Box<LyapunovOptions>),
+    /// Measure how long transient chaos lives along a parameter, and by which law: is there a crisis?
+    #[command(after_help = lifetimes::LIFETIMES_HELP)]
+    Lifetimes(Box<LifetimesOptions>),
     /// Reproduce the paper: every figure, every claim, one HTML report
     #[command(after_help = REPRODUCE_HELP)]
     Reproduce(ReproduceOptions),

@@ -22,6 +22,7 @@ fn main() -> ExitCode {
         Command::Merge(options) => commands::merge::run(&options),
         Command::Classify(options) => commands::classify::run(&options),
         Command::Lyapunov(options) => commands::lyapunov::run(&options),
+        Command::Lifetimes(options) => commands::lifetimes::run(&options),
         Command::Reproduce(options) => commands::reproduce::run(&options),
         #[cfg(feature = "explorer")]
         Command::Explore(options) => commands::explore::run(&options),

@@ -3,6 +3,7 @@
 mod body;
 mod diagram;
 mod film;
+pub mod lifetimes;
 pub mod live;
 mod path;
 mod return_map;
