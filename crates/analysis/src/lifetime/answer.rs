@@ -5,7 +5,7 @@ use super::{ExponentialLife, LifeCount, PowerLawLife};
 use crate::{Result, checks};
 use serde::Serialize;
 
-/// A difference of Akaike's criteria that decides: the likelihood per parameter is e^3, about 20 times as large.
+/// A difference of Akaike's criteria that decides: e^3, about 20, in likelihood, beyond the price of parameters.
 ///
 /// Source: Burnham and Anderson (2002), Model Selection and Multimodel Inference, ch. 2.6: above 4 'considerably less', above 10
 /// 'essentially no' support.

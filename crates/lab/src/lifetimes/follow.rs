@@ -99,7 +99,7 @@ impl<'p> Follower<'p> {
         self.in_lanes(&how, jobs);
     }
 
-    fn one_by_one(&self, jobs: &Jobs<'_, Followed>) {
+    pub(super) fn one_by_one(&self, jobs: &Jobs<'_, Followed>) {
         jobs.each(|job| {
             let mut way = Way { looks: 0, shape: self.start(job)? };
             loop {

@@ -1,6 +1,8 @@
 //! Transient chaos along a parameter: how long it lives at each value, and by which law.
 
 mod follow;
+#[cfg(test)]
+mod tests;
 
 use crate::pool::spread;
 use follow::{End, Followed, Follower};
