@@ -11,6 +11,7 @@ mod escape;
 mod estimate;
 mod isotropy;
 mod legs;
+mod lifetime;
 pub mod linear;
 pub mod lyapunov;
 mod multiple_shooting;
@@ -32,6 +33,10 @@ pub use escape::{EscapeRate, Stay, SurvivalStep, escape_limits, escape_rate, sur
 pub use estimate::Estimate;
 pub use isotropy::Isotropy;
 pub use legs::{CornerKind, Ends, Leg, Legs, PathSample, legs};
+pub use lifetime::{
+    Critical, ExponentialLife, Goodness, LifeCount, LifeLaws, MeanLife, PowerLawLife, compare_life_laws,
+    mean_life,
+};
 pub use lyapunov::{Lyapunov, LyapunovSettings, SoFar, lyapunov, lyapunov_followed};
 pub use periodic::PeriodicOrbit;
 pub use regime::{Attractor, Regime, Settings, Spread, Verdict, classify};

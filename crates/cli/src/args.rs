@@ -2,6 +2,7 @@
 
 mod drawing;
 mod help;
+mod lifetimes;
 mod motions;
 mod scan;
 mod subject;
@@ -14,6 +15,7 @@ use help::{
     CLASSIFY_HELP, CONTINUE_HELP, EQUILIBRIA_HELP, EXAMPLES, LYAPUNOV_HELP, REPRODUCE_HELP, SCAN_HELP,
     SECTION_HELP, SIMULATE_HELP,
 };
+pub(crate) use lifetimes::LifetimesOptions;
 use motiform_study::Random;
 pub(crate) use motions::{ContinueOptions, Crossing, EquilibriaOptions, Observable, SectionOptions};
 pub(crate) use scan::{MergeOptions, ScanOptions};
@@ -57,6 +59,9 @@ pub(crate) enum Command {
     /// Find where a motion crosses a surface: one coordinate at a fixed value
     #[command(after_help = SECTION_HELP)]
     Section(Box<SectionOptions>),
+    /// Measure how long transient chaos lives along a parameter, and by which law: is there a crisis?
+    #[command(after_help = lifetimes::LIFETIMES_HELP)]
+    Lifetimes(Box<LifetimesOptions>),
     /// Reproduce the paper: every figure, every claim, one HTML report
     #[command(after_help = REPRODUCE_HELP)]
     Reproduce(ReproduceOptions),

@@ -25,6 +25,7 @@ fn main() -> ExitCode {
         Command::Continue(options) => commands::continuation::run(&options),
         Command::Equilibria(options) => commands::equilibria::run(&options),
         Command::Section(options) => commands::section::run(&options),
+        Command::Lifetimes(options) => commands::lifetimes::run(&options),
         Command::Reproduce(options) => commands::reproduce::run(&options),
         #[cfg(feature = "explorer")]
         Command::Explore(options) => commands::explore::run(&options),

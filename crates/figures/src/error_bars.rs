@@ -11,13 +11,15 @@ use super::glyph::{self, Glyph};
 use super::legend::{Entry, Mark};
 use super::marks::REGIMES;
 use super::paint::Paint;
-use super::palette::{CATEGORIES, Colour, GREY};
+use super::palette::{CATEGORIES, Colour, GREY, INK};
 use super::svg::Svg;
 
 const WIDTH: f64 = 540.0;
 const HEIGHT: f64 = 300.0;
 /// Room between data and frame, as a share of the axis.
 const ROOM: f64 = 0.05;
+/// Half the length of a cap, in pixels.
+const CAP: f64 = 3.6;
 
 /// A measured value.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,6 +44,17 @@ pub struct ErrorBarSeries {
     pub joined: bool,
 }
 
+/// An interval without a marker: the error of a value that is not symmetric.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// Where.
+    pub x: f64,
+    /// Lower end.
+    pub low: f64,
+    /// Upper end; infinite for none, and the bar then leaves the frame without a cap.
+    pub high: f64,
+}
+
 /// Points with error bars, such as an exponent against a parameter.
 ///
 /// On a logarithmic axis what is not above 0 is left out, and the caption counts it; an error bar that reaches down to 0
@@ -60,6 +73,8 @@ pub struct ErrorBarFigure {
     pub y_label: String,
     /// The data; each series has its own colour and marker.
     pub series: Vec<ErrorBarSeries>,
+    /// Bars whose ends are given, behind the data.
+    pub intervals: Vec<Interval>,
     /// Lines behind the data; they do not widen the axes.
     pub lines: Vec<ExpectedLine>,
     /// Whether the value 0 is in sight and has a line (of no account on a logarithmic axis).
@@ -93,6 +108,7 @@ impl ErrorBarFigure {
             for line in &self.lines {
                 line.draw(svg, scale, self.kinds());
             }
+            self.draw_intervals(svg, scale);
             for (series, look) in self.series.iter().zip(self.looks()) {
                 self.draw_series(svg, scale, series, look);
             }
@@ -127,8 +143,13 @@ impl ErrorBarFigure {
         let [x, y] = self.kinds();
         let ends = all.iter().flat_map(|(at, ends)| ends.iter().copied().flatten().chain([at[1]]));
         let zero = (self.zero_line && !self.logarithmic_y).then_some(0.0);
-        let ranges = (x.range(all.iter().map(|(at, _)| at[0]), ROOM), y.range(ends.chain(zero), ROOM));
-        let (Some(x), Some(y), false) = (ranges.0, ranges.1, all.is_empty()) else {
+        let bars = || self.intervals.iter();
+        let finite = bars().flat_map(|bar| [bar.low, bar.high]).filter(|end| end.is_finite());
+        let xs = all.iter().map(|(at, _)| at[0]).chain(bars().filter_map(|bar| x.place(bar.x)));
+        let ys = ends.chain(zero).chain(finite.filter_map(|end| y.place(end)));
+        let ranges = (x.range(xs, ROOM), y.range(ys, ROOM));
+        let (Some(x), Some(y), false) = (ranges.0, ranges.1, all.is_empty() && self.intervals.is_empty())
+        else {
             return Err(FigureError::Empty {
                 what: "list of measured values (on a logarithmic axis: above 0)",
             });
@@ -149,6 +170,22 @@ impl ErrorBarFigure {
             Entry::new(Mark::Point(glyph, colour, s.joined), &s.label)
         };
         labelled.map(key).chain(self.lines.iter().map(ExpectedLine::key)).collect()
+    }
+
+    /// The intervals, in the colour of axes; what reaches beyond the frame ends there without a cap.
+    fn draw_intervals(&self, svg: &mut Svg, scale: &Scale) {
+        let [x, y] = self.kinds();
+        let mut lines = Vec::new();
+        for bar in &self.intervals {
+            let Some(x) = x.place(bar.x) else { continue };
+            let [low, high] = [bar.low, bar.high].map(|end| y.place(end).filter(|end| end.is_finite()));
+            let [below, above] =
+                [[x, low.unwrap_or(scale.y.min)], [x, high.unwrap_or(scale.y.max)]].map(|at| scale.map(at));
+            lines.push([below, above]);
+            let caps = low.map(|_| below).into_iter().chain(high.map(|_| above));
+            lines.extend(caps.map(|[px, py]| [[px - CAP, py], [px + CAP, py]]));
+        }
+        svg.lines(&lines, &Paint::stroke(INK, 1.2));
     }
 
     fn draw_series(&self, svg: &mut Svg, scale: &Scale, series: &ErrorBarSeries, (glyph, colour): Look) {
@@ -178,6 +215,13 @@ impl ErrorBarFigure {
                 max: f64::MAX,
             });
         }
+        check_finite(
+            "end of an interval (x, low in turn)",
+            self.intervals.iter().flat_map(|bar| [bar.x, bar.low]),
+        )?;
+        if let Some(index) = self.intervals.iter().position(|bar| bar.high.is_nan()) {
+            return Err(FigureError::NotFinite { what: "upper end of an interval", index, value: f64::NAN });
+        }
         check_finite("expected line value", self.lines.iter().flat_map(|l| &l.points).flatten().copied())
     }
 
@@ -186,6 +230,12 @@ impl ErrorBarFigure {
         let mut csv = Csv::new(["series", &self.x_label, &self.y_label, "error"]);
         for series in &self.series {
             series.points.iter().for_each(|m| csv.row(&[&series.label], [m.x, m.y, m.error].map(Some)));
+        }
+        for bar in &self.intervals {
+            let end = |label: &str, end: f64| (label.to_owned(), end);
+            for (label, end) in [end("lower end", bar.low), end("upper end", bar.high)] {
+                csv.row(&[&label], [Some(bar.x), Some(end).filter(|end| end.is_finite()), None]);
+            }
         }
         for line in &self.lines {
             line.points.iter().for_each(|[x, y]| csv.row(&[&line.label], [Some(*x), Some(*y), None]));

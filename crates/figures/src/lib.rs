@@ -56,7 +56,7 @@ pub mod ticks;
 pub use animation::{Animation, Camera, Frame};
 pub use branches::{BranchDiagram, BranchMark, BranchPart};
 pub use error::{FigureError, Result};
-pub use error_bars::{ErrorBarFigure, ErrorBarSeries, Measured};
+pub use error_bars::{ErrorBarFigure, ErrorBarSeries, Interval, Measured};
 pub use expected::ExpectedLine;
 pub use figure::{Drawn, Figure};
 pub use glyph::Glyph;

@@ -8,6 +8,7 @@ pub mod ensemble;
 pub mod equilibria;
 pub mod fields;
 pub mod flow;
+pub mod lifetimes;
 pub mod live;
 pub mod naming;
 pub mod pool;

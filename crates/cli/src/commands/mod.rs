@@ -9,6 +9,7 @@ pub(crate) mod equilibria;
 pub(crate) mod explore;
 pub(crate) mod figure;
 pub(crate) mod film;
+pub(crate) mod lifetimes;
 pub(crate) mod lyapunov;
 pub(crate) mod merge;
 pub(crate) mod models;

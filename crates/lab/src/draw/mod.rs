@@ -4,6 +4,7 @@ mod body;
 mod branches;
 mod diagram;
 mod film;
+pub mod lifetimes;
 pub mod live;
 mod path;
 mod return_map;

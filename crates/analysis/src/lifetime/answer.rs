@@ -1,0 +1,179 @@
+//! Which law mean lives follow.
+
+use super::laws::spread;
+use super::{ExponentialLife, LifeCount, PowerLawLife};
+use crate::{Result, checks};
+use serde::Serialize;
+
+/// A difference of Akaike's criteria that decides: e^3, about 20, in likelihood, beyond the price of parameters.
+///
+/// Source: Burnham and Anderson (2002), Model Selection and Multimodel Inference, ch. 2.6: above 4 'considerably less', above 10
+/// 'essentially no' support.
+const DECISIVE: f64 = 6.0;
+
+/// A law under which the counts have a smaller probability does not hold.
+const IMPROBABLE: f64 = 1e-3;
+
+/// Fewest events, values that were watched, and values with events.
+const LEAST: (usize, usize, usize) = (20, 4, 3);
+
+/// Which law mean lives follow, with both fits as far as they were made.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "answer", rename_all = "kebab-case")]
+pub enum LifeLaws {
+    /// The power law is far more likely: chaos becomes transient in a crisis.
+    PowerLaw {
+        /// It.
+        power: PowerLawLife,
+        /// The other one.
+        exponential: ExponentialLife,
+        /// Akaike's criterion of the other law minus that of this one.
+        advantage: f64,
+    },
+    /// The exponential law is far more likely: no crisis within the range, nor near it.
+    Exponential {
+        /// It.
+        exponential: ExponentialLife,
+        /// The other one.
+        power: PowerLawLife,
+        /// Akaike's criterion of the other law minus that of this one.
+        advantage: f64,
+    },
+    /// Neither is far more likely than the other.
+    CannotBeToldApart {
+        /// One law.
+        exponential: ExponentialLife,
+        /// The other one.
+        power: PowerLawLife,
+        /// Akaike's criterion of the exponential law minus that of the power law.
+        difference: f64,
+    },
+    /// Both laws are improbable.
+    Neither {
+        /// One law.
+        exponential: ExponentialLife,
+        /// The other one.
+        power: PowerLawLife,
+    },
+    /// There are too few events or values for a comparison.
+    TooFew {
+        /// Events over all values.
+        events: usize,
+        /// Values of the parameter that were watched.
+        values: usize,
+        /// Those with events.
+        with_events: usize,
+        /// What is needed of each.
+        needed: (usize, usize, usize),
+    },
+}
+
+/// Compares two laws of the mean life tau against a parameter p: a crisis, tau = C |p - pc|^-gamma on one side of pc and infinite on the
+/// other, and none, tau = C exp(-k p).
+///
+/// Counts are Poisson variables of mean watched / tau(p). Each law is fitted by maximum likelihood; the smaller Akaike criterion
+/// (2 parameters - 2 ln L) wins if it is smaller by 6 or more. pc lies within the range of the values or beyond it by
+/// the range's length at most: from further away a power law looks exponential. A law under which such counts have a probability below
+/// 1e-3 (deviance, chi-square) does not hold; if both are, the answer is `Neither`. Values that were not watched do not count.
+///
+/// Source: Grebogi, Ott, Yorke (1986), Phys. Rev. Lett. 57, 1284 (power law of crises); Holford (1980), Biometrics 36, 299 (censored
+/// exponential lives as Poisson counts); Akaike (1974), IEEE Trans. Autom. Control 19, 716.
+///
+/// # Errors    [`crate::Error::OutOfRange`] for values that are not finite, or negative times
+/// # Checked by  tests/lifetime.rs: both laws, data that cannot decide, a law that is neither, intervals
+pub fn compare_life_laws(counts: &[LifeCount]) -> Result<LifeLaws> {
+    for count in counts {
+        checks::argument("parameter", count.parameter, true, "that is finite")?;
+        checks::argument("watched", count.watched, count.watched >= 0.0, "of at least 0")?;
+    }
+    let counts: Vec<LifeCount> = counts.iter().copied().filter(|count| count.watched > 0.0).collect();
+    let (events, values) = (counts.iter().map(|count| count.events).sum(), counts.len());
+    let with_events = counts.iter().filter(|count| count.events > 0).count();
+    if events < LEAST.0 || values < LEAST.1 || with_events < LEAST.2 || spread(&counts) <= 0.0 {
+        return Ok(LifeLaws::TooFew { events, values, with_events, needed: LEAST });
+    }
+    Ok(decide(ExponentialLife::fit(&counts), PowerLawLife::fit(&counts)))
+}
+
+fn decide(exponential: ExponentialLife, power: PowerLawLife) -> LifeLaws {
+    let difference = exponential.goodness.aic() - power.goodness.aic();
+    let improbable = |probability: f64| probability < IMPROBABLE;
+    if improbable(exponential.goodness.probability()) && improbable(power.goodness.probability()) {
+        LifeLaws::Neither { exponential, power }
+    } else if difference >= DECISIVE {
+        LifeLaws::PowerLaw { power, exponential, advantage: difference }
+    } else if difference <= -DECISIVE {
+        LifeLaws::Exponential { exponential, power, advantage: -difference }
+    } else {
+        LifeLaws::CannotBeToldApart { exponential, power, difference }
+    }
+}
+
+impl LifeLaws {
+    /// Both fits, the exponential law first; `None` if there are too few events.
+    #[must_use]
+    pub fn fits(&self) -> Option<(&ExponentialLife, &PowerLawLife)> {
+        match self {
+            Self::PowerLaw { power, exponential, .. }
+            | Self::Exponential { exponential, power, .. }
+            | Self::CannotBeToldApart { exponential, power, .. }
+            | Self::Neither { exponential, power } => Some((exponential, power)),
+            Self::TooFew { .. } => None,
+        }
+    }
+
+    /// The answer in a sentence.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match self {
+            Self::PowerLaw { power, advantage, .. } => {
+                format!("a power law, so a crisis: {} (AIC better by {advantage:.1})", power.words())
+            }
+            Self::Exponential { exponential, advantage, .. } => format!(
+                "an exponential law, so no crisis within the range or near it: {} (AIC better by {advantage:.1})",
+                exponential.words()
+            ),
+            Self::CannotBeToldApart { exponential, power, difference } => format!(
+                "the laws cannot be told apart (AIC of the exponential law minus that of the power law {difference:+.1}; \
+                 {DECISIVE} would decide): {}; or {}",
+                exponential.words(),
+                power.words()
+            ),
+            Self::Neither { exponential, power } => format!(
+                "neither law holds (probabilities {:.0e} and {:.0e}): {}; {}",
+                exponential.goodness.probability(),
+                power.goodness.probability(),
+                exponential.words(),
+                power.words()
+            ),
+            Self::TooFew { events, values, with_events, needed } => format!(
+                "too few events to compare laws: {events} at {with_events} of {values} values; it needs {}, at {} of at least {} values",
+                needed.0, needed.2, needed.1
+            ),
+        }
+    }
+}
+
+impl ExponentialLife {
+    fn words(&self) -> String {
+        let Self { k, at, life, .. } = self;
+        format!("tau = {:.3e} exp(-k (p - {at:.5})), k = {:.4} +- {:.2}", life.value, k.value, k.error)
+    }
+}
+
+impl PowerLawLife {
+    fn words(&self) -> String {
+        let Self { critical, exponent, coefficient, above, .. } = self;
+        let end = |end: Option<f64>| end.map_or("no limit".to_owned(), |end| format!("{end:.5}"));
+        let side = if *above { "p - pc" } else { "pc - p" };
+        let error =
+            if exponent.error.is_finite() { format!("{:.2}", exponent.error) } else { "unknown".to_owned() };
+        format!(
+            "tau = {coefficient:.3e} ({side})^-gamma, pc = {:.5} ({} to {}), gamma = {:.3} +- {error}",
+            critical.value,
+            end(critical.lower),
+            end(critical.upper),
+            exponent.value,
+        )
+    }
+}

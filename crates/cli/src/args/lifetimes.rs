@@ -1,0 +1,61 @@
+//! Options of `lifetimes`.
+
+use super::{SubjectOptions, number, random, whole};
+use clap::Args;
+use motiform_study::Random;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct LifetimesOptions {
+    #[command(flatten)]
+    pub(crate) subject: SubjectOptions,
+    /// The parameter and its values: NAME=LOW:HIGH:COUNT, both ends included, or NAME=v1,v2,v3
+    #[arg(long, value_name = "NAME=LOW:HIGH:COUNT", required = true)]
+    pub(crate) along: String,
+    /// Random initial states for each value
+    #[arg(long, value_name = "M", value_parser = whole, allow_hyphen_values = true, default_value_t = 64)]
+    pub(crate) samples: u64,
+    /// Longest model time for which an orbit is followed, in whole looks of the model (200 for tensor); default: 100 looks
+    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) until: Option<f64>,
+    /// Model time after which a life counts: the way onto the chaotic set (default: see below)
+    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) transient: Option<f64>,
+    /// Random initial states: SIZE is each coordinate within +-SIZE, MIN:MAX is all directions and log-uniform sizes
+    /// (default: 0.01 to 1 times the model's typical size)
+    #[arg(long, value_name = "SIZE|MIN:MAX", value_parser = random, allow_hyphen_values = true)]
+    pub(crate) random: Option<Random>,
+    /// Seed of the random initial states
+    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
+    pub(crate) seed: Option<u64>,
+    /// Relative tolerance of the integration
+    #[arg(long, value_name = "R", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) rtol: Option<f64>,
+    /// Number of threads (default: all cores); does not affect the results
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
+    pub(crate) threads: Option<u16>,
+    /// Write lifetimes.json and the figure mean-life into this folder
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace an existing folder of lifetimes
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Print one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+pub(super) const LIFETIMES_HELP: &str = "\
+Examples:
+  motiform lifetimes tensor --preset fig4 --set kappa3=0.1 --along kappa2=0.36:0.46:6 --until 2e5
+  motiform lifetimes tensor --preset fig4 --set kappa3=0.1 --along kappa2=1.201,1.202,1.204,1.208 --random 0.01 --out crisis
+
+Chaos that is transient ends in one of two ways: the body blows up, or it is captured by a stable steady motion. For each value the
+table shows how many of the starts did, the number of events (ends of lives after --transient), the time watched, and the mean life
+with its exact 95 % limits. A start that is still chaotic at --until counts as watched until then.
+
+Two laws of the mean life tau are compared by likelihood: tau = C |p - pc|^-gamma (chaos becomes transient in a crisis at pc) and
+tau = C exp(-k p) (no crisis). 'Cannot be told apart' is an answer: give more --samples, or values closer to the suspected crisis.
+
+Default of --transient: one look of the model, or if orbits are captured, twice the time that the approach to their steady motion takes.
+Exit code 1: there are too few events to compare laws, or neither law holds. See docs/lifetimes.md.";

@@ -1,0 +1,118 @@
+//! `motiform lifetimes`.
+
+use crate::args::LifetimesOptions;
+use crate::commands::subject;
+use crate::output::{End, print, warn};
+use crate::progress::Progress;
+use motiform_analysis::LifeLaws;
+use motiform_files::Staging;
+use motiform_lab::draw::FigureFormat;
+use motiform_lab::draw::lifetimes::draw_lifetimes;
+use motiform_lab::lifetimes::{LifeAt, Lifetimes, lifetimes};
+use motiform_lab::scan::Axis;
+use motiform_study::{Error, Random, ScanPlan};
+use serde_json::json;
+use std::fmt::Write;
+
+/// The file that marks a folder of lifetimes.
+const FILE: &str = "lifetimes.json";
+
+pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
+    let plan = plan(options)?;
+    let ours = |path: &std::path::Path| path.join(FILE).is_file();
+    let staging = options.out.as_ref().map(|out| Staging::replacing(out, options.force, ours)).transpose()?;
+    let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let threads = options.threads.map_or_else(all, usize::from);
+    let watch = Progress::new(plan.rows() as f64, "orbits");
+    let found = lifetimes(&plan, options.transient, threads, &watch);
+    watch.finish();
+    let Some(found) = found? else {
+        warn("interrupted: lives that were not followed to the end tell nothing, so nothing is kept");
+        return Ok(End::Interrupted);
+    };
+    if let Some(staging) = staging {
+        let mut text = serde_json::to_vec_pretty(&json(&plan, &found)?)?;
+        text.push(b'\n');
+        staging.write(FILE, &text)?;
+        for picture in draw_lifetimes(&plan, &found, &FigureFormat::default())? {
+            staging.write(&picture.name, &picture.bytes)?;
+        }
+        staging.commit()?;
+    }
+    print(&if options.json { json(&plan, &found)?.to_string() } else { summary(&plan, &found, options)? })?;
+    let answered = !matches!(found.laws, LifeLaws::TooFew { .. } | LifeLaws::Neither { .. });
+    Ok(if answered { End::Done } else { End::NotAsAsked })
+}
+
+/// The plan that the options describe: all starts are random.
+fn plan(options: &LifetimesOptions) -> Result<ScanPlan, Error> {
+    let mut study = subject::study(&options.subject)?;
+    for (key, value) in [("until", options.until), ("transient", options.transient)] {
+        if let Some(value) = value.filter(|&value| value < 0.0 || key == "until" && value == 0.0) {
+            let remedy = "give a model time above 0 (the transient may be 0)";
+            return Err(Error::Setting { key, value: value.to_string(), remedy });
+        }
+    }
+    study.scan.axes = vec![Axis::parse(&options.along)?];
+    study.scan.samples = options.samples;
+    study.scan.budget = options.until.unwrap_or(0.0);
+    study.initial.clear();
+    study.random = Some(options.random.or(study.random).unwrap_or(Random::basins(study.info()?)));
+    study.run.seed = options.seed.unwrap_or(study.run.seed);
+    study.run.rtol = options.rtol.unwrap_or(study.run.rtol);
+    ScanPlan::new(&study)
+}
+
+fn json(plan: &ScanPlan, found: &Lifetimes) -> anyhow::Result<serde_json::Value> {
+    let mut object = json!({ "plan_hash": plan.hash(), "plan": plan.computation });
+    if let (Some(object), serde_json::Value::Object(entries)) =
+        (object.as_object_mut(), serde_json::to_value(found)?)
+    {
+        object.extend(entries);
+        object.insert("notes".to_owned(), found.notes().into());
+        object.insert("sentence".to_owned(), found.laws.words().into());
+    }
+    Ok(object)
+}
+
+fn summary(plan: &ScanPlan, found: &Lifetimes, options: &LifetimesOptions) -> anyhow::Result<String> {
+    let c = &plan.computation;
+    let mut text = format!("{} ({}, {})\n", plan.title, c.model, plan.name);
+    let starts = format!("{} starts each, {}, seed {}", c.samples, c.random.words(), c.seed);
+    writeln!(text, "{starts}, followed to {}", found.until)?;
+    let head = ["blew up", "captured", "lasting", "delay", "events", "watched", "mean life"];
+    write!(text, "{:>12}", found.parameter)?;
+    for title in head {
+        write!(text, " {title:>10}")?;
+    }
+    writeln!(text, "  95 % limits")?;
+    for at in &found.values {
+        writeln!(text, "{}", row(at))?;
+    }
+    for note in found.notes() {
+        writeln!(text, "note      {note}")?;
+    }
+    write!(text, "law       {}", found.laws.words())?;
+    if let Some(out) = &options.out {
+        write!(text, "\nwritten   {}", out.display())?;
+    }
+    Ok(text)
+}
+
+fn row(at: &LifeAt) -> String {
+    let life = &at.life;
+    let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3e}"));
+    let limits = match life.upper {
+        Some(upper) => format!("{:.3e} to {upper:.3e}", life.lower),
+        None => format!("above {:.3e}", life.lower),
+    };
+    let (value, delay, watched) = (at.value, at.delay, number(Some(life.watched)));
+    format!(
+        "{value:>12} {:>10} {:>10} {:>10} {delay:>10.0} {:>10} {watched:>10} {:>10}  {limits}",
+        at.blew_up,
+        at.captured,
+        at.lasting,
+        life.events,
+        number(life.value)
+    )
+}

@@ -1,0 +1,235 @@
+//! Orbits followed look by look until they blow up, are captured, or time is over.
+
+use crate::analyse::settings_of;
+use crate::pool::Jobs;
+use motiform_analysis::regime::{Attractor, Settings};
+use motiform_analysis::symmetry::reduced_speed;
+use motiform_analysis::{RelativeEquilibrium, classify};
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::ensemble::Propagation;
+use motiform_dynamics::escape::norm;
+use motiform_dynamics::simd::has_lanes;
+use motiform_dynamics::{InPlane, Model, Outcome, Request, StepControl, StopOnly, VectorField, Watch};
+use motiform_kernels::{STATE, TensorStart, has_ensemble, propagate_tensors};
+use motiform_models::tensor::Tensor;
+use motiform_study::{Error, ScanPlan};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+/// An orbit this close to a stable steady motion, relative to its size, has been captured: its basin is larger, but for the closest
+/// neighbourhood of a subcritical bifurcation, where it shrinks like the square root of the distance.
+const NEAR: f64 = 1e-3;
+
+/// A steady motion is sought where the shape changes by less than this share of its size per model time.
+const SLOW: f64 = 1e-2;
+
+/// Looks for which the motion at the end may be examined: a transient that lasts for longer is not taken for a regular motion.
+const LAST_LOOKS: f64 = 4.0;
+
+/// Why an orbit was not followed any further.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum End {
+    /// It blew up.
+    BlewUp,
+    /// It came close to a stable steady motion, whose slowest perturbation decays at this rate (inverse model time).
+    Captured { rate: f64 },
+    /// Time was over.
+    Lasting,
+    /// Time was over, and it moved regularly.
+    Regular,
+    /// The numerics could not go on.
+    Lost,
+}
+
+/// An orbit that was followed, and for how long (model time).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Followed {
+    pub(super) end: End,
+    pub(super) time: f64,
+}
+
+/// The time in which this rate (inverse model time) brings an orbit from far away to where its capture is noticed.
+pub(super) fn way(rate: f64) -> f64 {
+    -libm::log(NEAR) / rate
+}
+
+/// Follows the orbits of a plan.
+pub(super) struct Follower<'p> {
+    plan: &'p ScanPlan,
+    models: Vec<Box<dyn Model>>,
+    looks: usize,
+    look: f64,
+    /// Size of a typical state.
+    size: f64,
+    settings: Settings,
+    watch: &'p dyn Watch,
+    /// Whether an orbit is one of the lanes' kind, whether or not this machine has lanes: the position is integrated too.
+    lanes: bool,
+}
+
+/// An orbit on its way: looks done, and its state then.
+#[derive(Clone)]
+struct Way {
+    looks: usize,
+    shape: Vec<f64>,
+}
+
+impl<'p> Follower<'p> {
+    pub(super) fn new(plan: &'p ScanPlan, looks: usize, watch: &'p dyn Watch) -> Result<Self, Error> {
+        let (info, c, method) = (plan.info()?, &plan.computation, plan.method()?);
+        let models: Vec<_> = (0..plan.cells()).map(|cell| plan.model_of(cell)).collect::<Result<_, _>>()?;
+        let bounds = (c.escape_norm, c.max_steps);
+        let settings = settings_of(info, method, c.control, bounds, LAST_LOOKS * info.look);
+        let adaptive = matches!(c.control.into(), StepControl::Adaptive { .. });
+        let lanes =
+            c.stepper == "dop853" && adaptive && models.iter().all(|model| tensor(model.as_ref()).is_some());
+        Ok(Self { plan, models, looks, look: info.look, size: info.size, settings, watch, lanes })
+    }
+
+    /// Follows the orbits that a thread takes, in lanes where there are any.
+    pub(super) fn run(&self, jobs: &Jobs<'_, Followed>) {
+        let StepControl::Adaptive { rtol, atol } = self.settings.control else {
+            return self.one_by_one(jobs);
+        };
+        if !self.lanes || !has_lanes() {
+            return self.one_by_one(jobs);
+        }
+        let times = [self.look];
+        let how = Propagation { times: &times, rtol, atol, escape_norm: self.settings.escape_norm };
+        self.in_lanes(&how, jobs);
+    }
+
+    pub(super) fn one_by_one(&self, jobs: &Jobs<'_, Followed>) {
+        jobs.each(|job| {
+            let mut way = Way { looks: 0, shape: self.start(job)? };
+            loop {
+                if let Some(answer) = self.single(job, &mut way)? {
+                    return Ok(answer);
+                }
+            }
+        });
+    }
+
+    /// Each lane runs a look; what goes on enters again.
+    fn in_lanes(&self, how: &Propagation<'_>, jobs: &Jobs<'_, Followed>) {
+        let on_the_way: RefCell<BTreeMap<usize, Way>> = RefCell::new(BTreeMap::new());
+        let waiting: RefCell<Vec<usize>> = RefCell::new(Vec::new());
+        let mut next = || {
+            let key = waiting.borrow_mut().pop().or_else(|| self.enter(jobs, &on_the_way))?;
+            let tensor = *tensor(self.model(key))?;
+            let mut start = [0.0; STATE];
+            start[..STATE - 2].copy_from_slice(&on_the_way.borrow().get(&key)?.shape);
+            Some(TensorStart { key, tensor, start })
+        };
+        let mut done = |key: usize, states: Option<Vec<[f64; STATE]>>| {
+            let Some(mut way) = on_the_way.borrow_mut().remove(&key) else { return };
+            let found = match states.as_deref() {
+                Some([.., state]) => self.arrived(key, &mut way, &state[..STATE - 2]),
+                _ => self.single(key, &mut way),
+            };
+            match found {
+                Ok(None) => {
+                    on_the_way.borrow_mut().insert(key, way);
+                    waiting.borrow_mut().push(key);
+                }
+                Ok(Some(answer)) => jobs.done(key, Ok(answer)),
+                Err(error) => jobs.done(key, Err(error)),
+            }
+        };
+        propagate_tensors(how, &mut next, &mut done, self.watch);
+    }
+
+    /// Takes a job of which the start is sound.
+    fn enter(&self, jobs: &Jobs<'_, Followed>, on_the_way: &RefCell<BTreeMap<usize, Way>>) -> Option<usize> {
+        let job = jobs.next()?;
+        match self.start(job) {
+            Ok(shape) => {
+                on_the_way.borrow_mut().insert(job, Way { looks: 0, shape });
+                Some(job)
+            }
+            Err(error) => {
+                jobs.done(job, Err(error));
+                None
+            }
+        }
+    }
+
+    fn model(&self, job: usize) -> &dyn Model {
+        self.models[job / self.plan.computation.samples].as_ref()
+    }
+
+    fn start(&self, job: usize) -> Result<Vec<f64>, Error> {
+        let samples = self.plan.computation.samples;
+        self.plan.start(job / samples, job % samples, self.model(job))
+    }
+
+    /// One look of a single orbit; `None` if it goes on, `Some(None)` if it was stopped.
+    fn single(&self, job: usize, way: &mut Way) -> Result<Option<Option<Followed>>, Error> {
+        let (model, method, control) = (self.model(job), self.settings.method, self.settings.control);
+        let dim = way.shape.len();
+        let mut state = way.shape.clone();
+        let body = InPlane(model);
+        let mut orbit = if self.lanes {
+            state.extend([0.0, 0.0]);
+            method.orbit(&body, control, 0.0, &state)?
+        } else {
+            method.shape_orbit(model, control, 0.0, &state)?
+        };
+        let request = Request {
+            max_steps: self.settings.max_steps,
+            escape_norm: self.settings.escape_norm,
+            watched: dim,
+            watch: &StopOnly(self.watch),
+            ..Request::until(self.look, state.len())
+        };
+        let outcome = drive(orbit.as_mut(), &request, &mut ())?;
+        let time = way.looks as f64 * self.look + outcome.t();
+        match outcome {
+            Outcome::Completed { .. } => self.arrived(job, way, &orbit.state()[..dim]),
+            Outcome::Interrupted { .. } => Ok(Some(None)),
+            Outcome::Escaped { .. } => Ok(Some(Some(Followed { end: End::BlewUp, time }))),
+            _ => Ok(Some(Some(Followed { end: End::Lost, time }))),
+        }
+    }
+
+    /// After a look: captured, at the end, or `None` if it goes on.
+    fn arrived(&self, job: usize, way: &mut Way, shape: &[f64]) -> Result<Option<Option<Followed>>, Error> {
+        let model = self.model(job);
+        way.looks += 1;
+        way.shape.copy_from_slice(shape);
+        let time = way.looks as f64 * self.look;
+        if let Some(rate) = self.captured(model, shape) {
+            // at some moment of this look
+            return Ok(Some(Some(Followed { end: End::Captured { rate }, time: time - 0.5 * self.look })));
+        }
+        if way.looks < self.looks {
+            return Ok(None);
+        }
+        let Some(verdict) = classify(model, shape, &self.settings, &StopOnly(self.watch))? else {
+            return Ok(Some(None));
+        };
+        let regular =
+            matches!(verdict.attractor, Attractor::Periodic | Attractor::Torus | Attractor::Heteroclinic);
+        let end = if regular { End::Regular } else { End::Lasting };
+        Ok(Some(Some(Followed { end, time })))
+    }
+
+    /// The slowest rate (inverse model time) of the stable steady motion that a shape has come close to.
+    fn captured(&self, model: &dyn Model, shape: &[f64]) -> Option<f64> {
+        let mut rate = vec![0.0; shape.len()];
+        VectorField::<f64>::eval(model, 0.0, shape, &mut rate);
+        let size = |shape: &[f64]| norm(shape).max(0.1 * self.size);
+        if reduced_speed(model, shape, &rate) > SLOW * size(shape) {
+            return None;
+        }
+        let steady = RelativeEquilibrium::find(model, shape)?;
+        let stable = steady.growth() < -steady.resolution();
+        let near = steady.distance(model, shape) < NEAR * size(&steady.shape);
+        (stable && near).then(|| -steady.growth())
+    }
+}
+
+/// The model, if it is one that runs in lanes.
+fn tensor(model: &dyn Model) -> Option<&Tensor> {
+    model.as_any()?.downcast_ref().filter(|tensor| has_ensemble(tensor))
+}
