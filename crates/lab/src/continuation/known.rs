@@ -2,10 +2,8 @@
 
 use super::family::Bodies;
 use super::follow::{Followed, Sample};
-use motiform_analysis::periodic::PeriodicGuess;
-use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium};
-use motiform_continuation::{Motion, Settings, same_motion};
-use motiform_dynamics::{Equivariant, Watch};
+use motiform_continuation::{Branch, Motion, Settings, same_motion};
+use motiform_dynamics::Watch;
 
 /// Two motions are one if they agree up to this part of their size: well above what Newton's method leaves, well below the distance
 /// from a special point at which a new branch is entered.
@@ -26,7 +24,7 @@ pub(super) fn known(
     let parameter = sample.point.parameter;
     let body = bodies.model(parameter).ok()?;
     let is_here = |neighbour: &Sample| {
-        let found = moved(body.as_ref(), neighbour, settings, watch);
+        let found = moved(bodies, neighbour, parameter, settings, watch);
         found.is_some_and(|found| {
             same_motion(body.as_ref(), &sample.point.motion, &found, &settings.flow, SAME)
         })
@@ -56,24 +54,17 @@ fn about(pair: &[Sample], sample: &Sample) -> bool {
         && within(&|sample| sample.reading.speed[0], NEAR)
 }
 
-/// A motion of a neighbouring body as one of this body.
+/// A motion of a neighbouring body as one of the body at `parameter`: the first point of the branch through it.
 fn moved(
-    body: &dyn Equivariant,
+    bodies: &Bodies<'_>,
     neighbour: &Sample,
+    parameter: f64,
     settings: &Settings,
     watch: &dyn Watch,
 ) -> Option<Motion> {
-    match &neighbour.point.motion {
-        Motion::Equilibrium(near) => RelativeEquilibrium::find(body, &near.shape).map(Motion::Equilibrium),
-        Motion::Orbit { orbit: near, .. } => {
-            let guess = PeriodicGuess {
-                shape: &near.shape,
-                time: near.time,
-                angle: near.angle,
-                mirrored: near.mirrored,
-            };
-            let orbit = PeriodicOrbit::find(body, &guess, &settings.flow, watch)?;
-            Some(Motion::Orbit { orbit, nodes: Vec::new() })
-        }
-    }
+    let branch = match &neighbour.point.motion {
+        Motion::Equilibrium(near) => Branch::of_equilibria(bodies, parameter, near, settings, watch),
+        Motion::Orbit { orbit: near, .. } => Branch::of_orbits(bodies, parameter, near, settings, watch),
+    };
+    Some(branch.ok()?.next()?.motion)
 }

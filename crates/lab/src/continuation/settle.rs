@@ -81,7 +81,7 @@ fn polish(
 }
 
 /// The orbit near `shape` that comes back after nearly `time`.
-pub(super) fn closed(
+fn closed(
     body: &dyn Equivariant,
     shape: &[f64],
     (time, mirrored): (f64, bool),
