@@ -1,6 +1,6 @@
 //! Branches: the motion that a start settles on, followed along a parameter, stable or not, and what begins and ends on the way.
 //!
-//! A [`BranchPlan`](motiform_study::BranchPlan) is carried out by [`follow`]: the plan's own start is simulated until its motion is named
+//! A [`BranchPlan`](motiform_study::BranchPlan) is carried out by [`follow()`]: the plan's own start is simulated until its motion is named
 //! ([`settle`](mod@settle)), polished by Newton's method, and followed to both sides of the range. Then every special point and every end
 //! of a branch is asked what begins there ([`Origin`]), in the order in which they were found, so that the same plan gives the same
 //! bits. A motion that lies on a branch already followed is recognised and not followed twice.
