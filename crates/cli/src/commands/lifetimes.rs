@@ -104,9 +104,11 @@ fn row(at: &LifeAt) -> String {
     let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3e}"));
     let limits = match life.upper {
         Some(upper) => format!("{:.3e} to {upper:.3e}", life.lower),
-        None => format!("above {:.3e}", life.lower),
+        None if life.lower > 0.0 => format!("above {:.3e}", life.lower),
+        None => "-".to_owned(),
     };
-    let (value, delay, watched) = (at.value, at.delay, number(Some(life.watched)));
+    let value = format!("{:.9e}", at.value).parse().unwrap_or(at.value); // without the last digits of an evenly spaced axis
+    let (delay, watched) = (at.delay, number(Some(life.watched)));
     format!(
         "{value:>12} {:>10} {:>10} {:>10} {delay:>10.0} {:>10} {watched:>10} {:>10}  {limits}",
         at.blew_up,

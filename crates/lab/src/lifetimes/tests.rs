@@ -8,7 +8,7 @@ use motiform_study::{ScanPlan, Study};
 #[test]
 fn lanes_give_the_lives_of_single_orbits() {
     let text =
-        "preset = \"fig4\"\n[parameters]\nkappa3 = 0.1\n[scan]\naxes = [\"kappa2=0.2,1.4\"]\nsamples = 5\n";
+        "preset = \"fig4\"\n[model.tensor]\nkappa3 = 0.1\n[scan]\naxes = [\"kappa2=0.2,1.4\"]\nsamples = 5\n";
     let plan = ScanPlan::new(&Study::parse(text, "text", "test").unwrap()).unwrap();
     let follower = Follower::new(&plan, 5, &()).unwrap();
     let all = |single: bool| {
