@@ -48,7 +48,8 @@ pub(crate) struct LifetimesOptions {
 pub(super) const LIFETIMES_HELP: &str = "\
 Examples:
   motiform lifetimes tensor --preset fig4 --set kappa3=0.1 --along kappa2=0.36:0.46:6 --until 2e5
-  motiform lifetimes tensor --preset fig4 --set kappa3=0.1 --along kappa2=1.201,1.202,1.204,1.208 --random 0.01 --out crisis
+  motiform lifetimes tensor --preset fig4 --set kappa3=0.1 --along kappa2=1.1995,1.2002,1.2003,1.2004,1.2006,1.2008 \
+    --samples 128 --random 0.01 --until 4e4 --out crisis
 
 Chaos that is transient ends in one of two ways: the body blows up, or it is captured by a stable steady motion. For each value the
 table shows how many of the starts did, the number of events (ends of lives after --transient), the time watched, and the mean life
