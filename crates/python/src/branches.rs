@@ -17,17 +17,16 @@ type Followed<'py> = (String, Bound<'py, PyBytes>, Option<PyErr>);
 
 /// The branches of the motion that a study's start settles on.
 #[pyfunction]
-#[pyo3(signature = (study, along, from_, branches, points, progress=None))]
+#[pyo3(signature = (study, along, from_, counts, progress=None))]
 pub(crate) fn follow_branches<'py>(
     py: Python<'py>,
     study: &Study,
     along: (String, f64, f64),
     from_: Option<&str>,
-    branches: usize,
-    points: usize,
+    counts: (usize, usize),
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Followed<'py>> {
-    let (name, from, to) = along;
+    let ((name, from, to), (branches, points)) = (along, counts);
     let origin = from_.map(origin).transpose().map_err(python)?;
     let settings = BranchSettings { along: Along { name, from, to }, origin, points, branches };
     let study = study.0.perturbed().map_err(python)?.0;
