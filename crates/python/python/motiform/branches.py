@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import json
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -39,7 +41,8 @@ class Branch:
 
     def to_xarray(self) -> xr.Dataset:
         """The points along a dimension ``point``."""
-        return self.points.set_index("point").to_xarray()
+        table: xr.Dataset = self.points.set_index("point").to_xarray()
+        return table
 
 
 @dataclass(frozen=True)
@@ -76,17 +79,26 @@ class Branches:
         return f"<{len(self)} branches along {self.along}: {motions}>"
 
 
+_READ: dict[str, Callable[[str], Any]] = {
+    "motion": str, "form": str, "special": str, "branch": int, "point": int, "unstable": int, "stable": lambda text: text == "1",
+}
+
+
+def _number(text: str) -> float:
+    return float(text) if text else math.nan
+
+
+def _points(table: bytes) -> pd.DataFrame:
+    """The table of points with every digit; NaN where there is no number. (Readers of pandas round differently from version to version.)"""
+    names, *rows = csv.reader(io.StringIO(table.decode()))
+    columns = {name: [row[place] for row in rows] for place, name in enumerate(names)}
+    return pd.DataFrame({name: [_READ.get(name, _number)(text) for text in column] for name, column in columns.items()})
+
+
 def branches_of(text: str, table: bytes) -> Branches:
     """The branches of the native module's JSON and CSV."""
     raw = json.loads(text)
-    names = ("motion", "form", "special")
-    points = pd.read_csv(
-        io.BytesIO(table),
-        float_precision="round_trip",
-        dtype=dict.fromkeys(names, str),
-        converters={name: str for name in names},
-    )
-    points["stable"] = points["stable"].astype(bool)
+    points = _points(table)
 
     def branch(number: int, entry: dict[str, Any]) -> Branch:
         rows = points[points["branch"] == number].reset_index(drop=True)
