@@ -9,7 +9,7 @@ const PROCESSORS: [&str; 2] = ["qemu64", "Haswell"];
 
 /// Operations lane by lane, exponents in lanes against single runs, and the digest of a scan.
 const TESTS: [&[&str]; 2] =
-    [&["--test", "lanes"], &["--test", "scan", "--", "numbers_change_only_with_the_format"]];
+    [&["--test", "all", "--", "lanes::"], &["--test", "all", "--", "numbers_change_only_with_the_format"]];
 
 pub(crate) fn run() -> Result<()> {
     let emulator = format!("qemu-{}", std::env::consts::ARCH);

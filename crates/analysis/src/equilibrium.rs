@@ -38,7 +38,7 @@ impl RelativeEquilibrium {
     /// solution per direction along the group orbit, and the smallest step does not move along it. Works for circles,
     /// pure modes and bodies at rest alike.
     ///
-    /// # Checked by  tests/equilibrium.rs: the analytic states of the reduced model, eigenvalues against its formulas
+    /// # Checked by  tests/all/equilibrium.rs: the analytic states of the reduced model, eigenvalues against its formulas
     #[must_use]
     pub fn find<B: Equivariant + ?Sized>(body: &B, guess: &[f64]) -> Option<Self> {
         let mut shape = guess.to_vec();

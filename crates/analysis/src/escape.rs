@@ -47,7 +47,7 @@ pub struct SurvivalStep {
 /// Statistical Analysis of Failure Time Data.
 ///
 /// # Errors    [`Error::TooFew`] without runs, [`Error::NotFinite`]; [`Error::OutOfRange`] for a negative time
-/// # Checked by  tests/escape.rs: Freireich's leukaemia trial, coverage for exponential times with censoring
+/// # Checked by  tests/all/escape.rs: Freireich's leukaemia trial, coverage for exponential times with censoring
 pub fn survival(stays: &[Stay]) -> Result<Vec<SurvivalStep>> {
     let sorted = sorted(stays)?;
     let (mut steps, mut share, mut greenwood, mut last_upper) = (Vec::new(), 1.0, 0.0, 1.0);
@@ -102,7 +102,7 @@ pub struct EscapeRate {
 /// # Errors    [`Error::TooFew`] below 10 escapes after `t_from`, [`Error::NotFinite`]; [`Error::OutOfRange`] for a
 /// negative time
 /// # Not       a test that the tail is exponential
-/// # Checked by  tests/escape.rs: coverage with and without censoring, an offset
+/// # Checked by  tests/all/escape.rs: coverage with and without censoring, an offset
 pub fn escape_rate(stays: &[Stay], t_from: f64) -> Result<EscapeRate> {
     checks::argument("t_from", t_from, t_from >= 0.0, "of at least 0")?;
     let sorted = sorted(stays)?;
@@ -128,7 +128,7 @@ pub fn escape_rate(stays: &[Stay], t_from: f64) -> Result<EscapeRate> {
 /// Source: Garwood (1936), Biometrika 28, 437.
 ///
 /// # Errors    [`Error::OutOfRange`] for a time that is not above 0
-/// # Checked by  tests/escape.rs: published limits
+/// # Checked by  tests/all/escape.rs: published limits
 pub fn escape_limits(events: usize, watched: f64) -> Result<(f64, f64)> {
     checks::argument("watched", watched, watched > 0.0, "above 0")?;
     let n = events as f64;

@@ -20,7 +20,7 @@ pub struct Isotropy {
 impl Isotropy {
     /// The isotropy of `shape`, where an image counts as equal up to `tolerance` of the shape's size.
     ///
-    /// # Checked by  tests/isotropy.rs: pure modes, bodies with an axis in any direction, the circle, general shapes
+    /// # Checked by  tests/all/isotropy.rs: pure modes, bodies with an axis in any direction, the circle, general shapes
     #[must_use]
     pub fn of<B: Equivariant + ?Sized>(body: &B, shape: &[f64], tolerance: f64) -> Self {
         let size = norm(shape);

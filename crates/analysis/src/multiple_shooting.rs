@@ -54,7 +54,7 @@ struct Nodes<'b, B: ?Sized> {
 /// It has converged where the shapes fit to `tolerance` of their size and the last step moved the period by no more than 30 times
 /// that part.
 ///
-/// # Checked by  tests/long_runs.rs: periods against long runs of another integrator on the index form
+/// # Checked by  tests/all/long_runs.rs: periods against long runs of another integrator on the index form
 pub(crate) fn refine<B: Equivariant + ?Sized>(
     body: &B,
     orbit: &PeriodicOrbit,

@@ -79,7 +79,7 @@ impl PeriodicOrbit {
     ///
     /// Source: Lust, Roose, Spence, Champneys (1998), SIAM J. Sci. Comput. 19, 1188.
     ///
-    /// # Checked by  tests/periodic.rs: van der Pol's period, Hopf's multiplier (both exact), the tensor model's zigzag
+    /// # Checked by  tests/all/periodic.rs: van der Pol's period, Hopf's multiplier (both exact), the tensor model's zigzag
     #[must_use]
     pub fn find<B: Equivariant + ?Sized>(
         body: &B,

@@ -51,8 +51,8 @@ impl Rests {
 /// # Shapes    as many times as sizes, at least 3
 /// # Errors    [`Error::Shape`], [`Error::TooFew`], [`Error::Order`] and [`Error::NotFinite`] for the samples;
 /// [`Error::OutOfRange`] for a negative size or a fraction that is not between 0 and 1; [`Error::Constant`]
-/// # Checked by  tests/rests.rs: sawtooth (exact), growing rests, incomplete ends; tests/heteroclinic.rs and
-/// tests/bodies.rs: ratios of eigenvalues, with and without noise
+/// # Checked by  tests/all/rests.rs: sawtooth (exact), growing rests, incomplete ends; tests/all/heteroclinic.rs and
+/// tests/all/bodies.rs: ratios of eigenvalues, with and without noise
 pub fn rests(times: &[f64], sizes: &[f64], fraction: f64) -> Result<Rests> {
     check(times, sizes, fraction)?;
     let threshold = fraction * sizes.iter().fold(0.0, |m: f64, x| m.max(*x));

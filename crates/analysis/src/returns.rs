@@ -62,7 +62,7 @@ pub struct Dimension {
 /// # Errors    [`Error::TooFew`] below 200 points, [`Error::Shape`], [`Error::NotFinite`], [`Error::OutOfRange`];
 /// [`Error::Scales`] where less than 1.5 octaves are left: sets of dimension 2 need more points than curves
 /// # Not       for points along a flow, which is a curve by itself: use a section; not for short or drifting runs
-/// # Checked by  tests/returns.rs: circle, ellipse in 6 dimensions, finite sets, Henon map, a square
+/// # Checked by  tests/all/returns.rs: circle, ellipse in 6 dimensions, finite sets, Henon map, a square
 pub fn correlation_dimension(points: &[Vec<f64>], resolution: f64) -> Result<Dimension> {
     check(points, resolution)?;
     let radius = radius(points)?;

@@ -46,7 +46,7 @@ const QUANTILES: [f64; 13] = [
 /// `(b_n - b_0) / n`; the cosines show the ends, `c_j = -b_0 + (-1)^j b_n` and slow parts of `b` of order `j sqrt(tau_b / n)`, and the error is
 /// some three times the usual difference: a bound, which shrinks like 1/n.
 ///
-/// Measured coverage (1000 series of 2000 samples, AR(1), tests/series_mean.rs): 93 to 96 % for correlation times of up to 1/50
+/// Measured coverage (1000 series of 2000 samples, AR(1), tests/all/series_mean.rs): 93 to 96 % for correlation times of up to 1/50
 /// of the series, half widths 1.05 to 1.2 times those of the known spectrum. One series in 30 of correlation time 1/50 has no error; a
 /// still longer correlation time shows as no error, or as one that is too small: no method can see it in one series.
 ///
@@ -56,7 +56,7 @@ const QUANTILES: [f64; 13] = [
 /// # Units     those of the samples
 /// # Errors    [`crate::Error::TooFew`] below 64 samples, [`crate::Error::NotFinite`], [`crate::Error::Overflow`]
 /// # Not       for series with a trend or a transient: cut it off first
-/// # Checked by  tests/series_mean.rs: coverage, a series by hand, ends, trends, constants; tests/lyapunov.rs: Lorenz
+/// # Checked by  tests/all/series_mean.rs: coverage, a series by hand, ends, trends, constants; tests/all/lyapunov.rs: Lorenz
 ///
 /// ```
 /// let turning_rates: Vec<f64> = (0..640).map(|j| f64::from(j % 10)).collect();

@@ -13,7 +13,7 @@ const QUANTILE: f64 = 1.959_963_984_540_054;
 ///
 /// Source: Wilson (1927), J. Am. Stat. Assoc. 22, 209.
 ///
-/// # Checked by  tests/share.rs: published intervals, symmetry
+/// # Checked by  tests/all/share.rs: published intervals, symmetry
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Share {
     /// Trials with the outcome.

@@ -32,7 +32,7 @@ impl Spectrum {
     /// Over all frequencies this is the variance of the samples about the means of their segments, weighted by the
     /// squared window (Parseval); over the peak of a sine of amplitude A it is A^2/2.
     ///
-    /// # Checked by  tests/welch.rs
+    /// # Checked by  tests/all/welch.rs
     #[must_use]
     pub fn variance_between(&self, from: f64, to: f64) -> f64 {
         let inside = self.frequencies.iter().zip(&self.power).filter(|(f, _)| (from..=to).contains(f));
@@ -52,7 +52,7 @@ impl Spectrum {
 /// # Units     `dt`: model time between samples; `segment`: N, in samples; result: see [`Spectrum`]
 /// # Errors    `dt` not positive, N below 4 or above the number of samples, a sample not finite or too large to square
 /// # Not       for unevenly spaced samples: interpolate first; lines closer than 2/(N dt) are not told apart
-/// # Checked by  tests/welch.rs: Parseval (exact), sine (exact), white noise, SciPy (reference/welch.toml)
+/// # Checked by  tests/all/welch.rs: Parseval (exact), sine (exact), white noise, SciPy (reference/welch.toml)
 ///
 /// ```
 /// // 3 sin(2 pi t/4), sampled at t = 0, 1, 2, ...: all its variance 3^2/2 is at frequency 1/4

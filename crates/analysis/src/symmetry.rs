@@ -27,7 +27,7 @@ pub struct Alignment {
 /// `|reference - R(a) u|^2 = |reference|^2 + |u|^2 - 2 c(a)`, `c(a) = reference . R(a) u` a trigonometric polynomial: its
 /// maxima on a grid fine enough for every mode of the state, then Newton steps on `c'`, and the best of them.
 ///
-/// # Checked by  tests/symmetry.rs: exact on the group orbit (nearly symmetric shapes too), a metric
+/// # Checked by  tests/all/symmetry.rs: exact on the group orbit (nearly symmetric shapes too), a metric
 #[must_use]
 pub fn align<B: Equivariant + ?Sized>(
     body: &B,

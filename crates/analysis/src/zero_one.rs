@@ -40,7 +40,7 @@ pub struct ZeroOne {
 ///
 /// # Errors    [`Error::TooFew`] below 200 samples, [`Error::Constant`], [`Error::NotFinite`], [`Error::Overflow`]
 /// # Not       for noisy series: noise walks at random like chaos
-/// # Checked by  tests/zero_one.rs: logistic map, quasi-periodic and periodic series, an added constant
+/// # Checked by  tests/all/zero_one.rs: logistic map, quasi-periodic and periodic series, an added constant
 pub fn zero_one(samples: &[f64], seed: u64) -> Result<ZeroOne> {
     checks::at_least("the 0-1 test, in samples,", LEAST, samples.len())?;
     checks::finite(samples)?;

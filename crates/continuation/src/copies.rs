@@ -14,7 +14,7 @@ const PLACES: usize = 200;
 /// Whether two motions of one body are images of each other under rotations, the mirror and shifts of time, up to the part
 /// `tolerance` of their size.
 ///
-/// # Checked by  tests/continuation.rs: copies of one orbit, and different ones of the same period
+/// # Checked by  tests/all/continuation.rs: copies of one orbit, and different ones of the same period
 #[must_use]
 pub fn same_motion(body: &dyn Equivariant, a: &Motion, b: &Motion, flow: &Flow, tolerance: f64) -> bool {
     match (a, b) {

@@ -46,7 +46,7 @@ pub struct CurvePoint {
 /// Source: Kuznetsov (2004), Elements of Applied Bifurcation Theory, chapter 10; Govaerts (2000), Numerical Methods for Bifurcations of
 /// Dynamical Equilibria.
 ///
-/// # Checked by  tests/curves.rs: the lines of the reduced model, normal forms, points of the full model
+/// # Checked by  tests/all/curves.rs: the lines of the reduced model, normal forms, points of the full model
 pub struct Curve<'f> {
     kind: Kind<'f>,
     watch: &'f dyn Watch,

@@ -132,7 +132,7 @@ fn matrix(slice: &Slice<'_>) -> DMatrix<Complex<f64>> {
 ///
 /// Source: Kuznetsov (2004), Elements of Applied Bifurcation Theory, eq. (5.62).
 ///
-/// # Checked by  tests/continuation.rs: the normal form (exact), the reduced model's formula
+/// # Checked by  tests/all/continuation.rs: the normal form (exact), the reduced model's formula
 pub(super) fn first_lyapunov(body: &dyn Equivariant, shape: &[f64], frequency: f64) -> Option<f64> {
     let slice = slice(body, shape);
     let a = matrix(&slice);

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 /// Source: Box and Muller (1958), Ann. Math. Stat. 29, 610; bits from ChaCha8 (key = seed), logarithm and sine from
 /// `libm`: the same on every machine. Different streams of one seed are independent. No deviate exceeds 8.58.
 ///
-/// # Checked by  tests/noise.rs: moments, tails, independence, bits
+/// # Checked by  tests/all/noise.rs: moments, tails, independence, bits
 #[derive(Clone, Debug)]
 pub struct Normal {
     bits: ChaCha8Rng,
@@ -71,7 +71,7 @@ impl Noise {
     /// velocity itself ([`Model::velocities`]), `shape` to all others. The plane's rotations turn pairs of coordinates, so its law
     /// does not change with them.
     ///
-    /// # Checked by  models/tests/noise.rs: rotation invariance, for both models
+    /// # Checked by  models/tests/all/noise.rs: rotation invariance, for both models
     #[must_use]
     pub fn on<M: Model + ?Sized>(model: &M, velocity: f64, shape: f64, step: f64) -> Self {
         let dim = model.dim();

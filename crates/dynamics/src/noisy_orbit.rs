@@ -29,8 +29,8 @@ use crate::{Error, Integration};
 /// # Errors    [`Error::OutOfRange`] and [`Error::Shape`] from [`NoisyOrbit::new`]
 /// # Not       for multiplicative noise. The effect of an entry with `|lambda| h` far above 1 on the others within a step is
 /// averaged too coarsely: its own law is correct, its square in their rates is not
-/// # Checked by  tests/noise.rs: Brownian motion, Ornstein-Uhlenbeck (stiff entries, rows anywhere), weak order on a linear
-/// and a nonlinear flow, rotation, seeds; lab/tests/noise.rs: both models
+/// # Checked by  tests/all/noise.rs: Brownian motion, Ornstein-Uhlenbeck (stiff entries, rows anywhere), weak order on a linear
+/// and a nonlinear flow, rotation, seeds; lab/tests/all/noise.rs: both models
 pub struct NoisyOrbit<O> {
     orbit: O,
     noise: Noise,

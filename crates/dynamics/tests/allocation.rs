@@ -1,5 +1,6 @@
 //! No allocation inside a step: counted by the allocator itself.
 
+#[path = "all/common/mod.rs"]
 mod common;
 
 use common::{Oscillator, StuartLandau};

@@ -53,7 +53,7 @@ struct Part<'a> {
 /// the datasets instead.
 ///
 /// # Checked by
-/// tests/hdf5.rs: h5py, and reading back
+/// tests/all/hdf5.rs: h5py, and reading back
 pub fn write_fields(path: &Path, fields: &Fields) -> Result<(), Error> {
     let parts = parts(fields);
     for part in &parts {

@@ -55,7 +55,7 @@ pub struct Track {
 /// # Errors
 /// Parameters or a start that the model rejects, times that are not increasing, a plan with noise.
 ///
-/// # Checked by  tests/ensemble.rs: tracks against single runs to the bit, for both models
+/// # Checked by  tests/all/ensemble.rs: tracks against single runs to the bit, for both models
 pub fn tracks(
     plan: &Plan,
     members: &[Member],

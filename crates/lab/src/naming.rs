@@ -18,7 +18,7 @@ const LOOKS: f64 = 2.0;
 /// # Errors
 /// Input that only the numerics can reject.
 ///
-/// # Checked by  tests/naming.rs: the presets' motions, other parameters, noise, blow-up
+/// # Checked by  tests/all/naming.rs: the presets' motions, other parameters, noise, blow-up
 pub fn name(manifest: &Manifest, watch: &dyn Watch) -> Result<Option<Verdict>, Error> {
     let mut plan = manifest.plan.clone();
     let complete = matches!(*manifest.outcome, Outcome::Completed { .. });

@@ -137,7 +137,7 @@ impl ModelInfo {
     /// The absolute tolerance for a relative one, if none is given: `rtol / tolerance_ratio`. Thus `rtol` alone sets the accuracy
     /// of a run.
     ///
-    /// # Checked by  lab/tests/tolerances.rs: the global error against the request, for both models
+    /// # Checked by  lab/tests/all/tolerances.rs: the global error against the request, for both models
     #[must_use]
     pub fn absolute_tolerance(&self, rtol: f64) -> f64 {
         rtol / self.tolerance_ratio

@@ -43,7 +43,7 @@ impl Study {
     /// # Errors
     /// A `perturb` below 0; parameters that the model rejects.
     ///
-    /// # Checked by  tests/perturbation.rs
+    /// # Checked by  tests/all/perturbation.rs
     pub fn perturbed(&self) -> Result<(Self, Option<Perturbation>), Error> {
         check("initial.perturb", self.perturb, self.perturb >= 0.0, "give a size of at least 0")?;
         let info = self.info()?;

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 /// The distribution of random initial states.
 ///
-/// # Checked by  tests/starts.rs: sizes, directions, text; tests/random.rs: the bits of small starts
+/// # Checked by  tests/all/starts.rs: sizes, directions, text; tests/all/random.rs: the bits of small starts
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Random {

@@ -75,7 +75,7 @@ pub struct Legs {
 /// # Errors    [`Error::TooFew`], [`Error::Order`], [`Error::NotFinite`], [`Error::OutOfRange`] for the input;
 /// [`Error::AtRest`] without any motion; [`Error::ClosedLeg`] for a leg that ends where it began
 /// # Not       for noisy velocities: every wiggle of the turning rate is a bend
-/// # Checked by  tests/legs.rs: square with stops, triangle wave, sinusoidal heading (Bessel function), reversal, rotated
+/// # Checked by  tests/all/legs.rs: square with stops, triangle wave, sinusoidal heading (Bessel function), reversal, rotated
 /// input, periods with net rotation
 pub fn legs(path: &[PathSample], ends: Ends) -> Result<Legs> {
     check(path, ends)?;

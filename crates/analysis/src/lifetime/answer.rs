@@ -80,7 +80,7 @@ pub enum LifeLaws {
 /// exponential lives as Poisson counts); Akaike (1974), IEEE Trans. Autom. Control 19, 716.
 ///
 /// # Errors    [`crate::Error::OutOfRange`] for values that are not finite, or negative times
-/// # Checked by  tests/lifetime.rs: both laws, data that cannot decide, a law that is neither, intervals
+/// # Checked by  tests/all/lifetime.rs: both laws, data that cannot decide, a law that is neither, intervals
 pub fn compare_life_laws(counts: &[LifeCount]) -> Result<LifeLaws> {
     for count in counts {
         checks::argument("parameter", count.parameter, true, "that is finite")?;

@@ -41,7 +41,7 @@ pub struct MeanLife {
 /// # Units   of the times
 /// # Errors    [`crate::Error::NotFinite`]; [`crate::Error::OutOfRange`] for a negative time
 /// # Not       a test that the lives are exponential
-/// # Checked by  tests/lifetime.rs: coverage with and without censoring, an offset
+/// # Checked by  tests/all/lifetime.rs: coverage with and without censoring, an offset
 pub fn mean_life(stays: &[Stay], delay: f64) -> Result<MeanLife> {
     checks::argument("delay", delay, delay >= 0.0, "of at least 0")?;
     checks::finite(&stays.iter().map(|stay| stay.time).collect::<Vec<_>>())?;

@@ -137,7 +137,7 @@ impl Lyapunov {
 /// # Units     inverse model time
 /// # Errors    what the numerics refuse; a run that escapes is an [`Outcome`] without exponents
 /// # Not       not for noise-driven orbits; corrections of the state between steps (feedback of the cell) are not followed
-/// # Checked by  tests/lyapunov.rs: linear flow (exact), Lorenz-63 (published), coverage of the errors, both models
+/// # Checked by  tests/all/lyapunov.rs: linear flow (exact), Lorenz-63 (published), coverage of the errors, both models
 pub fn lyapunov<B: Equivariant + ?Sized>(
     body: &B,
     start: &[f64],

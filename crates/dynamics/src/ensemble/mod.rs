@@ -5,7 +5,7 @@
 //! orbits; this is done in the lanes, and no orbit is stored.
 //!
 //! A lane computes the same bits as [`crate::Orbit`] for the same member, with the same sequence of steps, for every
-//! width and instruction set (`tests/ensemble.rs`).
+//! width and instruction set (`tests/all/ensemble.rs`).
 
 mod adaptive;
 mod dense;

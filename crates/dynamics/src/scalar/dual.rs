@@ -13,7 +13,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 /// Forward-mode automatic differentiation: a vector field evaluated over `Dual<f64, K>` gives `f(u)` and `K` columns
 /// of `Df(u) W` exactly (to round-off), with no hand-written Jacobian. The scalar inside may be a lane bundle.
 ///
-/// Source: Wengert (1964), Commun. ACM 7, 463. Checked by `tests/scalars.rs` against the crate num-dual.
+/// Source: Wengert (1964), Commun. ACM 7, 463. Checked by `tests/all/scalars.rs` against the crate num-dual.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<T, const K: usize> {
     /// The value.

@@ -5,7 +5,7 @@
 //! * a [`Bundle`] it moves several orbits at once (each lane with its own parameters and its own time),
 //! * [`Dual`] it carries exact derivatives (Jacobians, tangent flows) along.
 //!
-//! Without fused multiply-add every lane computes the same bits as `f64` does: tested in `tests/scalars.rs`.
+//! Without fused multiply-add every lane computes the same bits as `f64` does: tested in `tests/all/scalars.rs`.
 
 mod bundle;
 mod complex;

@@ -1,7 +1,7 @@
 //! NEON, which every 64-bit Arm processor has: two lanes in a register, four in the pairs that are used.
 //!
 //! Why it is sound: the instructions are part of the architecture's baseline, so every processor that runs this has them; none of those
-//! used here takes a pointer. Tests: `tests/lanes.rs`, every operation against `f64`.
+//! used here takes a pointer. Tests: `tests/all/lanes.rs`, every operation against `f64`.
 
 #![allow(unsafe_code, reason = "vector instructions; see above")]
 

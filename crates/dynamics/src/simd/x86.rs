@@ -6,7 +6,7 @@
 //!
 //! Why it is sound: the instructions are called only through [`Zmm`] and [`Ymm`], both private to this module, which
 //! are used only as type arguments of kernels run by [`run_lanes`], after the processor was asked. A value of either
-//! type therefore exists only where its instructions do. Tests: `tests/lanes.rs`, every operation against `f64`.
+//! type therefore exists only where its instructions do. Tests: `tests/all/lanes.rs`, every operation against `f64`.
 
 #![allow(unsafe_code, reason = "vector instructions; see above")]
 

@@ -4,7 +4,7 @@
 //! weights of ETDRK4 cancel near `z = 0` (where 12 of 16 digits would be lost) and, to leading order, for large
 //! `|z|`. Every formula here is used only where it does not cancel. Source: Cox and Matthews (2002), J. Comput. Phys.
 //! 176, 430; Kassam and Trefethen (2005), SIAM J. Sci. Comput. 26, 1214 (the contour).
-//! Checked by `tests/phi_functions.rs` against `reference/phi-functions.toml`.
+//! Checked by `tests/all/phi_functions.rs` against `reference/phi-functions.toml`.
 
 /// Below this `|z|` the Taylor series is summed.
 const TAYLOR: f64 = 1.5;

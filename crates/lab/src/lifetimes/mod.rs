@@ -64,7 +64,7 @@ pub struct LifeAt {
 /// # Errors
 /// A plan with two axes, a negative delay; input that only the numerics can reject.
 ///
-/// # Checked by  tests/lifetimes.rs: lanes and threads against single orbits, blow-up, capture
+/// # Checked by  tests/all/lifetimes.rs: lanes and threads against single orbits, blow-up, capture
 pub fn lifetimes(
     plan: &ScanPlan,
     delay: Option<f64>,

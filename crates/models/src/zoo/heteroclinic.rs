@@ -13,7 +13,7 @@ use motiform_dynamics::{Scalar, VectorField};
 /// Source: Guckenheimer and Holmes (1988), Math. Proc. Camb. Phil. Soc. 103, 189; with noise: Stone and Holmes (1990),
 /// SIAM J. Appl. Math. 50, 726.
 ///
-/// # Checked by  tests/zoo.rs: equilibria, eigenvalues, order of visits, ratio of rests
+/// # Checked by  tests/all/zoo.rs: equilibria, eigenvalues, order of visits, ratio of rests
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Heteroclinic {
     /// Below 1: lets the next one grow.

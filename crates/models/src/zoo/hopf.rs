@@ -9,7 +9,7 @@ use motiform_dynamics::{Scalar, VectorField};
 ///
 /// Source: Guckenheimer and Holmes (1983), Nonlinear Oscillations, sec. 3.4.
 ///
-/// # Checked by  tests/zoo.rs: radius on the way to the circle (exact), period by sections
+/// # Checked by  tests/all/zoo.rs: radius on the way to the circle (exact), period by sections
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hopf {
     /// Growth rate at 0.

@@ -10,7 +10,7 @@ use motiform_dynamics::{Scalar, VectorField};
 /// Source: van der Pol (1926), Phil. Mag. 2, 978; period: Andersen and Geer (1982), SIAM J. Appl. Math. 42,
 /// 678; amplitude: `reference/zoo.toml`.
 ///
-/// # Checked by  tests/zoo.rs: period by sections, amplitude
+/// # Checked by  tests/all/zoo.rs: period by sections, amplitude
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VanDerPol {
     /// Strength of gain and loss.

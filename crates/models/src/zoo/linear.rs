@@ -8,7 +8,7 @@ use motiform_dynamics::{Scalar, VectorField};
 ///
 /// Source: elementary.
 ///
-/// # Checked by  tests/zoo.rs: a Jordan block (exact), a spiral
+/// # Checked by  tests/all/zoo.rs: a Jordan block (exact), a spiral
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Linear<const N: usize> {
     /// Rows of A.

@@ -10,7 +10,7 @@ use motiform_dynamics::{Scalar, VectorField};
 ///
 /// Source: Lorenz (1963), J. Atmos. Sci. 20, 130; exponents: Sprott (2003), Chaos and Time-Series Analysis, app. A.
 ///
-/// # Checked by  tests/zoo.rs: fixed points, divergence, symmetry
+/// # Checked by  tests/all/zoo.rs: fixed points, divergence, symmetry
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lorenz {
     /// Prandtl number.

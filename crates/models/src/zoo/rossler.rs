@@ -9,7 +9,7 @@ use motiform_dynamics::{Scalar, VectorField};
 ///
 /// Source: Rossler (1976), Phys. Lett. A 57, 397; exponents: Sprott (2003), Chaos and Time-Series Analysis, app. A.
 ///
-/// # Checked by  tests/zoo.rs: fixed points
+/// # Checked by  tests/all/zoo.rs: fixed points
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rossler {
     /// Growth rate of the spiral.

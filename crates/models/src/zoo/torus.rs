@@ -11,7 +11,7 @@ use motiform_dynamics::{Scalar, VectorField};
 ///
 /// Source: elementary; the frequencies after Berge, Pomeau and Vidal (1984), Order within Chaos, ch. VII.
 ///
-/// # Checked by  tests/zoo.rs: radii, rotation number of the return map
+/// # Checked by  tests/all/zoo.rs: radii, rotation number of the return map
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Torus {
     /// Angular velocities.

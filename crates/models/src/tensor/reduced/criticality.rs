@@ -13,7 +13,7 @@ impl Reduced {
     ///
     /// Source: Guckenheimer and Holmes (1983), eq. (3.4.11).
     ///
-    /// # Checked by  tests/reduced.rs: the size of the oscillation in runs beside the line
+    /// # Checked by  tests/all/reduced.rs: the size of the oscillation in runs beside the line
     #[must_use]
     pub fn straight_hopf_criticality(&self, s: f64) -> f64 {
         let (a1, b3, b) = (self.a1, self.b3, self.b());

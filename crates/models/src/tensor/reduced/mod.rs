@@ -23,7 +23,7 @@ use cubic::real_roots;
 /// The couplings of the reduced model: what spans the plane (kappa2, gamma) is left free.
 ///
 /// # Not         for `a1 b1 <= 0` or `b3 <= 0`: other motions, other lines
-/// # Checked by  tests/reduced.rs: states and stability against Newton's method and numerical eigenvalues
+/// # Checked by  tests/all/reduced.rs: states and stability against Newton's method and numerical eigenvalues
 ///
 /// ```
 /// use motiform_models::tensor::reduced::{Motion, Reduced};

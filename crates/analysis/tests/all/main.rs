@@ -1,0 +1,29 @@
+//! All integration tests of this crate, in one program: what is generic is compiled once.
+
+mod bodies;
+mod classification_of_the_cell;
+mod common;
+mod equilibrium;
+mod escape;
+mod heteroclinic;
+mod isotropy;
+mod lanes;
+mod leaving_a_rest;
+mod legs;
+mod lifetime;
+mod long_runs;
+mod lyapunov;
+mod periodic;
+mod regimes;
+mod rest_law;
+mod rests;
+mod returns;
+mod same_set;
+mod series_mean;
+mod share;
+mod symmetric_motions;
+mod symmetry;
+mod thresholds;
+mod welch;
+mod zero_one;
+mod zoo;

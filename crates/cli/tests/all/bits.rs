@@ -1,0 +1,67 @@
+//! The numbers that commands give, to the last bit: a change that moves one is named in CHANGELOG.md, and its digest here is renewed.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use crate::common;
+
+use common::Folder;
+use serde_json::Value;
+
+/// Commands, and the digest of all numbers of what they print.
+const RECORDED: [(&str, &str); 15] = [
+    ("simulate tensor --preset fig2 --t-end 100", "ecd45497187fec78"),
+    ("simulate tensor --preset fig3 --transient 0 --t-end 100 --stepper dopri5", "ac54ac460584352d"),
+    ("simulate tensor --preset fig5b --t-end 50 --rtol 1e-12", "1e120a11c0baa448"),
+    ("simulate tensor --preset fig5a --t-end 20 --stepper rk4 --step 1e-3", "72f22943dc22b8a9"),
+    (
+        "simulate tensor --preset fig4 --set kappa2=0.2 --set kappa3=0.1 --transient 0 --initial v1=8 --initial v2=1 --initial s11=30 --initial u111=-20",
+        "c4c3b3b11ea920d6",
+    ),
+    ("simulate tensor --preset fig2 --t-end 50 --noise 1e-6", "37188c27540dc3a2"),
+    ("simulate cell --preset fig6b --transient 100 --t-end 20", "3f095f875ff06dd4"),
+    (
+        "simulate cell --preset fig6a --transient 0 --t-end 20 --stepper etdrk4 --step 0.05",
+        "f4db5c3d60526c57",
+    ),
+    ("classify tensor --preset fig1 --set kappa2=-0.06 --set gamma=0.02", "b2bb801b441fcf9c"),
+    ("classify tensor --preset fig5a", "0cafdcd169e2bcda"),
+    ("classify tensor --preset fig5b --samples 8", "b4f0ac91c3932dc2"),
+    ("classify cell --set length=29.2", "2436b8d8757fade6"),
+    ("lyapunov tensor --preset fig5b --t-end 300", "433e3c0e67dae8f5"),
+    ("lyapunov tensor --preset fig5b --t-end 300 --samples 9", "2e7734b1238e1aea"),
+    ("lyapunov cell --set length=21.75 --transient 200 --t-end 200", "2c5f7a215658a3ff"),
+];
+
+/// FNV-1a over names and bits of all numbers, in their order; what the program is and how it was called is left out.
+fn digest(value: &Value, mut hash: u64) -> u64 {
+    let mut take = |bytes: &[u8]| {
+        for byte in bytes {
+            hash = (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    };
+    match value {
+        Value::Number(number) => take(&number.as_f64().unwrap().to_bits().to_le_bytes()),
+        Value::Array(items) => return items.iter().fold(hash, |hash, item| digest(item, hash)),
+        Value::Object(fields) => {
+            let fields = fields.iter().filter(|(name, _)| *name != "manifest");
+            return fields.fold(hash, |hash, (_, field)| digest(field, hash));
+        }
+        _ => {}
+    }
+    hash
+}
+
+#[test]
+fn numbers_are_those_recorded() {
+    let folder = Folder::new();
+    let moved: Vec<String> = RECORDED
+        .iter()
+        .filter_map(|(command, recorded)| {
+            let done = folder.run(&format!("{command} --json"));
+            let object: Value = serde_json::from_str(&done.stdout).unwrap();
+            let found = format!("{:016x}", digest(&object, 0xcbf2_9ce4_8422_2325));
+            (found != *recorded).then(|| format!("{command}: {found}"))
+        })
+        .collect();
+    assert!(moved.is_empty(), "numbers moved:\n{}", moved.join("\n"));
+}

@@ -1,0 +1,62 @@
+//! Words, size and films of figures, as people ask for them.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use crate::common;
+
+use common::Folder;
+use std::fs;
+
+const RUN: &str = "simulate tensor --preset fig5a --t-end 20 --dt-out 1 --out run";
+
+#[test]
+fn figures_take_a_title_and_a_width() {
+    let folder = Folder::new();
+    assert_eq!(folder.run(&format!("{RUN} --no-animation")).code, Some(0));
+    let own = fs::read_to_string(folder.path("run/path.svg")).unwrap();
+    let data = fs::read(folder.path("run/trajectory.parquet")).unwrap();
+    let done = folder.run("figure run --no-animation --title Another --no-caption --width 86mm");
+    assert_eq!((done.code, done.stderr.as_str()), (Some(0), ""));
+    let other = fs::read_to_string(folder.path("run/path.svg")).unwrap();
+    assert!(own.contains(">Computed by") && !other.contains(">Computed by"), "the caption is left out");
+    assert!(!own.contains(">Another<") && other.contains(">Another<"));
+    assert!(other.contains(" width=\"86mm\" height=\""));
+    assert_eq!(fs::read(folder.path("run/trajectory.parquet")).unwrap(), data);
+    let done = folder.run("figure run --width 86");
+    assert_eq!(done.code, Some(2));
+    assert!(done.stderr.contains("--width") && done.stderr.contains("such as 86mm"), "{}", done.stderr);
+}
+
+/// An ffmpeg that writes what it read: `-i FROM` comes before the last word, the file to be written.
+#[cfg(unix)]
+const FFMPEG: &str = "#!/bin/sh
+[ \"$1\" = -version ] && exit 0
+while [ $# -gt 1 ]; do [ \"$1\" = -i ] && from=\"$2\"; shift; done
+cp \"$from\" \"$1\"
+";
+
+#[cfg(unix)]
+#[test]
+fn films_are_made_by_ffmpeg() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = Folder::new();
+    let program = folder.path("bin/ffmpeg");
+    fs::create_dir(folder.path("bin")).unwrap();
+    fs::write(&program, FFMPEG).unwrap();
+    fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
+    let done = folder.bash(&format!("PATH=$PWD/bin:$PATH $motiform {RUN} --film mp4 --film gif"));
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    let read = |name: &str| fs::read(folder.path(&format!("run/{name}"))).unwrap();
+    assert_eq!(read("motion.mp4"), read("motion.png"));
+    assert_eq!(read("motion.gif"), read("motion.png"));
+    // without one nothing is computed, and the message says what to do
+    let done = folder.bash(&format!("PATH=/nowhere $motiform {RUN}2 --film mp4"));
+    assert_eq!(done.code, Some(2));
+    assert!(done.stderr.contains("--film needs ffmpeg") && done.stderr.contains("apt-get install ffmpeg"));
+    // one that fails costs the film alone
+    fs::write(&program, "#!/bin/sh\n[ \"$1\" = -version ] && exit 0\necho no encoder >&2; exit 1\n").unwrap();
+    let done = folder.bash(&format!("PATH=$PWD/bin:$PATH $motiform {RUN}3 --film mp4"));
+    assert_eq!(done.code, Some(2));
+    assert!(done.stderr.contains("no encoder"), "{}", done.stderr);
+    assert!(folder.path("run3/path.svg").exists() && folder.path("run3/manifest.json").exists());
+}

@@ -1,0 +1,90 @@
+//! Ctrl-C ends a run soon, and what was computed until then is a complete dataset.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
+#![cfg(target_os = "linux")]
+
+use crate::common;
+
+use common::{Done, Folder, names, read_json};
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// Far longer than any of this takes; a run that ignored the signal would go on for hours.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Waits until the program listens for SIGINT: the kernel shows the mask of caught signals.
+fn wait_until_it_listens(child: &Child) {
+    let start = Instant::now();
+    loop {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
+        if u64::from_str_radix(caught.trim(), 16).unwrap() & 2 != 0 {
+            return;
+        }
+        assert!(start.elapsed() < PATIENCE, "the program never listened for Ctrl-C");
+        sleep(Duration::from_millis(2));
+    }
+}
+
+fn wait(mut child: Child) -> Done {
+    let start = Instant::now();
+    while child.try_wait().unwrap().is_none() {
+        if start.elapsed() > PATIENCE {
+            child.kill().unwrap();
+            panic!("still running {PATIENCE:?} after Ctrl-C");
+        }
+        sleep(Duration::from_millis(5));
+    }
+    println!("ended {:.2} s after Ctrl-C", start.elapsed().as_secs_f64());
+    child.wait_with_output().unwrap().into()
+}
+
+/// Starts a run of astronomical length, lets it work, and interrupts it.
+fn interrupt(folder: &Folder, words: &str) -> Done {
+    let long = "simulate tensor --preset fig5a --t-end 1e9 --dt-out 100 --max-steps 100000000000 --out run";
+    let mut command = folder.command(&format!("{long} {words}"));
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    wait_until_it_listens(&child);
+    sleep(Duration::from_millis(300)); // some rows; none would be right too
+    let kill = Command::new("bash").args(["-c", &format!("kill -INT {}", child.id())]).status().unwrap();
+    assert!(kill.success());
+    wait(child)
+}
+
+#[test]
+fn what_was_computed_is_kept() {
+    let folder = Folder::new();
+    let done = interrupt(&folder, "--transient 0").expect(130);
+    assert!(done.stdout.contains("outcome   interrupted at t = "), "{}", done.stdout);
+    assert_eq!(done.stderr, "");
+    assert_eq!(folder.names(), ["run"]);
+    let manifest = read_json(&folder.path("run/manifest.json"));
+    assert_eq!(manifest["outcome"]["kind"], "interrupted");
+    let t = manifest["outcome"]["t"].as_f64().unwrap();
+    assert!(t > 0.0 && t < 1e9, "{t}");
+    assert!(manifest["steps"].as_u64().unwrap() > 0);
+    folder.run("figure run").expect(0); // complete and readable
+}
+
+#[test]
+fn json_says_so_too() {
+    let folder = Folder::new();
+    let json = interrupt(&folder, "--transient 0 --json --no-figures").expect(130).json();
+    assert_eq!(json["outcome"]["kind"], "interrupted");
+    assert_eq!(json["t"], json["outcome"]["t"]);
+    assert_eq!(names(&folder.path("run")), ["manifest.json", "trajectory.parquet"]);
+}
+
+/// An end during the transient says so, with the time since the start; that is a dataset too.
+#[test]
+fn during_the_transient() {
+    let folder = Folder::new();
+    interrupt(&folder, "--transient 1e9").expect(130);
+    let manifest = read_json(&folder.path("run/manifest.json"));
+    assert_eq!(manifest["outcome"]["kind"], "interrupted");
+    assert!(manifest["outcome"]["t"].as_f64().unwrap() > 0.0);
+    assert_eq!(manifest["outcome"]["during"], "transient");
+    assert_eq!(names(&folder.path("run")), ["manifest.json", "trajectory.parquet"]);
+    folder.run("figure run").expect(0);
+}

@@ -1,0 +1,22 @@
+//! All integration tests of this crate, in one program: what is generic is compiled once.
+
+mod bad_input;
+mod bits;
+mod bounds;
+mod cell;
+mod common;
+mod continuation;
+mod contract;
+mod drawing;
+mod explore;
+mod faults;
+mod fuzz;
+mod interruption;
+mod kills;
+mod layers;
+mod lifetimes;
+mod motions;
+mod outcomes;
+mod scan;
+mod startup;
+mod steady;

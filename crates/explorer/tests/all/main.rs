@@ -1,0 +1,7 @@
+//! All integration tests of this crate, in one program: what is generic is compiled once.
+
+mod common;
+mod fuzz;
+mod server;
+mod session;
+mod stop;

@@ -1,0 +1,180 @@
+//! Who is let in, and what the server stands.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use crate::common;
+
+use common::Running;
+use motiform_explorer::{Options, Server};
+use tungstenite::Message;
+
+#[test]
+fn the_page_is_served_to_whoever_knows_the_token() {
+    let server = Running::anywhere();
+    let (token, host) = (server.token().to_owned(), server.host().to_owned());
+    for (name, kind) in
+        [("", "text/html"), ("app.js", "text/javascript"), ("app.css", "text/css"), ("icon.svg", "image/svg")]
+    {
+        let (head, body) = server.get(&format!("/{token}/{name}"), &host);
+        assert!(head.starts_with("http/1.1 200") && head.contains(kind) && !body.is_empty(), "{head}");
+        assert!(head.contains("content-security-policy: default-src 'none'; script-src 'self'"));
+        assert!(head.contains("referrer-policy: no-referrer") && head.contains("nosniff"));
+    }
+    let localhost = format!("localhost:{}", server.port());
+    assert!(server.get(&format!("/{token}/"), &localhost).0.starts_with("http/1.1 200"));
+}
+
+#[test]
+fn nobody_else_gets_anything() {
+    let server = Running::anywhere();
+    let (token, host) = (server.token().to_owned(), server.host().to_owned());
+    let wrong = "0".repeat(token.len());
+    for path in [
+        format!("/{wrong}/"),
+        format!("/{wrong}/app.js"),
+        format!("/{}/", &token[1..]),
+        format!("/{wrong}/live"),
+    ] {
+        let (head, body) = server.get(&path, &host);
+        assert!(
+            head.starts_with("http/1.1 403") && body.is_empty() || path.ends_with("live"),
+            "{path} {head}"
+        );
+        assert!(!head.starts_with("http/1.1 200"));
+    }
+    // Somebody else's name for this machine.
+    for host in ["evil.example", "evil.example:80", &format!("evil.example:{}", server.port()), "127.0.0.1"] {
+        assert!(server.get(&format!("/{token}/"), host).0.starts_with("http/1.1 403"), "{host}");
+    }
+    for path in [
+        "/",
+        "/index.html",
+        "//",
+        "/..",
+        &format!("/{token}/../../etc/passwd"),
+        &format!("/{token}/Cargo.toml"),
+    ] {
+        let (head, body) = server.get(path, &host);
+        assert!(head.starts_with("http/1.1 40") && body.is_empty(), "{path}: {head}");
+    }
+    let head = server.get(&format!("/{token}/..%2f..%2fetc%2fpasswd"), &host).0;
+    assert!(head.starts_with("http/1.1 404"), "{head}");
+}
+
+#[test]
+fn a_socket_is_opened_from_our_page_alone() {
+    let server = Running::anywhere();
+    let with = |name: &'static str, value: Option<&str>| {
+        let mut request = server.request();
+        request.headers_mut().remove(name);
+        if let Some(value) = value {
+            request.headers_mut().insert(name, value.parse().unwrap());
+        }
+        server.try_page(request).map(|_| ())
+    };
+    for origin in [Some("http://evil.example"), Some("null"), Some("https://127.0.0.1"), None] {
+        assert_eq!(with("origin", origin), Err(403), "{origin:?}");
+    }
+    assert_eq!(with("host", Some("evil.example")), Err(403));
+    let mut request = server.request();
+    *request.uri_mut() = format!("ws://{}/{}/live", server.host(), "0".repeat(32)).parse().unwrap();
+    assert_eq!(server.try_page(request).map(|_| ()), Err(403));
+    server.page().begin("tensor", Some("fig5a"));
+}
+
+#[test]
+fn what_is_no_message_is_refused_and_the_connection_stays() {
+    let server = Running::anywhere();
+    let mut page = server.page();
+    for bad in
+        ["", "nonsense", "{}", "[1]", r#"{"do":"open","path":"/etc/passwd"}"#, r#"{"do":"advance","dt":"x"}"#]
+    {
+        page.say(bad);
+        assert!(page.json("refused")["why"].as_str().unwrap().len() > 10);
+    }
+    page.socket.send(Message::binary(vec![1, 2, 3])).unwrap();
+    assert!(page.json("refused")["why"].as_str().unwrap().contains("JSON"));
+    page.say(r#"{"do":"advance","dt":1}"#);
+    assert!(page.json("refused")["why"].as_str().unwrap().contains("send begin first"));
+    // Input that makes no sense is refused with the name that was meant, and the body goes on.
+    page.begin("tensor", Some("fig5a"));
+    for (bad, says) in [
+        (r#"{"do":"begin","model":"tenser","preset":null}"#, "tensor"),
+        (r#"{"do":"begin","model":"tensor","preset":"fig5c"}"#, "fig5"),
+        (r#"{"do":"set","parameters":{"kapa2":1}}"#, "kappa2"),
+        (r#"{"do":"set","parameters":{"kappa2":1e7}}"#, "10000000"),
+        (r#"{"do":"noise","amplitude":-1}"#, "noise"),
+        (r#"{"do":"advance","dt":-1}"#, "forward"),
+        (r#"{"do":"begin","model":"tensor","preset":null,"state":[1,2]}"#, "6"),
+        (r#"{"do":"map","epoch":1,"x":{"name":"kappa2","low":1,"high":1},"y":null,"count":9}"#, "window"),
+        (r#"{"do":"map","epoch":1,"x":{"name":"nothing","low":0,"high":1},"y":null,"count":9}"#, "nothing"),
+        (r#"{"do":"export","id":3,"what":"/etc/passwd"}"#, "no file"),
+    ] {
+        page.say(bad);
+        let why = page.json("refused")["why"].as_str().unwrap().to_owned();
+        assert!(why.contains(says), "{bad}: {why}");
+    }
+    assert!(page.advance(1.0).t > 0.0);
+}
+
+#[test]
+fn floods_and_huge_messages_end_a_connection_and_nothing_else() {
+    let server = Running::anywhere();
+    let mut other = server.page();
+    other.begin("tensor", Some("fig5b"));
+    let mut huge = server.page();
+    huge.socket.send(Message::text("x".repeat(100_000))).unwrap();
+    assert_eq!(huge.closed(), Some(1009));
+    let mut flood = server.page();
+    flood.begin("tensor", Some("fig5a"));
+    for _ in 0..5000 {
+        if flood.socket.send(Message::text(r#"{"do":"kick"}"#)).is_err() {
+            break; // closed already
+        }
+    }
+    assert!(matches!(flood.closed(), Some(1008) | None));
+    assert!(other.advance(1.0).t > 0.0, "others do not notice");
+    server.page().begin("cell", None);
+}
+
+#[test]
+fn pages_are_counted() {
+    let server = Running::anywhere();
+    let mut pages: Vec<_> = (0..8).map(|_| server.page()).collect();
+    assert_eq!(server.try_page(server.request()).map(|_| ()), Err(503));
+    let mut last = pages.pop().unwrap();
+    last.socket.close(None).unwrap();
+    last.closed();
+    drop(last);
+    let again = (0..200).any(|_| {
+        std::thread::sleep(std::time::Duration::from_millis(25));
+        server.try_page(server.request()).is_ok()
+    });
+    assert!(again, "a place is free again");
+}
+
+#[test]
+fn a_server_that_comes_back_takes_its_pages_back() {
+    let server = Running::anywhere();
+    let (port, token, address) = (server.port(), server.token().to_owned(), server.address.clone());
+    let mut page = server.try_page(server.request()).unwrap();
+    let restart = page.json("hello")["restart"].as_str().unwrap().to_owned();
+    assert_eq!(restart, format!("motiform explore --port {port} --token {token}"));
+    server.stop();
+    assert_eq!(page.closed(), Some(1001));
+    drop(page);
+    drop(server);
+    let again = Running::start(&Options { port: Some(port), token: Some(token), preset: None });
+    assert_eq!(again.address, address);
+    again.page().begin("tensor", Some("fig5a"));
+}
+
+#[test]
+fn a_port_that_is_taken_and_a_weak_token_are_said() {
+    let server = Running::anywhere();
+    let bind = |options: &Options| Server::bind(options).map(|_| ()).unwrap_err().to_string();
+    let taken = bind(&Options { port: Some(server.port()), ..Options::default() });
+    assert!(taken.contains(&server.port().to_string()) && taken.contains("give another one"), "{taken}");
+    let weak = bind(&Options { token: Some("1234".to_owned()), ..Options::default() });
+    assert!(weak.contains("16 to 128"), "{weak}");
+}

@@ -1,0 +1,21 @@
+//! All integration tests of this crate, in one program: what is generic is compiled once.
+
+mod analytic_diagram;
+mod common;
+mod ensemble;
+mod files;
+mod fuzz;
+mod hdf5;
+mod lifetimes;
+mod naming;
+mod noise;
+mod perturbation;
+mod plan;
+mod presets;
+mod questions;
+mod random;
+mod scan;
+mod scan_lanes;
+mod starts;
+mod study_toml;
+mod tolerances;

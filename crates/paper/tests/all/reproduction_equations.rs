@@ -1,0 +1,15 @@
+//! The quick chapter on the equations: no claim fails.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use crate::paper;
+
+use motiform_paper::{Options, reproduce};
+
+#[test]
+fn no_claim_about_the_equations_fails() {
+    let out = tempfile::tempdir().unwrap();
+    let options = Options { figures: vec!["equations".to_owned()], quick: true, threads: 2 };
+    let report = reproduce(&options, out.path(), &()).unwrap();
+    paper::check(&report, &["equations"]);
+}
