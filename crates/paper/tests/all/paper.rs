@@ -13,7 +13,9 @@ pub(crate) fn check(report: &Report, chapters: &[&str]) {
         for claim in &section.claims {
             println!("{} {}\n    {}", claim.verdict.words(), claim.says, claim.finds);
             assert_eq!(claim.is_ours(), claim.sentences().is_empty(), "{}", claim.says);
-            checked.extend(claim.sentences().iter().map(|sentence| entry_of(*sentence).unwrap()));
+            checked.extend(
+                claim.sentences().iter().map(|sentence| entry_of(*sentence).expect("a known sentence")),
+            );
             assert!(claim.verdict.explanation().is_none_or(|why| why.len() > 20), "{}", claim.says);
         }
         let promised: BTreeSet<u16> = checked_in(chapter).into_iter().collect();
