@@ -15,7 +15,7 @@ pub struct RunSettings {
     /// Time between recorded states; 0 chooses t_end / 2000.
     pub dt_out: f64,
     /// Stepper: euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for stiff models ifrk4 (fixed step),
-    /// etdrk4, krogstad4 (adaptive).
+    /// etdrk4, hochbruck4, krogstad4 (adaptive).
     pub stepper: String,
     /// Relative tolerance of adaptive steppers, 1e-14 to 0.1: sets the accuracy of the run.
     pub rtol: f64,

@@ -40,7 +40,7 @@ pub(crate) struct MethodOptions {
     #[arg(long, value_name = "SIZE|MIN:MAX", value_parser = random, allow_hyphen_values = true)]
     pub(crate) random: Option<Random>,
     /// euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for the stiff cell model ifrk4 (fixed step), etdrk4,
-    /// krogstad4 (adaptive). Default: dop853 for tensor, krogstad4 for cell
+    /// hochbruck4, krogstad4 (adaptive). Default: dop853 for tensor, krogstad4 for cell
     #[arg(long, value_name = "NAME")]
     pub(crate) stepper: Option<String>,
     /// Fixed step (default: adaptive steppers control their step; the others use 1e-3)

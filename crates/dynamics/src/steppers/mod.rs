@@ -6,6 +6,7 @@ mod etdrk4;
 mod euler;
 pub mod exponential;
 mod heun;
+mod hochbruck4;
 mod ifrk4;
 mod krogstad4;
 mod method;
@@ -21,6 +22,7 @@ pub use etdrk4::ETDRK4;
 pub use euler::EULER;
 pub use exponential::ExponentialTableau;
 pub use heun::HEUN;
+pub use hochbruck4::HOCHBRUCK4;
 pub use ifrk4::IFRK4;
 pub use krogstad4::KROGSTAD4;
 pub use method::Method;
@@ -31,7 +33,7 @@ pub use tableau::Tableau;
 pub static STEPPERS: [&Tableau; 5] = [&EULER, &HEUN, &RK4, &DOPRI5, &DOP853];
 
 /// Every exponential stepper (for fields with a stiff linear part), the one to use by default last.
-pub static EXPONENTIAL_STEPPERS: [&ExponentialTableau; 3] = [&IFRK4, &ETDRK4, &KROGSTAD4];
+pub static EXPONENTIAL_STEPPERS: [&ExponentialTableau; 4] = [&IFRK4, &ETDRK4, &HOCHBRUCK4, &KROGSTAD4];
 
 /// The explicit stepper of this name, if there is one.
 #[must_use]
