@@ -96,7 +96,8 @@ impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
         while count <= PARTS {
             let mut nodes = Self { body, shapes: Vec::new(), time, angle, mirrored };
             let mut parts: Vec<Part> = Vec::new();
-            for _ in 0..count {
+            // One part of too much growth is enough to ask for shorter ones.
+            while parts.len() < count && parts.last().is_none_or(|part| norm(&part.tangents) < GROWTH) {
                 let start = parts.last().map_or(&orbit.shape, |part| &part.end).clone();
                 parts.push(part(body, &start, time / count as f64, flow, watch)?);
                 nodes.shapes.push(start);

@@ -45,13 +45,14 @@ pub fn align<B: Equivariant + ?Sized>(
         turned.copy_from_slice(&base);
         body.rotate(angle, &mut turned);
         let rest: f64 = reference.iter().zip(&turned).map(|(a, b)| (a - b) * (a - b)).sum();
-        (dot(reference, &turned), Alignment { angle: wrap(angle), distance: rest.sqrt() })
+        Alignment { angle: wrap(angle), distance: rest.sqrt() }
     };
-    let cell = TAU / points as f64;
-    let overlaps: Vec<f64> = (0..points).map(|point| turn(cell * point as f64).0).collect();
     if points == 1 {
-        return turn(0.0).1;
+        return turn(0.0);
     }
+    let cell = TAU / points as f64;
+    let mut overlaps = vec![0.0; points];
+    body.overlaps(reference, &base, &mut overlaps);
     // Between grid points c rises by (N cell / 2)^2 / 2 of |reference| |u| at most, N the highest mode: a shape that is
     // nearly its own image has several maxima that differ by less.
     let highest = overlaps.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -61,9 +62,9 @@ pub fn align<B: Equivariant + ?Sized>(
         let (before, after) = (overlaps[(i + points - 1) % points], overlaps[(i + 1) % points]);
         overlaps[i] >= least && overlaps[i] >= before && overlaps[i] > after || overlaps[i] == highest
     });
-    let mut best = turn(0.0).1;
+    let mut best = turn(0.0);
     for top in tops {
-        let found = turn(refine(body, reference, &base, cell * top as f64, cell)).1;
+        let found = turn(refine(body, reference, &base, cell * top as f64, cell));
         if found.distance < best.distance {
             best = found;
         }
@@ -74,9 +75,9 @@ pub fn align<B: Equivariant + ?Sized>(
 /// Newton's method on `c'(a) = reference . R(a) G u`, `c''(a) = reference . R(a) G G u`, within one grid cell.
 fn refine<B: Equivariant + ?Sized>(body: &B, reference: &[f64], base: &[f64], start: f64, cell: f64) -> f64 {
     let (mut first, mut second) = (base.to_vec(), base.to_vec());
-    let mut angle = start;
+    let (mut angle, mut turned) = (start, base.to_vec());
     for _ in 0..8 {
-        let mut turned = base.to_vec();
+        turned.copy_from_slice(base);
         body.rotate(angle, &mut turned);
         body.spin(&turned, &mut first);
         body.spin(&first, &mut second);

@@ -2,6 +2,7 @@
 
 use crate::tangent::Differentiable;
 use crate::{Dual, Semilinear, Shape};
+use std::f64::consts::TAU;
 
 /// An autonomous shape, the velocity determined by it, exact derivatives of both, and how rotations of the plane
 /// and the reflection act on it.
@@ -23,6 +24,12 @@ pub trait Equivariant:
     /// Turns the shape by `angle` (rad, anticlockwise), in place.
     fn rotate(&self, _angle: f64, _shape: &mut [f64]) {}
 
+    /// `out_i = reference . R(2 pi i / out.len()) shape`: how well a shape fits another one when it is turned by equal angles. A body
+    /// that overrides it gives the same bits.
+    fn overlaps(&self, reference: &[f64], shape: &[f64], out: &mut [f64]) {
+        overlaps_by_rotation(self, reference, shape, out);
+    }
+
     /// The infinitesimal rotation: writes `d/d(angle) rotate(angle, shape)` at `angle = 0`.
     fn spin(&self, _shape: &[f64], out: &mut [f64]) {
         out.fill(0.0);
@@ -35,5 +42,21 @@ pub trait Equivariant:
     /// body is at rest and has no heading. 0 if the velocity is itself an unknown, with its own relative accuracy.
     fn speed_resolution(&self, _shape: &[f64], _atol: f64) -> f64 {
         0.0
+    }
+}
+
+/// [`Equivariant::overlaps`] by one rotation after the other.
+pub fn overlaps_by_rotation<B: Equivariant + ?Sized>(
+    body: &B,
+    reference: &[f64],
+    shape: &[f64],
+    out: &mut [f64],
+) {
+    let cell = TAU / out.len() as f64;
+    let mut turned = shape.to_vec();
+    for (point, overlap) in out.iter_mut().enumerate() {
+        turned.copy_from_slice(shape);
+        body.rotate(cell * point as f64, &mut turned);
+        *overlap = reference.iter().zip(&turned).map(|(a, b)| a * b).sum();
     }
 }

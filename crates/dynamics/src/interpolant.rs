@@ -53,18 +53,33 @@ impl Interpolant {
 
     /// Writes the state at the fraction `x` of the step, `0 <= x <= 1`.
     pub(crate) fn evaluate(&self, old: &[f64], x: f64, out: &mut [f64]) {
-        out.fill(0.0);
+        let blocks = self.dim / BLOCK * BLOCK;
+        for first in (0..blocks).step_by(BLOCK) {
+            self.block::<BLOCK>(first, old, x, out);
+        }
+        for first in blocks..self.dim {
+            self.block::<1>(first, old, x, out);
+        }
+    }
+
+    /// `W` components from `first` on, which stay in registers.
+    #[inline(always)]
+    fn block<const W: usize>(&self, first: usize, old: &[f64], x: f64, out: &mut [f64]) {
+        let mut values = [0.0; W];
         for (term, row) in self.coefficients.chunks_exact(self.dim).enumerate().rev() {
             let factor = if term % 2 == 0 { x } else { 1.0 - x };
-            for (value, f) in out.iter_mut().zip(row) {
+            for (value, f) in values.iter_mut().zip(&row[first..first + W]) {
                 *value = (*value + f) * factor;
             }
         }
-        for (value, u) in out.iter_mut().zip(old) {
-            *value += u;
+        for i in first..first + W {
+            out[i] = values[i - first] + old[i];
         }
     }
 }
+
+/// Components of a state that are evaluated together.
+const BLOCK: usize = 6;
 
 /// The last step of an orbit as a function of time.
 pub struct DenseStep<'o> {

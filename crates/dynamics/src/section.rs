@@ -131,9 +131,10 @@ pub fn polished(
     mut to: impl FnMut(f64, &mut [f64]) -> f64,
     state: &mut [f64],
 ) -> f64 {
-    let mut t = guess;
+    let (mut t, mut reached) = (guess, f64::NAN);
     for _ in 0..4 {
         let next = t - to(t, state) / slope;
+        reached = t;
         if !next.is_finite() || next < start || next > end {
             break; // a grazing crossing: the interpolant's time is the best there is
         }
@@ -143,7 +144,9 @@ pub fn polished(
             break;
         }
     }
-    to(t, state);
+    if t != reached {
+        to(t, state);
+    }
     t
 }
 

@@ -91,12 +91,12 @@ impl<'f, F: System + ?Sized> Tangent<'f, F> {
         let (rate, vector_rates) = du.split_at_mut(dim);
         for first in (0..self.count.max(1)).step_by(K) {
             let directions = K.min(self.count - first.min(self.count));
-            for (i, (x, &value)) in lifted.iter_mut().zip(state).enumerate() {
-                let mut derivative = [0.0; K];
-                for k in 0..directions {
-                    derivative[k] = vectors[(first + k) * dim + i];
-                }
-                *x = Dual { value, derivative };
+            for (x, &value) in lifted.iter_mut().zip(state) {
+                *x = Dual { value, derivative: [0.0; K] };
+            }
+            for k in 0..directions {
+                let vector = &vectors[(first + k) * dim..][..dim];
+                lifted.iter_mut().zip(vector).for_each(|(x, &d)| x.derivative[k] = d);
             }
             eval(lifted, rates);
             if first == 0 {
@@ -104,10 +104,9 @@ impl<'f, F: System + ?Sized> Tangent<'f, F> {
                     *to = from.value;
                 }
             }
-            for (i, from) in rates.iter().enumerate() {
-                for k in 0..directions {
-                    vector_rates[(first + k) * dim + i] = from.derivative[k];
-                }
+            for k in 0..directions {
+                let vector_rate = &mut vector_rates[(first + k) * dim..][..dim];
+                vector_rate.iter_mut().zip(&*rates).for_each(|(to, from)| *to = from.derivative[k]);
             }
         }
     }

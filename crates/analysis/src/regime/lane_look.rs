@@ -33,6 +33,12 @@ pub(super) struct LaneObserver<L, const N: usize> {
 fn size_rate<L: Bundle, F: VectorField<L>, const N: usize>(field: &F, t: L, u: &[L; N]) -> L {
     let mut rate = *u;
     field.eval(t, u, &mut rate);
+    along(u, &rate)
+}
+
+/// `u . f`.
+#[inline(always)]
+fn along<L: Bundle, const N: usize>(u: &[L; N], rate: &[L; N]) -> L {
     let mut sum = L::splat(0.0);
     for i in 0..N {
         sum += u[i] * rate[i];
@@ -164,53 +170,44 @@ impl<L: Bundle, const N: usize> LaneObserver<L, N> {
     ) {
         let dense = LaneDense::of::<Dop853, _>(step, field);
         let (zero, span) = (L::splat(0.0), step.t - step.t_old);
-        let mut found = [(0.0, false, 0_usize); 16 * PIECES];
-        let mut count = 0;
         // Kept from the compiler, which would write the field out once per piece.
         for piece in 1..=std::hint::black_box(PIECES) {
             let last = piece == PIECES;
             let t = if last { step.t } else { step.t_old + span * piece as f64 / L::splat(PIECES as f64) };
-            let state = if last { *step.u } else { dense.at((t - step.t_old) / span) };
-            let value = size_rate(field, t, &state);
+            let value = if last {
+                along(step.u, &step.slopes.k[step.end])
+            } else {
+                size_rate(field, t, &dense.at((t - step.t_old) / span))
+            };
             let (falls, rises) = (value.less(zero), zero.less(value));
             let before = self.value.less(zero);
             let counts = (falls | rises) & step.accepted;
             let changed = counts & self.known & ((before & rises) | (!before & falls));
             for lane in changed.lanes() {
-                if count == found.len() {
-                    break; // no step has more: one per lane and piece
-                }
                 let Some(single) = &singles[lane] else { continue };
-                let guess =
-                    self.locate(lane, (t.lane(lane), value.lane(lane)), step.t_old, &dense, step.t, single);
-                found[count] = (guess, rises.has(lane), lane);
-                count += 1;
+                let dense = dense.lane(lane);
+                let right = (t.lane(lane), value.lane(lane));
+                let guess = self.locate(lane, right, step, &dense, single);
+                self.record(lane, guess, rises.has(lane), &dense, step, single);
             }
             self.t = L::select(counts, t, self.t);
             self.value = L::select(counts, value, self.value);
             self.known |= counts;
         }
-        for &(guess, rising, lane) in &found[..count] {
-            if let Some(single) = &singles[lane] {
-                self.record(lane, guess, rising, &dense, step, single);
-            }
-        }
     }
 
     /// The time of a sign change, on the interpolant.
-    fn locate<F: VectorField<f64>>(
+    fn locate<F: VectorField<f64> + InLanes>(
         &self,
         lane: usize,
         right: (f64, f64),
-        t_old: L,
-        dense: &LaneDense<L, N>,
-        t: L,
+        step: &Stepped<'_, L, N, F::Field<L>>,
+        dense: &LaneDense<f64, N>,
         field: &F,
     ) -> f64 {
-        let span = (t_old.lane(lane), t.lane(lane));
+        let span = (step.t_old.lane(lane), step.t.lane(lane));
         let left = (self.t.lane(lane).max(span.0), self.value.lane(lane));
-        let dense = dense.lane(lane);
-        zero_between(left, right, |t| rate_in(field, &dense, span, t))
+        zero_between(left, right, |t| rate_in(field, dense, span, t))
     }
 
     /// Polishes an extreme and keeps it.
@@ -219,14 +216,13 @@ impl<L: Bundle, const N: usize> LaneObserver<L, N> {
         lane: usize,
         guess: f64,
         rising: bool,
-        dense: &LaneDense<L, N>,
+        dense: &LaneDense<f64, N>,
         step: &Stepped<'_, L, N, F::Field<L>>,
         field: &F,
     ) {
         let Some(seen) = &mut self.seen[lane] else { return };
         let span = (step.t_old.lane(lane), step.t.lane(lane));
-        let dense = dense.lane(lane);
-        let slope = slope_at(span, guess, |t| rate_in(field, &dense, span, t));
+        let slope = slope_at(span, guess, |t| rate_in(field, dense, span, t));
         let mut slopes = StepSlopes::<f64, N>::zero();
         let mut start = [0.0; N];
         for i in 0..N {

@@ -1,6 +1,7 @@
 //! One step of an explicit Runge-Kutta method, over any scalar.
 
 use super::tableau::{Tableau, Term};
+use crate::simd::{self, Kernel};
 use crate::{Scalar, VectorField};
 
 /// The slopes `k_i` of a step and room for one state: allocated once, reused by every step.
@@ -38,14 +39,20 @@ impl<T: Scalar> Slopes<T> {
     /// `out = sum_j c_j k_j` over `terms`, summed in their order.
     #[inline]
     pub fn combine(&self, terms: &[Term], out: &mut [T]) {
-        for x in out.iter_mut() {
-            *x = x.zero();
-        }
-        for &(stage, coefficient) in terms {
-            for (x, &k) in out.iter_mut().zip(self.get(stage)) {
-                *x += k * coefficient;
-            }
-        }
+        self.sum(Sum { slopes: &self.values, dim: self.dim, terms, from: None }, out);
+    }
+
+    /// `out = u + h sum_j c_j k_j`, the sum as in [`Self::combine`].
+    #[inline]
+    fn advance(&self, terms: &[Term], at: &Step<'_, T>, out: &mut [T]) {
+        self.sum(Sum { slopes: &self.values, dim: self.dim, terms, from: Some((at.u, at.h)) }, out);
+    }
+
+    /// Long sums with the widest instructions of the machine, whose bits are the same.
+    #[inline]
+    fn sum(&self, sum: Sum<'_, T>, out: &mut [T]) {
+        let sum = Summing { sum, out };
+        if T::IN_KERNEL || self.dim < WIDE { sum.run() } else { simd::run(sum) }
     }
 
     /// Evaluates slope number `stage` at `u + h sum_j c_j k_j`, time `t + node h`.
@@ -58,12 +65,67 @@ impl<T: Scalar> Slopes<T> {
         stage: usize,
     ) {
         let mut argument = std::mem::take(&mut self.argument);
-        self.combine(terms, &mut argument);
-        for (x, &u) in argument.iter_mut().zip(at.u) {
-            *x = u + x.scale(at.h);
-        }
+        self.advance(terms, at, &mut argument);
         field.eval(at.t + at.h * node, &argument, self.get_mut(stage));
         self.argument = argument;
+    }
+}
+
+/// States from this length on are summed with vector instructions.
+const WIDE: usize = 16;
+
+/// Sums over slopes, component by component: `sum_j c_j k_j`, or `u + h sum_j c_j k_j` with `from = (u, h)`.
+#[derive(Clone, Copy)]
+struct Sum<'s, T: Scalar> {
+    slopes: &'s [T],
+    dim: usize,
+    terms: &'s [Term],
+    from: Option<(&'s [T], T::Real)>,
+}
+
+impl<T: Scalar> Sum<'_, T> {
+    /// The sums of `W` components from `first` on, which stay in registers.
+    #[inline(always)]
+    fn block<const W: usize>(&self, first: usize, out: &mut [T]) {
+        let Some(out) = out[first..].first_chunk_mut::<W>() else { return };
+        let mut sums = out.map(Scalar::zero);
+        for &(stage, coefficient) in self.terms {
+            let Some(slope) = self.slopes[stage * self.dim + first..].first_chunk::<W>() else { return };
+            for i in 0..W {
+                sums[i] += slope[i] * coefficient;
+            }
+        }
+        if let Some((u, h)) = self.from {
+            for i in 0..W {
+                sums[i] = u[first + i] + sums[i].scale(h);
+            }
+        }
+        *out = sums;
+    }
+}
+
+/// A [`Sum`] and where it goes.
+struct Summing<'s, T: Scalar> {
+    sum: Sum<'s, T>,
+    out: &'s mut [T],
+}
+
+impl<T: Scalar> Kernel for Summing<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let (sum, out) = (self.sum, self.out);
+        let mut first = 0;
+        macro_rules! blocks {
+            ($($width:literal)*) => {$(
+                while first + ($width - 1) < sum.dim {
+                    sum.block::<$width>(first, out);
+                    first += $width;
+                }
+            )*};
+        }
+        blocks!(24 8 2 1); // of the widest ones six additions of four numbers are under way at once
     }
 }
 
@@ -92,10 +154,7 @@ pub fn step<T: Scalar, F: VectorField<T> + ?Sized>(
     for stage in 1..tableau.stages() {
         slopes.evaluate(field, at, (tableau.nodes[stage], tableau.rows[stage]), stage);
     }
-    slopes.combine(tableau.weights, u_new);
-    for (x, &u) in u_new.iter_mut().zip(at.u) {
-        *x = u + x.scale(at.h);
-    }
+    slopes.advance(tableau.weights, at, u_new);
 }
 
 /// Evaluates the slope at the end of the step, `f(t + h, u_new)`, into slope number `stages()`.

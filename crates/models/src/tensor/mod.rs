@@ -12,8 +12,15 @@ pub mod reduced;
 pub use fourier::{Coefficients, FourierField};
 pub use parameters::TensorParameters;
 
+use fourier::DIM;
+use motiform_dynamics::equivariant::overlaps_by_rotation;
 use motiform_dynamics::model::{Coordinate, Observable};
 use motiform_dynamics::{Dual, Equivariant, Model, Outline, Scalar, Semilinear, Shape, System, VectorField};
+use std::f64::consts::TAU;
+use std::sync::OnceLock;
+
+/// Angles by which shapes are turned when they are aligned.
+const GRID: usize = 32;
 
 /// The tensor model for one set of parameters.
 ///
@@ -103,7 +110,7 @@ const OBSERVABLES: [Observable; 2] = [
 
 impl System for Tensor {
     fn dim(&self) -> usize {
-        fourier::DIM
+        DIM
     }
 }
 
@@ -135,7 +142,7 @@ impl<T: Scalar<Real = f64>> Shape<T> for Tensor {
 /// `-i n z_n`.
 #[inline(always)]
 fn spin<T: Scalar>(shape: &[T], out: &mut [T]) {
-    for mode in 0..fourier::DIM / 2 {
+    for mode in 0..DIM / 2 {
         let n = (mode + 1) as f64;
         out[2 * mode] = shape[2 * mode + 1] * n;
         out[2 * mode + 1] = shape[2 * mode] * -n;
@@ -152,6 +159,24 @@ impl Equivariant for Tensor {
         for (z, n) in shape.chunks_exact_mut(2).zip(1..) {
             let (sin, cos) = libm::sincos(f64::from(n) * angle);
             (z[0], z[1]) = (cos * z[0] + sin * z[1], cos * z[1] - sin * z[0]);
+        }
+    }
+
+    /// With sines and cosines computed once: an alignment of two shapes asks for the same angles every time.
+    fn overlaps(&self, reference: &[f64], shape: &[f64], out: &mut [f64]) {
+        static TURNS: OnceLock<Vec<[(f64, f64); DIM / 2]>> = OnceLock::new();
+        let cell = TAU / GRID as f64;
+        let turn = |point: usize| [1, 2, 3].map(|n| libm::sincos(f64::from(n) * (cell * point as f64)));
+        let turns = TURNS.get_or_init(|| (0..GRID).map(turn).collect());
+        let (Some(shape), true) = (shape.first_chunk::<DIM>(), out.len() == GRID) else {
+            return overlaps_by_rotation(self, reference, shape, out);
+        };
+        for (overlap, turn) in out.iter_mut().zip(turns) {
+            let mut turned = *shape;
+            for (z, (sin, cos)) in turned.chunks_exact_mut(2).zip(turn) {
+                (z[0], z[1]) = (cos * z[0] + sin * z[1], cos * z[1] - sin * z[0]);
+            }
+            *overlap = reference.iter().zip(&turned).map(|(a, b)| a * b).sum();
         }
     }
 

@@ -6,6 +6,7 @@ use motiform_dynamics::conformance::{
     derivative_defect, lane_mismatches, mirror_defect, purity_defect, rotation_defect, semilinear_defect,
     spin_defect,
 };
+use motiform_dynamics::equivariant::overlaps_by_rotation;
 use motiform_dynamics::model::{turning_rate, velocity_and_acceleration};
 use motiform_dynamics::{Bundle, Equivariant, Lanes, Model, Outline, VectorField};
 use motiform_models::parameters::Parameters;
@@ -55,6 +56,18 @@ proptest! {
         prop_assert!(rotation_defect(&model, &shape, angle) < 1e-13);
         prop_assert!(mirror_defect(&model, &shape) < 1e-13);
         prop_assert!(spin_defect(&model, &shape) < 1e-9);
+    }
+
+    /// From the table of sines (32 angles) and without it (31): one rotation after the other gives the same bits.
+    #[test]
+    fn overlaps_are_those_of_rotated_shapes(a in components(), b in components()) {
+        let model = Tensor::new(&TensorParameters::default());
+        for points in [31, 32] {
+            let (mut table, mut rotated) = (vec![0.0; points], vec![f64::NAN; points]);
+            model.overlaps(&a, &b, &mut table);
+            overlaps_by_rotation(&model, &a, &b, &mut rotated);
+            prop_assert_eq!(table, rotated);
+        }
     }
 
     #[test]
