@@ -1,5 +1,5 @@
 //! Statistics of many bodies ([`motiform_statistics`]): bodies are simulated from one study ([`simulated`]) or read from dataset folders
-//! ([`read`]); the result becomes tables ([`tables`]), a summary ([`summary`]), figures ([`draw`]) and a folder ([`write`]).
+//! ([`read`]); the result becomes tables ([`tables()`]), a summary ([`summary()`]), figures ([`draw()`]) and a folder ([`write()`]).
 
 mod bodies;
 mod datasets;

@@ -83,7 +83,8 @@ class Statistics:
 
     def to_xarray(self) -> xr.Dataset:
         """Displacements along ``lag``, and the correlations of each quantity along ``time_lag``."""
-        displacements: xr.Dataset = self.msd.set_index("lag").to_xarray()
+        named = self.msd.rename(columns={"lower": "msd_lower", "upper": "msd_upper"})
+        displacements: xr.Dataset = named.set_index("lag").to_xarray()
         table = self.autocorrelations.pivot(index="lag", columns="quantity", values="correlation")
         table = table.rename_axis(index="time_lag").stack().rename("correlation")
         return displacements.merge(table.to_frame().to_xarray())
@@ -119,12 +120,15 @@ def asked(radii: Sequence[float], threshold: Threshold) -> tuple[list[float], tu
 _READ: dict[str, Callable[[str], Any]] = {"quantity": str, "count": int, "starts": int}
 
 
+def _number(text: str) -> float:
+    return float(text) if text else math.nan
+
+
 def _frame(table: bytes) -> pd.DataFrame:
     """A table with every digit; NaN where there is no number."""
     names, *rows = csv.reader(io.StringIO(table.decode()))
-    number = lambda text: float(text) if text else math.nan  # noqa: E731
     columns = {name: [row[place] for row in rows] for place, name in enumerate(names)}
-    return pd.DataFrame({name: [_READ.get(name, number)(text) for text in column] for name, column in columns.items()})
+    return pd.DataFrame({name: [_READ.get(name, _number)(text) for text in column] for name, column in columns.items()})
 
 
 def _measured(entry: Mapping[str, Any]) -> Measured:

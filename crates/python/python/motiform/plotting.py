@@ -217,6 +217,15 @@ _STATISTICS: dict[str, tuple[str, str, str]] = {
 }  # fmt: skip
 
 
+_UNITS = {
+    "lag": "lag (model time)", "msd": "mean-square displacement (model length$^2$)", "exponent": "d ln MSD / d ln lag",
+    "correlation": "$C$(lag)/$C$(0)", "frequency": "frequency (cycles per model time)",
+    "power": "power spectral density (unit$^2$ × time)", "radius": "radius (model length)",
+    "mean": "mean first-passage time (model time)", "speed": "speed (model length per model time)",
+    "turning_angle": "turning angle (rad)",
+}  # fmt: skip
+
+
 def plot_statistics(found: Statistics, what: str, ax: Axes | None) -> Axes:
     """A curve per quantity with its 95 % band; displacements with the fitted walk."""
     if what not in _STATISTICS:
@@ -232,7 +241,8 @@ def plot_statistics(found: Statistics, what: str, ax: Axes | None) -> Axes:
         for name, rows in groups:
             (line,) = ax.plot(rows[x], rows[y], marker="o" if what == "first_passage" else "", ms=4, label=name)
             ax.fill_between(rows[x], rows[ends[0]], rows[ends[1]], color=line.get_color(), alpha=0.22, lw=0)
-        ax.set(xscale=scale, yscale="linear" if what == "exponent" else scale, xlabel=x, ylabel=y)
+        ax.set(xscale=scale, yscale="linear" if what == "exponent" else scale)
+        ax.set(xlabel=_UNITS[x], ylabel=_UNITS[y])
     if what == "msd":
         _plot_walk(found, ax)
     ax.legend(fontsize="small")
@@ -245,9 +255,9 @@ def _plot_distribution(found: Statistics, what: str, ax: Axes) -> None:
         edges = [*rows["from"], rows["to"].iloc[-1]]
         label = what if np.isnan(lag) else f"lag {lag:.4g}"
         steps = ax.stairs(rows["density"], edges, label=label, baseline=None)
-        ends = [[*rows[name], rows[name].iloc[-1]] for name in ("lower", "upper")]
-        ax.fill_between(edges, *ends, step="post", color=steps.get_edgecolor(), alpha=0.22, lw=0)
-    ax.set(xlabel="angle (rad)" if what == "turning_angle" else what, ylabel="probability density")
+        low, high = ([*rows[name], rows[name].iloc[-1]] for name in ("lower", "upper"))
+        ax.fill_between(edges, low, high, step="post", color=steps.get_edgecolor(), alpha=0.22, lw=0)
+    ax.set(xlabel=_UNITS[what], ylabel="probability density")
     ax.set_ylim(bottom=0.0)
 
 
