@@ -72,16 +72,18 @@ Examples:
 
 What is measured, each with its 95 % interval (docs/statistics.md has the formulas):
   speed          its mean, root mean square and distribution
-  persistence    time P and speed S of a persistent random walk fitted to the mean-square displacement
-  diffusion      coefficient D, of the fit (S^2 P/2) and from the late slope of the mean-square displacement alone
-  correlation    integral correlation times of velocity, heading, speed and the modes of the shape
-  leaves         mean first-passage time out of discs;  stays  residence times above and below a threshold
-'unknown' comes with a reason: a track that is too short to be diffusive has no diffusion coefficient.
+  persistence    time P and speed S of a persistent random walk, from mean-square displacements
+  diffusion      coefficient D, of that walk (S^2 P/2), and from the late slope alone
+  correlation    integral correlation times of velocity, heading, speed, modes of the shape
+  leaves         mean first-passage times out of discs
+  stays          residence times above and below a threshold
+'unknown' comes with a reason: too short a track has no diffusion coefficient.
 
-Intervals are those over bodies, from 8 bodies on. Fewer are cut into 16 blocks altogether: then lags end within a block.
+Intervals are those over bodies, from 8 bodies on. Fewer are cut into 16 blocks altogether: then
+lags end within a block.
 
 The output folder holds
   statistics.json      what --json prints
-  msd, autocorrelations, distributions, spectra, first_passage     tables, as .parquet
-  msd, exponent, autocorrelations, speed, turning, spectra, first-passage     figures, as .svg and .png
+  msd, autocorrelations, distributions, spectra, first_passage              as .parquet
+  msd, exponent, autocorrelations, speed, turning, spectra, first-passage   as .svg and .png
 Ctrl-C measures the bodies that are finished. The numbers do not depend on --threads.";
