@@ -5,6 +5,7 @@ mod help;
 mod lifetimes;
 mod motions;
 mod scan;
+mod statistics;
 mod subject;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -19,6 +20,7 @@ pub(crate) use lifetimes::LifetimesOptions;
 use motiform_study::Random;
 pub(crate) use motions::{ContinueOptions, Crossing, EquilibriaOptions, Observable, SectionOptions};
 pub(crate) use scan::{MergeOptions, ScanOptions};
+pub(crate) use statistics::StatisticsOptions;
 use std::path::PathBuf;
 pub(crate) use subject::{MethodOptions, SamplesOptions, SubjectOptions};
 
@@ -62,6 +64,9 @@ pub(crate) enum Command {
     /// Measure how long transient chaos lives along a parameter, and by which law: is there a crisis?
     #[command(after_help = lifetimes::LIFETIMES_HELP)]
     Lifetimes(Box<LifetimesOptions>),
+    /// Measure many bodies: mean-square displacement, diffusion, correlations, distributions, first-passage times, spectra
+    #[command(after_help = statistics::STATISTICS_HELP)]
+    Statistics(Box<StatisticsOptions>),
     /// Reproduce the paper: every figure, every claim, one HTML report
     #[command(after_help = REPRODUCE_HELP)]
     Reproduce(ReproduceOptions),

@@ -26,6 +26,7 @@ fn main() -> ExitCode {
         Command::Equilibria(options) => commands::equilibria::run(&options),
         Command::Section(options) => commands::section::run(&options),
         Command::Lifetimes(options) => commands::lifetimes::run(&options),
+        Command::Statistics(options) => commands::statistics::run(&options),
         Command::Reproduce(options) => commands::reproduce::run(&options),
         #[cfg(feature = "explorer")]
         Command::Explore(options) => commands::explore::run(&options),

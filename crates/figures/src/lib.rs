@@ -1,13 +1,14 @@
 //! Drawing: plain data in, SVG text out. Independent of models, study files and solvers.
 //!
-//! Nine figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`], [`SpaceTimeFigure`], [`SpectrumFigure`],
-//! [`PhaseDiagram`], [`BranchDiagram`], [`ErrorBarFigure`], [`SurvivalFigure`]) return self-contained SVG text (fonts and pictures are
+//! Ten figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`], [`SpaceTimeFigure`], [`SpectrumFigure`],
+//! [`PhaseDiagram`], [`BranchDiagram`], [`BandFigure`], [`ErrorBarFigure`], [`SurvivalFigure`]) return self-contained SVG text (fonts and pictures are
 //! inside); [`png()`] and, with the feature `pdf`, `pdf` convert that text to files; [`Animation`] returns an animated
 //! PNG. The same data give the same bytes: numbers are rounded to 0.01 pixel and no system font is used. All texts are
 //! markup, see [`Label`]; every regime has its [`RegimeMark`].
 
 mod animation;
 pub mod axes;
+mod bands;
 mod block;
 mod branches;
 mod clip;
@@ -54,6 +55,7 @@ mod text;
 pub mod ticks;
 
 pub use animation::{Animation, Camera, Frame};
+pub use bands::{BandCurve, BandFigure, BandPoint};
 pub use branches::{BranchDiagram, BranchMark, BranchPart};
 pub use error::{FigureError, Result};
 pub use error_bars::{ErrorBarFigure, ErrorBarSeries, Interval, Measured};

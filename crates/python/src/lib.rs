@@ -14,6 +14,7 @@ mod registry;
 mod run;
 mod scan_files;
 mod scan_plan;
+mod statistics;
 mod study;
 mod watch;
 
@@ -40,6 +41,8 @@ mod _motiform {
     use super::scan_files::{ScanFiles, merge};
     #[pymodule_export]
     use super::scan_plan::ScanPlan;
+    #[pymodule_export]
+    use super::statistics::{statistics, statistics_of};
     #[pymodule_export]
     use super::study::Study;
 }

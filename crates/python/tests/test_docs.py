@@ -34,7 +34,7 @@ def test_the_python_of_a_page_runs(name: str, tmp_path: Path, monkeypatch: pytes
     plt.close("all")
 
 
-@pytest.mark.parametrize("name", [*PAGES, "docs/continuation.md", "docs/scaling.md"])
+@pytest.mark.parametrize("name", [*PAGES, "docs/continuation.md", "docs/scaling.md", "docs/statistics.md"])
 def test_links_lead_somewhere(name: str) -> None:
     page = ROOT / name
     for target in re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")):

@@ -17,4 +17,5 @@ pub(crate) mod reproduce;
 pub(crate) mod scan;
 pub(crate) mod section;
 pub(crate) mod simulate;
+pub(crate) mod statistics;
 pub(crate) mod subject;

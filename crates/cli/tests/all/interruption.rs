@@ -88,3 +88,23 @@ fn during_the_transient() {
     assert_eq!(names(&folder.path("run")), ["manifest.json", "trajectory.parquet"]);
     folder.run("figure run").expect(0);
 }
+
+/// Statistics are those of the bodies that are finished.
+#[test]
+fn bodies_that_are_finished_are_measured() {
+    let folder = Folder::new();
+    let words =
+        "statistics tensor --set gamma=1 --set kappa2=2 --noise 0.1 --t-end 50 --bodies 100000 --threads 2";
+    let mut command = folder.command(&format!("{words} --out found"));
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    wait_until_it_listens(&child);
+    sleep(Duration::from_millis(1500)); // a body takes milliseconds
+    let kill = Command::new("bash").args(["-c", &format!("kill -INT {}", child.id())]).status().unwrap();
+    assert!(kill.success());
+    let done = wait(child).expect(130);
+    assert!(done.stderr.contains("of 100000 bodies were not finished and are left out"), "{}", done.stderr);
+    let found = read_json(&folder.path("found/statistics.json"));
+    let bodies = found["bodies"].as_u64().unwrap();
+    assert!((1..100_000).contains(&bodies) && found["complete"] == false, "{bodies}");
+    assert!(found["mean_speed"]["value"].is_f64());
+}

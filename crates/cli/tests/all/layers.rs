@@ -6,11 +6,12 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::process::Command;
 
 /// Each crate, and the crates below it that it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &[&str]); 14] = [
+const LAYERS: [(&str, &[&str]); 16] = [
     ("motiform-dynamics", &[]),
     ("motiform-models", &["motiform-dynamics"]),
     ("motiform-analysis", &["motiform-dynamics"]),
     ("motiform-continuation", &["motiform-analysis", "motiform-dynamics"]),
+    ("motiform-statistics", &["motiform-analysis"]),
     ("motiform-kernels", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
     ("motiform-study", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
     ("motiform-files", &["motiform-dynamics", "motiform-models", "motiform-study"]),
@@ -25,6 +26,18 @@ const LAYERS: [(&str, &[&str]); 14] = [
             "motiform-files",
             "motiform-kernels",
             "motiform-models",
+            "motiform-study",
+        ],
+    ),
+    (
+        "motiform-measure",
+        &[
+            "motiform-dynamics",
+            "motiform-figures",
+            "motiform-files",
+            "motiform-lab",
+            "motiform-models",
+            "motiform-statistics",
             "motiform-study",
         ],
     ),
@@ -60,8 +73,10 @@ const LAYERS: [(&str, &[&str]); 14] = [
             "motiform-figures",
             "motiform-files",
             "motiform-lab",
+            "motiform-measure",
             "motiform-models",
             "motiform-paper",
+            "motiform-statistics",
             "motiform-study",
         ],
     ),
@@ -73,7 +88,9 @@ const LAYERS: [(&str, &[&str]); 14] = [
             "motiform-figures",
             "motiform-files",
             "motiform-lab",
+            "motiform-measure",
             "motiform-models",
+            "motiform-statistics",
             "motiform-study",
         ],
     ),

@@ -19,4 +19,5 @@ mod motions;
 mod outcomes;
 mod scan;
 mod startup;
+mod statistics;
 mod steady;

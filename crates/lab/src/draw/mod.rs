@@ -18,13 +18,21 @@ pub use body::radius_for;
 pub use branches::{Ordinate, diagram as branch_diagram, draw_branches};
 pub use diagram::{boundary_lines, draw_scan, exponents, phase_diagram};
 use motiform_figures::{Drawn, Figure, FigureError, Style, png};
-use motiform_study::{Dataset, Error};
+use motiform_study::{Dataset, Error, Plan};
 
 /// The error of a figure, as an error of a study.
 #[must_use]
 #[allow(clippy::needless_pass_by_value, reason = "for map_err")]
 pub fn undrawable(error: FigureError) -> Error {
     Error::Figure(error.to_string())
+}
+
+/// The parameters of a plan as a line of a caption.
+///
+/// # Errors
+/// An unknown model.
+pub fn parameters(plan: &Plan) -> Result<String, Error> {
+    Ok(words::named(plan.info()?, &plan.computation.parameters))
 }
 
 /// Draws a figure, with its data.

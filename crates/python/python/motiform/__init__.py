@@ -15,6 +15,7 @@ from .bodies import Cell, Tensor
 from .branches import Branch, Branches
 from .ensembles import Ensemble, ensemble
 from .errors import EndedEarly, Incomplete, Interrupted, WorkersLost
+from .measurements import Measured, Statistics, statistics
 from .models import Model, preset, study
 from .reading import read
 from .results import Accuracy, Crossings, Equilibrium, Estimate, Exponents, Motions, Outcome, Share, Spread, Verdict
@@ -38,11 +39,13 @@ __all__ = [
     "Exponents",
     "Incomplete",
     "Interrupted",
+    "Measured",
     "Model",
     "Motions",
     "Outcome",
     "Share",
     "Spread",
+    "Statistics",
     "Tensor",
     "Trajectory",
     "Verdict",
@@ -53,5 +56,6 @@ __all__ = [
     "preset",
     "read",
     "scan",
+    "statistics",
     "study",
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
@@ -15,6 +15,7 @@ from . import _motiform
 from ._registry import MODELS, ModelInfo
 from .branches import Branches, branches_of
 from .errors import EndedEarly, Interrupted
+from .measurements import Statistics, Threshold, asked, statistics_from
 from .progress import Bar, Progress
 from .results import (
     Accuracy,
@@ -281,6 +282,49 @@ class Model:
             )
         text, table, raised = found
         result = branches_of(text, table)
+        if raised is not None:
+            raise _raised(raised, result)
+        return result
+
+    def statistics(
+        self,
+        bodies: int = 100,
+        *,
+        t_end: float | None = None,
+        transient: float | None = None,
+        dt_out: float | None = None,
+        initial: Mapping[str, float] | None = None,
+        random: Random | None = None,
+        seed: int | None = None,
+        noise: float | None = None,
+        noise_velocity: float | None = None,
+        radii: Sequence[float] = (),
+        threshold: Threshold = None,
+        threads: int | None = None,
+        progress: Progress = None,
+    ) -> Statistics:
+        """What is measured on many bodies: displacements, diffusion, correlations, distributions, first-passage times, spectra.
+
+        >>> found = motiform.Tensor(gamma=1.0, kappa2=2.0, kappa3=2.0).statistics(100, t_end=400.0, noise=0.3)
+        >>> found.persistence, found.diffusion          # numbers with 95 % intervals, or the reason why there are none
+        >>> found.msd, found.autocorrelations           # tables
+        >>> found.plot("autocorrelations")
+
+        Body k is :meth:`simulate` with the seed ``seed + k``: another random start, and other noise. Those that do not complete are
+        left out. `radii` are those of discs that bodies leave; `threshold` is that of the residence times: a quantity (``"speed"``, a mode), or
+        one with a value. An interruption raises :class:`Interrupted` with the statistics of the bodies that are finished.
+        """
+        if t_end is not None and dt_out is None:
+            dt_out = 0.0  # that of a preset is for its own time
+        given = {
+            "t_end": t_end, "transient": transient, "dt_out": dt_out, "random": random, "seed": seed,
+            "noise": noise, "noise_velocity": noise_velocity,
+        }  # fmt: skip
+        study = _with(self._study, initial, given)
+        counts = (bodies, threads or os.cpu_count() or 1)
+        with Bar(progress, bodies, "bodies") as bar:
+            text, tables, raised = _motiform.statistics(study, counts, asked(radii, threshold), bar.callable())
+        result = statistics_from(text, tables)
         if raised is not None:
             raise _raised(raised, result)
         return result

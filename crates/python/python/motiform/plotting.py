@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from .branches import Branches
+    from .measurements import Statistics
     from .trajectory import Trajectory
 
 TIME = ListedColormap(plt.get_cmap("viridis")(np.linspace(0.0, 0.9, 256)), name="time")
@@ -206,3 +207,68 @@ def plot_branches(found: Branches, y: str, ax: Axes | None) -> Axes:
     ax.legend(handles=keys, fontsize="small")
     ax.set(xlabel=found.along, ylabel=y)
     return ax
+
+
+_STATISTICS: dict[str, tuple[str, str, str]] = {
+    "msd": ("lag", "msd", "log"), "exponent": ("lag", "exponent", "log"),
+    "autocorrelations": ("lag", "correlation", "linear"), "spectra": ("frequency", "power", "log"),
+    "first_passage": ("radius", "mean", "log"), "speed": ("from", "density", "linear"),
+    "turning_angle": ("from", "density", "linear"),
+}  # fmt: skip
+
+
+_UNITS = {
+    "lag": "lag (model time)", "msd": "mean-square displacement (model length$^2$)", "exponent": "d ln MSD / d ln lag",
+    "correlation": "$C$(lag)/$C$(0)", "frequency": "frequency (cycles per model time)",
+    "power": "power spectral density (unit$^2$ × time)", "radius": "radius (model length)",
+    "mean": "mean first-passage time (model time)", "speed": "speed (model length per model time)",
+    "turning_angle": "turning angle (rad)",
+}  # fmt: skip
+
+
+def plot_statistics(found: Statistics, what: str, ax: Axes | None) -> Axes:
+    """A curve per quantity with its 95 % band; displacements with the fitted walk."""
+    if what not in _STATISTICS:
+        raise ValueError(f"what = {what!r}: choose one of {', '.join(_STATISTICS)}")
+    ax = plt.subplots(layout="constrained")[1] if ax is None else ax
+    x, y, scale = _STATISTICS[what]
+    if what in ("speed", "turning_angle"):
+        _plot_distribution(found, what, ax)
+    else:
+        table = found.msd if what == "exponent" else getattr(found, what)
+        ends = ("exponent_lower", "exponent_upper") if what == "exponent" else ("lower", "upper")
+        groups = table.groupby("quantity", sort=False) if "quantity" in table else [("measured", table)]
+        for name, rows in groups:
+            (line,) = ax.plot(rows[x], rows[y], marker="o" if what == "first_passage" else "", ms=4, label=name)
+            ax.fill_between(rows[x], rows[ends[0]], rows[ends[1]], color=line.get_color(), alpha=0.22, lw=0)
+        ax.set(xscale=scale, yscale="linear" if what == "exponent" else scale)
+        ax.set(xlabel=_UNITS[x], ylabel=_UNITS[y])
+    if what == "msd":
+        _plot_walk(found, ax)
+    ax.legend(fontsize="small")
+    return ax
+
+
+def _plot_distribution(found: Statistics, what: str, ax: Axes) -> None:
+    table = found.distributions[found.distributions["quantity"] == what]
+    for lag, rows in table.groupby("lag", dropna=False, sort=False):
+        edges = [*rows["from"], rows["to"].iloc[-1]]
+        label = what if np.isnan(lag) else f"lag {lag:.4g}"
+        steps = ax.stairs(rows["density"], edges, label=label, baseline=None)
+        low, high = ([*rows[name], rows[name].iloc[-1]] for name in ("lower", "upper"))
+        ax.fill_between(edges, low, high, step="post", color=steps.get_edgecolor(), alpha=0.22, lw=0)
+    ax.set(xlabel=_UNITS[what], ylabel="probability density")
+    ax.set_ylim(bottom=0.0)
+
+
+def _plot_walk(found: Statistics, ax: Axes) -> None:
+    lag = found.msd["lag"]
+    if found.persistence.known or found.walk_speed.known:
+        ax.plot(lag, found.msd["fit"], color="0.13", lw=1.0, label="persistent random walk")
+    if found.walk_speed.known:
+        early = lag[lag <= 4.0 * (found.persistence.value if found.persistence.known else np.inf)]
+        ax.plot(early, (found.walk_speed.value * early) ** 2, color="0.13", lw=1.0, ls="--", label="ballistic")
+    known = [d for d in (found.diffusion, found.late_diffusion) if d.known]
+    if known:
+        late = lag[lag >= (found.persistence.value / 4.0 if found.persistence.known else lag.max() / 30.0)]
+        ax.plot(late, 4.0 * known[0].value * late, color="0.13", lw=1.0, ls=":", label="diffusive")

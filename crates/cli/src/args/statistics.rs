@@ -1,0 +1,89 @@
+//! Options of `statistics`.
+
+use super::{MethodOptions, assignment, number, whole};
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct StatisticsOptions {
+    /// A model (`motiform models` lists them), a study file ending in .toml, or folders written by `motiform simulate`, one body each
+    #[arg(value_name = "MODEL|STUDY.toml|DATASET", required = true)]
+    pub(crate) subjects: Vec<PathBuf>,
+    /// Start from a preset of the model, e.g. fig5a
+    #[arg(long, value_name = "NAME")]
+    pub(crate) preset: Option<String>,
+    /// Set a parameter (repeatable)
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, f64)>,
+    #[command(flatten)]
+    pub(crate) method: MethodOptions,
+    /// Number of bodies to simulate (default: 100): body k has the seed --seed + k, so another random start and other noise
+    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
+    pub(crate) bodies: Option<u64>,
+    /// Model time to record of each body
+    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) t_end: Option<f64>,
+    /// Model time to leave out: integrated before recording; of datasets, rows before this time
+    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) transient: Option<f64>,
+    /// Model time between samples (default: t-end / 2000)
+    #[arg(long, value_name = "D", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) dt_out: Option<f64>,
+    /// Amplitude of additive white noise on the shape, and on the velocity if it is an unknown: see `motiform simulate --help`
+    #[arg(long, value_name = "ETA", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) noise: Option<f64>,
+    /// Amplitude of the noise on the velocity, instead of that of --noise (tensor)
+    #[arg(long, value_name = "ETA", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) noise_velocity: Option<f64>,
+    /// Radius of a disc for first-passage times (repeatable; default: six, from the displacements)
+    #[arg(long, value_name = "R", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) radius: Vec<f64>,
+    /// Residence times of this quantity above and below a threshold: speed, or the size of a mode (s, u; mode1, ...); without VALUE: its
+    /// median (default: speed)
+    #[arg(long, value_name = "QUANTITY[=VALUE]", value_parser = threshold)]
+    pub(crate) threshold: Option<(String, Option<f64>)>,
+    /// Number of threads (default: all cores); does not affect the results
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
+    pub(crate) threads: Option<u16>,
+    /// Write tables, statistics.json and figures into this folder
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace an existing folder of statistics
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Print one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+fn threshold(text: &str) -> Result<(String, Option<f64>), String> {
+    match text.split_once('=') {
+        Some((name, value)) => Ok((name.trim().to_owned(), Some(number(value.trim())?))),
+        None => Ok((text.trim().to_owned(), None)),
+    }
+}
+
+pub(super) const STATISTICS_HELP: &str = "\
+Examples:
+  motiform statistics tensor --preset fig5a --noise 0.01 --t-end 2000 --transient 100 --out noisy
+  motiform statistics tensor --preset fig5b --bodies 200 --t-end 4000 --out chaos
+  motiform statistics my-study.toml --bodies 50 --radius 5 --threshold speed=0.3 --json
+  motiform statistics run1 run2 run3 --transient 50
+
+What is measured, each with its 95 % interval (docs/statistics.md has the formulas):
+  speed          its mean, root mean square and distribution
+  persistence    time P and speed S of a persistent random walk, from mean-square displacements
+  diffusion      coefficient D, of that walk (S^2 P/2), and from the late slope alone
+  correlation    integral correlation times of velocity, heading, speed, modes of the shape
+  leaves         mean first-passage times out of discs
+  stays          residence times above and below a threshold
+'unknown' comes with a reason: too short a track has no diffusion coefficient.
+
+Intervals are those over bodies, from 8 bodies on. Fewer are cut into 16 blocks altogether: then
+lags end within a block.
+
+The output folder holds
+  statistics.json      what --json prints
+  msd, autocorrelations, distributions, spectra, first_passage              as .parquet
+  msd, exponent, autocorrelations, speed, turning, spectra, first-passage   as .svg and .png
+Ctrl-C measures the bodies that are finished. The numbers do not depend on --threads.";

@@ -1,0 +1,126 @@
+//! `motiform statistics`.
+
+use crate::args::{StatisticsOptions, SubjectOptions};
+use crate::commands::subject;
+use crate::output::{End, plain, print, warn};
+use crate::progress::Progress;
+use motiform_files::Staging;
+use motiform_lab::draw::FigureFormat;
+use motiform_measure::{Measurement, is_one, read, sentences, simulated, summary, write};
+use motiform_statistics::Settings;
+use motiform_study::{Error, Study};
+use std::fmt::Write;
+use std::path::Path;
+
+/// Bodies, if their number is not given.
+const BODIES: u64 = 100;
+
+pub(crate) fn run(options: &StatisticsOptions) -> anyhow::Result<End> {
+    let staging =
+        options.out.as_ref().map(|out| Staging::replacing(out, options.force, is_one)).transpose()?;
+    for note in staging.iter().flat_map(Staging::swept) {
+        warn(note);
+    }
+    let found = if options.subjects.iter().all(|path| is_dataset(path)) {
+        recorded(options)?
+    } else {
+        bodies(options)?
+    };
+    let json = options.json.then(|| summary(&found).to_string());
+    let written = match staging {
+        Some(staging) => {
+            let path = write(&found, &FigureFormat::default(), staging).map_err(plain_error)?;
+            Some(path.display().to_string())
+        }
+        None => None,
+    };
+    print(&match json {
+        Some(json) => json,
+        None => text(&found, written.as_deref())?,
+    })?;
+    found.notes.iter().for_each(|note| warn(note));
+    Ok(if found.complete { End::Done } else { End::Interrupted })
+}
+
+fn is_dataset(path: &Path) -> bool {
+    path.is_dir()
+}
+
+/// The bodies of dataset folders.
+fn recorded(options: &StatisticsOptions) -> anyhow::Result<Measurement> {
+    let given = [
+        ("--bodies", options.bodies.is_some()),
+        ("--preset", options.preset.is_some()),
+        ("--set", !options.set.is_empty()),
+        ("--t-end", options.t_end.is_some()),
+        ("--dt-out", options.dt_out.is_some()),
+        ("--noise", options.noise.is_some() || options.noise_velocity.is_some()),
+    ];
+    if let Some((key, _)) = given.iter().find(|(_, given)| *given) {
+        let remedy = "datasets are recorded already: leave it out, or give a model or a study";
+        return Err(Error::Setting { key, value: "given".into(), remedy }.into());
+    }
+    read(&options.subjects, options.transient.unwrap_or(0.0), &settings(options)).map_err(plain_error)
+}
+
+/// Bodies that are simulated.
+fn bodies(options: &StatisticsOptions) -> anyhow::Result<Measurement> {
+    let [subject] = &options.subjects[..] else {
+        let list: Vec<_> = options.subjects.iter().map(|path| path.display().to_string()).collect();
+        let remedy = "give one model or study, or only folders written by `motiform simulate`";
+        return Err(Error::Setting { key: "subject", value: list.join(" "), remedy }.into());
+    };
+    let study = study(options, subject)?;
+    let count = options.bodies.unwrap_or(BODIES);
+    let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let threads = options.threads.map_or_else(all, usize::from);
+    let watch = Progress::new(count as f64, "bodies");
+    let found = simulated(&study, usize::try_from(count)?, &settings(options), threads, &watch);
+    watch.finish();
+    found.map_err(plain_error)
+}
+
+fn study(options: &StatisticsOptions, subject: &Path) -> Result<Study, Error> {
+    let subject = subject.to_string_lossy().into_owned();
+    let subject = SubjectOptions { subject, preset: options.preset.clone(), set: options.set.clone() };
+    let mut study = subject::study(&subject)?;
+    subject::apply(&options.method, &mut study)?;
+    let run = &mut study.run;
+    let numbers = [
+        (options.t_end, &mut run.t_end),
+        (options.transient, &mut run.transient),
+        (options.dt_out, &mut run.dt_out),
+        (options.noise, &mut run.noise),
+    ];
+    for (value, place) in numbers.into_iter().filter_map(|(given, place)| Some((given?, place))) {
+        *place = value;
+    }
+    if options.t_end.is_some() && options.dt_out.is_none() {
+        run.dt_out = 0.0; // that of a preset is for its own time
+    }
+    run.noise_velocity = options.noise_velocity.or(run.noise_velocity);
+    Ok(study)
+}
+
+fn settings(options: &StatisticsOptions) -> Settings {
+    Settings { radii: options.radius.clone(), threshold: options.threshold.clone() }
+}
+
+fn text(found: &Measurement, written: Option<&str>) -> anyhow::Result<String> {
+    let mut text = format!("{}\n", plain(&found.title));
+    for (label, sentence) in sentences(found) {
+        writeln!(text, "{label:<12} {sentence}")?;
+    }
+    if let Some(written) = written {
+        writeln!(text, "{:<12} {written}", "written")?;
+    }
+    Ok(text.trim_end().to_owned())
+}
+
+/// The error itself, so that remedies and exit codes are those of every command.
+fn plain_error(error: motiform_measure::Error) -> anyhow::Error {
+    match error {
+        motiform_measure::Error::Study(error) => error.into(),
+        other => other.into(),
+    }
+}

@@ -1,0 +1,71 @@
+//! `motiform statistics`: text, JSON, folder, exit codes and error texts.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use crate::common;
+
+use common::{Folder, keys, names};
+
+const SHORT: &str =
+    "statistics tensor --set gamma=1 --set kappa2=2 --set kappa3=2 --noise 0.3 --t-end 100 --bodies 10";
+
+#[test]
+fn text_json_and_folder_agree() {
+    let folder = Folder::new();
+    let done = folder.run(SHORT).expect(0);
+    assert!(
+        done.stdout.contains("10 bodies, 2001 samples every 0.05; 95 % intervals over bodies"),
+        "{}",
+        done.stdout
+    );
+    assert_eq!(folder.names(), [""; 0], "without --out it writes no file");
+    let json = folder.run(&format!("{SHORT} --json --threads 1 --out found")).expect(0).json();
+    assert_eq!((&json["bodies"], &json["errors"]["over"]), (&10.into(), &"bodies".into()));
+    assert!(keys(&json["autocorrelations"]).contains(&"velocity"));
+    assert_eq!(json["first_passage"].as_array().unwrap().len(), 6);
+    let found = names(&folder.path("found"));
+    for name in
+        ["statistics.json", "msd.parquet", "autocorrelations.png", "spectra.svg", "first_passage.parquet"]
+    {
+        assert!(found.iter().any(|there| there == name), "{found:?}");
+    }
+    assert!(folder.run(&format!("{SHORT} --out found")).expect(2).stderr.contains("--force"));
+    folder.run(&format!("{SHORT} --out found --force")).expect(0);
+    let settings = format!("{SHORT} --json --radius 2 --radius 0.5 --threshold s=0.1");
+    let json = folder.run(&settings).expect(0).json();
+    assert_eq!(json["first_passage"][0]["radius"], 0.5);
+    assert_eq!((&json["residence"]["quantity"], &json["residence"]["threshold"]), (&"s".into(), &0.1.into()));
+}
+
+#[test]
+fn datasets_are_measured() {
+    let folder = Folder::new();
+    for seed in [1, 2] {
+        let words = "simulate tensor --set gamma=1 --noise 0.2 --t-end 300 --no-figures";
+        folder.run(&format!("{words} --seed {seed} --out run{seed}")).expect(0);
+    }
+    let done = folder.run("statistics run1 run2 --transient 20").expect(0);
+    assert!(done.stdout.contains("2 bodies") && done.stdout.contains("over 16 blocks"), "{}", done.stdout);
+}
+
+#[test]
+fn bad_input_names_the_remedy() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("empty")).unwrap();
+    for (words, told) in [
+        ("statistics", "MODEL|STUDY.toml|DATASET"),
+        ("statistics tensr", "tensor"),
+        ("statistics empty", "give a folder written by `motiform simulate`"),
+        ("statistics empty --bodies 3", "datasets are recorded already"),
+        ("statistics tensor cell", "give one model or study"),
+        ("statistics tensor --bodies 0", "give a number from 1 to 100000"),
+        ("statistics tensor --initial v1=0.1", "leave out the initial values, or give noise"),
+        ("statistics tensor --threshold speed=fast", "is not a number"),
+        ("statistics tensor --bodies 8 --t-end 10 --threshold heading", "choose one of speed, s, u"),
+        ("statistics tensor --bodies 8 --t-end 10 --radius -1", "give a radius above 0"),
+        ("statistics tensor --bodies 8 --t-end 10 --dt-out 1", "record longer, or more often"),
+    ] {
+        let done = folder.run(words).expect(2);
+        assert!(done.stderr.contains(told), "{words}: {}", done.stderr);
+    }
+}

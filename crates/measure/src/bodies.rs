@@ -1,0 +1,160 @@
+//! Many bodies of one study: other seeds, so other random starts and other noise.
+
+use crate::Result;
+use crate::record::{Measurement, Recorder, measured, title};
+use motiform_dynamics::{Model, Outcome, Part, StopOnly, Watch};
+use motiform_lab::ensemble::{Member, tracks};
+use motiform_lab::pool;
+use motiform_lab::simulate::simulate;
+use motiform_statistics::{Settings, Track};
+use motiform_study::{Error, Plan, Study};
+use serde_json::json;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Most bodies.
+pub const MOST: usize = 100_000;
+
+/// Bodies that are computed together in lanes: what an interruption loses at most.
+const TOGETHER: usize = 64;
+
+/// Statistics of `count` bodies: body k is the run of the study with the seed `seed + k`, its transient left out. They are computed on `threads`
+/// threads; those that do not complete (a blow-up, too many steps) are left out and counted. If the watch stops the work, the bodies that are finished are measured.
+///
+/// Tensor models without noise run in the lanes of vector registers (see [`tracks`]). The result does not depend on `threads`.
+///
+/// # Errors
+/// Input that a run rejects; bodies that would all be the same (a given start and no noise); [`Error::Interrupted`] if no body was
+/// finished.
+///
+/// # Checked by  tests/all/bodies.rs: bodies against single runs, threads, interruption
+pub fn simulated(
+    study: &Study,
+    count: usize,
+    settings: &Settings,
+    threads: usize,
+    watch: &dyn Watch,
+) -> Result<Measurement> {
+    let plans = plans(study, count)?;
+    let noisy = plans[0].computation.noise.is_some();
+    let found = if noisy { one_by_one(&plans, threads, watch)? } else { in_lanes(&plans, threads, watch)? };
+    let mut kept = Vec::new();
+    let mut seeds = Vec::new();
+    let (mut early, mut missing) = (Vec::new(), 0);
+    for (plan, body) in plans.iter().zip(found) {
+        match body {
+            Some((Outcome::Completed { .. }, track)) => {
+                kept.push(track);
+                seeds.push(plan.computation.seed);
+            }
+            Some((outcome, _)) => early.push((plan.computation.seed, outcome)),
+            None => missing += 1,
+        }
+    }
+    if kept.is_empty() && missing > 0 {
+        return Err(Error::Interrupted.into());
+    }
+    let notes = notes(&early, missing, count);
+    if kept.is_empty() {
+        return Err(Error::Setting {
+            key: "bodies",
+            value: count.to_string(),
+            remedy: "no body completed its run: give a shorter t_end, or other parameters",
+        }
+        .into());
+    }
+    let statistics = measured(&plans[0], kept, settings)?;
+    let source = json!({ "plan": plans[0], "plan_hash": plans[0].hash(), "bodies": count });
+    let title = title(&plans[0]);
+    let plan = plans[0].clone();
+    Ok(Measurement { title, plan, source, seeds, notes, complete: missing == 0, statistics })
+}
+
+/// The plan of each body.
+fn plans(study: &Study, count: usize) -> Result<Vec<Plan>> {
+    if !(1..=MOST).contains(&count) {
+        let remedy = "give a number from 1 to 100000";
+        return Err(Error::Setting { key: "bodies", value: count.to_string(), remedy }.into());
+    }
+    let mut study = study.clone();
+    study.return_map = None; // its second pass would be for nothing
+    let first = study.run.seed;
+    let given = study.initial.iter().any(|(name, _)| !["x", "y"].contains(&name.as_str()));
+    if count > 1 && given && study.run.largest_noise() == 0.0 {
+        let remedy = "without noise all bodies with this start are the same: leave out the initial values, or give noise";
+        return Err(Error::Setting { key: "bodies", value: count.to_string(), remedy }.into());
+    }
+    let plan = |body: usize| {
+        study.run.seed = first.wrapping_add(body as u64);
+        Plan::new(&study)
+    };
+    Ok((0..count).map(plan).collect::<std::result::Result<_, _>>()?)
+}
+
+/// How a body ended, and its track; `None` if it was stopped.
+type Body = Option<(Outcome, Track)>;
+
+/// Runs of their own, with noise.
+fn one_by_one(plans: &[Plan], threads: usize, watch: &dyn Watch) -> Result<Vec<Body>> {
+    let done = AtomicUsize::new(0);
+    let run = |plan: &Plan| {
+        if watch.stopped() {
+            return Ok(None);
+        }
+        let dataset = simulate(plan, &StopOnly(watch))?;
+        let outcome = dataset.manifest.outcome.outcome;
+        let model = plan.info()?.build(&plan.computation.parameters.values())?;
+        let track = crate::datasets::track(&dataset.trajectory, model.as_ref(), 0.0);
+        let part = (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / plans.len() as f64;
+        watch.progress(part);
+        Ok((!matches!(outcome, Outcome::Interrupted { .. })).then_some((outcome, track)))
+    };
+    Ok(pool::each(plans, threads, &(), run)?) // the watch is asked above: what is finished is kept
+}
+
+/// Tracks of an ensemble, some bodies at a time.
+fn in_lanes(plans: &[Plan], threads: usize, watch: &dyn Watch) -> Result<Vec<Body>> {
+    let c = &plans[0].computation;
+    let rows = (c.t_end / c.dt_out * (1.0 + 1e-12)).floor() as usize;
+    let times: Vec<f64> = (0..=rows).map(|k| c.transient + k as f64 * c.dt_out).collect();
+    let model = plans[0].info()?.build(&c.parameters.values()).map_err(Error::from)?;
+    let mut found = Vec::with_capacity(plans.len());
+    for (number, chunk) in plans.chunks(TOGETHER).enumerate() {
+        let members: Vec<Member> = chunk.iter().map(member).collect();
+        let at = |body: usize| body.min(plans.len()) as f64 / plans.len() as f64;
+        let part = Part { watch, from: at(number * TOGETHER), to: at((number + 1) * TOGETHER) };
+        let Some(tracks) = tracks(&plans[0], &members, &times, threads, &part)? else { break };
+        found.extend(
+            tracks.iter().map(|track| Some((track.outcome, recorded(model.as_ref(), &track.states)))),
+        );
+    }
+    found.resize(plans.len(), None);
+    Ok(found)
+}
+
+fn member(plan: &Plan) -> Member {
+    let c = &plan.computation;
+    Member { parameters: c.parameters.values(), start: c.initial.values() }
+}
+
+fn recorded(model: &dyn Model, states: &[Vec<f64>]) -> Track {
+    let mut recorder = Recorder::new(model);
+    for state in states {
+        let (coordinates, position) = state.split_at(state.len() - 2);
+        recorder.push(coordinates, [position[0], position[1]]);
+    }
+    recorder.finish()
+}
+
+fn notes(early: &[(u64, Outcome)], missing: usize, count: usize) -> Vec<String> {
+    let mut notes = Vec::new();
+    if let Some((seed, outcome)) = early.first() {
+        notes.push(format!(
+            "{} of {count} bodies are left out, since they did not complete their run (seed {seed}: {outcome})",
+            early.len()
+        ));
+    }
+    if missing > 0 {
+        notes.push(format!("interrupted: {missing} of {count} bodies were not finished and are left out"));
+    }
+    notes
+}

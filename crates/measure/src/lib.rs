@@ -1,0 +1,20 @@
+//! Statistics of many bodies ([`motiform_statistics`]): bodies are simulated from one study ([`simulated`]) or read from dataset folders
+//! ([`read`]); the result becomes tables ([`tables()`]), a summary ([`summary()`]), figures ([`draw()`]) and a folder ([`write()`]).
+
+mod bodies;
+mod datasets;
+mod draw;
+mod error;
+mod folder;
+mod record;
+mod summary;
+mod tables;
+
+pub use bodies::{MOST, simulated};
+pub use datasets::read;
+pub use draw::draw;
+pub use error::{Error, Result};
+pub use folder::{is_one, write};
+pub use record::{Measurement, mode_names};
+pub use summary::{sentences, summary};
+pub use tables::{Named, tables};

@@ -1,0 +1,161 @@
+"""What is measured on tracks of many bodies."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import pandas as pd
+
+from . import _motiform, plotting
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+Threshold = str | tuple[str, float] | None
+"""The quantity of residence times (``"speed"`` or a mode), and its threshold: the median, if only the quantity is given."""
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A number with its 95 % interval, or the reason why there is none."""
+
+    value: float
+    """The number; NaN if it is not known."""
+    lower: float
+    """Lower end of the interval; NaN if there is none."""
+    upper: float
+    """Upper end."""
+    reason: str = ""
+    """Why the number is not known; empty if it is."""
+
+    @property
+    def known(self) -> bool:
+        """Whether there is a number."""
+        return not self.reason
+
+    def __float__(self) -> float:
+        return self.value
+
+    def __str__(self) -> str:
+        return f"unknown: {self.reason}" if self.reason else f"{self.value:.5g} ({self.lower:.5g} to {self.upper:.5g})"
+
+
+@dataclass(frozen=True)
+class Statistics:
+    """Statistics of many bodies. Definitions and formulas: docs/statistics.md."""
+
+    bodies: int
+    """Bodies that were measured."""
+    complete: bool
+    """Whether none was left out because of an interruption."""
+    mean_speed: Measured
+    """Mean speed."""
+    persistence: Measured
+    """Persistence time of the persistent random walk fitted to the mean-square displacement."""
+    walk_speed: Measured
+    """Its speed."""
+    diffusion: Measured
+    """Its diffusion coefficient."""
+    late_diffusion: Measured
+    """Diffusion coefficient from the late slope of the mean-square displacement, whatever the motion."""
+    correlation_times: Mapping[str, Measured]
+    """Integral correlation times by quantity."""
+    msd: pd.DataFrame
+    """``lag``, ``msd``, ``lower``, ``upper``, ``exponent`` with its interval, ``fit``, ``windows``."""
+    autocorrelations: pd.DataFrame
+    """``quantity``, ``lag``, ``correlation``, ``lower``, ``upper``."""
+    distributions: pd.DataFrame
+    """``quantity`` (speed, turning_angle), ``lag``, bin edges ``from`` and ``to``, ``count``, ``density``, ``lower``, ``upper``."""
+    spectra: pd.DataFrame
+    """``quantity``, ``frequency``, ``power``, ``lower``, ``upper``."""
+    first_passage: pd.DataFrame
+    """``radius``, ``mean``, ``lower``, ``upper``, ``restricted``, ``limit``, ``censored``, ``starts``."""
+    summary: Mapping[str, Any]
+    """Everything that is not a curve, as ``motiform statistics --json`` prints it."""
+
+    def to_xarray(self) -> xr.Dataset:
+        """Displacements along ``lag``, and the correlations of each quantity along ``time_lag``."""
+        named = self.msd.rename(columns={"lower": "msd_lower", "upper": "msd_upper"})
+        displacements: xr.Dataset = named.set_index("lag").to_xarray()
+        table = self.autocorrelations.pivot(index="lag", columns="quantity", values="correlation")
+        table = table.rename_axis(index="time_lag").stack().rename("correlation")
+        return displacements.merge(table.to_frame().to_xarray())
+
+    def plot(self, what: str = "msd", ax: Axes | None = None) -> Axes:
+        """One of ``msd``, ``exponent``, ``autocorrelations``, ``speed``, ``turning_angle``, ``spectra``, ``first_passage``."""
+        return plotting.plot_statistics(self, what, ax)
+
+    def __repr__(self) -> str:
+        return f"<statistics of {self.bodies} bodies: persistence time {self.persistence}, diffusion {self.diffusion}>"
+
+
+def statistics(
+    folders: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
+    *,
+    transient: float = 0.0,
+    radii: Sequence[float] = (),
+    threshold: Threshold = None,
+) -> Statistics:
+    """Statistics of the bodies in folders written by ``motiform simulate``, one each; rows before `transient` are left out."""
+    several = [folders] if isinstance(folders, (str, os.PathLike)) else list(folders)
+    paths = [os.fspath(folder) for folder in several]
+    text, tables, _ = _motiform.statistics_of(paths, float(transient), asked(radii, threshold))
+    return statistics_from(text, tables)
+
+
+def asked(radii: Sequence[float], threshold: Threshold) -> tuple[list[float], tuple[str, float | None] | None]:
+    """As the native module takes it."""
+    pair = (threshold, None) if isinstance(threshold, str) else threshold
+    return [float(radius) for radius in radii], pair
+
+
+_READ: dict[str, Callable[[str], Any]] = {"quantity": str, "count": int, "starts": int}
+
+
+def _number(text: str) -> float:
+    return float(text) if text else math.nan
+
+
+def _frame(table: bytes) -> pd.DataFrame:
+    """A table with every digit; NaN where there is no number."""
+    names, *rows = csv.reader(io.StringIO(table.decode()))
+    columns = {name: [row[place] for row in rows] for place, name in enumerate(names)}
+    return pd.DataFrame({name: [_READ.get(name, _number)(text) for text in column] for name, column in columns.items()})
+
+
+def _measured(entry: Mapping[str, Any]) -> Measured:
+    if "reason" in entry:
+        return Measured(math.nan, math.nan, math.nan, entry["reason"])
+    return Measured(entry["value"], entry.get("lower", math.nan), entry.get("upper", math.nan))
+
+
+def statistics_from(text: str, tables: Sequence[tuple[str, bytes]]) -> Statistics:
+    """The statistics of the native module's JSON and CSV."""
+    raw = json.loads(text)
+    walk = raw["persistent_walk"]
+    times = {name: _measured(entry["correlation_time"]) for name, entry in raw["autocorrelations"].items()}
+    frames = {name: _frame(table) for name, table in tables}
+    return Statistics(
+        raw["bodies"],
+        raw["complete"],
+        _measured(raw["mean_speed"]),
+        _measured(walk["persistence"]),
+        _measured(walk["speed"]),
+        _measured(walk["diffusion"]),
+        _measured(raw["late_diffusion"]),
+        times,
+        frames["msd"],
+        frames["autocorrelations"],
+        frames["distributions"],
+        frames["spectra"],
+        frames["first_passage"],
+        raw,
+    )

@@ -1,0 +1,100 @@
+//! A measured number with its interval, or the reason why there is none.
+
+use serde::Serialize;
+
+/// A value with its 95 % confidence interval.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Measured {
+    /// The value.
+    pub value: f64,
+    /// Ends of the interval; `None` where the units ([`crate::Errors`]) that contribute are too few.
+    #[serde(flatten, serialize_with = "ends")]
+    pub interval: Option<[f64; 2]>,
+}
+
+/// `lower` and `upper`, or nothing.
+fn ends<S: serde::Serializer>(interval: &Option<[f64; 2]>, serializer: S) -> Result<S::Ok, S::Error> {
+    use serde::ser::SerializeMap;
+    let mut map = serializer.serialize_map(None)?;
+    if let Some([lower, upper]) = interval {
+        map.serialize_entry("lower", lower)?;
+        map.serialize_entry("upper", upper)?;
+    }
+    map.end()
+}
+
+impl Measured {
+    /// The value and the ends as functions of them, for one that increases.
+    #[must_use]
+    pub fn map(self, rising: impl Fn(f64) -> f64) -> Self {
+        Self { value: rising(self.value), interval: self.interval.map(|ends| ends.map(rising)) }
+    }
+
+    /// Lower end; NaN without an interval (an empty field in tables).
+    #[must_use]
+    pub fn lower(&self) -> f64 {
+        self.interval.map_or(f64::NAN, |ends| ends[0])
+    }
+
+    /// Upper end; NaN without an interval.
+    #[must_use]
+    pub fn upper(&self) -> f64 {
+        self.interval.map_or(f64::NAN, |ends| ends[1])
+    }
+
+    /// Half the width of the interval; 0 without one.
+    #[must_use]
+    pub fn half_width(&self) -> f64 {
+        self.interval.map_or(0.0, |[lower, upper]| 0.5 * (upper - lower))
+    }
+}
+
+/// A measured value, or why there is none.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Answer {
+    /// The value.
+    Known(Measured),
+    /// The samples do not show it.
+    Unknown {
+        /// Why, in a sentence.
+        reason: String,
+    },
+}
+
+impl Answer {
+    /// No value, for this reason.
+    #[must_use]
+    pub fn unknown(reason: impl Into<String>) -> Self {
+        Self::Unknown { reason: reason.into() }
+    }
+
+    /// The value, if there is one.
+    #[must_use]
+    pub fn known(&self) -> Option<Measured> {
+        match self {
+            Self::Known(measured) => Some(*measured),
+            Self::Unknown { .. } => None,
+        }
+    }
+
+    /// Why there is no value, if there is none.
+    #[must_use]
+    pub fn reason(&self) -> Option<&str> {
+        match self {
+            Self::Known(_) => None,
+            Self::Unknown { reason } => Some(reason),
+        }
+    }
+}
+
+/// A number with four digits at most, for sentences.
+#[must_use]
+pub fn four_digits(x: f64) -> String {
+    let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
+    if rounded == 0.0 || (1e-4..1e6).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
+}

@@ -1,0 +1,137 @@
+//! Mean-square displacement against lag, and its local exponent.
+
+use crate::jackknife::{Sums, leave_out};
+use crate::{Measured, Tracks};
+
+/// Lags per decade.
+const PER_DECADE: f64 = 16.0;
+
+/// The local exponent at a lag is the slope to lags this many places away.
+const REACH: usize = 3;
+
+/// Mean-square displacement at logarithmically spaced lags, with what intervals are made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeanSquare {
+    dt: f64,
+    /// In samples, increasing.
+    lags: Vec<usize>,
+    sums: Vec<Sums>,
+    groups: usize,
+}
+
+/// A point of the curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DisplacementPoint {
+    /// The lag (model time).
+    pub lag: f64,
+    /// <|r(t + lag) - r(t)|^2>.
+    pub value: Measured,
+    /// d ln MSD / d ln lag: 2 where ballistic, 1 where diffusive. `None` where nothing moved.
+    pub exponent: Option<Measured>,
+    /// Windows that were averaged, overlapping ones included.
+    pub windows: f64,
+}
+
+/// Mean-square displacement: the mean over units and over all times t of |r(t + tau) - r(t)|^2.
+///
+/// Windows overlap; each has the same weight, so longer tracks count more. The sums are direct, which keeps all digits: with Fourier transforms
+/// (Kneller 1995) short lags lose those by which positions exceed displacements. Lags: about 16 per decade, up to half of the longest unit.
+///
+/// # Units     (model length)^2
+/// # Checked by  tests/all/displacement.rs: Ornstein-Uhlenbeck, active Brownian (chiral and not), circle, line; Fourier sums
+#[must_use]
+pub fn mean_square(tracks: &Tracks) -> MeanSquare {
+    let lags = spaced(tracks.longest_lag());
+    let groups = tracks.groups();
+    let mut sums = vec![Sums::new(groups); lags.len()];
+    for (unit, track) in tracks.units().iter().enumerate() {
+        for (sums, &lag) in sums.iter_mut().zip(&lags) {
+            let path = &track.position;
+            let Some(later) = path.get(lag..) else { continue };
+            let square = |(a, b): (&[f64; 2], &[f64; 2])| {
+                let [x, y] = [b[0] - a[0], b[1] - a[1]];
+                x * x + y * y
+            };
+            sums.add(tracks.group(unit), path.iter().zip(later).map(square).sum(), later.len() as f64);
+        }
+    }
+    MeanSquare { dt: tracks.dt(), lags, sums, groups }
+}
+
+/// 1, 2, 3, ... and from there on logarithmically, up to `longest`.
+fn spaced(longest: usize) -> Vec<usize> {
+    let ratio = libm::pow(10.0, 1.0 / PER_DECADE);
+    let mut lags = vec![];
+    let mut lag = 1;
+    while lag <= longest {
+        lags.push(lag);
+        lag = (lag + 1).max((lag as f64 * ratio).round() as usize);
+    }
+    lags
+}
+
+impl MeanSquare {
+    /// Number of lags.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.lags.len()
+    }
+
+    /// Whether there is no lag.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.lags.is_empty()
+    }
+
+    /// The lag of a place (model time).
+    #[must_use]
+    pub fn lag(&self, place: usize) -> f64 {
+        self.lags[place] as f64 * self.dt
+    }
+
+    /// The value at a place, without one group if asked.
+    #[must_use]
+    pub(crate) fn value(&self, place: usize, left_out: Option<usize>) -> f64 {
+        self.sums[place].mean(left_out)
+    }
+
+    /// Number of groups that can be left out.
+    pub(crate) fn groups(&self) -> usize {
+        self.groups
+    }
+
+    /// The value at a place with its interval.
+    #[must_use]
+    pub fn measured(&self, place: usize) -> Measured {
+        self.sums[place].measured()
+    }
+
+    /// d ln MSD / d ln lag between lags some places away on both sides; `None` where nothing moved.
+    #[must_use]
+    pub fn exponent(&self, place: usize) -> Option<Measured> {
+        let (from, to) = (place.saturating_sub(REACH), (place + REACH).min(self.len() - 1));
+        if from == to {
+            return None;
+        }
+        let slope = |left_out| self.slope(from, to, left_out);
+        slope(None).is_finite().then(|| leave_out(self.groups, slope, false))
+    }
+
+    /// The slope between two places on logarithmic axes.
+    pub(crate) fn slope(&self, from: usize, to: usize, left_out: Option<usize>) -> f64 {
+        let ratio = self.value(to, left_out) / self.value(from, left_out);
+        libm::log(ratio) / libm::log(self.lag(to) / self.lag(from))
+    }
+
+    /// All points.
+    #[must_use]
+    pub fn points(&self) -> Vec<DisplacementPoint> {
+        let point = |place| DisplacementPoint {
+            lag: self.lag(place),
+            value: self.measured(place),
+            exponent: self.exponent(place),
+            windows: self.sums[place].count(),
+        };
+        (0..self.len()).map(point).collect()
+    }
+}

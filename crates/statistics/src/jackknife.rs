@@ -1,0 +1,81 @@
+//! Intervals by leaving out one group of units at a time.
+
+use crate::Measured;
+use crate::quantiles::student_quantile;
+
+/// Fewest groups that give an interval.
+const LEAST: usize = 8;
+
+/// A value with the interval from what it is with each group left out.
+///
+/// value -+ t_{G-1} sqrt( (G-1)/G sum_g (v_g - mean v)^2 );  G groups, v_g the value without group g
+///
+/// No interval with fewer than 8 groups, or where one of the values is not finite.
+///
+/// Source: Tukey (1958), Ann. Math. Stat. 29, 614; Efron (1982), The Jackknife, the Bootstrap and Other Resampling Plans, ch. 3.
+///
+/// # Checked by  tests/all/coverage.rs; for a mean it is the usual standard error (tests/all/quantiles.rs)
+#[must_use]
+pub fn jackknife(value: f64, without: &[f64]) -> Measured {
+    Measured { value, interval: spread(without).map(|half| [value - half, value + half]) }
+}
+
+/// [`jackknife`] of the logarithm: for values above 0, whose interval then stays above 0.
+#[must_use]
+pub(crate) fn jackknife_ratio(value: f64, without: &[f64]) -> Measured {
+    let logarithms: Vec<f64> = without.iter().map(|&x| libm::log(x)).collect();
+    let half = if value > 0.0 { spread(&logarithms) } else { None };
+    Measured { value, interval: half.map(|half| [value * libm::exp(-half), value * libm::exp(half)]) }
+}
+
+/// Half the width of the interval.
+fn spread(without: &[f64]) -> Option<f64> {
+    let groups = without.len();
+    if groups < LEAST || without.iter().any(|value| !value.is_finite()) {
+        return None;
+    }
+    let n = groups as f64;
+    let mean = without.iter().sum::<f64>() / n;
+    let squares: f64 = without.iter().map(|value| (value - mean) * (value - mean)).sum();
+    Some(student_quantile(groups - 1) * ((n - 1.0) / n * squares).sqrt())
+}
+
+/// Sums over the groups of units: a mean is `sum / count`.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Sums {
+    /// Sum and count of each group.
+    groups: Vec<[f64; 2]>,
+}
+
+impl Sums {
+    pub(crate) fn new(groups: usize) -> Self {
+        Self { groups: vec![[0.0; 2]; groups] }
+    }
+
+    pub(crate) fn add(&mut self, group: usize, sum: f64, count: f64) {
+        self.groups[group][0] += sum;
+        self.groups[group][1] += count;
+    }
+
+    /// The number of terms.
+    pub(crate) fn count(&self) -> f64 {
+        self.groups.iter().map(|group| group[1]).sum()
+    }
+
+    /// The mean, without group `left_out` if one is given.
+    pub(crate) fn mean(&self, left_out: Option<usize>) -> f64 {
+        let kept = self.groups.iter().enumerate().filter(|(number, _)| Some(*number) != left_out);
+        let [sum, count] = kept.fold([0.0; 2], |[s, n], (_, group)| [s + group[0], n + group[1]]);
+        sum / count
+    }
+
+    pub(crate) fn measured(&self) -> Measured {
+        leave_out(self.groups.len(), |left_out| self.mean(left_out), false)
+    }
+}
+
+/// A function of sums with its interval; `positive` values on their logarithm.
+pub(crate) fn leave_out(groups: usize, value: impl Fn(Option<usize>) -> f64, positive: bool) -> Measured {
+    let without: Vec<f64> = (0..groups).map(|group| value(Some(group))).collect();
+    if positive { jackknife_ratio(value(None), &without) } else { jackknife(value(None), &without) }
+}

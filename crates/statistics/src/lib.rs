@@ -1,0 +1,41 @@
+//! What people measure on tracks of moving bodies: mean-square displacement with persistence time and diffusion coefficient,
+//! autocorrelations, distributions of speed and turning angle, first-passage and residence times, power spectra.
+//!
+//! Pure functions of evenly spaced samples: knows no model and no file. Definitions and formulas: docs/statistics.md. Errors are those
+//! over bodies, or over blocks of the tracks where there are few bodies ([`Tracks`]). What cannot be computed is an [`Answer`] with the reason.
+
+mod answer;
+mod correlate;
+mod correlation;
+mod displacement;
+mod distribution;
+mod error;
+mod jackknife;
+mod late;
+mod passage;
+mod persistence;
+mod power;
+mod quantiles;
+mod residence;
+mod statistics;
+mod survival;
+mod tracks;
+mod turning;
+
+pub use answer::{Answer, Measured, four_digits};
+pub use correlate::lagged_sums;
+pub use correlation::{Autocorrelation, autocorrelation};
+pub use displacement::{DisplacementPoint, MeanSquare, mean_square};
+pub use distribution::{Bin, Histogram, histogram};
+pub use error::{Error, Result};
+pub use jackknife::jackknife;
+pub use late::{late_diffusion, local_exponent};
+pub use passage::{Passage, first_passages, radii};
+pub use persistence::{Walk, furth, persistent_walk};
+pub use power::{PowerSpectrum, power_spectrum};
+pub use quantiles::{chi_square_quantile, student_quantile, wilson};
+pub use residence::{Residence, Side, residence};
+pub use statistics::{Settings, Statistics, statistics};
+pub use survival::{Duration, MeanTime, mean_time};
+pub use tracks::{Errors, Quantity, Series, Track, Tracks};
+pub use turning::{Turning, turning_angles};

@@ -1,0 +1,132 @@
+//! All statistics of a set of tracks.
+
+use crate::jackknife::Sums;
+use crate::{
+    Answer, Autocorrelation, Errors, Histogram, MeanSquare, Measured, Passage, PowerSpectrum, Quantity,
+    Residence, Result, Tracks, Turning, Walk, autocorrelation, first_passages, histogram, late_diffusion,
+    local_exponent, mean_square, persistent_walk, power_spectrum, radii, residence, turning_angles,
+};
+
+/// Bins of the speed.
+const BINS: usize = 40;
+
+/// What is asked beyond the usual.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Settings {
+    /// Radii of the discs; chosen from the displacements if there are none.
+    pub radii: Vec<f64>,
+    /// Quantity and threshold of the residence times: the speed, and its median, if not given.
+    pub threshold: Option<(String, Option<f64>)>,
+}
+
+/// The statistics.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Statistics {
+    /// Bodies.
+    pub bodies: usize,
+    /// Time between samples.
+    pub dt: f64,
+    /// Samples of the shortest and of the longest track.
+    pub samples: [usize; 2],
+    /// What errors refer to.
+    pub errors: Errors,
+    /// Mean speed <|v|>.
+    pub mean_speed: Measured,
+    /// Root-mean-square speed.
+    pub rms_speed: Measured,
+    /// Mean-square displacement.
+    pub displacement: MeanSquare,
+    /// The fit of a persistent random walk.
+    pub walk: Walk,
+    /// Diffusion coefficient from the late slope.
+    pub late_diffusion: Answer,
+    /// Exponents of the mean-square displacement at the shortest lag and over the last octave.
+    pub exponents: [Answer; 2],
+    /// Autocorrelations of velocity, heading, speed and the modes.
+    pub autocorrelations: Vec<Autocorrelation>,
+    /// Distribution of the speed; `None` if it does not vary.
+    pub speeds: Option<Histogram>,
+    /// Distributions of turning angles, by lag.
+    pub turning: Vec<Turning>,
+    /// First-passage times, by radius.
+    pub passages: Vec<Passage>,
+    /// Residence times.
+    pub residence: Residence,
+    /// Power spectra of what varies; none where tracks are too short.
+    pub spectra: Vec<PowerSpectrum>,
+}
+
+/// All statistics of the tracks.
+///
+/// # Errors   an unknown quantity, radii that are not finite and above 0
+pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
+    let (residing, threshold) = match &settings.threshold {
+        None => (Quantity::Speed, None),
+        Some((name, threshold)) => (tracks.sized(name)?, *threshold),
+    };
+    let displacement = mean_square(tracks);
+    let radii = discs(settings, &displacement)?;
+    let quantities = tracks.quantities();
+    let autocorrelations =
+        quantities.iter().map(|quantity| autocorrelation(tracks, quantity)).collect::<Result<Vec<_>>>()?;
+    let varying = autocorrelations.iter().filter(|found| !found.lags.is_empty()).map(|found| &found.quantity);
+    let spectra = varying
+        .filter(|quantity| !matches!(quantity, Quantity::Heading)) // it may have gaps
+        .map(|quantity| power_spectrum(tracks, quantity))
+        .collect::<Result<Vec<_>>>()?;
+    let lengths = || tracks.bodies().iter().map(|track| track.position.len());
+    let [mean_speed, square] = [1, 2].map(|power| moment(tracks, power));
+    Ok(Statistics {
+        bodies: tracks.bodies().len(),
+        dt: tracks.dt(),
+        samples: [lengths().min().unwrap_or(0), lengths().max().unwrap_or(0)],
+        errors: tracks.errors(),
+        mean_speed,
+        rms_speed: square.map(|x| x.max(0.0).sqrt()),
+        walk: persistent_walk(&displacement),
+        late_diffusion: late_diffusion(&displacement),
+        exponents: [true, false].map(|first| local_exponent(&displacement, first)),
+        speeds: speeds(tracks),
+        turning: turning_angles(tracks),
+        passages: first_passages(tracks, &radii),
+        residence: residence(tracks, &residing, threshold),
+        displacement,
+        autocorrelations,
+        spectra: spectra.into_iter().flatten().collect(),
+    })
+}
+
+/// The radii of the discs, increasing.
+fn discs(settings: &Settings, displacement: &MeanSquare) -> Result<Vec<f64>> {
+    if settings.radii.is_empty() {
+        return Ok(radii(displacement));
+    }
+    let mut given = settings.radii.clone();
+    given.sort_by(f64::total_cmp);
+    match given.iter().find(|radius| !(**radius > 0.0 && radius.is_finite())) {
+        Some(&value) => Err(crate::Error::Setting { key: "radius", value, remedy: "give a radius above 0" }),
+        None => Ok(given),
+    }
+}
+
+/// <|v|^power>.
+fn moment(tracks: &Tracks, power: i32) -> Measured {
+    let mut sums = Sums::new(tracks.groups());
+    for (unit, track) in tracks.units().iter().enumerate() {
+        let speeds = Quantity::Speed.size(track);
+        let sum = speeds.iter().map(|speed| if power == 1 { *speed } else { speed * speed }).sum();
+        sums.add(tracks.group(unit), sum, speeds.len() as f64);
+    }
+    sums.measured()
+}
+
+/// The distribution of the speed between its extremes.
+fn speeds(tracks: &Tracks) -> Option<Histogram> {
+    let of = |(unit, track)| {
+        let group = tracks.group(unit);
+        Quantity::Speed.size(track).into_iter().map(move |speed| (group, speed))
+    };
+    let samples: Vec<(usize, f64)> = tracks.units().iter().enumerate().flat_map(of).collect();
+    let ends = samples.iter().fold((f64::MAX, 0.0_f64), |(low, high), s| (low.min(s.1), high.max(s.1)));
+    (ends.1 - ends.0 > 1e-9 * ends.1).then(|| histogram(&samples, tracks.groups(), ends, BINS))
+}

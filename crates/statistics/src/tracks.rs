@@ -1,0 +1,272 @@
+//! The samples: tracks of bodies, and the units over which errors are taken.
+
+use crate::{Error, Result};
+use serde::Serialize;
+
+/// From this number of bodies on, errors are those over bodies.
+const BODIES: usize = 8;
+
+/// Fewest blocks into which fewer bodies are cut.
+const BLOCKS: usize = 16;
+
+/// Fewest samples of a body, and of a block.
+const LEAST: usize = 16;
+
+/// Largest number whose square, summed over a track, is finite.
+const LARGEST: f64 = 1e150;
+
+/// Most groups of units: each is left out once.
+const GROUPS: usize = 64;
+
+/// One body, sampled evenly.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Track {
+    /// Positions.
+    pub position: Vec<[f64; 2]>,
+    /// Velocities at the same times.
+    pub velocity: Vec<[f64; 2]>,
+    /// Modes of the shape, two components each, which the plane's rotations turn.
+    pub modes: Vec<Vec<[f64; 2]>>,
+}
+
+/// What errors refer to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(tag = "over", rename_all = "kebab-case")]
+pub enum Errors {
+    /// Bodies, which are independent.
+    Bodies {
+        /// How many.
+        count: usize,
+    },
+    /// Blocks of the tracks, independent if they are long compared with all correlation times. Lags end within a block.
+    Blocks {
+        /// How many.
+        count: usize,
+        /// Samples of the shortest one.
+        samples: usize,
+    },
+}
+
+/// Tracks of bodies, sampled every `dt`; lengths may differ.
+///
+/// With 8 bodies and more, a unit is a body. Fewer are cut into at least 16 blocks altogether, and a unit is a block: then nothing longer than a
+/// block is seen. Intervals are Student's, by leaving out each unit in turn (of more than 64 units: each of 64 groups).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tracks {
+    dt: f64,
+    names: Vec<String>,
+    bodies: Vec<Track>,
+    /// Blocks, where units are not bodies.
+    blocks: Option<Vec<Track>>,
+    errors: Errors,
+}
+
+/// A quantity along a track.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Quantity {
+    /// The velocity, a vector.
+    Velocity,
+    /// Its direction, a unit vector; none at rest.
+    Heading,
+    /// Its size, a number.
+    Speed,
+    /// A mode of the shape, a vector; its number and name.
+    Mode(usize, String),
+}
+
+/// A quantity of one track.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// One or two components.
+    pub components: Vec<Vec<f64>>,
+    /// Where it is defined; everywhere if `None`. Undefined samples are 0.
+    pub defined: Option<Vec<bool>>,
+}
+
+impl Quantity {
+    /// Its name in tables.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Velocity => "velocity",
+            Self::Heading => "heading",
+            Self::Speed => "speed",
+            Self::Mode(_, name) => name,
+        }
+    }
+
+    /// Whether it is a number, whose mean is subtracted from its fluctuations; a vector has the mean 0 by isotropy.
+    #[must_use]
+    pub fn is_number(&self) -> bool {
+        matches!(self, Self::Speed)
+    }
+
+    /// Its series along a track.
+    #[must_use]
+    pub fn of(&self, track: &Track) -> Series {
+        let vector = |pairs: &[[f64; 2]]| Series {
+            components: (0..2).map(|k| pairs.iter().map(|pair| pair[k]).collect()).collect(),
+            defined: None,
+        };
+        match self {
+            Self::Velocity => vector(&track.velocity),
+            Self::Speed => Series { components: vec![self.size(track)], defined: None },
+            Self::Mode(number, _) => vector(&track.modes[*number]),
+            Self::Heading => {
+                let sizes = Self::Speed.size(track);
+                let defined: Vec<bool> = sizes.iter().map(|&size| size > 0.0).collect();
+                let unit = |(v, s): (&[f64; 2], &f64)| if *s > 0.0 { v.map(|x| x / s) } else { [0.0; 2] };
+                let headings: Vec<_> = track.velocity.iter().zip(&sizes).map(unit).collect();
+                let all = defined.iter().all(|&there| there);
+                Series { defined: (!all).then_some(defined), ..vector(&headings) }
+            }
+        }
+    }
+
+    /// Its size along a track: the speed, or the amplitude of a mode.
+    #[must_use]
+    pub fn size(&self, track: &Track) -> Vec<f64> {
+        let pairs = match self {
+            Self::Mode(number, _) => &track.modes[*number],
+            _ => &track.velocity,
+        };
+        pairs.iter().map(|[a, b]| libm::hypot(*a, *b)).collect()
+    }
+}
+
+impl Tracks {
+    /// Tracks sampled every `dt`, with the names of their modes.
+    ///
+    /// # Errors   no body, `dt` not positive, series of different lengths, fewer than 16 samples, a sample that is not finite
+    pub fn new(dt: f64, names: Vec<String>, bodies: Vec<Track>) -> Result<Self> {
+        if !(dt > 0.0 && dt.is_finite()) {
+            return Err(Error::Interval { dt });
+        }
+        if bodies.is_empty() {
+            return Err(Error::NoBody);
+        }
+        for (body, track) in bodies.iter().enumerate() {
+            check(body, track, &names)?;
+        }
+        let (blocks, errors) = units(&bodies)?;
+        Ok(Self { dt, names, bodies, blocks, errors })
+    }
+
+    /// Time between samples.
+    #[must_use]
+    pub fn dt(&self) -> f64 {
+        self.dt
+    }
+
+    /// The bodies.
+    #[must_use]
+    pub fn bodies(&self) -> &[Track] {
+        &self.bodies
+    }
+
+    /// The units: bodies, or blocks of them.
+    #[must_use]
+    pub fn units(&self) -> &[Track] {
+        self.blocks.as_ref().unwrap_or(&self.bodies)
+    }
+
+    /// What errors refer to.
+    #[must_use]
+    pub fn errors(&self) -> Errors {
+        self.errors
+    }
+
+    /// Number of groups of units, each left out once: at most 64.
+    #[must_use]
+    pub fn groups(&self) -> usize {
+        self.units().len().min(GROUPS)
+    }
+
+    /// The group of a unit.
+    #[must_use]
+    pub fn group(&self, unit: usize) -> usize {
+        unit % self.groups()
+    }
+
+    /// Longest lag in samples: half of the longest unit.
+    #[must_use]
+    pub fn longest_lag(&self) -> usize {
+        self.units().iter().map(|unit| unit.position.len()).max().unwrap_or(0) / 2
+    }
+
+    /// Velocity, heading, speed and the modes.
+    #[must_use]
+    pub fn quantities(&self) -> Vec<Quantity> {
+        let modes = self.names.iter().enumerate().map(|(number, name)| Quantity::Mode(number, name.clone()));
+        [Quantity::Velocity, Quantity::Heading, Quantity::Speed].into_iter().chain(modes).collect()
+    }
+
+    /// The speed or a mode, by its name.
+    ///
+    /// # Errors   [`Error::Quantity`]
+    pub fn sized(&self, name: &str) -> Result<Quantity> {
+        let mut known =
+            self.quantities().into_iter().filter(|q| !matches!(q, Quantity::Velocity | Quantity::Heading));
+        known.find(|quantity| quantity.name() == name).ok_or_else(|| Error::Quantity {
+            name: name.to_owned(),
+            known: std::iter::once("speed".to_owned()).chain(self.names.iter().cloned()).collect(),
+        })
+    }
+}
+
+fn check(body: usize, track: &Track, names: &[String]) -> Result<()> {
+    let samples = track.position.len();
+    if samples < LEAST {
+        return Err(Error::TooShort { body, samples, least: LEAST });
+    }
+    if track.modes.len() != names.len() {
+        return Err(Error::Modes { body, got: track.modes.len(), expected: names.len() });
+    }
+    let modes = names.iter().map(String::as_str).zip(&track.modes);
+    let all = [("position", &track.position), ("velocity", &track.velocity)].into_iter().chain(modes);
+    for (what, series) in all {
+        let what = what.to_owned();
+        if series.len() != samples {
+            return Err(Error::Lengths { body, what, got: series.len(), expected: samples });
+        }
+        let bad = series.iter().enumerate().find_map(|(i, pair)| {
+            pair.iter().find(|x| x.is_nan() || x.abs() > LARGEST).map(|&value| (i, value))
+        });
+        if let Some((sample, value)) = bad {
+            return Err(Error::NotFinite { body, what, sample, value });
+        }
+    }
+    Ok(())
+}
+
+/// No blocks where units are bodies; else blocks of equal length of each.
+fn units(bodies: &[Track]) -> Result<(Option<Vec<Track>>, Errors)> {
+    if bodies.len() >= BODIES {
+        return Ok((None, Errors::Bodies { count: bodies.len() }));
+    }
+    let pieces = BLOCKS.div_ceil(bodies.len());
+    let mut blocks = Vec::new();
+    let mut shortest = usize::MAX;
+    for (body, track) in bodies.iter().enumerate() {
+        let samples = track.position.len();
+        let length = samples / pieces;
+        if length < LEAST {
+            return Err(Error::TooShort { body, samples, least: LEAST * pieces });
+        }
+        shortest = shortest.min(length);
+        blocks.extend((0..pieces).map(|block| track.part(block * length, length)));
+    }
+    let errors = Errors::Blocks { count: blocks.len(), samples: shortest };
+    Ok((Some(blocks), errors))
+}
+
+impl Track {
+    fn part(&self, from: usize, length: usize) -> Self {
+        let cut = |series: &[[f64; 2]]| series[from..from + length].to_vec();
+        Self {
+            position: cut(&self.position),
+            velocity: cut(&self.velocity),
+            modes: self.modes.iter().map(|mode| cut(mode)).collect(),
+        }
+    }
+}
