@@ -3,8 +3,8 @@
 use crate::errors::{of_json, python};
 use crate::study::Study;
 use crate::watch::Caller;
+use motiform_branching::{BranchFolder, columns, follow, summary};
 use motiform_files::columns::to_csv;
-use motiform_lab::continuation::{BranchFolder, columns, follow, summary};
 use motiform_study::BranchPlan;
 use motiform_study::branches::{Along, BranchSettings, origin};
 use pyo3::prelude::*;

@@ -4,11 +4,12 @@ use crate::args::{ContinueOptions, Observable};
 use crate::commands::subject;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
-use motiform_files::Staging;
-use motiform_lab::continuation::{
+use motiform_branching::draw::{Ordinate, draw_branches};
+use motiform_branching::{
     BranchFolder, Branches, Followed, SpecialEntry, default_folder, follow, stretches, summary,
 };
-use motiform_lab::draw::{Ordinate, Picture, draw_branches};
+use motiform_files::Staging;
+use motiform_lab::draw::Picture;
 use motiform_study::branches::{Along, BranchSettings, origin};
 use motiform_study::{BranchPlan, Error};
 use std::fmt::Write;

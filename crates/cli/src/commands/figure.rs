@@ -3,10 +3,11 @@
 use super::film;
 use crate::args::{DrawingOptions, FigureOptions};
 use crate::output::{End, print};
+use motiform_branching::BranchFolder;
+use motiform_branching::draw::{Ordinate, draw_branches};
 use motiform_figures::Style;
 use motiform_files::{read_dataset, replace_file};
-use motiform_lab::continuation::BranchFolder;
-use motiform_lab::draw::{FigureFormat, Ordinate, Picture, draw, draw_branches, draw_scan};
+use motiform_lab::draw::{FigureFormat, Picture, draw, draw_scan};
 use motiform_lab::scan::ScanFolder;
 use motiform_study::study::FigureSettings;
 use motiform_study::{Dataset, Error, plan};

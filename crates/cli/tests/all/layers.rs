@@ -6,7 +6,7 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::process::Command;
 
 /// Each crate, and the crates below it that it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &[&str]); 14] = [
+const LAYERS: [(&str, &[&str]); 15] = [
     ("motiform-dynamics", &[]),
     ("motiform-models", &["motiform-dynamics"]),
     ("motiform-analysis", &["motiform-dynamics"]),
@@ -19,11 +19,23 @@ const LAYERS: [(&str, &[&str]); 14] = [
         "motiform-lab",
         &[
             "motiform-analysis",
-            "motiform-continuation",
             "motiform-dynamics",
             "motiform-figures",
             "motiform-files",
             "motiform-kernels",
+            "motiform-models",
+            "motiform-study",
+        ],
+    ),
+    (
+        "motiform-branching",
+        &[
+            "motiform-analysis",
+            "motiform-continuation",
+            "motiform-dynamics",
+            "motiform-figures",
+            "motiform-files",
+            "motiform-lab",
             "motiform-models",
             "motiform-study",
         ],
@@ -55,6 +67,7 @@ const LAYERS: [(&str, &[&str]); 14] = [
         "motiform",
         &[
             "motiform-analysis",
+            "motiform-branching",
             "motiform-dynamics",
             "motiform-explorer",
             "motiform-figures",
@@ -69,6 +82,7 @@ const LAYERS: [(&str, &[&str]); 14] = [
         "motiform-py",
         &[
             "motiform-analysis",
+            "motiform-branching",
             "motiform-dynamics",
             "motiform-figures",
             "motiform-files",

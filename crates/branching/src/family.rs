@@ -1,11 +1,11 @@
 //! The bodies along a branch: one model, one of its parameters varied.
 
-use crate::analyse::settings_of;
 use motiform_analysis::periodic::Flow;
 use motiform_analysis::{Error as Refused, regime};
 use motiform_continuation::{Family, Settings};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Equivariant, Model, StepControl};
+use motiform_lab::analyse::settings_of;
 use motiform_models::ModelInfo;
 use motiform_study::{BranchPlan, Error};
 

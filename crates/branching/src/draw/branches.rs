@@ -1,9 +1,9 @@
 //! Branches: the bifurcation diagram, and the periods.
 
-use super::{Picture, undrawable, words};
-use crate::continuation::{Branches, Followed, Origin, Sample, is_stable};
+use crate::{Branches, Followed, Origin, Sample, is_stable};
 use motiform_continuation::{End, Special};
 use motiform_figures::{BranchDiagram, BranchMark, BranchPart, DEFAULT_SCALE, Figure, Glyph, png};
+use motiform_lab::draw::{Picture, undrawable, words};
 use motiform_study::plan::Named;
 use motiform_study::{BranchPlan, Error};
 

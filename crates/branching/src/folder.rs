@@ -3,8 +3,8 @@
 use super::follow::Branches;
 use super::summary::summary;
 use super::table::columns as table;
-use crate::draw::Picture;
 use motiform_files::{Staging, columns};
+use motiform_lab::draw::Picture;
 use motiform_study::dataset::VERSION;
 use motiform_study::{BranchPlan, Error, input};
 use serde::{Deserialize, Serialize};

@@ -1,0 +1,5 @@
+//! Figures of branches and curves: their contents and texts. The drawing itself is in [`motiform_figures`].
+
+mod branches;
+
+pub use branches::{Ordinate, diagram as branch_diagram, draw_branches};
