@@ -45,6 +45,11 @@ impl<'p> Bodies<'p> {
         settings
     }
 
+    /// The time in which the model's motions are looked at.
+    pub(super) const fn look(&self) -> f64 {
+        self.info.look
+    }
+
     /// How the motion of the start is named, and the path on an orbit is computed: with the plan's own method.
     pub(super) fn looks(&self) -> regime::Settings {
         let start = &self.plan.computation.start;

@@ -8,6 +8,7 @@
 //! A branch is the unit of work: one that was interrupted is kept as far as it came, and followed from its beginning when the work is
 //! taken up again ([`BranchFolder`]).
 
+pub mod curves;
 pub mod draw;
 mod family;
 mod folder;
@@ -19,6 +20,7 @@ pub mod settle;
 mod single_loop;
 mod stretches;
 mod summary;
+pub mod sweep;
 mod table;
 
 pub use folder::{BranchFolder, default_folder};

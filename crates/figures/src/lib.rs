@@ -1,7 +1,7 @@
 //! Drawing: plain data in, SVG text out. Independent of models, study files and solvers.
 //!
-//! Nine figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`], [`SpaceTimeFigure`], [`SpectrumFigure`],
-//! [`PhaseDiagram`], [`BranchDiagram`], [`ErrorBarFigure`], [`SurvivalFigure`]) return self-contained SVG text (fonts and pictures are
+//! Ten figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`], [`SpaceTimeFigure`], [`SpectrumFigure`],
+//! [`PhaseDiagram`], [`BranchDiagram`], [`CurveMap`], [`ErrorBarFigure`], [`SurvivalFigure`]) return self-contained SVG text (fonts and pictures are
 //! inside); [`png()`] and, with the feature `pdf`, `pdf` convert that text to files; [`Animation`] returns an animated
 //! PNG. The same data give the same bytes: numbers are rounded to 0.01 pixel and no system font is used. All texts are
 //! markup, see [`Label`]; every regime has its [`RegimeMark`].
@@ -12,6 +12,7 @@ mod block;
 mod branches;
 mod clip;
 mod colour_bar;
+mod curve_map;
 mod error;
 mod error_bars;
 mod expected;
@@ -54,7 +55,8 @@ mod text;
 pub mod ticks;
 
 pub use animation::{Animation, Camera, Frame};
-pub use branches::{BranchDiagram, BranchMark, BranchPart};
+pub use branches::{BranchDiagram, BranchDots, BranchMark, BranchPart};
+pub use curve_map::{CurveMap, CurveStyle, MapCurve, MapMark};
 pub use error::{FigureError, Result};
 pub use error_bars::{ErrorBarFigure, ErrorBarSeries, Interval, Measured};
 pub use expected::ExpectedLine;
