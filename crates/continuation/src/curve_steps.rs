@@ -96,19 +96,20 @@ impl<P: Problem> CurveTracer<P> {
         }
     }
 
-    /// More unknowns, where an orbit needs them.
+    /// More unknowns, where an orbit needs them and a frame is found for them.
     fn refine(&mut self, watch: &dyn Watch) {
         let Some(x) = self.problem.refine(&self.spot.x, &self.spot.local, watch) else { return };
-        let old = last_two(&self.spot.frame.along);
-        self.spot.x = x;
-        self.before = None;
-        if let Ok(mut spot) = self.framed(watch) {
-            let [p, q] = last_two(&spot.frame.along);
-            if p * old[0] + q * old[1] < 0.0 {
-                spot.frame.turn();
-            }
-            self.spot = spot;
+        let coarse = std::mem::replace(&mut self.spot.x, x);
+        let Ok(mut spot) = self.framed(watch) else {
+            self.spot.x = coarse;
+            return self.problem.coarsen();
+        };
+        let ([p, q], old) = (last_two(&spot.frame.along), last_two(&self.spot.frame.along));
+        if p * old[0] + q * old[1] < 0.0 {
+            spot.frame.turn();
         }
+        self.spot = spot;
+        self.before = None;
     }
 
     /// Where the curve leaves the box before `new`.
