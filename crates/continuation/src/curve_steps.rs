@@ -11,6 +11,10 @@ use motiform_dynamics::Watch;
 /// Length of the correction that the step is chosen for.
 const CORRECTION: f64 = 1e-3;
 
+/// A step that fails is tried again with this part of its length. No power of 1.5 times a power of it is 1, so that growing and
+/// shrinking steps do not come back to the same place.
+const SHORTER: f64 = 0.35;
+
 /// Least cosine of the angle between successive tangents.
 const STRAIGHT: f64 = 0.9;
 
@@ -38,7 +42,7 @@ impl<P: Problem> CurveTracer<P> {
             let length = self.step;
             let why = match self.at(length, watch) {
                 Ok((spot, off)) if self.is_straight(&spot) => {
-                    let factor = libm::cbrt(CORRECTION / off.abs().max(1e-12)).clamp(0.4, 1.5);
+                    let factor = libm::cbrt(CORRECTION / off.abs().max(1e-12)).clamp(SHORTER, 1.5);
                     self.step =
                         (length * factor).clamp(self.settings.smallest_step, self.settings.largest_step);
                     return Ok((spot, length));
@@ -47,7 +51,7 @@ impl<P: Problem> CurveTracer<P> {
                 Err(Failure::Stopped) => return Err(End::Stopped),
                 Err(Failure::Obstructed(why)) => why,
             };
-            self.step = 0.4 * length;
+            self.step = SHORTER * length;
             if self.step < self.settings.smallest_step {
                 return Err(End::StepUnderflow { step: length, why });
             }
@@ -92,19 +96,20 @@ impl<P: Problem> CurveTracer<P> {
         }
     }
 
-    /// More unknowns, where an orbit needs them.
+    /// More unknowns, where an orbit needs them and a frame is found for them.
     fn refine(&mut self, watch: &dyn Watch) {
         let Some(x) = self.problem.refine(&self.spot.x, &self.spot.local, watch) else { return };
-        let old = last_two(&self.spot.frame.along);
-        self.spot.x = x;
-        self.before = None;
-        if let Ok(mut spot) = self.framed(watch) {
-            let [p, q] = last_two(&spot.frame.along);
-            if p * old[0] + q * old[1] < 0.0 {
-                spot.frame.turn();
-            }
-            self.spot = spot;
+        let coarse = std::mem::replace(&mut self.spot.x, x);
+        let Ok(mut spot) = self.framed(watch) else {
+            self.spot.x = coarse;
+            return self.problem.coarsen();
+        };
+        let ([p, q], old) = (last_two(&spot.frame.along), last_two(&self.spot.frame.along));
+        if p * old[0] + q * old[1] < 0.0 {
+            spot.frame.turn();
         }
+        self.spot = spot;
+        self.before = None;
     }
 
     /// Where the curve leaves the box before `new`.

@@ -251,6 +251,10 @@ impl Problem for Orbits<'_> {
         Some(out)
     }
 
+    fn coarsen(&mut self) {
+        self.parts /= 2;
+    }
+
     fn body<'l>(&self, local: &'l Local) -> &'l dyn Equivariant {
         local.body.as_ref()
     }

@@ -72,6 +72,9 @@ pub(super) trait Problem: Equations {
         None
     }
 
+    /// Takes back what [`Problem::refine`] changed.
+    fn coarsen(&mut self) {}
+
     /// The size of the largest shape.
     fn size(&self, x: &[f64]) -> f64;
 

@@ -11,6 +11,10 @@ use motiform_dynamics::Watch;
 /// the step.
 const CORRECTION: f64 = 1e-3;
 
+/// A step that fails is tried again with this part of its length. No power of 1.5 times a power of it is 1, so that growing and
+/// shrinking steps do not come back to the same place.
+const SHORTER: f64 = 0.35;
+
 /// Least cosine of the angle between successive tangents.
 const STRAIGHT: f64 = 0.9;
 
@@ -21,7 +25,7 @@ impl<P: Problem> Tracer<P> {
             let length = self.step;
             let why = match self.attempt(length, watch) {
                 Ok((place, first)) => {
-                    let factor = libm::cbrt(CORRECTION / first.max(1e-12)).clamp(0.4, 1.5);
+                    let factor = libm::cbrt(CORRECTION / first.max(1e-12)).clamp(SHORTER, 1.5);
                     self.step =
                         (length * factor).clamp(self.settings.smallest_step, self.settings.largest_step);
                     return Ok((place, length));
@@ -29,7 +33,7 @@ impl<P: Problem> Tracer<P> {
                 Err(Failure::Stopped) => return Err(End::Stopped),
                 Err(Failure::Obstructed(why)) => why,
             };
-            self.step = 0.4 * length;
+            self.step = SHORTER * length;
             if self.step < self.settings.smallest_step {
                 return Err(End::StepUnderflow { step: length, why });
             }

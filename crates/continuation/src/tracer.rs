@@ -289,7 +289,7 @@ impl<P: Problem> Tracer<P> {
         Ok(())
     }
 
-    /// More unknowns, where an orbit needs them.
+    /// More unknowns, where an orbit needs them and a solution with them is found.
     fn refine(&mut self, watch: &dyn Watch) {
         let kept = self.problem.time().map_or(0, |time| self.place.x.len() - time);
         let old: Vec<f64> = self.place.tangent.iter().rev().take(kept).rev().copied().collect();
@@ -298,13 +298,13 @@ impl<P: Problem> Tracer<P> {
         let from = row.len() - kept;
         row[from..].copy_from_slice(&old);
         let weights = self.problem.weights(&x);
-        let Some(row) = scaled(row, &weights).map(|row| normal(&row, &weights)) else { return };
-        if let Ok(found) = correct(&self.problem, x, &row, TOLERANCE, watch)
-            && let Ok(place) = place(&self.problem, found, &row, self.place.arclength)
-        {
-            self.place = place;
-            self.before = None;
-        }
+        let found = scaled(row, &weights).map(|row| normal(&row, &weights)).and_then(|row| {
+            let found = correct(&self.problem, x, &row, TOLERANCE, watch).ok()?;
+            place(&self.problem, found, &row, self.place.arclength).ok()
+        });
+        let Some(place) = found else { return self.problem.coarsen() };
+        self.place = place;
+        self.before = None;
     }
 
     fn point(&self, place: &Place<P::Local>, special: Option<Special>) -> Point {

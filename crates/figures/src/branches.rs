@@ -10,7 +10,7 @@ use super::glyph::Glyph;
 use super::legend::{Entry, Mark};
 use super::marks::{REGIMES, regime_mark};
 use super::paint::Paint;
-use super::palette::{Colour, INK};
+use super::palette::{Colour, GREY, INK};
 use super::svg::Svg;
 
 const WIDTH: f64 = 600.0;
@@ -23,6 +23,17 @@ pub struct BranchPart {
     pub regime: String,
     /// Whether it is stable.
     pub stable: bool,
+    /// Points in data units.
+    pub points: Vec<Point>,
+}
+
+/// What was sampled while the parameter was swept in one direction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BranchDots {
+    /// What it is, as the legend says (markup).
+    pub label: String,
+    /// Upwards: dots; downwards: circles.
+    pub up: bool,
     /// Points in data units.
     pub points: Vec<Point>,
 }
@@ -57,6 +68,8 @@ pub struct BranchDiagram {
     pub x: [f64; 2],
     /// The branches.
     pub parts: Vec<BranchPart>,
+    /// Samples, drawn beneath.
+    pub dots: Vec<BranchDots>,
     /// The special points, drawn on top.
     pub marks: Vec<BranchMark>,
 }
@@ -68,6 +81,8 @@ impl BranchDiagram {
     pub fn svg(&self) -> Result<String> {
         let values = self.parts.iter().flat_map(|part| &part.points).flatten();
         let marks = self.marks.iter().flat_map(|mark| &mark.at);
+        let dots = self.dots.iter().flat_map(|dots| &dots.points).flatten();
+        let marks = marks.chain(dots);
         check_finite("branch value (parameter, value in turn)", values.chain(marks).chain(&self.x).copied())?;
         let sheet = Framed {
             title: &self.title,
@@ -78,6 +93,7 @@ impl BranchDiagram {
             head: 0.0,
         };
         sheet.svg(|svg, scale| {
+            self.dots.iter().for_each(|dots| dots.draw(svg, scale, self.kinds()));
             // stable parts on top of unstable ones
             for stable in [false, true] {
                 let parts = self.parts.iter().filter(|part| part.stable == stable);
@@ -98,6 +114,9 @@ impl BranchDiagram {
                 entries.push(Entry::new(Mark::Line(paint(INK, stable)), word));
             }
         }
+        entries.extend(
+            self.dots.iter().map(|dots| Entry::new(Mark::Dot(dots.paint(), dots.radius()), &dots.label)),
+        );
         let mut seen: Vec<&str> = Vec::new();
         for mark in &self.marks {
             if !seen.contains(&mark.label.as_str()) {
@@ -110,7 +129,8 @@ impl BranchDiagram {
 
     fn scale(&self) -> Result<Scale> {
         let shown = |p: &&Point| self.x[0] <= p[0] && p[0] <= self.x[1];
-        let points = self.parts.iter().flat_map(|part| &part.points).filter(shown);
+        let points = self.parts.iter().flat_map(|part| &part.points);
+        let points = points.chain(self.dots.iter().flat_map(|dots| &dots.points)).filter(shown);
         let kind = self.kinds()[1];
         let range = kind.range(points.filter_map(|p| kind.place(p[1])), 0.06);
         let (Some(y), Some(x)) = (range, Range::of(self.x)) else {
@@ -137,6 +157,9 @@ impl BranchDiagram {
         for mark in &self.marks {
             csv.row(&["", "", "", &mark.label], mark.at.map(Some));
         }
+        for dots in &self.dots {
+            dots.points.iter().for_each(|at| csv.row(&[&dots.label, "", "", ""], at.map(Some)));
+        }
         csv.finish()
     }
 }
@@ -153,6 +176,27 @@ impl BranchPart {
         let places: Vec<Point> = self.points.iter().filter_map(place).collect();
         for piece in clip(&places, scale.frame) {
             svg.polyline(&piece, false, &paint(regime_mark(&self.regime).colour, self.stable));
+        }
+    }
+}
+
+impl BranchDots {
+    fn radius(&self) -> f64 {
+        if self.up { 2.1 } else { 3.2 }
+    }
+
+    fn paint(&self) -> Paint {
+        if self.up { Paint::fill(GREY) } else { Paint::stroke(GREY, 0.8) }
+    }
+
+    fn draw(&self, svg: &mut Svg, scale: &Scale, kinds: [AxisKind; 2]) {
+        let frame = scale.frame;
+        for [x, y] in &self.points {
+            let (Some(x), Some(y)) = (kinds[0].place(*x), kinds[1].place(*y)) else { continue };
+            let [x, y] = scale.map([x, y]);
+            if (frame.x..=frame.right()).contains(&x) && (frame.y..=frame.bottom()).contains(&y) {
+                svg.circle([x, y], self.radius(), &self.paint());
+            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Drawing: plain data in, SVG text out. Independent of models, study files and solvers.
 //!
-//! Ten figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`], [`SpaceTimeFigure`], [`SpectrumFigure`],
-//! [`PhaseDiagram`], [`BranchDiagram`], [`BandFigure`], [`ErrorBarFigure`], [`SurvivalFigure`]) return self-contained SVG text (fonts and pictures are
+//! Eleven figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`], [`SpaceTimeFigure`], [`SpectrumFigure`],
+//! [`PhaseDiagram`], [`BranchDiagram`], [`CurveMap`], [`BandFigure`], [`ErrorBarFigure`], [`SurvivalFigure`]) return self-contained SVG text (fonts and pictures are
 //! inside); [`png()`] and, with the feature `pdf`, `pdf` convert that text to files; [`Animation`] returns an animated
 //! PNG. The same data give the same bytes: numbers are rounded to 0.01 pixel and no system font is used. All texts are
 //! markup, see [`Label`]; every regime has its [`RegimeMark`].
@@ -13,6 +13,7 @@ mod block;
 mod branches;
 mod clip;
 mod colour_bar;
+mod curve_map;
 mod error;
 mod error_bars;
 mod expected;
@@ -56,7 +57,8 @@ pub mod ticks;
 
 pub use animation::{Animation, Camera, Frame};
 pub use bands::{BandCurve, BandFigure, BandPoint};
-pub use branches::{BranchDiagram, BranchMark, BranchPart};
+pub use branches::{BranchDiagram, BranchDots, BranchMark, BranchPart};
+pub use curve_map::{CurveMap, CurveStyle, MapCurve, MapMark};
 pub use error::{FigureError, Result};
 pub use error_bars::{ErrorBarFigure, ErrorBarSeries, Interval, Measured};
 pub use expected::ExpectedLine;

@@ -33,7 +33,8 @@ pub fn settings(plan: &Plan, budget: f64) -> Result<Settings, Error> {
 }
 
 /// The classifier's settings: looks and budget (if that is 0) are those of the model, the rest is that of the plan.
-pub(crate) fn settings_of(
+#[must_use]
+pub fn settings_of(
     info: &ModelInfo,
     method: Method,
     control: Control,

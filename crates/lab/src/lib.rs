@@ -2,7 +2,6 @@
 //! steady shapes; a [`ScanPlan`](motiform_study::ScanPlan) is computed row by row; datasets and scans become figures.
 
 pub mod analyse;
-pub mod continuation;
 pub mod draw;
 pub mod ensemble;
 pub mod equilibria;

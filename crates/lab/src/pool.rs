@@ -7,7 +7,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The remaining jobs, and the answers so far.
 pub(crate) struct Jobs<'p, A> {
-    count: usize,
+    /// The jobs that had no answer at the beginning.
+    open: Vec<usize>,
     next: AtomicUsize,
     /// The answers, their number, and the first error.
     found: Mutex<(Vec<Option<A>>, usize, Option<Error>)>,
@@ -20,7 +21,7 @@ impl<A> Jobs<'_, A> {
         if self.watch.stopped() || held(&self.found).2.is_some() {
             return None;
         }
-        Some(self.next.fetch_add(1, Ordering::Relaxed)).filter(|job| *job < self.count)
+        self.open.get(self.next.fetch_add(1, Ordering::Relaxed)).copied()
     }
 
     /// The answer to a job; `None` if it was stopped. After an error no thread takes another job.
@@ -36,7 +37,7 @@ impl<A> Jobs<'_, A> {
                 failure.get_or_insert(error);
             }
         }
-        let part = *count as f64 / self.count as f64;
+        let part = *count as f64 / answers.len() as f64;
         drop(found);
         self.watch.progress(part);
     }
@@ -59,8 +60,23 @@ pub(crate) fn spread<A: Send>(
     watch: &dyn Watch,
     work: impl Fn(&Jobs<'_, A>) + Sync,
 ) -> Result<Option<Vec<A>>, Error> {
-    let answers = (0..count).map(|_| None).collect();
-    let jobs = Jobs { count, next: AtomicUsize::new(0), found: Mutex::new((answers, 0, None)), watch };
+    let answers = complete((0..count).map(|_| None).collect(), threads, watch, work)?;
+    Ok(answers.into_iter().collect())
+}
+
+/// The answers with those that were missing, as [`spread`]; where the watch stopped it, they are still missing.
+///
+/// # Errors
+/// The first error of a job.
+pub(crate) fn complete<A: Send>(
+    answers: Vec<Option<A>>,
+    threads: usize,
+    watch: &dyn Watch,
+    work: impl Fn(&Jobs<'_, A>) + Sync,
+) -> Result<Vec<Option<A>>, Error> {
+    let open: Vec<usize> = (0..answers.len()).filter(|&job| answers[job].is_none()).collect();
+    let (count, done) = (open.len(), answers.len() - open.len());
+    let jobs = Jobs { open, next: AtomicUsize::new(0), found: Mutex::new((answers, done, None)), watch };
     std::thread::scope(|scope| {
         for _ in 1..threads.min(count) {
             if std::thread::Builder::new().spawn_scoped(scope, || work(&jobs)).is_err() {
@@ -72,7 +88,7 @@ pub(crate) fn spread<A: Send>(
     let (answers, _, failure) = jobs.found.into_inner().unwrap_or_else(PoisonError::into_inner);
     match failure {
         Some(error) => Err(error),
-        None => Ok(answers.into_iter().collect()),
+        None => Ok(answers),
     }
 }
 

@@ -3,8 +3,8 @@
 use crate::errors::{of_json, python};
 use crate::study::Study;
 use crate::watch::Caller;
+use motiform_branching::{BranchFolder, columns, follow, summary};
 use motiform_files::columns::to_csv;
-use motiform_lab::continuation::{BranchFolder, columns, follow, summary};
 use motiform_study::BranchPlan;
 use motiform_study::branches::{Along, BranchSettings, origin};
 use pyo3::prelude::*;
@@ -28,7 +28,7 @@ pub(crate) fn follow_branches<'py>(
 ) -> PyResult<Followed<'py>> {
     let ((name, from, to), (branches, points)) = (along, counts);
     let origin = from_.map(origin).transpose().map_err(python)?;
-    let settings = BranchSettings { along: Along { name, from, to }, origin, points, branches };
+    let settings = BranchSettings { along: Along { name, from, to }, origin, points, branches, samples: 0 };
     let study = study.0.perturbed().map_err(python)?.0;
     let plan = BranchPlan::new(&study, &settings).map_err(python)?;
     let (found, raised) = Caller::here(py, progress, |watch| follow(&plan, None, watch));

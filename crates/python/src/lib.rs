@@ -6,6 +6,7 @@
 
 mod analyse;
 mod branches;
+mod curves;
 mod ensemble;
 mod errors;
 mod flow;
@@ -27,6 +28,8 @@ mod _motiform {
     use super::analyse::{classify, equilibria, lyapunov, motions, section};
     #[pymodule_export]
     use super::branches::{follow_branches, read_branches};
+    #[pymodule_export]
+    use super::curves::{follow, read_curves};
     #[pymodule_export]
     use super::ensemble::{ensemble, random_starts};
     #[pymodule_export]

@@ -32,3 +32,26 @@ def test_a_start_that_is_another_motion_is_refused() -> None:
         body.branches(("kappa2", 1.0, 1.6))
     with pytest.raises(ValueError, match="did you mean kappa2"):
         body.branches(("kapa2", 0.3, 1.6))
+
+
+def test_symmetry_breakings_lie_on_an_arch() -> None:
+    body = motiform.preset("fig4").replace(kappa2=0.9, kappa3=0.1)
+    plane = ("kappa2", 0.7, 1.2), ("kappa3", 0.09, 0.2)
+    found = body.curves("symmetry-breaking", *plane, from_="zigzag", branches=1)
+    assert found.complete and len(found) == 1 and found.parameters == ("kappa2", "kappa3")
+    arch = found[0]
+    assert arch.kind == "symmetry-breaking" and arch.not_found == ("doubly-critical",) and len(arch.ends) == 2
+    assert arch.start["kappa2"] == pytest.approx(0.783547, abs=1e-6)
+    assert 0.113 < arch.points["kappa3"].max() < 0.12
+    assert arch.points["critical_re"].to_numpy() == pytest.approx(-1.0, abs=1e-6)
+    assert len(found.codimension_2) == 0
+    axes = found.plot()
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("kappa2", "kappa3") and axes.get_legend() is not None
+
+
+def test_curves_of_other_kinds_are_refused() -> None:
+    body = motiform.preset("fig4").replace(kappa2=0.9, kappa3=0.1)
+    with pytest.raises(ValueError, match="did you mean hopf"):
+        body.curves(["hopff"], ("kappa2", 0.3, 1.6), ("kappa3", 0.02, 0.3))
+    with pytest.raises(ValueError, match="two different parameters"):
+        body.curves("hopf", ("kappa2", 0.3, 1.6), ("kappa2", 0.02, 2.0))

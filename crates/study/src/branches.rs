@@ -42,6 +42,8 @@ pub struct BranchSettings {
     pub points: usize,
     /// Most branches; 1 follows the motion itself and none that begins on it.
     pub branches: usize,
+    /// Values of the parameter at which motions are sampled, swept upwards and downwards; 0 for none.
+    pub samples: usize,
 }
 
 /// What will be computed.
@@ -68,8 +70,16 @@ pub struct BranchComputation {
     pub points: usize,
     /// Most branches.
     pub branches: usize,
+    /// Values of the parameter at which motions are sampled; 0 for none.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub samples: usize,
     /// The start: model, parameters, initial state, method.
     pub start: Computation,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+const fn is_none(count: &usize) -> bool {
+    *count == 0
 }
 
 impl Along {
@@ -88,7 +98,7 @@ impl Along {
         read().ok_or_else(|| wrong(text.to_owned(), "write NAME=LOW:HIGH, e.g. kappa2=0.3:1.6".to_owned()))
     }
 
-    fn check(&self, info: &'static ModelInfo, value: f64) -> Result<(), Error> {
+    pub(crate) fn check(&self, info: &'static ModelInfo, value: f64) -> Result<(), Error> {
         let spec = &info.parameters()[index_of(info.parameters(), info.name, &self.name)?];
         let refuse = |problem: String| Err(wrong(self.to_string(), problem));
         let (from, to, (min, max)) = (self.from, self.to, spec.allowed);
@@ -141,7 +151,7 @@ impl BranchPlan {
     /// # Errors
     /// [`Error`] naming the key, the value and the remedy.
     pub fn new(study: &Study, settings: &BranchSettings) -> Result<Self, Error> {
-        let BranchSettings { along, origin, points, branches } = settings.clone();
+        let BranchSettings { along, origin, points, branches, samples } = settings.clone();
         let plan = Plan::new(study)?;
         let start = plan.computation;
         check_no_noise(start.noise.map_or(0.0, |noise| noise.largest()))?;
@@ -150,7 +160,15 @@ impl BranchPlan {
         along.check(info, value)?;
         check("points", points as f64, (2..=1_000_000).contains(&points), "give from 2 to 1000000")?;
         check("branches", branches as f64, (1..=1000).contains(&branches), "give from 1 to 1000")?;
-        let computation = BranchComputation { format: BRANCH_FORMAT, along, origin, points, branches, start };
+        let some = samples == 0 || (2..=100_000).contains(&samples);
+        check(
+            "samples",
+            samples as f64,
+            some,
+            "give from 2 to 100000 values of the parameter, or 0 for none",
+        )?;
+        let computation =
+            BranchComputation { format: BRANCH_FORMAT, along, origin, points, branches, samples, start };
         Ok(Self { name: plan.name, title: plan.title, computation })
     }
 

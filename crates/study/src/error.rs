@@ -107,6 +107,27 @@ pub enum Error {
         /// The motions.
         known: Vec<&'static str>,
     },
+    /// Branches without a parameter to follow a motion along.
+    #[error("nothing to follow: give the parameter to vary, with its range")]
+    NoAlong,
+    /// No curve of this kind can be followed.
+    #[error("unknown curve {name:?}{}: the special points that can be followed over two parameters are {}", hint(.nearest), .known.join(", "))]
+    CurveKind {
+        /// The name given.
+        name: String,
+        /// The most similar name.
+        nearest: Option<&'static str>,
+        /// The kinds.
+        known: Vec<&'static str>,
+    },
+    /// A plane of two parameters that cannot be used.
+    #[error("plane {text}: {problem}")]
+    Plane {
+        /// The plane as given.
+        text: String,
+        /// What is wrong and how to mend it.
+        problem: String,
+    },
     /// The motion that a start settles on is not one to begin with.
     #[error("the start settles on {found} motion ({why}), {problem}")]
     Start {
@@ -117,8 +138,8 @@ pub enum Error {
         /// Why it cannot be followed, and the remedy.
         problem: String,
     },
-    /// A folder that holds other branches.
-    #[error("{} holds other branches than those asked for: choose another --out, or --force to replace it", .path.display())]
+    /// A folder that holds other branches, curves or orbits.
+    #[error("{} holds other branches, curves or orbits than those asked for", .path.display())]
     OtherBranches {
         /// The folder.
         path: PathBuf,

@@ -6,9 +6,11 @@
 pub mod branches;
 mod checks;
 mod control;
+pub mod curves;
 pub mod dataset;
 mod ending;
 mod error;
+mod follow_settings;
 pub mod initial;
 pub mod input;
 mod named;
@@ -26,6 +28,7 @@ pub mod titles;
 mod toml_reader;
 
 pub use branches::BranchPlan;
+pub use curves::CurvePlan;
 pub use dataset::{Dataset, Manifest};
 pub use ending::Ending;
 pub use error::Error;

@@ -1,5 +1,6 @@
 //! A study as typed: everything is optional, nothing is computed yet.
 
+pub use crate::follow_settings::FollowSettings;
 use crate::input;
 use crate::random::Random;
 pub use crate::run_settings::RunSettings;
@@ -38,6 +39,8 @@ pub struct Study {
     pub run: RunSettings,
     /// The scan.
     pub scan: ScanSettings,
+    /// Branches and curves.
+    pub follow: FollowSettings,
     /// The return map, if any.
     pub return_map: Option<ReturnMapSettings>,
     /// How to draw.
@@ -144,6 +147,7 @@ impl Study {
             perturb: Self::PERTURB,
             run: RunSettings { stepper: info.stepper.to_owned(), rtol: info.rtol, ..RunSettings::default() },
             scan: ScanSettings::default(),
+            follow: FollowSettings::default(),
             return_map: None,
             figure: FigureSettings { animation: true, ..FigureSettings::default() },
             display: DisplaySettings::of_model(info),

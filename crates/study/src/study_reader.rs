@@ -4,7 +4,7 @@ use crate::checks::{check_display, check_plane};
 use crate::random::Random;
 use crate::run_settings::RunSettings;
 use crate::scan::Axis;
-use crate::study::{DisplaySettings, FigureSettings, ReturnMapSettings, ScanSettings, Study};
+use crate::study::{DisplaySettings, FigureSettings, FollowSettings, ReturnMapSettings, ScanSettings, Study};
 use crate::toml_reader::{Source, Table, Value};
 use crate::{Error, presets};
 use motiform_models::{MODELS, ModelInfo};
@@ -40,6 +40,10 @@ impl Study {
         }
         if let Some(table) = top.table("scan")? {
             study.scan = read_scan(&study, table)?;
+        }
+        if let Some(table) = top.table("continue")? {
+            let info = study.info()?;
+            study.follow.read(info, table)?;
         }
         if let Some(table) = top.table("return_map")? {
             let preset = study.return_map.take();
@@ -230,6 +234,7 @@ pub fn schema() -> serde_json::Value {
             "initial": initial,
             "run": section::<RunSettings>(),
             "scan": section::<ScanSettings>(),
+            "continue": section::<FollowSettings>(),
             "return_map": section::<ReturnMapSettings>(),
             "figure": section::<FigureSettings>(),
             "display": section::<DisplaySettings>(),

@@ -40,6 +40,7 @@ impl Study {
             ("initial", initial),
             ("run", changed("run", &self.run, &bare.run)?),
             ("scan", with_texts(changed("scan", &self.scan, &bare.scan)?, "axes", &self.scan.axes)),
+            ("continue", self.follow.to_table()?),
             ("figure", changed("figure", &self.figure, &bare.figure)?),
             (
                 "display",
@@ -89,8 +90,13 @@ fn changed<T: Serialize>(key: &'static str, settings: &T, default: &T) -> Result
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::branches::Along;
+    use crate::curves::{CurveKind, Plane};
     use crate::presets::PRESETS;
-    use crate::study::{DisplaySettings, FigureSettings, ReturnMapSettings, RunSettings, ScanSettings};
+    use crate::study::{
+        DisplaySettings, FigureSettings, FollowSettings, ReturnMapSettings, RunSettings, ScanSettings,
+    };
+    use motiform_analysis::Regime;
 
     fn back(study: &Study) -> Study {
         Study::parse(&study.to_toml().unwrap(), "text", &study.name).unwrap()
@@ -129,6 +135,15 @@ mod tests {
             axes: vec![Axis::parse("gamma=0.1:0.7:5").unwrap(), Axis::parse("kappa2=0.3").unwrap()],
             samples: 4,
             budget: 12.0,
+        };
+        study.follow = FollowSettings {
+            along: Some(Along { name: "kappa2".to_owned(), from: 0.1 + 0.2, to: 1e-3 + 1.6 }),
+            from: Some(Regime::Zigzag),
+            curve: vec![CurveKind::Hopf, CurveKind::PeriodDoubling],
+            plane: Some(Plane::parse("kappa2,gamma=0.02:1e-7").unwrap()),
+            points: 7,
+            branches: 3,
+            samples: 40,
         };
         study.return_map = Some(ReturnMapSettings { y: 1.0, x_min: -2.0, x_max: 3.5, centre: true });
         study.figure =

@@ -71,6 +71,8 @@ pub(super) const CONTINUE_HELP: &str = "\
 Examples:
   motiform continue tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.9 --from zigzag --along kappa2=0.3:1.6
   motiform continue tensor --preset fig4 --set kappa3=0.3 --set kappa2=1.5 --along kappa2=0.3:3 --branches 3
+  motiform continue tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.9 --along kappa2=0.3:1.6 --curve hopf,symmetry-breaking \
+    --in kappa2,kappa3=0.02:0.3
   motiform continue cell --set length=12.6 --from circular --along length=12:13.5 --json
 
 The start is simulated until its motion is named, as `motiform classify` does. That motion is followed to both sides of the range by

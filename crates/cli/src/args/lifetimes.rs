@@ -37,6 +37,9 @@ pub(crate) struct LifetimesOptions {
     /// Write lifetimes.json and the figure mean-life into this folder
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// Go on with the orbits in the output folder (begin, if there is none); an interrupted run keeps what it followed there
+    #[arg(long, requires = "out", conflicts_with = "force")]
+    pub(crate) resume: bool,
     /// Replace an existing folder of lifetimes
     #[arg(long)]
     pub(crate) force: bool,

@@ -12,17 +12,31 @@ pub(crate) struct ContinueOptions {
     pub(crate) method: MethodOptions,
     /// The parameter to vary, with its range; the start lies inside
     #[arg(long, value_name = "NAME=LOW:HIGH")]
-    pub(crate) along: String,
+    pub(crate) along: Option<String>,
     /// The motion that the start must settle on: motionless, straight, circular, zigzag, quasi-periodic or pulsating-straight
     /// (default: whatever it settles on)
     #[arg(long, value_name = "MOTION")]
     pub(crate) from: Option<String>,
-    /// Maximum number of branches; 1 follows the motion alone, and nothing that begins on its branch
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = whole, allow_hyphen_values = true)]
-    pub(crate) branches: u64,
-    /// Maximum number of points of a branch to each side
-    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = whole, allow_hyphen_values = true)]
-    pub(crate) points: u64,
+    /// Follow the special points of these kinds over two parameters: hopf, fold, pitchfork, symmetry-breaking, period-doubling, torus
+    #[arg(long, value_name = "KIND,...")]
+    pub(crate) curve: Option<String>,
+    /// The plane of these curves: across, upwards; one of the two is that of --along. Default ranges: that of --along, and
+    /// the plane of the preset
+    #[arg(long = "in", value_name = "NAME,NAME=LOW:HIGH")]
+    pub(crate) plane: Option<String>,
+    /// Draw the curves over this scan of the same plane
+    #[arg(long, value_name = "SCAN", requires = "curve")]
+    pub(crate) over: Option<PathBuf>,
+    /// Maximum number of branches; 1 follows the motion alone, and nothing that begins on its branch (default: 8)
+    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
+    pub(crate) branches: Option<u64>,
+    /// Maximum number of points of a branch or curve to each side (default: 2000)
+    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
+    pub(crate) points: Option<u64>,
+    /// Also simulate at N values of the parameter, swept upwards and downwards, each run from the end of the one before:
+    /// grey beneath the branches
+    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
+    pub(crate) samples: Option<u64>,
     /// What the diagram shows against the parameter
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Observable::Speed)]
     pub(crate) observable: Observable,
@@ -30,13 +44,13 @@ pub(crate) struct ContinueOptions {
     /// orbit never leaves an exact symmetry; 0 keeps the exact start
     #[arg(long, value_name = "SIZE", value_parser = number, allow_hyphen_values = true)]
     pub(crate) perturb: Option<f64>,
-    /// Output folder (default: MODEL-PRESET-branches here)
+    /// Output folder (default: MODEL-PRESET-branches here, with --curve MODEL-PRESET-curves)
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Go on with the branches in the output folder (begin, if there is none)
+    /// Go on with what is in the output folder (begin, if there is none)
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,
-    /// Replace earlier branches
+    /// Replace earlier branches or curves
     #[arg(long)]
     pub(crate) force: bool,
     /// Leave the figures out

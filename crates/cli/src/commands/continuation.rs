@@ -1,91 +1,122 @@
 //! `motiform continue`.
 
 use crate::args::{ContinueOptions, Observable};
-use crate::commands::subject;
+use crate::commands::{curves, subject};
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
+use motiform_branching::draw::{Ordinate, draw_branches};
+use motiform_branching::{BranchFolder, Followed, SpecialEntry, default_folder, follow, stretches, summary};
 use motiform_files::Staging;
-use motiform_lab::continuation::{
-    BranchFolder, Branches, Followed, SpecialEntry, default_folder, follow, stretches, summary,
-};
-use motiform_lab::draw::{Ordinate, Picture, draw_branches};
-use motiform_study::branches::{Along, BranchSettings, origin};
-use motiform_study::{BranchPlan, Error};
+use motiform_lab::draw::Picture;
+use motiform_study::branches::{Along, origin};
+use motiform_study::curves::{CurveKind, Plane};
+use motiform_study::{BranchPlan, CurvePlan, Error, Study};
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 pub(crate) fn run(options: &ContinueOptions) -> anyhow::Result<End> {
-    let plan = plan(options)?;
-    let (staging, before) = target(options, &plan)?;
-    for note in staging.iter().flat_map(Staging::swept) {
-        warn(note);
+    let study = study(options)?;
+    let plan = BranchPlan::new(&study, &study.follow.branches()?)?;
+    match study.follow.curves()? {
+        Some(settings) => curves::run(options, &CurvePlan::new(&study, plan, &settings)?),
+        None => branches(options, plan),
     }
+}
+
+fn branches(options: &ContinueOptions, plan: BranchPlan) -> anyhow::Result<End> {
+    let out = output(options, default_folder(&plan));
+    let (staging, before) = prepare(options, out, |path| BranchFolder::resume(path, &plan))?;
     let watch = Progress::new(plan.computation.branches as f64, "branches");
     let found = follow(&plan, before, &watch);
     watch.finish();
     let folder = BranchFolder { plan, found: found? };
-    let (written, undrawn) = write(options, &folder, staging)?;
+    let drawn = || pictures(options.observable, &folder);
+    let (written, undrawn) = write(options, staging, drawn, |pictures, to| folder.write(pictures, to))?;
     print(&if options.json {
         serde_json::to_string(&summary(&folder.plan, &folder.found))?
     } else {
         text(&folder, written.as_deref())?
     })?;
-    if let Some(error) = undrawn {
-        return Err(anyhow::Error::new(error).context("the points are written, the figures are not"));
-    }
-    if !folder.found.complete {
-        warn("interrupted: what is whole is kept; the same `motiform continue` with --resume goes on");
-        return Ok(End::Interrupted);
-    }
-    Ok(End::Done)
+    end(undrawn, folder.found.complete)
 }
 
 /// What the options describe.
-fn plan(options: &ContinueOptions) -> Result<BranchPlan, Error> {
+fn study(options: &ContinueOptions) -> Result<Study, Error> {
     let mut study = subject::study(&options.subject)?;
     subject::apply(&options.method, &mut study)?;
     study.perturb = options.perturb.unwrap_or(study.perturb);
-    let (study, perturbation) = study.perturbed()?;
+    let (mut study, perturbation) = study.perturbed()?;
     if let Some(perturbation) = perturbation {
         warn(&format!("{perturbation}; --perturb 0 keeps the exact start"));
     }
-    let settings = BranchSettings {
-        along: Along::parse(&options.along)?,
-        origin: options.from.as_deref().map(origin).transpose()?,
-        points: usize::try_from(options.points).unwrap_or(usize::MAX),
-        branches: usize::try_from(options.branches).unwrap_or(usize::MAX),
-    };
-    BranchPlan::new(&study, &settings)
+    let settings = &mut study.follow;
+    if let Some(along) = &options.along {
+        settings.along = Some(Along::parse(along)?);
+    }
+    if let Some(from) = &options.from {
+        settings.from = Some(origin(from)?);
+    }
+    if let Some(kinds) = &options.curve {
+        settings.curve = CurveKind::list(kinds)?;
+    }
+    if let Some(plane) = &options.plane {
+        settings.plane = Some(Plane::parse(plane)?);
+    }
+    settings.points = options.points.unwrap_or(settings.points);
+    settings.samples = options.samples.unwrap_or(settings.samples);
+    settings.branches = options.branches.unwrap_or(settings.branches);
+    Ok(study)
 }
 
-/// Where the result goes, and what is there of it: prepared before any computing, so that a wrong --out costs nothing.
-fn target(
+/// Where the result goes; nowhere, if it is only printed.
+pub(super) fn output(options: &ContinueOptions, default: String) -> Option<PathBuf> {
+    match &options.out {
+        Some(path) => Some(path.clone()),
+        None if options.json && !options.resume => None,
+        None => Some(PathBuf::from(default)),
+    }
+}
+
+/// Prepares the output before any computing, so that a wrong --out costs nothing, and reads what is there of the result.
+pub(super) fn prepare<T>(
     options: &ContinueOptions,
-    plan: &BranchPlan,
-) -> Result<(Option<Staging>, Option<Branches>), Error> {
-    let out = match &options.out {
-        Some(path) => path.clone(),
-        None if options.json && !options.resume => return Ok((None, None)),
-        None => PathBuf::from(default_folder(plan)),
-    };
-    let before = if options.resume { BranchFolder::resume(&out, plan)? } else { None };
-    Ok((Some(Staging::new(&out, true, options.force || options.resume)?), before))
+    out: Option<PathBuf>,
+    resume: impl FnOnce(&Path) -> Result<Option<T>, Error>,
+) -> Result<(Option<Staging>, Option<T>), Error> {
+    let Some(out) = out else { return Ok((None, None)) };
+    let before = if options.resume { resume(&out)? } else { None };
+    let staging = Staging::new(&out, true, options.force || options.resume)?;
+    staging.swept().iter().for_each(|note| warn(note));
+    Ok((Some(staging), before))
 }
 
 /// Writes the folder; what was written, and why there are no figures, if there are none.
-fn write(
+pub(super) fn write(
     options: &ContinueOptions,
-    folder: &BranchFolder,
     staging: Option<Staging>,
+    draw: impl FnOnce() -> Result<Vec<Picture>, Error>,
+    write: impl FnOnce(&[Picture], Staging) -> Result<PathBuf, Error>,
 ) -> Result<(Option<String>, Option<Error>), Error> {
     let Some(staging) = staging else { return Ok((None, None)) };
-    let drawn = if options.no_figures { Ok(Vec::new()) } else { pictures(options.observable, folder) };
+    let drawn = if options.no_figures { Ok(Vec::new()) } else { draw() };
     let (pictures, undrawn) = match drawn {
         Ok(pictures) => (pictures, None),
         Err(error @ Error::Figure(_)) => (Vec::new(), Some(error)),
         Err(error) => return Err(error),
     };
-    Ok((Some(folder.write(&pictures, staging)?.display().to_string()), undrawn))
+    Ok((Some(write(&pictures, staging)?.display().to_string()), undrawn))
+}
+
+/// How the command ends.
+pub(super) fn end(undrawn: Option<Error>, complete: bool) -> anyhow::Result<End> {
+    if let Some(error) = undrawn {
+        return Err(anyhow::Error::new(error).context("the points are written, the figures are not"));
+    }
+    if !complete {
+        warn("interrupted: what is whole is kept; the same `motiform continue` with --resume goes on");
+        return Ok(End::Interrupted);
+    }
+    Ok(End::Done)
 }
 
 fn pictures(observable: Observable, folder: &BranchFolder) -> Result<Vec<Picture>, Error> {

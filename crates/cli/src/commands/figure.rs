@@ -1,12 +1,14 @@
 //! `motiform figure`, and the drawing that `simulate` shares with it.
 
-use super::film;
+use super::{curves, film};
 use crate::args::{DrawingOptions, FigureOptions};
 use crate::output::{End, print};
+use motiform_branching::BranchFolder;
+use motiform_branching::curves::CurveFolder;
+use motiform_branching::draw::{Ordinate, draw_branches};
 use motiform_figures::Style;
 use motiform_files::{read_dataset, replace_file};
-use motiform_lab::continuation::BranchFolder;
-use motiform_lab::draw::{FigureFormat, Ordinate, Picture, draw, draw_branches, draw_scan};
+use motiform_lab::draw::{FigureFormat, Picture, draw, draw_scan};
 use motiform_lab::scan::ScanFolder;
 use motiform_study::study::FigureSettings;
 use motiform_study::{Dataset, Error, plan};
@@ -22,6 +24,11 @@ pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
         }
         if BranchFolder::is_one(folder) {
             let names = write_branches(folder)?;
+            print(&format!("{}: {}", folder.display(), names.join(" ")))?;
+            continue;
+        }
+        if CurveFolder::is_one(folder) {
+            let names = curves::redraw(folder)?;
             print(&format!("{}: {}", folder.display(), names.join(" ")))?;
             continue;
         }

@@ -8,28 +8,44 @@ use motiform_analysis::LifeLaws;
 use motiform_files::Staging;
 use motiform_lab::draw::FigureFormat;
 use motiform_lab::draw::lifetimes::draw_lifetimes;
-use motiform_lab::lifetimes::{LifeAt, Lifetimes, lifetimes};
+use motiform_lab::lifetimes::{LifeAt, Lifetimes, Lives, follow_lives};
 use motiform_lab::scan::Axis;
 use motiform_study::{Error, Random, ScanPlan};
 use serde_json::json;
 use std::fmt::Write;
+use std::path::Path;
 
 /// The file that marks a folder of lifetimes.
 const FILE: &str = "lifetimes.json";
 
+/// The file of the orbits, from which the work goes on.
+const ORBITS: &str = "orbits.json";
+
 pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
     let plan = plan(options)?;
-    let ours = |path: &std::path::Path| path.join(FILE).is_file();
-    let staging = options.out.as_ref().map(|out| Staging::replacing(out, options.force, ours)).transpose()?;
+    let ours = |path: &Path| path.join(FILE).is_file() || path.join(ORBITS).is_file();
+    let before = options
+        .out
+        .as_deref()
+        .filter(|_| options.resume)
+        .map(|out| out.join(ORBITS))
+        .filter(|path| path.symlink_metadata().is_ok());
+    let before = before.map(|path| Lives::read(&path, &plan)).transpose()?;
+    let force = options.force || options.resume;
+    let staging = options.out.as_ref().map(|out| Staging::replacing(out, force, ours)).transpose()?;
     let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = options.threads.map_or_else(all, usize::from);
     let watch = Progress::new(plan.rows() as f64, "orbits");
-    let found = lifetimes(&plan, options.transient, threads, &watch);
+    let lives = follow_lives(&plan, before, threads, &watch);
     watch.finish();
-    let Some(found) = found? else {
-        warn("interrupted: lives that were not followed to the end tell nothing, so nothing is kept");
-        return Ok(End::Interrupted);
-    };
+    let lives = lives?;
+    if let Some(staging) = &staging {
+        staging.write(ORBITS, &serde_json::to_vec(&lives)?)?;
+    }
+    if !lives.is_complete() {
+        return interrupted(staging);
+    }
+    let found = lives.summarised(&plan, options.transient)?;
     if let Some(staging) = staging {
         let mut text = serde_json::to_vec_pretty(&json(&plan, &found)?)?;
         text.push(b'\n');
@@ -42,6 +58,19 @@ pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
     print(&if options.json { json(&plan, &found)?.to_string() } else { summary(&plan, &found, options)? })?;
     let answered = !matches!(found.laws, LifeLaws::TooFew { .. } | LifeLaws::Neither { .. });
     Ok(if answered { End::Done } else { End::NotAsAsked })
+}
+
+/// Ends a run that was interrupted.
+fn interrupted(staging: Option<Staging>) -> anyhow::Result<End> {
+    if let Some(staging) = staging {
+        staging.commit()?;
+        warn(
+            "interrupted: the orbits followed to their ends are kept; the same `motiform lifetimes` with --resume goes on",
+        );
+    } else {
+        warn("interrupted: nothing is kept without --out");
+    }
+    Ok(End::Interrupted)
 }
 
 /// The plan that the options describe: all starts are random.

@@ -4,6 +4,7 @@ pub(crate) mod check;
 pub(crate) mod classify;
 pub(crate) mod completions;
 pub(crate) mod continuation;
+mod curves;
 pub(crate) mod equilibria;
 #[cfg(feature = "explorer")]
 pub(crate) mod explore;

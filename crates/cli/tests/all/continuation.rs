@@ -11,7 +11,8 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 /// The full model at kappa3 = 0.1, from the zigzag that a simulation settles on.
-const ZIGZAG: &str = "continue tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.9 --from zigzag --along";
+pub(crate) const ZIGZAG: &str =
+    "continue tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.9 --from zigzag --along";
 
 /// The parameters of the special points of a kind, over all branches.
 fn places(json: &Value, kind: &str) -> Vec<f64> {
@@ -140,7 +141,7 @@ fn the_reduced_models_lines_are_found() {
 }
 
 /// Waits until the program listens for SIGINT: the kernel shows the mask of caught signals.
-fn interrupt(mut child: Child, after: Duration) -> Option<i32> {
+pub(crate) fn interrupt(mut child: Child, after: Duration) -> Option<i32> {
     let start = Instant::now();
     loop {
         let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();

@@ -6,7 +6,7 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::process::Command;
 
 /// Each crate, and the crates below it that it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &[&str]); 16] = [
+const LAYERS: [(&str, &[&str]); 17] = [
     ("motiform-dynamics", &[]),
     ("motiform-models", &["motiform-dynamics"]),
     ("motiform-analysis", &["motiform-dynamics"]),
@@ -20,7 +20,6 @@ const LAYERS: [(&str, &[&str]); 16] = [
         "motiform-lab",
         &[
             "motiform-analysis",
-            "motiform-continuation",
             "motiform-dynamics",
             "motiform-figures",
             "motiform-files",
@@ -38,6 +37,19 @@ const LAYERS: [(&str, &[&str]); 16] = [
             "motiform-lab",
             "motiform-models",
             "motiform-statistics",
+            "motiform-study",
+        ],
+    ),
+    (
+        "motiform-branching",
+        &[
+            "motiform-analysis",
+            "motiform-continuation",
+            "motiform-dynamics",
+            "motiform-figures",
+            "motiform-files",
+            "motiform-lab",
+            "motiform-models",
             "motiform-study",
         ],
     ),
@@ -68,6 +80,7 @@ const LAYERS: [(&str, &[&str]); 16] = [
         "motiform",
         &[
             "motiform-analysis",
+            "motiform-branching",
             "motiform-dynamics",
             "motiform-explorer",
             "motiform-figures",
@@ -84,6 +97,7 @@ const LAYERS: [(&str, &[&str]); 16] = [
         "motiform-py",
         &[
             "motiform-analysis",
+            "motiform-branching",
             "motiform-dynamics",
             "motiform-figures",
             "motiform-files",

@@ -4,7 +4,10 @@
 
 use crate::common;
 
+use crate::continuation::interrupt;
 use common::{Folder, keys};
+use std::process::Stdio;
+use std::time::Duration;
 
 const SHORT: &str =
     "lifetimes tensor --preset fig4 --set kappa3=0.1 --along kappa2=0.1,0.2 --samples 6 --until 400";
@@ -24,7 +27,7 @@ fn a_short_run_has_too_few_events_and_says_so() {
     assert_eq!((json["values"].as_array().unwrap().len(), &json["values"][0]["starts"]), (2, &6.into()));
     assert!(keys(&json["values"][0]["life"]).contains(&"lower"));
     let names = common::names(&folder.path("lives"));
-    assert_eq!(names, ["lifetimes.json", "mean-life.png", "mean-life.svg"]);
+    assert_eq!(names, ["lifetimes.json", "mean-life.png", "mean-life.svg", "orbits.json"]);
     assert!(folder.run(&format!("{SHORT} --out lives")).expect(2).stderr.contains("--force"));
     folder.run(&format!("{SHORT} --out lives --force")).expect(1);
 }
@@ -43,4 +46,28 @@ fn bad_input_names_the_remedy() {
         let done = folder.run(words).expect(2);
         assert!(done.stderr.contains(told), "{words}: {}", done.stderr);
     }
+}
+
+#[test]
+fn an_interrupted_run_goes_on_to_the_same_numbers() {
+    let folder = Folder::new();
+    let words = "lifetimes tensor --preset fig4 --set kappa3=0.1 --along kappa2=0.1,0.2,0.3 --samples 64 --until 2e4 --threads 1";
+    let whole = folder.run(&format!("{words} --out whole"));
+    let mut command = folder.command(&format!("{words} --out parts"));
+    let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let code = interrupt(child, Duration::from_millis(200));
+    if code == Some(130) {
+        assert_eq!(common::names(&folder.path("parts")), ["orbits.json"]);
+        let orbits = common::read_json(&folder.path("parts/orbits.json"));
+        let orbits = orbits["orbits"].as_array().unwrap();
+        assert!(orbits.len() == 192 && orbits.iter().any(serde_json::Value::is_null));
+    }
+    let again = folder.run(&format!("{words} --out parts --resume"));
+    assert_eq!(again.stdout.replace("parts", "whole"), whole.stdout);
+    for name in ["lifetimes.json", "orbits.json", "mean-life.svg"] {
+        let bytes = |out: &str| std::fs::read(folder.path(out).join(name)).unwrap();
+        assert_eq!(bytes("whole"), bytes("parts"), "{name}");
+    }
+    let other = folder.run(&format!("{words} --seed 2 --out parts --resume")).expect(2).stderr;
+    assert!(other.contains("other branches, curves or orbits") && other.contains("--force"), "{other}");
 }

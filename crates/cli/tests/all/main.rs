@@ -7,6 +7,7 @@ mod cell;
 mod common;
 mod continuation;
 mod contract;
+mod curves;
 mod drawing;
 mod explore;
 mod faults;

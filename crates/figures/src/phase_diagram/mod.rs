@@ -97,6 +97,37 @@ impl PhaseDiagram {
         sheet.svg(|svg, scale| self.draw(svg, scale, &cells, look))
     }
 
+    /// Draws the cells with their markers into the frame of another figure; what lies outside is cut off.
+    pub(crate) fn draw_under(&self, svg: &mut Svg, scale: &Scale) -> Result<()> {
+        let cells = Cells::new(&self.x, &self.y, &self.cells)?;
+        let [x, y] = cells.ranges();
+        let ([left, top], [right, bottom]) = (scale.map([x.min, y.max]), scale.map([x.max, y.min]));
+        let own = Scale { frame: Rect { x: left, y: top, w: right - left, h: bottom - top }, x, y };
+        let mut drawn = Ok(());
+        svg.clipped(scale.frame, |svg| {
+            if Look::of(false, cells.size()) == Look::Tiles {
+                tiles::draw_grounds(svg, &own, &cells);
+                tiles::draw_markers(svg, &own, &cells);
+            } else {
+                drawn = mosaic::png(&own, &cells).map(|image| svg.image(own.frame, &image));
+                labels::draw(svg, &own, &cells);
+            }
+        });
+        drawn
+    }
+
+    /// What the cells cover, across and upwards.
+    pub(crate) fn ranges(&self) -> Result<[Range; 2]> {
+        Ok(Cells::new(&self.x, &self.y, &self.cells)?.ranges())
+    }
+
+    /// The part of the legend that explains the cells.
+    pub(crate) fn key_under(&self) -> Result<Vec<Entry>> {
+        let cells = Cells::new(&self.x, &self.y, &self.cells)?;
+        let look = Look::of(false, cells.size());
+        Ok(Self::default().legend(&cells, look))
+    }
+
     fn draw(&self, svg: &mut Svg, scale: &Scale, cells: &Cells, look: Look) -> Result<()> {
         match look {
             Look::Strip => strip::draw(svg, scale, cells),

@@ -122,7 +122,8 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary]) -> Vec<Stri
 }
 
 /// Notation of a parameter in figures.
-pub(super) fn symbol(info: &ModelInfo, name: &str) -> String {
+#[must_use]
+pub fn symbol(info: &ModelInfo, name: &str) -> String {
     let spec = info.parameters().iter().find(|spec| spec.name == name);
     spec.map_or_else(|| name.to_owned(), |spec| spec.symbol.to_owned())
 }

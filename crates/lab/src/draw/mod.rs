@@ -1,7 +1,6 @@
 //! Dataset to figures: their contents and texts. The drawing itself is in [`motiform_figures`].
 
 mod body;
-mod branches;
 mod diagram;
 mod film;
 pub mod lifetimes;
@@ -11,12 +10,11 @@ mod return_map;
 mod series;
 mod space_time;
 mod spectrum;
-mod words;
+pub mod words;
 
 use body::Body;
 pub use body::radius_for;
-pub use branches::{Ordinate, diagram as branch_diagram, draw_branches};
-pub use diagram::{boundary_lines, draw_scan, exponents, phase_diagram};
+pub use diagram::{boundary_lines, draw_scan, exponents, phase_diagram, symbol};
 use motiform_figures::{Drawn, Figure, FigureError, Style, png};
 use motiform_study::{Dataset, Error, Plan};
 

@@ -5,7 +5,7 @@ use motiform_dynamics::Outcome;
 use motiform_models::ModelInfo;
 use motiform_study::plan::{Control, Named, NoiseSettings};
 use motiform_study::titles::capital;
-pub(super) use motiform_study::titles::number;
+pub use motiform_study::titles::number;
 
 /// A non-breaking space.
 const SPACE: char = '\u{a0}';
@@ -15,8 +15,9 @@ pub(super) fn parameters(body: &Body<'_>) -> String {
     named(body.info, &body.dataset.manifest.plan.computation.parameters)
 }
 
-/// The same for these values of a model.
-pub(super) fn named(info: &ModelInfo, values: &Named) -> String {
+/// The values of a model that are not 0, as a sentence.
+#[must_use]
+pub fn named(info: &ModelInfo, values: &Named) -> String {
     let specs = info.parameters();
     let set: Vec<String> = specs
         .iter()
@@ -70,13 +71,15 @@ fn noise(noise: NoiseSettings, velocities: usize, seed: u64) -> String {
 }
 
 /// The name of a stepper, without the kind of its control.
-pub(super) fn stepper(name: &str) -> &str {
+#[must_use]
+pub fn stepper(name: &str) -> &str {
     let title = motiform_dynamics::steppers::Method::find(name).map_or(name, |method| method.title());
     [", fixed step", ", adaptive"].iter().find_map(|kind| title.find(kind)).map_or(title, |at| &title[..at])
 }
 
 /// `tolerances 10^-9 (relative) and 10^-12`, or the step.
-pub(super) fn control(control: Control) -> String {
+#[must_use]
+pub fn control(control: Control) -> String {
     match control {
         Control::Adaptive { rtol, atol } => {
             format!("relative tolerance {}, absolute {}", number(rtol), number(atol))

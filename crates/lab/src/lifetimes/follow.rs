@@ -13,6 +13,7 @@ use motiform_dynamics::{InPlane, Model, Outcome, Request, StepControl, StopOnly,
 use motiform_kernels::{STATE, TensorStart, has_ensemble, propagate_tensors};
 use motiform_models::tensor::Tensor;
 use motiform_study::{Error, ScanPlan};
+use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
@@ -27,7 +28,7 @@ const SLOW: f64 = 1e-2;
 const LAST_LOOKS: f64 = 4.0;
 
 /// Why an orbit was not followed any further.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum End {
     /// It blew up.
     BlewUp,
@@ -42,7 +43,7 @@ pub(super) enum End {
 }
 
 /// An orbit that was followed, and for how long (model time).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Followed {
     pub(super) end: End,
     pub(super) time: f64,

@@ -4,13 +4,14 @@ mod follow;
 #[cfg(test)]
 mod tests;
 
-use crate::pool::spread;
+use crate::pool::complete;
 use follow::{End, Followed, Follower};
 use motiform_analysis::{LifeCount, LifeLaws, MeanLife, Stay, compare_life_laws, mean_life};
 use motiform_dynamics::Watch;
 use motiform_study::plan::check;
-use motiform_study::{Error, ScanPlan};
-use serde::Serialize;
+use motiform_study::{Error, ScanPlan, input};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
 
 /// The longest time of an orbit if the plan has no budget, in looks of the model.
 const LOOKS: f64 = 100.0;
@@ -71,6 +72,88 @@ pub fn lifetimes(
     threads: usize,
     watch: &dyn Watch,
 ) -> Result<Option<Lifetimes>, Error> {
+    check_axis(plan, delay)?;
+    let lives = follow_lives(plan, None, threads, watch)?;
+    lives.is_complete().then(|| lives.summarised(plan, delay)).transpose()
+}
+
+/// The orbits of a plan, as far as they are followed, in its order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Lives {
+    plan_hash: String,
+    orbits: Vec<Option<Followed>>,
+}
+
+/// Follows the orbits of a plan that `before` does not hold. Where the watch stopped it, some are still missing; each of those that are
+/// there was followed to its end.
+///
+/// # Errors
+/// As [`lifetimes`].
+pub fn follow_lives(
+    plan: &ScanPlan,
+    before: Option<Lives>,
+    threads: usize,
+    watch: &dyn Watch,
+) -> Result<Lives, Error> {
+    let follower = Follower::new(plan, looks(plan)? as usize, watch)?;
+    let mut orbits = before.map_or_else(Vec::new, |lives| lives.orbits);
+    orbits.resize(plan.rows(), None);
+    let orbits = complete(orbits, threads, watch, |jobs| follower.run(jobs))?;
+    Ok(Lives { plan_hash: plan.hash(), orbits })
+}
+
+/// The longest time of an orbit, in whole looks of the model.
+fn looks(plan: &ScanPlan) -> Result<f64, Error> {
+    let (look, budget) = (plan.info()?.look, plan.computation.budget);
+    Ok((if budget > 0.0 { budget / look } else { LOOKS }).ceil())
+}
+
+impl Lives {
+    /// Reads the lives of `plan` from a file, to go on with.
+    ///
+    /// # Errors
+    /// [`Error::Unreadable`]; [`Error::OtherBranches`] for another plan.
+    pub fn read(path: &Path, plan: &ScanPlan) -> Result<Self, Error> {
+        let text = input::manifest(path).map_err(|error| Error::unreadable(path, error))?;
+        let lives: Self = serde_json::from_str(&text).map_err(|error| Error::unreadable(path, error))?;
+        if lives.plan_hash == plan.hash() && lives.orbits.len() == plan.rows() {
+            Ok(lives)
+        } else {
+            Err(Error::OtherBranches { path: path.to_owned() })
+        }
+    }
+
+    /// Whether every orbit was followed to its end.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        self.orbits.iter().all(Option::is_some)
+    }
+
+    /// Mean lives along the only axis of the plan, and their law, from the orbits that are there.
+    ///
+    /// # Errors
+    /// As [`lifetimes`].
+    pub fn summarised(&self, plan: &ScanPlan, delay: Option<f64>) -> Result<Lifetimes, Error> {
+        let axis = check_axis(plan, delay)?;
+        let (look, looks) = (plan.info()?.look, looks(plan)?);
+        let values: Vec<LifeAt> = axis
+            .values
+            .iter()
+            .zip(self.orbits.chunks(plan.computation.samples))
+            .map(|(&value, all)| {
+                let all: Vec<Followed> = all.iter().flatten().copied().collect();
+                summarise(value, &all, delay, look)
+            })
+            .collect::<Result<_, _>>()?;
+        let count =
+            |at: &LifeAt| LifeCount { parameter: at.value, events: at.life.events, watched: at.life.watched };
+        let laws = compare_life_laws(&values.iter().map(count).collect::<Vec<_>>())?;
+        Ok(Lifetimes { parameter: axis.name.clone(), until: looks * look, values, laws })
+    }
+}
+
+/// The only axis of the plan, and the delay checked.
+fn check_axis(plan: &ScanPlan, delay: Option<f64>) -> Result<&motiform_study::scan::Axis, Error> {
     let [axis] = &plan.computation.axes[..] else {
         let text = plan.computation.axes.last().map_or_else(String::new, |axis| axis.name.clone());
         return Err(Error::Axis {
@@ -84,20 +167,7 @@ pub fn lifetimes(
         delay.is_none_or(|delay| delay >= 0.0),
         "give a time of at least 0",
     )?;
-    let (look, budget) = (plan.info()?.look, plan.computation.budget);
-    let looks = (if budget > 0.0 { budget / look } else { LOOKS }).ceil();
-    let follower = Follower::new(plan, looks as usize, watch)?;
-    let Some(all) = spread(plan.rows(), threads, watch, |jobs| follower.run(jobs))? else { return Ok(None) };
-    let values: Vec<LifeAt> = axis
-        .values
-        .iter()
-        .zip(all.chunks(plan.computation.samples))
-        .map(|(&value, all)| summarise(value, all, delay, look))
-        .collect::<Result<_, _>>()?;
-    let count =
-        |at: &LifeAt| LifeCount { parameter: at.value, events: at.life.events, watched: at.life.watched };
-    let laws = compare_life_laws(&values.iter().map(count).collect::<Vec<_>>())?;
-    Ok(Some(Lifetimes { parameter: axis.name.clone(), until: looks * look, values, laws }))
+    Ok(axis)
 }
 
 fn summarise(value: f64, all: &[Followed], delay: Option<f64>, look: f64) -> Result<LifeAt, Error> {

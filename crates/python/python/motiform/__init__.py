@@ -13,6 +13,7 @@ from ._registry import MODELS, PRESETS, REGIMES, STEPPERS
 from ._registry import VERSION as __version__
 from .bodies import Cell, Tensor
 from .branches import Branch, Branches
+from .curves import Curve, Curves
 from .ensembles import Ensemble, ensemble
 from .errors import EndedEarly, Incomplete, Interrupted, WorkersLost
 from .measurements import Measured, Statistics, statistics
@@ -32,6 +33,8 @@ __all__ = [
     "Branches",
     "Cell",
     "Crossings",
+    "Curve",
+    "Curves",
     "EndedEarly",
     "Ensemble",
     "Equilibrium",

@@ -100,6 +100,15 @@ def statistics(
 def statistics_of(
     folders: list[str], transient: float, asked: tuple[list[float], tuple[str, float | None] | None]
 ) -> tuple[str, list[tuple[str, bytes]], BaseException | None]: ...
+def follow_curves(
+    study: Study,
+    kinds: list[str],
+    plane: tuple[tuple[str, float, float], tuple[str, float, float]],
+    from_: str | None,
+    counts: tuple[int, int],
+    progress: _Progress = None,
+) -> tuple[str, bytes, BaseException | None]: ...
+def read_curves(path: str) -> tuple[str, bytes, BaseException | None]: ...
 def equilibria(study: Study, starts: int, progress: _Progress = None) -> str: ...
 def section(
     study: Study, coordinate: str, value: float, direction: str, progress: _Progress = None

@@ -80,7 +80,8 @@ class Branches:
 
 
 _READ: dict[str, Callable[[str], Any]] = {
-    "motion": str, "form": str, "special": str, "branch": int, "point": int, "unstable": int, "stable": lambda text: text == "1",
+    "motion": str, "form": str, "special": str, "kind": str, "codimension_2": str, "branch": int, "curve": int,
+    "point": int, "unstable": int, "stable": lambda text: text == "1",
 }
 
 

@@ -14,6 +14,7 @@ import numpy.typing as npt
 from . import _motiform
 from ._registry import MODELS, ModelInfo
 from .branches import Branches, branches_of
+from .curves import Curves, curves_of
 from .errors import EndedEarly, Interrupted
 from .measurements import Statistics, Threshold, asked, statistics_from
 from .progress import Bar, Progress
@@ -325,6 +326,43 @@ class Model:
         with Bar(progress, bodies, "bodies") as bar:
             text, tables, raised = _motiform.statistics(study, counts, asked(radii, threshold), bar.callable())
         result = statistics_from(text, tables)
+        if raised is not None:
+            raise _raised(raised, result)
+        return result
+
+    def curves(
+        self,
+        kinds: str | Sequence[str],
+        along: tuple[str, float, float],
+        across: tuple[str, float, float],
+        *,
+        from_: str | None = None,
+        branches: int = 8,
+        points: int = 2000,
+        initial: Mapping[str, float] | None = None,
+        seed: int | None = None,
+        progress: Progress = None,
+    ) -> Curves:
+        """The special points of these `kinds` on the branches along one parameter, followed over two.
+
+        >>> body = motiform.preset("fig4").replace(kappa2=0.9, kappa3=0.1)
+        >>> plane = ("kappa2", 0.7, 1.2), ("kappa3", 0.05, 0.2)
+        >>> found = body.curves("symmetry-breaking", *plane, from_="zigzag", branches=1)
+        >>> found[0].points[["kappa2", "kappa3", "period"]]
+        >>> found.plot()
+
+        `kinds`: hopf, fold, pitchfork, symmetry-breaking, period-doubling, torus. `along` and `across` are parameters with their
+        ranges; the branches are followed as by :meth:`branches` along the first one.
+        """
+        study = _with(self._study, initial, {"seed": seed})
+        names = [kinds] if isinstance(kinds, str) else list(kinds)
+        sides = tuple((name, float(low), float(high)) for name, low, high in (along, across))
+        with Bar(progress, 1, "of branches and curves") as bar:
+            found = _motiform.follow_curves(
+                study, names, (sides[0], sides[1]), from_, (branches, points), bar.callable()
+            )
+        text, table, raised = found
+        result = curves_of(text, table)
         if raised is not None:
             raise _raised(raised, result)
         return result

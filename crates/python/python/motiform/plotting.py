@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from .branches import Branches
+    from .curves import Curves
     from .measurements import Statistics
     from .trajectory import Trajectory
 
@@ -272,3 +273,32 @@ def _plot_walk(found: Statistics, ax: Axes) -> None:
     if known:
         late = lag[lag >= (found.persistence.value / 4.0 if found.persistence.known else lag.max() / 30.0)]
         ax.plot(late, 4.0 * known[0].value * late, color="0.13", lw=1.0, ls=":", label="diffusive")
+
+
+_CURVES: dict[str, Any] = {
+    "hopf": "-", "fold": (0, (1, 1)), "pitchfork": "--", "symmetry-breaking": "-.", "period-doubling": ":",
+    "torus": (0, (6, 2, 1, 2, 1, 2)),
+}  # fmt: skip
+
+
+def plot_curves(found: Curves, ax: Axes | None) -> Axes:
+    """A line style for each kind, pale where the motion is unstable on both sides; points of codimension two with their names."""
+    ax = plt.subplots(layout="constrained")[1] if ax is None else ax
+    across, upwards = found.parameters
+    keys: dict[str, Line2D] = {}
+    for curve in found.curves:
+        x, y = (curve.points[name].to_numpy(float) for name in found.parameters)
+        bounds = (curve.points["unstable"] == 0).to_numpy()
+        style: dict[str, Any] = {"color": "0.13", "ls": _CURVES[curve.kind], "lw": 1.6}
+        keys.setdefault(curve.kind, Line2D([], [], label=curve.kind, **style))
+        edges = [0, *(np.flatnonzero(np.diff(bounds)) + 1), len(x)]
+        for first, last in zip(edges[:-1], edges[1:], strict=True):
+            shown = slice(max(first - 1, 0), last)
+            ax.plot(x[shown], y[shown], alpha=1.0 if bounds[first] else 0.4, **style)
+        for _, point in curve.codimension_2.iterrows():
+            at = (point[across], point[upwards])
+            ax.plot(*at, marker="o", mfc="white", mec="0.13", ls="none", ms=6, zorder=3)
+            ax.annotate(point["kind"], at, xytext=(5, 5), textcoords="offset points", fontsize="small")
+    ax.legend(handles=list(keys.values()), fontsize="small")
+    ax.set(xlabel=across, ylabel=upwards)
+    return ax

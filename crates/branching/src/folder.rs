@@ -1,16 +1,16 @@
-//! The folder of branches: `manifest.json`, `points.parquet`, `summary.json`, and `branches.json`, from which the work goes on.
+//! The folder of branches: `manifest.json`, `points.parquet`, `samples.parquet` if motions were sampled, `summary.json`, and `branches.json`, from which the work goes on.
 
 use super::follow::Branches;
 use super::summary::summary;
-use super::table::columns as table;
-use crate::draw::Picture;
+use super::table::{columns as table, sweep_columns};
 use motiform_files::{Staging, columns};
+use motiform_lab::draw::Picture;
 use motiform_study::dataset::VERSION;
 use motiform_study::{BranchPlan, Error, input};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-const MANIFEST: &str = "manifest.json";
+pub(crate) const MANIFEST: &str = "manifest.json";
 const STATE: &str = "branches.json";
 
 /// Provenance of branches. Knows no host, no user, no time of day.
@@ -88,6 +88,11 @@ impl BranchFolder {
         let text = serde_json::to_string(&manifest).map_err(|error| failed(error.to_string()))?;
         let points = columns::encode(&table(&self.plan, &self.found)?, vec![("motiform", text)]);
         staging.write("points.parquet", &points.map_err(|error| failed(error.to_string()))?)?;
+        if let Some(sweeps) = &self.found.sweeps {
+            let text = serde_json::to_string(&manifest).map_err(|error| failed(error.to_string()))?;
+            let samples = columns::encode(&sweep_columns(&self.plan, sweeps), vec![("motiform", text)]);
+            staging.write("samples.parquet", &samples.map_err(|error| failed(error.to_string()))?)?;
+        }
         staging.write(MANIFEST, &pretty(&manifest, &staging)?)?;
         staging.write("summary.json", &pretty(&summary(&self.plan, &self.found), &staging)?)?;
         let state = serde_json::to_vec(&self.found).map_err(|error| failed(error.to_string()))?;
@@ -99,14 +104,14 @@ impl BranchFolder {
     }
 }
 
-fn pretty(value: &impl Serialize, staging: &Staging) -> Result<Vec<u8>, Error> {
+pub(crate) fn pretty(value: &impl Serialize, staging: &Staging) -> Result<Vec<u8>, Error> {
     let mut json =
         serde_json::to_vec_pretty(value).map_err(|error| Error::write_failed(staging.target(), error))?;
     json.push(b'\n');
     Ok(json)
 }
 
-fn read<T: for<'d> Deserialize<'d>>(path: &Path) -> Result<T, Error> {
+pub(crate) fn read<T: for<'d> Deserialize<'d>>(path: &Path) -> Result<T, Error> {
     let text = input::manifest(path).map_err(|error| {
         Error::unreadable(path, format!("{error}; give a folder written by `motiform continue`"))
     })?;

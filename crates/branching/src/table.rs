@@ -2,6 +2,7 @@
 
 use super::family::Bodies;
 use super::follow::{Branches, Sample};
+use super::sweep::{SweepPoint, Sweeps};
 use motiform_files::columns::{Column, Values};
 use motiform_study::{BranchPlan, Error};
 
@@ -96,4 +97,37 @@ const NUMBERS: [Number; 10] = [
 fn numbers(rows: &Rows<'_>) -> Vec<Column> {
     let values = |read: fn(&Sample) -> f64| Values::Number(rows.iter().map(|row| read(row.2)).collect());
     NUMBERS.iter().map(|&(name, meaning, read)| Column::new(name, meaning, values(read))).collect()
+}
+
+/// The samples of both sweeps: a row per value of the parameter and direction.
+pub(crate) fn sweep_columns(plan: &BranchPlan, sweeps: &Sweeps) -> Vec<Column> {
+    let all: Vec<(i64, &SweepPoint)> = [(1, &sweeps.up), (0, &sweeps.down)]
+        .into_iter()
+        .flat_map(|(up, all)| all.iter().map(move |p| (up, p)))
+        .collect();
+    let number = |read: &dyn Fn(&SweepPoint) -> Option<f64>| {
+        Values::Number(all.iter().map(|entry| read(entry.1).unwrap_or(f64::NAN)).collect())
+    };
+    let name = &plan.computation.along.name;
+    vec![
+        Column::new(
+            "up",
+            "1 where the parameter was swept upwards, 0 downwards",
+            Values::Whole(all.iter().map(|entry| entry.0).collect()),
+        ),
+        Column::new(name, "the parameter that is varied", number(&|point| Some(point.parameter))),
+        Column::new(
+            "speed",
+            "mean speed; undefined where the run ended early",
+            number(&|point| point.speed.map(|speed| speed[0])),
+        ),
+        Column::new("speed_min", "smallest speed", number(&|point| point.speed.map(|speed| speed[1]))),
+        Column::new("speed_max", "largest speed", number(&|point| point.speed.map(|speed| speed[2]))),
+        Column::new(
+            "turning_rate",
+            "mean turning rate of the heading (rad per model time)",
+            number(&|point| point.turning_rate),
+        ),
+        Column::new("size", "largest size |u| of the shape", number(&|point| point.size)),
+    ]
 }

@@ -1,11 +1,11 @@
 //! What is read off one point of a branch.
 
 use super::family::Bodies;
-use crate::naming::steady;
 use motiform_analysis::regime::{Form, Regime, repeating};
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium};
 use motiform_continuation::{Motion, Point};
 use motiform_dynamics::{Model, Watch, escape::norm};
+use motiform_lab::naming::steady;
 use motiform_study::Error;
 use serde::{Deserialize, Serialize};
 

@@ -8,6 +8,8 @@
 //! A branch is the unit of work: one that was interrupted is kept as far as it came, and followed from its beginning when the work is
 //! taken up again ([`BranchFolder`]).
 
+pub mod curves;
+pub mod draw;
 mod family;
 mod folder;
 mod follow;
@@ -18,13 +20,14 @@ pub mod settle;
 mod single_loop;
 mod stretches;
 mod summary;
+pub mod sweep;
 mod table;
 
 pub use folder::{BranchFolder, default_folder};
 pub use follow::{Branches, Followed, Leg, Link, Sample, follow};
 pub use origin::Origin;
 pub use reading::Reading;
-pub(crate) use stretches::is_stable;
+use stretches::is_stable;
 pub use stretches::stretches;
 pub use summary::{SpecialEntry, summary};
 pub use table::columns;

@@ -1,11 +1,11 @@
 //! The bodies along a branch: one model, one of its parameters varied.
 
-use crate::analyse::settings_of;
 use motiform_analysis::periodic::Flow;
 use motiform_analysis::{Error as Refused, regime};
 use motiform_continuation::{Family, Settings};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Equivariant, Model, StepControl};
+use motiform_lab::analyse::settings_of;
 use motiform_models::ModelInfo;
 use motiform_study::{BranchPlan, Error};
 
@@ -43,6 +43,11 @@ impl<'p> Bodies<'p> {
             settings.flow = Flow { method: self.method, control: STIFF, max_steps: settings.flow.max_steps };
         }
         settings
+    }
+
+    /// The time in which the model's motions are looked at.
+    pub(super) const fn look(&self) -> f64 {
+        self.info.look
     }
 
     /// How the motion of the start is named, and the path on an orbit is computed: with the plan's own method.

@@ -5,6 +5,7 @@ use super::known::known;
 use super::origin::{Origin, both};
 use super::reading::Reading;
 use super::settle::settle;
+use super::sweep::{Sweeps, sweeps};
 use motiform_analysis::regime::{Form, Regime};
 use motiform_continuation::{Branch, End, Motion, Point};
 use motiform_dynamics::Watch;
@@ -57,6 +58,9 @@ pub struct Branches {
     pub links: Vec<Link>,
     /// How many origins were left because there were enough branches.
     pub left: usize,
+    /// Motions sampled along the parameter, if that was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sweeps: Option<Sweeps>,
     /// Whether everything was done that was asked for: not interrupted.
     pub complete: bool,
 }
@@ -85,8 +89,12 @@ pub fn follow(plan: &BranchPlan, before: Option<Branches>, watch: &dyn Watch) ->
             return Ok(work.done);
         }
     }
-    work.done.complete = true;
-    Ok(work.done)
+    let mut done = work.done;
+    if plan.computation.samples > 0 && done.sweeps.is_none() {
+        done.sweeps = sweeps(plan, watch)?;
+    }
+    done.complete = done.sweeps.is_some() || plan.computation.samples == 0;
+    Ok(done)
 }
 
 struct Work<'w> {
@@ -240,7 +248,13 @@ impl Followed {
 
 impl Branches {
     const fn none() -> Self {
-        Self { branches: Vec::new(), links: Vec::new(), left: 0, complete: false }
+        Self { branches: Vec::new(), links: Vec::new(), left: 0, sweeps: None, complete: false }
+    }
+
+    /// The point with these numbers: branch, leg and point.
+    #[must_use]
+    pub fn at(&self, [branch, leg, point]: [usize; 3]) -> Option<&Sample> {
+        self.branches.get(branch)?.legs.get(leg)?.samples.get(point)
     }
 
     /// Without the branch that was interrupted.

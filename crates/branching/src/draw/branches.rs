@@ -1,9 +1,12 @@
 //! Branches: the bifurcation diagram, and the periods.
 
-use super::{Picture, undrawable, words};
-use crate::continuation::{Branches, Followed, Origin, Sample, is_stable};
+use crate::sweep::{SweepPoint, Sweeps};
+use crate::{Branches, Followed, Origin, Sample, is_stable};
 use motiform_continuation::{End, Special};
-use motiform_figures::{BranchDiagram, BranchMark, BranchPart, DEFAULT_SCALE, Figure, Glyph, png};
+use motiform_figures::{
+    BranchDiagram, BranchDots, BranchMark, BranchPart, DEFAULT_SCALE, Figure, Glyph, png,
+};
+use motiform_lab::draw::{Picture, undrawable, words};
 use motiform_study::plan::Named;
 use motiform_study::{BranchPlan, Error};
 
@@ -30,6 +33,16 @@ impl Ordinate {
             Self::Size => "largest size |*u*| of the shape",
             Self::NetRotation => "net rotation per period (rad)",
             Self::Period => "period (time)",
+        }
+    }
+
+    /// What a simulation shows; nothing where the two would not be comparable.
+    fn sampled(self, point: &SweepPoint) -> Option<f64> {
+        match self {
+            Self::Speed => point.speed.map(|speed| speed[0]),
+            Self::TurningRate => point.turning_rate.map(f64::abs),
+            Self::Size => point.size,
+            Self::NetRotation | Self::Period => None,
         }
     }
 
@@ -82,8 +95,19 @@ pub fn diagram(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Resul
         logarithmic: ordinate == Ordinate::Period,
         x: [along.from, along.to],
         parts: found.branches.iter().flat_map(|followed| all_parts(found, followed, ordinate)).collect(),
+        dots: found.sweeps.iter().flat_map(|sweeps| dots(sweeps, ordinate)).collect(),
         marks: found.branches.iter().flat_map(|followed| marks(followed, ordinate)).collect(),
     })
+}
+
+/// The samples of both sweeps.
+fn dots(sweeps: &Sweeps, ordinate: Ordinate) -> Vec<BranchDots> {
+    let points = |all: &[SweepPoint]| -> Vec<[f64; 2]> {
+        all.iter().filter_map(|point| Some([point.parameter, ordinate.sampled(point)?])).collect()
+    };
+    let all = [(true, "simulated, upwards", &sweeps.up), (false, "simulated, downwards", &sweeps.down)];
+    let dots = all.map(|(up, label, all)| BranchDots { label: label.to_owned(), up, points: points(all) });
+    dots.into_iter().filter(|dots| !dots.points.is_empty()).collect()
 }
 
 fn caption(plan: &BranchPlan, found: &Branches) -> Result<Vec<String>, Error> {
@@ -95,11 +119,16 @@ fn caption(plan: &BranchPlan, found: &Branches) -> Result<Vec<String>, Error> {
         1 => "; one point at which more may begin was left".to_owned(),
         left => format!("; {left} points at which more may begin were left"),
     };
+    let samples = if found.sweeps.is_some() {
+        format!(" Simulated at {} values, each run from the end of the one before.", c.samples)
+    } else {
+        String::new()
+    };
     let unfinished = if found.complete { "" } else { " Interrupted: not all of them are followed." };
     Ok(vec![
         words::named(plan.info()?, &Named(fixed)),
         format!(
-            "{count} branches by pseudo-arclength continuation, each drawn once for all its mirror images{left}.{unfinished}"
+            "{count} branches by pseudo-arclength continuation, each drawn once for all its mirror images{left}.{samples}{unfinished}"
         ),
     ])
 }

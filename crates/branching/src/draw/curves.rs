@@ -1,0 +1,175 @@
+//! The map of curves: the plane of two parameters, over the regimes of a scan if there is one.
+
+use crate::curves::{CurveSample, Curves, FollowedCurve, codimension_2};
+use motiform_continuation::{Degenerate, Special};
+use motiform_figures::{
+    CurveMap, CurveStyle, DEFAULT_SCALE, Figure, LineStyle, MapCurve, MapMark, PhaseDiagram, png,
+};
+use motiform_lab::draw::{Picture, phase_diagram, symbol, undrawable, words};
+use motiform_lab::scan::{CellSummary, ScanFolder, cells};
+use motiform_study::branches::Along;
+use motiform_study::curves::CurveKind;
+use motiform_study::plan::Named;
+use motiform_study::{CurvePlan, Error, ScanPlan};
+
+/// Draws `curves`: as SVG and PNG, with its numbers as CSV. Without any curve there is no picture.
+///
+/// # Errors
+/// [`Error::Plane`] for a scan of another plane or of other parameters, [`Error::Unreadable`], an unknown model, or numbers that no
+/// axis can hold.
+pub fn draw_curves(
+    plan: &CurvePlan,
+    found: &Curves,
+    over: Option<&ScanFolder>,
+) -> Result<Vec<Picture>, Error> {
+    if found.curves.iter().all(|curve| curve.legs.is_empty()) {
+        return Ok(Vec::new());
+    }
+    let drawn = curve_map(plan, found, over)?.drawn().map_err(undrawable)?;
+    let image = png(&drawn.svg, DEFAULT_SCALE, &[]).map_err(undrawable)?;
+    let files = [("svg", drawn.svg.into_bytes()), ("png", image), ("csv", drawn.data.into_bytes())];
+    Ok(files.map(|(ending, bytes)| Picture { name: format!("curves.{ending}"), bytes }).into())
+}
+
+/// The map of curves.
+///
+/// # Errors
+/// As [`draw_curves`].
+pub fn curve_map(plan: &CurvePlan, found: &Curves, over: Option<&ScanFolder>) -> Result<CurveMap, Error> {
+    let (info, sides) = (plan.info()?, &plan.computation.plane);
+    let [x, y] = sides.each_ref().map(|side| [side.from, side.to]);
+    let under = over.map(|folder| regimes(plan, folder)).transpose()?;
+    let in_order = CurveKind::ALL.into_iter().flat_map(|kind| of_kind(found, kind));
+    Ok(CurveMap {
+        title: plan.title(),
+        caption: caption(plan, found, under.as_ref())?,
+        x_label: symbol(info, &sides[0].name),
+        y_label: symbol(info, &sides[1].name),
+        x,
+        y,
+        under: under.map(|found| found.1),
+        curves: in_order.flat_map(stretches).collect(),
+        marks: found.curves.iter().flat_map(codimension_2).map(mark).collect(),
+    })
+}
+
+fn of_kind(found: &Curves, kind: CurveKind) -> impl Iterator<Item = &FollowedCurve> {
+    found.curves.iter().filter(move |curve| curve.kind == kind)
+}
+
+/// The stretches of a curve over which line style and stability stay the same.
+fn stretches(curve: &FollowedCurve) -> Vec<MapCurve> {
+    let samples: Vec<&CurveSample> = curve.samples().collect();
+    let mut all: Vec<MapCurve> = Vec::new();
+    for pair in samples.windows(2) {
+        let named = if pair[0].degenerate.is_none() { pair[0] } else { pair[1] };
+        let (label, style) = line(curve.kind, named);
+        let (from, to, bounds) = (pair[0].parameters, pair[1].parameters, named.unstable == 0);
+        match all.last_mut().filter(|last| last.style == style && last.bounds == bounds) {
+            Some(last) => last.points.push(to),
+            None => all.push(MapCurve { label: label.to_owned(), style, bounds, points: vec![from, to] }),
+        }
+    }
+    all
+}
+
+fn line(kind: CurveKind, sample: &CurveSample) -> (&'static str, CurveStyle) {
+    match (kind, sample.special) {
+        (CurveKind::Hopf, Special::Hopf(hopf)) if hopf.is_supercritical() == Some(false) => {
+            ("Hopf, subcritical", CurveStyle::Line(LineStyle::LongDashed))
+        }
+        (CurveKind::Hopf, _) => ("Hopf, supercritical", CurveStyle::Line(LineStyle::Solid)),
+        (CurveKind::Fold, _) => ("fold", CurveStyle::Thick),
+        (CurveKind::Pitchfork, _) => ("pitchfork", CurveStyle::Line(LineStyle::Dashed)),
+        (CurveKind::SymmetryBreaking, _) => ("symmetry breaking", CurveStyle::Line(LineStyle::DashDotted)),
+        (CurveKind::PeriodDoubling, _) => ("period doubling", CurveStyle::Line(LineStyle::Dotted)),
+        (CurveKind::Torus, _) => ("torus", CurveStyle::DashDotDotted),
+    }
+}
+
+fn mark((kind, sample): (Degenerate, &CurveSample)) -> MapMark {
+    let label = match kind {
+        Degenerate::Cusp => "cusp".to_owned(),
+        Degenerate::Bautin => "Bautin".to_owned(),
+        Degenerate::BogdanovTakens => "Bogdanov-Takens".to_owned(),
+        Degenerate::ZeroHopf => "zero-Hopf".to_owned(),
+        Degenerate::DoubleHopf => "double Hopf".to_owned(),
+        Degenerate::Resonance { order } => format!("1:{order} resonance"),
+        Degenerate::DoublyCritical => "doubly critical".to_owned(),
+        _ => "not located".to_owned(),
+    };
+    MapMark { label, at: sample.parameters }
+}
+
+/// The number of initial states of each cell of a scan, and its regimes, with its axes in the order of the plane.
+fn regimes(plan: &CurvePlan, folder: &ScanFolder) -> Result<(usize, PhaseDiagram), Error> {
+    let scan = folder.plan();
+    check_scan(plan, scan)?;
+    let found: Vec<CellSummary> = cells(folder)?.into_iter().flatten().collect();
+    let mut diagram = phase_diagram(scan, &found)?;
+    if scan.computation.axes[0].name != plan.computation.plane[0].name {
+        std::mem::swap(&mut diagram.x, &mut diagram.y);
+        diagram.cells.iter_mut().for_each(|cell| std::mem::swap(&mut cell.x, &mut cell.y));
+    }
+    Ok((scan.computation.samples, diagram))
+}
+
+/// Whether a scan is one of the same body over the same plane.
+///
+/// # Errors
+/// [`Error::Plane`].
+pub fn check_scan(plan: &CurvePlan, scan: &ScanPlan) -> Result<(), Error> {
+    let (c, start) = (&scan.computation, &plan.computation.branches.start);
+    let refuse = |problem: String| Err(Error::Plane { text: "of the scan beneath".to_owned(), problem });
+    let sides: Vec<&str> = plan.computation.plane.iter().map(|side| side.name.as_str()).collect();
+    let same = c.axes.len() == 2 && c.axes.iter().all(|axis| sides.contains(&axis.name.as_str()));
+    if c.model != start.model || !same {
+        let axes: Vec<&str> = c.axes.iter().map(|axis| axis.name.as_str()).collect();
+        return refuse(format!(
+            "it is one of {} over {}; give a scan of {} over {}",
+            c.model,
+            axes.join(" and "),
+            start.model,
+            sides.join(" and ")
+        ));
+    }
+    let other = c.parameters.0.iter().find(|(name, value)| start.parameters.get(name) != Some(*value));
+    match other {
+        Some((name, value)) => refuse(format!(
+            "it has {name} = {value}, the curves have {}: give a scan with the same parameters",
+            start.parameters.get(name).unwrap_or(f64::NAN)
+        )),
+        None => Ok(()),
+    }
+}
+
+fn caption(
+    plan: &CurvePlan,
+    found: &Curves,
+    under: Option<&(usize, PhaseDiagram)>,
+) -> Result<Vec<String>, Error> {
+    let c = &plan.computation;
+    let varied = |name: &str| c.plane.iter().any(|side| side.name == name);
+    let fixed = c.branches.start.parameters.0.iter().filter(|entry| !varied(&entry.0)).cloned().collect();
+    let (info, Along { name, .. }) = (plan.info()?, &c.plane[1 - plan.varied()]);
+    let number = |count: usize, one: &str, more: &str| {
+        if count == 1 { format!("one {one}") } else { format!("{count} {more}") }
+    };
+    let curves = found.curves.iter().filter(|curve| !curve.legs.is_empty()).count();
+    let unfinished = if found.complete { "" } else { " Interrupted: not all of them are followed." };
+    let at = format!("{}\u{a0}=\u{a0}{}", symbol(info, name), words::number(plan.fixed_value()));
+    let mut all = vec![
+        words::named(info, &Named(fixed)),
+        format!(
+            "{} by pseudo-arclength continuation, through the special points of {} at {at}.{unfinished}",
+            motiform_study::titles::capital(&number(curves, "curve", "curves")),
+            number(found.branches.branches.len(), "branch", "branches"),
+        ),
+    ];
+    if let Some((samples, diagram)) = under {
+        let states = number(*samples, "initial state", "initial states");
+        let cells = diagram.cells.len();
+        all.push(format!("Beneath: the motions that {states} settled on, in each of {cells} cells."));
+    }
+    Ok(all)
+}

@@ -1,0 +1,96 @@
+//! `motiform continue --curve`.
+
+use super::continuation::{end, output, prepare, write};
+use crate::args::ContinueOptions;
+use crate::output::{End, plain, print, warn};
+use crate::progress::Progress;
+use motiform_branching::curves::{
+    CurveFolder, FollowedCurve, codimension_2, curve_ends, curve_summary, default_curve_folder,
+    follow_curves, not_found,
+};
+use motiform_branching::draw::{check_scan, draw_curves};
+use motiform_lab::scan::ScanFolder;
+use motiform_study::{CurvePlan, Error};
+use std::fmt::Write;
+
+pub(crate) fn run(options: &ContinueOptions, plan: &CurvePlan) -> anyhow::Result<End> {
+    let over = options.over.as_deref().map(ScanFolder::read).transpose()?;
+    if let Some(folder) = &over {
+        check_scan(plan, folder.plan())?;
+    }
+    let out = output(options, default_curve_folder(plan));
+    let (staging, before) = prepare(options, out, |path| CurveFolder::resume(path, plan))?;
+    let watch = Progress::new(1.0, "of branches and curves");
+    let found = follow_curves(plan, before, &watch);
+    watch.finish();
+    let folder = CurveFolder { plan: plan.clone(), found: found? };
+    let drawn = || draw_curves(&folder.plan, &folder.found, over.as_ref());
+    let (written, undrawn) = write(options, staging, drawn, |pictures, to| folder.write(pictures, to))?;
+    if folder.found.complete && folder.found.curves.is_empty() {
+        warn(
+            "no special point of these kinds lies on the branches that were followed; --branches N follows more",
+        );
+    }
+    print(&if options.json {
+        serde_json::to_string(&curve_summary(&folder.plan, &folder.found))?
+    } else {
+        text(&folder, written.as_deref())?
+    })?;
+    end(undrawn, folder.found.complete)
+}
+
+fn text(folder: &CurveFolder, written: Option<&str>) -> anyhow::Result<String> {
+    let CurveFolder { plan, found } = folder;
+    let mut text = plain(&plan.title());
+    for side in &plan.computation.plane {
+        write!(text, ", {side}")?;
+    }
+    writeln!(text, "\n{} branches along {}", found.branches.branches.len(), plan.computation.branches.along)?;
+    for (number, followed) in found.curves.iter().enumerate() {
+        curve(&mut text, folder, (number, followed))?;
+    }
+    if let Some(written) = written {
+        writeln!(text, "written    {written}")?;
+    }
+    Ok(text.trim_end().to_owned())
+}
+
+fn curve(
+    text: &mut String,
+    CurveFolder { plan, found }: &CurveFolder,
+    (number, followed): (usize, &FollowedCurve),
+) -> std::fmt::Result {
+    let [across, upwards] = plan.computation.plane.each_ref().map(|side| side.name.as_str());
+    let [x, y] = found.start(plan, followed).unwrap_or([f64::NAN; 2]);
+    let (kind, points) = (followed.kind.name(), followed.samples().count());
+    writeln!(
+        text,
+        "curve {number:<4} {kind} through {across} = {x:.9}, {upwards} = {y:.9}, {points} points"
+    )?;
+    if let Some(why) = &followed.refused {
+        writeln!(text, "           not followed: {why}")?;
+    }
+    for (kind, sample) in codimension_2(followed) {
+        let [x, y] = sample.parameters;
+        writeln!(text, "           {:<17} {across} = {x:.9}  {upwards} = {y:.9}", kind.name())?;
+    }
+    let missing: Vec<&str> = not_found(followed).iter().map(|kind| kind.name()).collect();
+    if !missing.is_empty() {
+        writeln!(text, "           none found of {}", missing.join(", "))?;
+    }
+    for end in curve_ends(plan, followed) {
+        writeln!(text, "           ends: {end}")?;
+    }
+    Ok(())
+}
+
+/// Draws the curves again; the names of the figures.
+pub(super) fn redraw(path: &std::path::Path) -> Result<Vec<String>, Error> {
+    let CurveFolder { plan, found } = CurveFolder::read(path)?;
+    let mut names = Vec::new();
+    for picture in draw_curves(&plan, &found, None)? {
+        motiform_files::replace_file(&path.join(&picture.name), &picture.bytes)?;
+        names.push(picture.name);
+    }
+    Ok(names)
+}

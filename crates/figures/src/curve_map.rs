@@ -1,0 +1,227 @@
+//! Curves of bifurcations in a plane of two parameters, over the regimes if these are known.
+
+use super::axes::{Axes, Scale};
+use super::clip::clip;
+use super::error::{FigureError, Result, check_finite};
+use super::figure::{Csv, figure};
+use super::framed::Framed;
+use super::geometry::{Point, Range, Rect};
+use super::glyph::Glyph;
+use super::legend::{Entry, Mark};
+use super::line_style::LineStyle;
+use super::paint::Paint;
+use super::palette::{INK, WHITE};
+use super::phase_diagram::PhaseDiagram;
+use super::svg::{Anchor, Svg};
+use super::text::Label;
+
+const WIDTH: f64 = 600.0;
+const HEIGHT: f64 = 420.0;
+/// Size of the words beside a mark, in pixels.
+const WORDS: f64 = 11.5;
+
+/// How a curve is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CurveStyle {
+    /// As a line of theory.
+    Line(LineStyle),
+    /// A stroke and two dots in turn.
+    DashDotDotted,
+    /// Unbroken and thick.
+    Thick,
+}
+
+impl CurveStyle {
+    fn paint(self) -> Paint {
+        match self {
+            Self::Line(style) => style.paint(),
+            Self::DashDotDotted => LineStyle::Solid.paint().dashed("9 2.5 1.7 2.5 1.7 2.5"),
+            Self::Thick => Paint::stroke(INK, 3.2),
+        }
+    }
+}
+
+/// A stretch of a curve along which nothing changes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapCurve {
+    /// What it is, as the legend says (markup).
+    pub label: String,
+    /// Dashes.
+    pub style: CurveStyle,
+    /// Whether the motion has no growing direction but the critical one: other curves are pale.
+    pub bounds: bool,
+    /// Points in units of the axes; what lies outside the frame is cut off.
+    pub points: Vec<Point>,
+}
+
+/// A point of codimension two.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapMark {
+    /// What it is, as the figure says beside it (markup).
+    pub label: String,
+    /// Where it is, in units of the axes.
+    pub at: Point,
+}
+
+/// Curves of bifurcations in a plane of two parameters, with their points of codimension two.
+///
+/// # Units   those of the labels; texts are markup (see [`super::Label`])
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CurveMap {
+    /// Line above the legend.
+    pub title: String,
+    /// Paragraphs below the axes.
+    pub caption: Vec<String>,
+    /// Label of the x axis.
+    pub x_label: String,
+    /// Label of the y axis.
+    pub y_label: String,
+    /// Range across.
+    pub x: [f64; 2],
+    /// Range upwards.
+    pub y: [f64; 2],
+    /// The regimes beneath; of this diagram only the cells are drawn.
+    pub under: Option<PhaseDiagram>,
+    /// The curves.
+    pub curves: Vec<MapCurve>,
+    /// The points of codimension two.
+    pub marks: Vec<MapMark>,
+}
+
+impl CurveMap {
+    /// Draws the figure.
+    ///
+    /// # Errors   a range or a number that is not finite, or what a [`PhaseDiagram`] refuses
+    pub fn svg(&self) -> Result<String> {
+        let points = self.curves.iter().flat_map(|curve| &curve.points).flatten();
+        check_finite("value of a curve", points.chain(self.marks.iter().flat_map(|mark| &mark.at)).copied())?;
+        check_finite("end of a range", self.x.into_iter().chain(self.y))?;
+        let beneath = self.under.as_ref().map(PhaseDiagram::ranges).transpose()?;
+        let range = |own: [f64; 2], side: usize| {
+            let cells = beneath.iter().flat_map(|ranges| [ranges[side].min, ranges[side].max]);
+            Range::of(own.into_iter().chain(cells)).ok_or(FigureError::Empty { what: "range" })
+        };
+        let (x, y) = (range(self.x, 0)?, range(self.y, 1)?);
+        let frame = Rect { x: 0.0, y: 0.0, w: WIDTH, h: HEIGHT };
+        let scale = Scale { frame, x: x.padded(0.0), y: y.padded(0.0) };
+        let sheet = Framed {
+            title: &self.title,
+            caption: &self.caption,
+            legend: self.legend()?,
+            axes: Axes::new(scale, Some(&self.x_label), &self.y_label),
+            grid: self.under.is_none(),
+            head: 0.0,
+        };
+        sheet.svg(|svg, scale| self.draw(svg, scale))
+    }
+
+    fn draw(&self, svg: &mut Svg, scale: &Scale) -> Result<()> {
+        if let Some(under) = &self.under {
+            under.draw_under(svg, scale)?;
+        }
+        // pale ones first: nothing hides what bounds a regime
+        for bounds in [false, true] {
+            self.curves
+                .iter()
+                .filter(|curve| curve.bounds == bounds)
+                .for_each(|curve| curve.draw(svg, scale));
+        }
+        let inside = |mark: &&MapMark| {
+            let [x, y] = scale.map(mark.at);
+            let frame = scale.frame;
+            (frame.x..=frame.right()).contains(&x) && (frame.y..=frame.bottom()).contains(&y)
+        };
+        let mut taken: Vec<Rect> = Vec::new();
+        for mark in self.marks.iter().filter(inside) {
+            mark.draw(svg, scale, &mut taken);
+        }
+        Ok(())
+    }
+
+    fn legend(&self) -> Result<Vec<Entry>> {
+        let mut entries = self.under.as_ref().map_or(Ok(Vec::new()), PhaseDiagram::key_under)?;
+        let mut seen: Vec<&str> = Vec::new();
+        for curve in &self.curves {
+            if !seen.contains(&curve.label.as_str()) {
+                seen.push(&curve.label);
+                entries.push(Entry::new(Mark::Line(curve.style.paint()), &curve.label));
+            }
+        }
+        if self.curves.iter().any(|curve| !curve.bounds) {
+            let pale = LineStyle::Solid.paint().opacity(PALE);
+            entries.push(Entry::new(Mark::Line(pale), "pale: of a motion unstable on both sides"));
+        }
+        if !self.marks.is_empty() {
+            entries.push(Entry::new(Mark::Point(Glyph::Ring, INK, false), "point of codimension two"));
+        }
+        Ok(entries)
+    }
+
+    /// A row per point, curve after curve, then the marks, then the cells beneath.
+    fn csv(&self) -> String {
+        let head = ["part", "line or regime", "bounds"];
+        let mut csv =
+            Csv::new(head.into_iter().chain([self.x_label.as_str(), self.y_label.as_str(), "share"]));
+        for (number, curve) in self.curves.iter().enumerate() {
+            let bounds = if curve.bounds { "1" } else { "0" };
+            for [x, y] in &curve.points {
+                csv.row(&[&number.to_string(), &curve.label, bounds], [Some(*x), Some(*y), None]);
+            }
+        }
+        for MapMark { label, at: [x, y] } in &self.marks {
+            csv.row(&["", label, ""], [Some(*x), Some(*y), None]);
+        }
+        for cell in self.under.iter().flat_map(|under| &under.cells) {
+            for (regime, share) in &cell.shares {
+                csv.row(&["", regime, ""], [Some(cell.x), Some(cell.y), Some(*share)]);
+            }
+        }
+        csv.finish()
+    }
+}
+
+figure!(CurveMap);
+
+/// Opacity of curves that bound nothing.
+const PALE: f64 = 0.4;
+
+impl MapCurve {
+    fn draw(&self, svg: &mut Svg, scale: &Scale) {
+        let points: Vec<Point> = self.points.iter().map(|point| scale.map(*point)).collect();
+        for piece in clip(&points, scale.frame) {
+            if self.bounds {
+                svg.polyline(&piece, false, &Paint::stroke(WHITE, 3.6).opacity(0.85));
+            }
+            let paint = self.style.paint();
+            svg.polyline(&piece, false, &if self.bounds { paint } else { paint.opacity(PALE) });
+        }
+    }
+}
+
+impl MapMark {
+    /// The mark with its words: to the right and above, or where there is room.
+    fn draw(&self, svg: &mut Svg, scale: &Scale, taken: &mut Vec<Rect>) {
+        let [x, y] = scale.map(self.at);
+        let label = Label::parse(&self.label);
+        let (w, h) = (label.width(WORDS) + 4.0, WORDS + 4.0);
+        let frame = scale.frame;
+        let places = [(7.0, -7.0 - h), (7.0, 7.0), (-7.0 - w, -7.0 - h), (-7.0 - w, 7.0)];
+        let rect = |(dx, dy): (f64, f64)| Rect { x: x + dx, y: y + dy, w, h };
+        let fits = |rect: &Rect| {
+            rect.x >= frame.x
+                && rect.right() <= frame.right()
+                && rect.y >= frame.y
+                && rect.bottom() <= frame.bottom()
+                && taken.iter().all(|other| apart(rect, other))
+        };
+        let place = places.into_iter().map(rect).find(fits).unwrap_or_else(|| rect(places[0]));
+        svg.rect(place, &Paint::fill(WHITE).opacity(0.85));
+        svg.text([place.x + 2.0, place.y + 0.5 * h + 0.36 * WORDS], WORDS, Anchor::Start, &label);
+        Glyph::Ring.draw(svg, [x, y], 4.2, INK);
+        taken.push(place);
+    }
+}
+
+fn apart(a: &Rect, b: &Rect) -> bool {
+    a.right() < b.x || b.right() < a.x || a.bottom() < b.y || b.bottom() < a.y
+}

@@ -1,0 +1,146 @@
+//! The settings of branches and curves in a study: the table `[continue]`.
+
+use crate::Error;
+use crate::branches::{Along, BranchSettings, origin};
+use crate::curves::{CurveKind, CurveSettings, Plane};
+use crate::toml_reader::Table;
+use motiform_analysis::Regime;
+use motiform_models::ModelInfo;
+use motiform_models::parameters::index_of;
+use schemars::JsonSchema;
+
+/// Which motion is followed, and how far.
+#[derive(Clone, Debug, PartialEq, JsonSchema)]
+pub struct FollowSettings {
+    /// The parameter to vary, with its range: "kappa2=0.3:1.6"; the start lies inside.
+    #[schemars(with = "String")]
+    pub along: Option<Along>,
+    /// The motion that the start must settle on, such as "zigzag"; any, if not given.
+    #[schemars(with = "String")]
+    pub from: Option<Regime>,
+    /// Kinds of special points that are followed over two parameters, such as ["hopf", "fold"].
+    #[schemars(with = "Vec<String>")]
+    pub curve: Vec<CurveKind>,
+    /// The plane of these curves: "kappa2,kappa3=0.02:1"; one of the parameters is that of `along`.
+    #[schemars(with = "String", rename = "in")]
+    pub plane: Option<Plane>,
+    /// Most points of a branch or curve to each side.
+    pub points: u64,
+    /// Most branches.
+    pub branches: u64,
+    /// Values of the parameter at which motions are sampled, swept upwards and downwards.
+    pub samples: u64,
+}
+
+impl Default for FollowSettings {
+    fn default() -> Self {
+        Self {
+            along: None,
+            from: None,
+            curve: Vec::new(),
+            plane: None,
+            points: 2000,
+            branches: 8,
+            samples: 0,
+        }
+    }
+}
+
+impl FollowSettings {
+    /// The settings of the branches.
+    ///
+    /// # Errors
+    /// [`Error::NoAlong`].
+    pub fn branches(&self) -> Result<BranchSettings, Error> {
+        let whole = |count: u64| usize::try_from(count).unwrap_or(usize::MAX);
+        Ok(BranchSettings {
+            along: self.along.clone().ok_or(Error::NoAlong)?,
+            origin: self.from,
+            points: whole(self.points),
+            branches: whole(self.branches),
+            samples: whole(self.samples),
+        })
+    }
+
+    /// The settings of the curves, if there are any.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for curves without a plane, and a plane without curves.
+    pub fn curves(&self) -> Result<Option<CurveSettings>, Error> {
+        match (&self.curve[..], &self.plane) {
+            ([], None) => Ok(None),
+            ([], Some(plane)) => Err(Error::Setting {
+                key: "in",
+                value: plane.to_string(),
+                remedy: "this is the plane of curves: say of which kind they are",
+            }),
+            (kinds, None) => Err(Error::Setting {
+                key: "curve",
+                value: kinds.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(","),
+                remedy: "curves need a plane of two parameters: give both",
+            }),
+            (kinds, Some(plane)) => Ok(Some(CurveSettings { kinds: kinds.to_vec(), plane: plane.clone() })),
+        }
+    }
+
+    /// Reads the table; what it does not set is left as it is.
+    pub(crate) fn read(&mut self, info: &ModelInfo, mut table: Table<'_>) -> Result<(), Error> {
+        let known = |name: &str| index_of(info.parameters(), info.name, name);
+        if let Some(value) = table.take("along") {
+            let read = |text: String| {
+                let along = Along::parse(&text)?;
+                known(&along.name)?;
+                Ok::<_, Error>(along)
+            };
+            self.along = Some(read(value.text()?).map_err(|error| value.error(error))?);
+        }
+        if let Some(value) = table.take("from") {
+            self.from = Some(origin(&value.text()?).map_err(|error| value.error(error))?);
+        }
+        if let Some(value) = table.take("curve") {
+            let names = value.text().map(|one| vec![one]).or_else(|_| value.texts())?;
+            let kinds = CurveKind::list(&names.join(","));
+            self.curve = kinds.map_err(|error| value.error(error))?;
+        }
+        if let Some(value) = table.take("in") {
+            let read = |text: String| {
+                let plane = Plane::parse(&text)?;
+                plane.0.iter().try_for_each(|side| known(&side.0).map(|_| ()))?;
+                Ok::<_, Error>(plane)
+            };
+            self.plane = Some(read(value.text()?).map_err(|error| value.error(error))?);
+        }
+        table.whole("points", &mut self.points)?;
+        table.whole("branches", &mut self.branches)?;
+        table.whole("samples", &mut self.samples)?;
+        table.finish()
+    }
+
+    /// The table that reads back as these settings: what differs from the default.
+    pub(crate) fn to_table(&self) -> Result<toml::Table, Error> {
+        let default = Self::default();
+        let mut table = toml::Table::new();
+        let texts = [
+            ("along", self.along.as_ref().map(|Along { name, from, to }| format!("{name}={from:?}:{to:?}"))),
+            ("from", self.from.map(|regime| regime.name().to_owned())),
+            ("in", self.plane.as_ref().map(Plane::to_string)),
+        ];
+        table.extend(texts.into_iter().filter_map(|(key, text)| Some((key.to_owned(), text?.into()))));
+        if !self.curve.is_empty() {
+            let names: Vec<&str> = self.curve.iter().map(|kind| kind.name()).collect();
+            table.insert("curve".to_owned(), names.into());
+        }
+        let counts = [
+            ("points", self.points, default.points),
+            ("branches", self.branches, default.branches),
+            ("samples", self.samples, default.samples),
+        ];
+        for (key, count, _) in counts.into_iter().filter(|entry| entry.1 != entry.2) {
+            let remedy = "a study file holds whole numbers below 2^63 only: give a smaller one";
+            let whole =
+                i64::try_from(count).map_err(|_| Error::Setting { key, value: count.to_string(), remedy })?;
+            table.insert(key.to_owned(), whole.into());
+        }
+        Ok(table)
+    }
+}
