@@ -12,8 +12,8 @@ use motiform_study::{BranchPlan, Study};
 pub(crate) use orbit::OrbitJob;
 use std::sync::{Arc, Mutex};
 
-/// As low as that of the map.
-const NICE: i32 = 10;
+/// The reader asked for them: they go before the map.
+const NICE: i32 = 5;
 
 /// The orbit of a point that was clicked is waited for.
 const SOON: i32 = 3;

@@ -98,7 +98,7 @@ export class App implements Hearer {
     onTheme(() => this.recolour());
     // The event knows the address that was asked for; the bar may have been written to since.
     window.addEventListener("hashchange", (event) => this.openAddress(new URL(event.newURL).hash));
-    expose({ frames: () => this.frames, revision: () => this.revision(), frame: () => (this.later.due ? null : this.body.last()), map: this.map });
+    expose({ frames: () => this.frames, revision: () => this.revision(), frame: () => (this.later.due ? null : this.body.last()), map: this.map, branches: this.branches });
   }
 
   private known(): Session {

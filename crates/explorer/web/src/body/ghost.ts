@@ -1,11 +1,14 @@
 /** The orbit that the body was placed on: drawn as far as the trail goes back, and one period ahead; and where the body would be on it. */
 
+import type { Frame } from "../binary";
 import type { Orbit, Values } from "../protocol";
 import type { Inks } from "../theme";
 import type { Camera } from "./camera";
 
 /** No more periods than this are drawn. */
 const MOST = 120;
+/** A body that is so many of its radii from where it would be has left. */
+const GONE = 150;
 const DASH = [5, 4];
 
 export class Ghost {
@@ -53,12 +56,24 @@ export class Ghost {
     this.paintPlace(g, camera, t, inks);
   }
 
-  /** A ring where the body would be. */
-  private paintPlace(g: CanvasRenderingContext2D, camera: Camera, t: number, inks: Inks): void {
+  /** Whether the body is far from where it would be. */
+  left({ t, x, y, radius }: Frame): boolean {
+    const [u, v] = this.place(t);
+    return Math.hypot(u - x, v - y) > GONE * radius;
+  }
+
+  /** Where the body would be. */
+  private place(t: number): [number, number] {
     const { orbit } = this;
     const periods = Math.max(0, (t - orbit.t) / orbit.time);
-    const step = Math.round((periods % 1) * (orbit.points.length - 1));
-    const [x, y] = this.pixel(camera, Math.floor(periods), step);
+    const point = Math.round((periods % 1) * (orbit.points.length - 1));
+    return moved(this.start(Math.floor(periods)), orbit.points[point]);
+  }
+
+  /** A ring where the body would be. */
+  private paintPlace(g: CanvasRenderingContext2D, camera: Camera, t: number, inks: Inks): void {
+    const at = this.place(t);
+    const [x, y] = [camera.toX(at[0]), camera.toY(at[1])];
     g.beginPath();
     g.arc(x, y, 4, 0, 2 * Math.PI);
     g.fillStyle = inks.plot;

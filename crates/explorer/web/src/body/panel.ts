@@ -146,7 +146,8 @@ export class BodyPanel {
     const pointed = this.pointed === null ? -1 : Math.min(this.history.length - 1, this.history.since(this.pointed));
     const scene = { camera, history: this.history, from, frame, outline: this.outline, enlarged: this.enlarged, colour: this.colour, edge: this.edge, pointed };
     this.backdrop.paint(sheet, scene, currentInks());
-    if (this.ghost) this.ghost.paint(sheet.g, camera, this.since(), frame.t, currentInks());
+    if (this.ghost?.left(frame)) this.show(null);
+    this.ghost?.paint(sheet.g, camera, this.since(), frame.t, currentInks());
     paintBody(sheet.g, scene, currentInks());
     this.clock(frame);
     return true;
@@ -197,6 +198,6 @@ export class BodyPanel {
 }
 
 function words(ghost: Ghost): string {
-  if (ghost.unstable === 0) return "dashed: the orbit of the point chosen, stable; ring: where a body exactly on it is";
-  return "unstable: the body leaves this orbit (dashed; ring: where a body exactly on it would be). It started 0.1 % off.";
+  if (ghost.unstable === 0) return "stable: the body stays on this orbit (dashed; ring: a body exactly on it)";
+  return "unstable: the body leaves this orbit (dashed; ring: a body exactly on it). It started 0.1 % off.";
 }

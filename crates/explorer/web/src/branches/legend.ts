@@ -9,16 +9,30 @@ import type { BranchSet } from "./set";
 
 const SVG = "http://www.w3.org/2000/svg";
 
+/** The legend of the diagram. */
 export function showBranchLegend(element: HTMLElement, set: BranchSet | null, regimes: Regime[]): void {
   if (!set) return element.replaceChildren();
   const motions = regimes.filter((regime) => set.branches.some((branch) => branch.motion === regime.name));
-  const kinds = [...new Set(set.specials.map((special) => special.kind))].map(kindOf);
   element.replaceChildren(
     ...motions.map((regime) => make("li", { title: regime.meaning }, swatch(regime, 13), regime.name)),
+    ...lines(set),
+  );
+}
+
+/** The legend of the branches upon the map, whose colours are those of the map's own motions. */
+export function showLegendOnMap(element: HTMLElement, set: BranchSet | null, others: (Node | string)[]): void {
+  if (!set) return element.replaceChildren();
+  element.replaceChildren(make("li", { title: "The branches lie side by side, all at this value." }, "branches ", make("span", {}, ...others), ":"), ...lines(set));
+}
+
+/** Lines and markers. */
+function lines(set: BranchSet): HTMLElement[] {
+  const kinds = [...new Set(set.specials.map((special) => special.kind))].map(kindOf);
+  return [
     make("li", { title: "Small deviations die out." }, sample(STABLE.width, STABLE.dash), "stable"),
     make("li", { title: "Small deviations grow: a simulation leaves this motion." }, sample(UNSTABLE.width, UNSTABLE.dash), "unstable"),
     ...kinds.map((kind) => make("li", { title: kind.meaning }, marker(kind.glyph, 13), kind.label)),
-  );
+  ];
 }
 
 function sample(width: number, dash: number[]): SVGSVGElement {

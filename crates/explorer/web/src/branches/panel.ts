@@ -7,7 +7,7 @@ import { symbol } from "../symbols";
 import { BranchControls } from "./controls";
 import { Diagram } from "./diagram";
 import { listenToBranchKeys } from "./keys";
-import { showBranchLegend } from "./legend";
+import { showBranchLegend, showLegendOnMap } from "./legend";
 import { onMap, paintOnMap } from "./painting";
 import { BranchSet, type Spot } from "./set";
 import { Tip } from "./tip";
@@ -148,6 +148,11 @@ export class BranchPanel {
     return (place && this.set?.nearest(place, at, REACH.map)) ?? null;
   }
 
+  private isOnMap(): boolean {
+    const plane = this.host.plane();
+    return this.along !== null && (plane?.x.name === this.along || plane?.y?.name === this.along);
+  }
+
   private follow(name: string): void {
     const plane = this.host.plane();
     const along = [plane?.x, plane?.y].find((axis) => axis?.name === name);
@@ -172,6 +177,7 @@ export class BranchPanel {
     const filled = set && set.branches.length > 0 && parameter;
     this.diagram.show(filled ? { set, ordinate, parameter, now: this.host.parameters()[parameter.name], selected, regimes: this.host.regimes() } : null);
     showBranchLegend(byId("branch-legend"), filled ? set : null, this.host.regimes());
+    showLegendOnMap(byId("map-branch-legend"), filled && this.isOnMap() ? set : null, filled ? this.others(set) : []);
     this.controls.explain(!filled);
     byId("branch-others").replaceChildren(...(filled ? this.others(set) : []));
     this.host.touchMap();
