@@ -114,6 +114,7 @@ export class BodyPanel {
 
   private show(ghost: Ghost | null): void {
     this.ghost = ghost;
+    this.camera.noted = ghost !== null;
     this.dirty = true;
     const note = byId("orbit-note");
     note.hidden = !ghost;

@@ -44,7 +44,10 @@ export class BranchPanel {
     this.controls = new BranchControls({
       follow: (along) => this.follow(along),
       stop: () => this.stop(),
-      show: () => this.renew(),
+      show: () => {
+        this.tip.hide();
+        this.renew();
+      },
       turned: () => this.tip.hide(),
     });
     canvas.addEventListener("pointermove", (event) => this.point(event));

@@ -11,9 +11,11 @@ export class Tip {
     element.replaceChildren(...lines);
     element.hidden = false;
     const { clientWidth: width, clientHeight: height } = element.parentElement ?? element;
-    const right = x + GAP + element.offsetWidth <= width;
-    const left = right ? x + GAP : Math.max(0, x - GAP - element.offsetWidth);
-    const top = Math.min(Math.max(0, y - element.offsetHeight / 2), height - element.offsetHeight);
+    const within = (place: number, size: number, whole: number): number => Math.min(Math.max(0, place), whole - size);
+    const { offsetWidth: w, offsetHeight: h } = element;
+    const beside = [x + GAP, x - GAP - w].find((left) => left >= 0 && left + w <= width);
+    // where neither side has room, above or below
+    const [left, top] = beside === undefined ? [within(x - w / 2, w, width), y + GAP + h <= height ? y + GAP : y - GAP - h] : [beside, within(y - h / 2, h, height)];
     element.style.translate = `${left}px ${top}px`;
   }
 
