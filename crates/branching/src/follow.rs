@@ -8,7 +8,7 @@ use super::settle::settle;
 use super::sweep::{Sweeps, sweeps};
 use motiform_analysis::regime::{Form, Regime};
 use motiform_continuation::{Branch, End, Motion, Point};
-use motiform_dynamics::Watch;
+use motiform_dynamics::{StopOnly, Watch};
 use motiform_study::{BranchPlan, Error};
 use serde::{Deserialize, Serialize};
 
@@ -76,7 +76,12 @@ const COMPARED: usize = 8;
 /// [`Error::Start`]; what the models and the numerics refuse.
 pub fn follow(plan: &BranchPlan, before: Option<Branches>, watch: &dyn Watch) -> Result<Branches, Error> {
     let bodies = Bodies::new(plan)?;
-    let mut work = Work { bodies: &bodies, watch, done: before.map_or_else(Branches::none, Branches::whole) };
+    let mut work = Work {
+        bodies: &bodies,
+        watch,
+        stop: &StopOnly(watch),
+        done: before.map_or_else(Branches::none, Branches::whole),
+    };
     if work.done.branches.is_empty() && !work.begin()? {
         return Ok(work.done);
     }
@@ -100,6 +105,8 @@ pub fn follow(plan: &BranchPlan, before: Option<Branches>, watch: &dyn Watch) ->
 struct Work<'w> {
     bodies: &'w Bodies<'w>,
     watch: &'w dyn Watch,
+    /// For the flow, whose progress is none of the work.
+    stop: &'w dyn Watch,
     done: Branches,
 }
 
@@ -120,8 +127,8 @@ impl Work<'_> {
     /// Follows the motion that the start settles on. Whether it came to its end.
     fn begin(&mut self) -> Result<bool, Error> {
         let plan = self.bodies.plan;
-        let Some((start, _)) = settle(plan, self.watch)? else { return Ok(false) };
-        let legs = both(self.bodies, plan.start_value(), &start, self.watch)?;
+        let Some((start, _)) = settle(plan, self.stop)? else { return Ok(false) };
+        let legs = both(self.bodies, plan.start_value(), &start, self.stop)?;
         let mut followed = Followed { origin: Origin::Start, legs: Vec::new() };
         for leg in legs {
             followed.legs.push(self.leg(leg, &mut |_| false)?.unwrap_or_else(Leg::none));
@@ -131,7 +138,7 @@ impl Work<'_> {
 
     /// Follows what begins at an origin. Whether it came to its end.
     fn grow(&mut self, origin: Origin) -> Result<bool, Error> {
-        let Ok(legs) = origin.legs(self.bodies, &self.done.branches, self.watch) else {
+        let Ok(legs) = origin.legs(self.bodies, &self.done.branches, self.stop) else {
             return Ok(!self.watch.stopped() && self.link(origin, None));
         };
         let settings = self.bodies.settings();
@@ -141,7 +148,7 @@ impl Work<'_> {
             let mut is_known = |sample: &Sample| {
                 if number == 0 && seen < COMPARED && on.is_none() {
                     seen += 1;
-                    on = known(self.bodies, &self.done.branches, sample, &settings, self.watch);
+                    on = known(self.bodies, &self.done.branches, sample, &settings, self.stop);
                 }
                 on.is_some()
             };

@@ -55,7 +55,7 @@ fn about(pair: &[Sample], sample: &Sample) -> bool {
 }
 
 /// A motion of a neighbouring body as one of the body at `parameter`: the first point of the branch through it.
-fn moved(
+pub(super) fn moved(
     bodies: &Bodies<'_>,
     neighbour: &Sample,
     parameter: f64,

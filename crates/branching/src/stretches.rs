@@ -41,7 +41,7 @@ fn birth(found: &Branches, followed: &Followed) -> Option<f64> {
 
 /// Whether a stretch between neighbours is stable: a special point itself is neither.
 #[must_use]
-pub(crate) fn is_stable(a: &Sample, b: &Sample) -> bool {
+pub fn is_stable(a: &Sample, b: &Sample) -> bool {
     let known = |sample: &Sample| sample.point.special.is_none().then_some(sample.point.unstable == 0);
     known(a).or_else(|| known(b)).unwrap_or(false)
 }

@@ -4,11 +4,12 @@
 //! can only send the messages of `protocol`: no file is read or written for it. The page is built into the program.
 //! `PROTOCOL.md` describes the messages between the two.
 //!
-//! Each page has a `session`: a body that moves when the page requests it (`body`), and two workers (`worker`), which run only the
-//! latest job: classification of the motion and its exponents (`motion`), and the map (`map`).
+//! Each page has a `session`: a body that moves when the page requests it (`body`), and workers (`worker`), which run only the
+//! latest job: classification of the motion and its exponents (`motion`), the map (`map`), and branches of motions (`branches`).
 
 mod answers;
 mod body;
+mod branches;
 mod catalogue;
 mod connection;
 mod error;

@@ -68,6 +68,7 @@ const LAYERS: [(&str, &[&str]); 17] = [
         "motiform-explorer",
         &[
             "motiform-analysis",
+            "motiform-branching",
             "motiform-dynamics",
             "motiform-figures",
             "motiform-files",

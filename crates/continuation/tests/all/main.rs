@@ -5,3 +5,4 @@ mod curves;
 mod ends;
 mod equilibria;
 mod orbits;
+mod path;

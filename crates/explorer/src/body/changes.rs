@@ -1,6 +1,7 @@
 //! Changes of a body. Each keeps everything that it does not change, in particular the state.
 
 use super::setting::{Seen, Setting, decode, state_of};
+use crate::branches::Spot;
 use motiform_dynamics::Normal;
 use motiform_lab::live::start;
 use motiform_study::{Error, Plan, Random};
@@ -8,6 +9,9 @@ use std::collections::BTreeMap;
 
 /// Size of a kick, relative to the shape.
 const KICK: f64 = 0.2;
+
+/// A body placed on an unstable motion deviates from it by this part of its shape, so that it soon leaves it.
+const DEVIATION: f64 = 1e-3;
 
 impl Setting {
     /// The body with these parameters.
@@ -41,21 +45,44 @@ impl Setting {
 
     /// The body after a random kick: every entry of the shape changes by a fraction of the size of it and its neighbours.
     pub(super) fn kicked(&self, seen: &Seen<'_>) -> Result<Self, Error> {
-        let dim = self.model().dim();
+        let kicked = self.disturbed(seen.state, KICK);
+        self.changed(self.study().clone(), seen.t, kicked, seen.radius)
+    }
+
+    /// The body on a point of a branch: with its parameters and its shape, where it is now. If the motion is unstable, the shape is
+    /// disturbed a little.
+    pub(super) fn placed(&self, spot: &Spot, seen: &Seen<'_>) -> Result<Self, Error> {
+        let mut study = self.study().clone();
+        let values = spot.plan.parameters_at(spot.sample.point.parameter);
+        for ((name, _), value) in spot.plan.computation.start.parameters.0.iter().zip(values) {
+            study.set(name, value)?;
+        }
+        let model = study.info()?.build(&study.values()?)?;
+        let position = seen.state.last_chunk().copied().unwrap_or_default();
+        let mut state = state_of(model.as_ref(), &spot.sample.reading.state, position)?;
+        if spot.sample.point.unstable > 0 {
+            state = self.disturbed(&state, DEVIATION);
+        }
+        self.changed(study, seen.t, state, seen.radius)
+    }
+
+    /// A state whose shape is changed at random by a part of its size.
+    fn disturbed(&self, state: &[f64], part: f64) -> Vec<f64> {
+        let dim = state.len() - 2;
         let mut normal = Normal::new(self.study().run.seed, (1 << 40) + u64::from(self.revision()));
-        let mut kicked = seen.state.to_vec();
-        for (place, entry) in kicked[..dim].iter_mut().enumerate() {
+        let mut disturbed = state.to_vec();
+        for (place, entry) in disturbed[..dim].iter_mut().enumerate() {
             // Entries of a mode come in pairs; high modes of a cell are tiny, and must stay so.
-            let near = &seen.state[place.saturating_sub(3)..(place + 4).min(dim)];
+            let near = &state[place.saturating_sub(3)..(place + 4).min(dim)];
             let size = near
                 .iter()
                 .map(|x| x * x)
                 .sum::<f64>()
                 .sqrt()
                 .max(1e-3 * self.study().random.unwrap_or(Random::SMALL).largest());
-            *entry += KICK * size * normal.next();
+            *entry += part * size * normal.next();
         }
-        self.changed(self.study().clone(), seen.t, kicked, seen.radius)
+        disturbed
     }
 
     /// The body at its initial state, without the transient.

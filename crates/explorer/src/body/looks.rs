@@ -117,7 +117,7 @@ fn shorts(values: &[f64]) -> Vec<f64> {
 }
 
 /// A number with this many significant digits, for a short text.
-fn short(value: f64, digits: usize) -> f64 {
+pub(crate) fn short(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }
 

@@ -6,10 +6,12 @@ mod setting;
 mod stage;
 
 use crate::answers::{Answers, Gone};
+use crate::branches::BranchService;
 use crate::export::Exports;
 use crate::map::Map;
 use crate::motion::Naming;
 use crate::protocol::Ask;
+pub(crate) use looks::short;
 use motiform_dynamics::InPlane;
 pub(crate) use setting::Setting;
 use stage::Stage;
@@ -19,6 +21,7 @@ use std::sync::mpsc::Receiver;
 pub(crate) struct Services {
     pub(crate) naming: Naming,
     pub(crate) map: Map,
+    pub(crate) branches: BranchService,
     pub(crate) exports: Exports,
     pub(crate) answers: Answers,
 }
@@ -28,6 +31,7 @@ impl Services {
         Ok(Self {
             naming: Naming::new(answers.clone())?,
             map: Map::new(answers.clone())?,
+            branches: BranchService::new(answers)?,
             exports: Exports::new(answers.clone())?,
             answers: answers.clone(),
         })

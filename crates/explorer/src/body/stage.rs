@@ -4,11 +4,13 @@ use super::Services;
 use super::looks::{self, Look};
 use super::setting::{Seen, Setting, decode};
 use crate::answers::Gone;
+use crate::branches::{self, OrbitJob, Spot};
 use crate::export::Order;
 use crate::frames::Frame;
 use crate::map::{Job, MapFile};
 use crate::protocol::{
-    Advance, Ask, Begin, Cell, Ended, Export, MapWindow, Noise, Said, Section, Set, Share,
+    Advance, Ask, Begin, BranchPoint, Cell, Ended, Export, Follow, MapWindow, Noise, Said, Section, Set,
+    Share,
 };
 use crate::share;
 use motiform_dynamics::{InPlane, Model, Outcome, Outline};
@@ -79,6 +81,9 @@ impl<'s> Stage<'s> {
             Ask::Share(_) => self.share()?,
             Ask::Map(window) => self.map(window),
             Ask::Unmap(_) => self.services.map.stop(),
+            Ask::Follow(follow) => self.follow(follow),
+            Ask::Unfollow(_) => self.services.branches.stop(),
+            Ask::Place(point) => return self.place(point),
             Ask::Evidence(Cell { epoch, cell }) => self.evidence(epoch, cell)?,
             Ask::Export(export) => self.export(&export)?,
             Ask::Begin(begin) => return Ok(Some(self.begin(&begin))),
@@ -187,6 +192,31 @@ impl<'s> Stage<'s> {
         self.services.map.show(Job { window, study: self.setting.study().clone() });
     }
 
+    /// Follows the motion that the body settles on from where it is.
+    fn follow(&self, follow: Follow) {
+        let study = self.setting.study_at(self.stretch.state());
+        self.services.branches.follow(branches::Job { follow, study });
+    }
+
+    /// The body on a point of a branch; its orbit follows.
+    fn place(&self, point: BranchPoint) -> Result<Option<Change>, Gone> {
+        let BranchPoint { epoch, branch, point } = point;
+        let Some(spot) = self.services.branches.spot(epoch, branch, point) else {
+            let why = "there is no such point of a branch any more: follow the branches again";
+            return self.services.answers.refused(None, why).map(|()| None);
+        };
+        Ok(Some(self.placed(spot).map(told)))
+    }
+
+    fn placed(&self, spot: Spot) -> Result<Setting, Error> {
+        let seen = self.seen();
+        let setting = self.setting.placed(&spot, &seen)?;
+        let position = seen.state.last_chunk().copied().unwrap_or_default();
+        let (revision, parameters) = (setting.revision(), setting.told().parameters);
+        self.services.branches.orbit(OrbitJob { revision, spot, parameters, t: seen.t, position });
+        Ok(setting)
+    }
+
     fn evidence(&self, epoch: u32, cell: [u16; 2]) -> Result<(), Gone> {
         match self.services.map.evidence(epoch, cell) {
             Some(evidence) => self.services.answers.say(evidence),
@@ -221,14 +251,19 @@ impl<'s> Stage<'s> {
     fn begin(&self, begin: &Begin) -> Change {
         let setting = Setting::begin(begin, self.setting.revision().wrapping_add(1))?;
         self.services.map.stop();
+        self.services.branches.forget();
         let answer = setting.begun().into();
         Ok((setting, answer))
     }
 
     fn set(&self, parameters: &BTreeMap<String, f64>) -> Change {
         let setting = self.setting.with(parameters, &self.seen())?;
-        if parameters.keys().any(|name| !self.services.map.has_axis(name)) {
-            self.services.map.stop();
+        let Services { map, branches, .. } = self.services;
+        if parameters.keys().any(|name| !map.has_axis(name)) {
+            map.stop();
+        }
+        if parameters.keys().any(|name| !map.has_axis(name) && !branches.along(name)) {
+            branches.forget();
         }
         Ok(told(setting))
     }

@@ -134,6 +134,57 @@ messages! {
         why: String,
         numbers: Option<Values>,
     }
+    /// Branches begin: along this parameter, the others as they are.
+    #[derive(Serialize)]
+    BranchesBegun as "BranchesStart" { epoch: u32, along: Side, parameters: Named, }
+    /// A branch, point by point; `stable[k]`: between the points k and k + 1. A period of 0: none.
+    #[derive(Serialize)]
+    BranchTold as "Branch" {
+        epoch: u32,
+        branch: usize,
+        motion: &'static str,
+        form: Option<&'static str>,
+        origin: Option<[usize; 2]>,
+        parameter: Vec<f64>,
+        speed: Vec<f64>,
+        period: Vec<f64>,
+        unstable: Vec<usize>,
+        stable: Vec<bool>,
+        ends: Vec<String>,
+    }
+    /// A special point, and where it is on its branch; `leads`: the branch that begins or lies there.
+    #[derive(Serialize)]
+    SpecialPoint {
+        branch: usize,
+        point: usize,
+        kind: &'static str,
+        parameter: f64,
+        period: Option<f64>,
+        criticality: Option<&'static str>,
+        breaks: Option<&'static str>,
+        leads: Option<usize>,
+    }
+    /// The special points of all branches so far.
+    #[derive(Serialize)]
+    Specials { epoch: u32, points: Vec<SpecialPoint>, }
+    /// How far the branches are, 0 to 1, and the one under way.
+    #[derive(Serialize)]
+    FollowProgress as "Following" { epoch: u32, done: f64, branch: usize, }
+    /// No more branches: `left` points were left at which more may begin; `why` says what made it impossible.
+    #[derive(Serialize)]
+    FollowEnd as "Followed" { epoch: u32, branches: usize, left: usize, seconds: f64, why: Option<String>, }
+    /// The orbit that the body was placed on at time `t`, over one period, relative to `position`; the next one is turned by `rotation`.
+    #[derive(Serialize)]
+    OrbitTold as "Orbit" {
+        revision: u32,
+        parameters: Named,
+        unstable: usize,
+        t: f64,
+        position: [f64; 2],
+        time: f64,
+        rotation: f64,
+        points: Vec<[f64; 2]>,
+    }
     /// The body goes on no further until the next change.
     #[derive(Serialize)]
     Ended { revision: u32, outcome: &'static str, text: String, }
@@ -184,6 +235,12 @@ answers! {
     Progress(Progress) = "progress",
     Mapped(Mapped) = "mapped",
     Evidence(Evidence) = "evidence",
+    Branches(BranchesBegun) = "branches",
+    Branch(BranchTold) = "branch",
+    Specials(Specials) = "specials",
+    Following(FollowProgress) = "following",
+    Followed(FollowEnd) = "followed",
+    Orbit(OrbitTold) = "orbit",
     Ended(Ended) = "ended",
     Share(Share) = "share",
     Refused(Refused) = "refused",
@@ -196,6 +253,6 @@ pub(crate) fn parts() -> String {
             [$(interface(&<$type>::name(), <$type>::DOCS, None, &<$type>::fields())),*]
         };
     }
-    let parts = all! { Parameter Observable Side Plane Model Preset Regime Registry Exponent Spectrum Returns Grid Line };
+    let parts = all! { Parameter Observable Side Plane Model Preset Regime Registry Exponent Spectrum Returns Grid Line SpecialPoint };
     parts.join("\n") + "\n" + &Dashes::declaration()
 }

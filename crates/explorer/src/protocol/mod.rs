@@ -69,6 +69,14 @@ messages! {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     Cell { epoch: u32, cell: [u16; 2], }
+    /// Branches of the present motion along a parameter, at most so many.
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    Follow { epoch: u32, along: Side, branches: u16, }
+    /// Places the body on a point of a branch.
+    #[derive(Copy, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    BranchPoint { epoch: u32, branch: usize, point: usize, }
     /// A file to keep.
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -123,6 +131,9 @@ asks! {
     Map(MapWindow) = "map",
     Unmap(Bare) = "unmap",
     Evidence(Cell) = "evidence",
+    Follow(Follow) = "follow",
+    Unfollow(Bare) = "unfollow",
+    Place(BranchPoint) = "place",
     Share(Bare) = "share",
     Export(Export) = "export",
 }

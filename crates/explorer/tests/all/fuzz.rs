@@ -11,7 +11,7 @@ use mutate::{Mutator, cases};
 use std::time::Duration;
 use tungstenite::Message;
 
-const MESSAGES: [&str; 10] = [
+const MESSAGES: [&str; 12] = [
     r#"{"do":"begin","model":"tensor","preset":"fig5a"}"#,
     r#"{"do":"begin","model":"cell","preset":"fig6a","parameters":{"length":21.0},"noise":0.001,"seed":3}"#,
     r#"{"do":"set","parameters":{"kappa2":0.5,"kappa3":0.1}}"#,
@@ -22,6 +22,8 @@ const MESSAGES: [&str; 10] = [
     r#"{"do":"map","epoch":1,"x":{"name":"kappa2","low":-0.2,"high":0.2},"y":{"name":"gamma","low":-0.1,"high":0.1},"count":9}"#,
     r#"{"do":"evidence","epoch":1,"cell":[1,1]}"#,
     r#"{"do":"share"}"#,
+    r#"{"do":"follow","epoch":1,"along":{"name":"kappa2","low":0.3,"high":1.6},"branches":2}"#,
+    r#"{"do":"place","epoch":1,"branch":0,"point":3}"#,
 ];
 
 /// A page, as soon as those that were left are gone: a server takes only so many.

@@ -1,5 +1,6 @@
 //! All integration tests of this crate, in one program: what is generic is compiled once.
 
+mod branches;
 mod common;
 mod fuzz;
 mod server;

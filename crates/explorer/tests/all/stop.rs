@@ -65,6 +65,23 @@ fn while_a_map_is_filled() {
 }
 
 #[test]
+fn while_branches_are_followed() {
+    for wait in [50, 1000, 4000] {
+        let server = Running::anywhere();
+        let mut page = server.page();
+        page.say(
+            r#"{"do":"begin","model":"tensor","preset":"fig4","parameters":{"kappa2":0.9,"kappa3":0.1}}"#,
+        );
+        page.json("begun");
+        page.say(r#"{"do":"follow","epoch":1,"along":{"name":"kappa2","low":0.3,"high":1.6},"branches":24}"#);
+        std::thread::sleep(Duration::from_millis(wait));
+        let took = end(server);
+        println!("branches after {wait} ms: {took:?}");
+        assert!(took < SOON, "branches after {wait} ms: {took:?}");
+    }
+}
+
+#[test]
 fn while_a_file_is_made() {
     for what in ["body.apng", "path.png", "map.csv"] {
         let server = Running::anywhere();

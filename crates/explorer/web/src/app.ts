@@ -4,6 +4,7 @@ import { fresh, read, type Place } from "./address";
 import type { Frame } from "./binary";
 import { BodyPanel } from "./body/panel";
 import { showName } from "./body/naming";
+import { BranchPanel } from "./branches/panel";
 import { Connection } from "./connection";
 import { Controls } from "./controls";
 import { dispatch, type Hearer } from "./dispatch";
@@ -18,7 +19,7 @@ import { pretty, typeset } from "./numbers";
 import { Opening } from "./opening";
 import { ParameterPanel } from "./parameters";
 import { PresetBar } from "./presets";
-import type { Begun, Changed, Exponents, Hello, Named, Refused, Regime, Share, Strips, Values, Wish } from "./protocol";
+import type { Begun, Changed, Exponents, Hello, Named, Orbit, Refused, Regime, Share, Strips, Values, Wish } from "./protocol";
 import { Session } from "./session";
 import { ShareMenu } from "./share";
 import { showConnection } from "./status";
@@ -39,6 +40,7 @@ export class App implements Hearer {
     open: (open) => this.opened(open),
   });
   readonly map: MapPanel;
+  readonly branches: BranchPanel;
   private session: Session | null = null;
   private regime: Regime | null = null;
   private readonly opening = new Opening((begin) => this.send(begin));
@@ -62,11 +64,17 @@ export class App implements Hearer {
   constructor() {
     const send = (wish: Wish): void => this.send(wish);
     this.strips = new StripPanels(this.history, send, (time) => this.body.point(time), () => this.keeper.changed());
-    this.map = new MapPanel({
+    const known = { regimes: () => this.session?.registry.regimes ?? [], model: () => this.known().model, parameters: () => this.session?.parameters ?? {} };
+    this.branches = new BranchPanel({
       send,
-      regimes: () => this.session?.registry.regimes ?? [],
-      model: () => this.known().model,
-      parameters: () => this.session?.parameters ?? {},
+      ...known,
+      plane: () => this.map.current(),
+      touchMap: () => this.map.touch(),
+    });
+    this.map = new MapPanel({
+      upon: this.branches,
+      send,
+      ...known,
       choose: (values) => this.choose(values),
       moved: () => this.windowMoved(),
     });
@@ -90,7 +98,7 @@ export class App implements Hearer {
     onTheme(() => this.recolour());
     // The event knows the address that was asked for; the bar may have been written to since.
     window.addEventListener("hashchange", (event) => this.openAddress(new URL(event.newURL).hash));
-    expose({ frames: () => this.frames, revision: () => this.revision(), frame: () => (this.later.due ? null : this.body.last()), map: this.map });
+    expose({ frames: () => this.frames, revision: () => this.revision(), frame: () => (this.later.due ? null : this.body.last()), map: this.map, branches: this.branches });
   }
 
   private known(): Session {
@@ -107,12 +115,14 @@ export class App implements Hearer {
     const moving = this.loop.moving();
     if (this.body.draw(seconds)) this.later.go();
     this.map.draw();
+    this.branches.draw();
     this.strips.draw(now, moving, this.body);
     if (moving) this.keeper.moving(now);
   }
 
   private recolour(): void {
     this.map.touch();
+    this.branches.touch();
     this.strips.touch();
     this.paintBody();
   }
@@ -148,6 +158,7 @@ export class App implements Hearer {
     session.begun(begun, this.speedOf(place, begun));
     this.history.clear();
     this.body.begin();
+    if (this.map.current()) this.branches.forget();
     this.loop.look();
     document.title = `${begun.title} \u2013 motiform`;
     this.presets.show(session.model, begun.preset, begun.about || session.model.title);
@@ -179,7 +190,9 @@ export class App implements Hearer {
 
   changed(changed: Changed): void {
     const session = this.known();
-    session.agreed(changed);
+    const moved = session.agreed(changed);
+    // A point of a branch may lie off the map, whose axes were changed since.
+    if (moved.some((name) => !this.map.isAxis(name))) this.map.renew();
     if (!this.loop.playing) this.loop.look();
     this.renew(session);
   }
@@ -187,6 +200,7 @@ export class App implements Hearer {
   /** The motion is another one: no name, no exponents, and the body may move again. */
   private renew(session: Session): void {
     this.parameters.show(session.parameters);
+    this.body.renew(session.revision, session.parameters);
     this.presets.depart(session.departed());
     this.controls.setNoise(session.noise);
     this.map.touch();
@@ -243,6 +257,10 @@ export class App implements Hearer {
     this.map.touch();
   }
 
+  orbit(orbit: Orbit): void {
+    this.body.place(orbit);
+  }
+
   private take(frame: Frame): void {
     this.loop.received();
     this.frames++;
@@ -278,7 +296,9 @@ export class App implements Hearer {
     this.session.want(values);
     this.parameters.show(this.session.parameters);
     this.map.touch();
-    this.mapStale ||= Object.keys(values).some((name) => !this.map.isAxis(name));
+    const off = Object.keys(values).filter((name) => !this.map.isAxis(name));
+    this.mapStale ||= off.length > 0;
+    if (off.some((name) => name !== this.branches.along)) this.branches.forget();
     this.keeper.changed();
   }
 
@@ -305,6 +325,7 @@ export class App implements Hearer {
     const plane = this.map.current();
     this.share.showStrip(plane !== null && plane.y === null);
     this.parameters.markAxes(plane?.x.name ?? null, plane?.y?.name ?? null);
+    this.branches.axes();
     this.keeper.changed();
   }
 

@@ -1,11 +1,13 @@
 /** Who hears which answer. What belongs to an earlier motion is left aside here, once for all. */
 
-import type { Answer, Begun, Changed, Exponents, Hello, Named, Refused, Share, Strips } from "./protocol";
+import type { Answer, Begun, Changed, Exponents, Hello, Named, Orbit, Refused, Share, Strips } from "./protocol";
+import type { BranchPanel } from "./branches/panel";
 import type { MapPanel } from "./map/panel";
 
 /** The page, as the server speaks to it. */
 export interface Hearer {
   readonly map: MapPanel;
+  readonly branches: BranchPanel;
   /** Revision of the motion that the page shows. */
   revision(): number;
   hello(answer: Hello): void;
@@ -19,6 +21,8 @@ export interface Hearer {
   ended(text: string): void;
   shared(answer: Share): void;
   refused(answer: Refused): void;
+  /** The orbit that the body is placed on; it may come before the change. */
+  orbit(answer: Orbit): void;
 }
 
 export function dispatch(answer: Answer, to: Hearer): void {
@@ -37,6 +41,18 @@ export function dispatch(answer: Answer, to: Hearer): void {
       return to.map.mapped(answer);
     case "evidence":
       return to.map.evidence(answer);
+    case "branches":
+      return to.branches.begun(answer);
+    case "branch":
+      return to.branches.branch(answer);
+    case "specials":
+      return to.branches.specials(answer);
+    case "following":
+      return to.branches.following(answer);
+    case "followed":
+      return to.branches.followed(answer);
+    case "orbit":
+      return to.orbit(answer);
     case "share":
       return to.shared(answer);
     case "refused":

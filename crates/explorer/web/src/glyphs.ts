@@ -69,6 +69,32 @@ function element(tag: string, attributes: Record<string, string>): SVGElement {
   return out;
 }
 
+/** A marker of this shape, as in the figures. */
+export function marker(glyph: string, size: number): SVGSVGElement {
+  const svg = element("svg", { viewBox: "-2 -2 4 4", width: String(size), height: String(size), class: "swatch", "aria-hidden": "true" });
+  const { path, filled } = SHAPES[glyph] ?? SHAPES.Question;
+  svg.append(element("path", { d: path, fill: filled ? "currentColor" : "none", stroke: filled ? "none" : "currentColor", "stroke-width": "0.5", "stroke-linecap": "round" }));
+  return svg as SVGSVGElement;
+}
+
+/** Draws a marker with a halo, so that it stands out from lines and areas. */
+export function drawMarker(g: CanvasRenderingContext2D, glyph: string, [x, y]: [number, number], radius: number, ink: string, halo: string): void {
+  const { path, filled } = SHAPES[glyph] ?? SHAPES.Question;
+  const shape = new Path2D(path);
+  g.save();
+  g.translate(x, y);
+  g.scale(radius, radius);
+  g.lineJoin = g.lineCap = "round";
+  g.strokeStyle = halo;
+  g.lineWidth = filled ? 0.8 : 1.2;
+  g.stroke(shape);
+  g.fillStyle = g.strokeStyle = ink;
+  g.lineWidth = 0.5;
+  if (filled) g.fill(shape);
+  else g.stroke(shape);
+  g.restore();
+}
+
 /** Draws the shape upon an area of the regime's colour. */
 export function drawGlyph(g: CanvasRenderingContext2D, regime: Regime, x: number, y: number, radius: number): void {
   const { path, filled } = shapeOf(regime);

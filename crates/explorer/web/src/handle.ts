@@ -1,6 +1,7 @@
 /** `window.motiform`: a small read-only handle for tests and for curious readers at the console. */
 
 import type { Frame } from "./binary";
+import type { BranchPanel } from "./branches/panel";
 import type { MapPanel } from "./map/panel";
 import type { View } from "./plot";
 
@@ -20,6 +21,10 @@ interface Handle {
     toPixel(x: number, y: number): [number, number];
     readonly complete: boolean;
   };
+  branches: {
+    /** CSS pixels in the diagram of a point of a branch. */
+    toPixel(branch: number, point: number): [number, number] | null;
+  };
 }
 
 declare global {
@@ -28,8 +33,8 @@ declare global {
   }
 }
 
-export function expose(source: { frames(): number; revision(): number; frame(): Frame | null; map: MapPanel }): void {
-  const { map } = source;
+export function expose(source: { frames(): number; revision(): number; frame(): Frame | null; map: MapPanel; branches: BranchPanel }): void {
+  const { map, branches } = source;
   window.motiform = Object.freeze({
     get frames() {
       return source.frames();
@@ -52,5 +57,6 @@ export function expose(source: { frames(): number; revision(): number; frame(): 
         return map.complete;
       },
     }),
+    branches: Object.freeze({ toPixel: (branch: number, point: number) => branches.toPixel(branch, point) }),
   });
 }

@@ -3,6 +3,7 @@ import "./styles/base.css";
 import "./styles/layout.css";
 import "./styles/bar.css";
 import "./styles/panels.css";
+import "./styles/branches.css";
 import "./styles/parameters.css";
 import "./styles/overlays.css";
 import "./styles/phone.css";

@@ -1,6 +1,6 @@
 /** Axes around a rectangle of data, for the map and the return map. */
 
-import { ticks } from "./numbers";
+import { ticks, type Ticks } from "./numbers";
 import { drawSymbol } from "./symbols";
 import type { Inks } from "./theme";
 
@@ -27,14 +27,14 @@ export const pixelY = (box: Box, view: View, y: number): number => box.top + ((v
 export const dataX = (box: Box, view: View, x: number): number => view.x0 + ((x - box.left) / box.width) * (view.x1 - view.x0);
 export const dataY = (box: Box, view: View, y: number): number => view.y1 - ((y - box.top) / box.height) * (view.y1 - view.y0);
 
-/** Frame, ticks outside, numbers, labels in markup; an axis without a label is left out. */
-export function drawAxes(g: CanvasRenderingContext2D, box: Box, view: View, labels: { x: string | null; y: string | null }, inks: Inks): void {
+/** Frame, ticks outside, numbers, labels in markup; an axis without a label is left out. Ticks upwards may be given. */
+export function drawAxes(g: CanvasRenderingContext2D, box: Box, view: View, labels: { x: string | null; y: string | null }, inks: Inks, up?: Ticks): void {
   g.strokeStyle = inks.muted;
   g.fillStyle = inks.ink;
   g.lineWidth = 1;
   g.strokeRect(Math.round(box.left) - 0.5, Math.round(box.top) - 0.5, Math.round(box.width) + 1, Math.round(box.height) + 1);
   if (labels.x !== null) xAxis(g, box, view, labels.x);
-  if (labels.y !== null) yAxis(g, box, view, labels.y);
+  if (labels.y !== null) yAxis(g, box, view, labels.y, up ?? ticks(view.y0, view.y1, Math.max(2, box.height / 40)));
 }
 
 function xAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string): void {
@@ -54,8 +54,7 @@ function xAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string)
   drawSymbol(g, label, box.left + box.width / 2, bottom + 31, 15);
 }
 
-function yAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string): void {
-  const { values, labels } = ticks(view.y0, view.y1, Math.max(2, box.height / 40));
+function yAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string, { values, labels }: Ticks): void {
   const left = Math.round(box.left) - 0.5;
   g.font = `11px ${UI_FONT}`;
   g.textAlign = "right";

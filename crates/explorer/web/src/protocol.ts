@@ -110,6 +110,18 @@ export interface Line {
   points: [number, number][];
 }
 
+/** A special point, and where it is on its branch; `leads`: the branch that begins or lies there. */
+export interface SpecialPoint {
+  branch: number;
+  point: number;
+  kind: string;
+  parameter: number;
+  period: number | null;
+  criticality: string | null;
+  breaks: string | null;
+  leads: number | null;
+}
+
 /** Dashes of a line of the theory. */
 export type LineStyle = "solid" | "dashed" | "dotted" | "dash-dotted" | "long-dashed";
 
@@ -216,6 +228,68 @@ export interface Evidence {
   numbers: Values | null;
 }
 
+/** Branches begin: along this parameter, the others as they are. */
+export interface BranchesStart {
+  is: "branches";
+  epoch: number;
+  along: Axis;
+  parameters: Values;
+}
+
+/** A branch, point by point; `stable[k]`: between the points k and k + 1. A period of 0: none. */
+export interface Branch {
+  is: "branch";
+  epoch: number;
+  branch: number;
+  motion: string;
+  form: string | null;
+  origin: [number, number] | null;
+  parameter: number[];
+  speed: number[];
+  period: number[];
+  unstable: number[];
+  stable: boolean[];
+  ends: string[];
+}
+
+/** The special points of all branches so far. */
+export interface Specials {
+  is: "specials";
+  epoch: number;
+  points: SpecialPoint[];
+}
+
+/** How far the branches are, 0 to 1, and the one under way. */
+export interface Following {
+  is: "following";
+  epoch: number;
+  done: number;
+  branch: number;
+}
+
+/** No more branches: `left` points were left at which more may begin; `why` says what made it impossible. */
+export interface Followed {
+  is: "followed";
+  epoch: number;
+  branches: number;
+  left: number;
+  seconds: number;
+  why: string | null;
+}
+
+/** The orbit that the body was placed on at time `t`, over one period, relative to `position`; the next one is turned by `rotation`. */
+export interface Orbit {
+  is: "orbit";
+  revision: number;
+  parameters: Values;
+  unstable: number;
+  t: number;
+  position: [number, number];
+  time: number;
+  rotation: number;
+  points: [number, number][];
+}
+
 /** The body goes on no further until the next change. */
 export interface Ended {
   is: "ended";
@@ -251,6 +325,12 @@ export type Answer =
   | Progress
   | Mapped
   | Evidence
+  | BranchesStart
+  | Branch
+  | Specials
+  | Following
+  | Followed
+  | Orbit
   | Ended
   | Share
   | Refused;
@@ -267,6 +347,9 @@ export type Wish =
   | { do: "map"; epoch: number; x: Axis; y: Axis | null; count: number }
   | { do: "unmap" }
   | { do: "evidence"; epoch: number; cell: [number, number] }
+  | { do: "follow"; epoch: number; along: Axis; branches: number }
+  | { do: "unfollow" }
+  | { do: "place"; epoch: number; branch: number; point: number }
   | { do: "share" }
   | { do: "export"; id: number; what: string; section: Section; y: number | null };
 

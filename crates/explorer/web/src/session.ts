@@ -69,12 +69,14 @@ export class Session {
     return this.underway;
   }
 
-  /** The server agreed. What was wanted meanwhile stays wanted. */
-  agreed({ revision, parameters, noise }: Changed): void {
+  /** The server agreed. What was wanted meanwhile stays wanted. Gives the parameters that nobody here asked to change. */
+  agreed({ revision, parameters, noise }: Changed): string[] {
+    const before = this.parameters;
     const { underway } = this;
     if (underway && Object.entries(underway).every(([name, value]) => parameters[name] === value)) this.underway = null;
     Object.assign(this, { revision, noise, confirmed: parameters });
     this.parameters = { ...parameters, ...this.underway, ...this.wanted };
+    return Object.keys(parameters).filter((name) => before[name] !== this.parameters[name]);
   }
 
   /** The server refused something; where it names a parameter of the `set` under way, that one is undone. */

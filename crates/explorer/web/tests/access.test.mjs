@@ -68,7 +68,7 @@ function contrasts(page, selectors) {
   }, selectors);
 }
 
-const TEXTS = ["h1", "#about", ".chip", ".chip[aria-pressed=true]", "#connection-text", "#regime", "#why", "#clock-t", "#clock", "#readout", "#map-legend li", "#map-progress-text", "#speed-value", "#follow", "fieldset legend", ".symbol-button", ".parameter input[type=number]", ".axis-name", "#map-reset", "#map-title", ".refusal", "#x-axis", "#true-size"];
+const TEXTS = ["h1", "#about", ".chip", ".chip[aria-pressed=true]", "#connection-text", "#regime", "#why", "#clock-t", "#clock", "#readout", "#map-legend li", "#map-progress-text", "#speed-value", "#follow", "fieldset legend", ".symbol-button", ".parameter input[type=number]", ".axis-name", "#map-reset", "#show-map", "#show-branches", ".refusal", "#x-axis", "#true-size"];
 
 for (const colorScheme of ["light", "dark"]) {
   test(`${colorScheme}: texts stand out`, upon(it, { hash: LIGHT, colorScheme }, async ({ page, wire }) => {

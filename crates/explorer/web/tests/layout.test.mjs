@@ -14,7 +14,7 @@ const it = stage();
 /** Pairs of texts that touch each other though they should not. */
 function overlaps(page) {
   return page.evaluate(() => {
-    const texts = [...document.querySelectorAll("header > *, #about, .panel-head > *, #why, #clock, #readout, #map-legend, #map-progress, .controls > *, .axis-name, .parameter > *")];
+    const texts = [...document.querySelectorAll("header > *, #about, .panel-head > *, #why, #clock, #readout, #map-legends, #map-progress, #branch-legend, #branch-hint, #branch-progress, #orbit-note, .controls > *, .axis-name, .parameter > *")];
     const boxes = texts.filter((one) => one.checkVisibility() && !one.classList.contains("sr")).map((one) => [one, one.getBoundingClientRect()]);
     const bad = [];
     for (const [a, p] of boxes) {
@@ -42,6 +42,10 @@ for (const [width, height] of SIZES) {
       assert.deepEqual(await overlaps(page), []);
       await shoot(page, `${width}x${height}-${colorScheme}`);
     }
+    await page.locator("#show-branches").click();
+    await pictures(page, 4);
+    assert.deepEqual(await overlaps(page), []);
+    await shoot(page, `${width}x${height}-branches`);
     await leave();
   });
 }

@@ -13,6 +13,8 @@ export class Wire {
   said = new Map();
   /** Answers, the last of each kind. */
   last = new Map();
+  /** Branches of motions, in the order in which they came. */
+  branches = [];
   /** Frames of the body, the last ones. */
   frames = [];
 
@@ -43,6 +45,7 @@ export class Wire {
   #hear(text) {
     const answer = JSON.parse(text);
     this.last.set(answer.is, answer);
+    if (answer.is === "branch") this.branches.push(answer);
   }
 
   #take(bytes) {

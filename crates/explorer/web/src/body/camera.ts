@@ -7,8 +7,8 @@ import { X, Y } from "../history";
 const WIDEST = 40;
 /** and at least so many. */
 const CLOSEST = 3;
-/** Pixels at the top that the clock takes. */
-const CLOCK = 24;
+/** Pixels at the top that the clock takes, and that it takes with a note below. */
+const CLOCK = { alone: 24, noted: 68 };
 /** A deformed body reaches so many of its radii. */
 const BULGE = 1.5;
 /** At the ends of its trail it has so many: there it may touch the edge. */
@@ -27,6 +27,8 @@ const MOST_ROOM = 0.3;
 
 export class Camera {
   follow = true;
+  /** Whether a note stands below the clock. */
+  noted = false;
   /** Whether it stands still. */
   resting = false;
   /** Pixels per model length. */
@@ -68,7 +70,7 @@ export class Camera {
       y1 = Math.max(y1, y);
     }
     const least = Math.min(this.width, this.height) / 2;
-    const fit = Math.min(this.free(this.width, 0) / (x1 - x0), this.free(this.height, CLOCK) / (y1 - y0)) / MARGIN;
+    const fit = Math.min(this.free(this.width, 0) / (x1 - x0), this.free(this.height, this.taken) / (y1 - y0)) / MARGIN;
     const scale = this.zoom * Math.min(least / (CLOSEST * radius), Math.max(least / (WIDEST * radius), fit));
     // A trail that is too long for the sight is seen from nearer the body.
     const lag = scale > fit ? 0.26 : Infinity;
@@ -87,8 +89,13 @@ export class Camera {
     this.fresh = false;
     this.scale *= (this.goal.scale / scale) ** part;
     this.x = toward(x + (this.goal.x - x) * part, this.body.x, this.reach(this.width, 0));
-    this.y = toward(y + (this.goal.y - y) * part, this.body.y, this.reach(this.height, CLOCK));
+    this.y = toward(y + (this.goal.y - y) * part, this.body.y, this.reach(this.height, this.taken));
     return this.x !== x || this.y !== y || this.scale !== scale;
+  }
+
+  /** Pixels at the top that are taken. */
+  private get taken(): number {
+    return this.noted ? CLOCK.noted : CLOCK.alone;
   }
 
   /** How far from its goal the sight is, in pixels. */

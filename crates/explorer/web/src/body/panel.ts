@@ -5,10 +5,12 @@ import { Sheet } from "../canvas";
 import { byId, setText } from "../dom";
 import { T, type History } from "../history";
 import { fixed } from "../numbers";
+import type { Orbit, Values } from "../protocol";
 import { watch } from "../pointer";
 import { currentInks, edge } from "../theme";
 import { Backdrop } from "./backdrop";
 import { Camera } from "./camera";
+import { Ghost } from "./ghost";
 import { paintBody } from "./painting";
 
 /** The body is drawn at least and at most so large (radius in pixels) before its enlargement changes. */
@@ -30,6 +32,8 @@ export class BodyPanel {
   private edge = "#888888";
   private clockAt = 0;
   private trail = 100;
+  /** The orbit that the body was placed on. */
+  private ghost: Ghost | null = null;
   /** Time that the cursor of the series points at. */
   private pointed: number | null = null;
 
@@ -65,12 +69,16 @@ export class BodyPanel {
   /** A new body: the sight jumps to it. */
   begin(): void {
     this.frame = this.outline = null;
+    this.show(null);
     this.camera.jump();
     this.dirty = true;
   }
 
   take(frame: Frame): void {
-    if (this.frame && frame.t < this.frame.t - 1e-9) this.camera.jump();
+    if (this.frame && frame.t < this.frame.t - 1e-9) {
+      this.camera.jump();
+      this.show(null);
+    }
     this.frame = frame;
     if (frame.outlined && frame.outline.length) this.outline = frame.outline;
     this.dirty = true;
@@ -91,6 +99,27 @@ export class BodyPanel {
     this.trail = time;
     this.backdrop.forget();
     this.dirty = true;
+  }
+
+  /** The body is placed on an orbit. */
+  place(orbit: Orbit): void {
+    this.show(new Ghost(orbit));
+  }
+
+  /** The motion is that of a body with these parameters: another one has other orbits. */
+  renew(revision: number, parameters: Values): void {
+    const { ghost } = this;
+    if (ghost && revision >= ghost.revision && !ghost.holds(parameters)) this.show(null);
+  }
+
+  private show(ghost: Ghost | null): void {
+    this.ghost = ghost;
+    this.camera.noted = ghost !== null;
+    this.dirty = true;
+    const note = byId("orbit-note");
+    note.hidden = !ghost;
+    note.toggleAttribute("data-unstable", ghost !== null && ghost.unstable > 0);
+    setText(note, ghost ? words(ghost) : "");
   }
 
   setFollow(follow: boolean): void {
@@ -118,6 +147,8 @@ export class BodyPanel {
     const pointed = this.pointed === null ? -1 : Math.min(this.history.length - 1, this.history.since(this.pointed));
     const scene = { camera, history: this.history, from, frame, outline: this.outline, enlarged: this.enlarged, colour: this.colour, edge: this.edge, pointed };
     this.backdrop.paint(sheet, scene, currentInks());
+    if (this.ghost?.left(frame)) this.show(null);
+    this.ghost?.paint(sheet.g, camera, this.since(), frame.t, currentInks());
     paintBody(sheet.g, scene, currentInks());
     this.clock(frame);
     return true;
@@ -165,4 +196,9 @@ export class BodyPanel {
   now(): number {
     return this.history.length ? this.history.at(this.history.length - 1, T) : 0;
   }
+}
+
+function words(ghost: Ghost): string {
+  if (ghost.unstable === 0) return "stable: the body stays on this orbit (dashed; ring: a body exactly on it)";
+  return "unstable: the body leaves this orbit (dashed; ring: a body exactly on it). It started 0.1 % off.";
 }

@@ -14,6 +14,13 @@ import { showMapped, showProgress } from "./progress";
 import { Readout } from "./readout";
 import { AxisSelectors } from "./selectors";
 
+/** What is drawn upon the map, and answers pointer and click where it is. */
+export interface Upon {
+  paintOnMap(g: CanvasRenderingContext2D, box: Box, view: View): void;
+  hoverOnMap(at: [number, number] | null, box: Box, view: View): boolean;
+  clickOnMap(at: [number, number], box: Box, view: View): boolean;
+}
+
 /** What the map needs of the page. */
 export interface MapHost {
   send(wish: Wish): void;
@@ -24,6 +31,8 @@ export interface MapHost {
   choose(values: Values): void;
   /** The window or the axes changed. */
   moved(): void;
+  /** What else lies upon the map. */
+  readonly upon: Upon;
 }
 
 /** The page asks for at most eight maps a second. */
@@ -49,7 +58,7 @@ export class MapPanel {
 
   constructor(private readonly host: MapHost) {
     const canvas = byId<HTMLCanvasElement>("map");
-    this.picture = new MapPicture(canvas, () => host.regimes());
+    this.picture = new MapPicture(canvas, () => host.regimes(), (g, box, view) => host.upon.paintOnMap(g, box, view));
     this.readout = new Readout(byId("readout"), () => host.regimes(), (cell) => host.send({ do: "evidence", epoch: this.epoch, cell }));
     watch(canvas, {
       click: (x, y) => this.click(x, y),
@@ -210,8 +219,8 @@ export class MapPanel {
   }
 
   private click(px: number, py: number): void {
-    const values = this.under(px, py);
-    if (!values) return;
+    const [values, view] = [this.under(px, py), this.window()];
+    if (!values || !view || this.host.upon.clickOnMap([px, py], this.box(), view)) return;
     const [now, before] = [performance.now(), this.host.parameters()];
     if (now - this.lastClick > DOUBLE) this.beforeClick = Object.fromEntries(Object.keys(values).map((name) => [name, before[name]]));
     this.lastClick = now;
@@ -226,7 +235,8 @@ export class MapPanel {
   }
 
   private hover(at: [number, number] | null): void {
-    const values = at && this.under(...at);
+    const [values, view] = [at && this.under(...at), this.window()];
+    if (view) this.host.upon.hoverOnMap(values && at, this.box(), view);
     if (values) this.pointAt(values);
     else this.readout.leave();
   }

@@ -25,6 +25,8 @@ export class MapPicture {
   constructor(
     canvas: HTMLCanvasElement,
     private readonly regimes: () => Regime[],
+    /** Draws more upon the areas. */
+    private readonly more: (g: CanvasRenderingContext2D, box: Box, view: View) => void,
   ) {
     this.sheet = new Sheet(canvas, () => (this.dirty = true));
   }
@@ -79,6 +81,7 @@ export class MapPicture {
     this.sheet.clear();
     const labels = { x: sides.x.symbol, y: sides.y?.symbol ?? null };
     paint(this.sheet.g, { ...this.areas(this.box(), view), labels, mark, landmarks: this.marks }, currentInks());
+    this.more(this.sheet.g, this.box(), view);
   }
 
   private areas(box: Box, view: View): Areas {

@@ -1,0 +1,102 @@
+/** How branches are drawn: thick where stable, thin and dashed where unstable, with a marker at each special point. */
+
+import { drawMarker } from "../glyphs";
+import { pixelX, pixelY, type Box, type View } from "../plot";
+import type { Plane, Regime } from "../protocol";
+import { edge, visible } from "../theme";
+import { divided } from "../map/exponents";
+import { kindOf } from "./kinds";
+import type { BranchSet, Ordinate, Spot } from "./set";
+
+export const STABLE = { width: 3, dash: [] as number[] };
+export const UNSTABLE = { width: 1.4, dash: [4, 2.5] };
+/** Upon a map branches lie so many pixels apart, all at the same value of the other parameter. */
+const APART = 5;
+const MARKER = 4.2;
+
+type ToPixel = (branch: number, at: [number, number]) => [number, number];
+
+/** Draws all branches, the stable parts on top. */
+export function paintBranches(g: CanvasRenderingContext2D, set: BranchSet, ordinate: Ordinate, toPixel: ToPixel, colour: (branch: number) => string, halo: string | null): void {
+  g.lineJoin = "round";
+  for (const stable of [false, true]) {
+    for (const number of set.branches.keys()) {
+      const path = new Path2D();
+      for (const piece of set.pieces(number, ordinate)) {
+        if (piece.stable !== stable) continue;
+        piece.points.forEach((at, i) => (i ? path.lineTo(...toPixel(number, at)) : path.moveTo(...toPixel(number, at))));
+      }
+      const { width, dash } = stable ? STABLE : UNSTABLE;
+      if (halo) stroke(g, path, halo, width + 2, []);
+      stroke(g, path, colour(number), width, dash);
+    }
+  }
+}
+
+function stroke(g: CanvasRenderingContext2D, path: Path2D, colour: string, width: number, dash: number[]): void {
+  g.strokeStyle = colour;
+  g.lineWidth = width;
+  g.setLineDash(dash);
+  g.stroke(path);
+  g.setLineDash([]);
+}
+
+/** Draws the special points. */
+export function paintSpecials(g: CanvasRenderingContext2D, set: BranchSet, place: (spot: Spot) => [number, number] | null, ink: string, halo: string): void {
+  for (const special of set.specials) {
+    const at = place(special);
+    if (at) drawMarker(g, kindOf(special.kind).glyph, at, MARKER, ink, halo);
+  }
+}
+
+/** A ring about a point. */
+export function paintSelected(g: CanvasRenderingContext2D, [x, y]: [number, number], ink: string, halo: string): void {
+  for (const [colour, width] of [[halo, 4], [ink, 1.8]] as [string, number][]) {
+    g.beginPath();
+    g.arc(x, y, 7.5, 0, 2 * Math.PI);
+    g.strokeStyle = colour;
+    g.lineWidth = width;
+    g.stroke();
+  }
+}
+
+/** The colour of a branch: that of its motion. */
+export function colourOf(set: BranchSet, regimes: Regime[]): (branch: number) => string {
+  return (branch) => {
+    const regime = regimes.find((one) => one.name === set.branches[branch].motion);
+    return edge(visible(regime?.colour ?? "#888888"));
+  };
+}
+
+/** Where points of branches lie upon a map; `null` where the parameter followed is no axis of it. */
+export function onMap(set: BranchSet, plane: Plane, box: Box, view: View): ((spot: Spot) => [number, number]) | null {
+  const { along, parameters } = set.start;
+  const value = ({ branch, point }: Spot): number => set.branches[branch].parameter[point];
+  if (plane.x.name === along.name) {
+    const strip = plane.y ? null : divided(box).strip;
+    const base = strip ? strip.top + strip.height - 4 : pixelY(box, view, parameters[plane.y?.name ?? ""]);
+    return (spot) => [pixelX(box, view, value(spot)), base - APART * spot.branch];
+  }
+  if (plane.y?.name !== along.name) return null;
+  const base = pixelX(box, view, parameters[plane.x.name]);
+  return (spot) => [base + APART * spot.branch, pixelY(box, view, value(spot))];
+}
+
+/** Draws the branches upon a map: lines at the value that the other parameter had, side by side. */
+export function paintOnMap(g: CanvasRenderingContext2D, set: BranchSet, plane: Plane, box: Box, view: View, selected: Spot | null): void {
+  const place = onMap(set, plane, box, view);
+  if (!place) return;
+  const across = plane.x.name === set.start.along.name;
+  const toPixel: ToPixel = (branch, [parameter]) => {
+    const [x, y] = place({ branch, point: 0 });
+    return across ? [pixelX(box, view, parameter), y] : [x, pixelY(box, view, parameter)];
+  };
+  g.save();
+  g.beginPath();
+  g.rect(box.left, box.top, box.width, box.height);
+  g.clip();
+  paintBranches(g, set, "speed", toPixel, () => "#111111", "rgba(255, 255, 255, 0.85)");
+  paintSpecials(g, set, place, "#111111", "#ffffff");
+  if (selected) paintSelected(g, place(selected), "#111111", "#ffffff");
+  g.restore();
+}

@@ -1,0 +1,93 @@
+/** The branches so far, and what is asked of them. */
+
+import type { Branch, BranchesStart, SpecialPoint } from "../protocol";
+
+/** What the diagram shows against the parameter. */
+export type Ordinate = "speed" | "period";
+
+/** A point of a branch. */
+export interface Spot {
+  branch: number;
+  point: number;
+}
+
+/** A stretch of a branch over which its stability stays. */
+export interface Piece {
+  stable: boolean;
+  /** Parameter and value. */
+  points: [number, number][];
+}
+
+export class BranchSet {
+  readonly branches: Branch[] = [];
+  specials: SpecialPoint[] = [];
+
+  constructor(readonly start: BranchesStart) {}
+
+  /** Parameter and value of a point; a motion that is steady has no period. */
+  at({ branch, point }: Spot, ordinate: Ordinate): [number, number] | null {
+    const of = this.branches[branch];
+    const value = of?.[ordinate][point];
+    return value === undefined || (ordinate === "period" && value === 0) ? null : [of.parameter[point], value];
+  }
+
+  /** A branch as it is drawn, from the special point where it begins. */
+  pieces(number: number, ordinate: Ordinate): Piece[] {
+    const branch = this.branches[number];
+    const all: Piece[] = [];
+    let before = this.at({ branch: number, point: 0 }, ordinate);
+    const birth = before && this.birth(branch, ordinate, before);
+    if (birth && before && branch.stable.length) all.push({ stable: branch.stable[0], points: [birth, before] });
+    for (const [k, stable] of branch.stable.entries()) {
+      const next = this.at({ branch: number, point: k + 1 }, ordinate);
+      const last = all.at(-1);
+      if (before && next) {
+        if (last && last.stable === stable && last.points.at(-1) === before) last.points.push(next);
+        else all.push({ stable, points: [before, next] });
+      }
+      before = next;
+    }
+    return all;
+  }
+
+  /** Where a branch begins on another one; its period there is its own. */
+  private birth(branch: Branch, ordinate: Ordinate, [, value]: [number, number]): [number, number] | null {
+    const parent = branch.origin && this.branches[branch.origin[0]];
+    if (!parent || !branch.origin) return null;
+    const point = branch.origin[1];
+    return [parent.parameter[point], ordinate === "speed" ? parent.speed[point] : value];
+  }
+
+  /** The special point here. */
+  special({ branch, point }: Spot): SpecialPoint | null {
+    return this.specials.find((one) => one.branch === branch && one.point === point) ?? null;
+  }
+
+  /** The point next to a pixel, at most `reach` pixels away; special points go first. */
+  nearest(toPixel: (spot: Spot) => [number, number] | null, [px, py]: [number, number], reach: number): Spot | null {
+    const far = (spot: Spot): number => {
+      const at = toPixel(spot);
+      return at ? Math.hypot(at[0] - px, at[1] - py) : Infinity;
+    };
+    const best = (spots: Iterable<Spot>): Spot | null => {
+      let [least, found]: [number, Spot | null] = [reach, null];
+      for (const spot of spots) {
+        const distance = far(spot);
+        if (distance < least) [least, found] = [distance, spot];
+      }
+      return found;
+    };
+    return best(this.specials.map(({ branch, point }) => ({ branch, point }))) ?? best(this.spots());
+  }
+
+  private *spots(): Generator<Spot> {
+    for (const [branch, one] of this.branches.entries()) {
+      for (let point = 0; point < one.parameter.length; point++) yield { branch, point };
+    }
+  }
+
+  /** Whether small deviations die out at a point; at a special one neither. */
+  growing({ branch, point }: Spot): number {
+    return this.branches[branch].unstable[point];
+  }
+}
