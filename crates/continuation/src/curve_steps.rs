@@ -64,7 +64,7 @@ impl<P: Problem> CurveTracer<P> {
         if watch.stopped() {
             return Err(End::Stopped);
         }
-        self.refine(watch);
+        self.refine(watch)?;
         let (mut new, mut length) = self.reach(watch)?;
         let mut end = None;
         if let Some((nearer, s)) = self.edge(&new, length, watch)? {
@@ -93,18 +93,21 @@ impl<P: Problem> CurveTracer<P> {
     }
 
     /// More unknowns, where an orbit needs them.
-    fn refine(&mut self, watch: &dyn Watch) {
-        let Some(x) = self.problem.refine(&self.spot.x, &self.spot.local, watch) else { return };
+    fn refine(&mut self, watch: &dyn Watch) -> Result<(), End> {
+        let Some(x) = self.problem.refine(&self.spot.x, &self.spot.local, watch) else { return Ok(()) };
         let old = last_two(&self.spot.frame.along);
         self.spot.x = x;
         self.before = None;
-        if let Ok(mut spot) = self.framed(watch) {
-            let [p, q] = last_two(&spot.frame.along);
-            if p * old[0] + q * old[1] < 0.0 {
-                spot.frame.turn();
-            }
-            self.spot = spot;
+        let mut spot = self.framed(watch).map_err(|failure| match failure {
+            Failure::Stopped => End::Stopped,
+            Failure::Obstructed(why) => End::StepUnderflow { step: self.step, why },
+        })?;
+        let [p, q] = last_two(&spot.frame.along);
+        if p * old[0] + q * old[1] < 0.0 {
+            spot.frame.turn();
         }
+        self.spot = spot;
+        Ok(())
     }
 
     /// Where the curve leaves the box before `new`.
