@@ -91,6 +91,7 @@ fn main() {
     }
 
     let start = zigzag(0.9);
+    println!("\nzigzag at 0.9: period {:.9}", start.period());
     let up = follow("zigzag up", &mut Branch::of_orbits(&family, 0.9, &start, &orbits, &()).unwrap());
     let down =
         follow("zigzag down", &mut Branch::of_orbits(&family, 0.9, &start, &orbits.reversed(), &()).unwrap());

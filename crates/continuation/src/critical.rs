@@ -3,6 +3,9 @@
 use super::levels::Level;
 use super::special::Special;
 
+/// Levels closer than this part of the largest one are the same.
+const TWINS: f64 = 1e-12;
+
 /// What is critical along a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Condition {
@@ -134,12 +137,21 @@ impl Critical {
     }
 
     /// The levels that are not critical: how many real ones and how many others grow, and the growth of those closest to 0; NaN where
-    /// there are none.
+    /// there are none. A circle at rest has each level in all directions: its copies in other classes are critical too.
     pub(super) fn others(&self, levels: &[Vec<Level>], reading: &Reading) -> [(usize, f64); 2] {
         let mut out = [(0, f64::NAN); 2];
+        let largest = levels.iter().flatten().fold(0.0, |most: f64, level| most.max(level.growth.abs()));
+        let own = |rank: usize| levels.get(self.class).and_then(|levels| levels.get(rank));
+        let critical: Vec<&Level> = reading.members.iter().filter_map(|&rank| own(rank)).collect();
+        let copies = |level: &Level| {
+            let same = |own: &&Level| (own.growth - level.growth).abs().max((own.angle - level.angle).abs());
+            !self.orbits && critical.iter().any(|own| same(own) <= TWINS * largest)
+        };
         for (class, levels) in levels.iter().enumerate() {
             for (rank, level) in levels.iter().enumerate() {
-                if class == self.class && reading.members.contains(&rank) {
+                if class == self.class && reading.members.contains(&rank)
+                    || class != self.class && copies(level)
+                {
                     continue;
                 }
                 let (count, least) = &mut out[usize::from(!self.is_real(level))];

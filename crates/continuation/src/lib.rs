@@ -14,7 +14,7 @@
 //! eigenvalue is computed. (At a drift pitchfork the critical and the neutral direction form a Jordan block: of the unreduced
 //! matrix only half of the digits are right.) Special points are solved for: every iterate is a solution of the equations.
 //!
-//! A [`Curve`] follows a special point through two parameters ([`Family2`]).
+//! A [`Curve`] follows a special point through two parameters ([`Family2`]), a [`WholeCurve`] to both of its ends.
 //!
 //! Source: pseudo-arclength: Keller (1977), in Applications of Bifurcation Theory; relative orbits: Wulff and Schebesch (2006),
 //! SIAM J. Appl. Dyn. Syst. 5, 235; normal forms: Kuznetsov (2004), Elements of Applied Bifurcation Theory.
@@ -50,6 +50,7 @@ mod steps;
 mod switch;
 mod tracer;
 mod variation;
+mod whole_curve;
 
 pub use branch::Branch;
 pub use copies::same_motion;
@@ -62,3 +63,4 @@ pub use point::{End, Motion, Point};
 pub use settings::Settings;
 pub use special::{Broken, Hopf, Special};
 pub use switch::switch;
+pub use whole_curve::WholeCurve;

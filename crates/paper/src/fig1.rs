@@ -8,8 +8,9 @@ mod schemes;
 use super::claims::{check, claim};
 use super::context::Context;
 use grid::{Grid, found_line};
+use motiform_chapter::lines::Continued;
 use motiform_figures::report::{Claim, ReportFigure, Section};
-use motiform_lab::draw::{phase_diagram, sheet};
+use motiform_lab::draw::{boundary_lines, phase_diagram, sheet};
 use motiform_lab::scan::Axis;
 use motiform_models::tensor::reduced::{Line, Motion, Reduced};
 use motiform_study::Error;
@@ -39,6 +40,8 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     claims.push(agreement(&grid));
     claims.extend(lines(&grid));
     claims.extend(hopf::claims(context, &grid)?);
+    let continued = Continued::follow(context)?;
+    claims.extend(continued.claims());
     claims.push(schemes::claim_of(context)?);
     claims.extend(correspondence::claims(context)?);
     let drawn = sheet(&phase_diagram(&plan, &cells)?)?;
@@ -48,7 +51,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         title: "Fig. 1: phase diagram of velocity and ellipse".to_owned(),
         about: ABOUT.to_owned(),
         parameters: parameters(&plan),
-        figures: vec![ReportFigure::new(drawn, caption)],
+        figures: vec![ReportFigure::new(drawn, caption), continued.figure(&boundary_lines(&plan))?],
         claims,
     })
 }

@@ -9,6 +9,8 @@ mod places;
 mod schemes;
 
 use super::context::Context;
+use motiform_chapter::branches::{self, at};
+use motiform_chapter::curves::Curves;
 use motiform_figures::Drawn;
 use motiform_figures::report::{ReportFigure, Section};
 use motiform_study::{Error, Random, Study};
@@ -20,7 +22,10 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         parameters: parameters(&at(context, 0.5, 0.1)?)?,
         ..Section::default()
     };
-    map::add(context, &mut section)?;
+    let slow = branches::slow(context)?;
+    let curves = Curves::follow(context, &slow.1)?;
+    map::add(context, &mut section, &curves)?;
+    branches::add(context, &mut section, &slow)?;
     exponent::add(context, &mut section)?;
     blow_up::add(context, &mut section)?;
     escape::add(context, &mut section)?;
@@ -33,14 +38,6 @@ const ABOUT: &str = "The full model for the velocity, the two-fold and the three
 and small κ_3, and a region marked × where a numerical instability leaves no conclusion. Here every cell is classified from \
 several random initial states, the largest Lyapunov exponent is measured from the exact tangent flow with its error, and \
 the instability is followed into its singularity.";
-
-/// The preset of the figure at a place of the plane.
-fn at(context: &Context<'_>, kappa2: f64, kappa3: f64) -> Result<Study, Error> {
-    context.preset("fig4", |study| {
-        study.set("kappa2", kappa2)?;
-        study.set("kappa3", kappa3)
-    })
-}
 
 /// The parameters of a study, except the two rates.
 fn parameters(study: &Study) -> Result<Vec<(String, String)>, Error> {

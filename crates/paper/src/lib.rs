@@ -1,10 +1,8 @@
 //! Reproduction of the paper: every figure recomputed, every claim checked, one report.
 //!
 //! One file or folder per figure, one for the equations and one for the discussion; each gives a [`Section`] with its pictures and its claims. What all of them need is in
-//! `context.rs`.
+//! the crate `motiform-chapter`.
 
-mod claims;
-mod context;
 mod equations;
 mod fig1;
 mod fig2;
@@ -16,7 +14,8 @@ mod models;
 mod sentences;
 mod strip;
 
-use context::{Context, Progress, Share};
+use motiform_chapter::context::{Context, Progress, Share};
+use motiform_chapter::{claims, context};
 use motiform_dynamics::Watch;
 use motiform_figures::report::{Counts, Report, Section};
 use motiform_lab::pool;

@@ -6,7 +6,7 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::process::Command;
 
 /// Each crate, and the crates below it that it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &[&str]); 17] = [
+const LAYERS: [(&str, &[&str]); 18] = [
     ("motiform-dynamics", &[]),
     ("motiform-models", &["motiform-dynamics"]),
     ("motiform-analysis", &["motiform-dynamics"]),
@@ -54,9 +54,23 @@ const LAYERS: [(&str, &[&str]); 17] = [
         ],
     ),
     (
+        "motiform-chapter",
+        &[
+            "motiform-analysis",
+            "motiform-branching",
+            "motiform-continuation",
+            "motiform-dynamics",
+            "motiform-figures",
+            "motiform-lab",
+            "motiform-models",
+            "motiform-study",
+        ],
+    ),
+    (
         "motiform-paper",
         &[
             "motiform-analysis",
+            "motiform-chapter",
             "motiform-dynamics",
             "motiform-figures",
             "motiform-lab",

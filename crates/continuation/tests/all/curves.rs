@@ -9,7 +9,7 @@ use motiform_analysis::periodic::PeriodicGuess;
 use motiform_analysis::symmetry::align;
 use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_continuation::{
-    Branch, Curve, CurvePoint, Degenerate, End, Family, Family2, Point, Settings, Special, switch,
+    Branch, Curve, CurvePoint, Degenerate, End, Family, Family2, Point, Settings, Special, WholeCurve, switch,
 };
 use motiform_dynamics::{Equivariant, Request, Scalar, VectorField, drive::drive};
 use motiform_models::tensor::reduced::Reduced;
@@ -54,6 +54,12 @@ fn the_lines_where_bodies_at_rest_start_to_move_are_those_of_the_formulas() {
     assert!(points.len() > 10);
     points.iter().for_each(|point| near(point.parameters[0], 0.0, 1e-9));
     near(points.last().unwrap().parameters[1], 0.22, 1e-9);
+    // both critical eigenvalues, those of all directions, are left out of the count
+    assert!(points.iter().all(|point| point.unstable == 0 && point.degenerate.is_none()));
+    let whole = WholeCurve::through(&plane, &point, 0.1, &settings, (0.01, 0.22), &()).unwrap();
+    assert_eq!(whole.points[whole.points.len() - points.len() + 1..], points[1..]);
+    near(whole.points[0].parameters[1], 0.01, 1e-9);
+    assert_eq!(whole.ends, [End::RangeLeft, End::RangeLeft]);
     // the ellipse
     let r2 = Reduced::PAPER.ellipse(-0.04).unwrap();
     let along = |gamma: f64| plane([gamma, -0.04]);

@@ -129,12 +129,7 @@ fn the_sign_of_the_criticality_is_the_kind_of_the_bifurcation() {
         assert!(Reduced::PAPER.straight_hopf_criticality(s) > 0.0, "{s}");
         assert!(speeds_beyond_hopf(s, 1e-4)[1] < 1e-9, "{s}");
     }
-    let (mut low, mut high) = (-0.05, -0.03);
-    for _ in 0..50 {
-        let middle = 0.5 * (low + high);
-        if Reduced::PAPER.straight_hopf_criticality(middle) > 0.0 { low = middle } else { high = middle }
-    }
-    assert!((Reduced::PAPER.straight_hopf(low)[0] + 0.0669).abs() < 1e-4);
+    assert!((Reduced::PAPER.bautin().unwrap()[0] + 0.0669).abs() < 1e-4);
 }
 
 #[test]
@@ -179,6 +174,29 @@ fn lines_stay_near_the_box() {
         assert!(points.len() > 30);
     }
     assert!(Reduced::PAPER.line(Line::CircleToStraight, (-1.0, -0.5), gamma, 50).is_empty());
+}
+
+/// Points of every line are found again by their `kappa2`; beyond their ends there are none.
+#[test]
+fn lines_are_found_by_kappa2() {
+    let reduced = Reduced::PAPER;
+    for x in [0.003, 0.011, 0.027] {
+        let again = |line, x: f64, [kappa2, gamma]: [f64; 2]| {
+            let found = reduced.on_line(line, kappa2).unwrap();
+            assert!((found.0 - x).abs() < 1e-12 && (found.1 - gamma).abs() < 1e-12, "{line:?} {x} {found:?}");
+        };
+        again(Line::EllipseToStraight, x, reduced.ellipse_to_straight(x));
+        again(Line::StraightToCircular, x, reduced.straight_to_circular(x));
+        again(Line::StraightHopf, -x, reduced.straight_hopf(-x));
+        again(Line::CircularToQuasiPeriodic, x * x, reduced.circular_hopf(x * x));
+        again(Line::CircleToStraight, x, [x, 0.0]);
+    }
+    assert_eq!(reduced.on_line(Line::CircleToEllipse, 0.1), None);
+    assert_eq!(reduced.on_line(Line::StraightToCircular, 0.51), None); // 4 s - 8 s^2 is 1/2 at most
+    assert!(reduced.on_line(Line::StraightToCircular, 0.49).is_some());
+    for line in [Line::EllipseToStraight, Line::StraightHopf, Line::CircularToQuasiPeriodic] {
+        assert_eq!(reduced.on_line(line, 0.1), None);
+    }
 }
 
 /// A handful of places of each kind, classified.

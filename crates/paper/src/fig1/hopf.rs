@@ -4,7 +4,7 @@ use super::grid::Grid;
 use super::{Claim, Context, claim};
 use crate::claims::differs;
 use motiform_analysis::regime::{Regime, Verdict};
-use motiform_models::tensor::reduced::{Motion, Reduced};
+use motiform_models::tensor::reduced::{Line, Motion, Reduced};
 use motiform_study::{Error, Study};
 
 /// `kappa2` at which the line is crossed, right and left of where its kind changes.
@@ -51,7 +51,7 @@ fn limit(grid: &Grid) -> Claim {
 /// A study that begins a part `off` off the straight motion of the line at `kappa2`, `beyond` the line; turned by a little, so
 /// that no mirror symmetry is left.
 fn beside(context: &Context<'_>, kappa2: f64, beyond: f64, off: f64) -> Result<Study, Error> {
-    let ([_, gamma], s) = line_at(kappa2);
+    let (s, gamma) = Reduced::PAPER.on_line(Line::StraightHopf, kappa2).unwrap_or((f64::NAN, f64::NAN));
     context.preset("fig1", |study| {
         study.set("kappa2", kappa2)?;
         study.set("gamma", gamma + beyond)?;
@@ -152,30 +152,9 @@ impl Bistable {
     }
 }
 
-/// The point of the line at `kappa2`, and its ellipse `s`, by bisection in s.
-fn line_at(kappa2: f64) -> ([f64; 2], f64) {
-    let (mut low, mut high) = (-0.125 * Reduced::PAPER.b1 * (1.0 - 1e-9), 0.0);
-    for _ in 0..80 {
-        let middle = 0.5 * (low + high);
-        if Reduced::PAPER.straight_hopf(middle)[0] < kappa2 { low = middle } else { high = middle }
-    }
-    let s = 0.5 * (low + high);
-    (Reduced::PAPER.straight_hopf(s), s)
-}
-
-/// Where the first Lyapunov coefficient changes sign along the line.
-fn bautin() -> [f64; 2] {
-    let (mut low, mut high) = (line_at(-0.2).1, line_at(-0.005).1);
-    for _ in 0..80 {
-        let middle = 0.5 * (low + high);
-        if Reduced::PAPER.straight_hopf_criticality(middle) > 0.0 { low = middle } else { high = middle }
-    }
-    Reduced::PAPER.straight_hopf(0.5 * (low + high))
-}
-
 /// Subcritical at the left, supercritical at the right.
 fn kind(context: &Context<'_>) -> Result<Claim, Error> {
-    let turns = bautin()[0];
+    let turns = Reduced::PAPER.bautin().map_or(f64::NAN, |at| at[0]);
     let right = RIGHT.iter().map(|k| Crossed::at(context, *k)).collect::<Result<Vec<_>, _>>()?;
     let left = LEFT.iter().map(|k| Bistable::at(context, *k)).collect::<Result<Vec<_>, _>>()?;
     let finds = format!(

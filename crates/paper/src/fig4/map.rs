@@ -3,8 +3,9 @@
 use super::super::claims::{check, claim, differs};
 use super::super::context::Context;
 use super::figure;
-use super::places::{Extent, Place, agreement, places};
+use super::places::{Extent, agreement, places};
 use motiform_analysis::Regime;
+use motiform_chapter::curves::{Curves, Place};
 use motiform_figures::PhaseDiagram;
 use motiform_figures::report::{Claim, Section};
 use motiform_lab::draw::{phase_diagram, sheet};
@@ -29,40 +30,69 @@ const LARGE: f64 = 0.55;
 /// Of the measured motions at least this share must be found again; the rest may be a matter of the initial states.
 const AGREE: f64 = 0.9;
 
-pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Error> {
+/// Cells about the arch of the zigzags.
+const ARCH: [&str; 2] = ["kappa2=0.65:1.25:25", "kappa3=0.05:0.15:11"];
+const ARCH_QUICK: [&str; 2] = ["kappa2=0.65:1.25:9", "kappa3=0.06:0.14:5"];
+
+pub(super) fn add(context: &Context<'_>, section: &mut Section, curves: &Curves) -> Result<(), Error> {
     let axes = context.choose(
         ["kappa2=0.05:1.6:32", "kappa3=0.1:1:19"],
         ["kappa2=0.1:1.6:16", "kappa3=0.1,0.2,0.3,0.4,0.6,1"],
     );
-    let study = context.preset("fig4", |study| {
-        study.scan.axes = axes.iter().map(|text| Axis::parse(text)).collect::<Result<_, _>>()?;
-        study.scan.samples = context.choose(4, 2);
-        Ok(())
-    })?;
-    let (plan, cells) = context.scan("fig4", &study)?;
-    let caption = format!(
-        "{} random initial states per cell. Blow-up is what the paper marks × and calls a numerical instability.",
-        study.scan.samples
-    );
-    let drawn = phase_diagram(&plan, &cells)?;
-    let svg = PhaseDiagram {
-        title: "Motions of the full tensor model".to_owned(),
-        caption: vec![caption],
-        ..drawn
-    };
-    let svg = sheet(&svg)?;
-    section.figures.push(figure(
-        svg,
-        "**Fig. 4(a), computed.** Each cell is classified by mathematics, never by eye; cells with more than one motion are \
-         striped by the shares of the initial states.",
-    ));
-    let places = places(&plan, &cells);
+    let places = scan(
+        context,
+        section,
+        ("fig4", &axes, context.choose(4, 2)),
+        curves,
+        (
+            "Motions of the full tensor model",
+            "Blow-up is what the paper marks × and calls a numerical instability.",
+            "**Fig. 4(a), computed.** Each cell is classified by mathematics, never by eye; cells with more than one motion are \
+         striped by the shares of the initial states. Lines: special points of branches, continued through the plane.",
+        ),
+    )?;
+    let arch = scan(
+        context,
+        section,
+        ("fig4-arch", &context.choose(ARCH, ARCH_QUICK), 1),
+        curves,
+        (
+            "Motions about the zigzag",
+            "A part of the plane at slow triangles.",
+            "The lower edge of Fig. 4(a), with the curves along which zigzags change.",
+        ),
+    )?;
     section.claims.extend([kinds(&places), order(&places), zigzag(&places), chaos(&places)]);
     section.claims.extend(wedge(&places));
     section.claims.push(measured(&places));
     section.claims.extend(windows(&places));
     section.claims.extend(quasi_periodic(&places));
+    section.claims.extend(curves.claims(context, &places, &arch));
     Ok(())
+}
+
+/// Computes and draws a lattice over the plane, under the curves.
+fn scan(
+    context: &Context<'_>,
+    section: &mut Section,
+    (name, axes, samples): (&str, &[&str; 2], u64),
+    curves: &Curves,
+    (title, says, words): (&str, &str, &str),
+) -> Result<Vec<Place>, Error> {
+    let study = context.preset("fig4", |study| {
+        study.scan.axes = axes.iter().map(|text| Axis::parse(text)).collect::<Result<_, _>>()?;
+        study.scan.samples = samples;
+        Ok(())
+    })?;
+    let (plan, cells) = context.scan(name, &study)?;
+    let svg = PhaseDiagram {
+        title: title.to_owned(),
+        caption: vec![format!("Random initial states per cell: {samples}. {says}")],
+        lines: curves.lines(),
+        ..phase_diagram(&plan, &cells)?
+    };
+    section.figures.push(figure(sheet(&svg)?, words));
+    Ok(places(&plan, &cells))
 }
 
 const HOW: &str = "classification of every cell: eigenvalues of the relative equilibrium, Newton's method on the return, \

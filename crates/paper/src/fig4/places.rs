@@ -1,22 +1,9 @@
 //! Motions found in a scan of the plane; and the motions that were measured before this project.
 
 use motiform_analysis::Regime;
+use motiform_chapter::curves::Place;
 use motiform_lab::scan::CellSummary;
 use motiform_study::ScanPlan;
-
-/// A cell of the plane with the motions found there.
-pub(super) struct Place {
-    pub(super) kappa2: f64,
-    pub(super) kappa3: f64,
-    pub(super) regimes: Vec<Regime>,
-}
-
-impl Place {
-    /// Whether a motion was found there.
-    pub(super) fn has(&self, regime: Regime) -> bool {
-        self.regimes.contains(&regime)
-    }
-}
 
 /// The cells of a scan over kappa2 and kappa3.
 pub(super) fn places(plan: &ScanPlan, cells: &[CellSummary]) -> Vec<Place> {

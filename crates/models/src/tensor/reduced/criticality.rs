@@ -1,6 +1,6 @@
 //! Sub- or supercritical: the kind of the Hopf bifurcation of straight motion.
 
-use super::Reduced;
+use super::{Line, Reduced};
 
 impl Reduced {
     /// First Lyapunov coefficient of the Hopf bifurcation of straight motion at the point with the ellipse `-B/2 < s < 0` of the line
@@ -23,5 +23,24 @@ impl Reduced {
         let g_xx = (4.0 * m * m / b - 8.0 * a1 * m + 48.0 * b3 * m * s) / omega;
         let (g_xy, g_yy) = (4.0 * m / b - 4.0 * a1, 4.0 * omega / b);
         f_xxx - (g_xy * (g_xx + g_yy) + f_xx * g_xx) / omega
+    }
+
+    /// Where that coefficient changes its sign between the Hopf line's points at `kappa2` = -0.2 and -0.005: a Bautin point, by bisection.
+    /// `None` if it does not.
+    ///
+    /// # Checked by  tests/all/reduced.rs: the measured zero
+    #[must_use]
+    pub fn bautin(&self) -> Option<[f64; 2]> {
+        let ellipse = |kappa2| self.on_line(Line::StraightHopf, kappa2).map(|at| at.0);
+        let (mut low, mut high) = (ellipse(-0.2)?, ellipse(-0.005)?);
+        let kind = |s| self.straight_hopf_criticality(s);
+        if kind(low) <= 0.0 || kind(high) >= 0.0 {
+            return None;
+        }
+        for _ in 0..80 {
+            let middle = 0.5 * (low + high);
+            if kind(middle) > 0.0 { low = middle } else { high = middle }
+        }
+        Some(self.straight_hopf(0.5 * (low + high)))
     }
 }

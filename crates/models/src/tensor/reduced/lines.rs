@@ -140,6 +140,40 @@ impl Reduced {
         if cosine.abs() < 1.0 { [q * rho, gamma] } else { [f64::NAN, f64::NAN] }
     }
 
+    /// Where a line has this `kappa2`: its parameter there, and `gamma`; by bisection. `None` where it has no such point, and on
+    /// [`Line::CircleToEllipse`], along which `kappa2` does not change.
+    ///
+    /// # Checked by  tests/all/reduced.rs: points of the lines
+    #[must_use]
+    pub fn on_line(&self, line: Line, kappa2: f64) -> Option<(f64, f64)> {
+        let point = |x: f64| match line {
+            Line::EllipseToStraight => self.ellipse_to_straight(x),
+            Line::StraightToCircular => self.straight_to_circular(x),
+            Line::StraightHopf => self.straight_hopf(-x),
+            _ => self.circular_hopf(x),
+        };
+        let last = match line {
+            Line::CircleToStraight => return (kappa2 > 0.0).then_some((kappa2, 0.0)),
+            Line::QuasiPeriodicToRectangular => return (kappa2 < 0.0).then_some((kappa2, 0.0)),
+            Line::CircleToEllipse => return None,
+            Line::EllipseToStraight => (kappa2.abs() / self.b3).sqrt(),
+            Line::StraightToCircular => self.a1 / (4.0 * self.b3),
+            Line::StraightHopf => 0.5 * self.b() * (1.0 - 1e-9),
+            Line::CircularToQuasiPeriodic => FAR * kappa2.abs() / self.unit(),
+        };
+        let (mut low, mut high) = (0.0, last);
+        // kappa2 begins at 0 and moves to one side, up to where the line ends
+        for _ in 0..80 {
+            let middle = 0.5 * (low + high);
+            if point(middle)[0].abs() < kappa2.abs() { low = middle } else { high = middle }
+        }
+        let x = 0.5 * (low + high);
+        if (point(x)[0] - kappa2).abs() > 1e-9 * kappa2.abs() {
+            return None;
+        }
+        Some((if line == Line::StraightHopf { -x } else { x }, point(x)[1]))
+    }
+
     /// Divisor of kappa2 that gives the square of an ellipse.
     fn unit(&self) -> f64 {
         32.0 * self.a1 / self.b1 + 8.0 * self.b3

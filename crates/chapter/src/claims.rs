@@ -3,7 +3,7 @@
 use motiform_figures::report::{Claim, Source, Verdict};
 
 /// What the report is.
-pub(super) const ABOUT: &str = "Every figure of Hiraiwa, Ohkuma, Ohta, Matsuo, Sano, *Dynamics of a deformable \
+pub const ABOUT: &str = "Every figure of Hiraiwa, Ohkuma, Ohta, Matsuo, Sano, *Dynamics of a deformable \
 self-propelled domain*, EPL (2010), computed anew, and every claim of the paper checked. A motion is never named by eye: \
 rotations are divided out, and the reduced motion is decided by eigenvalues, by Newton's method on a return, by rests near \
 saddles, or by a Lyapunov exponent with its error. Where paper and computation differ, the reason is given. Claims are what \
@@ -12,18 +12,12 @@ counted apart. At the end stands the whole paper, sentence by sentence, with the
 does.";
 
 /// A claim of the paper, in these sentences (see `paper/`), that holds or fails.
-pub(super) fn claim(
-    sentences: &[u16],
-    says: &str,
-    finds: impl Into<String>,
-    how: &str,
-    holds: bool,
-) -> Claim {
+pub fn claim(sentences: &[u16], says: &str, finds: impl Into<String>, how: &str, holds: bool) -> Claim {
     Claim { source: Source::Paper(sentences.to_vec()), ..check(says, finds, how, holds) }
 }
 
 /// An additional check, which holds or fails.
-pub(super) fn check(says: &str, finds: impl Into<String>, how: &str, holds: bool) -> Claim {
+pub fn check(says: &str, finds: impl Into<String>, how: &str, holds: bool) -> Claim {
     let verdict = if holds {
         Verdict::Holds
     } else {
@@ -33,7 +27,7 @@ pub(super) fn check(says: &str, finds: impl Into<String>, how: &str, holds: bool
 }
 
 /// A claim of the paper that does not hold as stated, for a reason that `shown` confirms; without that it fails.
-pub(super) fn differs(
+pub fn differs(
     sentences: &[u16],
     says: &str,
     finds: impl Into<String>,

@@ -12,23 +12,25 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The settings of a chapter.
-pub(super) struct Context<'c> {
+pub struct Context<'c> {
     /// Scans are kept in folders here.
-    pub(super) out: &'c Path,
+    pub out: &'c Path,
     /// Less evidence in less time.
-    pub(super) quick: bool,
-    pub(super) threads: usize,
-    pub(super) watch: &'c dyn Watch,
+    pub quick: bool,
+    /// Threads of scans; changes no number.
+    pub threads: usize,
+    /// Progress, and whether to stop.
+    pub watch: &'c dyn Watch,
 }
 
 impl Context<'_> {
     /// `full`, or `quick` in a quick run.
-    pub(super) fn choose<T>(&self, full: T, quick: T) -> T {
+    pub fn choose<T>(&self, full: T, quick: T) -> T {
         if self.quick { quick } else { full }
     }
 
     /// `answer` to each item, on all threads, in the order of the items.
-    pub(super) fn each<I: Sync, A: Send>(
+    pub fn each<I: Sync, A: Send>(
         &self,
         items: &[I],
         answer: impl Fn(&I) -> Result<A, Error> + Sync,
@@ -37,12 +39,12 @@ impl Context<'_> {
     }
 
     /// A watch for stopping only.
-    pub(super) fn quiet(&self) -> impl Watch + '_ {
+    pub fn quiet(&self) -> impl Watch + '_ {
         StopOnly(self.watch)
     }
 
     /// The study of a preset with changes.
-    pub(super) fn preset(
+    pub fn preset(
         &self,
         name: &str,
         change: impl FnOnce(&mut Study) -> Result<(), Error>,
@@ -55,7 +57,7 @@ impl Context<'_> {
     }
 
     /// Runs a study.
-    pub(super) fn simulate(&self, study: &Study) -> Result<Dataset, Error> {
+    pub fn simulate(&self, study: &Study) -> Result<Dataset, Error> {
         let dataset = simulate(&Plan::new(study)?, &StopOnly(self.watch))?;
         match *dataset.manifest.outcome {
             Outcome::Interrupted { .. } => Err(Error::Interrupted),
@@ -64,12 +66,12 @@ impl Context<'_> {
     }
 
     /// Classifies the motion of a study.
-    pub(super) fn classify(&self, study: &Study) -> Result<Verdict, Error> {
+    pub fn classify(&self, study: &Study) -> Result<Verdict, Error> {
         analyse::classify(&Plan::new(study)?, 0.0, &StopOnly(self.watch))?.ok_or(Error::Interrupted)
     }
 
     /// Computes a scan (or continues it) in the folder `name`, and reads it: its plan, and one summary per cell.
-    pub(super) fn scan(&self, name: &str, study: &Study) -> Result<(ScanPlan, Vec<CellSummary>), Error> {
+    pub fn scan(&self, name: &str, study: &Study) -> Result<(ScanPlan, Vec<CellSummary>), Error> {
         // as in the paper, motions grow from small perturbations of a circle
         let study = Study { random: study.random.or(Some(Random::SMALL)), ..study.clone() };
         let plan = ScanPlan::new(&study)?;
@@ -84,23 +86,26 @@ impl Context<'_> {
 }
 
 /// Progress of chapters that are computed in parallel.
-pub(super) struct Progress<'m> {
+pub struct Progress<'m> {
     watch: &'m dyn Watch,
     /// Of each chapter: its share of the work, and the part of it that is done (bits of a number that only grows).
     parts: Vec<(f64, AtomicU64)>,
 }
 
 impl<'m> Progress<'m> {
-    pub(super) fn new(watch: &'m dyn Watch, work: &[f64]) -> Self {
+    /// Progress of chapters with these shares of the work.
+    pub fn new(watch: &'m dyn Watch, work: &[f64]) -> Self {
         let total: f64 = work.iter().sum();
         Self { watch, parts: work.iter().map(|work| (work / total, AtomicU64::new(0))).collect() }
     }
 }
 
 /// The share of a chapter in the whole.
-pub(super) struct Share<'p> {
-    pub(super) progress: &'p Progress<'p>,
-    pub(super) index: usize,
+pub struct Share<'p> {
+    /// That of all chapters.
+    pub progress: &'p Progress<'p>,
+    /// The chapter.
+    pub index: usize,
 }
 
 impl Watch for Share<'_> {
