@@ -76,6 +76,20 @@ pub enum Error {
         /// Number of modes of the error function.
         closure_modes: usize,
     },
+    /// Equations given as text that are no model.
+    #[error("the amplitude equations are not valid: {problem}")]
+    Equations {
+        /// What is wrong, and the remedy.
+        problem: String,
+    },
+    /// A coefficient of amplitude equations has no value.
+    #[error(
+        "the coefficient of the term {term} has no finite value at these parameters: change a parameter that it divides by, or takes a root of"
+    )]
+    Coefficient {
+        /// The equation and its term.
+        term: String,
+    },
 }
 
 fn hint(nearest: &Option<&'static str>) -> String {

@@ -93,7 +93,7 @@ impl ScanPlan {
 
     #[getter]
     fn model(&self) -> &str {
-        &self.0.computation.model
+        self.0.computation.model.as_str()
     }
 
     #[getter]

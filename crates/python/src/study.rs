@@ -74,8 +74,8 @@ impl Study {
     }
 
     #[getter]
-    fn model(&self) -> &'static str {
-        self.0.model
+    fn model(&self) -> &str {
+        self.0.model.as_str()
     }
 
     #[getter]

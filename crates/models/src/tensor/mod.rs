@@ -13,7 +13,9 @@ pub use fourier::{Coefficients, FourierField};
 pub use parameters::TensorParameters;
 
 use motiform_dynamics::model::{Coordinate, Observable};
-use motiform_dynamics::{Dual, Equivariant, Model, Outline, Scalar, Semilinear, Shape, System, VectorField};
+use motiform_dynamics::{
+    Dual, Equivariant, Model, Outline, Scalar, Semilinear, Shape, Symmetry, System, VectorField,
+};
 
 /// The tensor model for one set of parameters.
 ///
@@ -143,8 +145,8 @@ fn spin<T: Scalar>(shape: &[T], out: &mut [T]) {
 }
 
 impl Equivariant for Tensor {
-    fn is_symmetric(&self) -> bool {
-        true
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::FULL
     }
 
     /// `z_n -> exp(-i n angle) z_n`.
