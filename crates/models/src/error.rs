@@ -14,6 +14,11 @@ pub enum Error {
         /// All known names.
         known: Vec<&'static str>,
     },
+    /// Equations given as text were asked for by name.
+    #[error(
+        "amplitudes are equations of your own: give a study file with [model.amplitudes], or one of their presets"
+    )]
+    NoEquations,
     /// The model has no such parameter.
     #[error("unknown parameter {name:?} of model {model}{}: `motiform models {model}` lists them", hint(.nearest))]
     UnknownParameter {

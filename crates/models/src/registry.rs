@@ -1,6 +1,6 @@
 //! All models by name, for the front ends, and construction of a model from named values.
 
-use crate::amplitudes::{Definition, Known};
+use crate::amplitudes::{self, Definition, Known};
 use crate::cell::{Cell, CellParameters};
 use crate::error::{Error, nearest};
 use crate::parameters::{ParameterSpec, Parameters};
@@ -146,6 +146,9 @@ impl ModelInfo {
     /// [`Error::UnknownModel`] with the nearest name.
     pub fn find(name: &str) -> Result<&'static Self, Error> {
         let known: Vec<&'static str> = MODELS.iter().map(|model| model.name).collect();
+        if name == amplitudes::NAME {
+            return Err(Error::NoEquations);
+        }
         MODELS.iter().find(|model| model.name == name).ok_or_else(|| Error::UnknownModel {
             name: name.to_owned(),
             nearest: nearest(name, known.iter().copied()),

@@ -122,8 +122,11 @@ fn names() -> Vec<&'static str> {
 
 fn from_preset(value: &Value<'_>, info: Option<&'static ModelInfo>) -> Result<Study, Error> {
     let name = value.text()?;
-    let model = info.or_else(|| presets::model_of(&name)).unwrap_or(&MODELS[0]);
-    presets::find(model, &name).map_err(|error| value.error(error))
+    let found = match info {
+        Some(info) => presets::find(info, &name),
+        None => presets::find_any(&name, MODELS[0].name),
+    };
+    found.map_err(|error| value.error(error))
 }
 
 fn read_free(study: &Study, value: &Value<'_>) -> Result<Vec<String>, Error> {

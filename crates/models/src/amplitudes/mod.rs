@@ -11,6 +11,7 @@ mod names;
 mod parser;
 mod polynomial;
 mod program;
+mod tensor_form;
 mod tokens;
 
 pub use definition::{Definition, DefinitionError, ParameterDefinition, Part};
@@ -19,6 +20,7 @@ pub(crate) use names::Known;
 pub use names::{NAME, info, terms};
 pub use parser::RESERVED;
 pub use polynomial::{MOST_MODES, MOST_ORDER, Monomial};
+pub use tensor_form::{TensorForm, tensor_form};
 
 use crate::polar::{self, Mode};
 use coefficient::Value;

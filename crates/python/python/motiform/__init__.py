@@ -14,6 +14,7 @@ from ._registry import VERSION as __version__
 from .bodies import Cell, Tensor
 from .branches import Branch, Branches
 from .ensembles import Ensemble, ensemble
+from .equations import Amplitudes
 from .errors import EndedEarly, Incomplete, Interrupted, WorkersLost
 from .models import Model, preset, study
 from .reading import read
@@ -27,6 +28,7 @@ __all__ = [
     "REGIMES",
     "STEPPERS",
     "Accuracy",
+    "Amplitudes",
     "Branch",
     "Branches",
     "Cell",
