@@ -24,14 +24,12 @@ impl Isotropy {
     #[must_use]
     pub fn of<B: Equivariant + ?Sized>(body: &B, shape: &[f64], tolerance: f64) -> Self {
         let size = norm(shape);
-        if !body.is_symmetric() {
-            return Self { folds: 1, circle: false, mirror: None };
-        }
+        let symmetry = body.symmetry();
         let mut spin = vec![0.0; shape.len()];
         body.spin(shape, &mut spin);
-        let circle = norm(&spin) <= tolerance * size;
-        let axis = align(body, shape, shape, true);
-        let mirror = (axis.distance <= tolerance * size).then_some(axis.angle);
+        let circle = symmetry.rotations && norm(&spin) <= tolerance * size;
+        let axis = symmetry.mirror.then(|| align(body, shape, shape, true));
+        let mirror = axis.filter(|axis| axis.distance <= tolerance * size).map(|axis| axis.angle);
         Self { folds: if circle { 1 } else { folds(body, shape, tolerance) }, circle, mirror }
     }
 
@@ -50,6 +48,6 @@ fn folds<B: Equivariant + ?Sized>(body: &B, shape: &[f64], tolerance: f64) -> us
         add(&mut turned, -1.0, shape);
         norm(&turned) < tolerance * norm(shape)
     };
-    let most = if body.is_symmetric() { 16.min(shape.len()) } else { 1 };
+    let most = if body.symmetry().rotations { 16.min(shape.len()) } else { 1 };
     (2..=most).rev().find(fixed).unwrap_or(1)
 }

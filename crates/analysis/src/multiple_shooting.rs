@@ -137,7 +137,7 @@ impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
         let (count, dim) = (parts.len(), self.shapes[0].len());
         let fixed = self.fixed(0);
         let rows = count * dim + fixed.len();
-        let turns = self.body.is_symmetric();
+        let turns = self.body.symmetry().rotations;
         let mut columns = vec![vec![0.0; rows]; count * dim + 1 + usize::from(turns)];
         for (i, part) in parts.iter().enumerate() {
             let last = i + 1 == count;

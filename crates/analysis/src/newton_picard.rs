@@ -56,7 +56,7 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
             (0..count).map(|_| (0..dim).map(|_| random.next()).collect()).collect();
         // The neutral directions are among the leading ones from the start.
         VectorField::<f64>::eval(body, 0.0, guess.shape, &mut directions[0]);
-        if body.is_symmetric() && count > 1 {
+        if body.symmetry().rotations && count > 1 {
             body.spin(guess.shape, &mut directions[1]);
         }
         let mut newton = Self {

@@ -39,7 +39,7 @@ pub fn align<B: Equivariant + ?Sized>(
     if mirrored {
         body.mirror(&mut base);
     }
-    let points = if body.is_symmetric() { (4 * shape.len()).clamp(32, 512) } else { 1 };
+    let points = if body.symmetry().rotations { (8 * body.highest_mode()).clamp(32, 512) } else { 1 };
     let mut turned = base.clone();
     let mut turn = |angle: f64| {
         turned.copy_from_slice(&base);
@@ -56,7 +56,7 @@ pub fn align<B: Equivariant + ?Sized>(
     // Between grid points c rises by (N cell / 2)^2 / 2 of |reference| |u| at most, N the highest mode: a shape that is
     // nearly its own image has several maxima that differ by less.
     let highest = overlaps.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let half = 0.25 * shape.len() as f64 * cell;
+    let half = 0.5 * body.highest_mode() as f64 * cell;
     let least = highest - 0.5 * half * half * norm(reference) * norm(&base);
     let tops = (0..points).filter(|&i| {
         let (before, after) = (overlaps[(i + points - 1) % points], overlaps[(i + 1) % points]);
@@ -165,12 +165,12 @@ impl<B: Equivariant + ?Sized> VectorField<f64> for MovingFrame<'_, B> {
 
 /// A size of the reduced shape, whose extremes are the section that reduced orbits are watched on.
 ///
-/// For a body with symmetry `|u|`, which no rotation and no mirror changes. Without symmetry `l . u` with a fixed unit
-/// vector `l` in general position, for `|u|` may be constant on an orbit. Two shapes differ in it by no more than their
-/// distance.
+/// Where rotations are divided out `|u|`, which no rotation and no mirror changes. Otherwise `l . u` with a fixed unit
+/// vector `l` in general position, for `|u|` may be constant on an orbit; averaged with that of the mirror image, where there is one.
+/// Two shapes differ in it by no more than their distance.
 #[must_use]
 pub fn gauge<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> f64 {
-    if body.is_symmetric() { norm(shape) } else { general(shape) }
+    if body.symmetry().rotations { norm(shape) } else { general(body, shape) }
 }
 
 /// A function that vanishes where the [`gauge`] of an orbit has its extremes, smooth everywhere: `u . f(u)`, or `l . f(u)`.
@@ -178,12 +178,18 @@ pub fn gauge<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> f64 {
 pub fn gauge_rate<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> f64 {
     let mut rate = vec![0.0; shape.len()];
     VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
-    if body.is_symmetric() { dot(shape, &rate) } else { general(&rate) }
+    if body.symmetry().rotations { dot(shape, &rate) } else { general(body, &rate) }
 }
 
-/// `l . u` with `l_i` proportional to `1 / (1 + 0.618 i)`.
-fn general(u: &[f64]) -> f64 {
+/// `l . u` with `l_i` proportional to `1 / (1 + 0.618 i)`; `l . (u + M u) / 2` with a mirror M.
+fn general<B: Equivariant + ?Sized>(body: &B, u: &[f64]) -> f64 {
     let weight = |i: usize| 1.0 / (1.0 + 0.618 * i as f64);
     let length = (0..u.len()).map(|i| weight(i) * weight(i)).sum::<f64>().sqrt();
-    u.iter().enumerate().map(|(i, x)| weight(i) * x).sum::<f64>() / length
+    let along = |u: &[f64]| u.iter().enumerate().map(|(i, x)| weight(i) * x).sum::<f64>() / length;
+    if !body.symmetry().mirror {
+        return along(u);
+    }
+    let mut image = u.to_vec();
+    body.mirror(&mut image);
+    0.5 * (along(u) + along(&image))
 }

@@ -35,7 +35,11 @@ pub struct BranchFolder {
 #[must_use]
 pub fn default_folder(plan: &BranchPlan) -> String {
     let model = &plan.computation.start.model;
-    if plan.name == *model { format!("{model}-branches") } else { format!("{model}-{}-branches", plan.name) }
+    if plan.name == model.as_str() {
+        format!("{model}-branches")
+    } else {
+        format!("{model}-{}-branches", plan.name)
+    }
 }
 
 impl BranchFolder {

@@ -87,7 +87,7 @@ pub(crate) enum Command {
 
 #[derive(Args)]
 pub(crate) struct ModelsOptions {
-    /// Show all details of this model
+    /// Show all details of this model: tensor, cell, or a study file with your own equations
     pub(crate) model: Option<String>,
     /// Print one JSON object
     #[arg(long)]

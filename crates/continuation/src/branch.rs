@@ -177,7 +177,7 @@ pub(super) fn shoot_nodes<'f>(
         dim: body.dim(),
         parts: nodes.len(),
         mirrored: orbit.mirrored,
-        turns: body.is_symmetric() && !orbit.mirrored,
+        turns: body.symmetry().rotations && !orbit.mirrored,
         size: nodes.iter().map(|node| norm(node)).fold(0.0, f64::max),
         widths: widths.to_vec(),
     };

@@ -167,7 +167,7 @@ fn orbits<'f>(
         dim: body.dim(),
         parts: nodes.len(),
         mirrored,
-        turns: body.is_symmetric() && !mirrored,
+        turns: body.symmetry().rotations && !mirrored,
         size: if size > 1e-6 { size } else { 1.0 },
         widths: vec![settings.width()],
     }

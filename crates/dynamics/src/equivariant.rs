@@ -4,6 +4,34 @@ use crate::tangent::Differentiable;
 use crate::{Dual, Semilinear, Shape};
 use std::f64::consts::TAU;
 
+/// The motions of the plane that map solutions to solutions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Symmetry {
+    /// All rotations. Two shapes that differ by one are the same reduced shape.
+    pub rotations: bool,
+    /// The reflection y -> -y (with rotations: at any line).
+    pub mirror: bool,
+}
+
+impl Symmetry {
+    /// Rotations and the mirror: no direction and no hand is preferred.
+    pub const FULL: Self = Self { rotations: true, mirror: true };
+
+    /// All symmetries with their names.
+    pub const NAMES: [(&'static str, Self); 4] = [
+        ("rotation+mirror", Self::FULL),
+        ("rotation", Self { rotations: true, mirror: false }),
+        ("mirror", Self { rotations: false, mirror: true }),
+        ("none", Self { rotations: false, mirror: false }),
+    ];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(_, symmetry)| *symmetry == self).map_or("none", |(name, _)| name)
+    }
+}
+
 /// An autonomous shape, the velocity determined by it, exact derivatives of both, and how rotations of the plane
 /// and the reflection act on it.
 ///
@@ -11,14 +39,15 @@ use std::f64::consts::TAU;
 /// those of a system without symmetry; a body in the plane overrides them. Object-safe.
 ///
 /// # Symmetry
-/// The flow on shapes must commute with [`Equivariant::rotate`] and [`Equivariant::mirror`], the velocity must transform with
-/// them, and both act by orthogonal matrices: [`crate::conformance`] checks every model.
+/// The flow on shapes must commute with the motions that [`Equivariant::symmetry`] names, the velocity must transform with
+/// them, and they act by orthogonal matrices: [`crate::conformance`] checks every model.
 pub trait Equivariant:
     Semilinear<f64> + Semilinear<Dual<f64, 1>> + Differentiable + Shape<f64> + Shape<Dual<f64, 1>> + Send + Sync
 {
-    /// Whether the rotations and the reflection act at all.
-    fn is_symmetric(&self) -> bool {
-        false
+    /// The motions of the plane that act. Without rotations, [`Equivariant::rotate`] and [`Equivariant::spin`] do nothing; without the mirror,
+    /// [`Equivariant::mirror`] does nothing.
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::default()
     }
 
     /// Turns the shape by `angle` (rad, anticlockwise), in place.
@@ -37,6 +66,11 @@ pub trait Equivariant:
 
     /// Mirrors the shape at the x axis (y -> -y), in place.
     fn mirror(&self, _shape: &mut [f64]) {}
+
+    /// The largest angular index among its modes: a rotation by `angle` turns none by more than this times `angle`.
+    fn highest_mode(&self) -> usize {
+        self.dim() / 2
+    }
 
     /// Speeds below this are round-off for this shape, or below what a run with absolute tolerance `atol` resolves: the
     /// body is at rest and has no heading. 0 if the velocity is itself an unknown, with its own relative accuracy.

@@ -38,7 +38,7 @@ mod watch;
 
 pub use control::StepControl;
 pub use drive::{Request, Sink};
-pub use equivariant::Equivariant;
+pub use equivariant::{Equivariant, Symmetry};
 pub use error::Error;
 pub use exponential_orbit::ExponentialOrbit;
 pub use integration::Integration;

@@ -65,7 +65,7 @@ pub(crate) fn python(preset: Option<&str>, study: &Study) -> Result<String, Erro
     let said = Said::of(preset, study)?;
     let set: Vec<String> = said.set.iter().map(|(name, value)| format!("{name}={value:?}")).collect();
     let set = set.join(", ");
-    let class = motiform_study::titles::capital(study.model);
+    let class = motiform_study::titles::capital(study.model.as_str());
     let body = match &said.preset {
         Some(preset) if set.is_empty() => format!("motiform.preset(\"{preset}\")"),
         Some(preset) => format!("motiform.preset(\"{preset}\").replace({set})"),

@@ -11,8 +11,8 @@ use motiform_analysis::regime::{Settings, Verdict, classify};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::{DOP853, Method};
 use motiform_dynamics::{
-    Equivariant, InPlane, Orbit, Request, Scalar, Semilinear, Shape, StepControl, System, Trajectory,
-    VectorField, conformance,
+    Equivariant, InPlane, Orbit, Request, Scalar, Semilinear, Shape, StepControl, Symmetry, System,
+    Trajectory, VectorField, conformance,
 };
 use motiform_figures::{PathFigure, PathPoint, png};
 
@@ -60,8 +60,8 @@ impl<T: Scalar> Shape<T> for Memory {
 
 /// How rotations and the mirror act: on two vectors.
 impl Equivariant for Memory {
-    fn is_symmetric(&self) -> bool {
-        true
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::FULL
     }
 
     fn rotate(&self, angle: f64, u: &mut [f64]) {

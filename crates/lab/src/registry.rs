@@ -19,7 +19,7 @@ pub fn registry() -> Result<Value, Error> {
     };
     Ok(json!({
         "version": dataset::VERSION,
-        "models": MODELS.iter().map(model).collect::<Result<Vec<_>, _>>()?,
+        "models": MODELS.iter().map(entry).collect::<Result<Vec<_>, _>>()?,
         "presets": PRESETS.iter().map(|preset| self::preset(preset.model, preset.name)).collect::<Result<Vec<_>, _>>()?,
         "steppers": Method::names(),
         "regimes": Regime::ALL.map(regime),
@@ -38,7 +38,11 @@ fn preset(model: &str, name: &str) -> Result<Value, Error> {
     )
 }
 
-fn model(info: &'static ModelInfo) -> Result<Value, Error> {
+/// The entry of a model.
+///
+/// # Errors
+/// A model that fails its own checks.
+pub fn entry(info: &'static ModelInfo) -> Result<Value, Error> {
     let defaults: Vec<f64> = info.parameters().iter().map(|spec| spec.default).collect();
     let body = info.build(&defaults)?;
     Ok(json!({

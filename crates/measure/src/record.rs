@@ -87,7 +87,7 @@ impl<'m> Recorder<'m> {
 
 /// The title of figures: that of the study, or the model.
 pub(crate) fn title(plan: &Plan) -> String {
-    let model = || format!("{} model", capital(&plan.computation.model));
+    let model = || format!("{} model", capital(plan.computation.model.as_str()));
     if plan.title.is_empty() { model() } else { plan.title.clone() }
 }
 

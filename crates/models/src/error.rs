@@ -14,6 +14,11 @@ pub enum Error {
         /// All known names.
         known: Vec<&'static str>,
     },
+    /// Equations given as text were asked for by name.
+    #[error(
+        "amplitudes are equations of your own: give a study file with [model.amplitudes], or one of their presets"
+    )]
+    NoEquations,
     /// The model has no such parameter.
     #[error("unknown parameter {name:?} of model {model}{}: `motiform models {model}` lists them", hint(.nearest))]
     UnknownParameter {
@@ -75,6 +80,20 @@ pub enum Error {
         modes: usize,
         /// Number of modes of the error function.
         closure_modes: usize,
+    },
+    /// Equations given as text that are no model.
+    #[error("the amplitude equations are not valid: {problem}")]
+    Equations {
+        /// What is wrong, and the remedy.
+        problem: String,
+    },
+    /// A coefficient of amplitude equations has no value.
+    #[error(
+        "the coefficient of the term {term} has no finite value at these parameters: change a parameter that it divides by, or takes a root of"
+    )]
+    Coefficient {
+        /// The equation and its term.
+        term: String,
     },
 }
 

@@ -1,14 +1,19 @@
 //! The models of motiform. Every model is a shape state with a drift (see `motiform_dynamics::Model`).
 //!
-//! Adding a model is one folder beside [`tensor`] and [`cell`] and one entry in [`registry::MODELS`].
+//! Adding a model is one folder beside [`tensor`] and [`cell`] and one entry in [`registry::MODELS`]. Models of amplitude
+//! equations need no code: [`amplitudes`].
 
+pub mod amplitudes;
 pub mod cell;
 mod error;
+mod model_name;
 pub mod parameters;
+pub mod polar;
 pub mod registry;
 pub mod tensor;
 pub mod zoo;
 
 pub use error::{Error, nearest};
+pub use model_name::ModelName;
 pub use parameters::{ParameterSpec, Parameters};
 pub use registry::{MODELS, ModelInfo};

@@ -13,6 +13,8 @@ pub struct ParameterSpec {
     pub default: f64,
     /// The range of interest (axes and sliders).
     pub range: (f64, f64),
+    /// Whether that range was chosen, not guessed from the default value.
+    pub ranged: bool,
     /// The allowed values.
     pub allowed: (f64, f64),
     /// Whether only whole numbers are allowed.
@@ -110,6 +112,7 @@ macro_rules! parameters {
                         symbol: $symbol,
                         default: $default,
                         range: ($low, $high),
+                        ranged: true,
                         allowed: $crate::parameters::allowed(&[$( ($smallest, $largest) )?]),
                         whole: $crate::parameters::is_whole(&[$( stringify!($whole) )?]),
                         equation: $equation,

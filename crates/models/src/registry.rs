@@ -1,5 +1,6 @@
 //! All models by name, for the front ends, and construction of a model from named values.
 
+use crate::amplitudes::{self, Definition, Known};
 use crate::cell::{Cell, CellParameters};
 use crate::error::{Error, nearest};
 use crate::parameters::{ParameterSpec, Parameters};
@@ -35,9 +36,23 @@ pub struct ModelInfo {
     pub display: Display,
     /// Size of coordinates in random shapes, by their index.
     pub weight: fn(usize) -> f64,
-    parameters: fn() -> &'static [ParameterSpec],
-    coordinates: fn(&[f64]) -> &'static [Coordinate],
-    build: Build,
+    pub(crate) inner: Source,
+}
+
+/// Where a model's names and its construction come from.
+#[derive(Debug)]
+pub(crate) enum Source {
+    /// From code.
+    BuiltIn {
+        /// Its registry of parameters.
+        parameters: fn() -> &'static [ParameterSpec],
+        /// The names of its state, for parameters with these values.
+        coordinates: fn(&[f64]) -> &'static [Coordinate],
+        /// The model.
+        build: Build,
+    },
+    /// From equations given as text.
+    Amplitudes(&'static Known),
 }
 
 /// The initial display of the bodies of a model, unless a preset specifies another.
@@ -73,9 +88,11 @@ pub static MODELS: &[ModelInfo] = &[
             plane: &[("kappa2", 0.05, 1.65), ("kappa3", 0.05, 1.05)],
         },
         weight: |_| 1.0,
-        parameters: TensorParameters::specs,
-        coordinates: |_| &tensor::COORDINATES,
-        build: |values| Ok(Box::new(Tensor::new(&from_values::<TensorParameters>(values)))),
+        inner: Source::BuiltIn {
+            parameters: TensorParameters::specs,
+            coordinates: |_| &tensor::COORDINATES,
+            build: |values| Ok(Box::new(Tensor::new(&from_values::<TensorParameters>(values)))),
+        },
     },
     ModelInfo {
         name: "cell",
@@ -90,9 +107,11 @@ pub static MODELS: &[ModelInfo] = &[
         size: 4.0,
         display: Display { sample: 0.5, speed: 80.0, plane: &[("length", 6.0, 32.0)] },
         weight: |place| 1.0 / ((place / 2 + 1) * (place / 2 + 1)) as f64, // mode n: as smooth as a boundary whose slope jumps
-        parameters: CellParameters::specs,
-        coordinates: |values| from_values::<CellParameters>(values).coordinates(),
-        build: |values| Ok(Box::new(Cell::new(&from_values::<CellParameters>(values))?)),
+        inner: Source::BuiltIn {
+            parameters: CellParameters::specs,
+            coordinates: |values| from_values::<CellParameters>(values).coordinates(),
+            build: |values| Ok(Box::new(Cell::new(&from_values::<CellParameters>(values))?)),
+        },
     },
 ];
 
@@ -127,6 +146,9 @@ impl ModelInfo {
     /// [`Error::UnknownModel`] with the nearest name.
     pub fn find(name: &str) -> Result<&'static Self, Error> {
         let known: Vec<&'static str> = MODELS.iter().map(|model| model.name).collect();
+        if name == amplitudes::NAME {
+            return Err(Error::NoEquations);
+        }
         MODELS.iter().find(|model| model.name == name).ok_or_else(|| Error::UnknownModel {
             name: name.to_owned(),
             nearest: nearest(name, known.iter().copied()),
@@ -146,13 +168,19 @@ impl ModelInfo {
     /// Its registry of parameters.
     #[must_use]
     pub fn parameters(&self) -> &'static [ParameterSpec] {
-        (self.parameters)()
+        match self.inner {
+            Source::BuiltIn { parameters, .. } => parameters(),
+            Source::Amplitudes(known) => known.parameters(),
+        }
     }
 
     /// The names of its shape state, for parameters with these values (in registry order; the number of modes is one).
     #[must_use]
     pub fn coordinates(&self, values: &[f64]) -> &'static [Coordinate] {
-        (self.coordinates)(values)
+        match self.inner {
+            Source::BuiltIn { coordinates, .. } => coordinates(values),
+            Source::Amplitudes(known) => known.coordinates(),
+        }
     }
 
     /// Place of a coordinate (`x` and `y` come after the shape's own), for parameters with these values.
@@ -182,6 +210,18 @@ impl ModelInfo {
                 return Err(Error::OutOfRange { name: spec.name.to_owned(), value, min, max });
             }
         }
-        (self.build)(values)
+        match self.inner {
+            Source::BuiltIn { build, .. } => build(values),
+            Source::Amplitudes(known) => known.build(values),
+        }
+    }
+
+    /// The equations, if they were given as text.
+    #[must_use]
+    pub fn definition(&self) -> Option<&'static Definition> {
+        match self.inner {
+            Source::BuiltIn { .. } => None,
+            Source::Amplitudes(known) => Some(known.definition()),
+        }
     }
 }

@@ -93,7 +93,13 @@ impl ScanPlan {
 
     #[getter]
     fn model(&self) -> &str {
-        &self.0.computation.model
+        self.0.computation.model.as_str()
+    }
+
+    /// The entry of its model in the registry, as JSON.
+    fn info(&self) -> PyResult<String> {
+        let info = self.0.info().map_err(python)?;
+        serde_json::to_string(&motiform_lab::registry::entry(info).map_err(python)?).map_err(of_json)
     }
 
     #[getter]

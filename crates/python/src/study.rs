@@ -27,8 +27,7 @@ impl Study {
     /// A preset of any model.
     #[staticmethod]
     fn preset(name: &str) -> PyResult<Self> {
-        let info = presets::model_of(name).unwrap_or(&motiform_models::MODELS[0]);
-        presets::find(info, name).map(Self).map_err(python)
+        presets::find_any(name, motiform_models::MODELS[0].name).map(Self).map_err(python)
     }
 
     /// A study file.
@@ -74,8 +73,15 @@ impl Study {
     }
 
     #[getter]
-    fn model(&self) -> &'static str {
-        self.0.model
+    fn model(&self) -> &str {
+        self.0.model.as_str()
+    }
+
+    /// The entry of its model in the registry, as JSON.
+    fn info(&self) -> PyResult<String> {
+        let info = self.0.info().map_err(python)?;
+        serde_json::to_string(&motiform_lab::registry::entry(info).map_err(python)?)
+            .map_err(crate::errors::of_json)
     }
 
     #[getter]

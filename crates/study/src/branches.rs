@@ -183,7 +183,7 @@ impl BranchPlan {
     /// # Errors
     /// An unknown model.
     pub fn info(&self) -> Result<&'static ModelInfo, Error> {
-        Ok(ModelInfo::find(&self.computation.start.model)?)
+        Ok(self.computation.start.model.info()?)
     }
 
     /// The title of the figures: the one typed, or one made of model and parameter.
@@ -195,7 +195,7 @@ impl BranchPlan {
         }
         let specs = self.info().map_or(&[][..], ModelInfo::parameters);
         let symbol = specs.iter().find(|spec| spec.name == c.along.name).map_or("", |spec| spec.symbol);
-        format!("{} model: branches along {symbol}", crate::titles::capital(&c.start.model))
+        format!("{} model: branches along {symbol}", crate::titles::capital(c.start.model.as_str()))
     }
 
     /// The value of the varied parameter at the start.

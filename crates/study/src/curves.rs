@@ -197,7 +197,7 @@ impl CurvePlan {
     /// # Errors
     /// An unknown model.
     pub fn info(&self) -> Result<&'static ModelInfo, Error> {
-        Ok(ModelInfo::find(&self.computation.branches.start.model)?)
+        Ok(self.computation.branches.start.model.info()?)
     }
 
     /// The title of the figures: the one typed, or one made of the model.
@@ -206,7 +206,7 @@ impl CurvePlan {
         if !self.title.is_empty() {
             return self.title.clone();
         }
-        let model = crate::titles::capital(&self.computation.branches.start.model);
+        let model = crate::titles::capital(self.computation.branches.start.model.as_str());
         format!("{model} model: curves of bifurcations")
     }
 

@@ -3,6 +3,7 @@
 //!
 //! This crate does not compute, draw or write.
 
+mod amplitudes;
 pub mod branches;
 mod checks;
 mod control;

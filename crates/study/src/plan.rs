@@ -10,7 +10,7 @@ use crate::study::{FigureSettings, ReturnMapSettings, Study};
 use crate::{Error, initial};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Model, Noise, Semilinear};
-use motiform_models::ModelInfo;
+use motiform_models::{ModelInfo, ModelName};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -45,7 +45,7 @@ pub struct Computation {
     /// [`PLAN_FORMAT`].
     pub format: u32,
     /// The model.
-    pub model: String,
+    pub model: ModelName,
     /// All parameters, in registry order.
     pub parameters: Named,
     /// The complete start, position included.
@@ -117,7 +117,7 @@ impl Plan {
         check_start(model.as_ref(), &initial)?;
         let computation = Computation {
             format: PLAN_FORMAT,
-            model: info.name.to_owned(),
+            model: ModelName::from(info),
             parameters,
             initial,
             seed: run.seed,
@@ -146,7 +146,7 @@ impl Plan {
     /// # Errors
     /// An unknown model (for example in a plan written by a newer version).
     pub fn info(&self) -> Result<&'static ModelInfo, Error> {
-        Ok(ModelInfo::find(&self.computation.model)?)
+        Ok(self.computation.model.info()?)
     }
 
     /// Its stepper.

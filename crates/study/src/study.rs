@@ -7,8 +7,8 @@ pub use crate::run_settings::RunSettings;
 use crate::scan::Axis;
 pub use crate::study_reader::schema;
 use crate::{Error, presets};
-use motiform_models::ModelInfo;
 use motiform_models::registry::Display;
+use motiform_models::{ModelInfo, ModelName};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -16,7 +16,7 @@ use serde::Serialize;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
     /// The model.
-    pub model: &'static str,
+    pub model: ModelName,
     /// Short name: that of the preset, or the stem of the file. It is used for the default output folder.
     pub name: String,
     /// Title of the figures.
@@ -136,7 +136,7 @@ impl Study {
     #[must_use]
     pub fn of_model(info: &'static ModelInfo) -> Self {
         Self {
-            model: info.name,
+            model: ModelName::from(info),
             name: info.name.to_owned(),
             title: String::new(),
             about: String::new(),
@@ -170,7 +170,7 @@ impl Study {
     /// # Errors
     /// [`motiform_models::Error::UnknownModel`] if the model name was changed manually.
     pub fn info(&self) -> Result<&'static ModelInfo, Error> {
-        Ok(ModelInfo::find(self.model)?)
+        Ok(self.model.info()?)
     }
 
     /// All parameter values, in registry order.
@@ -201,7 +201,7 @@ impl Study {
     /// Removes title and sentence of a preset, because they describe another motion. Those typed by the user are kept.
     fn untitle(&mut self) {
         for text in [&mut self.title, &mut self.about] {
-            if !text.is_empty() && presets::says(self.model, text) {
+            if !text.is_empty() && presets::says(self.model.as_str(), text) {
                 text.clear();
             }
         }

@@ -6,7 +6,8 @@ use crate::run_settings::RunSettings;
 use crate::scan::Axis;
 use crate::study::{DisplaySettings, FigureSettings, FollowSettings, ReturnMapSettings, ScanSettings, Study};
 use crate::toml_reader::{Source, Table, Value};
-use crate::{Error, presets};
+use crate::{Error, amplitudes, presets};
+use motiform_models::amplitudes::NAME;
 use motiform_models::{MODELS, ModelInfo};
 use schemars::JsonSchema;
 
@@ -73,6 +74,10 @@ fn read_model(top: &mut Table<'_>, file: &str) -> Result<Study, Error> {
         })?;
         return from_preset(&preset, None);
     };
+    if let Some(value) = models.take(NAME) {
+        models.finish()?;
+        return read_amplitudes(preset.as_ref(), value);
+    }
     let mut found = None;
     for info in MODELS {
         if let Some(table) = models.table(info.name)? {
@@ -100,14 +105,32 @@ fn read_model(top: &mut Table<'_>, file: &str) -> Result<Study, Error> {
     Ok(study)
 }
 
+/// Equations, or the values of a preset's parameters.
+fn read_amplitudes(preset: Option<&Value<'_>>, value: Value<'_>) -> Result<Study, Error> {
+    let Some(preset) = preset else { return amplitudes::read(value) };
+    let mut study = from_preset(preset, None)?;
+    let mut table = value.table()?;
+    if let Some(mut parameters) = table.table("parameters")? {
+        for (name, value) in parameters.drain() {
+            let number = value.number()?;
+            study.set(&name, number).map_err(|error| value.name_error(error))?;
+        }
+    }
+    table.finish()?;
+    Ok(study)
+}
+
 fn names() -> Vec<&'static str> {
-    MODELS.iter().map(|info| info.name).collect()
+    MODELS.iter().map(|info| info.name).chain([NAME]).collect()
 }
 
 fn from_preset(value: &Value<'_>, info: Option<&'static ModelInfo>) -> Result<Study, Error> {
     let name = value.text()?;
-    let model = info.or_else(|| presets::model_of(&name)).unwrap_or(&MODELS[0]);
-    presets::find(model, &name).map_err(|error| value.error(error))
+    let found = match info {
+        Some(info) => presets::find(info, &name),
+        None => presets::find_any(&name, MODELS[0].name),
+    };
+    found.map_err(|error| value.error(error))
 }
 
 fn read_free(study: &Study, value: &Value<'_>) -> Result<Vec<String>, Error> {

@@ -2,7 +2,7 @@
 
 use crate::random::Random;
 use crate::scan::Axis;
-use crate::{Error, Study};
+use crate::{Error, Study, amplitudes};
 use serde::Serialize;
 use toml::{Table, Value};
 
@@ -23,7 +23,11 @@ impl Study {
         if !self.free.is_empty() {
             top.insert("free".to_owned(), self.free.clone().into());
         }
-        let model = Table::from_iter([(self.model.to_owned(), Value::Table(numbers(&self.parameters)))]);
+        let values = match self.model.definition() {
+            Some(definition) => amplitudes::written(definition, &self.parameters),
+            None => numbers(&self.parameters),
+        };
+        let model = Table::from_iter([(self.model.to_string(), Value::Table(values))]);
         top.insert("model".to_owned(), model.into());
         let mut initial = numbers(&self.initial);
         if let Some(random) = self.random {

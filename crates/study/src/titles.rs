@@ -17,7 +17,7 @@ impl Plan {
 
     /// `Tensor model: kappa2 = 0.5`, or with a verdict `Circular motion: kappa2 = 0.5`.
     fn parametric(&self, regime: Option<&str>) -> String {
-        let model = format!("{} model", capital(&self.computation.model));
+        let model = format!("{} model", capital(self.computation.model.as_str()));
         let changed = self.changed();
         let motion = regime.map(|regime| match regime {
             "motionless" => "Motionless body".to_owned(),

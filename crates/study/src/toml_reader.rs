@@ -84,6 +84,7 @@ pub(crate) struct Table<'i> {
 }
 
 /// A value with its place.
+#[derive(Clone)]
 pub(crate) struct Value<'i> {
     source: Source<'i>,
     key: String,
@@ -170,6 +171,24 @@ impl<'i> Value<'i> {
         self.source.error(self.value.span(), &problem.to_string())
     }
 
+    /// An error message about some bytes of this text, or about all of it where the text has escapes.
+    pub(crate) fn error_within(&self, bytes: Range<usize>, problem: impl std::fmt::Display) -> Error {
+        let span = self.value.span();
+        let raw = self.source.text.get(span.clone()).unwrap_or("");
+        let quotes = if raw.starts_with("\"\"\"") || raw.starts_with("'''") { 3 } else { 1 };
+        let first = quotes + usize::from(quotes == 3 && raw[quotes..].starts_with('\n'));
+        let plain = self
+            .value
+            .get_ref()
+            .as_str()
+            .is_some_and(|text| raw.get(first..).is_some_and(|rest| rest.starts_with(text)));
+        if !plain {
+            return self.error(problem);
+        }
+        let start = span.start + first;
+        self.source.error(start + bytes.start..start + bytes.end, &problem.to_string())
+    }
+
     /// An error message about its name.
     pub(crate) fn name_error(&self, problem: impl std::fmt::Display) -> Error {
         self.source.error(self.key_span.clone(), &problem.to_string())
@@ -203,6 +222,27 @@ impl<'i> Value<'i> {
         };
         u64::from_str_radix(&integer.as_str().replace('_', ""), integer.radix())
             .map_err(|_| self.error(format!("{} must be a whole number from 0 to {}", self.key, u64::MAX)))
+    }
+
+    /// The entries of a list.
+    fn list(&self, expected: &str) -> Result<Vec<Value<'i>>, Error> {
+        let array = self.value.get_ref().as_array().ok_or_else(|| self.wrong(expected))?;
+        Ok(array.iter().map(|item| Value { value: item.clone(), ..self.clone() }).collect())
+    }
+
+    /// A list of finite numbers.
+    pub(crate) fn numbers(&self) -> Result<Vec<f64>, Error> {
+        self.list("a list of numbers")?.iter().map(Value::number).collect()
+    }
+
+    /// A list of whole numbers of at least 0.
+    pub(crate) fn wholes(&self) -> Result<Vec<u64>, Error> {
+        self.list("a list of whole numbers")?.iter().map(Value::whole).collect()
+    }
+
+    /// Whether it is a table.
+    pub(crate) fn is_table(&self) -> bool {
+        self.value.get_ref().is_table()
     }
 
     /// `true` or `false`.

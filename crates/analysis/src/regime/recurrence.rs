@@ -50,7 +50,7 @@ pub(super) fn recurrences<B: Equivariant + ?Sized>(
 ) -> Vec<Recurrence> {
     let Some((last, earlier)) = minima.split_last() else { return Vec::new() };
     let mut found: Vec<Recurrence> = Vec::new();
-    let images = if body.is_symmetric() { &[true, false][..] } else { &[false] };
+    let images = if body.symmetry().mirror { &[true, false][..] } else { &[false] };
     for (returns, before) in earlier.iter().rev().take(LONGEST).enumerate() {
         if (before.size - last.size).abs() > CLOSE * diameter {
             continue; // sizes differ by no more than the distance
@@ -230,7 +230,7 @@ fn shortest<B: Equivariant + ?Sized>(
     settings: &Settings,
     watch: &dyn Watch,
 ) -> (PeriodicOrbit, Recurrence) {
-    if recurrence.returns == 1 && (recurrence.mirrored || !body.is_symmetric()) {
+    if recurrence.returns == 1 && (recurrence.mirrored || !body.symmetry().mirror) {
         return (orbit, recurrence);
     }
     let found = || -> Option<(PeriodicOrbit, Recurrence)> {
@@ -240,7 +240,7 @@ fn shortest<B: Equivariant + ?Sized>(
         let diameter = look.diameter(body);
         let minima = look.minima();
         let (start, later) = minima.split_first()?;
-        let images = if body.is_symmetric() { &[true, false][..] } else { &[false] };
+        let images = if body.symmetry().mirror { &[true, false][..] } else { &[false] };
         for (returns, minimum) in later.iter().enumerate() {
             for &mirrored in images {
                 let near = align(body, &minimum.shape, &start.shape, mirrored);

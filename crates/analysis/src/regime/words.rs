@@ -197,7 +197,7 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     verdict.net_rotation = Some(rotation);
     verdict.speed = path.speed();
     let error = settings.accuracy() / orbit.time;
-    let neutral = if body.is_symmetric() { 2 } else { 1 };
+    let neutral = if body.symmetry().rotations { 2 } else { 1 };
     let mut values: Vec<f64> = orbit.exponents().into_iter().filter(|x| x.is_finite()).collect();
     values.extend(std::iter::repeat_n(0.0, neutral));
     values.sort_by(|a, b| b.total_cmp(a));

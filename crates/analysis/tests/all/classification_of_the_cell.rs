@@ -7,7 +7,9 @@ use crate::common;
 
 use common::{Random, cell, named, settings};
 use motiform_analysis::Regime;
-use motiform_dynamics::{Dual, Equivariant, Obstacle, Scalar, Semilinear, Shape, System, VectorField};
+use motiform_dynamics::{
+    Dual, Equivariant, Obstacle, Scalar, Semilinear, Shape, Symmetry, System, VectorField,
+};
 use motiform_models::cell::Cell;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -59,8 +61,8 @@ impl<T: Scalar<Real = f64>> Shape<T> for Counted {
 }
 
 impl Equivariant for Counted {
-    fn is_symmetric(&self) -> bool {
-        true
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::FULL
     }
 
     fn rotate(&self, angle: f64, shape: &mut [f64]) {

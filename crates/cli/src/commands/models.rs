@@ -3,22 +3,33 @@
 use crate::args::ModelsOptions;
 use crate::output::{End, print};
 use motiform_dynamics::model::Coordinate;
+use motiform_models::amplitudes::{Definition, Equations, tensor_form, terms};
 use motiform_models::{MODELS, ModelInfo};
-use motiform_study::presets;
+use motiform_study::{Study, presets};
 use serde_json::{Value, json};
 use std::fmt::Write;
+use std::path::Path;
 
 pub(crate) fn run(options: &ModelsOptions) -> anyhow::Result<End> {
     let text = match &options.model {
         None if options.json => pretty(&MODELS.iter().map(short).collect::<Vec<_>>().into())?,
         None => list()?,
         Some(name) => {
-            let info = ModelInfo::find(name)?;
+            let info = info(name)?;
             if options.json { pretty(&whole(info)?)? } else { page(info)? }
         }
     };
     print(text.trim_end())?;
     Ok(End::Done)
+}
+
+/// A model of the registry, or that of a study file.
+fn info(subject: &str) -> anyhow::Result<&'static ModelInfo> {
+    let path = Path::new(subject);
+    if path.extension().is_some_and(|extension| extension == "toml") {
+        return Ok(Study::read(path)?.info()?);
+    }
+    Ok(ModelInfo::find(subject)?)
 }
 
 fn pretty(value: &Value) -> anyhow::Result<String> {
@@ -31,13 +42,19 @@ fn list() -> anyhow::Result<String> {
         writeln!(text, "{:<8} {}", info.name, info.title)?;
         writeln!(text, "{:<8} presets: {}", "", presets::names_of(info.name).join(" "))?;
     }
-    writeln!(text, "\n`motiform models MODEL` shows equations, parameters and presets.")?;
+    writeln!(
+        text,
+        "\n`motiform models MODEL` shows equations, parameters and presets. MODEL may be a study file with your own equations."
+    )?;
     Ok(text)
 }
 
 fn page(info: &'static ModelInfo) -> anyhow::Result<String> {
     let mut text =
         format!("{}: {}\nSource: {}\n\n{}\n\n", info.name, info.title, info.source, info.equations);
+    if let Some(definition) = info.definition() {
+        understood(&mut text, definition)?;
+    }
     writeln!(text, "Parameters (dimensionless; --set NAME=VALUE)")?;
     for spec in info.parameters() {
         writeln!(text, "  {:<17} {:>6}  {:<7} {}", spec.name, spec.default, spec.equation, spec.meaning)?;
@@ -51,7 +68,11 @@ fn page(info: &'static ModelInfo) -> anyhow::Result<String> {
         let last = coordinates.last().map_or("", |coordinate| coordinate.name);
         writeln!(text, "  ...     and so on up to {last}")?;
     }
-    writeln!(text, "  {:<7} position of the centre of mass\n\nPresets (--preset NAME)", "x, y")?;
+    writeln!(text, "  {:<7} position of the centre of mass", "x, y")?;
+    if info.definition().is_some() {
+        return Ok(text);
+    }
+    writeln!(text, "\nPresets (--preset NAME)")?;
     for name in presets::names_of(info.name) {
         let study = presets::find(info, name)?;
         let free =
@@ -59,6 +80,38 @@ fn page(info: &'static ModelInfo) -> anyhow::Result<String> {
         writeln!(text, "  {name:<7} {}{free}", study.about)?;
     }
     Ok(text)
+}
+
+/// The terms of equations given as text, and the tensor model that they are.
+fn understood(text: &mut String, definition: &Definition) -> anyhow::Result<()> {
+    let equations = Equations::new(definition)?;
+    let values: Vec<f64> = definition.parameters.iter().map(|parameter| parameter.default).collect();
+    writeln!(text, "Terms, with their coefficients at the default parameters")?;
+    for (term, value) in terms(&equations, &values) {
+        writeln!(text, "  {term:<24} {}", complex(value))?;
+    }
+    writeln!(text)?;
+    let Some(form) = tensor_form(&equations, &values) else { return Ok(()) };
+    writeln!(text, "In tensor form, (V), (S), (U) of `motiform models tensor`")?;
+    let named = form.parameters.iter().map(|(name, value)| format!("{name} = {value}"));
+    writeln!(text, "  {}", named.collect::<Vec<_>>().join(", "))?;
+    if form.saturation != 1.0 {
+        writeln!(text, "  the term -v^2 v has the factor {}; it has 1 in the tensor model", form.saturation)?;
+    }
+    for (term, value) in &form.others {
+        writeln!(text, "  not in the tensor model: {term}, with {}", complex(*value))?;
+    }
+    writeln!(text)?;
+    Ok(())
+}
+
+/// `0.5`, `0.5 - 0.1 i`.
+fn complex([re, im]: [f64; 2]) -> String {
+    match (re, im) {
+        (re, 0.0) => re.to_string(),
+        (0.0, im) => format!("{im} i"),
+        (re, im) => format!("{re} {} {} i", if im < 0.0 { '-' } else { '+' }, im.abs()),
+    }
 }
 
 /// Maximum number of coordinates that are listed.

@@ -154,7 +154,7 @@ impl Target {
 
 fn default_folder(plan: &Plan) -> String {
     let model = &plan.computation.model;
-    if plan.name == *model { model.clone() } else { format!("{model}-{}", plan.name) }
+    if plan.name == model.as_str() { model.to_string() } else { format!("{model}-{}", plan.name) }
 }
 
 fn json(dataset: &Dataset) -> anyhow::Result<String> {

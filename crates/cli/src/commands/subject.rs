@@ -3,6 +3,7 @@
 use crate::args::{MethodOptions, MotionOptions, SamplesOptions, SubjectOptions};
 use motiform_lab::samples::Samples;
 use motiform_models::ModelInfo;
+use motiform_models::amplitudes::NAME;
 use motiform_study::{Error, Plan, Random, Study, presets};
 use std::path::Path;
 
@@ -51,7 +52,7 @@ pub(crate) fn apply(options: &MethodOptions, study: &mut Study) -> Result<(), Er
 pub(crate) fn study(options: &SubjectOptions) -> Result<Study, Error> {
     let SubjectOptions { subject, preset, set } = options;
     let path = Path::new(subject);
-    let mut study = if path.extension().is_some_and(|extension| extension == "toml") {
+    let study = if path.extension().is_some_and(|extension| extension == "toml") {
         if let Some(name) = preset {
             return Err(Error::Setting {
                 key: "--preset",
@@ -61,12 +62,20 @@ pub(crate) fn study(options: &SubjectOptions) -> Result<Study, Error> {
         }
         Study::read(path)?
     } else {
+        if let (NAME, Some(name)) = (subject.as_str(), preset) {
+            return with(presets::find_any(name, NAME)?, set);
+        }
         let info = ModelInfo::find(subject)?;
         match preset {
             Some(name) => presets::find(info, name)?,
             None => Study::of_model(info),
         }
     };
+    with(study, set)
+}
+
+/// The study with these parameters.
+fn with(mut study: Study, set: &[(String, f64)]) -> Result<Study, Error> {
     for (name, value) in set {
         study.set(name, *value)?;
     }

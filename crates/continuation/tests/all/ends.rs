@@ -8,7 +8,7 @@ use common::near;
 use motiform_analysis::periodic::PeriodicGuess;
 use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_continuation::{Branch, End, Family, Point, Settings, Special, switch};
-use motiform_dynamics::{Equivariant, Scalar, Semilinear, Shape, System, VectorField};
+use motiform_dynamics::{Equivariant, Scalar, Semilinear, Shape, Symmetry, System, VectorField};
 use motiform_models::zoo;
 
 type Body = Result<Box<dyn Equivariant>>;
@@ -187,8 +187,8 @@ impl<T: Scalar> Shape<T> for Swing {
     }
 }
 impl Equivariant for Swing {
-    fn is_symmetric(&self) -> bool {
-        true
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::FULL
     }
     fn rotate(&self, angle: f64, u: &mut [f64]) {
         let (sin, cos) = (angle.sin(), angle.cos());

@@ -157,7 +157,7 @@ impl Setting {
         let text = str::to_owned;
         Begun {
             revision: self.revision,
-            model: self.study.model,
+            model: self.study.model.to_string(),
             preset: self.preset.clone(),
             title: self.study.title.clone(),
             about: self.study.about.clone(),

@@ -244,7 +244,7 @@ impl<'s> Stage<'s> {
             let why = format!("there is no file {:?}", export.what);
             return self.services.answers.refused(Some(export.id), &why);
         };
-        let subject = self.setting.preset().unwrap_or(self.setting.study().model).to_owned();
+        let subject = self.setting.preset().unwrap_or(self.setting.study().model.as_str()).to_owned();
         self.services.exports.put(Order { id: export.id, subject, what: export.what.clone(), make })
     }
 

@@ -76,7 +76,7 @@ messages! {
     #[derive(Serialize)]
     Begun {
         revision: u32,
-        model: &'static str,
+        model: String,
         preset: Option<String>,
         title: String,
         about: String,

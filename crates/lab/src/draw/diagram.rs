@@ -138,7 +138,7 @@ fn sorted(values: &[f64]) -> Vec<f64> {
 /// The couplings of a plan that is the reduced model over the plane (kappa2, gamma), in either order.
 fn reduced(plan: &ScanPlan) -> Option<Reduced> {
     let c = &plan.computation;
-    if c.model != TensorParameters::MODEL || c.axes.len() != 2 {
+    if c.model.as_str() != TensorParameters::MODEL || c.axes.len() != 2 {
         return None;
     }
     let mut parameters = TensorParameters::default();

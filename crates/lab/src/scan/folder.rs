@@ -87,7 +87,7 @@ impl ScanFolder {
 #[must_use]
 pub fn default_folder(plan: &ScanPlan) -> String {
     let model = &plan.computation.model;
-    if plan.name == *model { format!("{model}-scan") } else { format!("{model}-{}-scan", plan.name) }
+    if plan.name == model.as_str() { format!("{model}-scan") } else { format!("{model}-{}-scan", plan.name) }
 }
 
 /// The lock of a folder, which is on its manifest: a separate file could be deleted during a running scan. Held as long as the file is

@@ -25,7 +25,8 @@ use closure::Closure;
 use motiform_dynamics::model::{Coordinate, Observable};
 use motiform_dynamics::simd;
 use motiform_dynamics::{
-    Dual, Equivariant, Lanes, Model, Obstacle, Outline, Scalar, Semilinear, Shape, System, VectorField,
+    Dual, Equivariant, Lanes, Model, Obstacle, Outline, Scalar, Semilinear, Shape, Symmetry, System,
+    VectorField,
 };
 use names::{MEASURES, OBSERVABLES};
 use velocity::Push;
@@ -189,8 +190,8 @@ impl<T: Scalar<Real = f64>> Shape<T> for Cell {
 }
 
 impl Equivariant for Cell {
-    fn is_symmetric(&self) -> bool {
-        true
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::FULL
     }
 
     /// A shift of s, `phi_n -> exp(-i n angle) phi_n`: the normal that was at s is now at `s + L angle / 2 pi`.

@@ -15,7 +15,9 @@ pub use parameters::TensorParameters;
 use fourier::DIM;
 use motiform_dynamics::equivariant::overlaps_by_rotation;
 use motiform_dynamics::model::{Coordinate, Observable};
-use motiform_dynamics::{Dual, Equivariant, Model, Outline, Scalar, Semilinear, Shape, System, VectorField};
+use motiform_dynamics::{
+    Dual, Equivariant, Model, Outline, Scalar, Semilinear, Shape, Symmetry, System, VectorField,
+};
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
@@ -150,8 +152,8 @@ fn spin<T: Scalar>(shape: &[T], out: &mut [T]) {
 }
 
 impl Equivariant for Tensor {
-    fn is_symmetric(&self) -> bool {
-        true
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::FULL
     }
 
     /// `z_n -> exp(-i n angle) z_n`.

@@ -15,6 +15,7 @@ from .bodies import Cell, Tensor
 from .branches import Branch, Branches
 from .curves import Curve, Curves
 from .ensembles import Ensemble, ensemble
+from .equations import Amplitudes
 from .errors import EndedEarly, Incomplete, Interrupted, WorkersLost
 from .measurements import Measured, Statistics, statistics
 from .models import Model, preset, study
@@ -29,6 +30,7 @@ __all__ = [
     "REGIMES",
     "STEPPERS",
     "Accuracy",
+    "Amplitudes",
     "Branch",
     "Branches",
     "Cell",

@@ -81,7 +81,8 @@ class Regime:
     glyph: str
 
 
-def _model(raw: dict[str, Any]) -> ModelInfo:
+def info_of(raw: dict[str, Any]) -> ModelInfo:
+    """The entry of a model from its JSON."""
     parameters = tuple(
         Parameter(**{**entry, "range": tuple(entry["range"]), "allowed": tuple(entry["allowed"])})
         for entry in raw["parameters"]
@@ -92,7 +93,7 @@ def _model(raw: dict[str, Any]) -> ModelInfo:
 
 
 VERSION: str = _RAW["version"]
-MODELS: dict[str, ModelInfo] = {raw["name"]: _model(raw) for raw in _RAW["models"]}
+MODELS: dict[str, ModelInfo] = {raw["name"]: info_of(raw) for raw in _RAW["models"]}
 PRESETS: dict[str, Preset] = {
     raw["name"]: Preset(**{**raw, "free": tuple(raw["free"])}) for raw in _RAW["presets"]
 }

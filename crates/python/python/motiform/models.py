@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _motiform
-from ._registry import MODELS, ModelInfo
+from ._registry import MODELS, ModelInfo, info_of
 from .branches import Branches, branches_of
 from .curves import Curves, curves_of
 from .errors import EndedEarly, Interrupted
@@ -45,7 +45,7 @@ Random = float | str | tuple[float, float]
 class Model:
     """A model with its parameters. Immutable: :meth:`replace` returns a modified copy.
 
-    Use :class:`Tensor`, :class:`Cell`, :func:`preset` or :func:`study`.
+    Use :class:`Tensor`, :class:`Cell`, :class:`Amplitudes` (equations as text), :func:`preset` or :func:`study`.
     """
 
     _study: _motiform.Study
@@ -59,7 +59,7 @@ class Model:
     @property
     def info(self) -> ModelInfo:
         """The entry of the registry: equations, source, parameters with meanings and ranges."""
-        return MODELS[self._study.model]
+        return MODELS.get(self._study.model) or info_of(json.loads(self._study.info()))
 
     @property
     def title(self) -> str:
@@ -474,8 +474,9 @@ def study(path: str | os.PathLike[str]) -> Model:
 
 
 def of_study(native: _motiform.Study) -> Model:
-    """The model of a native study, as :class:`Tensor` or :class:`Cell`."""
-    from . import bodies
+    """The model of a native study, as :class:`Tensor`, :class:`Cell` or :class:`Amplitudes`."""
+    from . import bodies, equations
 
-    kind: type[Model] = getattr(bodies, native.model.capitalize())
+    name = native.model.capitalize()
+    kind: type[Model] = equations.Amplitudes if name == "Amplitudes" else getattr(bodies, name)
     return kind._of(native)

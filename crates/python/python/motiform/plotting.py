@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon
 from matplotlib.path import Path
 
-from ._registry import MODELS, REGIMES, Regime
+from ._registry import REGIMES, Regime
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -125,7 +125,7 @@ def plot_scan(data: xr.Dataset, ax: Axes | None) -> Axes:
     ax = plt.subplots(layout="constrained")[1] if ax is None else ax
     axes: list[str] = list(data.attrs["axes"])
     shares = np.stack([data.motiform.share(regime.name).values for regime in REGIMES])
-    symbols = {spec.name: spec.tex for spec in MODELS[data.attrs["model"]].parameters}
+    symbols = {name: "$" + data[name].attrs["symbol"].replace("*", "") + "$" for name in axes}
     handles: list[Any]
     if len(axes) == 2:
         most = np.where(shares.sum(axis=0) > 0.0, shares.argmax(axis=0), len(REGIMES))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import warnings
 from collections.abc import Mapping, Sequence
@@ -14,7 +15,7 @@ import pandas as pd
 import xarray as xr
 
 from . import _motiform
-from ._registry import ATTRACTORS, MODELS, NUMBERS, REGIMES, VERSION
+from ._registry import ATTRACTORS, NUMBERS, REGIMES, VERSION, info_of
 from .errors import Incomplete, Interrupted
 from .executors import gather
 from .models import Model, Random
@@ -162,7 +163,7 @@ def dataset(plan: _motiform.ScanPlan, arrays: _motiform.Arrays) -> xr.Dataset:
     axes = plan.axes()
     dims = (*(name for name, _ in reversed(axes)), "sample")
     sizes = (*(len(values) for _, values in reversed(axes)), plan.samples)
-    specs = {spec.name: spec for spec in MODELS[plan.model].parameters}
+    specs = {spec.name: spec for spec in info_of(json.loads(plan.info())).parameters}
     coords: dict[str, Any] = {
         name: (name, values, {"long_name": specs[name].meaning, "symbol": specs[name].symbol}) for name, values in axes
     }

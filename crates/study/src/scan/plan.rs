@@ -8,7 +8,7 @@ use crate::plan::{
 use crate::random::Random;
 use crate::{Error, Study};
 use motiform_dynamics::steppers::Method;
-use motiform_models::{ModelInfo, parameters};
+use motiform_models::{ModelInfo, ModelName, parameters};
 use serde::{Deserialize, Serialize};
 
 /// Version of a scan's numbers; part of the hash. Raised whenever a plan's meaning or a row's bits change (tests/all/scan.rs notices), so that no
@@ -38,7 +38,7 @@ pub struct ScanComputation {
     /// [`SCAN_FORMAT`].
     pub format: u32,
     /// The model.
-    pub model: String,
+    pub model: ModelName,
     /// The parameters that no axis varies, in registry order.
     pub parameters: Named,
     /// One or two axes; the first runs fastest.
@@ -85,7 +85,7 @@ impl ScanPlan {
         initial.sort_by(|a, b| a.0.cmp(&b.0)); // the order of typing changes no number
         let computation = ScanComputation {
             format: SCAN_FORMAT,
-            model: info.name.to_owned(),
+            model: ModelName::from(info),
             parameters: Named(fixed),
             axes: scan.axes.clone(),
             samples: usize::try_from(scan.samples).unwrap_or(usize::MAX),
@@ -191,7 +191,7 @@ impl ScanPlan {
     /// # Errors
     /// An unknown model (for example in a plan written by a newer version).
     pub fn info(&self) -> Result<&'static ModelInfo, Error> {
-        Ok(ModelInfo::find(&self.computation.model)?)
+        Ok(self.computation.model.info()?)
     }
 
     /// Its stepper.

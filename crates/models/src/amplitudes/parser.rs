@@ -1,0 +1,412 @@
+//! The text of an equation, read as a polynomial in the amplitudes.
+//!
+//!     sum     = [+ -] product { (+ | -) product }
+//!     product = power { (* | /) power }
+//!     power   = atom [ ^ exponent ]
+//!     atom    = number | i | pi | parameter | z1, z2, .. | function(sum) | (sum) | |z1|
+
+use super::coefficient::{Function, Kind, Tape};
+use super::polynomial::{MOST_ORDER, MOST_TERMS, Monomial, Polynomial, Refusal};
+use super::tokens::{TextError, Token, tokens};
+use crate::error::nearest;
+use std::ops::Range;
+
+/// Names that no parameter can have, because they mean something else.
+pub const RESERVED: [&str; 7] = ["i", "pi", "conj", "sqrt", "sin", "cos", "exp"];
+
+/// Maximum depth of parentheses.
+const DEEPEST: usize = 64;
+
+/// Largest exponent of a coefficient.
+const LARGEST_EXPONENT: i32 = 64;
+
+/// What the names in an equation mean.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Names<'n> {
+    /// The angular index of each amplitude: `z2` has 2.
+    pub(super) modes: &'n [u32],
+    /// The parameters.
+    pub(super) parameters: &'n [String],
+}
+
+/// Reads one equation; its coefficients are appended to `tape`.
+pub(super) fn parse(text: &str, names: Names<'_>, tape: &mut Tape) -> Result<Polynomial, TextError> {
+    let tokens = tokens(text)?;
+    let mut parser = Parser { tokens: &tokens, next: 0, end: text.len(), depth: 0, names, tape };
+    let polynomial = parser.sum()?;
+    match parser.peek() {
+        None => Ok(polynomial),
+        Some(Token::Sign(')')) => Err(parser.wrong("this parenthesis closes none")),
+        Some(token) => {
+            let found = token.text();
+            Err(parser.wrong(&format!("expected an operator before {found}: products are written with *")))
+        }
+    }
+}
+
+struct Parser<'p> {
+    tokens: &'p [(Token, Range<usize>)],
+    next: usize,
+    end: usize,
+    depth: usize,
+    names: Names<'p>,
+    tape: &'p mut Tape,
+}
+
+impl Parser<'_> {
+    fn peek(&self) -> Option<&Token> {
+        self.tokens.get(self.next).map(|(token, _)| token)
+    }
+
+    fn sign(&mut self, signs: &[char]) -> Option<char> {
+        let Some(&Token::Sign(found)) = self.peek() else { return None };
+        signs.contains(&found).then(|| {
+            self.next += 1;
+            found
+        })
+    }
+
+    /// Where the next word is, or the end of the text.
+    fn here(&self) -> Range<usize> {
+        self.tokens.get(self.next).map_or(self.end..self.end, |(_, span)| span.clone())
+    }
+
+    /// From the start of word `first` to the end of the last word that was read.
+    fn since(&self, first: usize) -> Range<usize> {
+        let start = self.tokens.get(first).map_or(self.end, |(_, span)| span.start);
+        let end = self.tokens[..self.next].last().map_or(start, |(_, span)| span.end);
+        start..end.max(start)
+    }
+
+    fn wrong(&self, problem: &str) -> TextError {
+        TextError::new(self.here(), problem)
+    }
+
+    fn refused(&self, first: usize, refusal: Refusal) -> TextError {
+        let problem = match refusal {
+            Refusal::Order => format!("terms of order above {MOST_ORDER} are not supported"),
+            Refusal::Terms => {
+                format!("this has more than {MOST_TERMS} terms, or coefficients that are too long")
+            }
+        };
+        TextError::new(self.since(first), problem)
+    }
+
+    fn sum(&mut self) -> Result<Polynomial, TextError> {
+        let first = self.next;
+        let mut sum = match self.sign(&['+', '-']) {
+            Some('-') => {
+                let product = self.product()?;
+                product.map(|place| self.tape.negate(place))
+            }
+            _ => self.product()?,
+        };
+        while let Some(sign) = self.sign(&['+', '-']) {
+            let product = self.product()?;
+            sum =
+                sum.add(&product, sign == '-', self.tape).map_err(|refusal| self.refused(first, refusal))?;
+        }
+        Ok(sum)
+    }
+
+    fn product(&mut self) -> Result<Polynomial, TextError> {
+        let first = self.next;
+        let mut product = self.power()?;
+        while let Some(sign) = self.sign(&['*', '/']) {
+            let second = self.next;
+            let factor = self.power()?;
+            if sign == '*' {
+                product =
+                    product.multiply(&factor, self.tape).map_err(|refusal| self.refused(first, refusal))?;
+                continue;
+            }
+            let Some(divisor) = factor.as_constant() else {
+                return Err(TextError::new(
+                    self.since(second),
+                    "a divisor may contain parameters but no amplitude: equations are polynomials in z",
+                ));
+            };
+            product = product.map(|place| self.tape.divide(place, divisor));
+        }
+        Ok(product)
+    }
+
+    fn power(&mut self) -> Result<Polynomial, TextError> {
+        let first = self.next;
+        if self.sign(&['|']).is_some() {
+            return self.modulus(first);
+        }
+        let base = self.atom()?;
+        if self.sign(&['^']).is_none() {
+            return Ok(base);
+        }
+        let place = self.next;
+        let negative = self.sign(&['-']).is_some();
+        let exponent = self.atom()?;
+        if self.peek() == Some(&Token::Sign('^')) {
+            return Err(self.wrong("a power of a power needs parentheses"));
+        }
+        self.raise(&base, &exponent, negative, (first, place))
+    }
+
+    fn raise(
+        &mut self,
+        base: &Polynomial,
+        exponent: &Polynomial,
+        negative: bool,
+        (first, place): (usize, usize),
+    ) -> Result<Polynomial, TextError> {
+        let Some(exponent) = exponent.as_constant() else {
+            return Err(TextError::new(self.since(place), "an exponent contains no amplitude"));
+        };
+        let written = self.tape.number(exponent).map(|number| if negative { -number } else { number });
+        let whole = written.filter(|x| x.fract() == 0.0 && x.abs() <= f64::from(LARGEST_EXPONENT));
+        match (base.as_constant(), whole) {
+            (Some(base), Some(whole)) => Ok(Polynomial::constant(self.tape.whole_power(base, whole as i32))),
+            (Some(base), None) => {
+                let exponent = if negative { self.tape.negate(exponent) } else { exponent };
+                let power = self.tape.power(base, exponent);
+                let problem = "only real numbers have powers that are not whole (up to 64)";
+                power.map(Polynomial::constant).ok_or_else(|| TextError::new(self.since(first), problem))
+            }
+            (None, Some(whole)) if whole >= 0.0 => {
+                let one = self.tape.real(1.0);
+                let mut power = Polynomial::constant(one);
+                for _ in 0..whole as u32 {
+                    power =
+                        power.multiply(base, self.tape).map_err(|refusal| self.refused(first, refusal))?;
+                }
+                Ok(power)
+            }
+            (None, _) => Err(TextError::new(
+                self.since(place),
+                "powers of amplitudes are whole numbers of at least 0, like z1^2",
+            )),
+        }
+    }
+
+    /// `|z1|^2` after its first bar.
+    fn modulus(&mut self, first: usize) -> Result<Polynomial, TextError> {
+        let amplitude = match self.peek() {
+            Some(Token::Name(name)) if self.amplitude(name).is_some() => {
+                let amplitude = self.amplitude(name);
+                self.next += 1;
+                amplitude
+            }
+            _ => None,
+        };
+        let Some(number) = amplitude else {
+            return Err(self.wrong("between bars stands one amplitude, like |z1|^2"));
+        };
+        if self.sign(&['|']).is_none() {
+            return Err(self.wrong("expected | after the amplitude, like |z1|^2"));
+        }
+        let exponent = match (self.sign(&['^']), self.peek()) {
+            (Some(_), Some(&Token::Number(exponent))) => {
+                self.next += 1;
+                exponent
+            }
+            _ => f64::NAN,
+        };
+        if exponent % 2.0 != 0.0 || !(0.0..=64.0).contains(&exponent) {
+            let problem = "a modulus has an even power, like |z1|^2: odd powers are no polynomials";
+            return Err(TextError::new(self.since(first), problem));
+        }
+        if exponent > f64::from(MOST_ORDER) {
+            return Err(self.refused(first, Refusal::Order));
+        }
+        let mut monomial = Monomial::default();
+        monomial.0[number] = [exponent as u8 / 2; 2];
+        Ok(Polynomial::term(monomial, self.tape.real(1.0)))
+    }
+
+    fn atom(&mut self) -> Result<Polynomial, TextError> {
+        let here = self.here();
+        let Some((token, _)) = self.tokens.get(self.next) else {
+            return Err(self.wrong("the equation ends here: expected a number, a name or a parenthesis"));
+        };
+        match token {
+            &Token::Number(number) => {
+                self.next += 1;
+                Ok(Polynomial::constant(self.tape.real(number)))
+            }
+            Token::Name(name) => {
+                self.next += 1;
+                self.named(name, here)
+            }
+            Token::Sign('(') => {
+                self.next += 1;
+                self.parenthesis()
+            }
+            token => {
+                let found = token.text();
+                Err(self.wrong(&format!("expected a number, a name or a parenthesis, not {found}")))
+            }
+        }
+    }
+
+    /// What stands in a parenthesis that is open.
+    fn parenthesis(&mut self) -> Result<Polynomial, TextError> {
+        self.depth += 1;
+        if self.depth > DEEPEST {
+            return Err(self.wrong(&format!("more than {DEEPEST} parentheses in one another")));
+        }
+        let inside = self.sum()?;
+        self.depth -= 1;
+        match self.sign(&[')']) {
+            Some(_) => Ok(inside),
+            None => Err(self.wrong("expected ) or an operator")),
+        }
+    }
+
+    fn amplitude(&self, name: &str) -> Option<usize> {
+        let index: u32 = name.strip_prefix('z')?.parse().ok()?;
+        self.names.modes.iter().position(|&n| n == index)
+    }
+
+    fn named(&mut self, name: &str, span: Range<usize>) -> Result<Polynomial, TextError> {
+        if let Some(number) = self.amplitude(name) {
+            return Ok(Polynomial::term(Monomial::amplitude(number), self.tape.real(1.0)));
+        }
+        if let Some(parameter) = self.names.parameters.iter().position(|known| known == name) {
+            return Ok(Polynomial::constant(self.tape.parameter(parameter)));
+        }
+        match name {
+            "i" => Ok(Polynomial::constant(self.tape.imaginary_unit())),
+            "pi" => Ok(Polynomial::constant(self.tape.real(std::f64::consts::PI))),
+            "conj" => {
+                let inside = self.argument(name)?;
+                Ok(inside.conj(self.tape))
+            }
+            _ => match Function::ALL.iter().find(|(known, _)| *known == name) {
+                Some(&(_, function)) => self.function(name, function, span),
+                None => Err(TextError::new(span, self.unknown(name))),
+            },
+        }
+    }
+
+    fn argument(&mut self, name: &str) -> Result<Polynomial, TextError> {
+        match self.sign(&['(']) {
+            Some(_) => self.parenthesis(),
+            None => Err(self.wrong(&format!("expected ( after {name}"))),
+        }
+    }
+
+    fn function(
+        &mut self,
+        name: &str,
+        function: Function,
+        span: Range<usize>,
+    ) -> Result<Polynomial, TextError> {
+        let first = self.next;
+        let inside = self.argument(name)?;
+        let Some(argument) = inside.as_constant() else {
+            let problem =
+                format!("{name} takes parameters and numbers, no amplitude: equations are polynomials in z");
+            return Err(TextError::new(self.since(first), problem));
+        };
+        match self.tape.apply(function, argument) {
+            Some(place) => Ok(Polynomial::constant(place)),
+            None => Err(TextError::new(span, format!("{name} takes a real number"))),
+        }
+    }
+
+    /// What a name that means nothing may have been meant for.
+    fn unknown(&self, name: &str) -> String {
+        let modes = self.names.modes;
+        if let Some(index) = name.strip_prefix('z').filter(|rest| rest.parse::<u32>().is_ok()) {
+            let known: Vec<String> = modes.iter().map(|n| format!("z{n}")).collect();
+            let known = known.join(", ");
+            return format!("there is no amplitude z{index}: modes gives {known}");
+        }
+        let names = self.names.parameters.iter().map(String::as_str);
+        let known: Vec<&str> = names.chain(RESERVED).collect();
+        match nearest(name, known.iter().copied()) {
+            Some(found) => format!("unknown name {name} (did you mean {found}?)"),
+            None => format!("unknown name {name}: give it a value in [model.amplitudes.parameters]"),
+        }
+    }
+}
+
+/// Whether all coefficients of a polynomial are real whatever the parameters are.
+pub(super) fn is_real(polynomial: &Polynomial, tape: &Tape) -> bool {
+    polynomial.0.values().all(|&place| tape.kind(place) == Kind::Real)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<(Polynomial, Tape), TextError> {
+        let parameters = ["gamma".to_owned(), "a1".to_owned(), "omega".to_owned()];
+        let names = Names { modes: &[1, 2, 3], parameters: &parameters };
+        let mut tape = Tape::default();
+        Ok((parse(text, names, &mut tape)?, tape))
+    }
+
+    /// The terms with their values at gamma = 2, a1 = -1, omega = .5.
+    fn terms(text: &str) -> Vec<(String, [f64; 2])> {
+        let (polynomial, tape) = read(text).unwrap();
+        let values = tape.evaluate(&[2.0, -1.0, 0.5]);
+        polynomial.0.iter().map(|(m, &place)| (m.text(&[1, 2, 3]), values[place as usize])).collect()
+    }
+
+    #[test]
+    fn products_are_multiplied_out() {
+        let all = terms("(gamma + i*omega - |z1|^2)*z1 - 2*a1*conj(z1)*z2");
+        let expected = [("conj(z1)*z2", [2.0, 0.0]), ("z1", [2.0, 0.5]), ("|z1|^2*z1", [-1.0, 0.0])];
+        assert_eq!(all.len(), 3);
+        for (term, value) in expected {
+            assert!(all.contains(&(term.to_owned(), value)), "{all:?}");
+        }
+        assert_eq!(terms("(z1 + z2)^2 - z1^2 - 2*z1*z2").iter().filter(|t| t.1 != [0.0, 0.0]).count(), 1);
+        assert_eq!(terms("conj(i*z1*conj(z3))"), [("conj(z1)*z3".to_owned(), [0.0, -1.0])]);
+        assert_eq!(terms("-gamma^2/4*z2"), [("z2".to_owned(), [-1.0, 0.0])]);
+        assert_eq!(terms("2^-1*z2^0"), [(String::new(), [0.5, 0.0])]);
+        assert_eq!(terms("sqrt(gamma*2)*exp(0)*|z3|^4"), [("|z3|^4".to_owned(), [2.0, 0.0])]);
+    }
+
+    #[test]
+    fn refusals_name_the_place_and_what_was_expected() {
+        let cases = [
+            ("gama*z1", 0..4, "did you mean gamma?"),
+            ("z1 + z4", 5..7, "no amplitude z4"),
+            ("2 z1", 2..4, "written with *"),
+            ("z1 *", 4..4, "ends here"),
+            ("(z1", 3..3, "expected )"),
+            ("z1)", 2..3, "closes none"),
+            ("|z1|", 0..4, "even power"),
+            ("|z1|^3", 0..6, "even power"),
+            ("|a1|^2", 1..3, "one amplitude"),
+            ("z1/z2", 3..5, "no amplitude"),
+            ("sin(z1)", 3..7, "no amplitude"),
+            ("sqrt(i)", 0..4, "real number"),
+            ("z1^8", 0..4, "order above 7"),
+            ("z1^a1", 3..5, "whole numbers"),
+            ("z1 = 2", 3..4, "right-hand side alone"),
+            ("z1 # 2", 3..4, "no meaning"),
+            ("", 0..0, "ends here"),
+            ("1.2.3", 3..5, "written with *"),
+            ("nu*z1", 0..2, "give it a value"),
+            ("2^3^4", 3..4, "parentheses"),
+        ];
+        for (text, span, says) in cases {
+            let error = read(text).unwrap_err();
+            assert_eq!(error.span, span, "{text}: {error}");
+            assert!(error.problem.contains(says), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn size_and_depth_are_bounded() {
+        let deep = "(".repeat(100_000);
+        assert!(read(&deep).is_err());
+        let nested = format!("{}z1{}", "(".repeat(100), ")".repeat(100));
+        assert!(read(&nested).unwrap_err().problem.contains("64"));
+        let long = format!("({})^7", vec!["gamma*z1"; 900].join("+"));
+        assert!(read(&long).is_ok());
+        let wide =
+            format!("({0})*({0})*({0})", vec!["(z1+z2+z3+conj(z1)+conj(z2)+conj(z3)+1)^2"; 2].join("+"));
+        assert!(read(&wide).unwrap_err().problem.contains("512"));
+    }
+}

@@ -1,0 +1,72 @@
+//! Which model a study or a plan is about.
+
+use crate::amplitudes::{self, Definition};
+use crate::{Error, ModelInfo};
+use serde::{Deserialize, Serialize};
+
+/// A model of the registry by its name, or amplitude equations by their definition.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum ModelName {
+    /// A name of the registry.
+    BuiltIn(String),
+    /// Equations given as text.
+    Amplitudes {
+        /// The equations.
+        amplitudes: Box<Definition>,
+    },
+}
+
+impl ModelName {
+    /// The model.
+    ///
+    /// # Errors
+    /// An unknown name, or equations that are no model (in a damaged file, or one of a newer version).
+    pub fn info(&self) -> Result<&'static ModelInfo, Error> {
+        match self {
+            Self::BuiltIn(name) => ModelInfo::find(name),
+            Self::Amplitudes { amplitudes: definition } => {
+                amplitudes::info(definition).map_err(|error| Error::Equations { problem: error.to_string() })
+            }
+        }
+    }
+
+    /// Its name for messages and titles: `amplitudes` for equations given as text.
+    #[must_use]
+    pub fn as_str(&self) -> &str {
+        match self {
+            Self::BuiltIn(name) => name,
+            Self::Amplitudes { .. } => amplitudes::NAME,
+        }
+    }
+
+    /// The equations, if they are given as text.
+    #[must_use]
+    pub fn definition(&self) -> Option<&Definition> {
+        match self {
+            Self::BuiltIn(_) => None,
+            Self::Amplitudes { amplitudes } => Some(amplitudes),
+        }
+    }
+}
+
+impl std::fmt::Display for ModelName {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
+impl PartialEq<str> for ModelName {
+    fn eq(&self, name: &str) -> bool {
+        self.as_str() == name
+    }
+}
+
+impl From<&ModelInfo> for ModelName {
+    fn from(info: &ModelInfo) -> Self {
+        match info.definition() {
+            None => Self::BuiltIn(info.name.to_owned()),
+            Some(definition) => Self::Amplitudes { amplitudes: Box::new(definition.clone()) },
+        }
+    }
+}

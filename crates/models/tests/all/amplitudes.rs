@@ -1,0 +1,158 @@
+//! Amplitude equations given as text: against the tensor model, symmetries, known answers, refusals.
+
+use motiform_dynamics::conformance::{
+    mirror_defect, purity_defect, rotation_defect, semilinear_defect, spin_defect,
+};
+use motiform_dynamics::model::velocity;
+use motiform_dynamics::tangent::jacobian;
+use motiform_dynamics::{Symmetry, VectorField};
+use motiform_models::amplitudes::{Definition, ParameterDefinition, Part, info};
+use motiform_models::tensor::{Tensor, TensorParameters};
+use motiform_models::{ModelInfo, Parameters};
+use proptest::prelude::*;
+
+/// All terms of the tensor model: (Z1), (Z2), (Z3) with the paper's table of coefficients.
+const TENSOR: [&str; 3] = [
+    "(gamma - |z1|^2 - 8*a4*|z2|^2 - 16*a5*|z3|^2)*z1 - 2*a1*conj(z1)*z2 - 2*a2*conj(z1)^2*z3 - 8*a3*conj(z2)*z3 + 16*a6*conj(z3)*z2^2",
+    "(-kappa2 - b4*|z1|^2 - 8*b3*|z2|^2 - 16*b5*|z3|^2)*z2 + b1/4*z1^2 + b2*conj(z1)*z3 + 2*b6*z1*conj(z2)*z3",
+    "(-kappa3 - d4*|z1|^2 - 8*d5*|z2|^2 - 16*d3*|z3|^2)*z3 + d1/8*z1^3 + d2/2*z1*z2 + 2*d6*conj(z1)*z2^2",
+];
+
+fn definition(modes: &[u32], equations: &[&str], parameters: &[(&str, f64)]) -> Definition {
+    Definition {
+        modes: modes.to_vec(),
+        velocity: None,
+        symmetry: None,
+        parameters: parameters.iter().map(|&(name, value)| ParameterDefinition::new(name, value)).collect(),
+        equations: equations.iter().map(|&text| text.to_owned()).collect(),
+    }
+}
+
+/// The tensor model as text, with all its parameters.
+fn tensor_as_text() -> &'static ModelInfo {
+    let specs = TensorParameters::specs().iter();
+    let parameters: Vec<(&str, f64)> = specs.map(|spec| (spec.name, spec.default)).collect();
+    info(&definition(&[1, 2, 3], &TENSOR, &parameters)).unwrap()
+}
+
+fn largest(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
+}
+
+proptest! {
+    /// 22 terms, each rounded a few times: 1e-15 of the sum of their sizes.
+    #[test]
+    fn the_tensor_model_as_text_is_the_tensor_model(
+        values in prop::collection::vec(-2.0_f64..2.0, 21),
+        shape in prop::collection::vec(-1.0_f64..1.0, 6),
+    ) {
+        let mut parameters = TensorParameters::default();
+        for (index, &value) in values.iter().enumerate() {
+            parameters.set_at(index, value);
+        }
+        let (tensor, text) = (Tensor::new(&parameters), tensor_as_text().build(&values).unwrap());
+        let (mut rate, mut rate_of_text) = ([0.0; 6], [0.0; 6]);
+        VectorField::<f64>::eval(&tensor, 0.0, &shape, &mut rate);
+        VectorField::<f64>::eval(text.as_ref(), 0.0, &shape, &mut rate_of_text);
+        let scale = 100.0;
+        prop_assert!(largest(&rate, &rate_of_text) < 1e-15 * scale, "{rate:?} {rate_of_text:?}");
+        prop_assert_eq!(velocity(&tensor, &shape), velocity(text.as_ref(), &shape));
+        let difference = largest(&jacobian(&tensor, &shape), &jacobian(text.as_ref(), &shape));
+        prop_assert!(difference < 1e-15 * 3.0 * scale, "{difference}");
+    }
+
+    /// Rotations, the mirror, the split into a linear part and the rest, for terms of order up to 7 and handed ones.
+    #[test]
+    fn equations_have_the_symmetry_that_they_say(
+        shape in prop::collection::vec(-1.0_f64..1.0, 6),
+        angle in -3.0_f64..3.0,
+        omega in -1.0_f64..1.0,
+    ) {
+        let handed = ["(1 + i*omega - |z1|^2)*z1 + exp(i*omega)*conj(z2)*z3", "-z2 + i*z1^2*|z3|^4", "-z3 + z1*z2 + conj(z2)^2*z1^5*conj(z1)^0*conj(z2)^0*|z1|^0"];
+        let mut even = handed.map(|text| text.replace("i*omega", "omega").replace("i*z1", "z1"));
+        even[2] = "-z3 + z1*z2 + |z2|^6*z3".to_owned();
+        let with = |texts: &[&str]| info(&definition(&[1, 2, 3], texts, &[("omega", 0.0)])).unwrap().build(&[omega]).unwrap();
+        let texts = ["(1 + i*omega - |z1|^2)*z1 + exp(i*omega)*conj(z2)*z3", "-z2 + i*z1^2*|z3|^4", "-z3 + z1*z2 + |z2|^6*z3"];
+        let body = with(&texts);
+        prop_assert_eq!(body.symmetry(), Symmetry { rotations: true, mirror: false });
+        let mirrored = with(&[&even[0], &even[1], &even[2]]);
+        prop_assert_eq!(mirrored.symmetry(), Symmetry::FULL);
+        for model in [&body, &mirrored] {
+            prop_assert!(rotation_defect(model.as_ref(), &shape, angle) < 1e-14);
+            prop_assert!(spin_defect(model.as_ref(), &shape) < 1e-9);
+            prop_assert!(semilinear_defect(&model.as_ref(), &shape) < 1e-15);
+            prop_assert_eq!(purity_defect(model.as_ref(), &shape), 0.0);
+        }
+        prop_assert!(mirror_defect(mirrored.as_ref(), &shape) < 1e-15);
+    }
+
+    /// Texts of the right letters: a refusal or a model, never a panic. `MOTIFORM_FUZZ` sets the number.
+    #[test]
+    fn any_text_is_read_or_refused(text in "[-+*/^()|z123 .a-eigopsqrtx0-9]{0,60}", other in ".{0,40}") {
+        for text in [text, other] {
+            let definition = definition(&[1, 2, 3], &[&text, "-z2", "-z3"], &[("a", 1.0)]);
+            if let Err(error) = motiform_models::amplitudes::Equations::new(&definition) {
+                prop_assert!(error.span.end <= text.len().max(10_001), "{text:?} {error:?}");
+                prop_assert!(text.is_char_boundary(error.span.start.min(text.len())));
+            }
+        }
+    }
+}
+
+/// `z1' = (gamma + i omega - |z1|^2) z1`: a circle of speed sqrt(gamma), turning at -omega because `z1 = v1 - i v2`.
+#[test]
+fn a_handed_swimmer_turns_at_its_rate() {
+    let info = info(&definition(&[1], &["(gamma + i*omega - |z1|^2)*z1"], &[("gamma", 1.0), ("omega", 0.3)]))
+        .unwrap();
+    let body = info.build(&[0.25, 0.3]).unwrap();
+    let state = [0.5, 0.0];
+    let mut rate = [0.0; 2];
+    VectorField::<f64>::eval(body.as_ref(), 0.0, &state, &mut rate);
+    assert!((rate[0]).abs() < 1e-16 && (rate[1] - 0.15).abs() < 1e-16, "{rate:?}");
+    let names: Vec<&str> = body.coordinates().iter().map(|c| c.name).collect();
+    assert_eq!(names, ["v1", "v2"]);
+    let mut coordinates = [0.0; 2];
+    body.decode(&[0.1, 0.2], &mut coordinates);
+    assert_eq!(coordinates, [0.1, -0.2]);
+}
+
+#[test]
+fn definitions_that_are_no_model_are_refused_at_their_place() {
+    let two = |first: &str, second: &str| definition(&[1, 2], &[first, second], &[("a", 1.0)]);
+    let mut field = two("z1 - |z1|^2*z1 + a", "-z2");
+    let refusal = |definition: &Definition| info(definition).unwrap_err();
+    assert!(refusal(&field).problem.contains("constant term breaks rotations"));
+    field.symmetry = Some("mirror".to_owned());
+    assert_eq!(
+        info(&field).unwrap().build(&[1.0]).unwrap().symmetry(),
+        Symmetry { rotations: false, mirror: true }
+    );
+    field.symmetry = Some("mirrored".to_owned());
+    assert_eq!(refusal(&field).part, Part::Symmetry);
+    let handed = Definition { symmetry: Some("rotation+mirror".to_owned()), ..two("i*z1", "-z2") };
+    assert!(refusal(&handed).problem.contains("not real"));
+    let wrong = refusal(&two("z1", "z1*z2"));
+    assert_eq!(wrong.part, Part::Equation(1));
+    assert!(wrong.problem.contains("z1*z2") && wrong.problem.contains("index is 3"), "{wrong}");
+    assert_eq!(refusal(&definition(&[2, 3], &["-z2", "-z3"], &[])).part, Part::Modes);
+    assert_eq!(refusal(&definition(&[1, 1], &["-z1", "-z1"], &[])).part, Part::Modes);
+    assert_eq!(refusal(&definition(&[1], &["-z1"], &[("z1", 1.0)])).part, Part::Parameter(0));
+    assert_eq!(refusal(&definition(&[1], &["-z1"], &[("pi", 1.0)])).part, Part::Parameter(0));
+    let root = info(&definition(&[1], &["sqrt(a)*z1/b"], &[("a", 1.0), ("b", 1.0)])).unwrap();
+    for bad in [[-1.0, 1.0], [1.0, 0.0]] {
+        let error = root.build(&bad).err().unwrap().to_string();
+        assert!(error.contains("z1: z1"), "{error}");
+    }
+}
+
+/// A body without a mode 1: its velocity is read off its shape.
+#[test]
+fn a_velocity_may_be_read_off_the_shape() {
+    let mut definition = definition(&[2, 3], &["(1 - |z2|^2)*z2", "-z3 + |z2|^2*z3"], &[]);
+    definition.velocity = Some("2*z2*conj(z3)".to_owned());
+    let body = info(&definition).unwrap().build(&[]).unwrap();
+    assert_eq!(body.velocities(), 0);
+    assert_eq!(velocity(body.as_ref(), &[1.0, 0.0, 0.0, 0.5]), [0.0, -1.0]);
+    assert!(rotation_defect(body.as_ref(), &[0.3, 0.2, -0.1, 0.4], 0.7) < 1e-15);
+    assert!(body.speed_resolution(&[1.0, 0.0, 0.0, 0.5], 1e-9) < 1e-8);
+}
