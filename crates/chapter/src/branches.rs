@@ -6,8 +6,8 @@ use motiform_analysis::regime::Regime;
 use motiform_branching::draw::{Ordinate, branch_diagram};
 use motiform_branching::{Branches, Followed, Sample, SpecialEntry, stretches};
 use motiform_continuation::Special;
-use motiform_figures::report::{Claim, ReportFigure, Section};
 use motiform_lab::draw::sheet;
+use motiform_report::{Claim, ReportFigure, Section};
 use motiform_study::branches::{Along, BranchPlan, BranchSettings};
 use motiform_study::{Error, Study};
 

@@ -36,7 +36,6 @@ mod pdf;
 mod phase_diagram;
 mod picture;
 mod raster;
-pub mod report;
 mod return_map;
 mod series;
 mod simplify;

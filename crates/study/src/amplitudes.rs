@@ -137,9 +137,16 @@ pub(crate) fn written(definition: &Definition, values: &[(String, f64)]) -> toml
             table.insert(key.to_owned(), text.clone().into());
         }
     }
+    let here = |parameter: &ParameterDefinition| {
+        values.iter().find(|(name, _)| *name == parameter.name).map(|entry| entry.1)
+    };
+    // TOML has numbers before tables: the order of the parameters is kept if all are one or the other.
+    let tables =
+        definition.parameters.iter().any(|parameter| here(parameter).is_some() || !is_bare(parameter));
     let parameter = |parameter: &ParameterDefinition| {
-        let here = values.iter().find(|(name, _)| *name == parameter.name).map(|entry| entry.1);
-        (parameter.name.clone(), written_parameter(parameter, here))
+        let value =
+            if tables { written_parameter(parameter, here(parameter)) } else { parameter.default.into() };
+        (parameter.name.clone(), value)
     };
     table.insert("parameters".to_owned(), Toml::Table(definition.parameters.iter().map(parameter).collect()));
     let equations = definition.modes.iter().zip(&definition.equations);
@@ -148,11 +155,13 @@ pub(crate) fn written(definition: &Definition, values: &[(String, f64)]) -> toml
     table
 }
 
+/// Whether nothing but a value is known of a parameter.
+fn is_bare(parameter: &ParameterDefinition) -> bool {
+    parameter.range.is_none() && parameter.symbol.is_empty() && parameter.text.is_empty()
+}
+
 fn written_parameter(parameter: &ParameterDefinition, here: Option<f64>) -> Toml {
     let ParameterDefinition { default, range, symbol, text, .. } = parameter;
-    if here.is_none() && range.is_none() && symbol.is_empty() && text.is_empty() {
-        return (*default).into();
-    }
     let mut table = toml::Table::new();
     table.insert("value".to_owned(), here.unwrap_or(*default).into());
     if here.is_some() {
@@ -167,4 +176,37 @@ fn written_parameter(parameter: &ParameterDefinition, here: Option<f64>) -> Toml
         }
     }
     Toml::Table(table)
+}
+
+/// The JSON schema of the table.
+pub(crate) fn schema() -> serde_json::Value {
+    let text = |description: &str| serde_json::json!({ "type": "string", "description": description });
+    let parameter = serde_json::json!({
+        "description": "a value, or a table",
+        "type": ["number", "object"],
+        "additionalProperties": false,
+        "properties": {
+            "value": { "type": "number", "description": "the value" },
+            "default": { "type": "number", "description": "the default of the model, where the value is another" },
+            "range": { "type": "array", "items": { "type": "number" }, "description": "range for axes and sliders" },
+            "symbol": text("notation in figures"),
+            "text": text("its meaning"),
+        },
+    });
+    serde_json::json!({
+        "type": "object",
+        "additionalProperties": false,
+        "description": "equations of complex amplitudes as text",
+        "properties": {
+            "modes": { "type": "array", "items": { "type": "integer" }, "description": "angular index of each amplitude" },
+            "velocity": text("v1 + i v2 as a polynomial; by default conj(z1)"),
+            "symmetry": text("rotation+mirror, rotation, mirror or none; by default found from the terms"),
+            "parameters": { "type": "object", "additionalProperties": parameter, "description": "parameters by name" },
+            "equations": {
+                "type": "object",
+                "additionalProperties": { "type": "string" },
+                "description": "the right-hand side of dz_n/dt by the amplitude's name",
+            },
+        },
+    })
 }

@@ -233,6 +233,7 @@ pub fn schema() -> serde_json::Value {
         let defaults: Vec<f64> = info.parameters().iter().map(|spec| spec.default).collect();
         initial.extend(info.coordinates(&defaults).iter().map(|c| (c.name, c.meaning.to_owned())));
     }
+    models.insert(NAME.to_owned(), amplitudes::schema());
     initial.extend(["x", "y"].map(|name| (name, "position of the centre of mass".to_owned())));
     let mut initial = numbers(initial);
     initial["properties"]["random"] = serde_json::json!({

@@ -35,7 +35,11 @@ pub struct CurveFolder {
 #[must_use]
 pub fn default_curve_folder(plan: &CurvePlan) -> String {
     let model = &plan.computation.branches.start.model;
-    if plan.name == model.as_str() { format!("{model}-curves") } else { format!("{model}-{}-curves", plan.name) }
+    if plan.name == model.as_str() {
+        format!("{model}-curves")
+    } else {
+        format!("{model}-{}-curves", plan.name)
+    }
 }
 
 impl CurveFolder {

@@ -3,11 +3,11 @@
 use crate::args::ReproduceOptions;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
-use motiform_figures::report::{Claim, Counts, Picture, Report};
 use motiform_figures::{DEFAULT_SCALE, png};
 use motiform_files::replace_file;
 use motiform_lab::draw::undrawable;
 use motiform_paper::{Options, reproduce};
+use motiform_report::{Claim, Counts, Picture, Report};
 use motiform_study::Error;
 use serde_json::json;
 use std::fmt::Write;

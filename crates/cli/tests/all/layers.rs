@@ -6,7 +6,7 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::process::Command;
 
 /// Each crate, and the crates below it that it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &[&str]); 18] = [
+const LAYERS: [(&str, &[&str]); 19] = [
     ("motiform-dynamics", &[]),
     ("motiform-models", &["motiform-dynamics"]),
     ("motiform-analysis", &["motiform-dynamics"]),
@@ -16,6 +16,7 @@ const LAYERS: [(&str, &[&str]); 18] = [
     ("motiform-study", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
     ("motiform-files", &["motiform-dynamics", "motiform-models", "motiform-study"]),
     ("motiform-figures", &[]),
+    ("motiform-report", &["motiform-figures"]),
     (
         "motiform-lab",
         &[
@@ -63,6 +64,7 @@ const LAYERS: [(&str, &[&str]); 18] = [
             "motiform-figures",
             "motiform-lab",
             "motiform-models",
+            "motiform-report",
             "motiform-study",
         ],
     ),
@@ -75,6 +77,7 @@ const LAYERS: [(&str, &[&str]); 18] = [
             "motiform-figures",
             "motiform-lab",
             "motiform-models",
+            "motiform-report",
             "motiform-study",
         ],
     ),
@@ -105,6 +108,7 @@ const LAYERS: [(&str, &[&str]); 18] = [
             "motiform-models",
             "motiform-paper",
             "motiform-statistics",
+            "motiform-report",
             "motiform-study",
         ],
     ),

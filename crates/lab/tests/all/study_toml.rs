@@ -160,6 +160,9 @@ fn the_reader_accepts_every_key_of_the_schema() {
         let example = match value["type"].as_str().unwrap_or("either") {
             "either" if key == "initial.random" => "0.5",
             "string" if key == "preset" => "\"fig5a\"",
+            "string" if key == "continue.along" => "\"gamma=0:1\"",
+            "string" if key == "continue.in" => "\"gamma,kappa2=0:1\"",
+            "string" if key == "continue.from" => "\"zigzag\"",
             "string" => "\"text\"",
             "number" if key == "display.speed" => "5",
             "number" => "0.5",
@@ -167,6 +170,7 @@ fn the_reader_accepts_every_key_of_the_schema() {
             "boolean" => "true",
             "array" if key == "scan.axes" => "[\"gamma=0:1:3\"]",
             "array" if key == "display.plane" => "[\"gamma=0,1\"]",
+            "array" if key == "continue.curve" => "[\"hopf\"]",
             "array" => "[\"gamma\"]",
             other => panic!("{key}: {other}"),
         };
@@ -193,13 +197,13 @@ fn keys_that_the_reader_knows(info: &ModelInfo) -> BTreeSet<String> {
         let list = complaint.lines().next().unwrap().rsplit_once(" are ").unwrap().1;
         list.split(", ").map(str::to_owned).collect()
     };
-    for table in ["run", "scan", "return_map", "figure", "display"] {
+    for table in ["run", "scan", "continue", "return_map", "figure", "display"] {
         let keys = listed(&complaint(&format!("[{model}]\n[{table}]\nzzz = 1\n")));
         known.extend(keys.iter().map(|key| format!("{table}.{key}")));
     }
     let initial = listed(&complaint(&format!("[{model}]\n[initial]\nzzz = 1\n")));
     known.extend(initial.iter().chain([&"random".to_owned()]).map(|key| format!("initial.{key}")));
-    let tables = ["model", "initial", "run", "scan", "return_map", "figure", "display"];
+    let tables = ["model", "initial", "run", "scan", "continue", "return_map", "figure", "display"];
     let top = listed(&complaint(&format!("zzz = 1\n[{model}]\n")));
     known.extend(top.into_iter().filter(|key| !tables.contains(&key.as_str())));
     known

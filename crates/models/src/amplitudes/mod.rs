@@ -12,6 +12,8 @@ mod parser;
 mod polynomial;
 mod program;
 mod tensor_form;
+#[cfg(test)]
+mod tests_of_texts;
 mod tokens;
 
 pub use definition::{Definition, DefinitionError, ParameterDefinition, Part};

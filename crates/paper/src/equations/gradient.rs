@@ -2,7 +2,7 @@
 
 use super::super::claims::claim;
 use super::terms::{PAPER, Term, derivative, inner, random};
-use motiform_figures::report::Claim;
+use motiform_report::Claim;
 
 /// The size of round-off for a variational term.
 const NOTHING: f64 = 1e-8;

@@ -2,8 +2,8 @@
 
 use super::super::claims::claim;
 use super::fields::{C, Z, amplitudes, apart, parameters, rates, state, tensors, turned};
-use motiform_figures::report::Claim;
 use motiform_models::tensor::indices::Tensors;
+use motiform_report::Claim;
 use motiform_study::initial::Uniform;
 
 pub(super) fn claims() -> [Claim; 2] {

@@ -3,8 +3,8 @@
 use super::super::claims::{claim, differs};
 use super::terms::{PAPER, POINTS, Term, random};
 use motiform_dynamics::VectorField as _;
-use motiform_figures::report::Claim;
 use motiform_models::cell::{CellField, CellParameters};
+use motiform_report::Claim;
 use std::f64::consts::TAU;
 
 pub(super) fn claims() -> [Claim; 2] {

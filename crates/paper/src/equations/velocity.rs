@@ -1,7 +1,7 @@
 //! The velocity of the active cell as an expansion in the curvature.
 
 use super::super::claims::claim;
-use motiform_figures::report::Claim;
+use motiform_report::Claim;
 use motiform_study::initial::Uniform;
 use std::f64::consts::TAU;
 

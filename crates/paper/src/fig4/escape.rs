@@ -5,10 +5,10 @@ use super::super::context::Context;
 use super::{at, figure, power};
 use motiform_analysis::Stay;
 use motiform_dynamics::StopOnly;
-use motiform_figures::report::Section;
 use motiform_figures::{Drawn, ExpectedLine, LineStyle, SurvivalCurve, SurvivalFigure, SurvivalStep};
 use motiform_lab::draw::sheet;
 use motiform_lab::saddle::{Saddle, saddle};
+use motiform_report::Section;
 use motiform_study::{Error, Plan};
 
 /// Time for the starts to reach the saddle.
@@ -82,7 +82,7 @@ fn stays(one: &Saddle) -> Vec<Stay> {
     escaped.chain(stayed).collect()
 }
 
-fn statistics(found: &[(f64, Saddle)]) -> motiform_figures::report::Claim {
+fn statistics(found: &[(f64, Saddle)]) -> motiform_report::Claim {
     let mut words = Vec::new();
     let (mut rates, mut agree) = (0, true);
     for (kappa2, one) in found {

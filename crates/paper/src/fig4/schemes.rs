@@ -5,8 +5,8 @@ use super::super::context::Context;
 use super::{at, power};
 use motiform_analysis::Regime;
 use motiform_dynamics::StopOnly;
-use motiform_figures::report::Section;
 use motiform_lab::analyse::classify;
+use motiform_report::Section;
 use motiform_study::{Error, Plan, Study};
 
 /// A place in each region: kappa2, kappa3.

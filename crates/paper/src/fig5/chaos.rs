@@ -6,9 +6,9 @@ use super::super::fig4::power;
 use super::drawings;
 use motiform_analysis::Lyapunov;
 use motiform_dynamics::{Outcome, StopOnly};
-use motiform_figures::report::{Claim, Section};
 use motiform_lab::analyse::lyapunov;
 use motiform_lab::saddle::{Saddle, saddle};
+use motiform_report::{Claim, Section};
 use motiform_study::{Error, Plan, Study};
 
 pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Error> {

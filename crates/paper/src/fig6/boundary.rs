@@ -4,7 +4,7 @@ use super::super::claims::claim;
 use super::tracks::Track;
 use motiform_analysis::Spread;
 use motiform_dynamics::{Model, Outline};
-use motiform_figures::report::Claim;
+use motiform_report::Claim;
 use motiform_study::Error;
 
 /// Points of the polygons whose lengths are measured; the error falls with their square.

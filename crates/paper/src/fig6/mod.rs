@@ -25,7 +25,7 @@ use super::context::Context;
 use edges::Edges;
 use exponents::Exponents;
 use lengths::Lengths;
-use motiform_figures::report::Section;
+use motiform_report::Section;
 use motiform_study::Error;
 use onset::Onsets;
 use quasi::Search;

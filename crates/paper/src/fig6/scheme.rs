@@ -3,7 +3,7 @@
 use super::super::claims::claim;
 use super::super::context::Context;
 use super::lengths::study;
-use motiform_figures::report::Claim;
+use motiform_report::Claim;
 use motiform_study::{Error, Plan, Study};
 
 /// Length, and modes: few enough for an explicit method.

@@ -5,7 +5,7 @@ use super::super::context::Context;
 use super::super::fig6;
 use super::steady::Steady;
 use motiform_analysis::{Regime, Verdict};
-use motiform_figures::report::Claim;
+use motiform_report::Claim;
 use motiform_study::{Error, Study};
 
 /// Numbers below this are zero: shapes are known to about 1e-10.

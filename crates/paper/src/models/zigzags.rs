@@ -4,9 +4,9 @@ use super::super::claims::{claim, differs};
 use super::super::context::Context;
 use super::super::fig6::Track;
 use motiform_analysis::{Regime, Verdict};
-use motiform_figures::report::{Claim, ReportFigure};
 use motiform_figures::{ErrorBarFigure, ErrorBarSeries, Measured};
 use motiform_lab::draw::sheet;
+use motiform_report::{Claim, ReportFigure};
 use motiform_study::Error;
 
 /// Modes that are looked at.

@@ -1,7 +1,7 @@
 //! What every chapter's report must fulfil.
 
-use motiform_figures::report::{Report, Verdict};
 use motiform_paper::{checked_in, entry_of};
+use motiform_report::{Report, Verdict};
 use std::collections::BTreeSet;
 
 /// Prints and checks a report of these chapters: nothing fails, what differs has its reason, claims name sentences, and every

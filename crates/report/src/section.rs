@@ -3,9 +3,9 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
 
-use super::{Claim, Picture, ReportFigure, Section, Verdict, inline, paragraphs};
-use crate::Label;
-use crate::svg::escape;
+use crate::{Claim, Picture, ReportFigure, Section, Verdict, inline, paragraphs};
+use motiform_figures::Label;
+use motiform_figures::svg::escape;
 
 pub(super) fn html(number: usize, section: &Section) -> String {
     let figures: String = section.figures.iter().enumerate().map(|(i, f)| figure(number, i + 1, f)).collect();

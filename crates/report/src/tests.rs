@@ -1,7 +1,7 @@
 //! What holds for every report.
 
-use super::*;
-use crate::{ReturnMapFigure, png};
+use crate::*;
+use motiform_figures::{ReturnMapFigure, png};
 
 fn claim(verdict: Verdict) -> Claim {
     Claim {

@@ -12,7 +12,7 @@ mod tests;
 pub use claim::{Claim, Counts, Source, Verdict};
 pub use sentence::Sentence;
 
-use crate::{Drawn, Label};
+use motiform_figures::{Drawn, Label};
 
 /// A page of sections.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -1,8 +1,8 @@
 //! The page around the sections: head, verdict, summary table, contents.
 
-use super::{Claim, Counts, Report, Section, inline, paragraphs, section, sentence};
-use crate::Label;
-use crate::svg::escape;
+use crate::{Claim, Counts, Report, Section, inline, paragraphs, section, sentence};
+use motiform_figures::Label;
+use motiform_figures::svg::escape;
 
 const STYLE: &str = include_str!("style.css");
 

@@ -1,0 +1,55 @@
+"""Models whose equations are given as text."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import motiform
+
+
+def handed(omega: float = 0.3) -> motiform.Amplitudes:
+    return motiform.Amplitudes(
+        modes=[1],
+        equations={"z1": "(gamma + i*omega - |z1|^2)*z1"},
+        parameters={"gamma": 0.25, "omega": {"value": omega, "range": (-1, 1), "symbol": "ω", "text": "handedness"}},
+        initial={"v1": 0.5},
+    )
+
+
+def test_a_handed_swimmer_runs_on_its_circle() -> None:
+    """Speed sqrt(gamma), turning at -omega: z1 = v1 - i v2."""
+    run = handed().simulate(10.0, transient=100.0, dt_out=0.1)
+    speed = np.hypot(run["v1"], run["v2"])
+    assert np.allclose(speed, 0.5, atol=1e-8)
+    heading = np.unwrap(np.arctan2(run["v2"], run["v1"]))
+    assert np.allclose(np.diff(heading) / 0.1, -0.3, atol=1e-7)
+
+
+def test_the_model_describes_itself_and_reads_back() -> None:
+    body = handed()
+    assert body.coordinates == ["v1", "v2"]
+    assert body.omega == 0.3
+    assert [parameter.name for parameter in body.info.parameters] == ["gamma", "omega"]
+    assert body.info.parameters[1].meaning == "handedness."
+    changed = body.replace(omega=0.1)
+    assert isinstance(changed, motiform.Amplitudes)
+    assert changed.omega == 0.1
+    assert "omega" in changed.to_toml()
+
+
+def test_classified_and_scanned_like_the_others() -> None:
+    assert handed().classify().regime == "circular"
+    found = motiform.scan(handed(), {"omega": [-0.3, 0.3]})
+    assert found["omega"].attrs["symbol"] == "*ω*"
+    rates = found["turning_rate"].values.ravel()
+    assert rates[0] == pytest.approx(0.3) and rates[1] == pytest.approx(-0.3)
+    preset = motiform.preset("ohta-ohkuma")
+    assert isinstance(preset, motiform.Amplitudes)
+
+
+def test_errors_show_the_place() -> None:
+    with pytest.raises(ValueError, match="did you mean gamma"):
+        motiform.Amplitudes(modes=[1], equations={"z1": "gama*z1"}, parameters={"gamma": 1.0})
+    with pytest.raises(ValueError, match="breaks rotations"):
+        motiform.Amplitudes(modes=[1, 2], equations={"z1": "z1", "z2": "z1"})
