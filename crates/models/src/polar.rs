@@ -19,7 +19,7 @@ pub fn radius_change(modes: impl Iterator<Item = Mode>, theta: f64) -> f64 {
 
 /// `points` points of the closed curve `R(theta) (cos theta, sin theta)`, or where and by how much `R <= 0`.
 #[must_use]
-pub fn outline(modes: impl Iterator<Item = Mode> + Clone, radius: f64, points: usize) -> Outline {
+pub fn outline(modes: &(impl Iterator<Item = Mode> + Clone), radius: f64, points: usize) -> Outline {
     let angles = (0..points).map(|i| std::f64::consts::TAU * i as f64 / points as f64);
     let rays: Vec<(f64, f64)> =
         angles.map(|theta| (theta, radius + radius_change(modes.clone(), theta))).collect();

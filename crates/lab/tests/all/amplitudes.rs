@@ -1,5 +1,7 @@
 //! Equations given as text, through studies, plans, classification and scans.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
 use motiform_lab::analyse;
 use motiform_models::amplitudes::NAME;
 use motiform_study::presets::{EXTENSIONS, find_any};

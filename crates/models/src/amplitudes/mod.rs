@@ -200,7 +200,7 @@ impl Model for Amplitudes {
     }
 
     fn outline(&self, shape: &[f64], radius: f64, points: usize) -> Outline {
-        polar::outline(self.outline_modes(shape), radius, points)
+        polar::outline(&self.outline_modes(shape), radius, points)
     }
 
     fn deformation(&self, shape: &[f64]) -> f64 {

@@ -1,9 +1,11 @@
 //! The text of an equation, read as a polynomial in the amplitudes.
 //!
-//!     sum     = [+ -] product { (+ | -) product }
-//!     product = power { (* | /) power }
-//!     power   = atom [ ^ exponent ]
-//!     atom    = number | i | pi | parameter | z1, z2, .. | function(sum) | (sum) | |z1|
+//! ```text
+//! sum     = [+ -] product { (+ | -) product }
+//! product = power { (* | /) power }
+//! power   = atom [ ^ exponent ]
+//! atom    = number | i | pi | parameter | z1, z2, .. | function(sum) | (sum) | |z1|
+//! ```
 
 use super::coefficient::{Function, Kind, Tape};
 use super::polynomial::{MOST_ORDER, MOST_TERMS, Monomial, Polynomial, Refusal};

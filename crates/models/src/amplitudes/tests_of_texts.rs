@@ -73,6 +73,6 @@ fn size_and_depth_are_bounded() {
     assert!(read(&nested).unwrap_err().problem.contains("64"));
     let long = format!("({})^7", vec!["gamma*z1"; 900].join("+"));
     assert!(read(&long).is_ok());
-    let wide = format!("({0})*({0})*({0})", vec!["(z1+z2+z3+conj(z1)+conj(z2)+conj(z3)+1)^2"; 2].join("+"));
+    let wide = format!("({0})*({0})*({0})", ["(z1+z2+z3+conj(z1)+conj(z2)+conj(z3)+1)^2"; 2].join("+"));
     assert!(read(&wide).unwrap_err().problem.contains("512"));
 }

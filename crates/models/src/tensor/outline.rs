@@ -17,7 +17,7 @@ pub fn radius_change(shape: &[f64], theta: f64) -> f64 {
 /// The closed curve of a body of undeformed radius `radius`: see [`polar::outline`].
 #[must_use]
 pub fn outline(shape: &[f64], radius: f64, points: usize) -> Outline {
-    polar::outline(modes(shape), radius, points)
+    polar::outline(&modes(shape), radius, points)
 }
 
 /// `2 |z2| + 2 |z3|`: see [`polar::deformation`].

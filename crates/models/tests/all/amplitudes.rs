@@ -1,5 +1,7 @@
 //! Amplitude equations given as text: against the tensor model, symmetries, known answers, refusals.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
 use motiform_dynamics::conformance::{
     mirror_defect, purity_defect, rotation_defect, semilinear_defect, spin_defect,
 };
