@@ -88,7 +88,7 @@ proptest! {
         prop_assert!(mirror_defect(mirrored.as_ref(), &shape) < 1e-15);
     }
 
-    /// Texts of the right letters: a refusal or a model, never a panic. `MOTIFORM_FUZZ` sets the number.
+    /// Texts of the right letters: a refusal or a model, never a panic. `PROPTEST_CASES` sets the number.
     #[test]
     fn any_text_is_read_or_refused(text in "[-+*/^()|z123 .a-eigopsqrtx0-9]{0,60}", other in ".{0,40}") {
         for text in [text, other] {
