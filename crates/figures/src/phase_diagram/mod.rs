@@ -150,7 +150,12 @@ impl PhaseDiagram {
             let stripes = Mark::Stripes(look.ground(&REGIMES[one]), look.ground(&REGIMES[other]));
             entries.push(Entry::new(stripes, "more than one motion, stripes by share"));
         }
-        entries.extend(self.lines.iter().map(|l| Entry::new(Mark::Line(l.style.paint()), &l.label)));
+        // lines of one kind have one entry
+        let first = |(place, line): &(usize, &BoundaryLine)| {
+            self.lines[..*place].iter().all(|other| other.label != line.label || other.style != line.style)
+        };
+        let kinds = self.lines.iter().enumerate().filter(first);
+        entries.extend(kinds.map(|(_, line)| Entry::new(Mark::Line(line.style.paint()), &line.label)));
         entries
     }
 

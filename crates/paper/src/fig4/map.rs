@@ -58,7 +58,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section, curves: &Curves)
         curves,
         (
             "Motions about the zigzag",
-            "A part of the plane at slow triangles.",
+            "Where the three-fold deformation relaxes slowly (small κ_3).",
             "The lower edge of Fig. 4(a), with the curves along which zigzags change.",
         ),
     )?;
