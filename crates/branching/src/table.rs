@@ -131,3 +131,21 @@ pub(crate) fn sweep_columns(plan: &BranchPlan, sweeps: &Sweeps) -> Vec<Column> {
         Column::new("size", "largest size |u| of the shape", number(&|point| point.size)),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motiform_models::amplitudes;
+
+    /// The parameter along a branch becomes a column.
+    #[test]
+    fn no_parameter_has_the_name_of_a_column() {
+        for column in motions(&[]).into_iter().chain(numbers(&[])) {
+            let name = column.name.as_str();
+            assert!(amplitudes::reserved(name).is_some(), "{name} can be a parameter of amplitude equations");
+        }
+        for name in ["branch", "point", "up"] {
+            assert!(amplitudes::reserved(name).is_some(), "{name} can be a parameter of amplitude equations");
+        }
+    }
+}

@@ -4,7 +4,7 @@ use motiform_report::{Claim, Source, Verdict};
 
 /// What the report is.
 pub const ABOUT: &str = "Every figure of Hiraiwa, Ohkuma, Ohta, Matsuo, Sano, *Dynamics of a deformable \
-self-propelled domain*, EPL (2010), computed anew, and every claim of the paper checked. A motion is never named by eye: \
+self-propelled domain*, EPL (2010), computed again, and every claim of the paper checked. A motion is never named by eye: \
 rotations are divided out, and the reduced motion is decided by eigenvalues, by Newton's method on a return, by rests near \
 saddles, or by a Lyapunov exponent with its error. Where paper and computation differ, the reason is given. Claims are what \
 the paper says; checks are ours: they test the tools, what follows from the paper, or what was measured before, and are \

@@ -61,7 +61,7 @@ pub(super) trait Problem: Equations {
     /// What happens where a level of class `class` vanishes, and the branch does not turn back.
     fn classify(&self, x: &[f64], critical: Level, class: usize) -> Special;
 
-    /// The motion, for whoever asked for the branch.
+    /// The motion, as the caller receives it.
     fn motion(&self, x: &[f64], local: &Self::Local, levels: &[Vec<Level>]) -> Motion;
 
     /// The body at `x`.

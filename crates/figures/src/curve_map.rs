@@ -57,7 +57,7 @@ pub struct MapCurve {
 /// A point of codimension two.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapMark {
-    /// What it is, as the figure says beside it (markup).
+    /// Its label in the figure (markup).
     pub label: String,
     /// Where it is, in units of the axes.
     pub at: Point,

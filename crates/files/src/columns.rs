@@ -11,7 +11,8 @@ use std::sync::Arc;
 
 /// A column of a part.
 pub struct Column {
-    name: String,
+    /// Its name.
+    pub name: String,
     meaning: &'static str,
     /// Its values.
     pub values: Values,

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 /// A speed below this part of the top speed is rest: no heading is taken from it and no corner is seen inside it.
 pub(super) const REST: f64 = 1e-6;
 
-/// A stop is deeper than this part of the smaller of the maxima beside it.
+/// A stop is deeper than this part of the smaller of the adjacent maxima.
 const DEEP: f64 = 0.5;
 
 /// A turning rate below this part of its maximum counts as zero.

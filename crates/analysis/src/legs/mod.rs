@@ -58,7 +58,7 @@ pub struct Legs {
 /// * *Heading*: angle of the velocity. *Heading swing*: peak to peak of the unwrapped heading over the stretch. Where the
 ///   body reverses (the heading jumps by more than 3 pi/4 between two samples) the sense of the jump is round-off: it is
 ///   taken back into the range of headings seen so far, so that going to and fro has the swing pi however long it goes on.
-/// * *Corner*: a minimum of the speed below half of the smaller of the maxima beside it (stop and go). Where the
+/// * *Corner*: a minimum of the speed below half of the smaller of the adjacent maxima (stop and go). Where the
 ///   speed has none: the largest |turning rate| between two zeros of the turning rate (below 1 % of its maximum it is
 ///   zero). Motion on a circle has no corner.
 /// * *Leg*: path between consecutive corners. *Direction*: that of its chord. *Turn*: signed change of direction from one

@@ -13,7 +13,7 @@ const NOTHING: f64 = 1e-14;
 /// were divided out, the diagonal of R, go into `lengths`. A vector that depends on the earlier ones becomes 0, with length 0.
 ///
 /// W = Q R, and the rates `Df W = (Df Q) R` are put through the same operations: `rates` holds those of `W` before, and those of
-/// `Q` after. In the lanes of the returned mask they have lost digits and must be evaluated anew.
+/// `Q` after. In the lanes of the returned mask they have lost digits and must be evaluated again.
 ///
 /// Source: Golub, Van Loan, Matrix Computations, 5.2.8; again where much was lost: Kahan, Parlett, see Giraud et al. (2005),
 /// Numer. Math. 101, 87.

@@ -24,7 +24,7 @@ pub(crate) struct Stretch {
     pub(crate) limit: f64,
 }
 
-/// A tangent flow under way, stretch by stretch: whoever runs the flow asks how far the next stretch goes.
+/// A tangent flow under way, stretch by stretch: the caller asks how far the next stretch goes.
 #[derive(Clone, Debug)]
 pub(crate) struct Renormalisation {
     settings: LyapunovSettings,

@@ -25,7 +25,7 @@ pub struct Repeating {
 }
 
 /// The motion on a relative periodic orbit, by its symmetry and its path. `nodes` are shapes along it at equal times, the first one
-/// that of the orbit: an unstable orbit is left by whoever follows it for long, so each part is followed from its own node. Method and
+/// that of the orbit: a long integration leaves an unstable orbit, so each part is followed from its own node. Method and
 /// tolerance are those of `settings`; its looks and budgets do not matter.
 ///
 /// # Errors

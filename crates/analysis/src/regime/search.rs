@@ -71,7 +71,7 @@ pub(super) struct Search {
 enum Pending {
     /// The next look.
     Look,
-    /// Whether the orbit comes closer to the equilibrium beside it.
+    /// Whether the orbit comes closer to the nearby equilibrium.
     Approach { found: Box<RelativeEquilibrium>, before: f64, reached: f64, size: f64 },
     /// An exponent; the look before.
     Exponent(Box<Look>),
@@ -130,8 +130,7 @@ impl Search {
                 if after > reached && after > 0.7 * before {
                     // It may spiral in, or swing by. Nothing else is asked so near to a stable equilibrium: the last
                     // swings of a spiral come back like a small periodic orbit.
-                    "the orbit did not come closer to the equilibrium beside it"
-                        .clone_into(&mut self.missing);
+                    "the orbit did not come closer to the nearby equilibrium".clone_into(&mut self.missing);
                     return self.again(body, watch);
                 }
                 Ok(words::equilibrium(body, &found, (after / size, self.largest), &self.settings, self.time)

@@ -133,7 +133,7 @@ fn places() -> Vec<TensorParameters> {
     ]
 }
 
-/// No verdict that is sure of itself is contradicted: it names what the orbit does, or what one beside it does.
+/// No verdict that is sure of itself is contradicted: it names what the orbit does, or what a nearby orbit does.
 #[test]
 fn verdicts_from_invariant_subspaces_agree_with_long_runs() {
     let settings = settings("tensor");

@@ -100,3 +100,20 @@ fn numbers(rows: &Rows<'_>) -> Vec<Column> {
     let values = |read: fn(&CurveSample) -> f64| Values::Number(rows.iter().map(|row| read(row.3)).collect());
     NUMBERS.iter().map(|&(name, meaning, read)| Column::new(name, meaning, values(read))).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motiform_models::amplitudes;
+
+    /// The parameter along a branch becomes a column.
+    #[test]
+    fn no_parameter_has_the_name_of_a_column() {
+        for (name, ..) in NUMBERS {
+            assert!(amplitudes::reserved(name).is_some(), "{name} can be a parameter of amplitude equations");
+        }
+        for name in ["curve", "point", "kind", "codimension_2", "unstable"] {
+            assert!(amplitudes::reserved(name).is_some(), "{name} can be a parameter of amplitude equations");
+        }
+    }
+}

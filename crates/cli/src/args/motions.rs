@@ -14,7 +14,7 @@ pub(crate) struct ContinueOptions {
     #[arg(long, value_name = "NAME=LOW:HIGH")]
     pub(crate) along: Option<String>,
     /// The motion that the start must settle on: motionless, straight, circular, zigzag, quasi-periodic or pulsating-straight
-    /// (default: whatever it settles on)
+    /// (default: the motion that the simulation settles on)
     #[arg(long, value_name = "MOTION")]
     pub(crate) from: Option<String>,
     /// Follow the special points of these kinds over two parameters: hopf, fold, pitchfork, symmetry-breaking, period-doubling, torus

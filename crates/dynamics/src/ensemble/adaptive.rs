@@ -102,7 +102,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
             slopes.k[0][i] = B::select(accepted, slopes.k[const { M::TABLEAU.stages() }][i], slopes.k[0][i]);
         }
         if C::AFTER_STEP {
-            let anew = members.after_step(&mut AfterStep {
+            let changed = members.after_step(&mut AfterStep {
                 accepted: accepted & !called,
                 t: self.t,
                 t_end: &mut self.t_end,
@@ -111,8 +111,8 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
                 steps: self.steps,
                 rejected: self.rejected,
             });
-            if anew.any() {
-                self.slopes_of::<C>(members, anew, &mut slopes.k[0]);
+            if changed.any() {
+                self.slopes_of::<C>(members, changed, &mut slopes.k[0]);
             }
         }
         let arrived = self.t_end.at_most(self.t) & self.active;

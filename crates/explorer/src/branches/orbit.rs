@@ -28,8 +28,10 @@ pub(super) fn tell(job: &OrbitJob, current: &Current<'_>, answers: &Answers) -> 
         Ok(Some(found)) => found,
         _ if current.stopped() => return Ok(()),
         Ok(None) => {
-            return answers
-                .refused(None, "the orbit of this point cannot be computed again: choose one beside it");
+            return answers.refused(
+                None,
+                "the orbit of this point cannot be computed again: choose a point next to it",
+            );
         }
         Err(error) => return answers.refused(None, &error.to_string()),
     };

@@ -61,7 +61,7 @@ impl Work<'_> {
             self.watch.count.store(count, Ordering::Relaxed);
             let found = follow(&plan, before, &self.watch)?;
             if self.watch.stopped() {
-                return Ok(self.gone()); // whoever made it stale knows
+                return Ok(self.gone()); // the request that made it stale reports the end
             }
             if let Err(gone) = self.tell(&plan, &found, old) {
                 return Ok(Err(gone));

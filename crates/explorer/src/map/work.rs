@@ -231,7 +231,7 @@ impl Work<'_> {
             return Err(Gone);
         }
         if stopped {
-            return Ok(()); // whoever made it stale knows
+            return Ok(()); // the request that made it stale reports the end
         }
         self.answers.binary(frames::cells(self.view.epoch, &out.cells))?;
         let seconds = begun.elapsed().as_secs_f64();

@@ -9,7 +9,7 @@ use motiform_explorer::{Options, Server};
 use tungstenite::Message;
 
 #[test]
-fn the_page_is_served_to_whoever_knows_the_token() {
+fn the_page_is_served_only_with_the_token() {
     let server = Running::anywhere();
     let (token, host) = (server.token().to_owned(), server.host().to_owned());
     for (name, kind) in

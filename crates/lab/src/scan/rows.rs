@@ -167,7 +167,7 @@ pub(super) fn from_columns(plan: &ScanPlan, columns: Vec<Column>) -> Option<Vec<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use motiform_models::MODELS;
+    use motiform_models::{MODELS, ModelInfo, amplitudes};
 
     #[test]
     fn attractors_are_called_as_in_json() {
@@ -179,9 +179,11 @@ mod tests {
     /// An axis becomes a column: no parameter may have the name of another column.
     #[test]
     fn no_parameter_has_the_name_of_a_column() {
-        let ours = ["cell", "sample", "regime", "attractor", "why"];
-        for spec in MODELS.iter().flat_map(motiform_models::ModelInfo::parameters) {
-            assert!(!ours.contains(&spec.name) && !NUMBERS.iter().any(|known| known.0 == spec.name));
+        let ours =
+            ["cell", "sample", "regime", "attractor", "why"].into_iter().chain(NUMBERS.map(|known| known.0));
+        for name in ours {
+            assert!(MODELS.iter().flat_map(ModelInfo::parameters).all(|spec| spec.name != name));
+            assert!(amplitudes::reserved(name).is_some(), "{name} can be a parameter of amplitude equations");
         }
     }
 }

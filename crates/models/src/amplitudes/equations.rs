@@ -2,9 +2,10 @@
 
 use super::coefficient::Tape;
 use super::definition::{Definition, DefinitionError, Part};
-use super::parser::{Names, RESERVED, is_real, parse};
+use super::parser::{Names, is_real, parse};
 use super::polynomial::{MOST_MODES, Monomial, Polynomial};
 use super::program::{Program, REGISTERS};
+use super::reserved::meaning;
 use super::tokens::TextError;
 use motiform_dynamics::Symmetry;
 
@@ -14,9 +15,6 @@ const LARGEST_MODE: u32 = 64;
 const MOST_PARAMETERS: usize = 200;
 /// Maximum length of a name.
 const LONGEST_NAME: usize = 40;
-
-/// Names of parameters that would be taken for something else in files and tables.
-pub const COLUMNS: [&str; 3] = ["t", "x", "y"];
 
 /// Equations of motion of complex amplitudes, compiled: one per [`Definition`].
 #[derive(Clone, Debug, PartialEq)]
@@ -181,9 +179,8 @@ fn check_parameters(definition: &Definition) -> Result<(), DefinitionError> {
             );
             return wrong(part, problem);
         }
-        let amplitude = name.strip_prefix('z').is_some_and(|rest| rest.parse::<u32>().is_ok());
-        if amplitude || RESERVED.contains(&name) || COLUMNS.contains(&name) {
-            return wrong(part, format!("{name} has a meaning already: choose another name"));
+        if let Some(known) = meaning(name) {
+            return wrong(part, format!("{name} is the name of {known}: choose another name"));
         }
         if parameters[..number].iter().any(|other| other.name == name) {
             return wrong(part, format!("{name} is there twice"));

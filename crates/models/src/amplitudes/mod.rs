@@ -11,17 +11,19 @@ mod names;
 mod parser;
 mod polynomial;
 mod program;
+mod reserved;
 mod tensor_form;
 #[cfg(test)]
 mod tests_of_texts;
 mod tokens;
 
 pub use definition::{Definition, DefinitionError, ParameterDefinition, Part};
-pub use equations::{COLUMNS, Equations};
+pub use equations::Equations;
 pub(crate) use names::Known;
 pub use names::{NAME, info, terms};
 pub use parser::RESERVED;
 pub use polynomial::{MOST_MODES, MOST_ORDER, Monomial};
+pub use reserved::meaning as reserved;
 pub use tensor_form::{TensorForm, tensor_form};
 
 use crate::polar::{self, Mode};
