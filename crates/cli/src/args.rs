@@ -207,6 +207,9 @@ pub(crate) struct ReproduceOptions {
 #[cfg(feature = "explorer")]
 #[derive(Args)]
 pub(crate) struct ExploreOptions {
+    /// Start with this model, or with a study file ending in .toml, such as one with your own equations
+    #[arg(value_name = "MODEL|STUDY.toml")]
+    pub(crate) subject: Option<String>,
     /// Start with this preset, e.g. fig5a
     #[arg(long, value_name = "NAME")]
     pub(crate) preset: Option<String>,

@@ -1,6 +1,7 @@
 //! The connection to one page: incoming messages and answers, until one side disconnects.
 
 use crate::answers::{self, Answer, Answers};
+use crate::catalogue::Catalogue;
 use crate::protocol::{Ask, Refused};
 use crate::rate::Bucket;
 use crate::session::{Greeting, Session};
@@ -15,9 +16,14 @@ const TOO_BIG: u16 = 1009;
 const FAILED: u16 = 1011;
 
 /// Serves one page.
-pub(crate) async fn serve(mut socket: WebSocket, greeting: Greeting, mut stop: watch::Receiver<bool>) {
+pub(crate) async fn serve(
+    mut socket: WebSocket,
+    greeting: Greeting,
+    catalogue: Catalogue,
+    mut stop: watch::Receiver<bool>,
+) {
     let (answers, mut waiting) = Answers::new();
-    let (code, reason) = match Session::start(answers) {
+    let (code, reason) = match Session::start(answers, catalogue) {
         Ok(session) => {
             let end = match socket.send(Message::text(greeting.text())).await {
                 Ok(()) => talk(&mut socket, &session, &mut waiting, &mut stop).await,

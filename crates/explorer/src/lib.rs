@@ -26,6 +26,7 @@ mod session;
 mod share;
 mod worker;
 
+pub use catalogue::StudyFile;
 pub use error::Error;
 pub use guard::Token;
 pub use protocol::typescript;

@@ -1,11 +1,12 @@
 //! The server: addresses, and rejection of requests.
 
+use crate::catalogue::{Catalogue, StudyFile, file_name};
 use crate::connection;
 use crate::guard::{Names, Token};
 use crate::page::asset;
 use crate::protocol::LONGEST;
 use crate::session::Greeting;
-use crate::{Error, catalogue};
+use crate::{Error, share};
 use axum::Router;
 use axum::extract::{Path, State, WebSocketUpgrade};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
@@ -35,6 +36,10 @@ pub struct Options {
     pub token: Option<String>,
     /// The initial preset.
     pub preset: Option<String>,
+    /// The initial model, where there is neither a preset nor a file.
+    pub model: Option<String>,
+    /// A study file to open.
+    pub file: Option<StudyFile>,
 }
 
 /// A server that has its port, but has not yet answered any request.
@@ -43,7 +48,8 @@ pub struct Server {
     shared: Arc<Shared>,
     port: u16,
     stop: watch::Sender<bool>,
-    preset: Option<String>,
+    /// What the page opens: `preset=fig5a`, `model=my.toml`.
+    opens: Option<String>,
 }
 
 /// Stops a server from another thread.
@@ -63,6 +69,7 @@ struct Shared {
     names: Names,
     pages: Arc<Semaphore>,
     greeting: Greeting,
+    catalogue: Catalogue,
     stop: watch::Receiver<bool>,
 }
 
@@ -82,18 +89,23 @@ impl Server {
         };
         let port = listener.local_addr()?.port();
         let (stop, stopped) = watch::channel(false);
-        let restart = format!("motiform explore --port {port} --token {}", token.text());
-        let greeting = Greeting::new(&catalogue::registry()?, &restart);
+        let catalogue = Catalogue::new(options.file.as_ref())?;
+        let file = options.file.as_ref().map(|file| file.path.as_str());
+        let subject = file.map_or_else(String::new, |path| format!(" {}", share::quoted(path)));
+        let restart = format!("motiform explore{subject} --port {port} --token {}", token.text());
+        let greeting = Greeting::new(&catalogue.registry()?, &restart);
         let (names, pages) = (Names::new(port), Arc::new(Semaphore::new(PAGES as usize)));
-        let shared = Arc::new(Shared { token, names, pages, greeting, stop: stopped });
-        Ok(Self { listener, shared, port, stop, preset: options.preset.clone() })
+        let shared = Arc::new(Shared { token, names, pages, greeting, catalogue, stop: stopped });
+        let model = file.map(file_name).or_else(|| options.model.clone()).map(|name| format!("model={name}"));
+        let opens = options.preset.as_ref().map(|name| format!("preset={name}")).or(model);
+        Ok(Self { listener, shared, port, stop, opens })
     }
 
     /// The address of the page.
     #[must_use]
     pub fn address(&self) -> String {
-        let preset = self.preset.as_ref().map_or_else(String::new, |preset| format!("#preset={preset}"));
-        format!("http://127.0.0.1:{}/{}/{preset}", self.port, self.shared.token.text())
+        let opens = self.opens.as_ref().map_or_else(String::new, |opens| format!("#{opens}"));
+        format!("http://127.0.0.1:{}/{}/{opens}", self.port, self.shared.token.text())
     }
 
     /// Stops the server.
@@ -201,8 +213,9 @@ async fn live(
         return (StatusCode::SERVICE_UNAVAILABLE, "too many pages are open: close one").into_response();
     };
     let (greeting, stop) = (shared.greeting.clone(), shared.stop.clone());
+    let catalogue = shared.catalogue.clone();
     upgrade.max_message_size(LONGEST).max_frame_size(LONGEST).on_upgrade(move |socket| async move {
-        connection::serve(socket, greeting, stop).await;
+        connection::serve(socket, greeting, catalogue, stop).await;
         drop(place);
     })
 }

@@ -3,6 +3,7 @@
 use crate::answers::Answers;
 use crate::answers::text;
 use crate::body::{self, Services};
+use crate::catalogue::Catalogue;
 use crate::protocol::Ask;
 use crate::protocol::{Hello, Registry};
 use motiform_study::dataset::VERSION;
@@ -40,9 +41,9 @@ impl Session {
     ///
     /// # Errors
     /// The system provides none.
-    pub(crate) fn start(answers: Answers) -> std::io::Result<Self> {
+    pub(crate) fn start(answers: Answers, catalogue: Catalogue) -> std::io::Result<Self> {
         let (asks, heard) = sync_channel(WAITING);
-        let services = Services::new(&answers)?;
+        let services = Services::new(&answers, catalogue)?;
         drop(answers); // the services have their own: when they are gone, the page hears no more
         let run = move || body::run(&heard, &services);
         let thread = std::thread::Builder::new().name("body".to_owned()).spawn(run)?;

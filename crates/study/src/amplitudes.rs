@@ -3,6 +3,7 @@
 use crate::toml_reader::{Table, Value};
 use crate::{Error, Study};
 use motiform_models::amplitudes::{Definition, DefinitionError, ParameterDefinition, Part, info};
+use std::fmt::Write as _;
 use toml::Value as Toml;
 
 /// The texts of a definition where they stand in the file.
@@ -127,32 +128,28 @@ fn read_equations<'i>(
     equations.finish()
 }
 
-/// The table of a study's equations, with the values of its parameters.
-pub(crate) fn written(definition: &Definition, values: &[(String, f64)]) -> toml::Table {
-    let mut table = toml::Table::new();
+/// The tables of a study's equations as text, with the values of its parameters: a line for each parameter and equation.
+pub(crate) fn written(definition: &Definition, values: &[(String, f64)]) -> String {
+    let mut text = "[model.amplitudes]\n".to_owned();
     let modes = definition.modes.iter().map(|&n| Toml::Integer(i64::from(n))).collect();
-    table.insert("modes".to_owned(), Toml::Array(modes));
-    for (key, text) in [("velocity", &definition.velocity), ("symmetry", &definition.symmetry)] {
-        if let Some(text) = text {
-            table.insert(key.to_owned(), text.clone().into());
+    _ = writeln!(text, "modes = {}", Toml::Array(modes));
+    for (key, value) in [("velocity", &definition.velocity), ("symmetry", &definition.symmetry)] {
+        if let Some(value) = value {
+            _ = writeln!(text, "{key} = {}", Toml::String(value.clone()));
         }
     }
-    let here = |parameter: &ParameterDefinition| {
-        values.iter().find(|(name, _)| *name == parameter.name).map(|entry| entry.1)
-    };
-    // TOML has numbers before tables: the order of the parameters is kept if all are one or the other.
-    let tables =
-        definition.parameters.iter().any(|parameter| here(parameter).is_some() || !is_bare(parameter));
-    let parameter = |parameter: &ParameterDefinition| {
-        let value =
-            if tables { written_parameter(parameter, here(parameter)) } else { parameter.default.into() };
-        (parameter.name.clone(), value)
-    };
-    table.insert("parameters".to_owned(), Toml::Table(definition.parameters.iter().map(parameter).collect()));
-    let equations = definition.modes.iter().zip(&definition.equations);
-    let equations = equations.map(|(n, text)| (format!("z{n}"), Toml::String(text.clone())));
-    table.insert("equations".to_owned(), Toml::Table(equations.collect()));
-    table
+    text.push_str("\n[model.amplitudes.parameters]\n");
+    for parameter in &definition.parameters {
+        let here = values.iter().find(|(name, _)| *name == parameter.name).map(|entry| entry.1);
+        let bare = here.is_none() && is_bare(parameter);
+        let value = if bare { parameter.default.into() } else { written_parameter(parameter, here) };
+        _ = writeln!(text, "{} = {value}", parameter.name);
+    }
+    text.push_str("\n[model.amplitudes.equations]\n");
+    for (n, equation) in definition.modes.iter().zip(&definition.equations) {
+        _ = writeln!(text, "z{n} = {}", Toml::String(equation.clone()));
+    }
+    text
 }
 
 /// Whether nothing but a value is known of a parameter.

@@ -23,12 +23,15 @@ impl Study {
         if !self.free.is_empty() {
             top.insert("free".to_owned(), self.free.clone().into());
         }
-        let values = match self.model.definition() {
-            Some(definition) => amplitudes::written(definition, &self.parameters),
-            None => numbers(&self.parameters),
-        };
-        let model = Table::from_iter([(self.model.to_string(), Value::Table(values))]);
-        top.insert("model".to_owned(), model.into());
+        // Equations are written line by line, behind what has no table.
+        let equations = self.model.definition().map(|definition| {
+            let head = std::mem::take(&mut top).to_string();
+            format!("{head}\n{}\n", amplitudes::written(definition, &self.parameters))
+        });
+        if equations.is_none() {
+            let model = Table::from_iter([(self.model.to_string(), Value::Table(numbers(&self.parameters)))]);
+            top.insert("model".to_owned(), model.into());
+        }
         let mut initial = numbers(&self.initial);
         if let Some(random) = self.random {
             let value = match random {
@@ -60,7 +63,7 @@ impl Study {
         if let Some(map) = &self.return_map {
             top.insert("return_map".to_owned(), table("return_map", map)?.into());
         }
-        Ok(top.to_string())
+        Ok(equations.unwrap_or_default() + &top.to_string())
     }
 }
 

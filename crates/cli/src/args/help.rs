@@ -133,6 +133,7 @@ pub(super) const EXPLORE_HELP: &str = "\
 Examples:
   motiform explore
   motiform explore --preset fig3
+  motiform explore my.toml          a study file, such as one with your own equations
   motiform explore --port 8080 --no-open
 
 The page shows a map of motions over two parameters (click on it), the moving body, its speed, spectrum, return map and

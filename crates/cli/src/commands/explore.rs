@@ -2,21 +2,15 @@
 
 use crate::args::ExploreOptions;
 use crate::output::{End, print, warn};
-use motiform_explorer::{Options, Server};
-use motiform_study::presets::{PRESETS, model_of};
+use motiform_explorer::{Options, Server, StudyFile};
+use motiform_models::ModelInfo;
+use motiform_models::amplitudes::NAME;
+use motiform_study::presets::{EXTENSIONS, PRESETS, Preset};
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 pub(crate) fn run(options: &ExploreOptions) -> anyhow::Result<End> {
-    if let Some(name) = options.preset.as_ref().filter(|name| model_of(name).is_none()) {
-        let known: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
-        let value = name.clone();
-        anyhow::bail!("--preset {value}: unknown preset; give one of {}", known.join(", "));
-    }
-    let server = Server::bind(&Options {
-        port: options.port,
-        token: options.token.clone(),
-        preset: options.preset.clone(),
-    })?;
+    let server = Server::bind(&settings(options)?)?;
     let address = server.address();
     print(&format!("the explorer is running at\n  {address}\non this machine only; Ctrl-C stops it"))?;
     let handle = server.handle();
@@ -27,6 +21,46 @@ pub(crate) fn run(options: &ExploreOptions) -> anyhow::Result<End> {
     }
     server.run()?;
     Ok(End::Done)
+}
+
+/// The settings of the server; model, file and preset are checked here.
+fn settings(options: &ExploreOptions) -> anyhow::Result<Options> {
+    let ExploreOptions { subject, preset, port, token, .. } = options;
+    let mut settings = Options { port: *port, token: token.clone(), ..Options::default() };
+    if let Some(path) = subject.as_ref().filter(|name| name.ends_with(".toml")) {
+        if let Some(name) = preset {
+            anyhow::bail!(
+                "--preset {name}: a study file sets its own preset: write preset = \"...\" in the file"
+            );
+        }
+        settings.file = Some(StudyFile::read(Path::new(path))?);
+        return Ok(settings);
+    }
+    if let Some(name) = preset {
+        let (Some(found), model) = (known(name), subject.as_deref()) else {
+            let all: Vec<&str> = PRESETS.iter().chain(EXTENSIONS).map(|preset| preset.name).collect();
+            anyhow::bail!("--preset {name}: unknown preset; give one of {}", all.join(", "));
+        };
+        if let Some(model) = model.filter(|model| *model != found.model) {
+            anyhow::bail!("--preset {name}: a preset of the model {}, not of {model}", found.model);
+        }
+        // An extension is a model of its own on the page.
+        let own = found.model == NAME;
+        (settings.preset, settings.model) =
+            if own { (None, Some(name.clone())) } else { (Some(name.clone()), None) };
+    } else if let Some(name) = subject {
+        let extension = EXTENSIONS.iter().any(|preset| preset.name == name);
+        if !extension {
+            ModelInfo::find(name)?;
+        }
+        settings.model = Some(name.clone());
+    }
+    Ok(settings)
+}
+
+/// A preset of the paper, or an extension.
+fn known(name: &str) -> Option<&'static Preset> {
+    PRESETS.iter().chain(EXTENSIONS).find(|preset| preset.name == name)
 }
 
 /// Opens an address in the browser; returns whether this was possible.
@@ -41,7 +75,7 @@ fn open(address: &str) -> bool {
     let mut command = Command::new(program);
     command.args(arguments).arg(address).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     let Ok(mut child) = command.spawn() else { return false };
-    // Whoever asked must hear that it is done; a desktop that says no is said by the address above.
+    // The child is waited for, so that it leaves no zombie; if it fails, the printed address remains.
     std::thread::spawn(move || child.wait());
     true
 }

@@ -1,6 +1,6 @@
 //! A body between two changes: model, parameters, initial state.
 
-use crate::catalogue;
+use crate::catalogue::{Catalogue, Subject};
 use crate::motion::Motion;
 use crate::protocol::{Begin, Begun, Changed, Observable};
 use motiform_dynamics::{InPlane, Model};
@@ -8,6 +8,7 @@ use motiform_lab::draw::radius_for;
 use motiform_lab::live::{Record, Stretch, settled};
 use motiform_study::study::{DisplaySettings, ReturnMapSettings};
 use motiform_study::{Error, Plan, Study};
+use std::rc::Rc;
 use std::time::Duration;
 
 /// A transient that takes longer is truncated, because the page waits.
@@ -18,7 +19,11 @@ const AHEAD: (usize, Duration) = (600, Duration::from_millis(30));
 
 /// What stays the same until the next change.
 pub(crate) struct Setting {
+    /// Model and preset as the page names them.
+    model_name: String,
     preset: Option<String>,
+    /// What it began with.
+    origin: Rc<Subject>,
     /// The study as started: a restart uses its initial state.
     study: Study,
     /// From the state below, with the noise and without.
@@ -44,26 +49,32 @@ pub(super) struct Seen<'s> {
 
 impl Setting {
     /// The body that a page requests.
-    pub(crate) fn begin(begin: &Begin, revision: u32) -> Result<Self, Error> {
-        let mut study = catalogue::study(&begin.model, begin.preset.as_deref())?;
+    pub(crate) fn begin(begin: &Begin, revision: u32, catalogue: &Catalogue) -> Result<Self, Error> {
+        let origin = catalogue.subject(&begin.model, begin.preset.as_deref())?;
+        let mut study = origin.study.clone();
         for (name, value) in &begin.parameters {
             study.set(name, *value)?;
         }
-        (study.run.seed, study.run.noise, study.run.noise_velocity) = (begin.seed, begin.noise, None);
+        study.run.seed = begin.seed;
+        if let Some(noise) = begin.noise.filter(|noise| *noise != study.run.noise) {
+            (study.run.noise, study.run.noise_velocity) = (noise, None);
+        }
         let plan = Plan::new(&study)?;
         let model = plan.info()?.build(&plan.computation.parameters.values())?;
         let state = match &begin.state {
             Some(coordinates) => state_of(model.as_ref(), coordinates, begin.position.unwrap_or_default())?,
             None => settled(&plan, model.as_ref(), SETTLING)?,
         };
-        let mut setting = Self::new(study, begin.preset.clone(), revision, begin.t, state)?;
+        let names = (begin.model.clone(), begin.preset.clone());
+        let mut setting = Self::new(study, names, Rc::new(origin), revision, begin.t, state)?;
         setting.radius = setting.fitting_radius()?;
         Ok(setting)
     }
 
     fn new(
         study: Study,
-        preset: Option<String>,
+        (model_name, preset): (String, Option<String>),
+        origin: Rc<Subject>,
         revision: u32,
         t: f64,
         state: Vec<f64>,
@@ -73,12 +84,13 @@ impl Setting {
         let plan = Plan::new(&now)?;
         now.run.silence();
         let quiet = Plan::new(&now)?;
-        Ok(Self { preset, study, plan, quiet, model, revision, t, state, radius: 0.0 })
+        Ok(Self { model_name, preset, origin, study, plan, quiet, model, revision, t, state, radius: 0.0 })
     }
 
     /// The same body with another study, from another state.
     pub(super) fn changed(&self, study: Study, t: f64, state: Vec<f64>, radius: f64) -> Result<Self, Error> {
-        let next = Self::new(study, self.preset.clone(), self.revision.wrapping_add(1), t, state)?;
+        let names = (self.model_name.clone(), self.preset.clone());
+        let next = Self::new(study, names, Rc::clone(&self.origin), self.revision.wrapping_add(1), t, state)?;
         Ok(Self { radius, ..next })
     }
 
@@ -104,8 +116,15 @@ impl Setting {
         &self.study.display
     }
 
-    pub(crate) fn preset(&self) -> Option<&str> {
-        self.preset.as_deref()
+    /// What the body began with.
+    pub(crate) fn origin(&self) -> &Subject {
+        &self.origin
+    }
+
+    /// Name for files: the preset, or the model.
+    pub(crate) fn name(&self) -> &str {
+        let name = self.preset.as_deref().unwrap_or(&self.model_name);
+        name.strip_suffix(".toml").unwrap_or(name)
     }
 
     pub(crate) fn model(&self) -> &dyn Model {
@@ -157,7 +176,7 @@ impl Setting {
         let text = str::to_owned;
         Begun {
             revision: self.revision,
-            model: self.study.model.to_string(),
+            model: self.model_name.clone(),
             preset: self.preset.clone(),
             title: self.study.title.clone(),
             about: self.study.about.clone(),
@@ -226,7 +245,7 @@ pub(super) mod tests {
     pub(in super::super) fn begin(model: &str, preset: &str) -> Setting {
         let begin =
             Begin { model: model.to_owned(), preset: Some(preset.to_owned()), seed: 1, ..Begin::default() };
-        Setting::begin(&begin, 1).unwrap()
+        Setting::begin(&begin, 1, &Catalogue::new(None).unwrap()).unwrap()
     }
 
     #[test]
@@ -238,7 +257,10 @@ pub(super) mod tests {
         }
         for info in MODELS {
             let begin = Begin { model: info.name.to_owned(), ..Begin::default() };
-            assert_eq!(Setting::begin(&begin, 1).unwrap().begun().model, info.name);
+            assert_eq!(
+                Setting::begin(&begin, 1, &Catalogue::new(None).unwrap()).unwrap().begun().model,
+                info.name
+            );
         }
     }
 }

@@ -9,8 +9,8 @@ use crate::export::Order;
 use crate::frames::Frame;
 use crate::map::{Job, MapFile};
 use crate::protocol::{
-    Advance, Ask, Begin, BranchPoint, Cell, Ended, Export, Follow, MapWindow, Noise, Said, Section, Set,
-    Share,
+    Advance, Ask, Begin, BranchPoint, Cell, Define, Ended, Export, Follow, MapWindow, Noise, Said, Section,
+    Set, Share, Source,
 };
 use crate::share;
 use motiform_dynamics::{InPlane, Model, Outcome, Outline};
@@ -79,6 +79,8 @@ impl<'s> Stage<'s> {
             Ask::Advance(Advance { dt }) => self.advance(dt)?,
             Ask::Strips(section) => self.strips(section)?,
             Ask::Share(_) => self.share()?,
+            Ask::Source(_) => self.source()?,
+            Ask::Define(Define { text }) => super::define(&text, self.services)?,
             Ask::Map(window) => self.map(window),
             Ask::Unmap(_) => self.services.map.stop(),
             Ask::Follow(follow) => self.follow(follow),
@@ -180,10 +182,19 @@ impl<'s> Stage<'s> {
 
     fn share(&self) -> Result<(), Gone> {
         let study = self.setting.study_at(self.stretch.state());
-        let texts = share::command(self.setting.preset(), &study)
-            .and_then(|command| Ok((command, share::python(self.setting.preset(), &study)?)));
+        let start = self.setting.origin();
+        let texts =
+            share::command(start, &study).and_then(|command| Ok((command, share::python(start, &study)?)));
         match texts {
             Ok((command, python)) => self.services.answers.say(Share { command, python }),
+            Err(error) => self.services.answers.refused(None, &error.to_string()),
+        }
+    }
+
+    /// The present study as text whose equations can be changed.
+    fn source(&self) -> Result<(), Gone> {
+        match share::source(self.setting.origin(), self.setting.study()) {
+            Ok(text) => self.services.answers.say(Source { text }),
             Err(error) => self.services.answers.refused(None, &error.to_string()),
         }
     }
@@ -244,12 +255,16 @@ impl<'s> Stage<'s> {
             let why = format!("there is no file {:?}", export.what);
             return self.services.answers.refused(Some(export.id), &why);
         };
-        let subject = self.setting.preset().unwrap_or(self.setting.study().model.as_str()).to_owned();
+        let subject = self.setting.name().to_owned();
         self.services.exports.put(Order { id: export.id, subject, what: export.what.clone(), make })
     }
 
     fn begin(&self, begin: &Begin) -> Change {
-        let setting = Setting::begin(begin, self.setting.revision().wrapping_add(1))?;
+        let setting = Setting::begin(
+            begin,
+            self.setting.revision().wrapping_add(1),
+            &self.services.catalogue.borrow(),
+        )?;
         self.services.map.stop();
         self.services.branches.forget();
         let answer = setting.begun().into();

@@ -51,6 +51,8 @@ messages! {
         parameters: Vec<Parameter>,
         observables: Vec<Observable>,
         plane: Plane,
+        noise: f64,
+        editable: bool,
     }
     #[derive(Serialize, Deserialize)]
     Preset {
@@ -191,6 +193,15 @@ messages! {
     /// The present study as a command and in Python.
     #[derive(Serialize)]
     Share { command: String, python: String, }
+    /// The present study as a study file with its equations.
+    #[derive(Serialize)]
+    Source { text: String, }
+    /// The text of a page became this model.
+    #[derive(Serialize)]
+    Defined { model: Model, }
+    /// The text of a page is no study: what is wrong, and where (line and column from 1, `length` characters).
+    #[derive(Serialize)]
+    Mistake { line: usize, column: usize, length: usize, problem: String, }
     /// A message that cannot be answered.
     #[derive(Serialize)]
     Refused { id: Option<u32>, why: String, }
@@ -243,6 +254,9 @@ answers! {
     Orbit(OrbitTold) = "orbit",
     Ended(Ended) = "ended",
     Share(Share) = "share",
+    Source(Source) = "source",
+    Defined(Defined) = "defined",
+    Mistake(Mistake) = "mistake",
     Refused(Refused) = "refused",
 }
 

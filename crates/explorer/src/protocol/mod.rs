@@ -36,8 +36,7 @@ messages! {
         position: Option<[f64; 2]>,
         #[serde(default)]
         t: f64,
-        #[serde(default)]
-        noise: f64,
+        noise: Option<f64>,
         #[serde(default = "one")]
         seed: u64,
     }
@@ -88,6 +87,10 @@ messages! {
         #[serde(default)]
         y: Option<f64>,
     }
+    /// A study file as text: from now on the model "edited".
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    Define { text: String, }
     /// Nothing but the verb.
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -134,6 +137,8 @@ asks! {
     Follow(Follow) = "follow",
     Unfollow(Bare) = "unfollow",
     Place(BranchPoint) = "place",
+    Source(Bare) = "source",
+    Define(Define) = "define",
     Share(Bare) = "share",
     Export(Export) = "export",
 }

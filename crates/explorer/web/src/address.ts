@@ -12,7 +12,8 @@ export interface Place {
   parameters: Values;
   plane: Plane | null;
   speed: number | null;
-  noise: number;
+  /** `null`: that of the model. */
+  noise: number | null;
   section: Section | null;
   y: number | null;
   playing: boolean;
@@ -30,7 +31,7 @@ export function write(place: Place): string {
   pairs.push(...Object.entries(place.parameters));
   if (place.plane) pairs.push(["x", axisText(place.plane.x)], ["y", place.plane.y ? axisText(place.plane.y) : "none"]);
   if (place.speed !== null) pairs.push(["speed", plain(place.speed, 4)]);
-  if (place.noise) pairs.push(["noise", place.noise]);
+  if (place.noise !== null) pairs.push(["noise", place.noise]);
   if (place.section) pairs.push(["section", place.section === "path" && place.y !== null ? `path:${place.y}` : place.section]);
   pairs.push(["play", place.playing ? 1 : 0]);
   if (place.state && place.position) pairs.push(["t", place.t], ["at", place.position.join()], ["state", place.state.join()]);
@@ -75,7 +76,7 @@ class Reader {
       preset,
       plane: this.plane(model),
       speed: this.take("speed", (text) => positive(finite(text))),
-      noise: this.take("noise", (text) => amplitude(finite(text))) ?? 0,
+      noise: this.take("noise", (text) => amplitude(finite(text))),
       section: section?.kind ?? null,
       y: section?.y ?? null,
       playing: this.take("play", (text) => (text === "0" || text === "1" ? { on: text === "1" } : null))?.on ?? true,
@@ -151,5 +152,5 @@ function numbers(text: string, count: number | null): number[] | null {
 
 /** The beginning of a preset or model, everything else left to it. */
 export function fresh(model: string, preset: string | null, playing: boolean): Place {
-  return { model, preset, parameters: {}, plane: null, speed: null, noise: 0, section: null, y: null, playing, t: 0, position: null, state: null };
+  return { model, preset, parameters: {}, plane: null, speed: null, noise: null, section: null, y: null, playing, t: 0, position: null, state: null };
 }

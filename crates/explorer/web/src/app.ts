@@ -9,6 +9,7 @@ import { Connection } from "./connection";
 import { Controls } from "./controls";
 import { dispatch, type Hearer } from "./dispatch";
 import { byId, setText } from "./dom";
+import { Editor } from "./editor";
 import { expose } from "./handle";
 import { History } from "./history";
 import { Keeper } from "./keeper";
@@ -19,7 +20,7 @@ import { pretty, typeset } from "./numbers";
 import { Opening } from "./opening";
 import { ParameterPanel } from "./parameters";
 import { PresetBar } from "./presets";
-import type { Begun, Changed, Exponents, Hello, Named, Orbit, Refused, Regime, Share, Strips, Values, Wish } from "./protocol";
+import type { Begun, Changed, Defined, Exponents, Hello, Mistake, Model, Named, Orbit, Refused, Regime, Share, Source, Strips, Values, Wish } from "./protocol";
 import { Session } from "./session";
 import { ShareMenu } from "./share";
 import { showConnection } from "./status";
@@ -54,7 +55,8 @@ export class App implements Hearer {
   private readonly history = new History();
   private readonly keeper = new Keeper(() => this.place());
   private readonly body = new BodyPanel(this.history, (follow) => this.controls.setFollow(follow));
-  private readonly parameters = new ParameterPanel((name, value) => this.choose({ [name]: value }));
+  private readonly parameters = new ParameterPanel((name, value) => this.choose({ [name]: value }), () => this.send({ do: "source" }));
+  private readonly editor = new Editor({ send: (wish) => this.send(wish), run: (model) => this.run(model) });
   private readonly presets = new PresetBar((name) => this.openPreset(name), (name) => this.open(fresh(name, null, this.loop.playing)));
   private readonly strips: StripPanels;
   private readonly controls: Controls;
@@ -148,8 +150,34 @@ export class App implements Hearer {
     const place = this.place();
     this.session = new Session(registry);
     this.presets.fill(registry);
-    if (place) this.open(place);
-    else this.openAddress();
+    this.editor.restore((model) => {
+      if (model) this.define(model);
+      if (place) this.open(place);
+      else this.openAddress();
+    });
+  }
+
+  source({ text }: Source): void {
+    this.editor.open(text);
+  }
+
+  defined({ model }: Defined): void {
+    this.editor.defined(model);
+  }
+
+  mistaken(mistake: Mistake): void {
+    this.editor.mistaken(mistake);
+  }
+
+  private define(model: Model): void {
+    this.known().define(model);
+    this.presets.add(model);
+  }
+
+  /** A model that the reader wrote. */
+  private run(model: Model): void {
+    this.define(model);
+    this.open(fresh(model.name, null, this.loop.playing));
   }
 
   begun(begun: Begun): void {
@@ -339,7 +367,7 @@ export class App implements Hearer {
       parameters: session.changed(),
       plane: this.map.current(),
       speed: session.speed,
-      noise: session.noise,
+      noise: session.noised(),
       ...this.strips.section(),
       playing: this.loop.playing,
       t: frame.t,

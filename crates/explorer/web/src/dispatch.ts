@@ -1,6 +1,6 @@
 /** Who hears which answer. What belongs to an earlier motion is left aside here, once for all. */
 
-import type { Answer, Begun, Changed, Exponents, Hello, Named, Orbit, Refused, Share, Strips } from "./protocol";
+import type { Answer, Begun, Changed, Defined, Exponents, Hello, Mistake, Named, Orbit, Refused, Share, Source, Strips } from "./protocol";
 import type { BranchPanel } from "./branches/panel";
 import type { MapPanel } from "./map/panel";
 
@@ -20,6 +20,9 @@ export interface Hearer {
   analysed(answer: Strips, current: boolean): void;
   ended(text: string): void;
   shared(answer: Share): void;
+  source(answer: Source): void;
+  defined(answer: Defined): void;
+  mistaken(answer: Mistake): void;
   refused(answer: Refused): void;
   /** The orbit that the body is placed on; it may come before the change. */
   orbit(answer: Orbit): void;
@@ -55,6 +58,12 @@ export function dispatch(answer: Answer, to: Hearer): void {
       return to.orbit(answer);
     case "share":
       return to.shared(answer);
+    case "source":
+      return to.source(answer);
+    case "defined":
+      return to.defined(answer);
+    case "mistake":
+      return to.mistaken(answer);
     case "refused":
       return to.refused(answer);
     case "strips":

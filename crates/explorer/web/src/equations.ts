@@ -12,7 +12,7 @@ const LABEL = /^\(([A-Z]+)\)\s*/;
 /** Between terms: a sum, a difference, an equation; a line may break before it. */
 const BETWEEN = / (?=[-+=] )/;
 /** A derivative; a power; a name with what stands below it; anything else. */
-const TOKENS = /d([A-Za-z])\/dt|\^(-?\w+)|([A-Za-z][A-Za-z0-9]*)((?:_[A-Za-z0-9]+)*)|([^A-Za-z^]+)/g;
+const TOKENS = /d([A-Za-z]\d*)\/dt|\^(-?\w+)|([A-Za-z][A-Za-z0-9]*)((?:_[A-Za-z0-9]+)*)|([^A-Za-z^]+)/g;
 
 /** Paragraphs: one for each line of the text, its label in front. */
 export function equations({ equations, parameters }: Model): HTMLElement {
@@ -34,10 +34,10 @@ function formula(text: string, symbols: Map<string, string>): HTMLElement {
 }
 
 function element([all, rate, power, name, below, other]: RegExpMatchArray, symbols: Map<string, string>): Node {
-  if (rate) return symbol(`d*${rate}*/d*t*`);
+  if (rate) return symbol(`d*${rate[0]}*${rate.length > 1 ? `_${rate.slice(1)}` : ""}/d*t*`);
   if (power) return make("sup", {}, named(power.replace("-", ""), power.startsWith("-") ? "\u2212" : "", symbols));
   if (name) return symbols.has(all) ? factor(symbols.get(all) ?? "") : below ? symbol(`${SIGNS[name] ?? `*${name}*`}_{*${below.slice(1)}*}`) : named(name, "", symbols);
-  return document.createTextNode(other.replaceAll("<=", "\u2264").replaceAll("..", "\u2026").replace(/(^|[ (])-/g, "$1\u2212"));
+  return document.createTextNode(other.replaceAll("<=", "\u2264").replaceAll("..", "\u2026").replaceAll("*", "\u2009").replace(/(^|[ (])-/g, "$1\u2212"));
 }
 
 /** A parameter; a quotient in brackets, for other factors may follow. */
@@ -47,6 +47,6 @@ function factor(markup: string): HTMLElement {
 
 /** A parameter, a sign, a single letter of mathematics, or a word. */
 function named(name: string, sign: string, symbols: Map<string, string>): HTMLElement {
-  const letter = /^[A-Za-z]$/.test(name) ? `*${name}*` : name;
+  const letter = name.replace(/^([A-Za-z])(\d*)$/, (_, one: string, below: string) => (below ? `*${one}*_${below}` : `*${one}*`));
   return symbol(sign + (symbols.get(name) ?? SIGNS[name] ?? letter));
 }

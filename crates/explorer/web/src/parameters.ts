@@ -27,8 +27,11 @@ export class ParameterPanel {
   /** What sliders go over that are finer than their parameter's range: the window of the figure. */
   private spans = new Map<string, [number, number]>();
 
-  /** `set` hears each value that the reader chooses. */
-  constructor(private readonly set: (name: string, value: number) => void) {
+  /** `set` hears each value that the reader chooses; `edit` is asked for the equations as text. */
+  constructor(
+    private readonly set: (name: string, value: number) => void,
+    private readonly edit: () => void,
+  ) {
     const details = byId<HTMLDetailsElement>("parameter-details");
     const phone = matchMedia("(max-width: 700px)");
     const fold = (): void => void (details.open = !phone.matches);
@@ -53,8 +56,16 @@ export class ParameterPanel {
     this.place.replaceChildren(
       ...(first.length ? [this.group(given.length ? "free in the paper\u2019s figure" : `axes of the ${preset ? "preset" : "model"}\u2019s map`, first)] : []),
       ...[...groups].filter(([, list]) => list.length).map(([equation, list]) => this.group(equation.startsWith("(") ? `equation ${equation}` : equation, list)),
-      make("details", { class: "equations" }, make("summary", {}, "Equations"), equations(model), make("p", {}, model.source)),
+      make("details", { class: "equations" }, make("summary", {}, "Equations"), equations(model), make("p", {}, model.source), ...this.change(model)),
     );
+  }
+
+  /** The button that opens the equations as text. */
+  private change(model: Model): HTMLElement[] {
+    if (!model.editable) return [];
+    const button = make("button", { type: "button", "data-testid": "edit-equations", title: "Add terms, parameters or modes, and run the result" }, "Change the equations\u2026");
+    button.addEventListener("click", () => this.edit());
+    return [button];
   }
 
   /** Shows these values; the field that is being typed in is left alone. */

@@ -25,7 +25,13 @@ export class PresetBar {
       chip.addEventListener("click", () => this.preset(name));
       return chip;
     }));
-    this.select.replaceChildren(...models.map(({ name, title }) => make("option", { value: name, title }, name)));
+    this.select.replaceChildren();
+    models.forEach((model) => this.add(model));
+  }
+
+  /** A model that can be chosen. */
+  add({ name, title }: Model): void {
+    if (![...this.select.options].some((one) => one.value === name)) this.select.append(make("option", { value: name, title }, name));
   }
 
   /** Shows which ones are in use, and the sentence about them. */

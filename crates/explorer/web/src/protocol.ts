@@ -46,6 +46,8 @@ export interface Model {
   parameters: Parameter[];
   observables: Observable[];
   plane: Plane;
+  noise: number;
+  editable: boolean;
 }
 
 export interface Preset {
@@ -305,6 +307,27 @@ export interface Share {
   python: string;
 }
 
+/** The present study as a study file with its equations. */
+export interface Source {
+  is: "source";
+  text: string;
+}
+
+/** The text of a page became this model. */
+export interface Defined {
+  is: "defined";
+  model: Model;
+}
+
+/** The text of a page is no study: what is wrong, and where (line and column from 1, `length` characters). */
+export interface Mistake {
+  is: "mistake";
+  line: number;
+  column: number;
+  length: number;
+  problem: string;
+}
+
 /** A message that cannot be answered. */
 export interface Refused {
   is: "refused";
@@ -333,11 +356,14 @@ export type Answer =
   | Orbit
   | Ended
   | Share
+  | Source
+  | Defined
+  | Mistake
   | Refused;
 
 /** Everything the page says. */
 export type Wish =
-  | { do: "begin"; model: string; preset: string | null; parameters: Values; state: number[] | null; position: [number, number] | null; t: number; noise: number; seed: number }
+  | { do: "begin"; model: string; preset: string | null; parameters: Values; state: number[] | null; position: [number, number] | null; t: number; noise: number | null; seed: number }
   | { do: "set"; parameters: Values }
   | { do: "noise"; amplitude: number }
   | { do: "kick" }
@@ -350,6 +376,8 @@ export type Wish =
   | { do: "follow"; epoch: number; along: Axis; branches: number }
   | { do: "unfollow" }
   | { do: "place"; epoch: number; branch: number; point: number }
+  | { do: "source" }
+  | { do: "define"; text: string }
   | { do: "share" }
   | { do: "export"; id: number; what: string; section: Section; y: number | null };
 

@@ -39,6 +39,18 @@ export class Session {
     this.wanted = {};
   }
 
+  /** A model that the page wrote, in place of an earlier one of its name. */
+  define(model: Model): void {
+    const { models } = this.registry;
+    const at = models.findIndex((one) => one.name === model.name);
+    models.splice(at < 0 ? models.length : at, at < 0 ? 0 : 1, model);
+  }
+
+  /** The noise, where it is not that of the model. */
+  noised(): number | null {
+    return this.noise === this.model.noise ? null : this.noise;
+  }
+
   /** Only the parameters that differ from the preset's. */
   changed(): Values {
     return Object.fromEntries(Object.entries(this.parameters).filter(([name, value]) => value !== this.base[name]));

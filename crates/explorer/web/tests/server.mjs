@@ -17,9 +17,9 @@ export function binary() {
 
 /** A running `motiform explore`; without a port, on any free one. */
 export class Server {
-  static async start({ port = null, token = TOKEN } = {}) {
+  static async start({ port = null, token = TOKEN, file = null } = {}) {
     const where = port === null ? [] : ["--port", String(port)];
-    const child = spawn(binary(), ["explore", "--no-open", "--token", token, ...where], { stdio: ["ignore", "pipe", "inherit"] });
+    const child = spawn(binary(), ["explore", ...(file ? [file] : []), "--no-open", "--token", token, ...where], { stdio: ["ignore", "pipe", "inherit"] });
     for await (const line of createInterface({ input: child.stdout })) {
       const address = line.match(/http:\/\/\S+/)?.[0];
       if (address) return new Server(child, address);

@@ -42,10 +42,10 @@ export function executable() {
   return found;
 }
 
-/** A server and a browser that live as long as the tests of this file. */
-export function stage() {
+/** A server (with these options) and a browser that live as long as the tests of this file. */
+export function stage(options = {}) {
   const it = {};
-  before(async () => Object.assign(it, { server: await Server.start(), browser: await launch() }));
+  before(async () => Object.assign(it, { server: await Server.start(options), browser: await launch() }));
   after(async () => {
     await it.browser?.close();
     await it.server?.stop();
@@ -76,7 +76,7 @@ export async function visit({ browser, server }, { hash = "", tolerate = null, a
   const own = [new URL(address).origin, new URL(address).origin.replace("http", "ws"), "data:", `blob:${new URL(address).origin}`];
   page.on("request", (request) => own.some((start) => request.url().startsWith(start)) || faults.push(`request to ${request.url()}`));
   page.on("websocket", (socket) => own.some((start) => socket.url().startsWith(start)) || faults.push(`socket to ${socket.url()}`));
-  await page.goto(`${address}${hash && `#${hash}`}`);
+  await page.goto(hash ? `${address.replace(/#.*/, "")}#${hash}` : address);
   const leave = async () => {
     await place.close();
     assert.deepEqual(faults.filter((text) => !tolerate?.test(text)), []);

@@ -4,6 +4,7 @@
 //! `v1 + i v2 = conj(z1)` unless it is given. The state is `(Re z_n, Im z_n)` in the order of the modes. The tensor model is the special
 //! case of modes 1, 2, 3 (paper, eqs. (Z1), (Z2), (Z3)).
 
+mod built_in;
 mod coefficient;
 mod definition;
 mod equations;
@@ -17,6 +18,7 @@ mod tensor_form;
 mod tests_of_texts;
 mod tokens;
 
+pub use built_in::{of_model, tensor as tensor_as_text};
 pub use definition::{Definition, DefinitionError, ParameterDefinition, Part};
 pub use equations::Equations;
 pub(crate) use names::Known;

@@ -8,17 +8,10 @@ use motiform_dynamics::conformance::{
 use motiform_dynamics::model::velocity;
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Symmetry, VectorField};
-use motiform_models::amplitudes::{Definition, ParameterDefinition, Part, info};
+use motiform_models::amplitudes::{self, Definition, ParameterDefinition, Part, info};
 use motiform_models::tensor::{Tensor, TensorParameters};
 use motiform_models::{ModelInfo, Parameters};
 use proptest::prelude::*;
-
-/// All terms of the tensor model: (Z1), (Z2), (Z3) with the paper's table of coefficients.
-const TENSOR: [&str; 3] = [
-    "(gamma - |z1|^2 - 8*a4*|z2|^2 - 16*a5*|z3|^2)*z1 - 2*a1*conj(z1)*z2 - 2*a2*conj(z1)^2*z3 - 8*a3*conj(z2)*z3 + 16*a6*conj(z3)*z2^2",
-    "(-kappa2 - b4*|z1|^2 - 8*b3*|z2|^2 - 16*b5*|z3|^2)*z2 + b1/4*z1^2 + b2*conj(z1)*z3 + 2*b6*z1*conj(z2)*z3",
-    "(-kappa3 - d4*|z1|^2 - 8*d5*|z2|^2 - 16*d3*|z3|^2)*z3 + d1/8*z1^3 + d2/2*z1*z2 + 2*d6*conj(z1)*z2^2",
-];
 
 fn definition(modes: &[u32], equations: &[&str], parameters: &[(&str, f64)]) -> Definition {
     Definition {
@@ -32,9 +25,8 @@ fn definition(modes: &[u32], equations: &[&str], parameters: &[(&str, f64)]) -> 
 
 /// The tensor model as text, with all its parameters.
 fn tensor_as_text() -> &'static ModelInfo {
-    let specs = TensorParameters::specs().iter();
-    let parameters: Vec<(&str, f64)> = specs.map(|spec| (spec.name, spec.default)).collect();
-    info(&definition(&[1, 2, 3], &TENSOR, &parameters)).unwrap()
+    let defaults: Vec<f64> = TensorParameters::specs().iter().map(|spec| spec.default).collect();
+    info(&amplitudes::tensor_as_text(&defaults, true)).unwrap()
 }
 
 fn largest(a: &[f64], b: &[f64]) -> f64 {
