@@ -39,7 +39,7 @@ pub use lifetime::{
 };
 pub use lyapunov::{Lyapunov, LyapunovSettings, SoFar, lyapunov, lyapunov_followed};
 pub use periodic::PeriodicOrbit;
-pub use regime::{Attractor, Regime, Settings, Spread, Verdict, classify};
+pub use regime::{Attractor, Course, Form, Regime, Settings, Spread, Verdict, classify};
 pub use rests::{Rest, Rests, rests};
 pub use returns::{Dimension, correlation_dimension, return_pairs};
 pub use same_set::same_set;

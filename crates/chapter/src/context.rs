@@ -49,9 +49,7 @@ impl Context<'_> {
         name: &str,
         change: impl FnOnce(&mut Study) -> Result<(), Error>,
     ) -> Result<Study, Error> {
-        let info = presets::model_of(name)
-            .ok_or(Error::UnknownFigure { name: name.to_owned(), known: Vec::new() })?;
-        let mut study = presets::find(info, name)?;
+        let mut study = presets::find_any(name, "tensor")?;
         change(&mut study)?;
         Ok(study)
     }

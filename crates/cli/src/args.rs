@@ -187,7 +187,7 @@ pub(crate) struct LyapunovOptions {
 
 #[derive(Args)]
 pub(crate) struct ReproduceOptions {
-    /// equations (consequences of the equations as written), fig1, fig2, ... fig6, models (what both models have in common); everything if none is given
+    /// equations (consequences of the equations as written), fig1, fig2, ... fig6, models (what both models have in common); all of these if none is given. Further: extensions (the presets with equations given as text)
     #[arg(value_name = "FIGURE")]
     pub(crate) figures: Vec<String>,
     /// Coarser scans and shorter runs: within a minute

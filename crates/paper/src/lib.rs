@@ -4,6 +4,7 @@
 //! the crate `motiform-chapter`.
 
 mod equations;
+mod extensions;
 mod fig1;
 mod fig2;
 mod fig3;
@@ -26,7 +27,7 @@ use std::path::Path;
 /// What to rebuild, and how.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The figures, by name (see [`names`]); all of them if empty.
+    /// The figures, by name (see [`names`]); all of the paper if empty.
     pub figures: Vec<String>,
     /// Coarser scans and shorter runs: the same claims with less evidence.
     pub quick: bool,
@@ -66,10 +67,13 @@ const CHAPTERS: &[Chapter] = &[
     Chapter { name: "models", work: 0.5, rebuild: models::section },
 ];
 
+/// Chapters that are not about the paper: rebuilt where they are asked for by name.
+const FURTHER: &[Chapter] = &[Chapter { name: "extensions", work: 0.5, rebuild: extensions::section }];
+
 /// The names of what can be rebuilt.
 #[must_use]
 pub fn names() -> Vec<&'static str> {
-    CHAPTERS.iter().map(|chapter| chapter.name).collect()
+    CHAPTERS.iter().chain(FURTHER).map(|chapter| chapter.name).collect()
 }
 
 /// `fig1: 12 hold, 3 differ, 0 fail`, over the claims of the paper and the checks of ours.
@@ -85,10 +89,9 @@ fn finished(name: &str, section: &Section) -> String {
 /// An unknown name; [`Error::Interrupted`] if the watch stopped it; files that cannot be written.
 pub fn reproduce(options: &Options, out: &Path, watch: &dyn Watch) -> Result<Report, Error> {
     options.check()?;
-    let wanted = |chapter: &&Chapter| {
-        options.figures.is_empty() || options.figures.iter().any(|name| name == chapter.name)
-    };
-    let chapters: Vec<&Chapter> = CHAPTERS.iter().filter(wanted).collect();
+    let named = |chapter: &&Chapter| options.figures.iter().any(|name| name == chapter.name);
+    let paper = CHAPTERS.iter().filter(|chapter| options.figures.is_empty() || named(chapter));
+    let chapters: Vec<&Chapter> = paper.chain(FURTHER.iter().filter(named)).collect();
     let progress = Progress::new(watch, &chapters.iter().map(|chapter| chapter.work).collect::<Vec<_>>());
     // Much of a chapter is one long run after the other: chapters side by side keep all cores busy.
     let rebuild = |&(index, chapter): &(usize, &Chapter)| {

@@ -4,6 +4,7 @@ use super::motion::Path;
 use super::verdict::Regime;
 use crate::isotropy::Isotropy;
 use crate::periodic::PeriodicOrbit;
+use motiform_dynamics::Symmetry;
 use serde::{Deserialize, Serialize};
 
 /// The kind of a relative periodic orbit, by its symmetry and by the rotation that it adds up to in a period.
@@ -23,6 +24,8 @@ pub enum Form {
     MirrorZigzag,
     /// No symmetry, and no net rotation either.
     AsymmetricZigzag,
+    /// In a field: the heading turns through full circles at a rate that depends on its direction, so that in general the body drifts.
+    DriftingCircular,
     /// The heading swings left and right, by more than the net rotation of a period.
     RotatingZigzag,
     /// The heading turns in one direction only, at a changing rate.
@@ -33,12 +36,13 @@ pub enum Form {
 
 impl Form {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::PulsatingAtRest,
         Self::PulsatingStraight,
         Self::BackAndForth,
         Self::MirrorZigzag,
         Self::AsymmetricZigzag,
+        Self::DriftingCircular,
         Self::RotatingZigzag,
         Self::PulsatingCircular,
         Self::Rosette,
@@ -53,6 +57,7 @@ impl Form {
             Self::BackAndForth => "back-and-forth",
             Self::MirrorZigzag => "mirror-zigzag",
             Self::AsymmetricZigzag => "asymmetric-zigzag",
+            Self::DriftingCircular => "drifting-circular",
             Self::RotatingZigzag => "rotating-zigzag",
             Self::PulsatingCircular => "pulsating-circular",
             Self::Rosette => "rosette",
@@ -74,6 +79,9 @@ impl Form {
                 "half a period later the motion is its own mirror image, so it has no net rotation"
             }
             Self::AsymmetricZigzag => "the shape repeats without net rotation",
+            Self::DriftingCircular => {
+                "the heading turns through full circles, at a rate that depends on its direction"
+            }
             Self::RotatingZigzag => {
                 "a slowly rotating zigzag: the heading swings by more than the net rotation"
             }
@@ -89,13 +97,20 @@ impl Form {
             Self::PulsatingAtRest => Regime::Motionless,
             Self::PulsatingStraight | Self::BackAndForth => Regime::PulsatingStraight,
             Self::MirrorZigzag | Self::AsymmetricZigzag => Regime::Zigzag,
+            Self::DriftingCircular => Regime::Circular,
             Self::RotatingZigzag | Self::PulsatingCircular | Self::Rosette => Regime::QuasiPeriodic,
         }
     }
 
     /// The form of an orbit whose shapes all have the symmetry `symmetry`, with the path of one period. Net rotations below
-    /// `no_turn` (rad) are none.
-    pub(super) fn of(symmetry: &Isotropy, orbit: &PeriodicOrbit, path: &Path, no_turn: f64) -> Self {
+    /// `no_turn` (rad) are none; `group` is the symmetry of the model.
+    pub(super) fn of(
+        symmetry: &Isotropy,
+        orbit: &PeriodicOrbit,
+        path: &Path,
+        no_turn: f64,
+        group: Symmetry,
+    ) -> Self {
         let turns = orbit.net_rotation().abs() >= no_turn;
         if !path.moves() {
             return Self::PulsatingAtRest;
@@ -104,6 +119,7 @@ impl Form {
             (true, _, false) => Self::PulsatingStraight,
             (true, _, true) => Self::BackAndForth,
             (false, true, _) => Self::MirrorZigzag,
+            (false, false, false) if !group.rotations && path.windings() != 0 => Self::DriftingCircular,
             (false, false, false) => Self::AsymmetricZigzag,
             (false, false, true) => Self::turning(path),
         }

@@ -2,6 +2,7 @@
 
 mod chaos;
 mod classify;
+mod course;
 mod form;
 mod growth;
 mod heteroclinic;
@@ -25,6 +26,7 @@ mod verdict;
 mod words;
 
 pub use classify::{classify, settle};
+pub use course::Course;
 pub use form::Form;
 pub use lanes::{Candidate, classifies_in_lanes, classify_in_lanes};
 pub use repeating::{Repeating, repeating};

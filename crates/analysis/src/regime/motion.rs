@@ -117,6 +117,12 @@ impl Path {
         Some(out)
     }
 
+    /// Full turns of the heading from start to end; 0 where the body stops on the way.
+    pub(super) fn windings(&self) -> i32 {
+        let turned = self.heading().and_then(|heading| Some(heading.last()? - heading.first()?));
+        turned.map_or(0, |angle| (angle / std::f64::consts::TAU).round() as i32)
+    }
+
     /// Distance from start to end.
     pub(super) fn drift(&self) -> f64 {
         self.positions.last().map_or(0.0, |p| libm::hypot(p[0], p[1]))

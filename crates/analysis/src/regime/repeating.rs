@@ -47,7 +47,7 @@ pub fn repeating<B: Equivariant + ?Sized>(
         return Err(crate::Error::Shape { what: "the list of nodes", expected: 1, got: 0 });
     };
     let symmetry = symmetry(body, nodes);
-    let form = Form::of(&symmetry, orbit, &path, NO_TURN.max(settings.accuracy()));
+    let form = Form::of(&symmetry, orbit, &path, NO_TURN.max(settings.accuracy()), body.symmetry());
     let straight = orbit.mirrored || symmetry.mirror.is_some();
     let turning_rate = if straight { Some(0.0) } else { path.turning_rate() };
     Ok(Repeating { form, speed: path.speed(), turning_rate, size: path.largest })

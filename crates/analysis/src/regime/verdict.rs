@@ -2,7 +2,9 @@
 
 use crate::Estimate;
 use crate::equilibrium::Saddle;
+use crate::regime::course::Course;
 use crate::regime::form::Form;
+use motiform_dynamics::Symmetry;
 use serde::{Deserialize, Serialize};
 
 /// The motions, defined by the reduced dynamics and the drift of the group (never by eye).
@@ -182,6 +184,12 @@ pub struct Verdict {
     /// The symmetry of a motion that repeats.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub form: Option<Form>,
+    /// Its direction, where the model prefers one.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub course: Option<Course>,
+    /// Direction of the velocity, or of the drift of a motion that repeats (rad, from the x axis), in a model without rotations.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub heading: Option<f64>,
     /// The evidence in one sentence, with its numbers.
     pub why: String,
     /// How far the deciding number lies from where the decision would change, in units of its own uncertainty or
@@ -229,6 +237,17 @@ pub struct Verdict {
 }
 
 impl Verdict {
+    /// Notes the direction of a motion of this turning rate (rad per model time) and this drift (model length), as far as the
+    /// symmetry of the model distinguishes directions.
+    pub(super) fn directed(&mut self, symmetry: Symmetry, turning: Option<f64>, drift: [f64; 2]) {
+        self.course = turning.and_then(|rate| Course::of_turning(symmetry, rate));
+        if !symmetry.rotations && drift != [0.0; 2] {
+            let heading = libm::atan2(drift[1], drift[0]);
+            self.heading = Some(heading);
+            self.course = self.course.or(Course::of_drift(symmetry, heading));
+        }
+    }
+
     /// A verdict without evidence beyond `why`.
     #[must_use]
     pub fn new(regime: Regime, attractor: Attractor, why: String, time: f64) -> Self {
@@ -236,6 +255,8 @@ impl Verdict {
             regime,
             attractor,
             form: None,
+            course: None,
+            heading: None,
             why,
             margin: None,
             speed: None,

@@ -74,6 +74,12 @@ impl Steady {
         Self { regime, what, moves, turns, least: (least_speed, least_turn) }
     }
 
+    /// Notes the direction of the motion.
+    fn direct<B: Equivariant + ?Sized>(&self, verdict: &mut Verdict, body: &B, found: &RelativeEquilibrium) {
+        let drift = if self.moves { found.velocity } else { [0.0; 2] };
+        verdict.directed(body.symmetry(), self.turns.then_some(found.turning_rate), drift);
+    }
+
     /// A verdict with the numbers of the equilibrium.
     fn verdict(&self, found: &RelativeEquilibrium, attractor: Attractor, why: String, time: f64) -> Verdict {
         let mut verdict = Verdict::new(self.regime, attractor, why, time);
@@ -102,6 +108,7 @@ pub(super) fn equilibrium<B: Equivariant + ?Sized>(
     let why =
         format!("{}, reached to {distance:.0e}; stable: its leading eigenvalue is {growth:.2e}", steady.what);
     let mut verdict = steady.verdict(found, Attractor::Equilibrium, why, time);
+    steady.direct(&mut verdict, body, found);
     let sure =
         |value: f64, least: f64| if value > least { value / least } else { least / value.max(1e-3 * least) };
     let margins = [
@@ -129,7 +136,9 @@ pub(super) fn unstable<B: Equivariant + ?Sized>(
         steady.what,
         found.growth()
     );
-    steady.verdict(found, Attractor::Unstable, why, time)
+    let mut verdict = steady.verdict(found, Attractor::Unstable, why, time);
+    steady.direct(&mut verdict, body, found);
+    verdict
 }
 
 /// A heteroclinic cycle.
@@ -173,7 +182,7 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     let rotation = orbit.net_rotation();
     let no_turn = NO_TURN.max(settings.accuracy());
     let symmetry = symmetry_of(body, orbit, settings, watch)?;
-    let form = Form::of(&symmetry, orbit, &path, no_turn);
+    let form = Form::of(&symmetry, orbit, &path, no_turn, body.symmetry());
     let what = match form.regime() {
         Regime::QuasiPeriodic => format!("{}; turned by {rotation:.6} rad each period", form.meaning()),
         _ => form.meaning().to_owned(),
@@ -207,6 +216,12 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
         let straight = symmetry.mirror.is_some();
         // exactly 0 where the second half of the period mirrors the first, and where the heading keeps to a mirror axis
         verdict.turning_rate = if orbit.mirrored || straight { Some(0.0) } else { path.turning_rate() };
+        // A path that closes has no direction.
+        let length = path.speed().map_or(0.0, |speed| speed.mean * orbit.period());
+        let end = path.positions.last().copied().unwrap_or_default();
+        let drift = if path.drift() > no_turn * length { end } else { [0.0; 2] };
+        let turning = verdict.turning_rate.filter(|_| form.regime() != Regime::Zigzag && !straight);
+        verdict.directed(body.symmetry(), turning, drift);
         if !straight {
             super::legs::describe(&mut verdict, &path, rotation);
         }

@@ -106,7 +106,9 @@ fn json(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
 }
 
 fn summary(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
-    let mut text = format!("{}\n", verdict.regime);
+    let course =
+        verdict.course.map_or_else(String::new, |course| format!(", {}", course.name().replace('-', " ")));
+    let mut text = format!("{}{course}\n", verdict.regime);
     writeln!(text, "because        {}", verdict.why)?;
     if let Some(margin) = verdict.margin {
         let sure = if margin < 3.0 { "weak" } else { "clear" };
@@ -120,6 +122,10 @@ fn summary(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
     }
     if let Some(speed) = verdict.speed {
         writeln!(text, "speed          {:.6} (from {:.6} to {:.6})", speed.mean, speed.min, speed.max)?;
+    }
+    if let Some(heading) = verdict.heading {
+        let what = if verdict.period.is_some() { "of the drift, " } else { "" };
+        writeln!(text, "heading        {:.4} degrees ({what}from the x axis)", heading.to_degrees())?;
     }
     let numbers = [
         ("turning rate", verdict.turning_rate, "rad per model time"),

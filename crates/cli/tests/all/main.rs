@@ -9,6 +9,7 @@ mod continuation;
 mod contract;
 mod curves;
 mod drawing;
+mod equations;
 mod explore;
 mod faults;
 mod fuzz;

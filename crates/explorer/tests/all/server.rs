@@ -164,7 +164,7 @@ fn a_server_that_comes_back_takes_its_pages_back() {
     assert_eq!(page.closed(), Some(1001));
     drop(page);
     drop(server);
-    let again = Running::start(&Options { port: Some(port), token: Some(token), preset: None });
+    let again = Running::start(&Options { port: Some(port), token: Some(token), ..Options::default() });
     assert_eq!(again.address, address);
     again.page().begin("tensor", Some("fig5a"));
 }

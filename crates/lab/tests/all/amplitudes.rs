@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+use motiform_analysis::regime::{Course, Form};
 use motiform_lab::analyse;
 use motiform_models::amplitudes::NAME;
 use motiform_study::presets::{EXTENSIONS, find_any};
@@ -85,6 +86,66 @@ fn a_circle_swimmer_turns_at_its_rate() {
     assert!((verdict.turning_rate.unwrap() + 0.3).abs() < 1e-9, "{:?}", verdict.turning_rate);
 }
 
+/// The plane (omega, kappa2) from starts on the mirror's axis: cell by cell, the left half is the mirror image of the right one.
+#[test]
+fn the_map_of_a_handed_body_is_symmetric() {
+    let mut study = preset("chiral");
+    study.set_initial("v1", 0.5).unwrap();
+    for omega in [0.05, 0.2] {
+        for kappa2 in [0.6, 0.9, 1.2, 1.5] {
+            let both = [omega, -omega].map(|omega| {
+                let mut study = study.clone();
+                study.set("omega", omega).unwrap();
+                study.set("kappa2", kappa2).unwrap();
+                verdict(&study)
+            });
+            let regimes = both.each_ref().map(|verdict| verdict.regime);
+            assert_eq!(regimes[0], regimes[1], "{omega} {kappa2}: {} | {}", both[0].why, both[1].why);
+            let courses = both.each_ref().map(|verdict| verdict.course);
+            if regimes[0].name() == "circular" {
+                assert!(courses[0].is_some() && courses[0] != courses[1], "{omega} {kappa2}: {courses:?}");
+            }
+        }
+    }
+}
+
+/// A circle swimmer in a field: locked where the field is strong, else it circles and drifts; never a zigzag.
+#[test]
+fn a_circle_swimmer_in_a_field_locks_or_drifts() {
+    let text = "[model.amplitudes]\nmodes = [1]\nsymmetry = \"none\"\n[model.amplitudes.parameters]\nomega = 0.5\ng = 0.1\n\
+                [model.amplitudes.equations]\nz1 = \"(1 + i*omega - |z1|^2)*z1 + g\"";
+    let mut study = Study::parse(text, "text", "text").unwrap();
+    let drifting = verdict(&study);
+    assert_eq!(
+        (drifting.regime.name(), drifting.form),
+        ("circular", Some(Form::DriftingCircular)),
+        "{}",
+        drifting.why
+    );
+    assert_eq!(drifting.course, Some(Course::Clockwise));
+    // one turn of the heading in a period: Adler's equation for a fast return to the circle, period 2 pi/sqrt(omega^2 - g^2)
+    let (rate, period) = (drifting.turning_rate.unwrap(), drifting.period.unwrap());
+    assert!((rate * period + std::f64::consts::TAU).abs() < 1e-6, "{rate} {period}");
+    assert!((period / (std::f64::consts::TAU / libm::sqrt(0.25 - 0.01)) - 1.0).abs() < 0.02, "{period}");
+    study.set("g", 0.8).unwrap();
+    let locked = verdict(&study);
+    assert_eq!((locked.regime.name(), locked.form), ("straight", None), "{}", locked.why);
+    assert!(locked.heading.is_some() && locked.course.is_none());
+}
+
+/// `v^2 = gamma + |a1| E^2/(2 kappa2)`: along the field for a1 < 0, across it for a1 > 0.
+#[test]
+fn a_field_that_stretches_a_body_directs_it() {
+    for (a1, courses) in [(-0.5, [Course::AlongField, Course::AgainstField]), (0.5, [Course::AcrossField; 2])]
+    {
+        let mut study = preset("elongating-field");
+        study.set("a1", a1).unwrap();
+        let verdict = verdict(&study);
+        assert!(courses.contains(&verdict.course.unwrap()), "{a1}: {:?}", verdict.course);
+        assert!((verdict.speed.unwrap().mean - libm::sqrt(0.5 + 0.5 * 0.64)).abs() < 1e-9, "{}", verdict.why);
+    }
+}
+
 /// Under a force along x a body moves straight along it, whatever the start; at rest without it.
 #[test]
 fn a_body_falls_along_a_force() {
@@ -92,6 +153,8 @@ fn a_body_falls_along_a_force() {
     study.set("gamma", -0.5).unwrap();
     let falling = verdict(&study);
     assert_eq!(falling.regime.name(), "straight", "{}", falling.why);
+    assert_eq!(falling.course, Some(Course::AlongField));
+    assert!(falling.heading.unwrap().abs() < 1e-9, "{:?}", falling.heading);
     study.set("g", 0.0).unwrap();
     assert_eq!(verdict(&study).regime.name(), "motionless");
 }

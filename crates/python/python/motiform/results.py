@@ -90,6 +90,10 @@ class Verdict:
     accuracy: Accuracy
     form: str | None = None
     """The symmetry of a periodic motion: mirror-zigzag, rotating-zigzag, pulsating-circular, ... (docs/regimes.md)."""
+    course: str | None = None
+    """The direction, where the model prefers one: anticlockwise, clockwise, along-field, across-field, ... (docs/regimes.md)."""
+    heading: float | None = None
+    """Direction of the velocity, or of the drift of a motion that repeats (rad, from the x axis), in a model without rotations."""
     margin: float | None = None
     """Distance of the decisive quantity from its threshold, in units of its own uncertainty: 1 is weak, 10 is clear."""
     speed: Spread | None = None

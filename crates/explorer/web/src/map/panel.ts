@@ -51,6 +51,8 @@ export class MapPanel {
   private readonly selectors = new AxisSelectors((plane) => this.choosePlane(plane));
   private readonly request = throttle(GAP, () => this.ask());
   private plane: Plane | null = null;
+  /** The model whose map is shown. */
+  private shown: Model | null = null;
   private home: Plane | null = null;
   private epoch = 0;
   private lastClick = -Infinity;
@@ -76,9 +78,10 @@ export class MapPanel {
     byId("map-reset").addEventListener("click", () => this.reset());
   }
 
-  /** A new body: these axes, and `home` to come back to. */
+  /** A new body: these axes, and `home` to come back to. Another model has nothing of what is shown. */
   begin(plane: Plane, home: Plane): void {
-    this.forgetUnless(plane);
+    this.forgetUnless(plane, this.shown === this.host.model());
+    this.shown = this.host.model();
     this.home = home;
     this.setPlane(plane);
     this.renew();
@@ -184,9 +187,9 @@ export class MapPanel {
     this.go(plane);
   }
 
-  /** Other axes: nothing of what is shown holds. */
-  private forgetUnless(plane: Plane): void {
-    if (!this.plane || sameAxes(plane, this.plane)) return;
+  /** Other axes, or another model: nothing of what is shown holds. */
+  private forgetUnless(plane: Plane, sameModel = true): void {
+    if (!this.plane || (sameModel && sameAxes(plane, this.plane))) return;
     this.picture.forget();
     this.legend.show([], [], false);
   }

@@ -1,0 +1,94 @@
+//! The direction of a motion, where the model prefers one: the hand of a handed body, the angle to a field.
+
+use motiform_dynamics::Symmetry;
+use serde::{Deserialize, Serialize};
+
+/// Angles below this (rad) are none.
+const NO_ANGLE: f64 = 1e-6;
+
+/// Which of the directions that the symmetry distinguishes a motion has. With rotations and the mirror there are none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Course {
+    /// The heading turns anticlockwise, in a model without the mirror.
+    Anticlockwise,
+    /// The heading turns clockwise, in a model without the mirror.
+    Clockwise,
+    /// Along the field: towards +x, the mirror's axis.
+    AlongField,
+    /// Against the field: towards -x.
+    AgainstField,
+    /// Across the field: towards +y or -y.
+    AcrossField,
+    /// At another angle to the field.
+    ObliqueToField,
+}
+
+impl Course {
+    /// All of them.
+    pub const ALL: [Self; 6] = [
+        Self::Anticlockwise,
+        Self::Clockwise,
+        Self::AlongField,
+        Self::AgainstField,
+        Self::AcrossField,
+        Self::ObliqueToField,
+    ];
+
+    /// Its name in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Anticlockwise => "anticlockwise",
+            Self::Clockwise => "clockwise",
+            Self::AlongField => "along-field",
+            Self::AgainstField => "against-field",
+            Self::AcrossField => "across-field",
+            Self::ObliqueToField => "oblique-to-field",
+        }
+    }
+
+    /// The hand of a motion whose heading turns at `rate` (rad per model time), where left and right differ.
+    pub(super) fn of_turning(symmetry: Symmetry, rate: f64) -> Option<Self> {
+        let turns = rate.is_finite() && rate != 0.0;
+        (turns && !symmetry.mirror).then_some(if rate > 0.0 { Self::Anticlockwise } else { Self::Clockwise })
+    }
+
+    /// The direction of a drift against the mirror's axis, where rotations are no symmetry but the mirror is.
+    pub(super) fn of_drift(symmetry: Symmetry, angle: f64) -> Option<Self> {
+        if symmetry.rotations || !symmetry.mirror || !angle.is_finite() {
+            return None;
+        }
+        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+        Some(match (sin.abs() < NO_ANGLE, cos.abs() < NO_ANGLE) {
+            (true, _) if cos > 0.0 => Self::AlongField,
+            (true, _) => Self::AgainstField,
+            (_, true) => Self::AcrossField,
+            _ => Self::ObliqueToField,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    #[test]
+    fn only_what_the_symmetry_distinguishes_has_a_name() {
+        let [full, handed, field, none] = Symmetry::NAMES.map(|named| named.1);
+        assert_eq!(Course::of_turning(full, 1.0), None);
+        assert_eq!(Course::of_turning(handed, -0.1), Some(Course::Clockwise));
+        assert_eq!(Course::of_turning(none, 0.1), Some(Course::Anticlockwise));
+        assert_eq!(Course::of_turning(handed, 0.0), None);
+        for (angle, course) in [
+            (0.0, Course::AlongField),
+            (-PI, Course::AgainstField),
+            (-FRAC_PI_2, Course::AcrossField),
+            (0.3, Course::ObliqueToField),
+        ] {
+            assert_eq!(Course::of_drift(field, angle), Some(course));
+            assert_eq!(Course::of_drift(handed, angle).or(Course::of_drift(none, angle)), None);
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Commands with equations given as text instead of a model's name.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use crate::common::Folder;
+
+/// A handed body whose rotations a field breaks: `z1` grows at `gamma +- sqrt(epsilon^2 - omega^2)`.
+const BROKEN: &str = r#"
+[model.amplitudes]
+modes = [1]
+symmetry = "none"
+[model.amplitudes.parameters]
+gamma = -0.5
+omega = 1.0
+epsilon = 0.6
+[model.amplitudes.equations]
+z1 = "(gamma + i*omega - |z1|^2)*z1 + epsilon*conj(z1)"
+"#;
+
+/// Rest ends at gamma = 0 in a Hopf bifurcation of period `2 pi/sqrt(omega^2 - epsilon^2)`; what begins circles.
+#[test]
+fn a_hopf_bifurcation_with_broken_rotations_is_where_it_is_known_to_be() {
+    let folder = Folder::new();
+    folder.write("my.toml", BROKEN);
+    let json = folder.run("continue my.toml --along gamma=-.5:1 --json").expect(0).json();
+    let hopf = &json["branches"][0]["special"][0];
+    assert_eq!((hopf["kind"].as_str(), hopf["criticality"].as_str()), (Some("hopf"), Some("supercritical")));
+    assert!(hopf["gamma"].as_f64().unwrap().abs() < 1e-12, "{hopf}");
+    assert!((hopf["period"].as_f64().unwrap() - std::f64::consts::TAU / 0.8).abs() < 1e-9, "{hopf}");
+    let born = &json["branches"][1];
+    assert_eq!(
+        (born["motion"].as_str(), born["form"].as_str()),
+        (Some("circular"), Some("drifting-circular"))
+    );
+}
+
+/// With `epsilon > omega` rest ends in a pitchfork at `gamma = -sqrt(epsilon^2 - omega^2)`: the field locks the heading.
+#[test]
+fn a_strong_field_locks_the_heading() {
+    let folder = Folder::new();
+    folder.write("my.toml", BROKEN);
+    let words =
+        "continue my.toml --set gamma=-1.5 --set epsilon=1.25 --along gamma=-1.5:0 --branches 1 --json";
+    let json = folder.run(words).expect(0).json();
+    let onset = &json["branches"][0]["special"][0];
+    assert!((onset["gamma"].as_f64().unwrap() + 0.75).abs() < 1e-9, "{onset}");
+}
+
+#[test]
+fn a_parameter_cannot_have_the_name_of_a_column() {
+    let folder = Folder::new();
+    folder.write("my.toml", &BROKEN.replace("epsilon", "speed_mean"));
+    let done = folder.run("classify my.toml").expect_error(2);
+    assert!(
+        done.stderr.contains("my.toml:8:1") && done.stderr.contains("column of result tables"),
+        "{}",
+        done.stderr
+    );
+}
