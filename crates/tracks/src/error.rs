@@ -86,7 +86,7 @@ pub enum Error {
     },
     /// An outline that belongs to no frame.
     #[error(
-        "{place}: the outline has no frame number; name entries FRAME-CELL.roi, or set their position in ImageJ"
+        "{place}: the outline has no frame number; name it FRAME-CELL.roi, or set their position in ImageJ"
     )]
     NoFrame {
         /// Where.

@@ -7,8 +7,8 @@ use std::path::Path;
 const CELL: &[&str] = &["cell", "cellid", "celllabel", "track", "trackid", "particle", "label", "id"];
 const FRAME: &[&str] = &["frame", "frameid", "framenumber", "timepoint", "slice"];
 const ORDER: &[&str] = &["i", "vertex", "vertexid", "node", "nodeid", "point", "pointid", "index"];
-const X: &[&str] = &["x", "nodex", "xcoord", "xpx", "xum", "coordx", "posx", "positionx", "vertx", "vertexx"];
-const Y: &[&str] = &["y", "nodey", "ycoord", "ypx", "yum", "coordy", "posy", "positiony", "verty", "vertexy"];
+const X: &[&str] = &["x", "nodex", "xcoord", "xpx", "coordx", "posx", "positionx", "vertx", "vertexx"];
+const Y: &[&str] = &["y", "nodey", "ycoord", "ypx", "coordy", "posy", "positiony", "verty", "vertexy"];
 const TEXT: &[&str] = &["wkt", "geometry", "polygon", "geom"];
 
 /// Which column is which.

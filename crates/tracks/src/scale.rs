@@ -48,13 +48,18 @@ pub(crate) fn scales(said: &Scale, options: &Options, file: &Path) -> Result<([U
     // a pixel of exactly 1 is the default of programs that were not told the scale; an interval of 1 s may be true beside a true pixel
     let mut said = said.clone();
     if one(&said.length) {
-        let also_time = one(&said.time);
-        let what = if also_time { "length of a pixel and frame interval" } else { "length of a pixel" };
-        notes.push(Note::ScaleOne { file: name(), what: what.to_owned() });
-        said.length = Said::default();
-        if also_time {
+        let means = |said: &Said, unknown| said.unit.as_deref().is_none_or(|name| unit(name) != unknown);
+        let (length, time) = (means(&said.length, PIXEL), one(&said.time) && means(&said.time, FRAME));
+        let what = match (length, time) {
+            (true, true) => "length of a pixel and frame interval",
+            (true, false) => "length of a pixel",
+            (false, _) => "frame interval",
+        };
+        notes.extend((length || time).then(|| Note::ScaleOne { file: name(), what: what.to_owned() }));
+        if one(&said.time) {
             said.time = Said::default();
         }
+        said.length = Said::default();
     }
     let length = answer(
         &said.length,

@@ -22,7 +22,8 @@ pub(super) fn read_one(input: Input, options: &Options) -> Result<Found> {
     let alone = stem(place.path());
     let named = named(&entry, roi.position);
     let mut gather = Gather::new(options.limits);
-    let key = Key { cell: named.cell.unwrap_or(&alone), frame: named.frame.unwrap_or(0) };
+    let frame = named.frame.ok_or_else(|| Error::NoFrame { place: place.clone() })?;
+    let key = Key { cell: named.cell.unwrap_or(&alone), frame };
     gather.outline(key, None, &roi.points, &place)?;
     let (cells, notes) = gather.finish(&place, REMEDY)?;
     Ok(Found { cells, notes, ..Found::default() })

@@ -30,6 +30,9 @@ pub struct RadiusFit {
     /// Correlation of the residuals of neighbouring vertices: about -p/n for independent noise. Well above 0, the outline has finer features
     /// than the modes, and the covariance is too small.
     pub neighbours: f64,
+    /// By how much correlated residuals multiply the variances: `1 + 2 sum_k rho_k` over the lags k up to the first rho_k <= 0; 1 for independent
+    /// noise. Not contained in the covariance: multiply it where `neighbours` is well above 0.
+    pub inflation: f64,
     /// `(J^T W J)^{-1}` of (X, Y, R0, Re z2, Im z2, Re z3, ...), row by row: times sigma^2 it is the covariance.
     pub unit_covariance: Vec<f64>,
 }
@@ -133,19 +136,21 @@ impl Converged {
         let length = at.length;
         let scaled: Vec<f64> = at.values.iter().map(|value| value * length).collect();
         let free = points.len() - at.values.len();
+        let (neighbours, inflation) = correlation(&residuals(at, points));
         Some(RadiusFit {
             centre: [at.origin[0] + scaled[0], at.origin[1] + scaled[1]],
             r0: scaled[2],
             z: scaled[3..].as_chunks::<2>().0.to_vec(),
             sigma: (cost / free as f64).sqrt() * length,
-            neighbours: neighbours(at, points),
+            neighbours,
+            inflation,
             unit_covariance: normal.inverse()?,
         })
     }
 }
 
-/// `sum r_k r_{k+1} / sum r_k^2` of the weighted residuals; 0 where all are round-off.
-fn neighbours(at: &Unknowns, points: &[[f64; 2]]) -> f64 {
+/// Weighted residuals along the outline; none where all are round-off.
+fn residuals(at: &Unknowns, points: &[[f64; 2]]) -> Vec<f64> {
     let mut row = vec![0.0; at.values.len()];
     let residual = |point| {
         let seen = at.see(point, &mut row);
@@ -153,7 +158,19 @@ fn neighbours(at: &Unknowns, points: &[[f64; 2]]) -> f64 {
     };
     let residuals: Vec<f64> = points.iter().map(residual).collect();
     let squares: f64 = residuals.iter().map(|r| r * r).sum();
-    let next = residuals.iter().cycle().skip(1);
-    let products: f64 = residuals.iter().zip(next).map(|(a, b)| a * b).sum();
-    if squares > 1e-28 * residuals.len() as f64 { products / squares } else { 0.0 }
+    if squares > 1e-28 * residuals.len() as f64 { residuals } else { Vec::new() }
+}
+
+/// Autocorrelation of residuals around the outline: at lag 1, and `1 + 2 sum_k rho_k` up to the first that is not positive.
+fn correlation(residuals: &[f64]) -> (f64, f64) {
+    let squares: f64 = residuals.iter().map(|r| r * r).sum();
+    let at = |lag: usize| {
+        let later = residuals.iter().cycle().skip(lag);
+        residuals.iter().zip(later).map(|(a, b)| a * b).sum::<f64>() / squares
+    };
+    if residuals.is_empty() {
+        return (0.0, 1.0);
+    }
+    let positive = (1..=residuals.len() / 4).map(at).take_while(|rho| *rho > 0.0);
+    (at(1), 1.0 + 2.0 * positive.sum::<f64>())
 }

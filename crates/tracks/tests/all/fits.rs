@@ -95,3 +95,16 @@ fn the_centre_is_not_the_centroid() {
     let centre = fit_radius(&points, 5).unwrap().centre;
     assert!(centre[0].hypot(centre[1]) < 1e-14);
 }
+
+/// Features finer than the modes show by the correlation of the residuals; noise does not.
+#[test]
+fn finer_features_are_seen() {
+    let mut wavy = Synthetic { centre: [0.0; 2], r0: 1.0, z: vec![[0.1, 0.0], [0.0, 0.05]] };
+    let mut noisy = wavy.vertices(120, 0.0);
+    wavy.z.extend([[0.0; 2], [0.0; 2], [0.0; 2], [0.02, 0.01]]);
+    let fine = fit_radius(&wavy.vertices(120, 0.0), 5).unwrap();
+    assert!(fine.neighbours > 0.7 && fine.inflation > 3.0, "{} {}", fine.neighbours, fine.inflation);
+    motiform_tracks::synthetic::blur(&mut noisy, 0.02, crate::common::normal(12));
+    let fit = fit_radius(&noisy, 5).unwrap();
+    assert!(fit.neighbours.abs() < 0.25 && fit.inflation < 1.3, "{} {}", fit.neighbours, fit.inflation);
+}

@@ -64,6 +64,12 @@ fn names_of_imagej() {
 }
 
 #[test]
+fn a_file_without_a_frame_is_an_error() {
+    let error = refusal(roi(0, 0, &SQUARE, false));
+    assert!(error.contains("no frame number") && error.contains("FRAME-CELL"), "{error}");
+}
+
+#[test]
 fn several_files_are_one_cell() {
     let files = Files::new();
     let paths = [9, 8].map(|frame| {
