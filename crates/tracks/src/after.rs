@@ -1,0 +1,76 @@
+//! What is looked for after reading: frames that stand for 'none', cells filed twice, areas that no cell has.
+
+use crate::geometry::area;
+use crate::{Cell, Note};
+use std::collections::{BTreeMap, HashMap};
+
+/// A frame is far where its distance to the next exceeds this many times the span of all others.
+const FAR: i64 = 10;
+
+/// Others that must be there before a frame can be far from them.
+const OTHERS: usize = 5;
+
+/// Areas of cells, in square micrometres: bacteria to oocytes, with room.
+const AREAS: [f64; 2] = [0.1, 1e6];
+
+/// Takes frames out whose number stands for 'none': negative ones, and a last one (999, 65535, ...) far from all others.
+pub(crate) fn sentinels(cell: &mut Cell, notes: &mut Vec<Note>) {
+    let mut out: Vec<i64> = Vec::new();
+    let negative = cell.frames.iter().filter(|outline| outline.frame < 0).count();
+    if negative < cell.frames.len() {
+        out.extend(cell.frames.drain(..negative).map(|outline| outline.frame));
+    }
+    if let [first, .., before, last] = cell.frames.as_slice()
+        && cell.frames.len() > OTHERS
+        && last.frame.saturating_sub(before.frame)
+            > before.frame.saturating_sub(first.frame).saturating_add(1).saturating_mul(FAR)
+    {
+        out.push(last.frame);
+        cell.frames.pop();
+    }
+    if !out.is_empty() {
+        notes.push(Note::SentinelFrames { cell: cell.name.clone(), frames: out });
+    }
+}
+
+/// Pairs of cells with the same outlines in the same frames, whatever their first vertex and sense.
+pub(crate) fn filed_twice(cells: &[Cell]) -> Vec<Note> {
+    let mut first: HashMap<(i64, u64, usize), usize> = HashMap::new();
+    let mut pairs: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+    for (at, cell) in cells.iter().enumerate() {
+        for outline in cell.frames.iter().filter(|outline| !outline.points.is_empty()) {
+            let key = (outline.frame, digest(&outline.points), outline.points.len());
+            let before = *first.entry(key).or_insert(at);
+            if before != at {
+                *pairs.entry((before, at)).or_insert(0) += 1;
+            }
+        }
+    }
+    let name = |at: usize| cells[at].name.clone();
+    pairs
+        .iter()
+        .map(|(&(a, b), &frames)| Note::SameCell { first: name(a), second: name(b), frames })
+        .collect()
+}
+
+/// A number that does not depend on the order of the vertices.
+pub(crate) fn digest(points: &[[f64; 2]]) -> u64 {
+    let mix = |mut z: u64| {
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    };
+    let one = |[x, y]: &[f64; 2]| {
+        mix(mix((x + 0.0).to_bits()).wrapping_add(mix((y + 0.0).to_bits().rotate_left(17))))
+    };
+    points.iter().map(one).fold(0, u64::wrapping_add)
+}
+
+/// Cells whose median area is not that of a cell, in micrometres.
+pub(crate) fn implausible(cell: &Cell, unit: &str) -> Option<Note> {
+    let mut areas: Vec<f64> = cell.frames.iter().map(|outline| area(&outline.points).abs()).collect();
+    areas.sort_by(f64::total_cmp);
+    let area = *areas.get(areas.len() / 2)?;
+    let strange = unit == "um" && !(AREAS[0]..=AREAS[1]).contains(&area);
+    strange.then(|| Note::ImplausibleArea { cell: cell.name.clone(), area, unit: unit.to_owned() })
+}

@@ -1,0 +1,177 @@
+//! Files and options that no outlines can be read from.
+
+use crate::{Format, Place};
+use std::path::PathBuf;
+
+/// Why no tracks were read or written. Messages name file, line or entry, and what to do.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The file system refused.
+    #[error("{}: {source}", .file.display())]
+    Io {
+        /// The file.
+        file: PathBuf,
+        /// Its reason.
+        source: std::io::Error,
+    },
+    /// No path was given.
+    #[error("there is no file to read: give at least one")]
+    NoFile,
+    /// The content is that of no known format.
+    #[error("{}: not a file of outlines that is known here ({found}); the formats are {}", .file.display(), Format::list())]
+    UnknownFormat {
+        /// The file.
+        file: PathBuf,
+        /// What the content looks like.
+        found: String,
+    },
+    /// The content fits several formats.
+    #[error("{}: the content fits {}; choose one with the option format", .file.display(), names(.candidates))]
+    Ambiguous {
+        /// The file.
+        file: PathBuf,
+        /// The formats that it fits.
+        candidates: Vec<Format>,
+    },
+    /// Something else stands where the format requires this.
+    #[error("{place}: {found}, where {expected} is expected")]
+    Structure {
+        /// Where.
+        place: Place,
+        /// What is there.
+        found: String,
+        /// What should be there.
+        expected: String,
+    },
+    /// The content ends too early.
+    #[error("{place}: the file ends before {missing}: it is truncated; write or copy it again")]
+    Truncated {
+        /// Where.
+        place: Place,
+        /// What is missing.
+        missing: String,
+    },
+    /// A column is not there, or several could be meant.
+    #[error("{}: {found} for {wanted} among the columns {}; name it with the option columns.{wanted}", .file.display(), .known.join(", "))]
+    Column {
+        /// The file.
+        file: PathBuf,
+        /// Which column.
+        wanted: &'static str,
+        /// None, or which.
+        found: String,
+        /// The columns of the file.
+        known: Vec<String>,
+    },
+    /// More than is read at once.
+    #[error("{place}: more than {limit} {what}; split the file, or raise the option limits.{key}")]
+    Limit {
+        /// Where.
+        place: Place,
+        /// Of what there are too many.
+        what: &'static str,
+        /// The limit.
+        limit: u64,
+        /// The option that sets it.
+        key: &'static str,
+    },
+    /// A sound file without an outline.
+    #[error("{}: no outline: {reason}", .file.display())]
+    NoOutlines {
+        /// The file.
+        file: PathBuf,
+        /// Why there is none.
+        reason: String,
+    },
+    /// An outline that belongs to no frame.
+    #[error(
+        "{place}: the outline has no frame number; name it FRAME-CELL.roi, or set their position in ImageJ"
+    )]
+    NoFrame {
+        /// Where.
+        place: Place,
+    },
+    /// Several bodies under one name.
+    #[error(
+        "{}: {name:?} has several different outlines in {conflicts} of its {frames} frames, first in frame {first}: several cells have one name; {remedy}",
+        .file.display()
+    )]
+    MixedCells {
+        /// The file.
+        file: PathBuf,
+        /// Name of the cell.
+        name: String,
+        /// Frames with different outlines.
+        conflicts: usize,
+        /// All frames.
+        frames: usize,
+        /// The first such frame.
+        first: i64,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// The file and an option say different things.
+    #[error("{}: the file says {what} = {file_says}, the option {key} says {option_says}; leave the option out or correct the file", .file.display())]
+    Disagree {
+        /// The file.
+        file: PathBuf,
+        /// What is measured.
+        what: &'static str,
+        /// Name of the option.
+        key: &'static str,
+        /// What the file says.
+        file_says: String,
+        /// What the option says.
+        option_says: String,
+    },
+    /// Files in different units cannot be read together.
+    #[error("{}: its {what} is {found}, that of the files before it {before}; read them separately", .file.display())]
+    Units {
+        /// The file.
+        file: PathBuf,
+        /// Length or time unit.
+        what: &'static str,
+        /// That of this file.
+        found: String,
+        /// That of the others.
+        before: String,
+    },
+    /// An option out of its range.
+    #[error("{key} = {value}: {remedy}")]
+    Setting {
+        /// Its name.
+        key: &'static str,
+        /// Its value.
+        value: f64,
+        /// What to give.
+        remedy: &'static str,
+    },
+    /// A name of a format that is not known.
+    #[error("unknown format {name:?}: choose one of {}", Format::list())]
+    FormatName {
+        /// The name.
+        name: String,
+    },
+    /// What cannot be written in this format.
+    #[error("{format} cannot hold this: {reason}")]
+    Unwritable {
+        /// The format.
+        format: Format,
+        /// Why.
+        reason: String,
+    },
+}
+
+impl Error {
+    pub(crate) fn structure(place: &Place, found: impl Into<String>, expected: impl Into<String>) -> Self {
+        Self::Structure { place: place.clone(), found: found.into(), expected: expected.into() }
+    }
+}
+
+fn names(formats: &[Format]) -> String {
+    formats.iter().map(|format| format.name()).collect::<Vec<_>>().join(" and ")
+}
+
+/// Result of reading or writing.
+pub type Result<T> = std::result::Result<T, Error>;

@@ -1,0 +1,92 @@
+//! AmoePy's text: a line for each frame, `t x0 y0 x1 y1 ...`, in seconds and micrometres.
+
+use super::{Found, stem};
+use crate::gather::{Gather, Key};
+use crate::input::Input;
+use crate::scale::{Said, Scale};
+use crate::{Error, Note, Options, Place, Result};
+
+/// Deviation from a multiple of the interval, in intervals, from which times count as uneven: files round times.
+const UNEVEN: f64 = 0.1;
+
+/// Frames beyond which times are not multiples of an interval.
+const FAR: f64 = 1e9;
+
+/// Frames are counted in intervals, the interval being the median of the differences; uneven times are numbered in order, with a note.
+pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
+    let cell = stem(input.place.path());
+    let mut gather = Gather::new(options.limits);
+    let (mut times, mut frame) = (Vec::new(), 0);
+    let mut line = String::new();
+    while input.line(&mut line)? {
+        if line.starts_with('#') || line.trim().is_empty() {
+            continue;
+        }
+        let place = input.here();
+        let (t, points) = one_frame(&line, &place)?;
+        if times.last().is_some_and(|&before| t <= before) {
+            return Err(Error::structure(
+                &place,
+                format!("time {t}"),
+                "a time after that of the line before",
+            ));
+        }
+        gather.outline(Key { cell: &cell, frame }, Some(t), &points, &place)?;
+        times.push(t);
+        frame += 1;
+    }
+    let (mut cells, mut notes) = gather.finish(&input.place, "write one cell per file")?;
+    let interval = median_difference(&times);
+    let numbers = numbers(&times, interval);
+    match numbers {
+        Some(numbers) => {
+            for outline in cells.iter_mut().flat_map(|cell| &mut cell.frames) {
+                outline.frame = numbers[outline.frame as usize];
+            }
+        }
+        None => notes.push(Note::UnevenTimes { cell }),
+    }
+    let length = Said { step: None, unit: Some("um".to_owned()), applied: true };
+    let time = Said { step: interval, unit: Some("s".to_owned()), applied: true };
+    Ok(Found { cells, notes, scale: Scale { length, time }, image: None })
+}
+
+fn one_frame(line: &str, place: &Place) -> Result<(f64, Vec<[f64; 2]>)> {
+    let mut values = Vec::new();
+    for word in line.split_ascii_whitespace() {
+        values.push(crate::input::number(word, "a value", place)?);
+    }
+    let [t, rest @ ..] = values.as_slice() else {
+        return Err(Error::structure(place, "nothing", "t x0 y0 x1 y1 ..."));
+    };
+    let (points, odd) = rest.as_chunks::<2>();
+    if !odd.is_empty() || !t.is_finite() {
+        let found = format!("time {t} and {} values", rest.len());
+        return Err(Error::structure(place, found, "a finite time and pairs of x and y"));
+    }
+    Ok((*t, points.to_vec()))
+}
+
+/// The median of the differences of times.
+fn median_difference(times: &[f64]) -> Option<f64> {
+    let mut differences: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    differences.sort_by(f64::total_cmp);
+    differences.get(differences.len() / 2).copied().filter(|d| d.is_finite() && *d > 0.0)
+}
+
+/// Frame numbers from the steps of time: the first is t/interval, rounded. `None` where a step is no multiple of the interval.
+fn numbers(times: &[f64], interval: Option<f64>) -> Option<Vec<i64>> {
+    let Some(interval) = interval else { return Some(vec![0; times.len()]) };
+    let first = times.first()? / interval;
+    let mut at = if first.abs() < FAR { first.round() as i64 } else { return None };
+    let mut numbers = vec![at];
+    for pair in times.windows(2) {
+        let step = (pair[1] - pair[0]) / interval;
+        if (step - step.round()).abs() > UNEVEN || step.round() < 1.0 || step > FAR {
+            return None;
+        }
+        at += step.round() as i64;
+        numbers.push(at);
+    }
+    Some(numbers)
+}

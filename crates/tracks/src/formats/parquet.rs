@@ -1,0 +1,154 @@
+//! Long tables as Parquet: one vertex per row.
+
+use super::csv::REMEDY;
+use super::{Found, stem};
+use crate::gather::{Gather, Key};
+use crate::header::{Header, needed};
+use crate::input::{integer, io};
+use crate::{Error, Options, Place, Result};
+use motiform_files::parquet_input::{column, numbers, read as read_file, wrong};
+use parquet::column::reader::ColumnReader;
+use parquet::data_type::ByteArray;
+use parquet::errors::ParquetError;
+use parquet::file::reader::{FileReader, RowGroupReader};
+use std::path::Path;
+
+/// The values of one column in one row group.
+enum Values {
+    Numbers(Vec<f64>),
+    /// References to the pages: a long text that is repeated takes no memory.
+    Texts(Vec<Option<ByteArray>>),
+}
+
+/// Columns cell, frame, i, x and y as in CSV, of integers, floats or (cell) text; read by row groups.
+pub(super) fn read(path: &Path, options: &Options) -> Result<Found> {
+    path.metadata().map_err(io(path))?;
+    let place = Place::file(path);
+    let mut refused = None;
+    let done = read_file(path, |file| {
+        let result = rows(file, options, &place);
+        result.map_err(|error| match error {
+            Wrong::Table(error) => {
+                refused = Some(error);
+                wrong("")
+            }
+            Wrong::File(error) => error,
+        })
+    });
+    if let Some(error) = refused {
+        return Err(error);
+    }
+    let gather = done.map_err(|error| Error::structure(&place, error.to_string(), "a sound Parquet file"))?;
+    let (cells, notes) = gather.finish(&place, REMEDY)?;
+    Ok(Found { cells, notes, ..Found::default() })
+}
+
+enum Wrong {
+    Table(Error),
+    File(ParquetError),
+}
+
+impl From<Error> for Wrong {
+    fn from(error: Error) -> Self {
+        Self::Table(error)
+    }
+}
+
+impl From<ParquetError> for Wrong {
+    fn from(error: ParquetError) -> Self {
+        Self::File(error)
+    }
+}
+
+fn rows(file: &dyn FileReader, options: &Options, place: &Place) -> std::result::Result<Gather, Wrong> {
+    let metadata = file.metadata();
+    let total = u64::try_from(metadata.file_metadata().num_rows()).unwrap_or(0);
+    let limit = options.limits.vertices;
+    if total > limit {
+        return Err(Error::Limit { place: place.clone(), what: "vertices", limit, key: "vertices" }.into());
+    }
+    let columns = metadata.file_metadata().schema_descr().columns();
+    let names: Vec<String> = columns.iter().map(|column| column.name().to_owned()).collect();
+    let header = Header::find(&names, &options.columns, place.path())?;
+    let at = |at, wanted| needed(at, wanted, &names, place.path());
+    let wanted = [at(header.frame, "frame")?, at(header.x, "x")?, at(header.y, "y")?];
+    let mut gather = Gather::new(options.limits);
+    let mut first = 0;
+    for group in 0..file.num_row_groups() {
+        let group = file.get_row_group(group)?;
+        block(&*group, &header, wanted, (&mut gather, place, first))?;
+        first += u64::try_from(group.metadata().num_rows()).unwrap_or(0);
+    }
+    Ok(gather)
+}
+
+/// One row group.
+fn block(
+    group: &dyn RowGroupReader,
+    header: &Header,
+    [frame, x, y]: [usize; 3],
+    (gather, place, first): (&mut Gather, &Place, u64),
+) -> std::result::Result<(), Wrong> {
+    let alone = stem(place.path());
+    let count = |at: usize| match values(group, at)? {
+        Values::Numbers(numbers) => Ok(numbers),
+        Values::Texts(_) => Err(wrong(&format!("column {} is text, not numbers", at + 1))),
+    };
+    let [frames, xs, ys] = [count(frame)?, count(x)?, count(y)?];
+    let order = header.i.map(count).transpose()?;
+    let cells = header.cell.map(|at| values(group, at)).transpose()?;
+    for (k, (x, y)) in xs.iter().zip(&ys).enumerate() {
+        let place = place.row(first + k as u64);
+        let whole = |value: f64, what: &str| {
+            integer(value)
+                .ok_or_else(|| Error::structure(&place, format!("{what} = {value}"), "a whole number"))
+        };
+        let frame = whole(frames[k], "frame")?;
+        let i = order.as_ref().map(|order| whole(order[k], "i")).transpose()?;
+        let name = cells.as_ref().map_or_else(|| alone.clone(), |cells| cells.name(k));
+        gather.row(Key { cell: &name, frame }, i, [*x, *y], &place)?;
+    }
+    Ok(())
+}
+
+impl Values {
+    fn name(&self, k: usize) -> String {
+        match self {
+            Self::Numbers(numbers) => numbers[k].to_string(),
+            Self::Texts(texts) => texts[k]
+                .as_ref()
+                .map_or_else(String::new, |text| String::from_utf8_lossy(text.data()).into_owned()),
+        }
+    }
+}
+
+fn values(group: &dyn RowGroupReader, at: usize) -> parquet::errors::Result<Values> {
+    let description = group.metadata().column(at).column_descr_ptr();
+    if description.max_rep_level() > 0 || description.max_def_level() > 1 {
+        return Err(wrong(&format!("column {} is nested", description.name())));
+    }
+    let (rows, nulls) = (group.metadata().num_rows(), description.max_def_level() > 0);
+    macro_rules! floats {
+        ($input:expr, $of:expr) => {{
+            let (values, levels) = column(&mut $input, rows, nulls)?;
+            let values: Vec<f64> = values.into_iter().map($of).collect();
+            Values::Numbers(if nulls { numbers(values, &levels) } else { values })
+        }};
+    }
+    Ok(match group.get_column_reader(at)? {
+        ColumnReader::DoubleColumnReader(mut input) => floats!(input, |value| value),
+        ColumnReader::FloatColumnReader(mut input) => floats!(input, f64::from),
+        ColumnReader::Int32ColumnReader(mut input) => floats!(input, f64::from),
+        ColumnReader::Int64ColumnReader(mut input) => floats!(input, |value| value as f64),
+        ColumnReader::ByteArrayColumnReader(mut input) => {
+            let (values, levels) = column(&mut input, rows, nulls)?;
+            let mut texts = values.into_iter();
+            if nulls {
+                Values::Texts(levels.iter().map(|&l| if l == 0 { None } else { texts.next() }).collect())
+            } else {
+                Values::Texts(texts.map(Some).collect())
+            }
+        }
+        _ => return Err(wrong(&format!("column {} has a type that is not read here", description.name()))),
+    })
+}

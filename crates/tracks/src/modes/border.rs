@@ -1,0 +1,112 @@
+//! Outlines clipped at the border of the images.
+
+use super::flag::{Flag, Side};
+use super::straight::{grain, run};
+use crate::geometry::area;
+use crate::{Outline, Tracks};
+use std::f64::consts::PI;
+
+/// Frames in which a line must be reached.
+const FRAMES: usize = 5;
+
+/// Width of the band in which extremes coincide, and distance from the extreme of all within which outlines count, both relative to the radius.
+const BAND: f64 = 0.01;
+const NEAR: f64 = 0.05;
+
+/// Share of the outlines near the extreme of all whose extremes coincide at a border.
+const SHARE: f64 = 0.45;
+
+/// Their least number.
+const COINCIDE: usize = 8;
+
+/// A side: its name, its axis, and the sign that makes it the greatest coordinate.
+const SIDES: [(Side, usize, f64); 4] =
+    [(Side::Left, 0, -1.0), (Side::Right, 0, 1.0), (Side::LeastY, 1, -1.0), (Side::GreatestY, 1, 1.0)];
+
+/// Lines that outlines are clipped at.
+pub(super) struct Borders {
+    lines: Vec<Line>,
+}
+
+struct Line {
+    side: Side,
+    axis: usize,
+    sign: f64,
+    /// Greatest signed coordinate of all outlines.
+    extreme: f64,
+    /// Outlines that reach this signed coordinate are clipped; `None`: those with a straight run at the extreme.
+    level: Option<f64>,
+}
+
+impl Borders {
+    /// A border is known where a file has the size of its images: outlines within a pixel of it are clipped. Otherwise it is the extreme
+    /// coordinate of all outlines if one of two things is seen there.
+    ///
+    /// 1. Straight runs in at least 5 frames: see [`run`].
+    /// 2. Extremes that coincide: of the outlines whose extreme lies within 5 % of the radius of that of all, 45 % and at least 8 lie in a band
+    ///    of 1 % (evenly spread ones: 20 %), while from frame to frame extremes move by more than half the band (median). A cell that moves does not stop at one line by itself.
+    pub(super) fn find(tracks: &Tracks) -> Self {
+        Self { lines: SIDES.iter().filter_map(|&side| line(tracks, side)).collect() }
+    }
+
+    /// The borders that this outline is clipped at.
+    pub(super) fn flags(&self, points: &[[f64; 2]]) -> Vec<Flag> {
+        self.lines.iter().filter_map(|line| line.flag(points)).collect()
+    }
+}
+
+impl Line {
+    fn flag(&self, points: &[[f64; 2]]) -> Option<Flag> {
+        let own = reach(points, self.axis, self.sign)?;
+        let found = run(points, self.axis, self.sign, self.extreme);
+        let clipped = self.level.map_or(found.1, |level| own >= level || found.1);
+        clipped.then_some(Flag::Clipped { side: self.side, at: self.sign * own, run: found.0 })
+    }
+}
+
+fn line(tracks: &Tracks, (side, axis, sign): (Side, usize, f64)) -> Option<Line> {
+    let all = || tracks.cells.iter().flat_map(|cell| &cell.frames).filter(|outline| outline.points.len() > 2);
+    let extreme = all().filter_map(|o| reach(&o.points, axis, sign)).fold(f64::NEG_INFINITY, f64::max);
+    let level = |level| Some(Line { side, axis, sign, extreme, level });
+    if let Some(size) = tracks.image {
+        let border = if sign > 0.0 { size[axis] } else { 0.0 };
+        let pixel = median(all().map(|outline| grain(&outline.points)).collect())?;
+        return level(Some(border - pixel.max(0.005 * size[axis]).min(0.01 * size[axis])));
+    }
+    if let Some(found) = coincidence(tracks, axis, sign, extreme) {
+        return level(Some(found));
+    }
+    let straight = |outline: &&Outline| run(&outline.points, axis, sign, extreme).1;
+    if all().filter(straight).count() >= FRAMES { level(None) } else { None }
+}
+
+/// The lower end of the band in which extremes coincide.
+fn coincidence(tracks: &Tracks, axis: usize, sign: f64, extreme: f64) -> Option<f64> {
+    let outlines = || tracks.cells.iter().flat_map(|cell| &cell.frames);
+    let radius = median(outlines().map(|outline| (area(&outline.points).abs() / PI).sqrt()).collect())?;
+    let mut steps = Vec::new();
+    let mut near = Vec::new();
+    for cell in &tracks.cells {
+        let reaches: Vec<f64> = cell.frames.iter().filter_map(|o| reach(&o.points, axis, sign)).collect();
+        steps.extend(reaches.windows(2).map(|pair| (pair[1] - pair[0]).abs()));
+        near.extend(reaches.iter().filter(|reach| extreme - **reach <= NEAR * radius));
+    }
+    if median(steps)? <= 0.5 * BAND * radius {
+        return None; // at rest extremes coincide by themselves
+    }
+    near.sort_by(f64::total_cmp);
+    let within =
+        |from: f64| near.iter().filter(|reach| (from..=from + BAND * radius).contains(*reach)).count();
+    let (count, from) = near.iter().map(|&from| (within(from), from)).max_by_key(|found| found.0)?;
+    (count >= COINCIDE && count as f64 >= SHARE * near.len() as f64).then_some(from)
+}
+
+/// Greatest signed coordinate.
+fn reach(points: &[[f64; 2]], axis: usize, sign: f64) -> Option<f64> {
+    points.iter().map(|point| sign * point[axis]).max_by(f64::total_cmp)
+}
+
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}

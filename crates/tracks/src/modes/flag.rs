@@ -1,0 +1,102 @@
+//! What is wrong with a frame, by name and with evidence.
+
+use serde::Serialize;
+use std::fmt;
+
+/// A side of the images.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Side {
+    /// Least x.
+    Left,
+    /// Greatest x.
+    Right,
+    /// Least y: the upper side on a screen.
+    LeastY,
+    /// Greatest y: the lower side on a screen.
+    GreatestY,
+}
+
+/// Something that is wrong with a frame. Lengths are in the unit of the tracks.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+#[serde(tag = "flag", rename_all = "kebab-case")]
+#[allow(missing_docs, reason = "each variant says what it is; the fields are its evidence")]
+pub enum Flag {
+    /// Fewer distinct vertices than are needed.
+    TooFewVertices { vertices: usize, least: usize },
+    /// Vertices of the file were not finite: the outline has holes.
+    MissingVertices { count: usize },
+    /// The polygon encloses nothing.
+    NoArea,
+    /// Two edges cross.
+    SelfCrossing { edges: [usize; 2] },
+    /// Too many pairs of edges to look at: whether any cross is not known.
+    CrossingUnknown { vertices: usize },
+    /// Rays from the centre meet the outline more than once: there are no radius modes, tangent-angle modes stand in.
+    NotStarShaped { turns: i64, back: f64, tolerance: f64 },
+    /// No centre with a radius of this form was found: there are no radius modes, tangent-angle modes stand in.
+    NoFit,
+    /// The outline is that of an earlier frame, vertex by vertex.
+    Repeated { of: i64 },
+    /// The area differs from the median of the frames around it by this factor.
+    AreaJump { factor: f64 },
+    /// A straight run of vertices at the border of the images: part of the cell is not seen.
+    Clipped { side: Side, at: f64, run: f64 },
+    /// Frames are missing before this one.
+    Gap { missing: i64 },
+}
+
+impl Flag {
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::TooFewVertices { .. } => "too few vertices",
+            Self::MissingVertices { .. } => "missing vertices",
+            Self::NoArea => "no area",
+            Self::SelfCrossing { .. } => "self-crossing",
+            Self::CrossingUnknown { .. } => "crossing unknown",
+            Self::NotStarShaped { .. } => "not star-shaped",
+            Self::NoFit => "no fit",
+            Self::Repeated { .. } => "repeated frame",
+            Self::AreaJump { .. } => "area jump",
+            Self::Clipped { .. } => "clipped",
+            Self::Gap { .. } => "gap",
+        }
+    }
+
+    /// Whether the frame is no observation of the shape: its modes, if there are any, must not be used.
+    #[must_use]
+    pub fn leaves_out(&self) -> bool {
+        !matches!(
+            self,
+            Self::NotStarShaped { .. } | Self::NoFit | Self::CrossingUnknown { .. } | Self::Gap { .. }
+        )
+    }
+}
+
+impl fmt::Display for Flag {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = self.name();
+        match self {
+            Self::TooFewVertices { vertices, least } => {
+                write!(f, "{name}: {vertices}, at least {least} are needed")
+            }
+            Self::MissingVertices { count } => write!(f, "{name}: {count} not finite"),
+            Self::NoArea | Self::NoFit => f.write_str(name),
+            Self::SelfCrossing { edges: [a, b] } => write!(f, "{name}: edges {a} and {b}"),
+            Self::CrossingUnknown { vertices } => write!(f, "{name}: {vertices} vertices are too many"),
+            Self::NotStarShaped { turns, back, tolerance } => {
+                write!(
+                    f,
+                    "{name}: {turns} turns about the centre, {back:.3} back where {tolerance:.3} is noise"
+                )
+            }
+            Self::Repeated { of } => write!(f, "{name}: the outline of frame {of}"),
+            Self::AreaJump { factor } => write!(f, "{name}: {factor:.2} times the frames around it"),
+            Self::Clipped { side, at, run } => write!(f, "{name}: {run:.3} along {side:?} = {at:.3}"),
+            Self::Gap { missing } => write!(f, "{name}: {missing} frames missing before it"),
+        }
+    }
+}

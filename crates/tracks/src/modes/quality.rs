@@ -1,0 +1,71 @@
+//! What is wrong with a frame beside the others of its cell.
+
+use super::flag::Flag;
+use super::frame::FrameModes;
+use crate::after::digest;
+use crate::{Cell, Outline};
+use std::collections::BTreeMap;
+
+/// Frames on each side whose areas are compared.
+const AROUND: usize = 3;
+
+/// Scatter of the areas, in standard deviations, beyond which one jumps.
+const SCATTER: f64 = 6.0;
+
+/// Frames whose outline is that of the frame before, vertex by vertex, whatever their first vertex.
+pub(super) fn repeated(cell: &Cell, modes: &mut [FrameModes]) {
+    for (k, pair) in cell.frames.windows(2).enumerate() {
+        if !pair[1].points.is_empty() && same(&pair[0], &pair[1]) {
+            modes[k + 1].flags.push(Flag::Repeated { of: pair[0].frame });
+        }
+    }
+}
+
+fn same(a: &Outline, b: &Outline) -> bool {
+    a.points == b.points || a.points.len() == b.points.len() && digest(&a.points) == digest(&b.points)
+}
+
+/// Missing frames: steps of the frame number above the most frequent one.
+pub(super) fn gaps(modes: &mut [FrameModes]) {
+    let mut counts: BTreeMap<i64, usize> = BTreeMap::new();
+    for pair in modes.windows(2) {
+        *counts.entry(pair[1].frame - pair[0].frame).or_insert(0) += 1;
+    }
+    // of equally frequent steps the shortest: the map is in order, and only a greater count replaces it
+    let usual =
+        counts.iter().fold((1, 0), |best, (&step, &count)| if count > best.1 { (step, count) } else { best });
+    for k in 1..modes.len() {
+        let step = modes[k].frame - modes[k - 1].frame;
+        let missing = step / usual.0.max(1) - 1;
+        if missing > 0 {
+            modes[k].flags.push(Flag::Gap { missing });
+        }
+    }
+}
+
+/// Areas that differ from the median of the 3 frames on each side by more than the threshold, and by more than 6 robust standard deviations of all
+/// such differences (1.4826 times their median size). Logarithms: half and double are as far.
+pub(super) fn jumps(modes: &mut [FrameModes], threshold: f64) {
+    let logs: Vec<Option<f64>> =
+        modes.iter().map(|frame| (frame.area > 0.0).then(|| libm::log(frame.area))).collect();
+    let deviations: Vec<Option<f64>> = (0..logs.len())
+        .map(|k| {
+            let around = k.saturating_sub(AROUND)..(k + AROUND + 1).min(logs.len());
+            let others: Vec<f64> = around.filter(|&j| j != k).filter_map(|j| logs[j]).collect();
+            Some(logs[k]? - median(others)?)
+        })
+        .collect();
+    let scatter = median(deviations.iter().flatten().map(|d| d.abs()).collect()).unwrap_or(0.0);
+    let limit = threshold.max(SCATTER * 1.4826 * scatter);
+    for (frame, deviation) in modes.iter_mut().zip(deviations) {
+        if let Some(deviation) = deviation.filter(|deviation| deviation.abs() > limit) {
+            frame.flags.push(Flag::AreaJump { factor: libm::exp(deviation) });
+        }
+    }
+}
+
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let (low, high) = (values.get(values.len().saturating_sub(1) / 2)?, values.get(values.len() / 2)?);
+    Some(0.5 * (low + high))
+}

@@ -1,0 +1,116 @@
+//! What was noticed in files that could be read.
+
+use serde::Serialize;
+use std::fmt;
+
+/// Something in the data that a user must know: named, with evidence.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+#[serde(tag = "note", rename_all = "kebab-case")]
+#[allow(missing_docs, reason = "each variant says what it is; the fields are its evidence")]
+pub enum Note {
+    /// The scale is unknown: lengths are in pixels.
+    UnknownScale { file: String },
+    /// The interval is unknown: times are in frames.
+    UnknownInterval { file: String },
+    /// The file says 1: the default of the program that wrote it, taken as unknown.
+    ScaleOne { file: String, what: String },
+    /// Areas that no cell has: the unit may be wrong.
+    ImplausibleArea { cell: String, area: f64, unit: String },
+    /// Times are not multiples of one interval: frames are numbered in order.
+    UnevenTimes { cell: String },
+    /// A cell divides: it ends, and each daughter is a cell of its own.
+    Split { track: String, frame: i64, into: usize },
+    /// Cells merge: they end, and what follows is a cell of its own.
+    Merge { track: String, frame: i64, from: usize },
+    /// Detections without an outline, left out.
+    WithoutOutline { file: String, count: usize },
+    /// Detections that belong to no track, left out.
+    WithoutTrack { file: String, count: usize },
+    /// Tracks that the file itself has filtered out, left out.
+    FilteredTracks { file: String, count: usize },
+    /// Links that name a detection that is not there, or join one frame with itself; left out.
+    BadLinks { file: String, count: usize },
+    /// The same outline filed several times in one frame; one is kept.
+    SameFrameTwice { cell: String, frames: Vec<i64> },
+    /// Different outlines in one frame; the frame is left out.
+    ConflictingFrames { cell: String, frames: Vec<i64> },
+    /// Vertices that are not finite, left out of their outlines.
+    MissingVertices { cell: String, frames: Vec<i64> },
+    /// Frame numbers that stand for 'none', left out.
+    SentinelFrames { cell: String, frames: Vec<i64> },
+    /// Two cells have the same outlines in the same frames.
+    SameCell { first: String, second: String, frames: usize },
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownScale { file } => {
+                write!(f, "{file}: no scale: lengths are in pixels; give pixel_size")
+            }
+            Self::UnknownInterval { file } => {
+                write!(f, "{file}: no frame interval: times are in frames; give interval")
+            }
+            Self::ScaleOne { file, what } => {
+                write!(f, "{file}: {what} is 1, which often stands for unknown, and is taken as unknown")
+            }
+            Self::ImplausibleArea { cell, area, unit } => {
+                write!(
+                    f,
+                    "cell {cell}: a median area of {area:.3e} {unit}^2 is not that of a cell; check the scale"
+                )
+            }
+            Self::UnevenTimes { cell } => {
+                write!(
+                    f,
+                    "cell {cell}: times are not multiples of one interval; frames are numbered in order"
+                )
+            }
+            Self::Split { track, frame, into } => {
+                write!(f, "track {track} splits into {into} after frame {frame}: cut into cells")
+            }
+            Self::Merge { track, frame, from } => {
+                write!(f, "{from} branches of track {track} merge in frame {frame}: cut into cells")
+            }
+            Self::WithoutOutline { file, count } => {
+                write!(f, "{file}: {count} detections without an outline, left out")
+            }
+            Self::WithoutTrack { file, count } => {
+                write!(f, "{file}: {count} outlines in no track, left out")
+            }
+            Self::FilteredTracks { file, count } => {
+                write!(f, "{file}: {count} tracks that the file has filtered out, left out")
+            }
+            Self::BadLinks { file, count } => write!(f, "{file}: {count} links to nothing, left out"),
+            Self::SameFrameTwice { cell, frames } => {
+                write!(f, "cell {cell}: the same outline several times in {}; one kept", list(frames))
+            }
+            Self::ConflictingFrames { cell, frames } => {
+                write!(f, "cell {cell}: different outlines in {}; left out", list(frames))
+            }
+            Self::MissingVertices { cell, frames } => {
+                write!(f, "cell {cell}: vertices that are not finite in {}", list(frames))
+            }
+            Self::SentinelFrames { cell, frames } => {
+                write!(f, "cell {cell}: {} far from all others, or negative; left out", list(frames))
+            }
+            Self::SameCell { first, second, frames } => {
+                write!(
+                    f,
+                    "cells {first} and {second} have the same outlines in {frames} frames: leave one out"
+                )
+            }
+        }
+    }
+}
+
+/// `frame 3`, `frames 3, 4, 5 and 20 more`.
+fn list(frames: &[i64]) -> String {
+    let shown: Vec<String> = frames.iter().take(5).map(i64::to_string).collect();
+    let more = match frames.len().saturating_sub(5) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!("frame{} {}{more}", if frames.len() == 1 { "" } else { "s" }, shown.join(", "))
+}

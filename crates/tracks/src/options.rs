@@ -1,0 +1,89 @@
+//! What a caller may say about the files.
+
+use crate::{Error, Format, Result};
+
+/// How files are read. The default finds everything in the files and assumes no scale.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// The format, where the content does not decide it.
+    pub format: Option<Format>,
+    /// Length of a pixel, in `length_unit`.
+    pub pixel_size: Option<f64>,
+    /// Time between frames, in `time_unit`.
+    pub interval: Option<f64>,
+    /// Unit of `pixel_size`.
+    pub length_unit: String,
+    /// Unit of `interval`.
+    pub time_unit: String,
+    /// Names of columns, where they differ from the usual ones.
+    pub columns: Columns,
+    /// Bounds of memory.
+    pub limits: Limits,
+}
+
+/// Names of the columns of a table. Where one is `None`, the usual names are looked for.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Columns {
+    /// Name of the cell.
+    pub cell: Option<String>,
+    /// Number of the frame.
+    pub frame: Option<String>,
+    /// Place of the vertex along the outline.
+    pub i: Option<String>,
+    /// First coordinate.
+    pub x: Option<String>,
+    /// Second coordinate.
+    pub y: Option<String>,
+    /// Outline as text `POLYGON (...)`.
+    pub wkt: Option<String>,
+}
+
+/// Bounds of what is read at once. Beyond them reading ends with an error that names the bound.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// Vertices of all outlines: 24 bytes each while reading.
+    pub vertices: u64,
+    /// Outlines of all cells.
+    pub outlines: u64,
+    /// Bytes of one line, one element of XML, or one entry of an archive.
+    pub piece: u64,
+    /// Bytes of a file after decompression.
+    pub file: u64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            format: None,
+            pixel_size: None,
+            interval: None,
+            length_unit: "um".to_owned(),
+            time_unit: "s".to_owned(),
+            columns: Columns::default(),
+            limits: Limits::default(),
+        }
+    }
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { vertices: 50_000_000, outlines: 2_000_000, piece: 16 << 20, file: 16 << 30 }
+    }
+}
+
+impl Options {
+    /// Whether scale and interval can be used.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] if one is not finite and above 0.
+    pub fn check(&self) -> Result<()> {
+        for (key, value) in [("pixel_size", self.pixel_size), ("interval", self.interval)] {
+            if let Some(value) = value
+                && !(value.is_finite() && value > 0.0)
+            {
+                return Err(Error::Setting { key, value, remedy: "give a finite number above 0" });
+            }
+        }
+        Ok(())
+    }
+}

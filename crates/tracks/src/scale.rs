@@ -1,0 +1,146 @@
+//! Scale and interval: what the file says, what the options say, and what follows.
+
+use crate::{Cell, Error, FRAME, Note, Options, PIXEL, Result};
+use std::path::Path;
+
+/// Relative difference up to which a file and an option agree: files round.
+const AGREE: f64 = 1e-3;
+
+/// What a file says about one unit.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Said {
+    /// Length of a pixel or time of a frame, where the file says it.
+    pub(crate) step: Option<f64>,
+    /// Its unit.
+    pub(crate) unit: Option<String>,
+    /// Whether the values of the file are multiplied by the step already.
+    pub(crate) applied: bool,
+}
+
+/// What a file says about lengths and times.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Scale {
+    pub(crate) length: Said,
+    pub(crate) time: Said,
+}
+
+/// How values become lengths or times: the factor and the unit.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Use {
+    pub(crate) factor: f64,
+    pub(crate) unit: String,
+}
+
+struct Question<'a> {
+    what: &'static str,
+    key: &'static str,
+    option: Option<f64>,
+    option_unit: &'a str,
+    unknown: &'static str,
+    file: &'a Path,
+}
+
+/// Factor and unit of lengths and of times.
+pub(crate) fn scales(said: &Scale, options: &Options, file: &Path) -> Result<([Use; 2], Vec<Note>)> {
+    let mut notes = Vec::new();
+    let name = || file.display().to_string();
+    let one = |said: &Said| said.step == Some(1.0);
+    // a pixel of exactly 1 is the default of programs that were not told the scale; an interval of 1 s may be true beside a true pixel
+    let mut said = said.clone();
+    if one(&said.length) {
+        let means = |said: &Said, unknown| said.unit.as_deref().is_none_or(|name| unit(name) != unknown);
+        let (length, time) = (means(&said.length, PIXEL), one(&said.time) && means(&said.time, FRAME));
+        let what = match (length, time) {
+            (true, true) => "length of a pixel and frame interval",
+            (true, false) => "length of a pixel",
+            (false, _) => "frame interval",
+        };
+        notes.extend((length || time).then(|| Note::ScaleOne { file: name(), what: what.to_owned() }));
+        if one(&said.time) {
+            said.time = Said::default();
+        }
+        said.length = Said::default();
+    }
+    let length = answer(
+        &said.length,
+        &Question {
+            what: "length of a pixel",
+            key: "pixel_size",
+            option: options.pixel_size,
+            option_unit: &options.length_unit,
+            unknown: PIXEL,
+            file,
+        },
+    )?;
+    let time = answer(
+        &said.time,
+        &Question {
+            what: "frame interval",
+            key: "interval",
+            option: options.interval,
+            option_unit: &options.time_unit,
+            unknown: FRAME,
+            file,
+        },
+    )?;
+    notes.extend((length.unit == PIXEL).then(|| Note::UnknownScale { file: name() }));
+    notes.extend((time.unit == FRAME).then(|| Note::UnknownInterval { file: name() }));
+    Ok(([length, time], notes))
+}
+
+fn answer(said: &Said, question: &Question<'_>) -> Result<Use> {
+    let unit = said.unit.as_deref().map_or_else(|| question.option_unit.to_owned(), unit);
+    let known = said.applied || said.step.is_some();
+    if !known || unit == question.unknown {
+        let factor = question.option.unwrap_or(1.0);
+        let unit = if question.option.is_some() { unit_of(question) } else { question.unknown.to_owned() };
+        return Ok(Use { factor, unit });
+    }
+    if let Some(option) = question.option {
+        let agrees = said.step.is_some_and(|step| (step / option - 1.0).abs() < AGREE);
+        if !agrees || unit != unit_of(question) {
+            return Err(Error::Disagree {
+                file: question.file.to_owned(),
+                what: question.what,
+                key: question.key,
+                file_says: said.step.map_or_else(|| format!("already in {unit}"), |s| format!("{s} {unit}")),
+                option_says: format!("{option} {}", question.option_unit),
+            });
+        }
+    }
+    let factor = if said.applied { 1.0 } else { said.step.unwrap_or(1.0) };
+    Ok(Use { factor, unit })
+}
+
+fn unit_of(question: &Question<'_>) -> String {
+    unit(question.option_unit)
+}
+
+/// One spelling for each unit; others stay as they are.
+pub(crate) fn unit(name: &str) -> String {
+    let lower = name.trim().to_lowercase();
+    let known = match lower.as_str() {
+        "um" | "µm" | "μm" | "micron" | "microns" | "micrometer" | "micrometers" | "micrometre"
+        | "micrometres" => "um",
+        "nm" | "nanometer" | "nanometre" => "nm",
+        "mm" | "millimeter" | "millimetre" => "mm",
+        "" | "px" | "pixel" | "pixels" => PIXEL,
+        "s" | "sec" | "secs" | "second" | "seconds" => "s",
+        "ms" | "millisecond" | "milliseconds" => "ms",
+        "min" | "mins" | "minute" | "minutes" => "min",
+        "h" | "hr" | "hour" | "hours" => "h",
+        "frame" | "frames" => FRAME,
+        _ => name.trim(),
+    };
+    known.to_owned()
+}
+
+/// Applies the factors.
+pub(crate) fn apply(cells: &mut [Cell], [length, time]: &[Use; 2]) {
+    for outline in cells.iter_mut().flat_map(|cell| &mut cell.frames) {
+        outline.t *= time.factor;
+        for value in outline.points.iter_mut().flatten() {
+            *value *= length.factor;
+        }
+    }
+}

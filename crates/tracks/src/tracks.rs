@@ -1,0 +1,60 @@
+//! Outlines of cells over time.
+
+use crate::Note;
+use serde::Serialize;
+
+/// The unit of lengths of unknown scale.
+pub const PIXEL: &str = "pixel";
+
+/// The unit of times of unknown interval.
+pub const FRAME: &str = "frame";
+
+/// Cells with their outlines, in one unit of length and one of time.
+///
+/// Coordinates are those of the files, multiplied by the scale. In images the y axis points down ([`Tracks::y_down`]): there a
+/// motion that looks anticlockwise on the screen is clockwise in coordinates. Nothing is mirrored here.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Tracks {
+    /// The cells, in the order of the files.
+    pub cells: Vec<Cell>,
+    /// Unit of coordinates; [`PIXEL`] where the scale is unknown.
+    pub length_unit: String,
+    /// Unit of times; [`FRAME`] where the interval is unknown.
+    pub time_unit: String,
+    /// Whether y points down: known for formats of images, `None` for tables and text.
+    pub y_down: Option<bool>,
+    /// Width and height of the images, in the unit of length, where a file says so.
+    pub image: Option<[f64; 2]>,
+    /// What was noticed while reading.
+    pub notes: Vec<Note>,
+}
+
+/// One cell.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Cell {
+    /// Its name in the file.
+    pub name: String,
+    /// Its outlines, by increasing frame; no frame twice.
+    pub frames: Vec<Outline>,
+}
+
+/// One outline: a closed polygon without a repeated last vertex.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Outline {
+    /// Number of the frame.
+    pub frame: i64,
+    /// Time, in the unit of time.
+    pub t: f64,
+    /// Vertices in their order along the outline, finite.
+    pub points: Vec<[f64; 2]>,
+    /// Vertices of the file that were not finite and are not in `points`.
+    pub missing: usize,
+}
+
+impl Tracks {
+    /// Number of outlines of all cells.
+    #[must_use]
+    pub fn outlines(&self) -> usize {
+        self.cells.iter().map(|cell| cell.frames.len()).sum()
+    }
+}

@@ -1,0 +1,144 @@
+//! Flags: each where it belongs, and nowhere else.
+
+use crate::common::{cell, normal};
+use motiform_tracks::modes::{Crossing, Flag, ModeOptions, Side, crossing, modes, outline_modes};
+use motiform_tracks::synthetic::{Synthetic, blur, pixelated};
+use motiform_tracks::{Cell, Outline, Tracks, area};
+
+fn tracks(frames: Vec<(i64, Vec<[f64; 2]>)>) -> Tracks {
+    let outline = |(frame, points)| Outline { frame, t: frame as f64, points, missing: 0 };
+    let cell = Cell { name: "a".to_owned(), frames: frames.into_iter().map(outline).collect() };
+    let unit = |name: &str| name.to_owned();
+    Tracks {
+        cells: vec![cell],
+        length_unit: unit("um"),
+        time_unit: unit("s"),
+        y_down: None,
+        image: None,
+        notes: vec![],
+    }
+}
+
+/// A cell that wanders: noise of the vertices, a path that turns.
+fn wandering(count: i64) -> Vec<(i64, Vec<[f64; 2]>)> {
+    let mut noise = normal(11);
+    let frame = |k: i64| {
+        let t = 0.3 * k as f64;
+        let shape = Synthetic { centre: [30.0 * (0.7 * t).sin(), 25.0 * (0.45 * t).cos()], ..cell(k) };
+        let mut points = shape.vertices(50, t);
+        blur(&mut points, 0.05, &mut noise);
+        (k, points)
+    };
+    (0..count).map(frame).collect()
+}
+
+fn flags(tracks: &Tracks) -> Vec<(i64, &'static str)> {
+    let all = modes(tracks, &ModeOptions::default());
+    all[0].frames.iter().flat_map(|f| f.flags.iter().map(|flag| (f.frame, flag.name()))).collect()
+}
+
+#[test]
+fn a_sound_cell_has_no_flag() {
+    let tracks = tracks(wandering(150));
+    assert_eq!(flags(&tracks), []);
+    let all = modes(&tracks, &ModeOptions::default());
+    assert_eq!((all[0].used().count(), all[0].left_out().count()), (150, 0));
+    assert!((all[0].sigma.unwrap() / 0.05 - 1.0).abs() < 0.05);
+}
+
+#[test]
+fn what_happens_in_time() {
+    let mut frames = wandering(40);
+    frames[10].1.iter_mut().flatten().for_each(|x| *x *= 1.4);
+    frames[20].1 = frames[19].1.iter().copied().cycle().skip(9).take(50).collect();
+    frames.drain(30..33);
+    assert_eq!(flags(&tracks(frames)), [(10, "area jump"), (20, "repeated frame"), (33, "gap")]);
+}
+
+#[test]
+fn every_second_frame_is_no_gap() {
+    let frames = wandering(20).into_iter().map(|(k, points)| (2 * k, points)).collect();
+    assert_eq!(flags(&tracks(frames)), []);
+}
+
+#[test]
+fn what_is_seen_in_one_frame() {
+    let flag = |points: &[[f64; 2]]| outline_modes(points, &ModeOptions::default()).flags[0].clone();
+    let round = cell(0).vertices(40, 0.0);
+    assert_eq!(flag(&round[..12]), Flag::TooFewVertices { vertices: 12, least: 16 });
+    assert_eq!(flag(&[round[0]; 60]), Flag::TooFewVertices { vertices: 1, least: 16 });
+    let line: Vec<[f64; 2]> = (0..40).map(|k| [f64::from(k), 2.0 * f64::from(k)]).collect();
+    assert_eq!(flag(&line), Flag::NoArea);
+    let mut crossed = round;
+    crossed.swap(10, 11);
+    assert_eq!(flag(&crossed), Flag::SelfCrossing { edges: [9, 11] });
+}
+
+#[test]
+fn crossings() {
+    let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+    assert_eq!(crossing(&square), Crossing::None);
+    let bow = [[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]];
+    assert!(matches!(crossing(&bow), Crossing::At(_)));
+    // two squares of pixels that touch at a corner
+    let touching =
+        [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [2.0, 1.0], [2.0, 2.0], [1.0, 2.0], [1.0, 1.0], [0.0, 1.0]];
+    assert_eq!(crossing(&touching), Crossing::None);
+    // long outlines end too: all edges overlap in x
+    let comb: Vec<[f64; 2]> = (0..20_000).map(|k| [f64::from(k % 2), f64::from(k)]).collect();
+    assert!(matches!(crossing(&comb), Crossing::Unknown | Crossing::At(_)));
+}
+
+/// The cell moves into a wall at x = 30, as in an image that ends there.
+#[test]
+fn clipped_outlines() {
+    let mut frames = wandering(150);
+    let clip = |x: &mut f64| *x = x.min(30.0);
+    frames.iter_mut().flat_map(|frame| &mut frame.1).for_each(|point| clip(&mut point[0]));
+    let touched: Vec<i64> = frames.iter().filter(|f| f.1.iter().any(|p| p[0] == 30.0)).map(|f| f.0).collect();
+    let tracks = tracks(frames);
+    let all = modes(&tracks, &ModeOptions::default());
+    let clipped = |flag: &Flag| matches!(flag, Flag::Clipped { side: Side::Right, at, .. } if *at == 30.0);
+    let found: Vec<i64> =
+        all[0].frames.iter().filter(|f| f.flags.iter().any(clipped)).map(|f| f.frame).collect();
+    assert!(touched.len() > 30);
+    assert_eq!(found, touched);
+    assert!(all[0].left_out().count() >= found.len());
+}
+
+#[test]
+fn known_images_have_known_borders() {
+    let mut frames = wandering(3);
+    frames.truncate(2);
+    let mut tracks = tracks(frames);
+    assert_eq!(flags(&tracks), []);
+    let least =
+        |k: usize| tracks.cells[0].frames[0].points.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+    let shift = [-least(0), -least(1) + 30.0];
+    for point in tracks.cells[0].frames.iter_mut().flat_map(|outline| &mut outline.points) {
+        *point = [point[0] + shift[0], point[1] + shift[1]];
+    }
+    tracks.image = Some([500.0, 500.0]);
+    assert_eq!(flags(&tracks), [(0, "clipped")]);
+}
+
+#[test]
+fn missing_vertices_leave_the_frame_out() {
+    let mut tracks = tracks(wandering(5));
+    tracks.cells[0].frames[2].missing = 3;
+    assert_eq!(flags(&tracks), [(2, "missing vertices")]);
+}
+
+/// Outlines of pixels, as segmentations give them: star-shaped, areas to the pixel, modes to a fraction of it.
+#[test]
+fn pixels_are_no_folds() {
+    for k in 0..20 {
+        let truth = cell(k);
+        let smooth = truth.vertices(400, 0.0);
+        let points = pixelated(&smooth, 0.5);
+        assert!((area(&points) / area(&smooth) - 1.0).abs() < 0.02 && area(&points) > 0.0);
+        let modes = outline_modes(&points, &ModeOptions::default());
+        let fit = modes.radius.unwrap_or_else(|| panic!("{k}: {:?}", modes.flags));
+        assert!((fit.z[0][0] - truth.z[0][0]).abs() < 0.1 && modes.flags.is_empty());
+    }
+}

@@ -1,0 +1,111 @@
+//! Scale and interval: from the file, from the options, never assumed.
+
+use crate::common::{Files, csv, notes, read, read_with};
+use crate::formats::{amoepy, quimp_nodes};
+use crate::trackmate::xml;
+use motiform_tracks::{FRAME, Options, PIXEL, Tracks, area};
+
+fn options(pixel_size: Option<f64>, interval: Option<f64>) -> Options {
+    Options { pixel_size, interval, ..Options::default() }
+}
+
+fn units(tracks: &Tracks) -> (&str, &str) {
+    (&tracks.length_unit, &tracks.time_unit)
+}
+
+#[test]
+fn unknown_stays_pixel_and_frame() {
+    let tracks = read(csv(3)).unwrap();
+    assert_eq!(units(&tracks), (PIXEL, FRAME));
+    let notes = notes(&tracks);
+    assert!(notes.contains("give pixel_size") && notes.contains("give interval"), "{notes}");
+}
+
+#[test]
+fn options_multiply() {
+    let (plain, scaled) = (read(csv(3)).unwrap(), read_with(csv(3), &options(Some(0.5), Some(4.0))).unwrap());
+    assert_eq!(units(&scaled), ("um", "s"));
+    let (a, b) = (&plain.cells[0].frames[2], &scaled.cells[0].frames[2]);
+    assert_eq!((area(&b.points), b.t), (0.25 * area(&a.points), 8.0));
+    for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let error = read_with(csv(1), &options(Some(wrong), None)).unwrap_err().to_string();
+        assert!(error.contains("pixel_size") && error.contains("above 0"), "{error}");
+    }
+}
+
+fn quimp(parameters: Option<&str>, options: &Options) -> Result<Tracks, motiform_tracks::Error> {
+    let files = Files::new();
+    let path = files.put("cell_0.snQP", quimp_nodes(3));
+    if let Some(text) = parameters {
+        files.put("cell_0.paQP", text);
+    }
+    motiform_tracks::read(&[path], options)
+}
+
+fn parameters(scale: &str, interval: &str) -> String {
+    format!(
+        "#p2 - QuimP parameter file\n123\nimage.tif\n/cell_0.snQP\n#Image calibration\n{scale}\n{interval}\n#more\n"
+    )
+}
+
+#[test]
+fn parameters_beside_the_nodes() {
+    let tracks = quimp(Some(&parameters("0.25", "1.5")), &Options::default()).unwrap();
+    assert_eq!(units(&tracks), ("um", "s"));
+    assert_eq!(tracks.cells[0].frames[2].t, 3.0);
+    assert_eq!(units(&quimp(None, &Options::default()).unwrap()), (PIXEL, FRAME));
+    let damaged = quimp(Some("#p2 - QuimP\n1\n"), &Options::default()).unwrap_err().to_string();
+    assert!(damaged.contains("cell_0.paQP, line 2") && damaged.contains("scale"), "{damaged}");
+    let zero = quimp(Some(&parameters("0", "1")), &Options::default()).unwrap_err().to_string();
+    assert!(zero.contains("line 6"), "{zero}");
+}
+
+#[test]
+fn file_and_option_must_agree() {
+    let said = parameters("0.25", "1.5");
+    assert!(quimp(Some(&said), &options(Some(0.25), Some(1.5))).is_ok());
+    let error = quimp(Some(&said), &options(Some(0.3), None)).unwrap_err().to_string();
+    assert!(error.contains("0.25 um") && error.contains("pixel_size says 0.3 um"), "{error}");
+    let error = quimp(Some(&said), &options(None, Some(90.0))).unwrap_err().to_string();
+    assert!(error.contains("1.5 s") && error.contains("interval says 90 s"), "{error}");
+    let error = read_with(amoepy(3), &options(Some(0.3), None)).unwrap_err().to_string();
+    assert!(error.contains("already in um"), "{error}");
+    let minutes = Options { time_unit: "min".to_owned(), ..options(None, Some(1.5)) };
+    assert!(read_with(amoepy(3), &minutes).unwrap_err().to_string().contains("1.5 min"));
+}
+
+#[test]
+fn a_scale_of_one_stands_for_unknown() {
+    let one = xml(&[(10, 0), (20, 1)], &[&[(10, 20)]], 1.0, "micron");
+    let tracks = read(&one).unwrap();
+    assert_eq!(tracks.length_unit, PIXEL);
+    assert!(notes(&tracks).contains("often stands for unknown"));
+    let told = read_with(&one, &options(Some(1.0), None)).unwrap();
+    assert_eq!(told.length_unit, "um");
+    let both = quimp(Some(&parameters("1.000000", "1.000")), &Options::default()).unwrap();
+    assert_eq!(units(&both), (PIXEL, FRAME));
+    let interval = quimp(Some(&parameters("0.2", "1.000")), &Options::default()).unwrap();
+    assert_eq!(units(&interval), ("um", "s"));
+}
+
+#[test]
+fn areas_that_no_cell_has_are_said() {
+    let tracks = read_with(csv(3), &options(Some(1000.0), None)).unwrap();
+    assert!(notes(&tracks).contains("check the scale"));
+}
+
+#[test]
+fn files_in_different_units_are_refused() {
+    let files = Files::new();
+    let paths = [files.put("a", csv(2)), files.put("b", amoepy(2))];
+    let error = motiform_tracks::read(&paths, &Options::default()).unwrap_err().to_string();
+    assert!(error.contains("unit of length is um") && error.contains("before it pixel"), "{error}");
+    let same = [files.put("a", csv(2)), files.put("b", csv(2))];
+    let names: Vec<String> = motiform_tracks::read(&same, &Options::default())
+        .unwrap()
+        .cells
+        .into_iter()
+        .map(|cell| cell.name)
+        .collect();
+    assert_eq!(names, ["a: a", "b: a"]);
+}

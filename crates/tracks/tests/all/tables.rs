@@ -1,0 +1,55 @@
+//! Long tables as Parquet.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use crate::common::{Files, outlines, read, refusal};
+use crate::formats::same;
+use motiform_tracks::{Format, Options, detect};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::parser::parse_message_type;
+use std::sync::Arc;
+
+pub(crate) fn parquet(frames: i64) -> Vec<u8> {
+    let schema = "message rows { optional binary cell (UTF8); required int64 frame; required int64 i; required double x; required double y; }";
+    let schema = Arc::new(parse_message_type(schema).unwrap());
+    let mut file = SerializedFileWriter::new(Vec::new(), schema, Arc::default()).unwrap();
+    for (frame, points) in (0_i64..).zip(outlines(frames)) {
+        let mut group = file.next_row_group().unwrap();
+        let cells = vec![ByteArray::from("a"); points.len()];
+        let mut column = group.next_column().unwrap().unwrap();
+        column.typed::<ByteArrayType>().write_batch(&cells, Some(&vec![1; points.len()]), None).unwrap();
+        column.close().unwrap();
+        let order: Vec<i64> = (0_i64..).take(points.len()).collect();
+        for values in [vec![frame; points.len()], order] {
+            let mut column = group.next_column().unwrap().unwrap();
+            column.typed::<Int64Type>().write_batch(&values, None, None).unwrap();
+            column.close().unwrap();
+        }
+        for k in 0..2 {
+            let values: Vec<f64> = points.iter().map(|point| point[k]).collect();
+            let mut column = group.next_column().unwrap().unwrap();
+            column.typed::<DoubleType>().write_batch(&values, None, None).unwrap();
+            column.close().unwrap();
+        }
+        group.close().unwrap();
+    }
+    file.into_inner().unwrap()
+}
+
+#[test]
+fn parquet_is_read() {
+    let files = Files::new();
+    assert_eq!(detect(&files.put("x", parquet(4)), &Options::default()).unwrap(), Format::Parquet);
+    let tracks = read(parquet(4)).unwrap();
+    same(&tracks, 4);
+    assert_eq!(tracks.cells[0].name, "a");
+}
+
+#[test]
+fn damaged_parquet_is_an_error() {
+    let whole = parquet(2);
+    for length in (4..whole.len()).step_by(97) {
+        assert!(refusal(&whole[..length]).contains("a sound Parquet file"), "{length}");
+    }
+}
