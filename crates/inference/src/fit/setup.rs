@@ -1,0 +1,33 @@
+//! From tracks and settings to a problem in natural units.
+
+use super::Settings;
+use crate::filter::Problem;
+use crate::field::Field;
+use crate::{Error, Result, Scales, Track};
+
+/// Checks the settings.
+pub(super) fn check(settings: &Settings) -> Result<()> {
+    let modes = settings.library.modes as f64;
+    if settings.library.modes != 3 {
+        return Err(Error::Setting { key: "modes", value: modes, remedy: "the filter takes three modes" });
+    }
+    if settings.library.terms.is_empty() {
+        return Err(Error::Setting { key: "terms", value: 0.0, remedy: "give at least one term" });
+    }
+    match settings.starts.iter().find(|start| !(1e-4..=10.0).contains(*start)) {
+        Some(&value) => Err(Error::Setting { key: "starts", value, remedy: "give 1e-4 to 10" }),
+        None => Ok(()),
+    }
+}
+
+/// The problem in natural units.
+pub(crate) fn problem(tracks: &[Track], settings: &Settings, scales: &Scales) -> Problem {
+    let library = &settings.library;
+    Problem {
+        field: Field::new(library),
+        parts: Field::parts(&library.terms, settings.handed),
+        terms: library.terms.len(),
+        stretches: tracks.iter().flat_map(|track| Problem::cut(scales.frames(track))).collect(),
+        noise: scales.noise_of_modes(),
+    }
+}

@@ -1,0 +1,6 @@
+//! All integration tests of this crate, in one program: what is generic is compiled once.
+
+mod common;
+mod filter;
+mod fit;
+mod library;
