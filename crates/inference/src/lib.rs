@@ -7,6 +7,7 @@ mod library;
 mod linear;
 mod observation;
 mod scales;
+mod subsets;
 
 pub use error::{Error, Result};
 pub use fit::{
@@ -15,3 +16,4 @@ pub use fit::{
 pub use library::{Library, MOST_MODES, Term};
 pub use observation::{LEAST_FRAMES, OBSERVED, Observation, Track};
 pub use scales::Scales;
+pub use subsets::{Selection, Subset, Subsets, TIE, select, subsets};

@@ -1,10 +1,10 @@
 //! The vector field of a library with its first and second derivatives, over plain numbers.
 //!
 //! `dz_n/dt = sum_k c_k M_k(z, conj(z))`. The field is linear in the coefficients, so derivatives by them are the monomials themselves.
-//! Derivatives by the amplitudes are taken by `z` and `conj(z)` as if these were independent (Wirtinger), then turned into real ones.
+//! Derivatives by the amplitudes are taken by `z` and `conj(z)` as if these were independent (Wirtinger):
+//! `d/dRe = d/dz + d/dz*`,  `d/dIm = i (d/dz - d/dz*)`.
 
 mod products;
-mod real;
 
 use crate::{Library, Term};
 use motiform_dynamics::Complex;
@@ -12,6 +12,8 @@ use products::Products;
 
 /// Real numbers of the shape: `(Re z1, Im z1, .., Im z3)`.
 pub(crate) const SHAPE: usize = 6;
+
+const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
 
 /// A coefficient: the real or the imaginary part of a term's factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,31 +45,32 @@ pub(crate) struct Values {
     pub(crate) monomials: Vec<Complex<f64>>,
     /// Derivative of each monomial by each entry of the shape.
     pub(crate) gradients: Vec<[Complex<f64>; SHAPE]>,
-    /// Equation of each term.
-    equations: Vec<usize>,
     /// Values of the products that occur.
     scratch: Vec<Complex<f64>>,
 }
 
 impl Values {
     pub(crate) fn new(field: &Field) -> Self {
-        let (zero, terms) = (Complex::new(0.0, 0.0), field.equations.len());
+        let terms = field.equations.len();
         Self {
             rate: [0.0; SHAPE],
             jacobian: [[0.0; SHAPE]; SHAPE],
             hessian: [[[0.0; SHAPE]; SHAPE]; SHAPE],
-            monomials: vec![zero; terms],
-            gradients: vec![[zero; SHAPE]; terms],
-            equations: field.equations.clone(),
-            scratch: vec![zero; field.products.len()],
+            monomials: vec![ZERO; terms],
+            gradients: vec![[ZERO; SHAPE]; terms],
+            scratch: vec![ZERO; field.products.steps.len()],
         }
     }
+}
 
-    /// The equation of a term, from 0.
-    #[inline(always)]
-    pub(crate) fn equation(&self, term: usize) -> usize {
-        self.equations[term]
-    }
+#[inline(always)]
+fn times_i(z: Complex<f64>) -> Complex<f64> {
+    Complex::new(-z.im, z.re)
+}
+
+#[inline(always)]
+fn minus(a: Complex<f64>, b: Complex<f64>) -> Complex<f64> {
+    Complex::new(a.re - b.re, a.im - b.im)
 }
 
 impl Field {
@@ -82,18 +85,28 @@ impl Field {
         if handed { of(false).chain(of(true)).collect() } else { of(false).collect() }
     }
 
-    /// The rates alone.
-    pub(crate) fn rate(&self, c: &[Complex<f64>], shape: &[f64; SHAPE], values: &mut Values) {
-        self.products.evaluate(shape, &mut values.scratch);
-        let mut rate = [Complex::new(0.0, 0.0); SHAPE / 2];
-        for (term, &equation) in self.equations.iter().enumerate() {
-            values.monomials[term] = self.products.value(term, &values.scratch);
-            rate[equation] = rate[equation] + c[term] * values.monomials[term];
-        }
-        values.rate = std::array::from_fn(|i| if i % 2 == 0 { rate[i / 2].re } else { rate[i / 2].im });
+    /// The equation of a term, from 0.
+    #[inline(always)]
+    pub(crate) fn equation(&self, term: usize) -> usize {
+        self.equations[term]
     }
 
-    /// Everything but second derivatives, which are added if `second`.
+    /// The rates alone.
+    #[inline(always)]
+    pub(crate) fn rate(&self, c: &[Complex<f64>], shape: &[f64; SHAPE], values: &mut Values) {
+        self.products.evaluate(shape, &mut values.scratch);
+        values.rate = [0.0; SHAPE];
+        for (term, &equation) in self.equations.iter().enumerate() {
+            let monomial = values.scratch[self.products.terms[term]];
+            values.monomials[term] = monomial;
+            let rate = c[term] * monomial;
+            values.rate[2 * equation] += rate.re;
+            values.rate[2 * equation + 1] += rate.im;
+        }
+    }
+
+    /// Rates and first derivatives; second ones if `second`.
+    #[inline(always)]
     pub(crate) fn evaluate(
         &self,
         c: &[Complex<f64>],
@@ -102,19 +115,17 @@ impl Field {
         values: &mut Values,
     ) {
         self.rate(c, shape, values);
-        let zero = Complex::new(0.0, 0.0);
-        let mut first = [[zero; SHAPE]; SHAPE / 2];
-        for (term, &equation) in self.equations.iter().enumerate() {
-            let own = self.products.first(term, &values.scratch);
-            values.gradients[term] = real::gradient(&own);
-            for (sum, own) in first[equation].iter_mut().zip(own) {
-                *sum = *sum + c[term] * own;
-            }
-        }
-        for (n, first) in first.iter().enumerate() {
-            for (j, by) in real::gradient(first).into_iter().enumerate() {
-                values.jacobian[2 * n][j] = by.re;
-                values.jacobian[2 * n + 1][j] = by.im;
+        values.jacobian = [[0.0; SHAPE]; SHAPE];
+        for first in &self.products.first {
+            let by = values.scratch[first.z.1] * first.z.0;
+            let by_conj = values.scratch[first.conj.1] * first.conj.0;
+            let columns = [by + by_conj, times_i(minus(by, by_conj))];
+            for (half, column) in columns.into_iter().enumerate() {
+                let (j, row) = (2 * first.amplitude + half, 2 * first.equation);
+                values.gradients[first.term][j] = column;
+                let rate = c[first.term] * column;
+                values.jacobian[row][j] += rate.re;
+                values.jacobian[row + 1][j] += rate.im;
             }
         }
         if second {
@@ -122,21 +133,34 @@ impl Field {
         }
     }
 
+    #[inline(always)]
     fn hessian(&self, c: &[Complex<f64>], values: &mut Values) {
-        let mut sums = [[[Complex::new(0.0, 0.0); SHAPE]; SHAPE]; SHAPE / 2];
-        for (term, &equation) in self.equations.iter().enumerate() {
-            for entry in self.products.second(term) {
-                let by = (c[term] * values.scratch[entry.product]) * entry.factor;
-                let sum = &mut sums[equation][entry.by[0]][entry.by[1]];
-                *sum = *sum + by;
-            }
+        let mut sums = [[[ZERO; SHAPE]; SHAPE]; SHAPE / 2];
+        for entry in &self.products.second {
+            let by = (c[entry.term] * values.scratch[entry.product]) * entry.factor;
+            let sum = &mut sums[entry.equation][entry.by[0]][entry.by[1]];
+            *sum = *sum + by;
         }
-        for (n, sums) in sums.iter().enumerate() {
-            let whole = real::hessian(sums);
-            for j in 0..SHAPE {
-                for k in 0..SHAPE {
-                    values.hessian[2 * n][j][k] = whole[j][k].re;
-                    values.hessian[2 * n + 1][j][k] = whole[j][k].im;
+        for n in 0..SHAPE / 2 {
+            let of = &sums[n];
+            for a in 0..SHAPE / 2 {
+                for b in a..SHAPE / 2 {
+                    let (zz, zc) = (of[2 * a][2 * b], of[2 * a][2 * b + 1]);
+                    let cz = if a == b { zc } else { of[2 * a + 1][2 * b] };
+                    let cc = of[2 * a + 1][2 * b + 1];
+                    let block = [
+                        [(zz + zc) + (cz + cc), times_i(minus(zz + cz, zc + cc))],
+                        [times_i(minus(zz + zc, cz + cc)), minus(zc + cz, zz + cc)],
+                    ];
+                    for i in 0..2 {
+                        for j in 0..2 {
+                            let (row, column, z) = (2 * a + i, 2 * b + j, block[i][j]);
+                            values.hessian[2 * n][row][column] = z.re;
+                            values.hessian[2 * n][column][row] = z.re;
+                            values.hessian[2 * n + 1][row][column] = z.im;
+                            values.hessian[2 * n + 1][column][row] = z.im;
+                        }
+                    }
                 }
             }
         }

@@ -7,7 +7,7 @@ use crate::observation::OBSERVED;
 use motiform_dynamics::Complex;
 
 /// Mean and covariance of the state.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct State {
     pub(crate) m: [f64; STATE],
     pub(crate) p: Covariance,
@@ -52,6 +52,7 @@ pub(crate) fn start(first: &Frame, second: &Frame, s2: f64) -> State {
 
 impl Law<'_> {
     /// Rates of mean and covariance at `at`, which become a stage.
+    #[inline(always)]
     fn rate(&self, at: &State, stage: &mut Stage) -> State {
         let mut shape = [0.0; SHAPE];
         shape.copy_from_slice(&at.m[2..]);
@@ -59,8 +60,10 @@ impl Law<'_> {
         stage.p = at.p;
         let a = &stage.values.jacobian;
         let mut product = [[0.0; STATE]; STATE]; // A P
-        product[0] = at.p[2];
-        product[1] = at.p[3].map(|x| -x);
+        for j in 0..STATE {
+            product[0][j] = at.p[2][j];
+            product[1][j] = -at.p[3][j];
+        }
         for i in 0..SHAPE {
             for k in 0..SHAPE {
                 for j in 0..STATE {
@@ -68,33 +71,33 @@ impl Law<'_> {
                 }
             }
         }
-        let mut m = [at.m[2], -at.m[3], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        m[2..].copy_from_slice(&stage.values.rate);
-        let mut p = [[0.0; STATE]; STATE];
+        let mut rate = State { m: [at.m[2], -at.m[3], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], p: product };
+        rate.m[2..].copy_from_slice(&stage.values.rate);
         for i in 0..STATE {
             for j in 0..STATE {
-                p[i][j] = product[i][j] + product[j][i];
+                rate.p[i][j] += product[j][i];
             }
-            p[i][i] += self.q[i];
+            rate.p[i][i] += self.q[i];
         }
-        State { m, p }
+        rate
     }
 
     /// One step of the classical Runge-Kutta method; the stages are kept.
+    #[inline(always)]
     pub(crate) fn step(&self, state: &mut State, h: f64, stages: &mut [Stage; 4]) {
         let k1 = self.rate(state, &mut stages[0]);
         let k2 = self.rate(&state.plus(&k1, 0.5 * h), &mut stages[1]);
         let k3 = self.rate(&state.plus(&k2, 0.5 * h), &mut stages[2]);
         let k4 = self.rate(&state.plus(&k3, h), &mut stages[3]);
-        for (k, weight) in [(k1, 1.0), (k2, 2.0), (k3, 2.0), (k4, 1.0)] {
-            *state = state.plus(&k, weight * h / 6.0);
-        }
+        let sum = state.plus(&k1, h / 6.0).plus(&k2, h / 3.0);
+        *state = sum.plus(&k3, h / 3.0).plus(&k4, h / 6.0);
     }
 }
 
 impl State {
+    #[inline(always)]
     fn plus(&self, rate: &Self, h: f64) -> Self {
-        let mut sum = self.clone();
+        let mut sum = *self;
         for i in 0..STATE {
             sum.m[i] += h * rate.m[i];
             for j in 0..STATE {
@@ -105,8 +108,13 @@ impl State {
     }
 
     /// Whether it can be gone on with: finite, and not far beyond natural units.
+    #[inline(always)]
     pub(crate) fn is_sound(&self) -> bool {
-        self.m[2..].iter().all(|x| x.abs() < 1e3) && (0..STATE).all(|i| self.p[i][i] < 1e6)
+        let mut sound = true;
+        for i in 0..STATE {
+            sound &= (i < 2 || self.m[i].abs() < 1e3) && self.p[i][i] < 1e6;
+        }
+        sound
     }
 }
 

@@ -5,9 +5,10 @@ use super::base::{Correction, Stage, State};
 use super::correct;
 use super::evaluate::Want;
 use super::sums::Sums;
-use super::tangent::{self, FORCING, Tangent};
+use super::tangent::{self, FORCING, Tangent, depth};
 use super::{AT, SEEN};
-use crate::field::{Part, SHAPE};
+use super::problem::Problem;
+use crate::field::{Field, Part, SHAPE};
 use motiform_dynamics::Bundle;
 
 /// Blocks of coefficients, then those of `ln s`, `ln eta_v` and `ln eta_shape`.
@@ -72,12 +73,12 @@ impl<B: Bundle> Blocks<B> {
 
     /// Writes what forces the derivatives by the coefficients at each stage.
     #[inline(always)]
-    fn force(&mut self, stages: &[Stage; 4], parts: &[Part]) {
+    fn force(&mut self, field: &Field, stages: &[Stage; 4], parts: &[Part]) {
         let (lanes, blocks) = (B::LANES, self.len());
         for (number, stage) in stages.iter().enumerate() {
             for (parameter, part) in parts.iter().enumerate() {
                 let own = (number * blocks + parameter / lanes) * FORCING * lanes + parameter % lanes;
-                let (row, values) = (2 * stage.values.equation(part.term), &stage.values);
+                let (row, values) = (2 * field.equation(part.term), &stage.values);
                 let forcing = &mut self.forcing[own..];
                 let rate = turned(values.monomials[part.term], part.imaginary);
                 forcing[row * lanes] = rate[0];
@@ -93,11 +94,11 @@ impl<B: Bundle> Blocks<B> {
 
     /// A step of the integration with these stages.
     #[inline(always)]
-    pub(crate) fn step(&mut self, stages: &[Stage; 4], parts: &[Part], want: Want, h: f64) {
+    pub(crate) fn step(&mut self, stages: &[Stage; 4], problem: &Problem, want: Want, h: f64) {
         if self.len() == 0 {
             return;
         }
-        self.force(stages, parts);
+        self.force(&problem.field, stages, &problem.parts);
         let (size, blocks) = (FORCING * B::LANES, self.len());
         for block in 0..blocks {
             let (a, b) = (block * size, (blocks + block) * size);
@@ -105,10 +106,11 @@ impl<B: Bundle> Blocks<B> {
             let f = &self.forcing;
             let forcing = [&f[a..a + size], &f[b..b + size], &f[c..c + size], &f[d..d + size]];
             let tangent = &mut self.tangents[block];
-            if want == Want::Exact || block >= self.first_noise {
-                tangent::step::<B, true>(tangent, stages, forcing, &self.q[block], h);
-            } else {
-                tangent::step::<B, false>(tangent, stages, forcing, &self.q[block], h);
+            let q = &self.q[block];
+            match (want, block >= self.first_noise) {
+                (Want::Exact, _) => tangent::step::<B, { depth::ALL }>(tangent, stages, forcing, q, h),
+                (_, true) => tangent::step::<B, { depth::NOISE }>(tangent, stages, forcing, q, h),
+                (_, false) => tangent::step::<B, { depth::MEAN }>(tangent, stages, forcing, q, h),
             }
         }
     }

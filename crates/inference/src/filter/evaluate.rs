@@ -81,10 +81,11 @@ struct Run<'a, B> {
 impl<'a, B: Bundle> Run<'a, B> {
     #[inline(always)]
     fn new(work: &'a Work<'a>, c: &'a [Complex<f64>]) -> Self {
-        let (problem, second) = (work.problem, work.want != Want::Value);
+        let (problem, wanted) = (work.problem, work.want != Want::Value);
+        let second = work.want == Want::Exact;
         let stage = Stage { p: [[0.0; STATE]; STATE], values: Values::new(&problem.field) };
         let law = Law { field: &problem.field, c, q: problem.process(work.theta), second };
-        let blocks = Blocks::new(if second { problem.parts.len() } else { 0 }, second, &law.q);
+        let blocks = Blocks::new(if wanted { problem.parts.len() } else { 0 }, wanted, &law.q);
         Self {
             work,
             law,
@@ -113,7 +114,7 @@ impl<'a, B: Bundle> Run<'a, B> {
                 if !state.is_sound() {
                     return false;
                 }
-                self.blocks.step(&self.stages, &self.work.problem.parts, self.work.want, dt / steps);
+                self.blocks.step(&self.stages, self.work.problem, self.work.want, dt / steps);
             }
             let Some(correction) = base::correct(&mut state, &frames[pair + 1], self.s2) else {
                 return false;

@@ -29,12 +29,12 @@ impl<B: Bundle> Tangent<B> {
     }
 
     #[inline(always)]
-    fn plus<const FULL: bool>(&self, rate: &Self, h: f64) -> Self {
+    fn plus<const DEPTH: u8>(&self, rate: &Self, h: f64) -> Self {
         let (mut sum, h) = (*self, B::splat(h));
         for i in 0..STATE {
             sum.m[i] += rate.m[i] * h;
         }
-        if FULL {
+        if DEPTH > depth::MEAN {
             for i in 0..PACKED {
                 sum.p[i] += rate.p[i] * h;
             }
@@ -46,19 +46,34 @@ impl<B: Bundle> Tangent<B> {
 /// `A dP + dA P`, rows of the shape.
 type Products<B> = [[B; STATE]; SHAPE];
 
+/// How much of the derivatives is carried.
+pub(crate) mod depth {
+    /// The mean alone: covariances are taken as fixed.
+    pub(crate) const MEAN: u8 = 0;
+    /// The covariance too, but not what the mean does to it.
+    pub(crate) const NOISE: u8 = 1;
+    /// Everything.
+    pub(crate) const ALL: u8 = 2;
+}
+
 /// `A dP + dA P`.
 #[inline(always)]
-fn products<B: Bundle>(stage: &Stage, forcing: &[f64], at: &Tangent<B>) -> Products<B> {
+fn products<B: Bundle, const DEPTH: u8>(stage: &Stage, forcing: &[f64], at: &Tangent<B>) -> Products<B> {
     let mut products = [[B::splat(0.0); STATE]; SHAPE];
     for i in 0..SHAPE {
         for k in 0..SHAPE {
-            let mut da = B::load(&forcing[(SHAPE + i * SHAPE + k) * B::LANES..]);
-            for l in 0..SHAPE {
-                da += at.m[l + 2] * B::splat(stage.values.hessian[i][k][l]);
-            }
             let a = B::splat(stage.values.jacobian[i][k]);
             for j in 0..STATE {
-                products[i][j] += a * at.p[AT[k + 2][j]] + da * B::splat(stage.p[k + 2][j]);
+                products[i][j] += a * at.p[AT[k + 2][j]];
+            }
+            if DEPTH == depth::ALL {
+                let mut da = B::load(&forcing[(SHAPE + i * SHAPE + k) * B::LANES..]);
+                for l in 0..SHAPE {
+                    da += at.m[l + 2] * B::splat(stage.values.hessian[i][k][l]);
+                }
+                for j in 0..STATE {
+                    products[i][j] += da * B::splat(stage.p[k + 2][j]);
+                }
             }
         }
     }
@@ -83,7 +98,7 @@ fn covariance_rate<B: Bundle>(products: &Products<B>, q: &[B; STATE], at: &Tange
 }
 
 #[inline(always)]
-fn rate<B: Bundle, const FULL: bool>(
+fn rate<B: Bundle, const DEPTH: u8>(
     stage: &Stage,
     forcing: &[f64],
     q: &[B; STATE],
@@ -99,27 +114,26 @@ fn rate<B: Bundle, const FULL: bool>(
         }
         rate.m[i + 2] = sum;
     }
-    if FULL {
-        covariance_rate(&products(stage, forcing, at), q, at, &mut rate);
+    if DEPTH > depth::MEAN {
+        covariance_rate(&products::<B, DEPTH>(stage, forcing, at), q, at, &mut rate);
     }
     rate
 }
 
-/// The derivatives after a step with these stages; `forcing` has [`FORCING`] bundles for each stage. Without `FULL` the covariance is
-/// taken as fixed.
+/// The derivatives after a step with these stages; `forcing` has [`FORCING`] bundles for each stage; `DEPTH` is one of [`depth`].
 #[inline(always)]
-pub(crate) fn step<B: Bundle, const FULL: bool>(
+pub(crate) fn step<B: Bundle, const DEPTH: u8>(
     tangent: &mut Tangent<B>,
     stages: &[Stage; 4],
     forcing: [&[f64]; 4],
     q: &[B; STATE],
     h: f64,
 ) {
-    let k1 = rate::<B, FULL>(&stages[0], forcing[0], q, tangent);
-    let k2 = rate::<B, FULL>(&stages[1], forcing[1], q, &tangent.plus::<FULL>(&k1, 0.5 * h));
-    let mut sum = tangent.plus::<FULL>(&k1, h / 6.0).plus::<FULL>(&k2, h / 3.0);
-    let k3 = rate::<B, FULL>(&stages[2], forcing[2], q, &tangent.plus::<FULL>(&k2, 0.5 * h));
-    sum = sum.plus::<FULL>(&k3, h / 3.0);
-    let k4 = rate::<B, FULL>(&stages[3], forcing[3], q, &tangent.plus::<FULL>(&k3, h));
-    *tangent = sum.plus::<FULL>(&k4, h / 6.0);
+    let k1 = rate::<B, DEPTH>(&stages[0], forcing[0], q, tangent);
+    let k2 = rate::<B, DEPTH>(&stages[1], forcing[1], q, &tangent.plus::<DEPTH>(&k1, 0.5 * h));
+    let mut sum = tangent.plus::<DEPTH>(&k1, h / 6.0).plus::<DEPTH>(&k2, h / 3.0);
+    let k3 = rate::<B, DEPTH>(&stages[2], forcing[2], q, &tangent.plus::<DEPTH>(&k2, 0.5 * h));
+    sum = sum.plus::<DEPTH>(&k3, h / 3.0);
+    let k4 = rate::<B, DEPTH>(&stages[3], forcing[3], q, &tangent.plus::<DEPTH>(&k3, h));
+    *tangent = sum.plus::<DEPTH>(&k4, h / 6.0);
 }

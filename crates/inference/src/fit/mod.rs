@@ -10,7 +10,7 @@ pub use likelihood::{Likelihood, Parameters, likelihood};
 pub use optimise::Ending;
 pub use result::{Coefficient, Estimate, Fit, Natural, Noise};
 
-use crate::filter::{Problem, Theta, evaluate};
+use crate::filter::{Problem, Theta};
 use crate::{Library, Result, Scales, Track, observation};
 use optimise::{Point, climb, polish, roughly};
 use serde::{Deserialize, Serialize};
@@ -49,7 +49,7 @@ pub fn fit(tracks: &[Track], settings: &Settings) -> Result<Fit> {
     let problem = problem(tracks, settings, &scales);
     let starts = starts(tracks, settings, &scales);
     let rough = best(starts.into_iter().map(|noise| roughly(&problem, &zero(&problem, noise))).collect());
-    Ok(finish(&problem, settings, scales, polish(&problem, &rough.theta)))
+    Ok(result::make(&problem, settings, scales, &polish(&problem, &rough.theta)))
 }
 
 /// Fits from given values of the coefficients and the noise (as [`Parameters`]) rather than from zero.
@@ -61,14 +61,14 @@ pub fn fit_from(tracks: &[Track], settings: &Settings, start: &Parameters) -> Re
     let scales = Scales::of(tracks);
     let problem = problem(tracks, settings, &scales);
     let theta = likelihood::natural(&problem, settings, &scales, start)?;
-    Ok(finish(&problem, settings, scales, polish(&problem, &theta)))
+    Ok(result::make(&problem, settings, scales, &polish(&problem, &theta)))
 }
 
 /// The better of two fits from given natural values: used where a fit is the neighbour of another one.
 pub(crate) fn refit(tracks: &[Track], settings: &Settings, scales: Scales, start: &Theta) -> Fit {
     let problem = problem(tracks, settings, &scales);
-    let rough = climb(&problem, start, crate::filter::Want::Rough, (0.5, 8));
-    finish(&problem, settings, scales, polish(&problem, &rough.theta))
+    let rough = climb(&problem, start, crate::filter::Want::Rough, (1.0, 8));
+    result::make(&problem, settings, scales, &polish(&problem, &rough.theta))
 }
 
 fn zero(problem: &Problem, noise: f64) -> Theta {
@@ -98,7 +98,3 @@ fn best(points: Vec<Point>) -> Point {
     }
 }
 
-fn finish(problem: &Problem, settings: &Settings, scales: Scales, point: Point) -> Fit {
-    let kept = evaluate(problem, &point.theta, crate::filter::Want::Exact, true);
-    result::make(problem, settings, scales, &point, &kept)
-}

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 /// Bounds of `ln s`, `ln eta_v` and `ln eta_shape` in natural units.
 const BOUNDS: [[f64; 2]; 3] = [[-4.6, 4.6], [-9.2, 2.3], [-9.2, 2.3]];
-/// Predicted gain of log-likelihood below which a fit has converged: a hundredth of a standard error.
-const CONVERGED: f64 = 5e-5;
+/// Predicted gain of log-likelihood below which a fit has converged: 0.02 standard errors.
+const CONVERGED: f64 = 2e-4;
 /// Largest step of a logarithm.
 const LONGEST_LOG_STEP: f64 = 1.2;
 
@@ -84,7 +84,8 @@ fn moved(theta: &Theta, mut step: Vec<f64>) -> Theta {
 
 /// Goes uphill from `theta` for at most `most` evaluations, until a step promises less than `enough`.
 pub(crate) fn climb(problem: &Problem, theta: &Theta, want: Want, (enough, most): (f64, usize)) -> Point {
-    let mut evaluation = evaluate(problem, theta, want, false);
+    let keep = want == Want::Exact;
+    let mut evaluation = evaluate(problem, theta, want, keep);
     let (mut theta, mut damping, mut evaluations) = (theta.clone(), 1e-3, 1);
     let stopped = |reason: &str| Ending::Stopped { reason: reason.to_owned() };
     let ending = loop {
@@ -102,7 +103,7 @@ pub(crate) fn climb(problem: &Problem, theta: &Theta, want: Want, (enough, most)
             break stopped(&format!("{most} evaluations were not enough"));
         }
         let next = moved(&theta, step);
-        let trial = evaluate(problem, &next, want, false);
+        let trial = evaluate(problem, &next, want, keep);
         evaluations += 1;
         if trial.value > evaluation.value {
             (theta, evaluation) = (next, trial);
@@ -115,12 +116,13 @@ pub(crate) fn climb(problem: &Problem, theta: &Theta, want: Want, (enough, most)
             damping = (10.0 * damping).max(1e-3);
         }
     };
+    if std::env::var("DBG").is_ok() { println!("{want:?} {evaluations} {ending:?} {}", evaluation.value); }
     Point { theta, evaluation, evaluations, ending }
 }
 
 /// From a start to the maximum: first roughly, then with exact derivatives.
 pub(crate) fn roughly(problem: &Problem, theta: &Theta) -> Point {
-    climb(problem, theta, Want::Rough, (0.5, 24))
+    climb(problem, theta, Want::Rough, (1.0, 24))
 }
 
 /// To the maximum with exact derivatives.

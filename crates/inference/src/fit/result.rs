@@ -2,7 +2,7 @@
 
 use super::optimise::{Ending, Point, at_bounds};
 use super::{Settings, covariance, likelihood};
-use crate::filter::{Evaluation, Problem, Theta};
+use crate::filter::{Problem, Theta};
 use crate::observation::OBSERVED;
 use crate::{Library, Scales, Term};
 use nalgebra::DMatrix;
@@ -137,9 +137,8 @@ pub(super) fn make(
     settings: &Settings,
     scales: Scales,
     point: &Point,
-    kept: &Evaluation,
 ) -> Fit {
-    let theta = &point.theta;
+    let (theta, kept) = (&point.theta, &point.evaluation);
     let mut held = vec![false; problem.len()];
     held[problem.parts.len()..].copy_from_slice(&at_bounds(theta));
     let covariance = covariance::inverse(&kept.information, &held);
