@@ -1,6 +1,6 @@
 //! What a fit found, in the units of the data.
 
-use super::optimise::{Ending, Point, at_bounds};
+use super::optimise::{Ending, Point, at_bounds, prior};
 use super::{Settings, covariance, likelihood};
 use crate::filter::{Problem, Theta};
 use crate::observation::OBSERVED;
@@ -156,7 +156,7 @@ pub(super) fn make(
         handed: settings.handed,
         coefficients: coefficients(problem, settings, &natural, &units),
         noise: noise(&natural, &scales, at_bounds(theta)),
-        log_likelihood: kept.value + problem.frames() as f64 * scales.log_density(),
+        log_likelihood: kept.value + prior(theta) + problem.frames() as f64 * scales.log_density(),
         frames: problem.frames(),
         ending: point.ending.clone(),
         scales,
