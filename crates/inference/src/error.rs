@@ -18,7 +18,9 @@ pub enum Error {
         least: usize,
     },
     /// Times that do not increase.
-    #[error("cell {cell}, frame {frame}: the time {t} does not follow {before}; sort the frames and leave out repeated ones")]
+    #[error(
+        "cell {cell}, frame {frame}: the time {t} does not follow {before}; sort the frames and leave out repeated ones"
+    )]
     Times {
         /// The cell, from 0.
         cell: usize,
@@ -42,7 +44,9 @@ pub enum Error {
         value: f64,
     },
     /// A covariance that is none.
-    #[error("cell {cell}, frame {frame}: the covariance is not symmetric and positive definite; give every coordinate an error above 0")]
+    #[error(
+        "cell {cell}, frame {frame}: the covariance is not symmetric and positive definite; give every coordinate an error above 0"
+    )]
     Covariance {
         /// The cell, from 0.
         cell: usize,

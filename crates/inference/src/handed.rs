@@ -1,8 +1,8 @@
 //! Whether left and right are different motions: real coefficients against complex ones.
 
 use crate::chi_square::chi_square_tail;
-use crate::fit::{problem, refit};
 use crate::filter::Theta;
+use crate::fit::{problem, refit};
 use crate::observation::OBSERVED;
 use crate::{Coefficient, Error, Fit, Result, Settings, Track, identifiability, observation};
 use serde::{Deserialize, Serialize};
@@ -51,7 +51,11 @@ pub struct Handedness {
 pub fn handedness(tracks: &[Track], fit: &Fit) -> Result<Handedness> {
     observation::check(tracks)?;
     if fit.handed {
-        return Err(Error::Setting { key: "handed", value: 1.0, remedy: "give a fit with real coefficients" });
+        return Err(Error::Setting {
+            key: "handed",
+            value: 1.0,
+            remedy: "give a fit with real coefficients",
+        });
     }
     let settings = Settings { library: fit.library.clone(), handed: true, starts: Vec::new() };
     let mut coefficients = fit.natural.coefficients.clone();
@@ -60,10 +64,12 @@ pub fn handedness(tracks: &[Track], fit: &Fit) -> Result<Handedness> {
     let start = Theta { coefficients, logs: fit.natural.logs };
     debug_assert_eq!(problem(tracks, &settings, &fit.scales).parts.len(), 2 * degrees, "parts");
     let near = refit(tracks, &settings, fit.scales, &start);
-    let far = refit(tracks, &settings, fit.scales, &Theta {
-        coefficients: vec![0.0; 2 * degrees],
-        logs: [0.0, libm::log(0.4), libm::log(0.4)],
-    });
+    let far = refit(
+        tracks,
+        &settings,
+        fit.scales,
+        &Theta { coefficients: vec![0.0; 2 * degrees], logs: [0.0, libm::log(0.4), libm::log(0.4)] },
+    );
     let handed = if far.log_likelihood > near.log_likelihood { far } else { near };
     Ok(compare(fit, handed, degrees))
 }

@@ -5,8 +5,8 @@
 //! is fixed where its standard error is below [`FIXED`], free where it is above [`FREE`].
 
 use crate::Fit;
-use crate::observation::OBSERVED;
 use crate::names::paper;
+use crate::observation::OBSERVED;
 use nalgebra::{DMatrix, SymmetricEigen};
 use serde::{Deserialize, Serialize};
 
@@ -113,6 +113,11 @@ pub fn identifiability(fit: &Fit) -> Identifiability {
             (LEAST_NUMBERS * parameters).div_ceil(OBSERVED)
         ));
     }
+    for (what, signal) in ["the speed", "z2", "z3"].iter().zip(fit.scales.signal) {
+        if signal < 1.0 {
+            reasons.push(format!("{what} does not exceed its errors of observation"));
+        }
+    }
     let names = unbounded(fit);
     if !names.is_empty() {
         reasons.push(format!("the data do not bound {}", names.join(", ")));
@@ -183,7 +188,11 @@ fn text(fit: &Fit, own: &[usize], factors: &[f64], (value, error): (f64, f64)) -
             (false, false) => " + ",
             (false, true) => " - ",
         };
-        let size = if (ratio.abs() - 1.0).abs() < 5e-3 { String::new() } else { format!("{} ", digits(ratio.abs())) };
+        let size = if (ratio.abs() - 1.0).abs() < 5e-3 {
+            String::new()
+        } else {
+            format!("{} ", digits(ratio.abs()))
+        };
         words += &format!("{sign}{size}{name}");
     }
     format!("{words} = {} +- {}", digits(value / unit), digits((error / unit).abs()))

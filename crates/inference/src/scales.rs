@@ -14,6 +14,8 @@ pub struct Scales {
     ///
     /// The contribution of measurement errors, as the covariances state them, is subtracted.
     pub amplitudes: [f64; 3],
+    /// Mean square of speed (from frame to frame), `z2` and `z3`, errors subtracted, over that of their errors: below 1 nothing is seen.
+    pub signal: [f64; 3],
 }
 
 /// Sums of squares over frames.
@@ -31,6 +33,11 @@ impl Squares {
         self.size += square - error;
         self.error += error;
         self.count += 1.0;
+    }
+
+    /// Mean square over that of the errors.
+    fn signal(&self) -> f64 {
+        if self.error > 0.0 { (self.size / self.error).max(0.0) } else { f64::MAX }
     }
 
     /// The mean, at least what errors leave of 0.
@@ -77,7 +84,8 @@ impl Scales {
         let rates: f64 = (0..2).map(|n| (rate[n] / pairs).max(0.0) / size[n].mean()).sum();
         let dt = tracks.iter().map(Track::interval).fold(f64::INFINITY, f64::min);
         let time = 1.0 / (0.5 * rates).sqrt().clamp(5.0 / duration, (2.0 / dt).max(5.0 / duration));
-        Self { time, amplitudes: [speed.mean(), size[0].mean(), size[1].mean()].map(f64::sqrt) }
+        let of = [speed, size[0], size[1]];
+        Self { time, amplitudes: of.map(|of| of.mean().sqrt()), signal: of.map(|of| of.signal()) }
     }
 
     /// What a coefficient in natural units is multiplied by to be one in the units of the data: `A_n / (T prod A_m^degree)`.

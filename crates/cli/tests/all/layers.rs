@@ -6,12 +6,13 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::process::Command;
 
 /// Each crate, and the crates below it that it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &[&str]); 19] = [
+const LAYERS: [(&str, &[&str]); 20] = [
     ("motiform-dynamics", &[]),
     ("motiform-models", &["motiform-dynamics"]),
     ("motiform-analysis", &["motiform-dynamics"]),
     ("motiform-continuation", &["motiform-analysis", "motiform-dynamics"]),
     ("motiform-statistics", &["motiform-analysis"]),
+    ("motiform-inference", &["motiform-dynamics", "motiform-models"]),
     ("motiform-kernels", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
     ("motiform-study", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
     ("motiform-files", &["motiform-dynamics", "motiform-models", "motiform-study"]),

@@ -139,7 +139,7 @@ impl Field {
         for entry in &self.products.second {
             let by = (c[entry.term] * values.scratch[entry.product]) * entry.factor;
             let sum = &mut sums[entry.equation][entry.by[0]][entry.by[1]];
-            *sum = *sum + by;
+            *sum += by;
         }
         for n in 0..SHAPE / 2 {
             let of = &sums[n];

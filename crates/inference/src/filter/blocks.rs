@@ -4,10 +4,10 @@ use super::STATE;
 use super::base::{Correction, Stage, State};
 use super::correct;
 use super::evaluate::Want;
+use super::problem::Problem;
 use super::sums::Sums;
 use super::tangent::{self, FORCING, Tangent, depth};
 use super::{AT, SEEN};
-use super::problem::Problem;
 use crate::field::{Field, Part, SHAPE};
 use motiform_dynamics::Bundle;
 

@@ -37,11 +37,6 @@ pub(crate) struct Theta {
 }
 
 impl Theta {
-    /// All parameters as one vector.
-    pub(crate) fn vector(&self) -> Vec<f64> {
-        self.coefficients.iter().chain(&self.logs).copied().collect()
-    }
-
     /// The parameters after a step.
     pub(crate) fn stepped(&self, step: &[f64]) -> Self {
         let n = self.coefficients.len();

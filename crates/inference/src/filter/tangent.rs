@@ -82,7 +82,12 @@ fn products<B: Bundle, const DEPTH: u8>(stage: &Stage, forcing: &[f64], at: &Tan
 
 /// Rates of the derivatives of the covariance.
 #[inline(always)]
-fn covariance_rate<B: Bundle>(products: &Products<B>, q: &[B; STATE], at: &Tangent<B>, rate: &mut Tangent<B>) {
+fn covariance_rate<B: Bundle>(
+    products: &Products<B>,
+    q: &[B; STATE],
+    at: &Tangent<B>,
+    rate: &mut Tangent<B>,
+) {
     let p = &at.p;
     rate.p[AT[0][0]] = p[AT[0][2]] + p[AT[0][2]];
     rate.p[AT[0][1]] = p[AT[1][2]] - p[AT[0][3]];

@@ -40,7 +40,11 @@ pub(super) fn natural(
     let units = units(problem, settings, scales);
     if at.coefficients.len() != units.len() {
         let value = at.coefficients.len() as f64;
-        return Err(Error::Setting { key: "coefficients", value, remedy: "give one for every term and part" });
+        return Err(Error::Setting {
+            key: "coefficients",
+            value,
+            remedy: "give one for every term and part",
+        });
     }
     let noise = scales.noise();
     let positive = [("s", at.s), ("eta_v", at.eta_v), ("eta_shape", at.eta_shape)];

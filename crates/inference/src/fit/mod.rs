@@ -10,11 +10,11 @@ pub use likelihood::{Likelihood, Parameters, likelihood};
 pub use optimise::Ending;
 pub use result::{Coefficient, Estimate, Fit, Natural, Noise};
 
-use crate::filter::{Problem, Theta};
+use crate::filter::{Problem, Theta, Want};
 use crate::{Library, Result, Scales, Track, observation};
 use optimise::{Point, climb, polish, roughly};
 use serde::{Deserialize, Serialize};
-pub(crate) use setup::problem;
+pub(crate) use setup::{check_library, problem};
 
 /// What is fitted, and how.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,10 +64,13 @@ pub fn fit_from(tracks: &[Track], settings: &Settings, start: &Parameters) -> Re
     Ok(result::make(&problem, settings, scales, &polish(&problem, &theta)))
 }
 
-/// The better of two fits from given natural values: used where a fit is the neighbour of another one.
+/// Fits from given natural values: used where a fit is the neighbour of another one. Where the filter diverges there, from zero.
 pub(crate) fn refit(tracks: &[Track], settings: &Settings, scales: Scales, start: &Theta) -> Fit {
     let problem = problem(tracks, settings, &scales);
-    let rough = climb(&problem, start, crate::filter::Want::Rough, (1.0, 8));
+    let mut rough = climb(&problem, start, Want::Rough, (1.0, 8));
+    if !rough.evaluation.value.is_finite() {
+        rough = roughly(&problem, &zero(&problem, 0.4));
+    }
     result::make(&problem, settings, scales, &polish(&problem, &rough.theta))
 }
 
@@ -97,4 +100,3 @@ fn best(points: Vec<Point>) -> Point {
         None => unreachable!("there is at least one start"),
     }
 }
-

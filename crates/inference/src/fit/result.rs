@@ -132,12 +132,7 @@ fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
     (0..matrix.nrows()).map(|i| matrix.row(i).iter().copied().collect()).collect()
 }
 
-pub(super) fn make(
-    problem: &Problem,
-    settings: &Settings,
-    scales: Scales,
-    point: &Point,
-) -> Fit {
+pub(super) fn make(problem: &Problem, settings: &Settings, scales: Scales, point: &Point) -> Fit {
     let (theta, kept) = (&point.theta, &point.evaluation);
     let mut held = vec![false; problem.len()];
     held[problem.parts.len()..].copy_from_slice(&at_bounds(theta));

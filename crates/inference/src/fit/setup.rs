@@ -1,19 +1,25 @@
 //! From tracks and settings to a problem in natural units.
 
 use super::Settings;
-use crate::filter::Problem;
 use crate::field::Field;
-use crate::{Error, Result, Scales, Track};
+use crate::filter::Problem;
+use crate::{Error, Library, Result, Scales, Track};
+
+/// Checks that the filter can take a library.
+pub(crate) fn check_library(library: &Library) -> Result<()> {
+    if library.modes != 3 {
+        let value = library.modes as f64;
+        return Err(Error::Setting { key: "modes", value, remedy: "the filter takes three modes" });
+    }
+    if library.terms.is_empty() {
+        return Err(Error::Setting { key: "terms", value: 0.0, remedy: "give at least one term" });
+    }
+    Ok(())
+}
 
 /// Checks the settings.
 pub(super) fn check(settings: &Settings) -> Result<()> {
-    let modes = settings.library.modes as f64;
-    if settings.library.modes != 3 {
-        return Err(Error::Setting { key: "modes", value: modes, remedy: "the filter takes three modes" });
-    }
-    if settings.library.terms.is_empty() {
-        return Err(Error::Setting { key: "terms", value: 0.0, remedy: "give at least one term" });
-    }
+    check_library(&settings.library)?;
     match settings.starts.iter().find(|start| !(1e-4..=10.0).contains(*start)) {
         Some(&value) => Err(Error::Setting { key: "starts", value, remedy: "give 1e-4 to 10" }),
         None => Ok(()),

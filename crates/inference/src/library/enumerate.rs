@@ -11,13 +11,18 @@ pub(super) fn covariant(modes: usize, order: u32) -> Vec<Term> {
     let mut terms = Vec::new();
     for equation in 0..modes {
         let of = all.iter().map(|&powers| Term { equation, powers });
-        terms.extend(of.filter(|term| term.angular_index() == equation as i32 + 1));
+        terms.extend(of.filter(Term::is_covariant));
     }
     terms
 }
 
 /// Adds the products of `left` more factors among `z1, conj(z1), z2, ..` from factor `from` on.
-fn extend(all: &mut Vec<[[u8; 2]; MOST_MODES]>, powers: [[u8; 2]; MOST_MODES], range: (usize, usize), left: u32) {
+fn extend(
+    all: &mut Vec<[[u8; 2]; MOST_MODES]>,
+    powers: [[u8; 2]; MOST_MODES],
+    range: (usize, usize),
+    left: u32,
+) {
     if left == 0 {
         all.push(powers);
         return;

@@ -33,8 +33,14 @@ impl Term {
     /// How it turns with the plane: `sum_m m (power of z_m - power of conj(z_m))`.
     #[must_use]
     pub fn angular_index(&self) -> i32 {
-        let turns = |(m, &[z, conj]): (usize, &[u8; 2])| (m as i32 + 1) * (i32::from(z) - i32::from(conj));
-        self.powers.iter().enumerate().map(turns).sum()
+        let turns = |(m, &[z, conj]): (i32, &[u8; 2])| m * (i32::from(z) - i32::from(conj));
+        (1..).zip(&self.powers).map(turns).sum()
+    }
+
+    /// Whether it turns as the amplitude of its equation does.
+    #[must_use]
+    pub fn is_covariant(&self) -> bool {
+        usize::try_from(self.angular_index()) == Ok(self.equation + 1)
     }
 
     /// As people write it, with its equation: `z1: z1* z2`, `z2: |z2|^2 z2`; a star is the complex conjugate.

@@ -13,7 +13,7 @@ use crate::filter::Theta;
 use crate::fit::refit;
 use crate::observation::OBSERVED;
 use crate::{Fit, Library, Result, Settings, Track, observation};
-use conditional::Conditional;
+pub(crate) use conditional::Conditional;
 use search::{Choice, search};
 use serde::{Deserialize, Serialize};
 
@@ -87,7 +87,8 @@ pub fn subsets(fit: &Fit) -> Subsets {
     for _round in 0..8 {
         let before = dropped.clone();
         for n in 0..equations.len() {
-            let others: Vec<usize> = (0..equations.len()).filter(|&m| m != n).flat_map(|m| dropped[m].clone()).collect();
+            let others: Vec<usize> =
+                (0..equations.len()).filter(|&m| m != n).flat_map(|m| dropped[m].clone()).collect();
             let mut rest = whole.clone();
             others.iter().for_each(|&i| rest.drop(i));
             let found = search(&rest, &equations[n], penalty);
@@ -123,8 +124,13 @@ fn joint(fit: &Fit, whole: &Conditional, choices: &[Vec<Choice>], penalty: f64) 
         dropped.iter().for_each(|&i| rest.drop(i));
         rest.cost - penalty * dropped.len() as f64
     };
-    let mut scored: Vec<(Vec<usize>, f64)> =
-        partial.into_iter().map(|(dropped, _)| { let s = score(&dropped); (dropped, s) }).collect();
+    let mut scored: Vec<(Vec<usize>, f64)> = partial
+        .into_iter()
+        .map(|(dropped, _)| {
+            let s = score(&dropped);
+            (dropped, s)
+        })
+        .collect();
     scored.sort_by(|a, b| a.1.total_cmp(&b.1));
     let best = scored.first().map_or(0.0, |(_, score)| *score);
     let ties = scored.into_iter().take_while(|(_, score)| score - best <= TIE).take(MOST_TIES);

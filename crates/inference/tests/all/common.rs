@@ -48,7 +48,7 @@ pub(crate) fn rates(equations: &Equations, z: &[Complex<f64>; 3]) -> [Complex<f6
             let z = z[factor.unsigned_abs() as usize - 1];
             product = product * if factor > 0 { z } else { z.conj() };
         }
-        rates[equation - 1] = rates[equation - 1] + product;
+        rates[equation - 1] += product;
     }
     rates
 }
@@ -73,6 +73,7 @@ pub(crate) struct Experiment {
 pub(crate) const VERTEX_NOISE: [f64; 2] = [0.02 * 0.204_124_145, 0.02 * 0.102_062_073]; // sigma sqrt(2/48), sigma/sqrt(2 48)
 
 impl Experiment {
+    /// `eta` on each component of the velocity and of the tensors S and U: half of it on `z2` and `z3`.
     pub(crate) fn new(equations: Equations, eta: f64, seed: u64) -> Self {
         let start = [Complex::new(0.5, -0.3), Complex::new(-0.1, 0.05), Complex::new(0.02, 0.03)];
         let (interval, frames) = (0.5, 1000);
@@ -82,7 +83,7 @@ impl Experiment {
             transient: 100.0,
             interval,
             frames,
-            eta: [eta; 2],
+            eta: [eta, 0.5 * eta],
             errors: VERTEX_NOISE,
             seed,
         }

@@ -18,7 +18,7 @@ fn field(library: &Library, c: &[Complex<f64>], u: &[f64]) -> Vec<(Complex<f64>,
             (0..conj).for_each(|_| product = product * amplitude.conj());
         }
         let (rate, size) = &mut rates[term.equation];
-        *rate = *rate + product;
+        *rate += product;
         *size += libm::hypot(product.re, product.im);
     }
     rates
@@ -58,7 +58,7 @@ fn the_papers_parameters() {
     let p = TensorParameters { a2: 0.3, a3: -0.2, b3: 0.7, d6: 0.4, ..TensorParameters::full(0.5, 0.1) };
     let fields = FourierField::<f64>::all((&p).into());
     let library = Library::tensor();
-    let mut definition = equations(&library, false, &vec![0.0; 22]);
+    let mut definition = equations(&library, false, &[0.0; 22]);
     let values = [
         ("gamma", p.gamma),
         ("kappa2", p.kappa2),

@@ -66,7 +66,7 @@ fn figures(runs: u64, experiment: impl Fn(u64) -> Experiment) -> [f64; 5] {
         share(&|o| f64::from(u8::from(o.exact))),
         share(&|o| f64::from(u8::from(o.tied))),
     ];
-    println!("median error, coverage (all, true terms), exact, among ties: {found:.4?}");
+    println!("{runs} runs: median error, coverage (all, true terms), exact, among ties: {found:.4?}");
     found
 }
 
@@ -80,23 +80,4 @@ fn chaotic() {
 #[ignore = "a minute: figures in docs/inference.md"]
 fn zigzag() {
     figures(60, |seed| Experiment::new(full(0.9, 0.1), 0.02, 500 + seed));
-}
-
-#[test]
-#[ignore = "scratch"]
-fn scratch() {
-    for eta in [0.01, 0.02] {
-    for seed in 0..8 {
-        let experiment = Experiment::new(full(0.9, 0.1), eta, 500 + seed);
-        let tracks = [experiment.track()];
-        let whole = fit(&tracks, &Settings::default()).unwrap();
-        let selection = select(&tracks, &whole).unwrap();
-        let library = Library::tensor().select(&FULL).unwrap();
-        let truth = fit(&tracks, &Settings { library, ..Settings::default() }).unwrap();
-        let best = &selection.subsets.best().unwrap().names;
-        let missing: Vec<_> = FULL.iter().filter(|n| !best.contains(&(**n).to_owned())).map(|n| (*n, truth.coefficient(n).unwrap().estimate.value/truth.coefficient(n).unwrap().estimate.error, whole.coefficient(n).unwrap().estimate.value/whole.coefficient(n).unwrap().estimate.error)).collect();
-        let extra: Vec<_> = best.iter().filter(|n| !FULL.contains(&n.as_str())).collect();
-        println!("eta {eta} {} {} missing {missing:.1?} extra {extra:?}", best.len(), selection.subsets.ties.len());
-        println!("  loglik full {:.2} selected {:.2} truth {:.2}; 2dl sel {:.2} truth {:.2} start true {:.2}", whole.log_likelihood, selection.fit.log_likelihood, truth.log_likelihood, 2.0*(whole.log_likelihood-selection.fit.log_likelihood), 2.0*(whole.log_likelihood-truth.log_likelihood), whole.scales.time);
-    }}
 }

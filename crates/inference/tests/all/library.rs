@@ -5,23 +5,21 @@
 use motiform_inference::Library;
 
 /// Number of exponents with total order up to `order` and angular index `n`: a polynomial in two counters, multiplied out.
-fn count(modes: usize, order: usize, n: i32) -> usize {
-    let (size, middle) = (2 * 4 * 5 + 1, 4 * 5_i32);
+fn count(modes: usize, order: usize, n: usize) -> usize {
+    let middle = 4 * 5;
     // ways[o][i]: monomials of order o and index i - middle
-    let mut ways = vec![vec![0_usize; size]; order + 1];
-    ways[0][middle as usize] = 1;
+    let mut ways = vec![vec![0_usize; 2 * middle + 1]; order + 1];
+    ways[0][middle] = 1;
     for factor in 0..2 * modes {
-        let turn = (factor as i32 / 2 + 1) * if factor % 2 == 0 { 1 } else { -1 };
+        let turn = factor / 2 + 1;
         for o in 1..=order {
-            for i in 0..size {
-                let before = i as i32 - turn;
-                if (0..size as i32).contains(&before) {
-                    ways[o][i] += ways[o - 1][before as usize];
-                }
+            for i in 0..ways[o].len() {
+                let before = if factor % 2 == 0 { i.checked_sub(turn) } else { Some(i + turn) };
+                ways[o][i] += before.and_then(|before| ways[o - 1].get(before)).copied().unwrap_or(0);
             }
         }
     }
-    (1..=order).map(|o| ways[o][(n + middle) as usize]).sum()
+    (1..=order).map(|o| ways[o][n + middle]).sum()
 }
 
 #[test]
@@ -32,7 +30,7 @@ fn counts() {
         let library = Library::new(modes, order).unwrap();
         for (equation, &expected) in counts.iter().enumerate() {
             assert_eq!(library.of_equation(equation).len(), expected, "{modes} {order} {equation}");
-            assert_eq!(count(modes, order as usize, equation as i32 + 1), expected);
+            assert_eq!(count(modes, order as usize, equation + 1), expected);
         }
         let mut names = library.names();
         names.sort();

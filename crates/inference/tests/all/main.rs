@@ -7,3 +7,6 @@ mod fit;
 mod handed;
 mod identifiability;
 mod library;
+mod place;
+mod warnings;
+mod weak;
