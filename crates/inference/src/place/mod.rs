@@ -50,7 +50,7 @@ pub struct Coordinate {
 pub struct Place {
     /// The plane.
     pub plane: Plane,
-    /// T, V, L2, L3 in the units of the data.
+    /// T, V, L2, L3 in the units of the data; `L2` and `L3` have the signs that give e11 and e22 those of the plane.
     pub units: [f64; 4],
     /// Kappa2 and kappa3 (full), or kappa2 and gamma (reduced).
     pub coordinates: [Coordinate; 2],
@@ -117,7 +117,24 @@ fn obstacles(fit: &Fit, plane: Plane) -> Vec<String> {
     if plane == Plane::Full && of("z3: z1 z2") * of("z2: z1* z3") < 0.0 {
         reasons.push("e22 and e32 have opposite signs: no unit of z3 puts them on this plane".to_owned());
     }
+    if plane == Plane::Reduced {
+        if of("z1: z1* z2") * of("z2: z1^2") > 0.0 {
+            reasons.push("a1 b1 is below 0: the plane is that of a1 b1 = 0.5".to_owned());
+        }
+        reasons.extend(third_mode(fit));
+    }
     reasons
+}
+
+/// Terms with `z3` in the other equations: the reduced plane has none.
+fn third_mode(fit: &Fit) -> Option<String> {
+    let couples = |c: &&crate::Coefficient| {
+        let certain = c.estimate.value.abs() > CERTAIN * c.estimate.error;
+        c.term.equation < 2 && c.term.degree(2) > 0 && certain
+    };
+    let names: Vec<String> = fit.coefficients.iter().filter(couples).map(|c| c.name.clone()).collect();
+    let reason = || format!("the reduced plane has no z3, the cell has {}", names.join(", "));
+    (!names.is_empty()).then(reason)
 }
 
 /// Everything with errors: derivatives by differences of a hundredth of a standard error.
@@ -152,7 +169,7 @@ fn with_errors(fit: &Fit, plane: Plane, values: &[f64], found: &Scaled) -> Place
     let others: Vec<Coordinate> = (2..numbers.len()).map(coordinate).collect();
     let off = |c: &Coordinate| c.estimate.value - c.slice.unwrap_or(0.0);
     let deviation =
-        |c: &Coordinate| if c.estimate.error > 0.0 { off(c).abs() / c.estimate.error } else { 0.0 };
+        |c: &Coordinate| if c.estimate.error > 1e-9 { off(c).abs() / c.estimate.error } else { 0.0 };
     let between = |i: usize, j: usize| gradients[i].dot(&(&covariance * &gradients[j]));
     Place {
         plane,

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
 use crate::common::{Experiment, FULL, full};
+use motiform_dynamics::Complex;
 use motiform_inference::{
     Library, Observation, Placement, Plane, Settings, Track, fit, place, place_among, select,
 };
@@ -52,6 +53,40 @@ fn in_any_units() {
             );
         }
         before = Some(values);
+    }
+}
+
+/// Fig. 3 of the paper (quasi-periodic), reduced model; and its mirror image in z2, which is the same motion.
+#[test]
+fn reduced_plane() {
+    let term = |equation, c: f64, factors: &[i32]| (equation, Complex::new(c, 0.0), factors.to_vec());
+    for sign in [1.0, -1.0] {
+        let equations = vec![
+            term(1, 0.02, &[1]),
+            term(1, -2.0 * sign, &[-1, 2]),
+            term(1, -1.0, &[1, 1, -1]),
+            term(2, 0.06, &[2]),
+            term(2, 0.125 * sign, &[1, 1]),
+            term(2, -8.0, &[2, 2, -2]),
+            term(3, -1.0, &[3]),
+        ];
+        let mut experiment = Experiment::new(equations, 0.002, 3);
+        experiment.start = [0.1, 0.05, 0.0].map(|x| Complex::new(x, 0.3 * x));
+        experiment.interval = 1.0;
+        experiment.frames = 600;
+        experiment.errors = [0.001, 0.0005];
+        let tracks = [experiment.track()];
+        let whole = fit(&tracks, &Settings::default()).unwrap();
+        let selection = select(&tracks, &whole).unwrap();
+        let answer = place_among(&whole, &selection, Plane::Reduced);
+        let Placement::Placed(placed) = answer else { panic!("{answer:?}") };
+        for (coordinate, truth) in placed.coordinates.iter().zip([-0.06, 0.02]) {
+            println!("{coordinate:?}");
+            let estimate = coordinate.estimate;
+            assert!((estimate.value - truth).abs() < 3.5 * estimate.error, "{coordinate:?}");
+        }
+        assert!(placed.units[2] * sign > 0.0 && placed.deviation < 3.5, "{placed:?}");
+        assert!(matches!(place_among(&whole, &selection, Plane::Full), Placement::Refused { .. }));
     }
 }
 
