@@ -12,6 +12,7 @@ const LAYERS: [(&str, &[&str]); 20] = [
     ("motiform-analysis", &["motiform-dynamics"]),
     ("motiform-continuation", &["motiform-analysis", "motiform-dynamics"]),
     ("motiform-statistics", &["motiform-analysis"]),
+    ("motiform-inference", &["motiform-dynamics", "motiform-models"]),
     ("motiform-kernels", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
     ("motiform-study", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
     ("motiform-files", &["motiform-dynamics", "motiform-models", "motiform-study"]),

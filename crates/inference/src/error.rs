@@ -1,0 +1,77 @@
+//! Input that no model can be fitted to.
+
+/// Observations or settings that cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// No cell.
+    #[error("there is no cell to fit: give at least one track")]
+    NoCell,
+    /// Too few frames.
+    #[error("cell {cell} has {frames} frames, fewer than {least}: track longer")]
+    TooShort {
+        /// The cell, from 0.
+        cell: usize,
+        /// Its frames.
+        frames: usize,
+        /// The fewest that are enough.
+        least: usize,
+    },
+    /// Times that do not increase.
+    #[error(
+        "cell {cell}, frame {frame}: the time {t} does not follow {before}; sort the frames and leave out repeated ones"
+    )]
+    Times {
+        /// The cell, from 0.
+        cell: usize,
+        /// The frame, from 0.
+        frame: usize,
+        /// Its time.
+        t: f64,
+        /// The time of the frame before.
+        before: f64,
+    },
+    /// A number that is none.
+    #[error("cell {cell}, frame {frame}: {what} is {value}; leave such frames out")]
+    NotFinite {
+        /// The cell, from 0.
+        cell: usize,
+        /// The frame, from 0.
+        frame: usize,
+        /// What it is.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A covariance that is none.
+    #[error(
+        "cell {cell}, frame {frame}: the covariance is not symmetric and positive definite; give every coordinate an error above 0"
+    )]
+    Covariance {
+        /// The cell, from 0.
+        cell: usize,
+        /// The frame, from 0.
+        frame: usize,
+    },
+    /// No such term.
+    #[error("unknown term {name:?}: choose among {}", .known.join("; "))]
+    Term {
+        /// The name.
+        name: String,
+        /// The known ones.
+        known: Vec<String>,
+    },
+    /// A setting out of its range.
+    #[error("{key} = {value}: {remedy}")]
+    Setting {
+        /// The key.
+        key: &'static str,
+        /// Its value.
+        value: f64,
+        /// What to give.
+        remedy: &'static str,
+    },
+}
+
+/// Result of this crate's functions.
+pub type Result<T> = std::result::Result<T, Error>;

@@ -1,0 +1,213 @@
+//! Mean and covariance, over plain numbers: the steps that everything else is a derivative of.
+
+use super::{Covariance, Frame, SEEN, STATE};
+use crate::field::{Field, SHAPE, Values};
+use crate::linear::{cholesky, invert_lower};
+use crate::observation::OBSERVED;
+use motiform_dynamics::Complex;
+
+/// Mean and covariance of the state.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct State {
+    pub(crate) m: [f64; STATE],
+    pub(crate) p: Covariance,
+}
+
+/// A stage of a Runge-Kutta step: the covariance and the field there.
+#[derive(Clone, Debug)]
+pub(crate) struct Stage {
+    pub(crate) p: Covariance,
+    pub(crate) values: Values,
+}
+
+/// The coefficients and the noise that a step is made with.
+pub(crate) struct Law<'a> {
+    pub(crate) field: &'a Field,
+    pub(crate) c: &'a [Complex<f64>],
+    pub(crate) q: [f64; STATE],
+    /// Whether the stages need second derivatives.
+    pub(crate) second: bool,
+}
+
+/// Where the filter begins: the first frame, and a velocity from the first two with generous errors.
+///
+/// The covariance of the observed entries is `s^2 R`: its derivative by `ln s` is twice that.
+pub(crate) fn start(first: &Frame, second: &Frame, s2: f64) -> State {
+    let dt = second.t - first.t;
+    let mut state = State { m: [0.0; STATE], p: [[0.0; STATE]; STATE] };
+    for (i, &seen) in SEEN.iter().enumerate() {
+        state.m[seen] = first.y[i];
+        for (j, &other) in SEEN.iter().enumerate() {
+            state.p[seen][other] = s2 * first.covariance[i][j];
+        }
+    }
+    for i in 0..2 {
+        let sign = if i == 0 { 1.0 } else { -1.0 };
+        state.m[2 + i] = sign * (second.y[i] - first.y[i]) / dt;
+        let errors = (first.covariance[i][i] + second.covariance[i][i]) / (dt * dt);
+        state.p[2 + i][2 + i] = 4.0 * errors + (dt * dt).min(1.0) + 0.01;
+    }
+    state
+}
+
+impl Law<'_> {
+    /// Rates of mean and covariance at `at`, which become a stage.
+    #[inline(always)]
+    fn rate(&self, at: &State, stage: &mut Stage) -> State {
+        let mut shape = [0.0; SHAPE];
+        shape.copy_from_slice(&at.m[2..]);
+        self.field.evaluate(self.c, &shape, self.second, &mut stage.values);
+        stage.p = at.p;
+        let a = &stage.values.jacobian;
+        let mut product = [[0.0; STATE]; STATE]; // A P
+        for j in 0..STATE {
+            product[0][j] = at.p[2][j];
+            product[1][j] = -at.p[3][j];
+        }
+        for i in 0..SHAPE {
+            for k in 0..SHAPE {
+                for j in 0..STATE {
+                    product[i + 2][j] += a[i][k] * at.p[k + 2][j];
+                }
+            }
+        }
+        let mut rate = State { m: [at.m[2], -at.m[3], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], p: product };
+        rate.m[2..].copy_from_slice(&stage.values.rate);
+        for i in 0..STATE {
+            for j in 0..STATE {
+                rate.p[i][j] += product[j][i];
+            }
+            rate.p[i][i] += self.q[i];
+        }
+        rate
+    }
+
+    /// One step of the classical Runge-Kutta method; the stages are kept.
+    #[inline(always)]
+    pub(crate) fn step(&self, state: &mut State, h: f64, stages: &mut [Stage; 4]) {
+        let k1 = self.rate(state, &mut stages[0]);
+        let k2 = self.rate(&state.plus(&k1, 0.5 * h), &mut stages[1]);
+        let k3 = self.rate(&state.plus(&k2, 0.5 * h), &mut stages[2]);
+        let k4 = self.rate(&state.plus(&k3, h), &mut stages[3]);
+        let sum = state.plus(&k1, h / 6.0).plus(&k2, h / 3.0);
+        *state = sum.plus(&k3, h / 3.0).plus(&k4, h / 6.0);
+    }
+}
+
+impl State {
+    #[inline(always)]
+    fn plus(&self, rate: &Self, h: f64) -> Self {
+        let mut sum = *self;
+        for i in 0..STATE {
+            sum.m[i] += h * rate.m[i];
+            for j in 0..STATE {
+                sum.p[i][j] += h * rate.p[i][j];
+            }
+        }
+        sum
+    }
+
+    /// Whether it can be gone on with: finite, and not far beyond natural units.
+    #[inline(always)]
+    pub(crate) fn is_sound(&self) -> bool {
+        let mut sound = true;
+        for i in 0..STATE {
+            sound &= (i < 2 || self.m[i].abs() < 1e3) && self.p[i][i] < 1e6;
+        }
+        sound
+    }
+}
+
+/// What a frame says, and what became of the state.
+#[derive(Clone, Debug)]
+pub(crate) struct Correction {
+    /// `L^-1`, with `L L^T = S`.
+    pub(crate) whiten: [[f64; OBSERVED]; OBSERVED],
+    /// `L^-1 nu`: independent standard normal deviates, if the model is right.
+    pub(crate) standardised: [f64; OBSERVED],
+    /// `S^-1 nu`.
+    pub(crate) weighted: [f64; OBSERVED],
+    /// `K`.
+    pub(crate) gain: [[f64; OBSERVED]; STATE],
+    /// `s^2 R`.
+    pub(crate) noise: [[f64; OBSERVED]; OBSERVED],
+    /// `-(nu^T S^-1 nu + ln det S + 6 ln 2 pi)/2`.
+    pub(crate) value: f64,
+}
+
+/// The state after a frame; `None` if the covariance has lost its meaning.
+pub(crate) fn correct(state: &mut State, frame: &Frame, s2: f64) -> Option<Correction> {
+    let noise = frame.covariance.map(|row| row.map(|x| s2 * x));
+    let mut s = noise;
+    for i in 0..OBSERVED {
+        for j in 0..OBSERVED {
+            s[i][j] += state.p[SEEN[i]][SEEN[j]];
+        }
+    }
+    let l = cholesky(&s)?;
+    let whiten = invert_lower(&l);
+    let nu: [f64; OBSERVED] = std::array::from_fn(|i| frame.y[i] - state.m[SEEN[i]]);
+    let standardised: [f64; OBSERVED] =
+        std::array::from_fn(|i| (0..=i).map(|j| whiten[i][j] * nu[j]).sum::<f64>());
+    let weighted = std::array::from_fn(|j| (j..OBSERVED).map(|i| whiten[i][j] * standardised[i]).sum());
+    let gain = gain(state, &whiten);
+    let squares: f64 = standardised.iter().map(|e| e * e).sum();
+    let determinant: f64 = (0..OBSERVED).map(|i| 2.0 * libm::log(l[i][i])).sum();
+    let value = -0.5 * (squares + determinant + OBSERVED as f64 * libm::log(std::f64::consts::TAU));
+    let correction = Correction { whiten, standardised, weighted, gain, noise, value };
+    correction.apply(state, &nu);
+    Some(correction)
+}
+
+fn gain(state: &State, whiten: &[[f64; OBSERVED]; OBSERVED]) -> [[f64; OBSERVED]; STATE] {
+    let mut gain = [[0.0; OBSERVED]; STATE];
+    for (row, p) in gain.iter_mut().zip(&state.p) {
+        let half: [f64; OBSERVED] =
+            std::array::from_fn(|i| (0..=i).map(|j| whiten[i][j] * p[SEEN[j]]).sum::<f64>());
+        for j in 0..OBSERVED {
+            row[j] = (j..OBSERVED).map(|i| whiten[i][j] * half[i]).sum();
+        }
+    }
+    gain
+}
+
+impl Correction {
+    /// `I - K H`.
+    fn kept(&self) -> Covariance {
+        let mut kept = [[0.0; STATE]; STATE];
+        for i in 0..STATE {
+            kept[i][i] = 1.0;
+            for (j, &seen) in SEEN.iter().enumerate() {
+                kept[i][seen] -= self.gain[i][j];
+            }
+        }
+        kept
+    }
+
+    fn apply(&self, state: &mut State, nu: &[f64; OBSERVED]) {
+        let kept = self.kept();
+        let mut half = [[0.0; STATE]; STATE];
+        let mut noise = [[0.0; OBSERVED]; STATE];
+        for i in 0..STATE {
+            state.m[i] += (0..OBSERVED).map(|j| self.gain[i][j] * nu[j]).sum::<f64>();
+            for k in 0..STATE {
+                for j in 0..STATE {
+                    half[i][j] += kept[i][k] * state.p[k][j];
+                }
+            }
+            for k in 0..OBSERVED {
+                for j in 0..OBSERVED {
+                    noise[i][j] += self.gain[i][k] * self.noise[k][j];
+                }
+            }
+        }
+        for i in 0..STATE {
+            for j in 0..=i {
+                let from: f64 = (0..STATE).map(|k| half[i][k] * kept[j][k]).sum();
+                let added: f64 = (0..OBSERVED).map(|k| noise[i][k] * self.gain[j][k]).sum();
+                state.p[i][j] = from + added;
+                state.p[j][i] = from + added;
+            }
+        }
+    }
+}

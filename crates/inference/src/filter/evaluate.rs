@@ -1,0 +1,169 @@
+//! The likelihood of all frames, and what it says about the parameters.
+
+use super::base::{self, Correction, Law, Stage};
+use super::blocks::Blocks;
+use super::problem::{Frame, Problem, Theta};
+use super::sums::Sums;
+use super::{LONGEST_STEP, STATE};
+use crate::field::Values;
+use crate::observation::OBSERVED;
+use motiform_dynamics::simd::{LaneKernel, run_lanes};
+use motiform_dynamics::{Bundle, Complex};
+use nalgebra::{DMatrix, DVector};
+
+/// How much is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Want {
+    /// The likelihood alone.
+    Value,
+    /// Derivatives by the coefficients with the covariances taken as fixed, for first steps: a quarter of the work.
+    Rough,
+    /// Exact derivatives.
+    Exact,
+}
+
+/// The likelihood at some values of the parameters.
+#[derive(Clone, Debug)]
+pub(crate) struct Evaluation {
+    /// Log-likelihood; minus infinity where the filter diverges.
+    pub(crate) value: f64,
+    /// Its gradient, in the order of [`Theta::vector`].
+    pub(crate) gradient: DVector<f64>,
+    /// Expected (Fisher) information.
+    pub(crate) information: DMatrix<f64>,
+    /// Standardised innovations of each frame, if kept; stretches in turn.
+    pub(crate) innovations: Vec<Vec<[f64; OBSERVED]>>,
+    /// Gradient of each frame's log-likelihood, if kept.
+    pub(crate) scores: Vec<Vec<DVector<f64>>>,
+}
+
+/// Evaluates the likelihood; innovations and scores of frames are kept if `keep`.
+pub(crate) fn evaluate(problem: &Problem, theta: &Theta, want: Want, keep: bool) -> Evaluation {
+    run_lanes(Work { problem, theta, want, keep })
+}
+
+struct Work<'a> {
+    problem: &'a Problem,
+    theta: &'a Theta,
+    want: Want,
+    keep: bool,
+}
+
+impl LaneKernel for Work<'_> {
+    type Output = Evaluation;
+
+    #[inline(always)]
+    fn run<B: Bundle>(self) -> Evaluation {
+        let c = self.problem.complex(self.theta);
+        let mut run = Run::<B>::new(&self, &c);
+        let mut sound = true;
+        for stretch in &self.problem.stretches {
+            sound = sound && run.stretch(stretch);
+        }
+        run.finish(sound)
+    }
+}
+
+/// An evaluation under way.
+struct Run<'a, B> {
+    work: &'a Work<'a>,
+    law: Law<'a>,
+    /// `s^2`.
+    s2: f64,
+    stages: [Stage; 4],
+    blocks: Blocks<B>,
+    sums: Sums<B>,
+    value: f64,
+    innovations: Vec<Vec<[f64; OBSERVED]>>,
+    scores: Vec<Vec<DVector<f64>>>,
+}
+
+impl<'a, B: Bundle> Run<'a, B> {
+    #[inline(always)]
+    fn new(work: &'a Work<'a>, c: &'a [Complex<f64>]) -> Self {
+        let (problem, wanted) = (work.problem, work.want != Want::Value);
+        let second = work.want == Want::Exact;
+        let stage = Stage { p: [[0.0; STATE]; STATE], values: Values::new(&problem.field) };
+        let law = Law { field: &problem.field, c, q: problem.process(work.theta), second };
+        let blocks = Blocks::new(if wanted { problem.parts.len() } else { 0 }, wanted, &law.q);
+        Self {
+            work,
+            law,
+            s2: libm::exp(2.0 * work.theta.logs[0]),
+            stages: [stage.clone(), stage.clone(), stage.clone(), stage],
+            sums: Sums::new(blocks.len()),
+            blocks,
+            value: 0.0,
+            innovations: Vec::new(),
+            scores: Vec::new(),
+        }
+    }
+
+    /// Goes through a stretch; false where the filter diverges.
+    #[inline(always)]
+    fn stretch(&mut self, frames: &[Frame]) -> bool {
+        let mut state = base::start(&frames[0], &frames[1], self.s2);
+        self.blocks.start(&state);
+        self.innovations.push(Vec::new());
+        self.scores.push(Vec::new());
+        for pair in 0..frames.len() - 1 {
+            let dt = frames[pair + 1].t - frames[pair].t;
+            let steps = (dt / LONGEST_STEP - 1e-9).ceil().max(1.0);
+            for _ in 0..steps as usize {
+                self.law.step(&mut state, dt / steps, &mut self.stages);
+                if !state.is_sound() {
+                    return false;
+                }
+                self.blocks.step(&self.stages, self.work.problem, self.work.want, dt / steps);
+            }
+            let Some(correction) = base::correct(&mut state, &frames[pair + 1], self.s2) else {
+                return false;
+            };
+            self.take(&correction);
+        }
+        true
+    }
+
+    /// Takes a frame in.
+    #[inline(always)]
+    fn take(&mut self, correction: &Correction) {
+        self.value += correction.value;
+        if self.blocks.len() > 0 {
+            self.blocks.correct(correction, self.work.want, &mut self.sums);
+            self.sums.add();
+        }
+        if self.work.keep {
+            keep(&mut self.innovations, correction.standardised);
+            let score = self.blocks.unpadded(&self.sums.take_scores());
+            keep(&mut self.scores, DVector::from_vec(score));
+        }
+    }
+
+    #[inline(always)]
+    fn finish(self, sound: bool) -> Evaluation {
+        let (gradient, information) = self.sums.finish();
+        let places = self.blocks.places();
+        let width = self.sums.width();
+        let n = places.len();
+        let mut whole = DMatrix::zeros(n, n);
+        for i in 0..n {
+            for j in i..n {
+                whole[(i, j)] = information[places[i] * width + places[j]];
+                whole[(j, i)] = whole[(i, j)];
+            }
+        }
+        Evaluation {
+            value: if sound && self.value.is_finite() { self.value } else { f64::NEG_INFINITY },
+            gradient: DVector::from_vec(self.blocks.unpadded(&gradient)),
+            information: whole,
+            innovations: self.innovations,
+            scores: self.scores,
+        }
+    }
+}
+
+fn keep<T>(all: &mut [Vec<T>], one: T) {
+    if let Some(last) = all.last_mut() {
+        last.push(one);
+    }
+}

@@ -1,0 +1,92 @@
+//! What the likelihood is of: frames in natural units and the parameters.
+
+use super::LONGEST_GAP;
+use crate::field::{Field, Part};
+use crate::observation::OBSERVED;
+use motiform_dynamics::Complex;
+
+/// A frame in natural units.
+#[derive(Clone, Debug)]
+pub(crate) struct Frame {
+    pub(crate) t: f64,
+    pub(crate) y: [f64; OBSERVED],
+    pub(crate) covariance: [[f64; OBSERVED]; OBSERVED],
+}
+
+/// Tracks and a library, in natural units.
+#[derive(Clone, Debug)]
+pub(crate) struct Problem {
+    pub(crate) field: Field,
+    /// The coefficients that are parameters.
+    pub(crate) parts: Vec<Part>,
+    /// Number of terms.
+    pub(crate) terms: usize,
+    /// Frames of each stretch without a long gap.
+    pub(crate) stretches: Vec<Vec<Frame>>,
+    /// Variances of the process noise of `z1, z2, z3` for amplitudes 1, in natural units.
+    pub(crate) noise: [f64; 3],
+}
+
+/// Values of the parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Theta {
+    /// In the order of [`Problem::parts`], natural units.
+    pub(crate) coefficients: Vec<f64>,
+    /// Logarithms of `s`, `eta_v`, `eta_shape`.
+    pub(crate) logs: [f64; 3],
+}
+
+impl Theta {
+    /// The parameters after a step.
+    pub(crate) fn stepped(&self, step: &[f64]) -> Self {
+        let n = self.coefficients.len();
+        let coefficients = self.coefficients.iter().zip(step).map(|(c, d)| c + d).collect();
+        Self { coefficients, logs: std::array::from_fn(|i| self.logs[i] + step[n + i]) }
+    }
+}
+
+impl Problem {
+    /// Number of parameters.
+    pub(crate) fn len(&self) -> usize {
+        self.parts.len() + 3
+    }
+
+    /// Number of frames that have a likelihood: all but the first of each stretch.
+    pub(crate) fn frames(&self) -> usize {
+        self.stretches.iter().map(|stretch| stretch.len() - 1).sum()
+    }
+
+    /// Complex coefficients of all terms.
+    pub(crate) fn complex(&self, theta: &Theta) -> Vec<Complex<f64>> {
+        let mut c = vec![Complex::new(0.0, 0.0); self.terms];
+        for (part, &value) in self.parts.iter().zip(&theta.coefficients) {
+            let place = if part.imaginary { &mut c[part.term].im } else { &mut c[part.term].re };
+            *place = value;
+        }
+        c
+    }
+
+    /// Variances of the process noise, per natural time, of the eight entries of the state.
+    pub(crate) fn process(&self, theta: &Theta) -> [f64; super::STATE] {
+        let [_, v, shape] = theta.logs.map(|log| libm::exp(2.0 * log));
+        let n = self.noise;
+        [0.0, 0.0, n[0] * v, n[0] * v, n[1] * shape, n[1] * shape, n[2] * shape, n[2] * shape]
+    }
+
+    /// Cuts frames where they are too far apart; stretches of fewer than three frames are left out.
+    pub(crate) fn cut(frames: Vec<Frame>) -> Vec<Vec<Frame>> {
+        let mut stretches: Vec<Vec<Frame>> = Vec::new();
+        let mut last = f64::NEG_INFINITY;
+        for frame in frames {
+            if frame.t - last > LONGEST_GAP || stretches.is_empty() {
+                stretches.push(Vec::new());
+            }
+            last = frame.t;
+            if let Some(stretch) = stretches.last_mut() {
+                stretch.push(frame);
+            }
+        }
+        stretches.retain(|stretch| stretch.len() >= 3);
+        stretches
+    }
+}

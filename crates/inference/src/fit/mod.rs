@@ -1,0 +1,102 @@
+//! The fit: maximum likelihood of the coefficients and the noise.
+
+mod covariance;
+mod likelihood;
+mod optimise;
+mod result;
+mod setup;
+
+pub use likelihood::{Likelihood, Parameters, likelihood};
+pub use optimise::Ending;
+pub use result::{Coefficient, Estimate, Fit, Natural, Noise};
+
+use crate::filter::{Problem, Theta, Want};
+use crate::{Library, Result, Scales, Track, observation};
+use optimise::{Point, climb, polish, roughly};
+use serde::{Deserialize, Serialize};
+pub(crate) use setup::{check_library, problem};
+
+/// What is fitted, and how.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Settings {
+    /// The terms: three modes.
+    pub library: Library,
+    /// Whether coefficients are complex: the motion and its mirror image may differ.
+    pub handed: bool,
+    /// Process noise (of velocity and shape, natural units) that the search begins with, from zero coefficients. Empty: 0.4 and 0.1, at
+    /// sampling coarser than one natural time also 1 and 0.03.
+    pub starts: Vec<f64>,
+}
+
+impl Default for Settings {
+    /// The 22 terms of the tensor model with real coefficients.
+    fn default() -> Self {
+        Self { library: Library::tensor(), handed: false, starts: Vec::new() }
+    }
+}
+
+/// Fits one model to all tracks: maximum likelihood through an extended Kalman filter.
+///
+/// From zero coefficients with large process noise, by Fisher scoring with damping; the best of the starts is kept. The same
+/// coefficients and noise hold for all tracks: the sum of their log-likelihoods is maximised.
+///
+/// # Errors    of the input ([`crate::Error`]); a search that does not converge is [`Ending::Stopped`] in the result
+/// # Checked by  `tests/all/fit.rs`: errors and coverage on simulated cells
+pub fn fit(tracks: &[Track], settings: &Settings) -> Result<Fit> {
+    observation::check(tracks)?;
+    setup::check(settings)?;
+    let scales = Scales::of(tracks);
+    let problem = problem(tracks, settings, &scales);
+    let starts = starts(tracks, settings, &scales);
+    let rough = best(starts.into_iter().map(|noise| roughly(&problem, &zero(&problem, noise))).collect());
+    Ok(result::make(&problem, settings, scales, &polish(&problem, &rough.theta)))
+}
+
+/// Fits from given values of the coefficients and the noise (as [`Parameters`]) rather than from zero.
+///
+/// # Errors    as [`fit`]
+pub fn fit_from(tracks: &[Track], settings: &Settings, start: &Parameters) -> Result<Fit> {
+    observation::check(tracks)?;
+    setup::check(settings)?;
+    let scales = Scales::of(tracks);
+    let problem = problem(tracks, settings, &scales);
+    let theta = likelihood::natural(&problem, settings, &scales, start)?;
+    Ok(result::make(&problem, settings, scales, &polish(&problem, &theta)))
+}
+
+/// Fits from given natural values: used where a fit is the neighbour of another one. Where the filter diverges there, from zero.
+pub(crate) fn refit(tracks: &[Track], settings: &Settings, scales: Scales, start: &Theta) -> Fit {
+    let problem = problem(tracks, settings, &scales);
+    let mut rough = climb(&problem, start, Want::Rough, (1.0, 8));
+    if !rough.evaluation.value.is_finite() {
+        rough = roughly(&problem, &zero(&problem, 0.4));
+    }
+    result::make(&problem, settings, scales, &polish(&problem, &rough.theta))
+}
+
+fn zero(problem: &Problem, noise: f64) -> Theta {
+    let log = libm::log(noise);
+    Theta { coefficients: vec![0.0; problem.parts.len()], logs: [0.0, log, log] }
+}
+
+fn starts(tracks: &[Track], settings: &Settings, scales: &Scales) -> Vec<f64> {
+    if !settings.starts.is_empty() {
+        return settings.starts.clone();
+    }
+    let dt = tracks.iter().map(Track::interval).fold(0.0, f64::max);
+    if dt > scales.time { vec![0.4, 0.1, 1.0, 0.03] } else { vec![0.4, 0.1] }
+}
+
+fn best(points: Vec<Point>) -> Point {
+    let evaluations = points.iter().map(|point| point.evaluations).sum();
+    let mut points = points.into_iter();
+    let first = points.next();
+    let best = points.fold(first, |best, point| match best {
+        Some(best) if best.evaluation.value >= point.evaluation.value => Some(best),
+        _ => Some(point),
+    });
+    match best {
+        Some(best) => Point { evaluations, ..best },
+        None => unreachable!("there is at least one start"),
+    }
+}

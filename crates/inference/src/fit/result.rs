@@ -1,0 +1,193 @@
+//! What a fit found, in the units of the data.
+
+use super::optimise::{Ending, Point, at_bounds, prior};
+use super::{Settings, covariance, likelihood};
+use crate::filter::{Problem, Theta};
+use crate::observation::OBSERVED;
+use crate::{Library, Scales, Term};
+use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
+
+/// Half the width of a 95 % interval in standard errors.
+const NORMAL_95: f64 = 1.959_963_984_540_054;
+
+/// An estimate with its errors.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// The value.
+    pub value: f64,
+    /// Standard error from the expected information.
+    pub error: f64,
+    /// Standard error from the scatter of the scores (sandwich): larger where the noise is not white.
+    pub robust: f64,
+    /// 95 % interval from `error`.
+    pub interval: [f64; 2],
+}
+
+/// A fitted coefficient.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Coefficient {
+    /// The term's name, `z1: z1* z2`.
+    pub name: String,
+    /// The term.
+    pub term: Term,
+    /// Whether this is the imaginary part of its factor.
+    pub imaginary: bool,
+    /// The estimate, in the units of the data.
+    #[serde(flatten)]
+    pub estimate: Estimate,
+}
+
+/// The noise. Intervals are on the logarithm.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Noise {
+    /// Factor of the stated errors of the observations.
+    pub s: Estimate,
+    /// Process noise of the velocity.
+    pub eta_v: Estimate,
+    /// Process noise of the shape.
+    pub eta_shape: Estimate,
+    /// Whether each is at a bound of the search: then only the bound is known.
+    pub at_bound: [bool; 3],
+}
+
+/// The estimates in natural units: what further computations start from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Natural {
+    /// Coefficients.
+    pub coefficients: Vec<f64>,
+    /// Logarithms of `s`, `eta_v`, `eta_shape`.
+    pub logs: [f64; 3],
+    /// Expected information of all parameters.
+    pub information: Vec<Vec<f64>>,
+    /// Its inverse.
+    pub covariance: Vec<Vec<f64>>,
+    /// The sandwich covariance.
+    pub robust: Vec<Vec<f64>>,
+}
+
+/// A fitted model.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fit {
+    /// The terms.
+    pub library: Library,
+    /// Whether coefficients are complex.
+    pub handed: bool,
+    /// Coefficients in the units of the data; for handed models all real parts, then all imaginary parts.
+    pub coefficients: Vec<Coefficient>,
+    /// The noise.
+    pub noise: Noise,
+    /// Maximum of the log-likelihood, of the observations in the units of the data.
+    pub log_likelihood: f64,
+    /// Frames that have a likelihood.
+    pub frames: usize,
+    /// How the search ended.
+    pub ending: Ending,
+    /// The natural units.
+    pub scales: Scales,
+    /// The estimates in natural units, with covariances.
+    pub natural: Natural,
+    /// Standardised innovations of each stretch of frames: standard normal deviates, if the model is right.
+    pub innovations: Vec<Vec<[f64; OBSERVED]>>,
+}
+
+impl Fit {
+    /// Whether the search converged.
+    #[must_use]
+    pub fn converged(&self) -> bool {
+        matches!(self.ending, Ending::Converged { .. })
+    }
+
+    /// The estimate of a term's real coefficient, if the term is in the model.
+    #[must_use]
+    pub fn coefficient(&self, name: &str) -> Option<&Coefficient> {
+        self.coefficients.iter().find(|c| c.name == name && !c.imaginary)
+    }
+
+    /// The covariance of the coefficients in natural units.
+    pub(crate) fn covariance(&self) -> DMatrix<f64> {
+        let n = self.coefficients.len();
+        DMatrix::from_fn(n, n, |i, j| self.natural.covariance[i][j])
+    }
+
+    /// Its parameters in natural units.
+    pub(crate) fn theta(&self) -> Theta {
+        Theta { coefficients: self.natural.coefficients.clone(), logs: self.natural.logs }
+    }
+
+    /// Its values in the units of the data.
+    #[must_use]
+    pub fn parameters(&self) -> super::Parameters {
+        let noise = &self.noise;
+        super::Parameters {
+            coefficients: self.coefficients.iter().map(|c| c.estimate.value).collect(),
+            s: noise.s.value,
+            eta_v: noise.eta_v.value,
+            eta_shape: noise.eta_shape.value,
+        }
+    }
+}
+
+fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    (0..matrix.nrows()).map(|i| matrix.row(i).iter().copied().collect()).collect()
+}
+
+pub(super) fn make(problem: &Problem, settings: &Settings, scales: Scales, point: &Point) -> Fit {
+    let (theta, kept) = (&point.theta, &point.evaluation);
+    let mut held = vec![false; problem.len()];
+    held[problem.parts.len()..].copy_from_slice(&at_bounds(theta));
+    let covariance = covariance::inverse(&kept.information, &held);
+    let robust = covariance::sandwich(&covariance, &kept.scores);
+    let natural = Natural {
+        coefficients: theta.coefficients.clone(),
+        logs: theta.logs,
+        information: rows(&kept.information),
+        covariance: rows(&covariance),
+        robust: rows(&robust),
+    };
+    let units = likelihood::units(problem, settings, &scales);
+    Fit {
+        library: settings.library.clone(),
+        handed: settings.handed,
+        coefficients: coefficients(problem, settings, &natural, &units),
+        noise: noise(&natural, &scales, at_bounds(theta)),
+        log_likelihood: kept.value + prior(theta) + problem.frames() as f64 * scales.log_density(),
+        frames: problem.frames(),
+        ending: point.ending.clone(),
+        scales,
+        natural,
+        innovations: kept.innovations.clone(),
+    }
+}
+
+fn coefficients(
+    problem: &Problem,
+    settings: &Settings,
+    natural: &Natural,
+    units: &[f64],
+) -> Vec<Coefficient> {
+    let one = |i: usize| {
+        let part = problem.parts[i];
+        let term = settings.library.terms[part.term].clone();
+        let value = natural.coefficients[i] * units[i];
+        let size = |covariance: &[Vec<f64>]| covariance[i][i].max(0.0).sqrt() * units[i];
+        let error = size(&natural.covariance);
+        let interval = [value - NORMAL_95 * error, value + NORMAL_95 * error];
+        let estimate = Estimate { value, error, robust: size(&natural.robust), interval };
+        Coefficient { name: term.name(), term, imaginary: part.imaginary, estimate }
+    };
+    (0..units.len()).map(one).collect()
+}
+
+fn noise(natural: &Natural, scales: &Scales, at_bound: [bool; 3]) -> Noise {
+    let first = natural.coefficients.len();
+    let units = [1.0, scales.noise()[0], scales.noise()[1]];
+    let [s, eta_v, eta_shape] = std::array::from_fn(|i| {
+        let value = libm::exp(natural.logs[i]) * units[i];
+        let size = |covariance: &[Vec<f64>]| covariance[first + i][first + i].max(0.0).sqrt();
+        let error = size(&natural.covariance);
+        let interval = [-NORMAL_95, NORMAL_95].map(|x| value * libm::exp(x * error));
+        Estimate { value, error: value * error, robust: value * size(&natural.robust), interval }
+    });
+    Noise { s, eta_v, eta_shape, at_bound }
+}

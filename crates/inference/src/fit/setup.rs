@@ -1,0 +1,39 @@
+//! From tracks and settings to a problem in natural units.
+
+use super::Settings;
+use crate::field::Field;
+use crate::filter::Problem;
+use crate::{Error, Library, Result, Scales, Track};
+
+/// Checks that the filter can take a library.
+pub(crate) fn check_library(library: &Library) -> Result<()> {
+    if library.modes != 3 {
+        let value = library.modes as f64;
+        return Err(Error::Setting { key: "modes", value, remedy: "the filter takes three modes" });
+    }
+    if library.terms.is_empty() {
+        return Err(Error::Setting { key: "terms", value: 0.0, remedy: "give at least one term" });
+    }
+    Ok(())
+}
+
+/// Checks the settings.
+pub(super) fn check(settings: &Settings) -> Result<()> {
+    check_library(&settings.library)?;
+    match settings.starts.iter().find(|start| !(1e-4..=10.0).contains(*start)) {
+        Some(&value) => Err(Error::Setting { key: "starts", value, remedy: "give 1e-4 to 10" }),
+        None => Ok(()),
+    }
+}
+
+/// The problem in natural units.
+pub(crate) fn problem(tracks: &[Track], settings: &Settings, scales: &Scales) -> Problem {
+    let library = &settings.library;
+    Problem {
+        field: Field::new(library),
+        parts: Field::parts(&library.terms, settings.handed),
+        terms: library.terms.len(),
+        stretches: tracks.iter().flat_map(|track| Problem::cut(scales.frames(track))).collect(),
+        noise: scales.noise_of_modes(),
+    }
+}

@@ -1,0 +1,92 @@
+//! Whether left and right are different motions: real coefficients against complex ones.
+
+use crate::chi_square::chi_square_tail;
+use crate::filter::Theta;
+use crate::fit::{problem, refit};
+use crate::observation::OBSERVED;
+use crate::{Coefficient, Error, Fit, Result, Settings, Track, identifiability, observation};
+use serde::{Deserialize, Serialize};
+
+/// Rate at which mirror-symmetric cells may be called handed.
+pub const HANDED_RATE: f64 = 0.01;
+
+/// The answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Symmetry {
+    /// Real coefficients are enough, and imaginary parts would have been seen.
+    Mirror,
+    /// Real coefficients are rejected.
+    Handed,
+    /// Real coefficients are enough, but the motion does not fix the imaginary parts either.
+    Undecided,
+}
+
+/// The comparison of a real model with a complex one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Handedness {
+    /// The answer.
+    pub symmetry: Symmetry,
+    /// Twice the gain of log-likelihood by imaginary parts.
+    pub ratio: f64,
+    /// Their number.
+    pub degrees: usize,
+    /// Probability of such a ratio in a mirror-symmetric cell (chi-square).
+    pub p_value: f64,
+    /// Difference of Schwarz's criterion, `degrees ln(6N) - ratio`: below 0 it prefers the handed model.
+    pub bic: f64,
+    /// Imaginary parts more than three standard errors from 0, the most certain first.
+    pub parts: Vec<Coefficient>,
+    /// The handed model.
+    pub fit: Fit,
+}
+
+/// Compares a mirror-symmetric fit with the handed model of the same terms, by likelihood ratio.
+///
+/// Give the fit of selected terms ([`crate::select`]): with fewer imaginary parts the test sees smaller ones. A cell is called handed where the
+/// ratio is exceeded in less than [`HANDED_RATE`] of mirror-symmetric cells.
+///
+/// # Errors    of the input; [`Error::Setting`] if `fit` is handed itself
+/// # Checked by  `tests/all/handed.rs`: rate of false alarms, a handed cell
+pub fn handedness(tracks: &[Track], fit: &Fit) -> Result<Handedness> {
+    observation::check(tracks)?;
+    if fit.handed {
+        return Err(Error::Setting {
+            key: "handed",
+            value: 1.0,
+            remedy: "give a fit with real coefficients",
+        });
+    }
+    let settings = Settings { library: fit.library.clone(), handed: true, starts: Vec::new() };
+    let mut coefficients = fit.natural.coefficients.clone();
+    let degrees = coefficients.len();
+    coefficients.resize(2 * degrees, 0.0);
+    let start = Theta { coefficients, logs: fit.natural.logs };
+    debug_assert_eq!(problem(tracks, &settings, &fit.scales).parts.len(), 2 * degrees, "parts");
+    let near = refit(tracks, &settings, fit.scales, &start);
+    let far = refit(
+        tracks,
+        &settings,
+        fit.scales,
+        &Theta { coefficients: vec![0.0; 2 * degrees], logs: [0.0, libm::log(0.4), libm::log(0.4)] },
+    );
+    let handed = if far.log_likelihood > near.log_likelihood { far } else { near };
+    Ok(compare(fit, handed, degrees))
+}
+
+fn compare(fit: &Fit, handed: Fit, degrees: usize) -> Handedness {
+    let ratio = (2.0 * (handed.log_likelihood - fit.log_likelihood)).max(0.0);
+    let p_value = chi_square_tail(ratio, degrees);
+    let numbers = (OBSERVED * fit.frames.max(1)) as f64;
+    let certainty = |c: &Coefficient| c.estimate.value.abs() / c.estimate.error.max(f64::MIN_POSITIVE);
+    let mut parts: Vec<Coefficient> =
+        handed.coefficients.iter().filter(|c| c.imaginary && certainty(c) > 3.0).cloned().collect();
+    parts.sort_by(|a, b| certainty(b).total_cmp(&certainty(a)));
+    let symmetry = match identifiability(&handed).identifiable && fit.converged() {
+        _ if p_value < HANDED_RATE && handed.converged() && fit.converged() => Symmetry::Handed,
+        true => Symmetry::Mirror,
+        false => Symmetry::Undecided,
+    };
+    let bic = degrees as f64 * libm::log(numbers) - ratio;
+    Handedness { symmetry, ratio, degrees, p_value, bic, parts, fit: handed }
+}

@@ -1,0 +1,45 @@
+//! From observed tracks of shape modes to amplitude equations.
+//!
+//! [`fit()`] finds the coefficients of all rotation-covariant terms and the noise by maximum likelihood through an extended Kalman filter;
+//! [`select`] the terms that the data ask for; [`identifiability()`] what the motion fixes; [`handedness`] whether left and right differ;
+//! [`warnings()`] and [`drift()`] what makes the fit doubtful; [`weak()`] is a cheap witness; [`place()`] and [`place_among`] say where the model lies
+//! on the paper's planes; [`Fit::definition`] makes it a model. Knows no file. Method and measurements: docs/inference.md.
+
+mod chi_square;
+mod definition;
+mod draws;
+mod error;
+mod field;
+mod filter;
+mod fit;
+mod handed;
+mod identifiability;
+mod library;
+mod linear;
+mod names;
+mod observation;
+mod place;
+mod scales;
+mod subsets;
+mod warnings;
+mod weak;
+
+pub use definition::equations;
+pub use draws::draws;
+pub use error::{Error, Result};
+pub use fit::{
+    Coefficient, Ending, Estimate, Fit, Likelihood, Natural, Noise, Parameters, Settings, fit, fit_from,
+    likelihood,
+};
+pub use handed::{HANDED_RATE, Handedness, Symmetry, handedness};
+pub use identifiability::{
+    Combination, EquationKnowledge, FIXED, FREE, Identifiability, Knowledge, identifiability,
+};
+pub use library::{Library, MOST_MODES, Term};
+pub use names::paper;
+pub use observation::{LEAST_FRAMES, OBSERVED, Observation, Track};
+pub use place::{Coordinate, Place, Placement, Plane, place, place_among};
+pub use scales::Scales;
+pub use subsets::{Selection, Subset, Subsets, TIE, select, subsets};
+pub use warnings::{COARSE, Channel, Drift, DriftPoint, Warning, drift, fastest_rate, warnings, whiteness};
+pub use weak::{Weak, weak};

@@ -1,0 +1,143 @@
+//! The terms that equations of a fit can have: monomials that turn with the plane as their amplitude does.
+
+mod enumerate;
+
+use crate::{Error, Result};
+use serde::{Deserialize, Serialize};
+
+/// Most amplitudes of a library: `z1` to `z4`.
+pub const MOST_MODES: usize = 4;
+
+/// A monomial in one equation: `prod_m z_m^p conj(z_m)^q`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Term {
+    /// The amplitude whose rate it is in, from 0: 0 is `z1`.
+    pub equation: usize,
+    /// The powers of `z_m` and of `conj(z_m)`, m = 1 to 4.
+    pub powers: [[u8; 2]; MOST_MODES],
+}
+
+impl Term {
+    /// Number of factors.
+    #[must_use]
+    pub fn order(&self) -> u32 {
+        self.powers.iter().flatten().map(|&power| u32::from(power)).sum()
+    }
+
+    /// Number of factors that are `z_m` or its conjugate, m from 0.
+    #[must_use]
+    pub fn degree(&self, amplitude: usize) -> i32 {
+        self.powers[amplitude].iter().map(|&power| i32::from(power)).sum()
+    }
+
+    /// How it turns with the plane: `sum_m m (power of z_m - power of conj(z_m))`.
+    #[must_use]
+    pub fn angular_index(&self) -> i32 {
+        let turns = |(m, &[z, conj]): (i32, &[u8; 2])| m * (i32::from(z) - i32::from(conj));
+        (1..).zip(&self.powers).map(turns).sum()
+    }
+
+    /// Whether it turns as the amplitude of its equation does.
+    #[must_use]
+    pub fn is_covariant(&self) -> bool {
+        usize::try_from(self.angular_index()) == Ok(self.equation + 1)
+    }
+
+    /// As people write it, with its equation: `z1: z1* z2`, `z2: |z2|^2 z2`; a star is the complex conjugate.
+    #[must_use]
+    pub fn name(&self) -> String {
+        format!("z{}: {}", self.equation + 1, self.factors("*", "", " "))
+    }
+
+    /// Its factors in the notation of study files: `|z1|^2*z1`, `conj(z1)*z2`.
+    #[must_use]
+    pub fn expression(&self) -> String {
+        self.factors(")", "conj(", "*")
+    }
+
+    fn factors(&self, after: &str, before: &str, times: &str) -> String {
+        let mut factors = Vec::new();
+        for (m, &[z, conj]) in self.powers.iter().enumerate() {
+            if z.min(conj) > 0 {
+                factors.push(format!("|z{}|^{}", m + 1, 2 * z.min(conj)));
+            }
+        }
+        for (m, &[z, conj]) in self.powers.iter().enumerate() {
+            let (bare, starred) = (format!("z{}", m + 1), format!("{before}z{}{after}", m + 1));
+            let (rest, name) = if z > conj { (z - conj, bare) } else { (conj - z, starred) };
+            match rest {
+                0 => {}
+                1 => factors.push(name),
+                _ => factors.push(format!("{name}^{rest}")),
+            }
+        }
+        factors.join(times)
+    }
+}
+
+/// The terms of all equations, sorted by equation and order.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Library {
+    /// Number of amplitudes: 3 or 4.
+    pub modes: usize,
+    /// The terms.
+    pub terms: Vec<Term>,
+}
+
+impl Library {
+    /// All rotation-covariant monomials of `z1 .. z_modes` of order 1 to `order`.
+    ///
+    /// Three modes: 8 + 7 + 7 terms to order 3 (the tensor model's), 32 + 30 + 29 to order 5. Four modes: 12, 12, 11, 10 to order 3.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] unless `modes` is 3 or 4 and `order` 1 to 5.
+    pub fn new(modes: usize, order: u32) -> Result<Self> {
+        if !(3..=MOST_MODES).contains(&modes) {
+            return Err(Error::Setting { key: "modes", value: modes as f64, remedy: "give 3 or 4" });
+        }
+        if !(1..=5).contains(&order) {
+            return Err(Error::Setting { key: "order", value: f64::from(order), remedy: "give 1 to 5" });
+        }
+        Ok(Self { modes, terms: enumerate::covariant(modes, order) })
+    }
+
+    /// The terms of the tensor model: three modes, order 3.
+    #[must_use]
+    pub fn tensor() -> Self {
+        Self { modes: 3, terms: enumerate::covariant(3, 3) }
+    }
+
+    /// Those of its terms that have these names ([`Term::name`]).
+    ///
+    /// # Errors
+    /// [`Error::Term`] for a name that none of its terms has.
+    pub fn select(&self, names: &[&str]) -> Result<Self> {
+        let mut kept = vec![false; self.terms.len()];
+        for name in names {
+            kept[self.place(name)?] = true;
+        }
+        let terms = self.terms.iter().zip(kept).filter(|(_, kept)| *kept).map(|(term, _)| term.clone());
+        Ok(Self { modes: self.modes, terms: terms.collect() })
+    }
+
+    /// The number of the term with this name.
+    ///
+    /// # Errors
+    /// [`Error::Term`] if there is none.
+    pub fn place(&self, name: &str) -> Result<usize> {
+        let found = self.terms.iter().position(|term| term.name() == name);
+        found.ok_or_else(|| Error::Term { name: name.to_owned(), known: self.names() })
+    }
+
+    /// The names of all terms.
+    #[must_use]
+    pub fn names(&self) -> Vec<String> {
+        self.terms.iter().map(Term::name).collect()
+    }
+
+    /// The numbers of the terms in one equation.
+    #[must_use]
+    pub fn of_equation(&self, equation: usize) -> Vec<usize> {
+        (0..self.terms.len()).filter(|&term| self.terms[term].equation == equation).collect()
+    }
+}

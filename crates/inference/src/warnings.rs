@@ -1,0 +1,173 @@
+//! What makes a fit doubtful.
+
+mod drift;
+mod whiteness;
+
+pub use drift::{Drift, DriftPoint, drift};
+pub use whiteness::{Channel, whiteness};
+
+use crate::field::{Field, SHAPE, Values};
+use crate::filter::Frame;
+use crate::identifiability::unbounded;
+use crate::{Fit, Result, Track, observation};
+use motiform_dynamics::Complex;
+use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
+
+/// Sampling interval times fastest rate from which on the filter's linearisation biases coefficients.
+pub const COARSE: f64 = 2.0;
+/// Significance of a test of whiteness, of all channels together.
+const WHITE: f64 = 1e-3;
+/// Ratio of robust to expected standard errors that is worth a warning.
+const ERRORS_DIFFER: f64 = 1.5;
+/// Frames whose rates are computed.
+const RATES: usize = 60;
+
+/// A warning.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", tag = "kind")]
+pub enum Warning {
+    /// The sampling is too coarse for the motion.
+    CoarseSampling {
+        /// Sampling interval times the fastest rate (median over frames).
+        product: f64,
+    },
+    /// Coefficients that the data do not bound.
+    Unbounded {
+        /// Their names.
+        names: Vec<String>,
+    },
+    /// Process or measurement noise at a bound of the search.
+    NoiseAtBound {
+        /// Which.
+        names: Vec<String>,
+    },
+    /// Innovations are not white: noise with memory, or missing terms.
+    Coloured {
+        /// The channels.
+        channels: Vec<Channel>,
+    },
+    /// Coefficients change with the sampling interval.
+    Drifting {
+        /// Their names.
+        names: Vec<String>,
+    },
+    /// Robust standard errors are much larger than expected ones.
+    ErrorsDiffer {
+        /// Median ratio.
+        ratio: f64,
+    },
+    /// The search did not converge.
+    NotConverged {
+        /// Why.
+        reason: String,
+    },
+}
+
+impl std::fmt::Display for Warning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::CoarseSampling { product } => {
+                write!(
+                    f,
+                    "sampling interval times fastest rate is {product:.2}, above {COARSE}: coefficients are biased; sample more often"
+                )
+            }
+            Self::Unbounded { names } => write!(f, "the data do not bound {}", names.join(", ")),
+            Self::NoiseAtBound { names } => write!(f, "at a bound of the search: {}", names.join(", ")),
+            Self::Coloured { channels } => {
+                let names: Vec<&str> = channels.iter().map(|channel| channel.name.as_str()).collect();
+                write!(
+                    f,
+                    "innovations of {} are not white: the noise has memory or terms are missing",
+                    names.join(", ")
+                )
+            }
+            Self::Drifting { names } => {
+                write!(f, "coefficients change with the sampling interval: {}", names.join(", "))
+            }
+            Self::ErrorsDiffer { ratio } => {
+                write!(
+                    f,
+                    "robust standard errors are {ratio:.1} times the expected ones: use the robust ones"
+                )
+            }
+            Self::NotConverged { reason } => write!(f, "the fit did not converge: {reason}"),
+        }
+    }
+}
+
+/// All warnings about a fit; coefficients at other sampling intervals come from [`drift()`], which fits again.
+///
+/// # Errors    of the input, as [`crate::fit()`]
+/// # Checked by  `tests/all/warnings.rs`: each warning by a cell that deserves it, none by one that does not
+pub fn warnings(tracks: &[Track], fit: &Fit, drift: Option<&Drift>) -> Result<Vec<Warning>> {
+    observation::check(tracks)?;
+    let mut all = Vec::new();
+    if let crate::Ending::Stopped { reason } = &fit.ending {
+        all.push(Warning::NotConverged { reason: reason.clone() });
+    }
+    let product = fastest_rate(tracks, fit) * tracks.iter().map(Track::interval).fold(0.0, f64::max);
+    if product > COARSE {
+        all.push(Warning::CoarseSampling { product });
+    }
+    let names = unbounded(fit);
+    if !names.is_empty() {
+        all.push(Warning::Unbounded { names });
+    }
+    let noises = ["s", "eta_v", "eta_shape"].into_iter().zip(fit.noise.at_bound);
+    let names: Vec<String> = noises.filter(|(_, at)| *at).map(|(name, _)| name.to_owned()).collect();
+    if !names.is_empty() {
+        all.push(Warning::NoiseAtBound { names });
+    }
+    let mut channels = whiteness(fit);
+    let limit = WHITE / channels.len().max(1) as f64;
+    channels.retain(|channel| channel.p_value < limit);
+    if !channels.is_empty() {
+        all.push(Warning::Coloured { channels });
+    }
+    if let Some(names) = drift.map(Drift::names).filter(|names| !names.is_empty()) {
+        all.push(Warning::Drifting { names });
+    }
+    all.extend(errors_differ(fit));
+    Ok(all)
+}
+
+fn errors_differ(fit: &Fit) -> Option<Warning> {
+    let positive = fit.coefficients.iter().filter(|c| c.estimate.error > 0.0);
+    let mut ratios: Vec<f64> = positive.map(|c| c.estimate.robust / c.estimate.error).collect();
+    ratios.sort_by(f64::total_cmp);
+    let ratio = *ratios.get(ratios.len() / 2)?;
+    (ratio > ERRORS_DIFFER).then_some(Warning::ErrorsDiffer { ratio })
+}
+
+/// Largest modulus of the eigenvalues of the field's Jacobian, median over frames (inverse time of the data).
+///
+/// The velocity of a frame is that from it to the next.
+#[must_use]
+pub fn fastest_rate(tracks: &[Track], fit: &Fit) -> f64 {
+    let field = Field::new(&fit.library);
+    let mut values = Values::new(&field);
+    let terms = fit.library.terms.len();
+    let natural = &fit.natural.coefficients;
+    let imaginary = |i: usize| if fit.handed { natural[terms + i] } else { 0.0 };
+    let c: Vec<Complex<f64>> = (0..terms).map(|i| Complex::new(natural[i], imaginary(i))).collect();
+    let mut rates = Vec::new();
+    for track in tracks {
+        let frames = fit.scales.frames(track);
+        for pair in frames.windows(2).step_by((frames.len() / RATES).max(1)) {
+            field.evaluate(&c, &shape(&pair[0], &pair[1]), false, &mut values);
+            let jacobian = DMatrix::from_fn(SHAPE, SHAPE, |i, j| values.jacobian[i][j]);
+            let eigenvalues = jacobian.complex_eigenvalues();
+            rates.push(eigenvalues.iter().map(|z| libm::hypot(z.re, z.im)).fold(0.0, f64::max));
+        }
+    }
+    rates.sort_by(f64::total_cmp);
+    rates.get(rates.len() / 2).copied().unwrap_or(0.0) / fit.scales.time
+}
+
+fn shape(frame: &Frame, next: &Frame) -> [f64; SHAPE] {
+    let dt = next.t - frame.t;
+    let v = [0, 1].map(|i| (next.y[i] - frame.y[i]) / dt);
+    [v[0], -v[1], frame.y[2], frame.y[3], frame.y[4], frame.y[5]]
+}

@@ -1,0 +1,158 @@
+//! The weak-form estimate: a cheap witness beside the likelihood.
+//!
+//! With a smooth test function phi that vanishes at both ends of a window, integration by parts leaves no derivative of noisy data:
+//!
+//! ```text
+//! - int phi' z_n dt = sum_k c_k int phi M_k dt,        n = 2, 3
+//!   int phi'' (x - i y) dt = sum_k c_k int phi M_k dt, n = 1  (z1 = x' - i y')
+//! ```
+//!
+//! Least squares over windows; the velocity inside of `M_k` comes from a parabola through five frames. Under process noise this
+//! estimate has a bias of 10 to 40 % that more frames do not remove: it is a check of order of magnitude and sign, not an estimate to quote.
+//!
+//! Source: Messenger and Bortz (2021), Multiscale Model. Simul. 19, 1474.
+
+use crate::field::{Field, SHAPE, Values};
+use crate::filter::Frame;
+use crate::{Library, Result, Scales, Track, observation};
+use motiform_dynamics::Complex;
+use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
+
+/// A window's half-width in natural units of time.
+const HALF: f64 = 1.5;
+/// Fewest frames on each side of a window's centre.
+const LEAST: usize = 4;
+
+/// Coefficients of the weak form.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Weak {
+    /// Names of the terms.
+    pub names: Vec<String>,
+    /// Real coefficients in the units of the data; `None` if the windows do not determine them.
+    pub coefficients: Option<Vec<f64>>,
+    /// Windows used.
+    pub windows: usize,
+}
+
+/// Real coefficients by the weak form; tracks with gaps contribute the windows without any.
+///
+/// # Errors    of the input, as [`crate::fit()`]
+/// # Checked by  `tests/all/weak.rs`: exact tracks; its bias under noise
+pub fn weak(tracks: &[Track], library: &Library) -> Result<Weak> {
+    observation::check(tracks)?;
+    crate::fit::check_library(library)?;
+    let scales = Scales::of(tracks);
+    let field = Field::new(library);
+    let mut sums: Vec<Normal> = (0..SHAPE / 2).map(|n| Normal::new(library.of_equation(n))).collect();
+    let mut windows = 0;
+    for track in tracks {
+        let frames = scales.frames(track);
+        let dt = track.interval() / scales.time;
+        let half = ((HALF / dt).round() as usize).max(LEAST);
+        let shapes = shapes(&frames, dt);
+        for centre in (half + 2..frames.len().saturating_sub(half + 2)).step_by((half / 2).max(1)) {
+            let range = centre - half..=centre + half;
+            let span = frames[centre + half + 2].t - frames[centre - half - 2].t;
+            if (span - (2 * half + 4) as f64 * dt).abs() < 1e-6 * span {
+                windows += 1;
+                add(&mut sums, &field, (&frames[range.clone()], &shapes[range]), dt);
+            }
+        }
+    }
+    let mut coefficients = vec![0.0; library.terms.len()];
+    let mut determined = true;
+    for sum in &sums {
+        match sum.solve() {
+            Some(solution) => sum.terms.iter().zip(&solution).for_each(|(&term, c)| coefficients[term] = *c),
+            None => determined = false,
+        }
+    }
+    for (c, term) in coefficients.iter_mut().zip(&library.terms) {
+        *c *= scales.coefficient(term);
+    }
+    Ok(Weak { names: library.names(), coefficients: determined.then_some(coefficients), windows })
+}
+
+/// Normal equations of one equation.
+struct Normal {
+    terms: Vec<usize>,
+    matrix: DMatrix<f64>,
+    right: DVector<f64>,
+}
+
+impl Normal {
+    fn new(terms: Vec<usize>) -> Self {
+        let n = terms.len();
+        Self { terms, matrix: DMatrix::zeros(n, n), right: DVector::zeros(n) }
+    }
+
+    fn add(&mut self, integrals: &[Complex<f64>], left: Complex<f64>) {
+        let row = |part: fn(&Complex<f64>) -> f64| {
+            DVector::from_iterator(self.terms.len(), self.terms.iter().map(|&term| part(&integrals[term])))
+        };
+        for (row, left) in [(row(|z| z.re), left.re), (row(|z| z.im), left.im)] {
+            self.matrix.ger(1.0, &row, &row, 1.0);
+            self.right.axpy(left, &row, 1.0);
+        }
+    }
+
+    fn solve(&self) -> Option<Vec<f64>> {
+        let n = self.terms.len();
+        let scale: Vec<f64> = (0..n).map(|i| self.matrix[(i, i)].sqrt()).collect();
+        if scale.iter().any(|s| *s <= 0.0 || !s.is_finite()) {
+            return None;
+        }
+        let scaled = DMatrix::from_fn(n, n, |i, j| self.matrix[(i, j)] / (scale[i] * scale[j]));
+        let right = DVector::from_fn(n, |i, _| self.right[i] / scale[i]);
+        let svd = scaled.svd(true, true);
+        let (largest, least) = (svd.singular_values.max(), svd.singular_values.min());
+        if least < 1e-12 * largest {
+            return None;
+        }
+        let solution = svd.solve(&right, 0.0).ok()?;
+        Some((0..n).map(|i| solution[i] / scale[i]).collect())
+    }
+}
+
+/// The shape of each frame; the velocity is the slope of the parabola through five frames.
+fn shapes(frames: &[Frame], dt: f64) -> Vec<[f64; SHAPE]> {
+    let at = |k: usize, i: usize| frames[k.min(frames.len() - 1)].y[i];
+    let slope = |k: usize, i: usize| {
+        let (far, near) =
+            (at(k + 2, i) - at(k.saturating_sub(2), i), at(k + 1, i) - at(k.saturating_sub(1), i));
+        (2.0 * far + near) / (10.0 * dt)
+    };
+    let of = |k: usize| {
+        let y = &frames[k].y;
+        [slope(k, 0), -slope(k, 1), y[2], y[3], y[4], y[5]]
+    };
+    (0..frames.len()).map(of).collect()
+}
+
+/// Adds a window: the test function `(1 - u^2)^4`, u from -1 to 1, and the rule of the trapezium.
+fn add(sums: &mut [Normal], field: &Field, (frames, shapes): (&[Frame], &[[f64; SHAPE]]), dt: f64) {
+    let half = (frames.len() / 2) as f64;
+    let width = half * dt;
+    let mut values = Values::new(field);
+    let zero = Complex::new(0.0, 0.0);
+    let c = vec![zero; values.monomials.len()];
+    let (mut integrals, mut left) = (c.clone(), [zero; SHAPE / 2]);
+    for (k, (frame, shape)) in frames.iter().zip(shapes).enumerate() {
+        let u = (k as f64 - half) / half;
+        let w = 1.0 - u * u;
+        let phi = w.powi(4);
+        let first = -8.0 * u * w.powi(3) / width;
+        let second = (48.0 * u * u * w * w - 8.0 * w.powi(3)) / (width * width);
+        field.rate(&c, shape, &mut values);
+        for (integral, monomial) in integrals.iter_mut().zip(&values.monomials) {
+            *integral += *monomial * phi;
+        }
+        left[0] += Complex::new(frame.y[0], -frame.y[1]) * second;
+        left[1] += Complex::new(shape[2], shape[3]) * -first;
+        left[2] += Complex::new(shape[4], shape[5]) * -first;
+    }
+    for (sum, left) in sums.iter_mut().zip(left) {
+        sum.add(&integrals, left);
+    }
+}

@@ -1,0 +1,118 @@
+//! The likelihood against independent formulas.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use crate::common::{Experiment, full};
+use motiform_inference::{Library, Observation, Parameters, Scales, Settings, Track, likelihood};
+use nalgebra::DMatrix;
+
+#[test]
+fn gradient_by_differences() {
+    let mut experiment = Experiment::new(full(0.5, 0.1), 0.05, 11);
+    experiment.frames = 40;
+    let mut track = experiment.track();
+    track.0.remove(20);
+    track.0.drain(28..31);
+    for handed in [false, true] {
+        let settings = Settings { handed, ..Settings::default() };
+        let n = settings.library.terms.len() * if handed { 2 } else { 1 };
+        let coefficients = (0..n).map(|i| 0.3 * libm::sin(i as f64 + 1.0)).collect();
+        let at = Parameters { coefficients, s: 1.3, eta_v: 0.08, eta_shape: 0.06 };
+        let value = |at: &Parameters| likelihood(&[track.clone()], &settings, at).unwrap();
+        let exact = value(&at);
+        for i in 0..n + 3 {
+            let moved = |by: f64| {
+                let mut at = at.clone();
+                match i.checked_sub(n) {
+                    None => at.coefficients[i] += by,
+                    Some(0) => at.s *= libm::exp(by),
+                    Some(1) => at.eta_v *= libm::exp(by),
+                    Some(_) => at.eta_shape *= libm::exp(by),
+                }
+                value(&at).value.unwrap()
+            };
+            let h = 1e-4;
+            let slope = |h: f64| (moved(h) - moved(-h)) / (2.0 * h);
+            let difference = (4.0 * slope(h) - slope(2.0 * h)) / 3.0;
+            let size = exact.information[i][i].sqrt();
+            assert!(
+                (difference - exact.gradient[i]).abs() < 1e-6 * size,
+                "{handed} {i}: {difference} {exact:?}"
+            );
+        }
+    }
+}
+
+/// Log-density of a Gaussian vector.
+fn gaussian(deviations: &[f64], covariance: DMatrix<f64>) -> f64 {
+    let n = deviations.len();
+    let cholesky = covariance.cholesky().unwrap();
+    let y = nalgebra::DVector::from_column_slice(deviations);
+    let determinant: f64 = (0..n).map(|i| 2.0 * libm::log(cholesky.l_dirty()[(i, i)])).sum();
+    -0.5 * (y.dot(&cholesky.solve(&y)) + determinant + n as f64 * libm::log(std::f64::consts::TAU))
+}
+
+/// Relaxation at rate k under noise: covariance of deviations from the mean at two times after a start of variance `p`.
+fn relaxing(k: f64, eta: f64, p: f64, (t, u): (f64, f64)) -> f64 {
+    let decayed = libm::exp(-k * (t + u));
+    p * decayed + eta * eta / (2.0 * k) * (libm::exp(-k * (t - u).abs()) - decayed)
+}
+
+/// The integral of such a process: `int_0^min (1 - e^(-k (t - w))) (1 - e^(-k (u - w)))/k^2 dw` for the noise.
+fn integrated(k: f64, eta: f64, (p, start): (f64, f64), (t, u): (f64, f64)) -> f64 {
+    let grown = |t: f64| (1.0 - libm::exp(-k * t)) / k;
+    let end = t.min(u);
+    let tail = |t: f64| (libm::exp(-k * (t - end)) - libm::exp(-k * t)) / k;
+    let both = (libm::exp(-k * (t + u - 2.0 * end)) - libm::exp(-k * (t + u))) / (2.0 * k);
+    start + p * grown(t) * grown(u) + eta * eta / (k * k) * (end - tail(t) - tail(u) + both)
+}
+
+/// Linear equations: all observations together are one Gaussian vector, whose mean and covariance have closed forms.
+#[test]
+fn linear_equations_exactly() {
+    let mut normal = motiform_dynamics::Normal::new(77, 0);
+    let times = [0.0, 0.1, 0.2, 0.35, 0.4, 0.5, 0.8, 0.9, 1.0, 1.1];
+    let errors = [0.05, 0.06, 0.04, 0.03, 0.05, 0.02];
+    let frame = |&t: &f64| Observation {
+        t,
+        y: std::array::from_fn(|i| 0.3 * libm::cos(t + i as f64) + 0.05 * normal.next()),
+        covariance: std::array::from_fn(|i| {
+            std::array::from_fn(|j| if i == j { errors[i] * errors[i] } else { 0.0 })
+        }),
+    };
+    let track = Track(times.iter().map(frame).collect());
+    let library = Library::tensor().select(&["z1: z1", "z2: z2", "z3: z3"]).unwrap();
+    let settings = Settings { library, ..Settings::default() };
+    let (k, s, eta) = ([0.7, 1.1, 0.4], 1.3, [0.5, 0.4]);
+    let at = Parameters { coefficients: k.map(|k| -k).to_vec(), s, eta_v: eta[0], eta_shape: eta[1] };
+    let found = likelihood(std::slice::from_ref(&track), &settings, &at).unwrap().value.unwrap();
+    let scales = Scales::of(std::slice::from_ref(&track));
+    let n = times.len() - 1;
+    let mut expected = 0.0;
+    for i in 0..6 {
+        let rate = k[i / 2];
+        let (first, second) = (&track.0[0], &track.0[1]);
+        let noise = s * s * errors[i] * errors[i];
+        // the start: docs of the filter, natural units
+        let (speed, dt) = (scales.amplitudes[0], (second.t - first.t) / scales.time);
+        let v = (second.y[i] - first.y[i]) / (second.t - first.t);
+        let p = 8.0 * errors[i] * errors[i] / libm::pow(second.t - first.t, 2.0)
+            + speed * speed * ((dt * dt).min(1.0) + 0.01);
+        let mean = |t: f64| match i {
+            0 | 1 => first.y[i] + v * (1.0 - libm::exp(-rate * t)) / rate,
+            _ => first.y[i] * libm::exp(-rate * t),
+        };
+        let covariance = DMatrix::from_fn(n, n, |a, b| {
+            let at = (times[a + 1], times[b + 1]);
+            let own = if a == b { noise } else { 0.0 };
+            own + match i {
+                0 | 1 => integrated(rate, eta[0], (p, noise), at),
+                _ => relaxing(rate, eta[1], noise, at),
+            }
+        });
+        let deviations: Vec<f64> = (1..=n).map(|a| track.0[a].y[i] - mean(times[a])).collect();
+        expected += gaussian(&deviations, covariance);
+    }
+    println!("{found} {expected}");
+    assert!((found - expected).abs() < 1e-5 * expected.abs().max(1.0), "{found} {expected}");
+}
