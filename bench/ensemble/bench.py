@@ -1,6 +1,6 @@
 """motiform's lanes against their rivals: one command, one run, one table. See README.md.
 
-    python3 bench/ensemble/bench.py [--quick] [--only adaptive,lyapunov,short,threads,precision]
+    python3 bench/ensemble/bench.py [--quick] [--only adaptive,amplitudes,lyapunov,short,threads,precision]
 """
 
 import argparse
@@ -14,7 +14,7 @@ from pathlib import Path
 
 import environment
 
-GROUPS = "adaptive lyapunov short threads precision".split()
+GROUPS = "adaptive amplitudes lyapunov short threads precision".split()
 
 
 def arguments():
@@ -51,6 +51,7 @@ def main():
     logging.disable(logging.INFO)  # some rivals log every step of their compilers
     environment.one_core()
 
+    import amplitudes
     import exponents
     import precision
     import table
@@ -83,6 +84,9 @@ def main():
         for rtol in (1e-9, 1e-12):
             rows = tasks.orbits("adaptive", tasks.T, rtol, scale, repeats, per_orbit=False)
             group(f"adaptive {rtol:g}", f"Adaptive, tolerance {rtol:g}, one core", rows)
+    if "amplitudes" in chosen.only:
+        title = "The tensor model as text, tolerance 1e-9, one core"
+        group("amplitudes", title, amplitudes.rows(scale, repeats))
     if "lyapunov" in chosen.only:
         group("lyapunov", "Six Lyapunov exponents, one core", tasks.lyapunov(scale, repeats, chosen.quick))
         block, record["exponents"] = exponents.verify(scale, chosen.quick)

@@ -180,12 +180,12 @@ impl<M: System> System for InPlane<M> {
 }
 
 impl<T: Scalar, M: Shape<T>> VectorField<T> for InPlane<M> {
-    #[inline]
+    #[inline(always)]
     fn eval(&self, t: T::Real, u: &[T], du: &mut [T]) {
         let (shape, _) = u.split_at(u.len() - 2);
         let (rate, drift) = du.split_at_mut(u.len() - 2);
         self.0.eval(t, shape, rate);
-        drift.copy_from_slice(&self.0.velocity(shape));
+        [drift[0], drift[1]] = self.0.velocity(shape);
     }
 }
 

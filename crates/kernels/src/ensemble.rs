@@ -1,41 +1,57 @@
-//! Orbits of tensor models from their starts to given times, in lanes.
+//! Orbits from their starts to given times, in lanes.
 
-use motiform_dynamics::Watch;
+use crate::kernel::{Common, FromModel, General, Kernel, Text};
 use motiform_dynamics::ensemble::{Member, Propagation, Queue, propagate};
-use motiform_models::tensor::Tensor;
-use motiform_models::tensor::fourier::{DIM, FourierField, terms};
+use motiform_dynamics::{Model, Watch};
 
-/// Shape and position.
-pub const STATE: usize = DIM + 2;
-
-/// A tensor model, and the initial state of its orbit.
-#[derive(Clone, Copy)]
-pub struct TensorStart {
+/// A body, and the initial state of its orbit.
+pub struct Start<'m> {
     /// The key that is returned with its states.
     pub key: usize,
-    /// The model, which must be such that [`has_ensemble`].
-    pub tensor: Tensor,
+    /// The body.
+    pub body: &'m dyn Model,
     /// Shape and position at time 0.
-    pub start: [f64; STATE],
+    pub state: Vec<f64>,
 }
 
-/// Whether a model's orbits run in lanes: it has only the common terms.
-#[must_use]
-pub fn has_ensemble(tensor: &Tensor) -> bool {
-    tensor.terms() & !terms::COMMON == 0
-}
+/// Provides the next orbit; `None` at the end.
+type Next<'n, 'm> = &'n mut dyn FnMut() -> Option<Start<'m>>;
 
-/// Runs the orbits that `next` gives, on this thread; `done` gets the states of each at all times, or `None` where a single orbit has to
-/// say what happened. `false`, without any work, on a machine without lanes. See [`propagate`].
-pub fn propagate_tensors(
+/// Receives the states of an orbit at all times.
+type Done<'d> = &'d mut dyn FnMut(usize, Option<Vec<&[f64]>>);
+
+/// Runs the orbits that `next` gives, on this thread; `kernel` must compute their bodies, and amplitude equations must be those of the
+/// first one, with any parameters. `done` gets the states of each at all times, or `None` where a single orbit has to say what happened.
+/// `false`, without any work, on a machine without lanes. See [`propagate`].
+pub fn propagate_bodies(
+    kernel: Kernel,
     how: &Propagation<'_>,
-    next: &mut dyn FnMut() -> Option<TensorStart>,
-    done: &mut dyn FnMut(usize, Option<Vec<[f64; STATE]>>),
+    next: Next<'_, '_>,
+    done: Done<'_>,
+    watch: &dyn Watch,
+) -> bool {
+    match kernel {
+        Kernel::CommonTensor => run::<Common, 8>(how, next, done, watch),
+        Kernel::Tensor => run::<General, 8>(how, next, done, watch),
+        Kernel::Amplitudes(1) => run::<Text<2>, 4>(how, next, done, watch),
+        Kernel::Amplitudes(2) => run::<Text<4>, 6>(how, next, done, watch),
+        Kernel::Amplitudes(3) => run::<Text<6>, 8>(how, next, done, watch),
+        Kernel::Amplitudes(_) => run::<Text<8>, 10>(how, next, done, watch),
+    }
+}
+
+fn run<F: FromModel, const D: usize>(
+    how: &Propagation<'_>,
+    next: Next<'_, '_>,
+    done: Done<'_>,
     watch: &dyn Watch,
 ) -> bool {
     let mut member = || {
-        let TensorStart { key, tensor, start } = next()?;
-        Some(Member { key, field: FourierField::<f64, { terms::COMMON }>(tensor.field().0), start })
+        let Start { key, body, state } = next()?;
+        Some(Member { key, field: F::from_model(body)?, start: state.try_into().ok()? })
     };
-    propagate(how, Queue { next: &mut member, done, watch })
+    let mut arrived = |key: usize, states: Option<Vec<[f64; D]>>| {
+        done(key, states.as_ref().map(|states| states.iter().map(<[f64; D]>::as_slice).collect()));
+    };
+    propagate(how, Queue { next: &mut member, done: &mut arrived, watch })
 }

@@ -1,46 +1,80 @@
-//! Lyapunov exponents of the tensor model, in lanes.
+//! All Lyapunov exponents, in lanes.
 
+use crate::kernel::{Common, FromModel, Kernel, Text};
 use motiform_analysis::Result;
 use motiform_analysis::lyapunov::{
     Lyapunov, LyapunovSettings, TangentMember, lyapunov_in_lanes, runs_in_lanes,
 };
-use motiform_dynamics::{Equivariant, StepControl, Watch};
-use motiform_models::tensor::Tensor;
-use motiform_models::tensor::fourier::{DIM, FourierField, terms};
+use motiform_dynamics::{Equivariant, Model, StepControl, Watch};
 
-/// A tensor model as a body for exponents.
-struct Body(Tensor);
+/// A borrowed body.
+struct Body<'m>(&'m (dyn Model + 'static));
 
-impl AsRef<dyn Equivariant> for Body {
+impl AsRef<dyn Equivariant> for Body<'_> {
     fn as_ref(&self) -> &(dyn Equivariant + 'static) {
-        &self.0
+        self.0
     }
 }
 
-/// Whether [`exponents_of_tensor`] is applicable: all exponents, of a model within the common terms, by a method that has lanes.
-#[must_use]
-pub fn has_exponents(tensor: &Tensor, settings: &LyapunovSettings) -> bool {
-    settings.count == DIM && tensor.terms() & !terms::COMMON == 0 && runs_in_lanes(settings)
+/// Most modes of amplitude equations whose exponents have a kernel.
+const MOST_MODES: usize = 3;
+
+/// The kernel of all exponents of a body, by a method that has lanes; `None` if there is none.
+fn kernel(body: &(dyn Model + 'static), settings: &LyapunovSettings) -> Option<Kernel> {
+    let kernel = Kernel::of(body)?;
+    let compiled = match kernel {
+        Kernel::CommonTensor => true,
+        Kernel::Tensor => false,
+        Kernel::Amplitudes(modes) => modes <= MOST_MODES,
+    };
+    (compiled && settings.count == body.dim() && runs_in_lanes(settings)).then_some(kernel)
 }
 
-/// All exponents of the orbits of one tensor model with the initial states from `next`; each result is passed to `done` with the start's
+/// Whether [`exponents_of_body`] is applicable: all exponents, of a model within a kernel's terms, by a method that has lanes.
+#[must_use]
+pub fn has_exponents(body: &(dyn Model + 'static), settings: &LyapunovSettings) -> bool {
+    kernel(body, settings).is_some()
+}
+
+/// Provides the next initial shape with its key; `None` at the end.
+type Next<'n> = &'n mut dyn FnMut() -> Option<(usize, Vec<f64>)>;
+
+/// Receives a result with its start's key.
+type Done<'d> = &'d mut dyn FnMut(usize, Result<Lyapunov>);
+
+/// All exponents of the orbits of one body with the initial states from `next`; each result is passed to `done` with the start's
 /// key. The same bits as [`motiform_analysis::lyapunov()`] gives one by one. When `watch` stops it, the rest is left.
 /// Does nothing if [`has_exponents`] is false.
-pub fn exponents_of_tensor(
-    tensor: &Tensor,
+pub fn exponents_of_body(
+    body: &(dyn Model + 'static),
     settings: &LyapunovSettings,
-    next: &mut dyn FnMut() -> Option<(usize, [f64; DIM])>,
-    done: &mut dyn FnMut(usize, Result<Lyapunov>),
+    next: Next<'_>,
+    done: Done<'_>,
     watch: &dyn Watch,
 ) {
-    let StepControl::Adaptive { rtol, atol } = settings.control else { return };
-    if !has_exponents(tensor, settings) {
-        return;
+    match kernel(body, settings) {
+        Some(Kernel::CommonTensor) => run::<Common, 6, 42>(body, settings, next, done, watch),
+        Some(Kernel::Amplitudes(1)) => run::<Text<2>, 2, 6>(body, settings, next, done, watch),
+        Some(Kernel::Amplitudes(2)) => run::<Text<4>, 4, 20>(body, settings, next, done, watch),
+        Some(Kernel::Amplitudes(3)) => run::<Text<6>, 6, 42>(body, settings, next, done, watch),
+        _ => {}
     }
+}
+
+fn run<F: FromModel, const N: usize, const D: usize>(
+    body: &(dyn Model + 'static),
+    settings: &LyapunovSettings,
+    next: Next<'_>,
+    done: Done<'_>,
+    watch: &dyn Watch,
+) {
+    let (StepControl::Adaptive { rtol, atol }, Some(field)) = (settings.control, F::from_model(body)) else {
+        return;
+    };
     let mut member = || {
         let (key, start) = next()?;
-        let field = FourierField::<f64, { terms::COMMON }>(tensor.field().0);
-        Some(TangentMember { key, body: Body(*tensor), field, start, settings: *settings })
+        let start = start.try_into().ok()?;
+        Some(TangentMember { key, body: Body(body), field: field.clone(), start, settings: *settings })
     };
-    lyapunov_in_lanes::<_, _, DIM, DIM, { DIM * (1 + DIM) }>((rtol, atol), &mut member, done, watch);
+    lyapunov_in_lanes::<_, F, N, N, D>((rtol, atol), &mut member, done, watch);
 }

@@ -3,10 +3,12 @@
 //! An analysis never names a model, and a model never names an analysis; a kernel combines them, for each instruction set and
 //! arithmetic. Compiling it takes minutes, so it is in a separate crate, which changes rarely.
 
+mod classify;
 mod ensemble;
 mod exponents;
-mod tensor;
+mod kernel;
 
-pub use ensemble::{STATE, TensorStart, has_ensemble, propagate_tensors};
-pub use exponents::{exponents_of_tensor, has_exponents};
-pub use tensor::{TensorRow, classify_tensors, covering};
+pub use classify::{Row, classify_rows};
+pub use ensemble::{Start, propagate_bodies};
+pub use exponents::{exponents_of_body, has_exponents};
+pub use kernel::{Kernel, MOST_MODES};

@@ -6,8 +6,7 @@ use motiform_dynamics::drive::drive;
 use motiform_dynamics::ensemble::Propagation;
 use motiform_dynamics::simd::has_lanes;
 use motiform_dynamics::{InPlane, Model, Outcome, Request, StepControl, StopOnly};
-use motiform_kernels::{STATE, TensorStart, has_ensemble, propagate_tensors};
-use motiform_models::tensor::Tensor;
+use motiform_kernels::{Kernel, Start, propagate_bodies};
 use motiform_study::plan::{check, check_closed, check_no_noise, check_steps};
 use motiform_study::{Error, Plan, Random};
 
@@ -49,7 +48,7 @@ pub struct Track {
 /// The tracks of `members`, in their order, at `times` (increasing, the first one at least 0), with the method and the tolerances of
 /// `plan`; `None` if the watch stopped it. The plan's own parameters, start, transient and time span are not used.
 ///
-/// Tensor models with the paper's terms run in the lanes of vector registers if the method is dop853 with a tolerance. A track does
+/// Tensor models and amplitude equations of at most four modes run in the lanes of vector registers if the method is dop853 with a tolerance. A track does
 /// not depend on the other members, on `threads`, or on the machine.
 ///
 /// # Errors
@@ -67,9 +66,9 @@ pub fn tracks(
     check_times(times)?;
     let bodies: Vec<Body> =
         members.iter().map(|member| Body::new(plan, member, times)).collect::<Result<_, _>>()?;
-    let lanes = lanes(plan, times).filter(|_| bodies.iter().all(|body| body.tensor().is_some()));
+    let lanes = lanes(plan, times).zip(Kernel::of_all(bodies.iter().map(|body| body.model.as_ref())));
     spread(members.len(), threads, watch, |jobs| match &lanes {
-        Some(how) => in_lanes(plan, &bodies, how, jobs, watch),
+        Some(lanes) => in_lanes(plan, &bodies, lanes, jobs, watch),
         None => jobs.each(|job| bodies[job].track(plan, times, watch)),
     })
 }
@@ -117,11 +116,6 @@ impl Body {
         Ok(Self { model, start })
     }
 
-    /// The model, if it is one that runs in lanes.
-    fn tensor(&self) -> Option<&Tensor> {
-        self.model.as_any()?.downcast_ref().filter(|tensor| has_ensemble(tensor))
-    }
-
     /// A state as the model's coordinates, x and y.
     fn named(&self, state: &[f64]) -> Vec<f64> {
         let (shape, position) = state.split_at(state.len() - 2);
@@ -159,13 +153,19 @@ impl Body {
 }
 
 /// Tracks in lanes, on this thread.
-fn in_lanes(plan: &Plan, bodies: &[Body], how: &Propagation<'_>, jobs: &Jobs<'_, Track>, watch: &dyn Watch) {
+fn in_lanes(
+    plan: &Plan,
+    bodies: &[Body],
+    (how, kernel): &(Propagation<'_>, Kernel),
+    jobs: &Jobs<'_, Track>,
+    watch: &dyn Watch,
+) {
     let mut next = || {
         let key = jobs.next()?;
         let body = &bodies[key];
-        Some(TensorStart { key, tensor: *body.tensor()?, start: body.start.as_slice().try_into().ok()? })
+        Some(Start { key, body: body.model.as_ref(), state: body.start.clone() })
     };
-    let mut done = |job: usize, states: Option<Vec<[f64; STATE]>>| {
+    let mut done = |job: usize, states: Option<Vec<&[f64]>>| {
         let track = match states {
             Some(states) => Ok(Some(Track {
                 outcome: Outcome::Completed { t: how.times.last().copied().unwrap_or(0.0) },
@@ -175,5 +175,5 @@ fn in_lanes(plan: &Plan, bodies: &[Body], how: &Propagation<'_>, jobs: &Jobs<'_,
         };
         jobs.done(job, track);
     };
-    propagate_tensors(how, &mut next, &mut done, watch);
+    propagate_bodies(*kernel, how, &mut next, &mut done, watch);
 }

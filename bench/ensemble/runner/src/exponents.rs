@@ -45,7 +45,13 @@ pub fn spectra(options: &Options) -> Result<Value, Failure> {
         let mut next = || {
             let key = taken.fetch_add(1, Ordering::Relaxed);
             let (parameters, field, start) = members.get(key)?;
-            Some(TangentMember { key, body: Body(Tensor::new(parameters)), field: *field, start: *start, settings })
+            Some(TangentMember {
+                key,
+                body: Body(Tensor::new(parameters)),
+                field: *field,
+                start: *start,
+                settings,
+            })
         };
         let mut done = |key: usize, run: Analysed<Lyapunov>| {
             if let Ok(mut runs) = runs.lock() {
@@ -68,7 +74,10 @@ pub fn spectra(options: &Options) -> Result<Value, Failure> {
     if let Some(run) = runs.iter().find(|run| run.exponents.len() != 6) {
         return Err(format!("no exponents: {}", run.outcome).into());
     }
-    let check: Vec<Vec<f64>> =
-        runs.iter().take(8).map(|run| run.exponents.iter().map(|exponent| exponent.value).collect()).collect();
+    let check: Vec<Vec<f64>> = runs
+        .iter()
+        .take(8)
+        .map(|run| run.exponents.iter().map(|exponent| exponent.value).collect())
+        .collect();
     Ok(json!({ "seconds": seconds, "work": count as f64 * (t + TRANSIENT), "check": check }))
 }

@@ -1,5 +1,6 @@
 //! One measurement of motiform: `motiform-bench TASK key=value ...` prints one JSON object.
 
+mod amplitudes;
 mod exponents;
 mod options;
 mod orbits;
@@ -12,8 +13,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let options = Options::parse(words)?;
     let result = match task.as_str() {
         "adaptive" | "short" => orbits::adaptive(&options, &task)?,
+        "amplitudes" => amplitudes::amplitudes(&options)?,
         "lyapunov" => exponents::spectra(&options)?,
-        other => return Err(format!("no task {other:?}: adaptive, short, lyapunov").into()),
+        other => return Err(format!("no task {other:?}: adaptive, amplitudes, short, lyapunov").into()),
     };
     println!("{result}");
     Ok(())

@@ -197,7 +197,7 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
         let mut lengths = [L::splat(0.0); K];
         let lost = orthonormalise(due, N, &mut landed.u[N..], &mut landed.rates[N..], &mut lengths);
         let mut spin = [L::splat(0.0); N];
-        F::spin(&landed.u[..N], &mut spin);
+        F::spin(self.field.as_mut(), &landed.u[..N], &mut spin);
         let speed = speed_beside(&spin, &landed.rates[..N]);
         self.stretched(due, landed, &lengths, speed);
         lost

@@ -115,7 +115,7 @@ impl<L: Bundle, const N: usize> LaneObserver<L, N> {
     ) {
         self.extremes::<F>(step, field, singles);
         let mut spin = *step.u;
-        F::spin(step.u, &mut spin);
+        F::spin(field, step.u, &mut spin);
         let (mut along, mut square) = (L::splat(0.0), L::splat(0.0));
         for i in 0..N {
             along += spin[i] * step.slopes.k[step.end][i];

@@ -19,7 +19,7 @@ pub trait InLanes: VectorField<f64> + Sync {
     fn tangent<B: Bundle, const K: usize>(field: Self::Field<B>) -> Self::Tangent<B, K>;
 
     /// The infinitesimal rotation of a shape ([`crate::Equivariant::spin`]).
-    fn spin<B: Bundle>(shape: &[B], out: &mut [B]);
+    fn spin<B: Bundle>(field: &Self::Field<B>, shape: &[B], out: &mut [B]);
 
     /// A bundle with this field in every lane.
     fn bundle<B: Bundle>(&self) -> Self::Field<B>;

@@ -6,6 +6,7 @@
 )]
 
 use super::{DualRow, Scalar};
+use crate::simd::Kernel;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A value and its derivatives along `K` directions: `value + sum_k derivative[k] eps_k`, `eps_j eps_k = 0`.
@@ -102,6 +103,11 @@ impl<T: Scalar, const K: usize> Scalar for Dual<T, K> {
             derivative[k] = derivative[k].add_scaled(x.derivative[k], real);
         }
         Self { value: self.value.add_scaled(x.value, real), derivative }
+    }
+
+    #[inline(always)]
+    fn apart<W: Kernel>(kernel: W) -> W::Output {
+        T::apart(kernel)
     }
 
     /// `(sin x)' = cos x x'`, `(cos x)' = -sin x x'`.

@@ -17,6 +17,7 @@ pub use complex::Complex;
 pub use dual::Dual;
 pub use row::{DualRow, Row};
 
+use crate::simd::Kernel;
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -90,6 +91,13 @@ pub trait Scalar:
     #[inline(always)]
     fn zero(self) -> Self {
         self.constant(0.0)
+    }
+
+    /// Runs a kernel over this type, as a function of its own if the type needs instructions beyond the baseline: a long one is then compiled
+    /// once for its many callers, with the instructions that they have.
+    #[inline(always)]
+    fn apart<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run()
     }
 }
 

@@ -1,5 +1,6 @@
 //! Numbers in vector registers, as a scalar.
 
+use super::Kernel;
 use crate::scalar::{Bundle, MOST_LANES, Mask, Scalar};
 use std::fmt;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -38,6 +39,11 @@ pub trait Registers: Copy + Send + Sync + 'static {
     fn at_most(self, other: Self) -> u16;
     /// `a` where the mask has a bit, else `b`.
     fn select(mask: u16, a: Self, b: Self) -> Self;
+    /// See [`Scalar::apart`].
+    #[inline(always)]
+    fn apart<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run()
+    }
 }
 
 /// Orbits side by side in vector registers.
@@ -81,6 +87,11 @@ impl<R: Registers> Scalar for Packed<R> {
     #[inline(always)]
     fn real(self) -> Self {
         self
+    }
+
+    #[inline(always)]
+    fn apart<K: Kernel>(kernel: K) -> K::Output {
+        R::apart(kernel)
     }
 
     #[inline(always)]

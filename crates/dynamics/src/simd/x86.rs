@@ -70,7 +70,7 @@ fn avx2<K: LaneKernel>(kernel: K) -> K::Output {
 /// SAFETY of every block: a value of `$name` exists only inside the function that was compiled for its instructions (see above). Loads
 /// and stores stay inside the slices, which are cut to the lanes first.
 macro_rules! registers {
-    ($name:ident, $lanes:literal, $splat:ident $add:ident $sub:ident $mul:ident $div:ident
+    ($name:ident, $lanes:literal, $features:literal, $splat:ident $add:ident $sub:ident $mul:ident $div:ident
         $sqrt:ident $max:ident $min:ident, $($rest:tt)*) => {
         impl Registers for $name {
             const LANES: usize = $lanes;
@@ -128,6 +128,16 @@ macro_rules! registers {
                 unsafe { Self($min(other.0, self.0)) }
             }
 
+            #[inline(always)]
+            fn apart<K: Kernel>(kernel: K) -> K::Output {
+                #[target_feature(enable = $features)]
+                #[inline(never)]
+                fn apart<K: Kernel>(kernel: K) -> K::Output {
+                    kernel.run()
+                }
+                unsafe { apart(kernel) }
+            }
+
             $($rest)*
         }
     };
@@ -138,7 +148,7 @@ macro_rules! registers {
 #[repr(transparent)]
 struct Zmm(__m512d);
 
-registers! { Zmm, 8, _mm512_set1_pd _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd
+registers! { Zmm, 8, "avx512f,avx512dq,avx512vl,avx2,fma", _mm512_set1_pd _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd
     _mm512_sqrt_pd _mm512_max_pd _mm512_min_pd,
 
     #[inline(always)]
@@ -168,7 +178,7 @@ registers! { Zmm, 8, _mm512_set1_pd _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _m
 #[repr(transparent)]
 struct Ymm(__m256d);
 
-registers! { Ymm, 4, _mm256_set1_pd _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd
+registers! { Ymm, 4, "avx2,fma", _mm256_set1_pd _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd
     _mm256_sqrt_pd _mm256_max_pd _mm256_min_pd,
 
     #[inline(always)]

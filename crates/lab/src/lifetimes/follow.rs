@@ -10,8 +10,7 @@ use motiform_dynamics::ensemble::Propagation;
 use motiform_dynamics::escape::norm;
 use motiform_dynamics::simd::has_lanes;
 use motiform_dynamics::{InPlane, Model, Outcome, Request, StepControl, StopOnly, VectorField, Watch};
-use motiform_kernels::{STATE, TensorStart, has_ensemble, propagate_tensors};
-use motiform_models::tensor::Tensor;
+use motiform_kernels::{Kernel, Start, propagate_bodies};
 use motiform_study::{Error, ScanPlan};
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
@@ -64,8 +63,8 @@ pub(super) struct Follower<'p> {
     size: f64,
     settings: Settings,
     watch: &'p dyn Watch,
-    /// Whether an orbit is one of the lanes' kind, whether or not this machine has lanes: the position is integrated too.
-    lanes: bool,
+    /// The kernel of all orbits, whether or not this machine has lanes: with one, the position is integrated too.
+    kernel: Option<Kernel>,
 }
 
 /// An orbit on its way: looks done, and its state then.
@@ -82,9 +81,9 @@ impl<'p> Follower<'p> {
         let bounds = (c.escape_norm, c.max_steps);
         let settings = settings_of(info, method, c.control, bounds, LAST_LOOKS * info.look);
         let adaptive = matches!(c.control.into(), StepControl::Adaptive { .. });
-        let lanes =
-            c.stepper == "dop853" && adaptive && models.iter().all(|model| tensor(model.as_ref()).is_some());
-        Ok(Self { plan, models, looks, look: info.look, size: info.size, settings, watch, lanes })
+        let suited = c.stepper == "dop853" && adaptive;
+        let kernel = suited.then(|| Kernel::of_all(models.iter().map(AsRef::as_ref))).flatten();
+        Ok(Self { plan, models, looks, look: info.look, size: info.size, settings, watch, kernel })
     }
 
     /// Follows the orbits that a thread takes, in lanes where there are any.
@@ -92,12 +91,10 @@ impl<'p> Follower<'p> {
         let StepControl::Adaptive { rtol, atol } = self.settings.control else {
             return self.one_by_one(jobs);
         };
-        if !self.lanes || !has_lanes() {
-            return self.one_by_one(jobs);
-        }
+        let Some(kernel) = self.kernel.filter(|_| has_lanes()) else { return self.one_by_one(jobs) };
         let times = [self.look];
         let how = Propagation { times: &times, rtol, atol, escape_norm: self.settings.escape_norm };
-        self.in_lanes(&how, jobs);
+        self.in_lanes(kernel, &how, jobs);
     }
 
     pub(super) fn one_by_one(&self, jobs: &Jobs<'_, Followed>) {
@@ -112,20 +109,19 @@ impl<'p> Follower<'p> {
     }
 
     /// Each lane runs a look; what goes on enters again.
-    fn in_lanes(&self, how: &Propagation<'_>, jobs: &Jobs<'_, Followed>) {
+    fn in_lanes(&self, kernel: Kernel, how: &Propagation<'_>, jobs: &Jobs<'_, Followed>) {
         let on_the_way: RefCell<BTreeMap<usize, Way>> = RefCell::new(BTreeMap::new());
         let waiting: RefCell<Vec<usize>> = RefCell::new(Vec::new());
         let mut next = || {
             let key = waiting.borrow_mut().pop().or_else(|| self.enter(jobs, &on_the_way))?;
-            let tensor = *tensor(self.model(key))?;
-            let mut start = [0.0; STATE];
-            start[..STATE - 2].copy_from_slice(&on_the_way.borrow().get(&key)?.shape);
-            Some(TensorStart { key, tensor, start })
+            let mut state = on_the_way.borrow().get(&key)?.shape.clone();
+            state.extend([0.0, 0.0]);
+            Some(Start { key, body: self.model(key), state })
         };
-        let mut done = |key: usize, states: Option<Vec<[f64; STATE]>>| {
+        let mut done = |key: usize, states: Option<Vec<&[f64]>>| {
             let Some(mut way) = on_the_way.borrow_mut().remove(&key) else { return };
             let found = match states.as_deref() {
-                Some([.., state]) => self.arrived(key, &mut way, &state[..STATE - 2]),
+                Some([.., state]) => self.arrived(key, &mut way, &state[..state.len() - 2]),
                 _ => self.single(key, &mut way),
             };
             match found {
@@ -137,7 +133,7 @@ impl<'p> Follower<'p> {
                 Err(error) => jobs.done(key, Err(error)),
             }
         };
-        propagate_tensors(how, &mut next, &mut done, self.watch);
+        propagate_bodies(kernel, how, &mut next, &mut done, self.watch);
     }
 
     /// Takes a job of which the start is sound.
@@ -170,7 +166,7 @@ impl<'p> Follower<'p> {
         let dim = way.shape.len();
         let mut state = way.shape.clone();
         let body = InPlane(model);
-        let mut orbit = if self.lanes {
+        let mut orbit = if self.kernel.is_some() {
             state.extend([0.0, 0.0]);
             method.orbit(&body, control, 0.0, &state)?
         } else {
@@ -228,9 +224,4 @@ impl<'p> Follower<'p> {
         let near = steady.distance(model, shape) < NEAR * size(&steady.shape);
         (stable && near).then(|| -steady.growth())
     }
-}
-
-/// The model, if it is one that runs in lanes.
-fn tensor(model: &dyn Model) -> Option<&Tensor> {
-    model.as_any()?.downcast_ref().filter(|tensor| has_ensemble(tensor))
 }

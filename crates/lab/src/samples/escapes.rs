@@ -7,6 +7,7 @@ use motiform_analysis::{Lyapunov, Regime, Share, Stay, Verdict, escape_limits};
 use motiform_dynamics::Watch;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Outcome, Request, StopOnly};
+use motiform_kernels::Kernel;
 use motiform_study::{Error, Plan};
 use serde::Serialize;
 
@@ -57,7 +58,7 @@ pub struct EscapeLimits {
 
 impl Escapes {
     /// The results for starts with these verdicts. Chaotic ones are followed to the end of the budget, up to 32 of them, where that
-    /// is cheap (the tensor model; others count for the time of their verdict). `Ok(None)` if nothing blew up and nothing is
+    /// is cheap (models that run in lanes; others count for the time of their verdict). `Ok(None)` if nothing blew up and nothing is
     /// chaotic, and if the watch stopped it.
     ///
     /// # Errors
@@ -77,7 +78,7 @@ impl Escapes {
         let chaotic: Vec<usize> = all().filter(is(Regime::Chaotic)).map(|(sample, _)| sample).collect();
         let population = Population::new(plan, samples, watch)?;
         let look = plan.info()?.look;
-        if population.tensor().is_none() {
+        if Kernel::of(population.model.as_ref()).is_none() {
             let seen = |&sample: &usize| Stay { time: verdicts[sample].time, escaped: false };
             let stays: Vec<Stay> = chaotic.iter().map(seen).collect();
             let until = stays.iter().map(|stay| stay.time).fold(0.0, f64::max);

@@ -10,8 +10,7 @@ use motiform_analysis::regime::{Settings, Verdict, classifies_in_lanes};
 use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings};
 use motiform_dynamics::Watch;
 use motiform_dynamics::{Outcome, StopOnly};
-use motiform_kernels::{TensorRow, classify_tensors, covering, exponents_of_tensor, has_exponents};
-use motiform_models::tensor::Tensor;
+use motiform_kernels::{Kernel, Row, classify_rows, exponents_of_body, has_exponents};
 use motiform_study::plan::check;
 use motiform_study::{Error, Plan, Random};
 use population::{Asked, Population};
@@ -52,27 +51,26 @@ pub fn classify(
     samples.check()?;
     let settings = analyse::settings(plan, budget)?;
     let population = Population::new(plan, samples, watch)?;
-    let tensor = population.tensor().filter(|_| classifies_in_lanes(&settings));
-    population.run(|asked| match tensor {
-        Some(tensor) => classify_in_lanes(plan, tensor, &settings, asked),
+    let kernel =
+        Kernel::of_classification(population.model.as_ref()).filter(|_| classifies_in_lanes(&settings));
+    population.run(|asked| match kernel {
+        Some(kernel) => classify_in_lanes(plan, kernel, &settings, asked),
         None => asked.one_by_one(|start| {
             Ok(motiform_analysis::classify(population.model.as_ref(), start, &settings, &StopOnly(watch))?)
         }),
     })
 }
 
-fn classify_in_lanes(plan: &Plan, tensor: &Tensor, settings: &Settings, asked: &Asked<'_, '_, '_, Verdict>) {
+fn classify_in_lanes(plan: &Plan, kernel: Kernel, settings: &Settings, asked: &Asked<'_, '_, '_, Verdict>) {
     let mut next = || {
         let (key, start) = asked.next()?;
-        let start = start.try_into().ok()?;
         let body = plan.info().ok()?.build(&plan.computation.parameters.values()).ok()?;
-        Some(TensorRow { key, body, tensor: *tensor, start })
+        Some(Row { key, body, start })
     };
     let mut done = |key, found: motiform_analysis::Result<Option<Verdict>>| {
         asked.jobs.done(key, found.map_err(Error::from));
     };
-    let terms = covering(tensor.terms());
-    classify_tensors(terms, settings, &mut next, &mut done, asked.population.watch);
+    classify_rows(kernel, settings, &mut next, &mut done, asked.population.watch);
 }
 
 /// Exponents of many orbits.
@@ -103,10 +101,10 @@ pub fn lyapunov(
     samples.check()?;
     let settings = analyse::lyapunov_settings(plan, count, spans)?;
     let population = Population::new(plan, samples, watch)?;
-    let tensor = population.tensor().filter(|tensor| has_exponents(tensor, &settings));
-    let orbits = population.run(|asked| match tensor {
-        Some(tensor) => exponents_in_lanes(tensor, &settings, asked),
-        None => asked.one_by_one(|start| {
+    let in_lanes = has_exponents(population.model.as_ref(), &settings);
+    let orbits = population.run(|asked| match in_lanes {
+        true => exponents_in_lanes(&settings, asked),
+        false => asked.one_by_one(|start| {
             let found =
                 motiform_analysis::lyapunov(population.model.as_ref(), start, &settings, &StopOnly(watch))?;
             Ok((!matches!(found.outcome, Outcome::Interrupted { .. })).then_some(found))
@@ -123,17 +121,15 @@ impl Exponents {
     }
 }
 
-fn exponents_in_lanes(tensor: &Tensor, settings: &LyapunovSettings, asked: &Asked<'_, '_, '_, Lyapunov>) {
-    let mut next = || {
-        let (key, start) = asked.next()?;
-        Some((key, start.try_into().ok()?))
-    };
+fn exponents_in_lanes(settings: &LyapunovSettings, asked: &Asked<'_, '_, '_, Lyapunov>) {
+    let mut next = || asked.next();
     let mut done = |key, found: motiform_analysis::Result<Lyapunov>| {
         let lasted =
             |found: Lyapunov| (!matches!(found.outcome, Outcome::Interrupted { .. })).then_some(found);
         asked.jobs.done(key, found.map(lasted).map_err(Error::from));
     };
-    exponents_of_tensor(tensor, settings, &mut next, &mut done, asked.population.watch);
+    let Population { model, watch, .. } = asked.population;
+    exponents_of_body(model.as_ref(), settings, &mut next, &mut done, *watch);
 }
 
 /// Largest exponents that differ by more than this many errors do not belong to one attractor.

@@ -5,7 +5,6 @@ use crate::analyse;
 use crate::pool::{Jobs, spread};
 use motiform_dynamics::Model;
 use motiform_dynamics::Watch;
-use motiform_models::tensor::Tensor;
 use motiform_study::{Error, Plan};
 
 /// The samples of a plan, or some of them.
@@ -27,10 +26,6 @@ impl<'c> Population<'c> {
     /// The same, with only some of the samples.
     pub(super) fn among(self, chosen: Vec<usize>) -> Self {
         Self { chosen, ..self }
-    }
-
-    pub(super) fn tensor(&self) -> Option<&Tensor> {
-        self.model.as_any()?.downcast_ref()
     }
 
     /// The initial shape of a sample, in the model's representation.

@@ -20,7 +20,7 @@ fn plan(name: &str, axes: [&str; 2], samples: u64) -> ScanPlan {
 }
 
 /// All rows together.
-fn in_lanes(plan: &ScanPlan) -> Vec<Verdict> {
+pub(crate) fn in_lanes(plan: &ScanPlan) -> Vec<Verdict> {
     let samples = plan.computation.samples;
     let mut rows = (0..plan.rows()).map(|row| (row / samples, row % samples));
     let mut verdicts = vec![None; plan.rows()];
@@ -34,18 +34,18 @@ fn in_lanes(plan: &ScanPlan) -> Vec<Verdict> {
 }
 
 /// Row after row, each by itself.
-fn one_by_one(plan: &ScanPlan) -> Vec<Verdict> {
+pub(crate) fn one_by_one(plan: &ScanPlan) -> Vec<Verdict> {
     let samples = plan.computation.samples;
     let row = |row| Classify.evaluate(plan, row / samples, row % samples, &()).unwrap().unwrap();
     (0..plan.rows()).map(row).collect()
 }
 
-fn regimes(verdicts: &[Verdict]) -> BTreeSet<String> {
+pub(crate) fn regimes(verdicts: &[Verdict]) -> BTreeSet<String> {
     verdicts.iter().map(|verdict| verdict.regime.name().to_owned()).collect()
 }
 
 /// Numbers and reasons of a verdict; NaN equals NaN.
-fn text(verdict: &Verdict) -> String {
+pub(crate) fn text(verdict: &Verdict) -> String {
     format!("{verdict:?}")
 }
 

@@ -8,6 +8,8 @@ mod built_in;
 mod coefficient;
 mod definition;
 mod equations;
+mod evaluation;
+mod lanes;
 mod names;
 mod parser;
 mod polynomial;
@@ -21,6 +23,7 @@ mod tokens;
 pub use built_in::{of_model, tensor as tensor_as_text};
 pub use definition::{Definition, DefinitionError, ParameterDefinition, Part};
 pub use equations::Equations;
+pub use lanes::AmplitudesField;
 pub(crate) use names::Known;
 pub use names::{NAME, info, terms};
 pub use parser::RESERVED;
@@ -111,9 +114,7 @@ impl<T: Scalar<Real = f64>> Semilinear<T> for Amplitudes {
 impl<T: Scalar<Real = f64>> Shape<T> for Amplitudes {
     #[inline]
     fn velocity(&self, shape: &[T]) -> [T; 2] {
-        let mut velocity = [shape[0].zero(); 2];
-        self.known.equations.velocity_program.eval(&self.velocity, shape, &mut velocity);
-        velocity
+        self.known.velocity(&self.velocity, shape)
     }
 }
 
@@ -135,11 +136,7 @@ impl Equivariant for Amplitudes {
     }
 
     fn spin(&self, shape: &[f64], out: &mut [f64]) {
-        let sense = if self.symmetry().rotations { f64::from(self.known.equations.sense) } else { 0.0 };
-        for ((z, by), &n) in shape.chunks_exact(2).zip(out.chunks_exact_mut(2)).zip(self.modes()) {
-            let rate = sense * f64::from(n);
-            (by[0], by[1]) = (-rate * z[1], rate * z[0]);
-        }
+        self.known.spin(shape, out);
     }
 
     /// `z_n -> conj(z_n)`.

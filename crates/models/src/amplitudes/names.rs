@@ -3,8 +3,8 @@
 use super::{Amplitudes, Definition, DefinitionError, Equations, Monomial, ParameterDefinition};
 use crate::registry::{Display, ModelInfo, Source};
 use crate::{Error, ParameterSpec};
-use motiform_dynamics::Model;
 use motiform_dynamics::model::{Coordinate, Observable};
+use motiform_dynamics::{Bundle, Model, Scalar};
 use std::fmt::Write;
 use std::sync::{Mutex, PoisonError};
 
@@ -136,6 +136,31 @@ impl Known {
         let orders = equations.velocity_terms(&zeros).into_iter().map(|(monomial, _)| monomial.order());
         let velocity_order = orders.max().unwrap_or(0);
         Self { equations, parameters, coordinates, order, signs, observables, observed, velocity_order }
+    }
+
+    /// `-i n z_n`, or with a plus for a velocity like `z1`; 0 where the flow has no rotations.
+    #[inline(always)]
+    pub(super) fn spin<B: Bundle>(&self, shape: &[B], out: &mut [B]) {
+        let sense = if self.equations.symmetry.rotations { f64::from(self.equations.sense) } else { 0.0 };
+        let modes = &self.equations.definition().modes;
+        for ((z, by), &n) in shape.chunks_exact(2).zip(out.chunks_exact_mut(2)).zip(modes) {
+            let rate = sense * f64::from(n);
+            (by[0], by[1]) = (z[1] * -rate, z[0] * rate);
+        }
+    }
+
+    /// The velocity, with these coefficients of its polynomial.
+    #[inline(always)]
+    pub(super) fn velocity<T: Scalar>(&self, coefficients: &[[T::Real; 2]], shape: &[T]) -> [T; 2] {
+        let mut velocity = [shape[0].zero(); 2];
+        match self.equations.velocity_mode {
+            Some(place) if self.equations.sense > 0 => {
+                velocity.copy_from_slice(&shape[2 * place..2 * place + 2]);
+            }
+            Some(place) => velocity = [shape[2 * place], -shape[2 * place + 1]],
+            None => self.equations.velocity_program.eval(coefficients, shape, &mut velocity),
+        }
+        velocity
     }
 
     pub(crate) fn parameters(&self) -> &[ParameterSpec] {

@@ -1,48 +1,57 @@
-//! Polynomials as a list of products that is evaluated over any scalar.
+//! Polynomials as a list of products (evaluated in `evaluation`).
 //!
 //! Each equation is a sum over products of amplitudes, each times a sum over products of squared moduli:
 //! `sum_b b (c_b + sum_k c_bk N_k)`. A product that occurs several times is computed once.
 
 use super::coefficient::{Kind, Place, Tape, Value};
 use super::polynomial::{Monomial, Polynomial};
-use motiform_dynamics::{Complex, Scalar};
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// An amplitude or a product: its register, and whether the conjugate is meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Operand {
-    register: u16,
-    conj: bool,
+pub(super) struct Operand {
+    pub(super) register: u16,
+    pub(super) conj: bool,
 }
 
 /// A factor of a base: a coefficient, times a product of squared moduli if there is one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Factor {
-    norm: Option<u16>,
+pub(super) struct Factor {
+    pub(super) norm: Option<u16>,
     place: Place,
 }
 
 /// A base with its factors.
 #[derive(Clone, Debug, PartialEq)]
-struct Group {
-    base: Option<Operand>,
-    complex: bool,
-    factors: std::ops::Range<usize>,
+pub(super) struct Group {
+    pub(super) base: Operand,
+    pub(super) factors: Range<usize>,
+}
+
+/// The groups of a polynomial.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Sum {
+    /// Those whose only factor is a real coefficient.
+    pub(super) plain: Range<usize>,
+    /// Those with other real factors.
+    pub(super) real: Range<usize>,
+    /// Those with complex factors.
+    pub(super) complex: Range<usize>,
 }
 
 /// Several polynomials, ready to be evaluated.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Program {
-    /// Register `modes + k` is the product of these two.
-    products: Vec<[Operand; 2]>,
+    /// Register `modes + 1 + k` is the product of these two.
+    pub(super) products: Vec<[Operand; 2]>,
     /// The amplitudes whose squared moduli are the first real registers.
-    norms: Vec<u16>,
+    pub(super) norms: Vec<u16>,
     /// The next real registers are products of earlier ones.
-    norm_products: Vec<[u16; 2]>,
-    factors: Vec<Factor>,
-    groups: Vec<Group>,
-    /// The groups of each polynomial.
-    sums: Vec<std::ops::Range<usize>>,
+    pub(super) norm_products: Vec<[u16; 2]>,
+    pub(super) factors: Vec<Factor>,
+    pub(super) groups: Vec<Group>,
+    pub(super) sums: Vec<Sum>,
 }
 
 /// Number of registers of each kind that are available.
@@ -57,9 +66,7 @@ impl Program {
         }
         let mut sums = Vec::new();
         for polynomial in polynomials {
-            let first = builder.groups.len();
-            builder.sum(polynomial, tape);
-            sums.push(first..builder.groups.len());
+            sums.push(builder.sum(polynomial, tape));
         }
         let Builder { products, norms, norm_products, factors, groups, .. } = builder;
         let fits = products.len() <= REGISTERS && norms.len() + norm_products.len() <= REGISTERS;
@@ -73,92 +80,17 @@ impl Program {
 
     /// The factors whose coefficient multiplies amplitude `register` alone in polynomial `sum`.
     pub(super) fn linear(&self, sum: usize, register: u16) -> impl Iterator<Item = usize> + '_ {
-        let own = Some(Operand { register, conj: false });
-        let groups = self.groups[self.sums[sum].clone()].iter().filter(move |group| group.base == own);
+        let own = Operand { register, conj: false };
+        let all = self.sums[sum].plain.start..self.sums[sum].complex.end;
+        let groups = self.groups[all].iter().filter(move |group| group.base == own);
         groups.flat_map(|group| group.factors.clone()).filter(|&factor| self.factors[factor].norm.is_none())
     }
 
-    /// Evaluates all polynomials at the amplitudes `u` (real and imaginary parts in turn).
+    /// Registers of the kind of which most are needed.
     #[inline(always)]
-    pub(super) fn eval<T: Scalar>(&self, coefficients: &[[T::Real; 2]], u: &[T], du: &mut [T]) {
-        let needed = self.products.len().max(self.norms.len() + self.norm_products.len());
-        match needed {
-            ..=8 => self.eval_in::<T, 8>(coefficients, u, du),
-            9..=32 => self.eval_in::<T, 32>(coefficients, u, du),
-            _ => self.eval_in::<T, REGISTERS>(coefficients, u, du),
-        }
+    pub(super) fn registers(&self, modes: usize) -> usize {
+        (modes + 1 + self.products.len()).max(self.norms.len() + self.norm_products.len())
     }
-
-    #[inline(always)]
-    fn eval_in<T: Scalar, const N: usize>(&self, coefficients: &[[T::Real; 2]], u: &[T], du: &mut [T]) {
-        let Some(&some) = u.first() else { return };
-        let zero = some.zero();
-        let mut products = [Complex::new(zero, zero); N];
-        let mut norms = [zero; N];
-        for (k, &[a, b]) in self.products.iter().enumerate() {
-            products[k] = read(a, u, &products) * read(b, u, &products);
-        }
-        for (k, &mode) in self.norms.iter().enumerate() {
-            norms[k] = Complex::new(u[2 * mode as usize], u[2 * mode as usize + 1]).norm_sqr();
-        }
-        for (k, &[a, b]) in self.norm_products.iter().enumerate() {
-            norms[self.norms.len() + k] = norms[a as usize] * norms[b as usize];
-        }
-        for (sum, rate) in self.sums.iter().zip(du.chunks_exact_mut(2)) {
-            let mut total = Complex::new(zero, zero);
-            for group in &self.groups[sum.clone()] {
-                let factor = self.factor(group, coefficients, zero, &norms);
-                total = match group.base {
-                    None => total + factor,
-                    Some(base) if group.complex => total.add_product(read(base, u, &products), factor),
-                    Some(base) => {
-                        let z = read(base, u, &products);
-                        Complex::new(z.re.mul_add(factor.re, total.re), z.im.mul_add(factor.re, total.im))
-                    }
-                };
-            }
-            (rate[0], rate[1]) = (total.re, total.im);
-        }
-    }
-
-    /// The sum over the factors of a group.
-    #[inline(always)]
-    fn factor<T: Scalar>(
-        &self,
-        group: &Group,
-        coefficients: &[[T::Real; 2]],
-        zero: T,
-        norms: &[T],
-    ) -> Complex<T> {
-        let mut sum = Complex::new(zero, zero);
-        for (factor, &[re, im]) in
-            self.factors[group.factors.clone()].iter().zip(&coefficients[group.factors.clone()])
-        {
-            match factor.norm {
-                None => sum.re += zero.lift(re),
-                Some(norm) => sum.re = sum.re.add_scaled(norms[norm as usize], re),
-            }
-            if group.complex {
-                match factor.norm {
-                    None => sum.im += zero.lift(im),
-                    Some(norm) => sum.im = sum.im.add_scaled(norms[norm as usize], im),
-                }
-            }
-        }
-        sum
-    }
-}
-
-/// The value of an operand.
-#[inline(always)]
-fn read<T: Scalar>(operand: Operand, u: &[T], products: &[Complex<T>]) -> Complex<T> {
-    let (register, modes) = (operand.register as usize, u.len() / 2);
-    let z = if register < modes {
-        Complex::new(u[2 * register], u[2 * register + 1])
-    } else {
-        products[register - modes]
-    };
-    if operand.conj { z.conj() } else { z }
 }
 
 /// What is known while a program is made.
@@ -176,26 +108,42 @@ struct Builder {
 
 impl Builder {
     /// The groups of one polynomial.
-    fn sum(&mut self, polynomial: &Polynomial, tape: &Tape) {
+    fn sum(&mut self, polynomial: &Polynomial, tape: &Tape) -> Sum {
         let mut groups: BTreeMap<Vec<u16>, Vec<(Vec<u16>, Place)>> = BTreeMap::new();
         for (monomial, &place) in &polynomial.0 {
             let (base, moduli) = parts(monomial);
             groups.entry(base).or_default().push((moduli, place));
         }
-        for (base, parts) in groups {
-            let base = (!base.is_empty()).then(|| self.base(&base));
-            let first = self.factors.len();
+        let mut kinds = [const { Vec::new() }; 3];
+        for (base, mut parts) in groups {
+            parts.sort(); // a coefficient alone comes first
             let complex = parts.iter().any(|&(_, place)| tape.kind(place) != Kind::Real);
-            for (moduli, place) in parts {
-                let norm = (!moduli.is_empty()).then(|| self.norm(&moduli));
-                self.factors.push(Factor { norm, place });
-            }
-            self.groups.push(Group { base, complex, factors: first..self.factors.len() });
+            let plain = parts.len() == 1 && parts[0].0.is_empty();
+            kinds[if complex { 2 } else { usize::from(!plain) }].push((base, parts));
         }
+        let [plain, real, complex] = kinds.map(|groups| {
+            let first = self.groups.len();
+            groups.into_iter().for_each(|(base, parts)| self.group(&base, parts));
+            first..self.groups.len()
+        });
+        Sum { plain, real, complex }
+    }
+
+    fn group(&mut self, base: &[u16], parts: Vec<(Vec<u16>, Place)>) {
+        let base = self.base(base);
+        let first = self.factors.len();
+        for (moduli, place) in parts {
+            let norm = (!moduli.is_empty()).then(|| self.norm(&moduli));
+            self.factors.push(Factor { norm, place });
+        }
+        self.groups.push(Group { base, factors: first..self.factors.len() });
     }
 
     /// The operand that is the product of these factors (see [`parts`]).
     fn base(&mut self, factors: &[u16]) -> Operand {
+        if factors.is_empty() {
+            return Operand { register: self.modes as u16, conj: false };
+        }
         if let &[only] = factors {
             return Operand { register: only / 2, conj: only % 2 == 1 };
         }
@@ -209,7 +157,7 @@ impl Builder {
         let (last, rest) = (factors.len() - 1, &factors[..factors.len() - 1]);
         let pair = [self.base(rest), self.base(&factors[last..])];
         self.products.push(pair);
-        let register = (self.modes + self.products.len() - 1) as u16;
+        let register = (self.modes + self.products.len()) as u16;
         let operand = Operand { register, conj: false };
         self.known.insert(factors.to_vec(), operand);
         operand

@@ -15,7 +15,7 @@ impl<const TERMS: u32> InLanes for FourierField<f64, TERMS> {
     }
 
     #[inline(always)]
-    fn spin<B: Bundle>(shape: &[B], out: &mut [B]) {
+    fn spin<B: Bundle>(_field: &FourierField<B, TERMS>, shape: &[B], out: &mut [B]) {
         super::spin(shape, out);
     }
 

@@ -1,6 +1,7 @@
 //! All integration tests of this crate, in one program: what is generic is compiled once.
 
 mod accuracy;
+mod amplitude_lanes;
 mod amplitudes;
 mod cell;
 mod cell_accuracy;
