@@ -40,6 +40,6 @@ pub use names::paper;
 pub use observation::{LEAST_FRAMES, OBSERVED, Observation, Track};
 pub use place::{Coordinate, Place, Placement, Plane, place, place_among};
 pub use scales::Scales;
-pub use subsets::{Selection, Subset, Subsets, TIE, select, subsets};
+pub use subsets::{Selection, Subset, Subsets, TIE, refit_with, select, subsets};
 pub use warnings::{COARSE, Channel, Drift, DriftPoint, Warning, drift, fastest_rate, warnings, whiteness};
 pub use weak::{Weak, weak};

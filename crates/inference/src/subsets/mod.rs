@@ -159,8 +159,11 @@ pub fn select(tracks: &[Track], fit: &Fit) -> Result<Selection> {
     Ok(Selection { subsets, fit })
 }
 
-/// The fit with some of the coefficients, from where the others leave them when set to 0.
-pub(crate) fn refit_with(tracks: &[Track], fit: &Fit, kept: &[usize]) -> Fit {
+/// The model of these coefficients alone (numbers in the fit's list), fitted from where the others leave them when set to 0.
+///
+/// Without any coefficient the fit itself is returned.
+#[must_use]
+pub fn refit_with(tracks: &[Track], fit: &Fit, kept: &[usize]) -> Fit {
     let terms = fit.library.terms.len();
     let stays = |term: usize| kept.iter().any(|&i| i % terms == term);
     let stays: Vec<bool> = (0..terms).map(stays).collect();

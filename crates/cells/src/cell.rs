@@ -1,0 +1,92 @@
+//! Cells as further steps use them: the frames that count, with their errors, and what was left out.
+
+use crate::Result;
+use motiform_inference::{Observation, Track};
+use motiform_tracks::modes::{CellModes, ModeOptions, modes};
+use motiform_tracks::{Options, Tracks, read};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// What was read.
+#[derive(Debug)]
+pub struct Sample {
+    /// The outlines, with units and notes.
+    pub tracks: Tracks,
+    /// Their modes, cell by cell.
+    pub cells: Vec<CellTrack>,
+}
+
+/// One cell.
+#[derive(Debug)]
+pub struct CellTrack {
+    /// Its name in the file.
+    pub name: String,
+    /// All frames, with their flags.
+    pub modes: CellModes,
+    /// The frames that count: centre, z2, z3 and their covariance.
+    pub track: Track,
+    /// Mean radius R0 over these frames; 0 without any.
+    pub radius: f64,
+}
+
+impl Sample {
+    /// Reads files and computes modes.
+    ///
+    /// # Errors
+    /// Files that cannot be read: which, where, and what to do.
+    pub fn read(paths: &[PathBuf], options: &Options, modes_options: &ModeOptions) -> Result<Self> {
+        let tracks = read(paths, options)?;
+        let cells = modes(&tracks, modes_options).into_iter().map(CellTrack::new).collect();
+        Ok(Self { tracks, cells })
+    }
+
+    /// Notes about the files, as sentences.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        self.tracks.notes.iter().map(ToString::to_string).collect()
+    }
+}
+
+impl CellTrack {
+    /// The frames of a cell that count. The noise of a vertex is pooled over the cell: that of a frame is uncertain by itself.
+    #[must_use]
+    pub fn new(modes: CellModes) -> Self {
+        let mut frames = Vec::new();
+        let mut sum = 0.0;
+        for frame in modes.used() {
+            let Some(fit) = &frame.radius else { continue };
+            let [z2, z3] = [0, 1].map(|n| fit.z.get(n).copied().unwrap_or_default());
+            let sigma = modes.sigma.unwrap_or(fit.sigma);
+            let covariance =
+                fit.observed_covariance(sigma).map(|row| row.map(|x| x * fit.inflation.max(1.0)));
+            let y = [fit.centre[0], fit.centre[1], z2[0], z2[1], z3[0], z3[1]];
+            frames.push(Observation { t: frame.t, y, covariance });
+            sum += fit.r0;
+        }
+        let radius = if frames.is_empty() { 0.0 } else { sum / frames.len() as f64 };
+        Self { name: modes.name.clone(), modes, track: Track(frames), radius }
+    }
+
+    /// How many frames have each flag, by its name.
+    #[must_use]
+    pub fn flags(&self) -> BTreeMap<&'static str, usize> {
+        let mut counts = BTreeMap::new();
+        for flag in self.modes.frames.iter().flat_map(|frame| &frame.flags) {
+            *counts.entry(flag.name()).or_insert(0) += 1;
+        }
+        counts
+    }
+
+    /// Number of frames that count.
+    #[must_use]
+    pub fn frames(&self) -> usize {
+        self.track.0.len()
+    }
+
+    /// Frames without modes of the radius, or left out, by number.
+    #[must_use]
+    pub fn left_out(&self) -> Vec<i64> {
+        let used: Vec<i64> = self.modes.used().map(|frame| frame.frame).collect();
+        self.modes.frames.iter().map(|frame| frame.frame).filter(|frame| !used.contains(frame)).collect()
+    }
+}

@@ -1,0 +1,162 @@
+//! How a cell moves, from its samples alone: a name only where the record leaves no other, else what is missing.
+//!
+//! Definitions and limits: docs/cells.md, section 'Observed motion'.
+
+mod measures;
+mod repeats;
+
+use crate::CellTrack;
+use measures::Measures;
+use motiform_analysis::regime::Regime;
+use repeats::Repeats;
+use serde::Serialize;
+
+/// Fewest frames that count.
+const LEAST_FRAMES: usize = 40;
+/// Fewest periods, and fewest full turns of a circle.
+const LEAST_REPEATS: f64 = 4.0;
+const LEAST_TURNS: f64 = 2.0;
+/// Standard errors by which a mean must differ from 0.
+const CLEAR: f64 = 4.0;
+/// Largest scatter of heading (rad), and of speed and turning rate relative to their means, of a steady motion.
+const STEADY: f64 = 0.25;
+/// Net rotations per period below this (rad) are none.
+const NO_TURN: f64 = 0.1;
+/// Share of resamples that must give the same name.
+const LEAST_CONFIDENCE: f64 = 0.95;
+
+/// The verdict on an observed motion.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Motion {
+    /// The name; `None`: undecided.
+    pub regime: Option<Regime>,
+    /// The evidence, or what is missing.
+    pub why: String,
+    /// Share of resamples (blocks of the record) that give the same name.
+    pub confidence: f64,
+}
+
+/// The observed motion of one cell.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Observation {
+    /// Name of the cell.
+    pub cell: String,
+    /// Frames that count.
+    pub frames: usize,
+    /// The verdict.
+    #[serde(flatten)]
+    pub motion: Motion,
+    /// The numbers behind it; `None` for records that are too short for them.
+    pub measures: Option<Measures>,
+    /// The repetition of shape and motion; `None` where there is none.
+    pub repeats: Option<Repeats>,
+}
+
+/// Observes a cell. Noise and chaos cannot be told apart by such a record: motion that neither is steady nor repeats is undecided.
+#[must_use]
+pub fn observe(cell: &CellTrack) -> Observation {
+    let frames = cell.frames();
+    let bare = |why: String| Observation {
+        cell: cell.name.clone(),
+        frames,
+        motion: Motion { regime: None, why, confidence: 0.0 },
+        measures: None,
+        repeats: None,
+    };
+    if frames < LEAST_FRAMES {
+        return bare(format!("{frames} frames count; at least {LEAST_FRAMES} are needed to name a motion"));
+    }
+    let Some(measures) = Measures::of(&cell.track) else {
+        return bare(
+            "the frames are not equally spaced for long enough: gaps leave no stretch of 40 frames"
+                .to_owned(),
+        );
+    };
+    let repeats = Repeats::of(&measures);
+    let (regime, why) = decide(&measures, repeats.as_ref());
+    let same = measures.resampled().filter(|other| decide(other, repeats.as_ref()).0 == regime).count();
+    let confidence = same as f64 / measures::RESAMPLES as f64;
+    let sure = regime.is_none() || confidence >= LEAST_CONFIDENCE;
+    let motion = if sure {
+        Motion { regime, why, confidence }
+    } else {
+        let why = format!("{why}; but only {:.0} % of the resampled records say so", 100.0 * confidence);
+        Motion { regime: None, why, confidence }
+    };
+    Observation { cell: cell.name.clone(), frames, motion, measures: Some(measures), repeats }
+}
+
+/// The motion of these numbers, or what is missing.
+fn decide(m: &Measures, repeats: Option<&Repeats>) -> (Option<Regime>, String) {
+    if m.displacement < CLEAR * m.displacement_error {
+        return rest(m);
+    }
+    let steady_speed = m.speed_scatter < STEADY;
+    if steady_speed
+        && m.heading_scatter < STEADY
+        && m.turning.abs() < CLEAR * m.turning_error
+        && m.directness > 0.97
+    {
+        let why = format!(
+            "straight over {:.4} of length: net displacement is {:.1} % of the path, and the turning rate is 0 within its error",
+            m.length,
+            100.0 * m.directness
+        );
+        return (Some(Regime::Straight), why);
+    }
+    let turns = m.turning.abs() * m.duration / std::f64::consts::TAU;
+    let clear_turn = m.turning.abs() > CLEAR * m.turning_error;
+    if steady_speed && clear_turn && m.turning_scatter < STEADY && m.shape_scatter < STEADY {
+        if turns < LEAST_TURNS {
+            let why = format!("it turns steadily, but {turns:.1} turns were seen; {LEAST_TURNS} are needed");
+            return (None, why);
+        }
+        let why =
+            format!("{turns:.1} turns at a steady rate of {:.4e} rad per time and a steady speed", m.turning);
+        return (Some(Regime::Circular), why);
+    }
+    match repeats {
+        Some(repeats) => repeating(repeats),
+        None => {
+            let why = "neither steady nor repeating: noise and chaos cannot be told apart by samples alone; `motiform fit` fits equations";
+            (None, why.to_owned())
+        }
+    }
+}
+
+fn rest(m: &Measures) -> (Option<Regime>, String) {
+    if m.shape_change < CLEAR {
+        let why = format!(
+            "displacements of {:.2e} are within {CLEAR} of their errors, {:.2e}, and so are changes of shape",
+            m.displacement, m.displacement_error
+        );
+        return (Some(Regime::Motionless), why);
+    }
+    (None, "the centre rests within its errors while the shape changes".to_owned())
+}
+
+fn repeating(repeats: &Repeats) -> (Option<Regime>, String) {
+    let Repeats { period, periods, likeness, rotation, rotation_error } = repeats;
+    if *periods < LEAST_REPEATS {
+        let why = format!(
+            "it repeats with a period of {period:.4}, but {periods:.1} periods were seen; {LEAST_REPEATS} are needed"
+        );
+        return (None, why);
+    }
+    let seen = format!("repeats {periods:.1} times with a period of {period:.4} (likeness {likeness:.2})");
+    let clear = rotation.abs() > CLEAR * rotation_error && rotation.abs() > NO_TURN;
+    if clear {
+        let why = format!("{seen}, turned by {rotation:.3} +- {rotation_error:.3} rad each time");
+        return (Some(Regime::QuasiPeriodic), why);
+    }
+    if *rotation_error < 0.5 * NO_TURN && rotation.abs() < NO_TURN {
+        let why = format!("{seen} without net rotation: {rotation:.3} +- {rotation_error:.3} rad each time");
+        return (Some(Regime::Zigzag), why);
+    }
+    (
+        None,
+        format!(
+            "{seen}; whether it turns on, {rotation:.3} +- {rotation_error:.3} rad each time, is not clear"
+        ),
+    )
+}

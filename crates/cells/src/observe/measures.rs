@@ -1,0 +1,211 @@
+//! Numbers of a record: displacements, headings, shapes, with errors from blocks.
+
+use motiform_analysis::symmetry::wrap;
+use motiform_dynamics::Normal;
+use motiform_inference::{Observation, Track};
+use serde::Serialize;
+
+/// Resamples of the record.
+pub(super) const RESAMPLES: usize = 200;
+/// Blocks of a record.
+const BLOCKS: usize = 8;
+/// A displacement has a heading where it is this many times its error.
+const CLEAR: f64 = 5.0;
+/// Fewest samples of a stretch without gaps.
+const LEAST: usize = 40;
+
+/// Numbers of a record (times and lengths in the units of the data).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Measures {
+    /// Duration of the stretch without gaps that they are from.
+    pub duration: f64,
+    /// Sampling interval times the step over which displacements are taken: headings are clear there.
+    pub step: f64,
+    /// Root mean square of the displacements over a step, corrected for their errors, and the error of one displacement.
+    pub displacement: f64,
+    /// See `displacement`.
+    pub displacement_error: f64,
+    /// Mean speed, by displacements over a step.
+    pub speed: f64,
+    /// Scatter of the speed, relative to its mean, corrected for errors.
+    pub speed_scatter: f64,
+    /// Mean turning rate of the heading (rad per time), and its standard error from blocks.
+    pub turning: f64,
+    /// See `turning`.
+    pub turning_error: f64,
+    /// Scatter of the turning rate between blocks, relative to its mean.
+    pub turning_scatter: f64,
+    /// Scatter of the heading (rad).
+    pub heading_scatter: f64,
+    /// Scatter of |z2| and |z3|, relative to the size of both, corrected for errors.
+    pub shape_scatter: f64,
+    /// Changes of z2 and z3 over time, in units of their errors.
+    pub shape_change: f64,
+    /// Net displacement divided by the length of the path.
+    pub directness: f64,
+    /// Length of the path.
+    pub length: f64,
+    #[serde(skip)]
+    pub(super) series: Series,
+}
+
+/// The series that the numbers are from: one value per step.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Series {
+    pub(super) dt: f64,
+    pub(super) lag: usize,
+    pub(super) frames: Vec<Observation>,
+    pub(super) headings: Vec<f64>,
+    pub(super) speeds: Vec<f64>,
+    /// Turning rates of the blocks.
+    blocks: Vec<f64>,
+}
+
+impl Measures {
+    /// Of the longest stretch without gaps; `None` if it is too short.
+    pub(super) fn of(track: &Track) -> Option<Self> {
+        let dt = track.interval();
+        let frames = longest(&track.0, dt)?;
+        let lag = step(&frames);
+        let moves: Vec<[f64; 2]> = frames
+            .windows(lag + 1)
+            .map(|pair| [pair[lag].y[0] - pair[0].y[0], pair[lag].y[1] - pair[0].y[1]])
+            .collect();
+        let time = lag as f64 * dt;
+        let sizes: Vec<f64> = moves.iter().map(|m| libm::hypot(m[0], m[1])).collect();
+        let noise = 2.0 * mean(frames.iter().map(|f| f.covariance[0][0] + f.covariance[1][1]));
+        let square = mean(sizes.iter().map(|s| s * s));
+        let mut headings: Vec<f64> = Vec::with_capacity(moves.len());
+        for m in &moves {
+            let angle = libm::atan2(m[1], m[0]);
+            headings.push(headings.last().map_or(angle, |&last| last + wrap(angle - last)));
+        }
+        let blocks = rates(&headings, dt);
+        let (turning, spread) = (mean(blocks.iter().copied()), scatter(&blocks));
+        let ends = [frames.first()?, frames.last()?];
+        let net = libm::hypot(ends[1].y[0] - ends[0].y[0], ends[1].y[1] - ends[0].y[1]);
+        let length: f64 = sizes.iter().step_by(lag).sum();
+        let mean_size = mean(sizes.iter().copied());
+        let size_variance = (scatter(&sizes) * scatter(&sizes) - 0.5 * noise).max(0.0);
+        let speeds = sizes.iter().map(|s| s / time).collect();
+        Some(Self {
+            duration: (frames.len() - 1) as f64 * dt,
+            step: time,
+            displacement: (square - noise).max(0.0).sqrt(),
+            displacement_error: noise.sqrt(),
+            speed: mean_size / time,
+            speed_scatter: size_variance.sqrt() / mean_size.max(f64::MIN_POSITIVE),
+            turning,
+            turning_error: spread / (blocks.len() as f64).sqrt(),
+            turning_scatter: spread / turning.abs().max(f64::MIN_POSITIVE),
+            heading_scatter: scatter(&headings),
+            shape_scatter: shape_scatter(&frames),
+            shape_change: shape_change(&frames),
+            directness: net / length.max(f64::MIN_POSITIVE),
+            length,
+            series: Series { dt, lag, frames, headings, speeds, blocks },
+        })
+    }
+
+    /// The same numbers with blocks of the record drawn with replacement: turning rate and its error, scatter of the speed.
+    pub(super) fn resampled(&self) -> impl Iterator<Item = Self> + '_ {
+        let mut normal = Normal::new(1, 0);
+        let mut pick = move |n: usize| {
+            // the normal distribution's own integral, as a uniform number
+            let uniform = 0.5 * libm::erfc(-normal.next() / std::f64::consts::SQRT_2);
+            ((uniform * n as f64) as usize).min(n - 1)
+        };
+        (0..RESAMPLES).map(move |_| {
+            let blocks = &self.series.blocks;
+            let drawn: Vec<f64> = blocks.iter().map(|_| blocks[pick(blocks.len())]).collect();
+            let size = (self.series.speeds.len() / BLOCKS).max(1);
+            let starts: Vec<usize> = (0..BLOCKS).map(|_| pick(self.series.speeds.len() - size + 1)).collect();
+            let speeds: Vec<f64> = starts
+                .iter()
+                .flat_map(|&start| self.series.speeds[start..start + size].iter().copied())
+                .collect();
+            let turning = mean(drawn.iter().copied());
+            let ratio = (scatter(&speeds) / mean(speeds.iter().copied()).max(f64::MIN_POSITIVE))
+                / (scatter(&self.series.speeds) / self.speed).max(f64::MIN_POSITIVE);
+            Self {
+                turning,
+                speed_scatter: self.speed_scatter * ratio,
+                series: Series::default(),
+                ..self.clone()
+            }
+        })
+    }
+}
+
+/// The longest run of frames at the sampling interval.
+fn longest(frames: &[Observation], dt: f64) -> Option<Vec<Observation>> {
+    let mut best: &[Observation] = &[];
+    let mut start = 0;
+    for end in 1..=frames.len() {
+        let broken = end == frames.len() || (frames[end].t - frames[end - 1].t - dt).abs() > 0.01 * dt;
+        if broken {
+            if end - start > best.len() {
+                best = &frames[start..end];
+            }
+            start = end;
+        }
+    }
+    (best.len() >= LEAST).then(|| best.to_vec())
+}
+
+/// The least number of frames over which most displacements have a clear heading; at most a twentieth of the record.
+fn step(frames: &[Observation]) -> usize {
+    let most = (frames.len() / 20).max(1);
+    let clear = |lag: &usize| {
+        let good = frames.windows(lag + 1).filter(|pair| {
+            let (a, b) = (&pair[0], &pair[*lag]);
+            let size = libm::hypot(b.y[0] - a.y[0], b.y[1] - a.y[1]);
+            let noise = a.covariance[0][0] + a.covariance[1][1] + b.covariance[0][0] + b.covariance[1][1];
+            size > CLEAR * (0.5 * noise).sqrt()
+        });
+        good.count() * 20 > 19 * (frames.len() - lag)
+    };
+    (1..=most).find(clear).unwrap_or(most)
+}
+
+/// Turning rates of equal blocks.
+fn rates(headings: &[f64], dt: f64) -> Vec<f64> {
+    let size = ((headings.len() - 1) / BLOCKS).max(1);
+    let blocks = (0..BLOCKS).map(|block| block * size).filter(|start| start + size < headings.len());
+    blocks.map(|start| (headings[start + size] - headings[start]) / (size as f64 * dt)).collect()
+}
+
+/// Scatter of |z2| and |z3| relative to the size of both, without that of errors.
+fn shape_scatter(frames: &[Observation]) -> f64 {
+    let modulus = |frame: &Observation, at: usize| libm::hypot(frame.y[at], frame.y[at + 1]);
+    let variance = |at: usize| {
+        let values: Vec<f64> = frames.iter().map(|frame| modulus(frame, at)).collect();
+        let noise = mean(
+            frames.iter().map(|frame| 0.5 * (frame.covariance[at][at] + frame.covariance[at + 1][at + 1])),
+        );
+        ((scatter(&values) * scatter(&values) - noise).max(0.0), mean(values.iter().map(|v| v * v)))
+    };
+    let (two, three) = (variance(2), variance(4));
+    ((two.0 + three.0) / (two.1 + three.1).max(f64::MIN_POSITIVE)).sqrt()
+}
+
+/// Root mean square deviation of z2 and z3 from their means, in units of their errors.
+fn shape_change(frames: &[Observation]) -> f64 {
+    let part = |at: usize| {
+        let values: Vec<f64> = frames.iter().map(|frame| frame.y[at]).collect();
+        let noise = mean(frames.iter().map(|frame| frame.covariance[at][at]));
+        scatter(&values) * scatter(&values) / noise.max(f64::MIN_POSITIVE)
+    };
+    (2..6).map(part).fold(0.0, f64::max).sqrt()
+}
+
+pub(super) fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0_usize), |(sum, count), value| (sum + value, count + 1));
+    if count == 0 { 0.0 } else { sum / count as f64 }
+}
+
+/// Standard deviation.
+pub(super) fn scatter(values: &[f64]) -> f64 {
+    let centre = mean(values.iter().copied());
+    mean(values.iter().map(|value| (value - centre) * (value - centre))).sqrt()
+}

@@ -1,0 +1,88 @@
+//! Whether shape and motion repeat, with rotations and the mirror divided out.
+
+use super::measures::{Measures, Series, mean, scatter};
+use serde::Serialize;
+
+/// Correlation after one period, and after two, of a motion that repeats.
+const LIKE: [f64; 2] = [0.8, 0.7];
+/// Longest period, as a part of the record.
+const LONGEST: f64 = 0.4;
+
+/// A repetition.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Repeats {
+    /// Its period (unit of time).
+    pub period: f64,
+    /// How many were seen.
+    pub periods: f64,
+    /// Correlation of the invariants with themselves one period later.
+    pub likeness: f64,
+    /// Mean rotation of the heading per period (rad), and its standard error.
+    pub rotation: f64,
+    /// See `rotation`.
+    pub rotation_error: f64,
+}
+
+impl Repeats {
+    /// The shortest period after which all invariants are alike; `None` without one.
+    pub(super) fn of(measures: &Measures) -> Option<Self> {
+        let series = &measures.series;
+        let invariants = invariants(series);
+        let count = invariants.first()?.len();
+        let most = (LONGEST * count as f64) as usize;
+        let like: Vec<f64> = (0..=most).map(|lag| likeness(&invariants, lag)).collect();
+        let fallen = like.iter().position(|&value| value < 0.5)?;
+        let peak = (fallen + 1..most)
+            .filter(|&lag| like[lag] >= like[lag - 1] && like[lag] >= like[lag + 1] && like[lag] > LIKE[0]);
+        let lag = peak.min()?;
+        if 2 * lag < most && like[2 * lag - 1..=2 * lag + 1].iter().copied().fold(0.0, f64::max) < LIKE[1] {
+            return None;
+        }
+        let turned: Vec<f64> = series.headings.windows(lag + 1).map(|pair| pair[lag] - pair[0]).collect();
+        let independent = (count as f64 / lag as f64).max(1.0);
+        Some(Self {
+            period: lag as f64 * series.dt,
+            periods: independent,
+            likeness: like[lag],
+            rotation: mean(turned.iter().copied()),
+            rotation_error: scatter(&turned) / independent.sqrt(),
+        })
+    }
+}
+
+/// What rotations leave unchanged: speed, |z2|, and z2 against the direction of motion, along and across (which the mirror reverses).
+fn invariants(series: &Series) -> Vec<Vec<f64>> {
+    let (mut along, mut across, mut size) = (Vec::new(), Vec::new(), Vec::new());
+    for (frame, heading) in series.frames[series.lag / 2..].iter().zip(&series.headings) {
+        // z2 is turned by -2 angle: multiplied with exp(2 i heading) it is that of a body that moves along x
+        let (sin, cos) = (libm::sin(2.0 * heading), libm::cos(2.0 * heading));
+        let (re, im) = (frame.y[2], frame.y[3]);
+        along.push(re * cos - im * sin);
+        across.push(re * sin + im * cos);
+        size.push(libm::hypot(re, im));
+    }
+    vec![series.speeds.clone(), size, along, across]
+        .into_iter()
+        .map(|s| standard(&s))
+        .filter(|s| !s.is_empty())
+        .collect()
+}
+
+/// A series of mean 0, with its own weight: its variance relative to its mean square.
+fn standard(series: &[f64]) -> Vec<f64> {
+    let centre = mean(series.iter().copied());
+    let unit = mean(series.iter().map(|value| value * value)).sqrt();
+    if unit == 0.0 { Vec::new() } else { series.iter().map(|value| (value - centre) / unit).collect() }
+}
+
+/// Correlation of all series with themselves `lag` later, together.
+fn likeness(series: &[Vec<f64>], lag: usize) -> f64 {
+    let mut sums = [0.0; 3];
+    for one in series {
+        for (a, b) in one.iter().zip(&one[lag..]) {
+            sums = [sums[0] + a * b, sums[1] + a * a, sums[2] + b * b];
+        }
+    }
+    let unit = (sums[1] * sums[2]).sqrt();
+    if unit > 0.0 { sums[0] / unit } else { 0.0 }
+}

@@ -1,0 +1,108 @@
+//! The motion of the models that the data allow.
+
+use crate::Result;
+use motiform_analysis::regime::Regime;
+use motiform_dynamics::StopOnly;
+use motiform_dynamics::Watch;
+use motiform_inference::Track;
+use motiform_inference::{Fit, Selection, Subset, draws, equations, refit_with};
+use motiform_lab::analyse;
+use motiform_models::amplitudes::{Definition, info};
+use motiform_study::{Plan, Study};
+use serde::Serialize;
+
+/// A motion is named if this share of the models has it.
+pub const LEAST_SHARE: f64 = 0.9;
+
+/// Sets of terms with less weight than this, relative to the best, have no draws.
+const LEAST_WEIGHT: f64 = 0.05;
+/// Most sets of terms that have draws.
+const MOST_SETS: usize = 6;
+
+/// The motions of draws from the estimate.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FittedRegime {
+    /// The motion, if at least [`LEAST_SHARE`] of the models agree.
+    pub regime: Option<Regime>,
+    /// The motion of the best model itself.
+    pub best: Regime,
+    /// The share of the most frequent motion.
+    pub share: f64,
+    /// How many draws have each motion.
+    pub counts: Vec<(Regime, usize)>,
+    /// Number of draws.
+    pub draws: usize,
+}
+
+/// Classifies models drawn from the estimate: from the sets of terms that the data do not tell apart, each with the share of its weight
+/// `exp(-excess/2)`, and from the normal distribution of each set's coefficients. Noise is left out: the motion is that of the equations.
+///
+/// # Errors
+/// Equations that are no model; [`motiform_study::Error::Interrupted`].
+pub fn regime_of(
+    tracks: &[Track],
+    whole: &Fit,
+    selection: &Selection,
+    (count, seed): (usize, u64),
+    watch: &dyn Watch,
+) -> Result<FittedRegime> {
+    let best = classify(&natural(&selection.fit, &natural_values(&selection.fit)), watch)?;
+    let mut counts: Vec<(Regime, usize)> = Vec::new();
+    for (number, (fit, share)) in sets(tracks, whole, selection).into_iter().enumerate() {
+        let here = ((share * count as f64).round() as usize).max(1);
+        for drawn in draws(&fit, here, seed.wrapping_add(number as u64)) {
+            let units = fit.coefficients.iter().map(|c| fit.scales.coefficient(&c.term));
+            let values: Vec<f64> = drawn.iter().zip(units).map(|(value, unit)| value / unit).collect();
+            let regime = classify(&natural(&fit, &values), watch)?;
+            match counts.iter_mut().find(|entry| entry.0 == regime) {
+                Some(entry) => entry.1 += 1,
+                None => counts.push((regime, 1)),
+            }
+        }
+    }
+    counts.sort_by_key(|entry| std::cmp::Reverse(entry.1));
+    let draws = counts.iter().map(|entry| entry.1).sum::<usize>();
+    let (first, most) = counts.first().copied().unwrap_or((best, 0));
+    let share = if draws == 0 { 0.0 } else { most as f64 / draws as f64 };
+    let named = share >= LEAST_SHARE && first == best && first != Regime::Undetermined;
+    Ok(FittedRegime { regime: named.then_some(first), best, share, counts, draws })
+}
+
+/// The models of the sets that the data do not tell apart, with their shares of the weight.
+fn sets(tracks: &[Track], whole: &Fit, selection: &Selection) -> Vec<(Fit, f64)> {
+    let weight = |set: &Subset| libm::exp(-0.5 * set.excess);
+    let ties: Vec<&Subset> =
+        selection.subsets.ties.iter().filter(|set| weight(set) >= LEAST_WEIGHT).take(MOST_SETS).collect();
+    if whole.handed != selection.fit.handed || ties.len() < 2 {
+        return vec![(selection.fit.clone(), 1.0)];
+    }
+    let all: f64 = ties.iter().map(|set| weight(set)).sum();
+    let fit = |(number, set): (usize, &&Subset)| {
+        if number == 0 { selection.fit.clone() } else { refit_with(tracks, whole, &set.kept) }
+    };
+    let shares = ties.iter().map(|set| weight(set) / all);
+    ties.iter().enumerate().map(fit).zip(shares).collect()
+}
+
+/// The coefficients in natural units, in which every number is of order 1.
+fn natural_values(fit: &Fit) -> Vec<f64> {
+    fit.natural.coefficients.clone()
+}
+
+fn natural(fit: &Fit, values: &[f64]) -> Definition {
+    equations(&fit.library, fit.handed, values)
+}
+
+fn classify(definition: &Definition, watch: &dyn Watch) -> Result<Regime> {
+    let info = info(definition)
+        .map_err(|error| motiform_models::Error::Equations { problem: error.to_string() })
+        .map_err(motiform_study::Error::from)?;
+    let mut study = Study::of_model(info);
+    study.set_initial("v1", 1.0)?;
+    study.set_initial("z2_re", 0.3)?;
+    study.set_initial("z2_im", 0.2)?;
+    let plan = Plan::new(&study)?;
+    let verdict =
+        analyse::classify(&plan, 0.0, &StopOnly(watch))?.ok_or(motiform_study::Error::Interrupted)?;
+    Ok(verdict.regime)
+}

@@ -1,0 +1,159 @@
+//! Results as JSON: the contract of `motiform fit --json` and `motiform observe --json`.
+
+use crate::{CellFit, CellTrack, Fitted, Observation, Sample};
+use motiform_inference::{Coefficient, Estimate, Fit, Knowledge, Place, Placement};
+use serde_json::{Map, Value, json};
+
+/// Fits of all cells: `{"cells": [..], "units": .., "notes": [..]}`.
+#[must_use]
+pub fn fits_json(sample: &Sample, fits: &[CellFit]) -> Value {
+    let cell = |fit: &CellFit| {
+        let track = sample.cells.iter().find(|cell| cell.name == fit.name);
+        with_quality(cell_json(fit), track)
+    };
+    whole(sample, fits.iter().map(cell).collect())
+}
+
+/// Observed motions of all cells.
+#[must_use]
+pub fn observations_json(sample: &Sample, observations: &[Observation]) -> Value {
+    let cell = |found: &Observation| {
+        let mut object = serde_json::to_value(found).unwrap_or_default();
+        if found.motion.regime.is_none() {
+            object["regime"] = "undecided".into();
+        }
+        with_quality(object, sample.cells.iter().find(|cell| cell.name == found.cell))
+    };
+    whole(sample, observations.iter().map(cell).collect())
+}
+
+fn whole(sample: &Sample, cells: Vec<Value>) -> Value {
+    let tracks = &sample.tracks;
+    json!({
+        "cells": cells,
+        "units": { "length": tracks.length_unit, "time": tracks.time_unit, "y_down": tracks.y_down },
+        "notes": sample.notes(),
+    })
+}
+
+fn with_quality(mut object: Value, cell: Option<&CellTrack>) -> Value {
+    if let Some(cell) = cell {
+        object["radius"] = json!(cell.radius);
+        object["flags"] = json!(cell.flags());
+        object["left_out"] = json!(cell.left_out());
+    }
+    object
+}
+
+/// The fit of one cell.
+#[must_use]
+pub fn cell_json(fit: &CellFit) -> Value {
+    let mut object = json!({ "cell": fit.name, "frames": fit.frames });
+    match &fit.fitted {
+        Err(why) => {
+            object["regime"] = "undecided".into();
+            object["why"] = json!(why);
+            object["identifiable"] = false.into();
+        }
+        Ok(fitted) => add(&mut object, fitted),
+    }
+    object
+}
+
+fn add(object: &mut Value, fitted: &Fitted) {
+    let model = fitted.model();
+    object["regime"] = match fitted.regime.as_ref().and_then(|found| found.regime) {
+        Some(regime) => json!(regime),
+        None => "undecided".into(),
+    };
+    if let Some(found) = &fitted.regime {
+        object["share"] = json!(found.share);
+        let counts: Map<String, Value> =
+            found.counts.iter().map(|(regime, count)| (regime.name().to_owned(), json!(count))).collect();
+        object["draws"] = counts.into();
+    }
+    object["why"] = why(fitted).into();
+    object["identifiable"] = fitted.is_identifiable().into();
+    object["unidentified"] = json!(unidentified(fitted));
+    object["determined"] = json!(fitted.known_of_all.equations.iter().map(|of| &of.text).collect::<Vec<_>>());
+    object["handed"] = fitted.is_handed().into();
+    object["symmetry"] = json!(fitted.handedness.symmetry);
+    object["handed_p_value"] = json!(fitted.handedness.p_value);
+    let noise = &model.noise;
+    object["noise"] = json!({ "measurement_factor": number(&noise.s), "eta_v": number(&noise.eta_v), "eta_shape": number(&noise.eta_shape) });
+    object["coefficients"] = coefficients(model);
+    object["ties"] = json!(fitted.selection.subsets.ties.len());
+    object["log_likelihood"] = json!(model.log_likelihood);
+    let [full, reduced] = &fitted.places;
+    for (key, placement) in [("place", full), ("place_reduced", reduced)] {
+        match placement {
+            Placement::Placed(found) => object[key] = place(found),
+            Placement::Refused { reasons } => object[format!("no_{key}")] = json!(reasons),
+        }
+    }
+    object["warnings"] = json!(fitted.warnings.iter().map(ToString::to_string).collect::<Vec<_>>());
+}
+
+fn why(fitted: &Fitted) -> String {
+    match &fitted.regime {
+        None if !fitted.is_identifiable() => {
+            format!("the data do not determine the equations: {}", fitted.known.reasons.join("; "))
+        }
+        None => format!(
+            "the fit is doubtful: {}",
+            fitted.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+        ),
+        Some(found) => {
+            let counts: Vec<String> =
+                found.counts.iter().map(|(regime, count)| format!("{regime} {count}")).collect();
+            format!("motions of {} models that the data allow: {}", found.draws, counts.join(", "))
+        }
+    }
+}
+
+/// Combinations that are free.
+fn unidentified(fitted: &Fitted) -> Vec<String> {
+    let free = |of: &motiform_inference::EquationKnowledge| {
+        let free = of.combinations.iter().filter(|combination| combination.knowledge == Knowledge::Free);
+        free.map(|combination| combination.text.clone()).collect::<Vec<_>>()
+    };
+    fitted.known.equations.iter().flat_map(free).collect()
+}
+
+fn coefficients(model: &Fit) -> Value {
+    let mut all: Map<String, Value> = Map::new();
+    for Coefficient { name, imaginary, estimate, .. } in &model.coefficients {
+        if *imaginary {
+            if let Some(real) = all.get_mut(name) {
+                real["imaginary"] = number(estimate);
+            }
+        } else {
+            all.insert(name.clone(), number(estimate));
+        }
+    }
+    all.into()
+}
+
+fn number(estimate: &Estimate) -> Value {
+    json!({ "value": estimate.value, "error": estimate.error, "robust_error": estimate.robust })
+}
+
+fn place(found: &Place) -> Value {
+    let mut object = Map::new();
+    for coordinate in &found.coordinates {
+        object.insert(coordinate.name.clone(), number(&coordinate.estimate));
+    }
+    let others: Map<String, Value> = found
+        .others
+        .iter()
+        .map(|other| {
+            let mut value = number(&other.estimate);
+            value["slice"] = json!(other.slice);
+            (other.name.clone(), value)
+        })
+        .collect();
+    object.insert("others".to_owned(), others.into());
+    object.insert("distance".to_owned(), json!(found.distance));
+    object.insert("deviation".to_owned(), json!(found.deviation));
+    object.into()
+}

@@ -1,0 +1,97 @@
+//! Results as tables: modes frame by frame, coefficients cell by cell.
+
+use crate::{CellFit, CellTrack};
+use motiform_files::columns::{Column, Values};
+use motiform_tracks::modes::FrameModes;
+
+/// The modes of all frames: cell, frame, time, centre, mean radius, z2 to z5 with the standard errors of z2 and z3, area, and what is wrong.
+#[must_use]
+pub fn mode_columns(cells: &[CellTrack]) -> Vec<Column> {
+    let rows: Vec<(&CellTrack, &FrameModes)> =
+        cells.iter().flat_map(|cell| cell.modes.frames.iter().map(move |frame| (cell, frame))).collect();
+    let number = |read: &dyn Fn(&CellTrack, &FrameModes) -> Option<f64>| {
+        Values::Number(rows.iter().map(|row| read(row.0, row.1).unwrap_or(f64::NAN)).collect())
+    };
+    let text = |read: &dyn Fn(&CellTrack, &FrameModes) -> String| {
+        Values::Text(rows.iter().map(|row| read(row.0, row.1)).collect())
+    };
+    let flags =
+        |frame: &FrameModes| frame.flags.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
+    let mut columns = vec![
+        Column::new("cell", "name of the cell", text(&|cell, _| cell.name.clone())),
+        Column::new(
+            "frame",
+            "number of the frame",
+            Values::Whole(rows.iter().map(|row| row.1.frame).collect()),
+        ),
+        Column::new("t", "time", number(&|_, frame| Some(frame.t))),
+        Column::new("x", "centre of the modes", number(&|_, frame| Some(frame.radius.as_ref()?.centre[0]))),
+        Column::new("y", "centre of the modes", number(&|_, frame| Some(frame.radius.as_ref()?.centre[1]))),
+        Column::new("r0", "mean radius", number(&|_, frame| Some(frame.radius.as_ref()?.r0))),
+        Column::new("area", "area of the outline", number(&|_, frame| Some(frame.area))),
+        Column::new("sigma", "noise of a vertex", number(&|_, frame| Some(frame.radius.as_ref()?.sigma))),
+    ];
+    for n in 2..=5_usize {
+        for (part, name) in ["re", "im"].into_iter().enumerate() {
+            let read =
+                move |_: &CellTrack, frame: &FrameModes| frame.radius.as_ref()?.z.get(n - 2).map(|z| z[part]);
+            columns.push(Column::new(&format!("z{n}_{name}"), "mode of the outline", number(&read)));
+        }
+    }
+    for (place, name) in ["z2_error", "z3_error"].into_iter().enumerate() {
+        let read = move |cell: &CellTrack, frame: &FrameModes| {
+            let fit = frame.radius.as_ref()?;
+            Some(
+                fit.observed_covariance(cell.modes.sigma.unwrap_or(fit.sigma))[2 + 2 * place][2 + 2 * place]
+                    .sqrt(),
+            )
+        };
+        columns.push(Column::new(name, "standard error of the real part", number(&read)));
+    }
+    columns.push(Column::new("left_out", "1 where the frame does not count", {
+        Values::Whole(
+            rows.iter().map(|row| i64::from(row.1.is_left_out() || row.1.radius.is_none())).collect(),
+        )
+    }));
+    columns.push(Column::new("flags", "what is wrong with the frame", text(&|_, frame| flags(frame))));
+    columns
+}
+
+/// The coefficients of all fits, in the units of the data.
+#[must_use]
+pub fn coefficient_columns(fits: &[CellFit]) -> Vec<Column> {
+    let rows: Vec<_> = fits
+        .iter()
+        .filter_map(|fit| Some((fit, fit.fitted.as_ref().ok()?)))
+        .flat_map(|(fit, fitted)| {
+            fitted.model().coefficients.iter().map(move |coefficient| (fit, coefficient))
+        })
+        .collect();
+    let number = |read: &dyn Fn(&motiform_inference::Estimate) -> f64| {
+        Values::Number(rows.iter().map(|row| read(&row.1.estimate)).collect())
+    };
+    vec![
+        Column::new(
+            "cell",
+            "name of the cell",
+            Values::Text(rows.iter().map(|row| row.0.name.clone()).collect()),
+        ),
+        Column::new("term", "the term", Values::Text(rows.iter().map(|row| row.1.name.clone()).collect())),
+        Column::new("imaginary", "1 for the imaginary part", {
+            Values::Whole(rows.iter().map(|row| i64::from(row.1.imaginary)).collect())
+        }),
+        Column::new("value", "the coefficient", number(&|estimate| estimate.value)),
+        Column::new(
+            "error",
+            "standard error from the expected information",
+            number(&|estimate| estimate.error),
+        ),
+        Column::new(
+            "robust_error",
+            "standard error from the scatter of the scores",
+            number(&|estimate| estimate.robust),
+        ),
+        Column::new("low", "lower end of the 95 % interval", number(&|estimate| estimate.interval[0])),
+        Column::new("high", "upper end of the 95 % interval", number(&|estimate| estimate.interval[1])),
+    ]
+}
