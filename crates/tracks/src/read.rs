@@ -39,6 +39,7 @@ pub fn read<P: AsRef<Path>>(paths: &[P], options: &Options) -> Result<Tracks> {
         notes.extend(implausible(cell, &tracks.length_unit));
     }
     tracks.notes.extend(filed_twice(&tracks.cells));
+    once(&mut tracks.notes);
     Ok(tracks)
 }
 
@@ -130,8 +131,21 @@ fn join(tracks: &mut Tracks, whence: &[Source]) -> Result<()> {
     }
     let mut gone = gone.into_iter();
     tracks.cells.retain(|_| !gone.next().unwrap_or(false));
-    tracks.notes.dedup_by(|a, b| matches!((&a, &b), (Note::UnknownScale { .. }, Note::UnknownScale { .. })));
     Ok(())
+}
+
+/// That units are unknown is said of the first file only: all files have the same units.
+fn once(notes: &mut Vec<Note>) {
+    let (mut scale, mut interval) = (0, 0);
+    notes.retain(|note| {
+        let count = match note {
+            Note::UnknownScale { .. } => &mut scale,
+            Note::UnknownInterval { .. } => &mut interval,
+            _ => return true,
+        };
+        *count += 1;
+        *count == 1
+    });
 }
 
 fn mixed(name: &str, file: &Path, first: i64, frames: usize) -> Error {

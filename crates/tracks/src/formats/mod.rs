@@ -10,7 +10,6 @@ mod rings;
 mod roi;
 mod roi_archive;
 mod roi_name;
-mod split;
 mod trackmate;
 mod wkt;
 

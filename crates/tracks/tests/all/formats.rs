@@ -124,6 +124,7 @@ fn columns_by_name() {
         error.contains("\"west\"") && error.contains("columns.x") && error.contains("cell, frame, i, x, y"),
         "{error}"
     );
+    same(&read(csv(2).replacen("cell,frame", "\"cell\",\"frame\"", 1)).unwrap(), 2);
     let two = refusal("track_id,particle,frame,x,y\n1,1,0,0,0\n");
     assert!(two.contains("several columns") && two.contains("columns.cell"), "{two}");
 }
