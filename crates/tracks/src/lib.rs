@@ -55,5 +55,5 @@ pub use note::Note;
 pub use options::{Columns, Limits, Options};
 pub use place::Place;
 pub use read::read;
-pub use tracks::{Cell, FRAME, Outline, PIXEL, Tracks};
+pub use tracks::{Cell, FRAME, Image, Outline, PIXEL, Tracks};
 pub use write::{write_amoepy, write_csv};

@@ -3,7 +3,7 @@
 use crate::after::{filed_twice, implausible, sentinels};
 use crate::formats::{self, Found};
 use crate::scale::{apply, scales};
-use crate::{Cell, Error, Format, Note, Options, Result, Tracks, detect};
+use crate::{Cell, Error, Format, Image, Note, Options, Result, Tracks, detect};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -60,7 +60,8 @@ fn file(path: &Path, options: &Options) -> Result<(Tracks, Format)> {
     apply(&mut cells, &uses);
     notes.extend(more);
     let [length, time] = uses;
-    let image = image.map(|size| size.map(|side| side * length.factor));
+    let scaled = |value: f64| value * length.factor;
+    let image = image.map(|image| Image { size: image.size.map(scaled), pixel: scaled(image.pixel) });
     let y_down = format.is_of_images().then_some(true);
     Ok((Tracks { cells, length_unit: length.unit, time_unit: time.unit, y_down, image, notes }, format))
 }
