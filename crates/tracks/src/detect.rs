@@ -23,6 +23,7 @@ pub fn detect(path: &Path, options: &Options) -> Result<Format> {
             return Err(unknown("a TIFF image: extract outlines first"));
         }
         [0x89, b'P', b'N', b'G', ..] => return Err(unknown("a PNG image: extract outlines first")),
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => return Err(unknown("text in UTF-16: save it as UTF-8")),
         bytes if bytes.contains(&0) => return Err(unknown("binary data")),
         bytes => String::from_utf8_lossy(bytes),
     };

@@ -1,5 +1,6 @@
 //! The header of a table: which column is which.
 
+use crate::split::split;
 use crate::{Columns, Error, Result};
 use std::path::Path;
 
@@ -96,8 +97,9 @@ pub(crate) fn separator(header: &str) -> u8 {
 
 /// Names of the columns of a header line.
 pub(crate) fn names(header: &str) -> Vec<String> {
-    let separator = char::from(separator(header));
-    header.split(separator).map(|name| name.trim().trim_matches('"').to_owned()).collect()
+    let mut names = Vec::new();
+    split(header, separator(header), &mut names);
+    names.iter().map(|name| name.trim().to_owned()).collect()
 }
 
 /// Whether a line is the header of a table of vertices: it has x and y, or the names of the options.

@@ -3,7 +3,7 @@
 use crate::after::{filed_twice, implausible, sentinels};
 use crate::formats::{self, Found};
 use crate::scale::{apply, scales};
-use crate::{Cell, Error, Format, Note, Options, Result, Tracks, detect};
+use crate::{Cell, Error, Format, Image, Note, Options, Result, Tracks, detect};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -39,6 +39,7 @@ pub fn read<P: AsRef<Path>>(paths: &[P], options: &Options) -> Result<Tracks> {
         notes.extend(implausible(cell, &tracks.length_unit));
     }
     tracks.notes.extend(filed_twice(&tracks.cells));
+    once(&mut tracks.notes);
     Ok(tracks)
 }
 
@@ -59,7 +60,8 @@ fn file(path: &Path, options: &Options) -> Result<(Tracks, Format)> {
     apply(&mut cells, &uses);
     notes.extend(more);
     let [length, time] = uses;
-    let image = image.map(|size| size.map(|side| side * length.factor));
+    let scaled = |value: f64| value * length.factor;
+    let image = image.map(|image| Image { size: image.size.map(scaled), pixel: scaled(image.pixel) });
     let y_down = format.is_of_images().then_some(true);
     Ok((Tracks { cells, length_unit: length.unit, time_unit: time.unit, y_down, image, notes }, format))
 }
@@ -130,8 +132,21 @@ fn join(tracks: &mut Tracks, whence: &[Source]) -> Result<()> {
     }
     let mut gone = gone.into_iter();
     tracks.cells.retain(|_| !gone.next().unwrap_or(false));
-    tracks.notes.dedup_by(|a, b| matches!((&a, &b), (Note::UnknownScale { .. }, Note::UnknownScale { .. })));
     Ok(())
+}
+
+/// That units are unknown is said of the first file only: all files have the same units.
+fn once(notes: &mut Vec<Note>) {
+    let (mut scale, mut interval) = (0, 0);
+    notes.retain(|note| {
+        let count = match note {
+            Note::UnknownScale { .. } => &mut scale,
+            Note::UnknownInterval { .. } => &mut interval,
+            _ => return true,
+        };
+        *count += 1;
+        *count == 1
+    });
 }
 
 fn mixed(name: &str, file: &Path, first: i64, frames: usize) -> Error {

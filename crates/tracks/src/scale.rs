@@ -44,23 +44,8 @@ struct Question<'a> {
 pub(crate) fn scales(said: &Scale, options: &Options, file: &Path) -> Result<([Use; 2], Vec<Note>)> {
     let mut notes = Vec::new();
     let name = || file.display().to_string();
-    let one = |said: &Said| said.step == Some(1.0);
-    // a pixel of exactly 1 is the default of programs that were not told the scale; an interval of 1 s may be true beside a true pixel
     let mut said = said.clone();
-    if one(&said.length) {
-        let means = |said: &Said, unknown| said.unit.as_deref().is_none_or(|name| unit(name) != unknown);
-        let (length, time) = (means(&said.length, PIXEL), one(&said.time) && means(&said.time, FRAME));
-        let what = match (length, time) {
-            (true, true) => "length of a pixel and frame interval",
-            (true, false) => "length of a pixel",
-            (false, _) => "frame interval",
-        };
-        notes.extend((length || time).then(|| Note::ScaleOne { file: name(), what: what.to_owned() }));
-        if one(&said.time) {
-            said.time = Said::default();
-        }
-        said.length = Said::default();
-    }
+    notes.extend(unset(&mut said, file));
     let length = answer(
         &said.length,
         &Question {
@@ -86,6 +71,28 @@ pub(crate) fn scales(said: &Scale, options: &Options, file: &Path) -> Result<([U
     notes.extend((length.unit == PIXEL).then(|| Note::UnknownScale { file: name() }));
     notes.extend((time.unit == FRAME).then(|| Note::UnknownInterval { file: name() }));
     Ok(([length, time], notes))
+}
+
+/// Takes a pixel of exactly 1 as unknown, and with it an interval of exactly 1: what programs write that were not told the scale. An interval of
+/// 1 s beside another pixel may be true.
+fn unset(said: &mut Scale, file: &Path) -> Option<Note> {
+    let one = |said: &Said| said.step == Some(1.0);
+    if !one(&said.length) {
+        return None;
+    }
+    let means = |said: &Said, unknown| said.unit.as_deref().is_none_or(|name| unit(name) != unknown);
+    let (length, time) = (means(&said.length, PIXEL), one(&said.time) && means(&said.time, FRAME));
+    if one(&said.time) {
+        said.time = Said::default();
+    }
+    said.length = Said::default();
+    let what = match (length, time) {
+        (true, true) => "length of a pixel and frame interval",
+        (true, false) => "length of a pixel",
+        (false, true) => "frame interval",
+        (false, false) => return None,
+    };
+    Some(Note::ScaleOne { file: file.display().to_string(), what: what.to_owned() })
 }
 
 fn answer(said: &Said, question: &Question<'_>) -> Result<Use> {

@@ -23,10 +23,19 @@ pub struct Tracks {
     pub time_unit: String,
     /// Whether y points down: known for formats of images, `None` for tables and text.
     pub y_down: Option<bool>,
-    /// Width and height of the images, in the unit of length, where a file says so.
-    pub image: Option<[f64; 2]>,
+    /// The images, where a file describes them.
+    pub image: Option<Image>,
     /// What was noticed while reading.
     pub notes: Vec<Note>,
+}
+
+/// Images, in the unit of length.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Image {
+    /// Width and height.
+    pub size: [f64; 2],
+    /// Length of a pixel.
+    pub pixel: f64,
 }
 
 /// One cell.

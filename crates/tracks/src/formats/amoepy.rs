@@ -4,7 +4,7 @@ use super::{Found, stem};
 use crate::gather::{Gather, Key};
 use crate::input::Input;
 use crate::scale::{Said, Scale};
-use crate::{Error, Note, Options, Place, Result};
+use crate::{Cell, Error, Note, Options, Place, Result};
 
 /// Deviation from a multiple of the interval, in intervals, from which times count as uneven: files round times.
 const UNEVEN: f64 = 0.1;
@@ -37,18 +37,24 @@ pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
     }
     let (mut cells, mut notes) = gather.finish(&input.place, "write one cell per file")?;
     let interval = median_difference(&times);
-    let numbers = numbers(&times, interval);
-    match numbers {
-        Some(numbers) => {
-            for outline in cells.iter_mut().flat_map(|cell| &mut cell.frames) {
-                outline.frame = numbers[outline.frame as usize];
-            }
-        }
+    match numbers(&times, interval) {
+        Some(numbers) => renumber(&mut cells, &mut notes, &numbers),
         None => notes.push(Note::UnevenTimes { cell }),
     }
     let length = Said { step: None, unit: Some("um".to_owned()), applied: true };
     let time = Said { step: interval, unit: Some("s".to_owned()), applied: true };
     Ok(Found { cells, notes, scale: Scale { length, time }, image: None })
+}
+
+/// Frames in the order of the file become frames in intervals.
+fn renumber(cells: &mut [Cell], notes: &mut [Note], numbers: &[i64]) {
+    let number = |frame: &mut i64| *frame = numbers.get(*frame as usize).copied().unwrap_or(*frame);
+    cells.iter_mut().flat_map(|cell| &mut cell.frames).for_each(|outline| number(&mut outline.frame));
+    for note in notes {
+        if let Note::MissingVertices { frames, .. } = note {
+            frames.iter_mut().for_each(number);
+        }
+    }
 }
 
 fn one_frame(line: &str, place: &Place) -> Result<(f64, Vec<[f64; 2]>)> {

@@ -1,10 +1,10 @@
 //! Long tables as CSV: one vertex per row.
 
-use super::split::split;
 use super::{Found, stem};
 use crate::gather::{Gather, Key};
 use crate::header::{Header, names, needed, separator};
 use crate::input::{Input, number, whole};
+use crate::split::split;
 use crate::{Error, Options, Place, Result};
 use std::borrow::Cow;
 

@@ -10,13 +10,12 @@ mod rings;
 mod roi;
 mod roi_archive;
 mod roi_name;
-mod split;
 mod trackmate;
 mod wkt;
 
 use crate::input::Input;
 use crate::scale::Scale;
-use crate::{Cell, Format, Note, Options, Result};
+use crate::{Cell, Format, Image, Note, Options, Result};
 use std::path::Path;
 
 /// What a file holds.
@@ -25,8 +24,8 @@ pub(crate) struct Found {
     pub(crate) cells: Vec<Cell>,
     pub(crate) notes: Vec<Note>,
     pub(crate) scale: Scale,
-    /// Width and height of the images, in the unit of the coordinates.
-    pub(crate) image: Option<[f64; 2]>,
+    /// The images, in the unit of the coordinates.
+    pub(crate) image: Option<Image>,
 }
 
 /// Reads a file of this format.

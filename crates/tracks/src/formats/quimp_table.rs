@@ -1,11 +1,11 @@
 //! QuimP's tables `_snake.csv` and `_outline.csv`: tab separated, a header, blocks headed `#frame N`, pixels.
 
-use super::split::split;
 use super::{Found, stem};
 use crate::detect::block;
 use crate::gather::{Gather, Key};
 use crate::header::{Header, is_table, names, needed, separator};
 use crate::input::{Input, number, whole};
+use crate::split::split;
 use crate::{Error, Options, Place, Result};
 use std::path::Path;
 

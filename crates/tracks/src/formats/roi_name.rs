@@ -9,7 +9,8 @@ pub(super) struct Named<'a> {
 
 /// Understands `FRAME-CELL`, and ImageJ's own `SLICE-Y-X` and `Y-X` (four digits each, zeros in front), which name no cell.
 ///
-/// `position`: the frame that the region itself holds. It counts before the name; `FRAME-CELL` is believed where both agree or there is none.
+/// `position`: the frame that the region itself holds. It counts before the name. `FRAME-CELL` is believed where there is no position or both agree;
+/// they may differ by 1, counted from 0 and from 1.
 pub(super) fn named(entry: &str, position: Option<i64>) -> Named<'_> {
     let base = entry.rsplit(['/', '\\']).next().unwrap_or(entry);
     let base = base.rsplit_once('.').map_or(base, |(base, _)| base);
@@ -22,7 +23,9 @@ pub(super) fn named(entry: &str, position: Option<i64>) -> Named<'_> {
         }
         [slice, _, _] if parts.iter().all(padded) => Named { frame: position.or(number(slice)), cell: None },
         [frame, cell] => match (number(frame), position) {
-            (Some(named), Some(position)) if named != position => Named { frame: Some(position), cell: None },
+            (Some(named), Some(position)) if named.abs_diff(position) > 1 => {
+                Named { frame: Some(position), cell: None }
+            }
             (frame, position) => Named { frame: position.or(frame), cell: frame.map(|_| *cell) },
         },
         [alone] => Named { frame: position.or(number(alone)), cell: None },

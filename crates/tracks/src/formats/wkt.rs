@@ -1,11 +1,11 @@
 //! Outlines as well-known text: a column of a CSV table, or lines `cell, frame, POLYGON (...)`.
 
 use super::rings::outer_ring;
-use super::split::split;
 use super::{Found, stem};
 use crate::gather::{Gather, Key};
 use crate::header::{Header, names, needed, polygon, separator};
 use crate::input::{Input, whole};
+use crate::split::split;
 use crate::{Error, Options, Place, Result};
 use std::borrow::Cow;
 

@@ -1,7 +1,7 @@
 //! Outlines clipped at the border of the images.
 
 use super::flag::{Flag, Side};
-use super::straight::{grain, run};
+use super::straight::run;
 use crate::geometry::area;
 use crate::{Outline, Tracks};
 use std::f64::consts::PI;
@@ -39,7 +39,7 @@ struct Line {
 }
 
 impl Borders {
-    /// A border is known where a file has the size of its images: outlines within a pixel of it are clipped. Otherwise it is the extreme
+    /// A border is known where a file has the size of its images: outlines of its outermost pixels are clipped. Otherwise it is the extreme
     /// coordinate of all outlines if one of two things is seen there.
     ///
     /// 1. Straight runs in at least 5 frames: see [`run`].
@@ -68,10 +68,10 @@ fn line(tracks: &Tracks, (side, axis, sign): (Side, usize, f64)) -> Option<Line>
     let all = || tracks.cells.iter().flat_map(|cell| &cell.frames).filter(|outline| outline.points.len() > 2);
     let extreme = all().filter_map(|o| reach(&o.points, axis, sign)).fold(f64::NEG_INFINITY, f64::max);
     let level = |level| Some(Line { side, axis, sign, extreme, level });
-    if let Some(size) = tracks.image {
-        let border = if sign > 0.0 { size[axis] } else { 0.0 };
-        let pixel = median(all().map(|outline| grain(&outline.points)).collect())?;
-        return level(Some(border - pixel.max(0.005 * size[axis]).min(0.01 * size[axis])));
+    if let Some(image) = tracks.image {
+        // coordinates count from the corner or from the middle of the first pixel: an outline of its edge lies at 0 or -1/2
+        let [near, far] = [0.25, image.size[axis] / image.pixel - 0.75];
+        return level(Some(if sign > 0.0 { far * image.pixel } else { -near * image.pixel }));
     }
     if let Some(found) = coincidence(tracks, axis, sign, extreme) {
         return level(Some(found));

@@ -36,7 +36,7 @@ fn longest(points: &[[f64; 2]], near: impl Fn(&[f64; 2]) -> bool, along: usize) 
 }
 
 /// The least step of a coordinate along the outline: a pixel where outlines follow pixels, nearly 0 where they are smooth.
-pub(super) fn grain(points: &[[f64; 2]]) -> f64 {
+fn grain(points: &[[f64; 2]]) -> f64 {
     let steps = edges(points).flat_map(|(a, b)| [(b[0] - a[0]).abs(), (b[1] - a[1]).abs()]);
     let size = points.iter().flatten().fold(0.0_f64, |size, value| size.max(value.abs()));
     // differences of round-off are no steps

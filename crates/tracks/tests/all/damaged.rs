@@ -33,6 +33,7 @@ fn unknown_content_says_what_it_looks_like() {
         let error = refusal(content);
         assert!(error.contains(part), "{content:?}: {error}");
     }
+    assert!(refusal([0xff, 0xfe, b'c', 0]).contains("UTF-16"));
     assert!(
         motiform_tracks::read::<&str>(&[], &Options::default())
             .unwrap_err()

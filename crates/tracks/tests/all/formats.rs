@@ -124,6 +124,7 @@ fn columns_by_name() {
         error.contains("\"west\"") && error.contains("columns.x") && error.contains("cell, frame, i, x, y"),
         "{error}"
     );
+    same(&read(csv(2).replacen("cell,frame", "\"cell\",\"frame\"", 1)).unwrap(), 2);
     let two = refusal("track_id,particle,frame,x,y\n1,1,0,0,0\n");
     assert!(two.contains("several columns") && two.contains("columns.cell"), "{two}");
 }
@@ -156,5 +157,7 @@ fn uneven_times_are_said() {
     assert_eq!(tracks.cells[0].frames[3].t, 3.4);
     let gap: String = [0.0, 1.0, 2.0, 4.0].iter().map(|t| format!("{t} 0 0 4 0 4 4 0 4\n")).collect();
     assert_eq!(read(gap).unwrap().cells[0].frames[3].frame, 4);
+    let hole = "0 0 0 4 0 4 4 0 4\n1 0 0 4 0 4 4 0 4\n2 0 0 4 0 4 4 0 4\n4 0 0 4 0 4 4 nan 4\n";
+    assert!(notes(&read(hole).unwrap()).contains("not finite in frame 4"));
     assert!(refusal("1 0 0 4 0 4 4\n1 0 0 4 0 4 4\n").contains("time after that of the line before"));
 }

@@ -52,6 +52,18 @@ fn archives_of_cells_and_frames() {
     assert_eq!(tracks.cells[0].frames[1].frame, 4);
 }
 
+/// Names count frames from 0, positions from 1.
+#[test]
+fn positions_count_from_one() {
+    let moved = SQUARE.map(|[x, y]| [x + 50.0, y]);
+    let archive = zip(&[("4-7.roi", &roi(0, 5, &SQUARE, false)), ("4-8.roi", &roi(0, 5, &moved, false))]);
+    let tracks = read(archive).unwrap();
+    assert_eq!(
+        tracks.cells.iter().map(|cell| (cell.name.as_str(), cell.frames[0].frame)).collect::<Vec<_>>(),
+        [("7", 5), ("8", 5)]
+    );
+}
+
 /// ImageJ's own names have the slice first and no cell.
 #[test]
 fn names_of_imagej() {
@@ -77,7 +89,7 @@ fn several_files_are_one_cell() {
         files.put(&format!("{frame}-31.roi"), roi(0, 0, &moved, false))
     });
     let tracks = read_paths(&paths, &Options::default()).unwrap();
-    assert_eq!(tracks.cells.len(), 1);
+    assert_eq!((tracks.cells.len(), tracks.notes.len()), (1, 2));
     assert_eq!(tracks.cells[0].frames.iter().map(|o| o.frame).collect::<Vec<_>>(), [8, 9]);
 }
 

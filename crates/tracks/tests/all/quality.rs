@@ -3,7 +3,7 @@
 use crate::common::{cell, normal};
 use motiform_tracks::modes::{Crossing, Flag, ModeOptions, Side, crossing, modes, outline_modes};
 use motiform_tracks::synthetic::{Synthetic, blur, pixelated};
-use motiform_tracks::{Cell, Outline, Tracks, area};
+use motiform_tracks::{Cell, Image, Outline, Tracks, area};
 
 fn tracks(frames: Vec<(i64, Vec<[f64; 2]>)>) -> Tracks {
     let outline = |(frame, points)| Outline { frame, t: frame as f64, points, missing: 0 };
@@ -118,7 +118,7 @@ fn known_images_have_known_borders() {
     for point in tracks.cells[0].frames.iter_mut().flat_map(|outline| &mut outline.points) {
         *point = [point[0] + shift[0], point[1] + shift[1]];
     }
-    tracks.image = Some([500.0, 500.0]);
+    tracks.image = Some(Image { size: [500.0, 500.0], pixel: 1.0 });
     assert_eq!(flags(&tracks), [(0, "clipped")]);
 }
 

@@ -2,9 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use crate::common::{Files, outlines, read, refusal};
+use crate::common::{Files, outlines, read, read_with, refusal};
 use crate::formats::same;
-use motiform_tracks::{Format, Options, detect};
+use motiform_tracks::{Format, Limits, Options, detect};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::parser::parse_message_type;
@@ -52,4 +52,12 @@ fn damaged_parquet_is_an_error() {
     for length in (4..whole.len()).step_by(97) {
         assert!(refusal(&whole[..length]).contains("a sound Parquet file"), "{length}");
     }
+}
+
+/// The count of rows is compared with the limit before any is read.
+#[test]
+fn too_many_rows_are_not_read() {
+    let limits = Limits { vertices: 79, ..Limits::default() };
+    let error = read_with(parquet(2), &Options { limits, ..Options::default() }).unwrap_err().to_string();
+    assert!(error.contains("more than 79 vertices") && error.contains("limits.vertices"), "{error}");
 }

@@ -1,7 +1,7 @@
 //! TrackMate's XML.
 
 use crate::common::{cell, notes, read, read_with, refusal};
-use motiform_tracks::{Limits, Options};
+use motiform_tracks::{Image, Limits, Options};
 
 /// A file with spots (ID, frame, with outline or not), links and the scale.
 pub(crate) fn xml(spots: &[(i64, i64)], tracks: &[&[(i64, i64)]], pixel: f64, unit: &str) -> String {
@@ -46,7 +46,7 @@ fn links_are_followed_and_cut_at_splits() {
         tracks.cells.iter().map(|c| (c.name.as_str(), c.frames.iter().map(|o| o.frame).collect())).collect();
     assert_eq!(found, [("0.1", vec![0, 1]), ("0.2", vec![2, 3]), ("0.3", vec![2, 3])]);
     assert_eq!((tracks.length_unit.as_str(), tracks.time_unit.as_str()), ("um", "min"));
-    assert_eq!((tracks.image, tracks.y_down), (Some([25.0, 12.5]), Some(true)));
+    assert_eq!((tracks.image, tracks.y_down), (Some(Image { size: [25.0, 12.5], pixel: 0.25 }), Some(true)));
     assert_eq!(tracks.cells[1].frames[1].t, 7.5);
     let notes = notes(&tracks);
     assert!(

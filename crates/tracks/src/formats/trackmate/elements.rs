@@ -4,7 +4,7 @@ use super::bounded::Bounded;
 use super::model::{Model, Spot, Track};
 use super::spot::Open;
 use crate::input::{Input, integer, shorten};
-use crate::{Error, Limits, Place, Result};
+use crate::{Error, Image, Limits, Place, Result};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use std::cell::Cell;
@@ -101,7 +101,7 @@ impl Collect {
         self.model.pixel_size = pixel;
         self.model.interval = interval;
         if let (Some(width), Some(height), Some(pixel)) = (width, height, pixel) {
-            self.model.image = Some([width * pixel, height * pixel]);
+            self.model.image = Some(Image { size: [width * pixel, height * pixel], pixel });
         }
         Ok(())
     }

@@ -1,5 +1,6 @@
 //! What a TrackMate file holds.
 
+use crate::Image;
 use std::collections::{HashMap, HashSet};
 
 /// A detection.
@@ -26,7 +27,7 @@ pub(super) struct Model {
     pub(super) time_unit: Option<String>,
     pub(super) pixel_size: Option<f64>,
     pub(super) interval: Option<f64>,
-    pub(super) image: Option<[f64; 2]>,
+    pub(super) image: Option<Image>,
     pub(super) spots: HashMap<i64, Spot>,
     pub(super) all: Vec<Track>,
     /// Tracks that passed the filters of the file, where it has such a list.
