@@ -1,12 +1,13 @@
 //! The fit of one cell, with everything that follows from it.
 
 use crate::regime::{FittedRegime, regime_of};
-use crate::{CellTrack, Result};
-use motiform_dynamics::Watch;
+use crate::{CellTrack, Error, Result};
+use motiform_dynamics::{StopOnly, Watch};
 use motiform_inference::{
     Drift, Fit, Handedness, Identifiability, LEAST_FRAMES, Library, Placement, Plane, Selection, Settings,
     Symmetry, Warning, drift, fit, handedness, identifiability, place_among, select, warnings,
 };
+use motiform_lab::pool;
 use motiform_models::amplitudes::info;
 use motiform_study::Study;
 
@@ -101,6 +102,30 @@ impl Fitted {
         study.run.noise_velocity = Some(fit.noise.eta_v.value);
         Ok(study)
     }
+}
+
+/// Fits cells on `threads` threads, in their order; `None` for those that the watch left out. The result does not depend on the threads.
+///
+/// # Errors
+/// As [`fit_cell`].
+pub fn fit_cells(
+    cells: &[&CellTrack],
+    options: &FitOptions,
+    threads: usize,
+    watch: &dyn Watch,
+) -> Result<Vec<Option<CellFit>>> {
+    // Errors of settings come before any work, and those of data are in the results: what is left is a study's.
+    Library::new(3, options.order)?;
+    let answer = |cell: &&CellTrack| match fit_cell(cell, options, &StopOnly(watch)) {
+        Ok(fit) => Ok(Some(fit)),
+        Err(Error::Study(motiform_study::Error::Interrupted)) => Ok(None),
+        Err(Error::Study(error)) => Err(error),
+        Err(other) => {
+            let fitted = Err(other.to_string());
+            Ok(Some(CellFit { name: cell.name.clone(), frames: cell.frames(), fitted }))
+        }
+    };
+    Ok(pool::as_far_as(cells, threads, watch, answer)?)
 }
 
 /// Fits a cell. What the data cannot give is in the result, with reasons.

@@ -15,7 +15,7 @@ mod tables;
 
 pub use cell::{CellTrack, Sample};
 pub use error::{Error, Result};
-pub use fit::{CellFit, FitOptions, Fitted, fit_cell};
+pub use fit::{CellFit, FitOptions, Fitted, fit_cell, fit_cells};
 pub use folder::{FitFolder, write_fits, write_observations};
 pub use observe::{Motion, Observation, observe};
 pub use regime::{FittedRegime, LEAST_SHARE, regime_of};

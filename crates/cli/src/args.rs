@@ -1,5 +1,6 @@
 //! The command line: its arguments and their help texts.
 
+mod cells;
 mod drawing;
 mod help;
 mod lifetimes;
@@ -8,6 +9,7 @@ mod scan;
 mod statistics;
 mod subject;
 
+pub(crate) use cells::{CellsOptions, FitCellsOptions, ObserveOptions};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 pub(crate) use drawing::{DrawingOptions, FilmFormat};
 #[cfg(feature = "explorer")]
@@ -67,6 +69,12 @@ pub(crate) enum Command {
     /// Measure many bodies: mean-square displacement, diffusion, correlations, distributions, first-passage times, spectra
     #[command(after_help = statistics::STATISTICS_HELP)]
     Statistics(Box<StatisticsOptions>),
+    /// Say how tracked cells move: read outlines, compute modes and their quality, name the motion or what is missing
+    #[command(after_help = cells::OBSERVE_HELP)]
+    Observe(Box<ObserveOptions>),
+    /// Fit the symmetric equations that describe tracked cells, with errors, regime and place on the paper's planes
+    #[command(after_help = cells::FIT_HELP)]
+    Fit(Box<FitCellsOptions>),
     /// Reproduce the paper: every figure, every claim, one HTML report
     #[command(after_help = REPRODUCE_HELP)]
     Reproduce(ReproduceOptions),

@@ -27,6 +27,8 @@ fn main() -> ExitCode {
         Command::Section(options) => commands::section::run(&options),
         Command::Lifetimes(options) => commands::lifetimes::run(&options),
         Command::Statistics(options) => commands::statistics::run(&options),
+        Command::Observe(options) => commands::observe::run(&options),
+        Command::Fit(options) => commands::fit::run(&options),
         Command::Reproduce(options) => commands::reproduce::run(&options),
         #[cfg(feature = "explorer")]
         Command::Explore(options) => commands::explore::run(&options),

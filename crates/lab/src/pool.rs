@@ -109,6 +109,20 @@ pub fn each<I: Sync, A: Send>(
     found.ok_or(Error::Interrupted)
 }
 
+/// The answers to the items as far as the work came, in their order, with progress; `None` for those that the watch left out.
+///
+/// # Errors
+/// The first error of an item.
+pub fn as_far_as<I: Sync, A: Send>(
+    items: &[I],
+    threads: usize,
+    watch: &dyn Watch,
+    answer: impl Fn(&I) -> Result<Option<A>, Error> + Sync,
+) -> Result<Vec<Option<A>>, Error> {
+    let open = (0..items.len()).map(|_| None).collect();
+    complete(open, threads, watch, |jobs| jobs.each(|job| answer(&items[job])))
+}
+
 /// The lock, even if another thread panicked while holding it: the guarded data are consistent at every point.
 pub(crate) fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)

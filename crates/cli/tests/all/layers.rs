@@ -6,7 +6,7 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::process::Command;
 
 /// Each crate, and the crates below it that it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &[&str]); 20] = [
+const LAYERS: [(&str, &[&str]); 21] = [
     ("motiform-dynamics", &[]),
     ("motiform-models", &["motiform-dynamics"]),
     ("motiform-analysis", &["motiform-dynamics"]),
@@ -44,6 +44,19 @@ const LAYERS: [(&str, &[&str]); 20] = [
         ],
     ),
     (
+        "motiform-cells",
+        &[
+            "motiform-analysis",
+            "motiform-dynamics",
+            "motiform-files",
+            "motiform-inference",
+            "motiform-lab",
+            "motiform-models",
+            "motiform-study",
+            "motiform-tracks",
+        ],
+    ),
+    (
         "motiform-branching",
         &[
             "motiform-analysis",
@@ -74,6 +87,7 @@ const LAYERS: [(&str, &[&str]); 20] = [
         "motiform-paper",
         &[
             "motiform-analysis",
+            "motiform-branching",
             "motiform-chapter",
             "motiform-dynamics",
             "motiform-figures",
@@ -101,10 +115,12 @@ const LAYERS: [(&str, &[&str]); 20] = [
         &[
             "motiform-analysis",
             "motiform-branching",
+            "motiform-cells",
             "motiform-dynamics",
             "motiform-explorer",
             "motiform-figures",
             "motiform-files",
+            "motiform-inference",
             "motiform-lab",
             "motiform-measure",
             "motiform-models",
@@ -112,6 +128,7 @@ const LAYERS: [(&str, &[&str]); 20] = [
             "motiform-statistics",
             "motiform-report",
             "motiform-study",
+            "motiform-tracks",
         ],
     ),
     (

@@ -1,0 +1,86 @@
+//! Options of `observe` and `fit`.
+
+use super::number;
+use clap::Args;
+use motiform_tracks::Format;
+use std::path::PathBuf;
+
+/// Files with outlines, and their units.
+#[derive(Args)]
+pub(crate) struct CellsOptions {
+    /// Files with outlines of tracked cells: tables (CSV, Parquet), TrackMate XML, QuimP, AmoePy, ImageJ regions, WKT
+    #[arg(value_name = "FILE", required = true)]
+    pub(crate) files: Vec<PathBuf>,
+    /// Time between frames, where the file does not say it; without it times are in frames
+    #[arg(long, value_name = "DT", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) interval: Option<f64>,
+    /// Length of a pixel, where the file does not say it; without it lengths are in pixels
+    #[arg(long, value_name = "S", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) pixel_size: Option<f64>,
+    /// Unit of --interval, for the results
+    #[arg(long, value_name = "UNIT", default_value = "s")]
+    pub(crate) time_unit: String,
+    /// Unit of --pixel-size, for the results
+    #[arg(long, value_name = "UNIT", default_value = "um")]
+    pub(crate) length_unit: String,
+    /// The format, where the content does not decide it: csv, parquet, trackmate, quimp-csv, quimp-snqp, amoepy, roi, roi-zip or wkt
+    #[arg(long, value_name = "FORMAT", value_parser = |text: &str| text.parse::<Format>().map_err(|error| error.to_string()))]
+    pub(crate) format: Option<Format>,
+    /// Only these cells (repeatable)
+    #[arg(long, value_name = "NAME")]
+    pub(crate) cell: Vec<String>,
+    /// Write modes (Parquet) and results into this folder
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace an existing folder of results
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Print one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct ObserveOptions {
+    #[command(flatten)]
+    pub(crate) cells: CellsOptions,
+}
+
+#[derive(Args)]
+pub(crate) struct FitCellsOptions {
+    #[command(flatten)]
+    pub(crate) cells: CellsOptions,
+    /// Highest order of the terms: 3 (22 terms, those of the paper) or 5
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(3..=5))]
+    pub(crate) order: u32,
+    /// Models drawn from the estimate, whose motions decide the name
+    #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub(crate) draws: u32,
+    /// Seed of the draws
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Number of threads (default: all cores); does not affect the results
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
+    pub(crate) threads: Option<u16>,
+}
+
+pub(super) const OBSERVE_HELP: &str = "\
+Examples:
+  motiform observe cells.xml
+  motiform observe outlines.csv --pixel-size 0.2 --interval 5 --out observed
+  motiform observe roi.zip --interval 6 --time-unit min --json
+
+A motion is named where the record leaves no other: straight, circular, zigzag, quasi-periodic or motionless. Otherwise it is
+'undecided', with what is missing. Frames that are no observation of the shape (clipped at the border, self-crossing, repeated, ...)
+are left out and listed. Definitions: docs/cells.md.";
+
+pub(super) const FIT_HELP: &str = "\
+Examples:
+  motiform fit cells.xml --out fitted
+  motiform fit outlines.csv --pixel-size 0.2 --interval 5 --json
+  motiform simulate fitted/cell-3.toml            the fitted model is a study file
+  motiform explore fitted/cell-3.toml
+
+Maximum likelihood through an extended Kalman filter, over all terms that rotations allow; best subsets of terms; a test of mirror
+symmetry; what the motion determines; the motions of models drawn from the estimate; the place on the planes of Figs 4 and 1.
+Method and definitions: docs/inference.md.";

@@ -1,0 +1,127 @@
+//! `motiform observe`.
+
+use crate::args::{CellsOptions, ObserveOptions};
+use crate::output::{End, print, warn};
+use motiform_cells::{
+    CellTrack, FitFolder, Observation, Sample, observations_json, observe, write_observations,
+};
+use motiform_files::Staging;
+use motiform_study::Error;
+use motiform_tracks::Options;
+use motiform_tracks::modes::ModeOptions;
+use std::fmt::Write;
+
+pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
+    let staging = staging(&options.cells)?;
+    let sample = read(&options.cells)?;
+    let found: Vec<Observation> = chosen(&sample, &options.cells)?.into_iter().map(observe).collect();
+    let json = options.cells.json.then(|| observations_json(&sample, &found).to_string());
+    let written = staging
+        .map(|staging| write_observations(&sample, &found, staging))
+        .transpose()
+        .map_err(plain_error)?;
+    print(&match json {
+        Some(json) => json,
+        None => {
+            let mut text = head(&sample);
+            for one in &found {
+                let cell = sample.cells.iter().find(|cell| cell.name == one.cell);
+                write!(text, "\n{}", sentences(one, cell)?)?;
+            }
+            if let Some(path) = written {
+                write!(text, "\nwritten        {}", path.display())?;
+            }
+            text.trim_end().to_owned()
+        }
+    })?;
+    let undecided = found.iter().any(|one| one.motion.regime.is_none());
+    Ok(if undecided { End::NotAsAsked } else { End::Done })
+}
+
+fn sentences(found: &Observation, cell: Option<&CellTrack>) -> anyhow::Result<String> {
+    let name = found.motion.regime.map_or("undecided", |regime| regime.name());
+    let mut text = format!("cell {:<9} {name}\nbecause        {}\n", found.cell, found.motion.why);
+    if found.motion.regime.is_some() {
+        writeln!(text, "confidence     {:.0} % of resampled records", 100.0 * found.motion.confidence)?;
+    }
+    text += &quality(cell, found.frames)?;
+    if let Some(measures) = &found.measures {
+        writeln!(
+            text,
+            "speed          {:.4e}, scatter {:.0} %",
+            measures.speed,
+            100.0 * measures.speed_scatter
+        )?;
+        writeln!(
+            text,
+            "turning rate   {:.4e} +- {:.1e} rad per time",
+            measures.turning, measures.turning_error
+        )?;
+    }
+    Ok(text)
+}
+
+/// Frames that count, and what is wrong with the others.
+pub(crate) fn quality(cell: Option<&CellTrack>, frames: usize) -> anyhow::Result<String> {
+    let Some(cell) = cell else { return Ok(String::new()) };
+    let all = cell.modes.frames.len();
+    let mut text = format!("frames         {frames} of {all} count");
+    let flags: Vec<String> =
+        cell.flags().into_iter().map(|(name, count)| format!("{count} {name}")).collect();
+    if !flags.is_empty() {
+        write!(text, "; {}", flags.join(", "))?;
+    }
+    text.push('\n');
+    Ok(text)
+}
+
+/// The first lines: how much was read, and in which units.
+pub(crate) fn head(sample: &Sample) -> String {
+    let tracks = &sample.tracks;
+    let (cells, outlines) = (tracks.cells.len(), tracks.outlines());
+    format!(
+        "{cells} cells, {outlines} outlines; lengths in {}, times in {}\n",
+        tracks.length_unit, tracks.time_unit
+    )
+}
+
+/// The cells of the files; notes about them are warnings.
+pub(crate) fn read(options: &CellsOptions) -> anyhow::Result<Sample> {
+    let settings = Options {
+        format: options.format,
+        pixel_size: options.pixel_size,
+        interval: options.interval,
+        length_unit: options.length_unit.clone(),
+        time_unit: options.time_unit.clone(),
+        ..Options::default()
+    };
+    let sample = Sample::read(&options.files, &settings, &ModeOptions::default()).map_err(plain_error)?;
+    sample.notes().iter().for_each(|note| warn(note));
+    Ok(sample)
+}
+
+/// The cells that are asked for.
+pub(crate) fn chosen<'s>(sample: &'s Sample, options: &CellsOptions) -> anyhow::Result<Vec<&'s CellTrack>> {
+    if let Some(name) = options.cell.iter().find(|name| !sample.cells.iter().any(|cell| cell.name == **name))
+    {
+        let known: Vec<&str> = sample.cells.iter().take(12).map(|cell| cell.name.as_str()).collect();
+        anyhow::bail!("--cell {name}: there is no such cell; the cells are {}", known.join(", "));
+    }
+    Ok(sample
+        .cells
+        .iter()
+        .filter(|cell| options.cell.is_empty() || options.cell.contains(&cell.name))
+        .collect())
+}
+
+pub(crate) fn staging(options: &CellsOptions) -> Result<Option<Staging>, Error> {
+    options.out.as_ref().map(|out| Staging::replacing(out, options.force, FitFolder::is_one)).transpose()
+}
+
+/// The error itself, so that remedies and exit codes are those of every command.
+pub(crate) fn plain_error(error: motiform_cells::Error) -> anyhow::Error {
+    match error {
+        motiform_cells::Error::Study(error) => error.into(),
+        other => other.into(),
+    }
+}
