@@ -16,6 +16,9 @@ use optimise::{Point, climb, polish, roughly};
 use serde::{Deserialize, Serialize};
 pub(crate) use setup::{check_library, problem};
 
+/// From this many frames on, starts are compared on a half of them.
+const LONG: usize = 400;
+
 /// What is fitted, and how.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
@@ -37,7 +40,8 @@ impl Default for Settings {
 
 /// Fits one model to all tracks: maximum likelihood through an extended Kalman filter.
 ///
-/// From zero coefficients with large process noise, by Fisher scoring with damping; the best of the starts is kept. The same
+/// From zero coefficients with large process noise, by Fisher scoring with damping; the best of the starts is kept (of 400 frames and more, the best on
+/// the first half of each stretch). The same
 /// coefficients and noise hold for all tracks: the sum of their log-likelihoods is maximised.
 ///
 /// # Errors    of the input ([`crate::Error`]); a search that does not converge is [`Ending::Stopped`] in the result
@@ -48,7 +52,15 @@ pub fn fit(tracks: &[Track], settings: &Settings) -> Result<Fit> {
     let scales = Scales::of(tracks);
     let problem = problem(tracks, settings, &scales);
     let starts = starts(tracks, settings, &scales);
-    let rough = best(starts.into_iter().map(|noise| roughly(&problem, &zero(&problem, noise))).collect());
+    let head = problem.head(LONG);
+    let of = head.as_ref().unwrap_or(&problem);
+    let mut rough = best(starts.into_iter().map(|noise| roughly(of, &zero(of, noise))).collect());
+    if head.is_some() {
+        rough = climb(&problem, &rough.theta, Want::Rough, (1.0, 12));
+        if !rough.evaluation.value.is_finite() {
+            rough = roughly(&problem, &zero(&problem, 0.4));
+        }
+    }
     Ok(result::make(&problem, settings, scales, &polish(&problem, &rough.theta)))
 }
 
