@@ -14,7 +14,8 @@ use crate::filter::{Problem, Theta, Want};
 use crate::{Library, Result, Scales, Track, observation};
 use optimise::{Point, climb, polish, roughly};
 use serde::{Deserialize, Serialize};
-pub(crate) use setup::{check_library, problem};
+pub(crate) use setup::check_library;
+use setup::problem;
 
 /// From this many frames on, starts are compared on a half of them.
 const LONG: usize = 400;
@@ -50,11 +51,11 @@ pub fn fit(tracks: &[Track], settings: &Settings) -> Result<Fit> {
     observation::check(tracks)?;
     setup::check(settings)?;
     let scales = Scales::of(tracks);
-    let problem = problem(tracks, settings, &scales);
+    let problem = setup::checked(tracks, settings, &scales)?;
     let starts = starts(tracks, settings, &scales);
     let head = problem.head(LONG);
     let of = head.as_ref().unwrap_or(&problem);
-    let mut rough = best(starts.into_iter().map(|noise| roughly(of, &zero(of, noise))).collect());
+    let mut rough = best(of, &starts);
     if head.is_some() {
         rough = climb(&problem, &rough.theta, Want::Rough, (1.0, 12));
         if !rough.evaluation.value.is_finite() {
@@ -71,7 +72,7 @@ pub fn fit_from(tracks: &[Track], settings: &Settings, start: &Parameters) -> Re
     observation::check(tracks)?;
     setup::check(settings)?;
     let scales = Scales::of(tracks);
-    let problem = problem(tracks, settings, &scales);
+    let problem = setup::checked(tracks, settings, &scales)?;
     let theta = likelihood::natural(&problem, settings, &scales, start)?;
     Ok(result::make(&problem, settings, scales, &polish(&problem, &theta)))
 }
@@ -99,16 +100,14 @@ fn starts(tracks: &[Track], settings: &Settings, scales: &Scales) -> Vec<f64> {
     if dt > scales.time { vec![0.4, 0.1, 1.0, 0.03] } else { vec![0.4, 0.1] }
 }
 
-fn best(points: Vec<Point>) -> Point {
-    let evaluations = points.iter().map(|point| point.evaluations).sum();
-    let mut points = points.into_iter();
-    let first = points.next();
-    let best = points.fold(first, |best, point| match best {
-        Some(best) if best.evaluation.value >= point.evaluation.value => Some(best),
-        _ => Some(point),
-    });
-    match best {
-        Some(best) => Point { evaluations, ..best },
-        None => unreachable!("there is at least one start"),
+/// The best of these starts on a problem.
+fn best(problem: &Problem, starts: &[f64]) -> Point {
+    let mut best = roughly(problem, &zero(problem, starts[0]));
+    for &noise in &starts[1..] {
+        let other = roughly(problem, &zero(problem, noise));
+        if other.evaluation.value > best.evaluation.value {
+            best = other;
+        }
     }
+    best
 }

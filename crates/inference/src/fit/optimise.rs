@@ -23,7 +23,7 @@ const OVERSHOT: f64 = 0.3;
 pub enum Ending {
     /// At a maximum.
     Converged {
-        /// Evaluations with derivatives.
+        /// Evaluations with exact derivatives.
         evaluations: usize,
     },
     /// Before.
@@ -38,7 +38,6 @@ pub enum Ending {
 pub(crate) struct Point {
     pub(crate) theta: Theta,
     pub(crate) evaluation: Evaluation,
-    pub(crate) evaluations: usize,
     pub(crate) ending: Ending,
 }
 
@@ -159,7 +158,7 @@ pub(crate) fn climb(problem: &Problem, theta: &Theta, want: Want, (enough, most)
             damping = (10.0 * damping).max(1e-3);
         }
     };
-    Point { theta, evaluation, evaluations, ending }
+    Point { theta, evaluation, ending }
 }
 
 /// From a start to the maximum: first roughly, then with exact derivatives.
