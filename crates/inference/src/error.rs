@@ -53,6 +53,12 @@ pub enum Error {
         /// The frame, from 0.
         frame: usize,
     },
+    /// Frames that do not follow each other.
+    #[error("no three frames follow each other within {longest}: the gaps are too long to follow the motion")]
+    Gaps {
+        /// Longest gap that the filter goes on through, in the time of the data.
+        longest: f64,
+    },
     /// No such term.
     #[error("unknown term {name:?}: choose among {}", .known.join("; "))]
     Term {

@@ -2,7 +2,7 @@
 
 use crate::chi_square::chi_square_tail;
 use crate::filter::Theta;
-use crate::fit::{problem, refit};
+use crate::fit::refit;
 use crate::observation::OBSERVED;
 use crate::{Coefficient, Error, Fit, Result, Settings, Track, identifiability, observation};
 use serde::{Deserialize, Serialize};
@@ -62,7 +62,6 @@ pub fn handedness(tracks: &[Track], fit: &Fit) -> Result<Handedness> {
     let degrees = coefficients.len();
     coefficients.resize(2 * degrees, 0.0);
     let start = Theta { coefficients, logs: fit.natural.logs };
-    debug_assert_eq!(problem(tracks, &settings, &fit.scales).parts.len(), 2 * degrees, "parts");
     let near = refit(tracks, &settings, fit.scales, &start);
     let far = refit(
         tracks,

@@ -45,21 +45,7 @@ pub fn weak(tracks: &[Track], library: &Library) -> Result<Weak> {
     let scales = Scales::of(tracks);
     let field = Field::new(library);
     let mut sums: Vec<Normal> = (0..SHAPE / 2).map(|n| Normal::new(library.of_equation(n))).collect();
-    let mut windows = 0;
-    for track in tracks {
-        let frames = scales.frames(track);
-        let dt = track.interval() / scales.time;
-        let half = ((HALF / dt).round() as usize).max(LEAST);
-        let shapes = shapes(&frames, dt);
-        for centre in (half + 2..frames.len().saturating_sub(half + 2)).step_by((half / 2).max(1)) {
-            let range = centre - half..=centre + half;
-            let span = frames[centre + half + 2].t - frames[centre - half - 2].t;
-            if (span - (2 * half + 4) as f64 * dt).abs() < 1e-6 * span {
-                windows += 1;
-                add(&mut sums, &field, (&frames[range.clone()], &shapes[range]), dt);
-            }
-        }
-    }
+    let windows = tracks.iter().map(|track| add_track(&mut sums, &field, track, &scales)).sum();
     let mut coefficients = vec![0.0; library.terms.len()];
     let mut determined = true;
     for sum in &sums {
@@ -72,6 +58,24 @@ pub fn weak(tracks: &[Track], library: &Library) -> Result<Weak> {
         *c *= scales.coefficient(term);
     }
     Ok(Weak { names: library.names(), coefficients: determined.then_some(coefficients), windows })
+}
+
+/// Adds the windows of a track that have no gap; returns their number.
+fn add_track(sums: &mut [Normal], field: &Field, track: &Track, scales: &Scales) -> usize {
+    let frames = scales.frames(track);
+    let dt = track.interval() / scales.time;
+    let half = ((HALF / dt).round() as usize).max(LEAST);
+    let shapes = shapes(&frames, dt);
+    let mut windows = 0;
+    for centre in (half + 2..frames.len().saturating_sub(half + 2)).step_by((half / 2).max(1)) {
+        let range = centre - half..=centre + half;
+        let span = frames[centre + half + 2].t - frames[centre - half - 2].t;
+        if (span - (2 * half + 4) as f64 * dt).abs() < 1e-6 * span {
+            windows += 1;
+            add(sums, field, (&frames[range.clone()], &shapes[range]), dt);
+        }
+    }
+    windows
 }
 
 /// Normal equations of one equation.

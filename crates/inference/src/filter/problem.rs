@@ -56,6 +56,13 @@ impl Problem {
         self.stretches.iter().map(|stretch| stretch.len() - 1).sum()
     }
 
+    /// The first half of each stretch, if there are as many frames as `long`.
+    pub(crate) fn head(&self, long: usize) -> Option<Self> {
+        let half = |stretch: &Vec<Frame>| stretch[..stretch.len().div_ceil(2).max(2)].to_vec();
+        let stretches = || self.stretches.iter().map(half).collect();
+        (self.frames() >= long).then(|| Self { stretches: stretches(), ..self.clone() })
+    }
+
     /// Complex coefficients of all terms.
     pub(crate) fn complex(&self, theta: &Theta) -> Vec<Complex<f64>> {
         let mut c = vec![Complex::new(0.0, 0.0); self.terms];

@@ -1,8 +1,7 @@
 //! The likelihood at given values, in the units of the data.
 
-use super::{Settings, problem, setup};
+use super::{Settings, setup};
 use crate::filter::{Problem, Theta, Want, evaluate};
-use crate::observation::OBSERVED;
 use crate::{Error, Result, Scales, Track, observation};
 use serde::{Deserialize, Serialize};
 
@@ -71,14 +70,13 @@ pub fn likelihood(tracks: &[Track], settings: &Settings, at: &Parameters) -> Res
     observation::check(tracks)?;
     setup::check(settings)?;
     let scales = Scales::of(tracks);
-    let problem = problem(tracks, settings, &scales);
+    let problem = setup::checked(tracks, settings, &scales)?;
     let theta = natural(&problem, settings, &scales, at)?;
     let found = evaluate(&problem, &theta, Want::Exact, false);
     let mut units = units(&problem, settings, &scales);
     units.extend([1.0; 3]);
     let n = units.len();
     let frames = problem.frames() as f64;
-    debug_assert_eq!(OBSERVED, 6, "of the density below");
     Ok(Likelihood {
         value: found.value.is_finite().then(|| found.value + frames * scales.log_density()),
         gradient: (0..n).map(|i| found.gradient[i] / units[i]).collect(),

@@ -14,7 +14,11 @@ use crate::filter::{Problem, Theta, Want};
 use crate::{Library, Result, Scales, Track, observation};
 use optimise::{Point, climb, polish, roughly};
 use serde::{Deserialize, Serialize};
-pub(crate) use setup::{check_library, problem};
+pub(crate) use setup::check_library;
+use setup::problem;
+
+/// From this many frames on, starts are compared on a half of them.
+const LONG: usize = 400;
 
 /// What is fitted, and how.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,7 +41,8 @@ impl Default for Settings {
 
 /// Fits one model to all tracks: maximum likelihood through an extended Kalman filter.
 ///
-/// From zero coefficients with large process noise, by Fisher scoring with damping; the best of the starts is kept. The same
+/// From zero coefficients with large process noise, by Fisher scoring with damping; the best of the starts is kept (of 400 frames and more, the best on
+/// the first half of each stretch). The same
 /// coefficients and noise hold for all tracks: the sum of their log-likelihoods is maximised.
 ///
 /// # Errors    of the input ([`crate::Error`]); a search that does not converge is [`Ending::Stopped`] in the result
@@ -46,9 +51,17 @@ pub fn fit(tracks: &[Track], settings: &Settings) -> Result<Fit> {
     observation::check(tracks)?;
     setup::check(settings)?;
     let scales = Scales::of(tracks);
-    let problem = problem(tracks, settings, &scales);
+    let problem = setup::checked(tracks, settings, &scales)?;
     let starts = starts(tracks, settings, &scales);
-    let rough = best(starts.into_iter().map(|noise| roughly(&problem, &zero(&problem, noise))).collect());
+    let head = problem.head(LONG);
+    let of = head.as_ref().unwrap_or(&problem);
+    let mut rough = best(of, &starts);
+    if head.is_some() {
+        rough = climb(&problem, &rough.theta, Want::Rough, (1.0, 12));
+        if !rough.evaluation.value.is_finite() {
+            rough = roughly(&problem, &zero(&problem, 0.4));
+        }
+    }
     Ok(result::make(&problem, settings, scales, &polish(&problem, &rough.theta)))
 }
 
@@ -59,7 +72,7 @@ pub fn fit_from(tracks: &[Track], settings: &Settings, start: &Parameters) -> Re
     observation::check(tracks)?;
     setup::check(settings)?;
     let scales = Scales::of(tracks);
-    let problem = problem(tracks, settings, &scales);
+    let problem = setup::checked(tracks, settings, &scales)?;
     let theta = likelihood::natural(&problem, settings, &scales, start)?;
     Ok(result::make(&problem, settings, scales, &polish(&problem, &theta)))
 }
@@ -87,16 +100,14 @@ fn starts(tracks: &[Track], settings: &Settings, scales: &Scales) -> Vec<f64> {
     if dt > scales.time { vec![0.4, 0.1, 1.0, 0.03] } else { vec![0.4, 0.1] }
 }
 
-fn best(points: Vec<Point>) -> Point {
-    let evaluations = points.iter().map(|point| point.evaluations).sum();
-    let mut points = points.into_iter();
-    let first = points.next();
-    let best = points.fold(first, |best, point| match best {
-        Some(best) if best.evaluation.value >= point.evaluation.value => Some(best),
-        _ => Some(point),
-    });
-    match best {
-        Some(best) => Point { evaluations, ..best },
-        None => unreachable!("there is at least one start"),
+/// The best of these starts on a problem.
+fn best(problem: &Problem, starts: &[f64]) -> Point {
+    let mut best = roughly(problem, &zero(problem, starts[0]));
+    for &noise in &starts[1..] {
+        let other = roughly(problem, &zero(problem, noise));
+        if other.evaluation.value > best.evaluation.value {
+            best = other;
+        }
     }
+    best
 }

@@ -14,13 +14,16 @@ pub(crate) const PRIOR: f64 = 10.0;
 /// Largest step of a logarithm.
 const LONGEST_LOG_STEP: f64 = 1.2;
 
+/// Share of the slope at the end of a step, downwards, from which on it went too far.
+const OVERSHOT: f64 = 0.3;
+
 /// How the search for the maximum ended.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", tag = "ending")]
 pub enum Ending {
     /// At a maximum.
     Converged {
-        /// Evaluations with derivatives.
+        /// Evaluations with exact derivatives.
         evaluations: usize,
     },
     /// Before.
@@ -35,7 +38,6 @@ pub enum Ending {
 pub(crate) struct Point {
     pub(crate) theta: Theta,
     pub(crate) evaluation: Evaluation,
-    pub(crate) evaluations: usize,
     pub(crate) ending: Ending,
 }
 
@@ -101,6 +103,29 @@ pub(super) fn prior(theta: &Theta) -> f64 {
     0.5 * theta.coefficients.iter().map(|c| c * c).sum::<f64>() / (PRIOR * PRIOR)
 }
 
+/// The point after a step. Where the slope along the step has turned round (the expected information is less than the curvature), the point where
+/// the slope between is 0 is tried too: without it steps go to and fro.
+fn advance(
+    problem: &Problem,
+    want: Want,
+    (theta, evaluation): (&Theta, &Evaluation),
+    step: &[f64],
+) -> (Theta, Evaluation) {
+    let next = moved(theta, step.to_vec());
+    let trial = objective(problem, &next, want);
+    let slope = |at: &Evaluation| at.gradient.iter().zip(step).map(|(g, d)| g * d).sum::<f64>();
+    let (before, after) = (slope(evaluation), slope(&trial));
+    if trial.value.is_finite() && after < -OVERSHOT * before {
+        let part = before / (before - after);
+        let between = moved(theta, step.iter().map(|d| part * d).collect());
+        let other = objective(problem, &between, want);
+        if other.value > trial.value {
+            return (between, other);
+        }
+    }
+    (next, trial)
+}
+
 /// Goes uphill from `theta` for at most `most` evaluations, until a step promises less than `enough`.
 pub(crate) fn climb(problem: &Problem, theta: &Theta, want: Want, (enough, most): (f64, usize)) -> Point {
     let mut evaluation = objective(problem, theta, want);
@@ -120,8 +145,7 @@ pub(crate) fn climb(problem: &Problem, theta: &Theta, want: Want, (enough, most)
         if evaluations >= most {
             break stopped(&format!("{most} evaluations were not enough"));
         }
-        let next = moved(&theta, step);
-        let trial = objective(problem, &next, want);
+        let (next, trial) = advance(problem, want, (&theta, &evaluation), &step);
         evaluations += 1;
         if trial.value > evaluation.value {
             (theta, evaluation) = (next, trial);
@@ -134,7 +158,7 @@ pub(crate) fn climb(problem: &Problem, theta: &Theta, want: Want, (enough, most)
             damping = (10.0 * damping).max(1e-3);
         }
     };
-    Point { theta, evaluation, evaluations, ending }
+    Point { theta, evaluation, ending }
 }
 
 /// From a start to the maximum: first roughly, then with exact derivatives.

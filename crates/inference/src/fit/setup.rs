@@ -2,7 +2,7 @@
 
 use super::Settings;
 use crate::field::Field;
-use crate::filter::Problem;
+use crate::filter::{LONGEST_GAP, Problem};
 use crate::{Error, Library, Result, Scales, Track};
 
 /// Checks that the filter can take a library.
@@ -24,6 +24,12 @@ pub(super) fn check(settings: &Settings) -> Result<()> {
         Some(&value) => Err(Error::Setting { key: "starts", value, remedy: "give 1e-4 to 10" }),
         None => Ok(()),
     }
+}
+
+/// The problem in natural units, if frames are close enough to follow each other.
+pub(super) fn checked(tracks: &[Track], settings: &Settings, scales: &Scales) -> Result<Problem> {
+    let problem = problem(tracks, settings, scales);
+    if problem.frames() == 0 { Err(Error::Gaps { longest: LONGEST_GAP * scales.time }) } else { Ok(problem) }
 }
 
 /// The problem in natural units.

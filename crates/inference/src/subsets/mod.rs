@@ -81,6 +81,12 @@ pub fn subsets(fit: &Fit) -> Subsets {
     let equations: Vec<Vec<usize>> = (0..fit.library.modes)
         .map(|n| (0..fit.coefficients.len()).filter(|&i| fit.coefficients[i].term.equation == n).collect())
         .collect();
+    let (choices, complete) = descend(&whole, &equations, penalty);
+    Subsets { penalty, ties: joint(fit, &whole, &choices, penalty), complete }
+}
+
+/// The good sets of each equation with the others at their best ones, in turn until nothing changes; whether all sets were considered.
+fn descend(whole: &Conditional, equations: &[Vec<usize>], penalty: f64) -> (Vec<Vec<Choice>>, bool) {
     let mut choices: Vec<Vec<Choice>> = vec![Vec::new(); equations.len()];
     let mut dropped: Vec<Vec<usize>> = vec![Vec::new(); equations.len()];
     let mut complete = true;
@@ -100,7 +106,7 @@ pub fn subsets(fit: &Fit) -> Subsets {
             break;
         }
     }
-    Subsets { penalty, ties: joint(fit, &whole, &choices, penalty), complete }
+    (choices, complete)
 }
 
 /// Good sets of the equations, combined and scored together.

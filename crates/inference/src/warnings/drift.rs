@@ -57,7 +57,9 @@ pub fn drift(tracks: &[Track], fit: &Fit) -> Result<Drift> {
         let least = LEAST_FRAMES.max(3 * fit.coefficients.len());
         if thinned.iter().all(|track| track.0.len() >= least) {
             let again = refit(&thinned, &settings, fit.scales, &fit.theta());
-            points.push(point(&again, every, interval * every as f64));
+            if again.frames > 0 {
+                points.push(point(&again, every, interval * every as f64));
+            }
         }
     }
     let changes = (0..fit.coefficients.len()).map(|i| change(&points, i)).collect();

@@ -40,3 +40,15 @@ fn false_alarms() {
     println!("p-values {p_values:.3?}");
     assert!(p_values.iter().filter(|p| **p < 0.01).count() <= 3);
 }
+
+/// A circle that real coefficients explain: turning alone does not make a cell handed, and nothing says that it is not.
+#[test]
+fn turning_is_not_handedness() {
+    let mut experiment = Experiment::new(full(0.5, 0.3), 0.0, 7);
+    experiment.frames = 300;
+    let tracks = [experiment.track()];
+    let whole = fit(&tracks, &Settings::default()).unwrap();
+    let found = handedness(&tracks, &whole).unwrap();
+    println!("{:?} ratio {:.1} of {}, p {:.3}", found.symmetry, found.ratio, found.degrees, found.p_value);
+    assert_eq!(found.symmetry, Symmetry::Undecided);
+}

@@ -8,5 +8,6 @@ mod handed;
 mod identifiability;
 mod library;
 mod place;
+mod subsets;
 mod warnings;
 mod weak;
