@@ -3,6 +3,7 @@
 use crate::toml_reader::{Table, Value};
 use crate::{Error, Study};
 use motiform_models::amplitudes::{Definition, DefinitionError, ParameterDefinition, Part, info};
+use std::collections::BTreeMap;
 use toml::Value as Toml;
 
 /// The texts of a definition where they stand in the file.
@@ -13,6 +14,7 @@ struct Places<'i> {
     symmetry: Option<Value<'i>>,
     parameters: Vec<Value<'i>>,
     equations: Vec<Value<'i>>,
+    noise: BTreeMap<u32, Value<'i>>,
 }
 
 impl Places<'_> {
@@ -26,6 +28,7 @@ impl Places<'_> {
                 Some(parameter) => return parameter.name_error(error),
                 None => &self.table,
             },
+            Part::Noise(mode) => self.noise.get(&mode).unwrap_or(&self.table),
             Part::Equation(number) => self.equations.get(number).unwrap_or(&self.table),
         };
         value.error_within(error.span.clone(), error)
@@ -46,12 +49,20 @@ pub(crate) fn read(table: Value<'_>) -> Result<Study, Error> {
         symmetry: None,
         parameters: Vec::new(),
         equations: Vec::new(),
+        noise: BTreeMap::new(),
     };
     let (velocity, symmetry) = (table.take("velocity"), table.take("symmetry"));
     definition.velocity = velocity.as_ref().map(Value::text).transpose()?;
     definition.symmetry = symmetry.as_ref().map(Value::text).transpose()?;
-    let mut places =
-        Places { table: whole, modes, velocity, symmetry, parameters: Vec::new(), equations: Vec::new() };
+    let mut places = Places {
+        table: whole,
+        modes,
+        velocity,
+        symmetry,
+        parameters: Vec::new(),
+        equations: Vec::new(),
+        noise: BTreeMap::new(),
+    };
     let mut given = Vec::new();
     if let Some(mut parameters) = table.table("parameters")? {
         for (name, value) in parameters.drain() {
@@ -62,6 +73,7 @@ pub(crate) fn read(table: Value<'_>) -> Result<Study, Error> {
         }
     }
     read_equations(&mut table, &mut definition, &mut places)?;
+    read_noise(&mut table, &mut definition, &mut places)?;
     table.finish()?;
     let info = info(&definition).map_err(|error| places.error(&error))?;
     let mut study = Study::of_model(info);
@@ -127,6 +139,22 @@ fn read_equations<'i>(
     equations.finish()
 }
 
+/// The strength of the noise of some amplitudes.
+fn read_noise<'i>(
+    table: &mut Table<'i>,
+    definition: &mut Definition,
+    places: &mut Places<'i>,
+) -> Result<(), Error> {
+    let Some(mut noise) = table.table("noise")? else { return Ok(()) };
+    for &n in &definition.modes {
+        if let Some(value) = noise.take(&format!("z{n}")) {
+            definition.noise.insert(n, value.text()?);
+            places.noise.insert(n, value);
+        }
+    }
+    noise.finish()
+}
+
 /// The table of a study's equations, with the values of its parameters.
 pub(crate) fn written(definition: &Definition, values: &[(String, f64)]) -> toml::Table {
     let mut table = toml::Table::new();
@@ -152,6 +180,10 @@ pub(crate) fn written(definition: &Definition, values: &[(String, f64)]) -> toml
     let equations = definition.modes.iter().zip(&definition.equations);
     let equations = equations.map(|(n, text)| (format!("z{n}"), Toml::String(text.clone())));
     table.insert("equations".to_owned(), Toml::Table(equations.collect()));
+    if !definition.noise.is_empty() {
+        let noise = definition.noise.iter().map(|(n, text)| (format!("z{n}"), Toml::String(text.clone())));
+        table.insert("noise".to_owned(), Toml::Table(noise.collect()));
+    }
     table
 }
 
@@ -206,6 +238,11 @@ pub(crate) fn schema() -> serde_json::Value {
                 "type": "object",
                 "additionalProperties": { "type": "string" },
                 "description": "the right-hand side of dz_n/dt by the amplitude's name",
+            },
+            "noise": {
+                "type": "object",
+                "additionalProperties": { "type": "string" },
+                "description": "the strength of complex white noise by the amplitude's name: a number, or a polynomial (Stratonovich)",
             },
         },
     })

@@ -1,6 +1,7 @@
 //! Amplitude equations as they are typed.
 
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// A model of amplitude equations: everything that a user gives. [`super::Equations::new`] checks it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -18,6 +19,10 @@ pub struct Definition {
     pub parameters: Vec<ParameterDefinition>,
     /// The right-hand side of `dz_n/dt`, in the order of `modes`.
     pub equations: Vec<String>,
+    /// The strength of complex white noise on some amplitudes, by angular index: `dz_n = .. dt + g_n o dW_n` (Stratonovich), with independent
+    /// real and imaginary parts of `W_n`, each of variance t.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub noise: BTreeMap<u32, String>,
 }
 
 /// A parameter of a [`Definition`].
@@ -60,6 +65,8 @@ pub enum Part {
     Parameter(usize),
     /// The equation of this number.
     Equation(usize),
+    /// The noise of the amplitude with this angular index.
+    Noise(u32),
 }
 
 /// A definition that is no model: where, and what to write instead.
