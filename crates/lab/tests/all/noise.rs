@@ -235,6 +235,8 @@ fn noise_in_the_equations_is_that_of_the_run() {
     assert_eq!(back, study);
     let plan = Plan::new(&study).unwrap();
     assert!(plan.computation.noise.is_some());
+    let read: Plan = serde_json::from_str(&serde_json::to_string(&plan).unwrap()).unwrap();
+    assert_eq!(read, plan);
     let table = |plan| motiform_lab::simulate::simulate(plan, &()).unwrap().trajectory;
     let (one, again) = (table(&plan), table(&plan));
     assert_eq!(one.get("z2_re").unwrap(), again.get("z2_re").unwrap());
