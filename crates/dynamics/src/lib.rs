@@ -43,7 +43,7 @@ pub use error::Error;
 pub use exponential_orbit::ExponentialOrbit;
 pub use integration::Integration;
 pub use model::{InPlane, Model, Outline, Shape};
-pub use noise::{Noise, Normal};
+pub use noise::{Diffusion, ModelNoise, Noise, Normal};
 pub use noisy_orbit::NoisyOrbit;
 pub use orbit::Orbit;
 pub use outcome::{Obstacle, Outcome};

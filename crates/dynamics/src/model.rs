@@ -1,5 +1,6 @@
 //! Shape and drift: what every deformable body has in common.
 
+use crate::noise::ModelNoise;
 use crate::{Dual, Equivariant, Obstacle, Scalar, Semilinear, System, VectorField};
 
 /// An autonomous shape state, and the velocity determined by it: `x' = v(shape)`.
@@ -68,6 +69,11 @@ pub trait Model: Equivariant {
 
     /// The inverse of [`Model::encode`].
     fn decode(&self, shape: &[f64], coordinates: &mut [f64]);
+
+    /// The noise that belongs to the model: none, unless its equations have some. Fields and analyses are those without it.
+    fn noise(&self) -> ModelNoise {
+        ModelNoise::default()
+    }
 
     /// Number of leading coordinates that are the velocity itself, if it is an unknown.
     fn velocities(&self) -> usize {

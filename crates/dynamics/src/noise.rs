@@ -50,6 +50,35 @@ impl Normal {
     }
 }
 
+/// Noise whose strength depends on the state, in the reading of Stratonovich: `du = f(u) dt + sum_p g_p(u) o dW_p`.
+pub trait Diffusion: Send + Sync {
+    /// Number of independent Wiener processes `W_p`.
+    fn processes(&self) -> usize;
+
+    /// Moves `u` along `du/dw = g_p(u)` by `w`, to an error of order `w^5` or less.
+    fn kick(&self, process: usize, w: f64, u: &mut [f64]);
+
+    /// How fast it changes states of size 1 (inverse model time), for the step of the noise.
+    fn rate(&self) -> f64;
+}
+
+/// The noise that belongs to a model, beside that of a run.
+#[derive(Default)]
+pub struct ModelNoise {
+    /// Additive noise: `eta_i` of each entry of the shape, as in [`Noise::amplitudes`]; empty if there is none.
+    pub amplitudes: Vec<f64>,
+    /// Noise whose strength depends on the state.
+    pub diffusion: Option<Box<dyn Diffusion>>,
+}
+
+impl ModelNoise {
+    /// Whether there is no noise.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        self.diffusion.is_none() && self.amplitudes.iter().all(|amplitude| *amplitude == 0.0)
+    }
+}
+
 /// Additive white noise on a flow: `du_i = f_i(u) dt + eta_i dW_i`, with independent Wiener processes `W_i`.
 ///
 /// `f` has the linear part `lambda_i u_i` ([`Semilinear`]), which is treated exactly (see [`crate::NoisyOrbit`]). As the noise does not
@@ -68,7 +97,7 @@ pub struct Noise {
 
 impl Noise {
     /// The noise that gives every coordinate of `model` ([`Model::coordinates`]) the same strength: `velocity` to those that are the
-    /// velocity itself ([`Model::velocities`]), `shape` to all others. The plane's rotations turn pairs of coordinates, so its law
+    /// velocity itself ([`Model::velocities`]), `shape` to all others; and the additive noise of the model itself. The plane's rotations turn pairs of coordinates, so its law
     /// does not change with them.
     ///
     /// # Checked by  models/tests/all/noise.rs: rotation invariance, for both models
@@ -85,6 +114,9 @@ impl Noise {
             for (variance, x) in variances.iter_mut().zip(&image) {
                 *variance += x * x;
             }
+        }
+        for (variance, own) in variances.iter_mut().zip(model.noise().amplitudes) {
+            *variance += own * own;
         }
         Self { amplitudes: variances.into_iter().map(f64::sqrt).collect(), rates, step }
     }

@@ -1,7 +1,7 @@
 //! Orbits under noise.
 
 use crate::interpolant::DenseStep;
-use crate::noise::{Noise, Normal};
+use crate::noise::{Diffusion, Noise, Normal};
 use crate::orbit::{Counters, StepFailure};
 use crate::{Error, Integration};
 
@@ -20,21 +20,28 @@ use crate::{Error, Integration};
 /// that it needs is the combination of those of K and K' that its end does not use). Rows may therefore lie at any time: they do not
 /// change the path, no slope of a kicked state enters them, and a linear flow has its exact law there, too.
 ///
+/// Noise whose strength depends on the state ([`NoisyOrbit::with`]) is treated alike: a step of length h is
+/// `e^{K_1 g_1} .. e^{K_m g_m}`, the flow, `e^{K'_m g_m} .. e^{K'_1 g_1}`, where `e^{w g}` moves a state along `g` by w and all K have the
+/// variance h/2. As `E e^{K g} = e^{(h/4) g^2}`, this is the symmetric product of the parts of the generator: weak order 2, also for processes that do not
+/// commute. The strong order is 1 if they commute, otherwise 1/2. Inside a step the last part is done with the rest of the bridge.
+///
 /// It is an [`Integration`] again, so sections, escape bounds and samples work as for any orbit. A kick through a section is a
 /// crossing at the time of the kick.
 ///
-/// Source: Strang (1968), SIAM J. Numer. Anal. 5, 506; for the exact linear part Lord and Rougemont (2004), IMA J. Numer.
+/// Source: Strang (1968), SIAM J. Numer. Anal. 5, 506; for noise along fields Ninomiya and Victoir (2008), Appl. Math. Finance 15, 107; for the exact linear part Lord and Rougemont (2004), IMA J. Numer.
 /// Anal. 24, 587; for the bridge of an Ornstein-Uhlenbeck process Gillespie (1996), Phys. Rev. E 54, 2084.
 ///
 /// # Errors    [`Error::OutOfRange`] and [`Error::Shape`] from [`NoisyOrbit::new`]
-/// # Not       for multiplicative noise. The effect of an entry with `|lambda| h` far above 1 on the others within a step is
+/// # Not       for stiff entries whose square matters: the effect of an entry with `|lambda| h` far above 1 on the others within a step is
 /// averaged too coarsely: its own law is correct, its square in their rates is not
 /// # Checked by  tests/all/noise.rs: Brownian motion, Ornstein-Uhlenbeck (stiff entries, rows anywhere), weak order on a linear
-/// and a nonlinear flow, rotation, seeds; lab/tests/all/noise.rs: both models
+/// and a nonlinear flow, rotation, seeds; tests/all/diffusion.rs: weak and strong order; lab/tests/all/noise.rs: both models
 pub struct NoisyOrbit<O> {
     orbit: O,
     noise: Noise,
     kicks: Vec<Kick>,
+    /// Noise that depends on the state, and the increments of its processes.
+    diffusion: Option<(Box<dyn Diffusion>, Vec<Kick>)>,
     normal: Normal,
     start: f64,
     /// Steps of the noise started so far.
@@ -104,7 +111,15 @@ impl<O: Integration> NoisyOrbit<O> {
         let kicks = entries.map(|(&eta, &rate)| Kick::new(eta, rate, noise.step)).collect();
         let (start, state) = (orbit.t(), orbit.state().to_vec());
         orbit.roughen();
-        Ok(Self { orbit, noise, kicks, normal, start, steps: 0, state })
+        Ok(Self { orbit, noise, kicks, diffusion: None, normal, start, steps: 0, state })
+    }
+
+    /// The same with noise that depends on the state; before the first step.
+    #[must_use]
+    pub fn with(mut self, diffusion: Box<dyn Diffusion>) -> Self {
+        let increments = vec![Kick::new(1.0, 0.0, self.noise.step); diffusion.processes()];
+        self.diffusion = Some((diffusion, increments));
+        self
     }
 
     /// End of the present step: from the number of steps, so that it carries no accumulated rounding.
@@ -118,6 +133,12 @@ impl<O: Integration> NoisyOrbit<O> {
             kick.draw(&mut self.normal);
             *x += kick.early;
         }
+        if let Some((diffusion, increments)) = &mut self.diffusion {
+            for (process, increment) in increments.iter_mut().enumerate() {
+                increment.draw(&mut self.normal);
+                diffusion.kick(process, increment.early, &mut kicked);
+            }
+        }
         self.orbit.restart(&kicked);
         self.steps += 1;
     }
@@ -129,8 +150,30 @@ impl<O: Integration> NoisyOrbit<O> {
         }
         let (h, end) = (self.noise.step, self.end());
         let t = if t == end { h } else { h - (end - t) };
-        for (kick, x) in self.kicks.iter().zip(u) {
+        if sign > 0.0 {
+            self.diffuse(t, u);
+        }
+        for (kick, x) in self.kicks.iter().zip(&mut *u) {
             *x += sign * kick.beside_the_flow(t, h);
+        }
+        if sign < 0.0 {
+            self.diffuse_back(t, u);
+        }
+    }
+
+    /// The second part of the noise that depends on the state, at the time `t` in the present step.
+    fn diffuse(&self, t: f64, u: &mut [f64]) {
+        let Some((diffusion, increments)) = &self.diffusion else { return };
+        for (process, increment) in increments.iter().enumerate().rev() {
+            diffusion.kick(process, increment.beside_the_flow(t, self.noise.step), u);
+        }
+    }
+
+    /// Its inverse.
+    fn diffuse_back(&self, t: f64, u: &mut [f64]) {
+        let Some((diffusion, increments)) = &self.diffusion else { return };
+        for (process, increment) in increments.iter().enumerate() {
+            diffusion.kick(process, -increment.beside_the_flow(t, self.noise.step), u);
         }
     }
 

@@ -3,6 +3,7 @@
 use crate::names::paper;
 use crate::{Fit, Library};
 use motiform_models::amplitudes::{Definition, ParameterDefinition};
+use std::collections::BTreeMap;
 
 /// The amplitude equations of a library with these coefficients (in the order of its terms; for handed models all real parts, then all
 /// imaginary parts).
@@ -44,7 +45,7 @@ pub fn equations(library: &Library, handed: bool, coefficients: &[f64]) -> Defin
         "0*z1".clone_into(equation);
     }
     let modes = (1..=library.modes as u32).collect();
-    Definition { modes, velocity: None, symmetry: None, parameters, equations }
+    Definition { modes, velocity: None, symmetry: None, parameters, equations, noise: BTreeMap::new() }
 }
 
 impl Fit {

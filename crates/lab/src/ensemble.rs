@@ -63,6 +63,10 @@ pub fn tracks(
     watch: &dyn Watch,
 ) -> Result<Option<Vec<Track>>, Error> {
     check_no_noise(plan.computation.noise.map_or(0.0, |noise| noise.largest()))?;
+    if plan.computation.noise.is_some() {
+        let remedy = "tracks of an ensemble have no noise: set its coefficients to 0, or ask for statistics";
+        return Err(Error::Setting { key: "noise", value: "in the equations".to_owned(), remedy });
+    }
     check_times(times)?;
     let bodies: Vec<Body> =
         members.iter().map(|member| Body::new(plan, member, times)).collect::<Result<_, _>>()?;

@@ -216,7 +216,11 @@ pub(crate) fn noisy<'o>(
     let Some(settings) = computation.noise else { return Ok(orbit) };
     let noise = Noise::on(model, settings.velocity, settings.shape, settings.step);
     let normal = Normal::new(computation.seed, u64::MAX - stretch);
-    Ok(Box::new(NoisyOrbit::new(orbit, noise, normal)?))
+    let noisy = NoisyOrbit::new(orbit, noise, normal)?;
+    Ok(Box::new(match model.noise().diffusion {
+        Some(diffusion) => noisy.with(diffusion),
+        None => noisy,
+    }))
 }
 
 /// The norm of a finite state may overflow. Files hold no infinity: it becomes the largest number.

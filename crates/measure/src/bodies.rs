@@ -79,7 +79,7 @@ fn plans(study: &Study, count: usize) -> Result<Vec<Plan>> {
     study.return_map = None; // its second pass would be for nothing
     let first = study.run.seed;
     let given = study.initial.iter().any(|(name, _)| !["x", "y"].contains(&name.as_str()));
-    if count > 1 && given && study.run.largest_noise() == 0.0 {
+    if count > 1 && given && Plan::new(&study)?.computation.noise.is_none() {
         let remedy = "without noise all bodies with this start are the same: leave out the initial values, or give noise";
         return Err(Error::Setting { key: "bodies", value: count.to_string(), remedy }.into());
     }

@@ -3,6 +3,7 @@
 use crate::toml_reader::{Table, Value};
 use crate::{Error, Study};
 use motiform_models::amplitudes::{Definition, DefinitionError, ParameterDefinition, Part, info};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use toml::Value as Toml;
 
@@ -14,6 +15,7 @@ struct Places<'i> {
     symmetry: Option<Value<'i>>,
     parameters: Vec<Value<'i>>,
     equations: Vec<Value<'i>>,
+    noise: BTreeMap<u32, Value<'i>>,
 }
 
 impl Places<'_> {
@@ -27,6 +29,7 @@ impl Places<'_> {
                 Some(parameter) => return parameter.name_error(error),
                 None => &self.table,
             },
+            Part::Noise(mode) => self.noise.get(&mode).unwrap_or(&self.table),
             Part::Equation(number) => self.equations.get(number).unwrap_or(&self.table),
         };
         value.error_within(error.span.clone(), error)
@@ -47,12 +50,20 @@ pub(crate) fn read(table: Value<'_>) -> Result<Study, Error> {
         symmetry: None,
         parameters: Vec::new(),
         equations: Vec::new(),
+        noise: BTreeMap::new(),
     };
     let (velocity, symmetry) = (table.take("velocity"), table.take("symmetry"));
     definition.velocity = velocity.as_ref().map(Value::text).transpose()?;
     definition.symmetry = symmetry.as_ref().map(Value::text).transpose()?;
-    let mut places =
-        Places { table: whole, modes, velocity, symmetry, parameters: Vec::new(), equations: Vec::new() };
+    let mut places = Places {
+        table: whole,
+        modes,
+        velocity,
+        symmetry,
+        parameters: Vec::new(),
+        equations: Vec::new(),
+        noise: BTreeMap::new(),
+    };
     let mut given = Vec::new();
     if let Some(mut parameters) = table.table("parameters")? {
         for (name, value) in parameters.drain() {
@@ -63,6 +74,7 @@ pub(crate) fn read(table: Value<'_>) -> Result<Study, Error> {
         }
     }
     read_equations(&mut table, &mut definition, &mut places)?;
+    read_noise(&mut table, &mut definition, &mut places)?;
     table.finish()?;
     let info = info(&definition).map_err(|error| places.error(&error))?;
     let mut study = Study::of_model(info);
@@ -128,6 +140,22 @@ fn read_equations<'i>(
     equations.finish()
 }
 
+/// The strength of the noise of some amplitudes.
+fn read_noise<'i>(
+    table: &mut Table<'i>,
+    definition: &mut Definition,
+    places: &mut Places<'i>,
+) -> Result<(), Error> {
+    let Some(mut noise) = table.table("noise")? else { return Ok(()) };
+    for &n in &definition.modes {
+        if let Some(value) = noise.take(&format!("z{n}")) {
+            definition.noise.insert(n, value.text()?);
+            places.noise.insert(n, value);
+        }
+    }
+    noise.finish()
+}
+
 /// The tables of a study's equations as text, with the values of its parameters: a line for each parameter and equation.
 pub(crate) fn written(definition: &Definition, values: &[(String, f64)]) -> String {
     let mut text = "[model.amplitudes]\n".to_owned();
@@ -148,6 +176,12 @@ pub(crate) fn written(definition: &Definition, values: &[(String, f64)]) -> Stri
     text.push_str("\n[model.amplitudes.equations]\n");
     for (n, equation) in definition.modes.iter().zip(&definition.equations) {
         _ = writeln!(text, "z{n} = {}", Toml::String(equation.clone()));
+    }
+    if !definition.noise.is_empty() {
+        text.push_str("\n[model.amplitudes.noise]\n");
+        for (n, strength) in &definition.noise {
+            _ = writeln!(text, "z{n} = {}", Toml::String(strength.clone()));
+        }
     }
     text
 }
@@ -203,6 +237,11 @@ pub(crate) fn schema() -> serde_json::Value {
                 "type": "object",
                 "additionalProperties": { "type": "string" },
                 "description": "the right-hand side of dz_n/dt by the amplitude's name",
+            },
+            "noise": {
+                "type": "object",
+                "additionalProperties": { "type": "string" },
+                "description": "the strength of complex white noise by the amplitude's name: a number, or a polynomial (Stratonovich)",
             },
         },
     })

@@ -5,7 +5,7 @@ use motiform_dynamics::Noise;
 use motiform_dynamics::StepControl;
 use serde::{Deserialize, Serialize};
 
-/// Additive white noise: `du = f(u) dt + eta dW` for every named coordinate u ([`Noise::on`]).
+/// Additive white noise: `du = f(u) dt + eta dW` for every named coordinate u ([`Noise::on`]), beside that of the model itself.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NoiseSettings {
     /// Amplitude eta on the velocity, if that is an unknown (unit of velocity / sqrt(model time)).
@@ -20,6 +20,9 @@ pub struct NoiseSettings {
 impl std::fmt::Display for NoiseSettings {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { velocity, shape, step } = self;
+        if self.largest() == 0.0 {
+            return write!(f, "as in the equations, steps of {step}");
+        }
         write!(f, "amplitude {shape:?} on the shape, {velocity:?} on the velocity, steps of {step}")
     }
 }

@@ -175,9 +175,11 @@ fn noise(study: &Study, model: &dyn Model, look: f64) -> Result<Option<NoiseSett
     check("noise_velocity", velocity, unknown || velocity == 0.0, remedy)?;
     let mut rates = vec![0.0; model.dim()];
     Semilinear::<f64>::linear(model, &mut rates);
+    let own = model.noise();
+    rates.extend(own.diffusion.as_ref().map(|diffusion| diffusion.rate()));
     // A look is some tens of the slowest ordinary time scale.
     let settings = NoiseSettings { velocity, shape: run.noise, step: Noise::step_for(&rates, look / 20.0) };
-    Ok((settings.largest() > 0.0).then_some(settings))
+    Ok((settings.largest() > 0.0 || !own.is_none()).then_some(settings))
 }
 
 /// A stepper by name.

@@ -30,8 +30,14 @@ fn fields(
     let specs = TensorParameters::specs();
     let equations = texts.map(str::to_owned).to_vec();
     let parameters = specs.iter().map(|spec| ParameterDefinition::new(spec.name, spec.default)).collect();
-    let definition =
-        Definition { modes: vec![1, 2, 3], velocity: None, symmetry: None, parameters, equations };
+    let definition = Definition {
+        modes: vec![1, 2, 3],
+        velocity: None,
+        symmetry: None,
+        parameters,
+        equations,
+        noise: std::collections::BTreeMap::new(),
+    };
     let info = info(&definition)?;
     let field = |p: &TensorParameters| {
         let body = info.build(&p.values()).ok()?;

@@ -93,9 +93,9 @@ pub trait Scalar:
         self.constant(0.0)
     }
 
-    /// Runs a kernel over this type, as a function of its own if the type needs instructions beyond the baseline: a long one is then compiled
-    /// once for its many callers, with the instructions that they have.
-    #[inline(always)]
+    /// Runs a kernel over this type as a function of its own: a long one is compiled once for its many callers, with the instructions
+    /// that they have.
+    #[inline(never)]
     fn apart<K: Kernel>(kernel: K) -> K::Output {
         kernel.run()
     }

@@ -40,7 +40,7 @@ pub trait Registers: Copy + Send + Sync + 'static {
     /// `a` where the mask has a bit, else `b`.
     fn select(mask: u16, a: Self, b: Self) -> Self;
     /// See [`Scalar::apart`].
-    #[inline(always)]
+    #[inline(never)]
     fn apart<K: Kernel>(kernel: K) -> K::Output {
         kernel.run()
     }

@@ -2,6 +2,7 @@
 
 mod blow_up;
 mod common;
+mod diffusion;
 mod exponential;
 mod lanes;
 mod noise;

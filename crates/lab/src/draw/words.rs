@@ -60,6 +60,9 @@ pub(super) fn method(body: &Body<'_>) -> String {
 /// The noise, its amplitudes and seed.
 fn noise(noise: NoiseSettings, velocities: usize, seed: u64) -> String {
     let NoiseSettings { velocity, shape, .. } = noise;
+    if noise.largest() == 0.0 {
+        return format!(" Noise as in the equations, seed {seed}.");
+    }
     let of = if velocities == 0 {
         format!("{} on each coordinate of the shape", number(shape))
     } else if velocity == shape {

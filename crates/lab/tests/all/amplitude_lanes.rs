@@ -81,6 +81,7 @@ fn as_text(preset: &Study) -> Study {
         symmetry: None,
         parameters: specs.iter().map(|spec| ParameterDefinition::new(spec.name, spec.default)).collect(),
         equations: TENSOR.map(str::to_owned).to_vec(),
+        noise: std::collections::BTreeMap::new(),
     };
     let mut study = Study::of_model(info(&definition).unwrap());
     let c = Plan::new(preset).unwrap().computation;

@@ -207,3 +207,49 @@ fn the_plan_says_what_the_noise_is() {
     let refused = Plan::new(&cell).unwrap_err().to_string();
     assert!(refused.contains("noise_velocity = 0.1") && refused.contains("read off its shape"), "{refused}");
 }
+
+const IN_EQUATIONS: &str = r#"
+[model.amplitudes]
+modes = [1, 2]
+[model.amplitudes.parameters]
+D = 0.3
+s = 0.2
+[model.amplitudes.equations]
+z1 = "(1 - |z1|^2)*z1"
+z2 = "-2*z2"
+[model.amplitudes.noise]
+z1 = "s*z1"
+z2 = "D"
+[initial]
+v1 = 1.0
+[run]
+t_end = 3000
+dt_out = 0.3
+"#;
+
+/// Noise as a part of the equations: read and written, reproducible, with the variance `D^2/(2 kappa2)` of an Ornstein-Uhlenbeck process.
+#[test]
+fn noise_in_the_equations_is_that_of_the_run() {
+    let study = Study::parse(IN_EQUATIONS, "text", "test").unwrap();
+    let back = Study::parse(&study.to_toml().unwrap(), "text", "test").unwrap();
+    assert_eq!(back, study);
+    let plan = Plan::new(&study).unwrap();
+    assert!(plan.computation.noise.is_some());
+    let read: Plan = serde_json::from_str(&serde_json::to_string(&plan).unwrap()).unwrap();
+    assert_eq!(read, plan);
+    let table = |plan| motiform_lab::simulate::simulate(plan, &()).unwrap().trajectory;
+    let (one, again) = (table(&plan), table(&plan));
+    assert_eq!(one.get("z2_re").unwrap(), again.get("z2_re").unwrap());
+    let z2 = one.get("z2_re").unwrap();
+    let variance = z2.iter().map(|x| x * x).sum::<f64>() / z2.len() as f64;
+    // 3000 time units with the correlation time 1/4 of squares: 2 % standard error
+    assert!((variance / (0.3 * 0.3 / 4.0) - 1.0).abs() < 0.08, "{variance}");
+    let speed: Vec<f64> =
+        one.get("v1").unwrap().iter().zip(one.get("v2").unwrap()).map(|(a, b)| libm::hypot(*a, *b)).collect();
+    let mean = speed.iter().sum::<f64>() / speed.len() as f64;
+    let spread = speed.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / speed.len() as f64;
+    // near speed 1: dv = -2 (v - 1) dt + s v dW
+    assert!((spread / (0.2 * 0.2 / 4.0) - 1.0).abs() < 0.15, "{spread}");
+    let silent = Study::parse(&IN_EQUATIONS.replace("0.3\ns = 0.2", "0.0\ns = 0.0"), "text", "test");
+    assert!(Plan::new(&silent.unwrap()).unwrap().computation.noise.is_none());
+}

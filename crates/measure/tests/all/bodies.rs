@@ -14,6 +14,7 @@ fn study(text: &str) -> Study {
 }
 
 const NOISY: &str = "[model.tensor]\ngamma = 1\nkappa2 = 2\nkappa3 = 2\n[run]\nt_end = 40\ntransient = 5\ndt_out = 0.1\nnoise = 0.2";
+const IN_EQUATIONS: &str = "[model.amplitudes]\nmodes = [1, 2]\n[model.amplitudes.equations]\nz1 = \"(1 - |z1|^2)*z1\"\nz2 = \"-2*z2\"\n[model.amplitudes.noise]\nz1 = \"0.2*z1\"\nz2 = \"0.1\"\n[initial]\nv1 = 1.0\n[run]\nt_end = 40\ntransient = 5\ndt_out = 0.1";
 const SILENT: &str = "preset = \"fig5b\"\n[run]\nt_end = 40\ntransient = 5\ndt_out = 0.1";
 
 fn run(text: &str, count: usize, threads: usize, watch: &dyn Watch) -> motiform_measure::Result<Measurement> {
@@ -54,7 +55,7 @@ fn bodies_are_single_runs() {
 
 #[test]
 fn threads_do_not_matter() {
-    for text in [NOISY, SILENT] {
+    for text in [NOISY, SILENT, IN_EQUATIONS] {
         let [one, three] = [1, 3].map(|threads| run(text, 70, threads, &()).unwrap());
         assert_eq!(one, three);
     }

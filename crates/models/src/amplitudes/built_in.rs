@@ -4,6 +4,7 @@ use super::{Definition, ParameterDefinition};
 use crate::Parameters;
 use crate::registry::ModelInfo;
 use crate::tensor::TensorParameters;
+use std::collections::BTreeMap;
 
 /// A parameter, and the term that it multiplies.
 type Term = (&'static str, &'static str);
@@ -79,5 +80,6 @@ pub fn tensor(values: &[f64], all: bool) -> Definition {
         symmetry: None,
         parameters: parameters.collect(),
         equations: [Z1, Z2, Z3].map(equation).to_vec(),
+        noise: BTreeMap::new(),
     }
 }

@@ -1,6 +1,7 @@
 //! Amplitude equations as they are typed.
 
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// A model of amplitude equations: everything that a user gives. [`super::Equations::new`] checks it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -18,6 +19,32 @@ pub struct Definition {
     pub parameters: Vec<ParameterDefinition>,
     /// The right-hand side of `dz_n/dt`, in the order of `modes`.
     pub equations: Vec<String>,
+    /// The strength of complex white noise on some amplitudes, by angular index: `dz_n = .. dt + g_n o dW_n` (Stratonovich), with independent
+    /// real and imaginary parts of `W_n`, each of variance t.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty", with = "by_name")]
+    pub noise: BTreeMap<u32, String>,
+}
+
+/// Amplitudes by name: numbers as keys do not survive where a plan holds a model of either kind.
+mod by_name {
+    use serde::de::{Deserialize, Deserializer, Error};
+    use serde::{Serialize, Serializer};
+    use std::collections::BTreeMap;
+
+    pub(super) fn serialize<S: Serializer>(noise: &BTreeMap<u32, String>, to: S) -> Result<S::Ok, S::Error> {
+        let named: BTreeMap<String, &String> =
+            noise.iter().map(|(n, text)| (format!("z{n}"), text)).collect();
+        named.serialize(to)
+    }
+
+    pub(super) fn deserialize<'d, D: Deserializer<'d>>(from: D) -> Result<BTreeMap<u32, String>, D::Error> {
+        let named = BTreeMap::<String, String>::deserialize(from)?;
+        let numbered = |(name, text): (String, String)| {
+            let n = name.strip_prefix('z').and_then(|n| n.parse().ok());
+            n.map(|n| (n, text)).ok_or_else(|| D::Error::custom(format!("{name} is no amplitude")))
+        };
+        named.into_iter().map(numbered).collect()
+    }
 }
 
 /// A parameter of a [`Definition`].
@@ -60,6 +87,8 @@ pub enum Part {
     Parameter(usize),
     /// The equation of this number.
     Equation(usize),
+    /// The noise of the amplitude with this angular index.
+    Noise(u32),
 }
 
 /// A definition that is no model: where, and what to write instead.

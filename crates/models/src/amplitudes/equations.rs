@@ -2,6 +2,7 @@
 
 use super::coefficient::Tape;
 use super::definition::{Definition, DefinitionError, Part};
+use super::noise::NoiseTerms;
 use super::parser::{Names, is_real, parse};
 use super::polynomial::{MOST_MODES, Monomial, Polynomial};
 use super::program::{Program, REGISTERS};
@@ -30,6 +31,8 @@ pub struct Equations {
     pub(super) velocity_mode: Option<usize>,
     pub(super) program: Program,
     pub(super) velocity_program: Program,
+    /// The noise of some amplitudes.
+    pub(super) noise: NoiseTerms,
 }
 
 impl Equations {
@@ -57,6 +60,7 @@ impl Equations {
         let velocity = parse(text, names, &mut tape).map_err(|error| at(Part::Velocity, error))?;
         let found = Found { definition, tape: &tape, rates: &rates, velocity: &velocity };
         let (symmetry, sense) = found.symmetry()?;
+        let noise = NoiseTerms::new(definition, names, symmetry, &mut tape)?;
         let velocity_mode = velocity_mode(definition, &velocity, &tape);
         let modes = definition.modes.len();
         let program = |polynomials: &[Polynomial]| {
@@ -78,6 +82,7 @@ impl Equations {
             velocity_mode,
             program: rates_program,
             velocity_program,
+            noise,
         })
     }
 
@@ -112,7 +117,8 @@ impl Equations {
     pub fn undefined(&self, parameters: &[f64]) -> Option<String> {
         let modes = &self.definition.modes;
         let rates = modes.iter().enumerate().map(|(n, mode)| (format!("z{mode}"), self.terms(n, parameters)));
-        let all = rates.chain([("velocity".to_owned(), self.velocity_terms(parameters))]);
+        let noise = self.noise.terms(modes, &self.tape.evaluate(parameters));
+        let all = rates.chain([("velocity".to_owned(), self.velocity_terms(parameters))]).chain(noise);
         for (equation, terms) in all {
             for (monomial, value) in terms {
                 if !value.iter().all(|x| x.is_finite()) {

@@ -11,6 +11,7 @@ mod equations;
 mod evaluation;
 mod lanes;
 mod names;
+mod noise;
 mod parser;
 mod polynomial;
 mod program;
@@ -35,7 +36,7 @@ use crate::polar::{self, Mode};
 use coefficient::Value;
 use motiform_dynamics::model::{Coordinate, Observable};
 use motiform_dynamics::{
-    Equivariant, Model, Outline, Scalar, Semilinear, Shape, Symmetry, System, VectorField,
+    Equivariant, Model, ModelNoise, Outline, Scalar, Semilinear, Shape, Symmetry, System, VectorField,
 };
 
 /// Amplitude equations for one set of parameters.
@@ -50,6 +51,8 @@ pub struct Amplitudes {
     linear: Box<[f64]>,
     /// Coefficients of the velocity.
     velocity: Box<[Value]>,
+    /// Coefficients of the noise.
+    noise: Box<[Value]>,
 }
 
 impl Amplitudes {
@@ -64,7 +67,8 @@ impl Amplitudes {
         };
         let linear = (0..equations.definition().modes.len()).map(own).collect();
         let velocity = equations.velocity_program.coefficients(&values);
-        Self { known, rates, nonlinear, linear, velocity }
+        let noise = equations.noise.program.coefficients(&values);
+        Self { known, rates, nonlinear, linear, velocity, noise }
     }
 
     /// What was read.
@@ -170,6 +174,11 @@ impl Model for Amplitudes {
 
     fn coordinates(&self) -> &[Coordinate] {
         &self.known.coordinates
+    }
+
+    /// That of the table `noise`.
+    fn noise(&self) -> ModelNoise {
+        self.known.equations.noise.of_model(&self.noise, self.dim())
     }
 
     /// `v1, v2` where the velocity is `conj(z1)` or `z1`, otherwise real and imaginary parts.

@@ -189,7 +189,10 @@ fn specification(parameter: &ParameterDefinition, definition: &Definition) -> Pa
         .modes
         .iter()
         .zip(&definition.equations)
-        .filter(|(_, equation)| words(equation).any(|word| word == name))
+        .filter(|(n, equation)| {
+            let noise = definition.noise.get(n).map_or("", String::as_str);
+            words(equation).chain(words(noise)).any(|word| word == name)
+        })
         .map(|(n, _)| format!("z{n}"))
         .collect();
     let reach = if *default == 0.0 { 1.0 } else { default.abs() };
@@ -260,6 +263,9 @@ fn text(equations: &Equations) -> String {
     for (n, equation) in definition.modes.iter().zip(&definition.equations) {
         let short = equation.split_whitespace().collect::<Vec<_>>().join(" ");
         _ = writeln!(text, "(z{n})  dz{n}/dt = {short}");
+    }
+    for (n, strength) in &definition.noise {
+        _ = writeln!(text, "(z{n})  noise: + ({strength}) o dW{n}/dt, complex white noise (Stratonovich)");
     }
     let velocity = definition.velocity.as_deref().unwrap_or("conj(z1)");
     _ = writeln!(text, "(VEL) dx/dt + i dy/dt = v1 + i v2 = {velocity}");

@@ -86,6 +86,13 @@ impl Program {
         groups.flat_map(|group| group.factors.clone()).filter(|&factor| self.factors[factor].norm.is_none())
     }
 
+    /// The factors of a polynomial.
+    pub(super) fn places(&self, sum: usize) -> Range<usize> {
+        let groups = &self.groups[self.sums[sum].plain.start..self.sums[sum].complex.end];
+        let first = groups.first().map_or(0, |group| group.factors.start);
+        first..groups.last().map_or(first, |group| group.factors.end)
+    }
+
     /// Registers of the kind of which most are needed.
     #[inline(always)]
     pub(super) fn registers(&self, modes: usize) -> usize {

@@ -25,6 +25,7 @@ fn model(
         symmetry: symmetry.map(str::to_owned),
         parameters: parameters.iter().map(|&(name, value)| ParameterDefinition::new(name, value)).collect(),
         equations: equations.iter().map(|&text| text.to_owned()).collect(),
+        noise: std::collections::BTreeMap::new(),
     };
     info(&definition).unwrap()
 }

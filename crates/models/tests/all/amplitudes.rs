@@ -20,6 +20,7 @@ fn definition(modes: &[u32], equations: &[&str], parameters: &[(&str, f64)]) -> 
         symmetry: None,
         parameters: parameters.iter().map(|&(name, value)| ParameterDefinition::new(name, value)).collect(),
         equations: equations.iter().map(|&text| text.to_owned()).collect(),
+        noise: std::collections::BTreeMap::new(),
     }
 }
 
@@ -149,4 +150,33 @@ fn a_velocity_may_be_read_off_the_shape() {
     assert_eq!(velocity(body.as_ref(), &[1.0, 0.0, 0.0, 0.5]), [0.0, -1.0]);
     assert!(rotation_defect(body.as_ref(), &[0.3, 0.2, -0.1, 0.4], 0.7) < 1e-15);
     assert!(body.speed_resolution(&[1.0, 0.0, 0.0, 0.5], 1e-9) < 1e-8);
+}
+
+/// Constant strengths are additive; others move their amplitude along `g` and `i g`.
+#[test]
+fn noise_is_a_part_of_the_equations() {
+    let mut with =
+        definition(&[1, 2], &["(a - |z1|^2)*z1", "-2*z2 + z1^2"], &[("a", 1.0), ("s", 0.3), ("D", 0.2)]);
+    with.noise = [(1, "s*z1".to_owned()), (2, "D*i".to_owned())].into();
+    let body = info(&with).unwrap().build(&[1.0, 0.3, 0.2]).unwrap();
+    let noise = body.noise();
+    assert_eq!(noise.amplitudes, [0.0, 0.0, 0.2, 0.2]);
+    let diffusion = noise.diffusion.unwrap();
+    assert_eq!((diffusion.processes(), diffusion.rate()), (2, 0.3 * 0.3));
+    let start = [0.4, -0.2, 0.1, 0.3, 5.0, 6.0];
+    let (mut grown, mut turned) = (start, start);
+    diffusion.kick(0, 0.1, &mut grown);
+    diffusion.kick(1, 0.1, &mut turned);
+    let (sin, cos) = 0.03_f64.sin_cos();
+    let expected =
+        [[0.4 * 0.03_f64.exp(), -0.2 * 0.03_f64.exp()], [0.4 * cos + 0.2 * sin, 0.4 * sin - 0.2 * cos]];
+    for (found, expected) in [grown, turned].iter().zip(expected) {
+        assert!(largest(&found[..2], &expected) < 1e-10, "{found:?} {expected:?}");
+        assert_eq!(found[2..], start[2..]);
+    }
+    assert!(info(&with).unwrap().build(&[1.0, 0.0, 0.0]).unwrap().noise().is_none());
+    with.noise = [(5, "D".to_owned())].into();
+    assert_eq!(info(&with).unwrap_err().part, Part::Noise(5));
+    with.noise = [(2, "z1 + z2".to_owned())].into();
+    assert!(info(&with).unwrap_err().problem.contains("turn differently"));
 }

@@ -31,6 +31,8 @@ class Amplitudes(Model):
     symmetry
         ``"rotation+mirror"``, ``"rotation"``, ``"mirror"`` or ``"none"``; found from the terms where it is not given. A term that breaks
         rotations is an error unless this says so.
+    noise
+        The strength of complex white noise on amplitudes, a number or a polynomial (Stratonovich): ``{"z2": "D", "z1": "s*z1"}``.
     initial
         Initial values by name: ``v1``, ``v2`` for the velocity's mode, ``z2_re``, ``z2_im``, .. for the others.
 
@@ -54,9 +56,10 @@ class Amplitudes(Model):
         parameters: Mapping[str, Value] | None = None,
         velocity: str | None = None,
         symmetry: str | None = None,
+        noise: Mapping[str, str] | None = None,
         initial: Mapping[str, float] | None = None,
     ) -> None:
-        text = _text(modes, equations, parameters or {}, {"velocity": velocity, "symmetry": symmetry})
+        text = _text(modes, equations, parameters or {}, {"velocity": velocity, "symmetry": symmetry}, noise or {})
         self._study = _motiform.Study.parse(text, "amplitudes").with_({}, dict(initial or {}))
 
 
@@ -65,6 +68,7 @@ def _text(
     equations: Mapping[str, str],
     parameters: Mapping[str, Value],
     texts: Mapping[str, str | None],
+    noise: Mapping[str, str],
 ) -> str:
     """The study file with these equations."""
     lines = ["[model.amplitudes]", f"modes = {_toml(list(modes))}"]
@@ -73,6 +77,8 @@ def _text(
     lines += [f"{_toml(name)} = {_toml(value)}" for name, value in parameters.items()]
     lines += ["[model.amplitudes.equations]"]
     lines += [f"{_toml(name)} = {_toml(text)}" for name, text in equations.items()]
+    lines += ["[model.amplitudes.noise]"] if noise else []
+    lines += [f"{_toml(name)} = {_toml(text)}" for name, text in noise.items()]
     return "\n".join(lines) + "\n"
 
 
