@@ -183,7 +183,12 @@ fn fitted(
             let reasons = vec!["the cell is handed, and the paper's planes are not".to_owned()];
             return Placement::Refused { reasons };
         }
-        place_among(&whole, &selection, plane)
+        let doubts: Vec<String> = warnings.iter().filter(|w| serious(w)).map(ToString::to_string).collect();
+        if doubts.is_empty() {
+            place_among(&whole, &selection, plane)
+        } else {
+            Placement::Refused { reasons: doubts }
+        }
     });
     Ok(Ok(Box::new(Fitted {
         whole,

@@ -4,7 +4,9 @@ use super::measures::{Measures, Series, mean, scatter};
 use serde::Serialize;
 
 /// Correlation after one period, and after two, of a motion that repeats.
-const LIKE: [f64; 2] = [0.8, 0.7];
+const LIKE: [f64; 2] = [0.75, 0.5];
+/// Largest share of turns above a right angle within one step: beyond it the heading is not resolved.
+const UNRESOLVED: f64 = 0.02;
 /// Longest period, as a part of the record.
 const LONGEST: f64 = 0.4;
 
@@ -39,6 +41,11 @@ impl Repeats {
             return None;
         }
         let turned: Vec<f64> = series.headings.windows(lag + 1).map(|pair| pair[lag] - pair[0]).collect();
+        let sharp =
+            series.headings.windows(2).filter(|pair| (pair[1] - pair[0]).abs() > std::f64::consts::FRAC_PI_2);
+        if sharp.count() as f64 > UNRESOLVED * count as f64 {
+            return None;
+        }
         let independent = (count as f64 / lag as f64).max(1.0);
         Some(Self {
             period: lag as f64 * series.dt,

@@ -2,7 +2,7 @@
 
 use super::flag::{Flag, Side};
 use super::straight::run;
-use crate::geometry::area;
+use crate::geometry::{area, centroid};
 use crate::{Outline, Tracks};
 use std::f64::consts::PI;
 
@@ -44,7 +44,8 @@ impl Borders {
     ///
     /// 1. Straight runs in at least 5 frames: see [`run`].
     /// 2. Extremes that coincide: of the outlines whose extreme lies within 5 % of the radius of that of all, 45 % and at least 8 lie in a band
-    ///    of 1 % (evenly spread ones: 20 %), while from frame to frame extremes move by more than half the band (median). A cell that moves does not stop at one line by itself.
+    ///    of 1 % (evenly spread ones: 20 %), while from frame to frame extremes move by more than half the band (median), and the centroids of the outlines in the band
+    ///    scatter by more than its width. A cell that moves does not stop at one line by itself; where it turns back, or rests, its centroid stays with its extreme.
     pub(super) fn find(tracks: &Tracks) -> Self {
         Self { lines: SIDES.iter().filter_map(|&side| line(tracks, side)).collect() }
     }
@@ -87,23 +88,37 @@ fn coincidence(tracks: &Tracks, axis: usize, sign: f64, extreme: f64) -> Option<
     let mut steps = Vec::new();
     let mut near = Vec::new();
     for cell in &tracks.cells {
-        let reaches: Vec<f64> = cell.frames.iter().filter_map(|o| reach(&o.points, axis, sign)).collect();
-        steps.extend(reaches.windows(2).map(|pair| (pair[1] - pair[0]).abs()));
-        near.extend(reaches.iter().filter(|reach| extreme - **reach <= NEAR * radius));
+        let reaches: Vec<(f64, f64)> = cell
+            .frames
+            .iter()
+            .filter_map(|o| Some((reach(&o.points, axis, sign)?, centroid(&o.points)[axis])))
+            .collect();
+        steps.extend(reaches.windows(2).map(|pair| (pair[1].0 - pair[0].0).abs()));
+        near.extend(reaches.iter().copied().filter(|(reach, _)| extreme - reach <= NEAR * radius));
     }
     if median(steps)? <= 0.5 * BAND * radius {
         return None; // at rest extremes coincide by themselves
     }
-    near.sort_by(f64::total_cmp);
+    near.sort_by(|a, b| a.0.total_cmp(&b.0));
     let within =
-        |from: f64| near.iter().filter(|reach| (from..=from + BAND * radius).contains(*reach)).count();
-    let (count, from) = near.iter().map(|&from| (within(from), from)).max_by_key(|found| found.0)?;
-    (count >= COINCIDE && count as f64 >= SHARE * near.len() as f64).then_some(from)
+        |from: f64| near.iter().filter(move |(reach, _)| (from..=from + BAND * radius).contains(reach));
+    let (count, from) =
+        near.iter().map(|&(from, _)| (within(from).count(), from)).max_by_key(|found| found.0)?;
+    let centroids: Vec<f64> = within(from).map(|entry| entry.1).collect();
+    let moves = scatter(&centroids) > BAND * radius;
+    (count >= COINCIDE && count as f64 >= SHARE * near.len() as f64 && moves).then_some(from)
 }
 
 /// Greatest signed coordinate.
 fn reach(points: &[[f64; 2]], axis: usize, sign: f64) -> Option<f64> {
     points.iter().map(|point| sign * point[axis]).max_by(f64::total_cmp)
+}
+
+/// Standard deviation.
+fn scatter(values: &[f64]) -> f64 {
+    let count = values.len().max(1) as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    (values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / count).sqrt()
 }
 
 fn median(mut values: Vec<f64>) -> Option<f64> {

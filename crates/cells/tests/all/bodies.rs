@@ -1,0 +1,70 @@
+//! Simulated bodies as cells in a file.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use motiform_cells::Sample;
+use motiform_dynamics::Normal;
+use motiform_lab::simulate::simulate;
+use motiform_models::amplitudes::NAME;
+use motiform_study::presets::find_any;
+use motiform_study::{Plan, Study};
+use motiform_tracks::modes::ModeOptions;
+use motiform_tracks::synthetic::Synthetic;
+use motiform_tracks::{Cell, Options, Outline, Tracks, write_csv};
+
+/// Undeformed radius, in units of the largest deformation that occurs.
+const RADIUS: f64 = 2.0;
+
+/// The study of a preset with noise, sampled every `dt`.
+pub(crate) fn preset(name: &str, noise: f64, (dt, frames): (f64, usize)) -> Study {
+    let mut study = find_any(name, NAME).unwrap();
+    sampled(&mut study, noise, (dt, frames));
+    study
+}
+
+pub(crate) fn sampled(study: &mut Study, noise: f64, (dt, frames): (f64, usize)) {
+    study.run.transient = 2000.0;
+    study.run.dt_out = dt;
+    study.run.t_end = dt * (frames - 1) as f64;
+    study.run.noise = noise;
+    study.run.seed = 3;
+}
+
+/// The columns of a trajectory that are the modes z2 and z3.
+fn modes(columns: &dyn Fn(&str) -> Option<Vec<f64>>, row: usize) -> Vec<[f64; 2]> {
+    let value = |name: &str| columns(name).map_or(0.0, |column| column[row]);
+    if columns("s11").is_some() {
+        return vec![[0.5 * value("s11"), -0.5 * value("s12")], [0.5 * value("u111"), 0.5 * value("u222")]];
+    }
+    vec![[value("z2_re"), value("z2_im")], [value("z3_re"), value("z3_im")]]
+}
+
+/// The body as a cell with noisy vertices, written to a CSV file and read again.
+pub(crate) fn cell(study: &Study, vertex_noise: f64) -> Sample {
+    let dataset = simulate(&Plan::new(study).unwrap(), &()).unwrap();
+    let column = |name: &str| dataset.trajectory.get(name).map(<[f64]>::to_vec);
+    let [t, x, y] = ["t", "x", "y"].map(|name| column(name).unwrap());
+    let mut normal = Normal::new(11, 0);
+    let frames = (0..t.len()).map(|row| {
+        let body = Synthetic { centre: [x[row], y[row]], r0: RADIUS, z: modes(&column, row) };
+        let mut points = body.vertices(48, 0.0);
+        for point in &mut points {
+            point.iter_mut().for_each(|x| *x += vertex_noise * RADIUS * normal.next());
+        }
+        Outline { frame: row as i64, t: row as f64, points, missing: 0 }
+    });
+    let cells = vec![Cell { name: "one".to_owned(), frames: frames.collect() }];
+    let tracks = Tracks {
+        cells,
+        length_unit: "um".to_owned(),
+        time_unit: "s".to_owned(),
+        y_down: None,
+        image: None,
+        notes: Vec::new(),
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("cells.csv");
+    write_csv(&tracks, &path).unwrap();
+    let options = Options { interval: Some(study.run.dt_out), pixel_size: Some(1.0), ..Options::default() };
+    Sample::read(&[path], &options, &ModeOptions::default()).unwrap()
+}

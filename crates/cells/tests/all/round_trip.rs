@@ -1,0 +1,86 @@
+//! Simulated, drawn as outlines, written, read, fitted: the same motion and the same equations.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
+
+use super::bodies::{cell, preset};
+use motiform_analysis::regime::Regime;
+use motiform_cells::{CellFit, FitFolder, FitOptions, Fitted, fit_cell, fits_json, write_fits};
+use motiform_files::Staging;
+use motiform_inference::Placement;
+use motiform_study::Study;
+
+fn fitted(study: &Study, options: &FitOptions) -> (motiform_cells::Sample, CellFit) {
+    let sample = cell(study, 0.01);
+    let fit = fit_cell(&sample.cells[0], options, &()).unwrap();
+    (sample, fit)
+}
+
+fn regime(fitted: &Fitted) -> Option<Regime> {
+    fitted.regime.as_ref().and_then(|found| found.regime)
+}
+
+#[test]
+fn a_chaotic_cell_is_found_chaotic_at_its_place() {
+    let study = preset("fig5b", 0.01, (0.5, 600));
+    let (sample, fit) = fitted(&study, &FitOptions { draws: 20, drift: false, ..FitOptions::default() });
+    let found = fit.fitted.as_ref().unwrap();
+    assert_eq!(regime(found), Some(Regime::Chaotic), "{:?}", found.regime);
+    assert!(!found.is_handed() && found.is_identifiable());
+    let Placement::Placed(place) = &found.places[0] else { panic!("{:?}", found.places[0]) };
+    for (coordinate, truth) in place.coordinates.iter().zip([0.5, 0.1]) {
+        let off = (coordinate.estimate.value - truth).abs();
+        assert!(
+            off < 4.0 * coordinate.estimate.error && off < 0.05,
+            "{} {:?}",
+            coordinate.name,
+            coordinate.estimate
+        );
+    }
+    // the files: a summary, tables, and a study file that reads back as the fitted model
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("fitted");
+    let json = fits_json(&sample, std::slice::from_ref(&fit));
+    assert_eq!(json["cells"][0]["regime"], "chaotic");
+    assert!(
+        json["cells"][0]["coefficients"]["z1: z1* z2"]["value"]
+            .as_f64()
+            .is_some_and(|a| (a - 2.0).abs() < 0.1)
+    );
+    let path = write_fits(&sample, &[fit], Staging::new(&target, true, false).unwrap()).unwrap();
+    assert!(FitFolder::is_one(&path));
+    let back = Study::read(&path.join("cell-one.toml")).unwrap();
+    assert!(back.model.definition().is_some() && back.run.noise > 0.0);
+}
+
+#[test]
+fn a_zigzag_is_found_a_zigzag() {
+    let (_, fit) = fitted(
+        &preset("fig5a", 0.005, (0.5, 600)),
+        &FitOptions { draws: 20, drift: false, ..FitOptions::default() },
+    );
+    let found = fit.fitted.unwrap();
+    assert_eq!(regime(&found), Some(Regime::Zigzag), "{:?} {:?}", found.regime, found.warnings);
+}
+
+/// omega = 0.2: real coefficients cannot describe it.
+#[test]
+fn a_handed_cell_is_found_handed_and_has_no_place() {
+    let mut study = preset("chiral", 0.01, (0.5, 600));
+    study.set("omega", 0.2).unwrap();
+    study.set("kappa2", 0.5).unwrap();
+    let (_, fit) = fitted(&study, &FitOptions { draws: 10, drift: false, ..FitOptions::default() });
+    let found = fit.fitted.unwrap();
+    assert!(found.is_handed(), "p = {}", found.handedness.p_value);
+    assert!(found.places.iter().all(|place| matches!(place, Placement::Refused { .. })));
+}
+
+#[test]
+fn a_short_record_is_undecided() {
+    let (_, fit) =
+        fitted(&preset("fig5a", 0.01, (1.0, 25)), &FitOptions { draws: 10, ..FitOptions::default() });
+    let found = fit.fitted.unwrap();
+    assert_eq!(regime(&found), None);
+    assert!(found.places.iter().all(|place| matches!(place, Placement::Refused { .. })));
+    let (_, few) = fitted(&preset("fig5a", 0.01, (1.0, 5)), &FitOptions::default());
+    assert!(few.fitted.unwrap_err().contains("at least 8"));
+}
