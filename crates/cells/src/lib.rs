@@ -1,6 +1,6 @@
 //! Tracked cells: outlines in, and out come the observed motion, the fitted equations, their regime and their place.
 //!
-//! [`Sample::read`] turns files into cells with modes and quality ([`motiform_tracks`]). [`observe`] says how a cell moves, from its samples
+//! [`Sample::read`] turns files into cells with modes and quality ([`motiform_tracks`]). [`observe()`] says how a cell moves, from its samples
 //! alone. [`fit_cell`] fits a model ([`motiform_inference`]), asks what the data determine, names the motion of the models that the data
 //! allow, and places them on the paper's planes. What cannot be decided is a value with its reasons, never a name.
 

@@ -11,7 +11,7 @@ pub fn fits_json(sample: &Sample, fits: &[CellFit]) -> Value {
         let track = sample.cells.iter().find(|cell| cell.name == fit.name);
         with_quality(cell_json(fit), track)
     };
-    whole(sample, fits.iter().map(cell).collect())
+    whole(sample, fits.iter().map(cell))
 }
 
 /// Observed motions of all cells.
@@ -24,13 +24,13 @@ pub fn observations_json(sample: &Sample, observations: &[Observation]) -> Value
         }
         with_quality(object, sample.cells.iter().find(|cell| cell.name == found.cell))
     };
-    whole(sample, observations.iter().map(cell).collect())
+    whole(sample, observations.iter().map(cell))
 }
 
-fn whole(sample: &Sample, cells: Vec<Value>) -> Value {
+fn whole(sample: &Sample, cells: impl Iterator<Item = Value>) -> Value {
     let tracks = &sample.tracks;
     json!({
-        "cells": cells,
+        "cells": cells.collect::<Vec<_>>(),
         "units": { "length": tracks.length_unit, "time": tracks.time_unit, "y_down": tracks.y_down },
         "notes": sample.notes(),
     })

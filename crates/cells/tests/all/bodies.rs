@@ -51,7 +51,7 @@ pub(crate) fn cell(study: &Study, vertex_noise: f64) -> Sample {
         for point in &mut points {
             point.iter_mut().for_each(|x| *x += vertex_noise * RADIUS * normal.next());
         }
-        Outline { frame: row as i64, t: row as f64, points, missing: 0 }
+        Outline { frame: i64::try_from(row).unwrap(), t: row as f64, points, missing: 0 }
     });
     let cells = vec![Cell { name: "one".to_owned(), frames: frames.collect() }];
     let tracks = Tracks {

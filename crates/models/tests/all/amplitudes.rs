@@ -86,7 +86,7 @@ proptest! {
     fn any_text_is_read_or_refused(text in "[-+*/^()|z123 .a-eigopsqrtx0-9]{0,60}", other in ".{0,40}") {
         for text in [text, other] {
             let definition = definition(&[1, 2, 3], &[&text, "-z2", "-z3"], &[("a", 1.0)]);
-            if let Err(error) = motiform_models::amplitudes::Equations::new(&definition) {
+            if let Err(error) = amplitudes::Equations::new(&definition) {
                 prop_assert!(error.span.end <= text.len().max(10_001), "{text:?} {error:?}");
                 prop_assert!(text.is_char_boundary(error.span.start.min(text.len())));
             }
