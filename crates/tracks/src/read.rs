@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// Reads files of outlines; several files are one data set.
 ///
-/// The format of each file is found from its content ([`detect`]); gzip files are unpacked. Coordinates are multiplied by the scale and times by
+/// The format of each file is found from its content ([`detect()`]); gzip files are unpacked. Coordinates are multiplied by the scale and times by
 /// the interval, which come from the file or from the options and are never assumed: where nobody says them, the units are
 /// [`PIXEL`](crate::PIXEL) and [`FRAME`](crate::FRAME). Outlines of one cell may lie in several `.roi` files; otherwise a cell whose name occurs in
 /// several files is named `file: cell`.

@@ -1,4 +1,4 @@
-//! Tracks -> files that other programs and [`read`](crate::read) understand.
+//! Tracks -> files that other programs and [`read()`](crate::read()) understand.
 
 use crate::input::io;
 use crate::{Cell, Error, Format, Result, Tracks, header};

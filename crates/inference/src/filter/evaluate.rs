@@ -27,7 +27,7 @@ pub(crate) enum Want {
 pub(crate) struct Evaluation {
     /// Log-likelihood; minus infinity where the filter diverges.
     pub(crate) value: f64,
-    /// Its gradient, in the order of [`Theta::vector`].
+    /// Its gradient, in the order of the coefficients, then the logarithms of the noise.
     pub(crate) gradient: DVector<f64>,
     /// Expected (Fisher) information.
     pub(crate) information: DMatrix<f64>,
