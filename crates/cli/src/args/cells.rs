@@ -70,9 +70,10 @@ Examples:
   motiform observe outlines.csv --pixel-size 0.2 --interval 5 --out observed
   motiform observe roi.zip --interval 6 --time-unit min --json
 
-A motion is named where the record leaves no other: straight, circular, zigzag, quasi-periodic or motionless. Otherwise it is
-'undecided', with what is missing. Frames that are no observation of the shape (clipped at the border, self-crossing, repeated, ...)
-are left out and listed. Definitions: docs/cells.md.";
+A motion is named where the record leaves no other: straight, circular, zigzag, quasi-periodic
+or motionless. Otherwise it is 'undecided', with what is missing. Frames that are no observation
+of the shape (clipped at the border, self-crossing, repeated, ...) are left out and listed.
+Definitions: docs/cells.md.";
 
 pub(super) const FIT_HELP: &str = "\
 Examples:
@@ -81,6 +82,7 @@ Examples:
   motiform simulate fitted/cell-3.toml            the fitted model is a study file
   motiform explore fitted/cell-3.toml
 
-Maximum likelihood through an extended Kalman filter, over all terms that rotations allow; best subsets of terms; a test of mirror
-symmetry; what the motion determines; the motions of models drawn from the estimate; the place on the planes of Figs 4 and 1.
-Method and definitions: docs/inference.md.";
+Maximum likelihood through an extended Kalman filter, over all terms that rotations allow; best
+subsets of terms; a test of mirror symmetry; what the motion determines; the motions of models
+drawn from the estimate; the place on the planes of Figs 4 and 1. Ctrl-C prints the cells that
+are done. Method and definitions: docs/inference.md.";

@@ -5,7 +5,7 @@ use crate::commands::observe::{chosen, head, plain_error, quality, read, staging
 use crate::output::{End, print};
 use crate::progress::Progress;
 use motiform_cells::{CellFit, FitOptions, Fitted, Sample, fit_cells, fits_json, write_fits};
-use motiform_inference::{Place, Placement};
+use motiform_inference::{Place, Placement, Symmetry};
 use std::fmt::Write;
 
 pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
@@ -62,8 +62,11 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
     let mut text = format!("cell {:<9} {}\n", fit.name, regime(fitted));
     writeln!(text, "because        {}", json["why"].as_str().unwrap_or_default())?;
     text += &quality(sample.cells.iter().find(|cell| cell.name == fit.name), fit.frames)?;
-    let symmetry =
-        if fitted.is_handed() { "handed: real coefficients are rejected" } else { "no sign of handedness" };
+    let symmetry = match fitted.handedness.symmetry {
+        Symmetry::Handed => "handed: real coefficients are rejected",
+        Symmetry::Mirror => "mirror symmetric: imaginary parts would have been seen",
+        Symmetry::Undecided => "not decided whether it is handed",
+    };
     writeln!(text, "symmetry       {symmetry}, p = {:.2}", fitted.handedness.p_value)?;
     let model = fitted.model();
     for coefficient in &model.coefficients {
