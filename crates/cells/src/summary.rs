@@ -11,7 +11,7 @@ pub fn fits_json(sample: &Sample, fits: &[CellFit]) -> Value {
         let track = sample.cells.iter().find(|cell| cell.name == fit.name);
         with_quality(cell_json(fit), track)
     };
-    whole(sample, fits.iter().map(cell).collect())
+    whole(sample, &fits.iter().map(cell).collect::<Vec<_>>())
 }
 
 /// Observed motions of all cells.
@@ -24,10 +24,10 @@ pub fn observations_json(sample: &Sample, observations: &[Observation]) -> Value
         }
         with_quality(object, sample.cells.iter().find(|cell| cell.name == found.cell))
     };
-    whole(sample, observations.iter().map(cell).collect())
+    whole(sample, &observations.iter().map(cell).collect::<Vec<_>>())
 }
 
-fn whole(sample: &Sample, cells: Vec<Value>) -> Value {
+fn whole(sample: &Sample, cells: &[Value]) -> Value {
     let tracks = &sample.tracks;
     json!({
         "cells": cells,

@@ -136,6 +136,7 @@ const LAYERS: [(&str, &[&str]); 21] = [
         &[
             "motiform-analysis",
             "motiform-branching",
+            "motiform-cells",
             "motiform-dynamics",
             "motiform-figures",
             "motiform-files",
@@ -144,6 +145,7 @@ const LAYERS: [(&str, &[&str]); 21] = [
             "motiform-models",
             "motiform-statistics",
             "motiform-study",
+            "motiform-tracks",
         ],
     ),
     ("xtask", &[]),
