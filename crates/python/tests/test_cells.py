@@ -238,3 +238,46 @@ def test_masks_without_the_extra_name_it(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.setitem(sys.modules, "tifffile", None)
     with pytest.raises(ImportError, match=r"motiform\[cells\]"):
         motiform.cells.read_masks(tmp_path)
+
+
+def test_masks_in_one_file_and_what_is_no_mask(tmp_path: Path) -> None:
+    pytest.importorskip("skimage")
+    tifffile = pytest.importorskip("tifffile")
+    stack = np.zeros((3, 40, 40), np.uint32)
+    stack[:, disc(40, (20.0, 20.0), 8.0)] = 4_000_000_000  # any number is a label
+    tifffile.imwrite(tmp_path / "stack.tif", stack, photometric="minisblack")
+    cells = motiform.cells.read_masks(tmp_path / "stack.tif")
+    assert cells.names == ["4000000000"] and cells.length_unit == "pixel" and cells[0].flags == {"repeated frame": 2}
+    assert any("pixel_size" in note for note in cells.notes)
+    tifffile.imwrite(tmp_path / "empty.tif", stack[0] * 0)
+    tifffile.imwrite(tmp_path / "grey.tif", stack[0].astype(np.float32))
+    tifffile.imwrite(tmp_path / "rgb.tif", np.zeros((8, 9, 3), np.uint8), photometric="rgb")
+    tifffile.imwrite(tmp_path / "small.tif", stack[0, :30])
+    (tmp_path / "folder").mkdir()
+    for files, message in (
+        (["empty.tif"], "there is no cell"),
+        (["grey.tif"], "whole numbers"),
+        (["rgb.tif"], "one number per pixel"),
+        (["stack.tif", "stack.tif"], "one number per pixel"),
+        (["empty.tif", "small.tif"], "different sizes"),
+        (["folder"], "no image"),
+        ([], "at least one"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            motiform.cells.read_masks([tmp_path / name for name in files])
+    with pytest.raises(ValueError, match="interval = 0"):
+        motiform.cells.read_masks(tmp_path / "stack.tif", interval=0.0)
+    with pytest.raises(FileNotFoundError):
+        motiform.cells.read_masks(tmp_path / "none.tif")
+
+
+def test_settings_of_fits_are_checked() -> None:
+    cells = motiform.cells.from_arrays({"one": simulated("fig5b")[:60]})
+    with pytest.raises(ValueError, match="order = 7"):
+        cells.fit(order=7, progress=False)
+    with pytest.raises(RuntimeError, match="stop"):
+        cells.fit(progress=_stop)
+
+
+def _stop(_: float) -> None:
+    raise RuntimeError("stop")

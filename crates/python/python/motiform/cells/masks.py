@@ -37,6 +37,8 @@ def read_masks(
     Needs the extra ``cells``: ``pip install "motiform[cells]"``.
     """
     paths = [Path(path)] if isinstance(path, (str, os.PathLike)) else [Path(one) for one in path]
+    if not paths:
+        raise ValueError("there is no file to read: give at least one")
     folder = paths[0] if len(paths) == 1 and paths[0].is_dir() else None
     files = _files(folder) if folder is not None else list(enumerate(paths))
     for setting, value in (("pixel_size", pixel_size), ("interval", interval)):
@@ -117,7 +119,11 @@ def _images(files: Sequence[tuple[int, Path]]) -> Iterator[tuple[int, npt.NDArra
 def _outlines(image: npt.NDArray[Any]) -> Iterator[tuple[int, Floats, int]]:
     """Label, outline of the largest part in (x, y), and number of parts, of each cell. The first pixel spans 0 to 1."""
     find_contours, regions = _needed("skimage.measure").find_contours, _needed("skimage.measure").regionprops
-    for region in regions(image.astype(np.int64)):
+    inside = image > 0
+    labels, places = np.unique(image[inside], return_inverse=True)
+    dense = np.zeros(image.shape, np.int64)
+    dense[inside] = places.ravel() + 1  # labels may be any numbers
+    for region in regions(dense):
         mask = np.pad(region.image, 1).astype(float)
         contours = find_contours(mask, 0.5)
         areas = [_area(contour) for contour in contours]
@@ -125,7 +131,7 @@ def _outlines(image: npt.NDArray[Any]) -> Iterator[tuple[int, Floats, int]]:
         top, left = region.bbox[:2]
         points = contours[largest][:-1, ::-1] + [left - 0.5, top - 0.5]  # padded by a pixel whose middle is at 0
         count = sum(area * areas[largest] > 0.0 for area in areas)
-        yield int(region.label), np.ascontiguousarray(points), count
+        yield int(labels[region.label - 1]), np.ascontiguousarray(points), count
 
 
 def _area(contour: Floats) -> float:

@@ -77,7 +77,7 @@ class Cells(Sequence["Cell"]):
         Parameters
         ----------
         order
-            Highest order of the terms: 3 or 5.
+            Highest order of the terms, 1 to 5.
         draws
             Models drawn from the estimate; the motion is named if 90 % of them share it.
         seed
