@@ -35,9 +35,14 @@ impl Sample {
     /// # Errors
     /// Files that cannot be read: which, where, and what to do.
     pub fn read(paths: &[PathBuf], options: &Options, modes_options: &ModeOptions) -> Result<Self> {
-        let tracks = read(paths, options)?;
+        Ok(Self::of_tracks(read(paths, options)?, modes_options))
+    }
+
+    /// Computes the modes of outlines that were read or given.
+    #[must_use]
+    pub fn of_tracks(tracks: Tracks, modes_options: &ModeOptions) -> Self {
         let cells = modes(&tracks, modes_options).into_iter().map(CellTrack::new).collect();
-        Ok(Self { tracks, cells })
+        Self { tracks, cells }
     }
 
     /// Notes about the files, as sentences.

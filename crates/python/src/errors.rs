@@ -3,7 +3,9 @@
 use motiform_models::Error as ModelError;
 use motiform_study::Error;
 use pyo3::PyErr;
-use pyo3::exceptions::{PyFileExistsError, PyKeyboardInterrupt, PyOSError, PyTypeError, PyValueError};
+use pyo3::exceptions::{
+    PyFileExistsError, PyFileNotFoundError, PyKeyboardInterrupt, PyOSError, PyTypeError, PyValueError,
+};
 
 /// `ValueError` for input that cannot be used, `OSError` (or `FileExistsError`) for files, `KeyboardInterrupt` for a stop.
 pub(crate) fn python(error: Error) -> PyErr {
@@ -35,6 +37,28 @@ fn remedy(error: &Error) -> Option<&'static str> {
         Error::PartFailed { .. } | Error::InTheWay { .. } => "; resume=True continues it",
         _ => return None,
     })
+}
+
+/// As [`python()`], for errors of tracked cells.
+pub(crate) fn of_cells(error: motiform_cells::Error) -> PyErr {
+    use motiform_cells::Error as CellError;
+    match error {
+        CellError::Study(error) => python(error),
+        CellError::Tracks(error) => of_tracks(error),
+        other => PyValueError::new_err(other.to_string()),
+    }
+}
+
+/// As [`python()`], for errors of files with outlines.
+pub(crate) fn of_tracks(error: motiform_tracks::Error) -> PyErr {
+    let text = error.to_string();
+    match error {
+        motiform_tracks::Error::Io { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
+            PyFileNotFoundError::new_err(text)
+        }
+        motiform_tracks::Error::Io { .. } => PyOSError::new_err(text),
+        _ => PyValueError::new_err(text),
+    }
 }
 
 /// As [`python()`], for names that were given as keywords: an unknown one is a `TypeError`, as Python has it.

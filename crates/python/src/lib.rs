@@ -6,6 +6,7 @@
 
 mod analyse;
 mod branches;
+mod cells;
 mod curves;
 mod ensemble;
 mod errors;
@@ -28,6 +29,8 @@ mod _motiform {
     use super::analyse::{classify, equilibria, lyapunov, motions, section};
     #[pymodule_export]
     use super::branches::{follow_branches, read_branches};
+    #[pymodule_export]
+    use super::cells::Sample;
     #[pymodule_export]
     use super::curves::{follow, read_curves};
     #[pymodule_export]

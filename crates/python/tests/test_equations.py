@@ -53,3 +53,21 @@ def test_errors_show_the_place() -> None:
         motiform.Amplitudes(modes=[1], equations={"z1": "gama*z1"}, parameters={"gamma": 1.0})
     with pytest.raises(ValueError, match="breaks rotations"):
         motiform.Amplitudes(modes=[1, 2], equations={"z1": "z1", "z2": "z1"})
+
+
+def test_noise_of_equations_is_reproducible() -> None:
+    body = motiform.Amplitudes(
+        modes=[1, 2],
+        equations={"z1": "(gamma - |z1|^2)*z1 - conj(z1)*z2", "z2": "-kappa*z2 + z1^2"},
+        parameters={"gamma": 1.0, "kappa": 0.5, "D": 0.05, "s": 0.1},
+        noise={"z2": "D", "z1": "s*z1"},
+        initial={"v1": 1.0},
+    )
+    first, same, other = (body.simulate(20.0, transient=0.0, dt_out=0.1, seed=seed) for seed in (1, 1, 2))
+    for name in ("x", "v1", "z2_re", "z2_im"):
+        assert np.array_equal(first[name], same[name]) and not np.array_equal(first[name], other[name])
+    quiet = body.replace(D=0.0, s=0.0).simulate(20.0, transient=0.0, dt_out=0.1)
+    assert np.ptp(first["z2_im"]) > 1e-3 and np.abs(quiet["z2_im"]).max() < 1e-12
+    assert "[model.amplitudes.noise]" in body.to_toml()
+    with pytest.raises(ValueError, match="sigma"):
+        motiform.Amplitudes(modes=[1], equations={"z1": "z1"}, noise={"z1": "sigma"})

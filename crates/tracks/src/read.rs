@@ -67,7 +67,7 @@ fn file(path: &Path, options: &Options) -> Result<(Tracks, Format)> {
 }
 
 /// At least one outline must have an area.
-fn sound(cells: &[Cell], path: &Path) -> Result<()> {
+pub(crate) fn sound(cells: &[Cell], path: &Path) -> Result<()> {
     let most = cells.iter().flat_map(|cell| &cell.frames).map(|outline| outline.points.len()).max();
     let reason = match most {
         None => "the file holds no vertex".to_owned(),

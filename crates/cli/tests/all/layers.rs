@@ -136,6 +136,7 @@ const LAYERS: [(&str, &[&str]); 22] = [
         &[
             "motiform-analysis",
             "motiform-branching",
+            "motiform-cells",
             "motiform-dynamics",
             "motiform-figures",
             "motiform-files",
@@ -144,6 +145,7 @@ const LAYERS: [(&str, &[&str]); 22] = [
             "motiform-models",
             "motiform-statistics",
             "motiform-study",
+            "motiform-tracks",
         ],
     ),
     ("xtask", &[]),

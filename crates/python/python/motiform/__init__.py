@@ -9,6 +9,7 @@
 All quantities are in model units of time and length; parameters have the paper's names.
 """
 
+from . import cells
 from ._registry import MODELS, PRESETS, REGIMES, STEPPERS
 from ._registry import VERSION as __version__
 from .bodies import Cell, Tensor
@@ -56,6 +57,7 @@ __all__ = [
     "Verdict",
     "WorkersLost",
     "__version__",
+    "cells",
     "ensemble",
     "merge",
     "preset",

@@ -3,14 +3,9 @@
 use super::{Found, stem};
 use crate::gather::{Gather, Key};
 use crate::input::Input;
+use crate::numbering::{median_difference, numbers};
 use crate::scale::{Said, Scale};
 use crate::{Cell, Error, Note, Options, Place, Result};
-
-/// Deviation from a multiple of the interval, in intervals, from which times count as uneven: files round times.
-const UNEVEN: f64 = 0.1;
-
-/// Frames beyond which times are not multiples of an interval.
-const FAR: f64 = 1e9;
 
 /// Frames are counted in intervals, the interval being the median of the differences; uneven times are numbered in order, with a note.
 pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
@@ -71,28 +66,4 @@ fn one_frame(line: &str, place: &Place) -> Result<(f64, Vec<[f64; 2]>)> {
         return Err(Error::structure(place, found, "a finite time and pairs of x and y"));
     }
     Ok((*t, points.to_vec()))
-}
-
-/// The median of the differences of times.
-fn median_difference(times: &[f64]) -> Option<f64> {
-    let mut differences: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    differences.sort_by(f64::total_cmp);
-    differences.get(differences.len() / 2).copied().filter(|d| d.is_finite() && *d > 0.0)
-}
-
-/// Frame numbers from the steps of time: the first is t/interval, rounded. `None` where a step is no multiple of the interval.
-fn numbers(times: &[f64], interval: Option<f64>) -> Option<Vec<i64>> {
-    let Some(interval) = interval else { return Some(vec![0; times.len()]) };
-    let first = times.first()? / interval;
-    let mut at = if first.abs() < FAR { first.round() as i64 } else { return None };
-    let mut numbers = vec![at];
-    for pair in times.windows(2) {
-        let step = (pair[1] - pair[0]) / interval;
-        if (step - step.round()).abs() > UNEVEN || step.round() < 1.0 || step > FAR {
-            return None;
-        }
-        at += step.round() as i64;
-        numbers.push(at);
-    }
-    Some(numbers)
 }

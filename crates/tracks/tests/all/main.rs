@@ -5,6 +5,7 @@ mod damaged;
 mod fits;
 mod formats;
 mod fuzz;
+mod given;
 mod imagej;
 mod pulls;
 mod quality;

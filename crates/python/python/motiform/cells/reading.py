@@ -1,0 +1,88 @@
+"""Files and arrays -> cells."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from .. import _motiform
+from ..trajectory import Floats
+from .sample import Cells
+
+Outlines = Mapping[str, Iterable[tuple[float, Any]]]
+"""Outlines of each cell: pairs of a time and an (n, 2) array, or a polygon with ``exterior.coords`` as those of shapely."""
+
+Path = str | os.PathLike[str]
+
+
+def read(
+    path: Path | Sequence[Path],
+    *,
+    interval: float | None = None,
+    pixel_size: float | None = None,
+    time_unit: str = "s",
+    length_unit: str = "um",
+    format: str | None = None,
+) -> Cells:
+    """Reads outlines of tracked cells.
+
+    Parameters
+    ----------
+    path
+        A file, or several that form one data set.
+    interval
+        Time between frames in `time_unit`. If neither the file nor this says it, times are in frames.
+    pixel_size
+        Length of a pixel in `length_unit`. If neither the file nor this says it, lengths are in pixels.
+    format
+        ``csv``, ``parquet``, ``trackmate``, ``quimp-csv``, ``quimp-snqp``, ``amoepy``, ``roi``, ``roi-zip`` or ``wkt``, where the
+        content fits several formats.
+
+    Raises
+    ------
+    ValueError
+        For content that cannot be read, with the place in the file; ``OSError`` if the file cannot be opened.
+    """
+    paths = [path] if isinstance(path, (str, os.PathLike)) else list(path)
+    asked = (pixel_size, interval, (length_unit, time_unit), format)
+    return Cells(_motiform.Sample.read([os.fspath(one) for one in paths], asked))
+
+
+def from_arrays(
+    outlines: Outlines, *, length_unit: str = "pixel", time_unit: str = "frame", y_down: bool | None = None
+) -> Cells:
+    """Cells from outlines in memory: ``{name: [(t, outline), ...]}``.
+
+    An outline is an (n, 2) array or a polygon with ``exterior.coords``, such as those of shapely. Frames are counted in intervals
+    of time, so that missing ones are gaps.
+    """
+    cells = [(str(name), _frames(str(name), frames)) for name, frames in outlines.items()]
+    return Cells(_motiform.Sample.given(cells, ((length_unit, time_unit), y_down, None)))
+
+
+def _frames(name: str, frames: Iterable[tuple[float, Any]]) -> list[tuple[int | None, float, Floats]]:
+    found: dict[float, Floats] = {}
+    for t, outline in frames:
+        time = float(t)
+        if not math.isfinite(time):
+            raise ValueError(f"cell {name}: the time {t} is not a finite number")
+        if time in found:
+            raise ValueError(f"cell {name}: there are several outlines at the time {t}")
+        found[time] = _vertices(name, time, outline)
+    return [(None, time, points) for time, points in found.items()]
+
+
+def _vertices(name: str, t: float, outline: Any) -> Floats:
+    exterior = getattr(outline, "exterior", None)
+    points = np.asarray(outline if exterior is None else exterior.coords)
+    if exterior is not None:
+        points = points[:, :2] if points.size else np.empty((0, 2))  # without heights
+    if points.dtype.kind not in "fiub":
+        raise TypeError(f"cell {name}, time {t}: an outline must hold real numbers, not {points.dtype}")
+    if points.ndim != 2 or points.shape[1] != 2:
+        raise ValueError(f"cell {name}, time {t}: an outline must have the shape (n, 2), not {points.shape}")
+    return np.ascontiguousarray(points, dtype=np.float64)

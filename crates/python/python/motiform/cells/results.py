@@ -1,0 +1,198 @@
+"""What is found about cells."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import pandas as pd
+
+from ..equations import Amplitudes
+
+
+@dataclass(frozen=True)
+class Value:
+    """A number with its standard errors; NaN where there is none."""
+
+    value: float
+    """The number."""
+    error: float
+    """Standard error from the expected information."""
+    robust_error: float
+    """Standard error from the scatter of the scores."""
+    slice: float = math.nan
+    """The value on the slice of the diagram, for parameters that the diagram fixes."""
+
+    def __float__(self) -> float:
+        return self.value
+
+    def __str__(self) -> str:
+        return f"{self.value:.5g} ± {self.error:.2g}"
+
+
+@dataclass(frozen=True)
+class Observation:
+    """How a cell moves, from its samples alone."""
+
+    cell: str
+    """Name of the cell."""
+    frames: int
+    """Frames that count."""
+    regime: str
+    """The motion, or ``undecided``."""
+    why: str
+    """The evidence, or what is missing."""
+    confidence: float
+    """Share of resampled records that give the same motion."""
+    measures: Mapping[str, Any] | None
+    """The numbers behind it; ``None`` for records that are too short."""
+    repeats: Mapping[str, Any] | None
+    """Period, likeness and rotation of a motion that repeats; ``None`` where nothing repeats."""
+
+    @property
+    def decided(self) -> bool:
+        """Whether the motion has a name."""
+        return self.regime != "undecided"
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a fitted cell lies on a diagram of the paper, or why it has no place there."""
+
+    coordinates: Mapping[str, Value]
+    """The parameters that span the diagram; empty without a place."""
+    others: Mapping[str, Value]
+    """The parameters that the diagram fixes, with their values there (``slice``)."""
+    distance: float
+    """Distance from the slice; NaN without a place."""
+    deviation: float
+    """The same in standard errors."""
+    reasons: tuple[str, ...] = ()
+    """Why there is no place; empty if there is one."""
+
+    @property
+    def known(self) -> bool:
+        """Whether there is a place."""
+        return not self.reasons
+
+    def __str__(self) -> str:
+        if self.reasons:
+            return "no place: " + "; ".join(self.reasons)
+        at = ", ".join(f"{name} = {value}" for name, value in self.coordinates.items())
+        return f"{at}; {self.distance:.3g} off the slice ({self.deviation:.1f} standard errors)"
+
+
+@dataclass(frozen=True)
+class Noise:
+    """The noise of a fit, in the units of the data."""
+
+    measurement_factor: Value
+    """Factor of the errors of the modes that the vertices give."""
+    eta_v: Value
+    """Noise of the velocity."""
+    eta_shape: Value
+    """Noise of the shape."""
+
+
+@dataclass(frozen=True)
+class CellFit:
+    """The equations of a cell, and what follows from them. Definitions: docs/inference.md."""
+
+    cell: str
+    """Name of the cell."""
+    frames: int
+    """Frames that count."""
+    regime: str
+    """The motion of the models that the data allow, or ``undecided``."""
+    why: str
+    """The motions of these models, or why there is no fit."""
+    share: float
+    """Share of these models with the most frequent motion; NaN where none were drawn."""
+    draws: Mapping[str, int]
+    """How many of these models have each motion."""
+    identifiable: bool
+    """Whether the data determine the coefficients."""
+    determined: tuple[str, ...]
+    """What the data determine, in words, among all terms."""
+    unidentified: tuple[str, ...]
+    """Combinations of coefficients that the data leave free."""
+    handed: bool
+    """Whether coefficients that are mirror symmetric are rejected."""
+    handed_p_value: float
+    """The p-value of this test; NaN without a fit."""
+    coefficients: pd.DataFrame
+    """``term``, ``imaginary``, ``value``, ``error``, ``robust_error``, ``low``, ``high``, in the units of the data."""
+    noise: Noise | None
+    """``None`` without a fit."""
+    place: Place
+    """On the plane of Fig. 4."""
+    place_reduced: Place
+    """On the plane of Fig. 1."""
+    warnings: tuple[str, ...]
+    """What makes the fit doubtful."""
+    model: Amplitudes | None
+    """The equations without noise, in the units of the data: classified and followed like all others. ``None`` without a fit."""
+    noisy_model: Amplitudes | None
+    """The equations with the process noise of the fit, to be simulated."""
+    summary: Mapping[str, Any]
+    """Everything, as ``motiform fit --json`` prints it."""
+
+    @property
+    def decided(self) -> bool:
+        """Whether the motion has a name."""
+        return self.regime != "undecided"
+
+    def __repr__(self) -> str:
+        return f"<fit of cell {self.cell}: {self.regime}, {len(self.coefficients)} coefficients, {self.frames} frames>"
+
+
+def observation_of(raw: Mapping[str, Any]) -> Observation:
+    """The observation of the native module's JSON."""
+    return Observation(
+        raw["cell"], raw["frames"], raw["regime"], raw["why"], raw["confidence"], raw["measures"], raw["repeats"]
+    )
+
+
+def fit_of(raw: Mapping[str, Any], coefficients: pd.DataFrame, model: Amplitudes | None) -> CellFit:
+    """The fit of the native module's JSON, with the rows of this cell and its model."""
+    noise = raw.get("noise")
+    return CellFit(
+        cell=raw["cell"],
+        frames=raw["frames"],
+        regime=raw["regime"],
+        why=raw["why"],
+        share=_number(raw.get("share")),
+        draws=raw.get("draws", {}),
+        identifiable=raw["identifiable"],
+        determined=tuple(raw.get("determined", ())),
+        unidentified=tuple(raw.get("unidentified", ())),
+        handed=raw.get("handed", False),
+        handed_p_value=_number(raw.get("handed_p_value")),
+        coefficients=coefficients,
+        noise=None if noise is None else Noise(**{name: _value(entry) for name, entry in noise.items()}),
+        place=_place(raw, "place"),
+        place_reduced=_place(raw, "place_reduced"),
+        warnings=tuple(raw.get("warnings", ())),
+        model=None if model is None else model.replace(noise=0.0, noise_velocity=0.0),
+        noisy_model=model,
+        summary=raw,
+    )
+
+
+def _place(raw: Mapping[str, Any], key: str) -> Place:
+    if key not in raw:
+        return Place({}, {}, math.nan, math.nan, tuple(raw.get(f"no_{key}", ("there is no fit",))))
+    entry = dict(raw[key])
+    others = {name: _value(other) for name, other in entry.pop("others").items()}
+    distance, deviation = _number(entry.pop("distance")), _number(entry.pop("deviation"))
+    return Place({name: _value(value) for name, value in entry.items()}, others, distance, deviation)
+
+
+def _value(entry: Mapping[str, Any]) -> Value:
+    return Value(**{name: _number(number) for name, number in entry.items()})
+
+
+def _number(value: float | None) -> float:
+    return math.nan if value is None else float(value)

@@ -1,0 +1,219 @@
+"""Cells with their outlines and modes."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, overload
+
+import numpy as np
+import pandas as pd
+
+from .. import _motiform
+from ..equations import Amplitudes
+from ..models import _raised
+from ..progress import Bar, Progress
+from ..trajectory import Floats
+from .results import CellFit, Observation, fit_of, observation_of
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+
+class Cells(Sequence["Cell"]):
+    """Cells, by number and by name.
+
+    >>> cells = motiform.cells.read("track.xml")
+    >>> cells[0], cells["12"], cells.names, len(cells)
+    """
+
+    def __init__(
+        self, native: _motiform.Sample, notes: Sequence[str] = (), of_cells: Mapping[str, Sequence[str]] | None = None
+    ) -> None:
+        of_cells = of_cells or {}
+        raw = json.loads(native.summary())
+        self._native = native
+        self.length_unit: str = raw["units"]["length"]
+        """Unit of lengths; ``pixel`` where the scale is unknown."""
+        self.time_unit: str = raw["units"]["time"]
+        """Unit of times; ``frame`` where the interval is unknown."""
+        self.y_down: bool | None = raw["y_down"]
+        """Whether y points down, as in images; ``None`` where nobody says so."""
+        self.notes: tuple[str, ...] = (*notes, *(note for own in of_cells.values() for note in own), *raw["notes"])
+        """What was noticed about the data."""
+        self._cells = [Cell(self, entry, of_cells.get(entry["name"], ())) for entry in raw["cells"]]
+        self._table: pd.DataFrame | None = None
+
+    @property
+    def names(self) -> list[str]:
+        """The names of the cells, in the order of the files."""
+        return [cell.name for cell in self._cells]
+
+    @property
+    def modes(self) -> pd.DataFrame:
+        """The modes of all cells, a row per frame, with the columns of ``modes.parquet``."""
+        return self._modes().copy()
+
+    def observe(self, *, progress: Progress = None) -> dict[str, Observation]:
+        """How each cell moves, from its samples alone, by name. Ctrl-C raises ``Interrupted`` with those that are done."""
+        return self._observe(self.names, progress)
+
+    def fit(
+        self,
+        order: int = 3,
+        *,
+        draws: int = 40,
+        seed: int = 1,
+        threads: int | None = None,
+        progress: Progress = None,
+    ) -> dict[str, CellFit]:
+        """The equations of each cell, by name. The result does not depend on `threads`.
+
+        Parameters
+        ----------
+        order
+            Highest order of the terms, 1 to 5.
+        draws
+            Models drawn from the estimate; the motion is named if 90 % of them share it.
+        seed
+            Seed of the draws.
+
+        Ctrl-C raises :class:`motiform.Interrupted` with the fits that are done.
+        """
+        return self._fit(self.names, (order, draws, seed, threads or os.cpu_count() or 1), progress)
+
+    def _observe(self, names: list[str], progress: Progress) -> dict[str, Observation]:
+        with Bar(progress, len(names), "cells") as bar:
+            text, raised = self._native.observe(names, bar.callable())
+        found = {raw["cell"]: observation_of(raw) for raw in json.loads(text)["cells"]}
+        if raised is not None:
+            raise _raised(raised, found)
+        return found
+
+    def _fit(self, names: list[str], settings: tuple[int, int, int, int], progress: Progress) -> dict[str, CellFit]:
+        with Bar(progress, len(names), "cells") as bar:
+            text, table, models, raised = self._native.fit(names, settings, bar.callable())
+        rows, bodies = _frame(table), {name: Amplitudes._of(study) for name, study in models}
+        found = {}
+        for raw in json.loads(text)["cells"]:
+            own = rows[rows["cell"] == raw["cell"]].drop(columns="cell").reset_index(drop=True)
+            found[raw["cell"]] = fit_of(raw, own, bodies.get(raw["cell"]))
+        if raised is not None:
+            raise _raised(raised, found)
+        return found
+
+    def _modes(self) -> pd.DataFrame:
+        if self._table is None:
+            self._table = _frame(self._native.modes())
+        return self._table
+
+    @overload
+    def __getitem__(self, key: int | str) -> Cell: ...
+    @overload
+    def __getitem__(self, key: slice) -> list[Cell]: ...
+    def __getitem__(self, key: int | str | slice) -> Cell | list[Cell]:
+        if isinstance(key, str):
+            for cell in self._cells:
+                if cell.name == key:
+                    return cell
+            raise KeyError(f"{key!r}; the cells are {', '.join(self.names[:12])}")
+        return self._cells[key]
+
+    def __len__(self) -> int:
+        return len(self._cells)
+
+    def __iter__(self) -> Iterator[Cell]:
+        return iter(self._cells)
+
+    def __contains__(self, key: object) -> bool:
+        return key in (self.names if isinstance(key, str) else self._cells)
+
+    def __repr__(self) -> str:
+        frames = sum(cell.frames for cell in self)
+        return f"<{len(self)} cells, {frames} outlines; lengths in {self.length_unit}, times in {self.time_unit}>"
+
+
+class Cell:
+    """One tracked cell. (:class:`motiform.Cell` is the active cell, a model.)"""
+
+    def __init__(self, cells: Cells, raw: Mapping[str, Any], notes: Sequence[str]) -> None:
+        self._cells = cells
+        self.name: str = raw["name"]
+        """Its name in the file."""
+        self.frames: int = raw["frames"]
+        """Number of frames."""
+        self.counting: int = raw["counting"]
+        """Number of frames that count."""
+        self.radius: float = raw["radius"]
+        """Mean radius over these frames; 0 without any."""
+        self.flags: dict[str, int] = raw["flags"]
+        """How many frames have each flag of quality."""
+        self.left_out: list[int] = raw["left_out"]
+        """Numbers of the frames that do not count."""
+        self.notes: tuple[str, ...] = (*notes, *raw["notes"])
+        """What was noticed about this cell."""
+
+    @property
+    def modes(self) -> xr.Dataset:
+        """Centre, mean radius, modes z2 to z5 with errors, area and flags along ``frame``; NaN where a frame has none.
+
+        ``z2_re`` and ``z2_im`` are the parts of the complex z2; ``left_out`` says which frames do not count.
+        """
+        table = self._cells._modes()
+        own = table[table["cell"] == self.name].drop(columns="cell")
+        data: xr.Dataset = own.set_index("frame").to_xarray().set_coords("t")
+        lengths = ["x", "y", "r0", "sigma", "z2_error", "z3_error"]
+        for name in lengths + [f"z{n}_{part}" for n in range(2, 6) for part in ("re", "im")]:
+            data[name].attrs["units"] = self._cells.length_unit
+        data["area"].attrs["units"] = f"{self._cells.length_unit}^2"
+        data["t"].attrs["units"] = self._cells.time_unit
+        data.attrs["cell"] = self.name
+        return data
+
+    @property
+    def outlines(self) -> list[tuple[float, Floats]]:
+        """Time and vertices, (n, 2), of all frames."""
+        return [(t, points) for _, t, points in self._cells._native.outlines(self.name)]
+
+    def observe(self, *, progress: Progress = None) -> Observation:
+        """How it moves, from its samples alone."""
+        return self._cells._observe([self.name], progress)[self.name]
+
+    def fit(self, order: int = 3, *, draws: int = 40, seed: int = 1, progress: Progress = None) -> CellFit:
+        """The equations that describe it; :meth:`Cells.fit` explains the settings."""
+        return self._cells._fit([self.name], (order, draws, seed, 1), progress)[self.name]
+
+    def plot(self, outlines: int = 12) -> Figure:
+        """A film strip of `outlines` outlines at equal times, and the path below, both coloured by time."""
+        from .drawing import plot_cell
+
+        return plot_cell(self, outlines, (self._cells.length_unit, self._cells.time_unit), bool(self._cells.y_down))
+
+    def __repr__(self) -> str:
+        return f"<cell {self.name}: {self.counting} of {self.frames} frames count>"
+
+
+_READ: dict[str, Callable[[str], Any]] = {
+    "cell": str, "flags": str, "term": str, "frame": int, "left_out": lambda text: text == "1",
+    "imaginary": lambda text: text == "1",
+}  # fmt: skip
+
+
+def _number(text: str) -> float:
+    return float(text) if text else math.nan
+
+
+def _frame(table: bytes) -> pd.DataFrame:
+    """A table with every digit; NaN where there is no number."""
+    names, *rows = csv.reader(io.StringIO(table.decode()))
+    columns: dict[str, Any] = {}
+    for place, name in enumerate(names):
+        read = _READ.get(name, _number)
+        values = [read(row[place]) for row in rows]
+        columns[name] = values if read is str else np.array(values, dtype=None if values else float)
+    return pd.DataFrame(columns)
