@@ -8,6 +8,9 @@ use nalgebra::{Complex, DMatrix, DVector};
 type Number = Dual<f64, 1>;
 type Vector = DVector<Complex<f64>>;
 
+/// Shapes below this are 0.
+const ROUND_OFF: f64 = 1e-9;
+
 /// The reduced field on the slice normal to the group orbit through a shape `u`:
 /// `g(w) = Q' (f - xi G)(u + Q w)`, `xi = Gu . f(u + Q w) / Gu . G(u + Q w)`, with `Q` a basis of the slice.
 ///
@@ -142,7 +145,8 @@ pub(super) fn first_lyapunov(body: &dyn Equivariant, shape: &[f64], frequency: f
     let p = null_vector(&a.transpose(), -imaginary)?;
     let p = &p / p.dotc(&q).conj(); // <p, q> = 1
     let size = shape.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    let h = 3e-3 * if size > 0.0 { size } else { 1.0 };
+    // Newton's method leaves a body at rest at round-off: that is no size.
+    let h = 3e-3 * if size > ROUND_OFF { size } else { 1.0 };
     let conjugate = q.map(|z| z.conj());
     let mean = a.clone().lu().solve(&slice.bilinear(&q, &conjugate, h))?;
     let twice = DMatrix::identity(dim, dim) * (imaginary * 2.0) - &a;
