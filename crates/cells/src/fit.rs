@@ -155,7 +155,8 @@ fn fitted(
     };
     let selection = select(tracks, &whole)?;
     let handedness = handedness(tracks, &selection.fit)?;
-    let model = if handedness.symmetry == Symmetry::Handed { &handedness.fit } else { &selection.fit };
+    let handed = handedness.symmetry == Symmetry::Handed;
+    let model = if handed { &handedness.fit } else { &selection.fit };
     let known = identifiability(model);
     let known_of_all = identifiability(&whole);
     let drift = if options.drift { drift(tracks, &selection.fit).ok() } else { None };
@@ -166,29 +167,19 @@ fn fitted(
             Warning::Unbounded { .. } | Warning::NotConverged { .. } | Warning::CoarseSampling { .. }
         )
     };
-    let sure = known.identifiable && !warnings.iter().any(serious);
-    let regime = if sure {
-        let drawn = if handedness.symmetry == Symmetry::Handed {
-            let selection = Selection { subsets: selection.subsets.clone(), fit: handedness.fit.clone() };
-            regime_of(tracks, &whole, &selection, (options.draws, options.seed), watch)?
-        } else {
-            regime_of(tracks, &whole, &selection, (options.draws, options.seed), watch)?
-        };
-        Some(drawn)
+    let mut doubts: Vec<String> = warnings.iter().filter(|w| serious(w)).map(ToString::to_string).collect();
+    let regime = if known.identifiable && doubts.is_empty() {
+        let described = Selection { subsets: selection.subsets.clone(), fit: model.clone() };
+        Some(regime_of(tracks, &whole, &described, (options.draws, options.seed), watch)?)
     } else {
         None
     };
-    let places = [Plane::Full, Plane::Reduced].map(|plane| {
-        if handedness.symmetry == Symmetry::Handed {
-            let reasons = vec!["the cell is handed, and the paper's planes are not".to_owned()];
-            return Placement::Refused { reasons };
-        }
-        let doubts: Vec<String> = warnings.iter().filter(|w| serious(w)).map(ToString::to_string).collect();
-        if doubts.is_empty() {
-            place_among(&whole, &selection, plane)
-        } else {
-            Placement::Refused { reasons: doubts }
-        }
+    if handed {
+        doubts.push("the cell is handed, and the paper's planes are not".to_owned());
+    }
+    let places = [Plane::Full, Plane::Reduced].map(|plane| match doubts.is_empty() {
+        true => place_among(&whole, &selection, plane),
+        false => Placement::Refused { reasons: doubts.clone() },
     });
     Ok(Ok(Box::new(Fitted {
         whole,

@@ -2,10 +2,8 @@
 
 use crate::Result;
 use motiform_analysis::regime::Regime;
-use motiform_dynamics::StopOnly;
-use motiform_dynamics::Watch;
-use motiform_inference::Track;
-use motiform_inference::{Fit, Selection, Subset, draws, equations, refit_with};
+use motiform_dynamics::{StopOnly, Watch};
+use motiform_inference::{Fit, Selection, Subset, Track, draws, equations, refit_with};
 use motiform_lab::analyse;
 use motiform_models::amplitudes::{Definition, info};
 use motiform_study::{Plan, Study};
@@ -46,14 +44,14 @@ pub fn regime_of(
     (count, seed): (usize, u64),
     watch: &dyn Watch,
 ) -> Result<FittedRegime> {
-    let best = classify(&natural(&selection.fit, &natural_values(&selection.fit)), watch)?;
+    let best = classify(&model(&selection.fit, &selection.fit.natural.coefficients), watch)?;
     let mut counts: Vec<(Regime, usize)> = Vec::new();
     for (number, (fit, share)) in sets(tracks, whole, selection).into_iter().enumerate() {
         let here = ((share * count as f64).round() as usize).max(1);
         for drawn in draws(&fit, here, seed.wrapping_add(number as u64)) {
             let units = fit.coefficients.iter().map(|c| fit.scales.coefficient(&c.term));
             let values: Vec<f64> = drawn.iter().zip(units).map(|(value, unit)| value / unit).collect();
-            let regime = classify(&natural(&fit, &values), watch)?;
+            let regime = classify(&model(&fit, &values), watch)?;
             match counts.iter_mut().find(|entry| entry.0 == regime) {
                 Some(entry) => entry.1 += 1,
                 None => counts.push((regime, 1)),
@@ -84,12 +82,8 @@ fn sets(tracks: &[Track], whole: &Fit, selection: &Selection) -> Vec<(Fit, f64)>
     ties.iter().enumerate().map(fit).zip(shares).collect()
 }
 
-/// The coefficients in natural units, in which every number is of order 1.
-fn natural_values(fit: &Fit) -> Vec<f64> {
-    fit.natural.coefficients.clone()
-}
-
-fn natural(fit: &Fit, values: &[f64]) -> Definition {
+/// The equations with these coefficients in natural units, in which every number is of order 1.
+fn model(fit: &Fit, values: &[f64]) -> Definition {
     equations(&fit.library, fit.handed, values)
 }
 

@@ -98,7 +98,7 @@ fn amoepy(lines: &[&str]) -> bool {
 fn looks(text: &str) -> String {
     let first = text.lines().next().unwrap_or_default();
     if first.starts_with("#p2 - QuimP") {
-        return "QuimP's parameters: give the .snQP file beside it".to_owned();
+        return "QuimP's parameters: give the .snQP file of the same name".to_owned();
     }
     format!(
         "text that begins {:?}; a table needs a header with columns for frame, x and y: name them with the options columns.*",

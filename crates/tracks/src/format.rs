@@ -16,7 +16,7 @@ pub enum Format {
     TrackMate,
     /// QuimP's `_snake.csv` and `_outline.csv`: tab separated, blocks headed `#frame N`.
     QuimpTable,
-    /// QuimP's `.snQP`, with `.paQP` beside it.
+    /// QuimP's `.snQP`, with the `.paQP` of the same name in the same folder.
     QuimpNodes,
     /// AmoePy's text: a line for each frame, `t x0 y0 x1 y1 ...`, seconds and micrometres.
     AmoePy,

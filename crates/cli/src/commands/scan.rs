@@ -61,6 +61,7 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
 /// The study that the options describe.
 fn study(options: &ScanOptions) -> Result<Study, Error> {
     let mut study = subject::study(&options.subject)?;
+    subject::note_noise(&study);
     let scan = &mut study.scan;
     if !options.axes.is_empty() {
         scan.axes = options.axes.iter().map(|text| Axis::parse(text)).collect::<Result<_, _>>()?;

@@ -1,6 +1,7 @@
 //! The subject of a command: a file or a model, a preset, then the options.
 
 use crate::args::{MethodOptions, MotionOptions, SamplesOptions, SubjectOptions};
+use crate::output::warn;
 use motiform_lab::samples::Samples;
 use motiform_models::ModelInfo;
 use motiform_models::amplitudes::NAME;
@@ -10,6 +11,7 @@ use std::path::Path;
 /// The study of a command about one motion.
 pub(crate) fn motion(options: &MotionOptions) -> Result<Study, Error> {
     let mut study = study(&options.subject)?;
+    note_noise(&study);
     apply(&options.method, &mut study)?;
     Ok(study)
 }
@@ -29,6 +31,13 @@ fn samples(options: &SamplesOptions, study: &Study, random: Random) -> Option<Sa
     let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let given = study.initial.iter().any(|(name, _)| !["x", "y"].contains(&name.as_str()));
     Some(Samples { count, random, given, threads: options.threads.map_or_else(all, usize::from) })
+}
+
+/// Says that an analysis leaves out the noise of equations given as text: its answer is that of the equations alone.
+pub(crate) fn note_noise(study: &Study) {
+    if study.model.definition().is_some_and(|definition| !definition.noise.is_empty()) {
+        warn("the noise of the equations is left out here: the answer is that of the equations without it");
+    }
 }
 
 /// Applies the options of initial state and method to a study.

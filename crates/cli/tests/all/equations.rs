@@ -46,6 +46,17 @@ fn a_strong_field_locks_the_heading() {
     assert!((onset["gamma"].as_f64().unwrap() + 0.75).abs() < 1e-9, "{onset}");
 }
 
+/// An analysis of the equations without their noise says so.
+#[test]
+fn noise_that_is_left_out_is_said() {
+    let folder = Folder::new();
+    folder.write("my.toml", &format!("{BROKEN}[model.amplitudes.noise]\nz1 = \"epsilon\"\n"));
+    let done = folder.run("classify my.toml").expect(0);
+    assert!(done.stderr.contains("the noise of the equations is left out"), "{}", done.stderr);
+    folder.write("quiet.toml", BROKEN);
+    assert_eq!(folder.run("classify quiet.toml").expect(0).stderr, "");
+}
+
 #[test]
 fn a_parameter_cannot_have_the_name_of_a_column() {
     let folder = Folder::new();

@@ -39,7 +39,7 @@ export class Session {
     this.wanted = {};
   }
 
-  /** A model that the page wrote, in place of an earlier one of its name. */
+  /** A model that the page wrote; it replaces an earlier one of the same name. */
   define(model: Model): void {
     const { models } = this.registry;
     const at = models.findIndex((one) => one.name === model.name);

@@ -12,7 +12,7 @@
 //!
 //! Both are integrated by the classical Runge-Kutta method, so that the gradient is exact for the numbers computed: the derivatives of `m`
 //! and `P` by every parameter are carried through the same steps ([`tangent`], [`correct`]), several parameters at a time in vector
-//! registers. Where frames are missing the filter goes on; after a gap of more than [`LONGEST_GAP`] it begins anew.
+//! registers. Where frames are missing the filter goes on; after a gap of more than [`LONGEST_GAP`] it starts again from the next frame.
 //!
 //! Source: Jazwinski (1970), Stochastic Processes and Filtering Theory, ch. 8; Bucy and Joseph (1968); Gupta and Mehra (1974), IEEE Trans.
 //! Autom. Control 19, 774 (gradient and information matrix).
