@@ -1,6 +1,6 @@
 """motiform's lanes against their rivals: one command, one run, one table. See README.md.
 
-    python3 bench/ensemble/bench.py [--quick] [--only adaptive,amplitudes,lyapunov,short,threads,precision]
+    python3 bench/ensemble/bench.py [--quick] [--only adaptive,amplitudes,lyapunov,noisy,short,threads,precision]
 """
 
 import argparse
@@ -14,7 +14,7 @@ from pathlib import Path
 
 import environment
 
-GROUPS = "adaptive amplitudes lyapunov short threads precision".split()
+GROUPS = "adaptive amplitudes lyapunov noisy short threads precision".split()
 
 
 def arguments():
@@ -53,6 +53,7 @@ def main():
 
     import amplitudes
     import exponents
+    import noisy
     import precision
     import table
     import tasks
@@ -91,6 +92,8 @@ def main():
         group("lyapunov", "Six Lyapunov exponents, one core", tasks.lyapunov(scale, repeats, chosen.quick))
         block, record["exponents"] = exponents.verify(scale, chosen.quick)
         say(block)
+    if "noisy" in chosen.only:
+        group("noisy", "Orbits under noise", noisy.rows(scale, repeats))
     if "short" in chosen.only:
         rows = tasks.orbits("short", tasks.T_SHORT, 1e-9, scale, repeats, per_orbit=True)
         group("short", "Many short orbits, t = 10, tolerance 1e-9, one core", rows)

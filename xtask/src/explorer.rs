@@ -1,6 +1,7 @@
 //! The page of `motiform explore`: comparison of the committed page with its sources, and tests in a real browser.
 
-use crate::{cargo, root, step};
+use crate::browser::Browser;
+use crate::{cargo, root, step, web};
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -13,16 +14,16 @@ const CHROMIUM: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 /// Builds the page, compares it with the committed one, and tests the program's own in Chromium.
 pub(crate) fn test() -> Result<()> {
     let root = root()?.canonicalize()?;
-    let web = root.join("crates/explorer/web");
+    let folder = root.join("crates/explorer/web");
     let node = node(&root)?;
     let chromium = chromium()?;
-    npm("page dependencies", &node, &web, &["ci", "--no-audit", "--no-fund"])?;
-    compare(&node, &root, &web)?;
+    npm("page dependencies", &node, &folder, &["ci", "--no-audit", "--no-fund"])?;
+    compare(&node, &root, &folder)?;
+    web::compare(&node, &root, &folder)?;
     cargo("program", &["build", "--release", "--workspace"])?;
-    let mut command = Command::new(&node);
-    command.args(["--test", "--test-concurrency=2", "--test-reporter=spec"]).args(files(&web.join("tests"))?);
-    command.env("MOTIFORM", binary(&root)).env("CHROMIUM", chromium);
-    step("browser tests", &mut command)
+    let program = binary(&root);
+    let results = program.with_file_name("browser.tap");
+    Browser { node: &node, chromium, program, results }.test(&files(&folder.join("tests"))?)
 }
 
 /// Builds the page beside the committed one: they must agree byte by byte, since programs are built without Node.
@@ -43,7 +44,7 @@ fn compare(node: &Path, root: &Path, web: &Path) -> Result<()> {
 }
 
 /// Names and bytes of the files of a folder, sorted.
-fn contents(folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>> {
+pub(crate) fn contents(folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     let mut all = Vec::new();
     for path in list(folder)? {
         let bytes = std::fs::read(&path).with_context(|| path.display().to_string())?;
@@ -74,7 +75,7 @@ fn binary(root: &Path) -> PathBuf {
 }
 
 /// Runs npm with this Node, in the folder of the page.
-fn npm(name: &str, node: &Path, web: &Path, arguments: &[&str]) -> Result<()> {
+pub(crate) fn npm(name: &str, node: &Path, web: &Path, arguments: &[&str]) -> Result<()> {
     let mut path = node.parent().map(Path::to_path_buf).into_iter().collect::<Vec<_>>();
     path.extend(std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default()));
     let mut command = Command::new("npm");
@@ -83,7 +84,7 @@ fn npm(name: &str, node: &Path, web: &Path, arguments: &[&str]) -> Result<()> {
 }
 
 /// A Node that is new enough: that of the path or of the system's packages, or one that npm brings.
-fn node(root: &Path) -> Result<PathBuf> {
+pub(crate) fn node(root: &Path) -> Result<PathBuf> {
     if !works("node") || !works("npm") {
         install(&["nodejs", "npm"], "Node 20.19 or later with npm")?;
     }

@@ -1,10 +1,12 @@
 //! Development tasks: `cargo xtask test`, `cargo xtask deny`.
 
+mod browser;
 mod dist;
 mod emulated;
 mod explorer;
 mod mutants;
 mod python;
+mod web;
 
 use anyhow::{Context, Result, bail};
 use std::path::PathBuf;
@@ -17,6 +19,8 @@ usage: cargo xtask COMMAND
            and those in a browser
   quick    the Rust tests alone
   explorer the page of `motiform explore`: builds it, compares it with the committed one, tests it in Chromium
+  web      the page without a server: the WebAssembly module (needs `rustup target add wasm32-unknown-unknown`), the folder
+           docs/site for any static host, and the page as one file, target/motiform.html
   python   the Python package: builds it into target/python and runs its tests there
   dist     a wheel and a stripped program with checksums in target/dist; the wheel is installed and tried where no cargo is
   emulated the tests of lanes under qemu-user, as a processor without vector registers to speak of and as one with AVX2
@@ -59,6 +63,7 @@ fn run() -> Result<()> {
         Some("quick") => cargo("tests", TESTS),
         Some("explorer") => explorer::test(),
         Some("python") => python::test(),
+        Some("web") => web::run(),
         Some("mutants") => mutants::run(&std::env::args().skip(2).collect::<Vec<_>>()),
         Some("dist") => dist::run(),
         Some("emulated") => emulated::run(),

@@ -158,7 +158,7 @@ impl<B: Equivariant + ?Sized> VectorField<f64> for MovingFrame<'_, B> {
             *r -= omega * g;
         }
         let [vx, vy] = motiform_dynamics::model::velocity(self.0, shape);
-        let (sin, cos) = place[0].sin_cos();
+        let (sin, cos) = libm::sincos(place[0]);
         moves.copy_from_slice(&[omega, cos * vx - sin * vy, sin * vx + cos * vy]);
     }
 }

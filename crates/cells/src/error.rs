@@ -1,5 +1,7 @@
 //! Errors of input.
 
+use std::path::PathBuf;
+
 /// Input that cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
@@ -8,7 +10,23 @@ pub enum Error {
     Tracks(#[from] motiform_tracks::Error),
     /// The data or the settings of a fit.
     #[error(transparent)]
-    Inference(#[from] motiform_inference::Error),
+    Inference(motiform_inference::Error),
+    /// A folder without fits to continue.
+    #[error("{} contains no fits to continue: {reason}; give a folder written by `motiform fit`, or begin without --resume", .path.display())]
+    NoFits {
+        /// The folder.
+        path: PathBuf,
+        /// The reason.
+        reason: String,
+    },
+    /// A folder with fits of other cells or with other settings.
+    #[error("{} contains other fits than those requested ({differences}); choose another --out, or --force to replace it", .path.display())]
+    OtherFits {
+        /// The folder.
+        path: PathBuf,
+        /// What differs: in the folder, and requested.
+        differences: String,
+    },
     /// Studies and files that are written.
     #[error(transparent)]
     Study(#[from] motiform_study::Error),
@@ -16,3 +34,13 @@ pub enum Error {
 
 /// The result of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
+
+impl From<motiform_inference::Error> for Error {
+    /// A fit that was stopped is a computation that was stopped.
+    fn from(error: motiform_inference::Error) -> Self {
+        match error {
+            motiform_inference::Error::Interrupted => Self::Study(motiform_study::Error::Interrupted),
+            other => Self::Inference(other),
+        }
+    }
+}

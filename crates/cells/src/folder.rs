@@ -1,7 +1,9 @@
 //! The folder of a result: `summary.json`, `modes.parquet`, and for fits `coefficients.parquet` and a study file per cell.
 
+use crate::work::MANIFEST;
 use crate::{
-    CellFit, Observation, Result, Sample, coefficient_columns, fits_json, mode_columns, observations_json,
+    CellFit, Observation, Result, Sample, coefficient_columns, file_names, fits_json, mode_columns,
+    observations_json,
 };
 use motiform_files::Staging;
 use motiform_files::columns::{Column, encode};
@@ -10,7 +12,7 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// What shows that a folder is one of these.
-const SUMMARY: &str = "summary.json";
+pub(crate) const SUMMARY: &str = "summary.json";
 const MODES: &str = "modes.parquet";
 
 /// Names of the folders of results.
@@ -21,56 +23,43 @@ impl FitFolder {
     /// Whether a folder was written by `motiform fit` or `motiform observe`.
     #[must_use]
     pub fn is_one(path: &Path) -> bool {
-        path.join(SUMMARY).is_file() && path.join(MODES).is_file()
+        path.join(MANIFEST).is_file() || (path.join(SUMMARY).is_file() && path.join(MODES).is_file())
     }
 }
 
-/// Writes fits. Returns the folder.
-///
-/// # Errors
-/// Files that cannot be written.
-pub fn write_fits(sample: &Sample, fits: &[CellFit], staging: Staging) -> Result<PathBuf> {
-    common(sample, &fits_json(sample, fits), &staging)?;
-    table("coefficients.parquet", &coefficient_columns(fits), &staging)?;
-    let mut names: Vec<String> = Vec::new();
-    for fit in fits {
+/// The files of fits, by name; `target` is what errors name.
+pub(crate) fn result_files(
+    sample: &Sample,
+    fits: &[CellFit],
+    target: &Path,
+) -> Result<Vec<(String, Vec<u8>)>> {
+    let mut files = common(sample, &fits_json(sample, fits), target)?;
+    files.push(("coefficients.parquet".to_owned(), table(&coefficient_columns(fits), target)?));
+    for (fit, name) in fits.iter().zip(file_names(fits.iter().map(|fit| fit.name.as_str()))) {
         let Ok(fitted) = &fit.fitted else { continue };
-        let name = unique(&fit.name, &mut names);
-        staging.write(&format!("{name}.toml"), fitted.study(&fit.name)?.to_toml()?.as_bytes())?;
+        files.push((format!("{name}.toml"), fitted.study(&fit.name)?.to_toml()?.into_bytes()));
     }
-    Ok(staging.commit()?)
+    Ok(files)
 }
 
-/// Writes observations. Returns the folder.
+/// Writes observations, beside what was written before, such as pages. Returns the folder.
 ///
 /// # Errors
 /// Files that cannot be written.
 pub fn write_observations(sample: &Sample, found: &[Observation], staging: Staging) -> Result<PathBuf> {
-    common(sample, &observations_json(sample, found), &staging)?;
+    for (name, bytes) in &common(sample, &observations_json(sample, found), staging.target())? {
+        staging.write(name, bytes)?;
+    }
     Ok(staging.commit()?)
 }
 
-fn common(sample: &Sample, summary: &Value, staging: &Staging) -> Result<()> {
-    let mut text =
-        serde_json::to_vec_pretty(summary).map_err(|error| Error::write_failed(staging.target(), error))?;
+/// What both kinds of results have.
+fn common(sample: &Sample, summary: &Value, target: &Path) -> Result<Vec<(String, Vec<u8>)>> {
+    let mut text = serde_json::to_vec_pretty(summary).map_err(|error| Error::write_failed(target, error))?;
     text.push(b'\n');
-    staging.write(SUMMARY, &text)?;
-    table(MODES, &mode_columns(&sample.cells), staging)
+    Ok(vec![(SUMMARY.to_owned(), text), (MODES.to_owned(), table(&mode_columns(&sample.cells), target)?)])
 }
 
-fn table(name: &str, columns: &[Column], staging: &Staging) -> Result<()> {
-    let bytes = encode(columns, Vec::new()).map_err(|error| Error::write_failed(staging.target(), error))?;
-    Ok(staging.write(name, &bytes)?)
-}
-
-/// A name for a file: `cell-` and letters, digits, `-`, `_` of the cell's name; a number where it is taken.
-fn unique(cell: &str, names: &mut Vec<String>) -> String {
-    let plain: String =
-        cell.chars().map(|c| if c.is_ascii_alphanumeric() || "-_".contains(c) { c } else { '-' }).collect();
-    let base = format!("cell-{plain}");
-    let taken = |name: &String| names.contains(name);
-    let mut numbered = (2..).map(|number| format!("{base}-{number}"));
-    let name = if taken(&base) { numbered.find(|name| !names.contains(name)).unwrap_or(base) } else { base };
-    names.push(name.clone());
-    name
+fn table(columns: &[Column], target: &Path) -> Result<Vec<u8>> {
+    Ok(encode(columns, Vec::new()).map_err(|error| Error::write_failed(target, error))?)
 }

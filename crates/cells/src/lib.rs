@@ -4,20 +4,43 @@
 //! alone. [`fit_cell`] fits a model ([`motiform_inference`]), asks what the data determine, names the motion of the models that the data
 //! allow, and places them on the paper's planes. What cannot be decided is a value with its reasons, never a name.
 
+mod bifurcations;
 mod cell;
 mod error;
 mod fit;
+mod fitted;
 mod folder;
+mod names;
 mod observe;
+mod packed;
+mod population;
+mod prediction;
 mod regime;
+mod stages;
 mod summary;
 mod tables;
+mod work;
 
+pub use bifurcations::{NearBifurcation, near_bifurcations};
 pub use cell::{CellTrack, Sample};
 pub use error::{Error, Result};
-pub use fit::{CellFit, FitOptions, Fitted, fit_cell, fit_cells};
-pub use folder::{FitFolder, write_fits, write_observations};
-pub use observe::{Motion, Observation, observe};
+pub use fit::{CellFit, FitOptions, TOGETHER, fit_cell, fit_cells, fit_together};
+pub(crate) use fit::{fit_in_stages, fit_or_reason};
+pub use fitted::Fitted;
+pub use folder::{FitFolder, write_observations};
+pub use names::file_names;
+pub use observe::{
+    AtLag, Finding, Memory, Motion, MotionStatistics, Observation, ObservedChaos, ObservedLegs,
+    ObservedRests, ObservedSpectrum, Relatives, Rotation, SpectralPeak, observe, population_statistics,
+};
+pub use population::{
+    FittedPopulation, NameShare, ObservedPopulation, OverCells, PopulationCoefficient, fitted_population,
+    observed_population, over_cells,
+};
+pub use prediction::{
+    Agreement, Axis, Companions, Comparison, Envelope, Kind, Prediction, Record, Statistic, predict,
+};
 pub use regime::{FittedRegime, LEAST_SHARE, regime_of};
 pub use summary::{cell_json, fits_json, observations_json};
 pub use tables::{coefficient_columns, mode_columns};
+pub use work::FitWork;

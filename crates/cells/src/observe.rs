@@ -3,7 +3,15 @@
 //! Definitions and limits: docs/cells.md, section 'Observed motion'.
 
 mod measures;
+mod relatives;
 mod repeats;
+mod statistics;
+
+pub(crate) use measures::step as step_of;
+pub use relatives::{
+    Finding, ObservedChaos, ObservedLegs, ObservedRests, ObservedSpectrum, Relatives, Rotation, SpectralPeak,
+};
+pub use statistics::{AtLag, Memory, MotionStatistics};
 
 use crate::CellTrack;
 use measures::Measures;
@@ -50,6 +58,10 @@ pub struct Observation {
     pub measures: Option<Measures>,
     /// The repetition of shape and motion; `None` where there is none.
     pub repeats: Option<Repeats>,
+    /// Mean-square displacement and autocorrelations; `None` for records that are too short for them.
+    pub statistics: Option<MotionStatistics>,
+    /// Spectra, rests, legs, rotation, 0-1 test; `None` for records that are too short for them.
+    pub relatives: Option<Relatives>,
 }
 
 /// Observes a cell. Noise and chaos cannot be told apart by such a record: motion that neither is steady nor repeats is undecided.
@@ -62,6 +74,8 @@ pub fn observe(cell: &CellTrack) -> Observation {
         motion: Motion { regime: None, why, confidence: 0.0 },
         measures: None,
         repeats: None,
+        statistics: None,
+        relatives: None,
     };
     if frames < LEAST_FRAMES {
         return bare(format!("{frames} frames count; at least {LEAST_FRAMES} are needed to name a motion"));
@@ -83,7 +97,22 @@ pub fn observe(cell: &CellTrack) -> Observation {
         let why = format!("{why}; but only {:.0} % of the resampled records say so", 100.0 * confidence);
         Motion { regime: None, why, confidence }
     };
-    Observation { cell: cell.name.clone(), frames, motion, measures: Some(measures), repeats }
+    let statistics = statistics::of_records(std::iter::once(&measures.series));
+    let relatives = Some(Relatives::of(&measures));
+    let cell = cell.name.clone();
+    Observation { cell, frames, motion, measures: Some(measures), repeats, statistics, relatives }
+}
+
+/// Statistics over cells, each with the weight of its length: intervals are those over cells where there are 8 and more. Cells of another sampling interval than most are left
+/// out; `None` without a cell that is long enough.
+#[must_use]
+pub fn population_statistics(found: &[Observation]) -> Option<(usize, MotionStatistics)> {
+    let all: Vec<_> = found.iter().filter_map(|one| Some(&one.measures.as_ref()?.series)).collect();
+    let mut intervals: Vec<f64> = all.iter().map(|series| series.dt).collect();
+    intervals.sort_by(f64::total_cmp);
+    let usual = *intervals.get(intervals.len() / 2)?;
+    let alike = || all.iter().copied().filter(|series| (series.dt / usual - 1.0).abs() < 1e-3);
+    Some((alike().count(), statistics::of_records(alike())?))
 }
 
 /// The motion of these numbers, or what is missing.
@@ -118,7 +147,7 @@ fn decide(m: &Measures, repeats: Option<&Repeats>) -> (Option<Regime>, String) {
     match repeats {
         Some(repeats) => repeating(repeats),
         None => {
-            let why = "neither steady nor repeating: noise and chaos cannot be told apart by samples alone; `motiform fit` fits equations";
+            let why = "neither steady nor repeating: noise and chaos cannot be told apart by samples alone; equations fitted to them can decide";
             (None, why.to_owned())
         }
     }

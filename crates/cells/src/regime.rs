@@ -5,9 +5,9 @@ use motiform_analysis::regime::Regime;
 use motiform_dynamics::{StopOnly, Watch};
 use motiform_inference::{Fit, Selection, Subset, Track, draws, equations, refit_with};
 use motiform_lab::analyse;
-use motiform_models::amplitudes::{Definition, info};
+use motiform_models::amplitudes::info;
 use motiform_study::{Plan, Study};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A motion is named if this share of the models has it.
 pub const LEAST_SHARE: f64 = 0.9;
@@ -18,9 +18,9 @@ const LEAST_WEIGHT: f64 = 0.05;
 const MOST_SETS: usize = 6;
 
 /// The motions of draws from the estimate.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FittedRegime {
-    /// The motion, if at least [`LEAST_SHARE`] of the models agree.
+    /// The motion, if at least [`LEAST_SHARE`] of the models agree. Never blow-up: a cell that was tracked did not.
     pub regime: Option<Regime>,
     /// The motion of the best model itself.
     pub best: Regime,
@@ -30,6 +30,14 @@ pub struct FittedRegime {
     pub counts: Vec<(Regime, usize)>,
     /// Number of draws.
     pub draws: usize,
+}
+
+impl FittedRegime {
+    /// Whether the best model blows up: then it is no model of a cell that was tracked.
+    #[must_use]
+    pub fn blows_up(&self) -> bool {
+        self.best == Regime::BlowUp
+    }
 }
 
 /// Classifies models drawn from the estimate: from the sets of terms that the data do not tell apart, each with the share of its weight
@@ -44,14 +52,14 @@ pub fn regime_of(
     (count, seed): (usize, u64),
     watch: &dyn Watch,
 ) -> Result<FittedRegime> {
-    let best = classify(&model(&selection.fit, &selection.fit.natural.coefficients), watch)?;
+    let best = classify(&selection.fit, &selection.fit.natural.coefficients, watch)?;
     let mut counts: Vec<(Regime, usize)> = Vec::new();
-    for (number, (fit, share)) in sets(tracks, whole, selection).into_iter().enumerate() {
+    for (number, (fit, share)) in sets(tracks, whole, selection, watch)?.into_iter().enumerate() {
         let here = ((share * count as f64).round() as usize).max(1);
         for drawn in draws(&fit, here, seed.wrapping_add(number as u64)) {
             let units = fit.coefficients.iter().map(|c| fit.scales.coefficient(&c.term));
             let values: Vec<f64> = drawn.iter().zip(units).map(|(value, unit)| value / unit).collect();
-            let regime = classify(&model(&fit, &values), watch)?;
+            let regime = classify(&fit, &values, watch)?;
             match counts.iter_mut().find(|entry| entry.0 == regime) {
                 Some(entry) => entry.1 += 1,
                 None => counts.push((regime, 1)),
@@ -62,40 +70,45 @@ pub fn regime_of(
     let draws = counts.iter().map(|entry| entry.1).sum::<usize>();
     let (first, most) = counts.first().copied().unwrap_or((best, 0));
     let share = if draws == 0 { 0.0 } else { most as f64 / draws as f64 };
-    let named = share >= LEAST_SHARE && first == best && first != Regime::Undetermined;
+    let named =
+        share >= LEAST_SHARE && first == best && !matches!(first, Regime::Undetermined | Regime::BlowUp);
     Ok(FittedRegime { regime: named.then_some(first), best, share, counts, draws })
 }
 
 /// The models of the sets that the data do not tell apart, with their shares of the weight.
-fn sets(tracks: &[Track], whole: &Fit, selection: &Selection) -> Vec<(Fit, f64)> {
+fn sets(tracks: &[Track], whole: &Fit, selection: &Selection, watch: &dyn Watch) -> Result<Vec<(Fit, f64)>> {
     let weight = |set: &Subset| libm::exp(-0.5 * set.excess);
     let ties: Vec<&Subset> =
         selection.subsets.ties.iter().filter(|set| weight(set) >= LEAST_WEIGHT).take(MOST_SETS).collect();
     if whole.handed != selection.fit.handed || ties.len() < 2 {
-        return vec![(selection.fit.clone(), 1.0)];
+        return Ok(vec![(selection.fit.clone(), 1.0)]);
     }
     let all: f64 = ties.iter().map(|set| weight(set)).sum();
     let fit = |(number, set): (usize, &&Subset)| {
-        if number == 0 { selection.fit.clone() } else { refit_with(tracks, whole, &set.kept) }
+        let first = number == 0;
+        if first { Ok(selection.fit.clone()) } else { refit_with(tracks, whole, &set.kept, watch) }
     };
-    let shares = ties.iter().map(|set| weight(set) / all);
-    ties.iter().enumerate().map(fit).zip(shares).collect()
+    let with_share = |one: (usize, &&Subset)| Ok((fit(one)?, weight(one.1) / all));
+    ties.iter().enumerate().map(with_share).collect()
 }
 
-/// The equations with these coefficients in natural units, in which every number is of order 1.
-fn model(fit: &Fit, values: &[f64]) -> Definition {
-    equations(&fit.library, fit.handed, values)
-}
-
-fn classify(definition: &Definition, watch: &dyn Watch) -> Result<Regime> {
-    let info = info(definition)
-        .map_err(|error| motiform_models::Error::Equations { problem: error.to_string() })
-        .map_err(motiform_study::Error::from)?;
-    let mut study = Study::of_model(info);
+/// A study of the equations with these coefficients in natural units, in which every number is of order 1. The names of a model are kept as long as the
+/// process: they are those of the set of terms, and the values are given apart.
+pub(crate) fn natural_study(fit: &Fit, values: &[f64]) -> std::result::Result<Study, motiform_study::Error> {
+    let names = info(&equations(&fit.library, fit.handed, &[]))
+        .map_err(|error| motiform_models::Error::Equations { problem: error.to_string() })?;
+    let mut study = Study::of_model(names);
+    for parameter in equations(&fit.library, fit.handed, values).parameters {
+        study.set(&parameter.name, parameter.default)?;
+    }
     study.set_initial("v1", 1.0)?;
     study.set_initial("z2_re", 0.3)?;
     study.set_initial("z2_im", 0.2)?;
-    let plan = Plan::new(&study)?;
+    Ok(study)
+}
+
+fn classify(fit: &Fit, values: &[f64], watch: &dyn Watch) -> Result<Regime> {
+    let plan = Plan::new(&natural_study(fit, values)?)?;
     let verdict =
         analyse::classify(&plan, 0.0, &StopOnly(watch))?.ok_or(motiform_study::Error::Interrupted)?;
     Ok(verdict.regime)

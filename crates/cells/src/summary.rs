@@ -1,7 +1,10 @@
 //! Results as JSON: the contract of `motiform fit --json` and `motiform observe --json`.
 
-use crate::{CellFit, CellTrack, Fitted, Observation, Sample};
-use motiform_inference::{Coefficient, Estimate, Fit, Knowledge, Place, Placement};
+use crate::{
+    CellFit, CellTrack, Comparison, Fitted, FittedRegime, Observation, Prediction, Sample, Statistic,
+    fitted_population, observed_population, population_statistics,
+};
+use motiform_inference::{BetweenCells, Coefficient, Estimate, Fit, Knowledge, Place, Placement};
 use serde_json::{Map, Value, json};
 
 /// Fits of all cells: `{"cells": [..], "units": .., "notes": [..]}`.
@@ -11,7 +14,11 @@ pub fn fits_json(sample: &Sample, fits: &[CellFit]) -> Value {
         let track = sample.cells.iter().find(|cell| cell.name == fit.name);
         with_quality(cell_json(fit), track)
     };
-    whole(sample, fits.iter().map(cell))
+    let mut object = whole(sample, fits.iter().map(cell));
+    if fits.len() > 1 {
+        object["population"] = json!(fitted_population(fits));
+    }
+    object
 }
 
 /// Observed motions of all cells.
@@ -24,7 +31,15 @@ pub fn observations_json(sample: &Sample, observations: &[Observation]) -> Value
         }
         with_quality(object, sample.cells.iter().find(|cell| cell.name == found.cell))
     };
-    whole(sample, observations.iter().map(cell))
+    let mut object = whole(sample, observations.iter().map(cell));
+    if observations.len() > 1 {
+        object["population"] = json!(observed_population(observations));
+        if let Some((cells, statistics)) = population_statistics(observations) {
+            object["population"]["statistics"] = json!(statistics);
+            object["population"]["statistics"]["cells"] = json!(cells);
+        }
+    }
+    object
 }
 
 fn whole(sample: &Sample, cells: impl Iterator<Item = Value>) -> Value {
@@ -57,7 +72,27 @@ pub fn cell_json(fit: &CellFit) -> Value {
         }
         Ok(fitted) => add(&mut object, fitted),
     }
+    if let Some(prediction) = &fit.prediction {
+        object["simulated"] = simulated(prediction);
+    }
+    if !fit.bifurcations.is_empty() {
+        object["bifurcations"] = json!(fit.bifurcations);
+    }
     object
+}
+
+/// Verdicts on the cells simulated by a fit, with the curves behind them.
+fn simulated(prediction: &Prediction) -> Value {
+    let one = |one: &Comparison| {
+        let envelope = &one.envelope;
+        let Statistic { kind, at, values } = &one.statistic;
+        json!({
+            "statistic": kind.name(), "axis": kind.axis(), "verdict": envelope.agreement, "p_value": envelope.p_value,
+            "at": at, "observed": values, "median": envelope.median, "low": envelope.low, "high": envelope.high,
+        })
+    };
+    let statistics: Vec<Value> = prediction.comparisons.iter().map(one).collect();
+    json!({ "cells": prediction.cells, "lost": prediction.lost, "unstable": prediction.is_unstable(), "statistics": statistics })
 }
 
 fn add(object: &mut Value, fitted: &Fitted) {
@@ -72,7 +107,7 @@ fn add(object: &mut Value, fitted: &Fitted) {
             found.counts.iter().map(|(regime, count)| (regime.name().to_owned(), json!(count))).collect();
         object["draws"] = counts.into();
     }
-    object["why"] = why(fitted).into();
+    object["why"] = fitted.why().into();
     object["identifiable"] = fitted.is_identifiable().into();
     object["unidentified"] = json!(unidentified(fitted));
     object["determined"] = json!(fitted.known_of_all.equations.iter().map(|of| &of.text).collect::<Vec<_>>());
@@ -81,7 +116,7 @@ fn add(object: &mut Value, fitted: &Fitted) {
     object["handed_p_value"] = json!(fitted.handedness.p_value);
     let noise = &model.noise;
     object["noise"] = json!({ "measurement_factor": number(&noise.s), "eta_v": number(&noise.eta_v), "eta_shape": number(&noise.eta_shape) });
-    object["coefficients"] = coefficients(model);
+    object["coefficients"] = coefficients(model, fitted.between.as_ref());
     object["ties"] = json!(fitted.selection.subsets.ties.len());
     object["log_likelihood"] = json!(model.log_likelihood);
     let [full, reduced] = &fitted.places;
@@ -94,21 +129,31 @@ fn add(object: &mut Value, fitted: &Fitted) {
     object["warnings"] = json!(fitted.warnings.iter().map(ToString::to_string).collect::<Vec<_>>());
 }
 
-fn why(fitted: &Fitted) -> String {
-    match &fitted.regime {
-        None if !fitted.is_identifiable() => {
-            format!("the data do not determine the equations: {}", fitted.known.reasons.join("; "))
-        }
-        None => format!(
-            "the fit is doubtful: {}",
-            fitted.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
-        ),
-        Some(found) => {
-            let counts: Vec<String> =
-                found.counts.iter().map(|(regime, count)| format!("{regime} {count}")).collect();
-            format!("motions of {} models that the data allow: {}", found.draws, counts.join(", "))
+impl Fitted {
+    /// Why the motion has its name, or none, as a clause.
+    #[must_use]
+    pub fn why(&self) -> String {
+        match &self.regime {
+            None if !self.is_identifiable() => {
+                format!("the data do not determine the equations: {}", self.known.reasons.join("; "))
+            }
+            None => format!("the fit is doubtful: {}", self.doubts.join("; ")),
+            Some(found) if found.blows_up() => format!(
+                "the fitted equations blow up without noise, and a cell that was tracked did not: too few frames, or terms are missing; motions of {} models: {}",
+                found.draws,
+                counts(found)
+            ),
+            Some(found) => {
+                format!("motions of {} models that the data allow: {}", found.draws, counts(found))
+            }
         }
     }
+}
+
+fn counts(found: &FittedRegime) -> String {
+    let counts: Vec<String> =
+        found.counts.iter().map(|(regime, count)| format!("{regime} {count}")).collect();
+    counts.join(", ")
 }
 
 /// Combinations that are free.
@@ -120,15 +165,19 @@ fn unidentified(fitted: &Fitted) -> Vec<String> {
     fitted.known.equations.iter().flat_map(free).collect()
 }
 
-fn coefficients(model: &Fit) -> Value {
+fn coefficients(model: &Fit, between: Option<&BetweenCells>) -> Value {
     let mut all: Map<String, Value> = Map::new();
-    for Coefficient { name, imaginary, estimate, .. } in &model.coefficients {
+    for (place, Coefficient { name, imaginary, estimate, .. }) in model.coefficients.iter().enumerate() {
+        let mut value = number(estimate);
+        if let Some(error) = between.and_then(|between| between.errors.get(place)) {
+            value["error_between_cells"] = json!(error);
+        }
         if *imaginary {
             if let Some(real) = all.get_mut(name) {
-                real["imaginary"] = number(estimate);
+                real["imaginary"] = value;
             }
         } else {
-            all.insert(name.clone(), number(estimate));
+            all.insert(name.clone(), value);
         }
     }
     all.into()

@@ -44,8 +44,8 @@ impl Normal {
         radius * cos
     }
 
-    /// Uniform in [0, 1).
-    fn uniform(&mut self) -> f64 {
+    /// The next number of the generator, uniform in [0, 1).
+    pub fn uniform(&mut self) -> f64 {
         (self.bits.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 }

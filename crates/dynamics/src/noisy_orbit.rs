@@ -2,6 +2,7 @@
 
 use crate::interpolant::DenseStep;
 use crate::noise::{Diffusion, Noise, Normal};
+use crate::noise_steps::NoiseSteps;
 use crate::orbit::{Counters, StepFailure};
 use crate::{Error, Integration};
 
@@ -38,65 +39,9 @@ use crate::{Error, Integration};
 /// and a nonlinear flow, rotation, seeds; tests/all/diffusion.rs: weak and strong order; lab/tests/all/noise.rs: both models
 pub struct NoisyOrbit<O> {
     orbit: O,
-    noise: Noise,
-    kicks: Vec<Kick>,
-    /// Noise that depends on the state, and the increments of its processes.
-    diffusion: Option<(Box<dyn Diffusion>, Vec<Kick>)>,
-    normal: Normal,
-    start: f64,
-    /// Steps of the noise started so far.
-    steps: u64,
+    noise: NoiseSteps,
     state: Vec<f64>,
-}
-
-/// The noise of one entry over one step.
-#[derive(Clone, Copy, Debug)]
-struct Kick {
-    eta: f64,
-    rate: f64,
-    /// Standard deviations of K (and K'), and of `e^{lambda h} K + K'`.
-    kick: f64,
-    whole: f64,
-    /// `e^{lambda h}`.
-    growth: f64,
-    /// The present K, the present X(h), and the deviate of the bridge.
-    early: f64,
-    total: f64,
-    bridge: f64,
-}
-
-/// `V(t)`.
-fn variance(eta: f64, rate: f64, t: f64) -> f64 {
-    let x = 2.0 * rate * t;
-    eta * eta * t * if x == 0.0 { 1.0 } else { libm::expm1(x) / x }
-}
-
-impl Kick {
-    fn new(eta: f64, rate: f64, h: f64) -> Self {
-        let growth = libm::exp(rate * h);
-        let kick = if rate == 0.0 { 0.5 * h } else { 0.5 * libm::tanh(rate * h) / rate };
-        let (kick, whole) = (eta * kick.sqrt(), variance(eta, rate, h).sqrt());
-        Self { eta, rate, kick, whole, growth, early: 0.0, total: 0.0, bridge: 0.0 }
-    }
-
-    /// The kicks of a new step.
-    fn draw(&mut self, normal: &mut Normal) {
-        let (first, second) = (self.kick * normal.next(), self.kick * normal.next());
-        self.early = first;
-        self.total = self.growth * first + second;
-        self.bridge = if self.whole > 0.0 { (first - self.growth * second) / self.whole } else { 0.0 };
-    }
-
-    /// `X(t) - e^{lambda t} K` at the time t in a step of length h.
-    fn beside_the_flow(&self, t: f64, h: f64) -> f64 {
-        if self.whole == 0.0 {
-            return 0.0;
-        }
-        let (past, rest) = (variance(self.eta, self.rate, t), variance(self.eta, self.rate, h - t));
-        let mean = libm::exp(self.rate * (h - t)) * past / self.whole * (self.total / self.whole);
-        let spread = past.sqrt() * (rest.sqrt() / self.whole);
-        mean + spread * self.bridge - libm::exp(self.rate * t) * self.early
-    }
+    kicked: Vec<f64>,
 }
 
 impl<O: Integration> NoisyOrbit<O> {
@@ -105,92 +50,44 @@ impl<O: Integration> NoisyOrbit<O> {
     /// # Errors
     /// [`Error::OutOfRange`] for an invalid amplitude, rate or step, [`Error::Shape`] for more entries under
     /// noise than the state has, or rates of another number.
-    pub fn new(mut orbit: O, noise: Noise, normal: Normal) -> Result<Self, Error> {
-        noise.validate(orbit.state().len())?;
-        let entries = noise.amplitudes.iter().zip(&noise.rates);
-        let kicks = entries.map(|(&eta, &rate)| Kick::new(eta, rate, noise.step)).collect();
-        let (start, state) = (orbit.t(), orbit.state().to_vec());
+    #[allow(
+        clippy::needless_pass_by_value,
+        reason = "the noise belongs to this orbit, as its generator does"
+    )]
+    pub fn new(orbit: O, noise: Noise, normal: Normal) -> Result<Self, Error> {
+        let noise = NoiseSteps::new(&noise, normal, orbit.t(), orbit.state().len())?;
+        Ok(Self::of(orbit, noise))
+    }
+
+    /// `orbit` with this noise, which starts where it is.
+    #[must_use]
+    pub fn of(mut orbit: O, noise: NoiseSteps) -> Self {
+        let (state, kicked) = (orbit.state().to_vec(), orbit.state().to_vec());
         orbit.roughen();
-        Ok(Self { orbit, noise, kicks, diffusion: None, normal, start, steps: 0, state })
+        Self { orbit, noise, state, kicked }
     }
 
     /// The same with noise that depends on the state; before the first step.
     #[must_use]
     pub fn with(mut self, diffusion: Box<dyn Diffusion>) -> Self {
-        let increments = vec![Kick::new(1.0, 0.0, self.noise.step); diffusion.processes()];
-        self.diffusion = Some((diffusion, increments));
+        self.noise = self.noise.with(diffusion);
         self
     }
 
-    /// End of the present step: from the number of steps, so that it carries no accumulated rounding.
-    fn end(&self) -> f64 {
-        self.start + self.noise.step * self.steps as f64
-    }
-
-    fn begin_step(&mut self) {
-        let mut kicked = self.state.clone();
-        for (kick, x) in self.kicks.iter_mut().zip(&mut kicked) {
-            kick.draw(&mut self.normal);
-            *x += kick.early;
-        }
-        if let Some((diffusion, increments)) = &mut self.diffusion {
-            for (process, increment) in increments.iter_mut().enumerate() {
-                increment.draw(&mut self.normal);
-                diffusion.kick(process, increment.early, &mut kicked);
-            }
-        }
-        self.orbit.restart(&kicked);
-        self.steps += 1;
-    }
-
-    /// Turns a state of the flow at time `t` in the present step into that of the path (`sign` = 1), or back (-1).
-    fn add_noise(&self, t: f64, sign: f64, u: &mut [f64]) {
-        if self.steps == 0 {
-            return;
-        }
-        let (h, end) = (self.noise.step, self.end());
-        let t = if t == end { h } else { h - (end - t) };
-        if sign > 0.0 {
-            self.diffuse(t, u);
-        }
-        for (kick, x) in self.kicks.iter().zip(&mut *u) {
-            *x += sign * kick.beside_the_flow(t, h);
-        }
-        if sign < 0.0 {
-            self.diffuse_back(t, u);
-        }
-    }
-
-    /// The second part of the noise that depends on the state, at the time `t` in the present step.
-    fn diffuse(&self, t: f64, u: &mut [f64]) {
-        let Some((diffusion, increments)) = &self.diffusion else { return };
-        for (process, increment) in increments.iter().enumerate().rev() {
-            diffusion.kick(process, increment.beside_the_flow(t, self.noise.step), u);
-        }
-    }
-
-    /// Its inverse.
-    fn diffuse_back(&self, t: f64, u: &mut [f64]) {
-        let Some((diffusion, increments)) = &self.diffusion else { return };
-        for (process, increment) in increments.iter().enumerate() {
-            diffusion.kick(process, -increment.beside_the_flow(t, self.noise.step), u);
-        }
-    }
-
     fn follow(&mut self) {
-        let mut state = std::mem::take(&mut self.state);
-        state.copy_from_slice(self.orbit.state());
-        self.add_noise(self.orbit.t(), 1.0, &mut state);
-        self.state = state;
+        self.state.copy_from_slice(self.orbit.state());
+        self.noise.add(self.orbit.t(), &mut self.state);
     }
 }
 
 impl<O: Integration> Integration for NoisyOrbit<O> {
     fn advance(&mut self, limit: f64) -> Result<(), StepFailure> {
-        if self.orbit.t() >= self.end() {
-            self.begin_step();
+        if self.orbit.t() >= self.noise.end() {
+            self.kicked.copy_from_slice(&self.state);
+            self.noise.begin(&mut self.kicked);
+            self.orbit.restart(&self.kicked);
         }
-        self.orbit.advance(limit.min(self.end()))?;
+        self.orbit.advance(limit.min(self.noise.end()))?;
         self.follow();
         Ok(())
     }
@@ -210,7 +107,7 @@ impl<O: Integration> Integration for NoisyOrbit<O> {
 
     fn step_to(&mut self, t: f64, out: &mut [f64]) {
         self.orbit.step_to(t, out);
-        self.add_noise(t, 1.0, out);
+        self.noise.add(t, out);
     }
 
     fn end_step_at(&mut self, t: f64) {
@@ -219,9 +116,9 @@ impl<O: Integration> Integration for NoisyOrbit<O> {
     }
 
     fn restart(&mut self, u: &[f64]) {
-        let mut flow = u.to_vec();
-        self.add_noise(self.orbit.t(), -1.0, &mut flow);
-        self.orbit.restart(&flow);
+        self.kicked.copy_from_slice(u);
+        self.noise.remove(self.orbit.t(), &mut self.kicked);
+        self.orbit.restart(&self.kicked);
         self.state.copy_from_slice(u);
     }
 

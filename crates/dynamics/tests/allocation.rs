@@ -4,8 +4,8 @@
 mod common;
 
 use common::{Oscillator, StuartLandau};
-use motiform_dynamics::steppers::{EXPONENTIAL_STEPPERS, STEPPERS};
-use motiform_dynamics::{ExponentialOrbit, Integration, Orbit, StepControl};
+use motiform_dynamics::steppers::{DOP853, EXPONENTIAL_STEPPERS, STEPPERS};
+use motiform_dynamics::{ExponentialOrbit, Integration, Noise, NoisyOrbit, Normal, Orbit, StepControl};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -32,6 +32,21 @@ unsafe impl GlobalAlloc for Counting {
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
+
+#[test]
+fn a_step_under_noise_allocates_nothing() {
+    let adaptive = StepControl::Adaptive { rtol: 1e-9, atol: 1e-9 };
+    let orbit = Orbit::new(&Oscillator, &DOP853, adaptive, 0.0, &[1.0, 0.0]).expect("valid");
+    let noise = Noise { amplitudes: vec![1e-3; 2], rates: vec![0.0, -0.1], step: 0.0625 };
+    let mut noisy = NoisyOrbit::new(orbit, noise, Normal::new(1, 1)).expect("valid");
+    let mut state = vec![0.0; 2];
+    let before = ALLOCATIONS.with(Cell::get);
+    for _ in 0..1000 {
+        noisy.advance(1e9).expect("the oscillator is smooth");
+        noisy.at(0.5 * (noisy.t_old() + noisy.t()), &mut state);
+    }
+    assert_eq!(ALLOCATIONS.with(Cell::get) - before, 0);
+}
 
 #[test]
 fn a_step_allocates_nothing() {

@@ -1,46 +1,79 @@
 //! The connection to one page: incoming messages and answers, until one side disconnects.
 
-use crate::answers::{self, Answer, Answers};
-use crate::catalogue::Catalogue;
-use crate::protocol::{Ask, Refused};
+use crate::accept::Patience;
 use crate::rate::Bucket;
-use crate::session::{Greeting, Session};
 use axum::extract::ws::{CloseFrame, Message, WebSocket};
-use std::time::Instant;
+use motiform_session::{Answer, Answers, Catalogue, Gone, Greeting, Request, Session, refusal};
+use std::time::{Duration, Instant};
 use tokio::sync::{mpsc, watch};
+use tokio::time::timeout;
 
-/// Why a connection is closed (RFC 6455, 7.4.1).
+/// Why a connection is closed (RFC 6455, 7.4.1; 1013 is registered with IANA).
 const GOING_AWAY: u16 = 1001;
 const POLICY: u16 = 1008;
 const TOO_BIG: u16 = 1009;
 const FAILED: u16 = 1011;
+const TRY_AGAIN_LATER: u16 = 1013;
+
+/// Number of queued answers: threads that are faster than the page wait for it.
+const WAITING: usize = 64;
+
+/// A page has so long to read why it is closed, and to close in turn.
+const GOODBYE: Duration = Duration::from_secs(1);
+
+/// What a page is served with.
+pub(crate) struct Guest {
+    pub(crate) greeting: Greeting,
+    pub(crate) catalogue: Catalogue,
+    pub(crate) stop: watch::Receiver<bool>,
+    pub(crate) patience: Patience,
+}
+
+/// The reason why a connection is closed.
+type End = (u16, &'static str);
 
 /// Serves one page.
-pub(crate) async fn serve(
-    mut socket: WebSocket,
-    greeting: Greeting,
-    catalogue: Catalogue,
-    mut stop: watch::Receiver<bool>,
-) {
-    let (answers, mut waiting) = Answers::new();
-    let (code, reason) = match Session::start(answers, catalogue) {
-        Ok(session) => {
-            let end = match socket.send(Message::text(greeting.text())).await {
-                Ok(()) => talk(&mut socket, &session, &mut waiting, &mut stop).await,
-                Err(_) => None,
-            };
-            // Its threads may be waiting to say something: nobody listens any more.
-            drop(waiting);
-            let _ = tokio::task::spawn_blocking(move || drop(session)).await;
-            match end {
-                Some(end) => end,
-                None => return,
+pub(crate) async fn serve(mut socket: WebSocket, guest: Guest) {
+    let Guest { greeting, catalogue, mut stop, patience } = guest;
+    let (sender, mut waiting) = mpsc::channel(WAITING);
+    let answers = Answers::new(move |answer| sender.blocking_send(answer).map_err(|_| Gone));
+    let Ok(session) = Session::start(answers, catalogue) else {
+        return close(socket, (FAILED, "the system provides no threads")).await;
+    };
+    let end = match socket.send(Message::text(greeting.text())).await {
+        Ok(()) => {
+            let mut line = Line { socket: &mut socket, session: &session, patience };
+            line.talk(&mut waiting, &mut stop).await
+        }
+        Err(_) => None,
+    };
+    // Its threads may be waiting to say something: nobody listens any more.
+    drop(waiting);
+    let ended = tokio::task::spawn_blocking(move || drop(session));
+    if let Some(end) = end {
+        close(socket, end).await;
+    }
+    let _ = ended.await;
+}
+
+/// Tells a page that there is no place for it.
+pub(crate) async fn refuse(socket: WebSocket) {
+    close(socket, (TRY_AGAIN_LATER, "too many pages are open: close one")).await;
+}
+
+/// Closes a connection, with its reason. Messages that still arrive are read and ignored: if they stayed unread, the operating system would
+/// reset the connection, and the page would never see the reason.
+async fn close(mut socket: WebSocket, (code, reason): End) {
+    let goodbye = async {
+        // The page may have gone already.
+        let _ = socket.send(Message::Close(Some(CloseFrame { code, reason: reason.into() }))).await;
+        while let Some(message) = socket.recv().await {
+            if matches!(message, Ok(Message::Close(_)) | Err(_)) {
+                break;
             }
         }
-        Err(_) => (FAILED, "the system provides no threads"),
     };
-    // The page may have gone already.
-    let _ = socket.send(Message::Close(Some(CloseFrame { code, reason: reason.into() }))).await;
+    let _ = timeout(GOODBYE, goodbye).await;
 }
 
 /// Waits for the server to stop.
@@ -49,47 +82,89 @@ async fn stopped(stop: &mut watch::Receiver<bool>) {
     let _ = stop.wait_for(|stop| *stop).await;
 }
 
-/// Transfers messages in both directions; returns the reason to close the connection, or `None` if the page has disconnected.
-async fn talk(
-    socket: &mut WebSocket,
-    session: &Session,
-    waiting: &mut mpsc::Receiver<Answer>,
-    stop: &mut watch::Receiver<bool>,
-) -> Option<(u16, &'static str)> {
-    let mut bucket = Bucket::new(Instant::now());
-    let stopped = stopped(stop);
-    tokio::pin!(stopped);
-    loop {
-        tokio::select! {
-            message = socket.recv() => {
-                let text = match message? {
-                    Ok(Message::Text(text)) => Some(text),
-                    Ok(Message::Binary(_)) => None,
-                    Ok(Message::Close(_)) => return None,
-                    Ok(Message::Ping(_) | Message::Pong(_)) => continue,
-                    Err(_) => return Some((TOO_BIG, "a message was too long, or does not belong to this protocol")),
-                };
-                if !bucket.take(Instant::now()) {
-                    return Some((POLICY, "too many messages"));
-                }
-                match text.as_deref().ok_or_else(|| "messages must be JSON texts".to_owned()).and_then(Ask::parse) {
-                    Ok(ask) => if !session.ask(ask) {
-                        return Some((POLICY, "too many messages are waiting"));
-                    },
-                    Err(why) => {
-                        let refused = answers::text(&Refused { id: None, why }.into());
-                        socket.send(Message::text(refused)).await.ok()?;
+fn message(answer: Answer) -> Message {
+    match answer {
+        Answer::Text(text) => Message::text(text),
+        Answer::Binary(bytes) => Message::binary(bytes),
+    }
+}
+
+/// A page that is served.
+struct Line<'l> {
+    socket: &'l mut WebSocket,
+    session: &'l Session,
+    patience: Patience,
+}
+
+impl Line<'_> {
+    /// Transfers messages in both directions; returns the reason to close the connection, or `None` if the page has disconnected.
+    async fn talk(
+        &mut self,
+        waiting: &mut mpsc::Receiver<Answer>,
+        stop: &mut watch::Receiver<bool>,
+    ) -> Option<End> {
+        let mut bucket = Bucket::new(Instant::now());
+        let mut heard = Instant::now();
+        let mut pings = tokio::time::interval(self.patience.ping);
+        let stopped = stopped(stop);
+        tokio::pin!(stopped);
+        loop {
+            tokio::select! {
+                message = self.socket.recv() => {
+                    heard = Instant::now();
+                    if let Some(end) = self.hear(message?, &mut bucket).await? {
+                        return Some(end);
                     }
                 }
+                answer = waiting.recv() => {
+                    self.send(message(answer?)).await?;
+                }
+                _ = pings.tick() => {
+                    if heard.elapsed() > self.patience.silence {
+                        return None; // a page that has gone without a word
+                    }
+                    self.send(Message::Ping(Vec::new().into())).await?;
+                }
+                () = &mut stopped => return Some((GOING_AWAY, "the server is stopping")),
             }
-            answer = waiting.recv() => {
-                let message = match answer? {
-                    Answer::Text(text) => Message::text(text),
-                    Answer::Binary(bytes) => Message::binary(bytes),
-                };
-                socket.send(message).await.ok()?;
-            }
-            () = &mut stopped => return Some((GOING_AWAY, "the server is stopping")),
         }
+    }
+
+    /// Takes one message: the reason to close the connection, if there is one; `None` if the page has disconnected.
+    async fn hear(
+        &mut self,
+        heard: Result<Message, axum::Error>,
+        bucket: &mut Bucket,
+    ) -> Option<Option<End>> {
+        let text = match heard {
+            Ok(Message::Text(text)) => Some(text),
+            Ok(Message::Binary(_)) => None,
+            Ok(Message::Close(_)) => return None,
+            Ok(Message::Ping(_) | Message::Pong(_)) => {
+                let allowed = bucket.take(Instant::now());
+                return Some((!allowed).then_some((POLICY, "too many messages")));
+            }
+            Err(_) => {
+                return Some(Some((TOO_BIG, "a message was too long, or does not belong to this protocol")));
+            }
+        };
+        if !bucket.take(Instant::now()) {
+            return Some(Some((POLICY, "too many messages")));
+        }
+        match text.as_deref().ok_or_else(|| "messages must be JSON texts".to_owned()).and_then(Request::parse)
+        {
+            Ok(request) => {
+                Some((!self.session.ask(request)).then_some((POLICY, "too many messages are waiting")))
+            }
+            Err(why) => {
+                self.send(message(refusal(&why))).await?;
+                Some(None)
+            }
+        }
+    }
+
+    /// Sends a message; `None` if the page has gone, or does not read.
+    async fn send(&mut self, message: Message) -> Option<()> {
+        timeout(self.patience.silence, self.socket.send(message)).await.ok()?.ok()
     }
 }

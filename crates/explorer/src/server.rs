@@ -1,18 +1,16 @@
 //! The server: addresses, and rejection of requests.
 
-use crate::catalogue::{Catalogue, StudyFile, file_name};
-use crate::connection;
+use crate::Error;
+use crate::accept::{Patience, accept};
+use crate::connection::{self, Guest};
 use crate::guard::{Names, Token};
 use crate::page::asset;
-use crate::protocol::LONGEST;
-use crate::session::Greeting;
-use crate::{Error, share};
 use axum::Router;
-use axum::extract::{Path, State, WebSocketUpgrade};
+use axum::extract::{Path, RawQuery, State, WebSocketUpgrade};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
-use axum::serve::ListenerExt as _;
+use motiform_session::{Catalogue, Greeting, LONGEST, StudyFile, file_name, quoted};
 use std::net::{Ipv4Addr, TcpListener};
 use std::sync::Arc;
 use std::time::Duration;
@@ -40,6 +38,8 @@ pub struct Options {
     pub model: Option<String>,
     /// A study file to open.
     pub file: Option<StudyFile>,
+    /// How long others may be silent.
+    pub patience: Patience,
 }
 
 /// A server that has its port, but has not yet answered any request.
@@ -70,6 +70,7 @@ struct Shared {
     pages: Arc<Semaphore>,
     greeting: Greeting,
     catalogue: Catalogue,
+    patience: Patience,
     stop: watch::Receiver<bool>,
 }
 
@@ -91,11 +92,12 @@ impl Server {
         let (stop, stopped) = watch::channel(false);
         let catalogue = Catalogue::new(options.file.as_ref())?;
         let file = options.file.as_ref().map(|file| file.path.as_str());
-        let subject = file.map_or_else(String::new, |path| format!(" {}", share::quoted(path)));
+        let subject = file.map_or_else(String::new, |path| format!(" {}", quoted(path)));
         let restart = format!("motiform explore{subject} --port {port} --token {}", token.text());
-        let greeting = Greeting::new(&catalogue.registry()?, &restart);
+        let greeting = Greeting::new(&catalogue, &restart)?;
         let (names, pages) = (Names::new(port), Arc::new(Semaphore::new(PAGES as usize)));
-        let shared = Arc::new(Shared { token, names, pages, greeting, catalogue, stop: stopped });
+        let patience = options.patience;
+        let shared = Arc::new(Shared { token, names, pages, greeting, catalogue, patience, stop: stopped });
         let model = file.map(file_name).or_else(|| options.model.clone()).map(|name| format!("model={name}"));
         let opens = options.preset.as_ref().map(|name| format!("preset={name}")).or(model);
         Ok(Self { listener, shared, port, stop, opens })
@@ -124,20 +126,17 @@ impl Server {
         let Self { listener, shared, stop, .. } = self;
         runtime.block_on(async move {
             listener.set_nonblocking(true)?;
-            // Frames are small and wanted now: without this each waits up to 40 ms for the answer to the one before. Where it is
-            // refused they come late, and that is all.
             let listener = tokio::net::TcpListener::from_std(listener)?;
-            let listener = listener.tap_io(|stream| drop(stream.set_nodelay(true)));
             let mut stopped = shared.stop.clone();
-            let done = async move {
-                let _ = stopped.wait_for(|stop| *stop).await; // the sender lives as long as the server
-            };
-            let pages = Arc::clone(&shared.pages);
-            let served = axum::serve(listener, router(shared)).with_graceful_shutdown(done).await;
+            let (pages, patience) = (Arc::clone(&shared.pages), shared.patience);
+            tokio::select! {
+                () = accept(listener, router(shared), patience) => {}
+                _ = stopped.wait_for(|stop| *stop) => {} // the sender lives as long as the server
+            }
             // Every page is told, and every session ends, but nobody waits for a page that does not listen.
             let _ = tokio::time::timeout(GOODBYE, pages.acquire_many(PAGES)).await;
             drop(stop);
-            Ok(served?)
+            Ok(())
         })
     }
 }
@@ -159,8 +158,26 @@ impl Shared {
     }
 }
 
-async fn page(State(shared): State<Arc<Shared>>, Path(token): Path<String>, headers: HeaderMap) -> Response {
-    if shared.admits(&token, &headers) { asset_response("") } else { StatusCode::FORBIDDEN.into_response() }
+async fn page(
+    State(shared): State<Arc<Shared>>,
+    Path(token): Path<String>,
+    RawQuery(query): RawQuery,
+    headers: HeaderMap,
+) -> Response {
+    if !shared.admits(&token, &headers) {
+        return StatusCode::FORBIDDEN.into_response();
+    }
+    let mut response = asset_response("");
+    if query.is_some_and(|query| query == "embed" || query.starts_with("embed=")) {
+        // Its reader asks for a page to stand within another one.
+        let headers = response.headers_mut();
+        headers.remove(header::X_FRAME_OPTIONS);
+        let policy = POLICY.replace("; frame-ancestors 'none'", "");
+        if let Ok(policy) = HeaderValue::from_str(&policy) {
+            headers.insert(header::CONTENT_SECURITY_POLICY, policy);
+        }
+    }
+    response
 }
 
 async fn file(
@@ -175,13 +192,13 @@ async fn file(
     }
 }
 
+/// What the page may load, and that no other page may embed it.
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'; \
+                      base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
 /// Restrictions for the browser: not to load anything from other hosts, embed the page in another one, or reveal its address.
 const HEADERS: [(HeaderName, &str); 6] = [
-    (
-        header::CONTENT_SECURITY_POLICY,
-        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'; \
-         base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
-    ),
+    (header::CONTENT_SECURITY_POLICY, POLICY),
     (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
     (header::X_FRAME_OPTIONS, "DENY"),
     (header::REFERRER_POLICY, "no-referrer"),
@@ -209,13 +226,19 @@ async fn live(
     if !shared.admits(&token, &headers) || !shared.names.origin_is_ours(&headers) {
         return StatusCode::FORBIDDEN.into_response();
     }
+    let upgrade = upgrade.max_message_size(LONGEST).max_frame_size(LONGEST);
     let Ok(place) = Arc::clone(&shared.pages).try_acquire_owned() else {
-        return (StatusCode::SERVICE_UNAVAILABLE, "too many pages are open: close one").into_response();
+        // A refused upgrade looks to a page as if there were no server: it is told by a code instead.
+        return upgrade.on_upgrade(connection::refuse);
     };
-    let (greeting, stop) = (shared.greeting.clone(), shared.stop.clone());
-    let catalogue = shared.catalogue.clone();
-    upgrade.max_message_size(LONGEST).max_frame_size(LONGEST).on_upgrade(move |socket| async move {
-        connection::serve(socket, greeting, catalogue, stop).await;
+    let guest = Guest {
+        greeting: shared.greeting.clone(),
+        catalogue: shared.catalogue.clone(),
+        stop: shared.stop.clone(),
+        patience: shared.patience,
+    };
+    upgrade.on_upgrade(move |socket| async move {
+        connection::serve(socket, guest).await;
         drop(place);
     })
 }

@@ -1,6 +1,7 @@
 //! Curves of bifurcations in a plane of two parameters, over the regimes if these are known.
 
 use super::axes::{Axes, Scale};
+use super::beside::beside;
 use super::clip::clip;
 use super::error::{FigureError, Result, check_finite};
 use super::figure::{Csv, figure};
@@ -204,24 +205,10 @@ impl MapMark {
         let [x, y] = scale.map(self.at);
         let label = Label::parse(&self.label);
         let (w, h) = (label.width(WORDS) + 4.0, WORDS + 4.0);
-        let frame = scale.frame;
-        let places = [(7.0, -7.0 - h), (7.0, 7.0), (-7.0 - w, -7.0 - h), (-7.0 - w, 7.0)];
-        let rect = |(dx, dy): (f64, f64)| Rect { x: x + dx, y: y + dy, w, h };
-        let fits = |rect: &Rect| {
-            rect.x >= frame.x
-                && rect.right() <= frame.right()
-                && rect.y >= frame.y
-                && rect.bottom() <= frame.bottom()
-                && taken.iter().all(|other| apart(rect, other))
-        };
-        let place = places.into_iter().map(rect).find(fits).unwrap_or_else(|| rect(places[0]));
+        let place = beside([x, y], [w, h], 7.0, (scale.frame, taken));
         svg.rect(place, &Paint::fill(WHITE).opacity(0.85));
         svg.text([place.x + 2.0, place.y + 0.5 * h + 0.36 * WORDS], WORDS, Anchor::Start, &label);
         Glyph::Ring.draw(svg, [x, y], 4.2, INK);
         taken.push(place);
     }
-}
-
-fn apart(a: &Rect, b: &Rect) -> bool {
-    a.right() < b.x || b.right() < a.x || a.bottom() < b.y || b.bottom() < a.y
 }

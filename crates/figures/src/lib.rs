@@ -1,7 +1,7 @@
 //! Drawing: plain data in, SVG text out. Independent of models, study files and solvers.
 //!
-//! Eleven figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`], [`SpaceTimeFigure`], [`SpectrumFigure`],
-//! [`PhaseDiagram`], [`BranchDiagram`], [`CurveMap`], [`BandFigure`], [`ErrorBarFigure`], [`SurvivalFigure`]) return self-contained SVG text (fonts and pictures are
+//! Thirteen figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`], [`SpaceTimeFigure`], [`SpectrumFigure`],
+//! [`PhaseDiagram`], [`BranchDiagram`], [`CurveMap`], [`BandFigure`], [`ErrorBarFigure`], [`SurvivalFigure`], [`PlaceMap`], [`TrackPanels`]) return self-contained SVG text (fonts and pictures are
 //! inside); [`png()`] and, with the feature `pdf`, `pdf` convert that text to files; [`Animation`] returns an animated
 //! PNG. The same data give the same bytes: numbers are rounded to 0.01 pixel and no system font is used. All texts are
 //! markup, see [`Label`]; every regime has its [`RegimeMark`].
@@ -9,11 +9,13 @@
 mod animation;
 pub mod axes;
 mod bands;
+mod beside;
 mod block;
 mod branches;
 mod clip;
 mod colour_bar;
 mod curve_map;
+mod embedded;
 mod error;
 mod error_bars;
 mod expected;
@@ -35,6 +37,7 @@ mod path;
 mod pdf;
 mod phase_diagram;
 mod picture;
+mod place_map;
 mod raster;
 mod return_map;
 mod series;
@@ -53,11 +56,13 @@ mod tests_of_measurements;
 mod tests_of_phase_diagrams;
 mod text;
 pub mod ticks;
+mod track_panels;
 
 pub use animation::{Animation, Camera, Frame};
 pub use bands::{BandCurve, BandFigure, BandPoint};
 pub use branches::{BranchDiagram, BranchDots, BranchMark, BranchPart};
 pub use curve_map::{CurveMap, CurveStyle, MapCurve, MapMark};
+pub use embedded::{embedded, font_rules};
 pub use error::{FigureError, Result};
 pub use error_bars::{ErrorBarFigure, ErrorBarSeries, Interval, Measured};
 pub use expected::ExpectedLine;
@@ -69,6 +74,7 @@ pub use path::{OutlineStamp, PathFigure, PathPoint, SectionLine};
 #[cfg(feature = "pdf")]
 pub use pdf::pdf;
 pub use phase_diagram::{BoundaryLine, Cell, PhaseDiagram};
+pub use place_map::{MapPlace, PlaceMap};
 pub use raster::{DEFAULT_SCALE, png};
 pub use return_map::ReturnMapFigure;
 pub use series::{Curve, Panel, SeriesFigure};
@@ -78,3 +84,4 @@ pub use spectrum::{SpectrumCurve, SpectrumFigure};
 pub use style::{Style, Width};
 pub use survival::{SurvivalCurve, SurvivalFigure, SurvivalStep};
 pub use text::{Label, literal};
+pub use track_panels::{TrackPanel, TrackPanels};

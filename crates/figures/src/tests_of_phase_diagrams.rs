@@ -146,3 +146,47 @@ fn bad_diagrams_are_refused_with_the_place() {
     };
     assert!(matches!(with(line), FigureError::NotFinite { .. }));
 }
+
+#[test]
+fn a_place_outside_of_the_diagram_widens_its_axes_and_regions_are_cut_off() {
+    let cell = |x: f64, y: f64| Cell { x, y, shares: vec![("chaotic".into(), 1.0)] };
+    let under = PhaseDiagram {
+        x: vec![0.0, 1.0],
+        y: vec![0.0, 1.0],
+        cells: vec![cell(0.0, 0.0), cell(1.0, 0.0), cell(0.0, 1.0), cell(1.0, 1.0)],
+        ..PhaseDiagram::default()
+    };
+    let place = |at: [f64; 2]| MapPlace {
+        name: "cell 1".into(),
+        at,
+        region: vec![[at[0] - 90.0, at[1]], [at[0] + 90.0, at[1]]],
+        cloud: vec![at],
+    };
+    let map = |at| PlaceMap { under: under.clone(), places: vec![place(at)], ..PlaceMap::default() };
+    let inside = map([0.5, 0.5]).svg().expect("a figure");
+    let outside = map([7.0, 0.5]).svg().expect("a figure");
+    assert!(inside.contains("cell 1") && inside.contains("chaotic"));
+    assert!(!inside.contains(">6<") && outside.contains(">6<"), "ticks");
+    assert!(PlaceMap { under: under.clone(), ..PlaceMap::default() }.svg().is_err());
+    assert!(map([f64::NAN, 0.0]).svg().is_err());
+    assert!(Figure::data(&map([0.5, 0.5])).contains("cell 1,region"));
+}
+
+#[test]
+fn tracks_have_one_scale_and_a_bar_of_a_round_length() {
+    let panel = |size: f64| TrackPanel {
+        name: format!("size {size}"),
+        path: vec![vec![[0.0, 0.0], [size, size]]],
+        outlines: vec![vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]],
+    };
+    let figure = |panels| TrackPanels { unit: "um".into(), columns: 4, panels, ..TrackPanels::default() };
+    let svg = figure(vec![panel(100.0), panel(10.0)]).svg().expect("a figure");
+    assert!(svg.contains("20 um") || svg.contains("50 um"), "{}", &svg[svg.len() - 900..]);
+    assert!(figure(Vec::new()).svg().is_err());
+    let empty = TrackPanel { name: String::new(), path: Vec::new(), outlines: Vec::new() };
+    assert!(figure(vec![empty]).svg().is_err());
+    // a single point has no size, but a picture
+    let still = TrackPanel { name: "rest".into(), path: vec![vec![[1.0, 1.0]]], outlines: Vec::new() };
+    let svg = figure(vec![still]).svg().expect("a figure");
+    assert!(!svg.contains("NaN") && !svg.contains("inf"));
+}

@@ -1,19 +1,37 @@
 //! Datasets on disk, written atomically.
+//!
+//! The feature `formats`, on by default, has Parquet and HDF5 files, which need C and threads; without it they are refused.
 
+#[cfg(not(feature = "formats"))]
+mod absent;
 pub mod columns;
 mod csv_table;
 pub mod disk;
+mod fields;
 mod folder;
+#[cfg(feature = "formats")]
 mod hdf5;
 mod leftovers;
+#[cfg(feature = "formats")]
+mod parquet_columns;
+#[cfg(feature = "formats")]
 pub mod parquet_input;
+#[cfg(feature = "formats")]
 mod parquet_output;
+#[cfg(feature = "formats")]
 mod parquet_table;
 mod staging;
 
+#[cfg(not(feature = "formats"))]
+use absent as parquet_table;
+#[cfg(not(feature = "formats"))]
+pub use absent::{Absent, read_fields, write_fields};
 pub use csv_table::table_to_csv;
+pub use fields::Fields;
 pub use folder::{Format, read_dataset, read_table_file, write_dataset, write_table};
-pub use hdf5::{Fields, read_fields, write_fields};
+#[cfg(feature = "formats")]
+pub use hdf5::{read_fields, write_fields};
 pub use leftovers::sweep;
+#[cfg(feature = "formats")]
 pub use parquet_input::decoding;
 pub use staging::{Staging, replace_file};

@@ -29,7 +29,7 @@ fn main() {
         }
         std::fs::write(format!("{folder}/{cell}.csv"), text).unwrap();
         let start = Instant::now();
-        let found: Fit = fit(&tracks, &Settings::default()).unwrap();
+        let found: Fit = fit(&tracks, &Settings::default(), &()).unwrap();
         let seconds = start.elapsed().as_secs_f64();
         let start = Instant::now();
         let witness = weak(&tracks, &Settings::default().library).unwrap();

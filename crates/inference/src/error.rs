@@ -67,6 +67,9 @@ pub enum Error {
         /// The known ones.
         known: Vec<String>,
     },
+    /// The watch stopped the search.
+    #[error("stopped before the end")]
+    Interrupted,
     /// A setting out of its range.
     #[error("{key} = {value}: {remedy}")]
     Setting {

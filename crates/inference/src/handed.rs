@@ -5,10 +5,13 @@ use crate::filter::Theta;
 use crate::fit::refit;
 use crate::observation::OBSERVED;
 use crate::{Coefficient, Error, Fit, Result, Settings, Track, identifiability, observation};
+use motiform_dynamics::Watch;
 use serde::{Deserialize, Serialize};
 
-/// Rate at which mirror-symmetric cells may be called handed.
-pub const HANDED_RATE: f64 = 0.01;
+/// Rate at which mirror-symmetric cells may be called handed: rare enough for a thousand cells.
+pub const HANDED_RATE: f64 = 1e-4;
+/// Rate at which the test may be left undecided by chance: from here to [`HANDED_RATE`] neither is said.
+pub const DOUBTED_RATE: f64 = 0.01;
 
 /// The answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -18,8 +21,29 @@ pub enum Symmetry {
     Mirror,
     /// Real coefficients are rejected.
     Handed,
-    /// Real coefficients are enough, but the motion does not fix the imaginary parts either.
+    /// Real coefficients are enough, but the motion does not fix the imaginary parts either; or the likelihood ratio is between [`HANDED_RATE`] and
+    /// [`DOUBTED_RATE`].
     Undecided,
+}
+
+impl Handedness {
+    /// Whether the likelihood ratio speaks against mirror symmetry: exceeded in less than [`DOUBTED_RATE`] of mirror-symmetric cells.
+    #[must_use]
+    pub fn is_doubted(&self) -> bool {
+        self.p_value < DOUBTED_RATE
+    }
+}
+
+impl Symmetry {
+    /// The answer in a word or two.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mirror => "mirror symmetric",
+            Self::Handed => "handed",
+            Self::Undecided => "undecided",
+        }
+    }
 }
 
 /// The comparison of a real model with a complex one.
@@ -44,11 +68,11 @@ pub struct Handedness {
 /// Compares a mirror-symmetric fit with the handed model of the same terms, by likelihood ratio.
 ///
 /// Give the fit of selected terms ([`crate::select`]): with fewer imaginary parts the test sees smaller ones. A cell is called handed where the
-/// ratio is exceeded in less than [`HANDED_RATE`] of mirror-symmetric cells.
+/// ratio is exceeded in less than [`HANDED_RATE`] of mirror-symmetric cells, mirror symmetric where it is not exceeded in [`DOUBTED_RATE`] of them.
 ///
 /// # Errors    of the input; [`Error::Setting`] if `fit` is handed itself
 /// # Checked by  `tests/all/handed.rs`: rate of false alarms, a handed cell
-pub fn handedness(tracks: &[Track], fit: &Fit) -> Result<Handedness> {
+pub fn handedness(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Handedness> {
     observation::check(tracks)?;
     if fit.handed {
         return Err(Error::Setting {
@@ -62,13 +86,13 @@ pub fn handedness(tracks: &[Track], fit: &Fit) -> Result<Handedness> {
     let degrees = coefficients.len();
     coefficients.resize(2 * degrees, 0.0);
     let start = Theta { coefficients, logs: fit.natural.logs };
-    let near = refit(tracks, &settings, fit.scales, &start);
-    let far = refit(
-        tracks,
-        &settings,
-        fit.scales,
-        &Theta { coefficients: vec![0.0; 2 * degrees], logs: [0.0, libm::log(0.4), libm::log(0.4)] },
-    );
+    let near = refit(tracks, &settings, fit.scales, &start, watch)?;
+    if !fit.converged() {
+        return Ok(compare(fit, near, degrees)); // decides nothing, and a second search would not either
+    }
+    let logs = [0.0, libm::log(0.4), libm::log(0.4)];
+    let zero = Theta { coefficients: vec![0.0; 2 * degrees], logs };
+    let far = refit(tracks, &settings, fit.scales, &zero, watch)?;
     let handed = if far.log_likelihood > near.log_likelihood { far } else { near };
     Ok(compare(fit, handed, degrees))
 }
@@ -83,8 +107,8 @@ fn compare(fit: &Fit, handed: Fit, degrees: usize) -> Handedness {
     parts.sort_by(|a, b| certainty(b).total_cmp(&certainty(a)));
     let symmetry = match identifiability(&handed).identifiable && fit.converged() {
         _ if p_value < HANDED_RATE && handed.converged() && fit.converged() => Symmetry::Handed,
-        true => Symmetry::Mirror,
-        false => Symmetry::Undecided,
+        true if p_value >= DOUBTED_RATE => Symmetry::Mirror,
+        _ => Symmetry::Undecided,
     };
     let bic = degrees as f64 * libm::log(numbers) - ratio;
     Handedness { symmetry, ratio, degrees, p_value, bic, parts, fit: handed }

@@ -5,6 +5,7 @@
 //! [`warnings()`] and [`drift()`] what makes the fit doubtful; [`weak()`] is a cheap witness; [`place()`] and [`place_among`] say where the model lies
 //! on the paper's planes; [`Fit::definition`] makes it a model. Knows no file. Method and measurements: docs/inference.md.
 
+mod between;
 mod chi_square;
 mod definition;
 mod draws;
@@ -24,6 +25,7 @@ mod subsets;
 mod warnings;
 mod weak;
 
+pub use between::{BetweenCells, between_cells};
 pub use definition::equations;
 pub use draws::draws;
 pub use error::{Error, Result};
@@ -31,14 +33,15 @@ pub use fit::{
     Coefficient, Ending, Estimate, Fit, Likelihood, Natural, Noise, Parameters, Settings, fit, fit_from,
     likelihood,
 };
-pub use handed::{HANDED_RATE, Handedness, Symmetry, handedness};
+pub use handed::{DOUBTED_RATE, HANDED_RATE, Handedness, Symmetry, handedness};
 pub use identifiability::{
     Combination, EquationKnowledge, FIXED, FREE, Identifiability, Knowledge, identifiability,
 };
 pub use library::{Library, MOST_MODES, Term};
+pub use linear::cholesky;
 pub use names::paper;
 pub use observation::{LEAST_FRAMES, OBSERVED, Observation, Track};
-pub use place::{Coordinate, Place, Placement, Plane, place, place_among};
+pub use place::{Coordinate, Place, Placement, Plane, coordinates, place, place_among};
 pub use scales::Scales;
 pub use subsets::{Selection, Subset, Subsets, TIE, refit_with, select, subsets};
 pub use warnings::{COARSE, Channel, Drift, DriftPoint, Warning, drift, fastest_rate, warnings, whiteness};

@@ -1,6 +1,6 @@
 //! Motions classified in lanes.
 
-use crate::kernel::{Common, FromModel, General, Kernel, Text};
+use crate::kernel::{Common, FromModel, Kernel, Text};
 use motiform_analysis::Result;
 use motiform_analysis::regime::{Candidate, Settings, Verdict, classify_in_lanes};
 use motiform_dynamics::{Model, Watch};
@@ -26,8 +26,7 @@ type Done<'d> = &'d mut dyn FnMut(usize, Result<Option<Verdict>>);
 /// to the last bit. When `watch` stops it, the rest is left.
 pub fn classify_rows(kernel: Kernel, settings: &Settings, next: Next<'_>, done: Done<'_>, watch: &dyn Watch) {
     match kernel {
-        Kernel::CommonTensor => classify::<Common, 6, 12>(settings, next, done, watch),
-        Kernel::Tensor => classify::<General, 6, 12>(settings, next, done, watch),
+        Kernel::Tensor => classify::<Common, 6, 12>(settings, next, done, watch),
         Kernel::Amplitudes(1) => classify::<Text<2>, 2, 4>(settings, next, done, watch),
         Kernel::Amplitudes(2) => classify::<Text<4>, 4, 8>(settings, next, done, watch),
         Kernel::Amplitudes(3) => classify::<Text<6>, 6, 12>(settings, next, done, watch),

@@ -1,6 +1,6 @@
 //! Orbits from their starts to given times, in lanes.
 
-use crate::kernel::{Common, FromModel, General, Kernel, Text};
+use crate::kernel::{Common, FromModel, Kernel, Text};
 use motiform_dynamics::ensemble::{Member, Propagation, Queue, propagate};
 use motiform_dynamics::{Model, Watch};
 
@@ -31,8 +31,7 @@ pub fn propagate_bodies(
     watch: &dyn Watch,
 ) -> bool {
     match kernel {
-        Kernel::CommonTensor => run::<Common, 8>(how, next, done, watch),
-        Kernel::Tensor => run::<General, 8>(how, next, done, watch),
+        Kernel::Tensor => run::<Common, 8>(how, next, done, watch),
         Kernel::Amplitudes(1) => run::<Text<2>, 4>(how, next, done, watch),
         Kernel::Amplitudes(2) => run::<Text<4>, 6>(how, next, done, watch),
         Kernel::Amplitudes(3) => run::<Text<6>, 8>(how, next, done, watch),

@@ -23,8 +23,7 @@ const MOST_MODES: usize = 3;
 fn kernel(body: &(dyn Model + 'static), settings: &LyapunovSettings) -> Option<Kernel> {
     let kernel = Kernel::of(body)?;
     let compiled = match kernel {
-        Kernel::CommonTensor => true,
-        Kernel::Tensor => false,
+        Kernel::Tensor => true,
         Kernel::Amplitudes(modes) => modes <= MOST_MODES,
     };
     (compiled && settings.count == body.dim() && runs_in_lanes(settings)).then_some(kernel)
@@ -53,7 +52,7 @@ pub fn exponents_of_body(
     watch: &dyn Watch,
 ) {
     match kernel(body, settings) {
-        Some(Kernel::CommonTensor) => run::<Common, 6, 42>(body, settings, next, done, watch),
+        Some(Kernel::Tensor) => run::<Common, 6, 42>(body, settings, next, done, watch),
         Some(Kernel::Amplitudes(1)) => run::<Text<2>, 2, 6>(body, settings, next, done, watch),
         Some(Kernel::Amplitudes(2)) => run::<Text<4>, 4, 20>(body, settings, next, done, watch),
         Some(Kernel::Amplitudes(3)) => run::<Text<6>, 6, 42>(body, settings, next, done, watch),

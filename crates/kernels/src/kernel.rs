@@ -10,10 +10,8 @@ use motiform_models::tensor::fourier::{FourierField, terms};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kernel {
     /// The tensor model with the terms of the paper's planes.
-    CommonTensor,
-    /// The tensor model with all terms.
     Tensor,
-    /// Amplitude equations with this number of modes, whatever their terms are.
+    /// Amplitude equations with this number of modes, whatever their terms are; among them, the tensor model with other terms.
     Amplitudes(usize),
 }
 
@@ -21,15 +19,15 @@ pub enum Kernel {
 pub const MOST_MODES: usize = 4;
 
 impl Kernel {
-    /// The smallest kernel that computes this model; `None` if it does not run in lanes.
+    /// The kernel that computes this model; `None` if it does not run in lanes.
     #[must_use]
     pub fn of(model: &dyn Model) -> Option<Self> {
-        let any = model.as_any()?;
-        if let Some(tensor) = any.downcast_ref::<Tensor>() {
-            let common = tensor.terms() & !terms::COMMON == 0;
-            return Some(if common { Self::CommonTensor } else { Self::Tensor });
+        if let Some(tensor) = model.as_any()?.downcast_ref::<Tensor>()
+            && tensor.listed().is_none()
+        {
+            return Some(Self::Tensor);
         }
-        let modes = any.downcast_ref::<Amplitudes>()?.equations().definition().modes.len();
+        let modes = listed(model)?.equations().definition().modes.len();
         (modes <= MOST_MODES).then_some(Self::Amplitudes(modes))
     }
 
@@ -39,24 +37,36 @@ impl Kernel {
         Self::of(model).filter(|_| model.symmetry().rotations)
     }
 
-    /// The smallest kernel that computes what either computes, for models of one kind.
-    #[must_use]
-    pub fn and(self, other: Self) -> Self {
-        if self == Self::CommonTensor { other } else { self }
-    }
-
-    /// The smallest kernel that computes all of these models, which must be of one kind; `None` if some do not run in lanes.
+    /// The kernel that computes all of these models, which must be of one kind; `None` if no single one does.
     pub fn of_all<'m>(models: impl IntoIterator<Item = &'m dyn Model>) -> Option<Self> {
         let mut kernels = models.into_iter().map(Self::of);
         let first = kernels.next()??;
-        kernels.try_fold(first, |kernel, next| Some(kernel.and(next?)))
+        kernels.all(|kernel| kernel == Some(first)).then_some(first)
+    }
+
+    /// The kernel that computes most of these models, which must be of one kind; `None` if none of them runs in lanes.
+    pub fn of_most<'m>(models: impl IntoIterator<Item = &'m dyn Model>) -> Option<Self> {
+        let mut counts: Vec<(Self, usize)> = Vec::new();
+        for kernel in models.into_iter().filter_map(Self::of) {
+            match counts.iter_mut().find(|(known, _)| *known == kernel) {
+                Some((_, count)) => *count += 1,
+                None => counts.push((kernel, 1)),
+            }
+        }
+        counts.into_iter().max_by_key(|&(_, count)| count).map(|(kernel, _)| kernel)
     }
 
     /// Whether it computes this model.
     #[must_use]
     pub fn computes(self, model: &dyn Model) -> bool {
-        Self::of(model).is_some_and(|needed| needed.and(self) == self)
+        Self::of(model) == Some(self)
     }
+}
+
+/// The list of products that a model is computed by, if it is.
+fn listed(model: &dyn Model) -> Option<&Amplitudes> {
+    let any = model.as_any()?;
+    any.downcast_ref::<Amplitudes>().or_else(|| any.downcast_ref::<Tensor>()?.listed())
 }
 
 /// A field for lanes that is taken from a model.
@@ -73,13 +83,11 @@ impl<const TERMS: u32> FromModel for FourierField<f64, TERMS> {
 
 impl<const N: usize> FromModel for AmplitudesField<f64, N> {
     fn from_model(model: &dyn Model) -> Option<Self> {
-        model.as_any()?.downcast_ref::<Amplitudes>()?.field()
+        listed(model)?.field()
     }
 }
 
 /// The tensor model with the terms of the paper's planes.
 pub(crate) type Common = FourierField<f64, { terms::COMMON }>;
-/// The tensor model with all terms.
-pub(crate) type General = FourierField<f64, { terms::ALL }>;
 /// Amplitude equations with `N` unknowns.
 pub(crate) type Text<const N: usize> = AmplitudesField<f64, N>;

@@ -7,8 +7,10 @@ mod classify;
 mod ensemble;
 mod exponents;
 mod kernel;
+mod noisy;
 
 pub use classify::{Row, classify_rows};
 pub use ensemble::{Start, propagate_bodies};
 pub use exponents::{exponents_of_body, has_exponents};
 pub use kernel::{Kernel, MOST_MODES};
+pub use noisy::{NoisyStart, NoisyStates, Stretch, propagate_noisy_bodies};

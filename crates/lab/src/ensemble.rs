@@ -70,14 +70,14 @@ pub fn tracks(
     check_times(times)?;
     let bodies: Vec<Body> =
         members.iter().map(|member| Body::new(plan, member, times)).collect::<Result<_, _>>()?;
-    let lanes = lanes(plan, times).zip(Kernel::of_all(bodies.iter().map(|body| body.model.as_ref())));
+    let lanes = lanes(plan, times).zip(Kernel::of_most(bodies.iter().map(|body| body.model.as_ref())));
     spread(members.len(), threads, watch, |jobs| match &lanes {
         Some(lanes) => in_lanes(plan, &bodies, lanes, jobs, watch),
         None => jobs.each(|job| bodies[job].track(plan, times, watch)),
     })
 }
 
-fn check_times(times: &[f64]) -> Result<(), Error> {
+pub(crate) fn check_times(times: &[f64]) -> Result<(), Error> {
     let remedy = "give increasing times, the first one not before 0";
     let mut before = 0.0;
     for (place, &t) in times.iter().enumerate() {
@@ -120,15 +120,6 @@ impl Body {
         Ok(Self { model, start })
     }
 
-    /// A state as the model's coordinates, x and y.
-    fn named(&self, state: &[f64]) -> Vec<f64> {
-        let (shape, position) = state.split_at(state.len() - 2);
-        let mut named = vec![0.0; self.model.coordinates().len()];
-        self.model.decode(shape, &mut named);
-        named.extend_from_slice(position);
-        named
-    }
-
     /// The track of a single orbit; `None` if it was stopped.
     fn track(&self, plan: &Plan, times: &[f64], watch: &dyn Watch) -> Result<Option<Track>, Error> {
         let c = &plan.computation;
@@ -147,13 +138,22 @@ impl Body {
                 outcome = drive(orbit.as_mut(), &request, &mut ())?;
             }
             match outcome {
-                Outcome::Completed { .. } => states.push(self.named(orbit.state())),
+                Outcome::Completed { .. } => states.push(named(self.model.as_ref(), orbit.state())),
                 Outcome::Interrupted { .. } => return Ok(None),
                 _ => break,
             }
         }
         Ok(Some(Track { states, outcome }))
     }
+}
+
+/// A state as the model's coordinates, x and y.
+pub(crate) fn named(model: &dyn Model, state: &[f64]) -> Vec<f64> {
+    let (shape, position) = state.split_at(state.len() - 2);
+    let mut named = vec![0.0; model.coordinates().len()];
+    model.decode(shape, &mut named);
+    named.extend_from_slice(position);
+    named
 }
 
 /// Tracks in lanes, on this thread.
@@ -164,16 +164,19 @@ fn in_lanes(
     jobs: &Jobs<'_, Track>,
     watch: &dyn Watch,
 ) {
-    let mut next = || {
+    let mut next = || loop {
         let key = jobs.next()?;
         let body = &bodies[key];
-        Some(Start { key, body: body.model.as_ref(), state: body.start.clone() })
+        if kernel.computes(body.model.as_ref()) {
+            return Some(Start { key, body: body.model.as_ref(), state: body.start.clone() });
+        }
+        jobs.done(key, body.track(plan, how.times, watch));
     };
     let mut done = |job: usize, states: Option<Vec<&[f64]>>| {
         let track = match states {
             Some(states) => Ok(Some(Track {
                 outcome: Outcome::Completed { t: how.times.last().copied().unwrap_or(0.0) },
-                states: states.iter().map(|state| bodies[job].named(state)).collect(),
+                states: states.iter().map(|state| named(bodies[job].model.as_ref(), state)).collect(),
             })),
             None => bodies[job].track(plan, how.times, watch),
         };

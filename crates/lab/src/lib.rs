@@ -2,14 +2,17 @@
 //! steady shapes; a [`ScanPlan`](motiform_study::ScanPlan) is computed row by row; datasets and scans become figures.
 
 pub mod analyse;
+pub mod clock;
 pub mod draw;
 pub mod ensemble;
 pub mod equilibria;
 pub mod fields;
 pub mod flow;
+pub mod given;
 pub mod lifetimes;
 pub mod live;
 pub mod naming;
+pub mod noisy;
 pub mod pool;
 mod readings;
 pub mod registry;

@@ -1,16 +1,17 @@
 //! Plan to dataset: the run itself.
 
+use crate::ensemble::{Track, named};
 use crate::live::start;
 use crate::readings::{crossings, measures, motion};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::escape::norm;
 use motiform_dynamics::model::velocity;
 use motiform_dynamics::{
-    Direction, InPlane, Integration, Model, Noise, NoisyOrbit, Normal, Outcome, Part, Request, Section,
-    StepControl, Trajectory, Watch,
+    Direction, InPlane, Integration, Model, Noise, NoiseSteps, NoisyOrbit, Normal, Outcome, Part, Request,
+    Section, StepControl, Trajectory, Watch,
 };
 use motiform_study::dataset::{Dataset, Manifest, VERSION};
-use motiform_study::plan::{Computation, Control, Named, Plan};
+use motiform_study::plan::{Computation, Control, Named, NoiseSettings, Plan};
 use motiform_study::{Ending, Error};
 
 /// Runs a plan.
@@ -214,13 +215,38 @@ pub(crate) fn noisy<'o>(
     stretch: u64,
 ) -> Result<Box<dyn Integration + 'o>, Error> {
     let Some(settings) = computation.noise else { return Ok(orbit) };
+    let steps = noise_steps(computation, settings, model, stretch, (orbit.t(), orbit.state().len()))?;
+    Ok(Box::new(NoisyOrbit::of(orbit, steps)))
+}
+
+/// The noise of a stretch that starts at this time with states of this length.
+pub(crate) fn noise_steps(
+    computation: &Computation,
+    settings: NoiseSettings,
+    model: &dyn Model,
+    stretch: u64,
+    (t, dim): (f64, usize),
+) -> Result<NoiseSteps, Error> {
     let noise = Noise::on(model, settings.velocity, settings.shape, settings.step);
     let normal = Normal::new(computation.seed, u64::MAX - stretch);
-    let noisy = NoisyOrbit::new(orbit, noise, normal)?;
-    Ok(Box::new(match model.noise().diffusion {
-        Some(diffusion) => noisy.with(diffusion),
-        None => noisy,
-    }))
+    let steps = NoiseSteps::new(&noise, normal, t, dim)?;
+    Ok(match model.noise().diffusion {
+        Some(diffusion) => steps.with(diffusion),
+        None => steps,
+    })
+}
+
+/// The run of a plan as a track of its rows; `None` if the watch stopped it.
+pub(crate) fn track(plan: &Plan, model: &dyn Model, watch: &dyn Watch) -> Result<Option<Track>, Error> {
+    let run = Simulation { plan, computation: &plan.computation, model, body: &InPlane(model), watch };
+    let settled = run.transient(0.0, 1.0)?;
+    let recorded = match settled.early() {
+        Some(_) => settled,
+        None => run.record(&settled.last, (0.0, plan.computation.t_end), 1.0, 0.0)?,
+    };
+    let outcome = recorded.ending.outcome;
+    let states = recorded.trajectory.iter().map(|(_, state)| named(model, state)).collect();
+    Ok((!matches!(outcome, Outcome::Interrupted { .. })).then_some(Track { states, outcome }))
 }
 
 /// The norm of a finite state may overflow. Files hold no infinity: it becomes the largest number.

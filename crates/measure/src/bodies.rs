@@ -4,6 +4,7 @@ use crate::Result;
 use crate::record::{Measurement, Recorder, measured, title};
 use motiform_dynamics::{Model, Outcome, Part, StopOnly, Watch};
 use motiform_lab::ensemble::{Member, tracks};
+use motiform_lab::noisy::{has_noisy_lanes, noisy_tracks};
 use motiform_lab::pool;
 use motiform_lab::simulate::simulate;
 use motiform_statistics::{Settings, Track};
@@ -20,7 +21,7 @@ const TOGETHER: usize = 64;
 /// Statistics of `count` bodies: body k is the run of the study with the seed `seed + k`, its transient left out. They are computed on `threads`
 /// threads; those that do not complete (a blow-up, too many steps) are left out and counted. If the watch stops the work, the bodies that are finished are measured.
 ///
-/// Tensor models without noise run in the lanes of vector registers (see [`tracks`]). The result does not depend on `threads`.
+/// Tensor models and amplitude equations of at most four modes run in the lanes of vector registers (see [`tracks`] and [`noisy_tracks`]). The result does not depend on `threads`.
 ///
 /// # Errors
 /// Input that a run rejects; bodies that would all be the same (a given start and no noise); [`Error::Interrupted`] if no body was
@@ -36,7 +37,8 @@ pub fn simulated(
 ) -> Result<Measurement> {
     let plans = plans(study, count)?;
     let noisy = plans[0].computation.noise.is_some();
-    let found = if noisy { one_by_one(&plans, threads, watch)? } else { in_lanes(&plans, threads, watch)? };
+    let alone = noisy && !has_noisy_lanes(&plans[0])?;
+    let found = if alone { one_by_one(&plans, threads, watch)? } else { in_lanes(&plans, threads, watch)? };
     let mut kept = Vec::new();
     let mut seeds = Vec::new();
     let (mut early, mut missing) = (Vec::new(), 0);
@@ -93,7 +95,7 @@ fn plans(study: &Study, count: usize) -> Result<Vec<Plan>> {
 /// How a body ended, and its track; `None` if it was stopped.
 type Body = Option<(Outcome, Track)>;
 
-/// Runs of their own, with noise.
+/// Runs of their own, with noise, of models without lanes.
 fn one_by_one(plans: &[Plan], threads: usize, watch: &dyn Watch) -> Result<Vec<Body>> {
     let done = AtomicUsize::new(0);
     let run = |plan: &Plan| {
@@ -119,10 +121,14 @@ fn in_lanes(plans: &[Plan], threads: usize, watch: &dyn Watch) -> Result<Vec<Bod
     let model = plans[0].info()?.build(&c.parameters.values()).map_err(Error::from)?;
     let mut found = Vec::with_capacity(plans.len());
     for (number, chunk) in plans.chunks(TOGETHER).enumerate() {
-        let members: Vec<Member> = chunk.iter().map(member).collect();
         let at = |body: usize| body.min(plans.len()) as f64 / plans.len() as f64;
         let part = Part { watch, from: at(number * TOGETHER), to: at((number + 1) * TOGETHER) };
-        let Some(tracks) = tracks(&plans[0], &members, &times, threads, &part)? else { break };
+        let tracks = if c.noise.is_some() {
+            noisy_tracks(chunk, threads, &part)?
+        } else {
+            tracks(&plans[0], &chunk.iter().map(member).collect::<Vec<_>>(), &times, threads, &part)?
+        };
+        let Some(tracks) = tracks else { break };
         found.extend(
             tracks.iter().map(|track| Some((track.outcome, recorded(model.as_ref(), &track.states)))),
         );

@@ -133,10 +133,11 @@ const CELL_EQUATIONS: &str = "\
         dx/dt = v";
 
 const TENSOR_EQUATIONS: &str = "\
-(V) dv/dt = gamma v - v^2 v - a1 S v - a2 U v v - a3 U S - a4 (S:S) v - a5 (U:U) v + a6 S S U
-(S) dS/dt = -kappa2 S + b1 (v v - v^2/2) + b2 U v - b3 (S:S) S - b4 v^2 S - b5 (U:U) S + b6 U S v
-(U) dU/dt = -kappa3 U + d1 [v v v] + d2 [S v] - d3 (U:U) U - d4 v^2 U - d5 (S:S) U + 2 d6 [S S v]
-    dx/dt = v;   [..] is the symmetric traceless part
+(V) dv_i/dt = gamma v_i - v^2 v_i - a1 S_ij v_j - a2 U_ijk v_j v_k - a3 U_ijk S_jk - a4 S^2 v_i - a5 U^2 v_i + a6 S_ij S_kl U_jkl
+(S) dS_ij/dt = -kappa2 S_ij + b1 (v_i v_j - v^2 delta_ij/2) + b2 U_ijk v_k - b3 S^2 S_ij - b4 v^2 S_ij - b5 U^2 S_ij + b6 U_ijk S_kl v_l
+(U) dU_ijk/dt = -kappa3 U_ijk + d1 [v_i v_j v_k] + d2 [S_ij v_k] - d3 U^2 U_ijk - d4 v^2 U_ijk - d5 S^2 U_ijk + 2 d6 [S_ij S_kl v_l]
+    dx_i/dt = v_i;   v^2 = v_i v_i,   S^2 = S_ij S_ij,   U^2 = U_ijk U_ijk
+    [..] is the part that is symmetric and traceless in i, j, k; sums over repeated indices
     outline: R(theta) = R0 + S_ij n_i n_j + U_ijk n_i n_j n_k";
 
 impl ModelInfo {

@@ -53,6 +53,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         parameters: parameters(&plan),
         figures: vec![ReportFigure::new(drawn, caption), continued.figure(&boundary_lines(&plan))?],
         claims,
+        ..Section::default()
     })
 }
 

@@ -58,6 +58,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         parameters: parameters.map(|(name, value)| (name.to_owned(), value.to_owned())).to_vec(),
         figures,
         claims,
+        ..Section::default()
     })
 }
 

@@ -54,6 +54,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         parameters: parameters.map(|(name, value)| (name.to_owned(), value)).to_vec(),
         figures: drawn(&dataset, &radial)?,
         claims,
+        ..Section::default()
     })
 }
 

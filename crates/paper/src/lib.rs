@@ -109,5 +109,6 @@ pub fn reproduce(options: &Options, out: &Path, watch: &dyn Watch) -> Result<Rep
         about: claims::ABOUT.to_owned(),
         sections,
         sentences: sentences::sentences(),
+        ..Report::default()
     })
 }

@@ -4,6 +4,7 @@ use crate::errors::{of_json, python};
 use crate::run::{Columns, TableArrays};
 use crate::study::{Study, plan};
 use crate::watch::Caller;
+use motiform_analysis::Lyapunov;
 use motiform_dynamics::Direction;
 use motiform_lab::samples::{self, Basins, Escapes, Samples};
 use motiform_study::{Error, Plan, Random};
@@ -12,7 +13,7 @@ use pyo3::prelude::*;
 use serde_json::{Value, json};
 
 /// The result, or what stopped the analysis.
-fn answer<T>((answer, raised): (Result<Option<T>, Error>, Option<PyErr>)) -> PyResult<T> {
+pub(crate) fn answer<T>((answer, raised): (Result<Option<T>, Error>, Option<PyErr>)) -> PyResult<T> {
     if let Some(raised) = raised {
         return Err(raised);
     }
@@ -95,8 +96,13 @@ pub(crate) fn lyapunov(
     let found = answer(Caller::here(py, progress, |watch| {
         motiform_lab::analyse::lyapunov(&plan, count, (transient, t_end), watch).map(Some)
     }))?;
+    exponents_json(&found, accuracy(&plan)?)
+}
+
+/// Exponents as JSON.
+pub(crate) fn exponents_json(found: &Lyapunov, accuracy: Value) -> PyResult<String> {
     let text = serde_json::to_string(&json!({
-        "accuracy": accuracy(&plan)?,
+        "accuracy": accuracy,
         "exponents": found.exponents,
         "zeros": found.zeros(),
         "without_error": found.without_error(),
@@ -125,6 +131,18 @@ pub(crate) fn equilibria(
     serde_json::to_string(&found).map_err(of_json)
 }
 
+/// The direction of a crossing by its name.
+pub(crate) fn direction(name: &str) -> PyResult<Direction> {
+    match name {
+        "rising" => Ok(Direction::Rising),
+        "falling" => Ok(Direction::Falling),
+        "either" => Ok(Direction::Either),
+        other => Err(PyValueError::new_err(format!(
+            "direction = {other:?}: give \"rising\", \"falling\" or \"either\""
+        ))),
+    }
+}
+
 /// Names, meanings and values of the crossings; how the run ended, as JSON; whether it was complete; the same as text.
 type Crossings = (TableArrays, (String, bool, String));
 
@@ -139,16 +157,7 @@ pub(crate) fn section(
     direction: &str,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Crossings> {
-    let direction = match direction {
-        "rising" => Direction::Rising,
-        "falling" => Direction::Falling,
-        "either" => Direction::Either,
-        other => {
-            return Err(PyValueError::new_err(format!(
-                "direction = {other:?}: give \"rising\", \"falling\" or \"either\""
-            )));
-        }
-    };
+    let direction = self::direction(direction)?;
     let mut study = study.clone();
     study.0.run.dt_out = 0.0; // there are no rows: those of a preset may be too many for this span
     let (table, outcome) = answer(Caller::here(py, progress, |watch| {

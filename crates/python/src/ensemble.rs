@@ -48,17 +48,26 @@ pub(crate) fn ensemble<'py>(
     }
     let found = found.map_err(python)?.ok_or_else(|| PyKeyboardInterrupt::new_err("interrupted"))?;
     let outcomes = serde_json::to_string(&found.iter().map(ended).collect::<Vec<_>>()).map_err(of_json)?;
-    let mut block = vec![f64::NAN; found.len() * times.len() * entries];
-    for (track, room) in found.iter().zip(block.chunks_exact_mut((times.len() * entries).max(1))) {
+    Ok((states(py, &found, times.len(), entries)?, outcomes))
+}
+
+/// The states (member, time, entry), NaN at times that a member did not reach.
+pub(crate) fn states<'py>(
+    py: Python<'py>,
+    tracks: &[Track],
+    times: usize,
+    entries: usize,
+) -> PyResult<Bound<'py, PyArray3<f64>>> {
+    let mut block = vec![f64::NAN; tracks.len() * times * entries];
+    for (track, room) in tracks.iter().zip(block.chunks_exact_mut((times * entries).max(1))) {
         for (state, room) in track.states.iter().zip(room.chunks_exact_mut(entries)) {
             room.copy_from_slice(state);
         }
     }
-    let states = PyArray1::from_vec(py, block).reshape([found.len(), times.len(), entries])?;
-    Ok((states, outcomes))
+    PyArray1::from_vec(py, block).reshape([tracks.len(), times, entries])
 }
 
 /// The outcome, whether it is complete, and the same as text.
-fn ended(track: &Track) -> (motiform_dynamics::Outcome, bool, String) {
+pub(crate) fn ended(track: &Track) -> (motiform_dynamics::Outcome, bool, String) {
     (track.outcome, track.outcome.is_complete(), track.outcome.to_string())
 }

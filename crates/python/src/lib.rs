@@ -10,7 +10,9 @@ mod cells;
 mod curves;
 mod ensemble;
 mod errors;
+mod field;
 mod flow;
+mod foreign;
 mod read;
 mod registry;
 mod run;
@@ -35,6 +37,8 @@ mod _motiform {
     use super::curves::{follow, read_curves};
     #[pymodule_export]
     use super::ensemble::{ensemble, random_starts};
+    #[pymodule_export]
+    use super::field::Field;
     #[pymodule_export]
     use super::flow::Flow;
     #[pymodule_export]

@@ -181,9 +181,23 @@ fn random(value: &Bound<'_, PyAny>) -> PyResult<Random> {
     Ok(random)
 }
 
-/// Sets one run setting.
+/// Sets one setting of a study.
 fn set(study: &mut motiform_study::Study, name: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
     let run: &mut RunSettings = &mut study.run;
+    match name {
+        "seed" => run.seed = whole(name, value)?,
+        "noise" => run.noise = number(name, value)?,
+        "noise_velocity" => run.noise_velocity = Some(number(name, value)?),
+        "random" => study.random = Some(random(value)?),
+        "perturb" => study.perturb = number(name, value)?,
+        _ if set_run(run, name, value)? => {}
+        _ => return Err(PyTypeError::new_err(format!("unknown setting {name:?}"))),
+    }
+    Ok(())
+}
+
+/// Sets one setting that belongs to any orbit; `false` if this is none of them.
+pub(crate) fn set_run(run: &mut RunSettings, name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool> {
     match name {
         "t_end" => run.t_end = number(name, value)?,
         "transient" => run.transient = number(name, value)?,
@@ -192,16 +206,11 @@ fn set(study: &mut motiform_study::Study, name: &str, value: &Bound<'_, PyAny>) 
         "rtol" => run.rtol = number(name, value)?,
         "atol" => run.atol = Some(number(name, value)?),
         "step" => run.step = Some(number(name, value)?),
-        "seed" => run.seed = whole(name, value)?,
         "max_steps" => run.max_steps = whole(name, value)?,
         "escape_norm" => run.escape_norm = number(name, value)?,
-        "noise" => run.noise = number(name, value)?,
-        "random" => study.random = Some(random(value)?),
-        "perturb" => study.perturb = number(name, value)?,
-        "noise_velocity" => run.noise_velocity = Some(number(name, value)?),
-        _ => return Err(PyTypeError::new_err(format!("unknown setting {name:?}"))),
+        _ => return Ok(false),
     }
-    Ok(())
+    Ok(true)
 }
 
 /// The plan of a study.

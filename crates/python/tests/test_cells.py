@@ -152,6 +152,15 @@ def test_simulated_written_read_fitted_and_named_again(name: str, regime: str, t
     assert fits["short"].regime == "undecided" and fits["short"].why
     observed = cells["one"].observe()
     assert observed.regime == ("zigzag" if regime == "zigzag" else "undecided") and observed.why
+    assert len(observed.displacement) > 10 and (observed.displacement["lower"] <= observed.displacement["value"]).all()
+    assert list(observed.correlations) == ["velocity", "z2", "z3"] and observed.correlations["z2"]["value"][0] == 1.0
+    # cells simulated by the fit are like it
+    assert len(fit.simulated) == 9 and not fit.unstable and (fit.simulated["verdict"] == "agrees").sum() >= 6
+    band = fit.bands("speed")
+    assert ((band["low"] <= band["median"]) & (band["median"] <= band["high"])).all()
+    with pytest.raises(KeyError, match="mean-square displacement"):
+        fit.bands("nothing")
+    assert fits["short"].simulated.empty
     # the fit is a model like all others
     assert fit.model is not None and fit.model.classify().regime == regime
     run = fit.model.simulate(100.0, transient=300.0)

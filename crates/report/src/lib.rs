@@ -3,14 +3,18 @@
 //! Knows no model, no analysis and no file. All texts are markup (see [`Label`]); an empty line parts paragraphs.
 
 mod claim;
+mod glossary;
 mod page;
 mod section;
 mod sentence;
+mod table;
 #[cfg(test)]
 mod tests;
 
 pub use claim::{Claim, Counts, Source, Verdict};
+pub use glossary::Definition;
 pub use sentence::Sentence;
+pub use table::{Cell, Table};
 
 use motiform_figures::{Drawn, Label};
 
@@ -21,10 +25,14 @@ pub struct Report {
     pub title: String,
     /// What the page is about.
     pub about: String,
+    /// A page that this one belongs to: words, and the page relative to this one.
+    pub parent: Option<(String, String)>,
     /// Parts, in this order.
     pub sections: Vec<Section>,
     /// The paper, sentence by sentence: shown with the claims that check it; without any, nothing is shown.
     pub sentences: Vec<Sentence>,
+    /// Words that are defined at the end of the page; names of parameters and of table heads that are equal to one of them lead there.
+    pub glossary: Vec<Definition>,
 }
 
 /// A part of a report, such as one figure of a paper.
@@ -36,8 +44,12 @@ pub struct Section {
     pub about: String,
     /// Names and values of what was set.
     pub parameters: Vec<(String, String)>,
+    /// Tables, in this order.
+    pub tables: Vec<Table>,
     /// Pictures, in this order.
     pub figures: Vec<ReportFigure>,
+    /// Further pictures, small, side by side.
+    pub small_figures: Vec<ReportFigure>,
     /// Claims, in this order.
     pub claims: Vec<Claim>,
 }

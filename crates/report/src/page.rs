@@ -1,27 +1,48 @@
 //! The page around the sections: head, verdict, summary table, contents.
 
-use crate::{Claim, Counts, Report, Section, inline, paragraphs, section, sentence};
-use motiform_figures::Label;
+use crate::{
+    Claim, Counts, Picture, Report, ReportFigure, Section, glossary, inline, paragraphs, section, sentence,
+};
 use motiform_figures::svg::escape;
+use motiform_figures::{Label, font_rules};
 
 const STYLE: &str = include_str!("style.css");
 
 pub(super) fn html(report: &Report) -> String {
-    let sections: String = (1..).zip(&report.sections).map(|(number, s)| section::html(number, s)).collect();
+    let sections: String =
+        (1..).zip(&report.sections).map(|(number, s)| section::html(number, s, &report.glossary)).collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta name=\"color-scheme\" content=\"light dark\">\n\
-         <title>{}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{}</h1>\n{}{}</header>\n\
-         {}<main>\n{sections}</main>\n{}{}\n</body>\n</html>\n",
+         <title>{}</title>\n<style>\n{STYLE}{}</style>\n</head>\n<body>\n<header>\n{}<h1>{}</h1>\n{}{}</header>\n\
+         {}<main>\n{sections}</main>\n{}{}{}\n</body>\n</html>\n",
         escape(&Label::parse(&report.title).plain()),
+        fonts(report),
+        parent(report),
         inline(&report.title),
         paragraphs(&report.about),
         total(report),
         contents(report),
         summary(report),
         sentence::html(report),
+        glossary::html(&report.glossary),
     )
+}
+
+/// The fonts of the drawings, if there are any.
+fn fonts(report: &Report) -> &'static str {
+    let drawing = |figure: &ReportFigure| matches!(figure.picture, Picture::Svg(_));
+    let drawn = |s: &Section| s.figures.iter().chain(&s.small_figures).any(drawing);
+    if report.sections.iter().any(drawn) { font_rules() } else { "" }
+}
+
+/// The link to the page that this one belongs to.
+fn parent(report: &Report) -> String {
+    let link = |(words, page): &(String, String)| {
+        format!("<p><a href=\"{}\">{}</a></p>\n", escape(page), inline(words))
+    };
+    report.parent.as_ref().map_or_else(String::new, link)
 }
 
 /// The counts of the whole report as sentences: the paper's claims, then the checks of ours.
@@ -90,18 +111,26 @@ fn table(report: &Report, ours: bool, says: &str) -> String {
 
 /// Links to the sections with their counts.
 fn contents(report: &Report) -> String {
+    let bare = report.sections.iter().all(|section| section.claims.is_empty());
     let item = |(i, s): (usize, &Section)| {
         let of = |ours| Counts::of(s.claims.iter().filter(|claim| claim.is_ours() == ours));
-        format!("<li><a href=\"#s{i}\">{}</a> {}</li>\n", inline(&s.title), counted(of(false), of(true)))
+        let counts = match bare {
+            true => String::new(),
+            false => counted(of(false), of(true)),
+        };
+        format!("<li><a href=\"#s{i}\">{}</a> {counts}</li>\n", inline(&s.title))
     };
     let items: String = (1..).zip(&report.sections).map(item).collect();
     if items.is_empty() {
         return items;
     }
-    let last = match report.sentences.is_empty() {
-        true => "",
-        false => "<p><a href=\"#sentences\">The paper, sentence by sentence</a></p>\n",
-    };
+    let mut last = String::new();
+    if !report.sentences.is_empty() {
+        last += "<p><a href=\"#sentences\">The paper, sentence by sentence</a></p>\n";
+    }
+    if !report.glossary.is_empty() {
+        last += "<p><a href=\"#definitions\">Definitions</a></p>\n";
+    }
     format!(
         "<nav id=\"contents\" aria-label=\"Contents\">\n<h2>Contents</h2>\n<ol>\n{items}</ol>\n{last}</nav>\n"
     )

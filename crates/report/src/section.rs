@@ -3,42 +3,57 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
 
-use crate::{Claim, Picture, ReportFigure, Section, Verdict, inline, paragraphs};
-use motiform_figures::Label;
+use crate::glossary::{Definition, linked};
+use crate::{Claim, Picture, ReportFigure, Section, Verdict, inline, paragraphs, table};
 use motiform_figures::svg::escape;
+use motiform_figures::{Label, embedded};
 
-pub(super) fn html(number: usize, section: &Section) -> String {
-    let figures: String = section.figures.iter().enumerate().map(|(i, f)| figure(number, i + 1, f)).collect();
+pub(super) fn html(number: usize, section: &Section, glossary: &[Definition]) -> String {
+    let drawn = |figures: &[ReportFigure], first: usize| -> String {
+        figures.iter().enumerate().map(|(i, f)| figure(number, first + i, f)).collect()
+    };
+    let figures = drawn(&section.figures, 1);
+    let mut small = drawn(&section.small_figures, section.figures.len() + 1);
+    if !small.is_empty() {
+        small = format!("<div class=\"small\">\n{small}</div>\n");
+    }
+    let tables: String = section.tables.iter().map(|t| table::html(t, glossary)).collect();
     let claims: String = section.claims.iter().enumerate().map(|(i, c)| claim(number, i + 1, c)).collect();
     format!(
-        "<section id=\"s{number}\">\n<h2>{number}. {}</h2>\n{}{}{figures}{claims}</section>\n",
+        "<section id=\"s{number}\">\n<h2>{number}. {}</h2>\n{}{}{tables}{figures}{small}{claims}</section>\n",
         inline(&section.title),
         paragraphs(&section.about),
-        parameters(&section.parameters),
+        parameters(&section.parameters, glossary),
     )
 }
 
-fn parameters(parameters: &[(String, String)]) -> String {
+fn parameters(parameters: &[(String, String)], glossary: &[Definition]) -> String {
     if parameters.is_empty() {
         return String::new();
     }
     let pair = |(name, value): &(String, String)| {
-        format!("<div><dt>{}</dt><dd>{}</dd></div>\n", inline(name), inline(value))
+        format!("<div><dt>{}</dt><dd>{}</dd></div>\n", linked(name, glossary), linked(value, glossary))
     };
     let pairs: String = parameters.iter().map(pair).collect();
     format!("<dl class=\"parameters\">\n{pairs}</dl>\n")
 }
 
-/// The picture is an image of its own, not part of the page, so that no name inside it can clash with another's.
+/// Drawings are elements of the page, which has their fonts once.
 fn figure(section: usize, number: usize, figure: &ReportFigure) -> String {
-    let (kind, data) = match &figure.picture {
-        Picture::Svg(text) => ("svg+xml", BASE64.encode(text)),
-        Picture::Png(bytes) => ("png", BASE64.encode(bytes)),
+    let name = format!("f{section}-{number}");
+    let words = Label::parse(&figure.caption).plain();
+    let picture = match &figure.picture {
+        Picture::Svg(text) => embedded(text, &name, &words),
+        Picture::Png(bytes) => {
+            format!(
+                "<img alt=\"{}\" src=\"data:image/png;base64,{}\">\n",
+                escape(&words),
+                BASE64.encode(bytes)
+            )
+        }
     };
     format!(
-        "<figure id=\"f{section}-{number}\">\n<img alt=\"{}\" src=\"data:image/{kind};base64,{data}\">\n\
-         <figcaption><b>Figure {section}.{number}.</b> {}</figcaption>\n</figure>\n",
-        escape(&Label::parse(&figure.caption).plain()),
+        "<figure id=\"{name}\">\n{picture}<figcaption><b>Figure {section}.{number}.</b> {}</figcaption>\n</figure>\n",
         inline(&figure.caption)
     )
 }

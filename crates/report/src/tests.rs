@@ -29,6 +29,7 @@ fn report() -> Report {
         parameters: vec![("*a*_1".into(), "-1".into())],
         figures: vec![figure(Picture::Svg(svg)), figure(Picture::Png(bytes))],
         claims: vec![claim(Verdict::Holds), claim(Verdict::Differs { explanation: explanation() })],
+        ..Section::default()
     };
     let second = Section {
         title: "Chaos".into(),
@@ -51,6 +52,7 @@ fn report() -> Report {
         about: String::new(),
         sections: vec![first, second, third],
         sentences: vec![sentence((1, 6), Some("background")), sentence((7, 7), None), sentence((8, 8), None)],
+        ..Report::default()
     }
 }
 
@@ -112,10 +114,27 @@ fn only_a_failure_spoils_the_whole() {
 #[test]
 fn the_page_needs_nothing_else() {
     let html = report().html();
-    assert!(!html.contains("http") && !html.contains("url(") && !html.contains("@import"));
+    assert!(!html.contains("http") && !html.contains("@import"));
+    let urls = html.split("url(").skip(1);
+    assert!(
+        urls.clone().count() > 2
+            && urls.into_iter().all(|url| url.starts_with("data:") || url.starts_with('#'))
+    );
     assert!(!html.contains("<link") && !html.contains("<script"));
     let sources = html.matches("src=\"").count();
-    assert_eq!((sources, html.matches("src=\"data:image/").count()), (2, 2));
+    assert_eq!((sources, html.matches("src=\"data:image/").count()), (1, 1));
+}
+
+#[test]
+fn the_fonts_are_on_the_page_once_however_many_drawings_it_has() {
+    let mut report = report();
+    let drawing = report.sections[0].figures[0].clone();
+    report.sections[1].small_figures = vec![drawing.clone(), drawing];
+    let html = report.html();
+    assert_eq!((html.matches("<svg ").count(), html.matches("font-style:italic").count()), (3, 1));
+    report.sections.iter_mut().for_each(|section| section.figures.clear());
+    report.sections[1].small_figures.clear();
+    assert!(!report.html().contains("@font-face"));
 }
 
 #[test]
@@ -134,4 +153,23 @@ fn every_link_leads_somewhere_and_names_are_given_once() {
 fn an_empty_report_is_a_page() {
     let html = Report::default().html();
     assert!(html.starts_with("<!DOCTYPE html>") && !html.contains("Summary") && !html.contains("Contents"));
+}
+
+#[test]
+fn defined_words_lead_to_their_definitions_and_tables_have_heads_in_every_field() {
+    let rows = vec![vec![Cell::link("cell <1>", "cell-1.html"), Cell::number("-1.5")]];
+    let table = Table { caption: "Cells".into(), head: vec!["cell".into(), "*κ*_2".into()], rows };
+    let section = Section {
+        title: "All".into(),
+        parameters: vec![("speed".into(), "1".into()), ("other".into(), "2".into())],
+        tables: vec![table],
+        ..Section::default()
+    };
+    let glossary = vec![Definition::new("speed", "|*v*|"), Definition::new("*κ*_2", "a <rate>")];
+    let html = Report { sections: vec![section], glossary, ..Report::default() }.html();
+    assert!(html.contains("<a class=\"defined\" href=\"#d-speed\">speed</a>"));
+    assert!(html.contains("<dt>other</dt>") && html.contains("id=\"d-speed\""));
+    assert!(html.contains("<a href=\"cell-1.html\">cell &lt;1&gt;</a>"), "{html}");
+    assert!(html.contains("<td class=\"number\" data-name=\"κ2\">\u{2212}1.5</td>"), "{html}");
+    assert!(html.contains("a &lt;rate&gt;") && !html.contains("no claim"));
 }

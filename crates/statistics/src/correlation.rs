@@ -37,15 +37,18 @@ pub fn autocorrelation(tracks: &Tracks, quantity: &Quantity) -> Result<Autocorre
     let longest = tracks.longest_lag().min(LONGEST);
     let mean = if quantity.is_number() { mean(tracks, quantity) } else { 0.0 };
     let mut sums = vec![Sums::new(tracks.groups()); longest + 1];
-    for (unit, track) in tracks.units().iter().enumerate() {
-        let mut series = quantity.of(track);
+    for starts in tracks.starts() {
+        let mut series = quantity.of(starts.track);
         if mean != 0.0 {
             series.components.iter_mut().flatten().for_each(|x| *x -= mean);
         }
-        let reach = longest.min(track.position.len() - 1);
-        let (products, pairs) = series.lagged(reach)?;
+        let (products, pairs) = if starts.is_whole() {
+            series.lagged(longest.min(starts.track.position.len() - 1))?
+        } else {
+            series.lagged_from(starts.range, longest)
+        };
         for ((sums, product), pairs) in sums.iter_mut().zip(products).zip(pairs) {
-            sums.add(tracks.group(unit), product, pairs);
+            sums.add(starts.group, product, pairs);
         }
     }
     Ok(normalised(tracks, quantity, &sums))

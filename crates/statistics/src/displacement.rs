@@ -44,15 +44,17 @@ pub fn mean_square(tracks: &Tracks) -> MeanSquare {
     let lags = spaced(tracks.longest_lag());
     let groups = tracks.groups();
     let mut sums = vec![Sums::new(groups); lags.len()];
-    for (unit, track) in tracks.units().iter().enumerate() {
+    for starts in tracks.starts() {
         for (sums, &lag) in sums.iter_mut().zip(&lags) {
-            let path = &track.position;
-            let Some(later) = path.get(lag..) else { continue };
-            let square = |(a, b): (&[f64; 2], &[f64; 2])| {
+            let (mut sum, mut count) = (0.0, 0.0);
+            for (a, b) in starts.pairs(&starts.track.position, lag) {
                 let [x, y] = [b[0] - a[0], b[1] - a[1]];
-                x * x + y * y
-            };
-            sums.add(tracks.group(unit), path.iter().zip(later).map(square).sum(), later.len() as f64);
+                sum += x * x + y * y;
+                count += 1.0;
+            }
+            if count > 0.0 {
+                sums.add(starts.group, sum, count);
+            }
         }
     }
     MeanSquare { dt: tracks.dt(), lags, sums, groups }
@@ -87,6 +89,13 @@ impl MeanSquare {
     #[must_use]
     pub fn lag(&self, place: usize) -> f64 {
         self.lags[place] as f64 * self.dt
+    }
+
+    /// The curve without a constant part, such as that of independent errors of the positions: of the variance v in each coordinate, `4 v`.
+    #[must_use]
+    pub fn less(mut self, constant: f64) -> Self {
+        self.sums.iter_mut().for_each(|sums| sums.shift(-constant));
+        self
     }
 
     /// The value at a place, without one group if asked.

@@ -57,6 +57,11 @@ impl Sums {
         self.groups[group][1] += count;
     }
 
+    /// Adds a constant to every term.
+    pub(crate) fn shift(&mut self, by: f64) {
+        self.groups.iter_mut().for_each(|group| group[0] += by * group[1]);
+    }
+
     /// The number of terms.
     pub(crate) fn count(&self) -> f64 {
         self.groups.iter().map(|group| group[1]).sum()

@@ -21,6 +21,7 @@ mod statistics;
 mod survival;
 mod tracks;
 mod turning;
+mod windows;
 
 pub use answer::{Answer, Measured, four_digits};
 pub use correlate::lagged_sums;

@@ -9,6 +9,9 @@ const BODIES: usize = 8;
 /// Fewest blocks into which fewer bodies are cut.
 const BLOCKS: usize = 16;
 
+/// Blocks of starting times into which few records are cut.
+const STARTS: usize = 8;
+
 /// Fewest samples of a body, and of a block.
 const LEAST: usize = 16;
 
@@ -38,7 +41,7 @@ pub enum Errors {
         /// How many.
         count: usize,
     },
-    /// Blocks of the tracks, independent if they are long compared with all correlation times. Lags end within a block.
+    /// Blocks of the tracks, independent if they are long compared with all correlation times. Lags end within a block, or, by [`Tracks::of_records`], are as long as one.
     Blocks {
         /// How many.
         count: usize,
@@ -58,6 +61,8 @@ pub struct Tracks {
     bodies: Vec<Track>,
     /// Blocks, where units are not bodies.
     blocks: Option<Vec<Track>>,
+    /// Blocks of starting times of each body, where windows may end beyond.
+    pieces: Option<usize>,
     errors: Errors,
 }
 
@@ -139,17 +144,40 @@ impl Tracks {
     ///
     /// # Errors   no body, `dt` not positive, series of different lengths, fewer than 16 samples, a sample that is not finite
     pub fn new(dt: f64, names: Vec<String>, bodies: Vec<Track>) -> Result<Self> {
-        if !(dt > 0.0 && dt.is_finite()) {
-            return Err(Error::Interval { dt });
-        }
-        if bodies.is_empty() {
-            return Err(Error::NoBody);
-        }
-        for (body, track) in bodies.iter().enumerate() {
-            check(body, track, &names)?;
-        }
+        check_all(dt, &names, &bodies)?;
         let (blocks, errors) = units(&bodies)?;
-        Ok(Self { dt, names, bodies, blocks, errors })
+        Ok(Self { dt, names, bodies, blocks, pieces: None, errors })
+    }
+
+    /// The same for few short records, such as an observed cell: with fewer than 8 bodies, windows are grouped into at least 8 blocks by where they begin, and may end in the
+    /// next block. So lags reach an eighth of the record. Neighbouring groups share samples: at lags of a block's length intervals are somewhat too
+    /// short.
+    ///
+    /// # Errors   as [`Tracks::new`]
+    /// # Checked by  tests/all/records.rs: coverage
+    pub fn of_records(dt: f64, names: Vec<String>, bodies: Vec<Track>) -> Result<Self> {
+        if bodies.is_empty() || bodies.len() >= BODIES {
+            return Self::new(dt, names, bodies);
+        }
+        check_all(dt, &names, &bodies)?;
+        let pieces = STARTS.div_ceil(bodies.len());
+        let length = |track: &Track| track.position.len() / pieces;
+        let cut = |track: &Track| {
+            let length = length(track);
+            let parts = (0..pieces).map(|block| track.part(block * length, length));
+            parts.collect::<Vec<_>>()
+        };
+        let errors = Errors::Blocks {
+            count: pieces * bodies.len(),
+            samples: bodies.iter().map(length).min().unwrap_or(0),
+        };
+        let blocks = Some(bodies.iter().flat_map(cut).collect());
+        Ok(Self { dt, names, bodies, blocks, pieces: Some(pieces), errors })
+    }
+
+    /// Blocks of starting times of each body, where there are some.
+    pub(crate) fn pieces(&self) -> Option<usize> {
+        self.pieces
     }
 
     /// Time between samples.
@@ -188,10 +216,11 @@ impl Tracks {
         unit % self.groups()
     }
 
-    /// Longest lag in samples: half of the longest unit.
+    /// Longest lag in samples: half of the longest unit; a whole one where windows may end in the next one.
     #[must_use]
     pub fn longest_lag(&self) -> usize {
-        self.units().iter().map(|unit| unit.position.len()).max().unwrap_or(0) / 2
+        let longest = self.units().iter().map(|unit| unit.position.len()).max().unwrap_or(0);
+        if self.pieces.is_some() { longest } else { longest / 2 }
     }
 
     /// Velocity, heading, speed and the modes.
@@ -212,6 +241,16 @@ impl Tracks {
             known: std::iter::once("speed".to_owned()).chain(self.names.iter().cloned()).collect(),
         })
     }
+}
+
+fn check_all(dt: f64, names: &[String], bodies: &[Track]) -> Result<()> {
+    if !(dt > 0.0 && dt.is_finite()) {
+        return Err(Error::Interval { dt });
+    }
+    if bodies.is_empty() {
+        return Err(Error::NoBody);
+    }
+    bodies.iter().enumerate().try_for_each(|(body, track)| check(body, track, names))
 }
 
 fn check(body: usize, track: &Track, names: &[String]) -> Result<()> {

@@ -18,13 +18,13 @@ use sha2::{Digest, Sha256};
 pub const PLAN_FORMAT: u32 = 2;
 
 /// Maximum number of rows of a trajectory (about 2 GB in memory).
-const MOST_ROWS: f64 = 2e7;
+pub const MOST_ROWS: f64 = 2e7;
 
 /// Maximum model time: beyond it, the time has too few digits for steps of order 1.
 pub const LONGEST: f64 = 1e9;
 
 /// Default step of steppers without step control: that of the paper.
-const DEFAULT_STEP: f64 = 1e-3;
+pub const DEFAULT_STEP: f64 = 1e-3;
 
 /// The computation, its name and how it is drawn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -8,12 +8,12 @@ use std::path::PathBuf;
 #[non_exhaustive]
 pub enum Error {
     /// The file system refused.
-    #[error("{}: {source}", .file.display())]
+    #[error("{}: {reason}", .file.display())]
     Io {
         /// The file.
         file: PathBuf,
-        /// Its reason.
-        source: std::io::Error,
+        /// Why; in the message, so it is no source.
+        reason: std::io::Error,
     },
     /// No path was given.
     #[error("there is no file to read: give at least one")]

@@ -18,7 +18,7 @@ pub(crate) struct Input {
 /// An error of the file system, with the file.
 pub(crate) fn io(file: &Path) -> impl Fn(io::Error) -> Error {
     let file = file.to_owned();
-    move |source| Error::Io { file: file.clone(), source }
+    move |reason| Error::Io { file: file.clone(), reason }
 }
 
 impl Input {

@@ -66,4 +66,11 @@ impl Tracks {
     pub fn outlines(&self) -> usize {
         self.cells.iter().map(|cell| cell.frames.len()).sum()
     }
+
+    /// Number of cells and outlines, in words: `1 cell, 400 outlines`.
+    #[must_use]
+    pub fn size(&self) -> String {
+        let of = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+        format!("{}, {}", of(self.cells.len(), "cell"), of(self.outlines(), "outline"))
+    }
 }

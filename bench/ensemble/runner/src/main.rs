@@ -2,6 +2,7 @@
 
 mod amplitudes;
 mod exponents;
+mod noisy;
 mod options;
 mod orbits;
 
@@ -14,8 +15,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let result = match task.as_str() {
         "adaptive" | "short" => orbits::adaptive(&options, &task)?,
         "amplitudes" => amplitudes::amplitudes(&options)?,
+        "noisy" => noisy::noisy(&options)?,
         "lyapunov" => exponents::spectra(&options)?,
-        other => return Err(format!("no task {other:?}: adaptive, amplitudes, short, lyapunov").into()),
+        other => return Err(format!("no task {other:?}: adaptive, amplitudes, noisy, short, lyapunov").into()),
     };
     println!("{result}");
     Ok(())

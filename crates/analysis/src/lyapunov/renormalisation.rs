@@ -76,7 +76,7 @@ impl Renormalisation {
     pub(crate) fn stretched(&mut self, t: f64, lengths: &[f64], speed: f64, steps: u64) -> Option<Stretch> {
         if self.averaging {
             let lasted = t - self.start;
-            self.history.push((t, lengths.iter().map(|length| length.ln() / lasted).collect()));
+            self.history.push((t, lengths.iter().map(|&length| libm::log(length) / lasted).collect()));
             self.time += lasted;
             self.reduced_speeds.push(speed);
         } else {
@@ -92,8 +92,8 @@ impl Renormalisation {
 
     /// Stretches half or twice as long, by how far the vectors have separated.
     fn adjust(&mut self, lengths: &[f64]) {
-        let most = lengths.iter().copied().fold(1.0, f64::max).ln();
-        let least = lengths.iter().copied().fold(1.0, f64::min).ln();
+        let most = libm::log(lengths.iter().copied().fold(1.0, f64::max));
+        let least = libm::log(lengths.iter().copied().fold(1.0, f64::min));
         if most - least > PARTED {
             self.interval *= 0.5;
         } else if most - least < 0.25 * PARTED {

@@ -143,7 +143,7 @@ pub(super) fn torus(run: &Lyapunov, witness: &Witness, time: f64) -> Option<Verd
     if value > 2.0 * error || value * run.time > GROWN || !curve {
         return None;
     }
-    let most = (witness.returns as f64).ln();
+    let most = libm::log(witness.returns as f64);
     let growth = (value.abs() + error) * run.time;
     if k > ORDER && growth > most {
         return None;

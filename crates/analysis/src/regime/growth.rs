@@ -15,13 +15,22 @@ const LEAST_RESTS: usize = 8;
 /// the errors of steps decide the difference.
 const CANCELS: f64 = 12.0;
 
+/// Why a run gives no exponent of the motion.
+#[derive(Debug)]
+pub(super) struct NoMeasure {
+    pub(super) why: String,
+    /// Whether the exponent is what errors of steps leave of larger numbers: a longer run would not change that.
+    pub(super) cancels: bool,
+}
+
 /// A run without the rests that it began and ended in, or the reason why its exponent is that of a saddle: at a saddle neighbouring
 /// orbits separate at its own rate, and that is no chaos, however long it lasts. Slower than `slow` of the fastest is rest; `fastest` is
 /// the fastest change of the shape before the run.
-pub(super) fn in_motion(run: &Lyapunov, slow: f64, fastest: f64) -> Result<Lyapunov, String> {
+pub(super) fn in_motion(run: &Lyapunov, slow: f64, fastest: f64) -> Result<Lyapunov, NoMeasure> {
+    let none = |why: String| NoMeasure { why, cancels: false };
     let moved = run.reduced_speeds.iter().any(|&speed| speed >= slow * fastest);
     let Some(run) = moved.then(|| run.moving(slow)).flatten() else {
-        return Err("the orbit rested at a saddle while the exponent was measured".to_owned());
+        return Err(none("the orbit rested at a saddle while the exponent was measured".to_owned()));
     };
     let fastest = run.reduced_speeds.iter().copied().fold(0.0, f64::max);
     let rests: Vec<bool> = run.reduced_speeds.iter().map(|&speed| speed < slow * fastest).collect();
@@ -29,12 +38,16 @@ pub(super) fn in_motion(run: &Lyapunov, slow: f64, fastest: f64) -> Result<Lyapu
     let ends = rests.windows(2).filter(|pair| pair[0] && !pair[1]).count();
     let fall = deepest_fall(&run);
     if share > RESTING && fall > CANCELS {
-        return Err(format!(
+        let why = format!(
             "neighbouring orbits come closer by e^-{fall:.0} and separate again in rests at saddles: what is left of it is no measure of chaos"
-        ));
+        );
+        return Err(NoMeasure { why, cancels: true });
     }
     if share > RESTING && ends < LEAST_RESTS {
-        return Err(format!("the orbit spent {:.0} % of the time in {ends} rests at saddles", 100.0 * share));
+        return Err(none(format!(
+            "the orbit spent {:.0} % of the time in {ends} rests at saddles",
+            100.0 * share
+        )));
     }
     Ok(run)
 }

@@ -13,6 +13,7 @@ mod look;
 mod motion;
 mod recurrence;
 mod repeating;
+mod repeats;
 mod returns;
 mod search;
 mod settings;

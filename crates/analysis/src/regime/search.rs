@@ -4,6 +4,7 @@ use super::growth::{Growth, in_motion};
 use super::heteroclinic::cycle;
 use super::look::{Look, RESTS, Rest};
 use super::recurrence::{Returns, periodic};
+use super::repeats::Repeats;
 use super::settings::{CLOSE, EXACT, NEARLY, Settings, ended};
 use super::stay::Stay;
 use super::steady_turns::SteadyTurns;
@@ -58,8 +59,8 @@ pub(super) struct Search {
     growth: Vec<Growth>,
     /// The stay at an unstable equilibrium that is under way.
     stay: Stay,
-    /// Turns between rests in the last look that were all the same.
-    turns: Option<SteadyTurns>,
+    /// What the latest looks and runs have in common.
+    repeats: Repeats,
     /// What kept the last look from deciding.
     missing: String,
     /// What the next observation is for.
@@ -93,7 +94,7 @@ impl Search {
             rests: Vec::new(),
             growth: Vec::new(),
             stay: Stay::default(),
-            turns: None,
+            repeats: Repeats::default(),
             missing: "no motion had established itself".to_owned(),
             pending: Pending::Look,
         };
@@ -257,7 +258,7 @@ impl Search {
             }
             Returns::None => {}
         }
-        self.turns = SteadyTurns::of(body, &look, &self.settings);
+        self.repeats.turned(SteadyTurns::of(body, &look, &self.settings));
         if self.first || look.is_still(self.settings.hovering()) {
             return self.again(body, watch);
         }
@@ -282,11 +283,13 @@ impl Search {
         self.shape.clone_from(&run.shape);
         let run = match in_motion(run, RESTS, look.fastest) {
             Ok(run) => run,
-            Err(missing) => {
-                self.missing = missing;
+            Err(none) => {
+                self.repeats.measured(none.cancels);
+                self.missing = none.why;
                 return self.again(body, watch);
             }
         };
+        self.repeats.measured(false);
         let witness = chaos::Witness::of(&look);
         self.growth.extend(Growth::of(&run, self.time));
         let chaos = chaos::chaotic(&self.growth, &run, &witness, self.time)?;
@@ -319,14 +322,16 @@ impl Search {
             2.0 * self.span
         };
         self.span = longer.min((self.budget - self.time).max(self.settings.first_look));
-        if self.time < self.budget {
+        let repeated = self.repeats.since();
+        if self.time < self.budget && repeated.is_none() {
             return Ok(self.next());
         }
-        if let Some(turns) = self.turns {
+        if let Some(turns) = self.repeats.turns() {
             let verdict = turns.verdict(self.time);
             return Ok(self.described(verdict, body, self.span, watch)?.into());
         }
-        let why = format!("{} within the budget of {:.0}", self.missing, self.budget);
+        let within = repeated.unwrap_or_else(|| format!("within the budget of {:.0}", self.budget));
+        let why = format!("{} {within}", self.missing);
         let verdict = Verdict::new(Regime::Undetermined, Attractor::Unknown, why, self.time);
         Ok(self.described(verdict, body, self.span, watch)?.into())
     }

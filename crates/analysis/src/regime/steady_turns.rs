@@ -63,6 +63,17 @@ impl SteadyTurns {
         })
     }
 
+    /// Turns by this angle (rad), for tests.
+    #[cfg(test)]
+    pub(super) fn of_angle(angle: f64, alternates: bool) -> Self {
+        Self { angle, alternates, times: (1.0, 1.0), rates: (0.3, -0.2) }
+    }
+
+    /// Whether the turns of another look were the same.
+    pub(super) fn agrees(&self, other: &Self) -> bool {
+        self.alternates == other.alternates && (self.angle - other.angle).abs() < SAME
+    }
+
     /// The verdict, after the model time `time`. It gives no period.
     pub(super) fn verdict(&self, time: f64) -> Verdict {
         let (regime, sense) = if self.alternates {

@@ -87,7 +87,7 @@ impl Regime {
             Self::Zigzag => {
                 "A shape that repeats up to a rotation, without net rotation: the body travels on, left and right by turns."
             }
-            Self::Chaotic => "Neighbouring motions part: the largest Lyapunov exponent is positive.",
+            Self::Chaotic => "Neighbouring motions move apart: the largest Lyapunov exponent is positive.",
             Self::BlowUp => "The shape leaves every bound in finite time.",
             Self::Undetermined => "The evidence does not decide.",
         }

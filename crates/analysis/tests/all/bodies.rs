@@ -41,7 +41,7 @@ fn start(model: &Tensor, components: [f64; 6]) -> Vec<f64> {
 fn the_zigzag_swings_by_eighty_degrees_and_its_legs_turn_by_less() {
     let p = TensorParameters::full(0.9, 0.1);
     let model = Tensor::new(&p);
-    let body = InPlane(model);
+    let body = InPlane(model.clone());
     let u = start(&model, [-0.5, 0.001, 0.0, 0.0, 0.0, 0.0]);
     let mut orbit = Orbit::new(&body, &DOP853, CONTROL, 0.0, &u).unwrap();
     let seen = legs(&path(&mut orbit, &model, 1400.0, 0.02, 1000.0), Ends::Open).unwrap();
@@ -65,7 +65,7 @@ fn rectangular() -> TensorParameters {
 #[test]
 fn rectangular_motion_turns_by_right_angles_and_rests_longer_each_time() {
     let model = Tensor::new(&rectangular());
-    let body = InPlane(model);
+    let body = InPlane(model.clone());
     let u = start(&model, [0.3, 0.001, 0.1, 0.0, 0.0, 0.0]);
     let control = StepControl::Adaptive { rtol: 1e-12, atol: 1e-60 }; // small velocities matter
     let mut orbit = Orbit::new(&body, &DOP853, control, 0.0, &u).unwrap();

@@ -295,6 +295,25 @@ fn rectangular_motion_carries_its_turns_and_its_saddle() {
     assert!(verdict.legs.iter().all(|turn| (turn.abs() - FRAC_PI_2).abs() < 1e-3), "{:?}", verdict.legs);
 }
 
+/// Just above gamma = 0 the lines say that quasi-periodic motion is stable, with rests as long as round-off makes them. Nothing is learned from
+/// looks that say the same: a search ends long before its budget.
+#[test]
+fn turns_that_stay_the_same_are_decided_early() {
+    for kappa2 in [-0.18, -0.15] {
+        assert!(stable(kappa2, 0.006).contains(&'q'));
+        let settings = settings("tensor");
+        let verdict = named(&reduced(kappa2, 0.006), &Random(3).state(6, 0.01), &settings);
+        note("steady turns", &verdict);
+        assert_eq!(
+            (letter(verdict.regime), verdict.why.contains("12 times in a row")),
+            ('q', true),
+            "{}",
+            verdict.why
+        );
+        assert!(verdict.time < 0.7 * settings.budget, "{} of {}", verdict.time, settings.budget);
+    }
+}
+
 /// A motion named from where another look ended is the same motion: an orbit that begins at rest was never fast.
 #[test]
 fn what_begins_where_it_ends_up_is_named_alike() {

@@ -30,7 +30,7 @@ struct Run {
 
 fn run(amplitude: f64, stream: u64) -> Run {
     let model = common::reduced(place().0, place().1);
-    let body = InPlane(model);
+    let body = InPlane(model.clone());
     let start = [0.01, 0.0, 0.005, 0.0015, 0.0, 0.0, 0.0, 0.0];
     let orbit = Orbit::new(&body, &RK4, StepControl::Fixed { step: 0.2 }, 0.0, &start).unwrap();
     let noise = Noise::on(&model, amplitude, amplitude, 0.2);

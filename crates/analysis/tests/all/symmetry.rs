@@ -119,7 +119,7 @@ const CONTROL: StepControl = StepControl::Adaptive { rtol: 1e-13, atol: 1e-15 };
 
 /// The largest difference between the orbit in the plane and the one put together from the moving frame.
 fn lost(model: &Tensor, start: [f64; 6], time: f64) -> f64 {
-    let plane = InPlane(*model);
+    let plane = InPlane(model.clone());
     let frame = MovingFrame(model);
     let mut whole = Orbit::new(&plane, &DOP853, CONTROL, 0.0, &[&start[..], &[0.0; 2]].concat()).unwrap();
     let mut parts = Orbit::new(&frame, &DOP853, CONTROL, 0.0, &[&start[..], &[0.0; 3]].concat()).unwrap();

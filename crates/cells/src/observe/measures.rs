@@ -109,12 +109,8 @@ impl Measures {
 
     /// The same numbers with blocks of the record drawn with replacement: turning rate and its error, scatter of the speed.
     pub(super) fn resampled(&self) -> impl Iterator<Item = Self> + '_ {
-        let mut normal = Normal::new(1, 0);
-        let mut pick = move |n: usize| {
-            // the normal distribution's own integral, as a uniform number
-            let uniform = 0.5 * libm::erfc(-normal.next() / std::f64::consts::SQRT_2);
-            ((uniform * n as f64) as usize).min(n - 1)
-        };
+        let mut random = Normal::new(1, 0);
+        let mut pick = move |n: usize| ((random.uniform() * n as f64) as usize).min(n - 1);
         (0..RESAMPLES).map(move |_| {
             let blocks = &self.series.blocks;
             let drawn: Vec<f64> = blocks.iter().map(|_| blocks[pick(blocks.len())]).collect();
@@ -154,7 +150,7 @@ fn longest(frames: &[Observation], dt: f64) -> Option<Vec<Observation>> {
 }
 
 /// The least number of frames over which most displacements have a clear heading; at most a twentieth of the record.
-fn step(frames: &[Observation]) -> usize {
+pub(crate) fn step(frames: &[Observation]) -> usize {
     let most = (frames.len() / 20).max(1);
     let clear = |lag: &usize| {
         let good = frames.windows(lag + 1).filter(|pair| {

@@ -12,8 +12,8 @@ use motiform_tracks::modes::ModeOptions;
 use motiform_tracks::synthetic::Synthetic;
 use motiform_tracks::{Cell, Options, Outline, Tracks, write_csv};
 
-/// Undeformed radius, in units of the largest deformation that occurs.
-const RADIUS: f64 = 2.0;
+/// Undeformed radius of a body whose largest deformation is of order 1.
+pub(crate) const RADIUS: f64 = 2.0;
 
 /// The study of a preset with noise, sampled every `dt`.
 pub(crate) fn preset(name: &str, noise: f64, (dt, frames): (f64, usize)) -> Study {
@@ -39,21 +39,31 @@ fn modes(columns: &dyn Fn(&str) -> Option<Vec<f64>>, row: usize) -> Vec<[f64; 2]
     vec![[value("z2_re"), value("z2_im")], [value("z3_re"), value("z3_im")]]
 }
 
-/// The body as a cell with noisy vertices, written to a CSV file and read again.
-pub(crate) fn cell(study: &Study, vertex_noise: f64) -> Sample {
+/// The body as outlines about a circle of this radius, with noisy vertices; frames are numbered from 0.
+pub(crate) fn outlines(study: &Study, radius: f64, vertex_noise: f64) -> Vec<Outline> {
     let dataset = simulate(&Plan::new(study).unwrap(), &()).unwrap();
     let column = |name: &str| dataset.trajectory.get(name).map(<[f64]>::to_vec);
     let [t, x, y] = ["t", "x", "y"].map(|name| column(name).unwrap());
-    let mut normal = Normal::new(11, 0);
+    let mut normal = Normal::new(study.run.seed.wrapping_add(8), 0);
     let frames = (0..t.len()).map(|row| {
-        let body = Synthetic { centre: [x[row], y[row]], r0: RADIUS, z: modes(&column, row) };
+        let body = Synthetic { centre: [x[row], y[row]], r0: radius, z: modes(&column, row) };
         let mut points = body.vertices(48, 0.0);
         for point in &mut points {
-            point.iter_mut().for_each(|x| *x += vertex_noise * RADIUS * normal.next());
+            point.iter_mut().for_each(|x| *x += vertex_noise * radius * normal.next());
         }
         Outline { frame: i64::try_from(row).unwrap(), t: row as f64, points, missing: 0 }
     });
-    let cells = vec![Cell { name: "one".to_owned(), frames: frames.collect() }];
+    frames.collect()
+}
+
+/// The body as a cell with noisy vertices, written to a CSV file and read again.
+pub(crate) fn cell(study: &Study, vertex_noise: f64) -> Sample {
+    cell_of(study, RADIUS, vertex_noise)
+}
+
+/// The same with another radius.
+pub(crate) fn cell_of(study: &Study, radius: f64, vertex_noise: f64) -> Sample {
+    let cells = vec![Cell { name: "one".to_owned(), frames: outlines(study, radius, vertex_noise) }];
     let tracks = Tracks {
         cells,
         length_unit: "um".to_owned(),

@@ -1,5 +1,13 @@
 //! Tests of tracked cells: synthetic bodies as outlines in files, and what is said of them.
 
+mod bifurcations;
 mod bodies;
+mod doubts;
+mod every_format;
+mod format_writers;
 mod observed;
+mod population;
+mod prediction;
+mod rates;
+mod relatives;
 mod round_trip;

@@ -29,9 +29,12 @@ pub(crate) struct CellsOptions {
     /// Only these cells (repeatable)
     #[arg(long, value_name = "NAME")]
     pub(crate) cell: Vec<String>,
-    /// Write modes (Parquet) and results into this folder
+    /// Write results into this folder: pages (open report.html), modes and numbers as tables, study files of fits
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// Do not draw pages (report.html and a page per cell) in this folder
+    #[arg(long, requires = "out")]
+    pub(crate) no_report: bool,
     /// Replace an existing folder of results
     #[arg(long)]
     pub(crate) force: bool,
@@ -56,9 +59,22 @@ pub(crate) struct FitCellsOptions {
     /// Models drawn from the estimate, whose motions decide the name
     #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub(crate) draws: u32,
-    /// Seed of the draws
+    /// Seed of the draws and of the simulated cells
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
+    /// Cells simulated by each fit, to be compared with the observed one (0 for none); the least p-value is 1/(N + 1)
+    #[arg(long, value_name = "N", default_value_t = 199, value_parser = clap::value_parser!(u32).range(0..=100_000))]
+    pub(crate) simulations: u32,
+    /// Also look for the nearest bifurcations along gamma, kappa2 and kappa3 of each fit (may take minutes a cell)
+    #[arg(long)]
+    pub(crate) bifurcations: bool,
+    /// Fit one set of coefficients to all cells, with errors from the differences between cells
+    #[arg(long)]
+    pub(crate) together: bool,
+    /// Continue the fits in --out after an interruption: only cells (with --together: stages) that are not done are computed,
+    /// with the same result
+    #[arg(long, requires = "out", conflicts_with = "force")]
+    pub(crate) resume: bool,
     /// Number of threads (default: all cores); does not affect the results
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
     pub(crate) threads: Option<u16>,
@@ -79,10 +95,14 @@ pub(super) const FIT_HELP: &str = "\
 Examples:
   motiform fit cells.xml --out fitted
   motiform fit outlines.csv --pixel-size 0.2 --interval 5 --json
+  motiform fit cells.xml --out fitted --resume    after Ctrl-C or a crash
+  motiform fit cells.xml --together               one law for all cells
   motiform simulate fitted/cell-3.toml            the fitted model is a study file
   motiform explore fitted/cell-3.toml
 
 Maximum likelihood through an extended Kalman filter, over all terms that rotations allow; best
 subsets of terms; a test of mirror symmetry; what the motion determines; the motions of models
-drawn from the estimate; the place on the planes of Figs 4 and 1. Ctrl-C prints the cells that
-are done. Method and definitions: docs/inference.md.";
+drawn from the estimate; the place on the planes of Figs 4 and 1; cells simulated by the fit
+beside the observed one. With --out there are pages to look at, and each cell is written as soon as
+it is done. After Ctrl-C, which prints the cells that are done, or after a crash, the same command
+with --resume continues. Method and definitions: docs/inference.md, docs/cells.md.";

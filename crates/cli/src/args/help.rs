@@ -8,7 +8,7 @@ Start here:
                                                 where its motion begins and ends
   motiform models tensor                        its equations, parameters and presets
 
-Exit codes: 0 success; 1 finished, but some result is not as requested (a run escaped, a disk is full);
+Exit codes: 0 success; 1 finished, but some result is not as requested (a run escaped, a disk is full); \
 2 invalid input; 130 interrupted (results computed so far are kept).";
 
 pub(super) const SIMULATE_HELP: &str = "\
@@ -20,12 +20,12 @@ Examples:
   motiform simulate tensor --preset fig2 --noise 1e-6 --t-end 5000
   motiform simulate my-study.toml --json
 
-Noise: du = f(u) dt + ETA dW for every coordinate u accepted by --initial, with independent Wiener processes W. Without f
-the variance would be ETA^2 t: ETA has the unit of u per square root of model time. For tensor the coordinates are v1, v2 (velocity)
-and s11, s12, u111, u222 (shape), for cell c1, s1, c2, ... of phi. The law is invariant under rotations. The path depends on
+Noise: du = f(u) dt + ETA dW for every coordinate u accepted by --initial, with independent Wiener processes W. Without f \
+the variance would be ETA^2 t: ETA has the unit of u per square root of model time. For tensor the coordinates are v1, v2 (velocity) \
+and s11, s12, u111, u222 (shape), for cell c1, s1, c2, ... of phi. The law is invariant under rotations. The path depends on \
 the seed and the model's rates, not on --dt-out.
 
-The motion is classified from the end of the run if a short integration is conclusive (never with noise); `motiform classify` integrates
+The motion is classified from the end of the run if a short integration is conclusive (never with noise); `motiform classify` integrates \
 for longer.
 
 The output folder contains
@@ -46,7 +46,7 @@ The output folder contains
   _manifest.json       plan, hash, version
   part-*.parquet       one row per cell and initial state; pandas.read_parquet(DIR) reads them all
   _diagram             the phase diagram, as .svg and .png; with one axis also _exponent, if exponents are known
---resume continues a scan that was interrupted or killed. The results do not depend on the number of threads,
+--resume continues a scan that was interrupted or killed. The results do not depend on the number of threads, \
 shards or interruptions. Exit code 1: some cells are undetermined.";
 
 pub(super) const CLASSIFY_HELP: &str = "\
@@ -75,8 +75,8 @@ Examples:
     --in kappa2,kappa3=0.02:0.3
   motiform continue cell --set length=12.6 --from circular --along length=12:13.5 --json
 
-The start is simulated until its motion is named, as `motiform classify` does. That motion is followed to both sides of the range by
-pseudo-arclength, through folds and whether or not it is stable. What begins at its special points is followed too, and so on,
+The start is simulated until its motion is named, as `motiform classify` does. That motion is followed to both sides of the range by \
+pseudo-arclength, through folds and whether or not it is stable. What begins at its special points is followed too, and so on, \
 each branch once, mirror images not twice:
   fold                branch turns back               hopf                a shape begins to pulsate
   pitchfork           a symmetry of a steady shape breaks (drift pitchfork: straight motion begins to turn)
@@ -97,7 +97,7 @@ Examples:
   motiform equilibria tensor --preset fig4 --set kappa2=0.9 --set kappa3=0.1
   motiform equilibria cell --set length=12.6 --starts 50 --json
 
-Newton's method from the circle and from random shapes of several sizes. Nothing proves that these are all; shapes that many starts
+Newton's method from the circle and from random shapes of several sizes. Nothing proves that these are all; shapes that many starts \
 lead to have a large share. unstable: number of growing directions; 0 is stable. Mirror images are listed apart.";
 
 pub(super) const SECTION_HELP: &str = "\
@@ -113,8 +113,8 @@ Examples:
   motiform reproduce --quick
   motiform reproduce fig4 fig5 --out paper
 
-The output folder contains report.html (figures, parameters, and for each claim: the statement of the paper, our result, how it was
-decided, and the reason for any difference), its figures (figure-4.1.svg and .png, .csv with their numbers), and the underlying scans.
+The output folder contains report.html (figures, parameters, and for each claim: the statement of the paper, our result, how it was \
+decided, and the reason for any difference), its figures (figure-4.1.svg and .png, .csv with their numbers), and the underlying scans. \
 Exit code 1: a claim failed.";
 
 pub(super) const LYAPUNOV_HELP: &str = "\
@@ -124,8 +124,8 @@ Examples:
   motiform lyapunov tensor --preset fig5b --samples 32
   motiform lyapunov tensor --preset fig4 --set kappa2=0.3 --set kappa3=0.1 --saddle 200
 
-Errors are half widths of 95 % confidence intervals. The exponents that must be zero (those of the flow direction and
-the rotations) are a self-check. If an average is too short, no error is given and this is reported (exit code 1). A run that escapes has no
+Errors are half widths of 95 % confidence intervals. The exponents that must be zero (those of the flow direction and \
+the rotations) are a self-check. If an average is too short, no error is given and this is reported (exit code 1). A run that escapes has no \
 exponents: use --saddle for the exponent of the chaotic saddle.";
 
 #[cfg(feature = "explorer")]
@@ -136,6 +136,7 @@ Examples:
   motiform explore my.toml          a study file, such as one with your own equations
   motiform explore --port 8080 --no-open
 
-The page shows a map of motions over two parameters (click on it), the moving body, its speed, spectrum, return map and
-Lyapunov exponents, and a slider for every parameter. The server is for this machine only: it listens on 127.0.0.1, its
-address contains a secret, and a page can neither read nor write files. Over ssh: ssh -L 7373:127.0.0.1:7373 HOST.";
+The page shows a map of motions over two parameters (click on it), the moving body, its speed, spectrum, return map \
+and Lyapunov exponents, and a slider for every parameter. The server is for this machine only: it listens on \
+127.0.0.1, its address contains a secret, and a page can neither read nor write files. \
+Over ssh: ssh -L 7373:127.0.0.1:7373 HOST. The same page without a server: the folder docs/site of the sources.";

@@ -1,52 +1,127 @@
 //! `motiform fit`.
 
 use crate::args::FitCellsOptions;
-use crate::commands::observe::{chosen, head, plain_error, quality, read, staging};
-use crate::output::{End, print};
+use crate::commands::observe::{all_cores, chosen, head, plain_error, quality, read};
+use crate::commands::pages::draw;
+use crate::commands::population::fitted;
+use crate::output::{End, print, warn};
 use crate::progress::Progress;
-use motiform_cells::{CellFit, FitOptions, Fitted, Sample, fit_cells, fits_json, write_fits};
+use motiform_cells::{
+    Agreement, CellFit, CellTrack, FitOptions, FitWork, Fitted, Observation, Prediction, Sample, fit_cells,
+    fit_together, fits_json, fitted_population, observe,
+};
 use motiform_inference::{Place, Placement, Symmetry};
+use motiform_lab::scan::Opening;
 use std::fmt::Write;
+use std::path::{Path, PathBuf};
 
 pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
-    let staging = staging(&options.cells)?;
     let sample = read(&options.cells)?;
     let cells = chosen(&sample, &options.cells)?;
-    let settings = FitOptions {
+    let settings = settings(options);
+    let open = |out: &PathBuf| FitWork::open(out, &sample, &cells, &settings, opening(options));
+    let mut work = options.cells.out.as_ref().map(open).transpose().map_err(plain_error)?;
+    if let Some((path, summary)) = work.as_ref().and_then(|work| Some((work.path(), work.finished()?))) {
+        let text = format!("complete       {}: nothing left to compute", path.display());
+        print(&if options.cells.json { summary.to_string() } else { text })?;
+        return Ok(End::Done);
+    }
+    let found = compute(options, &cells, &settings, work.as_mut()).map_err(plain_error)?;
+    let fits: Vec<CellFit> = found.into_iter().flatten().collect();
+    if let (Some(work), false) = (&work, options.cells.no_report) {
+        let observations: Vec<Observation> = cells.iter().map(|cell| observe(cell)).collect();
+        let write = |name: &str, bytes: &[u8]| work.write_file(name, bytes);
+        draw(&sample, (&cells, &observations), (&fits, options.together), threads(options), &write)?;
+    }
+    let folder = work.map(|work| work.write(&sample, &fits)).transpose().map_err(plain_error)?;
+    show(options, &sample, &fits, folder.as_deref())?;
+    let asked = if options.together { 1 } else { cells.len() };
+    if fits.len() < asked {
+        let further = if folder.is_some() { "; the same `motiform fit` with --resume continues" } else { "" };
+        let done = if options.together {
+            "the fit of all cells is not done".to_owned()
+        } else {
+            format!("{} of {asked} cells are done", fits.len())
+        };
+        warn(&format!("interrupted: {done}{further}"));
+        return Ok(End::Interrupted);
+    }
+    let named = |fit: &CellFit| fit.fitted.as_ref().is_ok_and(|fitted| regime(fitted) != "undecided");
+    Ok(if fits.iter().all(named) { End::Done } else { End::NotAsAsked })
+}
+
+fn settings(options: &FitCellsOptions) -> FitOptions {
+    FitOptions {
         order: options.order,
         draws: options.draws as usize,
         seed: options.seed,
+        simulations: options.simulations as usize,
+        bifurcations: options.bifurcations,
+        together: options.together,
         ..FitOptions::default()
+    }
+}
+
+fn opening(options: &FitCellsOptions) -> Opening {
+    match (options.resume, options.cells.force) {
+        (true, _) => Opening::Resume,
+        (_, true) => Opening::Replace,
+        _ => Opening::New,
+    }
+}
+
+fn threads(options: &FitCellsOptions) -> usize {
+    options.threads.map_or_else(all_cores, usize::from)
+}
+
+/// The fits, in a folder if there is one: then each is written as soon as it is done.
+fn compute(
+    options: &FitCellsOptions,
+    cells: &[&CellTrack],
+    settings: &FitOptions,
+    work: Option<&mut FitWork>,
+) -> motiform_cells::Result<Vec<Option<CellFit>>> {
+    let threads = threads(options);
+    let left = work.as_ref().map_or(cells.len(), |work| work.left());
+    let (total, unit) = if options.together { (100.0, "%") } else { (left as f64, "cells") };
+    let watch = Progress::new(total, unit);
+    let found = match work {
+        Some(work) => work.run(cells, threads, &watch),
+        None if options.together => or_none(fit_together(cells, settings, &watch)).map(|fit| vec![fit]),
+        None => fit_cells(cells, settings, threads, &watch),
     };
-    let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let watch = Progress::new(cells.len() as f64, "cells");
-    let found = fit_cells(&cells, &settings, options.threads.map_or_else(all, usize::from), &watch);
     watch.finish();
-    let found = found.map_err(plain_error)?;
-    let complete = found.iter().all(Option::is_some);
-    let fits: Vec<CellFit> = found.into_iter().flatten().collect();
-    let json = options.cells.json.then(|| fits_json(&sample, &fits).to_string());
-    let written =
-        staging.map(|staging| write_fits(&sample, &fits, staging)).transpose().map_err(plain_error)?;
-    print(&match json {
-        Some(json) => json,
-        None => {
-            let mut text = head(&sample);
-            for fit in &fits {
-                write!(text, "\n{}", sentences(&sample, fit)?)?;
-            }
-            if let Some(path) = written {
-                write!(text, "\nwritten        {}", path.display())?;
-            }
-            text.trim_end().to_owned()
-        }
-    })?;
-    let named = |fit: &CellFit| fit.fitted.as_ref().is_ok_and(|fitted| regime(fitted) != "undecided");
-    Ok(match (complete, fits.iter().all(named)) {
-        (false, _) => End::Interrupted,
-        (true, false) => End::NotAsAsked,
-        (true, true) => End::Done,
-    })
+    found
+}
+
+/// What was not interrupted.
+fn or_none(fit: motiform_cells::Result<CellFit>) -> motiform_cells::Result<Option<CellFit>> {
+    match fit {
+        Err(motiform_cells::Error::Study(motiform_study::Error::Interrupted)) => Ok(None),
+        other => other.map(Some),
+    }
+}
+
+fn show(
+    options: &FitCellsOptions,
+    sample: &Sample,
+    fits: &[CellFit],
+    folder: Option<&Path>,
+) -> anyhow::Result<()> {
+    if options.cells.json {
+        return print(&fits_json(sample, fits).to_string());
+    }
+    let mut text = head(sample);
+    for fit in fits {
+        write!(text, "\n{}", sentences(sample, fit)?)?;
+    }
+    if fits.len() > 1 {
+        write!(text, "\n{}", fitted(&fitted_population(fits))?)?;
+    }
+    if let Some(path) = folder {
+        write!(text, "\nwritten        {}", path.display())?;
+    }
+    print(text.trim_end())
 }
 
 fn regime(fitted: &Fitted) -> &'static str {
@@ -54,25 +129,31 @@ fn regime(fitted: &Fitted) -> &'static str {
 }
 
 fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
-    let json = motiform_cells::cell_json(fit);
     let fitted = match &fit.fitted {
         Ok(fitted) => fitted,
         Err(why) => return Ok(format!("cell {:<9} undecided\nbecause        {why}\n", fit.name)),
     };
     let mut text = format!("cell {:<9} {}\n", fit.name, regime(fitted));
-    writeln!(text, "because        {}", json["why"].as_str().unwrap_or_default())?;
+    writeln!(text, "because        {}", fitted.why())?;
     text += &quality(sample.cells.iter().find(|cell| cell.name == fit.name), fit.frames)?;
-    let symmetry = match fitted.handedness.symmetry {
+    let handedness = &fitted.handedness;
+    let symmetry = match handedness.symmetry {
         Symmetry::Handed => "handed: real coefficients are rejected",
         Symmetry::Mirror => "mirror symmetric: imaginary parts would have been seen",
         Symmetry::Undecided => "not decided whether it is handed",
     };
-    writeln!(text, "symmetry       {symmetry}, p = {:.2}", fitted.handedness.p_value)?;
+    let p_value = handedness.p_value;
+    let p = if p_value < 0.01 { format!("{p_value:.1e}") } else { format!("{p_value:.2}") };
+    writeln!(text, "symmetry       {symmetry}, p = {p}")?;
     let model = fitted.model();
-    for coefficient in &model.coefficients {
+    for (place, coefficient) in model.coefficients.iter().enumerate() {
         let part = if coefficient.imaginary { "imaginary part of " } else { "" };
         let estimate = &coefficient.estimate;
-        writeln!(text, "  {part}{:<16} {:>12.5} +- {:.5}", coefficient.name, estimate.value, estimate.error)?;
+        write!(text, "  {part}{:<16} {:>12.5} +- {:.5}", coefficient.name, estimate.value, estimate.error)?;
+        if let Some(error) = fitted.between.as_ref().and_then(|between| between.errors.get(place)) {
+            write!(text, " ({error:.5} between cells)")?;
+        }
+        text.push('\n');
     }
     let ties = fitted.selection.subsets.ties.len();
     if ties > 1 {
@@ -88,10 +169,34 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
     for (name, placement) in ["plane of Fig. 4", "plane of Fig. 1"].into_iter().zip(&fitted.places) {
         writeln!(text, "{name:<15}{}", place(placement))?;
     }
+    if let Some(prediction) = &fit.prediction {
+        writeln!(text, "simulated      {}", simulated(prediction))?;
+    }
+    for near in &fit.bifurcations {
+        writeln!(text, "bifurcation    {}", near.sentence())?;
+    }
     for warning in &fitted.warnings {
         writeln!(text, "warning        {warning}")?;
     }
     Ok(text)
+}
+
+/// How cells simulated by the fit compare with the observed one.
+fn simulated(prediction: &Prediction) -> String {
+    let (cells, lost) = (prediction.cells, prediction.lost);
+    if prediction.is_unstable() {
+        return format!(
+            "{lost} of {} simulated cells leave all bounds: the fit does not describe the cell",
+            cells + lost
+        );
+    }
+    let agree = prediction.count(Agreement::Agrees);
+    let others = prediction.comparisons.iter().filter(|one| one.envelope.agreement != Agreement::Agrees);
+    let others: Vec<String> = others
+        .map(|one| format!("{} (p = {:.3})", one.statistic.kind.name(), one.envelope.p_value))
+        .collect();
+    let but = if others.is_empty() { String::new() } else { format!("; not {}", others.join(", ")) };
+    format!("{agree} of {} statistics agree with {cells} simulated cells{but}", prediction.comparisons.len())
 }
 
 fn place(placement: &Placement) -> String {

@@ -16,6 +16,8 @@ pub(crate) mod lyapunov;
 pub(crate) mod merge;
 pub(crate) mod models;
 pub(crate) mod observe;
+mod pages;
+pub(crate) mod population;
 pub(crate) mod reproduce;
 pub(crate) mod scan;
 pub(crate) mod section;

@@ -1,11 +1,15 @@
 //! `motiform observe`.
 
 use crate::args::{CellsOptions, ObserveOptions};
+use crate::commands::pages::draw;
+use crate::commands::population::observed;
 use crate::output::{End, print, warn};
 use motiform_cells::{
-    CellTrack, FitFolder, Observation, Sample, observations_json, observe, write_observations,
+    CellTrack, FitFolder, Observation, Sample, observations_json, observe, observed_population,
+    write_observations,
 };
 use motiform_files::Staging;
+use motiform_statistics::{Answer, four_digits};
 use motiform_study::Error;
 use motiform_tracks::Options;
 use motiform_tracks::modes::ModeOptions;
@@ -14,7 +18,12 @@ use std::fmt::Write;
 pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
     let staging = staging(&options.cells)?;
     let sample = read(&options.cells)?;
-    let found: Vec<Observation> = chosen(&sample, &options.cells)?.into_iter().map(observe).collect();
+    let cells = chosen(&sample, &options.cells)?;
+    let found: Vec<Observation> = cells.iter().map(|cell| observe(cell)).collect();
+    if let (Some(staging), false) = (&staging, options.cells.no_report) {
+        let write = |name: &str, bytes: &[u8]| staging.write(name, bytes);
+        draw(&sample, (&cells, &found), (&[], false), all_cores(), &write)?;
+    }
     let json = options.cells.json.then(|| observations_json(&sample, &found).to_string());
     let written = staging
         .map(|staging| write_observations(&sample, &found, staging))
@@ -27,6 +36,9 @@ pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
             for one in &found {
                 let cell = sample.cells.iter().find(|cell| cell.name == one.cell);
                 write!(text, "\n{}", sentences(one, cell)?)?;
+            }
+            if found.len() > 1 {
+                write!(text, "\n{}", observed(&observed_population(&found))?)?;
             }
             if let Some(path) = written {
                 write!(text, "\nwritten        {}", path.display())?;
@@ -58,7 +70,29 @@ fn sentences(found: &Observation, cell: Option<&CellTrack>) -> anyhow::Result<St
             measures.turning, measures.turning_error
         )?;
     }
+    if let Some(statistics) = &found.statistics {
+        writeln!(text, "persistence    {}", answer(&statistics.walk.persistence))?;
+        writeln!(text, "diffusion      {}", answer(&statistics.walk.diffusion))?;
+    }
     Ok(text)
+}
+
+/// A value with its interval, or why there is none.
+fn answer(found: &Answer) -> String {
+    match found {
+        Answer::Unknown { reason } => reason.clone(),
+        Answer::Known(found) => match found.interval {
+            Some([low, high]) => {
+                format!("{} ({} to {})", four_digits(found.value), four_digits(low), four_digits(high))
+            }
+            None => four_digits(found.value),
+        },
+    }
+}
+
+/// Threads of the machine.
+pub(crate) fn all_cores() -> usize {
+    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
 }
 
 /// Frames that count, and what is wrong with the others.
@@ -78,11 +112,7 @@ pub(crate) fn quality(cell: Option<&CellTrack>, frames: usize) -> anyhow::Result
 /// The first lines: how much was read, and in which units.
 pub(crate) fn head(sample: &Sample) -> String {
     let tracks = &sample.tracks;
-    let (cells, outlines) = (tracks.cells.len(), tracks.outlines());
-    format!(
-        "{cells} cells, {outlines} outlines; lengths in {}, times in {}\n",
-        tracks.length_unit, tracks.time_unit
-    )
+    format!("{}; lengths in {}, times in {}\n", tracks.size(), tracks.length_unit, tracks.time_unit)
 }
 
 /// The cells of the files; notes about them are warnings.

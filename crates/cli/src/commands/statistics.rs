@@ -24,7 +24,11 @@ pub(crate) fn run(options: &StatisticsOptions) -> anyhow::Result<End> {
     let found = if options.subjects.iter().all(|path| is_dataset(path)) {
         recorded(options)?
     } else {
-        bodies(options)?
+        let Some(found) = bodies(options)? else {
+            warn("interrupted: no body was finished");
+            return Ok(End::Interrupted);
+        };
+        found
     };
     let json = options.json.then(|| summary(&found).to_string());
     let written = match staging {
@@ -63,8 +67,8 @@ fn recorded(options: &StatisticsOptions) -> anyhow::Result<Measurement> {
     read(&options.subjects, options.transient.unwrap_or(0.0), &settings(options)).map_err(plain_error)
 }
 
-/// Bodies that are simulated.
-fn bodies(options: &StatisticsOptions) -> anyhow::Result<Measurement> {
+/// Bodies that are simulated; `None` if none was finished before an interruption.
+fn bodies(options: &StatisticsOptions) -> anyhow::Result<Option<Measurement>> {
     let [subject] = &options.subjects[..] else {
         let list: Vec<_> = options.subjects.iter().map(|path| path.display().to_string()).collect();
         let remedy = "give one model or study, or only folders written by `motiform simulate`";
@@ -77,7 +81,10 @@ fn bodies(options: &StatisticsOptions) -> anyhow::Result<Measurement> {
     let watch = Progress::new(count as f64, "bodies");
     let found = simulated(&study, usize::try_from(count)?, &settings(options), threads, &watch);
     watch.finish();
-    found.map_err(plain_error)
+    match found {
+        Err(motiform_measure::Error::Study(Error::Interrupted)) => Ok(None),
+        found => found.map(Some).map_err(plain_error),
+    }
 }
 
 fn study(options: &StatisticsOptions, subject: &Path) -> Result<Study, Error> {

@@ -25,10 +25,10 @@ const RECORDED: [(&str, &str); 15] = [
     ),
     ("classify tensor --preset fig1 --set kappa2=-0.06 --set gamma=0.02", "b2bb801b441fcf9c"),
     ("classify tensor --preset fig5a", "0cafdcd169e2bcda"),
-    ("classify tensor --preset fig5b --samples 8", "b4f0ac91c3932dc2"),
+    ("classify tensor --preset fig5b --samples 8", "2c2dc952e6043f20"),
     ("classify cell --set length=29.2", "2436b8d8757fade6"),
-    ("lyapunov tensor --preset fig5b --t-end 300", "433e3c0e67dae8f5"),
-    ("lyapunov tensor --preset fig5b --t-end 300 --samples 9", "2e7734b1238e1aea"),
+    ("lyapunov tensor --preset fig5b --t-end 300", "f3782eeac6e920a1"),
+    ("lyapunov tensor --preset fig5b --t-end 300 --samples 9", "1e94a04e7346f0be"),
     ("lyapunov cell --set length=21.75 --transient 200 --t-end 200", "2c5f7a215658a3ff"),
 ];
 

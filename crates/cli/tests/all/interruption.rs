@@ -98,7 +98,7 @@ fn bodies_that_are_finished_are_measured() {
     let mut command = folder.command(&format!("{words} --out found"));
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     wait_until_it_listens(&child);
-    sleep(Duration::from_millis(1500)); // a body takes milliseconds
+    sleep(Duration::from_millis(5000)); // 64 bodies take a fifth of a second, or several on a busy machine
     let kill = Command::new("bash").args(["-c", &format!("kill -INT {}", child.id())]).status().unwrap();
     assert!(kill.success());
     let done = wait(child).expect(130);

@@ -6,7 +6,7 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::process::Command;
 
 /// Each crate, and the crates below it that it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &[&str]); 22] = [
+const LAYERS: [(&str, &[&str]); 25] = [
     ("motiform-dynamics", &[]),
     ("motiform-models", &["motiform-dynamics"]),
     ("motiform-analysis", &["motiform-dynamics"]),
@@ -47,11 +47,28 @@ const LAYERS: [(&str, &[&str]); 22] = [
         "motiform-cells",
         &[
             "motiform-analysis",
+            "motiform-branching",
             "motiform-dynamics",
             "motiform-files",
             "motiform-inference",
             "motiform-lab",
             "motiform-models",
+            "motiform-statistics",
+            "motiform-study",
+            "motiform-tracks",
+        ],
+    ),
+    (
+        "motiform-cell-report",
+        &[
+            "motiform-analysis",
+            "motiform-cells",
+            "motiform-dynamics",
+            "motiform-figures",
+            "motiform-inference",
+            "motiform-lab",
+            "motiform-report",
+            "motiform-statistics",
             "motiform-study",
             "motiform-tracks",
         ],
@@ -98,7 +115,7 @@ const LAYERS: [(&str, &[&str]); 22] = [
         ],
     ),
     (
-        "motiform-explorer",
+        "motiform-session",
         &[
             "motiform-analysis",
             "motiform-branching",
@@ -110,11 +127,14 @@ const LAYERS: [(&str, &[&str]); 22] = [
             "motiform-study",
         ],
     ),
+    ("motiform-explorer", &["motiform-session", "motiform-study"]),
+    ("motiform-web", &["motiform-lab", "motiform-session"]),
     (
         "motiform",
         &[
             "motiform-analysis",
             "motiform-branching",
+            "motiform-cell-report",
             "motiform-cells",
             "motiform-dynamics",
             "motiform-explorer",

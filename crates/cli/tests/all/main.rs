@@ -12,6 +12,7 @@ mod drawing;
 mod equations;
 mod explore;
 mod faults;
+mod fits;
 mod fuzz;
 mod interruption;
 mod kills;

@@ -102,22 +102,28 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
             slopes.k[0][i] = B::select(accepted, slopes.k[const { M::TABLEAU.stages() }][i], slopes.k[0][i]);
         }
         if C::AFTER_STEP {
-            let changed = members.after_step(&mut AfterStep {
-                accepted: accepted & !called,
-                t: self.t,
-                t_end: &mut self.t_end,
-                u: &mut self.u,
-                rates: &mut slopes.k[0],
-                steps: self.steps,
-                rejected: self.rejected,
-            });
-            if changed.any() {
-                self.slopes_of::<C>(members, changed, &mut slopes.k[0]);
-            }
+            self.after_step::<C>(members, accepted & !called, &mut slopes.k[0]);
         }
         let arrived = self.t_end.at_most(self.t) & self.active;
         if (failed | called | arrived).any() {
             self.stop::<C>(members, failed, called, arrived);
+        }
+    }
+
+    /// Lets the members change lanes that have accepted a step, or have entered.
+    #[inline(always)]
+    fn after_step<C: LaneTask<B, D>>(&mut self, members: &mut C, accepted: Mask, rates: &mut [B; D]) {
+        let changed = members.after_step(&mut AfterStep {
+            accepted,
+            t: self.t,
+            t_end: &mut self.t_end,
+            u: &mut self.u,
+            rates,
+            steps: self.steps,
+            rejected: self.rejected,
+        });
+        if changed.any() {
+            self.slopes_of::<C>(members, changed, rates);
         }
     }
 
@@ -206,6 +212,9 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
                 self.h = self.h.with_lane(lane, h);
                 self.controller.remember(lane, previous);
             }
+        }
+        if C::AT_ENTRY {
+            self.after_step::<C>(members, entered, &mut slopes.k[0]);
         }
     }
 }

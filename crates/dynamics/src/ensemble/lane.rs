@@ -17,6 +17,9 @@ pub trait LaneTask<B: Bundle, const D: usize> {
     /// Whether [`LaneTask::after_step`] is to be called.
     const AFTER_STEP: bool = false;
 
+    /// Whether [`LaneTask::after_step`] is also called for lanes that have just entered, with steps estimated where they entered.
+    const AT_ENTRY: bool = false;
+
     /// The field.
     fn field(&self) -> &Self::Field;
 

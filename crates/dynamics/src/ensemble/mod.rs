@@ -10,11 +10,16 @@
 mod adaptive;
 mod dense;
 mod lane;
+mod noisy;
 mod propagate;
 mod tangent;
 
 pub use adaptive::run_adaptive;
 pub use dense::LaneDense;
 pub use lane::{AfterStep, Entry, LaneTask, Leaving, Pace, Stepped, Then, Why};
+pub use noisy::{
+    Extent, NoisyMember, NoisyQueue, NoisySpan, NoisyTrack, ShapeAlone, WithPosition, propagate_noisy,
+    propagate_noisy_on,
+};
 pub use propagate::{InLanes, Member, Propagation, Queue, propagate, propagate_on};
 pub use tangent::LaneTangent;

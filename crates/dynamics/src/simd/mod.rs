@@ -11,6 +11,8 @@
 mod neon;
 mod packed;
 mod portable;
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+mod wasm;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
@@ -43,6 +45,8 @@ pub trait LaneKernel {
 pub enum InstructionSet {
     /// The baseline of this architecture: one lane.
     Portable,
+    /// Pairs of 128-bit registers of WebAssembly, four lanes each.
+    Simd128,
     /// Pairs of 128-bit registers of 64-bit Arm processors, four lanes each.
     Neon,
     /// 256-bit registers, four lanes each.
@@ -63,7 +67,15 @@ impl InstructionSet {
         {
             Self::Neon
         }
-        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+        {
+            Self::Simd128
+        }
+        #[cfg(not(any(
+            target_arch = "x86_64",
+            target_arch = "aarch64",
+            all(target_arch = "wasm32", target_feature = "simd128")
+        )))]
         {
             Self::Portable
         }
@@ -73,9 +85,13 @@ impl InstructionSet {
     #[must_use]
     pub fn available() -> Vec<Self> {
         let widest = Self::widest();
-        let arm = cfg!(target_arch = "aarch64");
-        let there = |set: &Self| *set <= widest && (arm || *set != Self::Neon);
-        [Self::Portable, Self::Neon, Self::Avx2, Self::Avx512].into_iter().filter(there).collect()
+        let elsewhere = |set: &Self| match set {
+            Self::Simd128 => !cfg!(target_arch = "wasm32"),
+            Self::Neon => !cfg!(target_arch = "aarch64"),
+            _ => false,
+        };
+        let all = [Self::Portable, Self::Simd128, Self::Neon, Self::Avx2, Self::Avx512];
+        all.into_iter().filter(|set| *set <= widest && !elsewhere(set)).collect()
     }
 }
 
@@ -115,7 +131,11 @@ pub fn run_wide<K: LaneKernel>(kernel: K) -> Option<K::Output> {
     {
         Some(kernel.run::<Packed<neon::Neon>>())
     }
-    #[cfg(not(target_arch = "aarch64"))]
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+    {
+        Some(kernel.run::<Packed<wasm::Simd128>>())
+    }
+    #[cfg(not(any(target_arch = "aarch64", all(target_arch = "wasm32", target_feature = "simd128"))))]
     {
         let _ = kernel;
         None
@@ -137,6 +157,10 @@ pub fn run_lanes_on<K: LaneKernel>(set: InstructionSet, kernel: K) -> K::Output 
     #[cfg(target_arch = "aarch64")]
     if set > InstructionSet::Portable {
         return kernel.run::<Packed<neon::Neon>>();
+    }
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+    if set > InstructionSet::Portable {
+        return kernel.run::<Packed<wasm::Simd128>>();
     }
     let _ = set;
     kernel.run::<Lanes<1>>()

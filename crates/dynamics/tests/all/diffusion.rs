@@ -144,3 +144,75 @@ fn the_strong_order_is_one_where_processes_commute() {
     let order = libm::log2(coarse(256) / coarse(16)) / 4.0;
     assert!((order - 1.0).abs() < 0.1, "{order} {} {}", coarse(256), coarse(16));
 }
+
+/// Pairs `du = o dW_1`, `dv = u o dW_2`: their fields do not commute; keeps its increments.
+struct Areas {
+    pairs: usize,
+    increments: Arc<Mutex<Vec<f64>>>,
+}
+
+impl Diffusion for Areas {
+    fn processes(&self) -> usize {
+        2 * self.pairs
+    }
+
+    fn kick(&self, process: usize, w: f64, u: &mut [f64]) {
+        self.increments.lock().unwrap().push(w);
+        u[process] += if process.is_multiple_of(2) { w } else { u[process - 1] * w };
+    }
+
+    fn rate(&self) -> f64 {
+        1.0
+    }
+}
+
+/// The last entries of the pairs from 0 on at time 1, by steps of length `h`, and the increments in their order.
+fn areas(pairs: usize, h: f64) -> (Vec<f64>, Vec<f64>) {
+    let increments = Arc::new(Mutex::new(Vec::new()));
+    let diffusion = Areas { pairs, increments: Arc::clone(&increments) };
+    let field = Pull { a: 0.0, k: 0.0, dim: 2 * pairs };
+    let control = StepControl::Fixed { step: h };
+    let orbit = Orbit::new(&field, &RK4, control, 0.0, &vec![0.0; 2 * pairs]).unwrap();
+    let noise = Noise { amplitudes: Vec::new(), rates: Vec::new(), step: h };
+    let mut noisy = NoisyOrbit::new(orbit, noise, Normal::new(11, 1)).unwrap().with(Box::new(diffusion));
+    while noisy.t() < 1.0 {
+        noisy.advance(1.0).unwrap();
+    }
+    let last = noisy.state().iter().skip(1).step_by(2).copied().collect();
+    let increments = increments.lock().unwrap().clone();
+    (last, increments)
+}
+
+/// The scheme knows the increments of the processes, not the areas between them: in a step it takes `W_1` at its middle for `W_1`. The mean
+/// square of what it misses is `E sum_steps (int (W_1 - W_1(middle)) dW_2)^2 = t h/4`: strong order 1/2, with a known constant.
+#[test]
+fn the_strong_order_is_one_half_where_processes_do_not_commute() {
+    let (pairs, fine) = (1000, 1.0 / 1024.0);
+    let (exact, increments) = areas(pairs, fine);
+    let processes = 2 * pairs;
+    let steps: Vec<&[f64]> = increments.chunks_exact(2 * processes).collect();
+    let whole = |part: &[&[f64]], process: usize| -> f64 {
+        part.iter().map(|step| step[process] + step[2 * processes - 1 - process]).sum()
+    };
+    let coarse = |size: usize| {
+        let mut square = 0.0;
+        for pair in 0..pairs {
+            let (mut u, mut v) = (0.0, 0.0);
+            for step in steps.chunks_exact(size) {
+                let (first, second) = step.split_at(size / 2);
+                u += whole(first, 2 * pair);
+                v += u * (whole(first, 2 * pair + 1) + whole(second, 2 * pair + 1));
+                u += whole(second, 2 * pair);
+            }
+            square += (v - exact[pair]).powi(2) / pairs as f64;
+        }
+        square.sqrt()
+    };
+    let order = libm::log2(coarse(256) / coarse(16)) / 4.0;
+    assert!((order - 0.5).abs() < 0.1, "{order}");
+    for size in [16, 64, 256] {
+        // Against the fine steps, which miss a part of their own.
+        let expected = (0.25 * (size as f64 - 1.0) * fine).sqrt();
+        assert!((coarse(size) / expected - 1.0).abs() < 0.1, "{size} {} {expected}", coarse(size));
+    }
+}

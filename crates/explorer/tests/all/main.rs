@@ -3,6 +3,7 @@
 mod branches;
 mod common;
 mod fuzz;
+mod hand;
 mod server;
 mod session;
 mod stop;

@@ -5,7 +5,10 @@
 use crate::common;
 
 use common::Running;
-use motiform_explorer::{Options, Server};
+use motiform_explorer::{Options, Patience, Server};
+use std::io::{Read as _, Write as _};
+use std::net::TcpStream;
+use std::time::{Duration, Instant};
 use tungstenite::Message;
 
 #[test]
@@ -19,6 +22,14 @@ fn the_page_is_served_only_with_the_token() {
         assert!(head.starts_with("http/1.1 200") && head.contains(kind) && !body.is_empty(), "{head}");
         assert!(head.contains("content-security-policy: default-src 'none'; script-src 'self'"));
         assert!(head.contains("referrer-policy: no-referrer") && head.contains("nosniff"));
+    }
+    // Only the page that is asked for by its reader may stand in a frame.
+    for (query, framed) in [("", false), ("?embed", true), ("?embed=body,map", true), ("?embedded", false)] {
+        let (head, _) = server.get(&format!("/{token}/{query}"), &host);
+        assert!(head.starts_with("http/1.1 200"), "{query}: {head}");
+        let denied = (head.contains("x-frame-options: deny"), head.contains("frame-ancestors 'none'"));
+        assert_eq!(denied, (!framed, !framed), "{query}: {head}");
+        assert!(head.contains("default-src 'none'; script-src 'self'"));
     }
     let localhost = format!("localhost:{}", server.port());
     assert!(server.get(&format!("/{token}/"), &localhost).0.starts_with("http/1.1 200"));
@@ -90,7 +101,8 @@ fn what_is_no_message_is_refused_and_the_connection_stays() {
         ["", "nonsense", "{}", "[1]", r#"{"do":"open","path":"/etc/passwd"}"#, r#"{"do":"advance","dt":"x"}"#]
     {
         page.say(bad);
-        assert!(page.json("refused")["why"].as_str().unwrap().len() > 10);
+        let why = page.json("refused")["why"].as_str().unwrap().to_owned();
+        assert!(why.len() > 10 && !why.contains("column") && !why.contains("expected"), "{bad}: {why}");
     }
     page.socket.send(Message::binary(vec![1, 2, 3])).unwrap();
     assert!(page.json("refused")["why"].as_str().unwrap().contains("JSON"));
@@ -104,6 +116,11 @@ fn what_is_no_message_is_refused_and_the_connection_stays() {
         (r#"{"do":"set","parameters":{"kapa2":1}}"#, "kappa2"),
         (r#"{"do":"set","parameters":{"kappa2":1e7}}"#, "10000000"),
         (r#"{"do":"noise","amplitude":-1}"#, "noise"),
+        (r#"{"do":"noise","amplitude":1e9}"#, "0 to 1"),
+        (r#"{"do":"begin","model":"tensor","preset":"fig5a","noise":1.5}"#, "0 to 1"),
+        (r#"{"do":"put","noise":2}"#, "0 to 1"),
+        (r#"{"do":"kick","strength":9}"#, "0 to 3"),
+        (r#"{"do":"pull","state":[0,0,0,0,0,0],"to":[0,0]}"#, "centre"),
         (r#"{"do":"advance","dt":-1}"#, "forward"),
         (r#"{"do":"begin","model":"tensor","preset":null,"state":[1,2]}"#, "6"),
         (r#"{"do":"map","epoch":1,"x":{"name":"kappa2","low":1,"high":1},"y":null,"count":9}"#, "window"),
@@ -132,7 +149,7 @@ fn floods_and_huge_messages_end_a_connection_and_nothing_else() {
             break; // closed already
         }
     }
-    assert!(matches!(flood.closed(), Some(1008) | None));
+    assert_eq!(flood.closed(), Some(1008));
     assert!(other.advance(1.0).t > 0.0, "others do not notice");
     server.page().begin("cell", None);
 }
@@ -141,14 +158,16 @@ fn floods_and_huge_messages_end_a_connection_and_nothing_else() {
 fn pages_are_counted() {
     let server = Running::anywhere();
     let mut pages: Vec<_> = (0..8).map(|_| server.page()).collect();
-    assert_eq!(server.try_page(server.request()).map(|_| ()), Err(503));
+    let mut ninth = server.try_page(server.request()).unwrap();
+    assert_eq!(ninth.closed(), Some(1013), "a page is told why");
+    drop(ninth);
     let mut last = pages.pop().unwrap();
     last.socket.close(None).unwrap();
     last.closed();
     drop(last);
     let again = (0..200).any(|_| {
-        std::thread::sleep(std::time::Duration::from_millis(25));
-        server.try_page(server.request()).is_ok()
+        std::thread::sleep(Duration::from_millis(25));
+        server.try_page(server.request()).unwrap().closes_at_once().is_none()
     });
     assert!(again, "a place is free again");
 }
@@ -177,4 +196,63 @@ fn a_port_that_is_taken_and_a_weak_token_are_said() {
     assert!(taken.contains(&server.port().to_string()) && taken.contains("give another one"), "{taken}");
     let weak = bind(&Options { token: Some("1234".to_owned()), ..Options::default() });
     assert!(weak.contains("16 to 128"), "{weak}");
+}
+
+/// A server whose patience is short.
+fn impatient() -> Running {
+    let short = Duration::from_millis;
+    let patience = Patience { head: short(300), ping: short(100), silence: short(700) };
+    let free = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+    Running::start(&Options { port: Some(free), patience, ..Options::default() })
+}
+
+/// Whether the other side closes this connection within some seconds.
+fn ends(stream: &mut TcpStream) -> bool {
+    stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+    match stream.read(&mut [0; 1024]) {
+        Ok(read) => read == 0,
+        Err(error) => error.kind() == std::io::ErrorKind::ConnectionReset,
+    }
+}
+
+#[test]
+fn who_sends_no_request_is_not_waited_for() {
+    let server = impatient();
+    let mut silent = TcpStream::connect(server.host()).unwrap();
+    let mut slow = TcpStream::connect(server.host()).unwrap();
+    slow.write_all(b"GET / HTTP/1.1\r\nHost: ").unwrap();
+    assert!(ends(&mut silent) && ends(&mut slow));
+    let (head, _) = server.get(&format!("/{}/", server.token()), server.host());
+    assert!(head.starts_with("http/1.1 200"));
+}
+
+#[test]
+fn of_many_connections_without_a_request_the_oldest_ends() {
+    let server = Running::anywhere(); // with its usual patience of ten seconds
+    let begun = Instant::now();
+    let mut silent: Vec<_> = (0..100).map(|_| TcpStream::connect(server.host()).unwrap()).collect();
+    let (head, _) = server.get(&format!("/{}/", server.token()), server.host());
+    assert!(head.starts_with("http/1.1 200"), "others are answered meanwhile");
+    assert!(ends(&mut silent[0]) && ends(&mut silent[30]));
+    assert!(begun.elapsed() < Patience::default().head, "long before their time is over");
+    silent[99].set_read_timeout(Some(Duration::from_millis(50))).unwrap();
+    assert!(silent[99].read(&mut [0; 8]).is_err(), "the last one is waited for");
+}
+
+/// A page that neither reads nor answers pings loses its place; one that only answers pings keeps it.
+#[test]
+fn pings_free_the_place_of_a_page_that_is_gone() {
+    let server = impatient();
+    let mut gone: Vec<_> = (0..7).map(|_| server.page()).collect();
+    let mut kept = server.page();
+    assert_eq!(server.try_page(server.request()).unwrap().closed(), Some(1013));
+    let begun = Instant::now();
+    kept.socket.get_mut().set_read_timeout(Some(Duration::from_millis(100))).unwrap();
+    while begun.elapsed() < Duration::from_secs(2) {
+        let _ = kept.socket.read(); // reading answers pings
+    }
+    kept.socket.get_mut().set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+    kept.begin("tensor", Some("fig5a"));
+    server.page();
+    gone.clear();
 }

@@ -2,6 +2,7 @@
 
 import { MOST_NOISE } from "./controls";
 import { plain } from "./numbers";
+import { Tour } from "./tour/tour";
 import type { Axis, Model, Plane, Registry, Section, Values } from "./protocol";
 
 /** What an address says; whatever it leaves out comes from the preset. */
@@ -17,6 +18,8 @@ export interface Place {
   section: Section | null;
   y: number | null;
   playing: boolean;
+  /** Step of the tour; `null`: none. */
+  tour: number | null;
   t: number;
   position: [number, number] | null;
   state: number[] | null;
@@ -33,6 +36,7 @@ export function write(place: Place): string {
   if (place.speed !== null) pairs.push(["speed", plain(place.speed, 4)]);
   if (place.noise !== null) pairs.push(["noise", place.noise]);
   if (place.section) pairs.push(["section", place.section === "path" && place.y !== null ? `path:${place.y}` : place.section]);
+  if (place.tour !== null) pairs.push(["tour", place.tour]);
   pairs.push(["play", place.playing ? 1 : 0]);
   if (place.state && place.position) pairs.push(["t", place.t], ["at", place.position.join()], ["state", place.state.join()]);
   return `#${pairs.map(([key, value]) => `${key}=${value}`).join("&")}`;
@@ -45,6 +49,9 @@ export function read(hash: string, registry: Registry): { place: Place; notes: s
     const at = pair.indexOf("=");
     if (at > 0) pairs.set(decoded(pair.slice(0, at)), decoded(pair.slice(at + 1)));
   }
+  // A step of the tour alone means its place.
+  const tour = step(finite(pairs.get("tour") ?? ""));
+  if (tour !== null && pairs.size === 1) return read(`${Tour.place(tour)}&tour=${tour}`, registry);
   return new Reader(pairs, registry).read();
 }
 
@@ -80,6 +87,7 @@ class Reader {
       section: section?.kind ?? null,
       y: section?.y ?? null,
       playing: this.take("play", (text) => (text === "0" || text === "1" ? { on: text === "1" } : null))?.on ?? true,
+      tour: this.take("tour", (text) => step(finite(text))),
       t: this.take("t", finite) ?? 0,
       position: this.take("at", (text) => numbers(text, 2)) as [number, number] | null,
       state: this.take("state", (text) => numbers(text, null)),
@@ -141,6 +149,7 @@ function finite(text: string): number | null {
   return Number.isFinite(value) ? value : null;
 }
 
+const step = (value: number | null): number | null => (value !== null && Number.isInteger(value) && value >= 1 && value <= Tour.length ? value : null);
 const positive = (value: number | null): number | null => (value !== null && value > 0 ? value : null);
 const amplitude = (value: number | null): number | null => (value !== null && value >= 0 && value <= MOST_NOISE ? value : null);
 
@@ -152,5 +161,5 @@ function numbers(text: string, count: number | null): number[] | null {
 
 /** The beginning of a preset or model, everything else left to it. */
 export function fresh(model: string, preset: string | null, playing: boolean): Place {
-  return { model, preset, parameters: {}, plane: null, speed: null, noise: null, section: null, y: null, playing, t: 0, position: null, state: null };
+  return { model, preset, parameters: {}, plane: null, speed: null, noise: null, section: null, y: null, playing, tour: null, t: 0, position: null, state: null };
 }

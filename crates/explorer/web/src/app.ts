@@ -5,41 +5,40 @@ import type { Frame } from "./binary";
 import { BodyPanel } from "./body/panel";
 import { showName } from "./body/naming";
 import { BranchPanel } from "./branches/panel";
-import { Connection } from "./connection";
+import { Compare } from "./compare";
 import { Controls } from "./controls";
 import { dispatch, type Hearer } from "./dispatch";
 import { byId, setText } from "./dom";
 import { Editor } from "./editor";
+import { Hand } from "./hand";
 import { expose } from "./handle";
 import { History } from "./history";
 import { Keeper } from "./keeper";
 import { Later } from "./later";
+import type { Connect, Transport } from "./listener";
 import { Loop } from "./loop";
 import { MapPanel } from "./map/panel";
 import { pretty, typeset } from "./numbers";
 import { Opening } from "./opening";
 import { ParameterPanel } from "./parameters";
 import { PresetBar } from "./presets";
-import type { Begun, Changed, Defined, Exponents, Hello, Mistake, Model, Named, Orbit, Refused, Regime, Share, Source, Strips, Values, Wish } from "./protocol";
+import type { Begun, Changed, Defined, Exponents, Hello, Member, Mistake, Model, Named, Orbit, Refused, Regime, ReturnsAhead, Share, Source, Strips, Values, Wish } from "./protocol";
 import { Session } from "./session";
 import { ShareMenu } from "./share";
-import { showConnection } from "./status";
+import { showConnected, showConnection } from "./status";
 import { StripPanels } from "./strips/panels";
 import { onTheme, visible } from "./theme";
+import { SwarmPanel } from "./swarm";
 import { toast } from "./toasts";
+import { Tour } from "./tour/tour";
+import { Undo } from "./undo";
 
 /** The body's colour while its motion has no name. */
 const NAMELESS = "#888888";
 
 export class App implements Hearer {
-  /** Before anything else: it opens while the page is built, and is heard once it stands. */
-  private readonly connection = new Connection({
-    answer: (answer) => dispatch(answer, this),
-    frame: (frame) => this.take(frame),
-    cells: (cells) => this.map.cells(cells),
-    file: (file) => this.share.take(file),
-    open: (open) => this.opened(open),
-  });
+  /** Opened before the panels are built, and heard once they stand. */
+  private readonly connection: Transport;
   readonly map: MapPanel;
   readonly branches: BranchPanel;
   private session: Session | null = null;
@@ -54,18 +53,45 @@ export class App implements Hearer {
 
   private readonly history = new History();
   private readonly keeper = new Keeper(() => this.place());
-  private readonly body = new BodyPanel(this.history, (follow) => this.controls.setFollow(follow));
+  private readonly undo = new Undo(() => this.place(), (place) => this.restore(place));
+  private readonly hand = new Hand({
+    send: (wish) => this.send(wish),
+    speed: () => this.known().speed,
+    rest: (held) => (this.loop.held = held),
+    begins: () => this.undo.note(""),
+  });
+  private readonly swarm = new SwarmPanel({
+    send: (wish) => this.send(wish),
+    regimes: () => this.session?.registry.regimes ?? [],
+    noise: () => this.session?.noise ?? 0,
+    changed: () => this.body?.touch(),
+  });
+  private readonly body: BodyPanel = new BodyPanel(this.history, (follow) => this.controls.setFollow(follow), this.hand, this.swarm.view);
+  private readonly tour = new Tour((hash) => this.visit(read(hash, this.known().registry).place), () => this.keeper.changed());
+  private readonly compare = new Compare((listener) => this.connect(listener), () => ({ place: this.place(), session: this.session, plane: this.map.current() }));
   private readonly parameters = new ParameterPanel((name, value) => this.choose({ [name]: value }), () => this.send({ do: "source" }));
   private readonly editor = new Editor({ send: (wish) => this.send(wish), run: (model) => this.run(model) });
-  private readonly presets = new PresetBar((name) => this.openPreset(name), (name) => this.open(fresh(name, null, this.loop.playing)));
+  private readonly presets = new PresetBar((name) => this.openPreset(name), (name) => this.visit(fresh(name, null, this.loop.playing)));
   private readonly strips: StripPanels;
   private readonly controls: Controls;
   private readonly share: ShareMenu;
   private readonly loop: Loop;
 
-  constructor() {
+  constructor(private readonly connect: Connect) {
+    this.connection = connect({
+      answer: (answer) => dispatch(answer, this),
+      frame: (frame) => this.take(frame),
+      cells: (cells) => this.map.cells(cells),
+      file: (file) => this.share.take(file),
+      swarm: (frame) => this.swarm.take(frame),
+      open: (open, code) => this.opened(open, code),
+    });
     const send = (wish: Wish): void => this.send(wish);
-    this.strips = new StripPanels(this.history, send, (time) => this.body.point(time), () => this.keeper.changed());
+    this.strips = new StripPanels(this.history, send, (time) => this.body.point(time), (before) => {
+      const place = this.place();
+      this.undo.note("", place && { ...place, ...before });
+      this.keeper.changed();
+    });
     const known = { regimes: () => this.session?.registry.regimes ?? [], model: () => this.known().model, parameters: () => this.session?.parameters ?? {} };
     this.branches = new BranchPanel({
       send,
@@ -78,12 +104,13 @@ export class App implements Hearer {
       send,
       ...known,
       choose: (values) => this.choose(values),
+      moves: () => this.undo.note("window"),
       moved: () => this.windowMoved(),
     });
     this.controls = new Controls({
       play: (playing) => this.play(playing),
       restart: () => this.send({ do: "restart" }),
-      kick: () => this.send({ do: "kick" }),
+      kick: (strength) => this.send({ do: "kick", strength }),
       noise: (amplitude) => this.send({ do: "noise", amplitude }),
       speed: (speed) => this.setSpeed(speed),
       trail: (time) => this.body.setTrail(time),
@@ -99,8 +126,11 @@ export class App implements Hearer {
     });
     onTheme(() => this.recolour());
     // The event knows the address that was asked for; the bar may have been written to since.
-    window.addEventListener("hashchange", (event) => this.openAddress(new URL(event.newURL).hash));
-    expose({ frames: () => this.frames, revision: () => this.revision(), frame: () => (this.later.due ? null : this.body.last()), map: this.map, branches: this.branches });
+    window.addEventListener("hashchange", (event) => {
+      this.undo.note("");
+      this.openAddress(new URL(event.newURL).hash);
+    });
+    expose({ frames: () => this.frames, revision: () => this.revision(), frame: () => (this.later.due ? null : this.body.last()), map: this.map, branches: this.branches, body: this.body });
   }
 
   private known(): Session {
@@ -110,7 +140,10 @@ export class App implements Hearer {
 
   /** Before the greeting there is nobody to hear: what is refused then would be taken for a refusal of the beginning. */
   private send(wish: Wish): void {
-    if (this.greeted) this.connection.send(wish);
+    if (!this.greeted) return;
+    if (wish.do === "noise") this.undo.note("noise");
+    else if (wish.do === "kick" || wish.do === "restart" || wish.do === "place") this.undo.note("");
+    this.connection.send(wish);
   }
 
   private draw(now: number, seconds: number): void {
@@ -118,6 +151,7 @@ export class App implements Hearer {
     if (this.body.draw(seconds)) this.later.go();
     this.map.draw();
     this.branches.draw();
+    this.compare.draw(seconds, moving);
     this.strips.draw(now, moving, this.body);
     if (moving) this.keeper.moving(now);
   }
@@ -126,6 +160,7 @@ export class App implements Hearer {
     this.map.touch();
     this.branches.touch();
     this.strips.touch();
+    this.compare.touch();
     this.paintBody();
   }
 
@@ -135,8 +170,8 @@ export class App implements Hearer {
     return this.session?.revision ?? -1;
   }
 
-  private opened(open: boolean): void {
-    showConnection(open);
+  private opened(open: boolean, code: number): void {
+    showConnection(open, code);
     this.greeted = false;
     this.loop.received();
     if (!open) this.share.drop();
@@ -145,6 +180,7 @@ export class App implements Hearer {
   /** The first greeting opens the address; after a loss of the connection the body goes on where it was. */
   hello({ registry, restart, version }: Hello): void {
     this.greeted = true;
+    showConnected(restart !== "");
     setText(byId("banner-command"), restart);
     byId("connection").title = `motiform ${version}`;
     const place = this.place();
@@ -177,7 +213,7 @@ export class App implements Hearer {
   /** A model that the reader wrote. */
   private run(model: Model): void {
     this.define(model);
-    this.open(fresh(model.name, null, this.loop.playing));
+    this.visit(fresh(model.name, null, this.loop.playing));
   }
 
   begun(begun: Begun): void {
@@ -185,6 +221,7 @@ export class App implements Hearer {
     const place = this.opening.agreed();
     session.begun(begun, this.speedOf(place, begun));
     this.history.clear();
+    this.swarm.clear();
     this.body.begin();
     if (this.map.current()) this.branches.forget();
     this.loop.look();
@@ -204,6 +241,7 @@ export class App implements Hearer {
     else this.strips.begin(model.observables, preset?.section ?? "speed", null);
     const home = preset?.plane ?? model.plane;
     this.map.begin(place?.plane ?? home, home);
+    this.tour.mark();
     this.windowMoved();
   }
 
@@ -219,9 +257,10 @@ export class App implements Hearer {
   changed(changed: Changed): void {
     const session = this.known();
     const moved = session.agreed(changed);
+    this.hand.answered();
     // A point of a branch may lie off the map, whose axes were changed since.
     if (moved.some((name) => !this.map.isAxis(name))) this.map.renew();
-    if (!this.loop.playing) this.loop.look();
+    if (!this.loop.playing || this.loop.held) this.loop.look();
     this.renew(session);
   }
 
@@ -235,6 +274,7 @@ export class App implements Hearer {
     this.loop.ended = false;
     byId("ended").hidden = true;
     this.naming();
+    this.swarm.renew();
     this.strips.renew();
     this.keeper.changed();
   }
@@ -249,7 +289,7 @@ export class App implements Hearer {
 
   private name(regime: Regime | null, why: string): void {
     this.regime = regime;
-    showName(regime, why);
+    showName(regime, why, regime ? null : this.map.nameHere());
     this.paintBody();
   }
 
@@ -264,6 +304,14 @@ export class App implements Hearer {
 
   analysed(strips: Strips, current: boolean): void {
     this.strips.take(strips, current);
+  }
+
+  member(member: Member): void {
+    this.swarm.member(member);
+  }
+
+  returned(ahead: ReturnsAhead): void {
+    this.strips.returned(ahead);
   }
 
   ended(text: string): void {
@@ -303,15 +351,39 @@ export class App implements Hearer {
 
   private openPreset(name: string): void {
     const preset = this.known().registry.presets.find((one) => one.name === name);
-    if (preset) this.open(fresh(preset.model, name, this.loop.playing));
+    if (!preset) return;
+    this.tour.show(null);
+    this.visit(fresh(preset.model, name, this.loop.playing));
+  }
+
+  /** Another place: Back comes back to this one as it is now. */
+  private visit(place: Place): void {
+    this.undo.note("");
+    this.keeper.leave(place);
+    this.open(place);
   }
 
   private openAddress(hash = location.hash): void {
     const { place, notes } = read(hash, this.known().registry);
     if (notes.length) toast(`Ignored in the address: ${notes.join(", ")}`);
+    this.tour.show(place.tour);
     this.loop.playing = place.playing;
     this.controls.setPlaying(place.playing);
     this.open(place);
+  }
+
+  /** A place of before: the same body is changed, another one begins. */
+  private restore(place: Place): void {
+    const session = this.known();
+    if (place.model !== session.model.name || place.preset !== (session.preset?.name ?? null)) return this.open(place);
+    const { state, position, t } = place;
+    const noise = place.noise ?? session.model.noise;
+    this.send({ do: "put", parameters: { ...session.base, ...place.parameters }, state, position, velocity: null, t, noise: noise === session.noise ? null : noise });
+    if (place.plane) this.map.return(place.plane);
+    if (place.speed !== null) session.speed = place.speed;
+    this.controls.turnSpeed(session.speed);
+    if (place.section) this.strips.choose(place.section, place.y);
+    this.keeper.changed();
   }
 
   private open(place: Place): void {
@@ -321,6 +393,7 @@ export class App implements Hearer {
   /** New values: sent with the next frame, in one message however many there are. */
   private choose(values: Values): void {
     if (!this.session) return;
+    this.undo.note(`set ${Object.keys(values).join()}`);
     this.session.want(values);
     this.parameters.show(this.session.parameters);
     this.map.touch();
@@ -331,6 +404,7 @@ export class App implements Hearer {
   }
 
   private flush(now: number): void {
+    this.hand.flush(now);
     const values = this.opening.under ? null : this.session?.take(now);
     if (!values) return;
     this.send({ do: "set", parameters: values });
@@ -345,6 +419,7 @@ export class App implements Hearer {
   }
 
   private setSpeed(speed: number): void {
+    this.undo.note("speed");
     this.known().speed = speed;
     this.keeper.changed();
   }
@@ -370,6 +445,7 @@ export class App implements Hearer {
       noise: session.noised(),
       ...this.strips.section(),
       playing: this.loop.playing,
+      tour: this.tour.step,
       t: frame.t,
       position: [frame.x, frame.y],
       state: [...frame.state],

@@ -3,6 +3,7 @@
 const FRAME = 1;
 const CELLS = 2;
 const FILE = 3;
+const SWARM = 4;
 const HEADER = 16;
 
 /** A moment of the motion, as views into the message: nothing is copied. */
@@ -33,6 +34,20 @@ export interface Cells {
   view: DataView;
 }
 
+/** The bodies of a swarm, as views into the message. */
+export interface SwarmFrame {
+  kind: "swarm";
+  revision: number;
+  t: number;
+  count: number;
+  /** Points of each outline. */
+  points: number;
+  /** x, y and distance of each body. */
+  numbers: Float64Array;
+  /** Pairs relative to the places, one outline after the other. */
+  outlines: Float32Array;
+}
+
 /** A file to keep. */
 export interface File {
   kind: "file";
@@ -42,7 +57,7 @@ export interface File {
 }
 
 /** Reads a binary message; `null` where its kind is unknown or it is cut short. */
-export function decode(buffer: ArrayBuffer): Frame | Cells | File | null {
+export function decode(buffer: ArrayBuffer): Frame | Cells | SwarmFrame | File | null {
   if (buffer.byteLength < 8) return null;
   const view = new DataView(buffer);
   switch (view.getUint8(0)) {
@@ -50,6 +65,8 @@ export function decode(buffer: ArrayBuffer): Frame | Cells | File | null {
       return frame(buffer, view);
     case CELLS:
       return { kind: "cells", epoch: view.getUint32(4, true), count: view.getUint16(2, true), view: new DataView(buffer, HEADER) };
+    case SWARM:
+      return swarm(buffer, view);
     case FILE:
       return file(buffer, view);
     default:
@@ -71,6 +88,15 @@ function frame(buffer: ArrayBuffer, view: DataView): Frame | null {
   const revision = view.getUint32(8, true);
   const [t, x, y, radius] = head;
   return { kind: "frame", revision, outlined: (flags & 1) !== 0, behind: (flags & 2) !== 0, t, x, y, radius, state, rows, columns, outline };
+}
+
+function swarm(buffer: ArrayBuffer, view: DataView): SwarmFrame | null {
+  const [count, points] = [view.getUint16(2, true), view.getUint16(4, true)];
+  const first = HEADER + 8;
+  if (buffer.byteLength < first + count * (24 + 8 * points)) return null;
+  const numbers = new Float64Array(buffer, first, 3 * count);
+  const outlines = new Float32Array(buffer, first + 24 * count, 2 * points * count);
+  return { kind: "swarm", revision: view.getUint32(8, true), t: view.getFloat64(HEADER, true), count, points, numbers, outlines };
 }
 
 function file(buffer: ArrayBuffer, view: DataView): File | null {

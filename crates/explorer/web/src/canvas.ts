@@ -1,5 +1,7 @@
 /** A canvas that is as sharp as the screen and as large as its place on the page. */
 
+import { currentInks } from "./theme";
+
 export class Sheet {
   readonly g: CanvasRenderingContext2D;
   width = 0;
@@ -10,7 +12,7 @@ export class Sheet {
   constructor(
     readonly canvas: HTMLCanvasElement,
     changed: () => void,
-    opaque = false,
+    private readonly opaque = false,
   ) {
     const g = canvas.getContext("2d", { alpha: !opaque });
     if (!g) throw new Error("this browser does not support canvas drawing");
@@ -36,6 +38,8 @@ export class Sheet {
     Object.assign(this, { width, height, ratio });
     this.canvas.width = Math.round(width * ratio);
     this.canvas.height = Math.round(height * ratio);
+    // An opaque canvas is black until something is drawn.
+    if (this.opaque) this.clear(currentInks().plot);
     return true;
   }
 }

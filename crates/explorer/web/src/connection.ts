@@ -1,21 +1,16 @@
 /** The live connection: one WebSocket, tried again once a second after it closed. */
 
-import { decode, type Cells, type File, type Frame } from "./binary";
-import type { Answer, Wish } from "./protocol";
-
-export interface Listener {
-  answer(answer: Answer): void;
-  frame(frame: Frame): void;
-  cells(cells: Cells): void;
-  file(file: File): void;
-  /** The connection opened (`true`) or closed. */
-  open(open: boolean): void;
-}
+import { hear, type Listener, type Transport } from "./listener";
+import type { Wish } from "./protocol";
 
 const RETRY = 1000;
+/** The server refuses a page beyond its number: it is asked less often. */
+export const FULL = 1013;
+const RETRY_FULL = 3000;
 
-export class Connection {
+export class Connection implements Transport {
   private socket: WebSocket | null = null;
+  private over = false;
 
   constructor(private readonly listener: Listener) {
     this.connect();
@@ -25,9 +20,13 @@ export class Connection {
     return this.socket?.readyState === WebSocket.OPEN;
   }
 
-  /** Says it where the connection is open; a wish made while it is closed is dropped, `begin` follows the next greeting. */
   send(wish: Wish): void {
     if (this.open) this.socket?.send(JSON.stringify(wish));
+  }
+
+  end(): void {
+    this.over = true;
+    this.socket?.close();
   }
 
   private connect(): void {
@@ -36,23 +35,13 @@ export class Connection {
     address.hash = "";
     const socket = new WebSocket(address);
     socket.binaryType = "arraybuffer";
-    socket.onopen = () => this.listener.open(true);
-    socket.onmessage = (event) => this.hear(event.data);
-    socket.onclose = () => {
-      this.listener.open(false);
-      window.setTimeout(() => this.connect(), RETRY);
+    socket.onopen = () => this.listener.open(true, 0);
+    socket.onmessage = (event) => hear(event.data, this.listener);
+    socket.onclose = ({ code }) => {
+      if (this.over) return;
+      this.listener.open(false, code);
+      window.setTimeout(() => this.connect(), code === FULL ? RETRY_FULL : RETRY);
     };
     this.socket = socket;
-  }
-
-  private hear(data: string | ArrayBuffer): void {
-    if (typeof data === "string") {
-      this.listener.answer(JSON.parse(data) as Answer);
-      return;
-    }
-    const message = decode(data);
-    if (message?.kind === "frame") this.listener.frame(message);
-    else if (message?.kind === "cells") this.listener.cells(message);
-    else if (message?.kind === "file") this.listener.file(message);
   }
 }

@@ -7,7 +7,8 @@ import { pretty } from "./numbers";
 export interface Actions {
   play(playing: boolean): void;
   restart(): void;
-  kick(): void;
+  /** A kick by this part of the size of the shape. */
+  kick(strength: number): void;
   noise(amplitude: number): void;
   speed(speed: number): void;
   trail(time: number): void;
@@ -18,6 +19,8 @@ export interface Actions {
 export const MOST_NOISE = 1;
 /** The noise slider: 0, then ten decades up to 1. */
 const NOISE_DECADES = 10;
+/** Strengths of kicks, relative to the size of the shape. */
+const KICKS: [number, number] = [0.01, 2];
 /** The trail is so many seconds of the opening speed. */
 const TRAIL = { least: 1, usual: 15, most: 80 };
 
@@ -26,6 +29,8 @@ export class Controls {
   private readonly followButton = byId<HTMLButtonElement>("follow");
   private readonly speed = new LogDial("speed", (value) => `${pretty(value, 2)}/s`);
   private readonly trail = new LogDial("trail", (value) => pretty(value, 2));
+  private readonly strength = new LogDial("strength", (value) => pretty(value, 2));
+  private kickBy = 0.2;
   private readonly noise = byId<HTMLInputElement>("noise");
 
   constructor(private readonly actions: Actions) {
@@ -33,7 +38,9 @@ export class Controls {
     this.followButton.addEventListener("click", () => actions.follow(this.followButton.getAttribute("aria-pressed") !== "true"));
     byId("restart").addEventListener("click", () => actions.restart());
     byId("ended-restart").addEventListener("click", () => actions.restart());
-    byId("kick").addEventListener("click", () => actions.kick());
+    byId("kick").addEventListener("click", () => this.kick());
+    this.strength.changed = (value) => (this.kickBy = value);
+    this.strength.show(this.kickBy, KICKS);
     this.speed.changed = (value) => actions.speed(value);
     this.trail.changed = (value) => actions.trail(value);
     this.noise.addEventListener("input", () => actions.noise(this.amplitude()));
@@ -56,6 +63,11 @@ export class Controls {
     this.speed.show(speed, bounds);
   }
 
+  /** The speed within the same bounds. */
+  turnSpeed(speed: number): void {
+    this.speed.turn(speed);
+  }
+
   setTrail(opening: number): void {
     this.trail.show(TRAIL.usual * opening, [TRAIL.least * opening, TRAIL.most * opening]);
     this.actions.trail(TRAIL.usual * opening);
@@ -72,6 +84,10 @@ export class Controls {
     return value === 0 ? 0 : Number((10 ** ((value - 100) * (NOISE_DECADES / 100))).toPrecision(2));
   }
 
+  private kick(): void {
+    this.actions.kick(this.kickBy);
+  }
+
   private toggle(): void {
     this.actions.play(this.playButton.getAttribute("aria-pressed") !== "true");
   }
@@ -81,7 +97,7 @@ export class Controls {
     const actions: Record<string, () => void> = {
       " ": () => this.toggle(),
       r: () => this.actions.restart(),
-      k: () => this.actions.kick(),
+      k: () => this.kick(),
       f: () => this.followButton.click(),
     };
     const act = actions[event.key];
@@ -111,6 +127,11 @@ class LogDial {
 
   show(value: number, bounds: [number, number]): void {
     this.bounds = bounds;
+    this.turn(value);
+  }
+
+  turn(value: number): void {
+    const { bounds } = this;
     this.input.value = String(1000 * Math.log(value / bounds[0]) / Math.log(bounds[1] / bounds[0]));
     this.say(value);
   }

@@ -1,6 +1,6 @@
 /** Who hears which answer. What belongs to an earlier motion is left aside here, once for all. */
 
-import type { Answer, Begun, Changed, Defined, Exponents, Hello, Mistake, Named, Orbit, Refused, Share, Source, Strips } from "./protocol";
+import type { Answer, Begun, Changed, Defined, Exponents, Hello, Member, Mistake, Named, Orbit, Refused, ReturnsAhead, Share, Source, Strips } from "./protocol";
 import type { BranchPanel } from "./branches/panel";
 import type { MapPanel } from "./map/panel";
 
@@ -18,6 +18,8 @@ export interface Hearer {
   exponents(answer: Exponents): void;
   /** Also of an earlier motion: another question may then follow. */
   analysed(answer: Strips, current: boolean): void;
+  returned(answer: ReturnsAhead): void;
+  member(answer: Member): void;
   ended(text: string): void;
   shared(answer: Share): void;
   source(answer: Source): void;
@@ -77,6 +79,10 @@ export function dispatch(answer: Answer, to: Hearer): void {
       return to.named(answer);
     case "exponents":
       return to.exponents(answer);
+    case "member":
+      return to.member(answer);
+    case "returns":
+      return to.returned(answer);
     case "ended":
       return to.ended(answer.text);
   }

@@ -29,6 +29,11 @@ export function takesKeys(target: EventTarget | null): boolean {
   return target instanceof HTMLElement && target.closest("input, select, textarea, button, summary, dialog, [contenteditable]") !== null;
 }
 
+/** Whether the reader has a finger rather than a pointer that hovers. */
+export function byTouch(): boolean {
+  return matchMedia("(hover: none)").matches;
+}
+
 /** Calls `act` at most once per `gap` milliseconds; the last call is never lost. */
 export function throttle(gap: number, act: () => void): () => void {
   let last = -Infinity;

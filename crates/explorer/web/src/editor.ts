@@ -4,7 +4,7 @@ import { byId, setText } from "./dom";
 import type { Mistake, Model, Wish } from "./protocol";
 
 /** Where the text is kept while the tab of the browser is open. */
-const KEPT = "motiform.equations";
+export const KEPT = "motiform.equations";
 
 /** What the editor needs of the page. */
 export interface EditorHost {

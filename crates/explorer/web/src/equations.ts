@@ -5,14 +5,14 @@ import type { Model } from "./protocol";
 import { symbol } from "./symbols";
 
 /** Names that are no parameters. */
-const SIGNS: Record<string, string> = { pi: "*\u03c0*", phi: "*\u03d5*", theta: "*\u03b8*", int: "\u222b", ds: "d*s*", R0: "*R*_0" };
+const SIGNS: Record<string, string> = { pi: "*\u03c0*", delta: "*\u03b4*", phi: "*\u03d5*", theta: "*\u03b8*", int: "\u222b", ds: "d*s*", R0: "*R*_0" };
 
 /** `(V) dv/dt = ...`: what comes before the equation. */
 const LABEL = /^\(([A-Z]+)\)\s*/;
 /** Between terms: a sum, a difference, an equation; a line may break before it. */
 const BETWEEN = / (?=[-+=] )/;
 /** A derivative; a power; a name with what stands below it; anything else. */
-const TOKENS = /d([A-Za-z]\d*)\/dt|\^(-?\w+)|([A-Za-z][A-Za-z0-9]*)((?:_[A-Za-z0-9]+)*)|([^A-Za-z^]+)/g;
+const TOKENS = /d([A-Za-z]\d*)(?:_([a-z]+))?\/dt|\^(-?\w+)|([A-Za-z][A-Za-z0-9]*)((?:_[A-Za-z0-9]+)*)|([^A-Za-z^]+)/g;
 
 /** Paragraphs: one for each line of the text, its label in front. */
 export function equations({ equations, parameters }: Model): HTMLElement {
@@ -33,8 +33,8 @@ function formula(text: string, symbols: Map<string, string>): HTMLElement {
   return make("span", words ? {} : { class: "term" }, ...[...text.matchAll(TOKENS)].map((token) => element(token, symbols)));
 }
 
-function element([all, rate, power, name, below, other]: RegExpMatchArray, symbols: Map<string, string>): Node {
-  if (rate) return symbol(`d*${rate[0]}*${rate.length > 1 ? `_${rate.slice(1)}` : ""}/d*t*`);
+function element([all, rate, index, power, name, below, other]: RegExpMatchArray, symbols: Map<string, string>): Node {
+  if (rate) return symbol(`d*${rate[0]}*${index ? `_{*${index}*}` : rate.length > 1 ? `_${rate.slice(1)}` : ""}/d*t*`);
   if (power) return make("sup", {}, named(power.replace("-", ""), power.startsWith("-") ? "\u2212" : "", symbols));
   if (name) return symbols.has(all) ? factor(symbols.get(all) ?? "") : below ? symbol(`${SIGNS[name] ?? `*${name}*`}_{*${below.slice(1)}*}`) : named(name, "", symbols);
   return document.createTextNode(other.replaceAll("<=", "\u2264").replaceAll("..", "\u2026").replaceAll("*", "\u2009").replace(/(^|[ (])-/g, "$1\u2212"));

@@ -1,6 +1,7 @@
 /** `window.motiform`: a small read-only handle for tests and for curious readers at the console. */
 
 import type { Frame } from "./binary";
+import type { BodyPanel } from "./body/panel";
 import type { BranchPanel } from "./branches/panel";
 import type { MapPanel } from "./map/panel";
 import type { View } from "./plot";
@@ -21,6 +22,12 @@ interface Handle {
     toPixel(x: number, y: number): [number, number];
     readonly complete: boolean;
   };
+  body: {
+    /** CSS pixels on the canvas of a point of the plane. */
+    toPixel(x: number, y: number): [number, number];
+    /** Pixels of a model length at the size in which the body is drawn. */
+    readonly scale: number;
+  };
   branches: {
     /** CSS pixels in the diagram of a point of a branch. */
     toPixel(branch: number, point: number): [number, number] | null;
@@ -33,8 +40,8 @@ declare global {
   }
 }
 
-export function expose(source: { frames(): number; revision(): number; frame(): Frame | null; map: MapPanel; branches: BranchPanel }): void {
-  const { map, branches } = source;
+export function expose(source: { frames(): number; revision(): number; frame(): Frame | null; map: MapPanel; branches: BranchPanel; body: BodyPanel }): void {
+  const { map, branches, body } = source;
   window.motiform = Object.freeze({
     get frames() {
       return source.frames();
@@ -55,6 +62,12 @@ export function expose(source: { frames(): number; revision(): number; frame(): 
       toPixel: (x: number, y: number) => map.toPixel(x, y),
       get complete() {
         return map.complete;
+      },
+    }),
+    body: Object.freeze({
+      toPixel: (x: number, y: number): [number, number] => [body.camera.toX(x), body.camera.toY(y)],
+      get scale() {
+        return body.scale;
       },
     }),
     branches: Object.freeze({ toPixel: (branch: number, point: number) => branches.toPixel(branch, point) }),

@@ -28,6 +28,12 @@ export class Keeper {
     window.history.replaceState(null, "", write(place));
   }
 
+  /** Another place follows in the browser's history; this one stays there as it is now. */
+  leave(next: Place): void {
+    this.write();
+    window.history.pushState(null, "", write(next));
+  }
+
   /** The whole address. */
   link(): string {
     const place = this.place();

@@ -18,6 +18,8 @@ export interface Beat {
 
 export class Loop {
   playing = true;
+  /** The body is in the hand: it rests. */
+  held = false;
   /** The motion is over: nothing is asked for until it changes. */
   ended = false;
   /** Whether a stretch is under way. */
@@ -31,7 +33,7 @@ export class Loop {
 
   /** Whether the body moves. */
   moving(): boolean {
-    return this.playing && !this.ended && !document.hidden && this.beat.ready();
+    return this.playing && !this.held && !this.ended && !document.hidden && this.beat.ready();
   }
 
   /** The stretch that was asked for came, or never will. */

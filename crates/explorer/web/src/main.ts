@@ -1,15 +1,6 @@
-import "uplot/dist/uPlot.min.css";
-import "./styles/base.css";
-import "./styles/layout.css";
-import "./styles/bar.css";
-import "./styles/panels.css";
-import "./styles/branches.css";
-import "./styles/parameters.css";
-import "./styles/overlays.css";
-import "./styles/phone.css";
-import { App } from "./app";
-import { byId } from "./dom";
-import { startTheme } from "./theme";
+/** The page of a server. */
 
-startTheme(byId<HTMLButtonElement>("theme"));
-new App();
+import { Connection } from "./connection";
+import { start } from "./start";
+
+start((listener) => new Connection(listener));

@@ -6,7 +6,7 @@ import type { Session } from "./session";
 import { toast } from "./toasts";
 
 /** Every body of the page has the same seed: an address says all there is to say. */
-const SEED = 1;
+export const SEED = 1;
 
 export class Opening {
   /** What was asked for and not yet answered. */

@@ -2,9 +2,10 @@
 
 import { byId, make } from "./dom";
 import { equations } from "./equations";
+import { readNumber } from "./fields";
 import { plain, decimalsOf, roundStep } from "./numbers";
 import type { Model, Parameter, Preset, Values } from "./protocol";
-import { symbol } from "./symbols";
+import { spoken, symbol } from "./symbols";
 
 /** A slider goes over its range in at least so many steps, each a round number. */
 const STEPS = 400;
@@ -54,9 +55,9 @@ export class ParameterPanel {
       groups.set(one.equation, free.includes(one.name) ? others : [...others, one]);
     }
     this.place.replaceChildren(
+      make("details", { class: "equations" }, make("summary", {}, "Equations"), equations(model), make("p", {}, model.source), ...this.change(model)),
       ...(first.length ? [this.group(given.length ? "free in the paper\u2019s figure" : `axes of the ${preset ? "preset" : "model"}\u2019s map`, first)] : []),
       ...[...groups].filter(([, list]) => list.length).map(([equation, list]) => this.group(equation.startsWith("(") ? `equation ${equation}` : equation, list)),
-      make("details", { class: "equations" }, make("summary", {}, "Equations"), equations(model), make("p", {}, model.source), ...this.change(model)),
     );
   }
 
@@ -107,15 +108,15 @@ export class ParameterPanel {
 
   private row(parameter: Parameter): Row {
     const [low, high] = this.spans.get(parameter.name) ?? parameter.range;
-    const { name, allowed, meaning, equation, whole } = parameter;
+    const { name, meaning, equation, whole } = parameter;
     const id = `about-${name}`;
     const step = whole ? 1 : roundStep((high - low) / STEPS);
     const round = (edge: number): string => String(snapped(step * Math.round(edge / step), step));
-    const about = make("button", { type: "button", class: "symbol-button", "aria-expanded": "false", "aria-controls": id, title: `${name}: ${meaning}`, "aria-label": `${name}: meaning` }, symbol(parameter.symbol));
+    const about = make("button", { type: "button", class: "symbol-button", "aria-expanded": "false", "aria-controls": id, title: `${name}: ${meaning}`, "aria-label": `${spoken(parameter.symbol)} (${name}): meaning` }, symbol(parameter.symbol));
     const text = make("p", { id, class: "meaning", hidden: "" }, `${name}, equation ${equation}: ${meaning}`);
     const mark = make("span", { class: "axis-mark" });
     const slider = make("input", { type: "range", min: round(low), max: round(high), step: String(step), "aria-label": name });
-    const number = make("input", { type: "number", min: String(allowed[0]), max: String(allowed[1]), step: whole ? "1" : "any", "aria-label": `${name}, value` });
+    const number = make("input", { type: "text", inputmode: "decimal", class: "number", autocomplete: "off", "aria-label": `${name}, value` });
     const reset = make("button", { type: "button", class: "reset", title: "Reset to the value of the preset", "aria-label": `Reset ${name}` }, "\u21ba");
     const refusal = make("p", { class: "refusal", role: "alert", hidden: "" });
     const element = make("div", { class: "parameter", "data-parameter": name, "data-testid": `parameter-${name}` }, about, mark, slider, number, reset, text, refusal);
@@ -128,8 +129,14 @@ export class ParameterPanel {
       if (Number.isFinite(value)) this.set(name, value);
     };
     slider.addEventListener("input", () => choose(snapped(slider.valueAsNumber, step)));
-    number.addEventListener("change", () => choose(number.valueAsNumber));
-    number.addEventListener("keydown", (event) => event.key === "Enter" && choose(number.valueAsNumber));
+    const typed = (): void => {
+      if (number.value === plain(this.values[name], 8)) return;
+      const read = readNumber(number.value);
+      if ("value" in read) choose(read.value);
+      else Object.assign(refusal, { hidden: false, textContent: read.why });
+    };
+    number.addEventListener("change", typed);
+    number.addEventListener("keydown", (event) => event.key === "Enter" && typed());
     number.addEventListener("blur", () => (number.value = plain(this.values[name], 8)));
     reset.addEventListener("click", () => choose(this.base[name]));
     return { parameter, element, slider, number, reset, mark, refusal };

@@ -34,13 +34,47 @@ export function drawAxes(g: CanvasRenderingContext2D, box: Box, view: View, labe
   g.lineWidth = 1;
   g.strokeRect(Math.round(box.left) - 0.5, Math.round(box.top) - 0.5, Math.round(box.width) + 1, Math.round(box.height) + 1);
   if (labels.x !== null) xAxis(g, box, view, labels.x);
-  if (labels.y !== null) yAxis(g, box, view, labels.y, up ?? ticks(view.y0, view.y1, Math.max(2, box.height / 40)));
+  if (labels.y !== null) yAxis(g, box, view, labels.y, up ?? upward(box, view));
+}
+
+const FONT = `11px ${UI_FONT}`;
+/** Pixels between the numbers of an upward axis. */
+const RISE = 40;
+/** Least room left of a frame; and what its title takes beside the numbers. */
+const LEAST_ROOM = 62;
+const TITLE_ROOM = 32;
+
+/** Ticks of an upward axis. */
+function upward(box: Pick<Box, "height">, { y0, y1 }: Pick<View, "y0" | "y1">): Ticks {
+  return ticks(y0, y1, Math.max(2, box.height / RISE));
+}
+
+/** The room that numbers and title of an upward axis take, left of the frame. */
+export function leftRoom(g: CanvasRenderingContext2D, box: Pick<Box, "height">, view: Pick<View, "y0" | "y1">, up: Ticks = upward(box, view)): number {
+  return Math.max(LEAST_ROOM, Math.ceil(widest(g, up.labels)) + TITLE_ROOM);
+}
+
+function widest(g: CanvasRenderingContext2D, labels: string[]): number {
+  g.font = FONT;
+  return Math.max(0, ...labels.map((text) => g.measureText(text).width));
+}
+
+/** Ticks across, so many that their numbers do not touch. */
+function across(g: CanvasRenderingContext2D, box: Box, view: View): Ticks {
+  let count = Math.max(2, box.width / 52);
+  let found = ticks(view.x0, view.x1, count);
+  while (count > 2 && found.values.length > 1 && (widest(g, found.labels) + 8) * found.values.length > box.width + 30) {
+    count -= 1;
+    found = ticks(view.x0, view.x1, count);
+  }
+  return found;
 }
 
 function xAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string): void {
-  const { values, labels } = ticks(view.x0, view.x1, Math.max(2, box.width / 52));
+  const { values, labels } = across(g, box, view);
   const bottom = Math.round(box.top + box.height) + 0.5;
-  g.font = `11px ${UI_FONT}`;
+  const edge = g.canvas.width / g.getTransform().a;
+  g.font = FONT;
   g.textAlign = "center";
   g.textBaseline = "alphabetic";
   g.beginPath();
@@ -48,7 +82,8 @@ function xAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string)
     const x = Math.round(pixelX(box, view, value)) + 0.5;
     g.moveTo(x, bottom);
     g.lineTo(x, bottom + 4);
-    g.fillText(labels[i], x, bottom + 15);
+    // The last number stays on the sheet.
+    g.fillText(labels[i], Math.min(x, edge - 2 - g.measureText(labels[i]).width / 2), bottom + 15);
   });
   g.stroke();
   drawSymbol(g, label, box.left + box.width / 2, bottom + 31, 15);
@@ -56,7 +91,7 @@ function xAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string)
 
 function yAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string, { values, labels }: Ticks): void {
   const left = Math.round(box.left) - 0.5;
-  g.font = `11px ${UI_FONT}`;
+  g.font = FONT;
   g.textAlign = "right";
   g.textBaseline = "middle";
   g.beginPath();
@@ -68,9 +103,9 @@ function yAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string,
   });
   g.stroke();
   g.textBaseline = "alphabetic";
-  const widest = Math.max(0, ...labels.map((text) => g.measureText(text).width));
+  const title = left - widest(g, labels) - 15;
   g.save();
-  g.translate(left - widest - 15, box.top + box.height / 2);
+  g.translate(title, box.top + box.height / 2);
   g.rotate(-Math.PI / 2);
   drawSymbol(g, label, 0, 0, 15);
   g.restore();

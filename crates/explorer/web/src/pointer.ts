@@ -1,6 +1,14 @@
 /** Mouse, pen and fingers on a canvas: click, hover, drag, wheel and pinch, in CSS pixels of the canvas. */
 
+/** Something in the hand. */
+export interface Held {
+  move(at: [number, number]): void;
+  drop(): void;
+}
+
 export interface Gestures {
+  /** What is taken up here, by a finger or not; `null`: nothing. */
+  grab?(at: [number, number], touch: boolean): Held | null;
   click?(x: number, y: number): void;
   double?(): void;
   /** The pointer is here; `null` where it left. */
@@ -15,6 +23,10 @@ const SLACK = 5;
 export function watch(canvas: HTMLCanvasElement, gestures: Gestures): void {
   const fingers = new Map<number, [number, number]>();
   let moved = 0;
+  /** A finger that moves upwards or downwards first scrolls the page: that is no drag. */
+  let scrolls: boolean | null = null;
+  let start: [number, number] = [0, 0];
+  let held: Held | null = null;
   const place = (event: MouseEvent): [number, number] => {
     const box = canvas.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
@@ -22,7 +34,12 @@ export function watch(canvas: HTMLCanvasElement, gestures: Gestures): void {
   canvas.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
     canvas.setPointerCapture(event.pointerId);
-    if (fingers.size === 0) moved = 0;
+    if (fingers.size === 0) {
+      moved = 0;
+      start = place(event);
+      scrolls = event.pointerType === "touch" && getComputedStyle(canvas).touchAction === "pan-y" ? null : false;
+      held = gestures.grab?.(start, event.pointerType === "touch") ?? null;
+    }
     fingers.set(event.pointerId, place(event));
     gestures.hover?.(place(event));
   });
@@ -31,18 +48,30 @@ export function watch(canvas: HTMLCanvasElement, gestures: Gestures): void {
     const before = fingers.get(event.pointerId);
     gestures.hover?.(at);
     if (!before) return;
+    if (held) {
+      fingers.set(event.pointerId, at);
+      return held.move(at);
+    }
     moved += Math.hypot(at[0] - before[0], at[1] - before[1]);
-    if (fingers.size === 1 && moved > SLACK) gestures.pan(at[0] - before[0], at[1] - before[1]);
+    if (scrolls === null && moved > SLACK) scrolls = Math.abs(at[1] - start[1]) > Math.abs(at[0] - start[0]);
+    if (fingers.size === 1 && moved > SLACK && scrolls === false) gestures.pan(at[0] - before[0], at[1] - before[1]);
     if (fingers.size === 2) pinch(fingers, event.pointerId, before, at, gestures);
     fingers.set(event.pointerId, at);
   });
   const lift = (event: PointerEvent, clicked: boolean): void => {
     const [x, y] = place(event);
+    if (held && fingers.delete(event.pointerId)) {
+      held.drop();
+      held = null;
+      return;
+    }
     if (fingers.delete(event.pointerId) && clicked && moved <= SLACK && fingers.size === 0) gestures.click?.(x, y);
   };
   canvas.addEventListener("pointerup", (event) => lift(event, true));
   canvas.addEventListener("pointercancel", (event) => lift(event, false));
   canvas.addEventListener("pointerleave", (event) => event.pointerType === "mouse" && gestures.hover?.(null));
+  // What is in the hand does not scroll the page.
+  canvas.addEventListener("touchstart", (event) => held && event.preventDefault(), { passive: false });
   canvas.addEventListener("dblclick", () => gestures.double?.());
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();

@@ -6,6 +6,9 @@ export type Values = Record<string, number>;
 /** Where the return map is taken: at the maxima of the speed, or where the path crosses a line. */
 export type Section = "speed" | "path";
 
+/** Where the bodies of a swarm begin: at random shapes; near the shape of the body; at that shape, each with noise of its own. */
+export type SwarmStart = "starts" | "near" | "noises";
+
 export interface Parameter {
   name: string;
   symbol: string;
@@ -193,6 +196,23 @@ export interface Strips {
   returns: Returns;
 }
 
+/** The return map of the motion from now on, up to this time; `complete`: as many returns as were asked for. */
+export interface ReturnsAhead {
+  is: "returns";
+  revision: number;
+  time: number;
+  complete: boolean;
+  returns: Returns;
+}
+
+/** The motion that a body of the swarm ends in. */
+export interface Member {
+  is: "member";
+  revision: number;
+  body: number;
+  regime: string;
+}
+
 /** A map begins; its cells follow. */
 export interface MapStart {
   is: "map";
@@ -344,6 +364,8 @@ export type Answer =
   | Named
   | Exponents
   | Strips
+  | ReturnsAhead
+  | Member
   | MapStart
   | Progress
   | Mapped
@@ -366,10 +388,14 @@ export type Wish =
   | { do: "begin"; model: string; preset: string | null; parameters: Values; state: number[] | null; position: [number, number] | null; t: number; noise: number | null; seed: number }
   | { do: "set"; parameters: Values }
   | { do: "noise"; amplitude: number }
-  | { do: "kick" }
+  | { do: "kick"; strength: number }
+  | { do: "put"; parameters: Values; state: number[] | null; position: [number, number] | null; velocity: [number, number] | null; t: number | null; noise: number | null }
+  | { do: "pull"; state: number[]; to: [number, number] }
   | { do: "restart" }
   | { do: "advance"; dt: number }
   | { do: "strips"; section: Section; y: number | null }
+  | { do: "returns"; section: Section; y: number | null; count: number }
+  | { do: "swarm"; bodies: number; from: SwarmStart; spread: number }
   | { do: "map"; epoch: number; x: Axis; y: Axis | null; count: number }
   | { do: "unmap" }
   | { do: "evidence"; epoch: number; cell: [number, number] }

@@ -1,6 +1,8 @@
 /** For everybody: names for screen readers, an order for the tab key, contrast, light and dark. */
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { test } from "node:test";
 import { LIGHT, stage, upon, visit } from "./stage.mjs";
 import { moves, named, number, seen } from "./waits.mjs";
@@ -68,7 +70,7 @@ function contrasts(page, selectors) {
   }, selectors);
 }
 
-const TEXTS = ["h1", "#about", ".chip", ".chip[aria-pressed=true]", "#connection-text", "#regime", "#why", "#clock-t", "#clock", "#readout", "#map-legend li", "#map-progress-text", "#speed-value", "#follow", "fieldset legend", ".symbol-button", ".parameter input[type=number]", ".axis-name", "#map-reset", "#show-map", "#show-branches", ".refusal", "#x-axis", "#true-size"];
+const TEXTS = ["h1", "#about", ".chip", ".chip[aria-pressed=true]", "#connection-text", "#regime", "#why", "#clock-t", "#clock", "#readout", "#map-legend li", "#map-progress-text", "#speed-value", "#follow", "fieldset legend", ".symbol-button", ".parameter input.number", ".axis-name", "#map-reset", "#show-map", "#show-branches", ".refusal", "#x-axis", "#true-size"];
 
 for (const colorScheme of ["light", "dark"]) {
   test(`${colorScheme}: texts stand out`, upon(it, { hash: LIGHT, colorScheme }, async ({ page, wire }) => {
@@ -99,3 +101,18 @@ test("light or dark as the system says, until the reader says otherwise", async 
   assert.ok((await brightness(page)) < 60, "the choice is kept");
   await leave();
 });
+
+/** The checker axe, run within the page. */
+const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+
+for (const [name, context] of [["a desktop", {}], ["a phone", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }]]) {
+  test(`axe finds nothing on ${name}`, upon(it, { hash: LIGHT, ...context }, async ({ page, wire }) => {
+    await moves(page, wire);
+    await named(page);
+    await page.evaluate(() => document.querySelectorAll("#parameters details, #parameter-details").forEach((one) => (one.open = true)));
+    const session = await page.context().newCDPSession(page);
+    await session.send("Runtime.evaluate", { expression: AXE }); // not bound by the page's own policy
+    const { violations } = await page.evaluate(() => window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21aa", "wcag22aa", "best-practice", "experimental"] }));
+    assert.deepEqual(violations.map(({ id, impact, nodes }) => `${impact} ${id}: ${nodes.slice(0, 4).map((one) => `${one.target} ${one.failureSummary}`).join(" | ")}`), []);
+  }));
+}

@@ -17,7 +17,7 @@ async function look(page, wire) {
     section: ["section", "section-y"].map((id) => document.getElementById(id).value),
     playing: document.getElementById("play").getAttribute("aria-pressed"),
     preset: document.querySelector("[data-preset][aria-pressed=true]")?.textContent ?? null,
-    parameters: [...document.querySelectorAll("[data-parameter]")].map((row) => [row.dataset.parameter, row.querySelector("[type=number]").value]),
+    parameters: [...document.querySelectorAll("[data-parameter]")].map((row) => [row.dataset.parameter, row.querySelector("input.number").value]),
   }));
   const { t, x, y, state } = await stands(page, wire);
   return { shown, body: [t, x, y, ...state] };

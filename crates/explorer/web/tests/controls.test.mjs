@@ -115,7 +115,7 @@ test("follow ends with a drag, and comes back by key", upon(it, { hash: LIGHT },
   await moves(page, wire);
   const following = (yes) => page.locator(`#follow[aria-pressed=${yes}]`).waitFor();
   const box = await page.locator("#body").boundingBox();
-  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  const [x, y] = [box.x + 0.1 * box.width, box.y + 0.8 * box.height]; // beside the body
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x + 60, y + 30, { steps: 5 });

@@ -35,7 +35,7 @@ test("a study file gives the page its sliders, its noise and its map", upon(it, 
   assert.equal(await page.locator("#model").inputValue(), "my.toml");
   assert.equal(await page.title(), "A handed circle \u2013 motiform");
   assert.equal(await page.locator("#noise-value").textContent(), "0.01");
-  assert.deepEqual(await page.locator("#parameters input[type=number]").evaluateAll((all) => all.map((one) => one.value)), ["0.5", "0.3"]);
+  assert.deepEqual(await page.locator("#parameters input.number").evaluateAll((all) => all.map((one) => one.value)), ["0.5", "0.3"]);
   await moves(page, wire);
   assert.equal(await named(page), "circular");
   await shoot(page, "my-toml");

@@ -29,7 +29,7 @@ for (const preset of ["fig4", "fig5a"]) {
       for (const [name, value] of [["kappa2", point[0]], ["kappa3", point[1]]]) {
         const shown = Number(await number(page, name).inputValue());
         assert.ok(Math.abs(shown - value) < 0.02, `${name} is ${shown}, clicked at ${value}`);
-        assert.equal(await page.locator(`[data-parameter="${name}"] input[type=range]`).evaluate((one) => Math.abs(one.valueAsNumber - one.parentElement.querySelector("[type=number]").valueAsNumber) < 0.02), true);
+        assert.equal(await page.locator(`[data-parameter="${name}"] input[type=range]`).evaluate((one) => Math.abs(one.valueAsNumber - one.parentElement.querySelector("input.number").value) < 0.02), true);
         assert.ok(Math.abs(wire.last.get("changed").parameters[name] - shown) < 1e-9);
       }
       assertNoJump(wire, after);
@@ -83,7 +83,7 @@ test("the keyboard walks, zooms and resets", upon(it, { hash: "preset=fig4" }, a
   await seen(page, wire);
   await until(() => wire.last.has("map"), "the cells to walk by");
   const home = await view(page);
-  const value = () => page.evaluate(() => ["kappa2", "kappa3"].map((name) => document.querySelector(`[data-parameter="${name}"] input[type=number]`).valueAsNumber));
+  const value = () => page.evaluate(() => ["kappa2", "kappa3"].map((name) => Number(document.querySelector(`[data-parameter="${name}"] input.number`).value)));
   await page.locator("#map").focus();
   let before = await value();
   for (const [key, axis, sign] of [["ArrowRight", 0, 1], ["ArrowUp", 1, 1], ["Shift+ArrowLeft", 0, -1], ["ArrowDown", 1, -1]]) {

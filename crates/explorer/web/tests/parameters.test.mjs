@@ -36,7 +36,7 @@ test("a slider follows the mouse and the arrow keys", upon(it, { hash: LIGHT }, 
   await page.mouse.down();
   await page.mouse.move(box.x + 0.9 * box.width, box.y + box.height / 2, { steps: 12 });
   await page.mouse.up();
-  await page.waitForFunction((from) => document.querySelector(`[data-parameter="kappa3"] input[type=number]`).valueAsNumber > from, stepped + 0.1);
+  await page.waitForFunction((from) => document.querySelector(`[data-parameter="kappa3"] input.number`).value > from, stepped + 0.1);
   await moves(page, wire);
 }));
 
@@ -88,6 +88,6 @@ test("equations are set in the paper\u2019s symbols", upon(it, { hash: LIGHT }, 
   await moves(page, wire);
   await page.locator(".equations summary").click();
   const text = await page.locator(".equation").first().textContent();
-  assert.match(text, /^\(V\)dv\/dt = \u03b3 v \u2212 v2 v \u2212 a1 S v/);
-  assert.doesNotMatch(await page.locator(".equation-list").textContent(), /kappa|gamma|theta/);
+  assert.match(text, /^\(V\)dvi\/dt = \u03b3 vi \u2212 v2 vi \u2212 a1 Sij vj/);
+  assert.doesNotMatch(await page.locator(".equation-list").textContent(), /kappa|gamma|theta|delta/);
 }));

@@ -89,7 +89,7 @@ export function slider(page, name) {
 
 /** The field for the number of a parameter. */
 export function number(page, name) {
-  return page.locator(`[data-parameter="${name}"] input[type=number]`);
+  return page.locator(`[data-parameter="${name}"] input.number`);
 }
 
 /** Puts a slider to a value as a drag would: the value, then its event. */

@@ -1,6 +1,8 @@
 /** What a page and its server say to each other, listened to from outside: PROTOCOL.md beside the crate explains it. */
 
 const FRAME = 1;
+const CELLS = 2;
+const SWARM = 4;
 const HEADER = 16;
 /** Frames that are kept. */
 const MOST = 2000;
@@ -15,6 +17,12 @@ export class Wire {
   last = new Map();
   /** Branches of motions, in the order in which they came. */
   branches = [];
+  /** Cells of maps in the order in which they came: column and row. */
+  cells = [];
+  /** Motions of the bodies of a swarm. */
+  members = new Map();
+  /** Swarms: bodies with places and distances. */
+  swarms = [];
   /** Frames of the body, the last ones. */
   frames = [];
 
@@ -45,14 +53,26 @@ export class Wire {
   #hear(text) {
     const answer = JSON.parse(text);
     this.last.set(answer.is, answer);
+    if (answer.is === "member") this.members.set(answer.body, answer.regime);
     if (answer.is === "branch") this.branches.push(answer);
   }
 
   #take(bytes) {
+    if (bytes[0] === CELLS) for (let at = HEADER; at < bytes.length; at += HEADER) this.cells.push([bytes.readUInt16LE(at), bytes.readUInt16LE(at + 2)]);
+    if (bytes[0] === SWARM) this.swarms.push(swarm(bytes));
     if (bytes[0] !== FRAME) return;
     this.frames.push(frame(bytes));
     if (this.frames.length > MOST) this.frames.shift();
   }
+}
+
+/** The bodies of a swarm. */
+function swarm(bytes) {
+  const bodies = Array.from({ length: bytes.readUInt16LE(2) }, (_, k) => {
+    const [x, y, distance] = [0, 1, 2].map((place) => bytes.readDoubleLE(HEADER + 8 + 24 * k + 8 * place));
+    return { x, y, distance };
+  });
+  return Object.assign(bodies, { revision: bytes.readUInt32LE(8) });
 }
 
 /** The body in a binary message. */
@@ -62,6 +82,8 @@ function frame(bytes) {
   const numbers = (from, count) => Array.from({ length: count }, (_, k) => bytes.readDoubleLE(HEADER + 8 * (from + k)));
   const [t, x, y, radius] = numbers(0, 4);
   const state = numbers(4, coordinates);
+  const points = bytes.readUInt16LE(6);
+  const outline = Array.from({ length: points }, (_, k) => numbers(4 + coordinates + samples * columns + 2 * k, 2));
   const rows = Array.from({ length: samples }, (_, row) => numbers(4 + coordinates + row * columns, columns));
-  return { revision, t, x, y, radius, state, rows };
+  return { revision, t, x, y, radius, state, rows, outline };
 }

@@ -150,16 +150,20 @@ impl PhaseDiagram {
             let stripes = Mark::Stripes(look.ground(&REGIMES[one]), look.ground(&REGIMES[other]));
             entries.push(Entry::new(stripes, "more than one motion, stripes by share"));
         }
-        // lines of one kind have one entry
+        entries.extend(self.line_entries());
+        entries
+    }
+
+    /// The legend of the lines: those of one kind have one entry.
+    pub(crate) fn line_entries(&self) -> impl Iterator<Item = Entry> + '_ {
         let first = |(place, line): &(usize, &BoundaryLine)| {
             self.lines[..*place].iter().all(|other| other.label != line.label || other.style != line.style)
         };
         let kinds = self.lines.iter().enumerate().filter(first);
-        entries.extend(kinds.map(|(_, line)| Entry::new(Mark::Line(line.style.paint()), &line.label)));
-        entries
+        kinds.map(|(_, line)| Entry::new(Mark::Line(line.style.paint()), &line.label))
     }
 
-    fn draw_lines(&self, svg: &mut Svg, scale: &Scale) {
+    pub(crate) fn draw_lines(&self, svg: &mut Svg, scale: &Scale) {
         for line in &self.lines {
             let points: Vec<_> = line.points.iter().map(|p| scale.map(*p)).collect();
             for piece in clip(&points, scale.frame) {

@@ -6,6 +6,11 @@ use crate::linear::{cholesky, invert_lower};
 use crate::observation::OBSERVED;
 use motiform_dynamics::Complex;
 
+/// Longest step of the integration times the largest row sum of the Jacobian.
+const LONGEST_TURN: f64 = 1.0;
+/// Most parts of a step.
+const MOST_PARTS: usize = 16;
+
 /// Mean and covariance of the state.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct State {
@@ -18,6 +23,31 @@ pub(crate) struct State {
 pub(crate) struct Stage {
     pub(crate) p: Covariance,
     pub(crate) values: Values,
+    /// `curved[i][l][j] = sum_k H_ikl P_kj`: what a change of entry l of the shape does to `A P`. Only with second derivatives.
+    pub(crate) curved: [[[f64; STATE]; SHAPE]; SHAPE],
+}
+
+impl Stage {
+    pub(crate) fn new(field: &Field) -> Self {
+        let (p, curved) = ([[0.0; STATE]; STATE], [[[0.0; STATE]; SHAPE]; SHAPE]);
+        Self { p, values: Values::new(field), curved }
+    }
+
+    #[inline(always)]
+    fn curve(&mut self) {
+        for i in 0..SHAPE {
+            for l in 0..SHAPE {
+                let mut row = [0.0; STATE];
+                for k in 0..SHAPE {
+                    let h = self.values.hessian[i][l][k];
+                    for j in 0..STATE {
+                        row[j] += h * self.p[k + 2][j];
+                    }
+                }
+                self.curved[i][l] = row;
+            }
+        }
+    }
 }
 
 /// The coefficients and the noise that a step is made with.
@@ -51,13 +81,28 @@ pub(crate) fn start(first: &Frame, second: &Frame, s2: f64) -> State {
 }
 
 impl Law<'_> {
+    /// The field at a state.
+    #[inline(always)]
+    fn field(&self, at: &State, values: &mut Values) {
+        let mut shape = [0.0; SHAPE];
+        shape.copy_from_slice(&at.m[2..]);
+        self.field.evaluate(self.c, &shape, self.second, values);
+    }
+
     /// Rates of mean and covariance at `at`, which become a stage.
     #[inline(always)]
     fn rate(&self, at: &State, stage: &mut Stage) -> State {
-        let mut shape = [0.0; SHAPE];
-        shape.copy_from_slice(&at.m[2..]);
-        self.field.evaluate(self.c, &shape, self.second, &mut stage.values);
+        self.field(at, &mut stage.values);
+        self.moved(at, stage)
+    }
+
+    /// The rates where the stage has the field of `at`.
+    #[inline(always)]
+    fn moved(&self, at: &State, stage: &mut Stage) -> State {
         stage.p = at.p;
+        if self.second {
+            stage.curve();
+        }
         let a = &stage.values.jacobian;
         let mut product = [[0.0; STATE]; STATE]; // A P
         for j in 0..STATE {
@@ -82,10 +127,33 @@ impl Law<'_> {
         rate
     }
 
-    /// One step of the classical Runge-Kutta method; the stages are kept.
+    /// In how many parts a step must be made: a power of two, so that the fastest rate is resolved. Where it is not, the covariance is no longer
+    /// positive definite, and the likelihood has maxima that are errors of the integration. `values` becomes the field at `state`.
     #[inline(always)]
-    pub(crate) fn step(&self, state: &mut State, h: f64, stages: &mut [Stage; 4]) {
-        let k1 = self.rate(state, &mut stages[0]);
+    pub(crate) fn parts(&self, state: &State, h: f64, values: &mut Values) -> usize {
+        self.field(state, values);
+        let mut fastest = 0.0_f64;
+        for row in &values.jacobian {
+            let mut sum = 0.0;
+            for entry in row {
+                sum += entry.abs();
+            }
+            fastest = fastest.max(sum);
+        }
+        let mut parts = 1;
+        while parts < MOST_PARTS && h * fastest > LONGEST_TURN * parts as f64 {
+            parts *= 2;
+        }
+        parts
+    }
+
+    /// One step of the classical Runge-Kutta method; the stages are kept. `known`: the first one has the field at `state` ([`Law::parts`]).
+    #[inline(always)]
+    pub(crate) fn step(&self, state: &mut State, h: f64, known: bool, stages: &mut [Stage; 4]) {
+        if !known {
+            self.field(state, &mut stages[0].values);
+        }
+        let k1 = self.moved(state, &mut stages[0]);
         let k2 = self.rate(&state.plus(&k1, 0.5 * h), &mut stages[1]);
         let k3 = self.rate(&state.plus(&k2, 0.5 * h), &mut stages[2]);
         let k4 = self.rate(&state.plus(&k3, h), &mut stages[3]);
@@ -107,7 +175,7 @@ impl State {
         sum
     }
 
-    /// Whether it can be gone on with: finite, and not far beyond natural units.
+    /// Whether the filter can continue from it: finite, and not far beyond natural units.
     #[inline(always)]
     pub(crate) fn is_sound(&self) -> bool {
         let mut sound = true;

@@ -2,13 +2,14 @@
 
 use super::STATE;
 use super::base::{Correction, Stage, State};
-use super::correct;
+use super::correct::{self, MARKS};
 use super::evaluate::Want;
 use super::problem::Problem;
 use super::sums::Sums;
-use super::tangent::{self, FORCING, Tangent, depth};
+use super::tangent::{self, FORCING, Forcing, Scratch, Tangent, depth};
 use super::{AT, SEEN};
-use crate::field::{Field, Part, SHAPE};
+use crate::field::SHAPE;
+use crate::observation::OBSERVED;
 use motiform_dynamics::Bundle;
 
 /// Blocks of coefficients, then those of `ln s`, `ln eta_v` and `ln eta_shape`.
@@ -20,6 +21,9 @@ pub(crate) struct Blocks<B> {
     s: Vec<B>,
     /// Forcing of each stage and block.
     forcing: Vec<f64>,
+    /// Rows of the equations that the coefficients of each block are in.
+    rows: Vec<[usize; 2]>,
+    scratch: Scratch<B>,
     coefficients: usize,
     /// Number of blocks of coefficients.
     first_noise: usize,
@@ -27,7 +31,8 @@ pub(crate) struct Blocks<B> {
 
 impl<B: Bundle> Blocks<B> {
     #[inline(always)]
-    pub(crate) fn new(coefficients: usize, wanted: bool, q: &[f64; STATE]) -> Self {
+    pub(crate) fn new(problem: &Problem, wanted: bool, q: &[f64; STATE]) -> Self {
+        let coefficients = if wanted { problem.parts.len() } else { 0 };
         let first_noise = coefficients.div_ceil(B::LANES);
         let noise = if wanted { 3_usize.div_ceil(B::LANES) } else { 0 };
         let (blocks, zero) = (first_noise + noise, B::splat(0.0));
@@ -36,6 +41,8 @@ impl<B: Bundle> Blocks<B> {
             q: vec![[zero; STATE]; blocks],
             s: vec![zero; blocks],
             forcing: vec![0.0; 4 * blocks * FORCING * B::LANES],
+            rows: (0..blocks).map(|block| rows(problem, block * B::LANES, B::LANES)).collect(),
+            scratch: Scratch::new(),
             coefficients,
             first_noise,
         };
@@ -71,22 +78,31 @@ impl<B: Bundle> Blocks<B> {
         }
     }
 
-    /// Writes what forces the derivatives by the coefficients at each stage.
+    /// How many marks of each block are not 0: where covariances are taken as fixed, those of the mean alone.
+    pub(crate) fn counts(&self, want: Want) -> Vec<usize> {
+        let fixed = |block| want != Want::Exact && block < self.first_noise;
+        (0..self.len()).map(|block| if fixed(block) { OBSERVED } else { MARKS }).collect()
+    }
+
+    /// Writes what forces the derivatives by the coefficients at each stage: `df/dc`, and `dA/dc` for exact ones.
     #[inline(always)]
-    fn force(&mut self, field: &Field, stages: &[Stage; 4], parts: &[Part]) {
+    fn force(&mut self, problem: &Problem, stages: &[Stage; 4], exact: bool) {
         let (lanes, blocks) = (B::LANES, self.len());
         for (number, stage) in stages.iter().enumerate() {
-            for (parameter, part) in parts.iter().enumerate() {
+            for (parameter, part) in problem.parts.iter().enumerate() {
                 let own = (number * blocks + parameter / lanes) * FORCING * lanes + parameter % lanes;
-                let (row, values) = (2 * field.equation(part.term), &stage.values);
-                let forcing = &mut self.forcing[own..];
+                let (row, values) = (2 * problem.field.equation(part.term), &stage.values);
                 let rate = turned(values.monomials[part.term], part.imaginary);
-                forcing[row * lanes] = rate[0];
-                forcing[(row + 1) * lanes] = rate[1];
-                for k in 0..SHAPE {
-                    let by = turned(values.gradients[part.term][k], part.imaginary);
-                    forcing[(SHAPE + row * SHAPE + k) * lanes] = by[0];
-                    forcing[(SHAPE + (row + 1) * SHAPE + k) * lanes] = by[1];
+                self.forcing[own + row * lanes] = rate[0];
+                self.forcing[own + (row + 1) * lanes] = rate[1];
+                if exact {
+                    let first = own + (SHAPE + row * SHAPE) * lanes;
+                    let rows = &mut self.forcing[first..first + (2 * SHAPE - 1) * lanes + 1];
+                    for (k, by) in values.gradients[part.term].iter().enumerate() {
+                        let by = turned(*by, part.imaginary);
+                        rows[k * lanes] = by[0];
+                        rows[(SHAPE + k) * lanes] = by[1];
+                    }
                 }
             }
         }
@@ -98,19 +114,30 @@ impl<B: Bundle> Blocks<B> {
         if self.len() == 0 {
             return;
         }
-        self.force(&problem.field, stages, &problem.parts);
+        self.force(problem, stages, want == Want::Exact);
         let (size, blocks) = (FORCING * B::LANES, self.len());
         for block in 0..blocks {
             let (a, b) = (block * size, (blocks + block) * size);
             let (c, d) = ((2 * blocks + block) * size, (3 * blocks + block) * size);
             let f = &self.forcing;
-            let forcing = [&f[a..a + size], &f[b..b + size], &f[c..c + size], &f[d..d + size]];
-            let tangent = &mut self.tangents[block];
-            let q = &self.q[block];
+            let rows = self.rows[block];
+            let forcing = [
+                Forcing { values: &f[a..a + size], rows },
+                Forcing { values: &f[b..b + size], rows },
+                Forcing { values: &f[c..c + size], rows },
+                Forcing { values: &f[d..d + size], rows },
+            ];
+            let (tangent, scratch, q) = (&mut self.tangents[block], &mut self.scratch, &self.q[block]);
             match (want, block >= self.first_noise) {
-                (Want::Exact, _) => tangent::step::<B, { depth::ALL }>(tangent, stages, forcing, q, h),
-                (_, true) => tangent::step::<B, { depth::NOISE }>(tangent, stages, forcing, q, h),
-                (_, false) => tangent::step::<B, { depth::MEAN }>(tangent, stages, forcing, q, h),
+                (Want::Exact, _) => {
+                    tangent::step::<B, { depth::ALL }>(tangent, scratch, stages, forcing, q, h);
+                }
+                (_, true) => {
+                    tangent::step::<B, { depth::NOISE }>(tangent, scratch, stages, forcing, q, h);
+                }
+                (_, false) => {
+                    tangent::step::<B, { depth::MEAN }>(tangent, scratch, stages, forcing, q, h);
+                }
             }
         }
     }
@@ -140,6 +167,14 @@ impl<B: Bundle> Blocks<B> {
     pub(crate) fn unpadded(&self, padded: &[f64]) -> Vec<f64> {
         self.places().into_iter().map(|place| padded[place]).collect()
     }
+}
+
+/// The rows of the equations of some coefficients; none of noise, which comes after them.
+fn rows(problem: &Problem, first: usize, count: usize) -> [usize; 2] {
+    let parts = problem.parts.get(first..(first + count).min(problem.parts.len())).unwrap_or_default();
+    let equations = parts.iter().map(|part| problem.field.equation(part.term));
+    let (low, high) = (equations.clone().min(), equations.max());
+    low.zip(high).map_or([0, 0], |(low, high)| [2 * low, 2 * high + 2])
 }
 
 /// The number, or `i` times it.

@@ -129,6 +129,21 @@ fn covariance<B: Bundle>(tangent: &mut Tangent<B>, correction: &Correction, ds: 
     }
 }
 
+/// Score and marks where the covariances are taken as fixed: `dS = 0`.
+#[inline(always)]
+fn marks_of_mean<B: Bundle>(tangent: &Tangent<B>, correction: &Correction) -> Marks<B> {
+    let zero = B::splat(0.0);
+    let (l, w) = (&correction.whiten, &correction.weighted);
+    let mut found = Marks { score: zero, marks: [zero; MARKS] };
+    for i in 0..OBSERVED {
+        found.score += tangent.m[SEEN[i]] * B::splat(w[i]);
+        for k in 0..=i {
+            found.marks[i] -= tangent.m[SEEN[k]] * B::splat(l[i][k]);
+        }
+    }
+    found
+}
+
 /// Takes a frame in; `s` is the derivative of `ln s^2` by each parameter. Without `FULL` the covariances are taken as fixed.
 #[inline(always)]
 pub(crate) fn correct<B: Bundle, const FULL: bool>(
@@ -136,11 +151,14 @@ pub(crate) fn correct<B: Bundle, const FULL: bool>(
     correction: &Correction,
     s: B,
 ) -> Marks<B> {
+    if !FULL {
+        let found = marks_of_mean(tangent, correction);
+        mean::<B, FULL>(tangent, correction, s);
+        return found;
+    }
     let ds = innovation_covariance(tangent, correction, s);
     let found = marks(tangent, correction, &ds);
     mean::<B, FULL>(tangent, correction, s);
-    if FULL {
-        covariance(tangent, correction, &ds);
-    }
+    covariance(tangent, correction, &ds);
     found
 }

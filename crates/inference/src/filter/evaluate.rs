@@ -5,7 +5,6 @@ use super::blocks::Blocks;
 use super::problem::{Frame, Problem, Theta};
 use super::sums::Sums;
 use super::{LONGEST_STEP, STATE};
-use crate::field::Values;
 use crate::observation::OBSERVED;
 use motiform_dynamics::simd::{LaneKernel, run_lanes};
 use motiform_dynamics::{Bundle, Complex};
@@ -35,6 +34,8 @@ pub(crate) struct Evaluation {
     pub(crate) innovations: Vec<Vec<[f64; OBSERVED]>>,
     /// Gradient of each frame's log-likelihood, if kept.
     pub(crate) scores: Vec<Vec<DVector<f64>>>,
+    /// Largest variance of a velocity or mode that is predicted for a frame, and the time of that frame after the first one.
+    pub(crate) vaguest: (f64, f64),
 }
 
 /// Evaluates the likelihood; innovations and scores of frames are kept if `keep`.
@@ -76,6 +77,7 @@ struct Run<'a, B> {
     value: f64,
     innovations: Vec<Vec<[f64; OBSERVED]>>,
     scores: Vec<Vec<DVector<f64>>>,
+    vaguest: (f64, f64),
 }
 
 impl<'a, B: Bundle> Run<'a, B> {
@@ -83,19 +85,20 @@ impl<'a, B: Bundle> Run<'a, B> {
     fn new(work: &'a Work<'a>, c: &'a [Complex<f64>]) -> Self {
         let (problem, wanted) = (work.problem, work.want != Want::Value);
         let second = work.want == Want::Exact;
-        let stage = Stage { p: [[0.0; STATE]; STATE], values: Values::new(&problem.field) };
+        let stage = Stage::new(&problem.field);
         let law = Law { field: &problem.field, c, q: problem.process(work.theta), second };
-        let blocks = Blocks::new(if wanted { problem.parts.len() } else { 0 }, wanted, &law.q);
+        let blocks = Blocks::new(problem, wanted, &law.q);
         Self {
             work,
             law,
             s2: libm::exp(2.0 * work.theta.logs[0]),
             stages: [stage.clone(), stage.clone(), stage.clone(), stage],
-            sums: Sums::new(blocks.len()),
+            sums: Sums::new(blocks.counts(work.want)),
             blocks,
             value: 0.0,
             innovations: Vec::new(),
             scores: Vec::new(),
+            vaguest: (0.0, 0.0),
         }
     }
 
@@ -109,12 +112,21 @@ impl<'a, B: Bundle> Run<'a, B> {
         for pair in 0..frames.len() - 1 {
             let dt = frames[pair + 1].t - frames[pair].t;
             let steps = (dt / LONGEST_STEP - 1e-9).ceil().max(1.0);
+            let h = dt / steps;
             for _ in 0..steps as usize {
-                self.law.step(&mut state, dt / steps, &mut self.stages);
-                if !state.is_sound() {
-                    return false;
+                let parts = self.law.parts(&state, h, &mut self.stages[0].values);
+                for part in 0..parts {
+                    self.law.step(&mut state, h / parts as f64, part == 0, &mut self.stages);
+                    if !state.is_sound() {
+                        return false;
+                    }
+                    self.blocks.step(&self.stages, self.work.problem, self.work.want, h / parts as f64);
                 }
-                self.blocks.step(&self.stages, self.work.problem, self.work.want, dt / steps);
+            }
+            for i in 2..STATE {
+                if state.p[i][i] > self.vaguest.0 {
+                    self.vaguest = (state.p[i][i], frames[pair + 1].t);
+                }
             }
             let Some(correction) = base::correct(&mut state, &frames[pair + 1], self.s2) else {
                 return false;
@@ -158,6 +170,7 @@ impl<'a, B: Bundle> Run<'a, B> {
             information: whole,
             innovations: self.innovations,
             scores: self.scores,
+            vaguest: self.vaguest,
         }
     }
 }

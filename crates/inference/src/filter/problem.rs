@@ -1,6 +1,6 @@
 //! What the likelihood is of: frames in natural units and the parameters.
 
-use super::LONGEST_GAP;
+use super::{LONGEST_GAP, LONGEST_STRIDE};
 use crate::field::{Field, Part};
 use crate::observation::OBSERVED;
 use motiform_dynamics::Complex;
@@ -80,12 +80,21 @@ impl Problem {
         [0.0, 0.0, n[0] * v, n[0] * v, n[1] * shape, n[1] * shape, n[2] * shape, n[2] * shape]
     }
 
+    /// The longest gap that the filter goes on through, where frames usually follow each other after `usual`.
+    pub(crate) fn longest_gap(usual: f64) -> f64 {
+        LONGEST_GAP.max(LONGEST_STRIDE * usual)
+    }
+
     /// Cuts frames where they are too far apart; stretches of fewer than three frames are left out.
     pub(crate) fn cut(frames: Vec<Frame>) -> Vec<Vec<Frame>> {
         let mut stretches: Vec<Vec<Frame>> = Vec::new();
         let mut last = f64::NEG_INFINITY;
+        let mut steps: Vec<f64> = frames.windows(2).map(|pair| pair[1].t - pair[0].t).collect();
+        steps.sort_by(f64::total_cmp);
+        let usual = steps.get(steps.len() / 2).copied().unwrap_or(0.0);
+        let longest = Self::longest_gap(usual);
         for frame in frames {
-            if frame.t - last > LONGEST_GAP || stretches.is_empty() {
+            if frame.t - last > longest || stretches.is_empty() {
                 stretches.push(Vec::new());
             }
             last = frame.t;

@@ -13,18 +13,22 @@ pub(crate) struct Sums<B> {
     information: Vec<B>,
     /// Marks of the frame: parameter within blocks.
     marks: Vec<f64>,
+    /// How many marks of each block are not 0.
+    counts: Vec<usize>,
 }
 
 impl<B: Bundle> Sums<B> {
+    /// `counts`: how many marks of each block are not 0.
     #[inline(always)]
-    pub(crate) fn new(blocks: usize) -> Self {
-        let zero = B::splat(0.0);
+    pub(crate) fn new(counts: Vec<usize>) -> Self {
+        let (blocks, zero) = (counts.len(), B::splat(0.0));
         Self {
             blocks,
             gradient: vec![zero; blocks],
             scores: vec![zero; blocks],
             information: vec![zero; blocks * B::LANES * blocks],
             marks: vec![0.0; MARKS * blocks * B::LANES],
+            counts,
         }
     }
 
@@ -34,7 +38,7 @@ impl<B: Bundle> Sums<B> {
         self.gradient[block] += found.score;
         self.scores[block] = found.score;
         let width = self.blocks * B::LANES;
-        for mark in 0..MARKS {
+        for mark in 0..self.counts[block] {
             found.marks[mark].store(&mut self.marks[mark * width + block * B::LANES..]);
         }
     }
@@ -42,17 +46,38 @@ impl<B: Bundle> Sums<B> {
     /// Adds the information of the frame.
     #[inline(always)]
     pub(crate) fn add(&mut self) {
-        let width = self.blocks * B::LANES;
-        for row in 0..width {
-            for block in row / B::LANES..self.blocks {
-                let mut sum = self.information[row * self.blocks + block];
-                for mark in 0..MARKS {
-                    let own = B::splat(self.marks[mark * width + row]);
-                    sum += own * B::load(&self.marks[mark * width + block * B::LANES..]);
-                }
-                self.information[row * self.blocks + block] = sum;
+        for row in 0..self.blocks * B::LANES {
+            let mut block = row / B::LANES;
+            let count = self.counts[block];
+            while block + 4 <= self.blocks {
+                self.add_to::<4>(row, block, count);
+                block += 4;
+            }
+            if block + 2 <= self.blocks {
+                self.add_to::<2>(row, block, count);
+                block += 2;
+            }
+            if block < self.blocks {
+                self.add_to::<1>(row, block, count);
             }
         }
+    }
+
+    /// Adds to `N` blocks of a row at once: their sums do not wait for each other.
+    #[inline(always)]
+    fn add_to<const N: usize>(&mut self, row: usize, block: usize, count: usize) {
+        let (width, place) = (self.blocks * B::LANES, row * self.blocks + block);
+        let mut sums = [B::splat(0.0); N];
+        sums.copy_from_slice(&self.information[place..place + N]);
+        for mark in 0..count {
+            let marks = &self.marks[mark * width..(mark + 1) * width];
+            let own = B::splat(marks[row]);
+            let others = &marks[block * B::LANES..(block + N) * B::LANES];
+            for n in 0..N {
+                sums[n] += own * B::load(&others[n * B::LANES..]);
+            }
+        }
+        self.information[place..place + N].copy_from_slice(&sums);
     }
 
     /// Number of padded parameters.

@@ -28,18 +28,46 @@ impl<B: Bundle> Tangent<B> {
         Self { m: [B::splat(0.0); STATE], p: [B::splat(0.0); PACKED] }
     }
 
+    /// Adds `h` times `rate`.
     #[inline(always)]
-    fn plus<const DEPTH: u8>(&self, rate: &Self, h: f64) -> Self {
-        let (mut sum, h) = (*self, B::splat(h));
+    fn add<const DEPTH: u8>(&mut self, rate: &Self, h: f64) {
+        let h = B::splat(h);
         for i in 0..STATE {
-            sum.m[i] += rate.m[i] * h;
+            self.m[i] += rate.m[i] * h;
         }
         if DEPTH > depth::MEAN {
             for i in 0..PACKED {
-                sum.p[i] += rate.p[i] * h;
+                self.p[i] += rate.p[i] * h;
             }
         }
-        sum
+    }
+
+    /// Becomes `from + h rate`.
+    #[inline(always)]
+    fn become_sum<const DEPTH: u8>(&mut self, from: &Self, rate: &Self, h: f64) {
+        let h = B::splat(h);
+        for i in 0..STATE {
+            self.m[i] = from.m[i] + rate.m[i] * h;
+        }
+        if DEPTH > depth::MEAN {
+            for i in 0..PACKED {
+                self.p[i] = from.p[i] + rate.p[i] * h;
+            }
+        }
+    }
+}
+
+/// Storage for the stages of a step, allocated once.
+#[derive(Clone, Copy)]
+pub(crate) struct Scratch<B> {
+    at: Tangent<B>,
+    rate: Tangent<B>,
+}
+
+impl<B: Bundle> Scratch<B> {
+    #[inline(always)]
+    pub(crate) fn new() -> Self {
+        Self { at: Tangent::zero(), rate: Tangent::zero() }
     }
 }
 
@@ -56,9 +84,18 @@ pub(crate) mod depth {
     pub(crate) const ALL: u8 = 2;
 }
 
+/// What forces the derivatives of a block at a stage.
+#[derive(Clone, Copy)]
+pub(crate) struct Forcing<'f> {
+    /// [`FORCING`] bundles: `df/dc`, then the rows of `dA/dc`.
+    pub(crate) values: &'f [f64],
+    /// The rows of `dA/dc` that are not 0 in all lanes.
+    pub(crate) rows: [usize; 2],
+}
+
 /// `A dP + dA P`.
 #[inline(always)]
-fn products<B: Bundle, const DEPTH: u8>(stage: &Stage, forcing: &[f64], at: &Tangent<B>) -> Products<B> {
+fn products<B: Bundle, const DEPTH: u8>(stage: &Stage, forcing: Forcing<'_>, at: &Tangent<B>) -> Products<B> {
     let mut products = [[B::splat(0.0); STATE]; SHAPE];
     for i in 0..SHAPE {
         for k in 0..SHAPE {
@@ -67,10 +104,17 @@ fn products<B: Bundle, const DEPTH: u8>(stage: &Stage, forcing: &[f64], at: &Tan
                 products[i][j] += a * at.p[AT[k + 2][j]];
             }
             if DEPTH == depth::ALL {
-                let mut da = B::load(&forcing[(SHAPE + i * SHAPE + k) * B::LANES..]);
-                for l in 0..SHAPE {
-                    da += at.m[l + 2] * B::splat(stage.values.hessian[i][k][l]);
+                let dm = at.m[k + 2];
+                for j in 0..STATE {
+                    products[i][j] += dm * B::splat(stage.curved[i][k][j]);
                 }
+            }
+        }
+    }
+    if DEPTH == depth::ALL {
+        for i in forcing.rows[0]..forcing.rows[1] {
+            for k in 0..SHAPE {
+                let da = B::load(&forcing.values[(SHAPE + i * SHAPE + k) * B::LANES..]);
                 for j in 0..STATE {
                     products[i][j] += da * B::splat(stage.p[k + 2][j]);
                 }
@@ -102,43 +146,50 @@ fn covariance_rate<B: Bundle>(
     }
 }
 
+/// The rates at `at`.
 #[inline(always)]
 fn rate<B: Bundle, const DEPTH: u8>(
     stage: &Stage,
-    forcing: &[f64],
+    forcing: Forcing<'_>,
     q: &[B; STATE],
     at: &Tangent<B>,
-) -> Tangent<B> {
-    let mut rate = Tangent::zero();
+    rate: &mut Tangent<B>,
+) {
     rate.m[0] = at.m[2];
     rate.m[1] = -at.m[3];
     for i in 0..SHAPE {
-        let mut sum = B::load(&forcing[i * B::LANES..]);
+        let mut sum = B::load(&forcing.values[i * B::LANES..]);
         for k in 0..SHAPE {
             sum += at.m[k + 2] * B::splat(stage.values.jacobian[i][k]);
         }
         rate.m[i + 2] = sum;
     }
     if DEPTH > depth::MEAN {
-        covariance_rate(&products::<B, DEPTH>(stage, forcing, at), q, at, &mut rate);
+        covariance_rate(&products::<B, DEPTH>(stage, forcing, at), q, at, rate);
     }
-    rate
 }
 
-/// The derivatives after a step with these stages; `forcing` has [`FORCING`] bundles for each stage; `DEPTH` is one of [`depth`].
+/// The derivatives after a step with these stages; `DEPTH` is one of [`depth`].
 #[inline(always)]
 pub(crate) fn step<B: Bundle, const DEPTH: u8>(
     tangent: &mut Tangent<B>,
+    scratch: &mut Scratch<B>,
     stages: &[Stage; 4],
-    forcing: [&[f64]; 4],
+    forcing: [Forcing<'_>; 4],
     q: &[B; STATE],
     h: f64,
 ) {
-    let k1 = rate::<B, DEPTH>(&stages[0], forcing[0], q, tangent);
-    let k2 = rate::<B, DEPTH>(&stages[1], forcing[1], q, &tangent.plus::<DEPTH>(&k1, 0.5 * h));
-    let mut sum = tangent.plus::<DEPTH>(&k1, h / 6.0).plus::<DEPTH>(&k2, h / 3.0);
-    let k3 = rate::<B, DEPTH>(&stages[2], forcing[2], q, &tangent.plus::<DEPTH>(&k2, 0.5 * h));
-    sum = sum.plus::<DEPTH>(&k3, h / 3.0);
-    let k4 = rate::<B, DEPTH>(&stages[3], forcing[3], q, &tangent.plus::<DEPTH>(&k3, h));
-    *tangent = sum.plus::<DEPTH>(&k4, h / 6.0);
+    let start = *tangent;
+    let Scratch { at, rate: found } = scratch;
+    rate::<B, DEPTH>(&stages[0], forcing[0], q, &start, found);
+    tangent.add::<DEPTH>(found, h / 6.0);
+    at.become_sum::<DEPTH>(&start, found, 0.5 * h);
+    rate::<B, DEPTH>(&stages[1], forcing[1], q, at, found);
+    tangent.add::<DEPTH>(found, h / 3.0);
+    at.become_sum::<DEPTH>(&start, found, 0.5 * h);
+    rate::<B, DEPTH>(&stages[2], forcing[2], q, at, found);
+    tangent.add::<DEPTH>(found, h / 3.0);
+    at.become_sum::<DEPTH>(&start, found, h);
+    rate::<B, DEPTH>(&stages[3], forcing[3], q, at, found);
+    tangent.add::<DEPTH>(found, h / 6.0);
 }

@@ -1,21 +1,24 @@
 //! The fit: maximum likelihood of the coefficients and the noise.
 
+mod ascend;
 mod covariance;
 mod likelihood;
 mod optimise;
 mod result;
 mod setup;
+mod trust;
 
 pub use likelihood::{Likelihood, Parameters, likelihood};
 pub use optimise::Ending;
 pub use result::{Coefficient, Estimate, Fit, Natural, Noise};
 
-use crate::filter::{Problem, Theta, Want};
-use crate::{Library, Result, Scales, Track, observation};
-use optimise::{Point, climb, polish, roughly};
+use crate::filter::{Problem, Theta};
+use crate::{Error, Library, Result, Scales, Track, observation};
+use ascend::polish;
+use motiform_dynamics::Watch;
+use optimise::{Point, climb, roughly};
 use serde::{Deserialize, Serialize};
-pub(crate) use setup::check_library;
-use setup::problem;
+pub(crate) use setup::{check_library, problem};
 
 /// From this many frames on, starts are compared on a half of them.
 const LONG: usize = 400;
@@ -45,9 +48,9 @@ impl Default for Settings {
 /// the first half of each stretch). The same
 /// coefficients and noise hold for all tracks: the sum of their log-likelihoods is maximised.
 ///
-/// # Errors    of the input ([`crate::Error`]); a search that does not converge is [`Ending::Stopped`] in the result
+/// # Errors    of the input ([`crate::Error`]); [`Error::Interrupted`] where the watch stops it. A search that does not converge is [`Ending::Stopped`] in the result
 /// # Checked by  `tests/all/fit.rs`: errors and coverage on simulated cells
-pub fn fit(tracks: &[Track], settings: &Settings) -> Result<Fit> {
+pub fn fit(tracks: &[Track], settings: &Settings, watch: &dyn Watch) -> Result<Fit> {
     observation::check(tracks)?;
     setup::check(settings)?;
     let scales = Scales::of(tracks);
@@ -55,36 +58,53 @@ pub fn fit(tracks: &[Track], settings: &Settings) -> Result<Fit> {
     let starts = starts(tracks, settings, &scales);
     let head = problem.head(LONG);
     let of = head.as_ref().unwrap_or(&problem);
-    let mut rough = best(of, &starts);
+    let mut rough = best(of, &starts, watch);
     if head.is_some() {
-        rough = climb(&problem, &rough.theta, Want::Rough, (1.0, 12));
+        rough = climb(&problem, &rough.theta, (1.0, 12), watch);
         if !rough.evaluation.value.is_finite() {
-            rough = roughly(&problem, &zero(&problem, 0.4));
+            rough = roughly(&problem, &zero(&problem, 0.4), watch);
         }
     }
-    Ok(result::make(&problem, settings, scales, &polish(&problem, &rough.theta)))
+    finished(&problem, settings, scales, &polish(&problem, &rough.theta, scales.time, watch), watch)
 }
 
 /// Fits from given values of the coefficients and the noise (as [`Parameters`]) rather than from zero.
 ///
 /// # Errors    as [`fit`]
-pub fn fit_from(tracks: &[Track], settings: &Settings, start: &Parameters) -> Result<Fit> {
+pub fn fit_from(tracks: &[Track], settings: &Settings, start: &Parameters, watch: &dyn Watch) -> Result<Fit> {
     observation::check(tracks)?;
     setup::check(settings)?;
     let scales = Scales::of(tracks);
     let problem = setup::checked(tracks, settings, &scales)?;
     let theta = likelihood::natural(&problem, settings, &scales, start)?;
-    Ok(result::make(&problem, settings, scales, &polish(&problem, &theta)))
+    finished(&problem, settings, scales, &polish(&problem, &theta, scales.time, watch), watch)
 }
 
 /// Fits from given natural values: used where a fit is the neighbour of another one. Where the filter diverges there, from zero.
-pub(crate) fn refit(tracks: &[Track], settings: &Settings, scales: Scales, start: &Theta) -> Fit {
+pub(crate) fn refit(
+    tracks: &[Track],
+    settings: &Settings,
+    scales: Scales,
+    start: &Theta,
+    watch: &dyn Watch,
+) -> Result<Fit> {
     let problem = problem(tracks, settings, &scales);
-    let mut rough = climb(&problem, start, Want::Rough, (1.0, 8));
+    let mut rough = climb(&problem, start, (1.0, 8), watch);
     if !rough.evaluation.value.is_finite() {
-        rough = roughly(&problem, &zero(&problem, 0.4));
+        rough = roughly(&problem, &zero(&problem, 0.4), watch);
     }
-    result::make(&problem, settings, scales, &polish(&problem, &rough.theta))
+    finished(&problem, settings, scales, &polish(&problem, &rough.theta, scales.time, watch), watch)
+}
+
+/// The fit at this point, unless the watch stopped the search before.
+fn finished(
+    problem: &Problem,
+    settings: &Settings,
+    scales: Scales,
+    point: &Point,
+    watch: &dyn Watch,
+) -> Result<Fit> {
+    if watch.stopped() { Err(Error::Interrupted) } else { Ok(result::make(problem, settings, scales, point)) }
 }
 
 fn zero(problem: &Problem, noise: f64) -> Theta {
@@ -101,10 +121,10 @@ fn starts(tracks: &[Track], settings: &Settings, scales: &Scales) -> Vec<f64> {
 }
 
 /// The best of these starts on a problem.
-fn best(problem: &Problem, starts: &[f64]) -> Point {
-    let mut best = roughly(problem, &zero(problem, starts[0]));
+fn best(problem: &Problem, starts: &[f64], watch: &dyn Watch) -> Point {
+    let mut best = roughly(problem, &zero(problem, starts[0]), watch);
     for &noise in &starts[1..] {
-        let other = roughly(problem, &zero(problem, noise));
+        let other = roughly(problem, &zero(problem, noise), watch);
         if other.evaluation.value > best.evaluation.value {
             best = other;
         }

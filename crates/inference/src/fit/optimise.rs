@@ -1,18 +1,20 @@
-//! Fisher scoring with the damping of Levenberg and Marquardt.
+//! First steps: Fisher scoring with the damping of Levenberg and Marquardt, covariances taken as fixed.
 
 use crate::filter::{Evaluation, Problem, Theta, Want, evaluate};
+use motiform_dynamics::Watch;
 use nalgebra::{Cholesky, DVector};
 use serde::{Deserialize, Serialize};
 
 /// Bounds of `ln s`, `ln eta_v` and `ln eta_shape` in natural units.
 const BOUNDS: [[f64; 2]; 3] = [[-4.6, 4.6], [-9.2, 2.3], [-9.2, 2.3]];
-/// Predicted gain of log-likelihood below which a fit has converged: 0.02 standard errors.
-const CONVERGED: f64 = 2e-4;
 /// Standard deviation of a prior about 0 for coefficients in natural units, where they are of order 1. Without it a search runs away along
 /// combinations that the motion does not fix; a combination with a standard error of 0.4 is moved by 0.2 %.
 pub(crate) const PRIOR: f64 = 10.0;
 /// Largest step of a logarithm.
 const LONGEST_LOG_STEP: f64 = 1.2;
+
+/// Damping from which on first steps are given up: their derivatives are not exact, and the last ones go on from there.
+const GIVEN_UP: f64 = 1e2;
 
 /// Share of the slope at the end of a step, downwards, from which on it went too far.
 const OVERSHOT: f64 = 0.3;
@@ -59,7 +61,7 @@ fn step(at: &Evaluation, held: &[bool], damping: f64) -> Option<(Vec<f64>, f64)>
     Some((step.iter().copied().collect(), gain))
 }
 
-fn held(theta: &Theta, gradient: &DVector<f64>) -> Vec<bool> {
+pub(super) fn held(theta: &Theta, gradient: &DVector<f64>) -> Vec<bool> {
     let n = theta.coefficients.len();
     let mut held = vec![false; n + 3];
     for i in 0..3 {
@@ -75,7 +77,7 @@ pub(crate) fn at_bounds(theta: &Theta) -> [bool; 3] {
 }
 
 /// `theta` after a step whose logarithms are limited.
-fn moved(theta: &Theta, mut step: Vec<f64>) -> Theta {
+pub(super) fn moved(theta: &Theta, mut step: Vec<f64>) -> Theta {
     let n = theta.coefficients.len();
     for log in &mut step[n..] {
         *log = log.clamp(-LONGEST_LOG_STEP, LONGEST_LOG_STEP);
@@ -88,7 +90,7 @@ fn moved(theta: &Theta, mut step: Vec<f64>) -> Theta {
 }
 
 /// The log-likelihood with the prior; scores of frames are without it.
-fn objective(problem: &Problem, theta: &Theta, want: Want) -> Evaluation {
+pub(super) fn objective(problem: &Problem, theta: &Theta, want: Want) -> Evaluation {
     let mut found = evaluate(problem, theta, want, want == Want::Exact);
     found.value -= prior(theta);
     for (i, c) in theta.coefficients.iter().enumerate() {
@@ -127,46 +129,34 @@ fn advance(
 }
 
 /// Goes uphill from `theta` for at most `most` evaluations, until a step promises less than `enough`.
-pub(crate) fn climb(problem: &Problem, theta: &Theta, want: Want, (enough, most): (f64, usize)) -> Point {
+pub(crate) fn climb(
+    problem: &Problem,
+    theta: &Theta,
+    (enough, most): (f64, usize),
+    watch: &dyn Watch,
+) -> Point {
+    let want = Want::Rough;
     let mut evaluation = objective(problem, theta, want);
     let (mut theta, mut damping, mut evaluations) = (theta.clone(), 1e-3, 1);
-    let stopped = |reason: &str| Ending::Stopped { reason: reason.to_owned() };
-    let ending = loop {
-        if !evaluation.value.is_finite() {
-            break stopped("the filter diverges at the start");
-        }
+    while evaluation.value.is_finite() && evaluations < most && damping < GIVEN_UP && !watch.stopped() {
         let held = held(&theta, &evaluation.gradient);
-        let Some((step, gain)) = step(&evaluation, &held, damping) else {
-            break stopped("the information matrix is not finite");
-        };
-        if gain < enough && damping <= 1e-2 {
-            break Ending::Converged { evaluations };
-        }
-        if evaluations >= most {
-            break stopped(&format!("{most} evaluations were not enough"));
+        let Some((step, gain)) = step(&evaluation, &held, damping) else { break };
+        if gain < enough {
+            break;
         }
         let (next, trial) = advance(problem, want, (&theta, &evaluation), &step);
         evaluations += 1;
         if trial.value > evaluation.value {
             (theta, evaluation) = (next, trial);
             damping = (0.1 * damping).max(1e-9);
-        } else if gain < enough.min(1e-3) {
-            break Ending::Converged { evaluations };
-        } else if damping > 1e8 {
-            break stopped("no step improves the likelihood");
         } else {
             damping = (10.0 * damping).max(1e-3);
         }
-    };
-    Point { theta, evaluation, ending }
+    }
+    Point { theta, evaluation, ending: Ending::Stopped { reason: "after first steps".to_owned() } }
 }
 
-/// From a start to the maximum: first roughly, then with exact derivatives.
-pub(crate) fn roughly(problem: &Problem, theta: &Theta) -> Point {
-    climb(problem, theta, Want::Rough, (1.0, 24))
-}
-
-/// To the maximum with exact derivatives.
-pub(crate) fn polish(problem: &Problem, theta: &Theta) -> Point {
-    climb(problem, theta, Want::Exact, (CONVERGED, 60))
+/// First steps from a start.
+pub(crate) fn roughly(problem: &Problem, theta: &Theta, watch: &dyn Watch) -> Point {
+    climb(problem, theta, (1.0, 24), watch)
 }

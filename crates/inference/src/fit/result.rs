@@ -98,6 +98,12 @@ impl Fit {
         matches!(self.ending, Ending::Converged { .. })
     }
 
+    /// Whether the data bound all coefficients: none is above 10 in natural units, where they are of order 1.
+    #[must_use]
+    pub fn is_bounded(&self) -> bool {
+        crate::identifiability::unbounded(self).is_empty()
+    }
+
     /// The estimate of a term's real coefficient, if the term is in the model.
     #[must_use]
     pub fn coefficient(&self, name: &str) -> Option<&Coefficient> {

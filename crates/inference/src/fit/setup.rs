@@ -2,7 +2,7 @@
 
 use super::Settings;
 use crate::field::Field;
-use crate::filter::{LONGEST_GAP, Problem};
+use crate::filter::Problem;
 use crate::{Error, Library, Result, Scales, Track};
 
 /// Checks that the filter can take a library.
@@ -29,7 +29,9 @@ pub(super) fn check(settings: &Settings) -> Result<()> {
 /// The problem in natural units, if frames are close enough to follow each other.
 pub(super) fn checked(tracks: &[Track], settings: &Settings, scales: &Scales) -> Result<Problem> {
     let problem = problem(tracks, settings, scales);
-    if problem.frames() == 0 { Err(Error::Gaps { longest: LONGEST_GAP * scales.time }) } else { Ok(problem) }
+    let usual = tracks.iter().map(Track::interval).fold(0.0, f64::max) / scales.time;
+    let longest = Problem::longest_gap(usual) * scales.time;
+    if problem.frames() == 0 { Err(Error::Gaps { longest }) } else { Ok(problem) }
 }
 
 /// The problem in natural units.

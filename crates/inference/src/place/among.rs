@@ -35,7 +35,7 @@ pub fn place_among(whole: &Fit, selection: &Selection, plane: Plane) -> Placemen
     }
     if all > 0.0 && agreeing < AGREE * all {
         let reason = format!(
-            "{} sets of terms are as good as the best; only {:.0} % of their weight lies at its place",
+            "{} sets of terms are as good as the best; only {:.1} % of their weight lies at its place",
             selection.subsets.ties.len(),
             100.0 * agreeing / all
         );

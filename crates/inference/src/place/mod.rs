@@ -181,3 +181,11 @@ fn with_errors(fit: &Fit, plane: Plane, values: &[f64], found: &Scaled) -> Place
         others,
     }
 }
+
+/// The coordinates on a plane of the fitted model with other values of its coefficients, such as those of [`crate::draws()`]; `None` where a
+/// unit of the plane is not defined.
+#[must_use]
+pub fn coordinates(fit: &Fit, plane: Plane, values: &[f64]) -> Option<[f64; 2]> {
+    let found = scaled(fit, plane, values)?.numbers();
+    Some([found[0], found[1]]).filter(|at| at.iter().all(|x| x.is_finite()))
+}

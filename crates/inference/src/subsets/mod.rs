@@ -14,6 +14,7 @@ use crate::fit::refit;
 use crate::observation::OBSERVED;
 use crate::{Fit, Library, Result, Settings, Track, observation};
 pub(crate) use conditional::Conditional;
+use motiform_dynamics::Watch;
 use search::{Choice, search};
 use serde::{Deserialize, Serialize};
 
@@ -157,24 +158,25 @@ fn subset(fit: &Fit, dropped: &[usize], excess: f64) -> Subset {
 /// Of a handed fit, a term stays if its real or its imaginary part does.
 ///
 /// # Errors    of the input, as [`crate::fit()`]
-pub fn select(tracks: &[Track], fit: &Fit) -> Result<Selection> {
+pub fn select(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Selection> {
     observation::check(tracks)?;
     let subsets = subsets(fit);
     let kept = subsets.best().map(|set| set.kept.clone()).unwrap_or_default();
-    let fit = refit_with(tracks, fit, &kept);
+    let fit = refit_with(tracks, fit, &kept, watch)?;
     Ok(Selection { subsets, fit })
 }
 
 /// The model of these coefficients alone (numbers in the fit's list), fitted from where the others leave them when set to 0.
 ///
 /// Without any coefficient the fit itself is returned.
-#[must_use]
-pub fn refit_with(tracks: &[Track], fit: &Fit, kept: &[usize]) -> Fit {
+///
+/// # Errors    [`crate::Error::Interrupted`] where the watch stops it
+pub fn refit_with(tracks: &[Track], fit: &Fit, kept: &[usize], watch: &dyn Watch) -> Result<Fit> {
     let terms = fit.library.terms.len();
     let stays = |term: usize| kept.iter().any(|&i| i % terms == term);
     let stays: Vec<bool> = (0..terms).map(stays).collect();
     if !stays.contains(&true) {
-        return fit.clone();
+        return Ok(fit.clone());
     }
     let mut rest = Conditional::new(&fit.natural.coefficients, fit.covariance());
     for i in (0..fit.coefficients.len()).filter(|&i| !stays[i % terms]) {
@@ -186,5 +188,5 @@ pub fn refit_with(tracks: &[Track], fit: &Fit, kept: &[usize]) -> Fit {
     let library =
         Library { modes: fit.library.modes, terms: kept_terms.map(|(term, _)| term.clone()).collect() };
     let settings = Settings { library, handed: fit.handed, starts: Vec::new() };
-    refit(tracks, &settings, fit.scales, &Theta { coefficients, logs: fit.natural.logs })
+    refit(tracks, &settings, fit.scales, &Theta { coefficients, logs: fit.natural.logs }, watch)
 }

@@ -3,6 +3,7 @@
 use crate::fit::refit;
 use crate::observation::LEAST_FRAMES;
 use crate::{Estimate, Fit, Result, Settings, Track, observation};
+use motiform_dynamics::Watch;
 use serde::{Deserialize, Serialize};
 
 /// Standard deviations from which on a change counts.
@@ -47,7 +48,7 @@ impl Drift {
 /// Fits every second and every fourth frame again. Give the fit of selected terms.
 ///
 /// # Errors    of the input, as [`crate::fit()`]; too few frames leave a point out
-pub fn drift(tracks: &[Track], fit: &Fit) -> Result<Drift> {
+pub fn drift(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Drift> {
     observation::check(tracks)?;
     let interval = tracks.iter().map(Track::interval).fold(0.0, f64::max);
     let mut points = vec![point(fit, 1, interval)];
@@ -56,7 +57,7 @@ pub fn drift(tracks: &[Track], fit: &Fit) -> Result<Drift> {
         let thinned: Vec<Track> = tracks.iter().map(|track| track.thinned(every)).collect();
         let least = LEAST_FRAMES.max(3 * fit.coefficients.len());
         if thinned.iter().all(|track| track.0.len() >= least) {
-            let again = refit(&thinned, &settings, fit.scales, &fit.theta());
+            let again = refit(&thinned, &settings, fit.scales, &fit.theta(), watch)?;
             if again.frames > 0 {
                 points.push(point(&again, every, interval * every as f64));
             }

@@ -27,7 +27,20 @@ pub(crate) fn full(kappa2: f64, kappa3: f64) -> Equations {
     ]
 }
 
-/// Their names, in the same order.
+/// The paper's quasi-periodic motion (preset fig3): slow, with a z3 that only noise moves.
+pub(crate) fn quasi_periodic() -> Equations {
+    vec![
+        term(1, 0.02, &[1]),
+        term(1, -2.0, &[-1, 2]),
+        term(1, -1.0, &[1, 1, -1]),
+        term(2, 0.06, &[2]),
+        term(2, 0.125, &[1, 1]),
+        term(2, -8.0, &[2, 2, -2]),
+        term(3, -1.0, &[3]),
+    ]
+}
+
+/// Names of the terms of [`full`], in the same order.
 pub(crate) const FULL: [&str; 9] = [
     "z1: z1",
     "z1: z1* z2",
@@ -70,7 +83,12 @@ pub(crate) struct Experiment {
 }
 
 /// 1 % of the radius 2 on each of 48 vertices.
-pub(crate) const VERTEX_NOISE: [f64; 2] = [0.02 * 0.204_124_145, 0.02 * 0.102_062_073]; // sigma sqrt(2/48), sigma/sqrt(2 48)
+pub(crate) const VERTEX_NOISE: [f64; 2] = vertex_noise(2.0);
+
+/// Errors of the centre and of the parts of the modes for noise of 1 % of the radius on each of 48 vertices: `sigma sqrt(2/48)` and `sigma/sqrt(2 48)`.
+pub(crate) const fn vertex_noise(radius: f64) -> [f64; 2] {
+    [0.01 * radius * 0.204_124_145, 0.01 * radius * 0.102_062_073]
+}
 
 impl Experiment {
     /// `eta` on each component of the velocity and of the tensors S and U: half of it on `z2` and `z3`.

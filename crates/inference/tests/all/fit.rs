@@ -25,10 +25,10 @@ fn covered(found: &Fit, equations: &Equations) -> usize {
 
 fn outcome(track: Track, equations: &Equations) -> Outcome {
     let tracks = [track];
-    let whole = fit(&tracks, &Settings::default()).unwrap();
-    let selection = select(&tracks, &whole).unwrap();
+    let whole = fit(&tracks, &Settings::default(), &()).unwrap();
+    let selection = select(&tracks, &whole, &()).unwrap();
     let library = Library::tensor().select(&FULL).unwrap();
-    let truth = fit(&tracks, &Settings { library, ..Settings::default() }).unwrap();
+    let truth = fit(&tracks, &Settings { library, ..Settings::default() }, &()).unwrap();
     let mut names = FULL.map(str::to_owned).to_vec();
     names.sort();
     let same = |set: &[String]| {
@@ -79,7 +79,7 @@ fn coverage_with_the_true_terms() {
     for seed in 0..100 {
         let mut experiment = Experiment::new(full(0.5, 0.1), 0.02, 2000 + seed);
         experiment.frames = 300;
-        let found = fit(&[experiment.track()], &settings).unwrap();
+        let found = fit(&[experiment.track()], &settings, &()).unwrap();
         assert!(found.converged());
         held += covered(&found, &experiment.equations);
         for (name, (_, c, _)) in FULL.iter().zip(&experiment.equations) {
@@ -100,8 +100,8 @@ fn several_cells() {
     let track = |seed| Experiment { frames: 300, ..Experiment::new(full(0.5, 0.1), 0.02, seed) }.track();
     let (first, mut second) = (track(41), track(42));
     second.0.retain(|frame| frame.t < 40.0 || (frame.t > 43.0 && frame.t < 80.0) || frame.t > 120.0);
-    let alone = fit(std::slice::from_ref(&first), &settings).unwrap();
-    let both = fit(&[first, second.clone()], &settings).unwrap();
+    let alone = fit(std::slice::from_ref(&first), &settings, &()).unwrap();
+    let both = fit(&[first, second.clone()], &settings, &()).unwrap();
     assert_eq!(both.innovations.len(), 3, "the second is cut where 40 time units are missing");
     assert_eq!(both.frames, 300 + second.0.len() - 3);
     for (a, b) in alone.coefficients.iter().zip(&both.coefficients) {
@@ -117,9 +117,9 @@ fn several_cells() {
 fn mirror_image_and_restart() {
     let track = Experiment { frames: 300, ..Experiment::new(full(0.5, 0.1), 0.02, 43) }.track();
     let settings = Settings::default();
-    let found = fit(std::slice::from_ref(&track), &settings).unwrap();
-    let mirrored = fit(&[track.mirrored()], &settings).unwrap();
-    let again = fit_from(&[track], &settings, &found.parameters()).unwrap();
+    let found = fit(std::slice::from_ref(&track), &settings, &()).unwrap();
+    let mirrored = fit(&[track.mirrored()], &settings, &()).unwrap();
+    let again = fit_from(&[track], &settings, &found.parameters(), &()).unwrap();
     for (c, others) in found.coefficients.iter().zip(mirrored.coefficients.iter().zip(&again.coefficients)) {
         for other in [others.0, others.1] {
             assert!((c.estimate.value - other.estimate.value).abs() < 0.05 * c.estimate.error, "{}", c.name);
@@ -149,7 +149,7 @@ fn timing() {
         .iter()
         .map(|tracks| {
             let start = std::time::Instant::now();
-            assert!(fit(tracks, &Settings::default()).unwrap().converged());
+            assert!(fit(tracks, &Settings::default(), &()).unwrap().converged());
             start.elapsed().as_secs_f64()
         })
         .collect();

@@ -2,15 +2,15 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use crate::common::{Experiment, full};
+use crate::common::{Equations, Experiment, full, quasi_periodic, vertex_noise};
 use motiform_dynamics::Complex;
-use motiform_inference::{Handedness, Settings, Symmetry, fit, handedness, select};
+use motiform_inference::{Handedness, Settings, Symmetry, fit, handedness, identifiability, select};
 
 fn look(experiment: &Experiment) -> Handedness {
     let tracks = [experiment.track()];
-    let whole = fit(&tracks, &Settings::default()).unwrap();
-    let selection = select(&tracks, &whole).unwrap();
-    handedness(&tracks, &selection.fit).unwrap()
+    let whole = fit(&tracks, &Settings::default(), &()).unwrap();
+    let selection = select(&tracks, &whole, &()).unwrap();
+    handedness(&tracks, &selection.fit, &()).unwrap()
 }
 
 #[test]
@@ -34,7 +34,13 @@ fn false_alarms() {
     for seed in 0..30 {
         let mut experiment = Experiment::new(full(0.5, 0.1), 0.02, 900 + seed);
         experiment.frames = 200;
-        p_values.push(look(&experiment).p_value);
+        let found = look(&experiment);
+        assert_ne!(found.symmetry, Symmetry::Handed, "p {}", found.p_value);
+        assert_eq!(
+            found.symmetry == Symmetry::Mirror,
+            !found.is_doubted() && identifiability(&found.fit).identifiable
+        );
+        p_values.push(found.p_value);
     }
     p_values.sort_by(f64::total_cmp);
     println!("p-values {p_values:.3?}");
@@ -47,8 +53,69 @@ fn turning_is_not_handedness() {
     let mut experiment = Experiment::new(full(0.5, 0.3), 0.0, 7);
     experiment.frames = 300;
     let tracks = [experiment.track()];
-    let whole = fit(&tracks, &Settings::default()).unwrap();
-    let found = handedness(&tracks, &whole).unwrap();
+    let whole = fit(&tracks, &Settings::default(), &()).unwrap();
+    let found = handedness(&tracks, &whole, &()).unwrap();
     println!("{:?} ratio {:.1} of {}, p {:.3}", found.symmetry, found.ratio, found.degrees, found.p_value);
     assert_eq!(found.symmetry, Symmetry::Undecided);
+}
+
+/// A mirror-symmetric motion: its equations, radius, process noise, sampling and frames.
+type Case = (&'static str, Equations, f64, f64, f64, usize);
+
+fn symmetric_cases() -> Vec<Case> {
+    vec![
+        ("chaotic", full(0.5, 0.1), 2.0, 0.02, 0.5, 200),
+        ("chaotic", full(0.5, 0.1), 2.0, 0.02, 0.5, 1000),
+        ("chaotic, coarse", full(0.5, 0.1), 2.0, 0.01, 1.0, 1000),
+        ("zigzag", full(0.9, 0.1), 1.2, 0.01, 1.0, 300),
+        ("zigzag", full(0.9, 0.1), 1.2, 0.01, 0.5, 1000),
+        ("circular", full(0.5, 0.5), 0.6, 0.01, 0.5, 300),
+        ("straight", full(1.5, 0.9), 0.6, 0.01, 0.5, 300),
+        ("quasi-periodic", quasi_periodic(), 0.35, 0.002, 1.0, 1000),
+        ("quasi-periodic", quasi_periodic(), 0.35, 0.002, 2.0, 400),
+        ("quasi-periodic, noisy", quasi_periodic(), 0.35, 0.01, 1.0, 1000),
+        ("quasi-periodic, small", quasi_periodic(), 2.0, 0.002, 1.0, 1000),
+    ]
+}
+
+/// How often mirror-symmetric cells are called handed, motion by motion; MOTIFORM_RUNS sets the number of cells, MOTIFORM_CASE picks a motion.
+#[test]
+#[ignore = "a measurement of many minutes: figures in docs/inference.md"]
+fn rates_of_false_alarms() {
+    let runs: u64 = std::env::var("MOTIFORM_RUNS").map_or(100, |text| text.parse().unwrap());
+    let wanted = std::env::var("MOTIFORM_CASE").unwrap_or_default();
+    for (name, equations, radius, eta, interval, frames) in symmetric_cases() {
+        if !name.contains(&wanted) {
+            continue;
+        }
+        let one = |seed| {
+            let errors = vertex_noise(radius);
+            look(&Experiment { errors, interval, frames, ..Experiment::new(equations.clone(), eta, seed) })
+        };
+        let found: Vec<Handedness> = (0..runs).map(|run| one(7000 + run)).collect();
+        let below = |level: f64| found.iter().filter(|one| one.p_value < level).count();
+        let handed = found.iter().filter(|one| one.symmetry == Symmetry::Handed).count();
+        println!(
+            "{name}, noise {eta}, sampling {interval}, {frames} frames: {handed} of {runs} handed; p below 0.01: {}, 0.05: {}, 0.5: {}",
+            below(0.01),
+            below(0.05),
+            below(0.5)
+        );
+        for one in found.iter().filter(|one| one.p_value < 0.01) {
+            println!(
+                "    ratio {:.1} of {}, {:?}, converged {}, parts {:?}",
+                one.ratio,
+                one.degrees,
+                one.symmetry,
+                one.fit.converged(),
+                one.parts
+                    .iter()
+                    .map(|c| format!(
+                        "{} {:.3} +- {:.3} ({:.3})",
+                        c.name, c.estimate.value, c.estimate.error, c.estimate.robust
+                    ))
+                    .collect::<Vec<_>>()
+            );
+        }
+    }
 }

@@ -10,7 +10,7 @@ use motiform_inference::{
 fn look(equations: Equations, (eta, frames): (f64, usize)) -> Identifiability {
     let mut experiment = Experiment::new(equations, eta, 7);
     experiment.frames = frames;
-    let found = identifiability(&fit(&[experiment.track()], &Settings::default()).unwrap());
+    let found = identifiability(&fit(&[experiment.track()], &Settings::default(), &()).unwrap());
     for of in &found.equations {
         println!("{:.3} {}", of.condition, of.text);
     }
@@ -50,8 +50,8 @@ fn a_motionless_cell_fixes_relaxation_rates() {
     let mut experiment = Experiment::new(still(), 0.02, 7);
     experiment.frames = 600;
     let tracks = [experiment.track()];
-    let whole = fit(&tracks, &Settings::default()).unwrap();
-    let selection = select(&tracks, &whole).unwrap();
+    let whole = fit(&tracks, &Settings::default(), &()).unwrap();
+    let selection = select(&tracks, &whole, &()).unwrap();
     assert_eq!(selection.subsets.best().unwrap().names, ["z1: z1", "z2: z2", "z3: z3"]);
     for (name, truth) in [("z1: z1", -0.5), ("z2: z2", -1.5), ("z3: z3", -1.0)] {
         let found = selection.fit.coefficient(name).unwrap().estimate;
@@ -74,7 +74,7 @@ fn short_or_noisy_is_not_identifiable() {
     let mut noisy = Experiment::new(full(0.9, 0.1), 0.02, 7);
     noisy.frames = 150;
     noisy.errors = noisy.errors.map(|error| 60.0 * error);
-    let noisy = identifiability(&fit(&[noisy.track()], &Settings::default()).unwrap());
+    let noisy = identifiability(&fit(&[noisy.track()], &Settings::default(), &()).unwrap());
     assert!(!noisy.identifiable, "{:?}", noisy.equations);
     assert!(
         noisy.reasons.iter().any(|reason| reason.contains("z3 does not exceed its errors")),

@@ -1,13 +1,16 @@
 //! All integration tests of this crate, in one program: what is generic is compiled once.
 
 mod common;
+mod converge;
 mod definition;
 mod filter;
 mod fit;
 mod handed;
 mod identifiability;
 mod library;
+mod order_five;
 mod place;
 mod subsets;
+mod together;
 mod warnings;
 mod weak;

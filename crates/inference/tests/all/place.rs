@@ -29,7 +29,7 @@ fn in_any_units() {
     let settings = Settings { library: Library::tensor().select(&FULL).unwrap(), ..Settings::default() };
     let mut before: Option<[f64; 2]> = None;
     for units in [(1.0, 1.0, 1.0), (3.0, 5.0, 20.0)] {
-        let found = fit(&[in_units(&track, units)], &settings).unwrap();
+        let found = fit(&[in_units(&track, units)], &settings, &()).unwrap();
         let Placement::Placed(placed) = place(&found, Plane::Full) else {
             panic!("{:?}", place(&found, Plane::Full))
         };
@@ -76,8 +76,8 @@ fn reduced_plane() {
         experiment.frames = 600;
         experiment.errors = [0.001, 0.0005];
         let tracks = [experiment.track()];
-        let whole = fit(&tracks, &Settings::default()).unwrap();
-        let selection = select(&tracks, &whole).unwrap();
+        let whole = fit(&tracks, &Settings::default(), &()).unwrap();
+        let selection = select(&tracks, &whole, &()).unwrap();
         let answer = place_among(&whole, &selection, Plane::Reduced);
         let Placement::Placed(placed) = answer else { panic!("{answer:?}") };
         for (coordinate, truth) in placed.coordinates.iter().zip([-0.06, 0.02]) {
@@ -101,8 +101,8 @@ fn refusals() {
     still.equations[0].1.re = -0.5;
     for (name, experiment) in [("circular", circular), ("short", short), ("still", still)] {
         let tracks = [experiment.track()];
-        let whole = fit(&tracks, &Settings::default()).unwrap();
-        let selection = select(&tracks, &whole).unwrap();
+        let whole = fit(&tracks, &Settings::default(), &()).unwrap();
+        let selection = select(&tracks, &whole, &()).unwrap();
         println!(
             "{name}: {} ties, {:?}",
             selection.subsets.ties.len(),

@@ -25,7 +25,7 @@ fn all_sets() {
     ];
     let library = Library::tensor().select(&names).unwrap();
     let track = Experiment { frames: 150, ..Experiment::new(full(0.9, 0.1), 0.02, 3) }.track();
-    let found = fit(&[track], &Settings { library, ..Settings::default() }).unwrap();
+    let found = fit(&[track], &Settings { library, ..Settings::default() }, &()).unwrap();
     let result = subsets(&found);
     assert!(result.complete);
     let score = |kept: u32| {

@@ -12,8 +12,8 @@ fn settings() -> Settings {
 #[test]
 fn none() {
     let tracks = [Experiment::new(full(0.5, 0.1), 0.02, 31).track()];
-    let found = fit(&tracks, &settings()).unwrap();
-    let drift = drift(&tracks, &found).unwrap();
+    let found = fit(&tracks, &settings(), &()).unwrap();
+    let drift = drift(&tracks, &found, &()).unwrap();
     println!("{:?}", drift.changes);
     assert_eq!(drift.points.len(), 3);
     let found = warnings(&tracks, &found, Some(&drift)).unwrap();
@@ -26,7 +26,7 @@ fn coarse_sampling() {
     experiment.interval = 3.0;
     experiment.frames = 300;
     let tracks = [experiment.track()];
-    let found = fit(&tracks, &settings()).unwrap();
+    let found = fit(&tracks, &settings(), &()).unwrap();
     let found = warnings(&tracks, &found, None).unwrap();
     println!("{found:?}");
     assert!(found.iter().any(|warning| matches!(warning, Warning::CoarseSampling { .. })));
@@ -46,9 +46,9 @@ fn coloured_noise() {
         }
     }
     let tracks = [track];
-    let found = fit(&tracks, &settings()).unwrap();
+    let found = fit(&tracks, &settings(), &()).unwrap();
     assert_eq!(whiteness(&found).len(), 6);
-    let drift = drift(&tracks, &found).unwrap();
+    let drift = drift(&tracks, &found, &()).unwrap();
     let found = warnings(&tracks, &found, Some(&drift)).unwrap();
     println!("{found:?} {:?}", drift.changes);
     assert!(found.iter().any(|warning| matches!(warning, Warning::Coloured { .. })));
@@ -60,7 +60,7 @@ fn missing_terms() {
     let library = Library::tensor().select(&FULL[..8]).unwrap();
     let library =
         library.select(&["z1: z1", "z1: |z1|^2 z1", "z2: z2", "z2: z1^2", "z3: z3", "z3: z1 z2"]).unwrap();
-    let found = fit(&tracks, &Settings { library, ..Settings::default() }).unwrap();
+    let found = fit(&tracks, &Settings { library, ..Settings::default() }, &()).unwrap();
     let found = warnings(&tracks, &found, None).unwrap();
     assert!(found.iter().any(|warning| matches!(warning, Warning::Coloured { .. })), "{found:?}");
 }
@@ -71,7 +71,7 @@ fn bad_input() {
     let refused = |change: &dyn Fn(&mut Track)| {
         let mut track = good.clone();
         change(&mut track);
-        fit(&[track], &Settings::default()).unwrap_err().to_string()
+        fit(&[track], &Settings::default(), &()).unwrap_err().to_string()
     };
     assert!(refused(&|track| track.0.truncate(5)).contains("cell 0 has 5 frames, fewer than 8"));
     assert!(
@@ -81,7 +81,7 @@ fn bad_input() {
     assert!(
         refused(&|track| track.0[3].covariance[1][1] = 0.0).contains("not symmetric and positive definite")
     );
-    assert!(fit(&[], &Settings::default()).unwrap_err().to_string().contains("there is no cell"));
+    assert!(fit(&[], &Settings::default(), &()).unwrap_err().to_string().contains("there is no cell"));
     let four = Settings { library: Library::new(4, 3).unwrap(), ..Settings::default() };
-    assert!(fit(&[good], &four).unwrap_err().to_string().contains("the filter takes three modes"));
+    assert!(fit(&[good], &four, &()).unwrap_err().to_string().contains("the filter takes three modes"));
 }

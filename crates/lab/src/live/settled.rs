@@ -1,10 +1,11 @@
 //! The initial state of an interactive simulation.
 
+use crate::clock::Moment;
 use crate::simulate::after_transient;
 use motiform_dynamics::Watch;
 use motiform_dynamics::{Model, Outcome};
 use motiform_study::{Error, Plan};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The initial state of a plan's body: the shape in the representation of `model` (the plan's model), then x and y.
 #[must_use]
@@ -22,16 +23,19 @@ pub fn start(plan: &Plan, model: &dyn Model) -> Vec<f64> {
 /// # Errors
 /// Input that only the numerics can reject.
 pub fn settled(plan: &Plan, model: &dyn Model, within: Duration) -> Result<Vec<f64>, Error> {
-    let (ended, state) = after_transient(plan, model, &Patience(Instant::now() + within))?;
+    let (ended, state) = after_transient(plan, model, &Patience { begun: Moment::now(), within })?;
     let usable = ended.is_none_or(|ending| matches!(*ending, Outcome::Interrupted { .. }));
     Ok(if usable { state } else { start(plan, model) })
 }
 
 /// Stops after its time limit.
-struct Patience(Instant);
+struct Patience {
+    begun: Moment,
+    within: Duration,
+}
 
 impl Watch for Patience {
     fn stopped(&self) -> bool {
-        Instant::now() > self.0
+        self.begun.elapsed() > self.within
     }
 }

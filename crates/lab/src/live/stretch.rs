@@ -1,13 +1,14 @@
 //! A stretch of motion: from one change to the next.
 
 use super::Record;
+use crate::clock::Moment;
 use crate::simulate::noisy;
 use motiform_dynamics::drive::Run;
 use motiform_dynamics::{InPlane, Integration, Model, Outcome, Request, Sink};
 use motiform_study::{Error, Plan};
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// A model time beyond any practical use.
 const FOREVER: f64 = 1e15;
@@ -81,7 +82,7 @@ impl<'b> Stretch<'b> {
     /// Advances to time `to`, as far as `within` allows, and adds the samples up to there to `record`. Returns whether the time
     /// was reached, or the motion has ended ([`Stretch::outcome`]).
     pub fn advance(&mut self, to: f64, within: Duration, record: &mut Record, model: &dyn Model) -> bool {
-        let begun = Instant::now();
+        let begun = Moment::now();
         let mut in_time = true;
         while self.orbit.t() < to && self.outcome.is_none() && in_time {
             if let ControlFlow::Break(outcome) =

@@ -24,7 +24,8 @@ pub(super) fn classify(
     true
 }
 
-/// The settings, and the kernel that the corners of the plan need; `None` if there is none.
+/// The settings, and the kernel that a corner of the plan needs; `None` if there is none. Where the corners differ it is the last one's: an
+/// axis from 0 on adds a term in all columns but the first.
 fn kernel(plan: &ScanPlan) -> Option<(Settings, Kernel)> {
     let c = &plan.computation;
     let bounds = (c.escape_norm, c.max_steps);
@@ -34,7 +35,7 @@ fn kernel(plan: &ScanPlan) -> Option<(Settings, Kernel)> {
     }
     let corners =
         [0, plan.cells() - 1].map(|cell| Kernel::of_classification(plan.model_of(cell).ok()?.as_ref()));
-    Some((settings, corners[0]?.and(corners[1]?)))
+    Some((settings, corners[1].or(corners[0])?))
 }
 
 /// The rows of one thread.

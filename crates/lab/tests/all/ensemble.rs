@@ -55,9 +55,26 @@ fn tracks_end_where_single_runs_end() {
         study.run.step = Some(0.0625);
     };
     check("fig5a", fixed, 5, 0.0);
-    // more than the paper's terms: no lanes
+    // more than the paper's terms: by the list of products
     check("fig5a", |study| study.set("a5", 0.01).unwrap(), 5, 1e-6);
     check("fig6b", |_| {}, 3, 1e-4);
+}
+
+/// With a term beyond those of the paper a body has another kernel. A track does not depend on what the other members are.
+#[test]
+fn members_with_other_terms_have_their_own_tracks() {
+    let plan = Plan::new(&preset("fig5a", |_| {})).unwrap();
+    let mut members = random_members(&plan, 7, Random::Within(0.3)).unwrap();
+    let place = plan.info().unwrap().parameters().iter().position(|spec| spec.name == "a5").unwrap();
+    for member in members.iter_mut().skip(2) {
+        member.parameters[place] = 0.01;
+    }
+    let all = tracks(&plan, &members, &TIMES, 1, &()).unwrap().unwrap();
+    for (member, track) in members.iter().zip(&all) {
+        let one = tracks(&plan, std::slice::from_ref(member), &TIMES, 1, &()).unwrap().unwrap();
+        assert_eq!(&one[0], track);
+    }
+    assert_ne!(all[1].states, all[2].states);
 }
 
 #[test]

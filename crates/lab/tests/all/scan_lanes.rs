@@ -6,6 +6,7 @@ use crate::common;
 
 use common::preset;
 use motiform_analysis::regime::{Regime, Verdict};
+use motiform_kernels::Kernel;
 use motiform_lab::scan::{Axis, Classify, Evaluate};
 use motiform_study::ScanPlan;
 use std::collections::BTreeSet;
@@ -70,5 +71,19 @@ fn lanes_and_single_orbits_agree_on_chaos_and_blow_up() {
     let seen = regimes(&lanes);
     for regime in [Regime::Chaotic, Regime::BlowUp, Regime::Circular] {
         assert!(seen.contains(regime.name()), "{seen:?}");
+    }
+}
+
+/// Terms beyond those of the paper go through the list of products; the first column has none of them.
+#[test]
+fn lanes_and_single_orbits_agree_on_all_terms() {
+    let plan = plan("fig4", ["a5=0:0.4:3", "kappa2=0.2:1.4:4"], 1);
+    let kernels: BTreeSet<String> = (0..plan.cells())
+        .map(|cell| format!("{:?}", Kernel::of_classification(plan.model_of(cell).unwrap().as_ref())))
+        .collect();
+    assert_eq!(kernels.len(), 2, "{kernels:?}");
+    let (lanes, single) = (in_lanes(&plan), one_by_one(&plan));
+    for (row, (a, b)) in lanes.iter().zip(&single).enumerate() {
+        assert_eq!(text(a), text(b), "row {row}");
     }
 }

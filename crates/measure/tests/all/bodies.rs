@@ -76,11 +76,16 @@ impl Watch for Impatient {
 
 #[test]
 fn an_interruption_keeps_the_bodies_that_are_finished() {
-    let found = run(NOISY, 60, 1, &Impatient(AtomicUsize::new(0), 20)).unwrap();
+    let alone = format!("{NOISY}\nstepper = \"rk4\"\nstep = 0.05"); // a method without lanes
+    let found = run(&alone, 60, 1, &Impatient(AtomicUsize::new(0), 20)).unwrap();
     assert!(!found.complete && found.statistics.bodies == 20 && found.seeds == (1..21).collect::<Vec<u64>>());
     assert!(found.notes[0].contains("40 of 60 bodies were not finished"), "{:?}", found.notes);
     let lanes = run(SILENT, 200, 1, &Impatient(AtomicUsize::new(0), 65)).unwrap();
     assert!(!lanes.complete && lanes.statistics.bodies == 64); // the first 64 are together
+    let noisy = run(NOISY, 200, 1, &Impatient(AtomicUsize::new(0), 2 * 64 + 1)).unwrap();
+    // In lanes 64 transients, then as many recordings; without them one run after the other.
+    let finished = if motiform_dynamics::simd::has_lanes() { 64 } else { 129 };
+    assert!(!noisy.complete && noisy.statistics.bodies == finished, "{}", noisy.statistics.bodies);
     let error = run(NOISY, 60, 2, &Impatient(AtomicUsize::new(0), 0)).unwrap_err();
     assert_eq!(error.to_string(), "interrupted");
 }

@@ -1,10 +1,11 @@
 //! The tensor model as equations given as text: (Z1), (Z2), (Z3) with the paper's table of coefficients.
 
-use super::{Definition, ParameterDefinition};
+use super::{Amplitudes, Definition, Equations, Known, ParameterDefinition};
 use crate::Parameters;
 use crate::registry::ModelInfo;
 use crate::tensor::TensorParameters;
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 /// A parameter, and the term that it multiplies.
 type Term = (&'static str, &'static str);
@@ -82,4 +83,15 @@ pub fn tensor(values: &[f64], all: bool) -> Definition {
         equations: [Z1, Z2, Z3].map(equation).to_vec(),
         noise: BTreeMap::new(),
     }
+}
+
+/// The tensor model with all its terms, as a list of products.
+///
+/// Its equations are those of [`tensor`]; the list and the evaluation in lanes are those of every text.
+pub(crate) fn of_tensor(parameters: &TensorParameters) -> Amplitudes {
+    static ALL: LazyLock<Known> = LazyLock::new(|| {
+        let equations = Equations::new(&tensor(&TensorParameters::default().values(), true));
+        Known::new(equations.expect("the equations of the tensor model can be read"))
+    });
+    Amplitudes::new(&ALL, &parameters.values())
 }

@@ -65,7 +65,7 @@ impl<T: Scalar, const N: usize> Kernel for Evaluation<'_, T, N> {
     }
 }
 
-/// The amplitudes, then 1, then the products.
+/// The amplitudes, then 1 if a term needs it, then the products.
 #[inline(always)]
 fn products<T: Scalar, const N: usize>(program: &Program, u: &[T], registers: &mut [Complex<T>; N]) {
     let mut next = 0;
@@ -73,8 +73,10 @@ fn products<T: Scalar, const N: usize>(program: &Program, u: &[T], registers: &m
         registers[next % N] = Complex::new(z[0], z[1]);
         next += 1;
     }
-    registers[next % N].re = registers[0].re.constant(1.0);
-    next += 1;
+    if program.one {
+        registers[next % N].re = registers[0].re.constant(1.0);
+        next += 1;
+    }
     for &[a, b] in &program.products {
         registers[next % N] = read(a, registers) * read(b, registers);
         next += 1;

@@ -21,6 +21,7 @@ mod tensor_form;
 mod tests_of_texts;
 mod tokens;
 
+pub(crate) use built_in::of_tensor;
 pub use built_in::{of_model, tensor as tensor_as_text};
 pub use definition::{Definition, DefinitionError, ParameterDefinition, Part};
 pub use equations::Equations;

@@ -100,7 +100,7 @@ fn plane(parameters: &[ParameterSpec]) -> &'static [(&'static str, f64, f64)] {
 }
 
 impl Known {
-    fn new(equations: Equations) -> Self {
+    pub(super) fn new(equations: Equations) -> Self {
         let definition = equations.definition();
         let modes = &definition.modes;
         let parameters =

@@ -43,7 +43,9 @@ pub(super) struct Sum {
 /// Several polynomials, ready to be evaluated.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Program {
-    /// Register `modes + 1 + k` is the product of these two.
+    /// Whether register `modes` is 1: some polynomial has a term without amplitudes. (A register less may be a smaller form of the evaluation.)
+    pub(super) one: bool,
+    /// The next registers are products of these two.
     pub(super) products: Vec<[Operand; 2]>,
     /// The amplitudes whose squared moduli are the first real registers.
     pub(super) norms: Vec<u16>,
@@ -60,7 +62,9 @@ pub(super) const REGISTERS: usize = 256;
 impl Program {
     /// The program of these polynomials in `modes` amplitudes; `None` if it needs too many registers.
     pub(super) fn new(polynomials: &[Polynomial], modes: usize, tape: &Tape) -> Option<Self> {
-        let mut builder = Builder { modes, ..Builder::default() };
+        let mut keys = polynomials.iter().flat_map(|polynomial| polynomial.0.keys());
+        let one = keys.any(|key| parts(key).0.is_empty());
+        let mut builder = Builder { modes, first: modes + usize::from(one), ..Builder::default() };
         for (_, moduli) in polynomials.iter().flat_map(|polynomial| polynomial.0.keys().map(parts)) {
             moduli.into_iter().for_each(|mode| _ = builder.norm_of(mode));
         }
@@ -70,7 +74,7 @@ impl Program {
         }
         let Builder { products, norms, norm_products, factors, groups, .. } = builder;
         let fits = products.len() <= REGISTERS && norms.len() + norm_products.len() <= REGISTERS;
-        fits.then_some(Self { products, norms, norm_products, factors, groups, sums })
+        fits.then_some(Self { one, products, norms, norm_products, factors, groups, sums })
     }
 
     /// The coefficient of each factor, of all values of a tape.
@@ -96,7 +100,7 @@ impl Program {
     /// Registers of the kind of which most are needed.
     #[inline(always)]
     pub(super) fn registers(&self, modes: usize) -> usize {
-        (modes + 1 + self.products.len()).max(self.norms.len() + self.norm_products.len())
+        (modes + usize::from(self.one) + self.products.len()).max(self.norms.len() + self.norm_products.len())
     }
 }
 
@@ -104,6 +108,8 @@ impl Program {
 #[derive(Default)]
 struct Builder {
     modes: usize,
+    /// The register of the first product.
+    first: usize,
     products: Vec<[Operand; 2]>,
     known: BTreeMap<Vec<u16>, Operand>,
     norms: Vec<u16>,
@@ -163,8 +169,8 @@ impl Builder {
         }
         let (last, rest) = (factors.len() - 1, &factors[..factors.len() - 1]);
         let pair = [self.base(rest), self.base(&factors[last..])];
+        let register = (self.first + self.products.len()) as u16;
         self.products.push(pair);
-        let register = (self.modes + self.products.len()) as u16;
         let operand = Operand { register, conj: false };
         self.known.insert(factors.to_vec(), operand);
         operand

@@ -106,11 +106,11 @@ pub mod terms {
     /// All 21 parameters.
     pub const ALL: u32 = (1 << 18) - 1;
 
-    /// The smallest of the three sets above that contains all terms of `c`.
+    /// The smallest of the four sets above that contains all terms of `c`.
     #[must_use]
     pub fn enclosing(c: &Coefficients<f64>) -> u32 {
         let present = of(c);
-        [REDUCED, PAPER].into_iter().find(|set| present & !set == 0).unwrap_or(ALL)
+        [REDUCED, PAPER, COMMON].into_iter().find(|set| present & !set == 0).unwrap_or(ALL)
     }
 }
 

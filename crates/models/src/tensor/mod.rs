@@ -12,6 +12,7 @@ pub mod reduced;
 pub use fourier::{Coefficients, FourierField};
 pub use parameters::TensorParameters;
 
+use crate::amplitudes::{self, Amplitudes};
 use fourier::DIM;
 use motiform_dynamics::equivariant::overlaps_by_rotation;
 use motiform_dynamics::model::{Coordinate, Observable};
@@ -39,29 +40,42 @@ const GRID: usize = 32;
 /// assert!((orbit.state()[0] - 1.0).abs() < 1e-9);
 /// # Ok::<(), motiform_dynamics::Error>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Tensor {
     field: FourierField<f64>,
-    /// The set of terms that its parameters need ([`fourier::terms`]).
-    terms: u32,
+    terms: Terms,
+}
+
+/// How the rates are computed: by the smallest set of terms that the parameters need.
+#[derive(Clone, Debug)]
+enum Terms {
+    /// [`fourier::terms::REDUCED`]
+    Reduced,
+    /// [`fourier::terms::PAPER`]
+    Paper,
+    /// [`fourier::terms::COMMON`]
+    Common,
+    /// All terms, as a list of products.
+    Listed(Amplitudes),
 }
 
 /// Calls a method of the field with the terms that the parameters need and no others.
 macro_rules! with_terms {
     ($model:expr, $field:ident => $call:expr) => {
-        match $model.terms {
-            fourier::terms::REDUCED => {
+        match &$model.terms {
+            Terms::Reduced => {
                 let $field = &FourierField::<f64, { fourier::terms::REDUCED }>($model.field.0);
                 $call
             }
-            fourier::terms::PAPER => {
+            Terms::Paper => {
                 let $field = &FourierField::<f64, { fourier::terms::PAPER }>($model.field.0);
                 $call
             }
-            _ => {
-                let $field = &$model.field;
+            Terms::Common => {
+                let $field = &FourierField::<f64, { fourier::terms::COMMON }>($model.field.0);
                 $call
             }
+            Terms::Listed($field) => $call,
         }
     };
 }
@@ -71,7 +85,13 @@ impl Tensor {
     #[must_use]
     pub fn new(parameters: &TensorParameters) -> Self {
         let coefficients = Coefficients::from(parameters);
-        Self { field: FourierField(coefficients), terms: fourier::terms::enclosing(&coefficients) }
+        let terms = match fourier::terms::enclosing(&coefficients) {
+            fourier::terms::REDUCED => Terms::Reduced,
+            fourier::terms::PAPER => Terms::Paper,
+            fourier::terms::COMMON => Terms::Common,
+            _ => Terms::Listed(amplitudes::of_tensor(parameters)),
+        };
+        Self { field: FourierField(coefficients), terms }
     }
 
     /// The shape field, for kernels over other scalars.
@@ -80,10 +100,13 @@ impl Tensor {
         &self.field
     }
 
-    /// The set of coupling terms that it is computed with ([`fourier::terms`]).
+    /// The list of products that its rates are computed by, if it has terms that the paper's planes do not have.
     #[must_use]
-    pub fn terms(&self) -> u32 {
-        self.terms
+    pub fn listed(&self) -> Option<&Amplitudes> {
+        match &self.terms {
+            Terms::Listed(list) => Some(list),
+            _ => None,
+        }
     }
 }
 

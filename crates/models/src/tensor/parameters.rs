@@ -15,7 +15,7 @@ parameters! {
         a3 = 0.0 in -2.0 .. 2.0, "*a*_3", "(V)", "-a3 U S: ellipse and triangle together propel the body.";
         a4 = 0.0 in -2.0 .. 2.0, "*a*_4", "(V)", "-a4 (S:S) v: the ellipse slows the body down for a4 > 0.";
         a5 = 0.0 in -2.0 .. 2.0, "*a*_5", "(V)", "-a5 (U:U) v: the triangle slows the body down for a5 > 0.";
-        a6 = 0.0 in -2.0 .. 2.0, "*a*_6", "(V)", "+a6 S S U: propulsion by the square of the ellipse with the triangle.";
+        a6 = 0.0 in -2.0 .. 2.0, "*a*_6", "(V)", "+a6 S_ij S_kl U_jkl: propulsion by the square of the ellipse with the triangle.";
         b1 = 0.0 in -2.0 .. 2.0, "*b*_1", "(S)", "+b1 (v v - v^2/2): motion stretches the body, along the velocity for b1 > 0 and across it for b1 < 0.";
         b2 = 0.0 in -2.0 .. 2.0, "*b*_2", "(S)", "+b2 U v: a moving triangle becomes elliptic.";
         b3 = 0.0 in 0.0 .. 2.0, "*b*_3", "(S)", "-b3 (S:S) S: saturation of the ellipse; needed where kappa2 < 0.";

@@ -60,7 +60,7 @@ fn gragg(p: &TensorParameters, u: [f64; 8], t_end: f64, basic_steps: usize) -> [
 
 fn run(p: &TensorParameters, start: &[f64; 8], t_end: f64, rtol: f64) -> (Outcome, [f64; 8]) {
     let model = Tensor::new(p);
-    let body = InPlane(model);
+    let body = InPlane(model.clone());
     let mut u = [0.0; 8];
     model.encode(&start[..6], &mut u[..6]);
     u[6..].copy_from_slice(&start[6..]);

@@ -10,6 +10,7 @@ mod cell_motion;
 mod cell_velocity;
 mod ensemble;
 mod noise;
+mod noisy_lanes;
 mod reduced;
 mod registry;
 mod tensor;

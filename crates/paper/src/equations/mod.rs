@@ -51,5 +51,6 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
              is not variational, it does not.",
         )],
         claims,
+        ..Section::default()
     })
 }

@@ -69,7 +69,7 @@ fn path(context: &Context<'_>, eta: f64, stream: u64, time: f64) -> Result<Vec<P
         ..TensorParameters::default()
     };
     let model = Tensor::new(&parameters);
-    let body = InPlane(model);
+    let body = InPlane(model.clone());
     let start = [0.01, 0.0, 0.005, 0.0015, 0.0, 0.0, 0.0, 0.0];
     let orbit = Orbit::new(&body, &RK4, StepControl::Fixed { step: STEP }, 0.0, &start)?;
     let noise = Noise::on(&model, eta, eta, STEP);

@@ -58,6 +58,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         parameters: parameters(context, &lengths),
         figures: pictures::all(&lengths, &exponents, &tracks)?,
         claims,
+        ..Section::default()
     })
 }
 

@@ -28,5 +28,6 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         parameters: correspondence::parameters(),
         figures: vec![zigzags.figure()?],
         claims,
+        ..Section::default()
     })
 }

@@ -18,6 +18,7 @@ from .curves import Curve, Curves
 from .ensembles import Ensemble, ensemble
 from .equations import Amplitudes
 from .errors import EndedEarly, Incomplete, Interrupted, WorkersLost
+from .fields import Field, Orbit
 from .measurements import Measured, Statistics, statistics
 from .models import Model, preset, study
 from .reading import read
@@ -43,11 +44,13 @@ __all__ = [
     "Equilibrium",
     "Estimate",
     "Exponents",
+    "Field",
     "Incomplete",
     "Interrupted",
     "Measured",
     "Model",
     "Motions",
+    "Orbit",
     "Outcome",
     "Share",
     "Spread",

@@ -17,6 +17,7 @@ from .results import Outcome, outcome_of
 from .trajectory import Floats
 
 if TYPE_CHECKING:
+    from .fields import Field
     from .models import Model, Random
 
 
@@ -44,6 +45,8 @@ class Ensemble:
     @property
     def position(self) -> Floats:
         """Positions, (members, T, 2)."""
+        if self.names[-2:] != ("x", "y"):
+            raise AttributeError(f"the coordinates of this field are {', '.join(self.names)}: none of them is known as a position")
         return self.states[:, :, -2:]
 
     @property
@@ -60,7 +63,7 @@ class Ensemble:
 
 
 def ensemble(
-    body: Model,
+    body: Model | Field,
     t: float | npt.ArrayLike,
     *,
     starts: int | npt.ArrayLike | None = None,
@@ -92,19 +95,24 @@ def ensemble(
     parameters
         Values of some parameters by name: an array with one value per member, or a number.
 
+    A :class:`Field` needs an array of starts, (members, coordinates), and runs on threads; `random` and `seed` are not for it.
+
     Members are matched one to one: starts and parameters have the same length, or length one.
     """
+    from .fields import Field
     from .models import _with
 
     given = {
         "random": random, "seed": seed, "stepper": stepper, "rtol": rtol, "atol": atol, "step": step, "max_steps": max_steps,
         "escape_norm": escape_norm,
     }  # fmt: skip
-    study = _with(body._study, None, given)
     times = np.atleast_1d(np.asarray(t, dtype=np.float64))
     if times.ndim != 1 or times.size == 0:
         raise ValueError("t must be one time or a list of times")
     varied = {name: np.atleast_1d(np.asarray(values, dtype=np.float64)) for name, values in (parameters or {}).items()}
+    if isinstance(body, Field):
+        return body._ensemble(times, starts, varied, given, threads, progress)
+    study = _with(body._study, None, given)
     table = _parameters(body, varied)
     places = _starts(body, study, starts, len(table))
     table, places = _matched(table, places)
@@ -117,7 +125,7 @@ def ensemble(
     return Ensemble(times, states, names, spread, outcomes)
 
 
-def _parameters(body: Model, varied: dict[str, Floats]) -> Floats:
+def _parameters(body: Model | Field, varied: dict[str, Floats]) -> Floats:
     """All parameters of each member."""
     base = body.parameters
     for name, values in varied.items():
@@ -143,13 +151,20 @@ def _starts(body: Model, study: Any, starts: int | npt.ArrayLike | None, members
         if starts < 1:
             raise ValueError(f"starts = {starts}: give at least 1")
         return np.array(_motiform.random_starts(study, int(starts)), dtype=np.float64)
-    array = np.array(np.atleast_2d(np.asarray(starts)), dtype=np.float64)
     entries = len(body.coordinates)
-    if array.ndim != 2 or array.shape[1] not in (entries, entries + 2):
-        raise ValueError(f"starts has the shape {array.shape}: give (members, {entries}), or (members, {entries + 2}) with x and y")
+    array = _rows(starts, (entries, entries + 2))
     if array.shape[1] == entries:
         array = np.hstack([array, np.zeros((len(array), 2))])
     return np.ascontiguousarray(array)
+
+
+def _rows(starts: npt.ArrayLike, widths: tuple[int, ...]) -> Floats:
+    """An array of starts, (members, one of these widths)."""
+    array = np.array(np.atleast_2d(np.asarray(starts)), dtype=np.float64)
+    if array.ndim != 2 or array.shape[1] not in widths:
+        wanted = ", or ".join(f"(members, {width})" + (" with x and y" if place else "") for place, width in enumerate(widths))
+        raise ValueError(f"starts has the shape {array.shape}: give {wanted}")
+    return array
 
 
 def _matched(table: Floats, places: Floats) -> tuple[Floats, Floats]:

@@ -19,13 +19,13 @@ from .errors import EndedEarly, Interrupted
 from .measurements import Statistics, Threshold, asked, statistics_from
 from .progress import Bar, Progress
 from .results import (
-    Accuracy,
     Crossings,
     Equilibrium,
     Exponents,
     Motions,
     Verdict,
     equilibrium_of,
+    exponents_of,
     motions_of,
     outcome_of,
     verdict_of,
@@ -238,12 +238,7 @@ class Model:
             raw = json.loads(_motiform.lyapunov(study, count, transient, t_end, bar.callable()))
         if not raw["complete"]:
             _ended_early(raw["ended"], on_end)
-        pairs = [(entry["value"], entry.get("error", np.inf)) for entry in raw["exponents"]]
-        estimates = np.array(pairs, dtype=float).reshape(-1, 2)
-        outcome = outcome_of(raw["outcome"], raw["complete"], raw["ended"])
-        accuracy = Accuracy(**raw["accuracy"])
-        ends = (raw["neutral"], raw["time"], raw["transient"], outcome, accuracy, raw["without_error"])
-        return Exponents(estimates[:, 0], estimates[:, 1], *ends)
+        return exponents_of(raw)
 
     def equilibria(self, *, starts: int = 200, seed: int | None = None, progress: Progress = None) -> list[Equilibrium]:
         """The steady motions (at rest, straight, circular) that Newton's method finds from the circle and from random

@@ -207,6 +207,15 @@ class Exponents:
         )
 
 
+def exponents_of(raw: dict[str, Any]) -> Exponents:
+    """The exponents of the native module's JSON."""
+    pairs = [(entry["value"], entry.get("error", np.inf)) for entry in raw["exponents"]]
+    estimates = np.array(pairs, dtype=float).reshape(-1, 2)
+    outcome = outcome_of(raw["outcome"], raw["complete"], raw["ended"])
+    ends = (raw["neutral"], raw["time"], raw["transient"], outcome, Accuracy(**raw["accuracy"]), raw["without_error"])
+    return Exponents(estimates[:, 0], estimates[:, 1], *ends)
+
+
 @dataclass(frozen=True)
 class Equilibrium:
     """A steady motion: a shape that is constant up to a steady rotation."""
@@ -245,7 +254,7 @@ class Crossings:
     """The crossings of an orbit with a section."""
 
     table: pd.DataFrame
-    """One row per crossing: ``t``, ``x``, ``y``, the coordinates of the shape, ``rising``."""
+    """One row per crossing: ``t``, ``x``, ``y``, the coordinates of the shape (of a field: its coordinates), ``rising``."""
     outcome: Outcome
 
     def __len__(self) -> int:

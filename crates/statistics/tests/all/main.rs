@@ -9,3 +9,4 @@ mod input;
 mod passage;
 mod power;
 mod quantiles;
+mod records;

@@ -33,8 +33,8 @@ pub(super) fn read_one(input: Input, options: &Options) -> Result<Found> {
 pub(super) fn read(path: &Path, options: &Options) -> Result<Found> {
     let whole = Place::file(path);
     let damaged = |error: zip::result::ZipError| match error {
-        zip::result::ZipError::Io(source) if source.kind() != std::io::ErrorKind::UnexpectedEof => {
-            Error::Io { file: path.to_owned(), source }
+        zip::result::ZipError::Io(reason) if reason.kind() != std::io::ErrorKind::UnexpectedEof => {
+            Error::Io { file: path.to_owned(), reason }
         }
         error => Error::structure(&whole, format!("a damaged archive ({error})"), "a zip of .roi files"),
     };

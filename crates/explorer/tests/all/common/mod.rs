@@ -200,6 +200,14 @@ impl Page {
         })
     }
 
+    /// The code with which the server closes instead of a greeting.
+    pub(crate) fn closes_at_once(&mut self) -> Option<u16> {
+        match self.socket.read() {
+            Ok(Message::Close(Some(CloseFrame { code, .. }))) => Some(code.into()),
+            _ => None,
+        }
+    }
+
     /// Reads until the server closes; its code.
     pub(crate) fn closed(&mut self) -> Option<u16> {
         loop {

@@ -29,6 +29,8 @@ export class Camera {
   follow = true;
   /** Whether a note stands below the clock. */
   noted = false;
+  /** The body is in the hand: the sight does not move. */
+  held = false;
   /** Whether it stands still. */
   resting = false;
   /** Pixels per model length. */
@@ -42,6 +44,8 @@ export class Camera {
   private body = { x: 0, y: 0 };
   /** Radius that the body is drawn with. */
   drawn = 0;
+  /** Size of the trail: the longer side of its box. */
+  extent = 0;
   private goal = { x: 0, y: 0, scale: 40 };
 
   /** The next aim is taken at once: a new body. */
@@ -57,8 +61,8 @@ export class Camera {
     return this.height / 2 - (y - this.y) * this.scale;
   }
 
-  /** Aims at the trail from sample `from` on and at the body, with its radius. */
-  aim(history: History, from: number, bx: number, by: number, radius: number): void {
+  /** Aims at the trail from sample `from` on, at the body, with its radius, and at other places. */
+  aim(history: History, from: number, bx: number, by: number, radius: number, others: [number, number][] = []): void {
     this.body = { x: bx, y: by };
     let [x0, x1, y0, y1] = [bx, bx, by, by];
     const stride = Math.max(1, Math.floor((history.length - from) / POINTS));
@@ -69,6 +73,8 @@ export class Camera {
       y0 = Math.min(y0, y);
       y1 = Math.max(y1, y);
     }
+    for (const [x, y] of others) [x0, x1, y0, y1] = [Math.min(x0, x), Math.max(x1, x), Math.min(y0, y), Math.max(y1, y)];
+    this.extent = Math.max(x1 - x0, y1 - y0);
     const least = Math.min(this.width, this.height) / 2;
     const fit = Math.min(this.free(this.width, 0) / (x1 - x0), this.free(this.height, this.taken) / (y1 - y0)) / MARGIN;
     const scale = this.zoom * Math.min(least / (CLOSEST * radius), Math.max(least / (WIDEST * radius), fit));
@@ -79,7 +85,7 @@ export class Camera {
 
   /** Moves on by `seconds`; tells whether anything moved visibly. */
   step(seconds: number): boolean {
-    if (!this.follow && !this.fresh) {
+    if (this.held || (!this.follow && !this.fresh)) {
       this.resting = true;
       return false;
     }

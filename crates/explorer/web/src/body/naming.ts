@@ -1,6 +1,7 @@
 /** The name of the motion above the body, and the sentence that says why. */
 
 import { byId, setText } from "../dom";
+import { explained } from "../terms";
 import { swatch } from "../glyphs";
 import type { Regime } from "../protocol";
 
@@ -10,19 +11,17 @@ const SPOKEN_AFTER = 1200;
 
 let timer = 0;
 
-/** Shows the name; without a regime the motion is being named. */
-export function showName(regime: Regime | null, why: string): void {
+/** Shows the name; without a regime the motion is being named, and `likely` is what the map has at these parameters. */
+export function showName(regime: Regime | null, why: string, likely: Regime | null = null): void {
   const label = byId("regime");
-  const name = regime?.name ?? NAMING;
+  const name = regime?.name ?? likely?.name ?? NAMING;
   if (label.dataset.regime !== (regime?.name ?? "") || label.textContent !== name) {
     setText(label, name);
     label.dataset.regime = regime?.name ?? "";
-    label.title = regime?.meaning ?? "";
-    byId("regime-glyph").replaceChildren(swatch(regime, 26));
+    label.title = (regime ?? likely)?.meaning ?? "";
+    byId("regime-glyph").replaceChildren(swatch(regime ?? likely, 26));
   }
-  const sentence = byId("why");
-  setText(sentence, why);
-  sentence.title = why;
+  explained(byId("why"), regime || !likely ? why : "as the map has it here, from the start of the preset; the motion of this body is being classified\u2026");
   window.clearTimeout(timer);
   if (regime) timer = window.setTimeout(() => setText(byId("spoken"), `${regime.name}: ${why}`), SPOKEN_AFTER);
 }

@@ -3,21 +3,31 @@
 import type { Frame } from "../binary";
 import { Sheet } from "../canvas";
 import { byId, setText } from "../dom";
-import { T, type History } from "../history";
+import { SPEED, T, type History } from "../history";
 import { fixed } from "../numbers";
-import type { Orbit, Values } from "../protocol";
+import type { Orbit, Values, Wish } from "../protocol";
 import { watch } from "../pointer";
 import { currentInks, edge } from "../theme";
 import { Backdrop } from "./backdrop";
 import { Camera } from "./camera";
 import { Ghost } from "./ghost";
+import { grab, under, type GrabHost } from "./grab";
 import { paintBody } from "./painting";
+import type { Swarm } from "./swarm";
 
 /** The body is drawn at least and at most so large (radius in pixels) before its enlargement changes. */
 const SMALLEST = 15;
 const LARGEST = 52;
 const ENLARGEMENTS = [1, 2, 3, 5, 8, 12, 20, 30, 50, 80, 120, 200, 500];
 const CLOCK_GAP = 100;
+
+/** What the hand does to the body. */
+export interface Hand {
+  /** Model time per second. */
+  speed(): number;
+  hold(held: boolean): void;
+  wish(wish: Wish, last: boolean): void;
+}
 
 export class BodyPanel {
   readonly camera = new Camera();
@@ -40,10 +50,15 @@ export class BodyPanel {
   constructor(
     private readonly history: History,
     private readonly followed: (follow: boolean) => void,
+    private readonly hand: Hand,
+    private readonly swarm: Swarm,
   ) {
     const canvas = byId<HTMLCanvasElement>("body");
     this.sheet = new Sheet(canvas, () => (this.dirty = true), true);
+    const host = this.grabbed();
     watch(canvas, {
+      grab: (at, touch) => grab(host, at, touch),
+      hover: (at) => (canvas.dataset.under = (at && under(host, at, false)) ?? ""),
       pan: (dx, dy) => {
         this.setFollow(false);
         this.camera.pan(dx, dy);
@@ -59,6 +74,36 @@ export class BodyPanel {
       },
     });
     byId("true-size").addEventListener("click", () => this.toggleSize());
+  }
+
+  /** What the hand sees of the body. */
+  private grabbed(): GrabHost {
+    return {
+      camera: this.camera,
+      frame: () => this.frame,
+      outline: () => this.outline,
+      enlarged: () => this.enlarged,
+      fastest: () => this.fastest(),
+      speed: () => this.hand.speed(),
+      wish: (wish, last) => this.hand.wish(wish, last),
+      hold: (held) => {
+        this.camera.held = held;
+        this.dirty = true;
+        this.hand.hold(held);
+      },
+    };
+  }
+
+  /** Pixels of a model length at the size in which the body is drawn. */
+  get scale(): number {
+    return this.camera.scale * this.enlarged;
+  }
+
+  /** The largest speed of the trail. */
+  private fastest(): number {
+    let most = 0;
+    for (let i = this.history.since(this.since()); i < this.history.length; i += 4) most = Math.max(most, this.history.at(i, SPEED));
+    return most;
   }
 
   /** The last frame that came. */
@@ -139,7 +184,7 @@ export class BodyPanel {
     if (!frame || !sheet.width) return false;
     [camera.width, camera.height] = [sheet.width, sheet.height];
     const from = this.history.since(frame.t - this.trail);
-    if (this.dirty) camera.aim(this.history, from, frame.x, frame.y, frame.radius);
+    if (this.dirty) camera.aim(this.history, from, frame.x, frame.y, frame.radius, this.swarm.places());
     camera.drawn = frame.radius * this.enlarged;
     if (!camera.step(seconds) && !this.dirty) return false;
     this.dirty = false;
@@ -149,6 +194,7 @@ export class BodyPanel {
     this.backdrop.paint(sheet, scene, currentInks());
     if (this.ghost?.left(frame)) this.show(null);
     this.ghost?.paint(sheet.g, camera, this.since(), frame.t, currentInks());
+    this.swarm.paint(sheet.g, camera, this.enlarged);
     paintBody(sheet.g, scene, currentInks());
     this.clock(frame);
     return true;
@@ -179,8 +225,9 @@ export class BodyPanel {
     if (now - this.clockAt < CLOCK_GAP) return;
     this.clockAt = now;
     setText(byId("clock-t"), fixed(frame.t, 1));
-    // A digit more than the sight resolves.
-    const digits = Math.min(6, Math.max(2, Math.ceil(Math.log10(this.camera.scale / (this.enlarged > 1 ? 1 : 20)))));
+    // A digit more than the sight resolves, and two more than the size of the path.
+    const resolved = Math.ceil(Math.log10(this.camera.scale / (this.enlarged > 1 ? 1 : 20)));
+    const digits = Math.min(8, Math.max(2, resolved, 2 - Math.floor(Math.log10(this.camera.extent || 1))));
     setText(byId("clock-x"), fixed(frame.x, digits));
     setText(byId("clock-y"), fixed(frame.y, digits));
     const late = frame.behind ? "computation is slower than this speed: the body lags behind" : "";

@@ -2,7 +2,7 @@
 
 import { Sheet } from "../canvas";
 import { pretty, type Ticks } from "../numbers";
-import { drawAxes, pixelX, pixelY, type Box, type View } from "../plot";
+import { drawAxes, leftRoom, pixelX, pixelY, type Box, type View } from "../plot";
 import type { Parameter, Regime } from "../protocol";
 import { currentInks, type Inks } from "../theme";
 import { colourOf, paintBranches, paintSelected, paintSpecials } from "./painting";
@@ -26,6 +26,8 @@ const LEAST = 80;
 export class Diagram {
   private readonly sheet: Sheet;
   private dirty = true;
+  /** Room left of the frame, for long numbers more. */
+  private left = 62;
   private scene: DiagramScene | null = null;
   private view: View | null = null;
 
@@ -49,11 +51,12 @@ export class Diagram {
     if (!this.dirty || sheet.width < LEAST) return;
     this.dirty = false;
     sheet.clear();
+    if (scene && view) this.left = leftRoom(sheet.g, this.box(), view, isLog(scene.ordinate) ? logTicks(view) : undefined);
     if (scene && view) paint(sheet.g, scene, this.box(), view, currentInks());
   }
 
   box(): Box {
-    const left = 62;
+    const { left } = this;
     return { left, top: 8, width: this.sheet.width - left - 12, height: this.sheet.height - 8 - 42 };
   }
 

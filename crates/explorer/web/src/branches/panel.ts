@@ -1,6 +1,6 @@
 /** The branches of the body's motion: asks for them, draws them in a diagram and upon the map, and takes the body to where one clicks. */
 
-import { byId } from "../dom";
+import { byId, byTouch, setText } from "../dom";
 import type { Box, View } from "../plot";
 import type { Branch, BranchesStart, Followed, Following, Model, Parameter, Plane, Regime, Specials, Values, Wish } from "../protocol";
 import { symbol } from "../symbols";
@@ -41,6 +41,7 @@ export class BranchPanel {
   constructor(private readonly host: BranchHost) {
     const canvas = byId<HTMLCanvasElement>("branches");
     this.diagram = new Diagram(canvas);
+    if (byTouch()) setText(byId("branch-how"), "Tap a branch for its numbers and to place the body on that motion. Where it is unstable, the body leaves it.");
     this.controls = new BranchControls({
       follow: (along) => this.follow(along),
       stop: () => this.stop(),

@@ -96,6 +96,12 @@ export class Lattice {
     return i >= 0 && i < this.columns && j >= 0 && j < this.rows ? [i, j] : null;
   }
 
+  /** The regime of a cell that has a verdict of its own; `null` where only a coarser look speaks for it. */
+  verdict([i, j]: [number, number]): Regime | null {
+    const at = j * this.columns + i;
+    return this.levels[at] === 0 ? (this.legend[this.regimes[at]] ?? null) : null;
+  }
+
   /** Which regimes occur, in the order of legends. */
   occurring(): number[] {
     const seen = new Set(this.regimes);

@@ -29,7 +29,8 @@ export interface MapHost {
   parameters(): Values;
   /** Takes the body to these parameters. */
   choose(values: Values): void;
-  /** The window or the axes changed. */
+  /** The window or the axes are about to change; and have changed. */
+  moves(): void;
   moved(): void;
   /** What else lies upon the map. */
   readonly upon: Upon;
@@ -93,6 +94,15 @@ export class MapPanel {
     this.request();
   }
 
+  /** Returns to a window, where it is another one. */
+  return(plane: Plane): void {
+    if (JSON.stringify(plane) === JSON.stringify(this.plane)) return;
+    this.forgetUnless(plane);
+    this.setPlane(plane);
+    this.request();
+    this.host.moved();
+  }
+
   touch(): void {
     this.picture.touch();
   }
@@ -108,6 +118,15 @@ export class MapPanel {
 
   window(): View | null {
     return this.plane && viewOf(this.plane);
+  }
+
+  /** What the map has at the parameters of the body; `null` where it has nothing yet. */
+  nameHere(): Regime | null {
+    const [sides, lattice] = [this.sides(), this.picture.lattice];
+    if (!sides || !lattice || this.picture.aged || this.shown !== this.host.model()) return null;
+    const values = this.host.parameters();
+    const cell = lattice.cell(values[sides.x.name], sides.y ? values[sides.y.name] : 0);
+    return cell && lattice.verdict(cell);
   }
 
   /** Where a point of the plane is on the canvas, in CSS pixels. */
@@ -196,6 +215,7 @@ export class MapPanel {
 
   /** Another window: shown at once, computed soon. */
   private go(plane: Plane): void {
+    this.host.moves();
     this.setPlane(plane);
     this.request();
     this.host.moved();

@@ -2,10 +2,10 @@
 
 import type { Cells } from "../binary";
 import { Sheet } from "../canvas";
-import type { Box, View } from "../plot";
+import { leftRoom, type Box, type View } from "../plot";
 import type { MapStart, Regime } from "../protocol";
 import { currentInks } from "../theme";
-import { divided } from "./exponents";
+import { divided, rangeOf } from "./exponents";
 import { landmarks, type Landmark } from "./landmarks";
 import { Lattice } from "./lattice";
 import { paint, paintCells, type Areas, type Memory } from "./painting";
@@ -21,6 +21,8 @@ export class MapPicture {
   private marks: Landmark[] = [];
   private outdated = false;
   private dirty = true;
+  /** Room left of the frame, for long numbers more. */
+  private left = 62;
 
   constructor(
     canvas: HTMLCanvasElement,
@@ -48,6 +50,11 @@ export class MapPicture {
     this.outdated = true;
   }
 
+  /** Whether what is shown belongs to other parameters than the present ones. */
+  get aged(): boolean {
+    return this.outdated;
+  }
+
   start(start: MapStart, view: View): void {
     this.remember(view, start.y === null);
     this.lattice = new Lattice(start, this.regimes());
@@ -70,7 +77,7 @@ export class MapPicture {
 
   /** The frame of the data. */
   box(): Box {
-    const left = 62;
+    const { left } = this;
     return { left, top: 8, width: this.sheet.width - left - 12, height: this.sheet.height - 8 - 42 };
   }
 
@@ -80,6 +87,7 @@ export class MapPicture {
     this.dirty = false;
     this.sheet.clear();
     const labels = { x: sides.x.symbol, y: sides.y?.symbol ?? null };
+    this.left = sides.y ? leftRoom(this.sheet.g, this.box(), view) : leftRoom(this.sheet.g, divided(this.box()).above, rangeOf(this.lattice, view));
     paint(this.sheet.g, { ...this.areas(this.box(), view), labels, mark, landmarks: this.marks }, currentInks());
     this.more(this.sheet.g, this.box(), view);
   }

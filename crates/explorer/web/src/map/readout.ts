@@ -1,10 +1,11 @@
 /** The line below the map: what is known about the cell under the pointer, asked at most fifteen times a second. */
 
-import { make, setText, throttle } from "../dom";
+import { byTouch, make, throttle } from "../dom";
 import { swatch } from "../glyphs";
 import { pretty, typeset } from "../numbers";
 import type { Evidence, Parameter, Regime } from "../protocol";
 import { symbol } from "../symbols";
+import { explained } from "../terms";
 
 const GAP = 1000 / 15;
 
@@ -51,7 +52,10 @@ export class Readout {
   leave(): void {
     this.cell = null;
     this.place.replaceChildren();
-    this.show(undefined, "Point at the map for the evidence; click to set the parameters of the body; drag to pan, wheel to zoom.");
+    const how = byTouch()
+      ? "Tap the map for the evidence and to set the parameters of the body; drag to pan, two fingers to zoom."
+      : "Point at the map for the evidence; click to set the parameters of the body; drag to pan, wheel to zoom.";
+    this.show(undefined, how);
   }
 
   answer(evidence: Evidence): void {
@@ -65,7 +69,6 @@ export class Readout {
       this.verdict.replaceChildren(...(regime ? [swatch(regime, 14), make("b", {}, regime.name)] : []));
       this.regime = name;
     }
-    setText(this.why, why);
-    this.why.title = why;
+    explained(this.why, why);
   }
 }

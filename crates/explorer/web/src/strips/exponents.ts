@@ -32,7 +32,7 @@ export class ExponentStrip {
     this.plot = chart(byId("exponents"), "Lyapunov exponents against averaging time", {
       cursor: { y: false, points: { show: false }, drag: { x: false, y: false } },
       scales: { x: { time: false }, y: { range: () => this.range() } },
-      padding: [6, 20, 0, 0],
+      padding: [8, 20, 0, 0],
       axes: [axis({ ...linear(), size: 20 }), axis({ ...linear(4), size: 50 })],
       series: [{}, ...indices.flatMap((i) => [{ stroke: () => curve(i), dash: DASHES[i], width: 1.8, points: { show: () => this.time.length < FEW, size: 5 } }, edge, edge])],
       bands: indices.map((i) => ({ series: [PER_CURVE * i + 2, PER_CURVE * i + 3], fill: () => `${curve(i)}33` })),

@@ -2,13 +2,16 @@
 
 import type { BodyPanel } from "../body/panel";
 import type { History } from "../history";
-import type { Exponents, Observable, Section, Strips, Wish } from "../protocol";
+import type { Exponents, Observable, ReturnsAhead, Section, Strips, Wish } from "../protocol";
+import { byId } from "../dom";
 import { ExponentStrip } from "./exponents";
 import { recolourKeys } from "./keys";
 import { ReturnStrip } from "./returns";
 import { SeriesStrip } from "./series";
 import { SpectrumStrip } from "./spectrum";
 
+/** So many returns are computed at once. */
+const RETURNS = 300;
 const ASK_GAP = 500;
 const DRAW_GAP = 125;
 
@@ -27,13 +30,22 @@ export class StripPanels {
     private readonly history: History,
     private readonly send: (wish: Wish) => void,
     pointed: (time: number | null) => void,
-    changed: () => void,
+    changed: (before: { section: Section; y: number | null }) => void,
   ) {
     this.series = new SeriesStrip(history, pointed);
-    this.returns = new ReturnStrip(() => {
+    this.returns = new ReturnStrip((before) => {
       this.due = true;
-      changed();
+      changed(before);
     });
+    byId("returns-ahead").addEventListener("click", () => {
+      this.returns.waits(true);
+      this.send({ do: "returns", ...this.section(), count: RETURNS });
+    });
+  }
+
+  /** Returns computed ahead. */
+  returned(ahead: ReturnsAhead): void {
+    if (ahead.returns.section === this.section().section) this.returns.take(ahead);
   }
 
   begin(observables: Observable[], section: Section, y: number | null): void {
@@ -42,9 +54,19 @@ export class StripPanels {
     this.shown = NaN;
   }
 
+  /** This section of the return map. */
+  choose(section: Section, y: number | null): void {
+    const now = this.section();
+    if (now.section === section && now.y === y) return;
+    this.returns.setSection(section, y);
+    this.returns.clear();
+    this.due = true;
+  }
+
   /** The motion changed: what was computed about it holds no longer. */
   renew(): void {
     this.exponent.clear();
+    this.returns.renew();
     this.waiting = false;
     this.due = true;
   }

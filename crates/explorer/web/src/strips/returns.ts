@@ -1,25 +1,37 @@
 /** The return map: each value against the one before, on equal axes, with the diagonal. */
 
 import { Sheet } from "../canvas";
-import { byId } from "../dom";
-import { drawAxes, pixelX, pixelY, type Box, type View } from "../plot";
-import type { Returns, Section } from "../protocol";
+import { byId, setText } from "../dom";
+import { readNumber } from "../fields";
+import { toast } from "../toasts";
+import { pretty } from "../numbers";
+import { drawAxes, leftRoom, pixelX, pixelY, type Box, type View } from "../plot";
+import type { Returns, ReturnsAhead, Section } from "../protocol";
 import { currentInks, curve } from "../theme";
 
 export class ReturnStrip {
   private readonly sheet: Sheet;
   private returns: Returns | null = null;
+  /** Returns that were computed ahead: of the present motion and section. */
+  private ahead: Returns | null = null;
   private dirty = true;
   private readonly select = byId<HTMLSelectElement>("section");
   private readonly line = byId<HTMLInputElement>("section-y");
 
-  /** `chosen` hears of another section. */
-  constructor(chosen: () => void) {
+  /** What was chosen before. */
+  private before: { section: Section; y: number | null } = { section: "speed", y: null };
+
+  /** `chosen` hears of another section, and which one was before. */
+  constructor(chosen: (before: { section: Section; y: number | null }) => void) {
     this.sheet = new Sheet(byId<HTMLCanvasElement>("returns"), () => (this.dirty = true));
     const changed = (): void => {
+      const read = readNumber(this.line.value);
+      if ("why" in read && this.line.value.trim() !== "") toast(`Height of the line: ${read.why}`);
       byId("section-line").hidden = this.select.value !== "path";
       this.clear();
-      chosen();
+      const { before } = this;
+      this.before = this.section();
+      chosen(before);
     };
     this.select.addEventListener("change", changed);
     this.line.addEventListener("change", changed);
@@ -27,19 +39,48 @@ export class ReturnStrip {
 
   section(): { section: Section; y: number | null } {
     const path = this.select.value === "path";
-    const y = Number.parseFloat(this.line.value);
-    return { section: path ? "path" : "speed", y: path && Number.isFinite(y) ? y : null };
+    const read = readNumber(this.line.value);
+    return { section: path ? "path" : "speed", y: path && "value" in read ? read.value : null };
   }
 
   setSection(section: Section, y: number | null): void {
     this.select.value = section;
     this.line.value = y === null ? "" : String(y);
     byId("section-line").hidden = section !== "path";
+    this.before = { section, y };
   }
 
   clear(): void {
     this.returns = null;
+    this.renew();
+  }
+
+  /** Another motion: what was computed ahead is of the one before. */
+  renew(): void {
+    this.ahead = null;
+    this.waits(false);
     this.dirty = true;
+  }
+
+  /** Whether returns ahead are being computed. */
+  waits(waiting: boolean): void {
+    const button = byId<HTMLButtonElement>("returns-ahead");
+    button.disabled = waiting;
+    setText(button, waiting ? "\u2026" : "300");
+  }
+
+  /** Takes the returns ahead. */
+  take({ returns, time, complete }: ReturnsAhead): void {
+    this.waits(false);
+    if (!complete) toast(returns.points.length ? `The motion gives only ${returns.points.length} returns up to t = ${pretty(time)}.` : "This motion gives no returns.");
+    this.ahead = returns.points.length ? returns : null;
+    this.dirty = true;
+  }
+
+  /** What there is most of. */
+  private shown(): Returns | null {
+    const [live, ahead] = [this.returns, this.ahead];
+    return ahead && ahead.points.length > (live?.points.length ?? 0) ? ahead : live;
   }
 
   show(returns: Returns): void {
@@ -55,16 +96,19 @@ export class ReturnStrip {
     if (!this.dirty || this.sheet.width < 80) return;
     this.dirty = false;
     this.sheet.clear();
-    const points = this.returns?.points ?? [];
+    const shown = this.shown();
+    const points = shown?.points ?? [];
     byId("returns-empty").hidden = points.length > 0;
-    if (this.returns && points.length) this.paint(this.returns);
+    byId("returns").dataset.points = String(points.length);
+    if (shown && points.length) this.paint(shown);
   }
 
   private paint({ points, label }: Returns): void {
     const { g, width, height } = this.sheet;
-    const size = Math.min(width - 62 - 10, height - 8 - 38);
-    const box: Box = { left: 62 + (width - 72 - size) / 2, top: 8, width: size, height: size };
     const view = square(points);
+    const room = leftRoom(g, { height: height - 46 }, view);
+    const size = Math.min(width - room - 10, height - 8 - 38);
+    const box: Box = { left: room + (width - room - 10 - size) / 2, top: 8, width: size, height: size };
     const inks = currentInks();
     g.save();
     g.beginPath();

@@ -28,7 +28,7 @@ export class SpectrumStrip {
         x: { time: false, distr: 3, range: (_plot, low, high) => (high > low ? [low, high] : [0.01, 1]) },
         y: { distr: 3, range: (_plot, low, high) => (high > 0 ? [Math.max(low, high / 10 ** DECADES) / 2, high * 10 ** this.room()] : [1e-6, 1]) },
       },
-      padding: [6, 14, 0, 0],
+      padding: [10, 14, 0, 0],
       axes: [axis({ ...powers(4), size: 20 }), axis({ ...powers(4), size: 40 })],
       series: [{}, ...indices.map((i) => ({ stroke: () => curve(i), dash: DASHES[i], width: 1.4, points: { show: false } }))],
     }, [[], ...indices.map(() => [])]);

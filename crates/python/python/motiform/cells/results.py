@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -50,6 +50,19 @@ class Observation:
     """The numbers behind it; ``None`` for records that are too short."""
     repeats: Mapping[str, Any] | None
     """Period, likeness and rotation of a motion that repeats; ``None`` where nothing repeats."""
+    statistics: Mapping[str, Any] | None
+    """Persistence time, diffusion coefficient and correlation times as ``motiform observe --json`` prints them; ``None`` for records that are too short."""
+
+    @property
+    def displacement(self) -> pd.DataFrame:
+        """Mean-square displacement: ``lag``, ``value``, ``lower``, ``upper`` (95 % interval); empty for records that are too short."""
+        return _curve((self.statistics or {}).get("displacement", ()))
+
+    @property
+    def correlations(self) -> dict[str, pd.DataFrame]:
+        """Autocorrelations of ``velocity``, ``z2`` and ``z3``, with the columns of ``displacement``."""
+        memories = (self.statistics or {}).get("memories", ())
+        return {memory["quantity"]: _curve(memory["correlation"]) for memory in memories}
 
     @property
     def decided(self) -> bool:
@@ -132,6 +145,11 @@ class CellFit:
     """On the plane of Fig. 1."""
     warnings: tuple[str, ...]
     """What makes the fit doubtful."""
+    simulated: pd.DataFrame
+    """Cells simulated by the fit beside the observed one: ``statistic``, ``verdict`` (agrees, doubtful, differs), ``p_value``. Empty without a fit, without
+    simulations, and where ``unstable``."""
+    unstable: bool
+    """Whether too many simulated cells leave all bounds: then the fit does not describe the cell."""
     model: Amplitudes | None
     """The equations without noise, in the units of the data: classified and followed like all others. ``None`` without a fit."""
     noisy_model: Amplitudes | None
@@ -144,15 +162,32 @@ class CellFit:
         """Whether the motion has a name."""
         return self.regime != "undecided"
 
+    def bands(self, statistic: str) -> pd.DataFrame:
+        """A statistic of the observed cell among those of the simulated ones: ``at`` (lags, or shares in %), ``observed``, and ``median``, ``low``,
+        ``high`` (95 % band) of the simulated cells."""
+        found = self.summary.get("simulated", {}).get("statistics", ())
+        for one in found:
+            if one["statistic"] == statistic:
+                return pd.DataFrame({name: one[name] for name in ("at", "observed", "median", "low", "high")})
+        known = ", ".join(one["statistic"] for one in found) or "none: there are no simulated cells"
+        raise KeyError(f"{statistic!r}; the statistics are {known}")
+
     def __repr__(self) -> str:
         return f"<fit of cell {self.cell}: {self.regime}, {len(self.coefficients)} coefficients, {self.frames} frames>"
 
 
+_COMPARED = ("statistic", "verdict", "p_value")
+
+
+def _curve(points: Sequence[Mapping[str, float]]) -> pd.DataFrame:
+    columns = ("lag", "value", "lower", "upper")
+    return pd.DataFrame([[point.get(name, math.nan) for name in columns] for point in points], columns=list(columns))
+
+
 def observation_of(raw: Mapping[str, Any]) -> Observation:
     """The observation of the native module's JSON."""
-    return Observation(
-        raw["cell"], raw["frames"], raw["regime"], raw["why"], raw["confidence"], raw["measures"], raw["repeats"]
-    )
+    names = ("cell", "frames", "regime", "why", "confidence", "measures", "repeats", "statistics")
+    return Observation(*(raw[name] for name in names))
 
 
 def fit_of(raw: Mapping[str, Any], coefficients: pd.DataFrame, model: Amplitudes | None) -> CellFit:
@@ -175,6 +210,11 @@ def fit_of(raw: Mapping[str, Any], coefficients: pd.DataFrame, model: Amplitudes
         place=_place(raw, "place"),
         place_reduced=_place(raw, "place_reduced"),
         warnings=tuple(raw.get("warnings", ())),
+        simulated=pd.DataFrame(
+            [[one[name] for name in _COMPARED] for one in raw.get("simulated", {}).get("statistics", ())],
+            columns=list(_COMPARED),
+        ),
+        unstable=raw.get("simulated", {}).get("unstable", False),
         model=None if model is None else model.replace(noise=0.0, noise_velocity=0.0),
         noisy_model=model,
         summary=raw,

@@ -69,6 +69,7 @@ class Cells(Sequence["Cell"]):
         *,
         draws: int = 40,
         seed: int = 1,
+        simulations: int = 199,
         threads: int | None = None,
         progress: Progress = None,
     ) -> dict[str, CellFit]:
@@ -81,11 +82,14 @@ class Cells(Sequence["Cell"]):
         draws
             Models drawn from the estimate; the motion is named if 90 % of them share it.
         seed
-            Seed of the draws.
+            Seed of the draws and of the simulated cells.
+        simulations
+            Cells simulated by each fit, to be compared with the observed one (``CellFit.simulated``); 0 for none.
 
         Ctrl-C raises :class:`motiform.Interrupted` with the fits that are done.
         """
-        return self._fit(self.names, (order, draws, seed, threads or os.cpu_count() or 1), progress)
+        settings = (order, draws, seed, simulations, threads or os.cpu_count() or 1)
+        return self._fit(self.names, settings, progress)
 
     def _observe(self, names: list[str], progress: Progress) -> dict[str, Observation]:
         with Bar(progress, len(names), "cells") as bar:
@@ -95,7 +99,9 @@ class Cells(Sequence["Cell"]):
             raise _raised(raised, found)
         return found
 
-    def _fit(self, names: list[str], settings: tuple[int, int, int, int], progress: Progress) -> dict[str, CellFit]:
+    def _fit(
+        self, names: list[str], settings: tuple[int, int, int, int, int], progress: Progress
+    ) -> dict[str, CellFit]:
         with Bar(progress, len(names), "cells") as bar:
             text, table, models, raised = self._native.fit(names, settings, bar.callable())
         rows, bodies = _frame(table), {name: Amplitudes._of(study) for name, study in models}
@@ -184,9 +190,11 @@ class Cell:
         """How it moves, from its samples alone."""
         return self._cells._observe([self.name], progress)[self.name]
 
-    def fit(self, order: int = 3, *, draws: int = 40, seed: int = 1, progress: Progress = None) -> CellFit:
+    def fit(
+        self, order: int = 3, *, draws: int = 40, seed: int = 1, simulations: int = 199, progress: Progress = None
+    ) -> CellFit:
         """The equations that describe it; :meth:`Cells.fit` explains the settings."""
-        return self._cells._fit([self.name], (order, draws, seed, 1), progress)[self.name]
+        return self._cells._fit([self.name], (order, draws, seed, simulations, 1), progress)[self.name]
 
     def plot(self, outlines: int = 12) -> Figure:
         """A film strip of `outlines` outlines at equal times, and the path below, both coloured by time."""

@@ -1,0 +1,137 @@
+//! The fitted equations: coefficients, noise, what the data determine, the motion, what is doubtful.
+
+use crate::Units;
+use crate::motion::capital;
+use crate::numbers::{estimate, plain, with_error};
+use motiform_cells::{CellFit, Fitted};
+use motiform_figures::literal;
+use motiform_inference::{Coefficient, paper};
+use motiform_report::{Cell, Section, Table};
+
+pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
+    let title = "Fitted equations".to_owned();
+    let fitted = match &fit.fitted {
+        Ok(fitted) => fitted,
+        Err(why) => {
+            return Section { title, about: format!("No fit: {}.", literal(why)), ..Section::default() };
+        }
+    };
+    let why = capital(&literal(&fitted.why()));
+    let regime =
+        fitted.regime.as_ref().and_then(|found| found.regime).map_or("undecided", |regime| regime.name());
+    let about = format!(
+        "Motion of the fitted equations, without their noise: {regime}. {why}.\n\nThe equations are the study file {name}.toml in the folder of this page: every command of motiform takes it as a model."
+    );
+    let mut tables = vec![coefficients(fitted)];
+    tables.extend(motions(fitted));
+    tables.extend(bifurcations(fit));
+    tables.extend(determined(fitted));
+    tables.extend(warnings(fitted));
+    Section { title, about, parameters: parameters(fitted, units), tables, ..Section::default() }
+}
+
+fn parameters(fitted: &Fitted, units: &Units) -> Vec<(String, String)> {
+    let model = fitted.model();
+    let noise = &model.noise;
+    let (symmetry, p) = (fitted.handedness.symmetry.name(), plain(fitted.handedness.p_value));
+    vec![
+        ("symmetry".to_owned(), format!("{symmetry}, p = {p}")),
+        ("frames with a likelihood".to_owned(), model.frames.to_string()),
+        ("log-likelihood".to_owned(), plain(model.log_likelihood)),
+        ("factor of the stated errors".to_owned(), estimate(&noise.s)),
+        (
+            "noise of the velocity".to_owned(),
+            format!("{} {}/√{}", estimate(&noise.eta_v), units.speed(), units.time),
+        ),
+        (
+            "noise of the shape".to_owned(),
+            format!("{} {}/√{}", estimate(&noise.eta_shape), units.length, units.time),
+        ),
+        ("sets of terms that are as good".to_owned(), fitted.selection.subsets.ties.len().to_string()),
+        ("natural time".to_owned(), format!("{} {}", plain(model.scales.time), units.time)),
+    ]
+}
+
+fn coefficients(fitted: &Fitted) -> Table {
+    let between = fitted.between.as_ref();
+    let row = |(place, c): (usize, &Coefficient)| {
+        let (name, factor) = paper(&c.term, c.imaginary);
+        let part = if c.imaginary { "imaginary part of " } else { "" };
+        let [low, high] = c.estimate.interval;
+        let mut row = vec![
+            Cell::text(literal(&format!("{part}{}", c.name))),
+            Cell::number(with_error(c.estimate.value, c.estimate.error)),
+            Cell::number(plain(c.estimate.robust)),
+            Cell::number(format!("{} to {}", plain(low), plain(high))),
+            Cell::text(literal(&format!("{name} = {}", plain(c.estimate.value / factor)))),
+        ];
+        if let Some(between) = between {
+            row.insert(3, Cell::number(between.errors.get(place).map_or_else(String::new, |e| plain(*e))));
+        }
+        row
+    };
+    let mut head =
+        vec!["term", "coefficient", "robust error", "95 % interval", "parameter of the study file"];
+    if between.is_some() {
+        head.insert(3, "error between cells");
+    }
+    Table {
+        caption: "Coefficients in the units of the data; a term stands in the equation of the amplitude before the colon.".to_owned(),
+        head: head.into_iter().map(str::to_owned).collect(),
+        rows: fitted.model().coefficients.iter().enumerate().map(row).collect(),
+    }
+}
+
+/// The motions of the models that the data allow.
+fn motions(fitted: &Fitted) -> Option<Table> {
+    let found = fitted.regime.as_ref()?;
+    let row = |(regime, count): &(motiform_analysis::regime::Regime, usize)| {
+        let share = 100.0 * *count as f64 / found.draws as f64;
+        vec![
+            Cell::text(regime.name()),
+            Cell::number(count.to_string()),
+            Cell::number(format!("{share:.0} %")),
+        ]
+    };
+    Some(Table {
+        caption: format!(
+            "Motions of {} models drawn from the estimate. A motion is named if 90 % agree, with the best model among them.",
+            found.draws
+        ),
+        head: ["motion", "models", "share"].map(str::to_owned).to_vec(),
+        rows: found.counts.iter().map(row).collect(),
+    })
+}
+
+/// The nearest changes of the motion.
+fn bifurcations(fit: &CellFit) -> Option<Table> {
+    let rows: Vec<Vec<Cell>> =
+        fit.bifurcations.iter().map(|near| vec![Cell::text(literal(&near.sentence()))]).collect();
+    (!rows.is_empty()).then(|| Table {
+        caption: "The nearest bifurcations of the motion, all other parameters being those of the fit."
+            .to_owned(),
+        head: vec!["bifurcation".to_owned()],
+        rows,
+    })
+}
+
+/// What the motion fixes, where it does not fix everything.
+fn determined(fitted: &Fitted) -> Option<Table> {
+    let rows: Vec<Vec<Cell>> =
+        fitted.known_of_all.equations.iter().map(|of| vec![Cell::text(literal(&of.text))]).collect();
+    (!fitted.is_identifiable()).then(|| Table {
+        caption: "What the data determine, equation by equation, among all terms.".to_owned(),
+        head: vec!["determined".to_owned()],
+        rows,
+    })
+}
+
+fn warnings(fitted: &Fitted) -> Option<Table> {
+    let rows: Vec<Vec<Cell>> =
+        fitted.warnings.iter().map(|warning| vec![Cell::text(literal(&warning.to_string()))]).collect();
+    (!rows.is_empty()).then(|| Table {
+        caption: "What makes the fit doubtful.".to_owned(),
+        head: vec!["warning".to_owned()],
+        rows,
+    })
+}

@@ -1,0 +1,95 @@
+//! The population: names and numbers over cells.
+
+use crate::numbers::plain;
+use crate::{Case, Units, motion};
+use motiform_cells::{
+    CellFit, FittedPopulation, NameShare, Observation, ObservedPopulation, OverCells, fitted_population,
+    observed_population, population_statistics,
+};
+use motiform_figures::literal;
+use motiform_report::{Cell, Section, Table};
+use motiform_study::Error;
+
+/// Nothing for a single cell.
+pub(crate) fn section(cases: &[Case<'_>], units: &Units) -> Result<Option<Section>, Error> {
+    if cases.len() < 2 {
+        return Ok(None);
+    }
+    let found: Vec<Observation> = cases.iter().map(|case| case.observation.clone()).collect();
+    let fits: Vec<CellFit> = cases.iter().filter_map(|case| case.fit.cloned()).collect();
+    let mut about = "Intervals are those of resampling whole cells, which needs 8 of them.".to_owned();
+    let observed = observed_population(&found);
+    let mut tables = vec![names(&observed.regimes, "observed motion"), numbers(&observed, units)];
+    if fits.len() > 1 {
+        let fitted = fitted_population(&fits);
+        tables.push(names(&fitted.regimes, "motion of the fit"));
+        tables.push(coefficients(&fitted));
+    }
+    let mut figures = Vec::new();
+    if let Some((count, statistics)) = population_statistics(&found) {
+        about += &format!(
+            " Displacements and correlations are over {count} cells with enough frames at one sampling interval; with fewer than 8 their intervals are over blocks of the records."
+        );
+        tables.push(motion::walk(&statistics, units));
+        figures = motion::figures(&statistics, units)?;
+    }
+    tables.retain(|table| !table.rows.is_empty());
+    Ok(Some(Section {
+        title: "Population".to_owned(),
+        about,
+        tables,
+        small_figures: figures,
+        ..Section::default()
+    }))
+}
+
+fn names(shares: &[NameShare], head: &str) -> Table {
+    let row = |one: &NameShare| {
+        let share = &one.share;
+        let [low, high] = [share.lower, share.upper].map(|end| 100.0 * end);
+        vec![
+            Cell::text(one.name),
+            Cell::number(share.count.to_string()),
+            Cell::number(format!("{low:.0} to {high:.0} %")),
+        ]
+    };
+    Table {
+        caption: "Cells with each motion, and the 95 % interval of the share.".to_owned(),
+        head: [head, "cells", "share"].map(str::to_owned).to_vec(),
+        rows: shares.iter().map(row).collect(),
+    }
+}
+
+fn numbers(found: &ObservedPopulation, units: &Units) -> Table {
+    let all = [
+        (format!("speed ({})", units.speed()), &found.speed),
+        (format!("turning rate (rad/{})", units.time), &found.turning),
+        ("directness".to_owned(), &found.directness),
+    ];
+    let rows = all.into_iter().filter_map(|(name, over)| Some(row(name, over.as_ref()?)));
+    table("Numbers of the observed motion over cells.", rows.collect())
+}
+
+fn coefficients(found: &FittedPopulation) -> Table {
+    let rows = found.coefficients.iter().map(|one| row(literal(&one.term), &one.over));
+    table("Coefficients over cells, from the fits with all terms.", rows.collect())
+}
+
+fn table(caption: &str, rows: Vec<Vec<Cell>>) -> Table {
+    let head = ["quantity", "cells", "mean over cells", "95 % interval", "median over cells"];
+    Table { caption: caption.to_owned(), head: head.map(str::to_owned).to_vec(), rows }
+}
+
+fn row(name: String, over: &OverCells) -> Vec<Cell> {
+    let interval = over.mean_interval.map_or_else(
+        || "fewer than 8 cells".to_owned(),
+        |[low, high]| format!("{} to {}", plain(low), plain(high)),
+    );
+    vec![
+        Cell::text(name),
+        Cell::number(over.cells.to_string()),
+        Cell::number(plain(over.mean)),
+        Cell::number(interval),
+        Cell::number(plain(over.median)),
+    ]
+}

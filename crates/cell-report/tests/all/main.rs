@@ -1,0 +1,3 @@
+//! Tests of the pages of tracked cells.
+
+mod pages;

@@ -1,0 +1,156 @@
+//! A fit, and what follows from it: what the data determine, the motion, the places.
+
+use crate::regime::{FittedRegime, regime_of};
+use crate::stages::Stages;
+use crate::{Error, FitOptions, Result};
+use motiform_dynamics::Watch;
+use motiform_inference::{
+    BetweenCells, Drift, Fit, Handedness, Identifiability, Placement, Plane, Selection, Settings, Symmetry,
+    Track, Warning, drift, fit, handedness, identifiability, place_among, select, warnings,
+};
+use motiform_models::amplitudes::info;
+use motiform_study::Study;
+use serde::{Deserialize, Serialize};
+
+/// The fit of a cell, and what it means.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Fitted {
+    /// All terms of the library, real coefficients.
+    pub whole: Fit,
+    /// The terms that the data ask for.
+    pub selection: Selection,
+    /// Real against complex coefficients.
+    pub handedness: Handedness,
+    /// What the motion determines, among the selected terms.
+    pub known: Identifiability,
+    /// What the motion determines, among all terms.
+    pub known_of_all: Identifiability,
+    /// The same terms at other sampling intervals.
+    pub drift: Option<Drift>,
+    /// What makes the fit doubtful.
+    pub warnings: Vec<Warning>,
+    /// Why there is no place, and with the first of them no motion: serious warnings, handedness, blow-up.
+    pub doubts: Vec<String>,
+    /// The motion; `None` where the coefficients are not determined.
+    pub regime: Option<FittedRegime>,
+    /// Places on the planes of Fig. 4 and Fig. 1.
+    pub places: [Placement; 2],
+    /// Of several cells together: errors of the model's coefficients from the differences between cells.
+    pub between: Option<BetweenCells>,
+}
+
+impl Fitted {
+    /// The model that describes the cell: handed if real coefficients are rejected.
+    #[must_use]
+    pub fn model(&self) -> &Fit {
+        if self.is_handed() { &self.handedness.fit } else { &self.selection.fit }
+    }
+
+    /// Whether real coefficients are rejected.
+    #[must_use]
+    pub fn is_handed(&self) -> bool {
+        self.handedness.symmetry == Symmetry::Handed
+    }
+
+    /// Whether the data determine the coefficients of the model.
+    #[must_use]
+    pub fn is_identifiable(&self) -> bool {
+        self.known.identifiable
+    }
+
+    /// The model as a study, in the units of the data, with its noise.
+    ///
+    /// # Errors
+    /// Equations that are no model.
+    pub fn study(&self, cell: &str) -> Result<Study> {
+        let fit = self.model();
+        let info = info(&fit.definition())
+            .map_err(|error| motiform_models::Error::Equations { problem: error.to_string() })
+            .map_err(motiform_study::Error::from)?;
+        let mut study = Study::of_model(info);
+        study.title = format!("Cell {cell}");
+        study.about = format!(
+            "Fitted to {} frames by maximum likelihood; lengths and times in the units of the data.",
+            fit.frames
+        );
+        study.run.noise = fit.noise.eta_shape.value;
+        study.run.noise_velocity = Some(fit.noise.eta_v.value);
+        Ok(study)
+    }
+}
+
+/// Fits these tracks, stage by stage; the inner error says why there is no fit.
+///
+/// # Errors
+/// [`motiform_study::Error::Interrupted`]; stages that cannot be written.
+pub(crate) fn fitted(
+    tracks: &[Track],
+    (settings, options): (&Settings, &FitOptions),
+    stages: &Stages,
+    watch: &dyn Watch,
+) -> Result<std::result::Result<Box<Fitted>, String>> {
+    let whole = match stages.get("whole", watch, |watch| Ok(fit(tracks, settings, watch)?)) {
+        Ok(whole) => whole,
+        Err(Error::Inference(error)) => return Ok(Err(error.to_string())),
+        Err(other) => return Err(other),
+    };
+    let selection = stages.get("selection", watch, |watch| Ok(select(tracks, &whole, watch)?))?;
+    let handedness =
+        stages.get("handedness", watch, |watch| Ok(handedness(tracks, &selection.fit, watch)?))?;
+    let handed = handedness.symmetry == Symmetry::Handed;
+    let model = if handed { &handedness.fit } else { &selection.fit };
+    let known = identifiability(model);
+    let known_of_all = identifiability(&whole);
+    let drift = stages.get("drift", watch, |watch| match options.drift && selection.fit.converged() {
+        true => Ok(Some(drift(tracks, &selection.fit, watch)?)),
+        false => Ok(None),
+    })?;
+    let warnings = warnings(tracks, &selection.fit, drift.as_ref())?;
+    let mut doubts: Vec<String> = warnings.iter().filter(|w| serious(w)).map(ToString::to_string).collect();
+    if handedness.is_doubted() && !handed {
+        doubts.push(format!(
+            "whether the cell is handed is not decided: a mirror-symmetric one has such a likelihood ratio with p = {:.1e}",
+            handedness.p_value
+        ));
+    }
+    let regime = stages.get("regime", watch, |watch| {
+        if !known.identifiable || !doubts.is_empty() {
+            return Ok(None);
+        }
+        let described = Selection { subsets: selection.subsets.clone(), fit: model.clone() };
+        regime_of(tracks, &whole, &described, (options.draws, options.seed), watch).map(Some)
+    })?;
+    if regime.as_ref().is_some_and(FittedRegime::blows_up) {
+        doubts.push(
+            "the fitted equations blow up without noise, and a cell that was tracked did not".to_owned(),
+        );
+    }
+    if handed {
+        doubts.push("the cell is handed, and the paper's planes are not".to_owned());
+    }
+    let places = [Plane::Full, Plane::Reduced].map(|plane| match doubts.is_empty() {
+        true => place_among(&whole, &selection, plane),
+        false => Placement::Refused { reasons: doubts.clone() },
+    });
+    Ok(Ok(Box::new(Fitted {
+        whole,
+        selection,
+        handedness,
+        known,
+        known_of_all,
+        drift,
+        warnings,
+        doubts,
+        regime,
+        places,
+        between: None,
+    })))
+}
+
+/// Whether there is no motion and no place with this warning.
+fn serious(warning: &Warning) -> bool {
+    matches!(
+        warning,
+        Warning::Unbounded { .. } | Warning::NotConverged { .. } | Warning::CoarseSampling { .. }
+    )
+}

@@ -1,0 +1,97 @@
+//! What people measure on tracked cells: mean-square displacement, persistence, autocorrelations of velocity and shape, with errors.
+
+use super::measures::Series;
+use motiform_inference::Observation;
+use motiform_statistics::{
+    Answer, Autocorrelation, Errors, MeanSquare, Measured, Quantity, Track, Tracks, Walk, autocorrelation,
+    mean_square, persistent_walk,
+};
+use serde::Serialize;
+
+/// A value at a lag.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct AtLag {
+    /// The lag (unit of time).
+    pub lag: f64,
+    /// The value with its 95 % interval.
+    #[serde(flatten)]
+    pub value: Measured,
+}
+
+/// An autocorrelation, and how long it lasts.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Memory {
+    /// Velocity, z2 or z3.
+    pub quantity: String,
+    /// rho at lags from 0.
+    pub correlation: Vec<AtLag>,
+    /// The integral correlation time, or why there is none.
+    pub time: Answer,
+}
+
+/// Statistics of one record or of a population. Definitions: docs/statistics.md.
+///
+/// # Units   of the data
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MotionStatistics {
+    /// What intervals refer to: blocks of the record, or cells.
+    pub errors: Errors,
+    /// Mean-square displacement, the part of the measurement errors subtracted.
+    pub displacement: Vec<AtLag>,
+    /// Persistence time, speed and diffusion coefficient of a persistent random walk, where it describes the displacements.
+    pub walk: Walk,
+    /// Autocorrelations of velocity, z2 and z3; errors of measurement lower them by their share of the variance.
+    pub memories: Vec<Memory>,
+}
+
+/// Statistics of records at one sampling interval; `None` where they are too short.
+pub(super) fn of_records<'s>(records: impl Iterator<Item = &'s Series>) -> Option<MotionStatistics> {
+    let records: Vec<&Series> = records.collect();
+    let dt = records.first()?.dt;
+    let noise: Vec<f64> = records.iter().flat_map(|series| series.frames.iter().map(variance)).collect();
+    let bodies = records.iter().map(|series| track(series)).collect();
+    let tracks = Tracks::of_records(dt, ["z2", "z3"].map(str::to_owned).to_vec(), bodies).ok()?;
+    let square = mean_square(&tracks).less(2.0 * noise.iter().sum::<f64>() / noise.len() as f64);
+    let wanted = |quantity: &Quantity| matches!(quantity, Quantity::Velocity | Quantity::Mode(..));
+    let memories = tracks.quantities().into_iter().filter(wanted);
+    let memories: Option<Vec<Memory>> =
+        memories.map(|quantity| Some(memory(autocorrelation(&tracks, &quantity).ok()?))).collect();
+    Some(MotionStatistics {
+        errors: tracks.errors(),
+        displacement: points(&square),
+        walk: persistent_walk(&square),
+        memories: memories?,
+    })
+}
+
+/// Variance of the position, both coordinates.
+fn variance(frame: &Observation) -> f64 {
+    frame.covariance[0][0] + frame.covariance[1][1]
+}
+
+/// Velocities by displacements over the record's step, positions and modes at their middle.
+fn track(series: &Series) -> Track {
+    let count = series.speeds.len();
+    let middle = &series.frames[series.lag / 2..][..count];
+    let velocity = series.speeds.iter().zip(&series.headings);
+    let pair = |at: usize| middle.iter().map(|frame| [frame.y[at], frame.y[at + 1]]).collect::<Vec<_>>();
+    Track {
+        position: pair(0),
+        velocity: velocity.map(|(v, angle)| [v * libm::cos(*angle), v * libm::sin(*angle)]).collect(),
+        modes: vec![pair(2), pair(4)],
+    }
+}
+
+fn points(curve: &MeanSquare) -> Vec<AtLag> {
+    let point = |place| AtLag { lag: curve.lag(place), value: curve.measured(place) };
+    (0..curve.len()).map(point).collect()
+}
+
+fn memory(found: Autocorrelation) -> Memory {
+    let pairs = found.lags.into_iter().zip(found.correlation);
+    Memory {
+        quantity: found.quantity.name().to_owned(),
+        correlation: pairs.map(|(lag, value)| AtLag { lag, value }).collect(),
+        time: found.time,
+    }
+}

@@ -1,0 +1,195 @@
+//! What a population of cells has in common: shares of names and numbers over cells. The units are whole cells, never frames.
+
+use crate::{CellFit, Fitted, Observation};
+use motiform_analysis::Share;
+use motiform_dynamics::Normal;
+use serde::Serialize;
+
+/// Resamples of the cells.
+const RESAMPLES: usize = 2000;
+/// Seed of the resamples: the same cells give the same intervals.
+const SEED: u64 = 1;
+/// Fewest cells that give an interval.
+const LEAST_CELLS: usize = 8;
+/// The name of motions without a name.
+const UNDECIDED: &str = "undecided";
+
+/// A name and its share of the cells, with its 95 % interval (Wilson's).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct NameShare {
+    /// The motion, or `undecided`.
+    pub name: &'static str,
+    /// How many cells, of how many, and the interval of the share.
+    #[serde(flatten)]
+    pub share: Share,
+}
+
+/// A number over cells.
+///
+/// Intervals are those of the 2.5 % and 97.5 % quantiles of 2000 resamples of whole cells with replacement; none with fewer than 8 cells. Resampling `n`
+/// cells scatters by `sqrt((n - 1)/n)` too little; the distances from the value are widened by the inverse.
+///
+/// Source: Efron (1979), Ann. Stat. 7, 1; the factor: Efron and Tibshirani (1993), An Introduction to the Bootstrap, sec. 6.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OverCells {
+    /// Cells that have the number.
+    pub cells: usize,
+    /// Mean over these cells.
+    pub mean: f64,
+    /// 95 % interval of the mean.
+    pub mean_interval: Option<[f64; 2]>,
+    /// Median over these cells.
+    pub median: f64,
+    /// 95 % interval of the median.
+    pub median_interval: Option<[f64; 2]>,
+}
+
+/// A coefficient over cells.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PopulationCoefficient {
+    /// The term.
+    pub term: String,
+    /// Its coefficient over the cells, from the fits with all terms: no cell's value is 0 because its data did not ask for the term.
+    #[serde(flatten)]
+    pub over: OverCells,
+    /// How many cells ask for the term.
+    pub asked_for: usize,
+}
+
+/// A population of fitted cells.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FittedPopulation {
+    /// Number of cells.
+    pub cells: usize,
+    /// Names and their shares, the most frequent first.
+    pub regimes: Vec<NameShare>,
+    /// Cells whose coefficients count: fits with all terms that converged and leave no coefficient unbounded.
+    pub fitted: usize,
+    /// Coefficients over these cells.
+    pub coefficients: Vec<PopulationCoefficient>,
+    /// Process noise of the velocity and of the shape over these cells.
+    pub noise: Option<[OverCells; 2]>,
+}
+
+/// A population of observed cells.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ObservedPopulation {
+    /// Number of cells.
+    pub cells: usize,
+    /// Names and their shares, the most frequent first.
+    pub regimes: Vec<NameShare>,
+    /// Mean speed of each cell, over cells.
+    pub speed: Option<OverCells>,
+    /// Mean turning rate of each cell, over cells.
+    pub turning: Option<OverCells>,
+    /// Net displacement divided by the length of the path, over cells.
+    pub directness: Option<OverCells>,
+}
+
+/// The names with their shares.
+fn shares(names: impl Iterator<Item = &'static str>) -> Vec<NameShare> {
+    let mut counts: Vec<(&'static str, usize)> = Vec::new();
+    let mut all = 0;
+    for name in names {
+        all += 1;
+        match counts.iter_mut().find(|entry| entry.0 == name) {
+            Some(entry) => entry.1 += 1,
+            None => counts.push((name, 1)),
+        }
+    }
+    counts.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(b.0)));
+    let share = |(name, count)| Some(NameShare { name, share: Share::new(count, all)? });
+    counts.into_iter().filter_map(share).collect()
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// The median: the mean of the middle two of an even number.
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let middle = sorted.len() / 2;
+    if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) }
+}
+
+/// A number over cells; `None` without any.
+#[must_use]
+pub fn over_cells(values: &[f64]) -> Option<OverCells> {
+    if values.is_empty() {
+        return None;
+    }
+    let [mean_interval, median_interval] = intervals(values);
+    let (mean, median) = (mean(values), median(values));
+    Some(OverCells { cells: values.len(), mean, mean_interval, median, median_interval })
+}
+
+/// Intervals of mean and median.
+fn intervals(values: &[f64]) -> [Option<[f64; 2]>; 2] {
+    let n = values.len();
+    if n < LEAST_CELLS {
+        return [None, None];
+    }
+    let mut random = Normal::new(SEED, 0);
+    let mut drawn = vec![0.0; n];
+    let mut found = [Vec::with_capacity(RESAMPLES), Vec::with_capacity(RESAMPLES)];
+    for _ in 0..RESAMPLES {
+        drawn.fill_with(|| values[((random.uniform() * n as f64) as usize).min(n - 1)]);
+        found[0].push(mean(&drawn));
+        found[1].push(median(&drawn));
+    }
+    let wider = (n as f64 / (n - 1) as f64).sqrt();
+    let [means, medians] = found;
+    [(means, mean(values)), (medians, median(values))].map(|(mut resampled, value)| {
+        resampled.sort_by(f64::total_cmp);
+        let low = (0.025 * RESAMPLES as f64) as usize;
+        Some([resampled[low], resampled[RESAMPLES - 1 - low]].map(|end| value + wider * (end - value)))
+    })
+}
+
+/// What fitted cells have in common.
+///
+/// # Checked by  `tests/all/population.rs`: coverage of the intervals, shares
+#[must_use]
+pub fn fitted_population(fits: &[CellFit]) -> FittedPopulation {
+    let name = |fit: &CellFit| {
+        let regime = fit.fitted.as_ref().ok().and_then(|fitted| fitted.regime.as_ref()?.regime);
+        regime.map_or(UNDECIDED, |regime| regime.name())
+    };
+    let counts = |fitted: &&Fitted| fitted.whole.converged() && fitted.whole.is_bounded();
+    let usable: Vec<&Fitted> =
+        fits.iter().filter_map(|fit| fit.fitted.as_deref().ok()).filter(counts).collect();
+    let terms = usable.first().map(|fitted| fitted.whole.library.names()).unwrap_or_default();
+    let coefficient = |term: String| {
+        let values: Vec<f64> =
+            usable.iter().filter_map(|of| Some(of.whole.coefficient(&term)?.estimate.value)).collect();
+        let asked_for = usable.iter().filter(|of| of.selection.fit.coefficient(&term).is_some()).count();
+        Some(PopulationCoefficient { over: over_cells(&values)?, term, asked_for })
+    };
+    let noise =
+        |of: &dyn Fn(&Fitted) -> f64| over_cells(&usable.iter().map(|one| of(one)).collect::<Vec<_>>());
+    let velocity = noise(&|one| one.whole.noise.eta_v.value);
+    let shape = noise(&|one| one.whole.noise.eta_shape.value);
+    FittedPopulation {
+        cells: fits.len(),
+        regimes: shares(fits.iter().map(name)),
+        fitted: usable.len(),
+        coefficients: terms.into_iter().filter_map(coefficient).collect(),
+        noise: velocity.zip(shape).map(|(velocity, shape)| [velocity, shape]),
+    }
+}
+
+/// What observed cells have in common.
+#[must_use]
+pub fn observed_population(found: &[Observation]) -> ObservedPopulation {
+    let name = |one: &Observation| one.motion.regime.map_or(UNDECIDED, |regime| regime.name());
+    let measured = || found.iter().filter_map(|one| one.measures.as_ref());
+    ObservedPopulation {
+        cells: found.len(),
+        regimes: shares(found.iter().map(name)),
+        speed: over_cells(&measured().map(|of| of.speed).collect::<Vec<_>>()),
+        turning: over_cells(&measured().map(|of| of.turning).collect::<Vec<_>>()),
+        directness: over_cells(&measured().map(|of| of.directness).collect::<Vec<_>>()),
+    }
+}

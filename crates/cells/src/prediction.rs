@@ -1,0 +1,123 @@
+//! Simulated cells beside the observed one: does the fitted model move like the cell?
+//!
+//! Cells are simulated by equations drawn from the estimate with the fitted noise, from where the observed one starts, and seen at the same frames with errors of the
+//! same covariance: so the spread of the simulated cells holds that of the noise and the uncertainty of the coefficients. The same statistics are taken of all of them, and a rank test says for each whether the observed cell could be one of
+//! the simulated ones. Definitions: docs/cells.md, section 'Simulated cells'.
+
+mod envelope;
+mod record;
+mod simulated;
+mod statistics;
+
+pub use envelope::{Agreement, Envelope};
+pub use record::Record;
+pub use statistics::{Axis, Kind, Statistic};
+
+use crate::CellTrack;
+use motiform_dynamics::Watch;
+use motiform_inference::{Fit, draws};
+use serde::{Deserialize, Serialize};
+
+/// Simulated cells that are kept for drawing.
+const SHOWN: usize = 3;
+/// Share of the simulated cells that may blow up.
+const MOST_LOST: f64 = 0.1;
+
+/// How many cells are simulated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Companions {
+    /// Simulated cells: the least p-value is 1/(count + 1).
+    pub count: usize,
+    /// Seed of their noise.
+    pub seed: u64,
+}
+
+impl Default for Companions {
+    fn default() -> Self {
+        Self { count: 199, seed: 1 }
+    }
+}
+
+/// A statistic of the observed cell among those of the simulated ones.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Comparison {
+    /// The statistic.
+    pub statistic: Statistic,
+    /// Where it lies among the simulated ones, and the verdict.
+    #[serde(flatten)]
+    pub envelope: Envelope,
+}
+
+/// What simulations of the fitted model look like.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Prediction {
+    /// Simulated cells that count.
+    pub cells: usize,
+    /// Those that left all bounds: the equations with their noise, or others that the estimate allows, blow up.
+    pub lost: usize,
+    /// One comparison per statistic; empty if too many cells are lost.
+    pub comparisons: Vec<Comparison>,
+    /// Simulated records, as observed: for drawing.
+    pub shown: Vec<Record>,
+}
+
+impl Prediction {
+    /// Whether too many simulated cells blow up for a comparison: the model does not describe the cell.
+    #[must_use]
+    pub fn is_unstable(&self) -> bool {
+        self.lost as f64 > MOST_LOST * (self.cells + self.lost) as f64
+    }
+
+    /// How many statistics have this verdict.
+    #[must_use]
+    pub fn count(&self, agreement: Agreement) -> usize {
+        self.comparisons.iter().filter(|one| one.envelope.agreement == agreement).count()
+    }
+}
+
+/// Simulates cells by a fit and compares them with the observed one; `None` if the watch stopped the work, or where there are too few frames.
+///
+/// # Checked by  tests/all/prediction.rs: p-values of the true model are uniform; wrong models are found
+#[must_use]
+pub fn predict(cell: &CellTrack, fit: &Fit, companions: Companions, watch: &dyn Watch) -> Option<Prediction> {
+    let observed = Record::of(&cell.track)?;
+    let asked = statistics::Asked::of(&observed, &cell.track);
+    let mut found = Vec::new();
+    let (mut shown, mut lost) = (Vec::new(), 0);
+    for (number, drawn) in draws(fit, companions.count, companions.seed).into_iter().enumerate() {
+        if watch.stopped() {
+            return None;
+        }
+        let seen = (&cell.track, &observed);
+        match simulated::simulated(fit, &drawn, seen, (companions.seed, number as u64 + 1)) {
+            Some(record) => {
+                found.push(asked.all(&record));
+                if shown.len() < SHOWN {
+                    shown.push(record);
+                }
+            }
+            None => lost += 1,
+        }
+    }
+    let cells = found.len();
+    let mut prediction = Prediction { cells, lost, comparisons: Vec::new(), shown };
+    if !prediction.is_unstable() {
+        let own = asked.all(&observed);
+        let compare = |(place, statistic): (usize, Statistic)| {
+            let others: Vec<&[f64]> = found.iter().map(|all| all[place].values.as_slice()).collect();
+            let there = |k: &usize| {
+                others.iter().all(|curve| curve[*k].is_finite()) && statistic.values[*k].is_finite()
+            };
+            let places: Vec<usize> = (0..statistic.at.len()).filter(there).collect();
+            let kept = |values: &[f64]| places.iter().map(|&k| values[k]).collect::<Vec<f64>>();
+            let others: Vec<Vec<f64>> = others.into_iter().map(kept).collect();
+            let others: Vec<&[f64]> = others.iter().map(Vec::as_slice).collect();
+            let statistic =
+                Statistic { at: kept(&statistic.at), values: kept(&statistic.values), ..statistic };
+            let envelope = Envelope::of(&statistic.values, &others)?;
+            Some(Comparison { statistic, envelope })
+        };
+        prediction.comparisons = own.into_iter().enumerate().filter_map(compare).collect();
+    }
+    Some(prediction)
+}

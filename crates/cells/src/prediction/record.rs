@@ -1,0 +1,46 @@
+//! A record on a grid of times: observed or simulated frames, with gaps.
+
+use motiform_inference::{OBSERVED, Track};
+use serde::{Deserialize, Serialize};
+
+/// Fewest frames of a record whose statistics are compared.
+const LEAST: usize = 40;
+
+/// Frames at multiples of the sampling interval; `None` where one is missing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// The sampling interval.
+    pub dt: f64,
+    /// `(x, y, Re z2, Im z2, Re z3, Im z3)` of each frame.
+    pub frames: Vec<Option<[f64; OBSERVED]>>,
+}
+
+impl Record {
+    /// The frames of a track at the nearest multiples of its sampling interval; `None` for fewer than 40 frames. Of two frames at one multiple the first
+    /// is kept.
+    #[must_use]
+    pub fn of(track: &Track) -> Option<Self> {
+        let dt = track.interval();
+        let (first, last) = (track.0.first()?.t, track.0.last()?.t);
+        let place = |t: f64| ((t - first) / dt).round();
+        if track.0.len() < LEAST || place(last) > 1e7 {
+            return None;
+        }
+        let mut frames = vec![None; place(last) as usize + 1];
+        for frame in &track.0 {
+            frames[place(frame.t) as usize].get_or_insert(frame.y);
+        }
+        Some(Self { dt, frames })
+    }
+
+    /// Whether a frame is there, frame by frame.
+    pub(super) fn mask(&self) -> impl Iterator<Item = bool> + '_ {
+        self.frames.iter().map(Option::is_some)
+    }
+
+    /// Pairs of frames `lag` apart.
+    pub(super) fn pairs(&self, lag: usize) -> impl Iterator<Item = (&[f64; OBSERVED], &[f64; OBSERVED])> {
+        let later = self.frames.get(lag..).unwrap_or_default();
+        self.frames.iter().zip(later).filter_map(|(a, b)| Some((a.as_ref()?, b.as_ref()?)))
+    }
+}

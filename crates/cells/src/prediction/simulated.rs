@@ -1,0 +1,152 @@
+//! A cell simulated from a fit, seen as the observed one was.
+
+use super::record::Record;
+use motiform_dynamics::steppers::RK4;
+use motiform_dynamics::{InPlane, Integration, Model, Noise, NoisyOrbit, Normal, Orbit, StepControl};
+use motiform_inference::{Fit, OBSERVED, Observation, Track, equations};
+use motiform_models::amplitudes::info;
+
+/// Longest step of the noise, in natural times.
+const STEP: f64 = 1.0 / 16.0;
+/// A state larger than this, in natural units, has left all bounds.
+const BOUND: f64 = 30.0;
+
+/// The record of a cell by the equations with these coefficients (units of the data) and the fitted noise, from where the observed one starts within its errors, at its
+/// frames, with errors of its covariances times the fitted factor; `None` if it leaves all bounds.
+pub(super) fn simulated(
+    fit: &Fit,
+    coefficients: &[f64],
+    (track, observed): (&Track, &Record),
+    (seed, number): (u64, u64),
+) -> Option<Record> {
+    let units = Units::of(fit);
+    let model = model(fit, coefficients)?;
+    let mut normal = Normal::new(seed, 2 * number);
+    let errors = Errors::of(track, observed, fit.noise.s.value);
+    let mut state = start(model.as_ref(), track, &units, &errors, &mut normal)?;
+    let dt = observed.dt / units.time;
+    let steps = (dt / STEP).ceil().max(1.0);
+    let step = dt / steps;
+    let control = StepControl::Fixed { step };
+    let body = InPlane(model.as_ref());
+    let orbit = Orbit::new(&body, &RK4, control, 0.0, &state).ok()?;
+    let [_, eta_v, eta_shape] = fit.natural.logs.map(libm::exp);
+    let noise = Noise::on(model.as_ref(), eta_v, eta_shape, step);
+    let mut orbit = NoisyOrbit::new(orbit, noise, Normal::new(seed, 2 * number + 1)).ok()?;
+    let mut frames = Vec::with_capacity(observed.frames.len());
+    for (place, wanted) in observed.mask().enumerate() {
+        let t = step * (place as f64 * steps); // as the orbit counts
+        while orbit.t() < t {
+            orbit.advance(t).ok()?;
+        }
+        state.copy_from_slice(orbit.state());
+        if state[..model.dim()].iter().any(|x| x.is_nan() || x.abs() > BOUND) {
+            return None;
+        }
+        let seen = errors.add(place, units.observed(model.as_ref(), &state), &mut normal);
+        frames.push(wanted.then_some(seen));
+    }
+    Some(Record { dt: observed.dt, frames })
+}
+
+/// The equations in natural units. The names of the model are kept once per set of terms: its values are given apart.
+fn model(fit: &Fit, coefficients: &[f64]) -> Option<Box<dyn Model>> {
+    let units = fit.coefficients.iter().map(|c| fit.scales.coefficient(&c.term));
+    let natural: Vec<f64> = coefficients.iter().zip(units).map(|(value, unit)| value / unit).collect();
+    let values = equations(&fit.library, fit.handed, &natural);
+    let names = info(&equations(&fit.library, fit.handed, &[])).ok()?;
+    let values: Vec<f64> = values.parameters.iter().map(|parameter| parameter.default).collect();
+    names.build(&values).ok()
+}
+
+/// The state at the first frame: its modes, and the velocity over the first frames, moved by errors of the same size as theirs.
+fn start(
+    model: &dyn Model,
+    track: &Track,
+    units: &Units,
+    errors: &Errors,
+    normal: &mut Normal,
+) -> Option<Vec<f64>> {
+    let first = track.0.first()?;
+    let later = track.0[1..].iter().find(|frame| clear(first, frame)).or(track.0.last())?;
+    let by = later.t - first.t;
+    let y = errors.add(0, first.y, normal);
+    let end = errors.add(0, later.y, normal);
+    let velocity = [0, 1].map(|k| (end[k] - y[k]) / by / units.speed);
+    let shape = [y[2] / units.modes[0], y[3] / units.modes[0], y[4] / units.modes[1], y[5] / units.modes[1]];
+    let coordinates: Vec<f64> = velocity.into_iter().chain(shape).collect();
+    let mut state = vec![0.0; model.dim()];
+    model.encode(&coordinates, &mut state);
+    state.extend([y[0] / units.length(), y[1] / units.length()]);
+    Some(state)
+}
+
+/// Whether the displacement is 5 times its error.
+fn clear(a: &Observation, b: &Observation) -> bool {
+    let variance = |frame: &Observation| 0.5 * (frame.covariance[0][0] + frame.covariance[1][1]);
+    libm::hypot(b.y[0] - a.y[0], b.y[1] - a.y[1]) > 5.0 * (variance(a) + variance(b)).sqrt()
+}
+
+/// The natural units, in those of the data.
+struct Units {
+    time: f64,
+    speed: f64,
+    modes: [f64; 2],
+}
+
+impl Units {
+    fn of(fit: &Fit) -> Self {
+        let [speed, second, third] = fit.scales.amplitudes;
+        Self { time: fit.scales.time, speed, modes: [second, third] }
+    }
+
+    fn length(&self) -> f64 {
+        self.speed * self.time
+    }
+
+    /// What a frame without errors shows of a state.
+    fn observed(&self, model: &dyn Model, state: &[f64]) -> [f64; OBSERVED] {
+        let (shape, position) = state.split_at(model.dim());
+        let mut coordinates = [0.0; OBSERVED];
+        model.decode(shape, &mut coordinates);
+        let [_, _, a, b, c, d] = coordinates;
+        let [second, third] = self.modes;
+        [
+            position[0] * self.length(),
+            position[1] * self.length(),
+            a * second,
+            b * second,
+            c * third,
+            d * third,
+        ]
+    }
+}
+
+/// The errors of the frames: lower triangles of their covariances, and the factor.
+struct Errors {
+    roots: Vec<Option<[[f64; OBSERVED]; OBSERVED]>>,
+    factor: f64,
+}
+
+impl Errors {
+    fn of(track: &Track, observed: &Record, factor: f64) -> Self {
+        let mut roots = vec![None; observed.frames.len()];
+        let first = track.0.first().map_or(0.0, |frame| frame.t);
+        for frame in &track.0 {
+            let place = ((frame.t - first) / observed.dt).round() as usize;
+            if let Some(root) = roots.get_mut(place) {
+                *root = motiform_inference::cholesky(&frame.covariance);
+            }
+        }
+        Self { roots, factor }
+    }
+
+    fn add(&self, place: usize, mut y: [f64; OBSERVED], normal: &mut Normal) -> [f64; OBSERVED] {
+        let Some(root) = &self.roots[place] else { return y };
+        let deviates: [f64; OBSERVED] = std::array::from_fn(|_| normal.next());
+        for (value, row) in y.iter_mut().zip(root) {
+            *value += self.factor * row.iter().zip(deviates).map(|(l, z)| l * z).sum::<f64>();
+        }
+        y
+    }
+}

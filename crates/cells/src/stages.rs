@@ -1,0 +1,51 @@
+//! The stages of a long fit, each kept as soon as it is done, so that the fit can be continued.
+
+use crate::Result;
+use crate::packed::{read_packed, write_packed};
+use motiform_dynamics::{Part, Watch};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::path::PathBuf;
+
+/// The stages of a fit, by name, with the share of the work that is done when each ends: rough values, for the display of progress.
+const STAGES: [(&str, f64); 5] =
+    [("whole", 0.35), ("selection", 0.4), ("handedness", 0.75), ("drift", 0.85), ("regime", 1.0)];
+
+/// Where the results of stages are kept, if they are.
+#[derive(Debug, Default)]
+pub(crate) struct Stages {
+    folder: Option<PathBuf>,
+}
+
+impl Stages {
+    /// Stages that are kept in a folder, which exists.
+    pub(crate) fn kept_in(folder: PathBuf) -> Self {
+        Self { folder: Some(folder) }
+    }
+
+    /// The result of a stage: the one that is kept, or else that of `make`, with the watch on its share of the work.
+    ///
+    /// # Errors
+    /// Those of `make`, and a file that cannot be written.
+    pub(crate) fn get<T: Serialize + DeserializeOwned>(
+        &self,
+        name: &str,
+        watch: &dyn Watch,
+        make: impl FnOnce(&dyn Watch) -> Result<T>,
+    ) -> Result<T> {
+        let number = STAGES.iter().position(|stage| stage.0 == name).unwrap_or(0);
+        let from = if number == 0 { 0.0 } else { STAGES[number - 1].1 };
+        let part = Part { watch, from, to: STAGES[number].1 };
+        let path = self.folder.as_ref().map(|folder| folder.join(format!("{name}.json.gz")));
+        if let Some(found) = path.as_deref().and_then(read_packed) {
+            part.progress(1.0);
+            return Ok(found);
+        }
+        let made = make(&part)?;
+        if let Some(path) = path {
+            write_packed(&path, &made)?;
+        }
+        part.progress(1.0);
+        Ok(made)
+    }
+}

@@ -1,0 +1,53 @@
+//! Numbers over cells: intervals cover, shares count what is undecided.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use motiform_cells::{CellFit, fitted_population, over_cells};
+use motiform_dynamics::Normal;
+
+#[test]
+fn intervals_over_cells_cover() {
+    let (runs, cells) = (400_u16, 16);
+    let mut random = Normal::new(5, 0);
+    let mut covered = [0_u16; 2];
+    for _ in 0..runs {
+        let values: Vec<f64> = (0..cells).map(|_| 3.0 + random.next()).collect();
+        let found = over_cells(&values).unwrap();
+        for (count, interval) in covered.iter_mut().zip([found.mean_interval, found.median_interval]) {
+            let [low, high] = interval.unwrap();
+            *count += u16::from(low < 3.0 && 3.0 < high);
+        }
+    }
+    println!("covered {covered:?} of {runs}");
+    // 95 % of 400 are 380 -+ 4.4; intervals of 16 cells by quantiles are a little short
+    assert!(covered.iter().all(|&count| (356..=396).contains(&count)), "{covered:?}");
+}
+
+#[test]
+fn the_mean_of_a_known_sample_and_its_interval() {
+    let values: Vec<f64> = (0..100).map(f64::from).collect();
+    let found = over_cells(&values).unwrap();
+    assert_eq!((found.cells, found.mean, found.median), (100, 49.5, 49.5));
+    // the standard error of the mean is 29.01/10
+    let [low, high] = found.mean_interval.unwrap();
+    assert!((low - (49.5 - 1.96 * 2.901)).abs() < 0.6 && (high - (49.5 + 1.96 * 2.901)).abs() < 0.6);
+    assert_eq!(over_cells(&values).unwrap(), found, "the same cells give the same intervals");
+    assert!(over_cells(&values[..7]).unwrap().mean_interval.is_none() && over_cells(&[]).is_none());
+}
+
+#[test]
+fn cells_without_a_fit_are_undecided_and_counted() {
+    let fits: Vec<CellFit> = (0..3)
+        .map(|number| CellFit {
+            name: number.to_string(),
+            frames: 4,
+            fitted: Err("too short".to_owned()),
+            prediction: None,
+            bifurcations: Vec::new(),
+        })
+        .collect();
+    let found = fitted_population(&fits);
+    assert_eq!((found.cells, found.fitted, found.coefficients.len()), (3, 0, 0));
+    assert_eq!((found.regimes[0].name, found.regimes[0].share.count), ("undecided", 3));
+    assert!(found.regimes[0].share.lower < 0.5, "three cells say little");
+}

@@ -1,0 +1,58 @@
+//! Simulated cells beside the observed one: the right model agrees, wrong ones do not.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use super::bodies::{cell, preset};
+use motiform_cells::{Agreement, CellTrack, Companions, FitOptions, Prediction, fit_cell, predict};
+use motiform_inference::Fit;
+
+const COMPANIONS: Companions = Companions { count: 99, seed: 1 };
+
+fn fitted(name: &str, noise: f64) -> (CellTrack, Fit) {
+    let cell = cell(&preset(name, noise, (0.5, 500)), 0.01).cells.remove(0);
+    let options = FitOptions { draws: 1, drift: false, ..FitOptions::default() };
+    let fit = fit_cell(&cell, &options, &()).unwrap().fitted.unwrap();
+    (cell, fit.model().clone())
+}
+
+fn verdicts(prediction: &Prediction) -> Vec<(&str, f64)> {
+    prediction.comparisons.iter().map(|one| (one.statistic.kind.name(), one.envelope.p_value)).collect()
+}
+
+#[test]
+fn the_fit_of_a_cell_moves_like_the_cell_and_that_of_another_does_not() {
+    let (chaotic, chaotic_fit) = fitted("fig5b", 0.02);
+    let (zigzag, zigzag_fit) = fitted("fig5a", 0.02);
+    for (cell, fit) in [(&chaotic, &chaotic_fit), (&zigzag, &zigzag_fit)] {
+        let found = predict(cell, fit, COMPANIONS, &()).unwrap();
+        assert_eq!((found.cells, found.lost, found.comparisons.len()), (99, 0, 9));
+        assert!(found.count(Agreement::Differs) == 0, "{:?}", verdicts(&found));
+        assert!(found.count(Agreement::Agrees) >= 7, "{:?}", verdicts(&found));
+    }
+    for (cell, fit) in [(&chaotic, &zigzag_fit), (&zigzag, &chaotic_fit)] {
+        let found = predict(cell, fit, COMPANIONS, &()).unwrap();
+        assert!(found.is_unstable() || found.count(Agreement::Differs) >= 3, "{:?}", verdicts(&found));
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_cells_and_the_watch_stops_the_work() {
+    struct Stop;
+    impl motiform_dynamics::Watch for Stop {
+        fn stopped(&self) -> bool {
+            true
+        }
+    }
+    let (cell, fit) = fitted("fig5b", 0.02);
+    let few = |seed| predict(&cell, &fit, Companions { count: 5, seed }, &()).unwrap().shown;
+    assert_eq!(few(3), few(3));
+    assert_ne!(few(3), few(4));
+    // at the frames of the cell, gaps included, and from where it starts
+    let mut gappy = cell;
+    gappy.track.0.remove(10);
+    let shown = predict(&gappy, &fit, Companions { count: 1, seed: 3 }, &()).unwrap().shown;
+    assert!(shown[0].frames[10].is_none() && shown[0].frames.len() == gappy.track.0.len() + 1);
+    let start = shown[0].frames[0].unwrap();
+    assert!((0..6).all(|k| (start[k] - gappy.track.0[0].y[k]).abs() < 0.1), "{start:?}");
+    assert!(predict(&gappy, &fit, COMPANIONS, &Stop).is_none());
+}

@@ -1,0 +1,45 @@
+//! The pages of tracked cells.
+
+use crate::output::warn;
+use crate::progress::Progress;
+use motiform_cell_report::{Case, Maps, Sink, pages, planes};
+use motiform_cells::{CellFit, CellTrack, Observation, Sample};
+use motiform_dynamics::Watch;
+use motiform_study::Error;
+use std::collections::HashMap;
+
+/// Draws the pages of observed cells, with their fits as far as these are done; `together`: with the one fit of all cells. Each goes to `write` at once. A
+/// warning, and not all pages, if Ctrl-C stopped the drawing.
+pub(crate) fn draw(
+    sample: &Sample,
+    (cells, observations): (&[&CellTrack], &[Observation]),
+    (fits, together): (&[CellFit], bool),
+    threads: usize,
+    write: &Sink<'_>,
+) -> anyhow::Result<()> {
+    let own: HashMap<&str, &CellFit> = match together {
+        true => HashMap::new(),
+        false => fits.iter().map(|fit| (fit.name.as_str(), fit)).collect(),
+    };
+    let case = |(cell, observation)| {
+        let cell: &CellTrack = cell;
+        Case { cell, observation, fit: own.get(cell.name.as_str()).copied() }
+    };
+    let cases: Vec<Case<'_>> = cells.iter().copied().zip(observations).map(case).collect();
+    let common = if together { fits.first() } else { None };
+    let watch = Progress::new(cells.len() as f64, "pages");
+    if watch.stopped() {
+        return Ok(());
+    }
+    let made = Maps::compute(&planes(fits), threads, &watch)
+        .and_then(|maps| pages(sample, (&cases, common), &maps, (threads, &watch), write));
+    watch.finish();
+    match made {
+        Ok(true) => Ok(()),
+        Ok(false) | Err(Error::Interrupted) => {
+            warn("interrupted: not all pages are drawn");
+            Ok(())
+        }
+        Err(error) => Err(error.into()),
+    }
+}

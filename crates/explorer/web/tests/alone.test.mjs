@@ -1,0 +1,114 @@
+/** The page without a server: from a disk, from a static host under a sub-path, and in a frame. */
+
+import assert from "node:assert/strict";
+import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
+import { oneFile } from "../site.mjs";
+import { SITE } from "./engine.mjs";
+import { launch, PATIENCE, shoot } from "./stage.mjs";
+
+/** Where the static host has the page: it must not need the root. */
+const PATH = "/talks/2026/";
+const KINDS = { html: "text/html; charset=utf-8", js: "text/javascript", css: "text/css", svg: "image/svg+xml", gz: "application/gzip" };
+
+const it = {};
+
+/** A host that knows nothing of the page but its files. */
+function host() {
+  const server = createServer((request, response) => {
+    const path = new URL(request.url, "http://host").pathname;
+    const name = path.slice(PATH.length) || "index.html";
+    const frame = `<!doctype html><title>lecture</title><iframe src="${PATH}?embed=body" width="600" height="500"></iframe>`;
+    try {
+      const content = path === "/lecture.html" ? frame : readFileSync(join(SITE, path.startsWith(PATH) ? name : "none"));
+      response.writeHead(200, { "content-type": KINDS[path === "/lecture.html" ? "html" : name.split(".").at(-1)] }).end(content);
+    } catch {
+      response.writeHead(404).end();
+    }
+  });
+  return new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve(server)));
+}
+
+before(async () => {
+  const [server, browser] = await Promise.all([host(), launch()]);
+  const file = join(mkdtempSync(join(tmpdir(), "motiform-alone-")), "motiform.html");
+  writeFileSync(file, oneFile(SITE));
+  Object.assign(it, { server, browser, origin: `http://127.0.0.1:${server.address().port}`, file: pathToFileURL(file).href });
+});
+
+after(async () => {
+  await it.browser?.close();
+  it.server?.close();
+});
+
+/** Opens an address; any error in the console fails the test. */
+async function visit(address, act) {
+  const place = await it.browser.newContext({ viewport: { width: 1280, height: 720 }, colorScheme: "light" });
+  const page = await place.newPage();
+  page.setDefaultTimeout(PATIENCE);
+  const faults = [];
+  page.on("console", (message) => message.type() === "error" && !/favicon/.test(message.location().url) && faults.push(message.text()));
+  page.on("pageerror", (error) => faults.push(error.stack ?? String(error)));
+  await page.goto(address);
+  await act(page);
+  await place.close();
+  assert.deepEqual(faults, []);
+}
+
+/** Waits until the body moves; gives the milliseconds since the page was opened. */
+function moving(frame) {
+  return frame.waitForFunction(() => {
+    const now = window.motiform?.position();
+    const before = (window.before ??= now);
+    return now && before && (now[0] !== before[0] || now[1] !== before[1]) ? performance.now() : false;
+  }, null, { polling: 20 }).then((handle) => handle.jsonValue());
+}
+
+const named = (frame, name) => frame.locator(`#regime[data-regime="${name}"]`).waitFor({ timeout: 4 * PATIENCE });
+const complete = (page) => page.waitForFunction(() => window.motiform.map.complete && performance.now(), null, { timeout: 4 * PATIENCE, polling: 20 }).then((handle) => handle.jsonValue());
+
+test("one file from a disk: a body moves, is named, and a map fills", async (t) => {
+  await visit(`${it.file}#preset=fig1`, async (page) => {
+    t.diagnostic(`moving after ${Math.round(await moving(page))} ms`);
+    assert.match(await page.locator("#connection-text").textContent(), /no server/);
+    assert.ok(await page.locator("#banner").isHidden());
+    t.diagnostic(`map of Fig. 1 complete after ${Math.round(await complete(page))} ms`);
+    assert.ok((await page.locator("#map-legend li").count()) > 2);
+    await shoot(page, "alone-fig1");
+  });
+  await visit(`${it.file}#preset=fig5a&x=kappa2:1.2:1.6&y=kappa3:0.7:1`, async (page) => {
+    await moving(page);
+    await named(page, "zigzag");
+    // A change is named as well, and what was found before it is not shown any more.
+    await page.evaluate(() => (location.hash = "preset=fig5a&kappa2=2&x=kappa2:1.2:1.6&y=kappa3:0.7:1"));
+    await named(page, "circular");
+    await shoot(page, "alone-fig5a");
+  });
+});
+
+test("a static host under a sub-path: branches, a swarm and a second place", async () => {
+  await visit(`${it.origin}${PATH}#preset=fig5a&x=kappa2:1.2:1.6&y=kappa3:0.7:1`, async (page) => {
+    await moving(page);
+    await page.locator("#swarm-menu summary").click();
+    await page.locator("#swarm-begin").click();
+    await page.locator("#swarm-note").waitFor();
+    await page.locator("#compare").click();
+    await page.locator("#twin").waitFor();
+    await page.locator("#show-branches").click();
+    await page.locator("#branch-follow").click();
+    await page.locator("#branch-legend li").first().waitFor({ timeout: 4 * PATIENCE });
+    await shoot(page, "alone-branches");
+  });
+});
+
+test("in a frame of a lecture page", async () => {
+  await visit(`${it.origin}/lecture.html`, async (page) => {
+    const frame = await (await page.locator("iframe").elementHandle()).contentFrame();
+    await moving(frame);
+    assert.ok(await frame.locator("#map-panel").isHidden());
+  });
+});

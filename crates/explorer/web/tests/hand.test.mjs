@@ -1,0 +1,150 @@
+/** The body in the hand: pulled, carried, thrown; and everything undone and done again. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { LIGHT, shoot, stage, upon } from "./stage.mjs";
+import { changed, mapped, moves, number, pictures, seen, slide, slider, stands, until } from "./waits.mjs";
+
+const it = stage();
+const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
+
+/** Where the centre of the body is on the screen, and pixels of a model length as the body is drawn. */
+async function centre(page, { x, y }) {
+  return page.evaluate(([u, v]) => {
+    const box = document.getElementById("body").getBoundingClientRect();
+    const [px, py] = window.motiform.body.toPixel(u, v);
+    return [box.left + px, box.top + py, window.motiform.body.scale];
+  }, [x, y]);
+}
+
+/** How far the outline reaches to the right, in model lengths. */
+function reach({ outline }) {
+  const right = outline.filter(([x, y]) => x > 0 && Math.abs(y) < 0.12 * Math.abs(x));
+  return Math.max(...right.map(([x]) => x));
+}
+
+/** A paused page, and the frame it stands at. */
+async function paused(page, wire) {
+  await moves(page, wire);
+  await page.locator("#play").click();
+  const frame = await stands(page, wire);
+  await pictures(page, 80); // the sight comes to rest
+  return frame;
+}
+
+for (const preset of ["fig5a", "fig6a"]) {
+  test(`${preset}: the outline is pulled, and the position stays`, upon(it, { hash: preset === "fig5a" ? LIGHT : "preset=fig6a&x=length:6:7&y=none" }, async ({ page, wire }) => {
+    const before = await paused(page, wire);
+    const [x, y, scale] = await centre(page, before);
+    const from = reach(before);
+    await page.mouse.move(x + from * scale, y);
+    await page.waitForFunction(() => document.getElementById("body").dataset.under === "pull");
+    await page.mouse.down();
+    const to = from + 0.25 * before.radius;
+    await page.mouse.move(x + to * scale, y, { steps: 6 });
+    await page.mouse.up();
+    await until(() => wire.frame.revision > before.revision && Math.abs(reach(wire.frame) - to) < 0.1 * before.radius, "the outline to follow");
+    assert.deepEqual([wire.frame.t, wire.frame.x, wire.frame.y], [before.t, before.x, before.y]);
+    await shoot(page, `pulled-${preset}`);
+  }));
+}
+
+test("the inside is carried to another place, and thrown where the hand lets go while it moves", upon(it, { hash: LIGHT }, async ({ page, wire }) => {
+  const before = await paused(page, wire);
+  const [x, y, scale] = await centre(page, before);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x - 60, y + 40, { steps: 6 });
+  await page.waitForTimeout(150); // the hand rests
+  await page.mouse.up();
+  await until(() => Math.abs(wire.frame.x - (before.x - 60 / scale)) < 1e-6 * Math.abs(scale) + 0.05, "the body to be carried");
+  assert.ok(Math.abs(wire.frame.y - (before.y - 40 / scale)) < 0.05);
+  assert.deepEqual([...wire.frame.state], [...before.state], "velocity and shape stay");
+  const carried = await stands(page, wire);
+  await pictures(page, 80);
+  const [u, v] = await centre(page, carried);
+  await page.mouse.move(u, v);
+  await page.mouse.down();
+  for (let k = 1; k <= 8; k++) await page.mouse.move(u - 12 * k, v);
+  await page.mouse.up();
+  await until(() => wire.said.get("put")?.velocity, "the body to be thrown");
+  await until(() => wire.frame.state[0] === wire.said.get("put").velocity[0], "its velocity");
+  assert.ok(wire.frame.state[0] < 0 && Math.abs(wire.frame.state[1]) < 0.3 * Math.abs(wire.frame.state[0]));
+  assert.deepEqual([...wire.frame.state].slice(2), [...before.state].slice(2), "the shape stays");
+}));
+
+test("with a finger, too, and the page does not scroll", upon(it, { hash: LIGHT, ...PHONE }, async ({ page, wire }) => {
+  const before = await paused(page, wire);
+  await page.evaluate(() => window.scrollTo(0, 0));
+  await pictures(page, 5);
+  const [x, y, scale] = await centre(page, before);
+  const session = await page.context().newCDPSession(page);
+  const touch = (type, points) => session.send("Input.dispatchTouchEvent", { type, touchPoints: points });
+  await touch("touchStart", [{ x, y }]);
+  for (let k = 1; k <= 8; k++) await touch("touchMove", [{ x, y: y + 5 * k }]);
+  await page.waitForTimeout(150);
+  await touch("touchEnd", []);
+  await until(() => Math.abs(wire.frame.y - (before.y - 40 / scale)) < 0.1, "the body to be carried");
+  assert.equal(await page.evaluate(() => window.scrollY), 0);
+  assert.equal(await page.locator("#follow").getAttribute("aria-pressed"), "true");
+}));
+
+test("kicks have a strength", upon(it, { hash: LIGHT }, async ({ page, wire }) => {
+  await paused(page, wire);
+  const sizes = [];
+  for (const position of [0, 1000]) {
+    await slide(page.locator("#strength"), position);
+    const before = await stands(page, wire);
+    await page.locator("#kick").click();
+    const after = await changed(wire, before.revision);
+    sizes.push(Math.hypot(...after.state.map((value, k) => value - before.state[k])));
+    assert.ok(Math.abs(wire.said.get("kick").strength - [0.01, 2][position / 1000]) < 1e-3);
+  }
+  assert.ok(sizes[1] > 20 * sizes[0], `${sizes}`);
+}));
+
+test("everything is undone, and done again", upon(it, { hash: LIGHT }, async ({ page, wire }) => {
+  const first = await paused(page, wire);
+  assert.equal(await page.locator("#undo").isDisabled(), true);
+  /** Undoes by key, and waits for this. */
+  const back = async (holds, what) => {
+    await page.evaluate(() => document.activeElement.blur());
+    await page.keyboard.press("Control+z");
+    await until(holds, what);
+  };
+  await page.locator("#kick").click();
+  const kicked = await changed(wire, first.revision);
+  await stands(page, wire);
+  await slide(slider(page, "kappa2"), 0.8);
+  await until(() => wire.last.get("changed").parameters.kappa2 === 0.8, "the parameter");
+  await stands(page, wire);
+  await slide(page.locator("#noise"), 80);
+  await until(() => wire.last.get("changed").noise === 0.01, "the noise");
+  await stands(page, wire);
+  await page.locator("#x-axis").selectOption("gamma");
+  await until(() => wire.last.get("map").x.name === "gamma", "the axis");
+  await mapped(page);
+  await back(() => wire.last.get("map").x.name === "kappa2", "the axis of before");
+  await back(() => wire.last.get("changed").noise === 0, "no noise");
+  await back(() => wire.last.get("changed").parameters.kappa2 === 0.9, "the parameter of before");
+  await until(() => wire.frame.state.every((value, k) => value === kicked.state[k]), "the state after the kick");
+  await back(() => wire.frame.state.every((value, k) => value === first.state[k]), "the state before the kick");
+  assert.deepEqual([wire.frame.t, wire.frame.x, wire.frame.y], [first.t, first.x, first.y]);
+  assert.equal(await number(page, "kappa2").inputValue(), "0.9");
+  assert.equal(await page.locator("#undo").isDisabled(), true);
+  await page.keyboard.press("Control+Shift+z");
+  await until(() => wire.frame.state.every((value, k) => value === kicked.state[k]), "the kick again");
+  await page.locator("#redo").click();
+  await until(() => wire.last.get("changed").parameters.kappa2 === 0.8, "the parameter again");
+}));
+
+test("another preset is undone, too", upon(it, { hash: `${LIGHT}&kappa2=0.8` }, async ({ page, wire }) => {
+  const before = await paused(page, wire);
+  await page.getByTestId("preset-fig2").click();
+  await seen(page, wire, "fig2");
+  await page.locator("#undo").click();
+  await until(() => wire.last.get("begun").preset === "fig5a", "the preset of before");
+  await until(() => wire.frame.t === before.t, "its frame");
+  assert.deepEqual([...wire.frame.state], [...before.state]);
+  assert.equal(wire.last.get("begun").parameters.kappa2, 0.8);
+}));

@@ -1,0 +1,72 @@
+//! What a build without the feature `formats` has instead of Parquet and HDF5: the refusal to read or write such files. A browser has no
+//! files either, so nothing of this is reached there.
+
+use crate::Fields;
+use crate::columns::Column;
+use motiform_study::Error;
+use motiform_study::table::Table;
+use std::path::Path;
+
+/// This build has no Parquet and HDF5 files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Absent;
+
+impl std::fmt::Display for Absent {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("this program was built without Parquet and HDF5 files: use CSV, or build it with the feature `formats`")
+    }
+}
+
+impl std::error::Error for Absent {}
+
+/// Columns as a Parquet file.
+///
+/// # Errors
+/// Always.
+pub fn encode(_columns: &[Column], _metadata: Vec<(&str, String)>) -> Result<Vec<u8>, Absent> {
+    Err(Absent)
+}
+
+/// The metadata entries of a Parquet file.
+///
+/// # Errors
+/// Always.
+pub fn metadata(_path: &Path) -> Result<Vec<(String, String)>, Absent> {
+    Err(Absent)
+}
+
+/// The columns of a Parquet file.
+///
+/// # Errors
+/// Always.
+pub fn decode(_path: &Path) -> Result<Vec<Column>, Absent> {
+    Err(Absent)
+}
+
+pub(crate) fn write(_table: &Table, _metadata: &str, path: &Path) -> Result<(), Error> {
+    Err(Error::write_failed(path, Absent))
+}
+
+pub(crate) fn read(path: &Path) -> Result<Table, Error> {
+    Err(Error::unreadable(path, Absent))
+}
+
+pub(crate) fn read_metadata(path: &Path) -> Result<Option<String>, Error> {
+    Err(Error::unreadable(path, Absent))
+}
+
+/// Writes an HDF5 file.
+///
+/// # Errors
+/// Always.
+pub fn write_fields(path: &Path, _fields: &Fields) -> Result<(), Error> {
+    Err(Error::write_failed(path, Absent))
+}
+
+/// Reads an HDF5 file.
+///
+/// # Errors
+/// Always.
+pub fn read_fields(path: &Path) -> Result<Fields, Error> {
+    Err(Error::unreadable(path, Absent))
+}

@@ -1,0 +1,73 @@
+//! Joint fits: errors from the differences between cells, against fits with each cell left out and against the scatter of repeated experiments.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use super::common::{Experiment, FULL, full};
+use motiform_dynamics::Normal;
+use motiform_inference::{Library, Settings, Track, between_cells, fit};
+
+fn settings() -> Settings {
+    Settings { library: Library::tensor().select(&FULL).unwrap(), ..Settings::default() }
+}
+
+/// Cells with kappa2 scattered by `spread` about 0.5.
+fn population(cells: u64, spread: f64, seed: u64) -> Vec<Track> {
+    let mut random = Normal::new(seed, 3);
+    let cell = |number| {
+        let kappa2 = 0.5 + spread * random.next();
+        Experiment { frames: 150, ..Experiment::new(full(kappa2, 0.1), 0.02, 1000 * seed + number) }.track()
+    };
+    (0..cells).map(cell).collect()
+}
+
+#[test]
+fn shifts_are_those_of_fits_without_the_cell() {
+    let tracks = population(6, 0.03, 1);
+    let whole = fit(&tracks, &settings(), &()).unwrap();
+    let between = between_cells(&tracks, &whole).unwrap();
+    let place = whole.coefficients.iter().position(|c| c.name == "z2: z2").unwrap();
+    for left_out in 0..tracks.len() {
+        let rest: Vec<Track> = tracks
+            .iter()
+            .enumerate()
+            .filter(|(cell, _)| *cell != left_out)
+            .map(|(_, track)| track.clone())
+            .collect();
+        let without = fit(&rest, &settings(), &()).unwrap();
+        let shift = whole.coefficients[place].estimate.value - without.coefficients[place].estimate.value;
+        let found = between.shifts[left_out][place];
+        // to first order in 1/6: half of the size and one error of the estimate
+        assert!(
+            (found - shift).abs() < 0.5 * shift.abs() + whole.coefficients[place].estimate.error,
+            "cell {left_out}: {found} by scores, {shift} by fitting again"
+        );
+    }
+    assert!(between_cells(&tracks[..1], &whole).unwrap_err().to_string().contains("two cells"));
+}
+
+/// Twelve experiments of eight cells that differ: the scatter of their estimates is what the errors between cells say, and several times what
+/// the errors of one law say.
+#[test]
+fn errors_between_cells_are_the_scatter_of_joint_fits() {
+    let (mut values, mut between, mut expected) = (Vec::new(), 0.0, 0.0);
+    for seed in 0..12 {
+        let tracks = population(8, 0.05, seed);
+        let found = fit(&tracks, &settings(), &()).unwrap();
+        let place = found.coefficients.iter().position(|c| c.name == "z2: z2").unwrap();
+        let errors = between_cells(&tracks, &found).unwrap().errors;
+        values.push(found.coefficients[place].estimate.value);
+        between += errors[place] * errors[place] / 12.0;
+        expected += found.coefficients[place].estimate.error.powi(2) / 12.0;
+    }
+    let mean = values.iter().sum::<f64>() / 12.0;
+    let scatter = values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / 11.0;
+    println!(
+        "scatter {:.4}, between cells {:.4}, of one law {:.4}",
+        scatter.sqrt(),
+        between.sqrt(),
+        expected.sqrt()
+    );
+    // the ratio of a variance with 11 degrees of freedom to its expectation is within 0.2 and 2.7 in 99.8 %; that of the errors scatters too
+    assert!((0.2..3.0).contains(&(scatter / between)), "{scatter} against {between}");
+    assert!(between > 4.0 * expected, "{between} against {expected}");
+}

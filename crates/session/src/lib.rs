@@ -1,0 +1,35 @@
+//! A session of the explorer: what one page asks, and what it is answered, over any transport.
+//!
+//! A session has a body that moves when the page requests it (`body`), and computations beside it (`task`), each of which does only the
+//! latest job: classification of the motion and its exponents (`motion`), the map (`map`), branches of motions (`branches`), returns
+//! ahead, and the motions of a swarm. `crates/explorer/PROTOCOL.md` describes the messages (`protocol`, `frames`).
+//!
+//! The same session runs in two ways. [`Session`] (feature `threads`) has threads of its own, behind a server. [`Local`] has none: it does a
+//! bounded piece of work for each message, and leaves the computations beside the body to other instances of this program ([`assist`]),
+//! as in the workers of a browser.
+
+mod answers;
+mod body;
+mod branches;
+mod catalogue;
+mod export;
+mod frames;
+mod greeting;
+mod local;
+mod map;
+mod motion;
+mod protocol;
+#[cfg(feature = "threads")]
+mod session;
+mod share;
+mod task;
+
+pub use answers::{Answer, Answers, Gone, refusal};
+pub use catalogue::{Catalogue, StudyFile, file_name};
+pub use greeting::Greeting;
+pub use local::{Local, assist};
+pub use protocol::{LONGEST, Request, typescript};
+#[cfg(feature = "threads")]
+pub use session::Session;
+pub use share::quoted;
+pub use task::{Errand, Post};

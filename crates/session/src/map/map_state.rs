@@ -1,0 +1,150 @@
+//! The visible window, and the computed rows of its plane.
+
+use super::Job;
+use super::lattice::{Cells, Lattice, level};
+use super::store::Store;
+use crate::protocol::Side;
+use motiform_lab::scan::{Axis, Row, ScanComputation};
+use motiform_models::ModelInfo;
+use motiform_models::parameters::{ParameterSpec, index_of};
+use motiform_study::{Error, Plan, ScanPlan, Study};
+
+/// Maximum and minimum number of cells along an axis.
+const COUNTS: (u16, u16) = (8, 160);
+
+/// The computed rows of a plane, and its visible window.
+#[derive(Default)]
+pub(crate) struct MapState {
+    /// The plan without the values of its axes: while it stays, rows stay.
+    plane: Option<ScanComputation>,
+    lattices: Vec<Lattice>,
+    pub(crate) store: Store,
+    present: Option<Present>,
+}
+
+/// The window that is shown.
+pub(crate) struct Present {
+    pub(crate) epoch: u32,
+    pub(crate) plan: ScanPlan,
+    /// Along each axis.
+    pub(crate) sides: Vec<Cells>,
+}
+
+impl Present {
+    /// The number of cells along the axes; 1 for a missing axis.
+    pub(crate) fn counts(&self) -> [usize; 2] {
+        [0, 1].map(|axis| self.sides.get(axis).map_or(1, |side| side.values.len()))
+    }
+
+    /// The values of the axes in a cell; `None` outside.
+    pub(crate) fn at(&self, i: usize, j: usize) -> Option<Vec<f64>> {
+        let [columns, rows] = self.counts();
+        (i < columns && j < rows).then(|| self.plan.axis_values(i + columns * j))
+    }
+
+    /// The cell at the parameters of a study; `None` outside.
+    pub(crate) fn nearest(&self, study: &Study) -> Option<[u16; 2]> {
+        let specs = study.info().ok()?.parameters();
+        let values = study.values().ok()?;
+        let mut place = [0; 2];
+        for (axis, (side, along)) in self.sides.iter().zip(&self.plan.computation.axes).enumerate() {
+            let value = values[specs.iter().position(|spec| spec.name == along.name)?];
+            let number = ((value - side.values.first()?) / side.step).round();
+            place[axis] = (0.0..side.values.len() as f64).contains(&number).then_some(number as u16)?;
+        }
+        Some(place)
+    }
+
+    /// The level of a cell.
+    pub(crate) fn level(&self, i: usize, j: usize) -> u8 {
+        let number = |side: &Cells, place: usize| side.first + i64::try_from(place).unwrap_or(0);
+        let levels = self.sides.iter().zip([i, j]).map(|(side, place)| level(number(side, place)));
+        levels.min().unwrap_or(0)
+    }
+}
+
+impl MapState {
+    pub(crate) fn present(&self) -> Option<&Present> {
+        self.present.as_ref()
+    }
+
+    /// Switches to the window of a job. Computed rows are kept if the plane is the same.
+    pub(super) fn turn(&mut self, job: &Job) -> Result<(), Error> {
+        let info = job.study.info()?;
+        let sides: Vec<&Side> = std::iter::once(&job.window.x).chain(&job.window.y).collect();
+        let specs = sides.iter().map(|side| spec(info, side)).collect::<Result<Vec<_>, _>>()?;
+        let count = usize::from(job.window.count.clamp(COUNTS.0, COUNTS.1));
+        let plane = plane(&job.study, info, &sides)?;
+        if self.plane.as_ref() != Some(&plane) {
+            *self = Self { plane: Some(plane), ..Self::default() };
+            let lattice = |(side, spec): (&&Side, &&ParameterSpec)| {
+                Lattice::new(side.low, side.high, count, spec.whole)
+            };
+            self.lattices = sides.iter().zip(&specs).map(lattice).collect();
+        }
+        let within = self.lattices.iter().zip(sides.iter().zip(&specs));
+        let cells: Vec<Cells> = within
+            .map(|(lattice, (side, spec))| lattice.cells((side.low, side.high), count, spec.allowed))
+            .collect();
+        let axes = sides.iter().zip(&cells).map(|(side, cells)| axis(side, cells.values.clone())).collect();
+        let plan = ScanPlan::new(&of_map(&job.study, axes)?)?;
+        self.store.begin();
+        self.present = Some(Present { epoch: job.window.epoch, plan, sides: cells });
+        Ok(())
+    }
+
+    /// The visible rows that are computed, by their cell; `None` before the first window.
+    pub(super) fn rows(&mut self) -> Option<(ScanPlan, Vec<Row>)> {
+        let plan = self.present.as_ref()?.plan.clone();
+        let row = |cell| {
+            let row = self.store.get(&plan.axis_values(cell))?;
+            Some(Row { cell, ..row.clone() })
+        };
+        let rows = (0..plan.cells()).filter_map(row).collect();
+        Some((plan, rows))
+    }
+}
+
+fn axis(side: &Side, values: Vec<f64>) -> Axis {
+    Axis { name: side.name.clone(), values }
+}
+
+/// The parameter of a valid side.
+fn spec(info: &'static ModelInfo, side: &Side) -> Result<&'static ParameterSpec, Error> {
+    let spec = &info.parameters()[index_of(info.parameters(), info.name, &side.name)?];
+    if side.low < side.high && side.low.abs().max(side.high.abs()) < 1e9 && side.high - side.low > 1e-12 {
+        return Ok(spec);
+    }
+    let problem =
+        format!("a window from {} to {} cannot be shown: zoom out, or go back", side.low, side.high);
+    Err(Error::Axis { text: side.name.clone(), problem })
+}
+
+/// The study of a map: one start for all cells, that of `motiform classify` with the same parameters.
+fn of_map(study: &Study, axes: Vec<Axis>) -> Result<Study, Error> {
+    let mut study = study.clone();
+    study.run.silence();
+    study.title = format!("Motions of the {} model", study.model); // a preset's is that of one motion
+    // The number of modes decides which coordinates there are: each cell then draws its own.
+    if study.initial.is_empty() && !axes.iter().any(|axis| axis.name == "modes") {
+        study.initial = Plan::new(&study)?.computation.initial.0;
+    }
+    study.scan.samples = 1;
+    study.scan.axes = axes;
+    Ok(study)
+}
+
+/// The plan of a map without its values.
+fn plane(study: &Study, info: &'static ModelInfo, sides: &[&Side]) -> Result<ScanComputation, Error> {
+    let values = |side: &&Side| axis(side, vec![side.low, side.high]);
+    // The corners of a window may lie beyond what the model allows; its plane is the same.
+    let mut study = study.clone();
+    let axes: Vec<Axis> = sides.iter().map(values).collect();
+    study.scan.axes = Vec::new();
+    let mut bare = of_map(&study, axes)?;
+    for axis in &mut bare.scan.axes {
+        let spec = &info.parameters()[index_of(info.parameters(), info.name, &axis.name)?];
+        axis.values = vec![spec.default];
+    }
+    Ok(ScanPlan::new(&bare)?.computation)
+}

@@ -1,0 +1,275 @@
+//! Classification of the present motion and computation of its Lyapunov exponents, as long as it is the present one.
+
+use crate::answers::{Answers, Gone, text};
+use crate::map::numbers;
+use crate::protocol::{Exponent, Exponents, MotionNamed, NamingBegun, Said};
+use crate::task::{self, Crew, Errand, Task, Tell, Worker, lock};
+use motiform_analysis::Estimate;
+use motiform_analysis::regime::Regime;
+use motiform_dynamics::Watch;
+use motiform_lab::analyse;
+use motiform_lab::scan::Row;
+use motiform_study::Plan;
+use serde::{Deserialize, Serialize};
+use std::sync::{Arc, Mutex};
+
+/// Exponents that are followed.
+const COUNT: usize = 3;
+
+/// They are averaged over this many looks of the model after some initial ones, and reported at this many times.
+const LOOKS: (f64, f64) = (2.0, 40.0);
+const POINTS: f64 = 200.0;
+
+/// A motion: the plan whose start is the state of the body, without noise.
+pub(crate) struct Motion {
+    pub(crate) revision: u32,
+    pub(crate) plan: Plan,
+    /// Classified before, but the body has moved on since: repeat the classification.
+    pub(crate) again: bool,
+}
+
+/// The exponents so far, by averaging time.
+pub(crate) type History = Vec<(f64, Vec<Estimate>)>;
+
+/// The results on the present motion.
+#[derive(Default)]
+struct Known {
+    /// Its revision, its name, and the model time that it took to find that.
+    name: Option<(u32, Regime, f64)>,
+    history: History,
+    /// No further results will follow.
+    complete: bool,
+}
+
+/// The worker that classifies motions.
+pub(crate) struct Naming {
+    worker: Worker<Classification>,
+    heard: Arc<Heard>,
+}
+
+/// What is known, and the page that is told.
+struct Heard {
+    known: Mutex<Known>,
+    answers: Answers,
+}
+
+impl Naming {
+    pub(crate) fn new(answers: Answers, crew: &Crew) -> std::io::Result<Self> {
+        let heard = Arc::new(Heard { known: Mutex::default(), answers });
+        let shared = Arc::clone(&heard);
+        let worker = Worker::new(crew, move |found, _: &dyn Watch| shared.take(found))?;
+        Ok(Self { worker, heard })
+    }
+
+    /// Classifies this motion, replacing an earlier one.
+    pub(crate) fn name(&self, motion: Motion) {
+        let Motion { revision, plan, again } = motion;
+        let mut known = lock(&self.heard.known);
+        known.complete = false;
+        let before = known.name.map(|name| name.1).filter(|_| again);
+        drop(known);
+        self.worker.put(Job { revision, plan, again, before });
+    }
+
+    /// Takes what a helper found.
+    pub(crate) fn report(&self, errand: &Errand<'_>) -> Result<(), Gone> {
+        self.worker.report(errand).map_or(Ok(()), |found| self.heard.take(found))
+    }
+
+    /// Stops: the body has changed.
+    pub(crate) fn stop(&self) {
+        self.worker.clear();
+        *lock(&self.heard.known) = Known::default();
+    }
+
+    /// The model time used to classify the motion of this revision, if it is classified and has its exponents.
+    pub(crate) fn took(&self, revision: u32) -> Option<f64> {
+        let known = lock(&self.heard.known);
+        known.name.filter(|name| known.complete && name.0 == revision).map(|name| name.2)
+    }
+
+    /// The exponents of the present motion so far.
+    pub(crate) fn history(&self) -> History {
+        lock(&self.heard.known).history.clone()
+    }
+}
+
+impl Heard {
+    fn take(&self, found: Found) -> Result<(), Gone> {
+        let mut known = lock(&self.known);
+        match found {
+            Found::Begun { .. } => {}
+            Found::Named { revision, regime, time, .. } => known.name = Some((revision, regime, time)),
+            Found::Followed => known.history.clear(),
+            Found::Exponents { time, ref exponents, .. } => known.history.push((time, exponents.clone())),
+            Found::Complete => known.complete = true,
+        }
+        drop(known);
+        found.text().map_or(Ok(()), |text| self.answers.text(text))
+    }
+}
+
+/// What is found of a motion, in this order.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) enum Found {
+    /// It is being classified.
+    Begun { text: String },
+    /// Its name, and the model time that it took to find that.
+    Named { revision: u32, regime: Regime, time: f64, text: String },
+    /// Its exponents begin.
+    Followed,
+    /// The exponents up to a time.
+    Exponents { time: f64, exponents: Vec<Estimate>, text: String },
+    /// No further results will follow.
+    Complete,
+}
+
+impl Found {
+    /// The message to the page.
+    fn text(self) -> Option<String> {
+        match self {
+            Self::Begun { text } | Self::Named { text, .. } | Self::Exponents { text, .. } => Some(text),
+            Self::Followed | Self::Complete => None,
+        }
+    }
+}
+
+/// Classifies motions.
+struct Classification;
+
+/// Does the job of an errand.
+pub(crate) fn perform(errand: &Errand<'_>, back: &(dyn Fn(&str) + Sync)) -> bool {
+    task::perform::<Classification>(errand, back)
+}
+
+/// A motion to be classified.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct Job {
+    revision: u32,
+    plan: Plan,
+    again: bool,
+    /// Its name as known before.
+    before: Option<Regime>,
+}
+
+impl Task for Classification {
+    type Job = Job;
+    type Report = Found;
+
+    const NAME: &'static str = "naming";
+    /// Pictures go first.
+    const NICE: i32 = 3;
+
+    fn run(job: Job, watch: &dyn Watch, tell: Tell<'_, Found>) -> Result<(), Gone> {
+        Work { job: &job, watch, tell }.run()
+    }
+}
+
+/// One motion to be classified.
+struct Work<'w> {
+    job: &'w Job,
+    watch: &'w dyn Watch,
+    tell: Tell<'w, Found>,
+}
+
+impl Work<'_> {
+    fn run(&self) -> Result<(), Gone> {
+        let Some(regime) = self.name()? else { return Ok(()) };
+        // A name that has not changed has the same exponents.
+        if !(self.job.again && self.job.before == Some(regime)) {
+            self.follow()?;
+        }
+        if self.watch.stopped() { Ok(()) } else { (self.tell)(Found::Complete) }
+    }
+
+    /// Classifies the motion; `None` if the result is no longer needed.
+    fn name(&self) -> Result<Option<Regime>, Gone> {
+        let revision = self.job.revision;
+        if !self.job.again {
+            (self.tell)(Found::Begun { text: said(NamingBegun { revision }) })?;
+        }
+        let verdict = analyse::classify(&self.job.plan, 0.0, self.watch);
+        let Some(row) = Row::of_evaluation(0, 0, verdict).filter(|_| !self.watch.stopped()) else {
+            return Ok(None);
+        };
+        let (regime, numbers) = (row.regime, numbers(&row));
+        let time = row.number("time").unwrap_or(0.0);
+        let text = said(MotionNamed { revision, regime: regime.name(), why: row.why, numbers });
+        (self.tell)(Found::Named { revision, regime, time, text })?;
+        Ok(Some(regime))
+    }
+
+    /// Follows the exponents until their average is complete.
+    fn follow(&self) -> Result<(), Gone> {
+        let Ok(info) = self.job.plan.info() else { return Ok(()) };
+        let count = COUNT.min(self.job.plan.computation.initial.0.len() - 2);
+        let span = LOOKS.1 * info.look;
+        (self.tell)(Found::Followed)?;
+        let (mut history, mut next, mut gone) = (History::new(), 0.0, Ok(()));
+        let mut tell = |time: f64, exponents: Vec<Estimate>, done: bool| {
+            let exponents = widened(&history, time, exponents);
+            if !self.watch.stopped() && gone.is_ok() {
+                let text = said(message(self.job.revision, time, &exponents, done));
+                history.push((time, exponents.clone()));
+                gone = (self.tell)(Found::Exponents { time, exponents, text });
+            }
+        };
+        // One behind: the last point is that of the whole average.
+        let mut last = None;
+        let times = (Some(LOOKS.0 * info.look), Some(span));
+        let result = analyse::lyapunov_followed(&self.job.plan, count, times, self.watch, &mut |so_far| {
+            if so_far.time() < next {
+                return;
+            }
+            if let Some(exponents) = so_far.exponents() {
+                next = so_far.time() + span / POINTS;
+                if let Some((time, exponents)) = last.replace((so_far.time(), exponents)) {
+                    tell(time, exponents, false);
+                }
+            }
+        });
+        // A motion that escapes has no exponents; what the numerics refuse was said by the name.
+        match result {
+            Ok(result) if !result.exponents.is_empty() => tell(result.time, result.exponents, true),
+            _ => {}
+        }
+        gone
+    }
+}
+
+fn said(message: impl Into<Said>) -> String {
+    text(&message.into())
+}
+
+/// Estimates whose errors are at least their change since half the averaging time. Statistics alone say too little of an average that
+/// approaches its limit as 1/time, as on a cycle with rests.
+fn widened(history: &History, time: f64, mut exponents: Vec<Estimate>) -> Vec<Estimate> {
+    let Some((_, then)) = history.iter().rev().find(|(then, _)| *then <= 0.5 * time) else {
+        return exponents;
+    };
+    for (now, then) in exponents.iter_mut().zip(then) {
+        now.error = now.error.max((now.value - then.value).abs()); // an error that is not known becomes the change
+    }
+    exponents
+}
+
+fn message(revision: u32, time: f64, exponents: &[Estimate], done: bool) -> Exponents {
+    // An error that is not known yet is not a number: null.
+    let known =
+        |e: &Estimate| Exponent { value: e.value, error: Some(e.error).filter(|error| error.is_finite()) };
+    Exponents { revision, time, exponents: exponents.iter().map(known).collect(), done }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_is_at_least_the_change_since_half_the_time() {
+        let one = |value: f64, error: f64| vec![Estimate { value, error }];
+        let history: History = vec![(10.0, one(0.4, 0.01)), (20.0, one(0.2, 0.01)), (30.0, one(0.13, 0.01))];
+        assert!((widened(&history, 40.0, one(0.1, 0.01))[0].error - 0.1).abs() < 1e-12);
+        assert!((widened(&history, 60.0, one(0.1, 0.2))[0].error - 0.2).abs() < 1e-12);
+        assert!((widened(&history, 15.0, one(0.1, 0.01))[0].error - 0.01).abs() < 1e-12, "too early to say");
+    }
+}

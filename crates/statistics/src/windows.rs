@@ -1,0 +1,58 @@
+//! Where windows begin: the parts of the tracks over which lagged sums are taken and left out together.
+
+use crate::{Track, Tracks};
+use std::ops::Range;
+
+/// Windows that are left out together.
+pub(crate) struct Starts<'t> {
+    /// Their group.
+    pub(crate) group: usize,
+    /// The samples.
+    pub(crate) track: &'t Track,
+    /// Where windows begin; they may end beyond.
+    pub(crate) range: Range<usize>,
+}
+
+impl Starts<'_> {
+    /// Pairs of samples `lag` apart.
+    pub(crate) fn pairs<'s>(
+        &self,
+        series: &'s [[f64; 2]],
+        lag: usize,
+    ) -> impl Iterator<Item = (&'s [f64; 2], &'s [f64; 2])> {
+        let later = series.get(self.range.start + lag..).unwrap_or_default();
+        series[self.range.clone()].iter().zip(later)
+    }
+
+    /// Whether windows begin everywhere and end within.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.range == (0..self.track.position.len())
+    }
+}
+
+impl Tracks {
+    /// All windows, by groups.
+    pub(crate) fn starts(&self) -> Vec<Starts<'_>> {
+        let Some(pieces) = self.pieces() else {
+            let whole = |(unit, track): (usize, &'_ Track)| (self.group(unit), track.position.len());
+            let units = self.units().iter().enumerate();
+            return units
+                .map(|pair| (whole(pair), pair.1))
+                .map(|((group, end), track)| Starts { group, track, range: 0..end })
+                .collect();
+        };
+        let of = |(body, track): (usize, &'_ Track)| {
+            let samples = track.position.len();
+            let edge = move |piece: usize| piece * samples / pieces;
+            (0..pieces)
+                .map(move |piece| (body * pieces + piece, edge(piece)..edge(piece + 1)))
+                .collect::<Vec<_>>()
+        };
+        let bodies = self.bodies().iter().enumerate();
+        bodies
+            .flat_map(|pair| {
+                of(pair).into_iter().map(move |(group, range)| Starts { group, track: pair.1, range })
+            })
+            .collect()
+    }
+}
