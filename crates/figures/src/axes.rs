@@ -3,7 +3,8 @@
 use super::geometry::{Point, Range, Rect};
 use super::paint::Paint;
 use super::palette::{INK, PALE};
-use super::svg::{Anchor, Svg};
+use super::sheet::Sheet;
+use super::svg::Anchor;
 use super::text::Label;
 use super::ticks::Ticks;
 
@@ -152,34 +153,34 @@ impl Axes {
     }
 
     /// Draws grid lines, to be called before the data.
-    pub fn draw_grid(&self, svg: &mut Svg) {
+    pub fn draw_grid(&self, sheet: &mut impl Sheet) {
         let Rect { x, y, .. } = self.scale.frame;
         let (right, bottom) = (self.scale.frame.right(), self.scale.frame.bottom());
         let mut lines: Vec<_> = self.x_positions().map(|px| [[px, y], [px, bottom]]).collect();
         lines.extend(self.y_positions().map(|py| [[x, py], [right, py]]));
-        svg.lines(&lines, &Paint::stroke(PALE, 1.0));
+        sheet.lines(&lines, &Paint::stroke(PALE, 1.0));
     }
 
     /// Draws frame, ticks and labels, to be called after the data.
-    pub fn draw(&self, svg: &mut Svg) {
-        self.draw_with_margin(svg, self.left_margin());
+    pub fn draw(&self, sheet: &mut impl Sheet) {
+        self.draw_with_margin(sheet, self.left_margin());
     }
 
     /// [`Axes::draw`] with the y label at the left end of a given margin, so that stacked panels line up.
-    pub fn draw_with_margin(&self, svg: &mut Svg, margin: f64) {
+    pub fn draw_with_margin(&self, sheet: &mut impl Sheet, margin: f64) {
         let Rect { x, y, w, h } = self.scale.frame;
-        self.draw_ticks(svg);
-        svg.rect(self.scale.frame, &Paint::stroke(INK, 1.0));
+        self.draw_ticks(sheet);
+        sheet.rect(self.scale.frame, &Paint::stroke(INK, 1.0));
         if let Some(label) = &self.x_label {
-            svg.text([x + 0.5 * w, y + h + BELOW - 8.0], LABEL_SIZE, Anchor::Middle, label);
+            sheet.text([x + 0.5 * w, y + h + BELOW - 8.0], LABEL_SIZE, Anchor::Middle, label);
         }
         for (i, line) in self.y_label.iter().enumerate() {
             let at = [x - margin + LINE * (i as f64 + 0.8), y + 0.5 * h];
-            svg.upward_text(at, LABEL_SIZE, Anchor::Middle, line);
+            sheet.upward_text(at, LABEL_SIZE, Anchor::Middle, line);
         }
     }
 
-    fn draw_ticks(&self, svg: &mut Svg) {
+    fn draw_ticks(&self, sheet: &mut impl Sheet) {
         let Rect { x, .. } = self.scale.frame;
         let bottom = self.scale.frame.bottom();
         let mut lines = Vec::new();
@@ -189,17 +190,17 @@ impl Axes {
             lines.push([[px, bottom], [px, bottom + TICK_LENGTH]]);
             if self.x_label.is_some() && !label.is_empty() {
                 let at = [px, bottom + TICK_LENGTH + TICK_SIZE + 2.0];
-                svg.text(at, TICK_SIZE, Anchor::Middle, &Label::parse(label));
+                sheet.text(at, TICK_SIZE, Anchor::Middle, &Label::parse(label));
             }
         }
         for (py, label) in self.y_positions().zip(&self.y_ticks.labels) {
             lines.push([[x - TICK_LENGTH, py], [x, py]]);
             if !label.is_empty() {
                 let at = [x - TICK_LENGTH - 4.0, py + 0.36 * TICK_SIZE];
-                svg.text(at, TICK_SIZE, Anchor::End, &Label::parse(label));
+                sheet.text(at, TICK_SIZE, Anchor::End, &Label::parse(label));
             }
         }
-        svg.lines(&lines, &Paint::stroke(INK, 1.0));
+        sheet.lines(&lines, &Paint::stroke(INK, 1.0));
     }
 
     fn x_positions(&self) -> impl Iterator<Item = f64> {

@@ -125,12 +125,16 @@ pub enum FigureError {
         max: f64,
     },
     /// The text passed to the rasteriser is not an SVG document.
+    #[cfg(feature = "raster")]
     #[error("cannot read the svg: {source}; give the text that a figure's `svg` returned")]
     Svg {
         /// What the parser found.
         #[from]
         source: resvg::usvg::Error,
     },
+    /// The program was built without the rasteriser.
+    #[error("this program was built without PNG; use the svg, which contains the same drawing")]
+    NoRaster,
     /// The PNG encoder failed.
     #[error("cannot encode the png: {source}; try a smaller image")]
     Png {

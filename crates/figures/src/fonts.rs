@@ -1,10 +1,9 @@
 //! The two faces used in all figures, and their advance widths.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use resvg::usvg::fontdb::Database;
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, MetadataProvider as _};
 
@@ -61,18 +60,6 @@ pub(crate) fn has_glyph(character: char) -> bool {
     [Face::Regular, Face::Italic]
         .iter()
         .all(|face| face.font().is_some_and(|font| font.charmap().map(character).is_some()))
-}
-
-/// The font database of the rasteriser: our two faces and no system fonts.
-pub(crate) fn database() -> Arc<Database> {
-    static DATABASE: OnceLock<Arc<Database>> = OnceLock::new();
-    Arc::clone(DATABASE.get_or_init(|| {
-        let mut database = Database::new();
-        database.load_font_data(REGULAR.to_vec());
-        database.load_font_data(ITALIC.to_vec());
-        database.set_sans_serif_family(OWN_FAMILY);
-        Arc::new(database)
-    }))
 }
 
 /// `@font-face` rules that make an SVG self-contained.

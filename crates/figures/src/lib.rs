@@ -2,7 +2,7 @@
 //!
 //! Thirteen figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`], [`SpaceTimeFigure`], [`SpectrumFigure`],
 //! [`PhaseDiagram`], [`BranchDiagram`], [`CurveMap`], [`BandFigure`], [`ErrorBarFigure`], [`SurvivalFigure`], [`PlaceMap`], [`TrackPanels`]) return self-contained SVG text (fonts and pictures are
-//! inside); [`png()`] and, with the feature `pdf`, `pdf` convert that text to files; [`Animation`] returns an animated
+//! inside); [`png()`] (feature `raster`) and `pdf` (feature `pdf`) convert that text to files; [`Animation`] returns an animated
 //! PNG. The same data give the same bytes: numbers are rounded to 0.01 pixel and no system font is used. All texts are
 //! markup, see [`Label`]; every regime has its [`RegimeMark`].
 
@@ -38,6 +38,8 @@ mod pdf;
 mod phase_diagram;
 mod picture;
 mod place_map;
+mod portable;
+#[cfg(feature = "raster")]
 mod raster;
 mod return_map;
 mod series;
@@ -47,6 +49,7 @@ mod spectrum;
 mod stripes;
 mod style;
 mod survival;
+pub mod sheet;
 pub mod svg;
 #[cfg(test)]
 mod tests;
@@ -75,7 +78,7 @@ pub use path::{OutlineStamp, PathFigure, PathPoint, SectionLine};
 pub use pdf::pdf;
 pub use phase_diagram::{BoundaryLine, Cell, PhaseDiagram};
 pub use place_map::{MapPlace, PlaceMap};
-pub use raster::{DEFAULT_SCALE, png};
+pub use portable::{DEFAULT_SCALE, RASTER, png};
 pub use return_map::ReturnMapFigure;
 pub use series::{Curve, Panel, SeriesFigure};
 pub use simplify::simplify;

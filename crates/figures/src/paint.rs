@@ -45,6 +45,11 @@ impl Paint {
         Self { dash: Some(dash), ..self }
     }
 
+    /// Colour and width of the line, if there is one.
+    pub(crate) fn line(&self) -> Option<(Colour, f64)> {
+        self.stroke
+    }
+
     /// Opacity of the whole shape, between 0 and 1.
     #[must_use]
     pub fn opacity(self, opacity: f64) -> Self {

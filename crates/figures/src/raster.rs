@@ -1,22 +1,18 @@
 //! SVG to PNG, with our own fonts only: the same bits on every machine.
 
 use resvg::tiny_skia::{Color, Pixmap, Transform};
+use resvg::usvg::fontdb::Database;
 use resvg::usvg::{Options, Tree};
+use std::sync::{Arc, OnceLock};
 
 use super::error::{FigureError, Result, check_range};
-use super::fonts;
-
-/// Scale factor for print and dense screens.
-pub const DEFAULT_SCALE: f64 = 2.0;
+use super::fonts::{Face, OWN_FAMILY};
 
 /// Most pixels of an image: 100 million.
 const MOST_PIXELS: f64 = 1e8;
 
-/// Draws an SVG into a PNG; `texts` are (keyword, text) pairs kept in the file, such as a provenance.
-///
-/// # Units     `scale`: pixels per SVG unit, 0.1 to 16
-/// # Errors    no SVG, a scale out of range, or a keyword that PNG does not allow (1 to 79 Latin-1 letters)
-pub fn png(svg: &str, scale: f64, texts: &[(&str, &str)]) -> Result<Vec<u8>> {
+/// As [`crate::png()`].
+pub(crate) fn png(svg: &str, scale: f64, texts: &[(&str, &str)]) -> Result<Vec<u8>> {
     let pixmap = pixmap(svg, scale)?;
     let mut out = Vec::new();
     let mut encoder = png::Encoder::new(&mut out, pixmap.width(), pixmap.height());
@@ -36,11 +32,11 @@ pub fn png(svg: &str, scale: f64, texts: &[(&str, &str)]) -> Result<Vec<u8>> {
 }
 
 /// Draws an SVG into memory.
-pub(crate) fn pixmap(svg: &str, scale: f64) -> Result<Pixmap> {
+fn pixmap(svg: &str, scale: f64) -> Result<Pixmap> {
     check_range("scale", scale, 0.1, 16.0)?;
     let options = Options {
-        fontdb: fonts::database(),
-        font_family: fonts::OWN_FAMILY.to_owned(),
+        fontdb: database(),
+        font_family: OWN_FAMILY.to_owned(),
         ..Options::default()
     };
     let tree = Tree::from_str(svg, &options)?;
@@ -57,4 +53,17 @@ pub(crate) fn pixmap(svg: &str, scale: f64) -> Result<Pixmap> {
     let scale = scale as f32;
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
     Ok(pixmap)
+}
+
+/// The font database of the rasteriser: our two faces and no system fonts.
+fn database() -> Arc<Database> {
+    static DATABASE: OnceLock<Arc<Database>> = OnceLock::new();
+    Arc::clone(DATABASE.get_or_init(|| {
+        let mut database = Database::new();
+        for face in [Face::Regular, Face::Italic] {
+            database.load_font_data(face.bytes().to_vec());
+        }
+        database.set_sans_serif_family(OWN_FAMILY);
+        Arc::new(database)
+    }))
 }

@@ -2,9 +2,10 @@
 
 use crate::answers::{Answers, Gone};
 use crate::task::Crew;
-use motiform_figures::{DEFAULT_SCALE, png};
+use motiform_figures::{DEFAULT_SCALE, RASTER, png};
 use motiform_lab::draw::undrawable;
 use motiform_study::Error;
+
 /// The created file.
 pub(crate) enum Made {
     /// A drawing; it is converted to PNG if requested.
@@ -114,25 +115,30 @@ fn deliver(order: Order, answers: &Answers) -> Result<(), Gone> {
     let Order { id, subject, what, make } = order;
     let ending = what.rsplit('.').next().unwrap_or_default();
     let content = make().and_then(|made| match made {
-        Some(Made::Svg(svg)) if ending == "png" => {
-            Ok(Some(png(&svg, DEFAULT_SCALE, &[]).map_err(undrawable)?))
+        Some(Made::Svg(svg)) if ending == "png" && RASTER => {
+            Ok(Some(("image/png", png(&svg, DEFAULT_SCALE, &[]).map_err(undrawable)?)))
         }
-        Some(Made::Svg(svg)) => Ok(Some(svg.into_bytes())),
-        Some(Made::Bytes(bytes)) => Ok(Some(bytes)),
+        // Of a PNG that was requested: the page draws it, since it can.
+        Some(Made::Svg(svg)) => Ok(Some(("image/svg+xml", svg.into_bytes()))),
+        Some(Made::Bytes(bytes)) => Ok(Some((type_of(ending), bytes))),
         None => Ok(None),
     });
-    let mime = match ending {
-        "svg" => "image/svg+xml",
-        "png" => "image/png",
-        "apng" => "image/apng",
-        "csv" => "text/csv",
-        _ => "application/toml",
-    };
     match content {
-        Ok(Some(content)) => answers.file(id, &format!("motiform-{subject}-{what}"), mime, &content),
+        Ok(Some((mime, content))) => {
+            answers.file(id, &format!("motiform-{subject}-{what}"), mime, &content)
+        }
         Ok(None) => {
             answers.refused(Some(id), "there are not enough data for this file yet: let the body move on")
         }
         Err(error) => answers.refused(Some(id), &error.to_string()),
+    }
+}
+
+/// The type of a file that is no drawing, by the ending of its name.
+fn type_of(ending: &str) -> &'static str {
+    match ending {
+        "apng" => "image/apng",
+        "csv" => "text/csv",
+        _ => "application/toml",
     }
 }

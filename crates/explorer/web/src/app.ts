@@ -82,7 +82,7 @@ export class App implements Hearer {
       answer: (answer) => dispatch(answer, this),
       frame: (frame) => this.take(frame),
       cells: (cells) => this.map.cells(cells),
-      file: (file) => this.share.take(file),
+      file: (file) => void this.share.take(file),
       swarm: (frame) => this.swarm.take(frame),
       open: (open, code) => this.opened(open, code),
     });

@@ -4,6 +4,7 @@ import type { File } from "./binary";
 import { copy } from "./clipboard";
 import { byId, make, setText } from "./dom";
 import type { Section, Share, Wish } from "./protocol";
+import { png } from "./raster";
 import { toast } from "./toasts";
 
 const DATA: [string, string][] = [["study.toml", "Study (TOML)"], ["motion.csv", "Motion (CSV)"], ["map.csv", "Map (CSV)"], ["body.apng", "Animation (APNG)"]];
@@ -54,11 +55,18 @@ export class ShareMenu {
     if (!this.dialog.open) this.dialog.showModal();
   }
 
-  /** Hands a file over to the reader. */
-  take(file: File): void {
+  /** Hands a file over to the reader. A drawing that was requested as PNG is made one here. */
+  async take(file: File): Promise<void> {
+    let { blob } = file;
+    try {
+      if (file.name.endsWith(".png") && blob.type === "image/svg+xml") blob = await png(blob);
+    } catch (error) {
+      this.refuse(file.id, String(error));
+      return;
+    }
     this.pending.delete(file.id);
     this.state();
-    const link = make("a", { href: URL.createObjectURL(file.blob), download: file.name });
+    const link = make("a", { href: URL.createObjectURL(blob), download: file.name });
     document.body.append(link);
     link.click();
     link.remove();

@@ -9,6 +9,7 @@ import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { oneFile } from "../site.mjs";
 import { SITE } from "./engine.mjs";
+import { assertAllFiles } from "./files.mjs";
 import { launch, PATIENCE, shoot } from "./stage.mjs";
 
 /** Where the static host has the page: it must not need the root. */
@@ -102,6 +103,21 @@ test("a static host under a sub-path: branches, a swarm and a second place", asy
     await page.locator("#branch-follow").click();
     await page.locator("#branch-legend li").first().waitFor({ timeout: 4 * PATIENCE });
     await shoot(page, "alone-branches");
+  });
+});
+
+test("every file can be saved without a server", async () => {
+  await visit(`${it.origin}${PATH}#preset=fig5b&x=kappa2:1.2:1.6&y=kappa3:0.7:1`, async (page) => {
+    const judge = await it.browser.newPage();
+    await moving(page);
+    await page.locator("#speed").focus();
+    await page.keyboard.press("End");
+    for (const id of ["spectrum-empty", "returns-empty", "exponents-empty"]) await page.locator(`#${id}`).waitFor({ state: "hidden", timeout: 4 * PATIENCE });
+    await page.waitForFunction(() => document.getElementById("map-progress-bar").value > 0);
+    await page.locator("#play").click();
+    await page.locator("#share-menu > summary").click();
+    await assertAllFiles(page, judge);
+    await judge.close();
   });
 });
 

@@ -1,7 +1,7 @@
 //! Writes pictures as an animated PNG, each as the rectangle of what changed.
 
 use png::{BitDepth, BlendOp, ColorType, DeflateCompression, Encoder, Filter, Writer};
-use resvg::tiny_skia::Pixmap;
+use tiny_skia::Pixmap;
 
 use super::colours::{KEEP, Palette};
 use crate::error::Result;

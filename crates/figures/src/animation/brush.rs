@@ -1,11 +1,11 @@
 //! Strokes, fills and letters on a pixmap.
 
-use resvg::tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform,
-};
 use skrifa::MetadataProvider as _;
 use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, OutlinePen};
+use tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform,
+};
 
 use crate::fonts;
 use crate::geometry::Point;
@@ -36,11 +36,24 @@ pub(super) fn disc(pixmap: &mut Pixmap, [x, y]: Point, radius: f32, colour: Colo
 
 /// Writes a label with its baseline starting at `at`.
 pub(super) fn write(pixmap: &mut Pixmap, label: &Label, at: Point, size: f64) {
-    let mut pen = Letters { builder: PathBuilder::new(), at: [at[0] as f32, at[1] as f32] };
+    let place = Transform::from_translate(at[0] as f32, at[1] as f32);
+    write_turned(pixmap, label, place, size);
+}
+
+/// Writes a label whose baseline starts at the origin of `place`, along its x axis.
+pub(super) fn write_turned(pixmap: &mut Pixmap, label: &Label, place: Transform, size: f64) {
+    if let Some(path) = letters(label, size) {
+        pixmap.fill_path(&path, &paint(INK, 1.0), FillRule::Winding, place, None);
+    }
+}
+
+/// The outlines of a label, its baseline starting at the origin.
+fn letters(label: &Label, size: f64) -> Option<Path> {
+    let mut pen = Letters { builder: PathBuilder::new(), at: [0.0; 2] };
     for run in label.runs() {
         let Some(font) = run.face.font() else { continue };
         let scale = Size::new((size * run.script.scale()) as f32);
-        pen.at[1] = (at[1] + size * run.script.drop()) as f32;
+        pen.at[1] = (size * run.script.drop()) as f32;
         for character in run.text.chars() {
             let glyph = font.charmap().map(character).and_then(|id| font.outline_glyphs().get(id));
             if let Some(glyph) = glyph {
@@ -50,9 +63,7 @@ pub(super) fn write(pixmap: &mut Pixmap, label: &Label, at: Point, size: f64) {
             pen.at[0] += (size * run.script.scale() * fonts::advance(run.face, character)) as f32;
         }
     }
-    if let Some(path) = pen.builder.finish() {
-        fill_path(pixmap, &path, INK, 1.0);
-    }
+    pen.builder.finish()
 }
 
 fn fill_path(pixmap: &mut Pixmap, path: &Path, colour: Colour, opacity: f32) {

@@ -1,6 +1,6 @@
 //! Paints the pictures of a film.
 
-use resvg::tiny_skia::Pixmap;
+use tiny_skia::Pixmap;
 
 use super::brush::{disc, fill, stroke, write};
 use super::camera::{HEAD, View};
@@ -10,7 +10,6 @@ use crate::error::Result;
 use crate::geometry::Point;
 use crate::palette::{INK, PALE};
 use crate::path::PathPoint;
-use crate::raster;
 use crate::simplify::simplify;
 use crate::text::Label;
 
@@ -35,8 +34,8 @@ pub(super) struct Stage {
 impl Stage {
     /// Sets the stage.
     pub(super) fn new(film: &Animation) -> Result<Self> {
-        let view = View::of(film);
-        let mut ground = raster::pixmap(&view.ground, 1.0)?;
+        let view = View::of(film)?;
+        let mut ground = view.ground.clone();
         let note = Label::parse(&film.note);
         let start = view.scale.frame.right() - note.width(NOTE_SIZE);
         write(&mut ground, &note, [start, HEAD - 10.0], NOTE_SIZE);

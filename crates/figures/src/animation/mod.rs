@@ -5,6 +5,7 @@ mod brush;
 mod camera;
 mod canvas;
 mod colours;
+mod ground;
 
 use super::error::{FigureError, Result, check_finite, check_range};
 use super::geometry::{Point, Range, distance};

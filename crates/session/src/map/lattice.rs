@@ -23,16 +23,19 @@ pub(crate) struct Cells {
     pub(crate) values: Vec<f64>,
 }
 
+/// Cells of the first window at level 0. The same for every screen, so that all have the same lattice.
+const ACROSS: f64 = 64.0;
+
 /// Finest and coarsest level, against level 0: a factor of a million each way.
 const LEVELS: f64 = 20.0;
 
 impl Lattice {
-    /// The lattice for a first window with about `count` cells; of whole numbers if the parameter is one.
-    pub(crate) fn new(low: f64, high: f64, count: usize, whole: bool) -> Self {
+    /// The lattice for a first window, with [`ACROSS`] cells at level 0; of whole numbers if the parameter is one.
+    pub(crate) fn new(low: f64, high: f64, whole: bool) -> Self {
         if whole {
             return Self { anchor: 0.0, base: 1.0, whole };
         }
-        let base = (high - low) / count as f64;
+        let base = (high - low) / ACROSS;
         Self { anchor: low + base / 3.0, base, whole }
     }
 
@@ -70,7 +73,7 @@ mod tests {
 
     #[test]
     fn a_window_is_covered() {
-        let lattice = Lattice::new(-0.22, 0.22, 64, false);
+        let lattice = Lattice::new(-0.22, 0.22, false);
         for (low, high) in [(-0.22, 0.22), (0.013, 0.0302), (-7.0, 9.0), (0.1, 0.1 + 1e-5)] {
             let cells = lattice.cells((low, high), 64, ALL);
             let half = 0.5 * cells.step;
@@ -83,7 +86,7 @@ mod tests {
 
     #[test]
     fn finer_lattices_contain_the_coarser_ones_to_the_bit() {
-        let lattice = Lattice::new(-0.22, 0.22, 64, false);
+        let lattice = Lattice::new(-0.22, 0.22, false);
         let coarse = lattice.cells((-0.22, 0.22), 64, ALL);
         let fine = lattice.cells((-0.05, 0.06), 64, ALL);
         assert_eq!(fine.step, 0.25 * coarse.step);
@@ -99,7 +102,7 @@ mod tests {
     /// Bifurcations happen at round numbers: no cell of any level may lie there.
     #[test]
     fn no_cell_lies_on_zero() {
-        let lattice = Lattice::new(-0.22, 0.22, 64, false);
+        let lattice = Lattice::new(-0.22, 0.22, false);
         let mut span = 0.44;
         while span > 1e-6 {
             let cells = lattice.cells((-0.4 * span, 0.6 * span), 64, ALL);
@@ -110,7 +113,7 @@ mod tests {
 
     #[test]
     fn whole_numbers_stay_whole_and_what_is_not_allowed_is_left_out() {
-        let lattice = Lattice::new(0.0, 12.0, 64, true);
+        let lattice = Lattice::new(0.0, 12.0, true);
         assert_eq!(lattice.cells((-0.3, 3.3), 64, (0.0, 12.0)).values, [0.0, 1.0, 2.0, 3.0]);
         assert_eq!(lattice.cells((0.0, 1024.0), 64, (0.0, 1e6)).step, 16.0);
         assert!(lattice.cells((13.0, 20.0), 64, (0.0, 12.0)).values.is_empty());

@@ -2,6 +2,7 @@
 
 use super::Job;
 use super::lattice::{Cells, Lattice, level};
+use super::shipped::Table;
 use super::store::Store;
 use crate::protocol::Side;
 use motiform_lab::scan::{Axis, Row, ScanComputation};
@@ -64,23 +65,33 @@ impl Present {
 }
 
 impl MapState {
+    /// The plan without the values of its axes.
+    #[cfg(test)]
+    pub(super) fn plane(&self) -> Option<&ScanComputation> {
+        self.plane.as_ref()
+    }
+
     pub(crate) fn present(&self) -> Option<&Present> {
         self.present.as_ref()
     }
 
-    /// Switches to the window of a job. Computed rows are kept if the plane is the same.
-    pub(super) fn turn(&mut self, job: &Job) -> Result<(), Error> {
+    /// Switches to the window of a job. Computed rows are kept if the plane is the same. Those of a new one may be among `shipped`.
+    pub(super) fn turn(&mut self, job: &Job, shipped: &[&str]) -> Result<(), Error> {
         let info = job.study.info()?;
         let sides: Vec<&Side> = std::iter::once(&job.window.x).chain(&job.window.y).collect();
         let specs = sides.iter().map(|side| spec(info, side)).collect::<Result<Vec<_>, _>>()?;
         let count = usize::from(job.window.count.clamp(COUNTS.0, COUNTS.1));
         let plane = plane(&job.study, info, &sides)?;
         if self.plane.as_ref() != Some(&plane) {
-            *self = Self { plane: Some(plane), ..Self::default() };
-            let lattice = |(side, spec): (&&Side, &&ParameterSpec)| {
-                Lattice::new(side.low, side.high, count, spec.whole)
-            };
-            self.lattices = sides.iter().zip(&specs).map(lattice).collect();
+            *self = Self::default();
+            let mut window: Vec<[f64; 2]> = sides.iter().map(|side| [side.low, side.high]).collect();
+            if let Some(table) = shipped.iter().find_map(|text| Table::read(text, &plane)) {
+                table.rows.into_iter().for_each(|(at, row)| self.store.put(&at, row));
+                window = table.window;
+            }
+            let lattice = |([low, high], spec): (&[f64; 2], &&ParameterSpec)| Lattice::new(*low, *high, spec.whole);
+            self.lattices = window.iter().zip(&specs).map(lattice).collect();
+            self.plane = Some(plane);
         }
         let within = self.lattices.iter().zip(sides.iter().zip(&specs));
         let cells: Vec<Cells> = within

@@ -3,6 +3,7 @@
 mod lattice;
 mod map_state;
 mod pool;
+mod shipped;
 mod store;
 mod telling;
 mod view;
@@ -165,7 +166,7 @@ type Done = Result<(), Gone>;
 /// Switches to the window of a job, and announces it with what is known of it; `None` for one that cannot be shown.
 fn turn(job: &Job, map_state: &Mutex<MapState>, answers: &Answers) -> Result<Option<View>, Gone> {
     let mut seen = lock(map_state);
-    if let Err(error) = seen.turn(job) {
+    if let Err(error) = seen.turn(job, &shipped::TABLES) {
         drop(seen);
         return answers.refused(None, &error.to_string()).map(|()| None);
     }

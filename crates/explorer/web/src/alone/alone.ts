@@ -3,7 +3,6 @@
 import { hear, type Listener, type Transport } from "../listener";
 import type { Wish } from "../protocol";
 import { engine, Helpers } from "./helpers";
-import { code } from "./module";
 import type { Note, Order } from "./orders";
 
 /** A session that failed begins again after so many milliseconds. */
@@ -23,7 +22,7 @@ export class Alone implements Transport {
   private over = false;
 
   constructor(private readonly listener: Listener) {
-    void this.begin();
+    this.begin();
   }
 
   send(wish: Wish): void {
@@ -39,20 +38,14 @@ export class Alone implements Transport {
     this.worker?.postMessage(order);
   }
 
-  private async begin(): Promise<void> {
-    try {
-      const module = await code();
-      if (this.over) return;
-      const mappers = Math.min(MAPPERS[1], Math.max(MAPPERS[0], navigator.hardwareConcurrency));
-      this.worker = engine(module, (note) => this.hear(note));
-      this.order({ do: "begin", mappers });
-      this.helpers = new Helpers(module, (text) => this.order({ do: "report", text }));
-      // These are needed at once: they start while the first body settles.
-      if (first) ["naming", ...Array.from({ length: mappers }, (_, k) => `map${k}`)].forEach((name) => this.helpers?.helper(name));
-      first = false;
-    } catch (error) {
-      this.fail(String(error));
-    }
+  private begin(): void {
+    const mappers = Math.min(MAPPERS[1], Math.max(MAPPERS[0], navigator.hardwareConcurrency));
+    this.worker = engine((note) => this.hear(note));
+    this.order({ do: "begin", mappers });
+    this.helpers = new Helpers((text) => this.order({ do: "report", text }));
+    // These are needed at once: they start while the first body settles.
+    if (first) ["naming", ...Array.from({ length: mappers }, (_, k) => `map${k}`)].forEach((name) => this.helpers?.helper(name));
+    first = false;
   }
 
   private hear(note: Note): void {
@@ -72,7 +65,7 @@ export class Alone implements Transport {
     this.stop();
     if (this.over) return;
     this.listener.open(false, FAILED);
-    window.setTimeout(() => void this.begin(), RETRY);
+    window.setTimeout(() => this.begin(), RETRY);
   }
 
   private stop(): void {

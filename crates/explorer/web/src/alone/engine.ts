@@ -37,13 +37,22 @@ function write(to: Module, text: string): number {
   return bytes.length;
 }
 
-self.onmessage = ({ data: order }: MessageEvent<Order>) => {
+/** What came before the module. */
+const early: Order[] = [];
+
+function obey(order: Order): void {
   if (order.do === "load") {
     module = load(order.module);
+    early.splice(0).forEach(obey);
     return;
   }
-  if (!module) return;
+  if (!module) {
+    early.push(order);
+    return;
+  }
   if (order.do === "begin") module.begin(order.mappers);
   else module[order.do](write(module, order.text));
   if (order.do === "assist") note({ is: "done" });
-};
+}
+
+self.onmessage = ({ data }: MessageEvent<Order>) => obey(data);

@@ -1,17 +1,19 @@
 /** The helpers of a session: workers that do its errands, one after the other. What is stale and takes long is ended with its worker. */
 
 import Engine from "./engine?worker&inline";
+import { code } from "./module";
 import type { Note, Order } from "./orders";
 
 /** A stale job may go on for so long (milliseconds): most are done sooner than a new worker is there. */
 const GRACE = 150;
 
-/** A worker with the module. */
-export function engine(module: WebAssembly.Module, hear: (note: Note) => void): Worker {
+/** A worker with the module: it starts while that is compiled. */
+export function engine(hear: (note: Note) => void): Worker {
   const worker = new Engine();
   worker.onmessage = ({ data }: MessageEvent<Note>) => hear(data);
   worker.onerror = ({ message }) => hear({ is: "fault", text: message });
-  worker.postMessage({ do: "load", module } satisfies Order);
+  const failed = (error: unknown): void => hear({ is: "fault", text: String(error) });
+  code().then((module) => worker.postMessage({ do: "load", module } satisfies Order), failed);
   return worker;
 }
 
@@ -21,11 +23,9 @@ class Helper {
   private busy: string | null = null;
   private next: string | null = null;
   private timer = 0;
+  private over = false;
 
-  constructor(
-    private readonly module: WebAssembly.Module,
-    private readonly report: (text: string) => void,
-  ) {
+  constructor(private readonly report: (text: string) => void) {
     this.worker = this.start();
   }
 
@@ -37,12 +37,13 @@ class Helper {
   }
 
   end(): void {
+    this.over = true;
     window.clearTimeout(this.timer);
     this.worker.terminate();
   }
 
   private start(): Worker {
-    return engine(this.module, (note) => {
+    return engine((note) => {
       if (note.is === "back") this.report(note.text);
       else if (note.is === "done") this.done();
       else if (note.is === "fault") this.fail(note.text);
@@ -72,6 +73,7 @@ class Helper {
   }
 
   private fail(why: string): void {
+    if (this.over) return;
     console.error(`a helper failed: ${why}`);
     this.worker.terminate();
     this.worker = this.start();
@@ -82,10 +84,7 @@ class Helper {
 export class Helpers {
   private readonly all = new Map<string, Helper>();
 
-  constructor(
-    private readonly module: WebAssembly.Module,
-    private readonly report: (text: string) => void,
-  ) {}
+  constructor(private readonly report: (text: string) => void) {}
 
   /** Brings an errand to its helper. */
   take(errand: string): void {
@@ -95,7 +94,7 @@ export class Helpers {
 
   /** The helper of this name, and its worker. */
   helper(name: string): Helper {
-    const found = this.all.get(name) ?? new Helper(this.module, this.report);
+    const found = this.all.get(name) ?? new Helper(this.report);
     this.all.set(name, found);
     return found;
   }

@@ -15,7 +15,8 @@ export function code(): Promise<WebAssembly.Module> {
 
 async function compile(): Promise<WebAssembly.Module> {
   const stream = (await compressed()).pipeThrough(new DecompressionStream("gzip"));
-  return WebAssembly.compile(await new Response(stream).arrayBuffer());
+  // It is compiled while it comes.
+  return WebAssembly.compileStreaming(new Response(stream, { headers: { "Content-Type": "application/wasm" } }));
 }
 
 async function compressed(): Promise<ReadableStream<BufferSource>> {

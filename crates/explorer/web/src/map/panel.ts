@@ -40,7 +40,7 @@ export interface MapHost {
 const GAP = 125;
 /** Pixels per cell, about; and how many cells along an axis at least and at most. */
 const CELL = 6;
-const CELLS = { least: 24, most: 96 };
+const CELLS = { least: 24, most: 90 };
 /** Clicks that follow each other within so many milliseconds may be a double click. */
 const DOUBLE = 400;
 
