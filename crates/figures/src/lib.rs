@@ -43,13 +43,13 @@ mod portable;
 mod raster;
 mod return_map;
 mod series;
+pub mod sheet;
 mod simplify;
 mod space_time;
 mod spectrum;
 mod stripes;
 mod style;
 mod survival;
-pub mod sheet;
 pub mod svg;
 #[cfg(test)]
 mod tests;

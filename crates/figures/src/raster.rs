@@ -32,13 +32,9 @@ pub(crate) fn png(svg: &str, scale: f64, texts: &[(&str, &str)]) -> Result<Vec<u
 }
 
 /// Draws an SVG into memory.
-fn pixmap(svg: &str, scale: f64) -> Result<Pixmap> {
+pub(crate) fn pixmap(svg: &str, scale: f64) -> Result<Pixmap> {
     check_range("scale", scale, 0.1, 16.0)?;
-    let options = Options {
-        fontdb: database(),
-        font_family: OWN_FAMILY.to_owned(),
-        ..Options::default()
-    };
+    let options = Options { fontdb: database(), font_family: OWN_FAMILY.to_owned(), ..Options::default() };
     let tree = Tree::from_str(svg, &options)?;
     let size = [tree.size().width(), tree.size().height()].map(|side| (f64::from(side) * scale).ceil());
     let pixels = size[0] * size[1];

@@ -2,7 +2,7 @@
 
 use super::error::{FigureError, Result, check_range};
 use super::figure::{Drawn, Figure};
-use super::raster::DEFAULT_SCALE;
+use super::portable::DEFAULT_SCALE;
 use std::str::FromStr;
 
 /// Title, caption and width of figures.

@@ -53,7 +53,7 @@ pub(crate) fn of_cells(error: motiform_cells::Error) -> PyErr {
 pub(crate) fn of_tracks(error: motiform_tracks::Error) -> PyErr {
     let text = error.to_string();
     match error {
-        motiform_tracks::Error::Io { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
+        motiform_tracks::Error::Io { reason, .. } if reason.kind() == std::io::ErrorKind::NotFound => {
             PyFileNotFoundError::new_err(text)
         }
         motiform_tracks::Error::Io { .. } => PyOSError::new_err(text),

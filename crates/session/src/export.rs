@@ -124,9 +124,7 @@ fn deliver(order: Order, answers: &Answers) -> Result<(), Gone> {
         None => Ok(None),
     });
     match content {
-        Ok(Some((mime, content))) => {
-            answers.file(id, &format!("motiform-{subject}-{what}"), mime, &content)
-        }
+        Ok(Some((mime, content))) => answers.file(id, &format!("motiform-{subject}-{what}"), mime, &content),
         Ok(None) => {
             answers.refused(Some(id), "there are not enough data for this file yet: let the body move on")
         }

@@ -89,7 +89,8 @@ impl MapState {
                 table.rows.into_iter().for_each(|(at, row)| self.store.put(&at, row));
                 window = table.window;
             }
-            let lattice = |([low, high], spec): (&[f64; 2], &&ParameterSpec)| Lattice::new(*low, *high, spec.whole);
+            let lattice =
+                |([low, high], spec): (&[f64; 2], &&ParameterSpec)| Lattice::new(*low, *high, spec.whole);
             self.lattices = window.iter().zip(&specs).map(lattice).collect();
             self.plane = Some(plane);
         }

@@ -83,7 +83,8 @@ mod tests {
         let mut map = MapState::default();
         let job = job(preset, count);
         map.turn(&job, &[]).unwrap();
-        let window = std::iter::once(&job.window.x).chain(&job.window.y).map(|side| [side.low, side.high]).collect();
+        let window =
+            std::iter::once(&job.window.x).chain(&job.window.y).map(|side| [side.low, side.high]).collect();
         let head = Head { plane: map.plane().unwrap().clone(), window };
         let plan = &map.present().unwrap().plan;
         let lines = Mutex::new(vec![String::new(); plan.cells()]);
@@ -93,7 +94,8 @@ mod tests {
             let mut done = |(cell, _): (usize, usize), verdict| {
                 let row = Row::of_evaluation(cell, 0, verdict).unwrap();
                 assert!(row.numbers.iter().all(|number| !number.is_infinite()), "{row:?}");
-                let numbers = row.numbers.iter().map(|number| number.is_finite().then_some(*number)).collect();
+                let numbers =
+                    row.numbers.iter().map(|number| number.is_finite().then_some(*number)).collect();
                 let line = Line(plan.axis_values(cell), row.regime, row.attractor, numbers, row.why);
                 lock(&lines)[cell] = serde_json::to_string(&line).unwrap();
             };
@@ -129,7 +131,12 @@ mod tests {
                 let mut map = MapState::default();
                 map.turn(&job(preset, count * finer), &TABLES).unwrap();
                 let (_, rows) = map.rows().unwrap();
-                assert!(rows.len() >= cells, "{preset} with {} cells along an axis: {}", count * finer, rows.len());
+                assert!(
+                    rows.len() >= cells,
+                    "{preset} with {} cells along an axis: {}",
+                    count * finer,
+                    rows.len()
+                );
             }
         }
     }
