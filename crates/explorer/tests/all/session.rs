@@ -109,18 +109,18 @@ fn a_body_that_blows_up_says_so_and_can_be_restarted() {
     assert!(page.advance(1.0).t > 0.0);
 }
 
-/// A map is what `motiform classify` says of each cell's parameters, and every cell comes.
+/// A map is what `motiform classify` says of each cell's parameters, and every cell comes: those that are shipped with the program, and those that are computed.
 #[test]
 fn the_map_says_what_classify_says() {
     let server = Running::anywhere();
     let mut page = server.page();
     page.begin("tensor", Some("fig1"));
     page.say(
-        r#"{"do":"map","epoch":1,"x":{"name":"kappa2","low":-0.22,"high":0.22},"y":{"name":"gamma","low":-0.16,"high":0.12},"count":12}"#,
+        r#"{"do":"map","epoch":1,"x":{"name":"kappa2","low":-0.22,"high":0.22},"y":{"name":"gamma","low":-0.16,"high":0.12},"count":32}"#,
     );
     let map = page.json("map");
     let (columns, rows) = (count(&map["x"]), count(&map["y"]));
-    assert!((12..=14).contains(&columns) && (12..=14).contains(&rows));
+    assert!((32..=34).contains(&columns) && (32..=34).contains(&rows));
     assert_eq!(map["lines"].as_array().unwrap().len(), 5);
     let cells = cells(&mut page, 1);
     assert_eq!(cells.len(), columns * rows);
@@ -141,7 +141,7 @@ fn the_map_says_what_classify_says() {
     ]
     .map(str::to_owned)
     .to_vec();
-    for (i, j, _, regime, _) in cells.iter().step_by(17) {
+    for (i, j, _, regime, _) in cells.iter().step_by(61) {
         page.say(&format!(r#"{{"do":"evidence","epoch":1,"cell":[{i},{j}]}}"#));
         let evidence = page.json("evidence");
         assert_eq!(evidence["regime"].as_str().unwrap(), regimes[usize::from(*regime)]);
