@@ -243,7 +243,9 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
     /// Whether the trial step led to a state from which the orbit can continue.
     fn check(&self) -> Result<(), StepFailure> {
         let ends = [&self.new, &self.trial];
-        if ends.iter().all(|end| end.state.iter().chain(&end.slope).all(|x| x.is_finite())) {
+        // Every number is looked at, also after one that is not finite: that is one comparison of vectors.
+        let finite = |numbers: &Vec<f64>| numbers.iter().fold(true, |all, x| all & x.is_finite());
+        if ends.iter().all(|end| finite(&end.state) & finite(&end.slope)) {
             return Ok(());
         }
         let reason = ends.iter().find_map(|end| self.field.obstacle(&end.state[..self.lambda.len()]));

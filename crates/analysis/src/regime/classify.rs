@@ -8,10 +8,10 @@
 //! 6. Do neighbouring orbits separate exponentially?            chaotic
 //! 7. Do its returns lie on a curve, without chaos?             quasi-periodic (a torus of shapes)
 //!
-//! If nothing is decided the next look is twice as long, until the budget is spent.
+//! If nothing is decided the next look is twice as long, until the budget is spent. A look ends early where question 2 is answered.
 
 use super::chaos;
-use super::look::Look;
+use super::look::{Look, Seen};
 use super::search::{Ask, Search};
 use super::settings::Settings;
 use super::verdict::Verdict;
@@ -58,7 +58,8 @@ pub fn settle<B: Equivariant + ?Sized>(
         ask = match ask {
             Ask::Look(span) => {
                 let request = settings.request(orbit.t() + span, body.dim());
-                let look = Look::take(body, orbit.as_mut(), span, &request, watch)?;
+                let mut ends = |seen: &Seen, shape: &[f64]| search.arrives(body, seen, shape);
+                let look = Look::take_until(body, orbit.as_mut(), (span, Some(&mut ends)), &request, watch)?;
                 search.looked(body, look, watch)?
             }
             Ask::Exponent(span) => {

@@ -6,7 +6,7 @@
 
 use super::chaos::exponent_settings;
 use super::lane_look::LaneObserver;
-use super::look::Look;
+use super::look::{Ends, Look, Seen, pause};
 use super::search::{Ask, Search};
 use super::settings::Settings;
 use super::verdict::Verdict;
@@ -163,7 +163,10 @@ impl<F: InLanes + Clone, const N: usize> Scheduler<'_, F, N> {
         let body = motion.candidate.body.as_ref();
         let mut orbit = Orbit::resume(body, self.settings.control, t, &u, pace)?;
         let request = self.settings.request(t + motion.span, N);
-        let look = Look::take(body, &mut orbit, motion.span, &request, self.watch)?;
+        let search = &mut motion.search;
+        let mut ends = |seen: &Seen, shape: &[f64]| search.arrives(body, seen, shape);
+        let until = (motion.span, Some(&mut ends as &mut Ends<'_>));
+        let look = Look::take_until(body, &mut orbit, until, &request, self.watch)?;
         motion.search.looked(body, look, self.watch)
     }
 }
@@ -239,7 +242,7 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> LaneTask<L, N> for SearchLan
         let Classification { t, u, pace, span, .. } = motion;
         self.observer.begin(lane, motion.candidate.body.as_ref(), t, &u);
         self.in_lanes[lane] = Some(InLane { motion, begun: (t, u, pace) });
-        Some(Entry { t, u, t_end: t + span, pace })
+        Some(Entry { t, u, t_end: pause(N, (t, t + span), t), pace })
     }
 
     #[inline(always)]
@@ -262,6 +265,9 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> LaneTask<L, N> for SearchLan
     }
 
     fn leave(&mut self, lane: usize, leaving: &Leaving<N>) -> Then {
+        if let Some(next) = self.goes_on(lane, leaving) {
+            return Then::Continue(next);
+        }
         let (in_lane, seen) = (self.in_lanes[lane].take(), self.observer.end(lane));
         let (Some(InLane { mut motion, begun }), Some(seen)) = (in_lane, seen) else { return Then::Leave };
         if self.scheduler.watch.stopped() {
@@ -280,6 +286,24 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> LaneTask<L, N> for SearchLan
         let span = motion.span;
         self.observer.begin(lane, motion.candidate.body.as_ref(), t, &u);
         self.in_lanes[lane] = Some(InLane { motion, begun: (t, u, Some(pace)) });
-        Then::Continue(t + span)
+        Then::Continue(pause(N, (t, t + span), t))
+    }
+}
+
+impl<L: Bundle, F: InLanes + Clone, const N: usize> SearchLanes<'_, '_, L, F, N> {
+    /// Where the look of a lane pauses next, if it does not end here.
+    fn goes_on(&mut self, lane: usize, leaving: &Leaving<N>) -> Option<f64> {
+        let InLane { motion, begun } = self.in_lanes[lane].as_mut()?;
+        let look = (begun.0, begun.0 + motion.span);
+        let work = leaving.steps + leaving.rejected;
+        if leaving.why != Why::Arrived || leaving.t >= look.1 || work >= self.scheduler.settings.max_steps {
+            return None;
+        }
+        let body = motion.candidate.body.as_ref();
+        if motion.search.arrives(body, self.observer.now(lane)?, &leaving.u) {
+            return None;
+        }
+        self.observer.follow(lane, body, leaving.t, &leaving.u);
+        Some(pause(N, look, leaving.t))
     }
 }

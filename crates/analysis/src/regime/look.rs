@@ -63,6 +63,17 @@ pub(super) const RESTS: f64 = 0.01;
 /// Most extremes that are kept, the latest.
 const KEPT: usize = 4096;
 
+/// Whether a look may end, by what it has seen so far and the shape.
+pub(super) type Ends<'e> = dyn FnMut(&Seen, &[f64]) -> bool + 'e;
+
+/// Where a look from `start` to `end` pauses next after `t`, to ask whether the orbit has arrived at an equilibrium: at its quarters. A large
+/// system's does not: it would take many pauses of its short looks to settle.
+pub(super) fn pause(dim: usize, (start, end): (f64, f64), t: f64) -> f64 {
+    let quarter = 0.25 * (end - start);
+    let pauses = [1.0, 2.0, 3.0].map(|count| start + count * quarter);
+    pauses.into_iter().find(|&pause| is_small(dim) && pause > t).unwrap_or(end)
+}
+
 impl Look {
     /// Follows `orbit` for `time`.
     ///
@@ -75,13 +86,31 @@ impl Look {
         request: &Request<'_>,
         watch: &dyn Watch,
     ) -> Result<Self, motiform_dynamics::Error> {
-        let start = orbit.t();
+        Self::take_until(body, orbit, (time, None), request, watch)
+    }
+
+    /// As [`Look::take`]; it pauses at the times of [`pause`], and ends there if `ends` says so of what was seen and of the shape.
+    pub(super) fn take_until<B: Equivariant + ?Sized>(
+        body: &B,
+        orbit: &mut dyn Integration,
+        (time, mut ends): (f64, Option<&mut Ends<'_>>),
+        request: &Request<'_>,
+        watch: &dyn Watch,
+    ) -> Result<Self, motiform_dynamics::Error> {
+        let (start, end) = (orbit.t(), orbit.t() + time);
         let rate = |_t: f64, u: &[f64]| gauge_rate(body, u);
         let sections = [Section { g: &rate, direction: Direction::Either, terminal: false }];
         let pieces = if is_small(body.dim()) { request.pieces } else { 1 };
-        let request = Request { t_end: start + time, sections: &sections, pieces, watch, ..*request };
         let mut watcher = Watcher { body, seen: Seen::new(orbit.state()) };
-        let outcome = drive(orbit, &request, &mut watcher)?;
+        let outcome = loop {
+            let t_end = if ends.is_some() { pause(body.dim(), (start, end), orbit.t()) } else { end };
+            let request = Request { t_end, sections: &sections, pieces, watch, ..*request };
+            let outcome = drive(orbit, &request, &mut watcher)?;
+            let over = !outcome.is_complete() || t_end >= end;
+            if over || ends.as_mut().is_none_or(|ends| ends(&watcher.seen, orbit.state())) {
+                break outcome;
+            }
+        };
         let Watcher { seen, .. } = watcher;
         Ok(seen.look((start, orbit.t()), outcome, orbit.state().to_vec()))
     }

@@ -2,7 +2,7 @@
 
 use super::growth::{Growth, in_motion};
 use super::heteroclinic::cycle;
-use super::look::{Look, RESTS, Rest};
+use super::look::{Look, RESTS, Rest, Seen};
 use super::recurrence::{Returns, periodic};
 use super::repeats::Repeats;
 use super::settings::{CLOSE, EXACT, NEARLY, Settings, ended};
@@ -16,6 +16,9 @@ use crate::linear::norm;
 use crate::periodic::is_small;
 use crate::{Lyapunov, Result};
 use motiform_dynamics::{Equivariant, Outcome, Watch};
+
+/// An equilibrium is sought during a look where the reduced shape changes slower than this, against its fastest.
+const SETTLED: f64 = 1e-3;
 
 /// What a search wants to see next.
 #[derive(Debug)]
@@ -59,6 +62,10 @@ pub(super) struct Search {
     growth: Vec<Growth>,
     /// The stay at an unstable equilibrium that is under way.
     stay: Stay,
+    /// The equilibrium that a look ended at before its time.
+    arrived: Option<RelativeEquilibrium>,
+    /// The reduced speed at which an equilibrium was last sought during a look.
+    sought: f64,
     /// What the latest looks and runs have in common.
     repeats: Repeats,
     /// What kept the last look from deciding.
@@ -94,6 +101,8 @@ impl Search {
             rests: Vec::new(),
             growth: Vec::new(),
             stay: Stay::default(),
+            arrived: None,
+            sought: f64::INFINITY,
             repeats: Repeats::default(),
             missing: "no motion had established itself".to_owned(),
             pending: Pending::Look,
@@ -111,6 +120,22 @@ impl Search {
     fn next(&mut self) -> Ask {
         self.pending = Pending::Look;
         Ask::Look(self.span)
+    }
+
+    /// Whether a look may end here, before its time: the orbit is close to a stable equilibrium. It is asked where the shape hardly changes any
+    /// more, and again where it changes ten times slower: in a cycle between saddles it rests as well.
+    pub(super) fn arrives<B: Equivariant + ?Sized>(&mut self, body: &B, seen: &Seen, shape: &[f64]) -> bool {
+        let slow = (SETTLED * self.fastest.max(seen.fastest)).min(0.1 * self.sought);
+        if !matches!(self.pending, Pending::Look) || seen.last_speed > slow {
+            return false;
+        }
+        self.sought = seen.last_speed;
+        let largest = self.largest.max(seen.sizes.1);
+        self.arrived = RelativeEquilibrium::find(body, shape).filter(|found| {
+            let size = norm(&found.shape).max(largest);
+            found.growth() <= -found.resolution() && found.distance(body, shape) <= CLOSE * size
+        });
+        self.arrived.is_some()
     }
 
     /// Takes in a look.
@@ -165,7 +190,8 @@ impl Search {
         if look.last_speed > 0.05 * self.fastest && !look.is_still(self.settings.hovering()) {
             return self.recurs(body, look, watch);
         }
-        let Some(found) = RelativeEquilibrium::find(body, &self.shape) else {
+        let arrived = self.arrived.take();
+        let Some(found) = arrived.or_else(|| RelativeEquilibrium::find(body, &self.shape)) else {
             "no equilibrium was found where the orbit rests".clone_into(&mut self.missing);
             return self.recurs(body, look, watch);
         };
@@ -215,7 +241,7 @@ impl Search {
             .into());
         }
         self.budget = self.budget.max(self.stay.budget(&self.settings, self.time, found.growth()));
-        self.rests.append(&mut look.rests);
+        self.remember(&mut look);
         if !still {
             let start = look.resting.unwrap_or(look.start);
             self.rests.push(Rest { start, end: look.end, shape: self.shape.clone(), whole: false });
@@ -230,6 +256,13 @@ impl Search {
         self.again(body, watch)
     }
 
+    /// Keeps the rests of a look. In a look that was still all the time they are those of round-off.
+    fn remember(&mut self, look: &mut Look) {
+        if !look.is_still(self.settings.hovering()) {
+            self.rests.append(&mut look.rests);
+        }
+    }
+
     /// Does it rest near saddles, does its shape come back?
     fn recurs<B: Equivariant + ?Sized>(
         &mut self,
@@ -239,7 +272,7 @@ impl Search {
     ) -> Result<Ask> {
         self.stay = Stay::default();
         let earlier = self.rests.len();
-        self.rests.append(&mut look.rests);
+        self.remember(&mut look);
         if let Some(cycle) = cycle(body, &self.rests, &self.settings) {
             return Ok(
                 words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, watch)?.into()
