@@ -346,7 +346,7 @@ fn memory_does_not_grow_with_the_cells() {
     for (axes, samples, per_part, parts) in [
         (["kappa2=0.1:1:3", "gamma=1"], 2, 1, 3),
         (["kappa2=0.1:1:100", "gamma=0.1:1:10"], 2, 4, 250),
-        (["kappa2=0.1:1:200", "gamma=0.1:1:100"], 1, 64, 313),
+        (["kappa2=0.1:1:300", "gamma=0.1:1:200"], 1, 160, 375),
         (["kappa2=0.1:1:20", "gamma=0.1:1:20"], 3000, 1, 400),
     ] {
         let plan = sized(axes, samples);

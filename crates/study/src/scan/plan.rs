@@ -19,7 +19,7 @@ pub const SCAN_FORMAT: u32 = 3;
 const MOST: (usize, u64) = (100_000_000, 100_000);
 
 /// Maximum number of cells and rows of a part: a kill loses little, and memory is bounded. About 256 parts if there are fewer cells.
-const PART: (usize, usize, usize) = (64, 4096, 256);
+const PART: (usize, usize, usize) = (160, 4096, 256);
 
 /// The computation and its name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
