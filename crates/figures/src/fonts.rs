@@ -4,8 +4,7 @@ use std::sync::OnceLock;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use skrifa::instance::{LocationRef, Size};
-use skrifa::{FontRef, MetadataProvider as _};
+use ttf_parser as ttf;
 
 /// CSS list of families: ours first, then what an editor without `@font-face` may have.
 pub(crate) const FAMILY: &str = "Motiform Sans, Noto Sans, sans-serif";
@@ -37,9 +36,9 @@ impl Face {
     }
 
     /// The parsed face; `None` only if the file in the repository is broken (a test looks).
-    pub(crate) fn font(self) -> Option<&'static FontRef<'static>> {
-        static FACES: [OnceLock<Option<FontRef<'static>>>; 2] = [OnceLock::new(), OnceLock::new()];
-        FACES[self as usize].get_or_init(|| FontRef::new(self.bytes()).ok()).as_ref()
+    pub(crate) fn font(self) -> Option<&'static ttf::Face<'static>> {
+        static FACES: [OnceLock<Option<ttf::Face<'static>>>; 2] = [OnceLock::new(), OnceLock::new()];
+        FACES[self as usize].get_or_init(|| ttf::Face::parse(self.bytes(), 0).ok()).as_ref()
     }
 }
 
@@ -48,10 +47,10 @@ impl Face {
 /// Exact, since the fonts have no kerning. A character without glyph counts as 0.6.
 pub(crate) fn advance(face: Face, character: char) -> f64 {
     let width = face.font().and_then(|font| {
-        let glyph = font.charmap().map(character)?;
-        font.glyph_metrics(Size::new(1.0), LocationRef::default()).advance_width(glyph)
+        let units = font.glyph_hor_advance(font.glyph_index(character)?)?;
+        Some(f64::from(units) / f64::from(font.units_per_em()))
     });
-    width.map_or(0.6, f64::from)
+    width.unwrap_or(0.6)
 }
 
 /// Whether the fonts can draw a character.
@@ -59,7 +58,7 @@ pub(crate) fn advance(face: Face, character: char) -> f64 {
 pub(crate) fn has_glyph(character: char) -> bool {
     [Face::Regular, Face::Italic]
         .iter()
-        .all(|face| face.font().is_some_and(|font| font.charmap().map(character).is_some()))
+        .all(|face| face.font().is_some_and(|font| font.glyph_index(character).is_some()))
 }
 
 /// `@font-face` rules that make an SVG self-contained.

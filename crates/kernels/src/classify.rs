@@ -25,6 +25,9 @@ type Done<'d> = &'d mut dyn FnMut(usize, Result<Option<Verdict>>);
 /// first row, with any parameters. Each verdict goes to `done` with the row's key. Verdicts are those of [`motiform_analysis::classify`]
 /// to the last bit. When `watch` stops it, the rest is left.
 pub fn classify_rows(kernel: Kernel, settings: &Settings, next: Next<'_>, done: Done<'_>, watch: &dyn Watch) {
+    if !kernel.is_there() {
+        return;
+    }
     match kernel {
         Kernel::Tensor => classify::<Common, 6, 12>(settings, next, done, watch),
         Kernel::Amplitudes(1) => classify::<Text<2>, 2, 4>(settings, next, done, watch),

@@ -30,6 +30,9 @@ pub fn propagate_bodies(
     done: Done<'_>,
     watch: &dyn Watch,
 ) -> bool {
+    if !kernel.is_there() {
+        return false;
+    }
     match kernel {
         Kernel::Tensor => run::<Common, 8>(how, next, done, watch),
         Kernel::Amplitudes(1) => run::<Text<2>, 4>(how, next, done, watch),

@@ -51,7 +51,7 @@ pub fn exponents_of_body(
     done: Done<'_>,
     watch: &dyn Watch,
 ) {
-    match kernel(body, settings) {
+    match kernel(body, settings).filter(|kernel| kernel.is_there()) {
         Some(Kernel::Tensor) => run::<Common, 6, 42>(body, settings, next, done, watch),
         Some(Kernel::Amplitudes(1)) => run::<Text<2>, 2, 6>(body, settings, next, done, watch),
         Some(Kernel::Amplitudes(2)) => run::<Text<4>, 4, 20>(body, settings, next, done, watch),

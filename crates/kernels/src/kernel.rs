@@ -15,6 +15,9 @@ pub enum Kernel {
     Amplitudes(usize),
 }
 
+/// Whether amplitude equations have kernels. In the module of a page, whose registers hold two lanes, they would gain little and make half a megabyte of it.
+const TEXT: bool = !cfg!(target_family = "wasm");
+
 /// The largest number of modes for which there is a kernel: each number is compiled separately.
 pub const MOST_MODES: usize = 4;
 
@@ -28,7 +31,13 @@ impl Kernel {
             return Some(Self::Tensor);
         }
         let modes = listed(model)?.equations().definition().modes.len();
-        (modes <= MOST_MODES).then_some(Self::Amplitudes(modes))
+        Some(Self::Amplitudes(modes)).filter(|kernel| modes <= MOST_MODES && kernel.is_there())
+    }
+
+    /// Whether it is part of this program.
+    #[inline(always)]
+    pub(crate) fn is_there(self) -> bool {
+        TEXT || self == Self::Tensor
     }
 
     /// The same for its classification: lanes watch the size of the shape, which says nothing of a body whose flow has no rotations.

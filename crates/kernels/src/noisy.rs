@@ -51,6 +51,9 @@ pub fn propagate_noisy_bodies(
     done: Done<'_>,
     watch: &dyn Watch,
 ) -> bool {
+    if !kernel.is_there() {
+        return false;
+    }
     match (kernel, stretch) {
         (Kernel::Tensor, Stretch::Shape) => run::<Common, ShapeAlone, 6>(span, next, done, watch),
         (Kernel::Tensor, Stretch::Plane) => run::<Common, WithPosition, 8>(span, next, done, watch),

@@ -1,9 +1,7 @@
 //! Strokes, fills and letters on a pixmap.
 
-use skrifa::MetadataProvider as _;
-use skrifa::instance::{LocationRef, Size};
-use skrifa::outline::{DrawSettings, OutlinePen};
 use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
+use ttf_parser::OutlineBuilder;
 
 use crate::fonts;
 use crate::geometry::Point;
@@ -47,16 +45,14 @@ pub(super) fn write_turned(pixmap: &mut Pixmap, label: &Label, place: Transform,
 
 /// The outlines of a label, its baseline starting at the origin.
 fn letters(label: &Label, size: f64) -> Option<Path> {
-    let mut pen = Letters { builder: PathBuilder::new(), at: [0.0; 2] };
+    let mut pen = Letters { builder: PathBuilder::new(), at: [0.0; 2], scale: 1.0 };
     for run in label.runs() {
         let Some(font) = run.face.font() else { continue };
-        let scale = Size::new((size * run.script.scale()) as f32);
+        pen.scale = (size * run.script.scale() / f64::from(font.units_per_em())) as f32;
         pen.at[1] = (size * run.script.drop()) as f32;
         for character in run.text.chars() {
-            let glyph = font.charmap().map(character).and_then(|id| font.outline_glyphs().get(id));
-            if let Some(glyph) = glyph {
-                // an outline that fails to draw leaves a blank of its width
-                let _ = glyph.draw(DrawSettings::unhinted(scale, LocationRef::default()), &mut pen);
+            if let Some(glyph) = font.glyph_index(character) {
+                font.outline_glyph(glyph, &mut pen); // one without an outline, such as the space, leaves a blank of its width
             }
             pen.at[0] += (size * run.script.scale() * fonts::advance(run.face, character)) as f32;
         }
@@ -93,15 +89,17 @@ fn path_of(points: &[Point], closed: bool) -> Option<Path> {
 struct Letters {
     builder: PathBuilder,
     at: [f32; 2],
+    /// Pixels for a unit of the font.
+    scale: f32,
 }
 
 impl Letters {
     fn place(&self, x: f32, y: f32) -> (f32, f32) {
-        (self.at[0] + x, self.at[1] - y)
+        (self.at[0] + self.scale * x, self.at[1] - self.scale * y)
     }
 }
 
-impl OutlinePen for Letters {
+impl OutlineBuilder for Letters {
     fn move_to(&mut self, x: f32, y: f32) {
         let (x, y) = self.place(x, y);
         self.builder.move_to(x, y);
