@@ -75,7 +75,10 @@ impl<L: Bundle, const N: usize> LaneObserver<L, N> {
 
     /// Begins a look in one lane.
     pub(super) fn begin<B: Equivariant + ?Sized>(&mut self, lane: usize, body: &B, t: f64, u: &[f64; N]) {
-        self.follow(lane, body, t, u);
+        let rate = gauge_rate(body, u);
+        self.t = self.t.with_lane(lane, t);
+        self.value = self.value.with_lane(lane, rate);
+        self.known = if rate == 0.0 { self.known & !Mask::only(lane) } else { self.known | Mask::only(lane) };
         self.fastest = self.fastest.with_lane(lane, 0.0);
         self.speed = self.speed.with_lane(lane, 0.0);
         let size = norm(u);
@@ -87,14 +90,6 @@ impl<L: Bundle, const N: usize> LaneObserver<L, N> {
         }
         self.resting &= !Mask::only(lane);
         self.seen[lane] = Some(Seen::new(u));
-    }
-
-    /// Goes on with a look in one lane from a pause.
-    pub(super) fn follow<B: Equivariant + ?Sized>(&mut self, lane: usize, body: &B, t: f64, u: &[f64; N]) {
-        let rate = gauge_rate(body, u);
-        self.t = self.t.with_lane(lane, t);
-        self.value = self.value.with_lane(lane, rate);
-        self.known = if rate == 0.0 { self.known & !Mask::only(lane) } else { self.known | Mask::only(lane) };
     }
 
     /// What a look has seen so far, as far as [`super::search::Search::arrives`] asks.

@@ -200,6 +200,7 @@ impl<F: InLanes + Clone, const N: usize> LaneKernel for Looks<'_, '_, F, N> {
             in_lanes: std::array::from_fn(|_| None),
             singles: std::array::from_fn(|_| None),
             observer: LaneObserver::new(),
+            pauses: L::splat(f64::INFINITY),
             escape: L::splat(norm * norm),
             steps: 0,
         };
@@ -222,6 +223,8 @@ struct SearchLanes<'l, 'd, L: Bundle, F: InLanes, const N: usize> {
     /// The fields of the lanes, one by one.
     singles: [Option<F>; 16],
     observer: LaneObserver<L, N>,
+    /// Where looks pause next.
+    pauses: L,
     escape: L,
     steps: u32,
 }
@@ -242,7 +245,8 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> LaneTask<L, N> for SearchLan
         let Classification { t, u, pace, span, .. } = motion;
         self.observer.begin(lane, motion.candidate.body.as_ref(), t, &u);
         self.in_lanes[lane] = Some(InLane { motion, begun: (t, u, pace) });
-        Some(Entry { t, u, t_end: pause(N, (t, t + span), t), pace })
+        self.pauses = self.pauses.with_lane(lane, pause(N, (t, t + span), t));
+        Some(Entry { t, u, t_end: t + span, pace })
     }
 
     #[inline(always)]
@@ -261,12 +265,13 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> LaneTask<L, N> for SearchLan
     #[inline(always)]
     fn stepped(&mut self, step: &mut Stepped<'_, L, N, F::Field<L>>) -> Mask {
         self.observer.stepped(step, &self.field, &self.singles);
-        Mask::default()
+        step.accepted & self.pauses.at_most(step.t)
     }
 
     fn leave(&mut self, lane: usize, leaving: &Leaving<N>) -> Then {
-        if let Some(next) = self.goes_on(lane, leaving) {
-            return Then::Continue(next);
+        let paused = self.pauses(lane, leaving);
+        if paused && let Some(end) = self.goes_on(lane, leaving) {
+            return Then::Continue(end);
         }
         let (in_lane, seen) = (self.in_lanes[lane].take(), self.observer.end(lane));
         let (Some(InLane { mut motion, begun }), Some(seen)) = (in_lane, seen) else { return Then::Leave };
@@ -275,7 +280,7 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> LaneTask<L, N> for SearchLan
         }
         let Leaving { why, t, u, pace, .. } = *leaving;
         let work = leaving.steps + leaving.rejected;
-        let ask = if why != Why::Arrived || work >= self.scheduler.settings.max_steps {
+        let ask = if !(paused || why == Why::Arrived) || work >= self.scheduler.settings.max_steps {
             self.scheduler.alone(&mut motion, begun)
         } else {
             let look = seen.look((begun.0, t), Outcome::Completed { t }, u.to_vec());
@@ -286,24 +291,29 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> LaneTask<L, N> for SearchLan
         let span = motion.span;
         self.observer.begin(lane, motion.candidate.body.as_ref(), t, &u);
         self.in_lanes[lane] = Some(InLane { motion, begun: (t, u, Some(pace)) });
-        Then::Continue(pause(N, (t, t + span), t))
+        self.pauses = self.pauses.with_lane(lane, pause(N, (t, t + span), t));
+        Then::Continue(t + span)
     }
 }
 
 impl<L: Bundle, F: InLanes + Clone, const N: usize> SearchLanes<'_, '_, L, F, N> {
-    /// Where the look of a lane pauses next, if it does not end here.
+    /// Whether a lane has stopped for a pause of its look, within bounds.
+    fn pauses(&self, lane: usize, leaving: &Leaving<N>) -> bool {
+        let bounded = leaving.u.iter().map(|x| x * x).sum::<f64>() <= self.escape.lane(lane);
+        leaving.why != Why::Failed && bounded && self.pauses.lane(lane) <= leaving.t
+    }
+
+    /// Where the look of a lane that pauses ends, if it does not end here.
     fn goes_on(&mut self, lane: usize, leaving: &Leaving<N>) -> Option<f64> {
         let InLane { motion, begun } = self.in_lanes[lane].as_mut()?;
         let look = (begun.0, begun.0 + motion.span);
         let work = leaving.steps + leaving.rejected;
-        if leaving.why != Why::Arrived || leaving.t >= look.1 || work >= self.scheduler.settings.max_steps {
+        let over = leaving.t >= look.1 || work >= self.scheduler.settings.max_steps;
+        if over || motion.search.arrives(motion.candidate.body.as_ref(), self.observer.now(lane)?, &leaving.u)
+        {
             return None;
         }
-        let body = motion.candidate.body.as_ref();
-        if motion.search.arrives(body, self.observer.now(lane)?, &leaving.u) {
-            return None;
-        }
-        self.observer.follow(lane, body, leaving.t, &leaving.u);
-        Some(pause(N, look, leaving.t))
+        self.pauses = self.pauses.with_lane(lane, pause(N, look, leaving.t));
+        Some(look.1)
     }
 }

@@ -3,9 +3,10 @@
 use crate::linear::norm;
 use crate::periodic::is_small;
 use crate::symmetry::{align, gauge, gauge_rate, reduced_speed};
-use motiform_dynamics::drive::drive;
+use motiform_dynamics::drive::Run;
 use motiform_dynamics::section::Crossing;
 use motiform_dynamics::{Direction, Equivariant, Integration, Outcome, Request, Section, Sink, Watch};
+use std::ops::ControlFlow;
 
 /// An extreme of the shape's size ([`gauge`]): where a reduced orbit meets the section that it is watched on.
 #[derive(Clone, Debug)]
@@ -66,12 +67,13 @@ const KEPT: usize = 4096;
 /// Whether a look may end, by what it has seen so far and the shape.
 pub(super) type Ends<'e> = dyn FnMut(&Seen, &[f64]) -> bool + 'e;
 
-/// Where a look from `start` to `end` pauses next after `t`, to ask whether the orbit has arrived at an equilibrium: at its quarters. A large
-/// system's does not: it would take many pauses of its short looks to settle.
+/// Where a look from `start` to `end` pauses next after `t`, to ask whether the orbit has arrived at an equilibrium: with the first step that
+/// reaches one of its quarters; infinite for nowhere. A large system's does not pause: its looks are short against the time that it takes
+/// to settle.
 pub(super) fn pause(dim: usize, (start, end): (f64, f64), t: f64) -> f64 {
     let quarter = 0.25 * (end - start);
     let pauses = [1.0, 2.0, 3.0].map(|count| start + count * quarter);
-    pauses.into_iter().find(|&pause| is_small(dim) && pause > t).unwrap_or(end)
+    pauses.into_iter().find(|&pause| is_small(dim) && pause > t).unwrap_or(f64::INFINITY)
 }
 
 impl Look {
@@ -89,7 +91,7 @@ impl Look {
         Self::take_until(body, orbit, (time, None), request, watch)
     }
 
-    /// As [`Look::take`]; it pauses at the times of [`pause`], and ends there if `ends` says so of what was seen and of the shape.
+    /// As [`Look::take`]; it ends at a [`pause`] if `ends` says so of what was seen and of the shape. Steps are those of a look without pauses.
     pub(super) fn take_until<B: Equivariant + ?Sized>(
         body: &B,
         orbit: &mut dyn Integration,
@@ -101,15 +103,22 @@ impl Look {
         let rate = |_t: f64, u: &[f64]| gauge_rate(body, u);
         let sections = [Section { g: &rate, direction: Direction::Either, terminal: false }];
         let pieces = if is_small(body.dim()) { request.pieces } else { 1 };
+        let request = Request { t_end: end, sections: &sections, pieces, watch, ..*request };
         let mut watcher = Watcher { body, seen: Seen::new(orbit.state()) };
+        let mut run = Run::new(orbit, &request, &mut watcher)?;
+        let mut next = pause(body.dim(), (start, end), start);
         let outcome = loop {
-            let t_end = if ends.is_some() { pause(body.dim(), (start, end), orbit.t()) } else { end };
-            let request = Request { t_end, sections: &sections, pieces, watch, ..*request };
-            let outcome = drive(orbit, &request, &mut watcher)?;
-            let over = !outcome.is_complete() || t_end >= end;
-            if over || ends.as_mut().is_none_or(|ends| ends(&watcher.seen, orbit.state())) {
+            if let ControlFlow::Break(outcome) = run.step(orbit, &request, &mut watcher) {
                 break outcome;
             }
+            let t = orbit.t();
+            if t < next || t >= end {
+                continue;
+            }
+            if ends.as_mut().is_some_and(|ends| ends(&watcher.seen, orbit.state())) {
+                break Outcome::Completed { t };
+            }
+            next = pause(body.dim(), (start, end), t);
         };
         let Watcher { seen, .. } = watcher;
         Ok(seen.look((start, orbit.t()), outcome, orbit.state().to_vec()))
