@@ -22,7 +22,9 @@ async function compile(): Promise<WebAssembly.Module> {
 async function compressed(): Promise<ReadableStream<BufferSource>> {
   const within = document.getElementById(WITHIN)?.textContent;
   if (within) {
-    const bytes = Uint8Array.from(atob(within), (digit) => digit.charCodeAt(0));
+    const digits = atob(within);
+    const bytes = new Uint8Array(digits.length);
+    for (let k = 0; k < digits.length; k++) bytes[k] = digits.charCodeAt(k); // a function called for each takes ten times as long
     return new Blob([bytes]).stream() as ReadableStream<BufferSource>;
   }
   const answer = await fetch(new URL(BESIDE, document.baseURI));
