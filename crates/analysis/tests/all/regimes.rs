@@ -314,6 +314,22 @@ fn turns_that_stay_the_same_are_decided_early() {
     }
 }
 
+/// An orbit that has arrived at a stable equilibrium is not followed to the end of its look; one that rests at a saddle is.
+#[test]
+fn a_look_ends_where_the_orbit_has_arrived() {
+    let settings = settings("tensor");
+    let verdict = |kappa2, gamma| named(&reduced(kappa2, gamma), &Random(3).state(6, 0.01), &settings);
+    for (kappa2, gamma, name) in [(0.2, -0.15, "motionless"), (-0.2177, -0.14, "straight")] {
+        let verdict = verdict(kappa2, gamma);
+        assert_eq!(verdict.regime.name(), name, "{}", verdict.why);
+        assert!(verdict.time < settings.first_look, "{} of {}", verdict.time, settings.first_look);
+    }
+    let resting = verdict(-0.1, -0.04);
+    assert_eq!(resting.regime.name(), "rectangular", "{}", resting.why);
+    let looks = resting.time / settings.first_look;
+    assert!((looks - looks.round()).abs() < 1e-9, "a look was cut short: {looks}");
+}
+
 /// A motion named from where another look ended is the same motion: an orbit that begins at rest was never fast.
 #[test]
 fn what_begins_where_it_ends_up_is_named_alike() {

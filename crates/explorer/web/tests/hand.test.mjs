@@ -60,13 +60,17 @@ test("the inside is carried to another place, and thrown where the hand lets go 
   await until(() => Math.abs(wire.frame.x - (before.x - 60 / scale)) < 1e-6 * Math.abs(scale) + 0.05, "the body to be carried");
   assert.ok(Math.abs(wire.frame.y - (before.y - 40 / scale)) < 0.05);
   assert.deepEqual([...wire.frame.state], [...before.state], "velocity and shape stay");
-  const carried = await stands(page, wire);
-  await pictures(page, 80);
-  const [u, v] = await centre(page, carried);
-  await page.mouse.move(u, v);
-  await page.mouse.down();
-  for (let k = 1; k <= 8; k++) await page.mouse.move(u - 12 * k, v);
-  await page.mouse.up();
+  // On a busy machine a hand may rest between two events: then it has let go at rest, and throws again.
+  for (let tries = 0; tries < 4 && !wire.said.get("put")?.velocity; tries++) {
+    const carried = await stands(page, wire);
+    await pictures(page, 80);
+    const [u, v] = await centre(page, carried);
+    await page.mouse.move(u, v);
+    await page.mouse.down();
+    for (let k = 1; k <= 8; k++) await page.mouse.move(u - 12 * k, v);
+    await page.mouse.up();
+    await pictures(page, 20);
+  }
   await until(() => wire.said.get("put")?.velocity, "the body to be thrown");
   await until(() => wire.frame.state[0] === wire.said.get("put").velocity[0], "its velocity");
   assert.ok(wire.frame.state[0] < 0 && Math.abs(wire.frame.state[1]) < 0.3 * Math.abs(wire.frame.state[0]));
