@@ -105,10 +105,13 @@ test("light or dark as the system says, until the reader says otherwise", async 
 /** The checker axe, run within the page. */
 const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
-for (const [name, context] of [["a desktop", {}], ["a phone", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }]]) {
+const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
+
+for (const [name, context] of [["a desktop", {}], ["a phone", PHONE], ["a phone with the legend of Fig. 1", { ...PHONE, hash: "preset=fig1" }]]) {
   test(`axe finds nothing on ${name}`, upon(it, { hash: LIGHT, ...context }, async ({ page, wire }) => {
     await moves(page, wire);
     await named(page);
+    await page.locator("#map-legend li").first().waitFor();
     await page.evaluate(() => document.querySelectorAll("#parameters details, #parameter-details").forEach((one) => (one.open = true)));
     const session = await page.context().newCDPSession(page);
     await session.send("Runtime.evaluate", { expression: AXE }); // not bound by the page's own policy
