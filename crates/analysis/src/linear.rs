@@ -72,9 +72,8 @@ pub fn least_squares(columns: &[Vec<f64>], rhs: &[f64]) -> Option<Vec<f64>> {
     Some(x.iter().copied().collect())
 }
 
-/// The `x` with `sum_j columns_j x_j = rhs`; `None` where there are not as many columns as numbers in each, a number is not finite, or the
-/// columns depend on one another up to the part `least`: that of the largest by which the diagonal of `R` in a QR decomposition with pivots falls. (It is
-/// the ratio of singular values within a small factor, at a tenth of their cost.)
+/// The `x` with `sum_j columns_j x_j = rhs`, by a QR decomposition with pivots. `None` where the system is not square, a number is not
+/// finite, or an entry on the diagonal of `R` is at most the part `least` of the largest: the columns then depend on one another.
 pub fn solve(columns: &[Vec<f64>], rhs: &[f64], least: f64) -> Option<Vec<f64>> {
     let matrix = finite(columns, rhs).filter(DMatrix::is_square)?;
     let qr = matrix.col_piv_qr();
@@ -143,4 +142,30 @@ pub fn complement(fixed: &[Vec<f64>], dim: usize) -> Vec<Vec<f64>> {
     let units: Vec<Vec<f64>> = (0..dim).map(unit).collect();
     let columns: Vec<&[f64]> = fixed.iter().chain(&units).map(Vec::as_slice).collect();
     basis(&columns, 1e-6).split_off(fixed.len().min(dim))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against singular values, and where a column is nearly the sum of two others.
+    #[test]
+    fn square_systems_are_solved_unless_they_are_singular() {
+        let entry = |i: usize, j: usize| libm::sin((i * i * j + 5 * i + 3 * j + 1) as f64);
+        let columns: Vec<Vec<f64>> = (0..6).map(|j| (0..6).map(|i| entry(i, j)).collect()).collect();
+        let rhs: Vec<f64> = (0..6).map(|i| libm::cos(f64::from(i))).collect();
+        let (x, expected) = (solve(&columns, &rhs, 1e-14).unwrap(), least_squares(&columns, &rhs).unwrap());
+        assert!(
+            x.iter().zip(&expected).all(|(x, y)| (x - y).abs() < 1e-10 * norm(&expected)),
+            "{x:?} {expected:?}"
+        );
+        let dependent = |off: f64| {
+            let mut columns = columns.clone();
+            columns[5] = (0..6).map(|i| columns[0][i] + columns[1][i] + off * columns[5][i]).collect();
+            solve(&columns, &rhs, 1e-8)
+        };
+        assert!(dependent(1e-10).is_none() && dependent(1e-4).is_some());
+        assert!(solve(&columns[..5], &rhs, 1e-14).is_none());
+        assert!(solve(&columns, &[f64::NAN; 6], 1e-14).is_none());
+    }
 }

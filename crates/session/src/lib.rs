@@ -1,8 +1,8 @@
 //! A session of the explorer: what one page asks, and what it is answered, over any transport.
 //!
-//! A session has a body that moves when the page requests it (`body`), and computations beside it (`task`), each of which does only the
-//! latest job: classification of the motion and its exponents (`motion`), the map (`map`), branches of motions (`branches`), returns
-//! ahead, and the motions of a swarm. `crates/explorer/PROTOCOL.md` describes the messages (`protocol`, `frames`).
+//! A session has a body, which moves when the page requests a picture (`body`), and background computations (`task`): the
+//! classification of the motion and its exponents (`motion`), the map (`map`), branches of motions (`branches`), returns computed in
+//! advance, and the motions of a swarm. Of each kind only the latest request is computed. `crates/explorer/PROTOCOL.md` describes the messages (`protocol`, `frames`).
 //!
 //! The same session runs in two ways. [`Session`] (feature `threads`) has threads of its own, behind a server. [`Local`] has none: it does a
 //! bounded piece of work for each message, and leaves the computations beside the body to other instances of this program ([`assist`]),

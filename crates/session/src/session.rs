@@ -1,4 +1,4 @@
-//! A session with threads of its own: one for the body, and one for each computation beside it.
+//! A session that runs on its own threads: one for the body, and one for each kind of background computation.
 
 use crate::answers::Answers;
 use crate::body::{self, Services};

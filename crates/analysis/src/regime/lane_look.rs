@@ -103,10 +103,8 @@ impl<L: Bundle, const N: usize> LaneObserver<L, N> {
 
     /// Ends the look in one lane.
     pub(super) fn end(&mut self, lane: usize) -> Option<Seen> {
+        self.now(lane)?;
         let mut seen = self.seen[lane].take()?;
-        seen.fastest = self.fastest.lane(lane);
-        seen.last_speed = self.speed.lane(lane);
-        seen.sizes = (self.smallest.lane(lane), self.largest.lane(lane));
         seen.slowest.0 = self.slowest.0.lane(lane);
         for i in 0..N {
             seen.slowest.1[i] = self.slowest.1[i].lane(lane);

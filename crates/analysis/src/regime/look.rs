@@ -68,8 +68,7 @@ const KEPT: usize = 4096;
 pub(super) type Ends<'e> = dyn FnMut(&Seen, &[f64]) -> bool + 'e;
 
 /// Where a look from `start` to `end` pauses next after `t`, to ask whether the orbit has arrived at an equilibrium: with the first step that
-/// reaches one of its quarters; infinite for nowhere. A large system's does not pause: its looks are short against the time that it takes
-/// to settle.
+/// reaches one of its quarters; infinite for nowhere. The look of a large system does not pause.
 pub(super) fn pause(dim: usize, (start, end): (f64, f64), t: f64) -> f64 {
     let quarter = 0.25 * (end - start);
     let pauses = [1.0, 2.0, 3.0].map(|count| start + count * quarter);
