@@ -49,7 +49,7 @@ pub use noise_steps::NoiseSteps;
 pub use noisy_orbit::NoisyOrbit;
 pub use orbit::Orbit;
 pub use outcome::{Obstacle, Outcome};
-pub use scalar::{Bundle, Complex, Dual, Mask, Row, Scalar};
+pub use scalar::{Bundle, Complex, Dual, Mask, ROW_BLOCK, Row, Scalar};
 pub use section::{Direction, Section};
 pub use simd::Lanes;
 pub use tangent::Tangent;

@@ -7,6 +7,9 @@ use crate::steppers::exponential::StepTable;
 /// rates of deviations within 2 % or 1e-4 at .15, wrong by 5 to 30 % at .3, decay instead of growth at .6.
 const LONGEST: f64 = 0.15;
 
+/// What round-off may take from a number of quarters of a doubling.
+const ROUNDING: f64 = 1e-9;
+
 /// Step sizes per doubling.
 const PER_DOUBLING: f64 = 4.0;
 
@@ -22,11 +25,24 @@ pub(crate) struct StepTables {
     selected: Option<usize>,
     /// Exponent `k` of the next step to try.
     k: i32,
+    /// `2^(k/4)`.
+    size: f64,
+    /// The largest error norms after which the exponent grows by [`MOST_SMALLER`], one more, and so on.
+    errors: [f64; CHANGES],
     /// The largest `k` that is tried.
     most: i32,
 }
 
 const FIXED: i32 = i32::MAX;
+
+/// Least and greatest factor between the sizes of successive steps.
+const FACTORS: [f64; 2] = [0.2, 4.0];
+
+/// Change of `k` for the least factor.
+const MOST_SMALLER: i32 = -10;
+
+/// Changes of `k` above that one, up to the greatest factor.
+const CHANGES: usize = 18;
 
 impl StepTables {
     /// Tables for the rates `lambda` of the linear part.
@@ -43,18 +59,27 @@ impl StepTables {
             odd_size: 0.0,
             selected: None,
             k: 0,
+            size: 1.0,
+            errors: errors(tableau.order),
             most,
         }
     }
 
     /// The step size required by step control.
     pub(crate) fn size(&self) -> f64 {
-        libm::exp2(f64::from(self.k) / PER_DOUBLING)
+        self.size
     }
 
     /// Selects the largest size up to `h`.
     pub(crate) fn set_size(&mut self, h: f64) {
-        self.k = exponent(h).min(self.most);
+        self.set_exponent(exponent(h));
+    }
+
+    fn set_exponent(&mut self, k: i32) {
+        let k = k.min(self.most);
+        if k != self.k {
+            (self.k, self.size) = (k, libm::exp2(f64::from(k) / PER_DOUBLING));
+        }
     }
 
     /// The table in use.
@@ -98,21 +123,57 @@ impl StepTables {
     /// gives little information about the next one. Source: Hairer, Norsett, Wanner, I, II.4.
     pub(crate) fn judge(&mut self, error: f64, h: f64, order: u32, last: bool) -> bool {
         let good = error <= 1.0;
-        let factor = 0.9 * libm::pow(error.max(1e-30), -1.0 / f64::from(order));
-        let factor = if error.is_finite() { factor.clamp(0.2, 4.0) } else { 0.2 };
-        let k = exponent(h * factor);
-        self.k = match (good, last) {
+        let k = if last { exponent(h * factor(error, order)) } else { self.k + self.change(error) };
+        self.set_exponent(match (good, last) {
             (true, true) => self.k.max(k),
             (true, false) => k,
-            (false, _) => k.min(exponent(h) - 1),
-        };
-        self.k = self.k.min(self.most);
+            (false, true) => k.min(exponent(h) - 1),
+            (false, false) => k.min(self.k - 1),
+        });
         good
+    }
+
+    /// By how much `k` changes after a step of size `2^(k/4)`: without a power and a logarithm at every step.
+    fn change(&self, error: f64) -> i32 {
+        self.errors.iter().take_while(|most| error <= **most).fold(MOST_SMALLER, |k, _| k + 1)
     }
 }
 
 /// The largest `k` with `2^(k/4) <= h` (up to rounding).
 #[allow(clippy::cast_possible_truncation, reason = "step sizes are within 2^-1074 .. 2^1024")]
 fn exponent(h: f64) -> i32 {
-    (PER_DOUBLING * libm::log2(h) + 1e-9).floor() as i32
+    (PER_DOUBLING * libm::log2(h) + ROUNDING).floor() as i32
+}
+
+/// The factor between the sizes of successive steps.
+fn factor(error: f64, order: u32) -> f64 {
+    let factor = 0.9 * libm::pow(error.max(1e-30), -1.0 / f64::from(order));
+    if error.is_finite() { factor.clamp(FACTORS[0], FACTORS[1]) } else { FACTORS[0] }
+}
+
+/// The error norms at which [`factor`] is `2^(change/4)`, for each change above [`MOST_SMALLER`].
+fn errors(order: u32) -> [f64; CHANGES] {
+    let at = |i: usize| {
+        let change = f64::from(MOST_SMALLER) + 1.0 + i as f64;
+        libm::pow(0.9 / libm::exp2((change - ROUNDING) / PER_DOUBLING), f64::from(order))
+    };
+    std::array::from_fn(at)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::steppers::KROGSTAD4;
+
+    #[test]
+    fn the_change_of_the_exponent_is_that_of_the_factor() {
+        let tables = StepTables::new(&KROGSTAD4, &[-1.0]);
+        let errors = (0..20_000).map(|i| libm::exp2(f64::from(i) / 150.0 - 110.0)).chain([0.0, f64::INFINITY]);
+        for error in errors {
+            let from_factor = exponent(factor(error, KROGSTAD4.order));
+            assert_eq!(tables.change(error), from_factor, "after an error of {error}");
+        }
+        assert_eq!(tables.change(f64::NAN), exponent(FACTORS[0]));
+        assert!(tables.change(0.0) == 8 && tables.change(1e9) == MOST_SMALLER);
+    }
 }

@@ -117,12 +117,20 @@ impl<'f, F: System + ?Sized> Tangent<'f, F> {
         let (rate, vector_rates) = du.split_at_mut(dim);
         for first in (0..self.count.max(1)).step_by(K) {
             let directions = K.min(self.count - first.min(self.count));
-            for (x, &value) in lifted.iter_mut().zip(state) {
-                *x = Dual { value, derivative: [0.0; K] };
-            }
-            for k in 0..directions {
-                let vector = &vectors[(first + k) * dim..][..dim];
-                lifted.iter_mut().zip(vector).for_each(|(x, &d)| x.derivative[k] = d);
+            let of = &vectors[first * dim..][..directions * dim];
+            if directions == 1 {
+                for ((x, &value), &d) in lifted.iter_mut().zip(state).zip(of) {
+                    let mut derivative = [0.0; K];
+                    derivative[0] = d;
+                    *x = Dual { value, derivative };
+                }
+            } else {
+                for (x, &value) in lifted.iter_mut().zip(state) {
+                    *x = Dual { value, derivative: [0.0; K] };
+                }
+                for (k, vector) in of.chunks_exact(dim.max(1)).enumerate() {
+                    lifted.iter_mut().zip(vector).for_each(|(x, &d)| x.derivative[k] = d);
+                }
             }
             eval(lifted, rates);
             if first == 0 {

@@ -15,7 +15,7 @@ mod row;
 pub use bundle::{Bundle, MOST_LANES, Mask};
 pub use complex::Complex;
 pub use dual::Dual;
-pub use row::{DualRow, Row};
+pub use row::{BLOCK as ROW_BLOCK, DualRow, Row};
 
 use crate::simd::Kernel;
 use std::fmt::Debug;

@@ -1,11 +1,16 @@
 //! Rows of numbers, kept so that sums along them become vector instructions.
 
 use super::{Dual, Scalar};
-use std::ops::Range;
+
+/// Numbers of a [`Row::Block`]: few enough for the sums of duals to stay in 256-bit registers.
+pub const BLOCK: usize = 4;
 
 /// A row of numbers of type `T`. Plain numbers lie side by side; of duals, all values and then all derivatives do: numbers whose parts
 /// alternate would be shuffled before every sum.
 pub trait Row<T>: Clone {
+    /// [`BLOCK`] numbers of a row.
+    type Block: Row<T>;
+
     /// Zeros, of the same kind as `like`.
     fn zeros(like: T) -> Self;
 
@@ -15,13 +20,15 @@ pub trait Row<T>: Clone {
     /// Sets the number at `i`.
     fn set(&mut self, i: usize, x: T);
 
-    /// Complex numbers in two rows each, real and imaginary parts: `out[to + i] += rows[from.start + i] * by`, for all of `from`.
+    /// Complex numbers in two rows each, real and imaginary parts: `sums[i] += rows[start + i] * by`.
     ///
     /// The same bits as the sums over single numbers, `x += a re - b im`, `y += a im + b re`.
-    fn add_turned(out: [&mut Self; 2], to: usize, rows: [&Self; 2], from: Range<usize>, by: [T; 2]);
+    fn add_turned(sums: [&mut Self::Block; 2], rows: [&Self; 2], start: usize, by: [T; 2]);
 }
 
 impl<T: Scalar, const N: usize> Row<T> for [T; N] {
+    type Block = [T; BLOCK];
+
     #[inline(always)]
     fn zeros(like: T) -> Self {
         [like.zero(); N]
@@ -38,9 +45,14 @@ impl<T: Scalar, const N: usize> Row<T> for [T; N] {
     }
 
     #[inline(always)]
-    fn add_turned([x, y]: [&mut Self; 2], to: usize, [a, b]: [&Self; 2], from: Range<usize>, by: [T; 2]) {
-        let to = to..to + from.len();
-        add_products([&mut x[to.clone()], &mut y[to]], [&a[from.clone()], &b[from]], by);
+    fn add_turned(
+        sums: [&mut [T; BLOCK]; 2],
+        [a, b]: [&Self; 2],
+        start: usize,
+        by: [T; 2],
+    ) {
+        let cut = start..start + BLOCK;
+        add_products(sums, [&a[cut.clone()], &b[cut]], by);
     }
 }
 
@@ -52,6 +64,8 @@ pub struct DualRow<T, const K: usize, const N: usize> {
 }
 
 impl<T: Scalar, const K: usize, const N: usize> Row<Dual<T, K>> for DualRow<T, K, N> {
+    type Block = DualRow<T, K, BLOCK>;
+
     #[inline(always)]
     fn zeros(like: Dual<T, K>) -> Self {
         let zeros = [like.value.zero(); N];
@@ -77,45 +91,46 @@ impl<T: Scalar, const K: usize, const N: usize> Row<Dual<T, K>> for DualRow<T, K
 
     #[inline(always)]
     fn add_turned(
-        [x, y]: [&mut Self; 2],
-        to: usize,
+        [x, y]: [&mut Self::Block; 2],
         [a, b]: [&Self; 2],
-        from: Range<usize>,
+        start: usize,
         [re, im]: [Dual<T, K>; 2],
     ) {
-        let to = to..to + from.len();
-        let values = [&a.value[from.clone()], &b.value[from.clone()]];
-        add_products([&mut x.value[to.clone()], &mut y.value[to.clone()]], values, [re.value, im.value]);
+        let cut = start..start + BLOCK;
+        let values = [&a.value[cut.clone()], &b.value[cut.clone()]];
+        add_products([&mut x.value, &mut y.value], values, [re.value, im.value]);
         for k in 0..K {
-            let out = [&mut x.derivative[k][to.clone()], &mut y.derivative[k][to.clone()]];
-            let rates = [&a.derivative[k][from.clone()], &b.derivative[k][from.clone()]];
+            let rates = [&a.derivative[k][cut.clone()], &b.derivative[k][cut.clone()]];
             let by = [(re.value, re.derivative[k]), (im.value, im.derivative[k])];
-            add_derivatives(out, values, rates, by);
+            add_derivatives([&mut x.derivative[k], &mut y.derivative[k]], values, rates, by);
         }
     }
 }
 
 /// `x += a re - b im`, `y += a im + b re`.
 #[inline(always)]
-fn add_products<T: Scalar>([x, y]: [&mut [T]; 2], [a, b]: [&[T]; 2], [re, im]: [T; 2]) {
-    for ((x, y), (&a, &b)) in x.iter_mut().zip(y).zip(a.iter().zip(b)) {
-        *x += a * re - b * im;
-        *y += a * im + b * re;
+fn add_products<T: Scalar>(
+    [x, y]: [&mut [T; BLOCK]; 2],
+    [a, b]: [&[T]; 2],
+    [re, im]: [T; 2],
+) {
+    for i in 0..BLOCK {
+        x[i] += a[i] * re - b[i] * im;
+        y[i] += a[i] * im + b[i] * re;
     }
 }
 
 /// The derivatives of these sums by the product rule, as [`Dual`] has them: `(a b)' = a' b + a b'`.
 #[inline(always)]
 fn add_derivatives<T: Scalar>(
-    [x, y]: [&mut [T]; 2],
+    [x, y]: [&mut [T; BLOCK]; 2],
     [a, b]: [&[T]; 2],
     [da, db]: [&[T]; 2],
     [(re, d_re), (im, d_im)]: [(T, T); 2],
 ) {
-    let rows = a.iter().zip(b).zip(da.iter().zip(db));
-    for ((x, y), ((&a, &b), (&da, &db))) in x.iter_mut().zip(y).zip(rows) {
-        *x += da.mul_add(re, a * d_re) - db.mul_add(im, b * d_im);
-        *y += da.mul_add(im, a * d_im) + db.mul_add(re, b * d_re);
+    for i in 0..BLOCK {
+        x[i] += da[i].mul_add(re, a[i] * d_re) - db[i].mul_add(im, b[i] * d_im);
+        y[i] += da[i].mul_add(im, a[i] * d_im) + db[i].mul_add(re, b[i] * d_re);
     }
 }
 
@@ -144,15 +159,13 @@ mod tests {
             }
         }
         let by = [number(500), number(501)];
-        let [x, y, a, b] = &mut rows;
-        Row::add_turned([x, y], 3, [a, b], 5..22, by);
-        let [x, y, a, b] = &mut plain;
-        Row::add_turned([x, y], 3, [a, b], 5..22, by);
-        for (row, plain) in rows.iter().zip(&plain) {
-            for (i, expected) in plain.iter().enumerate() {
-                assert_eq!(row.get(i), *expected);
-            }
+        let mut sums: [<Number as Scalar>::Row<BLOCK>; 2] = [Row::zeros(by[0]), Row::zeros(by[0])];
+        let [x, y] = &mut sums;
+        Row::add_turned([x, y], [&rows[2], &rows[3]], 5, by);
+        for i in 0..BLOCK {
+            let [a, b] = [plain[2][5 + i], plain[3][5 + i]];
+            assert_eq!(sums[0].get(i), a * by[0] - b * by[1]);
+            assert_eq!(sums[1].get(i), a * by[1] + b * by[0]);
         }
-        assert_eq!(plain[0][3], number(3) + (number(53) * by[0] - number(77) * by[1]));
     }
 }

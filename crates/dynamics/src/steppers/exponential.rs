@@ -2,6 +2,7 @@
 
 use super::phi_functions::{etdrk4_weights, phi};
 use crate::Semilinear;
+use crate::simd::{self, Kernel};
 
 /// The functions in the coefficients of a method, at `z = h lambda`.
 #[derive(Clone, Copy, Debug)]
@@ -128,14 +129,69 @@ impl StepTable {
         self.row(usize::from(node == Node::Full))
     }
 
-    /// `out += sum_j c_j N_j` over `terms`, whose coefficients start at `row`.
+    /// `out = base + sum_j c_j N_j` over `terms`, whose coefficients start at `row`.
     #[inline]
-    fn add(&self, terms: &[ExponentialTerm], row: usize, stages: &Stages, out: &mut [f64]) {
-        for (place, &(stage, _)) in terms.iter().enumerate() {
-            for ((x, &c), &n) in out.iter_mut().zip(self.row(2 + row + place)).zip(stages.get(stage)) {
-                *x += c * n;
+    fn combine(
+        &self,
+        base: Option<[&[f64]; 2]>,
+        terms: &[ExponentialTerm],
+        row: usize,
+        stages: &Stages,
+        out: &mut [f64],
+    ) {
+        let coefficients = &self.values[(2 + row) * self.dim..];
+        simd::run(Combination { base, terms, coefficients, slopes: &stages.values, out });
+    }
+}
+
+/// `out = e u + sum_j c_j N_j`, number by number, or without the first term; summed in the order of the terms.
+struct Combination<'a> {
+    base: Option<[&'a [f64]; 2]>,
+    terms: &'a [ExponentialTerm],
+    coefficients: &'a [f64],
+    slopes: &'a [f64],
+    out: &'a mut [f64],
+}
+
+/// Numbers summed at a time: they stay in registers.
+const BLOCK: usize = 8;
+
+impl Kernel for Combination<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let whole = self.out.len() / BLOCK * BLOCK;
+        for first in (0..whole).step_by(BLOCK) {
+            let sums = self.at::<BLOCK>(first);
+            self.out[first..first + BLOCK].copy_from_slice(&sums);
+        }
+        for i in whole..self.out.len() {
+            self.out[i] = self.at::<1>(i)[0];
+        }
+    }
+}
+
+impl Combination<'_> {
+    /// `N` of the sums.
+    #[inline(always)]
+    fn at<const N: usize>(&self, first: usize) -> [f64; N] {
+        let dim = self.out.len();
+        let mut sums = [0.0; N];
+        if let Some([factor, u]) = self.base {
+            let (factor, u) = (&factor[first..first + N], &u[first..first + N]);
+            for i in 0..N {
+                sums[i] = factor[i] * u[i];
             }
         }
+        for (place, &(stage, _)) in self.terms.iter().enumerate() {
+            let (row, slope) = (place * dim + first, stage * dim + first);
+            let (c, n) = (&self.coefficients[row..row + N], &self.slopes[slope..slope + N]);
+            for i in 0..N {
+                sums[i] += c[i] * n[i];
+            }
+        }
+        sums
     }
 }
 
@@ -183,26 +239,17 @@ pub(crate) fn step<F: Semilinear<f64> + ?Sized>(
     let mut argument = std::mem::take(&mut stages.argument);
     let mut row = 0;
     for (before, &(node, terms)) in tableau.rows.iter().enumerate() {
-        scale(table.propagator(node), u, &mut argument);
-        table.add(terms, row, stages, &mut argument);
+        table.combine(Some([table.propagator(node), u]), terms, row, stages, &mut argument);
         row += terms.len();
         let time = t + if node == Node::Full { table.h } else { 0.5 * table.h };
         field.nonlinear(time, &argument, stages.get_mut(before + 1));
     }
     stages.argument = argument;
-    scale(table.propagator(Node::Full), u, u_new);
-    table.add(tableau.weights, row, stages, u_new);
+    table.combine(Some([table.propagator(Node::Full), u]), tableau.weights, row, stages, u_new);
 }
 
 /// The estimated error of the step just made, into `out`; slope number `stages()` must hold `N(t + h, u_new)`.
 pub(crate) fn error(tableau: &ExponentialTableau, table: &StepTable, stages: &Stages, out: &mut [f64]) {
-    out.fill(0.0);
     let row = tableau.rows.iter().map(|row| row.1.len()).sum::<usize>() + tableau.weights.len();
-    table.add(tableau.error.unwrap_or(&[]), row, stages, out);
-}
-
-fn scale(factor: &[f64], u: &[f64], out: &mut [f64]) {
-    for ((x, &e), &u) in out.iter_mut().zip(factor).zip(u) {
-        *x = e * u;
-    }
+    table.combine(None, tableau.error.unwrap_or(&[]), row, stages, out);
 }

@@ -1,18 +1,21 @@
-//! The quadratic terms of (C) as direct convolutions: sums run over whole rows of modes, which become vector instructions.
+//! The quadratic terms of (C) as direct convolutions: sums over blocks of modes, which become vector instructions.
 
 use super::MAX_MODES;
-use motiform_dynamics::{Row, Scalar};
+use motiform_dynamics::{ROW_BLOCK, Row, Scalar};
 
-/// Most modes in short rows: rows of [`MAX_MODES`] take longer to clear than to sum.
-const SHORT: usize = 24;
+/// Numbers in short rows: long rows take longer to clear than to sum.
+const SHORT: usize = 24 + ROW_BLOCK;
+
+/// Numbers in long rows. Blocks read up to `ROW_BLOCK - 1` zeros behind the last mode.
+const LONG: usize = MAX_MODES + ROW_BLOCK;
 
 /// `N(u)` of one orbit into `du`, with the coefficients of `(phi_ss^2)_s` and `(phi_s^2)_s`.
 #[inline(always)]
 pub(super) fn in_rows<T: Scalar>(coefficients: (T::Real, Option<T::Real>), u: &[T], du: &mut [T]) {
-    if u.len() / 2 <= SHORT {
+    if u.len() / 2 + ROW_BLOCK <= SHORT {
         in_rows_of::<T, SHORT>(coefficients, u, du);
     } else {
-        in_rows_of::<T, MAX_MODES>(coefficients, u, du);
+        in_rows_of::<T, LONG>(coefficients, u, du);
     }
 }
 
@@ -22,15 +25,15 @@ fn in_rows_of<T: Scalar, const N: usize>(
     u: &[T],
     du: &mut [T],
 ) {
-    let modes = u.len() / 2;
-    let square = convolve(&Rows::<T, N>::derivative(u, 2), modes, 1.0); // phi_ss^2
+    let mut rows = Workspace::<T, N>::new(u[0]);
     for x in du.iter_mut() {
         *x = x.zero();
     }
-    square.add_derivative(bending, du); // (C), g5
+    rows.square_derivative(2, 1.0, u); // phi_ss^2
+    rows.square.add_derivative(bending, du); // (C), g5
     if let Some(stretching) = stretching {
-        let square = convolve(&Rows::<T, N>::derivative(u, 1), modes, -1.0); // phi_s^2
-        square.add_derivative(stretching, du); // (C), g4
+        rows.square_derivative(1, -1.0, u); // phi_s^2
+        rows.square.add_derivative(stretching, du); // (C), g4
     }
 }
 
@@ -46,16 +49,15 @@ impl<T: Scalar, const N: usize> Rows<T, N> {
         Self { re: Row::zeros(like), im: Row::zeros(like) }
     }
 
-    /// `n^power phi_n`.
     #[inline(always)]
-    fn derivative(u: &[T], power: i32) -> Self {
-        let mut rows = Self::zero(u[0]);
-        for (i, mode) in u.chunks_exact(2).enumerate() {
-            let factor = (i as f64 + 1.0).powi(power);
-            rows.re.set(i, mode[0] * factor);
-            rows.im.set(i, mode[1] * factor);
-        }
-        rows
+    fn get(&self, i: usize) -> [T; 2] {
+        [self.re.get(i), self.im.get(i)]
+    }
+
+    #[inline(always)]
+    fn set(&mut self, i: usize, [re, im]: [T; 2]) {
+        self.re.set(i, re);
+        self.im.set(i, im);
     }
 
     /// `rate_n += factor i n rows_n`.
@@ -69,28 +71,99 @@ impl<T: Scalar, const N: usize> Rows<T, N> {
     }
 }
 
-/// `sum_{p+q=n} a_p a_q` over all `p, q` of either sign, for `n = 1 ..= modes`; `a_{-p} = sign conj(a_p)`.
-#[inline(always)]
-fn convolve<T: Scalar, const N: usize>(a: &Rows<T, N>, modes: usize, sign: f64) -> Rows<T, N> {
-    let Rows { mut re, mut im } = Rows::<T, N>::zero(a.re.get(0));
-    for p in 1..modes {
-        let [a_re, a_im] = [a.re.get(p - 1), a.im.get(p - 1)];
-        // a_p a_q, p < q, at n = p + q
-        if 2 * p < modes {
-            Row::add_turned([&mut re, &mut im], 2 * p, [&a.re, &a.im], p..modes - p, [a_re, a_im]);
+/// The rows of a convolution. They are filled where they lie: rows that functions return are copied.
+struct Workspace<T: Scalar, const N: usize> {
+    /// `a_p`.
+    a: Rows<T, N>,
+    /// `a_{-p} = sign conj(a_p)`.
+    conjugate: Rows<T, N>,
+    /// For each block that starts at `first`: zeros in its first half, `a_q` with `q = n - first / 2 - 1` in the second.
+    halves: Rows<T, N>,
+    /// `sum_{p+q=n} a_p a_q` over all `p, q` of either sign.
+    square: Rows<T, N>,
+}
+
+impl<T: Scalar, const N: usize> Workspace<T, N> {
+    #[inline(always)]
+    fn new(like: T) -> Self {
+        Self {
+            a: Rows::zero(like),
+            conjugate: Rows::zero(like),
+            halves: Rows::zero(like),
+            square: Rows::zero(like),
         }
-        // a_{n+p} a_{-p}
-        let conjugate = [a_re * sign, a_im * -sign];
-        Row::add_turned([&mut re, &mut im], 0, [&a.re, &a.im], p..modes, conjugate);
     }
-    for n in 0..modes {
-        re.set(n, re.get(n) * 2.0);
-        im.set(n, im.get(n) * 2.0);
+
+    /// The square of `sum_n n^power phi_n exp(i k_n s)`; `sign` is that of its modes -n.
+    #[inline(always)]
+    fn square_derivative(&mut self, power: i32, sign: f64, u: &[T]) {
+        let modes = u.len() / 2;
+        self.fill(power, sign, u);
+        for first in (0..modes).step_by(ROW_BLOCK) {
+            let sums = convolve_block([&self.a, &self.conjugate, &self.halves], modes, first);
+            for i in 0..ROW_BLOCK {
+                self.square.set(first + i, [sums[0].get(i) * 2.0, sums[1].get(i) * 2.0]);
+            }
+        }
+        for p in 1..modes / 2 + 1 {
+            let ([a, b], [re, im]) = (self.a.get(p - 1), self.square.get(2 * p - 1));
+            self.square.set(2 * p - 1, [re + (a * a - b * b), im + a * b * 2.0]);
+        }
     }
-    for p in 1..=modes / 2 {
-        let [a_re, a_im] = [a.re.get(p - 1), a.im.get(p - 1)];
-        re.set(2 * p - 1, re.get(2 * p - 1) + (a_re * a_re - a_im * a_im));
-        im.set(2 * p - 1, im.get(2 * p - 1) + a_re * a_im * 2.0);
+
+    /// The rows that products are made of.
+    #[inline(always)]
+    fn fill(&mut self, power: i32, sign: f64, u: &[T]) {
+        for (i, mode) in u.chunks_exact(2).enumerate() {
+            let factor = (i as f64 + 1.0).powi(power);
+            let [re, im] = [mode[0] * factor, mode[1] * factor];
+            self.a.set(i, [re, im]);
+            self.conjugate.set(i, [re * sign, im * -sign]);
+        }
+        for first in (0..u.len() / 2).step_by(ROW_BLOCK) {
+            for i in ROW_BLOCK / 2..ROW_BLOCK {
+                self.halves.set(first + i, self.a.get(first + i - (first / 2 + 1)));
+            }
+        }
     }
-    Rows { re, im }
+}
+
+/// Real and imaginary parts of a block of sums.
+type Sums<T, const N: usize> = [<<T as Scalar>::Row<N> as Row<T>>::Block; 2];
+
+/// `sum_{p < q, p+q=n} a_p a_q + sum_p a_{n+p} a_{-p}` for `n = first + 1 ..= first + ROW_BLOCK`, in the order of p: at each p first the product
+/// of the first kind.
+#[inline(always)]
+fn convolve_block<T: Scalar, const N: usize>(
+    [a, conjugate, halves]: [&Rows<T, N>; 3],
+    modes: usize,
+    first: usize,
+) -> Sums<T, N> {
+    let like = a.re.get(0);
+    let mut sums: Sums<T, N> = [Row::zeros(like), Row::zeros(like)];
+    // Products of the first kind are in all places up to p = first / 2, then at one p in half of them.
+    let (whole, turns) = (first / 2, modes - 1 - first);
+    for p in 1..whole.min(turns) + 1 {
+        add(&mut sums, a, first - p, (a, p));
+        add(&mut sums, a, first + p, (conjugate, p));
+    }
+    for p in turns + 1..whole + 1 {
+        add(&mut sums, a, first - p, (a, p));
+    }
+    add(&mut sums, halves, first, (a, whole + 1));
+    for p in whole + 1..turns + 1 {
+        add(&mut sums, a, first + p, (conjugate, p));
+    }
+    sums
+}
+
+/// `sums += a b_p`, with `a` from `start` on.
+#[inline(always)]
+fn add<T: Scalar, const N: usize>(
+    [x, y]: &mut Sums<T, N>,
+    a: &Rows<T, N>,
+    start: usize,
+    (b, p): (&Rows<T, N>, usize),
+) {
+    Row::add_turned([x, y], [&a.re, &a.im], start, b.get(p - 1));
 }
