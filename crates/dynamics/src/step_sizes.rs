@@ -168,7 +168,8 @@ mod tests {
     #[test]
     fn the_change_of_the_exponent_is_that_of_the_factor() {
         let tables = StepTables::new(&KROGSTAD4, &[-1.0]);
-        let errors = (0..20_000).map(|i| libm::exp2(f64::from(i) / 150.0 - 110.0)).chain([0.0, f64::INFINITY]);
+        let errors =
+            (0..20_000).map(|i| libm::exp2(f64::from(i) / 150.0 - 110.0)).chain([0.0, f64::INFINITY]);
         for error in errors {
             let from_factor = exponent(factor(error, KROGSTAD4.order));
             assert_eq!(tables.change(error), from_factor, "after an error of {error}");

@@ -45,12 +45,7 @@ impl<T: Scalar, const N: usize> Row<T> for [T; N] {
     }
 
     #[inline(always)]
-    fn add_turned(
-        sums: [&mut [T; BLOCK]; 2],
-        [a, b]: [&Self; 2],
-        start: usize,
-        by: [T; 2],
-    ) {
+    fn add_turned(sums: [&mut [T; BLOCK]; 2], [a, b]: [&Self; 2], start: usize, by: [T; 2]) {
         let cut = start..start + BLOCK;
         add_products(sums, [&a[cut.clone()], &b[cut]], by);
     }
@@ -109,11 +104,7 @@ impl<T: Scalar, const K: usize, const N: usize> Row<Dual<T, K>> for DualRow<T, K
 
 /// `x += a re - b im`, `y += a im + b re`.
 #[inline(always)]
-fn add_products<T: Scalar>(
-    [x, y]: [&mut [T; BLOCK]; 2],
-    [a, b]: [&[T]; 2],
-    [re, im]: [T; 2],
-) {
+fn add_products<T: Scalar>([x, y]: [&mut [T; BLOCK]; 2], [a, b]: [&[T]; 2], [re, im]: [T; 2]) {
     for i in 0..BLOCK {
         x[i] += a[i] * re - b[i] * im;
         y[i] += a[i] * im + b[i] * re;
