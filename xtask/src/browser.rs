@@ -13,7 +13,8 @@ use std::process::Command;
 /// How the tests are started.
 pub(crate) struct Browser<'a> {
     pub(crate) node: &'a Path,
-    pub(crate) chromium: PathBuf,
+    /// Which browser, and where it is.
+    pub(crate) environment: [(&'static str, PathBuf); 2],
     pub(crate) program: PathBuf,
     /// Where the list of results is written.
     pub(crate) results: PathBuf,
@@ -22,7 +23,7 @@ pub(crate) struct Browser<'a> {
 impl Browser<'_> {
     /// Runs the tests of these files.
     pub(crate) fn test(&self, files: &[PathBuf]) -> Result<()> {
-        let Err(error) = step("browser tests", &mut self.command(files, 2)) else {
+        let Err(error) = step(&format!("tests in {}", self.name()), &mut self.command(files, 2)) else {
             return Ok(());
         };
         let results = std::fs::read_to_string(&self.results).context("the results of the browser tests")?;
@@ -31,9 +32,13 @@ impl Browser<'_> {
             return Err(error); // nothing that could be run once more
         }
         eprintln!("== failed once: {}", tests.join("; "));
-        step("browser tests with a failure, once more", &mut self.command(&failed, 1))?;
+        step(&format!("tests in {} with a failure, once more", self.name()), &mut self.command(&failed, 1))?;
         eprintln!("== passed the second time: {}", tests.join("; "));
         Ok(())
+    }
+
+    fn name(&self) -> std::borrow::Cow<'_, str> {
+        self.environment[0].1.to_string_lossy()
     }
 
     fn command(&self, files: &[PathBuf], at_once: usize) -> Command {
@@ -43,7 +48,10 @@ impl Browser<'_> {
         command.args(["--test", &format!("--test-concurrency={at_once}")]);
         command.args(["--test-reporter=spec", "--test-reporter-destination=stdout", "--test-reporter=tap"]);
         command.arg(results).args(files);
-        command.env("MOTIFORM", &self.program).env("CHROMIUM", &self.chromium);
+        command.env("MOTIFORM", &self.program);
+        for (name, value) in &self.environment {
+            command.env(name, value);
+        }
         command
     }
 }

@@ -1,4 +1,4 @@
-//! The page of `motiform explore`: comparison of the committed page with its sources, and tests in a real browser.
+//! The page of `motiform explore`: comparison of the committed page with its sources, and tests in real browsers.
 
 use crate::browser::Browser;
 use crate::{cargo, root, step, web};
@@ -11,19 +11,31 @@ const NODE: (u32, u32) = (20, 19);
 
 const CHROMIUM: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
-/// Builds the page, compares it with the committed one, and tests the program's own in Chromium.
+const FIREFOX: [&str; 2] = ["firefox-esr", "firefox"];
+
+/// What is tested in Firefox, too: the page without a server, the hand, swarms. The rest asks no other things of a browser.
+const IN_FIREFOX: [&str; 3] = ["alone.test.mjs", "hand.test.mjs", "swarm.test.mjs"];
+
+/// Builds the page, compares it with the committed one, and tests the program's own in Chromium, and in part in Firefox.
 pub(crate) fn test() -> Result<()> {
     let root = root()?.canonicalize()?;
     let folder = root.join("crates/explorer/web");
     let node = node(&root)?;
-    let chromium = chromium()?;
+    let chromium = browser("CHROMIUM", "Chromium", &CHROMIUM)?;
+    let firefox = browser("FIREFOX", "Firefox", &FIREFOX)?;
     npm("page dependencies", &node, &folder, &["ci", "--no-audit", "--no-fund"])?;
     compare(&node, &root, &folder)?;
     web::compare(&node, &root, &folder)?;
     cargo("program", &["build", "--release", "--workspace"])?;
     let program = binary(&root);
     let results = program.with_file_name("browser.tap");
-    Browser { node: &node, chromium, program, results }.test(&files(&folder.join("tests"))?)
+    let mut files = files(&folder.join("tests"))?;
+    let chromium = [("BROWSER", "chromium".into()), ("CHROMIUM", chromium)];
+    let mut browser = Browser { node: &node, environment: chromium, program, results };
+    browser.test(&files)?;
+    files.retain(|file| IN_FIREFOX.iter().any(|name| file.ends_with(name)));
+    browser.environment = [("BROWSER", "firefox".into()), ("FIREFOX", firefox)];
+    browser.test(&files)
 }
 
 /// Builds the page beside the committed one: they must agree byte by byte, since programs are built without Node.
@@ -109,17 +121,17 @@ fn recent(node: &Path) -> Option<PathBuf> {
     (found >= NODE).then(|| path.into())
 }
 
-/// A Chromium: that of `CHROMIUM`, of the path, or of the system's packages.
-fn chromium() -> Result<PathBuf> {
-    if let Some(given) = std::env::var_os("CHROMIUM") {
+/// A browser: that of its variable, of the path, or of the system's packages.
+fn browser(variable: &str, what: &str, names: &[&str]) -> Result<PathBuf> {
+    if let Some(given) = std::env::var_os(variable) {
         return Ok(given.into());
     }
-    let known = || CHROMIUM.into_iter().find_map(on_path);
+    let known = || names.iter().find_map(|name| on_path(name));
     if let Some(found) = known() {
         return Ok(found);
     }
-    install(&["chromium"], "Chromium")?;
-    known().context("Chromium is needed: install it, or name it in CHROMIUM")
+    install(&names[..1], what)?;
+    known().with_context(|| format!("{what} is needed: install it, or name it in {variable}"))
 }
 
 /// The file that a bare name starts.

@@ -160,7 +160,8 @@ fn read_random(value: &Value<'_>) -> Result<Random, Error> {
 fn read_scan(study: &Study, mut table: Table<'_>) -> Result<ScanSettings, Error> {
     let (info, mut scan) = (study.info()?, study.scan.clone());
     if let Some(value) = table.take("axes") {
-        scan.axes = read_axes(info, &value)?;
+        let values = study.values()?;
+        scan.axes = read_axes(&value, |axis| axis.varies_start(info, &values).map(|_| ()))?;
     }
     table.whole("samples", &mut scan.samples)?;
     table.number("budget", &mut scan.budget)?;
@@ -168,11 +169,11 @@ fn read_scan(study: &Study, mut table: Table<'_>) -> Result<ScanSettings, Error>
     Ok(scan)
 }
 
-/// Axes along parameters of the model.
-fn read_axes(info: &ModelInfo, value: &Value<'_>) -> Result<Vec<Axis>, Error> {
+/// Axes with names that are right.
+fn read_axes(value: &Value<'_>, check: impl Fn(&Axis) -> Result<(), Error>) -> Result<Vec<Axis>, Error> {
     let axis = |text: &String| {
         let axis = Axis::parse(text)?;
-        motiform_models::parameters::index_of(info.parameters(), info.name, &axis.name)?;
+        check(&axis)?;
         Ok(axis)
     };
     value.texts()?.iter().map(axis).collect::<Result<_, Error>>().map_err(|error| value.error(error))
@@ -183,8 +184,13 @@ fn read_display(study: &Study, mut table: Table<'_>) -> Result<DisplaySettings, 
     table.number("sample", &mut display.sample)?;
     table.number("speed", &mut display.speed)?;
     if let Some(value) = table.take("plane") {
-        display.plane = read_axes(study.info()?, &value)?;
-        check_plane(study.info()?, &display.plane).map_err(|error| value.error(error))?;
+        let info = study.info()?;
+        let parameter = |axis: &Axis| {
+            motiform_models::parameters::index_of(info.parameters(), info.name, &axis.name)?;
+            Ok(())
+        };
+        display.plane = read_axes(&value, parameter)?;
+        check_plane(info, &display.plane).map_err(|error| value.error(error))?;
     }
     table.finish()?;
     check_display(&display)?;

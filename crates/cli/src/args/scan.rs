@@ -1,6 +1,6 @@
 //! Options of `scan` and `merge`.
 
-use super::{SubjectOptions, number, random, whole};
+use super::{SubjectOptions, assignment, number, random, whole};
 use clap::Args;
 use motiform_study::Random;
 use std::path::PathBuf;
@@ -9,9 +9,14 @@ use std::path::PathBuf;
 pub(crate) struct ScanOptions {
     #[command(flatten)]
     pub(crate) subject: SubjectOptions,
-    /// Vary a parameter (once or twice): NAME=LOW:HIGH:COUNT, both ends included, or NAME=v1,v2,v3
+    /// Vary a parameter, or a coordinate of the initial shape for a map of basins (once or twice): NAME=LOW:HIGH:COUNT, both ends included,
+    /// or NAME=v1,v2,v3
     #[arg(long = "axis", value_name = "NAME=LOW:HIGH:COUNT")]
     pub(crate) axes: Vec<String>,
+    /// Set an initial value (repeatable) of the first initial state of every cell; values not given are 0. Without any, and without a
+    /// coordinate on an axis, that one is small and random
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
+    pub(crate) initial: Vec<(String, f64)>,
     /// Initial states per cell (default: 1); if more than one, they have all sizes of --random
     #[arg(long, value_name = "M", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) samples: Option<u64>,

@@ -62,6 +62,9 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
 fn study(options: &ScanOptions) -> Result<Study, Error> {
     let mut study = subject::study(&options.subject)?;
     subject::note_noise(&study);
+    for (name, value) in &options.initial {
+        study.set_initial(name, *value)?;
+    }
     let scan = &mut study.scan;
     if !options.axes.is_empty() {
         scan.axes = options.axes.iter().map(|text| Axis::parse(text)).collect::<Result<_, _>>()?;
@@ -112,12 +115,10 @@ fn summary(folder: &ScanFolder, totals: &Totals) -> anyhow::Result<String> {
     }
     let (cells, samples) = (totals.cells, plan.computation.samples);
     writeln!(text, "cells     {cells} of {}, {samples} initial states each", plan.cells())?;
-    writeln!(
-        text,
-        "          random ones {}, seed {}",
-        plan.computation.random.words(),
-        plan.computation.seed
-    )?;
+    if samples > 1 || plan.draws_first()? {
+        let (random, seed) = (plan.computation.random.words(), plan.computation.seed);
+        writeln!(text, "          random ones {random}, seed {seed}")?;
+    }
     for (regime, rows) in totals.regimes() {
         let share = 100.0 * rows as f64 / totals.rows as f64;
         writeln!(text, "          {:14} {rows} rows ({share:.1} %)", regime.name())?;

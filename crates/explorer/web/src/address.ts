@@ -1,5 +1,6 @@
 /** The whole state of the page as readable `key=value` pairs behind the # of its address. */
 
+import { side } from "./map/sides";
 import { MOST_NOISE } from "./controls";
 import { plain } from "./numbers";
 import { Tour } from "./tour/tour";
@@ -111,7 +112,7 @@ class Reader {
     const axis = (text: string): Axis | null => {
       const [name, low, high] = text.split(":");
       const [a, b] = [finite(low ?? ""), finite(high ?? "")];
-      return model.parameters.some((one) => one.name === name) && a !== null && b !== null && a < b ? { name, low: a, high: b } : null;
+      return side(model, name) && a !== null && b !== null && a < b ? { name, low: a, high: b } : null;
     };
     const x = this.take("x", axis);
     const y = this.take("y", (text) => (text === "none" ? "none" : axis(text)));

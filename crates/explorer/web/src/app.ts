@@ -18,6 +18,7 @@ import { Later } from "./later";
 import type { Connect, Transport } from "./listener";
 import { Loop } from "./loop";
 import { MapPanel } from "./map/panel";
+import { apart } from "./map/sides";
 import { pretty, typeset } from "./numbers";
 import { Opening } from "./opening";
 import { ParameterPanel } from "./parameters";
@@ -103,7 +104,8 @@ export class App implements Hearer {
       upon: this.branches,
       send,
       ...known,
-      choose: (values) => this.choose(values),
+      parameters: () => ({ ...this.session?.parameters, ...this.session?.start }),
+      choose: (values) => this.chooseOnMap(values),
       moves: () => this.undo.note("window"),
       moved: () => this.windowMoved(),
     });
@@ -142,7 +144,7 @@ export class App implements Hearer {
   private send(wish: Wish): void {
     if (!this.greeted) return;
     if (wish.do === "noise") this.undo.note("noise");
-    else if (wish.do === "kick" || wish.do === "restart" || wish.do === "place") this.undo.note("");
+    else if (wish.do === "kick" || wish.do === "restart" || wish.do === "start" || wish.do === "place") this.undo.note("");
     this.connection.send(wish);
   }
 
@@ -401,6 +403,17 @@ export class App implements Hearer {
     this.mapStale ||= off.length > 0;
     if (off.some((name) => name !== this.branches.along)) this.branches.forget();
     this.keeper.changed();
+  }
+
+  /** Parameters, and coordinates at which the body begins again. */
+  private chooseOnMap(values: Values): void {
+    if (!this.session) return;
+    const { parameters, start } = apart(this.session.model, values);
+    if (Object.keys(parameters).length) this.choose(parameters);
+    if (Object.keys(start).length === 0) return;
+    Object.assign(this.session.start, start);
+    this.send({ do: "start", coordinates: this.session.start });
+    this.map.touch();
   }
 
   private flush(now: number): void {

@@ -9,6 +9,10 @@ const KEYS: [string, [string, string][]][] = [
     ["k", "random kick of the shape, of the strength of the slider"],
     ["f", "keep the body in view, or not"],
   ]],
+  ["The body, with the focus on it", [
+    ["\u2190 \u2192 \u2191 \u2193", "put the body elsewhere; with Shift throw it"],
+    ["o, i", "pull the outline out in front, push it in; with Shift at the side"],
+  ]],
   ["The map, with the focus on it", [
     ["\u2190 \u2192 \u2191 \u2193", "move the parameters of the body by one cell; with Shift by eight"],
     ["+ \u2212", "zoom"],

@@ -20,13 +20,18 @@ export interface Parameter {
   whole: boolean;
 }
 
+export interface Coordinate {
+  name: string;
+  meaning: string;
+}
+
 export interface Observable {
   name: string;
   symbol: string;
   meaning: string;
 }
 
-/** An axis of the map: a parameter and the part of it that is shown. */
+/** An axis of the map: a parameter or a coordinate of the start, and the part of it that is shown. */
 export interface Axis {
   name: string;
   low: number;
@@ -47,6 +52,7 @@ export interface Model {
   budget: number;
   look: number;
   parameters: Parameter[];
+  coordinates: Coordinate[];
   observables: Observable[];
   plane: Plane;
   noise: number;
@@ -392,6 +398,7 @@ export type Wish =
   | { do: "put"; parameters: Values; state: number[] | null; position: [number, number] | null; velocity: [number, number] | null; t: number | null; noise: number | null }
   | { do: "pull"; state: number[]; to: [number, number] }
   | { do: "restart" }
+  | { do: "start"; coordinates: Values }
   | { do: "advance"; dt: number }
   | { do: "strips"; section: Section; y: number | null }
   | { do: "returns"; section: Section; y: number | null; count: number }

@@ -12,6 +12,8 @@ export class Session {
   base: Values = {};
   /** As the reader has them now; the server may still refuse. */
   parameters: Values = {};
+  /** Coordinates at which the body began, where the reader chose them. */
+  start: Values = {};
   /** As the server has them. */
   private confirmed: Values = {};
   noise = 0;
@@ -35,6 +37,7 @@ export class Session {
     this.base = { ...defaults, ...this.preset?.parameters };
     this.parameters = { ...this.base, ...parameters };
     this.confirmed = this.parameters;
+    this.start = {};
     this.underway = null;
     this.wanted = {};
   }

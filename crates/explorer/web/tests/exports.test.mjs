@@ -8,7 +8,7 @@ import { delimiter, join } from "node:path";
 import { test } from "node:test";
 import { assertAllFiles, assertSvg } from "./files.mjs";
 import { binary } from "./server.mjs";
-import { LIGHT, stage, upon } from "./stage.mjs";
+import { LIGHT, saved, stage, upon } from "./stage.mjs";
 import { moves } from "./waits.mjs";
 
 const it = stage();
@@ -30,9 +30,9 @@ test("every button of Share and keep gives a valid file", upon(it, { hash: "pres
 test("a panel's own button saves its figure", upon(it, { hash: LIGHT }, async ({ page, wire, browser }) => {
   await moves(page, wire);
   await page.locator('details.save[data-figure="path"] > summary').click();
-  const [download] = await Promise.all([page.waitForEvent("download"), page.locator('[data-save="path.svg"]').click()]);
+  const { path } = await saved(page, page.locator('[data-save="path.svg"]'));
   const judge = await browser.newPage();
-  await assertSvg(judge, readFileSync(await download.path(), "utf8"));
+  await assertSvg(judge, readFileSync(path, "utf8"));
   await judge.close();
 }));
 

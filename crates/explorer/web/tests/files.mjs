@@ -2,10 +2,9 @@
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { readFileSync } from "node:fs";
 import { binary } from "./server.mjs";
+import { saved } from "./stage.mjs";
 
 /** Chunks of a PNG: kind and data. */
 function chunks(bytes) {
@@ -65,12 +64,9 @@ async function assertFile(judge, what, path) {
 export async function assertAllFiles(page, judge) {
   const files = await page.locator("[data-export]:visible").evaluateAll((all) => all.map((one) => one.dataset.export));
   assert.ok(files.length >= 16, files.join());
-  const folder = mkdtempSync(join(tmpdir(), "motiform-files-"));
   for (const what of files) {
-    const [download] = await Promise.all([page.waitForEvent("download"), page.locator(`[data-export="${what}"]`).click()]);
-    assert.equal(download.suggestedFilename(), what === "study.toml" ? download.suggestedFilename() : `motiform-fig5b-${what}`);
-    const path = join(folder, what);
-    await download.saveAs(path);
+    const { name, path } = await saved(page, page.locator(`[data-export="${what}"]`));
+    assert.equal(name, what === "study.toml" ? name : `motiform-fig5b-${what}`);
     await assertFile(judge, what, path);
   }
 }

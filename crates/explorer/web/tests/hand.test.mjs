@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { LIGHT, shoot, stage, upon } from "./stage.mjs";
+import { LIGHT, onlyIn, shoot, stage, upon } from "./stage.mjs";
 import { changed, mapped, moves, number, pictures, seen, slide, slider, stands, until } from "./waits.mjs";
 
 const it = stage();
@@ -77,7 +77,7 @@ test("the inside is carried to another place, and thrown where the hand lets go 
   assert.deepEqual([...wire.frame.state].slice(2), [...before.state].slice(2), "the shape stays");
 }));
 
-test("with a finger, too, and the page does not scroll", upon(it, { hash: LIGHT, ...PHONE }, async ({ page, wire }) => {
+test("with a finger, too, and the page does not scroll", onlyIn("chromium", "touches"), upon(it, { hash: LIGHT, ...PHONE }, async ({ page, wire }) => {
   const before = await paused(page, wire);
   await page.evaluate(() => window.scrollTo(0, 0));
   await pictures(page, 5);
@@ -91,6 +91,27 @@ test("with a finger, too, and the page does not scroll", upon(it, { hash: LIGHT,
   await until(() => Math.abs(wire.frame.y - (before.y - 40 / scale)) < 0.1, "the body to be carried");
   assert.equal(await page.evaluate(() => window.scrollY), 0);
   assert.equal(await page.locator("#follow").getAttribute("aria-pressed"), "true");
+}));
+
+test("by keys the body is put elsewhere, thrown, and its outline pulled", upon(it, { hash: LIGHT }, async ({ page, wire }) => {
+  const before = await paused(page, wire);
+  const press = async (key) => {
+    const { revision } = await stands(page, wire);
+    await page.locator("#body").focus();
+    await page.keyboard.press(key);
+    return changed(wire, revision);
+  };
+  const put = await press("ArrowRight");
+  assert.ok(put.x > before.x && put.y === before.y && put.t === before.t);
+  assert.deepEqual(put.state, before.state);
+  const thrown = await press("Shift+ArrowUp");
+  assert.ok(thrown.state[0] === 0 && thrown.state[1] > 0, `${thrown.state}`);
+  assert.deepEqual([thrown.x, thrown.y, ...thrown.state.slice(2)], [put.x, put.y, ...put.state.slice(2)]);
+  const pulled = await press("o");
+  assert.deepEqual(pulled.state.slice(0, 2), thrown.state.slice(0, 2), "the velocity stays");
+  assert.notDeepEqual(pulled.state, thrown.state);
+  await page.keyboard.press("Control+z");
+  await until(() => wire.frame.state.every((value, k) => value === thrown.state[k]), "the shape before the pull");
 }));
 
 test("kicks have a strength", upon(it, { hash: LIGHT }, async ({ page, wire }) => {

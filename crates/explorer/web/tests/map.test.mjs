@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { stage, upon } from "./stage.mjs";
+import { saved, stage, upon } from "./stage.mjs";
 import { changed, mapped, moves, named, number, pictures, pixel, seen, stands, until } from "./waits.mjs";
 
 /** Points of the plane of figure 4, well inside their regions. */
@@ -46,6 +46,25 @@ function assertNoJump(wire, after) {
   const speed = Math.hypot(before.state[0], before.state[1]); // of the tensor model: v1, v2 come first
   assert.ok(dt >= 0 && way <= 3 * speed * dt + 1e-9, `a jump of ${way} in ${dt}`);
 }
+
+test("basins: a map of starts, whose click lets the body begin there", upon(it, { hash: "preset=fig4&kappa2=0.12&kappa3=0.45&x=v1:-1.5:1.5&y=u222:-1.5:1.5&play=0" }, async ({ page, wire }) => {
+  await mapped(page);
+  const names = await page.locator("#map-legend li").allTextContents();
+  for (const name of ["circular", "chaotic"]) assert.ok(names.some((text) => text.includes(name)), `${names}`);
+  const before = wire.frame;
+  await click(page, [0.8, -1]);
+  const after = await changed(wire, before.revision);
+  const begun = wire.said.get("start").coordinates;
+  assert.deepEqual([after.t, after.x, after.y], [0, 0, 0]);
+  assert.deepEqual([after.state[0], after.state[5]], [begun.v1, begun.u222]);
+  assert.ok(Math.abs(begun.v1 - 0.8) < 0.02 && Math.abs(begun.u222 + 1) < 0.02, JSON.stringify(begun));
+  const [x, y] = await pixel(page, begun.v1, begun.u222);
+  await page.mouse.move(x + 1, y);
+  await until(() => wire.last.get("evidence")?.regime, "the verdict of the cell");
+  assert.equal(await named(page), wire.last.get("evidence").regime, "the body does what its start is coloured by");
+  await page.locator("#y-axis").selectOption("kappa2");
+  await until(() => wire.last.get("map").y.name === "kappa2" && wire.last.get("map").x.name === "v1", "a parameter on the other axis");
+}));
 
 test("a click keeps the state of a paused body to the bit", upon(it, { hash: `preset=fig5a&${WINDOW}` }, async ({ page, wire }) => {
   await moves(page, wire);
@@ -130,12 +149,6 @@ test("other axes, and none", upon(it, { hash: `preset=fig5a&${WINDOW}` }, async 
   await until(() => wire.last.get("map")?.x.name === "kappa2", "the map of the preset again");
 }));
 
-/** By the map's own menu. */
-async function saveExponents(page) {
-  await page.locator('details.save[data-figure="map"] > summary').click();
-  await page.locator('[data-save="map-exponents.svg"]').click();
-}
-
 test("along one axis the exponents stand above the strip", upon(it, { hash: "preset=fig5b&x=kappa2:0.45:0.6&y=none" }, async ({ page, wire }) => {
   await seen(page, wire);
   await mapped(page);
@@ -149,8 +162,9 @@ test("along one axis the exponents stand above the strip", upon(it, { hash: "pre
     return count;
   });
   assert.ok(dots > 100, `${dots} pixels`);
-  const [download] = await Promise.all([page.waitForEvent("download"), saveExponents(page)]);
-  assert.equal(download.suggestedFilename(), "motiform-fig5b-map-exponents.svg");
+  await page.locator('details.save[data-figure="map"] > summary').click();
+  const { name } = await saved(page, page.locator('[data-save="map-exponents.svg"]'));
+  assert.equal(name, "motiform-fig5b-map-exponents.svg");
 }));
 
 test("the window stays within what the model allows", upon(it, { hash: "preset=fig6b" }, async ({ page, wire }) => {

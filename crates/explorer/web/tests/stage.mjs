@@ -1,11 +1,11 @@
 /** One server and one browser for the tests of a file, and pages that forgive no error. */
 
 import assert from "node:assert/strict";
-import { existsSync, mkdirSync, mkdtempSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { delimiter, join } from "node:path";
 import { after, before } from "node:test";
-import { chromium } from "playwright-core";
+import { chromium, firefox } from "playwright-core";
 import { Server } from "./server.mjs";
 import { Wire } from "./wire.mjs";
 
@@ -15,7 +15,14 @@ export const PATIENCE = Number(process.env.MOTIFORM_PATIENCE ?? 60_000);
 /** The body of figure 5(a) beside a map that costs next to nothing, for tests of something else. */
 export const LIGHT = "preset=fig5a&x=kappa2:1.2:1.6&y=kappa3:0.7:1";
 
-const NAMES = ["chromium", "chromium-browser", "google-chrome"];
+/** The browser of this run: `BROWSER=firefox` for the other one. */
+const FIREFOX = process.env.BROWSER === "firefox";
+
+const NAMES = FIREFOX ? ["firefox-esr", "firefox"] : ["chromium", "chromium-browser", "google-chrome"];
+
+/** Why a test is not for this run's browser: what it asks for, Firefox does not offer to those who drive it. */
+export const onlyIn = (browser, what) => ({ skip: FIREFOX === (browser === "firefox") ? false : `${what}: only in ${browser}` });
+
 /** How Chromium runs on a machine without a screen, without asking anybody anything. */
 export const FLAGS = [
   "--no-sandbox",
@@ -27,18 +34,19 @@ export const FLAGS = [
   "--disable-sync",
 ];
 
-/** Chromium with a new, empty profile. */
+/** The browser with a new, empty profile. */
 export async function launch(more = []) {
+  if (FIREFOX) return firefox.launch({ executablePath: executable(), headless: true, channel: "moz-firefox" });
   return chromium.launch({ executablePath: executable(), headless: true, args: [...FLAGS, ...more] });
 }
 
-/** The Chromium to use. */
+/** The program of the browser. */
 export function executable() {
-  const given = process.env.CHROMIUM;
+  const given = process.env[FIREFOX ? "FIREFOX" : "CHROMIUM"];
   if (given) return given;
   const folders = (process.env.PATH ?? "").split(delimiter);
   const found = folders.flatMap((folder) => NAMES.map((name) => join(folder, name))).find((path) => existsSync(path));
-  assert.ok(found, "no Chromium: install it (Debian: apt-get install chromium), or name one in CHROMIUM");
+  assert.ok(found, `no ${NAMES[0]}: install it (Debian: apt-get install ${NAMES[0]}), or name one in ${FIREFOX ? "FIREFOX" : "CHROMIUM"}`);
   return found;
 }
 
@@ -71,6 +79,7 @@ export async function visit({ browser, server }, { hash = "", tolerate = null, a
   const page = await place.newPage();
   page.setDefaultTimeout(PATIENCE);
   const [wire, faults] = [new Wire(page), []];
+  if (FIREFOX) await wire.listenInside(page);
   page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
   page.on("pageerror", (error) => faults.push(error.stack ?? String(error)));
   const own = [new URL(address).origin, new URL(address).origin.replace("http", "ws"), "data:", `blob:${new URL(address).origin}`];
@@ -79,10 +88,49 @@ export async function visit({ browser, server }, { hash = "", tolerate = null, a
   await page.goto(hash ? `${address.replace(/#.*/, "")}#${hash}` : address);
   const leave = async () => {
     await place.close();
-    assert.deepEqual(faults.filter((text) => !tolerate?.test(text)), []);
+    assert.deepEqual(faults.filter((text) => !tolerate?.test(text) && !(FIREFOX && DRIVERS.test(text))), []);
   };
   return { page, wire, leave };
 }
+
+/**
+ * The file that a click saves: its name and where it lies. Firefox tells nobody of a download that the page itself starts, so there
+ * the link is read that the page would follow.
+ */
+export async function saved(page, button) {
+  const folder = mkdtempSync(join(tmpdir(), "motiform-saved-"));
+  const path = join(folder, "file");
+  if (!FIREFOX) {
+    const [download] = await Promise.all([page.waitForEvent("download"), button.click()]);
+    await download.saveAs(path);
+    return { name: download.suggestedFilename(), path };
+  }
+  await page.evaluate(catchLink);
+  await button.click();
+  const { name, base64 } = await page.evaluate(() => window.saved);
+  writeFileSync(path, Buffer.from(base64, "base64"));
+  return { name, path };
+}
+
+/** In the page: the next link that a script follows is read, and not followed. */
+function catchLink() {
+  const { click } = HTMLAnchorElement.prototype;
+  window.saved = new Promise((resolve, reject) => {
+    HTMLAnchorElement.prototype.click = function () {
+      HTMLAnchorElement.prototype.click = click;
+      const name = this.download;
+      const read = async () => {
+        const reader = new FileReader();
+        reader.addEventListener("load", () => resolve({ name, base64: reader.result.split(",")[1] }));
+        reader.readAsDataURL(await (await fetch(this.href)).blob());
+      };
+      read().catch(reject);
+    };
+  });
+}
+
+/** To take a picture in Firefox, Playwright adds a style to the page, which the page does not allow. */
+const DRIVERS = /Content-Security-Policy.*inline style \(style-src-elem\)|^undefined$/;
 
 let folder = null;
 

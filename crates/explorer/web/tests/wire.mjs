@@ -33,6 +33,18 @@ export class Wire {
     });
   }
 
+  /** Listens from inside the page, before it has begun: Firefox tells those who drive it nothing of a WebSocket. */
+  async listenInside(page) {
+    await page.exposeFunction("overheard", (messages) => {
+      for (const { sent, text, base64 } of messages) {
+        if (sent) this.#say(text);
+        else if (base64) this.#take(Buffer.from(base64, "base64"));
+        else this.#hear(text);
+      }
+    });
+    await page.addInitScript(overhear);
+  }
+
   /** How often the page said this. */
   count(verb) {
     return this.sent.get(verb) ?? 0;
@@ -64,6 +76,25 @@ export class Wire {
     this.frames.push(frame(bytes));
     if (this.frames.length > MOST) this.frames.shift();
   }
+}
+
+/** In the page: every message of every WebSocket goes to `overheard`, some at a time. */
+function overhear() {
+  const waiting = [];
+  const pass = () => waiting.length && window.overheard(waiting.splice(0));
+  window.setInterval(pass, 30);
+  const base64 = (bytes) => btoa(Array.from(new Uint8Array(bytes), (byte) => String.fromCharCode(byte)).join(""));
+  window.WebSocket = class extends window.WebSocket {
+    constructor(...where) {
+      super(...where);
+      this.addEventListener("message", ({ data }) => waiting.push(typeof data === "string" ? { text: data } : { base64: base64(data) }));
+    }
+
+    send(text) {
+      waiting.push({ sent: true, text });
+      super.send(text);
+    }
+  };
 }
 
 /** The bodies of a swarm. */

@@ -111,7 +111,7 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary]) -> Vec<Stri
     let computed =
         if count < all { format!("{count} of {all} cells are computed") } else { format!("{all} cells") };
     let random = format!("{}, seed {}", c.random.words(), c.seed);
-    let states = match (c.samples, c.initial.is_empty()) {
+    let states = match (c.samples, plan.draws_first().unwrap_or(true)) {
         (1, false) => "one initial state each, the given one".to_owned(),
         (1, true) => format!("one random initial state each, {random}"),
         (samples, false) => format!("{samples} initial states each, the given one and random ones, {random}"),
@@ -121,11 +121,11 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary]) -> Vec<Stri
     vec![words::named(info, &c.parameters), format!("{computed}, {states}. {method}")]
 }
 
-/// Notation of a parameter in figures.
+/// Notation of a parameter in figures, or of a coordinate of the start.
 #[must_use]
 pub fn symbol(info: &ModelInfo, name: &str) -> String {
     let spec = info.parameters().iter().find(|spec| spec.name == name);
-    spec.map_or_else(|| name.to_owned(), |spec| spec.symbol.to_owned())
+    spec.map_or_else(|| format!("{name} at the start"), |spec| spec.symbol.to_owned())
 }
 
 /// Cell centres in the order of an axis.

@@ -116,7 +116,11 @@ pub(super) fn to_columns(plan: &ScanPlan, rows: &[Row]) -> Vec<Column> {
     ];
     for (place, axis) in plan.computation.axes.iter().enumerate() {
         let values = rows.iter().map(|row| plan.axis_values(row.cell)[place]).collect();
-        columns.push(Column::new(&axis.name, "the parameter", Values::Number(values)));
+        columns.push(Column::new(
+            &axis.name,
+            "the parameter, or the coordinate of the start",
+            Values::Number(values),
+        ));
     }
     columns.push(Column::new("regime", "the motion", text(|row| row.regime.name())));
     columns.push(Column::new("attractor", "the kind of reduced attractor", text(|row| row.attractor.name())));

@@ -3,6 +3,7 @@
 mod amplitude_lanes;
 mod amplitudes;
 mod analytic_diagram;
+mod basins;
 mod common;
 mod ensemble;
 mod files;

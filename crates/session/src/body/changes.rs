@@ -117,6 +117,24 @@ impl Setting {
         disturbed
     }
 
+    /// The body at its initial state, without the transient, but with these coordinates.
+    pub(super) fn started(&self, coordinates: &BTreeMap<String, f64>, radius: f64) -> Result<Self, Error> {
+        let (plan, model) = (Plan::new(self.study())?, self.model());
+        let info = plan.info()?;
+        let parameters = plan.computation.parameters.values();
+        let state = start(&plan, model);
+        let (shape, position) = state.split_at(model.dim());
+        let mut values = decode(model, shape);
+        for (name, value) in coordinates {
+            check("start", *value, value.is_finite(), "give a finite number")?;
+            if let Some(entry) = values.get_mut(info.coordinate(&parameters, name)?) {
+                *entry = *value;
+            }
+        }
+        let state = state_of(model, &values, [position[0], position[1]])?;
+        self.changed(self.study().clone(), 0.0, state, radius)
+    }
+
     /// The body at its initial state, without the transient.
     pub(super) fn restarted(&self, radius: f64) -> Result<Self, Error> {
         let plan = Plan::new(self.study())?;

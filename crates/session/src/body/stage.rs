@@ -12,7 +12,7 @@ use crate::frames::Frame;
 use crate::map::{Job, MapFile};
 use crate::protocol::{
     Advance, Ask, Begin, BranchPoint, Cell, Define, Ended, Export, Follow, Kick, MapWindow, Noise, Pull, Put,
-    ReturnsAhead, Said, Section, Set, Share, Source, Swarm,
+    ReturnsAhead, Said, Section, Set, Share, Source, Start, Swarm,
 };
 use crate::share;
 use motiform_dynamics::{InPlane, Model, Outcome, Outline};
@@ -111,6 +111,7 @@ impl<'s> Stage<'s> {
             Ask::Put(put) => return Ok(Some(self.put(&put))),
             Ask::Pull(pull) => return Ok(Some(self.pull(&pull))),
             Ask::Restart(_) => return Ok(Some(self.restart())),
+            Ask::Start(start) => return Ok(Some(self.start(&start))),
         }
         Ok(None)
     }
@@ -360,6 +361,10 @@ impl<'s> Stage<'s> {
 
     fn restart(&self) -> Change {
         Ok(told(self.setting.restarted(self.radius)?))
+    }
+
+    fn start(&self, start: &Start) -> Change {
+        Ok(told(self.setting.started(&start.coordinates, self.radius)?))
     }
 }
 

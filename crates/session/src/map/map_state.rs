@@ -6,12 +6,14 @@ use super::shipped::Table;
 use super::store::Store;
 use crate::protocol::Side;
 use motiform_lab::scan::{Axis, Row, ScanComputation};
-use motiform_models::ModelInfo;
-use motiform_models::parameters::{ParameterSpec, index_of};
+use motiform_models::parameters::index_of;
 use motiform_study::{Error, Plan, ScanPlan, Study};
 
 /// Maximum and minimum number of cells along an axis.
 const COUNTS: (u16, u16) = (8, 160);
+
+/// No window reaches further.
+const LARGEST: f64 = 1e9;
 
 /// The computed rows of a plane, and its visible window.
 #[derive(Default)]
@@ -49,7 +51,9 @@ impl Present {
         let values = study.values().ok()?;
         let mut place = [0; 2];
         for (axis, (side, along)) in self.sides.iter().zip(&self.plan.computation.axes).enumerate() {
-            let value = values[specs.iter().position(|spec| spec.name == along.name)?];
+            let parameter = specs.iter().position(|spec| spec.name == along.name);
+            let start = || study.initial.iter().find(|(name, _)| *name == along.name).map(|entry| entry.1);
+            let value = parameter.map(|place| values[place]).or_else(start)?;
             let number = ((value - side.values.first()?) / side.step).round();
             place[axis] = (0.0..side.values.len() as f64).contains(&number).then_some(number as u16)?;
         }
@@ -77,11 +81,10 @@ impl MapState {
 
     /// Switches to the window of a job. Computed rows are kept if the plane is the same. Those of a new one may be among `shipped`.
     pub(super) fn turn(&mut self, job: &Job, shipped: &[&str]) -> Result<(), Error> {
-        let info = job.study.info()?;
         let sides: Vec<&Side> = std::iter::once(&job.window.x).chain(&job.window.y).collect();
-        let specs = sides.iter().map(|side| spec(info, side)).collect::<Result<Vec<_>, _>>()?;
+        let ranges = sides.iter().map(|side| Range::of(&job.study, side)).collect::<Result<Vec<_>, _>>()?;
         let count = usize::from(job.window.count.clamp(COUNTS.0, COUNTS.1));
-        let plane = plane(&job.study, info, &sides)?;
+        let plane = plane(&job.study, &sides)?;
         if self.plane.as_ref() != Some(&plane) {
             *self = Self::default();
             let mut window: Vec<[f64; 2]> = sides.iter().map(|side| [side.low, side.high]).collect();
@@ -89,14 +92,13 @@ impl MapState {
                 table.rows.into_iter().for_each(|(at, row)| self.store.put(&at, row));
                 window = table.window;
             }
-            let lattice =
-                |([low, high], spec): (&[f64; 2], &&ParameterSpec)| Lattice::new(*low, *high, spec.whole);
-            self.lattices = window.iter().zip(&specs).map(lattice).collect();
+            let lattice = |([low, high], range): (&[f64; 2], &Range)| Lattice::new(*low, *high, range.whole);
+            self.lattices = window.iter().zip(&ranges).map(lattice).collect();
             self.plane = Some(plane);
         }
-        let within = self.lattices.iter().zip(sides.iter().zip(&specs));
+        let within = self.lattices.iter().zip(sides.iter().zip(&ranges));
         let cells: Vec<Cells> = within
-            .map(|(lattice, (side, spec))| lattice.cells((side.low, side.high), count, spec.allowed))
+            .map(|(lattice, (side, range))| lattice.cells((side.low, side.high), count, range.allowed))
             .collect();
         let axes = sides.iter().zip(&cells).map(|(side, cells)| axis(side, cells.values.clone())).collect();
         let plan = ScanPlan::new(&of_map(&job.study, axes)?)?;
@@ -121,15 +123,33 @@ fn axis(side: &Side, values: Vec<f64>) -> Axis {
     Axis { name: side.name.clone(), values }
 }
 
-/// The parameter of a valid side.
-fn spec(info: &'static ModelInfo, side: &Side) -> Result<&'static ParameterSpec, Error> {
-    let spec = &info.parameters()[index_of(info.parameters(), info.name, &side.name)?];
-    if side.low < side.high && side.low.abs().max(side.high.abs()) < 1e9 && side.high - side.low > 1e-12 {
-        return Ok(spec);
+/// What the values along a side may be.
+struct Range {
+    allowed: (f64, f64),
+    whole: bool,
+    /// A value that every model takes.
+    typical: f64,
+}
+
+impl Range {
+    /// That of a valid side: a parameter, or a coordinate of the start.
+    fn of(study: &Study, side: &Side) -> Result<Self, Error> {
+        let info = study.info()?;
+        let varies_start = axis(side, Vec::new()).varies_start(info, &study.values()?)?;
+        if !(side.low < side.high
+            && side.low.abs().max(side.high.abs()) < LARGEST
+            && side.high - side.low > 1e-12)
+        {
+            let problem =
+                format!("a window from {} to {} cannot be shown: zoom out, or go back", side.low, side.high);
+            return Err(Error::Axis { text: side.name.clone(), problem });
+        }
+        if varies_start {
+            return Ok(Self { allowed: (-LARGEST, LARGEST), whole: false, typical: 0.0 });
+        }
+        let spec = &info.parameters()[index_of(info.parameters(), info.name, &side.name)?];
+        Ok(Self { allowed: spec.allowed, whole: spec.whole, typical: spec.default })
     }
-    let problem =
-        format!("a window from {} to {} cannot be shown: zoom out, or go back", side.low, side.high);
-    Err(Error::Axis { text: side.name.clone(), problem })
 }
 
 /// The study of a map: one start for all cells, that of `motiform classify` with the same parameters.
@@ -137,9 +157,17 @@ fn of_map(study: &Study, axes: Vec<Axis>) -> Result<Study, Error> {
     let mut study = study.clone();
     study.run.silence();
     study.title = format!("Motions of the {} model", study.model); // a preset's is that of one motion
-    // The number of modes decides which coordinates there are: each cell then draws its own.
-    if study.initial.is_empty() && !axes.iter().any(|axis| axis.name == "modes") {
-        study.initial = Plan::new(&study)?.computation.initial.0;
+    let (info, values) = (study.info()?, study.values()?);
+    let mut varies_start = false;
+    for axis in &axes {
+        varies_start |= axis.varies_start(info, &values)?;
+    }
+    // The number of modes decides which coordinates there are: each cell then draws its own. Where the start itself is on the axes, what is
+    // not there must not depend on the window.
+    if varies_start || study.initial.is_empty() && !axes.iter().any(|axis| axis.name == "modes") {
+        study.scan.axes = Vec::new();
+        let complete = if varies_start { study.perturbed()?.0 } else { study.clone() };
+        study.initial = Plan::new(&complete)?.computation.initial.0;
     }
     study.scan.samples = 1;
     study.scan.axes = axes;
@@ -147,16 +175,14 @@ fn of_map(study: &Study, axes: Vec<Axis>) -> Result<Study, Error> {
 }
 
 /// The plan of a map without its values.
-fn plane(study: &Study, info: &'static ModelInfo, sides: &[&Side]) -> Result<ScanComputation, Error> {
-    let values = |side: &&Side| axis(side, vec![side.low, side.high]);
+fn plane(study: &Study, sides: &[&Side]) -> Result<ScanComputation, Error> {
     // The corners of a window may lie beyond what the model allows; its plane is the same.
     let mut study = study.clone();
-    let axes: Vec<Axis> = sides.iter().map(values).collect();
     study.scan.axes = Vec::new();
+    let axes: Vec<Axis> = sides.iter().map(|side| axis(side, vec![side.low, side.high])).collect();
     let mut bare = of_map(&study, axes)?;
-    for axis in &mut bare.scan.axes {
-        let spec = &info.parameters()[index_of(info.parameters(), info.name, &axis.name)?];
-        axis.values = vec![spec.default];
+    for (axis, side) in bare.scan.axes.iter_mut().zip(sides) {
+        axis.values = vec![Range::of(&study, side)?.typical];
     }
     Ok(ScanPlan::new(&bare)?.computation)
 }

@@ -33,8 +33,10 @@ messages! {
         whole: bool,
     }
     #[derive(Serialize, Deserialize)]
+    Coordinate { name: String, meaning: String, }
+    #[derive(Serialize, Deserialize)]
     Observable { name: String, symbol: String, meaning: String, }
-    /// An axis of the map: a parameter and the part of it that is shown.
+    /// An axis of the map: a parameter or a coordinate of the start, and the part of it that is shown.
     #[derive(Serialize, Deserialize)]
     Side as "Axis" { name: String, low: f64, high: f64, }
     /// The part of parameter space that the map shows; without `y` it is a strip.
@@ -49,6 +51,7 @@ messages! {
         budget: f64,
         look: f64,
         parameters: Vec<Parameter>,
+        coordinates: Vec<Coordinate>,
         observables: Vec<Observable>,
         plane: Plane,
         noise: f64,
@@ -275,6 +278,6 @@ pub(crate) fn parts() -> String {
             [$(interface(&<$type>::name(), <$type>::DOCS, None, &<$type>::fields())),*]
         };
     }
-    let parts = all! { Parameter Observable Side Plane Model Preset Regime Registry Exponent Spectrum Returns Grid Line SpecialPoint };
+    let parts = all! { Parameter Coordinate Observable Side Plane Model Preset Regime Registry Exponent Spectrum Returns Grid Line SpecialPoint };
     parts.join("\n") + "\n" + &Dashes::declaration()
 }

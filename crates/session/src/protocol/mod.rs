@@ -88,6 +88,10 @@ messages! {
     #[derive(Copy, Deserialize)]
     #[serde(deny_unknown_fields)]
     BranchPoint { epoch: u32, branch: usize, point: usize, }
+    /// The body begins again, with these coordinates of the start of maps; everything else is as there.
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    Start { coordinates: BTreeMap<String, f64>, }
     /// A random kick of the shape, by this part of its size.
     #[derive(Copy, Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -187,6 +191,7 @@ asks! {
     Put(Put) = "put",
     Pull(Pull) = "pull",
     Restart(Bare) = "restart",
+    Start(Start) = "start",
     Advance(Advance) = "advance",
     Strips(Section) = "strips",
     Returns(ReturnsAhead) = "returns",

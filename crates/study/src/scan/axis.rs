@@ -1,15 +1,16 @@
-//! An axis of a scan: a parameter and the values it takes.
+//! An axis of a scan: a parameter, or a coordinate of the start, and the values it takes.
 
 use crate::Error;
+use motiform_models::{ModelInfo, parameters};
 use serde::{Deserialize, Serialize};
 
 /// Maximum number of values of one axis.
 const MOST_VALUES: usize = 100_000;
 
-/// A parameter that a scan varies, with its values in the order of the cells.
+/// What a scan varies, with its values in the order of the cells.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
-    /// The parameter.
+    /// The parameter, or the coordinate of the initial shape (for a map of basins).
     pub name: String,
     /// Its values, at least one, all different and finite.
     pub values: Vec<f64>,
@@ -33,6 +34,19 @@ impl Axis {
         let axis = Self { name: name.to_owned(), values };
         axis.check()?;
         Ok(axis)
+    }
+
+    /// Whether it varies the start, and not a parameter: a coordinate of the shape of the model with these parameters.
+    ///
+    /// # Errors
+    /// A name that is neither, with the nearest parameter.
+    pub fn varies_start(&self, info: &ModelInfo, values: &[f64]) -> Result<bool, Error> {
+        let unknown = parameters::index_of(info.parameters(), info.name, &self.name).err();
+        let coordinate = info.coordinates(values).iter().any(|coordinate| coordinate.name == self.name);
+        match unknown {
+            Some(error) if !coordinate => Err(error.into()),
+            unknown => Ok(unknown.is_some()),
+        }
     }
 
     /// The text that reads back as this axis ([`Axis::parse`]), every value with all its digits.

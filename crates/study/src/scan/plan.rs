@@ -41,7 +41,7 @@ pub struct ScanComputation {
     pub model: ModelName,
     /// The parameters that no axis varies, in registry order.
     pub parameters: Named,
-    /// One or two axes; the first runs fastest.
+    /// One or two axes, each a parameter or a coordinate of the start; the first runs fastest.
     pub axes: Vec<Axis>,
     /// Initial states per cell.
     pub samples: usize,
@@ -49,7 +49,8 @@ pub struct ScanComputation {
     pub seed: u64,
     /// The distribution of the random starts.
     pub random: Random,
-    /// The start of sample 0 if given (values not named are 0); empty if that one is random too.
+    /// The start of sample 0 if given (values not named are 0); empty if that one is random too. Where an axis is a coordinate, sample 0 is never
+    /// random.
     pub initial: Named,
     /// Stepper.
     pub stepper: String,
@@ -64,24 +65,26 @@ pub struct ScanComputation {
 }
 
 impl ScanPlan {
-    /// Resolves the scan of a study and checks every number. A given start is perturbed ([`Study::perturbed`]).
+    /// Resolves the scan of a study and checks every number. A given start is perturbed ([`Study::perturbed`]); a coordinate on an axis counts as
+    /// given, with its largest value.
     ///
     /// # Errors
     /// [`Error`] naming the key, the value and the remedy; values of an axis that a model rejects.
     pub fn new(study: &Study) -> Result<Self, Error> {
-        let study = &study.perturbed()?.0;
         let info = study.info()?;
+        let starts = starts(study, info)?;
+        let study = &started(study, &starts)?.perturbed()?.0;
         let method = stepper(&study.run.stepper)?;
         let (run, scan) = (&study.run, &study.scan);
         check_settings(study)?;
         check_no_noise(run.largest_noise())?;
-        check_axes(study, info)?;
+        check_axes(study)?;
         let free = |name: &str| scan.axes.iter().any(|axis| axis.name == name);
         let names = info.parameters().iter().map(|spec| spec.name.to_owned());
         let fixed = names.zip(study.values()?).filter(|(name, _)| !free(name)).collect();
-        // Nothing that a row tells depends on the position.
-        let shape = |entry: &&(String, f64)| !["x", "y"].contains(&entry.0.as_str());
-        let mut initial: Vec<_> = study.initial.iter().filter(shape).cloned().collect();
+        // Nothing that a row tells depends on the position, and the axes give what they vary.
+        let stays = |(name, _): &&(String, f64)| !["x", "y"].contains(&name.as_str()) && !free(name);
+        let mut initial: Vec<_> = study.initial.iter().filter(stays).cloned().collect();
         initial.sort_by(|a, b| a.0.cmp(&b.0)); // the order of typing changes no number
         let computation = ScanComputation {
             format: SCAN_FORMAT,
@@ -223,8 +226,30 @@ fn check_settings(study: &Study) -> Result<(), Error> {
     Ok(())
 }
 
-/// One or two different axes with known names and not too many cells.
-fn check_axes(study: &Study, info: &'static ModelInfo) -> Result<(), Error> {
+/// The axes that vary the start.
+fn starts<'s>(study: &'s Study, info: &ModelInfo) -> Result<Vec<&'s Axis>, Error> {
+    let values = study.values()?;
+    let mut starts = Vec::new();
+    for axis in &study.scan.axes {
+        if axis.varies_start(info, &values)? {
+            starts.push(axis);
+        }
+    }
+    Ok(starts)
+}
+
+/// The study with a start that has the largest values of these axes.
+fn started(study: &Study, starts: &[&Axis]) -> Result<Study, Error> {
+    let mut started = study.clone();
+    for axis in starts {
+        let largest = axis.values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        started.set_initial(&axis.name, largest)?;
+    }
+    Ok(started)
+}
+
+/// One or two different axes and not too many cells.
+fn check_axes(study: &Study) -> Result<(), Error> {
     let axes = &study.scan.axes;
     let wrong = |text: String, problem: &str| Error::Axis { text, problem: problem.to_owned() };
     let free = if study.free.is_empty() { String::new() } else { format!(" ({})", study.free.join(", ")) };
@@ -234,7 +259,6 @@ fn check_axes(study: &Study, info: &'static ModelInfo) -> Result<(), Error> {
         n => return Err(wrong(axes[n - 1].name.clone(), "a scan has one or two axes: leave one out")),
     }
     for axis in axes {
-        parameters::index_of(info.parameters(), info.name, &axis.name)?;
         axis.check()?;
     }
     if axes.len() == 2 && axes[0].name == axes[1].name {

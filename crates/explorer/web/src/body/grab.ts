@@ -49,7 +49,7 @@ export function under(host: GrabHost, [px, py]: [number, number], touch: boolean
 }
 
 /** Pixels from the centre to the outline, in this direction. */
-function extent(host: GrabHost, frame: Frame, angle: number): number {
+export function extent(host: GrabHost, frame: Frame, angle: number): number {
   const scale = host.camera.scale * host.enlarged();
   const outline = host.outline();
   if (!outline) return frame.radius * scale;
@@ -158,6 +158,6 @@ class Carry implements Held {
   }
 }
 
-function put(position: [number, number], velocity: [number, number] | null): Wish {
+export function put(position: [number, number], velocity: [number, number] | null): Wish {
   return { do: "put", parameters: {}, state: null, position, velocity, t: null, noise: null };
 }

@@ -3,7 +3,7 @@
 import type { Frame } from "../binary";
 import { Sheet } from "../canvas";
 import { byId, setText } from "../dom";
-import { SPEED, T, type History } from "../history";
+import { SPEED, T, X, Y, type History } from "../history";
 import { fixed } from "../numbers";
 import type { Orbit, Values, Wish } from "../protocol";
 import { watch } from "../pointer";
@@ -12,6 +12,7 @@ import { Backdrop } from "./backdrop";
 import { Camera } from "./camera";
 import { Ghost } from "./ghost";
 import { grab, under, type GrabHost } from "./grab";
+import { listenToKeys } from "./keys";
 import { paintBody } from "./painting";
 import type { Swarm } from "./swarm";
 
@@ -73,6 +74,7 @@ export class BodyPanel {
         this.setFollow(true);
       },
     });
+    listenToKeys(canvas, host, () => this.heading());
     byId("true-size").addEventListener("click", () => this.toggleSize());
   }
 
@@ -104,6 +106,13 @@ export class BodyPanel {
     let most = 0;
     for (let i = this.history.since(this.since()); i < this.history.length; i += 4) most = Math.max(most, this.history.at(i, SPEED));
     return most;
+  }
+
+  /** The direction of motion. */
+  private heading(): number {
+    const [last, before] = [this.history.length - 1, this.history.length - 2];
+    if (before < 0) return 0;
+    return Math.atan2(this.history.at(last, Y) - this.history.at(before, Y), this.history.at(last, X) - this.history.at(before, X));
   }
 
   /** The last frame that came. */

@@ -1,4 +1,5 @@
-/** The map: asks the server for the window in sight, shows it, and takes the body to where one clicks. */
+/** The map: asks the server for the window in sight, shows it, and takes the body to where one clicks. Its axes are parameters, or
+ * coordinates of the start: then it shows basins. */
 
 import type { Cells } from "../binary";
 import { byId, throttle } from "../dom";
@@ -13,6 +14,7 @@ import { confined, panned, sameAxes, viewOf, zoomed } from "./plane";
 import { showMapped, showProgress } from "./progress";
 import { Readout } from "./readout";
 import { AxisSelectors } from "./selectors";
+import { side, variesStart } from "./sides";
 
 /** What is drawn upon the map, and answers pointer and click where it is. */
 export interface Upon {
@@ -26,8 +28,9 @@ export interface MapHost {
   send(wish: Wish): void;
   regimes(): Regime[];
   model(): Model;
+  /** The parameters, and what is known of the start. */
   parameters(): Values;
-  /** Takes the body to these parameters. */
+  /** Takes the body to these parameters, or lets it begin again at these coordinates. */
   choose(values: Values): void;
   /** The window or the axes are about to change; and have changed. */
   moves(): void;
@@ -124,6 +127,7 @@ export class MapPanel {
   nameHere(): Regime | null {
     const [sides, lattice] = [this.sides(), this.picture.lattice];
     if (!sides || !lattice || this.picture.aged || this.shown !== this.host.model()) return null;
+    if (this.plane && variesStart(this.shown, this.plane)) return null; // the body has long left its start
     const values = this.host.parameters();
     const cell = lattice.cell(values[sides.x.name], sides.y ? values[sides.y.name] : 0);
     return cell && lattice.verdict(cell);
@@ -174,9 +178,10 @@ export class MapPanel {
   }
 
   private sides(): Sides | null {
-    const of = (name?: string): Parameter | undefined => this.host.model().parameters.find((one) => one.name === name);
-    const x = this.plane && of(this.plane.x.name);
-    return x ? { x, y: of(this.plane?.y?.name) ?? null } : null;
+    if (!this.plane) return null;
+    const model = this.host.model();
+    const x = side(model, this.plane.x.name);
+    return x ? { x, y: side(model, this.plane.y?.name) ?? null } : null;
   }
 
   private box(): Box {
@@ -245,7 +250,7 @@ export class MapPanel {
     const [values, view] = [this.under(px, py), this.window()];
     if (!values || !view || this.host.upon.clickOnMap([px, py], this.box(), view)) return;
     const [now, before] = [performance.now(), this.host.parameters()];
-    if (now - this.lastClick > DOUBLE) this.beforeClick = Object.fromEntries(Object.keys(values).map((name) => [name, before[name]]));
+    if (now - this.lastClick > DOUBLE) this.beforeClick = Object.fromEntries(Object.keys(values).filter((name) => name in before).map((name) => [name, before[name]]));
     this.lastClick = now;
     this.host.choose(values);
   }
@@ -284,7 +289,7 @@ export class MapPanel {
     const [sides, start] = [this.sides(), this.picture.lattice?.start];
     if (!sides || !start) return;
     const now = this.host.parameters();
-    const moved = (side: Parameter, by: number, step: number): number => rounded(now[side.name] + by * step, step / 8, side);
+    const moved = (side: Parameter, by: number, step: number): number => rounded((now[side.name] ?? side.default) + by * step, step / 8, side);
     const values: Values = { [sides.x.name]: moved(sides.x, columns, start.x.step) };
     if (sides.y && start.y) values[sides.y.name] = moved(sides.y, rows, start.y.step);
     this.host.choose(values);

@@ -4,6 +4,7 @@ import { byId, make } from "../dom";
 import type { Model, Plane } from "../protocol";
 import { spoken } from "../symbols";
 import { fullAxis } from "./plane";
+import { side, starts } from "./sides";
 
 export class AxisSelectors {
   private readonly x = byId<HTMLSelectElement>("x-axis");
@@ -19,7 +20,10 @@ export class AxisSelectors {
   /** Shows the axes of the plane; the options change with the model only. */
   show(model: Model, plane: Plane): void {
     if (model !== this.model) {
-      const options = (): HTMLElement[] => model.parameters.map((one) => make("option", { value: one.name }, label(one.name, spoken(one.symbol))));
+      const options = (): HTMLElement[] => [
+        ...model.parameters.map((one) => make("option", { value: one.name }, label(one.name, spoken(one.symbol)))),
+        make("optgroup", { label: "start of the body (basins)" }, ...starts(model).map(({ name, meaning }) => make("option", { value: name, title: meaning }, `${name}(0)`))),
+      ];
       this.x.replaceChildren(...options());
       this.y.replaceChildren(make("option", { value: "" }, "none (\u03bb\u2081)"), ...options());
       this.model = model;
@@ -33,7 +37,10 @@ export class AxisSelectors {
   private changed(which: "x" | "y"): void {
     const { model, plane } = this;
     if (!model || !plane) return;
-    const axis = (name: string) => model.parameters.filter((one) => one.name === name).map(fullAxis)[0] ?? null;
+    const axis = (name: string) => {
+      const found = side(model, name);
+      return found ? fullAxis(found) : null;
+    };
     const { x, y } = plane;
     const [name, other] = which === "x" ? [this.x.value, y] : [this.y.value, x];
     if (name === other?.name) this.choose(y ? { x: y, y: x } : plane);
