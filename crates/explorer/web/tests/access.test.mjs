@@ -1,9 +1,8 @@
 /** For everybody: names for screen readers, an order for the tab key, contrast, light and dark. */
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { test } from "node:test";
+import { assertAccessible } from "./axe.mjs";
 import { LIGHT, stage, upon, visit } from "./stage.mjs";
 import { moves, named, number, seen } from "./waits.mjs";
 
@@ -102,20 +101,12 @@ test("light or dark as the system says, until the reader says otherwise", async 
   await leave();
 });
 
-/** The checker axe, run within the page. */
-const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-
 const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
 
 for (const [name, context] of [["a desktop", {}], ["a phone", PHONE], ["a phone with the legend of Fig. 1", { ...PHONE, hash: "preset=fig1" }]]) {
   test(`axe finds nothing on ${name}`, upon(it, { hash: LIGHT, ...context }, async ({ page, wire }) => {
     await moves(page, wire);
     await named(page);
-    await page.locator("#map-legend li").first().waitFor();
-    await page.evaluate(() => document.querySelectorAll("#parameters details, #parameter-details").forEach((one) => (one.open = true)));
-    const session = await page.context().newCDPSession(page);
-    await session.send("Runtime.evaluate", { expression: AXE }); // not bound by the page's own policy
-    const { violations } = await page.evaluate(() => window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21aa", "wcag22aa", "best-practice", "experimental"] }));
-    assert.deepEqual(violations.map(({ id, impact, nodes }) => `${impact} ${id}: ${nodes.slice(0, 4).map((one) => `${one.target} ${one.failureSummary}`).join(" | ")}`), []);
+    await assertAccessible(page);
   }));
 }

@@ -8,6 +8,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { oneFile } from "../site.mjs";
+import { assertAccessible } from "./axe.mjs";
 import { SITE } from "./engine.mjs";
 import { assertAllFiles } from "./files.mjs";
 import { launch, PATIENCE, shoot } from "./stage.mjs";
@@ -47,8 +48,8 @@ after(async () => {
 });
 
 /** Opens an address; any error in the console fails the test. */
-async function visit(address, act) {
-  const place = await it.browser.newContext({ viewport: { width: 1280, height: 720 }, colorScheme: "light" });
+async function visit(address, act, context = {}) {
+  const place = await it.browser.newContext({ viewport: { width: 1280, height: 720 }, colorScheme: "light", ...context });
   const page = await place.newPage();
   page.setDefaultTimeout(PATIENCE);
   const faults = [];
@@ -118,6 +119,25 @@ test("every file can be saved without a server", async () => {
     await page.locator("#share-menu > summary").click();
     await assertAllFiles(page, judge);
     await judge.close();
+  });
+});
+
+for (const [name, context] of [["a desktop", {}], ["a narrow window", { viewport: { width: 390, height: 844 } }]]) {
+  test(`axe finds nothing without a server, on ${name}`, async () => {
+    await visit(`${it.file}#preset=fig1`, async (page) => {
+      await moving(page);
+      await page.locator("#regime:not([data-regime=''])").waitFor({ timeout: 4 * PATIENCE });
+      await assertAccessible(page);
+    }, context);
+  });
+}
+
+test("basins without a server", async () => {
+  await visit(`${it.file}#preset=fig4&kappa2=0.12&kappa3=0.45&x=v1:-1.5:1.5&y=u222:-1.5:1.5`, async (page) => {
+    await moving(page);
+    await complete(page);
+    const names = await page.locator("#map-legend li").allTextContents();
+    for (const name of ["circular", "chaotic"]) assert.ok(names.some((text) => text.includes(name)), `${names}`);
   });
 });
 

@@ -186,3 +186,34 @@ fn plane(study: &Study, sides: &[&Side]) -> Result<ScanComputation, Error> {
     }
     Ok(ScanPlan::new(&bare)?.computation)
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+    use crate::protocol::MapWindow;
+    use motiform_study::presets::find_any;
+
+    /// Rows are kept while the plane stays: what they start from must not depend on the window that asked for them.
+    #[test]
+    fn starts_of_basins_do_not_depend_on_the_window() {
+        for given in [&[][..], &[("u111", 0.3)]] {
+            let mut study = find_any("fig4", "tensor").unwrap();
+            for (name, value) in given {
+                study.set_initial(name, *value).unwrap();
+            }
+            let side = |name: &str, low| Side { name: name.to_owned(), low, high: low + 2.0 };
+            let mut map = MapState::default();
+            let windows = [-1.0, 0.5, 40.0].map(|low| {
+                let window = MapWindow { epoch: 1, x: side("v1", low), y: Some(side("s11", -1.0)), count: 16 };
+                map.turn(&Job { window, study: study.clone() }, &[]).unwrap();
+                let mut computation = map.present().unwrap().plan.computation.clone();
+                computation.axes.clear();
+                (map.plane().unwrap().clone(), computation)
+            });
+            assert!(windows.iter().all(|window| *window == windows[0]));
+            assert_eq!(windows[0].1.initial.0.len(), 4, "v2, s12, u111, u222");
+        }
+    }
+}
