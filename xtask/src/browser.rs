@@ -10,17 +10,25 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+/// Which browser, and where it is.
+pub(crate) type Environment = [(&'static str, PathBuf); 2];
+
 /// How the tests are started.
 pub(crate) struct Browser<'a> {
-    pub(crate) node: &'a Path,
-    /// Which browser, and where it is.
-    pub(crate) environment: [(&'static str, PathBuf); 2],
-    pub(crate) program: PathBuf,
+    node: &'a Path,
+    environment: Environment,
+    program: PathBuf,
     /// Where the list of results is written.
-    pub(crate) results: PathBuf,
+    results: PathBuf,
 }
 
-impl Browser<'_> {
+impl<'a> Browser<'a> {
+    /// The tests of this program in this browser.
+    pub(crate) fn new(node: &'a Path, environment: Environment, program: PathBuf) -> Self {
+        let results = program.with_file_name("browser.tap");
+        Self { node, environment, program, results }
+    }
+
     /// Runs the tests of these files.
     pub(crate) fn test(&self, files: &[PathBuf]) -> Result<()> {
         let Err(error) = step(&format!("tests in {}", self.name()), &mut self.command(files, 2)) else {

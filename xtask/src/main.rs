@@ -18,7 +18,9 @@ usage: cargo xtask COMMAND
   test     everything that must pass before a push: format, lints, documentation, all tests, also those of Python
            and those in a browser
   quick    the Rust tests alone
-  explorer the page of `motiform explore`: builds it, compares it with the committed one, tests it in Chromium
+  explorer the page of `motiform explore`: builds it, compares it with the committed one, tests it in Chromium, and in part in
+           Firefox
+  firefox  all tests of the page in Firefox
   web      the page without a server: the WebAssembly module (needs `rustup target add wasm32-unknown-unknown`), the folder
            docs/site for any static host, and the page as one file, target/motiform.html
   python   the Python package: builds it into target/python and runs its tests there
@@ -62,6 +64,7 @@ fn run() -> Result<()> {
         }
         Some("quick") => cargo("tests", TESTS),
         Some("explorer") => explorer::test(),
+        Some("firefox") => explorer::test_in_firefox(),
         Some("python") => python::test(),
         Some("web") => web::run(),
         Some("mutants") => mutants::run(&std::env::args().skip(2).collect::<Vec<_>>()),

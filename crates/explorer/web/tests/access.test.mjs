@@ -3,13 +3,13 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { assertAccessible } from "./axe.mjs";
-import { LIGHT, stage, upon, visit } from "./stage.mjs";
+import { LIGHT, onlyIn, stage, upon, visit } from "./stage.mjs";
 import { moves, named, number, seen } from "./waits.mjs";
 
 const it = stage();
 const NAMED = new Set(["button", "checkbox", "combobox", "slider", "spinbutton", "textbox", "link", "progressbar", "img", "application", "Canvas", "DisclosureTriangle", "listbox", "dialog"]);
 
-test("everything that can be used or seen has a name", upon(it, { hash: LIGHT }, async ({ page, wire }) => {
+test("everything that can be used or seen has a name", onlyIn("chromium", "the tree of accessibility"), upon(it, { hash: LIGHT }, async ({ page, wire }) => {
   await moves(page, wire);
   await page.locator("#share-menu > summary").click();
   const session = await page.context().newCDPSession(page);
@@ -87,7 +87,7 @@ for (const colorScheme of ["light", "dark"]) {
 /** How bright the page is, 0 to 255. */
 const brightness = (page) => page.evaluate(() => Number(getComputedStyle(document.body).backgroundColor.match(/\d+/)[0]));
 
-test("light or dark as the system says, until the reader says otherwise", async () => {
+test("light or dark as the system says, until the reader says otherwise", onlyIn("chromium", "colours of the system"), async () => {
   const { page, wire, leave } = await visit(it, { hash: LIGHT, colorScheme: "dark" });
   await seen(page, wire);
   assert.ok((await brightness(page)) < 60);

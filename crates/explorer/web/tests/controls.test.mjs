@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { LIGHT, stage, upon } from "./stage.mjs";
+import { doubleClick, LIGHT, stage, upon } from "./stage.mjs";
 import { changed, moves, pictures, slide, stands, until } from "./waits.mjs";
 
 const it = stage();
@@ -133,7 +133,8 @@ test("a double click on the body follows again", upon(it, { hash: LIGHT }, async
   await moves(page, wire);
   await page.locator("#follow").click();
   await page.locator("#follow[aria-pressed=false]").waitFor();
-  await page.locator("#body").dblclick();
+  const { x, y, width, height } = await page.locator("#body").boundingBox();
+  await doubleClick(page, x + width / 2, y + height / 2);
   await pictures(page, 10);
   assert.equal(await page.locator("#follow").getAttribute("aria-pressed"), "true");
 }));

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { saved, stage, upon } from "./stage.mjs";
+import { doubleClick, saved, stage, upon } from "./stage.mjs";
 import { changed, mapped, moves, named, number, pictures, pixel, seen, stands, until } from "./waits.mjs";
 
 /** Points of the plane of figure 4, well inside their regions. */
@@ -93,7 +93,7 @@ test("the wheel zooms about the pointer, a drag pans, a double click resets", up
   await until(() => wire.last.get("map")?.epoch === wire.said.get("map").epoch, "the map of the new window");
   assert.equal(wire.frame.revision, revision, "zoom and drag leave the body alone");
   const parameters = wire.last.get("begun").parameters;
-  await page.mouse.dblclick(...(await pixel(page, ...STRAIGHT)));
+  await doubleClick(page, ...(await pixel(page, ...STRAIGHT)));
   await page.waitForFunction((old) => JSON.stringify(window.motiform.map.window()) === JSON.stringify(old), home);
   await until(() => !wire.last.has("changed") || wire.last.get("changed").parameters.kappa2 === parameters.kappa2, "the clicks of a double click to be undone");
 }));

@@ -11,7 +11,7 @@ const it = stage();
 for (const playing of [true, false]) {
   test(`a ${playing ? "moving" : "paused"} body goes on after the server was killed`, async () => {
     const server = await Server.start();
-    const { page, wire, leave } = await visit({ browser: it.browser, server }, { hash: LIGHT, tolerate: /WebSocket connection|ERR_CONNECTION_REFUSED/ });
+    const { page, wire, leave } = await visit({ browser: it.browser, server }, { hash: LIGHT, tolerate: /WebSocket connection|ERR_CONNECTION_REFUSED|connection to .* was interrupted|establish a connection/ });
     await moves(page, wire);
     const { revision } = wire.frame;
     await slide(slider(page, "kappa2"), 0.8);

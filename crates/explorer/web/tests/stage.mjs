@@ -112,25 +112,34 @@ export async function saved(page, button) {
   return { name, path };
 }
 
-/** In the page: the next link that a script follows is read, and not followed. */
+/** In the page: the next link that a script follows is not followed; the file behind it is read. */
 function catchLink() {
   const { click } = HTMLAnchorElement.prototype;
-  window.saved = new Promise((resolve, reject) => {
+  const make = URL.createObjectURL;
+  let file = null;
+  URL.createObjectURL = (blob) => make.call(URL, (file = blob));
+  window.saved = new Promise((resolve) => {
     HTMLAnchorElement.prototype.click = function () {
       HTMLAnchorElement.prototype.click = click;
+      URL.createObjectURL = make;
       const name = this.download;
-      const read = async () => {
-        const reader = new FileReader();
-        reader.addEventListener("load", () => resolve({ name, base64: reader.result.split(",")[1] }));
-        reader.readAsDataURL(await (await fetch(this.href)).blob());
-      };
-      read().catch(reject);
+      const reader = new FileReader();
+      reader.addEventListener("load", () => resolve({ name, base64: reader.result.split(",")[1] }));
+      reader.readAsDataURL(file);
     };
   });
 }
 
+/** A double click at a place on the screen. Those who drive Firefox have to say themselves that two clicks are one. */
+export async function doubleClick(page, x, y) {
+  if (!FIREFOX) return page.mouse.dblclick(x, y);
+  await page.mouse.click(x, y);
+  await page.mouse.click(x, y);
+  await page.evaluate(([u, v]) => document.elementFromPoint(u, v).dispatchEvent(new MouseEvent("dblclick", { bubbles: true, clientX: u, clientY: v })), [x, y]);
+}
+
 /** To take a picture in Firefox, Playwright adds a style to the page, which the page does not allow. */
-const DRIVERS = /Content-Security-Policy.*inline style \(style-src-elem\)|^undefined$/;
+const DRIVERS = /Content-Security-Policy.*inline style \(style-src-elem\)/;
 
 let folder = null;
 

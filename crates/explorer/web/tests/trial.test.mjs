@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { LIGHT, shoot, stage, upon, visit } from "./stage.mjs";
+import { LIGHT, onlyIn, shoot, stage, upon, visit } from "./stage.mjs";
 import { changed, mapped, moves, named, number, pictures, seen, slide, slider, stands, until } from "./waits.mjs";
 
 const it = stage();
@@ -38,7 +38,7 @@ async function swipe(page, [x, y], [dx, dy]) {
   await touch("touchEnd", []);
 }
 
-test("a finger that moves upwards on the picture of the body scrolls the page; across, it moves the view", upon(it, { hash: LIGHT, ...PHONE }, async ({ page, wire }) => {
+test("a finger that moves upwards on the picture of the body scrolls the page; across, it moves the view", onlyIn("chromium", "touches"), upon(it, { hash: LIGHT, ...PHONE }, async ({ page, wire }) => {
   await moves(page, wire);
   const { x, y, width, height } = await page.locator("#body").boundingBox();
   await swipe(page, [x + 0.1 * width, y + 0.85 * height], [4, -150]);

@@ -206,7 +206,8 @@ mod tests {
             let side = |name: &str, low| Side { name: name.to_owned(), low, high: low + 2.0 };
             let mut map = MapState::default();
             let windows = [-1.0, 0.5, 40.0].map(|low| {
-                let window = MapWindow { epoch: 1, x: side("v1", low), y: Some(side("s11", -1.0)), count: 16 };
+                let window =
+                    MapWindow { epoch: 1, x: side("v1", low), y: Some(side("s11", -1.0)), count: 16 };
                 map.turn(&Job { window, study: study.clone() }, &[]).unwrap();
                 let mut computation = map.present().unwrap().plan.computation.clone();
                 computation.axes.clear();
