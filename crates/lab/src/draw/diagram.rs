@@ -111,10 +111,15 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary]) -> Vec<Stri
     let computed =
         if count < all { format!("{count} of {all} cells are computed") } else { format!("{all} cells") };
     let random = format!("{}, seed {}", c.random.words(), c.seed);
+    let given = if plan.varies_start().unwrap_or(false) {
+        "the one with the coordinates on the axes and the others as given, or almost 0"
+    } else {
+        "the given one"
+    };
     let states = match (c.samples, plan.draws_first().unwrap_or(true)) {
-        (1, false) => "one initial state each, the given one".to_owned(),
+        (1, false) => format!("one initial state each, {given}"),
         (1, true) => format!("one random initial state each, {random}"),
-        (samples, false) => format!("{samples} initial states each, the given one and random ones, {random}"),
+        (samples, false) => format!("{samples} initial states each, {given} and random ones, {random}"),
         (samples, true) => format!("{samples} random initial states each, {random}"),
     };
     let method = format!("Computed by {}, {}.", words::stepper(&c.stepper), words::control(c.control));

@@ -48,7 +48,15 @@ impl ScanPlan {
     /// # Errors
     /// An unknown model.
     pub fn draws_first(&self) -> Result<bool, Error> {
-        Ok(self.computation.initial.is_empty() && self.start_on_axes(0)?.is_empty())
+        Ok(self.computation.initial.is_empty() && !self.varies_start()?)
+    }
+
+    /// Whether an axis is a coordinate of the start: the scan is a map of basins.
+    ///
+    /// # Errors
+    /// An unknown model.
+    pub fn varies_start(&self) -> Result<bool, Error> {
+        Ok(!self.start_on_axes(0)?.is_empty())
     }
 
     /// The coordinates of the start that the axes give in a cell.
