@@ -102,6 +102,21 @@ def test_axes_are_used_or_refused() -> None:
         motiform.scan(body, {"kappa2": [0.1]}, shard="1/2")
 
 
+def test_an_axis_may_be_a_coordinate_of_the_start(tmp_path: Path) -> None:
+    body = motiform.preset("fig4").replace(kappa2=0.12, kappa3=0.45)
+    data = motiform.scan(body, {"v1": [-0.8, 0.8], "u222": [-1.0, 0.0, 1.0]}, out=tmp_path / "b", progress=False)
+    assert data.regime.dims == ("u222", "v1", "sample")
+    assert "at the start" in data.v1.attrs["long_name"] and data.u222.attrs["symbol"] == "u222(0)"
+    names = data.motiform.names().isel(sample=0)
+    # v1 -> -v1 is a rotation by half a turn with a mirror, which leaves u222 as it is.
+    assert (names.sel(v1=-0.8) == names.sel(v1=0.8)).all()
+    assert names.sel(v1=0.8).values.tolist() == ["circular", "chaotic", "circular"]
+    xr.testing.assert_identical(motiform.read(tmp_path / "b"), data)
+    started = body.replace(initial={"v1": 0.8, "u222": 1.0})
+    assert started.classify().regime == "circular"
+    data.motiform.plot()
+
+
 def test_every_file_of_the_binary_is_read(binary: Path, tmp_path: Path) -> None:
     def simulate(model: str, preset: str, out: str, *more: str) -> None:
         arguments = ["simulate", model, "--preset", preset, "--t-end", "30", "--out", str(tmp_path / out), *more]

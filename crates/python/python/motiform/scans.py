@@ -43,17 +43,17 @@ def scan(
     shard: str | None = None,
     progress: Progress = None,
 ) -> xr.Dataset:
-    """Classifies the motion in every cell of a grid over one or two parameters, from one or more initial states each.
+    """Classifies the motion in every cell of a grid over one or two parameters or coordinates of the start, from one or more initial states each.
 
     Parameters
     ----------
     model
         The model; it provides the parameters that no axis varies.
     axes
-        Parameter names with values: an array, or text as on the command line (``"0.1:1.6:64"`` is 64 values, both ends
-        included). By default those of the model's study file.
+        Names of parameters, or of coordinates of the initial shape (a map of basins), with values: an array, or text as on the command
+        line (``"0.1:1.6:64"`` is 64 values, both ends included). By default those of the model's study file.
     samples
-        Initial states per cell: random, except that the first one is the model's ``initial`` if that is given.
+        Initial states per cell: random, except that the first one is the model's ``initial`` if that is given, or an axis is a coordinate of it.
     random
         Size of random initial states: a size (each coordinate within ±size; by default 0.01 for one state per cell), or ``(min, max)``: all
         directions, with a log-uniform norm in this range (by default a hundredth of the model's typical size to the full size for several).
@@ -163,10 +163,10 @@ def dataset(plan: _motiform.ScanPlan, arrays: _motiform.Arrays) -> xr.Dataset:
     axes = plan.axes()
     dims = (*(name for name, _ in reversed(axes)), "sample")
     sizes = (*(len(values) for _, values in reversed(axes)), plan.samples)
-    specs = {spec.name: spec for spec in info_of(json.loads(plan.info())).parameters}
-    coords: dict[str, Any] = {
-        name: (name, values, {"long_name": specs[name].meaning, "symbol": specs[name].symbol}) for name, values in axes
-    }
+    info = info_of(json.loads(plan.info()))
+    said = {name: {"long_name": f"{meaning}, at the start", "symbol": f"{name}(0)"} for name, meaning in info.coordinates}
+    said |= {spec.name: {"long_name": spec.meaning, "symbol": spec.symbol} for spec in info.parameters}
+    coords: dict[str, Any] = {name: (name, values, said[name]) for name, values in axes}
     coords["sample"] = ("sample", np.arange(plan.samples), {"long_name": "number of the initial state"})
     variables: dict[str, Any] = {
         "regime": (dims, regimes.reshape(sizes), _flags("the motion", [regime.name for regime in REGIMES])),
