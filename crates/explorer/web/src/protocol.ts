@@ -242,6 +242,7 @@ export interface Mapped {
   is: "mapped";
   epoch: number;
   cells: number;
+  computed: number;
   seconds: number;
 }
 

@@ -55,6 +55,6 @@ impl Telling {
     pub(super) fn finish(self, epoch: u32, answers: &Answers) -> Done {
         answers.binary(frames::cells(epoch, &self.cells))?;
         let seconds = self.begun.elapsed().as_secs_f64();
-        answers.say(Mapped { epoch, cells: self.done, seconds })
+        answers.say(Mapped { epoch, cells: self.done, computed: self.computed, seconds })
     }
 }

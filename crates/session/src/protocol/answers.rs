@@ -134,7 +134,7 @@ messages! {
     Progress { epoch: u32, done: usize, total: usize, rate: f64, }
     /// A map is complete.
     #[derive(Serialize)]
-    Mapped { epoch: u32, cells: usize, seconds: f64, }
+    Mapped { epoch: u32, cells: usize, computed: usize, seconds: f64, }
     /// The verdict on a cell; no regime and no words where it is not computed yet.
     #[derive(Serialize)]
     Evidence {

@@ -9,8 +9,12 @@ export function showProgress({ done, total, rate }: Pick<Progress, "done" | "tot
   say(`${grouped(done)} of ${grouped(total)} cells${left}`, total > 0 ? done / total : 0);
 }
 
-export function showMapped({ cells, seconds }: Mapped): void {
-  say(`${grouped(cells)} cells in ${seconds < 0.1 ? "less than 0.1" : pretty(seconds, 2)} s`, 1);
+/** Cells that were known already are not counted as computed. */
+export function showMapped({ cells, computed, seconds }: Mapped): void {
+  const time = `${seconds < 0.1 ? "less than 0.1" : pretty(seconds, 2)} s`;
+  if (computed === cells) say(`${grouped(cells)} cells in ${time}`, 1);
+  else if (computed === 0) say(`${grouped(cells)} cells, known before`, 1);
+  else say(`${grouped(cells)} cells, ${grouped(computed)} computed in ${time}`, 1);
 }
 
 function say(text: string, fraction: number): void {
