@@ -42,7 +42,7 @@ pub(crate) enum Command {
     /// Simulate one body: write its path, shape and figures
     #[command(after_help = SIMULATE_HELP)]
     Simulate(Box<SimulateOptions>),
-    /// Compute a phase diagram over one or two parameters, with several initial states per cell, on all cores
+    /// Compute a phase diagram over one or two parameters, or a map of basins over coordinates of the start, on all cores
     #[command(after_help = SCAN_HELP)]
     Scan(Box<ScanOptions>),
     /// Merge the folders of a scan that was computed in shards

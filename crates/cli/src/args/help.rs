@@ -40,7 +40,7 @@ Examples:
   motiform scan tensor --preset fig1 --axis kappa2=0.1:1.6:64 --axis gamma=0.1:1.5:64 --samples 4
   motiform scan tensor --preset fig4 --axis kappa2=0.1,0.2,0.5 --resume
   motiform scan tensor --preset fig4 --axis kappa2=0.9:1.3:9 --samples 32 --random 0.1:0.5
-  motiform scan tensor --preset fig4 --set kappa2=0.12 --axis v1=-1:1:64 --axis s11=-1:1:64    (basins: where starts end)
+  motiform scan tensor --preset fig4 --axis v1=-1:1:64 --axis s11=-1:1:64   (basins)
   motiform scan my-study.toml --shard 1/3 --out shard1
 
 The output folder contains
