@@ -46,7 +46,7 @@ pub(crate) fn section(case: &Case<'_>, prediction: &Prediction, units: &Units) -
 
 fn side_by_side(case: &Case<'_>, prediction: &Prediction, units: &Units) -> TrackPanels {
     let simulated = prediction.shown.iter().zip(1..);
-    let panels = std::iter::once(observed(case.cell, units))
+    let panels = std::iter::once(observed(case, units))
         .chain(simulated.map(|(record, k)| track(format!("simulated {k}"), record, case.cell.radius, units)));
     TrackPanels { unit: units.length.clone(), columns: 4, panels: panels.collect(), ..TrackPanels::default() }
 }
@@ -111,8 +111,8 @@ fn label(kind: Kind, units: &Units) -> String {
         Kind::Displacement => format!("{}^2", units.length),
         Kind::Speed => units.speed(),
         Kind::Turning => "rad".to_owned(),
-        Kind::SecondSize | Kind::ThirdSize => units.length.clone(),
-        Kind::Velocity | Kind::SecondMode | Kind::ThirdMode | Kind::Elongation => {
+        Kind::SecondSize | Kind::ThirdSize | Kind::FourthSize => units.length.clone(),
+        Kind::Velocity | Kind::SecondMode | Kind::ThirdMode | Kind::FourthMode | Kind::Elongation => {
             return kind.name().to_owned();
         }
     };

@@ -39,6 +39,12 @@ pub struct Case<'c> {
 }
 
 impl<'c> Case<'c> {
+    /// Amplitudes of the model that is fitted: 3, or 4 with z4.
+    fn modes(&self) -> usize {
+        let fitted = self.fit.and_then(|fit| fit.fitted.as_ref().ok());
+        fitted.map_or(3, |fitted| fitted.model().library.modes)
+    }
+
     /// Cells simulated by the fit.
     fn prediction(&self) -> Option<&'c Prediction> {
         self.fit?.prediction.as_ref()

@@ -38,26 +38,30 @@ pub(crate) fn section(
     let path = TrackPanels {
         unit: units.length.clone(),
         columns: 1,
-        panels: vec![observed(cell, units)],
+        panels: vec![observed(case, units)],
         ..TrackPanels::default()
     };
     let figures = vec![
         ReportFigure::new(sheet(&strip)?, "The outline at eight times, as it was read."),
         ReportFigure::new(
             sheet(&path)?,
-            "The path of the centre, from the ring on, with outlines at equal numbers of frames: dark first, bright last. They are drawn from R_0, *z*_2 and *z*_3. Pieces of the path are not joined across frames that are missing.",
+            format!(
+                "The path of the centre, from the ring on, with outlines at equal numbers of frames: dark first, bright last. They are drawn from R_0 and *z*_2 to *z*_{}. Pieces of the path are not joined across frames that are missing.",
+                case.modes()
+            ),
         ),
         ReportFigure::new(
-            sheet(&series(cell, units))?,
-            "Modes of the shape over time: *z*_2 elongation, *z*_3 triangle. Grey: frames that are missing or left out.",
+            sheet(&series(case, units))?,
+            "Modes of the shape over time: *z*_2 elongation, *z*_3 triangle, of models with it *z*_4 square. Grey: frames that are missing or left out.",
         ),
     ];
     Ok(Some(Section { title: "Outlines".to_owned(), about: String::new(), figures, ..Section::default() }))
 }
 
 /// The outline of a frame.
-fn outline(radius: f64, y: &[f64; 6], units: &Units) -> Vec<Point> {
-    let body = Synthetic { centre: [y[0], y[1]], r0: radius, z: vec![[y[2], y[3]], [y[4], y[5]]] };
+fn outline(radius: f64, y: &[f64], units: &Units) -> Vec<Point> {
+    let z = y[2..].chunks_exact(2).map(|part| [part[0], part[1]]).collect();
+    let body = Synthetic { centre: [y[0], y[1]], r0: radius, z };
     body.vertices(VERTICES, 0.0).into_iter().map(|p| up(p, units)).collect()
 }
 
@@ -91,21 +95,23 @@ fn strip(cell: &CellTrack, drawn: Option<&Cell>, units: &Units) -> Vec<TrackPane
 }
 
 /// The observed cell.
-pub(crate) fn observed(cell: &CellTrack, units: &Units) -> TrackPanel {
-    let name = "observed".to_owned();
-    match Record::of(&cell.track) {
+pub(crate) fn observed(case: &Case<'_>, units: &Units) -> TrackPanel {
+    let (name, cell, numbers) = ("observed".to_owned(), case.cell, 2 * case.modes());
+    match Record::of(&cell.track, case.modes()) {
         Some(record) => track(name, &record, cell.radius, units),
         None => TrackPanel {
             name,
             path: vec![cell.track.0.iter().map(|frame| up([frame.y[0], frame.y[1]], units)).collect()],
-            outlines: cell.track.0.iter().map(|frame| outline(cell.radius, &frame.y, units)).collect(),
+            outlines: (cell.track.0.iter())
+                .map(|frame| outline(cell.radius, &frame.y[..numbers], units))
+                .collect(),
         },
     }
 }
 
 /// A record with outlines along it.
 pub(crate) fn track(name: String, record: &Record, radius: f64, units: &Units) -> TrackPanel {
-    let there: Vec<&[f64; 6]> = record.frames.iter().flatten().collect();
+    let there: Vec<&Vec<f64>> = record.frames.iter().flatten().collect();
     let pieces = record.frames.split(Option::is_none).filter(|piece| !piece.is_empty());
     let path =
         pieces.map(|piece| piece.iter().flatten().map(|y| up([y[0], y[1]], units)).collect()).collect();
@@ -113,12 +119,13 @@ pub(crate) fn track(name: String, record: &Record, radius: f64, units: &Units) -
     TrackPanel { name, path, outlines }
 }
 
-fn series(cell: &CellTrack, units: &Units) -> SeriesFigure {
+fn series(case: &Case<'_>, units: &Units) -> SeriesFigure {
+    let cell = case.cell;
     let interval = cell.track.interval();
-    let record = Record::of(&cell.track);
-    let frames: Vec<Option<[f64; 6]>> = match &record {
+    let record = Record::of(&cell.track, case.modes());
+    let frames: Vec<Option<Vec<f64>>> = match &record {
         Some(record) => record.frames.clone(),
-        None => cell.track.0.iter().map(|frame| Some(frame.y)).collect(),
+        None => cell.track.0.iter().map(|frame| Some(frame.y.clone())).collect(),
     };
     let first = cell.track.0.first().map_or(0.0, |frame| frame.t);
     let times = match record {
@@ -126,7 +133,7 @@ fn series(cell: &CellTrack, units: &Units) -> SeriesFigure {
         None => cell.track.0.iter().map(|frame| frame.t).collect(),
     };
     let values =
-        |of: &dyn Fn(&[f64; 6]) -> f64| frames.iter().map(|y| y.as_ref().map(of)).collect::<Vec<_>>();
+        |of: &dyn Fn(&[f64]) -> f64| frames.iter().map(|y| y.as_ref().map(|y| of(y))).collect::<Vec<_>>();
     let mode = |n: usize| {
         let at = 2 * n - 2;
         let part = |label: &str, colour, k: usize| Curve {
@@ -147,7 +154,7 @@ fn series(cell: &CellTrack, units: &Units) -> SeriesFigure {
     SeriesFigure {
         time_label: format!("*t* ({})", units.time),
         times,
-        panels: vec![mode(2), mode(3)],
+        panels: (2..=case.modes()).map(mode).collect(),
         ..SeriesFigure::default()
     }
 }

@@ -1,7 +1,7 @@
 //! Cells as further steps use them: the frames that count, with their errors, and what was left out.
 
 use crate::Result;
-use motiform_inference::{Observation, Track};
+use motiform_inference::{MOST_MODES, Observation, Track};
 use motiform_tracks::modes::{CellModes, ModeOptions, modes};
 use motiform_tracks::{Options, Tracks, read};
 use std::collections::BTreeMap;
@@ -23,7 +23,7 @@ pub struct CellTrack {
     pub name: String,
     /// All frames, with their flags.
     pub modes: CellModes,
-    /// The frames that count: centre, z2, z3 and their covariance.
+    /// The frames that count: centre, z2, z3, z4 and their covariance. Models of three modes are fitted to the first three of these alone.
     pub track: Track,
     /// Mean radius R0 over these frames; 0 without any.
     pub radius: f64,
@@ -60,11 +60,10 @@ impl CellTrack {
         let mut sum = 0.0;
         for frame in modes.used() {
             let Some(fit) = &frame.radius else { continue };
-            let [z2, z3] = [0, 1].map(|n| fit.z.get(n).copied().unwrap_or_default());
-            let sigma = modes.sigma.unwrap_or(fit.sigma);
-            let covariance =
-                fit.observed_covariance(sigma).map(|row| row.map(|x| x * fit.inflation.max(1.0)));
-            let y = [fit.centre[0], fit.centre[1], z2[0], z2[1], z3[0], z3[1]];
+            let mut covariance = fit.observed_covariance(modes.sigma.unwrap_or(fit.sigma), MOST_MODES);
+            covariance.iter_mut().flatten().for_each(|x| *x *= fit.inflation.max(1.0));
+            let shape = fit.z.iter().take(MOST_MODES - 1).flatten();
+            let y = fit.centre.iter().chain(shape).copied().collect();
             frames.push(Observation { t: frame.t, y, covariance });
             sum += fit.r0;
         }

@@ -15,6 +15,9 @@ use serde::{Deserialize, Serialize};
 pub struct FitOptions {
     /// Highest order of the terms: 3 or 5.
     pub order: u32,
+    /// Amplitudes of the model: 3, or 4 with z4.
+    #[serde(default = "three")]
+    pub modes: usize,
     /// Models drawn from the estimate.
     pub draws: usize,
     /// Seed of the draws and of the simulated cells.
@@ -30,10 +33,26 @@ pub struct FitOptions {
     pub together: bool,
 }
 
+/// What folders of fits had that do not say.
+fn three() -> usize {
+    3
+}
+
+impl FitOptions {
+    /// The terms that are fitted.
+    ///
+    /// # Errors
+    /// [`motiform_inference::Error::Setting`] for an order or a number of modes out of range.
+    pub fn library(&self) -> Result<Library> {
+        Ok(Library::new(self.modes, self.order)?)
+    }
+}
+
 impl Default for FitOptions {
     fn default() -> Self {
         Self {
             order: 3,
+            modes: 3,
             draws: 40,
             seed: 1,
             simulations: 199,
@@ -70,7 +89,7 @@ pub fn fit_cells(
     watch: &dyn Watch,
 ) -> Result<Vec<Option<CellFit>>> {
     // Errors of settings come before any work, and those of data are in the results: what is left is a study's.
-    Library::new(3, options.order)?;
+    options.library()?;
     let answer = |cell: &&CellTrack| fit_or_reason(cell, options, &StopOnly(watch));
     Ok(pool::as_far_as(cells, threads, watch, answer)?)
 }
@@ -103,7 +122,7 @@ pub(crate) fn fit_or_reason(
 /// # Errors
 /// Settings that cannot be used; [`motiform_study::Error::Interrupted`].
 pub fn fit_cell(cell: &CellTrack, options: &FitOptions, watch: &dyn Watch) -> Result<CellFit> {
-    let settings = Settings { library: Library::new(3, options.order)?, ..Settings::default() };
+    let settings = Settings { library: options.library()?, ..Settings::default() };
     let fitted = if cell.frames() < LEAST_FRAMES {
         Err(format!("{} frames count, and a fit needs at least {LEAST_FRAMES}", cell.frames()))
     } else {
@@ -142,7 +161,7 @@ pub(crate) fn fit_in_stages(
     stages: &Stages,
     watch: &dyn Watch,
 ) -> Result<CellFit> {
-    let settings = Settings { library: Library::new(3, options.order)?, ..Settings::default() };
+    let settings = Settings { library: options.library()?, ..Settings::default() };
     let long = cells.iter().filter(|cell| cell.frames() >= LEAST_FRAMES);
     let tracks: Vec<Track> = long.map(|cell| cell.track.clone()).collect();
     let mut fitted = if tracks.len() < 2 {

@@ -80,7 +80,7 @@ impl Prediction {
 /// # Checked by  tests/all/prediction.rs: p-values of the true model are uniform; wrong models are found
 #[must_use]
 pub fn predict(cell: &CellTrack, fit: &Fit, companions: Companions, watch: &dyn Watch) -> Option<Prediction> {
-    let observed = Record::of(&cell.track)?;
+    let observed = Record::of(&cell.track, fit.library.modes)?;
     let asked = statistics::Asked::of(&observed, &cell.track);
     let mut found = Vec::new();
     let (mut shown, mut lost) = (Vec::new(), 0);

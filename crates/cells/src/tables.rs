@@ -41,10 +41,8 @@ pub fn mode_columns(cells: &[CellTrack]) -> Vec<Column> {
     for (place, name) in ["z2_error", "z3_error"].into_iter().enumerate() {
         let read = move |cell: &CellTrack, frame: &FrameModes| {
             let fit = frame.radius.as_ref()?;
-            Some(
-                fit.observed_covariance(cell.modes.sigma.unwrap_or(fit.sigma))[2 + 2 * place][2 + 2 * place]
-                    .sqrt(),
-            )
+            let at = 3 + 2 * place; // after X, Y, R0
+            Some(fit.covariance(cell.modes.sigma.unwrap_or(fit.sigma), at, at).sqrt())
         };
         columns.push(Column::new(name, "standard error of the real part", number(&read)));
     }

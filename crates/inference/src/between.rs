@@ -37,7 +37,7 @@ pub struct BetweenCells {
 /// # Errors    of the input; [`Error::Setting`] for fewer than two cells
 /// # Checked by  `tests/all/together.rs`: fits with each cell left out, and the scatter of joint fits of cells that differ
 pub fn between_cells(tracks: &[Track], fit: &Fit) -> Result<BetweenCells> {
-    observation::check(tracks)?;
+    observation::check(tracks, fit.library.modes)?;
     let cells = tracks.len();
     if cells < LEAST {
         return Err(Error::Setting { key: "cells", value: cells as f64, remedy: "give two cells or more" });

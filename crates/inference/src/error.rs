@@ -43,6 +43,20 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
+    /// Modes that a model has and a frame does not.
+    #[error(
+        "cell {cell}, frame {frame}: {given} numbers with their covariance are given, and the model is fitted to {numbers}: x, y and the real and imaginary parts of z2, z3, .."
+    )]
+    Modes {
+        /// The cell, from 0.
+        cell: usize,
+        /// The frame, from 0.
+        frame: usize,
+        /// Numbers given.
+        given: usize,
+        /// Numbers that are fitted.
+        numbers: usize,
+    },
     /// A covariance that is none.
     #[error(
         "cell {cell}, frame {frame}: the covariance is not symmetric and positive definite; give every coordinate an error above 0"
@@ -52,6 +66,16 @@ pub enum Error {
         cell: usize,
         /// The frame, from 0.
         frame: usize,
+    },
+    /// A mode beyond the third that is not seen: its equation would be one of the errors of observation.
+    #[error(
+        "{mode} does not exceed its errors of observation (mean square {signal:.2} times theirs, errors subtracted): fit three modes"
+    )]
+    NotSeen {
+        /// The mode.
+        mode: &'static str,
+        /// Its mean square, errors subtracted, over that of the errors.
+        signal: f64,
     },
     /// Frames that do not follow each other.
     #[error("no three frames follow each other within {longest}: the gaps are too long to follow the motion")]

@@ -3,7 +3,6 @@
 use crate::chi_square::chi_square_tail;
 use crate::filter::Theta;
 use crate::fit::refit;
-use crate::observation::OBSERVED;
 use crate::{Coefficient, Error, Fit, Result, Settings, Track, identifiability, observation};
 use motiform_dynamics::Watch;
 use serde::{Deserialize, Serialize};
@@ -57,7 +56,7 @@ pub struct Handedness {
     pub degrees: usize,
     /// Probability of such a ratio in a mirror-symmetric cell (chi-square).
     pub p_value: f64,
-    /// Difference of Schwarz's criterion, `degrees ln(6N) - ratio`: below 0 it prefers the handed model.
+    /// Difference of Schwarz's criterion, `degrees ln(n N) - ratio` with n = 6 numbers a frame (8 with z4): below 0 it prefers the handed model.
     pub bic: f64,
     /// Imaginary parts more than three standard errors from 0, the most certain first.
     pub parts: Vec<Coefficient>,
@@ -73,7 +72,7 @@ pub struct Handedness {
 /// # Errors    of the input; [`Error::Setting`] if `fit` is handed itself
 /// # Checked by  `tests/all/handed.rs`: rate of false alarms, a handed cell
 pub fn handedness(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Handedness> {
-    observation::check(tracks)?;
+    observation::check(tracks, fit.library.modes)?;
     if fit.handed {
         return Err(Error::Setting {
             key: "handed",
@@ -86,13 +85,13 @@ pub fn handedness(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Hand
     let degrees = coefficients.len();
     coefficients.resize(2 * degrees, 0.0);
     let start = Theta { coefficients, logs: fit.natural.logs };
-    let near = refit(tracks, &settings, fit.scales, &start, watch)?;
+    let near = refit(tracks, &settings, &fit.scales, &start, watch)?;
     if !fit.converged() {
         return Ok(compare(fit, near, degrees)); // decides nothing, and a second search would not either
     }
     let logs = [0.0, libm::log(0.4), libm::log(0.4)];
     let zero = Theta { coefficients: vec![0.0; 2 * degrees], logs };
-    let far = refit(tracks, &settings, fit.scales, &zero, watch)?;
+    let far = refit(tracks, &settings, &fit.scales, &zero, watch)?;
     let handed = if far.log_likelihood > near.log_likelihood { far } else { near };
     Ok(compare(fit, handed, degrees))
 }
@@ -100,7 +99,7 @@ pub fn handedness(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Hand
 fn compare(fit: &Fit, handed: Fit, degrees: usize) -> Handedness {
     let ratio = (2.0 * (handed.log_likelihood - fit.log_likelihood)).max(0.0);
     let p_value = chi_square_tail(ratio, degrees);
-    let numbers = (OBSERVED * fit.frames.max(1)) as f64;
+    let numbers = (fit.observed() * fit.frames.max(1)) as f64;
     let certainty = |c: &Coefficient| c.estimate.value.abs() / c.estimate.error.max(f64::MIN_POSITIVE);
     let mut parts: Vec<Coefficient> =
         handed.coefficients.iter().filter(|c| c.imaginary && certainty(c) > 3.0).cloned().collect();

@@ -6,7 +6,6 @@
 
 use crate::Fit;
 use crate::names::paper;
-use crate::observation::OBSERVED;
 use nalgebra::{DMatrix, SymmetricEigen};
 use serde::{Deserialize, Serialize};
 
@@ -106,15 +105,15 @@ pub fn identifiability(fit: &Fit) -> Identifiability {
         .filter(|of| of.count(Knowledge::Free) > 0)
         .map(|of| format!("equation of z{}: {}", of.equation + 1, of.text))
         .collect();
-    let (numbers, parameters) = (OBSERVED * fit.frames, fit.coefficients.len() + 3);
+    let (numbers, parameters) = (fit.observed() * fit.frames, fit.coefficients.len() + 3);
     if numbers < LEAST_NUMBERS * parameters {
         reasons.push(format!(
             "{numbers} observed numbers are too few for {parameters} parameters: track at least {} frames",
-            (LEAST_NUMBERS * parameters).div_ceil(OBSERVED)
+            (LEAST_NUMBERS * parameters).div_ceil(fit.observed())
         ));
     }
-    for (what, signal) in ["the speed", "z2", "z3"].iter().zip(fit.scales.signal) {
-        if signal < 1.0 {
+    for (what, signal) in ["the speed", "z2", "z3", "z4"].iter().zip(&fit.scales.signal) {
+        if *signal < 1.0 {
             reasons.push(format!("{what} does not exceed its errors of observation"));
         }
     }

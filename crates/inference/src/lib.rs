@@ -38,9 +38,8 @@ pub use identifiability::{
     Combination, EquationKnowledge, FIXED, FREE, Identifiability, Knowledge, identifiability,
 };
 pub use library::{Library, MOST_MODES, Term};
-pub use linear::cholesky;
 pub use names::paper;
-pub use observation::{LEAST_FRAMES, OBSERVED, Observation, Track};
+pub use observation::{LEAST_FRAMES, Observation, Track};
 pub use place::{Coordinate, Place, Placement, Plane, coordinates, place, place_among};
 pub use scales::Scales;
 pub use subsets::{Selection, Subset, Subsets, TIE, refit_with, select, subsets};

@@ -1,8 +1,7 @@
 //! Small dense linear algebra on arrays.
 
 /// Lower triangle `L` with `L L^T = a`; `None` unless `a` is positive definite.
-#[must_use]
-pub fn cholesky<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
+pub(crate) fn cholesky<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
     let mut l = [[0.0; N]; N];
     for i in 0..N {
         for j in 0..=i {

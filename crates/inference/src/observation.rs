@@ -1,14 +1,12 @@
 //! Observed tracks of shape modes.
 
-use crate::linear::cholesky;
-use crate::{Error, Result};
+use crate::{Error, MOST_MODES, Result};
+use nalgebra::{Cholesky, DMatrix};
 use serde::{Deserialize, Serialize};
 
-/// Numbers observed in a frame: x, y and the real and imaginary parts of `z2` and `z3`.
-pub const OBSERVED: usize = 6;
-
-/// What these numbers are called in messages.
-const NAMES: [&str; OBSERVED] = ["x", "y", "Re z2", "Im z2", "Re z3", "Im z3"];
+/// What is observed of a frame, in the order of [`Observation::y`]: for a model of n amplitudes the first 2n.
+pub(crate) const NAMES: [&str; 2 * MOST_MODES] =
+    ["x", "y", "Re z2", "Im z2", "Re z3", "Im z3", "Re z4", "Im z4"];
 
 /// Fewest frames of a cell.
 pub const LEAST_FRAMES: usize = 8;
@@ -20,10 +18,21 @@ pub const LEAST_FRAMES: usize = 8;
 pub struct Observation {
     /// Time; a missing frame is one whose time does not occur.
     pub t: f64,
-    /// `(x, y, Re z2, Im z2, Re z3, Im z3)`.
-    pub y: [f64; OBSERVED],
+    /// `(x, y, Re z2, Im z2, Re z3, Im z3)` and more modes, if they are known. A model of three amplitudes is fitted to these six, one of four to
+    /// eight; the others are not looked at.
+    pub y: Vec<f64>,
     /// Covariance of the errors of `y`. The fit multiplies it by one factor `s^2` for all frames.
-    pub covariance: [[f64; OBSERVED]; OBSERVED],
+    pub covariance: Vec<Vec<f64>>,
+}
+
+impl Observation {
+    /// Lower triangle `L` with `L L^T` the covariance of the first `numbers` of `y`; `None` unless that is positive definite.
+    #[must_use]
+    pub fn covariance_root(&self, numbers: usize) -> Option<Vec<Vec<f64>>> {
+        let own = DMatrix::from_fn(numbers, numbers, |i, j| self.covariance[i][j]);
+        let root = Cholesky::new(own)?.unpack();
+        Some(root.row_iter().map(|row| row.iter().copied().collect()).collect())
+    }
 }
 
 /// The track of one cell: its frames in the order of time.
@@ -48,20 +57,21 @@ impl Track {
     /// The same motion seen in a mirror: `y -> -y`, `z -> conj(z)`.
     #[must_use]
     pub fn mirrored(&self) -> Self {
-        let sign = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
+        let sign = |i: usize| if i % 2 == 0 { 1.0 } else { -1.0 };
+        let mirrored = |row: &Vec<f64>| row.iter().enumerate().map(|(i, x)| sign(i) * x).collect();
         let mirror = |frame: &Observation| Observation {
             t: frame.t,
-            y: std::array::from_fn(|i| sign[i] * frame.y[i]),
-            covariance: std::array::from_fn(|i| {
-                std::array::from_fn(|j| sign[i] * sign[j] * frame.covariance[i][j])
-            }),
+            y: mirrored(&frame.y),
+            covariance: (frame.covariance.iter().enumerate())
+                .map(|(i, row)| row.iter().enumerate().map(|(j, x)| sign(i) * sign(j) * x).collect())
+                .collect(),
         };
         Self(self.0.iter().map(mirror).collect())
     }
 }
 
-/// Checks what the other functions rely on.
-pub(crate) fn check(tracks: &[Track]) -> Result<()> {
+/// Checks what the other functions rely on, of the numbers that a model of so many amplitudes is fitted to.
+pub(crate) fn check(tracks: &[Track], modes: usize) -> Result<()> {
     if tracks.is_empty() {
         return Err(Error::NoCell);
     }
@@ -70,7 +80,7 @@ pub(crate) fn check(tracks: &[Track]) -> Result<()> {
             return Err(Error::TooShort { cell, frames: track.0.len(), least: LEAST_FRAMES });
         }
         for (frame, observation) in track.0.iter().enumerate() {
-            check_frame(cell, frame, observation)?;
+            check_frame((cell, frame), observation, 2 * modes)?;
         }
         for (frame, pair) in track.0.windows(2).enumerate() {
             let (before, t) = (pair[0].t, pair[1].t);
@@ -82,17 +92,22 @@ pub(crate) fn check(tracks: &[Track]) -> Result<()> {
     Ok(())
 }
 
-fn check_frame(cell: usize, frame: usize, observation: &Observation) -> Result<()> {
-    let named = NAMES.into_iter().zip(observation.y).chain([("the time", observation.t)]);
+fn check_frame((cell, frame): (usize, usize), observation: &Observation, numbers: usize) -> Result<()> {
+    let c = &observation.covariance;
+    let given = observation.y.len().min(c.len()).min(c.iter().map(Vec::len).min().unwrap_or(0));
+    if given < numbers {
+        return Err(Error::Modes { cell, frame, given, numbers });
+    }
+    let own = &observation.y[..numbers];
+    let named = NAMES.into_iter().zip(own.iter().copied()).chain([("the time", observation.t)]);
     for (what, value) in named {
         if !value.is_finite() {
             return Err(Error::NotFinite { cell, frame, what, value });
         }
     }
-    let c = &observation.covariance;
-    let size = (0..OBSERVED).map(|i| c[i][i]).fold(0.0, f64::max);
-    let symmetric = (0..OBSERVED).all(|i| (0..i).all(|j| (c[i][j] - c[j][i]).abs() <= 1e-9 * size));
-    if !symmetric || cholesky(c).is_none() {
+    let size = (0..numbers).map(|i| c[i][i]).fold(0.0, f64::max);
+    let symmetric = (0..numbers).all(|i| (0..i).all(|j| (c[i][j] - c[j][i]).abs() <= 1e-9 * size));
+    if !symmetric || !size.is_finite() || observation.covariance_root(numbers).is_none() {
         return Err(Error::Covariance { cell, frame });
     }
     Ok(())

@@ -1,21 +1,20 @@
 //! Natural units: those in which speed, modes and rate are about 1.
 
 use crate::filter::Frame;
-use crate::observation::OBSERVED;
 use crate::{Observation, Term, Track};
 use serde::{Deserialize, Serialize};
 
 /// Units in which a fit is computed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scales {
-    /// T: the inverse root-mean-square rate of the shape, `<|dz_n|^2>/(dt^2 <|z_n|^2>)` over n = 2, 3.
+    /// T: the inverse root-mean-square rate of the shape, `<|dz_n|^2>/(dt^2 <|z_n|^2>)` over all n from 2.
     pub time: f64,
-    /// V, L2, L3: root-mean-square speed and modes.
+    /// V, L2, L3 (and L4): root-mean-square speed and modes.
     ///
     /// The contribution of measurement errors, as the covariances state them, is subtracted.
-    pub amplitudes: [f64; 3],
-    /// Mean square of speed (from frame to frame), `z2` and `z3`, errors subtracted, over that of their errors: below 1 nothing is seen.
-    pub signal: [f64; 3],
+    pub amplitudes: Vec<f64>,
+    /// Mean square of speed (from frame to frame), `z2`, `z3` .., errors subtracted, over that of their errors: below 1 nothing is seen.
+    pub signal: Vec<f64>,
 }
 
 /// Sums of squares over frames.
@@ -51,41 +50,44 @@ fn variance(frame: &Observation, first: usize) -> f64 {
     frame.covariance[first][first] + frame.covariance[first + 1][first + 1]
 }
 
-fn square(y: &[f64; OBSERVED], first: usize) -> f64 {
+fn square(y: &[f64], first: usize) -> f64 {
     y[first] * y[first] + y[first + 1] * y[first + 1]
 }
 
 impl Scales {
-    /// The natural units of these tracks.
+    /// The natural units of these tracks, for a model of so many amplitudes.
     #[must_use]
-    pub fn of(tracks: &[Track]) -> Self {
-        let (mut speed, mut size, mut rate) = (Squares::default(), [Squares::default(); 2], [0.0; 2]);
+    pub fn of(tracks: &[Track], modes: usize) -> Self {
+        let shapes = modes - 1;
+        let (mut speed, mut size) = (Squares::default(), vec![Squares::default(); shapes]);
+        let mut rate = vec![0.0; shapes];
         let mut duration = 0.0_f64;
         for track in tracks {
             let dt = track.interval();
             let frames = &track.0;
             duration = duration.max(frames[frames.len() - 1].t - frames[0].t);
             for frame in frames {
-                for n in 0..2 {
+                for n in 0..shapes {
                     size[n].add(square(&frame.y, 2 + 2 * n), variance(frame, 2 + 2 * n));
                 }
             }
             for pair in frames.windows(2).filter(|pair| pair[1].t - pair[0].t < 1.5 * dt) {
                 let by = pair[1].t - pair[0].t;
-                let change: [f64; OBSERVED] = std::array::from_fn(|i| (pair[1].y[i] - pair[0].y[i]) / by);
+                let change: Vec<f64> = pair[1].y.iter().zip(&pair[0].y).map(|(b, a)| (b - a) / by).collect();
                 let error = |first| (variance(&pair[0], first) + variance(&pair[1], first)) / (by * by);
                 speed.add(square(&change, 0), error(0));
-                for n in 0..2 {
+                for n in 0..shapes {
                     rate[n] += square(&change, 2 + 2 * n) - error(2 + 2 * n);
                 }
             }
         }
         let pairs = speed.count.max(1.0);
-        let rates: f64 = (0..2).map(|n| (rate[n] / pairs).max(0.0) / size[n].mean()).sum();
+        let rates: f64 = (0..shapes).map(|n| (rate[n] / pairs).max(0.0) / size[n].mean()).sum();
         let dt = tracks.iter().map(Track::interval).fold(f64::INFINITY, f64::min);
-        let time = 1.0 / (0.5 * rates).sqrt().clamp(5.0 / duration, (2.0 / dt).max(5.0 / duration));
-        let of = [speed, size[0], size[1]];
-        Self { time, amplitudes: of.map(|of| of.mean().sqrt()), signal: of.map(|of| of.signal()) }
+        let time = 1.0 / (rates / shapes as f64).sqrt().clamp(5.0 / duration, (2.0 / dt).max(5.0 / duration));
+        let of = || std::iter::once(&speed).chain(&size);
+        let amplitudes = of().map(|of| of.mean().sqrt()).collect();
+        Self { time, amplitudes, signal: of().map(Squares::signal).collect() }
     }
 
     /// What a coefficient in natural units is multiplied by to be one in the units of the data: `A_n / (T prod A_m^degree)`.
@@ -99,20 +101,26 @@ impl Scales {
     /// What process noise of the velocity and of the shape is multiplied by.
     #[must_use]
     pub fn noise(&self) -> [f64; 2] {
-        let [v, l2, l3] = self.amplitudes;
-        [v, (l2 * l3).sqrt()].map(|size| size / self.time.sqrt())
+        let [l2, l3] = self.reference();
+        [self.amplitudes[0], (l2 * l3).sqrt()].map(|size| size / self.time.sqrt())
+    }
+
+    /// The modes whose geometric mean is the unit of the process noise of all modes.
+    fn reference(&self) -> [f64; 2] {
+        [self.amplitudes[1], self.amplitudes[2]]
     }
 
     /// Variances of the process noise of each mode for amplitudes 1.
-    pub(crate) fn noise_of_modes(&self) -> [f64; 3] {
-        let [_, l2, l3] = self.amplitudes;
-        [1.0, l3 / l2, l2 / l3]
+    pub(crate) fn noise_of_modes(&self) -> Vec<f64> {
+        let [l2, l3] = self.reference();
+        let of = |(n, l): (usize, &f64)| if n == 0 { 1.0 } else { (l2 / l) * (l3 / l) };
+        self.amplitudes.iter().enumerate().map(of).collect()
     }
 
     /// Unit of each observed number.
-    fn units(&self) -> [f64; OBSERVED] {
-        let [v, l2, l3] = self.amplitudes;
-        [v * self.time, v * self.time, l2, l2, l3, l3]
+    fn units(&self) -> Vec<f64> {
+        let of = |(n, l): (usize, &f64)| [if n == 0 { l * self.time } else { *l }; 2];
+        self.amplitudes.iter().enumerate().flat_map(of).collect()
     }
 
     /// Logarithm of the density of an observation in the units of the data, less that in natural units.
@@ -123,13 +131,13 @@ impl Scales {
     /// A track in natural units; positions are counted from its first frame.
     pub(crate) fn frames(&self, track: &Track) -> Vec<Frame> {
         let unit = self.units();
-        let origin = track.0[0].y;
+        let origin = &track.0[0].y;
+        let own = |frame: &Observation, i: usize| frame.y[i] - if i < 2 { origin[i] } else { 0.0 };
+        let row = |row: &[f64], i: usize| row.iter().zip(&unit).map(|(x, u)| x / (unit[i] * u)).collect();
         let frame = |frame: &Observation| Frame {
             t: (frame.t - track.0[0].t) / self.time,
-            y: std::array::from_fn(|i| (frame.y[i] - if i < 2 { origin[i] } else { 0.0 }) / unit[i]),
-            covariance: std::array::from_fn(|i| {
-                std::array::from_fn(|j| frame.covariance[i][j] / (unit[i] * unit[j]))
-            }),
+            y: unit.iter().enumerate().map(|(i, unit)| own(frame, i) / unit).collect(),
+            covariance: (0..unit.len()).map(|i| row(&frame.covariance[i], i)).collect(),
         };
         track.0.iter().map(frame).collect()
     }

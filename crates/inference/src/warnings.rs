@@ -6,7 +6,7 @@ mod whiteness;
 pub use drift::{Drift, DriftPoint, drift};
 pub use whiteness::{Channel, whiteness};
 
-use crate::field::{Field, SHAPE, Values};
+use crate::field::{Field, Values};
 use crate::filter::Frame;
 use crate::identifiability::unbounded;
 use crate::{Fit, Result, Track, observation};
@@ -102,7 +102,7 @@ impl std::fmt::Display for Warning {
 /// # Errors    of the input, as [`crate::fit()`]
 /// # Checked by  `tests/all/warnings.rs`: each warning by a cell that deserves it, none by one that does not
 pub fn warnings(tracks: &[Track], fit: &Fit, drift: Option<&Drift>) -> Result<Vec<Warning>> {
-    observation::check(tracks)?;
+    observation::check(tracks, fit.library.modes)?;
     let mut all = Vec::new();
     if let crate::Ending::Stopped { reason } = &fit.ending {
         all.push(Warning::NotConverged { reason: reason.clone() });
@@ -146,8 +146,15 @@ fn errors_differ(fit: &Fit) -> Option<Warning> {
 /// The velocity of a frame is that from it to the next.
 #[must_use]
 pub fn fastest_rate(tracks: &[Track], fit: &Fit) -> f64 {
+    match fit.library.modes {
+        4 => fastest::<8>(tracks, fit),
+        _ => fastest::<6>(tracks, fit),
+    }
+}
+
+fn fastest<const SHAPE: usize>(tracks: &[Track], fit: &Fit) -> f64 {
     let field = Field::new(&fit.library);
-    let mut values = Values::new(&field);
+    let mut values = Values::<SHAPE>::new(&field);
     let terms = fit.library.terms.len();
     let natural = &fit.natural.coefficients;
     let imaginary = |i: usize| if fit.handed { natural[terms + i] } else { 0.0 };
@@ -166,8 +173,9 @@ pub fn fastest_rate(tracks: &[Track], fit: &Fit) -> f64 {
     rates.get(rates.len() / 2).copied().unwrap_or(0.0) / fit.scales.time
 }
 
-fn shape(frame: &Frame, next: &Frame) -> [f64; SHAPE] {
+fn shape<const SHAPE: usize>(frame: &Frame, next: &Frame) -> [f64; SHAPE] {
     let dt = next.t - frame.t;
-    let v = [0, 1].map(|i| (next.y[i] - frame.y[i]) / dt);
-    [v[0], -v[1], frame.y[2], frame.y[3], frame.y[4], frame.y[5]]
+    let mut shape: [f64; SHAPE] = std::array::from_fn(|i| frame.y[i]);
+    (shape[0], shape[1]) = ((next.y[0] - frame.y[0]) / dt, -(next.y[1] - frame.y[1]) / dt);
+    shape
 }

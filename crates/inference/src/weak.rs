@@ -3,7 +3,7 @@
 //! With a smooth test function phi that vanishes at both ends of a window, integration by parts leaves no derivative of noisy data:
 //!
 //! ```text
-//! - int phi' z_n dt = sum_k c_k int phi M_k dt,        n = 2, 3
+//! - int phi' z_n dt = sum_k c_k int phi M_k dt,        n = 2, 3, ..
 //!   int phi'' (x - i y) dt = sum_k c_k int phi M_k dt, n = 1  (z1 = x' - i y')
 //! ```
 //!
@@ -12,7 +12,7 @@
 //!
 //! Source: Messenger and Bortz (2021), Multiscale Model. Simul. 19, 1474.
 
-use crate::field::{Field, SHAPE, Values};
+use crate::field::{Field, Values};
 use crate::filter::Frame;
 use crate::{Library, Result, Scales, Track, observation};
 use motiform_dynamics::Complex;
@@ -40,12 +40,16 @@ pub struct Weak {
 /// # Errors    of the input, as [`crate::fit()`]
 /// # Checked by  `tests/all/weak.rs`: exact tracks; its bias under noise
 pub fn weak(tracks: &[Track], library: &Library) -> Result<Weak> {
-    observation::check(tracks)?;
     crate::fit::check_library(library)?;
-    let scales = Scales::of(tracks);
+    observation::check(tracks, library.modes)?;
+    let scales = Scales::of(tracks, library.modes);
     let field = Field::new(library);
-    let mut sums: Vec<Normal> = (0..SHAPE / 2).map(|n| Normal::new(library.of_equation(n))).collect();
-    let windows = tracks.iter().map(|track| add_track(&mut sums, &field, track, &scales)).sum();
+    let mut sums: Vec<Normal> = (0..library.modes).map(|n| Normal::new(library.of_equation(n))).collect();
+    let add = match library.modes {
+        4 => add_track::<8>,
+        _ => add_track::<6>,
+    };
+    let windows = tracks.iter().map(|track| add(&mut sums, &field, track, &scales)).sum();
     let mut coefficients = vec![0.0; library.terms.len()];
     let mut determined = true;
     for sum in &sums {
@@ -61,11 +65,16 @@ pub fn weak(tracks: &[Track], library: &Library) -> Result<Weak> {
 }
 
 /// Adds the windows of a track that have no gap; returns their number.
-fn add_track(sums: &mut [Normal], field: &Field, track: &Track, scales: &Scales) -> usize {
+fn add_track<const SHAPE: usize>(
+    sums: &mut [Normal],
+    field: &Field,
+    track: &Track,
+    scales: &Scales,
+) -> usize {
     let frames = scales.frames(track);
     let dt = track.interval() / scales.time;
     let half = ((HALF / dt).round() as usize).max(LEAST);
-    let shapes = shapes(&frames, dt);
+    let shapes = shapes::<SHAPE>(&frames, dt);
     let mut windows = 0;
     for centre in (half + 2..frames.len().saturating_sub(half + 2)).step_by((half / 2).max(1)) {
         let range = centre - half..=centre + half;
@@ -120,7 +129,7 @@ impl Normal {
 }
 
 /// The shape of each frame; the velocity is the slope of the parabola through five frames.
-fn shapes(frames: &[Frame], dt: f64) -> Vec<[f64; SHAPE]> {
+fn shapes<const SHAPE: usize>(frames: &[Frame], dt: f64) -> Vec<[f64; SHAPE]> {
     let at = |k: usize, i: usize| frames[k.min(frames.len() - 1)].y[i];
     let slope = |k: usize, i: usize| {
         let (far, near) =
@@ -128,20 +137,26 @@ fn shapes(frames: &[Frame], dt: f64) -> Vec<[f64; SHAPE]> {
         (2.0 * far + near) / (10.0 * dt)
     };
     let of = |k: usize| {
-        let y = &frames[k].y;
-        [slope(k, 0), -slope(k, 1), y[2], y[3], y[4], y[5]]
+        let mut shape: [f64; SHAPE] = std::array::from_fn(|i| frames[k].y[i]);
+        (shape[0], shape[1]) = (slope(k, 0), -slope(k, 1));
+        shape
     };
     (0..frames.len()).map(of).collect()
 }
 
 /// Adds a window: the test function `(1 - u^2)^4`, u from -1 to 1, and the rule of the trapezium.
-fn add(sums: &mut [Normal], field: &Field, (frames, shapes): (&[Frame], &[[f64; SHAPE]]), dt: f64) {
+fn add<const SHAPE: usize>(
+    sums: &mut [Normal],
+    field: &Field,
+    (frames, shapes): (&[Frame], &[[f64; SHAPE]]),
+    dt: f64,
+) {
     let half = (frames.len() / 2) as f64;
     let width = half * dt;
     let mut values = Values::new(field);
     let zero = Complex::new(0.0, 0.0);
     let c = vec![zero; values.monomials.len()];
-    let (mut integrals, mut left) = (c.clone(), [zero; SHAPE / 2]);
+    let (mut integrals, mut left) = (c.clone(), vec![zero; SHAPE / 2]);
     for (k, (frame, shape)) in frames.iter().zip(shapes).enumerate() {
         let u = (k as f64 - half) / half;
         let w = 1.0 - u * u;
@@ -153,8 +168,9 @@ fn add(sums: &mut [Normal], field: &Field, (frames, shapes): (&[Frame], &[[f64; 
             *integral += *monomial * phi;
         }
         left[0] += Complex::new(frame.y[0], -frame.y[1]) * second;
-        left[1] += Complex::new(shape[2], shape[3]) * -first;
-        left[2] += Complex::new(shape[4], shape[5]) * -first;
+        for n in 1..SHAPE / 2 {
+            left[n] += Complex::new(shape[2 * n], shape[2 * n + 1]) * -first;
+        }
     }
     for (sum, left) in sums.iter_mut().zip(left) {
         sum.add(&integrals, left);

@@ -284,8 +284,16 @@ def test_settings_of_fits_are_checked() -> None:
     cells = motiform.cells.from_arrays({"one": simulated("fig5b")[:60]})
     with pytest.raises(ValueError, match="order = 7"):
         cells.fit(order=7, progress=False)
+    with pytest.raises(ValueError, match="modes = 5: give 3 or 4"):
+        cells.fit(modes=5, progress=False)
     with pytest.raises(RuntimeError, match="stop"):
         cells.fit(progress=_stop)
+
+
+def test_a_fit_with_z4_says_when_z4_is_not_seen() -> None:
+    cells = motiform.cells.from_arrays({"one": simulated("fig5b")[:60]})
+    fit = cells.fit(modes=4, progress=False)["one"]
+    assert not fit.decided and "z4 does not exceed its errors of observation" in fit.why
 
 
 def _stop(_: float) -> None:

@@ -1,6 +1,6 @@
 //! A record on a grid of times: observed or simulated frames, with gaps.
 
-use motiform_inference::{OBSERVED, Track};
+use motiform_inference::Track;
 use serde::{Deserialize, Serialize};
 
 /// Fewest frames of a record whose statistics are compared.
@@ -11,15 +11,15 @@ const LEAST: usize = 40;
 pub struct Record {
     /// The sampling interval.
     pub dt: f64,
-    /// `(x, y, Re z2, Im z2, Re z3, Im z3)` of each frame.
-    pub frames: Vec<Option<[f64; OBSERVED]>>,
+    /// `(x, y, Re z2, Im z2, Re z3, Im z3)` of each frame, of models with z4 eight numbers.
+    pub frames: Vec<Option<Vec<f64>>>,
 }
 
 impl Record {
     /// The frames of a track at the nearest multiples of its sampling interval; `None` for fewer than 40 frames. Of two frames at one multiple the first
-    /// is kept.
+    /// is kept. `modes`: 3, or 4 with z4, if it is known.
     #[must_use]
-    pub fn of(track: &Track) -> Option<Self> {
+    pub fn of(track: &Track, modes: usize) -> Option<Self> {
         let dt = track.interval();
         let (first, last) = (track.0.first()?.t, track.0.last()?.t);
         let place = |t: f64| ((t - first) / dt).round();
@@ -28,9 +28,15 @@ impl Record {
         }
         let mut frames = vec![None; place(last) as usize + 1];
         for frame in &track.0 {
-            frames[place(frame.t) as usize].get_or_insert(frame.y);
+            frames[place(frame.t) as usize]
+                .get_or_insert_with(|| frame.y.iter().take(2 * modes).copied().collect());
         }
         Some(Self { dt, frames })
+    }
+
+    /// Number of amplitudes: 3, or 4 with z4.
+    pub(super) fn modes(&self) -> usize {
+        self.frames.iter().flatten().next().map_or(0, |y| y.len() / 2)
     }
 
     /// Whether a frame is there, frame by frame.
@@ -39,7 +45,7 @@ impl Record {
     }
 
     /// Pairs of frames `lag` apart.
-    pub(super) fn pairs(&self, lag: usize) -> impl Iterator<Item = (&[f64; OBSERVED], &[f64; OBSERVED])> {
+    pub(super) fn pairs(&self, lag: usize) -> impl Iterator<Item = (&Vec<f64>, &Vec<f64>)> {
         let later = self.frames.get(lag..).unwrap_or_default();
         self.frames.iter().zip(later).filter_map(|(a, b)| Some((a.as_ref()?, b.as_ref()?)))
     }

@@ -3,7 +3,7 @@
 use super::record::Record;
 use motiform_dynamics::steppers::RK4;
 use motiform_dynamics::{InPlane, Integration, Model, Noise, NoisyOrbit, Normal, Orbit, StepControl};
-use motiform_inference::{Fit, OBSERVED, Observation, Track, equations};
+use motiform_inference::{Fit, Observation, Scales, Track, equations};
 use motiform_models::amplitudes::info;
 
 /// Longest step of the noise, in natural times.
@@ -19,12 +19,12 @@ pub(super) fn simulated(
     (track, observed): (&Track, &Record),
     (seed, number): (u64, u64),
 ) -> Option<Record> {
-    let units = Units::of(fit);
+    let units = Units(&fit.scales);
     let model = model(fit, coefficients)?;
     let mut normal = Normal::new(seed, 2 * number);
-    let errors = Errors::of(track, observed, fit.noise.s.value);
+    let errors = Errors::of(track, observed, fit);
     let mut state = start(model.as_ref(), track, &units, &errors, &mut normal)?;
-    let dt = observed.dt / units.time;
+    let dt = observed.dt / units.0.time;
     let steps = (dt / STEP).ceil().max(1.0);
     let step = dt / steps;
     let control = StepControl::Fixed { step };
@@ -70,10 +70,11 @@ fn start(
     let first = track.0.first()?;
     let later = track.0[1..].iter().find(|frame| clear(first, frame)).or(track.0.last())?;
     let by = later.t - first.t;
-    let y = errors.add(0, first.y, normal);
-    let end = errors.add(0, later.y, normal);
-    let velocity = [0, 1].map(|k| (end[k] - y[k]) / by / units.speed);
-    let shape = [y[2] / units.modes[0], y[3] / units.modes[0], y[4] / units.modes[1], y[5] / units.modes[1]];
+    let own = |frame: &Observation| frame.y[..2 * units.0.amplitudes.len()].to_vec();
+    let y = errors.add(0, own(first), normal);
+    let end = errors.add(0, own(later), normal);
+    let velocity = [0, 1].map(|k| (end[k] - y[k]) / by / units.0.amplitudes[0]);
+    let shape = y.iter().enumerate().skip(2).map(|(i, y)| y / units.0.amplitudes[i / 2]);
     let coordinates: Vec<f64> = velocity.into_iter().chain(shape).collect();
     let mut state = vec![0.0; model.dim()];
     model.encode(&coordinates, &mut state);
@@ -88,64 +89,51 @@ fn clear(a: &Observation, b: &Observation) -> bool {
 }
 
 /// The natural units, in those of the data.
-struct Units {
-    time: f64,
-    speed: f64,
-    modes: [f64; 2],
-}
+struct Units<'f>(&'f Scales);
 
-impl Units {
-    fn of(fit: &Fit) -> Self {
-        let [speed, second, third] = fit.scales.amplitudes;
-        Self { time: fit.scales.time, speed, modes: [second, third] }
-    }
-
+impl Units<'_> {
     fn length(&self) -> f64 {
-        self.speed * self.time
+        self.0.amplitudes[0] * self.0.time
     }
 
     /// What a frame without errors shows of a state.
-    fn observed(&self, model: &dyn Model, state: &[f64]) -> [f64; OBSERVED] {
+    fn observed(&self, model: &dyn Model, state: &[f64]) -> Vec<f64> {
         let (shape, position) = state.split_at(model.dim());
-        let mut coordinates = [0.0; OBSERVED];
-        model.decode(shape, &mut coordinates);
-        let [_, _, a, b, c, d] = coordinates;
-        let [second, third] = self.modes;
-        [
-            position[0] * self.length(),
-            position[1] * self.length(),
-            a * second,
-            b * second,
-            c * third,
-            d * third,
-        ]
+        let mut seen = vec![0.0; 2 * self.0.amplitudes.len()];
+        model.decode(shape, &mut seen);
+        seen[..2].copy_from_slice(&position[..2]);
+        for (i, value) in seen.iter_mut().enumerate() {
+            *value *= if i < 2 { self.length() } else { self.0.amplitudes[i / 2] };
+        }
+        seen
     }
 }
 
 /// The errors of the frames: lower triangles of their covariances, and the factor.
 struct Errors {
-    roots: Vec<Option<[[f64; OBSERVED]; OBSERVED]>>,
+    roots: Vec<Option<Vec<Vec<f64>>>>,
     factor: f64,
 }
 
 impl Errors {
-    fn of(track: &Track, observed: &Record, factor: f64) -> Self {
+    fn of(track: &Track, observed: &Record, fit: &Fit) -> Self {
+        let own = 2 * fit.library.modes;
         let mut roots = vec![None; observed.frames.len()];
         let first = track.0.first().map_or(0.0, |frame| frame.t);
         for frame in &track.0 {
             let place = ((frame.t - first) / observed.dt).round() as usize;
             if let Some(root) = roots.get_mut(place) {
-                *root = motiform_inference::cholesky(&frame.covariance);
+                *root = frame.covariance_root(own);
             }
         }
-        Self { roots, factor }
+        Self { roots, factor: fit.noise.s.value }
     }
 
-    fn add(&self, place: usize, mut y: [f64; OBSERVED], normal: &mut Normal) -> [f64; OBSERVED] {
+    fn add(&self, place: usize, mut y: Vec<f64>, normal: &mut Normal) -> Vec<f64> {
         let Some(root) = &self.roots[place] else { return y };
-        let deviates: [f64; OBSERVED] = std::array::from_fn(|_| normal.next());
+        let deviates: Vec<f64> = y.iter().map(|_| normal.next()).collect();
         for (value, row) in y.iter_mut().zip(root) {
-            *value += self.factor * row.iter().zip(deviates).map(|(l, z)| l * z).sum::<f64>();
+            *value += self.factor * row.iter().zip(&deviates).map(|(l, z)| l * z).sum::<f64>();
         }
         y
     }

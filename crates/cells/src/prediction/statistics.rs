@@ -5,7 +5,7 @@
 
 use super::record::Record;
 use crate::observe::step_of;
-use motiform_inference::{OBSERVED, Track};
+use motiform_inference::Track;
 use serde::{Deserialize, Serialize};
 
 /// Lags per decade.
@@ -39,6 +39,8 @@ pub enum Kind {
     SecondMode,
     /// Autocorrelation of z3.
     ThirdMode,
+    /// Autocorrelation of z4, of models with z4.
+    FourthMode,
     /// Whether, and how long before or after, the body is elongated along (1) or across (-1) its motion.
     Elongation,
     /// Quantiles of the speed (length/time).
@@ -49,6 +51,8 @@ pub enum Kind {
     SecondSize,
     /// Quantiles of |z3| (length).
     ThirdSize,
+    /// Quantiles of |z4| (length), of models with z4.
+    FourthSize,
 }
 
 impl Kind {
@@ -60,11 +64,13 @@ impl Kind {
             Self::Velocity => "autocorrelation of the velocity",
             Self::SecondMode => "autocorrelation of z2",
             Self::ThirdMode => "autocorrelation of z3",
+            Self::FourthMode => "autocorrelation of z4",
             Self::Elongation => "elongation along the motion",
             Self::Speed => "speed",
             Self::Turning => "turning angle",
             Self::SecondSize => "size of z2",
             Self::ThirdSize => "size of z3",
+            Self::FourthSize => "size of z4",
         }
     }
 
@@ -72,10 +78,15 @@ impl Kind {
     #[must_use]
     pub fn axis(self) -> Axis {
         match self {
-            Self::Displacement | Self::Velocity | Self::SecondMode | Self::ThirdMode | Self::Elongation => {
-                Axis::Lag
+            Self::Displacement
+            | Self::Velocity
+            | Self::SecondMode
+            | Self::ThirdMode
+            | Self::FourthMode
+            | Self::Elongation => Axis::Lag,
+            Self::Speed | Self::Turning | Self::SecondSize | Self::ThirdSize | Self::FourthSize => {
+                Axis::Share
             }
-            Self::Speed | Self::Turning | Self::SecondSize | Self::ThirdSize => Axis::Share,
         }
     }
 }
@@ -117,10 +128,13 @@ impl Asked {
             let sizes = record.frames.iter().flatten().map(move |y| libm::hypot(y[at], y[at + 1]));
             sizes.collect::<Vec<f64>>()
         };
-        let mode =
-            |at: usize| record.frames.iter().map(move |y| y.map(|y| [y[at], y[at + 1]])).collect::<Vec<_>>();
+        let part = |y: &Vec<f64>, at: usize| [y[at], y[at + 1]];
+        let mode = |at: usize| {
+            let parts = record.frames.iter().map(|y| y.as_ref().map(|y| part(y, at)));
+            parts.collect::<Vec<_>>()
+        };
         let speeds: Vec<f64> = moves.0.iter().flatten().map(|v| libm::hypot(v[0], v[1])).collect();
-        vec![
+        let mut all = vec![
             self.over_lags(Kind::Displacement, |lag| square(record, lag)),
             self.over_lags(Kind::Velocity, |lag| correlation(&moves.0, lag)),
             self.over_lags(Kind::SecondMode, |lag| correlation(&mode(2), lag)),
@@ -130,7 +144,12 @@ impl Asked {
             quantiles(Kind::Turning, moves.turns(self.step)),
             quantiles(Kind::SecondSize, shape(2)),
             quantiles(Kind::ThirdSize, shape(4)),
-        ]
+        ];
+        if record.modes() > 3 {
+            all.push(self.over_lags(Kind::FourthMode, |lag| correlation(&mode(6), lag)));
+            all.push(quantiles(Kind::FourthSize, shape(6)));
+        }
+        all
     }
 
     fn over_lags(&self, kind: Kind, value: impl Fn(usize) -> f64) -> Statistic {
@@ -178,7 +197,7 @@ impl Moves {
     fn of(record: &Record, step: usize) -> Self {
         let time = step as f64 * record.dt;
         let later = record.frames.get(step..).unwrap_or_default();
-        let velocity = |(a, b): (&Option<[f64; OBSERVED]>, &Option<[f64; OBSERVED]>)| {
+        let velocity = |(a, b): (&Option<Vec<f64>>, &Option<Vec<f64>>)| {
             let (a, b) = (a.as_ref()?, b.as_ref()?);
             Some([(b[0] - a[0]) / time, (b[1] - a[1]) / time])
         };

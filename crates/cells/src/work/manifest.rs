@@ -33,7 +33,8 @@ pub(super) struct Manifest {
 
 impl Manifest {
     pub(super) fn new(sample: &Sample, cells: &[&CellTrack], options: &FitOptions) -> Self {
-        let input = |cell: &&CellTrack| Input { name: cell.name.clone(), frames: digest(cell) };
+        let input =
+            |cell: &&CellTrack| Input { name: cell.name.clone(), frames: digest(cell, options.modes) };
         Self {
             motiform: VERSION.to_owned(),
             format: FORMAT,
@@ -101,10 +102,12 @@ impl Manifest {
 }
 
 /// SHA-256 of what a fit is made from.
-fn digest(cell: &CellTrack) -> String {
+fn digest(cell: &CellTrack, modes: usize) -> String {
+    let own = 2 * modes;
     let mut bytes = Vec::with_capacity(cell.frames() * 43 * 8);
     for frame in &cell.track.0 {
-        let numbers = [frame.t].into_iter().chain(frame.y).chain(frame.covariance.into_iter().flatten());
+        let covariance = frame.covariance.iter().take(own).flat_map(|row| row.iter().take(own));
+        let numbers = std::iter::once(&frame.t).chain(frame.y.iter().take(own)).chain(covariance);
         numbers.for_each(|x| bytes.extend_from_slice(&x.to_le_bytes()));
     }
     sha256_hex(&bytes)

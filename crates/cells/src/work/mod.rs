@@ -1,7 +1,8 @@
 //! A folder of fits that is being computed: each is written as soon as it is done, so that the work can be continued.
 //!
 //! `_fit.json` says what is computed (settings, units, and a digest of every cell's frames); `_cells/N.json.gz` are the finished fits. Of one fit of
-//! all cells together, `_cells` has the finished stages. When all are done, the results are written into the same folder and `_cells` is removed.
+//! all cells together, `_cells` has the finished stages. When all are done, the results are written into the same folder, and `_cells` is removed once the
+//! pages are drawn, which need the whole fits.
 
 mod manifest;
 
@@ -13,7 +14,6 @@ pub(crate) use manifest::MANIFEST;
 use manifest::Manifest;
 use motiform_dynamics::{StopOnly, Watch};
 use motiform_files::{Staging, replace_file, sweep};
-use motiform_inference::Library;
 use motiform_lab::pool;
 use motiform_lab::scan::Opening;
 use motiform_study::Error as StudyError;
@@ -48,7 +48,7 @@ impl FitWork {
         options: &FitOptions,
         opening: Opening,
     ) -> Result<Self> {
-        Library::new(3, options.order)?;
+        options.library()?;
         sweep(path);
         let manifest = Manifest::new(sample, cells, options);
         let there = path.symlink_metadata().is_ok();
@@ -80,11 +80,12 @@ impl FitWork {
         Ok(Self { path: path.to_owned(), manifest, options, done, _locks: (lock, None) })
     }
 
-    /// The summary, if all cells were done when the folder was opened and the results are there.
+    /// The summary, if all cells were done when the folder was opened and the results are there; with `pages` only if these have been drawn.
     #[must_use]
-    pub fn finished(&self) -> Option<Value> {
+    pub fn finished(&self, pages: bool) -> Option<Value> {
         let bytes = fs::read(self.path.join(crate::folder::SUMMARY)).ok()?;
-        if self.path.join(CELLS).exists() { None } else { serde_json::from_slice(&bytes).ok() }
+        let complete = !self.path.join(CELLS).exists() || (self.left() == 0 && !pages);
+        if complete { serde_json::from_slice(&bytes).ok() } else { None }
     }
 
     /// Where it is.
@@ -156,15 +157,15 @@ impl FitWork {
         replace_file(&self.path.join(name), bytes)
     }
 
-    /// Writes the results of the fits that are done; if these are all, what is only needed to go on is removed.
+    /// Writes the results of the fits that are done. If these are all, and their pages are drawn, what is only needed to go on is removed.
     ///
     /// # Errors
     /// Files that cannot be written.
-    pub fn write(&self, sample: &Sample, fits: &[CellFit]) -> Result<PathBuf> {
+    pub fn write(&self, sample: &Sample, fits: &[CellFit], pages: bool) -> Result<PathBuf> {
         for (name, bytes) in &result_files(sample, fits, &self.path)? {
             self.write_file(name, bytes)?;
         }
-        if fits.len() == self.manifest.fits() {
+        if pages && fits.len() == self.manifest.fits() {
             let _ = fs::remove_dir_all(self.path.join(CELLS)); // what is left over harms nothing
         }
         Ok(self.path.clone())

@@ -30,13 +30,16 @@ pub(crate) fn sampled(study: &mut Study, noise: f64, (dt, frames): (f64, usize))
     study.run.seed = 3;
 }
 
-/// The columns of a trajectory that are the modes z2 and z3.
+/// The columns of a trajectory that are the modes z2, z3, ...
 fn modes(columns: &dyn Fn(&str) -> Option<Vec<f64>>, row: usize) -> Vec<[f64; 2]> {
     let value = |name: &str| columns(name).map_or(0.0, |column| column[row]);
     if columns("s11").is_some() {
         return vec![[0.5 * value("s11"), -0.5 * value("s12")], [0.5 * value("u111"), 0.5 * value("u222")]];
     }
-    vec![[value("z2_re"), value("z2_im")], [value("z3_re"), value("z3_im")]]
+    let mode = |n: usize| {
+        columns(&format!("z{n}_re")).map(|_| [value(&format!("z{n}_re")), value(&format!("z{n}_im"))])
+    };
+    (2..).map_while(mode).collect()
 }
 
 /// The body as outlines about a circle of this radius, with noisy vertices; frames are numbered from 0.

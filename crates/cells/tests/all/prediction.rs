@@ -52,7 +52,7 @@ fn the_same_seed_gives_the_same_cells_and_the_watch_stops_the_work() {
     gappy.track.0.remove(10);
     let shown = predict(&gappy, &fit, Companions { count: 1, seed: 3 }, &()).unwrap().shown;
     assert!(shown[0].frames[10].is_none() && shown[0].frames.len() == gappy.track.0.len() + 1);
-    let start = shown[0].frames[0].unwrap();
+    let start = shown[0].frames[0].as_ref().unwrap();
     assert!((0..6).all(|k| (start[k] - gappy.track.0[0].y[k]).abs() < 0.1), "{start:?}");
     assert!(predict(&gappy, &fit, COMPANIONS, &Stop).is_none());
 }

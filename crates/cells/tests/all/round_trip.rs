@@ -2,9 +2,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
-use super::bodies::{cell, preset};
+use super::bodies::{cell, preset, sampled};
 use motiform_analysis::regime::Regime;
-use motiform_cells::{CellFit, FitFolder, FitOptions, FitWork, Fitted, fit_cell, fits_json};
+use motiform_cells::{Agreement, CellFit, FitFolder, FitOptions, FitWork, Fitted, fit_cell, fits_json};
 use motiform_inference::Placement;
 use motiform_lab::scan::Opening;
 use motiform_study::Study;
@@ -48,10 +48,36 @@ fn a_chaotic_cell_is_found_chaotic_at_its_place() {
     );
     let cells = [&sample.cells[0]];
     let work = FitWork::open(&target, &sample, &cells, &FitOptions::default(), Opening::New).unwrap();
-    let path = work.write(&sample, &[fit]).unwrap();
+    let path = work.write(&sample, &[fit], true).unwrap();
     assert!(FitFolder::is_one(&path));
     let back = Study::read(&path.join("cell-one.toml")).unwrap();
     assert!(back.model.definition().is_some() && back.run.noise > 0.0);
+}
+
+/// Equations with z4, as a user types them: found again among 45 terms, with the same motion, and compared in all its modes.
+#[test]
+fn a_cell_with_a_square_mode() {
+    let text = r#"
+        [model.amplitudes]
+        modes = [1, 2, 3, 4]
+        [model.amplitudes.equations]
+        z1 = "z1 + 2*conj(z1)*z2 - |z1|^2*z1"
+        z2 = "-0.5*z2 - 0.125*z1^2 + 0.3*conj(z1)*z3 + 0.4*conj(z2)*z4"
+        z3 = "-0.1*z3 + 0.4*z1*z2 + 0.0125*z1^3 - 0.2*conj(z1)*z4"
+        z4 = "-0.6*z4 + 2*z2^2 + 0.5*z1*z3"
+    "#;
+    let mut study = Study::parse(text, "text", "square").unwrap();
+    sampled(&mut study, 0.01, (0.5, 600));
+    let options = FitOptions { modes: 4, draws: 10, drift: false, simulations: 39, ..FitOptions::default() };
+    let (_, fit) = fitted(&study, &options);
+    let found = fit.fitted.as_ref().unwrap();
+    assert_eq!(regime(found), Some(Regime::Chaotic), "{:?} {:?}", found.regime, found.warnings);
+    let square = found.model().coefficient("z4: z2^2").unwrap().estimate;
+    assert!((square.value - 2.0).abs() < 4.0 * square.error && square.error < 0.2, "{square:?}");
+    let prediction = fit.prediction.unwrap();
+    assert_eq!(prediction.comparisons.len(), 11);
+    assert_eq!(prediction.count(Agreement::Differs), 0, "{:?}", prediction.comparisons);
+    assert!(found.study("one").unwrap().model.definition().unwrap().modes.len() == 4);
 }
 
 #[test]

@@ -56,6 +56,9 @@ pub(crate) struct FitCellsOptions {
     /// Highest order of the terms: 3 (22 terms, those of the paper) or 5
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(3..=5))]
     pub(crate) order: u32,
+    /// Amplitudes of the model: 3 (velocity, z2, z3), or 4 with z4, the square mode of the outline (45 terms of order 3)
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(3..=4))]
+    pub(crate) modes: u32,
     /// Models drawn from the estimate, whose motions decide the name
     #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub(crate) draws: u32,

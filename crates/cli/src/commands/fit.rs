@@ -21,7 +21,9 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
     let settings = settings(options);
     let open = |out: &PathBuf| FitWork::open(out, &sample, &cells, &settings, opening(options));
     let mut work = options.cells.out.as_ref().map(open).transpose().map_err(plain_error)?;
-    if let Some((path, summary)) = work.as_ref().and_then(|work| Some((work.path(), work.finished()?))) {
+    if let Some((path, summary)) =
+        work.as_ref().and_then(|work| Some((work.path(), work.finished(!options.cells.no_report)?)))
+    {
         let text = format!("complete       {}: nothing left to compute", path.display());
         print(&if options.cells.json { summary.to_string() } else { text })?;
         return Ok(End::Done);
@@ -33,7 +35,10 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
         let write = |name: &str, bytes: &[u8]| work.write_file(name, bytes);
         draw(&sample, (&cells, &observations), (&fits, options.together), threads(options), &write)?;
     }
-    let folder = work.map(|work| work.write(&sample, &fits)).transpose().map_err(plain_error)?;
+    let folder = work
+        .map(|work| work.write(&sample, &fits, !options.cells.no_report))
+        .transpose()
+        .map_err(plain_error)?;
     show(options, &sample, &fits, folder.as_deref())?;
     let asked = if options.together { 1 } else { cells.len() };
     if fits.len() < asked {
@@ -53,6 +58,7 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
 fn settings(options: &FitCellsOptions) -> FitOptions {
     FitOptions {
         order: options.order,
+        modes: options.modes as usize,
         draws: options.draws as usize,
         seed: options.seed,
         simulations: options.simulations as usize,

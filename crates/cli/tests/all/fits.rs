@@ -101,6 +101,21 @@ fn killed_and_resumed_fits_have_the_bytes_of_uninterrupted_ones() {
     println!("a complete folder: {:.2} s", start.elapsed().as_secs_f64());
 }
 
+/// Pages that were left out are drawn afterwards, from the same fits.
+#[test]
+fn pages_left_out_are_drawn_by_resume() {
+    let folder = Folder::new();
+    fs::write(folder.path("cells.csv"), outlines(2)).unwrap();
+    let words = "fit cells.csv --interval 1 --pixel-size 1 --draws 3 --json";
+    folder.run(&format!("{words} --out whole"));
+    let first = folder.run(&format!("{words} --out later --no-report"));
+    assert!(!folder.path("later/report.html").exists());
+    let same = folder.run(&format!("{words} --out later --no-report --resume")).expect(0);
+    assert_eq!(same.json(), first.json());
+    folder.run(&format!("{words} --out later --resume"));
+    assert_eq!(files(&folder, "later"), files(&folder, "whole"));
+}
+
 /// One law for all cells: killed after each of its first stages, and resumed.
 #[test]
 fn a_killed_fit_of_all_cells_together_goes_on_from_its_last_stage() {

@@ -10,9 +10,6 @@ use crate::{Library, Term};
 use motiform_dynamics::Complex;
 use products::Products;
 
-/// Real numbers of the shape: `(Re z1, Im z1, .., Im z3)`.
-pub(crate) const SHAPE: usize = 6;
-
 const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
 
 /// A coefficient: the real or the imaginary part of a term's factor.
@@ -32,9 +29,9 @@ pub(crate) struct Field {
     equations: Vec<usize>,
 }
 
-/// The field at a state, with its derivatives.
+/// The field at a state `(Re z1, Im z1, ..)` of `SHAPE` real numbers, with its derivatives.
 #[derive(Clone, Debug)]
-pub(crate) struct Values {
+pub(crate) struct Values<const SHAPE: usize> {
     /// Rates of the shape.
     pub(crate) rate: [f64; SHAPE],
     /// `jacobian[i][j]`: derivative of rate i by entry j.
@@ -49,7 +46,7 @@ pub(crate) struct Values {
     scratch: Vec<Complex<f64>>,
 }
 
-impl Values {
+impl<const SHAPE: usize> Values<SHAPE> {
     pub(crate) fn new(field: &Field) -> Self {
         let terms = field.equations.len();
         Self {
@@ -93,7 +90,12 @@ impl Field {
 
     /// The rates alone.
     #[inline(always)]
-    pub(crate) fn rate(&self, c: &[Complex<f64>], shape: &[f64; SHAPE], values: &mut Values) {
+    pub(crate) fn rate<const SHAPE: usize>(
+        &self,
+        c: &[Complex<f64>],
+        shape: &[f64; SHAPE],
+        values: &mut Values<SHAPE>,
+    ) {
         self.products.evaluate(shape, &mut values.scratch);
         values.rate = [0.0; SHAPE];
         for (term, &equation) in self.equations.iter().enumerate() {
@@ -107,12 +109,12 @@ impl Field {
 
     /// Rates and first derivatives; second ones if `second`.
     #[inline(always)]
-    pub(crate) fn evaluate(
+    pub(crate) fn evaluate<const SHAPE: usize>(
         &self,
         c: &[Complex<f64>],
         shape: &[f64; SHAPE],
         second: bool,
-        values: &mut Values,
+        values: &mut Values<SHAPE>,
     ) {
         self.rate(c, shape, values);
         values.jacobian = [[0.0; SHAPE]; SHAPE];
@@ -134,8 +136,8 @@ impl Field {
     }
 
     #[inline(always)]
-    fn hessian(&self, c: &[Complex<f64>], values: &mut Values) {
-        let mut sums = [[[ZERO; SHAPE]; SHAPE]; SHAPE / 2];
+    fn hessian<const SHAPE: usize>(&self, c: &[Complex<f64>], values: &mut Values<SHAPE>) {
+        let mut sums = [[[ZERO; SHAPE]; SHAPE]; SHAPE]; // the first half is used: SHAPE / 2 is no length of an array yet
         for entry in &self.products.second {
             let by = (c[entry.term] * values.scratch[entry.product]) * entry.factor;
             let sum = &mut sums[entry.equation][entry.by[0]][entry.by[1]];

@@ -1,12 +1,13 @@
 //! Products of amplitudes, each computed once from a shorter one.
 
-use super::SHAPE;
-use crate::Term;
+use crate::{MOST_MODES, Term};
 use motiform_dynamics::Complex;
 use std::collections::BTreeMap;
 
-/// Powers of `z1, conj(z1), z2, conj(z2), z3, conj(z3)`.
-type Powers = [u8; SHAPE];
+/// Powers of `z1, conj(z1), z2, conj(z2), ..`.
+type Powers = [u8; VARIABLES];
+
+const VARIABLES: usize = 2 * MOST_MODES;
 
 /// Derivatives of a term by an amplitude and its conjugate: factor and product.
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +51,7 @@ fn derivative(powers: &Powers, variable: usize) -> (f64, Powers) {
 impl Products {
     pub(super) fn new(terms: &[Term]) -> Self {
         let mut made = Self::default();
-        made.place([0; SHAPE]);
+        made.place([0; VARIABLES]);
         for (number, term) in terms.iter().enumerate() {
             let powers: Powers = std::array::from_fn(|v| term.powers[v / 2][v % 2]);
             let place = made.place(powers);
@@ -75,16 +76,16 @@ impl Products {
     }
 
     fn derivatives(&mut self, term: usize, equation: usize, powers: &Powers) {
-        for amplitude in (0..SHAPE / 2).filter(|a| powers[2 * a] + powers[2 * a + 1] > 0) {
+        for amplitude in (0..MOST_MODES).filter(|a| powers[2 * a] + powers[2 * a + 1] > 0) {
             let [z, conj] = [2 * amplitude, 2 * amplitude + 1].map(|v| {
                 let (factor, lower) = derivative(powers, v);
                 (factor, if factor > 0.0 { self.place(lower) } else { 0 })
             });
             self.first.push(First { term, equation, amplitude, z, conj });
         }
-        for v in (0..SHAPE).filter(|&v| powers[v] > 0) {
+        for v in (0..VARIABLES).filter(|&v| powers[v] > 0) {
             let (factor, lower) = derivative(powers, v);
-            for w in (v..SHAPE).filter(|&w| lower[w] > 0) {
+            for w in (v..VARIABLES).filter(|&w| lower[w] > 0) {
                 let (again, lowest) = derivative(&lower, w);
                 let product = self.place(lowest);
                 self.second.push(Second { term, equation, by: [v, w], factor: factor * again, product });
@@ -93,7 +94,7 @@ impl Products {
     }
 
     #[inline(always)]
-    pub(super) fn evaluate(&self, shape: &[f64; SHAPE], values: &mut [Complex<f64>]) {
+    pub(super) fn evaluate<const SHAPE: usize>(&self, shape: &[f64; SHAPE], values: &mut [Complex<f64>]) {
         let mut variables = [Complex::new(0.0, 0.0); SHAPE];
         for n in 0..SHAPE / 2 {
             variables[2 * n] = Complex::new(shape[2 * n], shape[2 * n + 1]);

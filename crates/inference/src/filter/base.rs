@@ -1,9 +1,8 @@
 //! Mean and covariance, over plain numbers: the steps that everything else is a derivative of.
 
-use super::{Covariance, Frame, SEEN, STATE};
-use crate::field::{Field, SHAPE, Values};
+use super::{Frame, seen};
+use crate::field::{Field, Values};
 use crate::linear::{cholesky, invert_lower};
-use crate::observation::OBSERVED;
 use motiform_dynamics::Complex;
 
 /// Longest step of the integration times the largest row sum of the Jacobian.
@@ -13,21 +12,35 @@ const MOST_PARTS: usize = 16;
 
 /// Mean and covariance of the state.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct State {
+pub(crate) struct State<const STATE: usize> {
     pub(crate) m: [f64; STATE],
-    pub(crate) p: Covariance,
+    pub(crate) p: [[f64; STATE]; STATE],
+}
+
+/// What is observed in a frame.
+pub(crate) struct Seen<const SHAPE: usize> {
+    t: f64,
+    y: [f64; SHAPE],
+    covariance: [[f64; SHAPE]; SHAPE],
+}
+
+impl<const SHAPE: usize> Seen<SHAPE> {
+    pub(crate) fn of(frame: &Frame) -> Self {
+        let covariance = std::array::from_fn(|i| std::array::from_fn(|j| frame.covariance[i][j]));
+        Self { t: frame.t, y: std::array::from_fn(|i| frame.y[i]), covariance }
+    }
 }
 
 /// A stage of a Runge-Kutta step: the covariance and the field there.
 #[derive(Clone, Debug)]
-pub(crate) struct Stage {
-    pub(crate) p: Covariance,
-    pub(crate) values: Values,
+pub(crate) struct Stage<const SHAPE: usize, const STATE: usize> {
+    pub(crate) p: [[f64; STATE]; STATE],
+    pub(crate) values: Values<SHAPE>,
     /// `curved[i][l][j] = sum_k H_ikl P_kj`: what a change of entry l of the shape does to `A P`. Only with second derivatives.
     pub(crate) curved: [[[f64; STATE]; SHAPE]; SHAPE],
 }
 
-impl Stage {
+impl<const SHAPE: usize, const STATE: usize> Stage<SHAPE, STATE> {
     pub(crate) fn new(field: &Field) -> Self {
         let (p, curved) = ([[0.0; STATE]; STATE], [[[0.0; STATE]; SHAPE]; SHAPE]);
         Self { p, values: Values::new(field), curved }
@@ -51,7 +64,7 @@ impl Stage {
 }
 
 /// The coefficients and the noise that a step is made with.
-pub(crate) struct Law<'a> {
+pub(crate) struct Law<'a, const SHAPE: usize, const STATE: usize> {
     pub(crate) field: &'a Field,
     pub(crate) c: &'a [Complex<f64>],
     pub(crate) q: [f64; STATE],
@@ -62,13 +75,17 @@ pub(crate) struct Law<'a> {
 /// Where the filter begins: the first frame, and a velocity from the first two with generous errors.
 ///
 /// The covariance of the observed entries is `s^2 R`: its derivative by `ln s` is twice that.
-pub(crate) fn start(first: &Frame, second: &Frame, s2: f64) -> State {
+pub(crate) fn start<const SHAPE: usize, const STATE: usize>(
+    first: &Seen<SHAPE>,
+    second: &Seen<SHAPE>,
+    s2: f64,
+) -> State<STATE> {
     let dt = second.t - first.t;
     let mut state = State { m: [0.0; STATE], p: [[0.0; STATE]; STATE] };
-    for (i, &seen) in SEEN.iter().enumerate() {
-        state.m[seen] = first.y[i];
-        for (j, &other) in SEEN.iter().enumerate() {
-            state.p[seen][other] = s2 * first.covariance[i][j];
+    for i in 0..SHAPE {
+        state.m[seen(i)] = first.y[i];
+        for j in 0..SHAPE {
+            state.p[seen(i)][seen(j)] = s2 * first.covariance[i][j];
         }
     }
     for i in 0..2 {
@@ -80,10 +97,10 @@ pub(crate) fn start(first: &Frame, second: &Frame, s2: f64) -> State {
     state
 }
 
-impl Law<'_> {
+impl<const SHAPE: usize, const STATE: usize> Law<'_, SHAPE, STATE> {
     /// The field at a state.
     #[inline(always)]
-    fn field(&self, at: &State, values: &mut Values) {
+    fn field(&self, at: &State<STATE>, values: &mut Values<SHAPE>) {
         let mut shape = [0.0; SHAPE];
         shape.copy_from_slice(&at.m[2..]);
         self.field.evaluate(self.c, &shape, self.second, values);
@@ -91,14 +108,14 @@ impl Law<'_> {
 
     /// Rates of mean and covariance at `at`, which become a stage.
     #[inline(always)]
-    fn rate(&self, at: &State, stage: &mut Stage) -> State {
+    fn rate(&self, at: &State<STATE>, stage: &mut Stage<SHAPE, STATE>) -> State<STATE> {
         self.field(at, &mut stage.values);
         self.moved(at, stage)
     }
 
     /// The rates where the stage has the field of `at`.
     #[inline(always)]
-    fn moved(&self, at: &State, stage: &mut Stage) -> State {
+    fn moved(&self, at: &State<STATE>, stage: &mut Stage<SHAPE, STATE>) -> State<STATE> {
         stage.p = at.p;
         if self.second {
             stage.curve();
@@ -116,7 +133,9 @@ impl Law<'_> {
                 }
             }
         }
-        let mut rate = State { m: [at.m[2], -at.m[3], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], p: product };
+        let mut rate = State { m: [0.0; STATE], p: product };
+        rate.m[0] = at.m[2];
+        rate.m[1] = -at.m[3];
         rate.m[2..].copy_from_slice(&stage.values.rate);
         for i in 0..STATE {
             for j in 0..STATE {
@@ -130,7 +149,7 @@ impl Law<'_> {
     /// In how many parts a step must be made: a power of two, so that the fastest rate is resolved. Where it is not, the covariance is no longer
     /// positive definite, and the likelihood has maxima that are errors of the integration. `values` becomes the field at `state`.
     #[inline(always)]
-    pub(crate) fn parts(&self, state: &State, h: f64, values: &mut Values) -> usize {
+    pub(crate) fn parts(&self, state: &State<STATE>, h: f64, values: &mut Values<SHAPE>) -> usize {
         self.field(state, values);
         let mut fastest = 0.0_f64;
         for row in &values.jacobian {
@@ -149,7 +168,13 @@ impl Law<'_> {
 
     /// One step of the classical Runge-Kutta method; the stages are kept. `known`: the first one has the field at `state` ([`Law::parts`]).
     #[inline(always)]
-    pub(crate) fn step(&self, state: &mut State, h: f64, known: bool, stages: &mut [Stage; 4]) {
+    pub(crate) fn step(
+        &self,
+        state: &mut State<STATE>,
+        h: f64,
+        known: bool,
+        stages: &mut [Stage<SHAPE, STATE>; 4],
+    ) {
         if !known {
             self.field(state, &mut stages[0].values);
         }
@@ -162,7 +187,7 @@ impl Law<'_> {
     }
 }
 
-impl State {
+impl<const STATE: usize> State<STATE> {
     #[inline(always)]
     fn plus(&self, rate: &Self, h: f64) -> Self {
         let mut sum = *self;
@@ -188,83 +213,90 @@ impl State {
 
 /// What a frame says, and what became of the state.
 #[derive(Clone, Debug)]
-pub(crate) struct Correction {
+pub(crate) struct Correction<const SHAPE: usize, const STATE: usize> {
     /// `L^-1`, with `L L^T = S`.
-    pub(crate) whiten: [[f64; OBSERVED]; OBSERVED],
+    pub(crate) whiten: [[f64; SHAPE]; SHAPE],
     /// `L^-1 nu`: independent standard normal deviates, if the model is right.
-    pub(crate) standardised: [f64; OBSERVED],
+    pub(crate) standardised: [f64; SHAPE],
     /// `S^-1 nu`.
-    pub(crate) weighted: [f64; OBSERVED],
+    pub(crate) weighted: [f64; SHAPE],
     /// `K`.
-    pub(crate) gain: [[f64; OBSERVED]; STATE],
+    pub(crate) gain: [[f64; SHAPE]; STATE],
     /// `s^2 R`.
-    pub(crate) noise: [[f64; OBSERVED]; OBSERVED],
-    /// `-(nu^T S^-1 nu + ln det S + 6 ln 2 pi)/2`.
+    pub(crate) noise: [[f64; SHAPE]; SHAPE],
+    /// `-(nu^T S^-1 nu + ln det S + N ln 2 pi)/2`.
     pub(crate) value: f64,
 }
 
 /// The state after a frame; `None` if the covariance has lost its meaning.
-pub(crate) fn correct(state: &mut State, frame: &Frame, s2: f64) -> Option<Correction> {
+pub(crate) fn correct<const SHAPE: usize, const STATE: usize>(
+    state: &mut State<STATE>,
+    frame: &Seen<SHAPE>,
+    s2: f64,
+) -> Option<Correction<SHAPE, STATE>> {
     let noise = frame.covariance.map(|row| row.map(|x| s2 * x));
     let mut s = noise;
-    for i in 0..OBSERVED {
-        for j in 0..OBSERVED {
-            s[i][j] += state.p[SEEN[i]][SEEN[j]];
+    for i in 0..SHAPE {
+        for j in 0..SHAPE {
+            s[i][j] += state.p[seen(i)][seen(j)];
         }
     }
     let l = cholesky(&s)?;
     let whiten = invert_lower(&l);
-    let nu: [f64; OBSERVED] = std::array::from_fn(|i| frame.y[i] - state.m[SEEN[i]]);
-    let standardised: [f64; OBSERVED] =
+    let nu: [f64; SHAPE] = std::array::from_fn(|i| frame.y[i] - state.m[seen(i)]);
+    let standardised: [f64; SHAPE] =
         std::array::from_fn(|i| (0..=i).map(|j| whiten[i][j] * nu[j]).sum::<f64>());
-    let weighted = std::array::from_fn(|j| (j..OBSERVED).map(|i| whiten[i][j] * standardised[i]).sum());
+    let weighted = std::array::from_fn(|j| (j..SHAPE).map(|i| whiten[i][j] * standardised[i]).sum());
     let gain = gain(state, &whiten);
     let squares: f64 = standardised.iter().map(|e| e * e).sum();
-    let determinant: f64 = (0..OBSERVED).map(|i| 2.0 * libm::log(l[i][i])).sum();
-    let value = -0.5 * (squares + determinant + OBSERVED as f64 * libm::log(std::f64::consts::TAU));
+    let determinant: f64 = (0..SHAPE).map(|i| 2.0 * libm::log(l[i][i])).sum();
+    let value = -0.5 * (squares + determinant + SHAPE as f64 * libm::log(std::f64::consts::TAU));
     let correction = Correction { whiten, standardised, weighted, gain, noise, value };
     correction.apply(state, &nu);
     Some(correction)
 }
 
-fn gain(state: &State, whiten: &[[f64; OBSERVED]; OBSERVED]) -> [[f64; OBSERVED]; STATE] {
-    let mut gain = [[0.0; OBSERVED]; STATE];
+fn gain<const SHAPE: usize, const STATE: usize>(
+    state: &State<STATE>,
+    whiten: &[[f64; SHAPE]; SHAPE],
+) -> [[f64; SHAPE]; STATE] {
+    let mut gain = [[0.0; SHAPE]; STATE];
     for (row, p) in gain.iter_mut().zip(&state.p) {
-        let half: [f64; OBSERVED] =
-            std::array::from_fn(|i| (0..=i).map(|j| whiten[i][j] * p[SEEN[j]]).sum::<f64>());
-        for j in 0..OBSERVED {
-            row[j] = (j..OBSERVED).map(|i| whiten[i][j] * half[i]).sum();
+        let half: [f64; SHAPE] =
+            std::array::from_fn(|i| (0..=i).map(|j| whiten[i][j] * p[seen(j)]).sum::<f64>());
+        for j in 0..SHAPE {
+            row[j] = (j..SHAPE).map(|i| whiten[i][j] * half[i]).sum();
         }
     }
     gain
 }
 
-impl Correction {
+impl<const SHAPE: usize, const STATE: usize> Correction<SHAPE, STATE> {
     /// `I - K H`.
-    fn kept(&self) -> Covariance {
+    fn kept(&self) -> [[f64; STATE]; STATE] {
         let mut kept = [[0.0; STATE]; STATE];
         for i in 0..STATE {
             kept[i][i] = 1.0;
-            for (j, &seen) in SEEN.iter().enumerate() {
-                kept[i][seen] -= self.gain[i][j];
+            for j in 0..SHAPE {
+                kept[i][seen(j)] -= self.gain[i][j];
             }
         }
         kept
     }
 
-    fn apply(&self, state: &mut State, nu: &[f64; OBSERVED]) {
+    fn apply(&self, state: &mut State<STATE>, nu: &[f64; SHAPE]) {
         let kept = self.kept();
         let mut half = [[0.0; STATE]; STATE];
-        let mut noise = [[0.0; OBSERVED]; STATE];
+        let mut noise = [[0.0; SHAPE]; STATE];
         for i in 0..STATE {
-            state.m[i] += (0..OBSERVED).map(|j| self.gain[i][j] * nu[j]).sum::<f64>();
+            state.m[i] += (0..SHAPE).map(|j| self.gain[i][j] * nu[j]).sum::<f64>();
             for k in 0..STATE {
                 for j in 0..STATE {
                     half[i][j] += kept[i][k] * state.p[k][j];
                 }
             }
-            for k in 0..OBSERVED {
-                for j in 0..OBSERVED {
+            for k in 0..SHAPE {
+                for j in 0..SHAPE {
                     noise[i][j] += self.gain[i][k] * self.noise[k][j];
                 }
             }
@@ -272,7 +304,7 @@ impl Correction {
         for i in 0..STATE {
             for j in 0..=i {
                 let from: f64 = (0..STATE).map(|k| half[i][k] * kept[j][k]).sum();
-                let added: f64 = (0..OBSERVED).map(|k| noise[i][k] * self.gain[j][k]).sum();
+                let added: f64 = (0..SHAPE).map(|k| noise[i][k] * self.gain[j][k]).sum();
                 state.p[i][j] = from + added;
                 state.p[j][i] = from + added;
             }

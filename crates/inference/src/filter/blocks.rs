@@ -1,20 +1,17 @@
 //! All derivatives, in blocks of as many parameters as a vector register has lanes.
 
-use super::STATE;
 use super::base::{Correction, Stage, State};
-use super::correct::{self, MARKS};
+use super::correct::{self, marks_of};
 use super::evaluate::Want;
 use super::problem::Problem;
+use super::seen;
 use super::sums::Sums;
-use super::tangent::{self, FORCING, Forcing, Scratch, Tangent, depth};
-use super::{AT, SEEN};
-use crate::field::SHAPE;
-use crate::observation::OBSERVED;
+use super::tangent::{self, Forcing, Scratch, Tangent, depth, forcing_of};
 use motiform_dynamics::Bundle;
 
 /// Blocks of coefficients, then those of `ln s`, `ln eta_v` and `ln eta_shape`.
-pub(crate) struct Blocks<B> {
-    tangents: Vec<Tangent<B>>,
+pub(crate) struct Blocks<B, const SHAPE: usize, const STATE: usize> {
+    tangents: Vec<Tangent<B, STATE>>,
     /// Derivatives of the process noise, for each block.
     q: Vec<[B; STATE]>,
     /// Derivative of `ln s^2`, for each block.
@@ -23,13 +20,15 @@ pub(crate) struct Blocks<B> {
     forcing: Vec<f64>,
     /// Rows of the equations that the coefficients of each block are in.
     rows: Vec<[usize; 2]>,
-    scratch: Scratch<B>,
+    scratch: Scratch<B, STATE>,
     coefficients: usize,
     /// Number of blocks of coefficients.
     first_noise: usize,
 }
 
-impl<B: Bundle> Blocks<B> {
+impl<B: Bundle, const SHAPE: usize, const STATE: usize> Blocks<B, SHAPE, STATE> {
+    const FORCING: usize = forcing_of(SHAPE);
+
     #[inline(always)]
     pub(crate) fn new(problem: &Problem, wanted: bool, q: &[f64; STATE]) -> Self {
         let coefficients = if wanted { problem.parts.len() } else { 0 };
@@ -40,7 +39,7 @@ impl<B: Bundle> Blocks<B> {
             tangents: vec![Tangent::zero(); blocks],
             q: vec![[zero; STATE]; blocks],
             s: vec![zero; blocks],
-            forcing: vec![0.0; 4 * blocks * FORCING * B::LANES],
+            forcing: vec![0.0; 4 * blocks * Self::FORCING * B::LANES],
             rows: (0..blocks).map(|block| rows(problem, block * B::LANES, B::LANES)).collect(),
             scratch: Scratch::new(),
             coefficients,
@@ -67,12 +66,12 @@ impl<B: Bundle> Blocks<B> {
 
     /// Derivatives at the first frame: the covariance of what is observed is proportional to `s^2`.
     #[inline(always)]
-    pub(crate) fn start(&mut self, state: &State) {
+    pub(crate) fn start(&mut self, state: &State<STATE>) {
         for block in 0..self.len() {
             self.tangents[block] = Tangent::zero();
-            for i in SEEN {
-                for j in SEEN {
-                    self.tangents[block].p[AT[i][j]] = self.s[block] * B::splat(state.p[i][j]);
+            for i in (0..SHAPE).map(seen) {
+                for j in (0..SHAPE).map(seen) {
+                    self.tangents[block].p[i][j] = self.s[block] * B::splat(state.p[i][j]);
                 }
             }
         }
@@ -81,16 +80,16 @@ impl<B: Bundle> Blocks<B> {
     /// How many marks of each block are not 0: where covariances are taken as fixed, those of the mean alone.
     pub(crate) fn counts(&self, want: Want) -> Vec<usize> {
         let fixed = |block| want != Want::Exact && block < self.first_noise;
-        (0..self.len()).map(|block| if fixed(block) { OBSERVED } else { MARKS }).collect()
+        (0..self.len()).map(|block| if fixed(block) { SHAPE } else { marks_of(SHAPE) }).collect()
     }
 
     /// Writes what forces the derivatives by the coefficients at each stage: `df/dc`, and `dA/dc` for exact ones.
     #[inline(always)]
-    fn force(&mut self, problem: &Problem, stages: &[Stage; 4], exact: bool) {
+    fn force(&mut self, problem: &Problem, stages: &[Stage<SHAPE, STATE>; 4], exact: bool) {
         let (lanes, blocks) = (B::LANES, self.len());
         for (number, stage) in stages.iter().enumerate() {
             for (parameter, part) in problem.parts.iter().enumerate() {
-                let own = (number * blocks + parameter / lanes) * FORCING * lanes + parameter % lanes;
+                let own = (number * blocks + parameter / lanes) * Self::FORCING * lanes + parameter % lanes;
                 let (row, values) = (2 * problem.field.equation(part.term), &stage.values);
                 let rate = turned(values.monomials[part.term], part.imaginary);
                 self.forcing[own + row * lanes] = rate[0];
@@ -110,12 +109,12 @@ impl<B: Bundle> Blocks<B> {
 
     /// A step of the integration with these stages.
     #[inline(always)]
-    pub(crate) fn step(&mut self, stages: &[Stage; 4], problem: &Problem, want: Want, h: f64) {
+    pub(crate) fn step(&mut self, stages: &[Stage<SHAPE, STATE>; 4], problem: &Problem, want: Want, h: f64) {
         if self.len() == 0 {
             return;
         }
         self.force(problem, stages, want == Want::Exact);
-        let (size, blocks) = (FORCING * B::LANES, self.len());
+        let (size, blocks) = (Self::FORCING * B::LANES, self.len());
         for block in 0..blocks {
             let (a, b) = (block * size, (blocks + block) * size);
             let (c, d) = ((2 * blocks + block) * size, (3 * blocks + block) * size);
@@ -130,13 +129,17 @@ impl<B: Bundle> Blocks<B> {
             let (tangent, scratch, q) = (&mut self.tangents[block], &mut self.scratch, &self.q[block]);
             match (want, block >= self.first_noise) {
                 (Want::Exact, _) => {
-                    tangent::step::<B, { depth::ALL }>(tangent, scratch, stages, forcing, q, h);
+                    tangent::step::<B, SHAPE, STATE, { depth::ALL }>(tangent, scratch, stages, forcing, q, h);
                 }
                 (_, true) => {
-                    tangent::step::<B, { depth::NOISE }>(tangent, scratch, stages, forcing, q, h);
+                    tangent::step::<B, SHAPE, STATE, { depth::NOISE }>(
+                        tangent, scratch, stages, forcing, q, h,
+                    );
                 }
                 (_, false) => {
-                    tangent::step::<B, { depth::MEAN }>(tangent, scratch, stages, forcing, q, h);
+                    tangent::step::<B, SHAPE, STATE, { depth::MEAN }>(
+                        tangent, scratch, stages, forcing, q, h,
+                    );
                 }
             }
         }
@@ -144,13 +147,13 @@ impl<B: Bundle> Blocks<B> {
 
     /// Takes a frame in.
     #[inline(always)]
-    pub(crate) fn correct(&mut self, correction: &Correction, want: Want, sums: &mut Sums<B>) {
+    pub(crate) fn correct(&mut self, correction: &Correction<SHAPE, STATE>, want: Want, sums: &mut Sums<B>) {
         for block in 0..self.len() {
             let tangent = &mut self.tangents[block];
             let found = if want == Want::Exact || block >= self.first_noise {
-                correct::correct::<B, true>(tangent, correction, self.s[block])
+                correct::correct::<B, SHAPE, STATE, true>(tangent, correction, self.s[block])
             } else {
-                correct::correct::<B, false>(tangent, correction, self.s[block])
+                correct::correct::<B, SHAPE, STATE, false>(tangent, correction, self.s[block])
             };
             sums.note(block, &found);
         }

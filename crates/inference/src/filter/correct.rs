@@ -9,29 +9,45 @@
 //! ```
 
 use super::base::Correction;
+use super::seen;
 use super::tangent::Tangent;
-use super::{AT, SEEN, STATE};
-use crate::observation::OBSERVED;
 use motiform_dynamics::Bundle;
 
-/// Numbers of a parameter whose products with those of another one are the information of a frame: `e` and the triangle of `G`.
-pub(crate) const MARKS: usize = OBSERVED + OBSERVED * (OBSERVED + 1) / 2;
-
-/// What a frame says about a block of parameters.
-pub(crate) struct Marks<B> {
+/// What a frame says about a block of parameters: the score, and marks, whose products with those of another parameter are the information.
+pub(crate) struct Marks<B, const SHAPE: usize> {
     pub(crate) score: B,
-    pub(crate) marks: [B; MARKS],
+    /// `e`.
+    pub(crate) mean: [B; SHAPE],
+    /// The lower triangle of `G`, with the weights of its entries.
+    pub(crate) covariance: [[B; SHAPE]; SHAPE],
 }
 
-type Square<B> = [[B; OBSERVED]; OBSERVED];
+/// Number of marks.
+pub(crate) const fn marks_of(shape: usize) -> usize {
+    shape + shape * (shape + 1) / 2
+}
+
+impl<B: Bundle, const SHAPE: usize> Marks<B, SHAPE> {
+    #[inline(always)]
+    fn zero() -> Self {
+        let zero = B::splat(0.0);
+        Self { score: zero, mean: [zero; SHAPE], covariance: [[zero; SHAPE]; SHAPE] }
+    }
+}
+
+type Square<B, const SHAPE: usize> = [[B; SHAPE]; SHAPE];
 
 /// `dS`.
 #[inline(always)]
-fn innovation_covariance<B: Bundle>(tangent: &Tangent<B>, correction: &Correction, s: B) -> Square<B> {
-    let mut ds = [[B::splat(0.0); OBSERVED]; OBSERVED];
-    for i in 0..OBSERVED {
-        for j in 0..OBSERVED {
-            ds[i][j] = tangent.p[AT[SEEN[i]][SEEN[j]]] + s * B::splat(correction.noise[i][j]);
+fn innovation_covariance<B: Bundle, const SHAPE: usize, const STATE: usize>(
+    tangent: &Tangent<B, STATE>,
+    correction: &Correction<SHAPE, STATE>,
+    s: B,
+) -> Square<B, SHAPE> {
+    let mut ds = [[B::splat(0.0); SHAPE]; SHAPE];
+    for i in 0..SHAPE {
+        for j in 0..SHAPE {
+            ds[i][j] = tangent.between(seen(i), seen(j)) + s * B::splat(correction.noise[i][j]);
         }
     }
     ds
@@ -39,26 +55,29 @@ fn innovation_covariance<B: Bundle>(tangent: &Tangent<B>, correction: &Correctio
 
 /// Score and marks.
 #[inline(always)]
-fn marks<B: Bundle>(tangent: &Tangent<B>, correction: &Correction, ds: &Square<B>) -> Marks<B> {
+fn marks<B: Bundle, const SHAPE: usize, const STATE: usize>(
+    tangent: &Tangent<B, STATE>,
+    correction: &Correction<SHAPE, STATE>,
+    ds: &Square<B, SHAPE>,
+) -> Marks<B, SHAPE> {
     let zero = B::splat(0.0);
     let (l, w) = (&correction.whiten, &correction.weighted);
-    let mut found = Marks { score: zero, marks: [zero; MARKS] };
-    let mut half = [[zero; OBSERVED]; OBSERVED]; // L^-1 dS
-    for i in 0..OBSERVED {
+    let mut found = Marks::zero();
+    let mut half = [[zero; SHAPE]; SHAPE]; // L^-1 dS
+    for i in 0..SHAPE {
         let mut by_w = zero;
-        for k in 0..OBSERVED {
+        for k in 0..SHAPE {
             by_w += ds[i][k] * B::splat(w[k]);
         }
-        found.score += (tangent.m[SEEN[i]] + by_w * B::splat(0.5)) * B::splat(w[i]);
+        found.score += (tangent.m[seen(i)] + by_w * B::splat(0.5)) * B::splat(w[i]);
         for k in 0..=i {
-            found.marks[i] -= tangent.m[SEEN[k]] * B::splat(l[i][k]);
-            for j in 0..OBSERVED {
+            found.mean[i] -= tangent.m[seen(k)] * B::splat(l[i][k]);
+            for j in 0..SHAPE {
                 half[i][j] += ds[k][j] * B::splat(l[i][k]);
             }
         }
     }
-    let mut next = OBSERVED;
-    for i in 0..OBSERVED {
+    for i in 0..SHAPE {
         for j in 0..=i {
             let mut g = zero;
             for k in 0..=j {
@@ -68,8 +87,7 @@ fn marks<B: Bundle>(tangent: &Tangent<B>, correction: &Correction, ds: &Square<B
                 found.score -= g * B::splat(0.5);
             }
             let weight = if i == j { std::f64::consts::FRAC_1_SQRT_2 } else { 1.0 };
-            found.marks[next] = g * B::splat(weight);
-            next += 1;
+            found.covariance[i][j] = g * B::splat(weight);
         }
     }
     found
@@ -77,28 +95,32 @@ fn marks<B: Bundle>(tangent: &Tangent<B>, correction: &Correction, ds: &Square<B
 
 /// The derivatives of the mean after a frame.
 #[inline(always)]
-fn mean<B: Bundle, const FULL: bool>(tangent: &mut Tangent<B>, correction: &Correction, s: B) {
+fn mean<B: Bundle, const SHAPE: usize, const STATE: usize, const FULL: bool>(
+    tangent: &mut Tangent<B, STATE>,
+    correction: &Correction<SHAPE, STATE>,
+    s: B,
+) {
     let w = &correction.weighted;
     let mut moved = tangent.m;
-    let mut seen = [B::splat(0.0); OBSERVED];
-    for j in 0..OBSERVED {
+    let mut shown = [B::splat(0.0); SHAPE];
+    for j in 0..SHAPE {
         if FULL {
             for i in 0..STATE {
-                moved[i] += tangent.p[AT[i][SEEN[j]]] * B::splat(w[j]);
+                moved[i] += tangent.between(i, seen(j)) * B::splat(w[j]);
             }
         }
         let mut by_w = 0.0;
-        for k in 0..OBSERVED {
+        for k in 0..SHAPE {
             by_w += correction.noise[j][k] * w[k];
         }
-        seen[j] = s * B::splat(by_w);
+        shown[j] = s * B::splat(by_w);
     }
-    for j in 0..OBSERVED {
-        seen[j] += moved[SEEN[j]];
+    for j in 0..SHAPE {
+        shown[j] += moved[seen(j)];
     }
     for i in 0..STATE {
-        for j in 0..OBSERVED {
-            moved[i] -= seen[j] * B::splat(correction.gain[i][j]);
+        for j in 0..SHAPE {
+            moved[i] -= shown[j] * B::splat(correction.gain[i][j]);
         }
     }
     tangent.m = moved;
@@ -108,37 +130,43 @@ fn mean<B: Bundle, const FULL: bool>(tangent: &mut Tangent<B>, correction: &Corr
 ///
 /// With `X = dP H^T` and `D = H dP H^T + d(s^2) R`:  dP - K X^T - X K^T + K D K^T = dP - Y K^T - K X^T,  Y = X - K D.
 #[inline(always)]
-fn covariance<B: Bundle>(tangent: &mut Tangent<B>, correction: &Correction, ds: &Square<B>) {
-    let old = tangent.p;
+fn covariance<B: Bundle, const SHAPE: usize, const STATE: usize>(
+    tangent: &mut Tangent<B, STATE>,
+    correction: &Correction<SHAPE, STATE>,
+    ds: &Square<B, SHAPE>,
+) {
+    let old = *tangent;
     for i in 0..STATE {
-        let mut y = [B::splat(0.0); OBSERVED];
-        for j in 0..OBSERVED {
-            y[j] = old[AT[i][SEEN[j]]];
-            for k in 0..OBSERVED {
+        let mut y = [B::splat(0.0); SHAPE];
+        for j in 0..SHAPE {
+            y[j] = old.between(i, seen(j));
+            for k in 0..SHAPE {
                 y[j] -= ds[k][j] * B::splat(correction.gain[i][k]);
             }
         }
         for j in i..STATE {
-            let mut sum = old[AT[i][j]];
-            for k in 0..OBSERVED {
+            let mut sum = old.p[i][j];
+            for k in 0..SHAPE {
                 sum -= y[k] * B::splat(correction.gain[j][k]);
-                sum -= old[AT[j][SEEN[k]]] * B::splat(correction.gain[i][k]);
+                sum -= old.between(j, seen(k)) * B::splat(correction.gain[i][k]);
             }
-            tangent.p[AT[i][j]] = sum;
+            tangent.p[i][j] = sum;
         }
     }
 }
 
 /// Score and marks where the covariances are taken as fixed: `dS = 0`.
 #[inline(always)]
-fn marks_of_mean<B: Bundle>(tangent: &Tangent<B>, correction: &Correction) -> Marks<B> {
-    let zero = B::splat(0.0);
+fn marks_of_mean<B: Bundle, const SHAPE: usize, const STATE: usize>(
+    tangent: &Tangent<B, STATE>,
+    correction: &Correction<SHAPE, STATE>,
+) -> Marks<B, SHAPE> {
     let (l, w) = (&correction.whiten, &correction.weighted);
-    let mut found = Marks { score: zero, marks: [zero; MARKS] };
-    for i in 0..OBSERVED {
-        found.score += tangent.m[SEEN[i]] * B::splat(w[i]);
+    let mut found = Marks::zero();
+    for i in 0..SHAPE {
+        found.score += tangent.m[seen(i)] * B::splat(w[i]);
         for k in 0..=i {
-            found.marks[i] -= tangent.m[SEEN[k]] * B::splat(l[i][k]);
+            found.mean[i] -= tangent.m[seen(k)] * B::splat(l[i][k]);
         }
     }
     found
@@ -146,19 +174,19 @@ fn marks_of_mean<B: Bundle>(tangent: &Tangent<B>, correction: &Correction) -> Ma
 
 /// Takes a frame in; `s` is the derivative of `ln s^2` by each parameter. Without `FULL` the covariances are taken as fixed.
 #[inline(always)]
-pub(crate) fn correct<B: Bundle, const FULL: bool>(
-    tangent: &mut Tangent<B>,
-    correction: &Correction,
+pub(crate) fn correct<B: Bundle, const SHAPE: usize, const STATE: usize, const FULL: bool>(
+    tangent: &mut Tangent<B, STATE>,
+    correction: &Correction<SHAPE, STATE>,
     s: B,
-) -> Marks<B> {
+) -> Marks<B, SHAPE> {
     if !FULL {
         let found = marks_of_mean(tangent, correction);
-        mean::<B, FULL>(tangent, correction, s);
+        mean::<B, SHAPE, STATE, FULL>(tangent, correction, s);
         return found;
     }
     let ds = innovation_covariance(tangent, correction, s);
     let found = marks(tangent, correction, &ds);
-    mean::<B, FULL>(tangent, correction, s);
+    mean::<B, SHAPE, STATE, FULL>(tangent, correction, s);
     covariance(tangent, correction, &ds);
     found
 }

@@ -1,11 +1,10 @@
 //! The likelihood of all frames, and what it says about the parameters.
 
-use super::base::{self, Correction, Law, Stage};
+use super::LONGEST_STEP;
+use super::base::{self, Correction, Law, Seen, Stage};
 use super::blocks::Blocks;
 use super::problem::{Frame, Problem, Theta};
 use super::sums::Sums;
-use super::{LONGEST_STEP, STATE};
-use crate::observation::OBSERVED;
 use motiform_dynamics::simd::{LaneKernel, run_lanes};
 use motiform_dynamics::{Bundle, Complex};
 use nalgebra::{DMatrix, DVector};
@@ -31,7 +30,7 @@ pub(crate) struct Evaluation {
     /// Expected (Fisher) information.
     pub(crate) information: DMatrix<f64>,
     /// Standardised innovations of each frame, if kept; stretches in turn.
-    pub(crate) innovations: Vec<Vec<[f64; OBSERVED]>>,
+    pub(crate) innovations: Vec<Vec<Vec<f64>>>,
     /// Gradient of each frame's log-likelihood, if kept.
     pub(crate) scores: Vec<Vec<DVector<f64>>>,
     /// Largest variance of a velocity or mode that is predicted for a frame, and the time of that frame after the first one.
@@ -40,8 +39,15 @@ pub(crate) struct Evaluation {
 
 /// Evaluates the likelihood; innovations and scores of frames are kept if `keep`.
 pub(crate) fn evaluate(problem: &Problem, theta: &Theta, want: Want, keep: bool) -> Evaluation {
-    run_lanes(Work { problem, theta, want, keep })
+    let work = Work { problem, theta, want, keep };
+    match problem.modes() {
+        4 => run_lanes(Kernel::<8, 10>(work)),
+        _ => run_lanes(Kernel::<6, 8>(work)),
+    }
 }
+
+/// The work on states of one size: `STATE = SHAPE + 2`.
+struct Kernel<'a, const SHAPE: usize, const STATE: usize>(Work<'a>);
 
 struct Work<'a> {
     problem: &'a Problem,
@@ -50,15 +56,16 @@ struct Work<'a> {
     keep: bool,
 }
 
-impl LaneKernel for Work<'_> {
+impl<const SHAPE: usize, const STATE: usize> LaneKernel for Kernel<'_, SHAPE, STATE> {
     type Output = Evaluation;
 
     #[inline(always)]
     fn run<B: Bundle>(self) -> Evaluation {
-        let c = self.problem.complex(self.theta);
-        let mut run = Run::<B>::new(&self, &c);
+        let work = &self.0;
+        let c = work.problem.complex(work.theta);
+        let mut run = Run::<B, SHAPE, STATE>::new(work, &c);
         let mut sound = true;
-        for stretch in &self.problem.stretches {
+        for stretch in &work.problem.stretches {
             sound = sound && run.stretch(stretch);
         }
         run.finish(sound)
@@ -66,21 +73,21 @@ impl LaneKernel for Work<'_> {
 }
 
 /// An evaluation under way.
-struct Run<'a, B> {
+struct Run<'a, B, const SHAPE: usize, const STATE: usize> {
     work: &'a Work<'a>,
-    law: Law<'a>,
+    law: Law<'a, SHAPE, STATE>,
     /// `s^2`.
     s2: f64,
-    stages: [Stage; 4],
-    blocks: Blocks<B>,
+    stages: [Stage<SHAPE, STATE>; 4],
+    blocks: Blocks<B, SHAPE, STATE>,
     sums: Sums<B>,
     value: f64,
-    innovations: Vec<Vec<[f64; OBSERVED]>>,
+    innovations: Vec<Vec<Vec<f64>>>,
     scores: Vec<Vec<DVector<f64>>>,
     vaguest: (f64, f64),
 }
 
-impl<'a, B: Bundle> Run<'a, B> {
+impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, STATE> {
     #[inline(always)]
     fn new(work: &'a Work<'a>, c: &'a [Complex<f64>]) -> Self {
         let (problem, wanted) = (work.problem, work.want != Want::Value);
@@ -93,7 +100,7 @@ impl<'a, B: Bundle> Run<'a, B> {
             law,
             s2: libm::exp(2.0 * work.theta.logs[0]),
             stages: [stage.clone(), stage.clone(), stage.clone(), stage],
-            sums: Sums::new(blocks.counts(work.want)),
+            sums: Sums::new::<SHAPE>(blocks.counts(work.want)),
             blocks,
             value: 0.0,
             innovations: Vec::new(),
@@ -105,7 +112,8 @@ impl<'a, B: Bundle> Run<'a, B> {
     /// Goes through a stretch; false where the filter diverges.
     #[inline(always)]
     fn stretch(&mut self, frames: &[Frame]) -> bool {
-        let mut state = base::start(&frames[0], &frames[1], self.s2);
+        let [first, second] = [0, 1].map(|i| Seen::of(&frames[i]));
+        let mut state = base::start::<SHAPE, STATE>(&first, &second, self.s2);
         self.blocks.start(&state);
         self.innovations.push(Vec::new());
         self.scores.push(Vec::new());
@@ -128,7 +136,7 @@ impl<'a, B: Bundle> Run<'a, B> {
                     self.vaguest = (state.p[i][i], frames[pair + 1].t);
                 }
             }
-            let Some(correction) = base::correct(&mut state, &frames[pair + 1], self.s2) else {
+            let Some(correction) = base::correct(&mut state, &Seen::of(&frames[pair + 1]), self.s2) else {
                 return false;
             };
             self.take(&correction);
@@ -138,14 +146,14 @@ impl<'a, B: Bundle> Run<'a, B> {
 
     /// Takes a frame in.
     #[inline(always)]
-    fn take(&mut self, correction: &Correction) {
+    fn take(&mut self, correction: &Correction<SHAPE, STATE>) {
         self.value += correction.value;
         if self.blocks.len() > 0 {
             self.blocks.correct(correction, self.work.want, &mut self.sums);
             self.sums.add();
         }
         if self.work.keep {
-            keep(&mut self.innovations, correction.standardised);
+            keep(&mut self.innovations, correction.standardised.to_vec());
             let score = self.blocks.unpadded(&self.sums.take_scores());
             keep(&mut self.scores, DVector::from_vec(score));
         }

@@ -2,15 +2,14 @@
 
 use super::{LONGEST_GAP, LONGEST_STRIDE};
 use crate::field::{Field, Part};
-use crate::observation::OBSERVED;
 use motiform_dynamics::Complex;
 
-/// A frame in natural units.
+/// A frame in natural units: what is observed of the modes that are fitted.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
     pub(crate) t: f64,
-    pub(crate) y: [f64; OBSERVED],
-    pub(crate) covariance: [[f64; OBSERVED]; OBSERVED],
+    pub(crate) y: Vec<f64>,
+    pub(crate) covariance: Vec<Vec<f64>>,
 }
 
 /// Tracks and a library, in natural units.
@@ -23,8 +22,8 @@ pub(crate) struct Problem {
     pub(crate) terms: usize,
     /// Frames of each stretch without a long gap.
     pub(crate) stretches: Vec<Vec<Frame>>,
-    /// Variances of the process noise of `z1, z2, z3` for amplitudes 1, in natural units.
-    pub(crate) noise: [f64; 3],
+    /// Variances of the process noise of `z1, z2, ..` for amplitudes 1, in natural units.
+    pub(crate) noise: Vec<f64>,
 }
 
 /// Values of the parameters.
@@ -73,11 +72,19 @@ impl Problem {
         c
     }
 
-    /// Variances of the process noise, per natural time, of the eight entries of the state.
-    pub(crate) fn process(&self, theta: &Theta) -> [f64; super::STATE] {
+    /// Number of amplitudes.
+    pub(crate) fn modes(&self) -> usize {
+        self.noise.len()
+    }
+
+    /// Variances of the process noise, per natural time, of the entries of the state.
+    pub(crate) fn process<const STATE: usize>(&self, theta: &Theta) -> [f64; STATE] {
         let [_, v, shape] = theta.logs.map(|log| libm::exp(2.0 * log));
-        let n = self.noise;
-        [0.0, 0.0, n[0] * v, n[0] * v, n[1] * shape, n[1] * shape, n[2] * shape, n[2] * shape]
+        std::array::from_fn(|i| match i {
+            0 | 1 => 0.0,
+            2 | 3 => self.noise[0] * v,
+            _ => self.noise[i / 2 - 1] * shape,
+        })
     }
 
     /// The longest gap that the filter goes on through, where frames usually follow each other after `usual`.

@@ -1,6 +1,6 @@
 //! Sums of scores and informations over frames.
 
-use super::correct::{MARKS, Marks};
+use super::correct::{Marks, marks_of};
 use motiform_dynamics::Bundle;
 
 /// Sums over frames; parameters are padded to whole blocks.
@@ -20,26 +20,35 @@ pub(crate) struct Sums<B> {
 impl<B: Bundle> Sums<B> {
     /// `counts`: how many marks of each block are not 0.
     #[inline(always)]
-    pub(crate) fn new(counts: Vec<usize>) -> Self {
+    pub(crate) fn new<const SHAPE: usize>(counts: Vec<usize>) -> Self {
         let (blocks, zero) = (counts.len(), B::splat(0.0));
         Self {
             blocks,
             gradient: vec![zero; blocks],
             scores: vec![zero; blocks],
             information: vec![zero; blocks * B::LANES * blocks],
-            marks: vec![0.0; MARKS * blocks * B::LANES],
+            marks: vec![0.0; marks_of(SHAPE) * blocks * B::LANES],
             counts,
         }
     }
 
     /// Notes what a frame says about a block.
     #[inline(always)]
-    pub(crate) fn note(&mut self, block: usize, found: &Marks<B>) {
+    pub(crate) fn note<const SHAPE: usize>(&mut self, block: usize, found: &Marks<B, SHAPE>) {
         self.gradient[block] += found.score;
         self.scores[block] = found.score;
-        let width = self.blocks * B::LANES;
-        for mark in 0..self.counts[block] {
-            found.marks[mark].store(&mut self.marks[mark * width + block * B::LANES..]);
+        let (width, mut place) = (self.blocks * B::LANES, block * B::LANES);
+        for mark in &found.mean {
+            mark.store(&mut self.marks[place..]);
+            place += width;
+        }
+        if self.counts[block] > SHAPE {
+            for i in 0..SHAPE {
+                for mark in &found.covariance[i][..=i] {
+                    mark.store(&mut self.marks[place..]);
+                    place += width;
+                }
+            }
         }
     }
 

@@ -8,24 +8,31 @@
 //! No closure in here: it would be compiled without the vector instructions of the kernel.
 
 use super::base::Stage;
-use super::{AT, PACKED, STATE};
-use crate::field::SHAPE;
 use motiform_dynamics::Bundle;
 
 /// Numbers of a parameter that force its derivatives at a stage: `df/dc` and `dA/dc`.
-pub(crate) const FORCING: usize = SHAPE + SHAPE * SHAPE;
-
-/// Derivatives of mean and packed covariance.
-#[derive(Clone, Copy)]
-pub(crate) struct Tangent<B> {
-    pub(crate) m: [B; STATE],
-    pub(crate) p: [B; PACKED],
+pub(crate) const fn forcing_of(shape: usize) -> usize {
+    shape + shape * shape
 }
 
-impl<B: Bundle> Tangent<B> {
+/// Derivatives of mean and covariance.
+#[derive(Clone, Copy)]
+pub(crate) struct Tangent<B, const STATE: usize> {
+    pub(crate) m: [B; STATE],
+    /// Entries `[i][j]` with `i <= j`; the others are not used.
+    pub(crate) p: [[B; STATE]; STATE],
+}
+
+impl<B: Bundle, const STATE: usize> Tangent<B, STATE> {
     #[inline(always)]
     pub(crate) fn zero() -> Self {
-        Self { m: [B::splat(0.0); STATE], p: [B::splat(0.0); PACKED] }
+        Self { m: [B::splat(0.0); STATE], p: [[B::splat(0.0); STATE]; STATE] }
+    }
+
+    /// An entry of the symmetric matrix.
+    #[inline(always)]
+    pub(crate) fn between(&self, i: usize, j: usize) -> B {
+        if i < j { self.p[i][j] } else { self.p[j][i] }
     }
 
     /// Adds `h` times `rate`.
@@ -36,8 +43,10 @@ impl<B: Bundle> Tangent<B> {
             self.m[i] += rate.m[i] * h;
         }
         if DEPTH > depth::MEAN {
-            for i in 0..PACKED {
-                self.p[i] += rate.p[i] * h;
+            for i in 0..STATE {
+                for j in i..STATE {
+                    self.p[i][j] += rate.p[i][j] * h;
+                }
             }
         }
     }
@@ -50,8 +59,10 @@ impl<B: Bundle> Tangent<B> {
             self.m[i] = from.m[i] + rate.m[i] * h;
         }
         if DEPTH > depth::MEAN {
-            for i in 0..PACKED {
-                self.p[i] = from.p[i] + rate.p[i] * h;
+            for i in 0..STATE {
+                for j in i..STATE {
+                    self.p[i][j] = from.p[i][j] + rate.p[i][j] * h;
+                }
             }
         }
     }
@@ -59,12 +70,12 @@ impl<B: Bundle> Tangent<B> {
 
 /// Storage for the stages of a step, allocated once.
 #[derive(Clone, Copy)]
-pub(crate) struct Scratch<B> {
-    at: Tangent<B>,
-    rate: Tangent<B>,
+pub(crate) struct Scratch<B, const STATE: usize> {
+    at: Tangent<B, STATE>,
+    rate: Tangent<B, STATE>,
 }
 
-impl<B: Bundle> Scratch<B> {
+impl<B: Bundle, const STATE: usize> Scratch<B, STATE> {
     #[inline(always)]
     pub(crate) fn new() -> Self {
         Self { at: Tangent::zero(), rate: Tangent::zero() }
@@ -72,7 +83,7 @@ impl<B: Bundle> Scratch<B> {
 }
 
 /// `A dP + dA P`, rows of the shape.
-type Products<B> = [[B; STATE]; SHAPE];
+type Products<B, const SHAPE: usize, const STATE: usize> = [[B; STATE]; SHAPE];
 
 /// How much of the derivatives is carried.
 pub(crate) mod depth {
@@ -87,7 +98,7 @@ pub(crate) mod depth {
 /// What forces the derivatives of a block at a stage.
 #[derive(Clone, Copy)]
 pub(crate) struct Forcing<'f> {
-    /// [`FORCING`] bundles: `df/dc`, then the rows of `dA/dc`.
+    /// [`forcing_of`] bundles: `df/dc`, then the rows of `dA/dc`.
     pub(crate) values: &'f [f64],
     /// The rows of `dA/dc` that are not 0 in all lanes.
     pub(crate) rows: [usize; 2],
@@ -95,13 +106,17 @@ pub(crate) struct Forcing<'f> {
 
 /// `A dP + dA P`.
 #[inline(always)]
-fn products<B: Bundle, const DEPTH: u8>(stage: &Stage, forcing: Forcing<'_>, at: &Tangent<B>) -> Products<B> {
+fn products<B: Bundle, const SHAPE: usize, const STATE: usize, const DEPTH: u8>(
+    stage: &Stage<SHAPE, STATE>,
+    forcing: Forcing<'_>,
+    at: &Tangent<B, STATE>,
+) -> Products<B, SHAPE, STATE> {
     let mut products = [[B::splat(0.0); STATE]; SHAPE];
     for i in 0..SHAPE {
         for k in 0..SHAPE {
             let a = B::splat(stage.values.jacobian[i][k]);
             for j in 0..STATE {
-                products[i][j] += a * at.p[AT[k + 2][j]];
+                products[i][j] += a * at.between(k + 2, j);
             }
             if DEPTH == depth::ALL {
                 let dm = at.m[k + 2];
@@ -126,34 +141,34 @@ fn products<B: Bundle, const DEPTH: u8>(stage: &Stage, forcing: Forcing<'_>, at:
 
 /// Rates of the derivatives of the covariance.
 #[inline(always)]
-fn covariance_rate<B: Bundle>(
-    products: &Products<B>,
+fn covariance_rate<B: Bundle, const SHAPE: usize, const STATE: usize>(
+    products: &Products<B, SHAPE, STATE>,
     q: &[B; STATE],
-    at: &Tangent<B>,
-    rate: &mut Tangent<B>,
+    at: &Tangent<B, STATE>,
+    rate: &mut Tangent<B, STATE>,
 ) {
     let p = &at.p;
-    rate.p[AT[0][0]] = p[AT[0][2]] + p[AT[0][2]];
-    rate.p[AT[0][1]] = p[AT[1][2]] - p[AT[0][3]];
-    rate.p[AT[1][1]] = -(p[AT[1][3]] + p[AT[1][3]]);
+    rate.p[0][0] = p[0][2] + p[0][2];
+    rate.p[0][1] = p[1][2] - p[0][3];
+    rate.p[1][1] = -(p[1][3] + p[1][3]);
     for j in 0..SHAPE {
-        rate.p[AT[0][j + 2]] = products[j][0] + p[AT[2][j + 2]];
-        rate.p[AT[1][j + 2]] = products[j][1] - p[AT[3][j + 2]];
+        rate.p[0][j + 2] = products[j][0] + at.between(2, j + 2);
+        rate.p[1][j + 2] = products[j][1] - at.between(3, j + 2);
         for i in 0..j {
-            rate.p[AT[i + 2][j + 2]] = products[i][j + 2] + products[j][i + 2];
+            rate.p[i + 2][j + 2] = products[i][j + 2] + products[j][i + 2];
         }
-        rate.p[AT[j + 2][j + 2]] = products[j][j + 2] + products[j][j + 2] + q[j + 2];
+        rate.p[j + 2][j + 2] = products[j][j + 2] + products[j][j + 2] + q[j + 2];
     }
 }
 
 /// The rates at `at`.
 #[inline(always)]
-fn rate<B: Bundle, const DEPTH: u8>(
-    stage: &Stage,
+fn rate<B: Bundle, const SHAPE: usize, const STATE: usize, const DEPTH: u8>(
+    stage: &Stage<SHAPE, STATE>,
     forcing: Forcing<'_>,
     q: &[B; STATE],
-    at: &Tangent<B>,
-    rate: &mut Tangent<B>,
+    at: &Tangent<B, STATE>,
+    rate: &mut Tangent<B, STATE>,
 ) {
     rate.m[0] = at.m[2];
     rate.m[1] = -at.m[3];
@@ -165,31 +180,31 @@ fn rate<B: Bundle, const DEPTH: u8>(
         rate.m[i + 2] = sum;
     }
     if DEPTH > depth::MEAN {
-        covariance_rate(&products::<B, DEPTH>(stage, forcing, at), q, at, rate);
+        covariance_rate(&products::<B, SHAPE, STATE, DEPTH>(stage, forcing, at), q, at, rate);
     }
 }
 
 /// The derivatives after a step with these stages; `DEPTH` is one of [`depth`].
 #[inline(always)]
-pub(crate) fn step<B: Bundle, const DEPTH: u8>(
-    tangent: &mut Tangent<B>,
-    scratch: &mut Scratch<B>,
-    stages: &[Stage; 4],
+pub(crate) fn step<B: Bundle, const SHAPE: usize, const STATE: usize, const DEPTH: u8>(
+    tangent: &mut Tangent<B, STATE>,
+    scratch: &mut Scratch<B, STATE>,
+    stages: &[Stage<SHAPE, STATE>; 4],
     forcing: [Forcing<'_>; 4],
     q: &[B; STATE],
     h: f64,
 ) {
     let start = *tangent;
     let Scratch { at, rate: found } = scratch;
-    rate::<B, DEPTH>(&stages[0], forcing[0], q, &start, found);
+    rate::<B, SHAPE, STATE, DEPTH>(&stages[0], forcing[0], q, &start, found);
     tangent.add::<DEPTH>(found, h / 6.0);
     at.become_sum::<DEPTH>(&start, found, 0.5 * h);
-    rate::<B, DEPTH>(&stages[1], forcing[1], q, at, found);
+    rate::<B, SHAPE, STATE, DEPTH>(&stages[1], forcing[1], q, at, found);
     tangent.add::<DEPTH>(found, h / 3.0);
     at.become_sum::<DEPTH>(&start, found, 0.5 * h);
-    rate::<B, DEPTH>(&stages[2], forcing[2], q, at, found);
+    rate::<B, SHAPE, STATE, DEPTH>(&stages[2], forcing[2], q, at, found);
     tangent.add::<DEPTH>(found, h / 3.0);
     at.become_sum::<DEPTH>(&start, found, h);
-    rate::<B, DEPTH>(&stages[3], forcing[3], q, at, found);
+    rate::<B, SHAPE, STATE, DEPTH>(&stages[3], forcing[3], q, at, found);
     tangent.add::<DEPTH>(found, h / 6.0);
 }

@@ -2,7 +2,7 @@
 
 use super::{Settings, setup};
 use crate::filter::{Problem, Theta, Want, evaluate};
-use crate::{Error, Result, Scales, Track, observation};
+use crate::{Error, Result, Scales, Track};
 use serde::{Deserialize, Serialize};
 
 /// Values of everything that is fitted, in the units of the data.
@@ -67,9 +67,7 @@ pub(super) fn units(problem: &Problem, settings: &Settings, scales: &Scales) -> 
 /// # Errors    of the input; a filter that diverges is a value of `None`
 /// # Checked by  `tests/all/filter.rs`: an exact Gaussian likelihood, finite differences
 pub fn likelihood(tracks: &[Track], settings: &Settings, at: &Parameters) -> Result<Likelihood> {
-    observation::check(tracks)?;
-    setup::check(settings)?;
-    let scales = Scales::of(tracks);
+    let scales = setup::check(tracks, settings)?;
     let problem = setup::checked(tracks, settings, &scales)?;
     let theta = natural(&problem, settings, &scales, at)?;
     let found = evaluate(&problem, &theta, Want::Exact, false);

@@ -13,7 +13,7 @@ pub use optimise::Ending;
 pub use result::{Coefficient, Estimate, Fit, Natural, Noise};
 
 use crate::filter::{Problem, Theta};
-use crate::{Error, Library, Result, Scales, Track, observation};
+use crate::{Error, Library, Result, Scales, Track};
 use ascend::polish;
 use motiform_dynamics::Watch;
 use optimise::{Point, climb, roughly};
@@ -26,7 +26,7 @@ const LONG: usize = 400;
 /// What is fitted, and how.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// The terms: three modes.
+    /// The terms, of three or four modes.
     pub library: Library,
     /// Whether coefficients are complex: the motion and its mirror image may differ.
     pub handed: bool,
@@ -51,9 +51,8 @@ impl Default for Settings {
 /// # Errors    of the input ([`crate::Error`]); [`Error::Interrupted`] where the watch stops it. A search that does not converge is [`Ending::Stopped`] in the result
 /// # Checked by  `tests/all/fit.rs`: errors and coverage on simulated cells
 pub fn fit(tracks: &[Track], settings: &Settings, watch: &dyn Watch) -> Result<Fit> {
-    observation::check(tracks)?;
-    setup::check(settings)?;
-    let scales = Scales::of(tracks);
+    let scales = setup::check(tracks, settings)?;
+    setup::check_seen(&scales)?;
     let problem = setup::checked(tracks, settings, &scales)?;
     let starts = starts(tracks, settings, &scales);
     let head = problem.head(LONG);
@@ -65,30 +64,28 @@ pub fn fit(tracks: &[Track], settings: &Settings, watch: &dyn Watch) -> Result<F
             rough = roughly(&problem, &zero(&problem, 0.4), watch);
         }
     }
-    finished(&problem, settings, scales, &polish(&problem, &rough.theta, scales.time, watch), watch)
+    finished(&problem, settings, &scales, &polish(&problem, &rough.theta, scales.time, watch), watch)
 }
 
 /// Fits from given values of the coefficients and the noise (as [`Parameters`]) rather than from zero.
 ///
 /// # Errors    as [`fit`]
 pub fn fit_from(tracks: &[Track], settings: &Settings, start: &Parameters, watch: &dyn Watch) -> Result<Fit> {
-    observation::check(tracks)?;
-    setup::check(settings)?;
-    let scales = Scales::of(tracks);
+    let scales = setup::check(tracks, settings)?;
     let problem = setup::checked(tracks, settings, &scales)?;
     let theta = likelihood::natural(&problem, settings, &scales, start)?;
-    finished(&problem, settings, scales, &polish(&problem, &theta, scales.time, watch), watch)
+    finished(&problem, settings, &scales, &polish(&problem, &theta, scales.time, watch), watch)
 }
 
 /// Fits from given natural values: used where a fit is the neighbour of another one. Where the filter diverges there, from zero.
 pub(crate) fn refit(
     tracks: &[Track],
     settings: &Settings,
-    scales: Scales,
+    scales: &Scales,
     start: &Theta,
     watch: &dyn Watch,
 ) -> Result<Fit> {
-    let problem = problem(tracks, settings, &scales);
+    let problem = problem(tracks, settings, scales);
     let mut rough = climb(&problem, start, (1.0, 8), watch);
     if !rough.evaluation.value.is_finite() {
         rough = roughly(&problem, &zero(&problem, 0.4), watch);
@@ -100,7 +97,7 @@ pub(crate) fn refit(
 fn finished(
     problem: &Problem,
     settings: &Settings,
-    scales: Scales,
+    scales: &Scales,
     point: &Point,
     watch: &dyn Watch,
 ) -> Result<Fit> {

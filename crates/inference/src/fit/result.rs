@@ -3,7 +3,6 @@
 use super::optimise::{Ending, Point, at_bounds, prior};
 use super::{Settings, covariance, likelihood};
 use crate::filter::{Problem, Theta};
-use crate::observation::OBSERVED;
 use crate::{Library, Scales, Term};
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
@@ -88,10 +87,15 @@ pub struct Fit {
     /// The estimates in natural units, with covariances.
     pub natural: Natural,
     /// Standardised innovations of each stretch of frames: standard normal deviates, if the model is right.
-    pub innovations: Vec<Vec<[f64; OBSERVED]>>,
+    pub innovations: Vec<Vec<Vec<f64>>>,
 }
 
 impl Fit {
+    /// Numbers observed in each frame that were fitted: twice the number of amplitudes.
+    pub(crate) fn observed(&self) -> usize {
+        2 * self.library.modes
+    }
+
     /// Whether the search converged.
     #[must_use]
     pub fn converged(&self) -> bool {
@@ -138,7 +142,7 @@ fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
     (0..matrix.nrows()).map(|i| matrix.row(i).iter().copied().collect()).collect()
 }
 
-pub(super) fn make(problem: &Problem, settings: &Settings, scales: Scales, point: &Point) -> Fit {
+pub(super) fn make(problem: &Problem, settings: &Settings, scales: &Scales, point: &Point) -> Fit {
     let (theta, kept) = (&point.theta, &point.evaluation);
     let mut held = vec![false; problem.len()];
     held[problem.parts.len()..].copy_from_slice(&at_bounds(theta));
@@ -151,16 +155,16 @@ pub(super) fn make(problem: &Problem, settings: &Settings, scales: Scales, point
         covariance: rows(&covariance),
         robust: rows(&robust),
     };
-    let units = likelihood::units(problem, settings, &scales);
+    let units = likelihood::units(problem, settings, scales);
     Fit {
         library: settings.library.clone(),
         handed: settings.handed,
         coefficients: coefficients(problem, settings, &natural, &units),
-        noise: noise(&natural, &scales, at_bounds(theta)),
+        noise: noise(&natural, scales, at_bounds(theta)),
         log_likelihood: kept.value + prior(theta) + problem.frames() as f64 * scales.log_density(),
         frames: problem.frames(),
         ending: point.ending.clone(),
-        scales,
+        scales: scales.clone(),
         natural,
         innovations: kept.innovations.clone(),
     }

@@ -3,13 +3,13 @@
 use super::Settings;
 use crate::field::Field;
 use crate::filter::Problem;
-use crate::{Error, Library, Result, Scales, Track};
+use crate::{Error, Library, MOST_MODES, Result, Scales, Track, observation};
 
 /// Checks that the filter can take a library.
 pub(crate) fn check_library(library: &Library) -> Result<()> {
-    if library.modes != 3 {
+    if !(3..=MOST_MODES).contains(&library.modes) {
         let value = library.modes as f64;
-        return Err(Error::Setting { key: "modes", value, remedy: "the filter takes three modes" });
+        return Err(Error::Setting { key: "modes", value, remedy: "give 3 or 4" });
     }
     if library.terms.is_empty() {
         return Err(Error::Setting { key: "terms", value: 0.0, remedy: "give at least one term" });
@@ -17,12 +17,21 @@ pub(crate) fn check_library(library: &Library) -> Result<()> {
     Ok(())
 }
 
-/// Checks the settings.
-pub(super) fn check(settings: &Settings) -> Result<()> {
+/// Checks tracks and settings; the natural units.
+pub(super) fn check(tracks: &[Track], settings: &Settings) -> Result<Scales> {
     check_library(&settings.library)?;
+    observation::check(tracks, settings.library.modes)?;
     match settings.starts.iter().find(|start| !(1e-4..=10.0).contains(*start)) {
         Some(&value) => Err(Error::Setting { key: "starts", value, remedy: "give 1e-4 to 10" }),
-        None => Ok(()),
+        None => Ok(Scales::of(tracks, settings.library.modes)),
+    }
+}
+
+/// Refuses z4 where it is not seen. z2 and z3 belong to every model: [`crate::identifiability()`] says so of them.
+pub(super) fn check_seen(scales: &Scales) -> Result<()> {
+    match scales.signal.get(3) {
+        Some(&signal) if signal < 1.0 => Err(Error::NotSeen { mode: "z4", signal }),
+        _ => Ok(()),
     }
 }
 

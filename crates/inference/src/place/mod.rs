@@ -7,13 +7,15 @@
 //! full plane (Fig. 4)      T = 1/gamma                V^2 = gamma/|d11|       L2 = 2/(|e11| T)   L3 = L2 sqrt(3 e32/(4 e22))
 //! reduced plane (Fig. 1)   T = |d11|/(4 |e21 e11|)    V^2 = 1/(|d11| T)       L2 = 2/(|e11| T)   z3 is left out
 //! ```
+//!
+//! Modes that a plane does not have (z3 of the reduced one, z4) are left out with their equations; where they act on the others the cell has no place there.
 
 mod among;
 mod scaled;
 
 pub use among::place_among;
 
-use crate::{Estimate, Fit, identifiability};
+use crate::{Estimate, Fit, MOST_MODES, Term, identifiability};
 use nalgebra::{DMatrix, DVector};
 use scaled::{Scaled, scaled};
 use serde::{Deserialize, Serialize};
@@ -31,6 +33,21 @@ pub enum Plane {
     Full,
     /// Fig. 1: kappa2 and gamma; a1 = 1, b1 = 0.5, b3 = 1, no z3.
     Reduced,
+}
+
+impl Plane {
+    /// The amplitudes that it has.
+    fn modes(self) -> usize {
+        match self {
+            Self::Full => 3,
+            Self::Reduced => 2,
+        }
+    }
+
+    /// Whether it has no place for a term: the equation, or a factor, is of a mode that it does not have.
+    fn leaves_out(self, term: &Term) -> bool {
+        term.equation >= self.modes() || (self.modes()..MOST_MODES).any(|m| term.degree(m) > 0)
+    }
 }
 
 /// A number in the units of the plane.
@@ -121,19 +138,21 @@ fn obstacles(fit: &Fit, plane: Plane) -> Vec<String> {
         if of("z1: z1* z2") * of("z2: z1^2") > 0.0 {
             reasons.push("a1 b1 is below 0: the plane is that of a1 b1 = 0.5".to_owned());
         }
-        reasons.extend(third_mode(fit));
     }
+    reasons.extend(other_modes(fit, plane));
     reasons
 }
 
-/// Terms with `z3` in the other equations: the reduced plane has none.
-fn third_mode(fit: &Fit) -> Option<String> {
+/// Terms with modes that the plane does not have, in the equations of those that it has.
+fn other_modes(fit: &Fit, plane: Plane) -> Option<String> {
     let couples = |c: &&crate::Coefficient| {
         let certain = c.estimate.value.abs() > CERTAIN * c.estimate.error;
-        c.term.equation < 2 && c.term.degree(2) > 0 && certain
+        c.term.equation < plane.modes() && plane.leaves_out(&c.term) && certain
     };
     let names: Vec<String> = fit.coefficients.iter().filter(couples).map(|c| c.name.clone()).collect();
-    let reason = || format!("the reduced plane has no z3, the cell has {}", names.join(", "));
+    let name = if plane == Plane::Full { "full" } else { "reduced" };
+    let reason =
+        || format!("the {name} plane has no z{}, the cell has {}", plane.modes() + 1, names.join(", "));
     (!names.is_empty()).then(reason)
 }
 

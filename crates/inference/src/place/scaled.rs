@@ -83,7 +83,7 @@ pub(super) fn scaled(fit: &Fit, plane: Plane, values: &[f64]) -> Option<Scaled> 
     let amplitudes = &units[1..];
     let mut all: Vec<(String, f64)> = Vec::new();
     for (c, value) in fit.coefficients.iter().zip(values) {
-        if plane == Plane::Reduced && (c.term.degree(2) > 0 || c.term.equation == 2) {
+        if plane.leaves_out(&c.term) {
             continue;
         }
         let product: f64 = amplitudes.iter().enumerate().map(|(m, a)| a.powi(c.term.degree(m))).product();

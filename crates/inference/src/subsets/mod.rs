@@ -1,7 +1,8 @@
 //! Which terms the data ask for: best subsets, without fitting each.
 //!
 //! Near the maximum twice the log-likelihood falls by `theta_z^T (C_zz)^-1 theta_z` where the coefficients z are set to 0 and all others are
-//! adapted; C is the covariance of all estimates. The score of a set is that plus `ln(6 N)` for each coefficient kept (Schwarz), N the number of frames.
+//! adapted; C is the covariance of all estimates. The score of a set is that plus `ln(n N)` for each coefficient kept (Schwarz), N the number of frames and n that of the
+//! numbers observed in each: 6, with z4 8.
 //!
 //! Each equation's sets are searched with the other equations at their best sets, in turn until nothing changes; then the good sets of all
 //! equations are combined and scored jointly. Sets within [`TIE`] of the best are all kept: the data do not tell them apart.
@@ -11,7 +12,6 @@ mod search;
 
 use crate::filter::Theta;
 use crate::fit::refit;
-use crate::observation::OBSERVED;
 use crate::{Fit, Library, Result, Settings, Track, observation};
 pub(crate) use conditional::Conditional;
 use motiform_dynamics::Watch;
@@ -39,7 +39,7 @@ pub struct Subset {
 /// The sets that the data allow.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Subsets {
-    /// Price of a coefficient: `ln(6 N)`.
+    /// Price of a coefficient: `ln(n N)`, n numbers in each of N frames.
     pub penalty: f64,
     /// All sets within [`TIE`] of the best, the best first.
     pub ties: Vec<Subset>,
@@ -77,7 +77,7 @@ pub struct Selection {
 /// # Checked by  `tests/all/subsets.rs`: all sets by brute force; how often the exact set is found
 #[must_use]
 pub fn subsets(fit: &Fit) -> Subsets {
-    let penalty = libm::log((OBSERVED * fit.frames.max(1)) as f64);
+    let penalty = libm::log((fit.observed() * fit.frames.max(1)) as f64);
     let whole = Conditional::new(&fit.natural.coefficients, fit.covariance());
     let equations: Vec<Vec<usize>> = (0..fit.library.modes)
         .map(|n| (0..fit.coefficients.len()).filter(|&i| fit.coefficients[i].term.equation == n).collect())
@@ -159,7 +159,7 @@ fn subset(fit: &Fit, dropped: &[usize], excess: f64) -> Subset {
 ///
 /// # Errors    of the input, as [`crate::fit()`]
 pub fn select(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Selection> {
-    observation::check(tracks)?;
+    observation::check(tracks, fit.library.modes)?;
     let subsets = subsets(fit);
     let kept = subsets.best().map(|set| set.kept.clone()).unwrap_or_default();
     let fit = refit_with(tracks, fit, &kept, watch)?;
@@ -188,5 +188,5 @@ pub fn refit_with(tracks: &[Track], fit: &Fit, kept: &[usize], watch: &dyn Watch
     let library =
         Library { modes: fit.library.modes, terms: kept_terms.map(|(term, _)| term.clone()).collect() };
     let settings = Settings { library, handed: fit.handed, starts: Vec::new() };
-    refit(tracks, &settings, fit.scales, &Theta { coefficients, logs: fit.natural.logs }, watch)
+    refit(tracks, &settings, &fit.scales, &Theta { coefficients, logs: fit.natural.logs }, watch)
 }

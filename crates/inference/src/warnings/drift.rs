@@ -49,7 +49,7 @@ impl Drift {
 ///
 /// # Errors    of the input, as [`crate::fit()`]; too few frames leave a point out
 pub fn drift(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Drift> {
-    observation::check(tracks)?;
+    observation::check(tracks, fit.library.modes)?;
     let interval = tracks.iter().map(Track::interval).fold(0.0, f64::max);
     let mut points = vec![point(fit, 1, interval)];
     let settings = Settings { library: fit.library.clone(), handed: fit.handed, starts: Vec::new() };
@@ -57,7 +57,7 @@ pub fn drift(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Drift> {
         let thinned: Vec<Track> = tracks.iter().map(|track| track.thinned(every)).collect();
         let least = LEAST_FRAMES.max(3 * fit.coefficients.len());
         if thinned.iter().all(|track| track.0.len() >= least) {
-            let again = refit(&thinned, &settings, fit.scales, &fit.theta(), watch)?;
+            let again = refit(&thinned, &settings, &fit.scales, &fit.theta(), watch)?;
             if again.frames > 0 {
                 points.push(point(&again, every, interval * every as f64));
             }

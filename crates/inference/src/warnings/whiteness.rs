@@ -2,18 +2,16 @@
 
 use crate::Fit;
 use crate::chi_square::chi_square_tail;
-use crate::observation::OBSERVED;
+use crate::observation::NAMES;
 use serde::{Deserialize, Serialize};
 
 /// Largest lag of the test.
 const LAGS: usize = 10;
-/// What the innovations are of: each is what a number adds to those before it in this list.
-const NAMES: [&str; OBSERVED] = ["x", "y", "Re z2", "Im z2", "Re z3", "Im z3"];
 
 /// Standardised innovations of one observed number.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Channel {
-    /// What is observed.
+    /// What is observed; its innovations are what it adds to those of the numbers before it (x, y, Re z2, ..).
     pub name: String,
     /// Variance: 1 if the model is right.
     pub variance: f64,
@@ -28,7 +26,7 @@ pub struct Channel {
 /// Autocorrelations of a fit's standardised innovations, with the test of Ljung and Box.
 #[must_use]
 pub fn whiteness(fit: &Fit) -> Vec<Channel> {
-    (0..OBSERVED).map(|channel| test(fit, channel)).collect()
+    (0..fit.observed()).map(|channel| test(fit, channel)).collect()
 }
 
 fn test(fit: &Fit, channel: usize) -> Channel {

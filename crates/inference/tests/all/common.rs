@@ -40,6 +40,37 @@ pub(crate) fn quasi_periodic() -> Equations {
     ]
 }
 
+/// The full model with z4: driven by z2 and by z1 with z3, it acts back on both.
+pub(crate) fn four() -> Equations {
+    let mut equations = full(0.5, 0.1);
+    equations.extend([
+        term(2, 0.4, &[-2, 4]),
+        term(3, -0.2, &[-1, 4]),
+        term(4, -0.6, &[4]),
+        term(4, 2.0, &[2, 2]),
+        term(4, 0.5, &[1, 3]),
+    ]);
+    equations
+}
+
+/// Names of the terms of [`four`], in the order of a library.
+pub(crate) const FOUR: [&str; 14] = [
+    "z1: z1",
+    "z1: z1* z2",
+    "z1: |z1|^2 z1",
+    "z2: z2",
+    "z2: z1^2",
+    "z2: z1* z3",
+    "z2: z2* z4",
+    "z3: z3",
+    "z3: z1 z2",
+    "z3: z1* z4",
+    "z3: z1^3",
+    "z4: z4",
+    "z4: z1 z3",
+    "z4: z2^2",
+];
+
 /// Names of the terms of [`full`], in the same order.
 pub(crate) const FULL: [&str; 9] = [
     "z1: z1",
@@ -53,8 +84,19 @@ pub(crate) const FULL: [&str; 9] = [
     "z3: z1^3",
 ];
 
-pub(crate) fn rates(equations: &Equations, z: &[Complex<f64>; 3]) -> [Complex<f64>; 3] {
-    let mut rates = [Complex::new(0.0, 0.0); 3];
+/// The covariance of independent errors.
+pub(crate) fn diagonal(errors: &[f64]) -> Vec<Vec<f64>> {
+    let of = |i: usize, j: usize| if i == j { (errors[i] * errors[i]).max(1e-20) } else { 0.0 };
+    (0..errors.len()).map(|i| (0..errors.len()).map(|j| of(i, j)).collect()).collect()
+}
+
+const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
+
+/// z1 to z4; of models without z4 it stays 0.
+type Shape = [Complex<f64>; 4];
+
+fn rates(equations: &Equations, z: &Shape) -> Shape {
+    let mut rates = [ZERO; 4];
     for (equation, c, factors) in equations {
         let mut product = *c;
         for &factor in factors {
@@ -70,7 +112,7 @@ pub(crate) fn rates(equations: &Equations, z: &[Complex<f64>; 3]) -> [Complex<f6
 #[derive(Clone, Debug)]
 pub(crate) struct Experiment {
     pub(crate) equations: Equations,
-    pub(crate) start: [Complex<f64>; 3],
+    pub(crate) start: Shape,
     /// Left out at the beginning.
     pub(crate) transient: f64,
     pub(crate) interval: f64,
@@ -93,7 +135,12 @@ pub(crate) const fn vertex_noise(radius: f64) -> [f64; 2] {
 impl Experiment {
     /// `eta` on each component of the velocity and of the tensors S and U: half of it on `z2` and `z3`.
     pub(crate) fn new(equations: Equations, eta: f64, seed: u64) -> Self {
-        let start = [Complex::new(0.5, -0.3), Complex::new(-0.1, 0.05), Complex::new(0.02, 0.03)];
+        let start = [
+            Complex::new(0.5, -0.3),
+            Complex::new(-0.1, 0.05),
+            Complex::new(0.02, 0.03),
+            Complex::new(0.0, 0.0),
+        ];
         let (interval, frames) = (0.5, 1000);
         Self {
             equations,
@@ -108,8 +155,10 @@ impl Experiment {
     }
 
     pub(crate) fn track(&self) -> Track {
-        let mut kicks = Normal::new(self.seed, 0);
-        let mut slips = Normal::new(self.seed, 1);
+        let kicks = Normal::new(self.seed, 0);
+        let slips = Normal::new(self.seed, 1);
+        let mut kicks = [kicks, Normal::new(self.seed, 2)];
+        let mut slips = [slips, Normal::new(self.seed, 3)];
         let (mut r, mut z) = ([0.0; 2], self.start);
         let steps = (self.interval / 0.01).ceil();
         let h = self.interval / steps;
@@ -128,29 +177,34 @@ impl Experiment {
     }
 
     /// Heun's method: of second order in the drift, and the noise is additive.
-    fn step(&self, r: &mut [f64; 2], z: &mut [Complex<f64>; 3], h: f64, kicks: &mut Normal) {
+    fn step(&self, r: &mut [f64; 2], z: &mut Shape, h: f64, kicks: &mut [Normal; 2]) {
         let before = *z;
         let first = rates(&self.equations, z);
-        let kick: [Complex<f64>; 3] = std::array::from_fn(|n| {
-            let size = self.eta[n.min(1)] * h.sqrt();
-            Complex::new(size * kicks.next(), size * kicks.next())
+        let kick: Shape = std::array::from_fn(|n| {
+            if n == self.modes() {
+                return ZERO;
+            }
+            let (size, normal) = (self.eta[n.min(1)] * h.sqrt(), &mut kicks[n / 3]);
+            Complex::new(size * normal.next(), size * normal.next())
         });
-        let guess: [Complex<f64>; 3] = std::array::from_fn(|n| before[n] + first[n] * h + kick[n]);
+        let guess: Shape = std::array::from_fn(|n| before[n] + first[n] * h + kick[n]);
         let second = rates(&self.equations, &guess);
-        for n in 0..3 {
+        for n in 0..4 {
             z[n] = before[n] + (first[n] + second[n]) * (0.5 * h) + kick[n];
         }
         r[0] += 0.5 * h * (before[0].re + z[0].re);
         r[1] -= 0.5 * h * (before[0].im + z[0].im);
     }
 
-    fn observe(&self, t: f64, r: [f64; 2], z: [Complex<f64>; 3], slips: &mut Normal) -> Observation {
-        let exact = [r[0], r[1], z[1].re, z[1].im, z[2].re, z[2].im];
-        let error = |i: usize| self.errors[usize::from(i >= 2)];
-        let y = std::array::from_fn(|i| exact[i] + error(i) * slips.next());
-        let covariance = std::array::from_fn(|i| {
-            std::array::from_fn(|j| if i == j { (error(i) * error(i)).max(1e-20) } else { 0.0 })
-        });
-        Observation { t, y, covariance }
+    fn observe(&self, t: f64, r: [f64; 2], z: Shape, slips: &mut [Normal; 2]) -> Observation {
+        let exact = r.into_iter().chain(z[1..self.modes()].iter().flat_map(|z| [z.re, z.im]));
+        let errors: Vec<f64> = (0..2 * self.modes()).map(|i| self.errors[usize::from(i >= 2)]).collect();
+        let y = exact.enumerate().map(|(i, x)| x + errors[i] * slips[i / 6].next()).collect();
+        Observation { t, y, covariance: diagonal(&errors) }
+    }
+
+    /// 3, or 4 if there is an equation of z4.
+    fn modes(&self) -> usize {
+        self.equations.iter().map(|(equation, ..)| *equation).max().unwrap_or(0).max(3)
     }
 }

@@ -2,19 +2,20 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use crate::common::{Experiment, full};
+use crate::common::{Experiment, diagonal, four, full};
 use motiform_inference::{Library, Observation, Parameters, Scales, Settings, Track, likelihood};
 use nalgebra::DMatrix;
 
 #[test]
 fn gradient_by_differences() {
-    let mut experiment = Experiment::new(full(0.5, 0.1), 0.05, 11);
-    experiment.frames = 40;
-    let mut track = experiment.track();
-    track.0.remove(20);
-    track.0.drain(28..31);
-    for handed in [false, true] {
-        let settings = Settings { handed, ..Settings::default() };
+    for (equations, modes, handed) in
+        [(full(0.5, 0.1), 3, false), (full(0.5, 0.1), 3, true), (four(), 4, false), (four(), 4, true)]
+    {
+        let mut track = Experiment { frames: 40, ..Experiment::new(equations, 0.05, 11) }.track();
+        track.0.remove(20);
+        track.0.drain(28..31);
+        let library = Library::new(modes, 3).unwrap();
+        let settings = Settings { library, handed, ..Settings::default() };
         let n = settings.library.terms.len() * if handed { 2 } else { 1 };
         let coefficients = (0..n).map(|i| 0.3 * libm::sin(i as f64 + 1.0)).collect();
         let at = Parameters { coefficients, s: 1.3, eta_v: 0.08, eta_shape: 0.06 };
@@ -72,24 +73,38 @@ fn integrated(k: f64, eta: f64, (p, start): (f64, f64), (t, u): (f64, f64)) -> f
 fn linear_equations_exactly() {
     let mut normal = motiform_dynamics::Normal::new(77, 0);
     let times = [0.0, 0.1, 0.2, 0.35, 0.4, 0.5, 0.8, 0.9, 1.0, 1.1];
-    let errors = [0.05, 0.06, 0.04, 0.03, 0.05, 0.02];
+    let errors = [0.05, 0.06, 0.04, 0.03, 0.05, 0.02, 0.03, 0.04];
     let frame = |&t: &f64| Observation {
         t,
-        y: std::array::from_fn(|i| 0.3 * libm::cos(t + i as f64) + 0.05 * normal.next()),
-        covariance: std::array::from_fn(|i| {
-            std::array::from_fn(|j| if i == j { errors[i] * errors[i] } else { 0.0 })
-        }),
+        y: errors
+            .iter()
+            .enumerate()
+            .map(|(i, e)| 0.3 * libm::cos(t + i as f64) + e * normal.next())
+            .collect(),
+        covariance: diagonal(&errors),
     };
     let track = Track(times.iter().map(frame).collect());
-    let library = Library::tensor().select(&["z1: z1", "z2: z2", "z3: z3"]).unwrap();
+    for modes in [3, 4] {
+        let (found, expected) = linear(&track, &times, &errors[..2 * modes]);
+        println!("{modes} {found} {expected}");
+        assert!((found - expected).abs() < 1e-5 * expected.abs().max(1.0), "{modes} {found} {expected}");
+    }
+}
+
+/// Log-likelihood of relaxing modes, and its closed form.
+fn linear(track: &Track, times: &[f64], errors: &[f64]) -> (f64, f64) {
+    let modes = errors.len() / 2;
+    let names = ["z1: z1", "z2: z2", "z3: z3", "z4: z4"];
+    let library = Library::new(modes, 1).unwrap().select(&names[..modes]).unwrap();
     let settings = Settings { library, ..Settings::default() };
-    let (k, s, eta) = ([0.7, 1.1, 0.4], 1.3, [0.5, 0.4]);
-    let at = Parameters { coefficients: k.map(|k| -k).to_vec(), s, eta_v: eta[0], eta_shape: eta[1] };
-    let found = likelihood(std::slice::from_ref(&track), &settings, &at).unwrap().value.unwrap();
-    let scales = Scales::of(std::slice::from_ref(&track));
+    let (k, s, eta) = ([0.7, 1.1, 0.4, 0.9], 1.3, [0.5, 0.4]);
+    let coefficients = k[..modes].iter().map(|k| -k).collect();
+    let at = Parameters { coefficients, s, eta_v: eta[0], eta_shape: eta[1] };
+    let found = likelihood(std::slice::from_ref(track), &settings, &at).unwrap().value.unwrap();
+    let scales = Scales::of(std::slice::from_ref(track), modes);
     let n = times.len() - 1;
     let mut expected = 0.0;
-    for i in 0..6 {
+    for i in 0..errors.len() {
         let rate = k[i / 2];
         let (first, second) = (&track.0[0], &track.0[1]);
         let noise = s * s * errors[i] * errors[i];
@@ -113,6 +128,5 @@ fn linear_equations_exactly() {
         let deviations: Vec<f64> = (1..=n).map(|a| track.0[a].y[i] - mean(times[a])).collect();
         expected += gaussian(&deviations, covariance);
     }
-    println!("{found} {expected}");
-    assert!((found - expected).abs() < 1e-5 * expected.abs().max(1.0), "{found} {expected}");
+    (found, expected)
 }

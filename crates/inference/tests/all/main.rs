@@ -5,6 +5,7 @@ mod converge;
 mod definition;
 mod filter;
 mod fit;
+mod four_modes;
 mod handed;
 mod identifiability;
 mod library;

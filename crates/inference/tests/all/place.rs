@@ -13,10 +13,10 @@ fn in_units(track: &Track, (length, mode, time): (f64, f64, f64)) -> Track {
     let unit = [length, length, mode, mode, mode, mode];
     let frame = |frame: &Observation| Observation {
         t: frame.t * time,
-        y: std::array::from_fn(|i| frame.y[i] * unit[i]),
-        covariance: std::array::from_fn(|i| {
-            std::array::from_fn(|j| frame.covariance[i][j] * unit[i] * unit[j])
-        }),
+        y: (0..6).map(|i| frame.y[i] * unit[i]).collect(),
+        covariance: (0..6)
+            .map(|i| (0..6).map(|j| frame.covariance[i][j] * unit[i] * unit[j]).collect())
+            .collect(),
     };
     Track(track.0.iter().map(frame).collect())
 }
@@ -71,7 +71,7 @@ fn reduced_plane() {
             term(3, -1.0, &[3]),
         ];
         let mut experiment = Experiment::new(equations, 0.002, 3);
-        experiment.start = [0.1, 0.05, 0.0].map(|x| Complex::new(x, 0.3 * x));
+        experiment.start = [0.1, 0.05, 0.0, 0.0].map(|x| Complex::new(x, 0.3 * x));
         experiment.interval = 1.0;
         experiment.frames = 600;
         experiment.errors = [0.001, 0.0005];

@@ -83,5 +83,12 @@ fn bad_input() {
     );
     assert!(fit(&[], &Settings::default(), &()).unwrap_err().to_string().contains("there is no cell"));
     let four = Settings { library: Library::new(4, 3).unwrap(), ..Settings::default() };
-    assert!(fit(&[good], &four, &()).unwrap_err().to_string().contains("the filter takes three modes"));
+    let refused = fit(&[good], &four, &()).unwrap_err().to_string();
+    assert!(
+        refused.contains("6 numbers with their covariance are given, and the model is fitted to 8"),
+        "{refused}"
+    );
+    let library = Library { modes: 5, ..Library::tensor() };
+    let refused = fit(&[], &Settings { library, ..Settings::default() }, &()).unwrap_err().to_string();
+    assert_eq!(refused, "modes = 5: give 3 or 4");
 }

@@ -50,11 +50,12 @@ impl RadiusFit {
         sigma * sigma * self.unit_covariance[j * self.unknowns() + k]
     }
 
-    /// The 6 x 6 covariance of (X, Y, Re z2, Im z2, Re z3, Im z3) for this noise of a vertex.
+    /// The covariance of (X, Y, Re z2, Im z2, .., Im z_highest) for this noise of a vertex, row by row. Modes that were not fitted are left out.
     #[must_use]
-    pub fn observed_covariance(&self, sigma: f64) -> [[f64; 6]; 6] {
-        const AT: [usize; 6] = [0, 1, 3, 4, 5, 6];
-        AT.map(|j| AT.map(|k| self.covariance(sigma, j, k)))
+    pub fn observed_covariance(&self, sigma: f64, highest: usize) -> Vec<Vec<f64>> {
+        let last = (1 + 2 * highest).min(self.unknowns());
+        let at = || [0, 1].into_iter().chain(3..last);
+        at().map(|j| at().map(|k| self.covariance(sigma, j, k)).collect()).collect()
     }
 }
 

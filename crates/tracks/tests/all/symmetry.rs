@@ -97,7 +97,7 @@ fn covariances_turn_too() {
     blur(&mut points, 0.02, &mut noise);
     let quarter: Points = points.iter().map(|[x, y]| [-y, *x]).collect();
     let (a, b) = (fitted(&points).0, fitted(&quarter).0);
-    let (a, b) = (a.observed_covariance(1.0), b.observed_covariance(1.0));
+    let (a, b) = (a.observed_covariance(1.0, 3), b.observed_covariance(1.0, 3));
     // X' = -Y, Y' = X; z2' = -z2; z3' = i z3
     let from = [(1, -1.0), (0, 1.0), (2, -1.0), (3, -1.0), (5, -1.0), (4, 1.0)];
     for (j, (from_j, sign_j)) in from.into_iter().enumerate() {

@@ -67,6 +67,7 @@ class Cells(Sequence["Cell"]):
         self,
         order: int = 3,
         *,
+        modes: int = 3,
         draws: int = 40,
         seed: int = 1,
         simulations: int = 199,
@@ -79,6 +80,8 @@ class Cells(Sequence["Cell"]):
         ----------
         order
             Highest order of the terms, 1 to 5.
+        modes
+            Amplitudes of the model: 3 (velocity, z2, z3), or 4 with z4.
         draws
             Models drawn from the estimate; the motion is named if 90 % of them share it.
         seed
@@ -88,7 +91,7 @@ class Cells(Sequence["Cell"]):
 
         Ctrl-C raises :class:`motiform.Interrupted` with the fits that are done.
         """
-        settings = (order, draws, seed, simulations, threads or os.cpu_count() or 1)
+        settings = (order, modes, draws, seed, simulations, threads or os.cpu_count() or 1)
         return self._fit(self.names, settings, progress)
 
     def _observe(self, names: list[str], progress: Progress) -> dict[str, Observation]:
@@ -100,7 +103,7 @@ class Cells(Sequence["Cell"]):
         return found
 
     def _fit(
-        self, names: list[str], settings: tuple[int, int, int, int, int], progress: Progress
+        self, names: list[str], settings: tuple[int, int, int, int, int, int], progress: Progress
     ) -> dict[str, CellFit]:
         with Bar(progress, len(names), "cells") as bar:
             text, table, models, raised = self._native.fit(names, settings, bar.callable())
@@ -191,10 +194,17 @@ class Cell:
         return self._cells._observe([self.name], progress)[self.name]
 
     def fit(
-        self, order: int = 3, *, draws: int = 40, seed: int = 1, simulations: int = 199, progress: Progress = None
+        self,
+        order: int = 3,
+        *,
+        modes: int = 3,
+        draws: int = 40,
+        seed: int = 1,
+        simulations: int = 199,
+        progress: Progress = None,
     ) -> CellFit:
         """The equations that describe it; :meth:`Cells.fit` explains the settings."""
-        return self._cells._fit([self.name], (order, draws, seed, simulations, 1), progress)[self.name]
+        return self._cells._fit([self.name], (order, modes, draws, seed, simulations, 1), progress)[self.name]
 
     def plot(self, outlines: int = 12) -> Figure:
         """A film strip of `outlines` outlines at equal times, and the path below, both coloured by time."""
