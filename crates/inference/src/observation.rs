@@ -57,7 +57,7 @@ impl Track {
     /// The same motion seen in a mirror: `y -> -y`, `z -> conj(z)`.
     #[must_use]
     pub fn mirrored(&self) -> Self {
-        let sign = |i: usize| if i % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = |i: usize| if i.is_multiple_of(2) { 1.0 } else { -1.0 };
         let mirrored = |row: &Vec<f64>| row.iter().enumerate().map(|(i, x)| sign(i) * x).collect();
         let mirror = |frame: &Observation| Observation {
             t: frame.t,

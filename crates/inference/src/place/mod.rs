@@ -134,10 +134,8 @@ fn obstacles(fit: &Fit, plane: Plane) -> Vec<String> {
     if plane == Plane::Full && of("z3: z1 z2") * of("z2: z1* z3") < 0.0 {
         reasons.push("e22 and e32 have opposite signs: no unit of z3 puts them on this plane".to_owned());
     }
-    if plane == Plane::Reduced {
-        if of("z1: z1* z2") * of("z2: z1^2") > 0.0 {
-            reasons.push("a1 b1 is below 0: the plane is that of a1 b1 = 0.5".to_owned());
-        }
+    if plane == Plane::Reduced && of("z1: z1* z2") * of("z2: z1^2") > 0.0 {
+        reasons.push("a1 b1 is below 0: the plane is that of a1 b1 = 0.5".to_owned());
     }
     reasons.extend(other_modes(fit, plane));
     reasons
