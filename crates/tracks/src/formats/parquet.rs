@@ -13,6 +13,9 @@ use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader};
 use std::path::Path;
 
+/// What is read: the parquet library calls others a disabled feature.
+const COMPRESSIONS: &str = "a Parquet file with zstd, snappy, gzip or lz4 compression, or none";
+
 /// The values of one column in one row group.
 enum Values {
     Numbers(Vec<f64>),
@@ -38,7 +41,11 @@ pub(super) fn read(path: &Path, options: &Options) -> Result<Found> {
     if let Some(error) = refused {
         return Err(error);
     }
-    let gather = done.map_err(|error| Error::structure(&place, error.to_string(), "a sound Parquet file"))?;
+    let gather = done.map_err(|error| {
+        let packed = error.to_string().contains("Disabled feature");
+        let expected = if packed { COMPRESSIONS } else { "a sound Parquet file" };
+        Error::structure(&place, error.to_string(), expected)
+    })?;
     let (cells, notes) = gather.finish(&place, REMEDY)?;
     Ok(Found { cells, notes, ..Found::default() })
 }

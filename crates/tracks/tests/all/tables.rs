@@ -5,15 +5,22 @@
 use crate::common::{Files, outlines, read, read_with, refusal};
 use crate::formats::same;
 use motiform_tracks::{Format, Limits, Options, detect};
+use parquet::basic::Compression;
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::parser::parse_message_type;
 use std::sync::Arc;
 
 pub(crate) fn parquet(frames: i64) -> Vec<u8> {
+    compressed(frames, Compression::UNCOMPRESSED)
+}
+
+fn compressed(frames: i64, compression: Compression) -> Vec<u8> {
     let schema = "message rows { optional binary cell (UTF8); required int64 frame; required int64 i; required double x; required double y; }";
     let schema = Arc::new(parse_message_type(schema).unwrap());
-    let mut file = SerializedFileWriter::new(Vec::new(), schema, Arc::default()).unwrap();
+    let properties = Arc::new(WriterProperties::builder().set_compression(compression).build());
+    let mut file = SerializedFileWriter::new(Vec::new(), schema, properties).unwrap();
     for (frame, points) in (0_i64..).zip(outlines(frames)) {
         let mut group = file.next_row_group().unwrap();
         let cells = vec![ByteArray::from("a"); points.len()];
@@ -44,6 +51,19 @@ fn parquet_is_read() {
     let tracks = read(parquet(4)).unwrap();
     same(&tracks, 4);
     assert_eq!(tracks.cells[0].name, "a");
+}
+
+/// pandas and pyarrow write snappy, polars zstd.
+#[test]
+fn every_usual_compression_is_read() {
+    for compression in [
+        Compression::SNAPPY,
+        Compression::GZIP(Default::default()),
+        Compression::LZ4_RAW,
+        Compression::ZSTD(Default::default()),
+    ] {
+        same(&read(compressed(3, compression)).unwrap(), 3);
+    }
 }
 
 #[test]
