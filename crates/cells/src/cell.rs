@@ -45,6 +45,16 @@ impl Sample {
         Self { tracks, cells }
     }
 
+    /// Mean radius of a cell, or of all cells where none has this name (fits of several cells together).
+    #[must_use]
+    pub fn radius(&self, cell: &str) -> f64 {
+        let of = |own: &dyn Fn(&&CellTrack) -> bool| {
+            let radii: Vec<f64> = self.cells.iter().filter(own).map(|cell| cell.radius).collect();
+            (!radii.is_empty()).then(|| radii.iter().sum::<f64>() / radii.len() as f64)
+        };
+        of(&|one| one.name == cell).or_else(|| of(&|one| one.radius > 0.0)).unwrap_or(0.0)
+    }
+
     /// Notes about the files, as sentences.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 /// What shows that a folder is one of these.
 pub(crate) const SUMMARY: &str = "summary.json";
-const MODES: &str = "modes.parquet";
+pub(crate) const MODES: &str = "modes.parquet";
 
 /// Names of the folders of results.
 #[derive(Debug, Clone, Copy)]
@@ -37,7 +37,8 @@ pub(crate) fn result_files(
     files.push(("coefficients.parquet".to_owned(), table(&coefficient_columns(fits), target)?));
     for (fit, name) in fits.iter().zip(file_names(fits.iter().map(|fit| fit.name.as_str()))) {
         let Ok(fitted) = &fit.fitted else { continue };
-        files.push((format!("{name}.toml"), fitted.study(&fit.name)?.to_toml()?.into_bytes()));
+        let study = fitted.study(&fit.name, sample.radius(&fit.name))?;
+        files.push((format!("{name}.toml"), study.to_toml()?.into_bytes()));
     }
     Ok(files)
 }

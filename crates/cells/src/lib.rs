@@ -15,6 +15,7 @@ mod observe;
 mod packed;
 mod population;
 mod prediction;
+mod recorded;
 mod regime;
 mod stages;
 mod summary;
@@ -40,6 +41,7 @@ pub use population::{
 pub use prediction::{
     Agreement, Axis, Companions, Comparison, Envelope, Kind, Prediction, Record, Statistic, predict,
 };
+pub use recorded::{RecordedCell, RecordedFrame, recorded};
 pub use regime::{FittedRegime, LEAST_SHARE, regime_of};
 pub use summary::{cell_json, fits_json, observations_json};
 pub use tables::{coefficient_columns, mode_columns};

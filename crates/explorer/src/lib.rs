@@ -15,5 +15,5 @@ mod server;
 pub use accept::Patience;
 pub use error::Error;
 pub use guard::Token;
-pub use motiform_session::{StudyFile, typescript};
+pub use motiform_session::{StudyFile, TrackedCell, typescript};
 pub use server::{DEFAULT_PORT, Handle, Options, Server};

@@ -136,7 +136,10 @@ impl Sample {
         let mut models = Vec::new();
         for fit in &fits {
             let Ok(fitted) = &fit.fitted else { continue };
-            models.push((fit.name.clone(), Study(fitted.study(&fit.name).map_err(of_cells)?)));
+            models.push((
+                fit.name.clone(),
+                Study(fitted.study(&fit.name, self.0.radius(&fit.name)).map_err(of_cells)?),
+            ));
         }
         let table = PyBytes::new(py, &to_csv(&coefficient_columns(&fits)));
         Ok((text(&fits_json(&self.0, &fits))?, table, models, raised))

@@ -1,5 +1,6 @@
 //! What a body can begin with: models, presets, extensions from the literature, a study file, and equations from the page.
 
+use crate::TrackedCell;
 use crate::protocol::{self, Registry, SectionKind};
 use motiform_lab::registry;
 use motiform_models::{ModelInfo, amplitudes};
@@ -46,6 +47,8 @@ pub struct StudyFile {
     pub text: String,
     /// The study.
     pub study: Study,
+    /// The cell that it was fitted to, to be shown beside it.
+    pub tracked: Option<TrackedCell>,
 }
 
 impl StudyFile {
@@ -56,7 +59,7 @@ impl StudyFile {
     pub fn read(path: &Path) -> Result<Self, Error> {
         let study = Study::read(path)?;
         let text = input::text(path, input::STUDY).map_err(|error| Error::unreadable(path, error))?;
-        Ok(Self { path: path.display().to_string(), text, study })
+        Ok(Self { path: path.display().to_string(), text, study, tracked: None })
     }
 }
 
@@ -65,6 +68,8 @@ impl StudyFile {
 pub struct Catalogue {
     /// Subjects beside the registry's, by name.
     own: Vec<(String, Subject)>,
+    /// The cell that the study file was fitted to.
+    tracked: Option<protocol::Tracked>,
 }
 
 impl Catalogue {
@@ -74,7 +79,8 @@ impl Catalogue {
     /// A preset that fails its own checks.
     pub fn new(file: Option<&StudyFile>) -> Result<Self, Error> {
         let mut own = Vec::new();
-        if let Some(StudyFile { path, text, study }) = file {
+        let tracked = file.and_then(|file| Some(file.tracked.as_ref()?.told(&file_name(&file.path))));
+        if let Some(StudyFile { path, text, study, .. }) = file {
             let subject = Subject {
                 source: Source::File(path.clone()),
                 study: study.clone(),
@@ -88,7 +94,7 @@ impl Catalogue {
             let source = Source::Preset { model, name: name.clone() };
             own.push((name, Subject { source, study, text: Some(preset.text.to_owned()) }));
         }
-        Ok(Self { own })
+        Ok(Self { own, tracked })
     }
 
     /// The study of a preset, or of a model with its defaults, or of one of the names of this catalogue.
@@ -116,6 +122,11 @@ impl Catalogue {
         self.own.retain(|(name, _)| name != EDITED);
         self.own.push((EDITED.to_owned(), subject));
         Ok(model)
+    }
+
+    /// The cell that the study file was fitted to, for the page.
+    pub(crate) fn tracked(&self) -> Option<protocol::Tracked> {
+        self.tracked.clone()
     }
 
     /// The registry of the library and the subjects of this catalogue, for the page.

@@ -17,7 +17,8 @@ impl Greeting {
     /// # Errors
     /// A preset or a model that fails its own checks.
     pub fn new(catalogue: &Catalogue, restart: &str) -> Result<Self, Error> {
-        let hello = Hello { version: VERSION, restart: restart.to_owned(), registry: catalogue.registry()? };
+        let (registry, tracked) = (catalogue.registry()?, catalogue.tracked());
+        let hello = Hello { version: VERSION, restart: restart.to_owned(), registry, tracked };
         Ok(Self(text(&hello.into()).into()))
     }
 

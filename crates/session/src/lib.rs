@@ -23,6 +23,7 @@ mod protocol;
 mod session;
 mod share;
 mod task;
+mod tracked;
 
 pub use answers::{Answer, Answers, Gone, refusal};
 pub use catalogue::{Catalogue, StudyFile, file_name};
@@ -33,3 +34,4 @@ pub use protocol::{LONGEST, Request, typescript};
 pub use session::Session;
 pub use share::quoted;
 pub use task::{Errand, Post};
+pub use tracked::TrackedCell;

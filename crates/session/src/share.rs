@@ -162,7 +162,8 @@ mod tests {
         let text = "[model.amplitudes]\nmodes = [1] # one\n[model.amplitudes.parameters]\ngamma = 1.0\n\
                     [model.amplitudes.equations]\nz1 = \"(gamma - |z1|^2)*z1\"\n";
         let study = Study::parse(text, "my dir/my.toml", "my").unwrap();
-        let file = StudyFile { path: "my dir/my.toml".to_owned(), text: text.to_owned(), study };
+        let file =
+            StudyFile { path: "my dir/my.toml".to_owned(), text: text.to_owned(), study, tracked: None };
         let start = Catalogue::new(Some(&file)).unwrap().subject("my.toml", None).unwrap();
         let mut study = start.study.clone();
         assert_eq!(source(&start, &study).unwrap(), text);

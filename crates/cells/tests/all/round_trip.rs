@@ -77,7 +77,7 @@ fn a_cell_with_a_square_mode() {
     let prediction = fit.prediction.unwrap();
     assert_eq!(prediction.comparisons.len(), 11);
     assert_eq!(prediction.count(Agreement::Differs), 0, "{:?}", prediction.comparisons);
-    assert!(found.study("one").unwrap().model.definition().unwrap().modes.len() == 4);
+    assert!(found.study("one", 2.0).unwrap().model.definition().unwrap().modes.len() == 4);
 }
 
 #[test]

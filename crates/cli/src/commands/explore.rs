@@ -2,7 +2,8 @@
 
 use crate::args::ExploreOptions;
 use crate::output::{End, print, warn};
-use motiform_explorer::{Options, Server, StudyFile};
+use motiform_cells::{FitFolder, RecordedFrame, recorded};
+use motiform_explorer::{Options, Server, StudyFile, TrackedCell};
 use motiform_models::ModelInfo;
 use motiform_models::amplitudes::NAME;
 use motiform_study::presets::{EXTENSIONS, PRESETS, Preset};
@@ -33,8 +34,12 @@ fn settings(options: &ExploreOptions) -> anyhow::Result<Options> {
                 "--preset {name}: a study file sets its own preset: write preset = \"...\" in the file"
             );
         }
-        settings.file = Some(StudyFile::read(Path::new(path))?);
+        settings.file = Some(study_file(Path::new(path))?);
         return Ok(settings);
+    }
+    if let Some(folder) = subject.as_ref().filter(|name| FitFolder::is_one(Path::new(name))) {
+        let files = study_files(Path::new(folder))?;
+        anyhow::bail!("{folder} is a folder of results; give a study file in it: {}", files.join(", "));
     }
     if let Some(name) = preset {
         let (Some(found), model) = (known(name), subject.as_deref()) else {
@@ -56,6 +61,39 @@ fn settings(options: &ExploreOptions) -> anyhow::Result<Options> {
         settings.model = Some(name.clone());
     }
     Ok(settings)
+}
+
+/// A study file; of one that `motiform fit` wrote also the cell beside it.
+fn study_file(path: &Path) -> anyhow::Result<StudyFile> {
+    let mut file = StudyFile::read(path)?;
+    file.tracked = recorded(path)?.map(|cell| TrackedCell {
+        name: cell.name,
+        units: cell.units,
+        frames: cell.frames.into_iter().map(numbers).collect(),
+    });
+    Ok(file)
+}
+
+/// The study files in a folder of fits.
+fn study_files(folder: &Path) -> anyhow::Result<Vec<String>> {
+    let mut files = Vec::new();
+    for entry in folder.read_dir()? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|ending| ending == "toml") {
+            files.push(path.display().to_string());
+        }
+    }
+    files.sort();
+    if files.is_empty() {
+        files.push("none of its cells has equations".to_owned());
+    }
+    Ok(files)
+}
+
+/// Time, centre, radius, modes.
+fn numbers(frame: RecordedFrame) -> Vec<f64> {
+    let RecordedFrame { t, centre, radius, z } = frame;
+    [t, centre[0], centre[1], radius].into_iter().chain(z.into_iter().flatten()).collect()
 }
 
 /// A preset of the paper, or an extension.

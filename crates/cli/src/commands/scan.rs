@@ -74,7 +74,7 @@ fn study(options: &ScanOptions) -> Result<Study, Error> {
     study.random = options.random.or(study.random);
     study.run.seed = options.seed.unwrap_or(study.run.seed);
     study.perturb = options.perturb.unwrap_or(study.perturb);
-    if let Some(perturbation) = study.perturbed()?.1 {
+    if let Some(perturbation) = ScanPlan::perturbation(&study)? {
         warn(&format!("{perturbation}; --perturb 0 keeps the exact start"));
     }
     Ok(study)

@@ -69,7 +69,10 @@ export class App implements Hearer {
   });
   private readonly body: BodyPanel = new BodyPanel(this.history, (follow) => this.controls.setFollow(follow), this.hand, this.swarm.view);
   private readonly tour = new Tour((hash) => this.visit(read(hash, this.known().registry).place), () => this.keeper.changed());
-  private readonly compare = new Compare((listener) => this.connect(listener), () => ({ place: this.place(), session: this.session, plane: this.map.current() }));
+  private readonly compare = new Compare((listener) => this.connect(listener), {
+    now: () => ({ place: this.place(), session: this.session, plane: this.map.current() }),
+    sight: () => this.body.sight(),
+  });
   private readonly parameters = new ParameterPanel((name, value) => this.choose({ [name]: value }), () => this.send({ do: "source" }));
   private readonly editor = new Editor({ send: (wish) => this.send(wish), run: (model) => this.run(model) });
   private readonly presets = new PresetBar((name) => this.openPreset(name), (name) => this.visit(fresh(name, null, this.loop.playing)));
@@ -132,7 +135,7 @@ export class App implements Hearer {
       this.undo.note("");
       this.openAddress(new URL(event.newURL).hash);
     });
-    expose({ frames: () => this.frames, revision: () => this.revision(), frame: () => (this.later.due ? null : this.body.last()), map: this.map, branches: this.branches, body: this.body });
+    expose({ frames: () => this.frames, revision: () => this.revision(), frame: () => (this.later.due ? null : this.body.last()), beside: () => this.compare.shown(), map: this.map, branches: this.branches, body: this.body });
   }
 
   private known(): Session {
@@ -180,13 +183,13 @@ export class App implements Hearer {
   }
 
   /** The first greeting opens the address; after a loss of the connection the body goes on where it was. */
-  hello({ registry, restart, version }: Hello): void {
+  hello({ registry, restart, version, tracked }: Hello): void {
     this.greeted = true;
     showConnected(restart !== "");
     setText(byId("banner-command"), restart);
     byId("connection").title = `motiform ${version}`;
     const place = this.place();
-    this.session = new Session(registry);
+    this.session = new Session(registry, tracked);
     this.presets.fill(registry);
     this.editor.restore((model) => {
       if (model) this.define(model);
@@ -225,6 +228,7 @@ export class App implements Hearer {
     this.history.clear();
     this.swarm.clear();
     this.body.begin();
+    this.compare.begin(session);
     if (this.map.current()) this.branches.forget();
     this.loop.look();
     document.title = `${begun.title} \u2013 motiform`;

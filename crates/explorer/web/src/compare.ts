@@ -1,36 +1,65 @@
-/** Compare: one place is held at a time, beside the body. */
+/** Compare: one place is held at a time, beside the body. A tracked cell stands there where the model was fitted to one. */
 
 import type { Place } from "./address";
+import type { Frame } from "./binary";
 import { byId } from "./dom";
+import type { Beside } from "./half";
 import type { Connect } from "./listener";
 import type { Plane } from "./protocol";
 import type { Session } from "./session";
+import { TrackedView, type Sight } from "./tracked";
 import { Twin } from "./twin";
 
-export class Compare {
-  private twin: Twin | null = null;
+/** What is to be held, and what the body looks like. */
+export interface Compared {
+  now(): { place: Place | null; session: Session | null; plane: Plane | null };
+  sight(): Sight | null;
+}
 
-  /** `now` gives what is to be held; `connect` finds who computes it. */
-  constructor(private readonly connect: Connect, now: () => { place: Place | null; session: Session | null; plane: Plane | null }) {
+export class Compare {
+  private beside: Beside | null = null;
+  /** The reader does not want to see the tracked cell. */
+  private hidden = false;
+
+  /** `connect` finds who computes a place. */
+  constructor(private readonly connect: Connect, private readonly compared: Compared) {
     byId("compare").addEventListener("click", () => {
-      const { place, session, plane } = now();
+      const { place, session, plane } = compared.now();
       if (place && session) this.hold(place, session, plane);
     });
-    byId("twin-end").addEventListener("click", () => this.twin?.end());
+    byId("twin-end").addEventListener("click", () => {
+      const { beside } = this;
+      this.hidden ||= beside instanceof TrackedView;
+      beside?.end();
+      const { session } = compared.now();
+      if (session) this.begin(session);
+    });
   }
 
-  /** Holds a place; what was held before is let go. */
+  /** A body begins: the cell that its model was fitted to stands beside it. */
+  begin({ tracked, model }: Session): void {
+    const wanted = !this.hidden && tracked?.model === model.name ? tracked : null;
+    if (this.beside instanceof TrackedView && this.beside.cell !== wanted) this.beside.end();
+    if (wanted && !this.beside) this.beside = new TrackedView(wanted, () => this.compared.sight(), () => (this.beside = null));
+  }
+
+  /** Holds a place; what stood there before is let go. */
   private hold(place: Place, { model, parameters, registry }: Session, plane: Plane | null): void {
-    this.twin?.end();
+    this.beside?.end();
     const names = [...new Set([plane?.x.name ?? "", plane?.y?.name ?? "", ...Object.keys(place.parameters)])];
-    this.twin = new Twin(this.connect, { place, model, names, values: { ...parameters }, regimes: registry.regimes }, () => (this.twin = null));
+    this.beside = new Twin(this.connect, { place, model, names, values: { ...parameters }, regimes: registry.regimes }, () => (this.beside = null));
   }
 
   draw(seconds: number, moving: boolean): void {
-    this.twin?.draw(seconds, moving);
+    this.beside?.draw(seconds, moving);
   }
 
   touch(): void {
-    this.twin?.touch();
+    this.beside?.touch();
+  }
+
+  /** What stands beside the body. */
+  shown(): Frame | null {
+    return this.beside?.shown() ?? null;
   }
 }

@@ -15,6 +15,8 @@ interface Handle {
   position(): [number, number] | null;
   /** Coordinates of the shape. */
   state(): number[] | null;
+  /** What stands beside the body: its time, place and outline, pairs relative to the place. */
+  beside(): { t: number; position: [number, number]; radius: number; outline: number[] } | null;
   map: {
     /** The window in sight. */
     window(): View | null;
@@ -40,7 +42,7 @@ declare global {
   }
 }
 
-export function expose(source: { frames(): number; revision(): number; frame(): Frame | null; map: MapPanel; branches: BranchPanel; body: BodyPanel }): void {
+export function expose(source: { frames(): number; revision(): number; frame(): Frame | null; beside(): Frame | null; map: MapPanel; branches: BranchPanel; body: BodyPanel }): void {
   const { map, branches, body } = source;
   window.motiform = Object.freeze({
     get frames() {
@@ -56,6 +58,10 @@ export function expose(source: { frames(): number; revision(): number; frame(): 
     state() {
       const frame = source.frame();
       return frame && [...frame.state];
+    },
+    beside() {
+      const frame = source.beside();
+      return frame && { t: frame.t, position: [frame.x, frame.y] as [number, number], radius: frame.radius, outline: [...frame.outline] };
     },
     map: Object.freeze({
       window: () => map.window(),

@@ -87,6 +87,15 @@ export interface Registry {
   regimes: Regime[];
 }
 
+/** A tracked cell, and the model that was fitted to it: time from the first frame, x, y, R0, then the parts of z2, z3, .. of each frame. */
+export interface Tracked {
+  model: string;
+  name: string;
+  length: string;
+  time: string;
+  frames: number[][];
+}
+
 /** A running Lyapunov exponent with the half width of its 95 % interval. */
 export interface Exponent {
   value: number;
@@ -142,6 +151,7 @@ export interface Hello {
   version: string;
   restart: string;
   registry: Registry;
+  tracked: Tracked | null;
 }
 
 /** A new body. */

@@ -3,7 +3,7 @@
 /** A `set` without an answer for so long (milliseconds) holds up no other. */
 const PATIENCE = 500;
 
-import type { Begun, Changed, Model, Parameter, Preset, Registry, Values } from "./protocol";
+import type { Begun, Changed, Model, Parameter, Preset, Registry, Tracked, Values } from "./protocol";
 
 export class Session {
   model: Model;
@@ -24,7 +24,11 @@ export class Session {
   private sent = -Infinity;
   private wanted: Values = {};
 
-  constructor(readonly registry: Registry) {
+  /** `tracked`: the cell that one of the models was fitted to. */
+  constructor(
+    readonly registry: Registry,
+    readonly tracked: Tracked | null,
+  ) {
     this.model = registry.models[0];
   }
 

@@ -9,6 +9,7 @@ import { Sheet } from "./canvas";
 import { FULL } from "./connection";
 import { byId, make } from "./dom";
 import { KEPT } from "./editor";
+import { hideHalf, showHalf, type Beside } from "./half";
 import { History } from "./history";
 import type { Connect, Transport } from "./listener";
 import { pretty } from "./numbers";
@@ -36,7 +37,7 @@ export interface Holding {
   regimes: Regime[];
 }
 
-export class Twin {
+export class Twin implements Beside {
   private readonly connection: Transport;
   private readonly history = new History();
   private readonly camera = new Camera();
@@ -63,15 +64,13 @@ export class Twin {
       swarm: () => undefined,
       open: (open, code) => this.opened(open, code),
     });
-    byId("body").parentElement?.toggleAttribute("data-compare", true);
-    byId("twin-part").hidden = false;
+    showHalf("The place that is held, to compare with", "End the comparison");
     this.label();
   }
 
   end(): void {
     this.connection.end();
-    byId("body").parentElement?.toggleAttribute("data-compare", false);
-    byId("twin-part").hidden = true;
+    hideHalf();
     this.ended();
   }
 
@@ -156,5 +155,9 @@ export class Twin {
   touch(): void {
     this.backdrop.forget();
     this.dirty = true;
+  }
+
+  shown(): Frame | null {
+    return this.frame;
   }
 }

@@ -248,7 +248,11 @@ fn notation(name: &str) -> String {
     let digits = &name[name.trim_end_matches(|c: char| c.is_ascii_digit()).len()..];
     let symbol = GREEK.iter().find(|(known, _)| *known == letters).map_or(letters, |(_, symbol)| symbol);
     let symbol = symbol.replace('_', " ");
-    if digits.is_empty() { format!("*{symbol}*") } else { format!("*{symbol}*_{digits}") }
+    match digits.len() {
+        0 => format!("*{symbol}*"),
+        1 => format!("*{symbol}*_{digits}"),
+        _ => format!("*{symbol}*_{{{digits}}}"),
+    }
 }
 
 /// A symbol in italics, unless it says itself what is.

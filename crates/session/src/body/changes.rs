@@ -117,12 +117,25 @@ impl Setting {
         disturbed
     }
 
-    /// The body at its initial state, without the transient, but with these coordinates.
+    /// The body at its initial state, without the transient, but with these coordinates of the shape.
     pub(super) fn started(&self, coordinates: &BTreeMap<String, f64>, radius: f64) -> Result<Self, Error> {
-        let (plan, model) = (Plan::new(self.study())?, self.model());
-        let info = plan.info()?;
+        let plan = Plan::new(self.study())?;
+        let mut state = start(&plan, self.model());
+        if !coordinates.is_empty() {
+            state = self.with_coordinates(&plan, &state, coordinates)?;
+        }
+        self.changed(self.study().clone(), 0.0, state, radius)
+    }
+
+    /// A state with other values of these coordinates of the shape.
+    fn with_coordinates(
+        &self,
+        plan: &Plan,
+        state: &[f64],
+        coordinates: &BTreeMap<String, f64>,
+    ) -> Result<Vec<f64>, Error> {
+        let (info, model) = (plan.info()?, self.model());
         let parameters = plan.computation.parameters.values();
-        let state = start(&plan, model);
         let (shape, position) = state.split_at(model.dim());
         let mut values = decode(model, shape);
         for (name, value) in coordinates {
@@ -131,14 +144,7 @@ impl Setting {
                 *entry = *value;
             }
         }
-        let state = state_of(model, &values, [position[0], position[1]])?;
-        self.changed(self.study().clone(), 0.0, state, radius)
-    }
-
-    /// The body at its initial state, without the transient.
-    pub(super) fn restarted(&self, radius: f64) -> Result<Self, Error> {
-        let plan = Plan::new(self.study())?;
-        self.changed(self.study().clone(), 0.0, start(&plan, self.model()), radius)
+        state_of(model, &values, [position[0], position[1]])
     }
 }
 

@@ -96,6 +96,11 @@ impl Setting {
         Ok(Self { radius, ..next })
     }
 
+    /// Whether the model or the study says how large the undeformed body is; otherwise it is drawn so large that its deformations suit it.
+    pub(super) fn has_own_radius(&self) -> bool {
+        self.model.radius().is_some() || self.study.figure.radius > 0.0
+    }
+
     /// The largest radius required by the deformation in the near future.
     fn fitting_radius(&self) -> Result<f64, Error> {
         if let Some(fixed) = self.model.radius() {

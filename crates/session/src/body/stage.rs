@@ -175,7 +175,7 @@ impl<'s> Stage<'s> {
     fn frame(&mut self, behind: bool) -> Frame {
         let model = self.setting.model();
         let (shape, position) = self.stretch.state().split_at(model.dim());
-        if model.radius().is_none() {
+        if !self.setting.has_own_radius() {
             let deformation = model.deformation(shape);
             self.radius =
                 self.radius.max(if deformation.is_finite() { radius_for(deformation) } else { 0.0 });
@@ -360,7 +360,7 @@ impl<'s> Stage<'s> {
     }
 
     fn restart(&self) -> Change {
-        Ok(told(self.setting.restarted(self.radius)?))
+        Ok(told(self.setting.started(&BTreeMap::new(), self.radius)?))
     }
 
     fn start(&self, start: &Start) -> Change {

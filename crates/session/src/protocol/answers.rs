@@ -74,9 +74,12 @@ messages! {
     /// Models, presets and regimes, in the order of lists and legends.
     #[derive(Serialize, Deserialize)]
     Registry { models: Vec<Model>, presets: Vec<Preset>, regimes: Vec<Regime>, }
+    /// A tracked cell, and the model that was fitted to it: time from the first frame, x, y, R0, then the parts of z2, z3, .. of each frame.
+    #[derive(Serialize)]
+    Tracked { model: String, name: String, length: String, time: String, frames: Vec<Vec<f64>>, }
     /// The first message; `restart` is the command that starts this server again.
     #[derive(Serialize)]
-    Hello { version: &'static str, restart: String, registry: Registry, }
+    Hello { version: &'static str, restart: String, registry: Registry, tracked: Option<Tracked>, }
     /// A new body.
     #[derive(Serialize)]
     Begun {
@@ -278,6 +281,6 @@ pub(crate) fn parts() -> String {
             [$(interface(&<$type>::name(), <$type>::DOCS, None, &<$type>::fields())),*]
         };
     }
-    let parts = all! { Parameter Coordinate Observable Side Plane Model Preset Regime Registry Exponent Spectrum Returns Grid Line SpecialPoint };
+    let parts = all! { Parameter Coordinate Observable Side Plane Model Preset Regime Registry Tracked Exponent Spectrum Returns Grid Line SpecialPoint };
     parts.join("\n") + "\n" + &Dashes::declaration()
 }

@@ -6,7 +6,7 @@ use crate::plan::{
     stepper,
 };
 use crate::random::Random;
-use crate::{Error, Study};
+use crate::{Error, Perturbation, Study};
 use motiform_dynamics::steppers::Method;
 use motiform_models::{ModelInfo, ModelName, parameters};
 use serde::{Deserialize, Serialize};
@@ -105,6 +105,14 @@ impl ScanPlan {
         let plan = Self { name: study.name.clone(), title, computation };
         plan.check_cells()?;
         Ok(plan)
+    }
+
+    /// The small values that a scan of this study gives to coordinates that its start leaves at zero ([`Study::perturbed`]).
+    ///
+    /// # Errors
+    /// As [`ScanPlan::new`].
+    pub fn perturbation(study: &Study) -> Result<Option<Perturbation>, Error> {
+        Ok(started(study, &starts(study, study.info()?)?)?.perturbed()?.1)
     }
 
     /// Builds the model and its start at every value of each axis (the other axis at its ends): errors

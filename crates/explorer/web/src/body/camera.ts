@@ -61,8 +61,8 @@ export class Camera {
     return this.height / 2 - (y - this.y) * this.scale;
   }
 
-  /** Aims at the trail from sample `from` on, at the body, with its radius, and at other places. */
-  aim(history: History, from: number, bx: number, by: number, radius: number, others: [number, number][] = []): void {
+  /** Aims at the trail from sample `from` on, at the body, with its radius, and at other places; at the scale `given`, or one that suits them. */
+  aim(history: History, from: number, bx: number, by: number, radius: number, others: [number, number][] = [], given?: number): void {
     this.body = { x: bx, y: by };
     let [x0, x1, y0, y1] = [bx, bx, by, by];
     const stride = Math.max(1, Math.floor((history.length - from) / POINTS));
@@ -77,7 +77,7 @@ export class Camera {
     this.extent = Math.max(x1 - x0, y1 - y0);
     const least = Math.min(this.width, this.height) / 2;
     const fit = Math.min(this.free(this.width, 0) / (x1 - x0), this.free(this.height, this.taken) / (y1 - y0)) / MARGIN;
-    const scale = this.zoom * Math.min(least / (CLOSEST * radius), Math.max(least / (WIDEST * radius), fit));
+    const scale = given ?? this.zoom * Math.min(least / (CLOSEST * radius), Math.max(least / (WIDEST * radius), fit));
     // A trail that is too long for the sight is seen from nearer the body.
     const lag = scale > fit ? 0.26 : Infinity;
     this.goal = { x: toward((x0 + x1) / 2, bx, (lag * this.width) / scale), y: toward((y0 + y1) / 2, by, (lag * this.height) / scale), scale };

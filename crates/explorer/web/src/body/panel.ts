@@ -8,6 +8,7 @@ import { fixed } from "../numbers";
 import type { Orbit, Values, Wish } from "../protocol";
 import { watch } from "../pointer";
 import { currentInks, edge } from "../theme";
+import type { Sight } from "../tracked";
 import { Backdrop } from "./backdrop";
 import { Camera } from "./camera";
 import { Ghost } from "./ghost";
@@ -99,6 +100,12 @@ export class BodyPanel {
   /** Pixels of a model length at the size in which the body is drawn. */
   get scale(): number {
     return this.camera.scale * this.enlarged;
+  }
+
+  /** How the body is seen; `null` before it was. */
+  sight(): Sight | null {
+    const { frame, camera, enlarged, trail } = this;
+    return frame && { t: frame.t, scale: camera.scale, enlarged, trail };
   }
 
   /** The largest speed of the trail. */
