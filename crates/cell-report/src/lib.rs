@@ -4,6 +4,7 @@
 //! Turns results of [`motiform_cells`] into pages and figures; computes nothing but the regimes beneath the places ([`Maps`]). Definitions on
 //! the pages are those of docs/cells.md, docs/statistics.md and docs/inference.md.
 
+mod checks;
 mod comparison;
 mod fitted;
 mod index;
@@ -147,6 +148,7 @@ fn cell(
     if let Some(fit) = case.fit {
         sections.push(fitted::section(fit, name, units));
         if let Ok(fitted) = &fit.fitted {
+            sections.push(checks::section(fitted, units)?);
             sections.push(place::section(&case.cell.name, fitted, maps)?);
         }
     }

@@ -103,6 +103,18 @@ const WORDS: &[(&str, &str)] = &[
     ),
     ("95 % interval", "Estimate ∓ 1.96 standard errors."),
     ("parameter of the study file", "The same number by the paper's name, with the paper's factor."),
+    (
+        "largest change",
+        "The largest difference between the fit of all frames and that of every second or fourth, in standard deviations of such a difference: above 3.5 there is a warning. Hausman (1978), Econometrica 46, 1251.",
+    ),
+    (
+        "weak form",
+        "The coefficient by least squares: the equations, multiplied by test functions that vanish at the ends of windows of three natural times and integrated by parts, so that no noisy data are differentiated. Biased under process noise. Messenger and Bortz (2021), Multiscale Model. Simul. 19, 1474.",
+    ),
+    (
+        "autocorrelation of innovations",
+        "Innovation: what a frame shows beyond what the filter predicted from the frames before, divided by its predicted standard deviation; of each number what it adds to those before it in the list x, y, Re z2, Im z2, ... If the model is right they are independent with variance 1. p: Ljung and Box (1978), Biometrika 65, 297, ten lags.",
+    ),
     ("log-likelihood", "Natural logarithm of the probability density of all observations, at its maximum."),
     (
         "frames with a likelihood",
@@ -116,10 +128,13 @@ const WORDS: &[(&str, &str)] = &[
         "noise of the velocity",
         "Amplitude of white noise on each component of the velocity: without the equations its variance would grow by the square of this number per unit of time.",
     ),
-    ("noise of the shape", "The same for the real and imaginary parts of *z*_2 and *z*_3."),
+    (
+        "noise of the shape",
+        "The same for the real and imaginary parts of *z*_2, *z*_3 and, in models that have it, *z*_4.",
+    ),
     (
         "sets of terms that are as good",
-        "Number of sets of terms whose score, -2 ln L + ln(6 N) for each coefficient, lies within 6 of the best one. The data do not tell them apart.",
+        "Number of sets of terms whose score, -2 ln L + ln(6 N) for each coefficient (8 N with z4), lies within 6 of the best one. The data do not tell them apart.",
     ),
     ("natural time", "T: the inverse root-mean-square rate of change of the shape."),
     (
@@ -165,4 +180,6 @@ const WORDS: &[(&str, &str)] = &[
     ),
     ("size of z2", "|*z*_2|: quantiles. Along its axis the body is longer by 4 |*z*_2| than across it."),
     ("size of z3", "|*z*_3|: quantiles."),
+    ("autocorrelation of z4", "The same as of z2 and z3, for the square mode *z*_4, in models that have it."),
+    ("size of z4", "|*z*_4|: quantiles, in models that have it."),
 ];

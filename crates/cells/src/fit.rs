@@ -123,7 +123,7 @@ pub(crate) fn fit_or_reason(
 /// Settings that cannot be used; [`motiform_study::Error::Interrupted`].
 pub fn fit_cell(cell: &CellTrack, options: &FitOptions, watch: &dyn Watch) -> Result<CellFit> {
     let settings = Settings { library: options.library()?, ..Settings::default() };
-    let fitted = if cell.frames() < LEAST_FRAMES {
+    let mut fitted = if cell.frames() < LEAST_FRAMES {
         Err(format!("{} frames count, and a fit needs at least {LEAST_FRAMES}", cell.frames()))
     } else {
         fitted(std::slice::from_ref(&cell.track), (&settings, options), &Stages::default(), watch)?
@@ -135,6 +135,9 @@ pub fn fit_cell(cell: &CellTrack, options: &FitOptions, watch: &dyn Watch) -> Re
     };
     if watch.stopped() {
         return Err(motiform_study::Error::Interrupted.into());
+    }
+    if let (Ok(fitted), Some(true)) = (&mut fitted, prediction.as_ref().map(Prediction::is_unstable)) {
+        fitted.doubt("cells simulated by the fit, with its noise and its uncertainty, leave all bounds");
     }
     let bifurcations = match &fitted {
         Ok(fitted) if options.bifurcations => near_bifurcations(fitted, watch)?,

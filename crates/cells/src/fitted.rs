@@ -2,7 +2,7 @@
 
 use crate::regime::{FittedRegime, regime_of};
 use crate::stages::Stages;
-use crate::{Error, FitOptions, Result};
+use crate::{Checks, Error, FitOptions, Result};
 use motiform_dynamics::Watch;
 use motiform_inference::{
     BetweenCells, Drift, Fit, Handedness, Identifiability, Placement, Plane, Selection, Settings, Symmetry,
@@ -33,6 +33,8 @@ pub struct Fitted {
     pub known_of_all: Identifiability,
     /// The same terms at other sampling intervals.
     pub drift: Option<Drift>,
+    /// Another estimate of the model's coefficients, and what the model leaves unexplained.
+    pub checks: Checks,
     /// What makes the fit doubtful.
     pub warnings: Vec<Warning>,
     /// Why there is no place, and with the first of them no motion: serious warnings, handedness, blow-up.
@@ -62,6 +64,17 @@ impl Fitted {
     #[must_use]
     pub fn is_identifiable(&self) -> bool {
         self.known.identifiable
+    }
+
+    /// Takes name and places back, for a reason that was found after the fit.
+    pub(crate) fn doubt(&mut self, reason: &str) {
+        self.doubts.push(reason.to_owned());
+        if let Some(found) = &mut self.regime {
+            found.regime = None;
+        }
+        for place in &mut self.places {
+            *place = Placement::Refused { reasons: self.doubts.clone() };
+        }
     }
 
     /// The model as a study, in the units of the data, with its noise. It is drawn with the radius of the cell, and shown at a speed that suits its rates.
@@ -115,6 +128,7 @@ pub(crate) fn fitted(
         true => Ok(Some(drift(tracks, &selection.fit, watch)?)),
         false => Ok(None),
     })?;
+    let checks = Checks::of(tracks, model)?;
     let warnings = warnings(tracks, &selection.fit, drift.as_ref())?;
     let mut doubts: Vec<String> = warnings.iter().filter(|w| serious(w)).map(ToString::to_string).collect();
     if handedness.is_doubted() && !handed {
@@ -149,6 +163,7 @@ pub(crate) fn fitted(
         known,
         known_of_all,
         drift,
+        checks,
         warnings,
         doubts,
         regime,

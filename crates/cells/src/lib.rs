@@ -6,6 +6,7 @@
 
 mod bifurcations;
 mod cell;
+mod checks;
 mod error;
 mod fit;
 mod fitted;
@@ -24,6 +25,7 @@ mod work;
 
 pub use bifurcations::{NearBifurcation, near_bifurcations};
 pub use cell::{CellTrack, Sample};
+pub use checks::Checks;
 pub use error::{Error, Result};
 pub use fit::{CellFit, FitOptions, TOGETHER, fit_cell, fit_cells, fit_together};
 pub(crate) use fit::{fit_in_stages, fit_or_reason};

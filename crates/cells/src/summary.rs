@@ -4,7 +4,7 @@ use crate::{
     CellFit, CellTrack, Comparison, Fitted, FittedRegime, Observation, Prediction, Sample, Statistic,
     fitted_population, observed_population, population_statistics,
 };
-use motiform_inference::{BetweenCells, Coefficient, Estimate, Fit, Knowledge, Place, Placement};
+use motiform_inference::{Coefficient, Estimate, Knowledge, Place, Placement};
 use serde_json::{Map, Value, json};
 
 /// Fits of all cells: `{"cells": [..], "units": .., "notes": [..]}`.
@@ -116,7 +116,11 @@ fn add(object: &mut Value, fitted: &Fitted) {
     object["handed_p_value"] = json!(fitted.handedness.p_value);
     let noise = &model.noise;
     object["noise"] = json!({ "measurement_factor": number(&noise.s), "eta_v": number(&noise.eta_v), "eta_shape": number(&noise.eta_shape) });
-    object["coefficients"] = coefficients(model, fitted.between.as_ref());
+    object["coefficients"] = coefficients(fitted);
+    let innovations: Map<String, Value> = (fitted.checks.innovations.iter())
+        .map(|one| (one.name.clone(), json!({ "variance": one.variance, "autocorrelation": one.autocorrelation, "p_value": one.p_value })))
+        .collect();
+    object["innovations"] = innovations.into();
     object["ties"] = json!(fitted.selection.subsets.ties.len());
     object["log_likelihood"] = json!(model.log_likelihood);
     let [full, reduced] = &fitted.places;
@@ -143,6 +147,12 @@ impl Fitted {
                 found.draws,
                 counts(found)
             ),
+            Some(found) if found.regime.is_none() && !self.doubts.is_empty() => format!(
+                "the fit is doubtful: {}; motions of {} models that the data allow: {}",
+                self.doubts.join("; "),
+                found.draws,
+                counts(found)
+            ),
             Some(found) => {
                 format!("motions of {} models that the data allow: {}", found.draws, counts(found))
             }
@@ -165,11 +175,15 @@ fn unidentified(fitted: &Fitted) -> Vec<String> {
     fitted.known.equations.iter().flat_map(free).collect()
 }
 
-fn coefficients(model: &Fit, between: Option<&BetweenCells>) -> Value {
+fn coefficients(fitted: &Fitted) -> Value {
     let mut all: Map<String, Value> = Map::new();
-    for (place, Coefficient { name, imaginary, estimate, .. }) in model.coefficients.iter().enumerate() {
+    let coefficients = fitted.model().coefficients.iter().enumerate();
+    for (place, Coefficient { name, imaginary, estimate, .. }) in coefficients {
         let mut value = number(estimate);
-        if let Some(error) = between.and_then(|between| between.errors.get(place)) {
+        if let Some(weak) = fitted.checks.weak(place) {
+            value["weak_form"] = json!(weak);
+        }
+        if let Some(error) = fitted.between.as_ref().and_then(|between| between.errors.get(place)) {
             value["error_between_cells"] = json!(error);
         }
         if *imaginary {

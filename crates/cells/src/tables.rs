@@ -62,7 +62,8 @@ pub fn coefficient_columns(fits: &[CellFit]) -> Vec<Column> {
         .iter()
         .filter_map(|fit| Some((fit, fit.fitted.as_ref().ok()?)))
         .flat_map(|(fit, fitted)| {
-            fitted.model().coefficients.iter().map(move |coefficient| (fit, coefficient))
+            let coefficients = fitted.model().coefficients.iter().enumerate();
+            coefficients.map(move |(place, coefficient)| (fit, coefficient, fitted.checks.weak(place)))
         })
         .collect();
     let number = |read: &dyn Fn(&motiform_inference::Estimate) -> f64| {
@@ -91,5 +92,10 @@ pub fn coefficient_columns(fits: &[CellFit]) -> Vec<Column> {
         ),
         Column::new("low", "lower end of the 95 % interval", number(&|estimate| estimate.interval[0])),
         Column::new("high", "upper end of the 95 % interval", number(&|estimate| estimate.interval[1])),
+        Column::new(
+            "weak_form",
+            "the coefficient by the weak form, a check of sign and order of magnitude",
+            Values::Number(rows.iter().map(|row| row.2.unwrap_or(f64::NAN)).collect()),
+        ),
     ]
 }

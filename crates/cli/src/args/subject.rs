@@ -7,10 +7,10 @@ use motiform_study::Random;
 /// The subject of a command.
 #[derive(Args)]
 pub(crate) struct SubjectOptions {
-    /// A model (`motiform models` lists them) or a study file ending in .toml
-    #[arg(value_name = "MODEL|STUDY.toml")]
-    pub(crate) subject: String,
-    /// Start from a preset of the model, e.g. fig5a
+    /// A model (`motiform models` lists them) or a study file ending in .toml; not needed with --preset
+    #[arg(value_name = "MODEL|STUDY.toml", required_unless_present = "preset")]
+    pub(crate) subject: Option<String>,
+    /// Start from a preset, e.g. fig5a
     #[arg(long, value_name = "NAME")]
     pub(crate) preset: Option<String>,
     /// Set a parameter (repeatable); the axes of a scan take precedence

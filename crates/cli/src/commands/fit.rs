@@ -159,6 +159,9 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
         if let Some(error) = fitted.between.as_ref().and_then(|between| between.errors.get(place)) {
             write!(text, " ({error:.5} between cells)")?;
         }
+        if let Some(weak) = fitted.checks.weak(place) {
+            write!(text, "   weak form {weak:.5}")?;
+        }
         text.push('\n');
     }
     let ties = fitted.selection.subsets.ties.len();

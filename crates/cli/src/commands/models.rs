@@ -3,7 +3,7 @@
 use crate::args::ModelsOptions;
 use crate::output::{End, print};
 use motiform_dynamics::model::Coordinate;
-use motiform_models::amplitudes::{Definition, Equations, tensor_form, terms};
+use motiform_models::amplitudes::{Definition, Equations, NAME, tensor_form, terms};
 use motiform_models::{MODELS, ModelInfo};
 use motiform_study::{Study, presets};
 use serde_json::{Value, json};
@@ -23,8 +23,11 @@ pub(crate) fn run(options: &ModelsOptions) -> anyhow::Result<End> {
     Ok(End::Done)
 }
 
-/// A model of the registry, or that of a study file.
+/// A model of the registry, or that of a study file or of a preset with equations of its own.
 fn info(subject: &str) -> anyhow::Result<&'static ModelInfo> {
+    if presets::EXTENSIONS.iter().any(|preset| preset.name == subject) {
+        return Ok(presets::find_any(subject, NAME)?.info()?);
+    }
     let path = Path::new(subject);
     if path.extension().is_some_and(|extension| extension == "toml") {
         return Ok(Study::read(path)?.info()?);
@@ -42,9 +45,14 @@ fn list() -> anyhow::Result<String> {
         writeln!(text, "{:<8} {}", info.name, info.title)?;
         writeln!(text, "{:<8} presets: {}", "", presets::names_of(info.name).join(" "))?;
     }
+    writeln!(text, "\nequations given as text (docs/equations.md), as presets of the model {NAME}")?;
+    for preset in presets::EXTENSIONS {
+        let study = presets::find_any(preset.name, preset.model)?;
+        writeln!(text, "  {:<16} {}", preset.name, study.title)?;
+    }
     writeln!(
         text,
-        "\n`motiform models MODEL` shows equations, parameters and presets. MODEL may be a study file with your own equations."
+        "\n`motiform models MODEL` shows equations, parameters and presets. MODEL may be one of these presets, or a study file with your own equations."
     )?;
     Ok(text)
 }

@@ -21,7 +21,8 @@ pub(crate) fn run(options: &StatisticsOptions) -> anyhow::Result<End> {
     for note in staging.iter().flat_map(Staging::swept) {
         warn(note);
     }
-    let found = if options.subjects.iter().all(|path| is_dataset(path)) {
+    let datasets = !options.subjects.is_empty() && options.subjects.iter().all(|path| is_dataset(path));
+    let found = if datasets {
         recorded(options)?
     } else {
         let Some(found) = bodies(options)? else {
@@ -69,12 +70,12 @@ fn recorded(options: &StatisticsOptions) -> anyhow::Result<Measurement> {
 
 /// Bodies that are simulated; `None` if none was finished before an interruption.
 fn bodies(options: &StatisticsOptions) -> anyhow::Result<Option<Measurement>> {
-    let [subject] = &options.subjects[..] else {
+    let ([] | [_]) = &options.subjects[..] else {
         let list: Vec<_> = options.subjects.iter().map(|path| path.display().to_string()).collect();
         let remedy = "give one model or study, or only folders written by `motiform simulate`";
         return Err(Error::Setting { key: "subject", value: list.join(" "), remedy }.into());
     };
-    let study = study(options, subject)?;
+    let study = study(options)?;
     let count = options.bodies.unwrap_or(BODIES);
     let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = options.threads.map_or_else(all, usize::from);
@@ -87,8 +88,8 @@ fn bodies(options: &StatisticsOptions) -> anyhow::Result<Option<Measurement>> {
     }
 }
 
-fn study(options: &StatisticsOptions, subject: &Path) -> Result<Study, Error> {
-    let subject = subject.to_string_lossy().into_owned();
+fn study(options: &StatisticsOptions) -> Result<Study, Error> {
+    let subject = options.subjects.first().map(|path| path.to_string_lossy().into_owned());
     let subject = SubjectOptions { subject, preset: options.preset.clone(), set: options.set.clone() };
     let mut study = subject::study(&subject)?;
     subject::apply(&options.method, &mut study)?;

@@ -57,9 +57,12 @@ pub(crate) fn apply(options: &MethodOptions, study: &mut Study) -> Result<(), Er
     Ok(())
 }
 
-/// The study of a model's name or a study file, with a preset and parameters.
+/// The study of a model's name or a study file, or of a preset of any model, with parameters.
 pub(crate) fn study(options: &SubjectOptions) -> Result<Study, Error> {
     let SubjectOptions { subject, preset, set } = options;
+    let Some(subject) = subject else {
+        return with(of_preset(preset.as_deref().unwrap_or_default())?, set);
+    };
     let path = Path::new(subject);
     let study = if path.extension().is_some_and(|extension| extension == "toml") {
         if let Some(name) = preset {
@@ -81,6 +84,19 @@ pub(crate) fn study(options: &SubjectOptions) -> Result<Study, Error> {
         }
     };
     with(study, set)
+}
+
+/// The study of a preset, whatever its model.
+fn of_preset(name: &str) -> Result<Study, Error> {
+    let found = presets::PRESETS.iter().chain(presets::EXTENSIONS).find(|preset| preset.name == name);
+    match found {
+        Some(preset) => presets::find_any(name, preset.model),
+        None => Err(Error::Setting {
+            key: "--preset",
+            value: name.to_owned(),
+            remedy: "no model has such a preset; `motiform models` lists them",
+        }),
+    }
 }
 
 /// The study with these parameters.

@@ -93,6 +93,19 @@ fn set_overrides_the_preset_and_a_negative_number_is_a_value() {
     assert_eq!((&json["manifest"]["seed"], &computation["seed"]), (&7.into(), &7.into()));
 }
 
+/// A preset says what its model is.
+#[test]
+fn a_preset_needs_no_model() {
+    let folder = Folder::new();
+    for (model, name) in [("tensor", "fig5a"), ("amplitudes", "chiral")] {
+        let alone = folder.run(&format!("classify --preset {name} --json")).expect(0).json();
+        assert_eq!(alone, folder.run(&format!("classify {model} --preset {name} --json")).expect(0).json());
+    }
+    let refused = folder.run("classify --preset fig55").expect(2);
+    assert!(refused.stderr.contains("no model has such a preset"), "{}", refused.stderr);
+    assert!(folder.run("models chiral").expect(0).stdout.contains("omega"));
+}
+
 #[test]
 fn models_lists_and_shows() {
     let folder = Folder::new();

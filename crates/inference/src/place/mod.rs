@@ -44,6 +44,14 @@ impl Plane {
         }
     }
 
+    /// The terms whose coefficients are its coordinates, with their symbols.
+    fn coordinates(self) -> [(&'static str, &'static str); 2] {
+        match self {
+            Self::Full => [("z2: z2", "kappa2"), ("z3: z3", "kappa3")],
+            Self::Reduced => [("z2: z2", "kappa2"), ("z1: z1", "gamma")],
+        }
+    }
+
     /// Whether it has no place for a term: the equation, or a factor, is of a mode that it does not have.
     fn leaves_out(self, term: &Term) -> bool {
         term.equation >= self.modes() || (self.modes()..MOST_MODES).any(|m| term.degree(m) > 0)
@@ -128,6 +136,11 @@ fn obstacles(fit: &Fit, plane: Plane) -> Vec<String> {
         } else if sign != 0.0 && value * sign < 0.0 {
             let side = if sign < 0.0 { "below" } else { "above" };
             reasons.push(format!("{symbol} = {value:.3}: it must be {side} 0 for this plane"));
+        }
+    }
+    for (name, symbol) in plane.coordinates() {
+        if fit.coefficient(name).is_none() {
+            reasons.push(format!("{symbol} ({name}), a coordinate of the plane, is not in the model"));
         }
     }
     let of = |name: &str| fit.coefficient(name).map_or(1.0, |c| c.estimate.value);

@@ -1,0 +1,87 @@
+//! Checks of a fit: other sampling intervals, the weak form, and what the fit leaves unexplained.
+
+use crate::Units;
+use crate::numbers::{plain, with_error};
+use motiform_cells::Fitted;
+use motiform_figures::{BandCurve, BandFigure, BandPoint, literal};
+use motiform_inference::{Channel, Coefficient};
+use motiform_lab::draw::sheet;
+use motiform_report::{Cell, ReportFigure, Section, Table};
+use motiform_study::Error;
+
+/// Half the width of a 95 % interval in standard errors.
+const NORMAL_95: f64 = 1.96;
+
+pub(crate) fn section(fitted: &Fitted, units: &Units) -> Result<Section, Error> {
+    let n = fitted.model().frames as f64;
+    let shown = fitted.checks.innovations.iter().filter(|channel| !channel.autocorrelation.is_empty());
+    let figures = shown.map(|channel| innovations(channel, n)).collect::<Result<_, _>>()?;
+    Ok(Section {
+        title: "Checks".to_owned(),
+        about: "If the model describes the cell, coefficients do not depend on the sampling interval, and innovations have variance 1 and no memory. The weak form shares nothing with the likelihood but the data: under process noise it is biased by 10 to 40 %, so only its signs and orders of magnitude count.".to_owned(),
+        tables: vec![intervals(fitted, units)],
+        small_figures: figures,
+        ..Section::default()
+    })
+}
+
+/// Coefficients at other sampling intervals and by the weak form.
+fn intervals(fitted: &Fitted, units: &Units) -> Table {
+    // Those of the mirror-symmetric fit: of it the others are made.
+    let fit = &fitted.selection.fit;
+    let drift = fitted.drift.as_ref();
+    let points = drift.map_or(&[][..], |drift| drift.points.get(1..).unwrap_or_default());
+    let mut head = vec!["term".to_owned(), "coefficient".to_owned()];
+    for point in points {
+        head.push(format!("every {} frames ({} {})", point.every, plain(point.interval), units.time));
+    }
+    if drift.is_some() {
+        head.push("largest change".to_owned());
+    }
+    head.push("weak form".to_owned());
+    let row = |(place, c): (usize, &Coefficient)| {
+        let mut row =
+            vec![Cell::text(literal(&c.name)), Cell::number(with_error(c.estimate.value, c.estimate.error))];
+        for point in points {
+            let text = |e: &motiform_inference::Estimate| with_error(e.value, e.error);
+            row.push(Cell::number(point.estimates.get(place).map_or_else(String::new, text)));
+        }
+        if let Some(drift) = drift {
+            let change = drift.changes.get(place).copied().unwrap_or_default();
+            row.push(Cell::number(format!("{change:.1}")));
+        }
+        let weak = fitted.checks.weak(place).filter(|_| !fitted.is_handed());
+        row.push(Cell::number(weak.map_or_else(|| "-".to_owned(), plain)));
+        row
+    };
+    Table {
+        caption: "The same coefficients from fewer frames and by another method; changes in standard deviations of such a change.".to_owned(),
+        head,
+        rows: fit.coefficients.iter().enumerate().map(row).collect(),
+    }
+}
+
+/// The autocorrelation of one observed number's innovations, on the band of white noise.
+fn innovations(channel: &Channel, n: f64) -> Result<ReportFigure, Error> {
+    let half = NORMAL_95 / n.sqrt();
+    let lags = || (1..=channel.autocorrelation.len()).map(|lag| lag as f64);
+    let white = lags().map(|x| BandPoint { x, y: 0.0, low: -half, high: half });
+    let own = lags().zip(&channel.autocorrelation).map(|(x, &y)| BandPoint { x, y, low: y, high: y });
+    let figure = BandFigure {
+        x_label: "lag (frames)".to_owned(),
+        y_label: "autocorrelation of innovations".to_owned(),
+        curves: vec![
+            BandCurve { label: "white noise, 95 % band".to_owned(), points: white.collect() },
+            BandCurve { label: channel.name.clone(), points: own.collect() },
+        ],
+        zero_line: true,
+        ..BandFigure::default()
+    };
+    let caption = format!(
+        "Innovations of {}: variance {}, p = {} for white noise.",
+        channel.name,
+        plain(channel.variance),
+        plain(channel.p_value)
+    );
+    Ok(ReportFigure::new(sheet(&figure)?, caption))
+}
