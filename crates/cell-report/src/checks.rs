@@ -14,13 +14,13 @@ const NORMAL_95: f64 = 1.96;
 
 pub(crate) fn section(fitted: &Fitted, units: &Units) -> Result<Section, Error> {
     let n = fitted.model().frames as f64;
-    let shown = fitted.checks.innovations.iter().filter(|channel| !channel.autocorrelation.is_empty());
-    let figures = shown.map(|channel| innovations(channel, n)).collect::<Result<_, _>>()?;
+    let channels = &fitted.checks.innovations;
+    let pairs = channels.chunks(2).filter(|pair| !pair[0].autocorrelation.is_empty());
     Ok(Section {
         title: "Checks".to_owned(),
         about: "If the model describes the cell, coefficients do not depend on the sampling interval, and innovations have variance 1 and no memory. The weak form shares nothing with the likelihood but the data: under process noise it is biased by 10 to 40 %, so only its signs and orders of magnitude count.".to_owned(),
-        tables: vec![intervals(fitted, units)],
-        small_figures: figures,
+        tables: vec![intervals(fitted, units), whiteness(channels)],
+        small_figures: pairs.map(|pair| memory(pair, n)).collect::<Result<_, _>>()?,
         ..Section::default()
     })
 }
@@ -61,27 +61,49 @@ fn intervals(fitted: &Fitted, units: &Units) -> Table {
     }
 }
 
-/// The autocorrelation of one observed number's innovations, on the band of white noise.
-fn innovations(channel: &Channel, n: f64) -> Result<ReportFigure, Error> {
+/// The autocorrelations of the innovations of a pair of numbers (x and y, the parts of a mode), on the band of white noise.
+fn memory(pair: &[Channel], n: f64) -> Result<ReportFigure, Error> {
     let half = NORMAL_95 / n.sqrt();
-    let lags = || (1..=channel.autocorrelation.len()).map(|lag| lag as f64);
+    let lags = || (1..=pair[0].autocorrelation.len()).map(|lag| lag as f64);
+    let bare = |x, y| BandPoint { x, y, low: y, high: y };
     let white = lags().map(|x| BandPoint { x, y: 0.0, low: -half, high: half });
-    let own = lags().zip(&channel.autocorrelation).map(|(x, &y)| BandPoint { x, y, low: y, high: y });
+    let mut curves = vec![BandCurve { label: "white noise, 95 % band".to_owned(), points: white.collect() }];
+    for channel in pair {
+        let own = lags().zip(&channel.autocorrelation).map(|(x, &y)| bare(x, y)).collect();
+        curves.push(BandCurve { label: symbol(&channel.name), points: own });
+    }
+    for end in [-half, half] {
+        // keeps the band in sight: axes show all points, and one alone is no line
+        curves.push(BandCurve { label: String::new(), points: vec![bare(1.0, 1.1 * end)] });
+    }
     let figure = BandFigure {
         x_label: "lag (frames)".to_owned(),
         y_label: "autocorrelation of innovations".to_owned(),
-        curves: vec![
-            BandCurve { label: "white noise, 95 % band".to_owned(), points: white.collect() },
-            BandCurve { label: channel.name.clone(), points: own.collect() },
-        ],
+        curves,
         zero_line: true,
         ..BandFigure::default()
     };
-    let caption = format!(
-        "Innovations of {}: variance {}, p = {} for white noise.",
-        channel.name,
-        plain(channel.variance),
-        plain(channel.p_value)
-    );
-    Ok(ReportFigure::new(sheet(&figure)?, caption))
+    let names: Vec<String> = pair.iter().map(|channel| symbol(&channel.name)).collect();
+    Ok(ReportFigure::new(sheet(&figure)?, format!("Innovations of {}.", names.join(" and "))))
+}
+
+/// Variances of the innovations and the test of their whiteness.
+fn whiteness(channels: &[Channel]) -> Table {
+    let row = |channel: &Channel| {
+        let (variance, p) = (plain(channel.variance), plain(channel.p_value));
+        vec![Cell::text(symbol(&channel.name)), Cell::number(variance), Cell::number(p)]
+    };
+    Table {
+        caption: "Innovations of each observed number.".to_owned(),
+        head: ["innovations of", "variance", "p of white noise"].map(str::to_owned).to_vec(),
+        rows: channels.iter().map(row).collect(),
+    }
+}
+
+/// `Re z2` as it is set.
+fn symbol(name: &str) -> String {
+    match name.split_once(" z") {
+        Some((part, n)) => format!("{part} *z*_{n}"),
+        None => format!("*{name}*"),
+    }
 }

@@ -112,8 +112,12 @@ const WORDS: &[(&str, &str)] = &[
         "The coefficient by least squares: the equations, multiplied by test functions that vanish at the ends of windows of three natural times and integrated by parts, so that no noisy data are differentiated. Biased under process noise. Messenger and Bortz (2021), Multiscale Model. Simul. 19, 1474.",
     ),
     (
-        "autocorrelation of innovations",
-        "Innovation: what a frame shows beyond what the filter predicted from the frames before, divided by its predicted standard deviation; of each number what it adds to those before it in the list x, y, Re z2, Im z2, ... If the model is right they are independent with variance 1. p: Ljung and Box (1978), Biometrika 65, 297, ten lags.",
+        "innovations of",
+        "Innovation: what a frame shows beyond what the filter predicted from the frames before, divided by its predicted standard deviation; of each number what it adds to those before it in the list x, y, Re z2, Im z2, ... If the model is right they are independent with variance 1.",
+    ),
+    (
+        "p of white noise",
+        "Probability of autocorrelations as large as these, at lags of one to ten frames, in white noise. Ljung and Box (1978), Biometrika 65, 297.",
     ),
     ("log-likelihood", "Natural logarithm of the probability density of all observations, at its maximum."),
     (

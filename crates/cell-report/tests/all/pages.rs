@@ -133,6 +133,8 @@ fn a_fitted_cell_has_its_motion_place_and_simulations_and_what_is_missing_is_sai
         "z2: z1* z3",
         "turns of the shape",
         "0-1 test",
+        "weak form",
+        "p of white noise",
     ] {
         assert!(page(1).contains(words), "{words}");
     }

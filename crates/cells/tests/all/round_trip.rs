@@ -46,6 +46,12 @@ fn a_chaotic_cell_is_found_chaotic_at_its_place() {
             .as_f64()
             .is_some_and(|a| (a - 2.0).abs() < 0.1)
     );
+    let weak = json["cells"][0]["coefficients"]["z1: z1* z2"]["weak_form"].as_f64().unwrap();
+    assert!((weak - 2.0).abs() < 0.4, "{weak}");
+    let innovations = json["cells"][0]["innovations"].as_object().unwrap();
+    assert!(
+        innovations.len() == 6 && innovations.values().all(|one| one["p_value"].as_f64().unwrap() > 1e-4)
+    );
     let cells = [&sample.cells[0]];
     let work = FitWork::open(&target, &sample, &cells, &FitOptions::default(), Opening::New).unwrap();
     let path = work.write(&sample, &[fit], true).unwrap();
