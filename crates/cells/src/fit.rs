@@ -103,18 +103,17 @@ pub(crate) fn fit_or_reason(
     match fit_cell(cell, options, watch) {
         Ok(fit) => Ok(Some(fit)),
         Err(Error::Study(motiform_study::Error::Interrupted)) => Ok(None),
+        // Equations that are no model are this cell's matter; other errors of studies, such as files that cannot be written, end the work.
+        Err(Error::Study(motiform_study::Error::Models(error))) => Ok(Some(without_fit(cell, &error))),
         Err(Error::Study(error)) => Err(error),
-        Err(other) => {
-            let fitted = Err(other.to_string());
-            Ok(Some(CellFit {
-                name: cell.name.clone(),
-                frames: cell.frames(),
-                fitted,
-                prediction: None,
-                bifurcations: Vec::new(),
-            }))
-        }
+        Err(other) => Ok(Some(without_fit(cell, &other))),
     }
+}
+
+/// A cell that cannot be fitted, and why.
+fn without_fit(cell: &CellTrack, why: &dyn std::fmt::Display) -> CellFit {
+    let (name, frames) = (cell.name.clone(), cell.frames());
+    CellFit { name, frames, fitted: Err(why.to_string()), prediction: None, bifurcations: Vec::new() }
 }
 
 /// Fits a cell. What the data cannot give is in the result, with reasons.

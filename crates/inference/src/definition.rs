@@ -41,8 +41,8 @@ pub fn equations(library: &Library, handed: bool, coefficients: &[f64]) -> Defin
         let size = if size == 1.0 { String::new() } else { format!("{size}*") };
         *equation += &format!("{sign}{size}{written}*{}", term.expression());
     }
-    for equation in equations.iter_mut().filter(|equation| equation.is_empty()) {
-        "0*z1".clone_into(equation);
+    for (equation, n) in equations.iter_mut().zip(1..).filter(|(equation, _)| equation.is_empty()) {
+        *equation = format!("0*z{n}"); // an equation must be there, and turn as its amplitude does
     }
     let modes = (1..=library.modes as u32).collect();
     Definition { modes, velocity: None, symmetry: None, parameters, equations, noise: BTreeMap::new() }

@@ -1,6 +1,6 @@
 //! A fit as a model of the models crate.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
 use motiform_dynamics::{Complex, Normal, VectorField};
 use motiform_inference::{Library, equations};
@@ -48,6 +48,26 @@ fn the_models_field_is_the_librarys() {
                 let error = (du[2 * m] - rate.re).abs().max((du[2 * m + 1] - rate.im).abs());
                 assert!(error <= 1e-15 * size.max(1e-3), "{modes} {order}: {error:e} of {size}");
             }
+        }
+    }
+}
+
+/// An equation whose terms were all left out: its amplitude stays as it is.
+#[test]
+fn equations_without_terms() {
+    for names in [["z1: z1", "z2: z2"], ["z1: z1", "z3: z1 z2"], ["z2: z1^2", "z3: z3"]] {
+        let library = Library::tensor().select(&names).unwrap();
+        let definition = equations(&library, false, &[0.3, -0.4]);
+        let model = amplitudes::info(&definition).unwrap_or_else(|error| panic!("{names:?}: {error}"));
+        let body = model.build(&[0.3, -0.4]).unwrap();
+        let (u, mut du) = ([0.5, -0.3, 0.1, 0.2, -0.15, 0.05], [1.0; 6]);
+        VectorField::<f64>::eval(&*body, 0.0, &u, &mut du);
+        let c = [0.3, -0.4].map(|c| Complex::new(c, 0.0));
+        for (m, (rate, _)) in field(&library, &c, &u).into_iter().enumerate() {
+            assert!(
+                (du[2 * m] - rate.re).abs() < 1e-15 && (du[2 * m + 1] - rate.im).abs() < 1e-15,
+                "{names:?} {m}"
+            );
         }
     }
 }
