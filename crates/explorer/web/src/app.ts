@@ -383,6 +383,7 @@ export class App implements Hearer {
     const session = this.known();
     if (place.model !== session.model.name || place.preset !== (session.preset?.name ?? null)) return this.open(place);
     const { state, position, t } = place;
+    session.start = {}; // the body of before began elsewhere
     const noise = place.noise ?? session.model.noise;
     this.send({ do: "put", parameters: { ...session.base, ...place.parameters }, state, position, velocity: null, t, noise: noise === session.noise ? null : noise });
     if (place.plane) this.map.return(place.plane);

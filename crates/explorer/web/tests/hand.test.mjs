@@ -61,7 +61,7 @@ test("the inside is carried to another place, and thrown where the hand lets go 
   assert.ok(Math.abs(wire.frame.y - (before.y - 40 / scale)) < 0.05);
   assert.deepEqual([...wire.frame.state], [...before.state], "velocity and shape stay");
   // On a busy machine a hand may rest between two events: then it has let go at rest, and throws again.
-  for (let tries = 0; tries < 4 && !wire.said.get("put")?.velocity; tries++) {
+  for (let tries = 0; tries < 8 && !wire.said.get("put")?.velocity; tries++) {
     const carried = await stands(page, wire);
     await pictures(page, 80);
     const [u, v] = await centre(page, carried);

@@ -13,6 +13,8 @@ const INSIDE = 0.6;
 const SLACK = 4;
 /** The speed of the hand is that of its last so many milliseconds. */
 const LAST = 90;
+/** A hand that has not moved for so long (milliseconds) rests. */
+const RESTED = 100;
 /** Below so many pixels per second the body is put down, not thrown. */
 const THROWN = 80;
 /** A body is thrown at most so many times as fast as it has been of late; and at least as fast as so many radii per time. */
@@ -145,8 +147,10 @@ class Carry implements Held {
   /** The velocity of the hand in model lengths per model time; `null` where it rests. */
   private velocity(): [number, number] | null {
     const [first, last] = [this.track[0], this.track[this.track.length - 1]];
-    // A hand that rested before it let go has no newer place than that.
-    const seconds = (performance.now() - first.time) / 1000;
+    // A hand that rested before it let go has put the body down.
+    const now = performance.now();
+    if (now - last.time > RESTED) return null;
+    const seconds = (now - first.time) / 1000;
     const [u, v] = [last.at[0] - first.at[0], first.at[1] - last.at[1]];
     if (seconds <= 0 || Math.hypot(u, v) / seconds < THROWN) return null;
     const { host, frame } = this;
