@@ -9,6 +9,7 @@ pub mod equilibrium;
 mod error;
 mod escape;
 mod estimate;
+mod gauge;
 mod isotropy;
 mod legs;
 mod lifetime;

@@ -9,6 +9,8 @@
 //! Source: the frame is the mechanical connection; Marsden, Montgomery, Ratiu (1990), Mem. AMS 436; for pattern-forming
 //! systems Rowley, Kevrekidis, Marsden, Lust (2003), Nonlinearity 16, 1257.
 
+pub use crate::gauge::Gauge;
+
 use crate::linear::{dot, norm};
 use motiform_dynamics::{Bundle, Equivariant, System, VectorField};
 use std::f64::consts::TAU;
@@ -161,35 +163,4 @@ impl<B: Equivariant + ?Sized> VectorField<f64> for MovingFrame<'_, B> {
         let (sin, cos) = libm::sincos(place[0]);
         moves.copy_from_slice(&[omega, cos * vx - sin * vy, sin * vx + cos * vy]);
     }
-}
-
-/// A size of the reduced shape, whose extremes are the section that reduced orbits are watched on.
-///
-/// Where rotations are divided out `|u|`, which no rotation and no mirror changes. Otherwise `l . u` with a fixed unit
-/// vector `l` in general position, for `|u|` may be constant on an orbit; averaged with that of the mirror image, where there is one.
-/// Two shapes differ in it by no more than their distance.
-#[must_use]
-pub fn gauge<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> f64 {
-    if body.symmetry().rotations { norm(shape) } else { general(body, shape) }
-}
-
-/// A function that vanishes where the [`gauge`] of an orbit has its extremes, smooth everywhere: `u . f(u)`, or `l . f(u)`.
-#[must_use]
-pub fn gauge_rate<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> f64 {
-    let mut rate = vec![0.0; shape.len()];
-    VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
-    if body.symmetry().rotations { dot(shape, &rate) } else { general(body, &rate) }
-}
-
-/// `l . u` with `l_i` proportional to `1 / (1 + 0.618 i)`; `l . (u + M u) / 2` with a mirror M.
-fn general<B: Equivariant + ?Sized>(body: &B, u: &[f64]) -> f64 {
-    let weight = |i: usize| 1.0 / (1.0 + 0.618 * i as f64);
-    let length = (0..u.len()).map(|i| weight(i) * weight(i)).sum::<f64>().sqrt();
-    let along = |u: &[f64]| u.iter().enumerate().map(|(i, x)| weight(i) * x).sum::<f64>() / length;
-    if !body.symmetry().mirror {
-        return along(u);
-    }
-    let mut image = u.to_vec();
-    body.mirror(&mut image);
-    0.5 * (along(u) + along(&image))
 }

@@ -40,12 +40,6 @@ impl Kernel {
         TEXT || self == Self::Tensor
     }
 
-    /// The same for its classification: lanes watch the size of the shape, which says nothing of a body whose flow has no rotations.
-    #[must_use]
-    pub fn of_classification(model: &dyn Model) -> Option<Self> {
-        Self::of(model).filter(|_| model.symmetry().rotations)
-    }
-
     /// The kernel that computes all of these models, which must be of one kind; `None` if no single one does.
     pub fn of_all<'m>(models: impl IntoIterator<Item = &'m dyn Model>) -> Option<Self> {
         let mut kernels = models.into_iter().map(Self::of);

@@ -4,8 +4,8 @@
 //! a rest, is looked at in its lane alone.
 
 use super::look::{Extreme, RESTS, Seen};
-use crate::linear::norm;
-use crate::symmetry::gauge_rate;
+use crate::linear::{dot, norm};
+use crate::symmetry::Gauge;
 use motiform_dynamics::ensemble::{InLanes, LaneDense, Stepped};
 use motiform_dynamics::section::{PIECES, polished, slope_at, zero_between};
 use motiform_dynamics::steppers::unrolled::{Dop853, LaneStep, StepSlopes};
@@ -24,24 +24,35 @@ pub(super) struct LaneObserver<L, const N: usize> {
     slowest: (L, [L; N]),
     /// Lanes with a rest under way.
     resting: Mask,
+    /// The vector of the size ([`Gauge`]), the same for all lanes; `None` where it is the norm.
+    form: Option<[f64; N]>,
     /// What is kept lane by lane; `None` in vacant lanes.
     pub(super) seen: [Option<Seen>; 16],
 }
 
-/// The rate of the size, `u . f(u)`.
+/// The rate of the size: that of [`along`] with the rates at `u`.
 #[inline(always)]
-fn size_rate<L: Bundle, F: VectorField<L>, const N: usize>(field: &F, t: L, u: &[L; N]) -> L {
+fn size_rate<L: Bundle, F: VectorField<L>, const N: usize>(
+    form: &Option<[f64; N]>,
+    field: &F,
+    t: L,
+    u: &[L; N],
+) -> L {
     let mut rate = *u;
     field.eval(t, u, &mut rate);
-    along(u, &rate)
+    along(form, u, &rate)
 }
 
-/// `u . f`.
+/// `u . f`, or `l . f` with the vector of the size.
 #[inline(always)]
-fn along<L: Bundle, const N: usize>(u: &[L; N], rate: &[L; N]) -> L {
+fn along<L: Bundle, const N: usize>(form: &Option<[f64; N]>, u: &[L; N], rate: &[L; N]) -> L {
     let mut sum = L::splat(0.0);
     for i in 0..N {
-        sum += u[i] * rate[i];
+        let own = match form {
+            None => u[i],
+            Some(form) => L::splat(form[i]),
+        };
+        sum += own * rate[i];
     }
     sum
 }
@@ -69,13 +80,16 @@ impl<L: Bundle, const N: usize> LaneObserver<L, N> {
             largest: zero,
             slowest: (zero, [zero; N]),
             resting: Mask::default(),
+            form: None,
             seen: std::array::from_fn(|_| None),
         }
     }
 
     /// Begins a look in one lane.
     pub(super) fn begin<B: Equivariant + ?Sized>(&mut self, lane: usize, body: &B, t: f64, u: &[f64; N]) {
-        let rate = gauge_rate(body, u);
+        let gauge = Gauge::of(body);
+        let rate = gauge.rate(body, u);
+        self.form = gauge.form().and_then(|form| form.try_into().ok());
         self.t = self.t.with_lane(lane, t);
         self.value = self.value.with_lane(lane, rate);
         self.known = if rate == 0.0 { self.known & !Mask::only(lane) } else { self.known | Mask::only(lane) };
@@ -182,9 +196,9 @@ impl<L: Bundle, const N: usize> LaneObserver<L, N> {
             let last = piece == PIECES;
             let t = if last { step.t } else { step.t_old + span * piece as f64 / L::splat(PIECES as f64) };
             let value = if last {
-                along(step.u, &step.slopes.k[step.end])
+                along(&self.form, step.u, &step.slopes.k[step.end])
             } else {
-                size_rate(field, t, &dense.at((t - step.t_old) / span))
+                size_rate(&self.form, field, t, &dense.at((t - step.t_old) / span))
             };
             let (falls, rises) = (value.less(zero), zero.less(value));
             let before = self.value.less(zero);
@@ -214,7 +228,7 @@ impl<L: Bundle, const N: usize> LaneObserver<L, N> {
     ) -> f64 {
         let span = (step.t_old.lane(lane), step.t.lane(lane));
         let left = (self.t.lane(lane).max(span.0), self.value.lane(lane));
-        zero_between(left, right, |t| rate_in(field, dense, span, t))
+        zero_between(left, right, |t| rate_in(&self.form, field, dense, span, t))
     }
 
     /// Polishes an extreme and keeps it.
@@ -229,7 +243,8 @@ impl<L: Bundle, const N: usize> LaneObserver<L, N> {
     ) {
         let Some(seen) = &mut self.seen[lane] else { return };
         let span = (step.t_old.lane(lane), step.t.lane(lane));
-        let slope = slope_at(span, guess, |t| rate_in(field, dense, span, t));
+        let form = self.form;
+        let slope = slope_at(span, guess, |t| rate_in(&form, field, dense, span, t));
         let mut slopes = StepSlopes::<f64, N>::zero();
         let mut start = [0.0; N];
         for i in 0..N {
@@ -240,21 +255,23 @@ impl<L: Bundle, const N: usize> LaneObserver<L, N> {
             let at = LaneStep { t: span.0, h: t - span.0, u: &start };
             slopes.step::<Dop853, _>(field, &at);
             state.copy_from_slice(slopes.arrival());
-            size_rate(field, t, slopes.arrival())
+            size_rate(&form, field, t, slopes.arrival())
         };
         let mut state = [0.0; N];
         let t = polished(span, guess, slope, to, &mut state);
-        seen.extreme(Extreme { t, minimum: rising, size: norm(&state), shape: state.to_vec() });
+        let size = form.map_or_else(|| norm(&state), |form| dot(&form, &state));
+        seen.extreme(Extreme { t, minimum: rising, size, shape: state.to_vec() });
     }
 }
 
 /// The size's rate on the interpolant of a step.
 fn rate_in<F: VectorField<f64>, const N: usize>(
+    form: &Option<[f64; N]>,
     field: &F,
     dense: &LaneDense<f64, N>,
     (start, end): (f64, f64),
     t: f64,
 ) -> f64 {
     let state = if t == end { *dense.end() } else { dense.at((t - start) / (end - start)) };
-    size_rate(field, t, &state)
+    size_rate(form, field, t, &state)
 }

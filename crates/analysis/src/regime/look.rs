@@ -2,13 +2,13 @@
 
 use crate::linear::norm;
 use crate::periodic::is_small;
-use crate::symmetry::{align, gauge, gauge_rate, reduced_speed};
+use crate::symmetry::{Gauge, align, reduced_speed};
 use motiform_dynamics::drive::Run;
 use motiform_dynamics::section::Crossing;
 use motiform_dynamics::{Direction, Equivariant, Integration, Outcome, Request, Section, Sink, Watch};
 use std::ops::ControlFlow;
 
-/// An extreme of the shape's size ([`gauge`]): where a reduced orbit meets the section that it is watched on.
+/// An extreme of the shape's size ([`Gauge`]): where a reduced orbit meets the section that it is watched on.
 #[derive(Clone, Debug)]
 pub(super) struct Extreme {
     pub(super) t: f64,
@@ -99,11 +99,12 @@ impl Look {
         watch: &dyn Watch,
     ) -> Result<Self, motiform_dynamics::Error> {
         let (start, end) = (orbit.t(), orbit.t() + time);
-        let rate = |_t: f64, u: &[f64]| gauge_rate(body, u);
+        let gauge = Gauge::of(body);
+        let rate = |_t: f64, u: &[f64]| gauge.rate(body, u);
         let sections = [Section { g: &rate, direction: Direction::Either, terminal: false }];
         let pieces = if is_small(body.dim()) { request.pieces } else { 1 };
         let request = Request { t_end: end, sections: &sections, pieces, watch, ..*request };
-        let mut watcher = Watcher { body, seen: Seen::new(orbit.state()) };
+        let mut watcher = Watcher { body, gauge: &gauge, seen: Seen::new(orbit.state()) };
         let mut run = Run::new(orbit, &request, &mut watcher)?;
         let mut next = pause(body.dim(), (start, end), start);
         let outcome = loop {
@@ -123,7 +124,7 @@ impl Look {
         Ok(seen.look((start, orbit.t()), outcome, orbit.state().to_vec()))
     }
 
-    /// Whether the norm of the shape and its [`gauge`] stayed the same, up to the part `hovering` of its size: the orbit was at an
+    /// Whether the norm of the shape and its [`Gauge`] stayed the same, up to the part `hovering` of its size: the orbit was at an
     /// equilibrium all the time. (Without symmetry the norm alone may be constant on an orbit.)
     pub(super) fn is_still(&self, hovering: f64) -> bool {
         let least = hovering * self.sizes.1;
@@ -250,6 +251,7 @@ impl Seen {
 
 struct Watcher<'w, B: ?Sized> {
     body: &'w B,
+    gauge: &'w Gauge,
     seen: Seen,
 }
 
@@ -258,7 +260,7 @@ impl<B: Equivariant + ?Sized> Sink for Watcher<'_, B> {
         self.seen.extreme(Extreme {
             t: crossing.t,
             minimum: crossing.rising,
-            size: gauge(self.body, crossing.state),
+            size: self.gauge.size(crossing.state),
             shape: crossing.state.to_vec(),
         });
     }

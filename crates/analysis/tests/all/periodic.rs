@@ -6,7 +6,7 @@ use crate::common;
 
 use common::{Random, cell, full, named, near, settings};
 use motiform_analysis::periodic::{Flow, PeriodicGuess};
-use motiform_analysis::symmetry::{align, gauge_rate};
+use motiform_analysis::symmetry::{Gauge, align};
 use motiform_analysis::{PeriodicOrbit, Regime};
 use motiform_dynamics::steppers::{DOP853, Method};
 use motiform_dynamics::{Direction, Equivariant, Request, Section, StepControl, Trajectory, drive::drive};
@@ -128,7 +128,8 @@ fn the_zigzag_of_the_cell_by_newton_picard_has_the_period_of_a_long_run() {
     let mut orbit =
         settings.method.shape_orbit(&body, settings.control, 0.0, &Random(6).state(32, 0.01)).unwrap();
     drive(orbit.as_mut(), &Request::until(4000.0, 32), &mut ()).unwrap();
-    let rate = |_t: f64, u: &[f64]| gauge_rate(&body, u);
+    let gauge = Gauge::of(&body);
+    let rate = |_t: f64, u: &[f64]| gauge.rate(&body, u);
     let sections = [Section { g: &rate, direction: Direction::Rising, terminal: false }];
     let mut path = Trajectory::new(32);
     let request = Request { sections: &sections, ..Request::until(8000.0, 32) };

@@ -51,8 +51,7 @@ pub fn classify(
     samples.check()?;
     let settings = analyse::settings(plan, budget)?;
     let population = Population::new(plan, samples, watch)?;
-    let kernel =
-        Kernel::of_classification(population.model.as_ref()).filter(|_| classifies_in_lanes(&settings));
+    let kernel = Kernel::of(population.model.as_ref()).filter(|_| classifies_in_lanes(&settings));
     population.run(|asked| match kernel {
         Some(kernel) => classify_in_lanes(plan, kernel, &settings, asked),
         None => asked.one_by_one(|start| {

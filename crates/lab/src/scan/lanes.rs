@@ -33,8 +33,7 @@ fn kernel(plan: &ScanPlan) -> Option<(Settings, Kernel)> {
     if !classifies_in_lanes(&settings) {
         return None;
     }
-    let corners =
-        [0, plan.cells() - 1].map(|cell| Kernel::of_classification(plan.model_of(cell).ok()?.as_ref()));
+    let corners = [0, plan.cells() - 1].map(|cell| Kernel::of(plan.model_of(cell).ok()?.as_ref()));
     Some((settings, corners[1].or(corners[0])?))
 }
 

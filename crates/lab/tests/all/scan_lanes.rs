@@ -79,7 +79,7 @@ fn lanes_and_single_orbits_agree_on_chaos_and_blow_up() {
 fn lanes_and_single_orbits_agree_on_all_terms() {
     let plan = plan("fig4", ["a5=0:0.4:3", "kappa2=0.2:1.4:4"], 1);
     let kernels: BTreeSet<String> = (0..plan.cells())
-        .map(|cell| format!("{:?}", Kernel::of_classification(plan.model_of(cell).unwrap().as_ref())))
+        .map(|cell| format!("{:?}", Kernel::of(plan.model_of(cell).unwrap().as_ref())))
         .collect();
     assert_eq!(kernels.len(), 2, "{kernels:?}");
     let (lanes, single) = (in_lanes(&plan), one_by_one(&plan));
