@@ -50,12 +50,13 @@ fn names(shares: &[NameShare], head: &str) -> Table {
         vec![
             Cell::text(one.name),
             Cell::number(share.count.to_string()),
+            Cell::number(format!("{:.0} %", 100.0 * share.value)),
             Cell::number(format!("{low:.0} to {high:.0} %")),
         ]
     };
     Table {
-        caption: "Cells with each motion, and the 95 % interval of the share.".to_owned(),
-        head: [head, "cells", "share"].map(str::to_owned).to_vec(),
+        caption: "Cells with each motion.".to_owned(),
+        head: [head, "cells", "share", "95 % interval of the share"].map(str::to_owned).to_vec(),
         rows: shares.iter().map(row).collect(),
     }
 }

@@ -1,6 +1,5 @@
 //! What stands beside a fit for the reader to judge it by: another estimate, and what the fit leaves unexplained.
 
-use crate::Result;
 use motiform_inference::{Channel, Fit, Track, Weak, weak, whiteness};
 use serde::{Deserialize, Serialize};
 
@@ -15,12 +14,9 @@ pub struct Checks {
 
 impl Checks {
     /// The checks of a model that was fitted to these tracks.
-    ///
-    /// # Errors
-    /// Tracks that the model cannot be fitted to.
-    pub(crate) fn of(tracks: &[Track], model: &Fit) -> Result<Self> {
-        let weak = if model.handed { None } else { Some(weak(tracks, &model.library)?) };
-        Ok(Self { weak, innovations: whiteness(model) })
+    pub(crate) fn of(tracks: &[Track], model: &Fit) -> Self {
+        let weak = if model.handed { None } else { weak(tracks, &model.library).ok() };
+        Self { weak, innovations: whiteness(model) }
     }
 
     /// A coefficient by the weak form, by its number in the model; `None` where the windows do not determine it.

@@ -128,7 +128,7 @@ pub(crate) fn fitted(
         true => Ok(Some(drift(tracks, &selection.fit, watch)?)),
         false => Ok(None),
     })?;
-    let checks = Checks::of(tracks, model)?;
+    let checks = Checks::of(tracks, model);
     let warnings = warnings(tracks, &selection.fit, drift.as_ref())?;
     let mut doubts: Vec<String> = warnings.iter().filter(|w| serious(w)).map(ToString::to_string).collect();
     if handedness.is_doubted() && !handed {

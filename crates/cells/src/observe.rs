@@ -26,6 +26,9 @@ const LEAST_REPEATS: f64 = 4.0;
 const LEAST_TURNS: f64 = 2.0;
 /// Standard errors by which a mean must differ from 0.
 const CLEAR: f64 = 4.0;
+/// A shape that deviates from its mean by more than this part of the radius, and by more than the mean itself, is not that of a straight motion
+/// with noise.
+const MOST_WOBBLE: f64 = 0.05;
 /// Largest scatter of heading (rad), and of speed and turning rate relative to their means, of a steady motion.
 const STEADY: f64 = 0.25;
 /// Net rotations per period below this (rad) are none.
@@ -87,8 +90,9 @@ pub fn observe(cell: &CellTrack) -> Observation {
         );
     };
     let repeats = Repeats::of(&measures);
-    let (regime, why) = decide(&measures, repeats.as_ref());
-    let same = measures.resampled().filter(|other| decide(other, repeats.as_ref()).0 == regime).count();
+    let (regime, why) = decide(&measures, cell.radius, repeats.as_ref());
+    let same =
+        measures.resampled().filter(|other| decide(other, cell.radius, repeats.as_ref()).0 == regime).count();
     let confidence = same as f64 / measures::RESAMPLES as f64;
     let sure = regime.is_none() || confidence >= LEAST_CONFIDENCE;
     let motion = if sure {
@@ -116,7 +120,7 @@ pub fn population_statistics(found: &[Observation]) -> Option<(usize, MotionStat
 }
 
 /// The motion of these numbers, or what is missing.
-fn decide(m: &Measures, repeats: Option<&Repeats>) -> (Option<Regime>, String) {
+fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regime>, String) {
     if m.displacement < CLEAR * m.displacement_error {
         return rest(m);
     }
@@ -126,6 +130,13 @@ fn decide(m: &Measures, repeats: Option<&Repeats>) -> (Option<Regime>, String) {
         && m.turning.abs() < CLEAR * m.turning_error
         && m.directness > 0.97
     {
+        if m.shape_wobble > (MOST_WOBBLE * radius).max(m.mean_shape) {
+            let why = format!(
+                "the path is straight, but the shape changes by {:.1} % of the radius: more than its mean deformation, and a body that moves straight keeps its shape",
+                100.0 * m.shape_wobble / radius
+            );
+            return (None, why);
+        }
         let why = format!(
             "straight over {:.4} of length: net displacement is {:.1} % of the path, and the turning rate is 0 within its error",
             m.length,

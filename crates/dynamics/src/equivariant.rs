@@ -50,6 +50,11 @@ pub trait Equivariant:
         Symmetry::default()
     }
 
+    /// Whether a turn by half a circle maps solutions to solutions. Where it does, a field that breaks rotations has an axis but no sense.
+    fn half_turn(&self) -> bool {
+        self.symmetry().rotations
+    }
+
     /// Turns the shape by `angle` (rad, anticlockwise), in place.
     fn rotate(&self, _angle: f64, _shape: &mut [f64]) {}
 

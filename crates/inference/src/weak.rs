@@ -112,6 +112,9 @@ impl Normal {
 
     fn solve(&self) -> Option<Vec<f64>> {
         let n = self.terms.len();
+        if n == 0 {
+            return Some(Vec::new()); // an equation without terms
+        }
         let scale: Vec<f64> = (0..n).map(|i| self.matrix[(i, i)].sqrt()).collect();
         if scale.iter().any(|s| *s <= 0.0 || !s.is_finite()) {
             return None;

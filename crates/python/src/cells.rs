@@ -9,7 +9,7 @@ use motiform_cells::{
 };
 use motiform_files::columns::to_csv;
 use motiform_tracks::modes::ModeOptions;
-use motiform_tracks::{Cell, Given, Image, Options, Outline, given};
+use motiform_tracks::{Cell, Columns, Given, Image, Options, Outline, given};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
@@ -21,8 +21,8 @@ use std::path::PathBuf;
 type Outlines<'py> = Vec<(Option<i64>, f64, PyReadonlyArray2<'py, f64>)>;
 /// The same, to Python.
 type Drawn<'py> = Vec<(i64, f64, Bound<'py, PyArray2<f64>>)>;
-/// Scale and interval, units, format.
-type Asked = (Option<f64>, Option<f64>, (String, String), Option<String>);
+/// Scale and interval, units, format, headers of columns.
+type Asked = (Option<f64>, Option<f64>, (String, String), Option<String>, Vec<(String, String)>);
 /// Units, whether y points down, and the size of the images in x and y with the length of a pixel.
 type About = ((String, String), Option<bool>, Option<([f64; 2], f64)>);
 /// The fits as JSON, their coefficients as CSV, the models by the names of the cells, and what a signal or the callable raised.
@@ -37,9 +37,11 @@ impl Sample {
     /// Files.
     #[staticmethod]
     fn read(py: Python<'_>, paths: Vec<PathBuf>, asked: Asked) -> PyResult<Self> {
-        let (pixel_size, interval, (length_unit, time_unit), format) = asked;
+        let (pixel_size, interval, (length_unit, time_unit), format, columns) = asked;
         let format = format.map(|name| name.parse()).transpose().map_err(of_tracks)?;
-        let options = Options { format, pixel_size, interval, length_unit, time_unit, ..Options::default() };
+        let columns = Columns::named(&columns);
+        let options =
+            Options { format, pixel_size, interval, length_unit, time_unit, columns, ..Options::default() };
         let read = || motiform_cells::Sample::read(&paths, &options, &ModeOptions::default());
         py.detach(read).map(Self).map_err(of_cells)
     }

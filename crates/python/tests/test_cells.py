@@ -280,6 +280,16 @@ def test_masks_in_one_file_and_what_is_no_mask(tmp_path: Path) -> None:
         motiform.cells.read_masks(tmp_path / "none.tif")
 
 
+def test_columns_have_names(tmp_path: Path) -> None:
+    path = write(tmp_path / "cells.csv", {"one": simulated("fig5b")[:4]})
+    text = path.read_text().replace("cell,frame,i,x,y", "who,when,k,east,north", 1)
+    path.write_text(text)
+    columns = {"cell": "who", "frame": "when", "i": "k", "x": "east", "y": "north"}
+    assert motiform.cells.read(path, columns=columns).names == ["one"]
+    with pytest.raises(ValueError, match="columns has no 'z'"):
+        motiform.cells.read(path, columns={"z": "east"})
+
+
 def test_settings_of_fits_are_checked() -> None:
     cells = motiform.cells.from_arrays({"one": simulated("fig5b")[:60]})
     with pytest.raises(ValueError, match="order = 7"):

@@ -101,7 +101,7 @@ fn looks(text: &str) -> String {
         return "QuimP's parameters: give the .snQP file of the same name".to_owned();
     }
     format!(
-        "text that begins {:?}; a table needs a header with columns for frame, x and y: name them with the options columns.*",
+        "text that begins {:?}; a table needs a header with columns for frame, x and y: name them: --column frame=HEADER, in Python columns={{'frame': HEADER}}",
         shorten(first)
     )
 }

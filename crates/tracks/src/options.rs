@@ -38,6 +38,16 @@ pub struct Columns {
     pub wkt: Option<String>,
 }
 
+impl Columns {
+    /// Those with these names (cell, frame, i, x, y, wkt) and headers; other names are left out.
+    #[must_use]
+    pub fn named(columns: &[(String, String)]) -> Self {
+        let of =
+            |name: &str| columns.iter().rev().find(|(own, _)| own == name).map(|(_, header)| header.clone());
+        Self { cell: of("cell"), frame: of("frame"), i: of("i"), x: of("x"), y: of("y"), wkt: of("wkt") }
+    }
+}
+
 /// Bounds of what is read at once. Beyond them reading ends with an error that names the bound.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {

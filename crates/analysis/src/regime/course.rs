@@ -14,7 +14,7 @@ pub enum Course {
     Anticlockwise,
     /// The heading turns clockwise, in a model without the mirror.
     Clockwise,
-    /// Along the field: towards +x, the mirror's axis.
+    /// Along the field: towards +x, the mirror's axis; where half a turn is a symmetry, towards +x or -x.
     AlongField,
     /// Against the field: towards -x.
     AgainstField,
@@ -55,13 +55,14 @@ impl Course {
     }
 
     /// The direction of a drift against the mirror's axis, where rotations are no symmetry but the mirror is.
-    pub(super) fn of_drift(symmetry: Symmetry, angle: f64) -> Option<Self> {
+    /// A field that half a turn leaves as it is (`half_turn`) has no sense: both directions are along it.
+    pub(super) fn of_drift(symmetry: Symmetry, half_turn: bool, angle: f64) -> Option<Self> {
         if symmetry.rotations || !symmetry.mirror || !angle.is_finite() {
             return None;
         }
         let (sin, cos) = (libm::sin(angle), libm::cos(angle));
         Some(match (sin.abs() < NO_ANGLE, cos.abs() < NO_ANGLE) {
-            (true, _) if cos > 0.0 => Self::AlongField,
+            (true, _) if cos > 0.0 || half_turn => Self::AlongField,
             (true, _) => Self::AgainstField,
             (_, true) => Self::AcrossField,
             _ => Self::ObliqueToField,
@@ -87,8 +88,10 @@ mod tests {
             (-FRAC_PI_2, Course::AcrossField),
             (0.3, Course::ObliqueToField),
         ] {
-            assert_eq!(Course::of_drift(field, angle), Some(course));
-            assert_eq!(Course::of_drift(handed, angle).or(Course::of_drift(none, angle)), None);
+            assert_eq!(Course::of_drift(field, false, angle), Some(course));
+            let axis = if course == Course::AgainstField { Course::AlongField } else { course };
+            assert_eq!(Course::of_drift(field, true, angle), Some(axis));
+            assert_eq!(Course::of_drift(handed, false, angle).or(Course::of_drift(none, false, angle)), None);
         }
     }
 }

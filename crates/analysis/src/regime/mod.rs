@@ -3,6 +3,7 @@
 mod chaos;
 mod classify;
 mod course;
+mod floquet;
 mod form;
 mod growth;
 mod heteroclinic;

@@ -199,8 +199,11 @@ impl Search {
         let before = found.distance(body, &self.shape);
         let reached = (self.settings.hovering() * size).max(100.0 * self.settings.atol());
         if found.growth() > -found.resolution() {
-            self.missing =
-                format!("the orbit rests at an unstable shape (growth rate {:.2e})", found.growth());
+            self.missing = if found.growth() > found.resolution() {
+                format!("the orbit rests at an unstable shape (growth rate {:.2e})", found.growth())
+            } else {
+                "the orbit rests at a shape that is neutral in a direction beside those of its symmetry (growth rate 0 within round-off): at these parameters the equations have more symmetry than stated, or the shape bifurcates".to_owned()
+            };
             return if before > reached {
                 self.recurs(body, look, watch)
             } else {

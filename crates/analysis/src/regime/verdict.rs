@@ -4,7 +4,7 @@ use crate::Estimate;
 use crate::equilibrium::Saddle;
 use crate::regime::course::Course;
 use crate::regime::form::Form;
-use motiform_dynamics::Symmetry;
+use motiform_dynamics::Equivariant;
 use serde::{Deserialize, Serialize};
 
 /// The motions, defined by the reduced dynamics and the drift of the group (never by eye).
@@ -239,12 +239,18 @@ pub struct Verdict {
 impl Verdict {
     /// Notes the direction of a motion of this turning rate (rad per model time) and this drift (model length), as far as the
     /// symmetry of the model distinguishes directions.
-    pub(super) fn directed(&mut self, symmetry: Symmetry, turning: Option<f64>, drift: [f64; 2]) {
+    pub(super) fn directed<B: Equivariant + ?Sized>(
+        &mut self,
+        body: &B,
+        turning: Option<f64>,
+        drift: [f64; 2],
+    ) {
+        let symmetry = body.symmetry();
         self.course = turning.and_then(|rate| Course::of_turning(symmetry, rate));
         if !symmetry.rotations && drift != [0.0; 2] {
             let heading = libm::atan2(drift[1], drift[0]);
             self.heading = Some(heading);
-            self.course = self.course.or(Course::of_drift(symmetry, heading));
+            self.course = self.course.or(Course::of_drift(symmetry, body.half_turn(), heading));
         }
     }
 

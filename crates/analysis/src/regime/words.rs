@@ -77,7 +77,7 @@ impl Steady {
     /// Notes the direction of the motion.
     fn direct<B: Equivariant + ?Sized>(&self, verdict: &mut Verdict, body: &B, found: &RelativeEquilibrium) {
         let drift = if self.moves { found.velocity } else { [0.0; 2] };
-        verdict.directed(body.symmetry(), self.turns.then_some(found.turning_rate), drift);
+        verdict.directed(body, self.turns.then_some(found.turning_rate), drift);
     }
 
     /// A verdict with the numbers of the equilibrium.
@@ -205,12 +205,7 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     verdict.period = Some(orbit.period());
     verdict.net_rotation = Some(rotation);
     verdict.speed = path.speed();
-    let error = settings.accuracy() / orbit.time;
-    let neutral = if body.symmetry().rotations { 2 } else { 1 };
-    let mut values: Vec<f64> = orbit.exponents().into_iter().filter(|x| x.is_finite()).collect();
-    values.extend(std::iter::repeat_n(0.0, neutral));
-    values.sort_by(|a, b| b.total_cmp(a));
-    verdict.exponents = values.into_iter().map(|value| Estimate { value, error }).collect();
+    verdict.exponents = super::floquet::exponents(body, orbit, settings, watch)?;
     if path.moves() {
         verdict.drift = Some(path.drift());
         let straight = symmetry.mirror.is_some();
@@ -221,7 +216,7 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
         let end = path.positions.last().copied().unwrap_or_default();
         let drift = if path.drift() > no_turn * length { end } else { [0.0; 2] };
         let turning = verdict.turning_rate.filter(|_| form.regime() != Regime::Zigzag && !straight);
-        verdict.directed(body.symmetry(), turning, drift);
+        verdict.directed(body, turning, drift);
         if !straight {
             super::legs::describe(&mut verdict, &path, rotation);
         }

@@ -41,6 +41,10 @@ pub struct Measures {
     pub shape_scatter: f64,
     /// Changes of z2 and z3 over time, in units of their errors.
     pub shape_change: f64,
+    /// Root mean square deviation of the shape (z2 and z3 together) from its mean, without that of errors (length).
+    pub shape_wobble: f64,
+    /// Size of the mean of z2 and z3 together (length).
+    pub mean_shape: f64,
     /// Net displacement divided by the length of the path.
     pub directness: f64,
     /// Length of the path.
@@ -101,6 +105,8 @@ impl Measures {
             heading_scatter: scatter(&headings),
             shape_scatter: shape_scatter(&frames),
             shape_change: shape_change(&frames),
+            shape_wobble: shape_wobble(&frames),
+            mean_shape: mean_shape(&frames),
             directness: net / length.max(f64::MIN_POSITIVE),
             length,
             series: Series { dt, lag, frames, headings, speeds, blocks },
@@ -183,6 +189,22 @@ fn shape_scatter(frames: &[Observation]) -> f64 {
     };
     let (two, three) = (variance(2), variance(4));
     ((two.0 + three.0) / (two.1 + three.1).max(f64::MIN_POSITIVE)).sqrt()
+}
+
+/// Root mean square deviation of z2 and z3 from their means, without that of errors.
+fn shape_wobble(frames: &[Observation]) -> f64 {
+    let part = |at: usize| {
+        let values: Vec<f64> = frames.iter().map(|frame| frame.y[at]).collect();
+        let noise = mean(frames.iter().map(|frame| frame.covariance[at][at]));
+        scatter(&values) * scatter(&values) - noise
+    };
+    (2..6).map(part).sum::<f64>().max(0.0).sqrt()
+}
+
+/// Size of the mean shape.
+fn mean_shape(frames: &[Observation]) -> f64 {
+    let part = |at: usize| mean(frames.iter().map(|frame| frame.y[at]));
+    (2..6).map(|at| part(at) * part(at)).sum::<f64>().sqrt()
 }
 
 /// Root mean square deviation of z2 and z3 from their means, in units of their errors.

@@ -4,8 +4,11 @@
 
 use super::bodies::{cell, preset, sampled};
 use motiform_analysis::regime::Regime;
-use motiform_cells::{Observation, observe};
+use motiform_cells::{Observation, Sample, observe};
 use motiform_study::Study;
+use motiform_tracks::modes::ModeOptions;
+use motiform_tracks::synthetic::Synthetic;
+use motiform_tracks::{Cell, Outline, Tracks};
 
 fn observed(study: &Study) -> Observation {
     observe(&cell(study, 0.01).cells[0])
@@ -36,6 +39,28 @@ fn steady_motions_are_named() {
 fn a_motion_that_repeats_without_turning_is_a_zigzag() {
     let zigzag = observed(&full(0.9, 0.1, 0.0, (0.5, 1000)));
     assert_eq!(zigzag.motion.regime, Some(Regime::Zigzag), "{}", zigzag.motion.why);
+}
+
+/// A path is straight, but the long axis turns: no motion of these bodies does that.
+#[test]
+fn a_straight_path_with_a_shape_that_turns_is_no_straight_motion() {
+    let frames = (0..300).map(|frame| {
+        let (t, angle) = (f64::from(frame), 0.1 * f64::from(frame));
+        let z2 = [0.2 * libm::cos(2.0 * angle), -0.2 * libm::sin(2.0 * angle)];
+        let body = Synthetic { centre: [0.5 * t, 0.0], r0: 2.0, z: vec![z2, [0.0, 0.0]] };
+        Outline { frame: i64::from(frame), t, points: body.vertices(48, 0.0), missing: 0 }
+    });
+    let tracks = Tracks {
+        cells: vec![Cell { name: "one".to_owned(), frames: frames.collect() }],
+        length_unit: "um".to_owned(),
+        time_unit: "s".to_owned(),
+        y_down: None,
+        image: None,
+        notes: Vec::new(),
+    };
+    let found = observe(&Sample::of_tracks(tracks, &ModeOptions::default()).cells[0]);
+    assert_eq!(found.motion.regime, None, "{}", found.motion.why);
+    assert!(found.motion.why.contains("the shape changes by 10.0 % of the radius"), "{}", found.motion.why);
 }
 
 #[test]

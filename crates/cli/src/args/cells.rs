@@ -26,6 +26,9 @@ pub(crate) struct CellsOptions {
     /// The format, where the content does not decide it: csv, parquet, trackmate, quimp-csv, quimp-snqp, amoepy, roi, roi-zip or wkt
     #[arg(long, value_name = "FORMAT", value_parser = |text: &str| text.parse::<Format>().map_err(|error| error.to_string()))]
     pub(crate) format: Option<Format>,
+    /// A column of the table by its header (repeatable): cell, frame, i, x, y or wkt, e.g. --column frame=t
+    #[arg(long = "column", value_name = "NAME=HEADER", value_parser = column)]
+    pub(crate) columns: Vec<(String, String)>,
     /// Only these cells (repeatable)
     #[arg(long, value_name = "NAME")]
     pub(crate) cell: Vec<String>,
@@ -43,6 +46,16 @@ pub(crate) struct CellsOptions {
     pub(crate) json: bool,
 }
 
+/// `frame=t`.
+fn column(text: &str) -> Result<(String, String), String> {
+    let (name, header) = text.split_once('=').ok_or("write NAME=HEADER, e.g. frame=t")?;
+    let known = ["cell", "frame", "i", "x", "y", "wkt"];
+    if !known.contains(&name) {
+        return Err(format!("there is no column {name}: the columns are {}", known.join(", ")));
+    }
+    Ok((name.to_owned(), header.to_owned()))
+}
+
 #[derive(Args)]
 pub(crate) struct ObserveOptions {
     #[command(flatten)]
@@ -53,7 +66,7 @@ pub(crate) struct ObserveOptions {
 pub(crate) struct FitCellsOptions {
     #[command(flatten)]
     pub(crate) cells: CellsOptions,
-    /// Highest order of the terms: 3 (22 terms, those of the paper) or 5
+    /// Highest order of the terms: 3 (22 terms, those of the paper), 4 or 5 (91 terms)
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(3..=5))]
     pub(crate) order: u32,
     /// Amplitudes of the model: 3 (velocity, z2, z3), or 4 with z4, the square mode of the outline (45 terms of order 3)

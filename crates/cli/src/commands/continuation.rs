@@ -43,7 +43,7 @@ fn branches(options: &ContinueOptions, plan: BranchPlan) -> anyhow::Result<End> 
 /// What the options describe.
 fn study(options: &ContinueOptions) -> Result<Study, Error> {
     let mut study = subject::study(&options.subject)?;
-    subject::note_noise(&study);
+    subject::note_noise(&mut study);
     subject::apply(&options.method, &mut study)?;
     study.perturb = options.perturb.unwrap_or(study.perturb);
     let (mut study, perturbation) = study.perturbed()?;

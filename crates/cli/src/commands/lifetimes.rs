@@ -76,7 +76,7 @@ fn interrupted(staging: Option<Staging>) -> anyhow::Result<End> {
 /// The plan that the options describe: all starts are random.
 fn plan(options: &LifetimesOptions) -> Result<ScanPlan, Error> {
     let mut study = subject::study(&options.subject)?;
-    subject::note_noise(&study);
+    subject::note_noise(&mut study);
     for (key, value) in [("until", options.until), ("transient", options.transient)] {
         if let Some(value) = value.filter(|&value| value < 0.0 || key == "until" && value == 0.0) {
             let remedy = "give a model time above 0 (the transient may be 0)";

@@ -11,8 +11,8 @@ use motiform_cells::{
 use motiform_files::Staging;
 use motiform_statistics::{Answer, four_digits};
 use motiform_study::Error;
-use motiform_tracks::Options;
 use motiform_tracks::modes::ModeOptions;
+use motiform_tracks::{Columns, Options};
 use std::fmt::Write;
 
 pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
@@ -123,6 +123,7 @@ pub(crate) fn read(options: &CellsOptions) -> anyhow::Result<Sample> {
         interval: options.interval,
         length_unit: options.length_unit.clone(),
         time_unit: options.time_unit.clone(),
+        columns: Columns::named(&options.columns),
         ..Options::default()
     };
     let sample = Sample::read(&options.files, &settings, &ModeOptions::default()).map_err(plain_error)?;

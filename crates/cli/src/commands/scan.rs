@@ -61,7 +61,7 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
 /// The study that the options describe.
 fn study(options: &ScanOptions) -> Result<Study, Error> {
     let mut study = subject::study(&options.subject)?;
-    subject::note_noise(&study);
+    subject::note_noise(&mut study);
     for (name, value) in &options.initial {
         study.set_initial(name, *value)?;
     }

@@ -11,7 +11,7 @@ use std::path::Path;
 /// The study of a command about one motion.
 pub(crate) fn motion(options: &MotionOptions) -> Result<Study, Error> {
     let mut study = study(&options.subject)?;
-    note_noise(&study);
+    note_noise(&mut study);
     apply(&options.method, &mut study)?;
     Ok(study)
 }
@@ -33,8 +33,12 @@ fn samples(options: &SamplesOptions, study: &Study, random: Random) -> Option<Sa
     Some(Samples { count, random, given, threads: options.threads.map_or_else(all, usize::from) })
 }
 
-/// Says that an analysis leaves out the noise of equations given as text: its answer is that of the equations alone.
-pub(crate) fn note_noise(study: &Study) {
+/// Leaves out the noise of a study, and says so: the answer of an analysis is that of the equations alone.
+pub(crate) fn note_noise(study: &mut Study) {
+    if study.run.largest_noise() > 0.0 {
+        study.run.silence();
+        warn("the noise of the study is left out here: the answer is that of the equations without it");
+    }
     if study.model.definition().is_some_and(|definition| !definition.noise.is_empty()) {
         warn("the noise of the equations is left out here: the answer is that of the equations without it");
     }

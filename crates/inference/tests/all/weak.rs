@@ -5,6 +5,16 @@
 use crate::common::{Experiment, FULL, full};
 use motiform_inference::{Library, weak};
 
+/// Equations without terms are no matter: the others are estimated.
+#[test]
+fn equations_without_terms() {
+    let mut experiment = Experiment::new(full(0.5, 0.1), 0.0, 1);
+    (experiment.interval, experiment.errors) = (0.1, [1e-6; 2]);
+    let library = Library::tensor().select(&FULL[..6]).unwrap();
+    let found = weak(&[experiment.track()], &library).unwrap();
+    assert!((found.coefficients.unwrap()[0] - 1.0).abs() < 0.1);
+}
+
 #[test]
 fn exact_tracks() {
     let mut experiment = Experiment::new(full(0.5, 0.1), 0.0, 1);

@@ -25,6 +25,8 @@ pub struct Equations {
     rates: Vec<Polynomial>,
     velocity: Polynomial,
     pub(super) symmetry: Symmetry,
+    /// Whether a turn by half a circle, `z_n -> (-1)^n z_n`, is a symmetry.
+    pub(super) half_turn: bool,
     /// `z_n` is multiplied by `exp(-i n angle)` where this is -1, by `exp(i n angle)` where it is 1.
     pub(super) sense: i8,
     /// Whether the velocity is `conj(z1)` or `z1`, and the place of `z1`.
@@ -59,7 +61,7 @@ impl Equations {
         let text = velocity_text(definition)?;
         let velocity = parse(text, names, &mut tape).map_err(|error| at(Part::Velocity, error))?;
         let found = Found { definition, tape: &tape, rates: &rates, velocity: &velocity };
-        let (symmetry, sense) = found.symmetry()?;
+        let ((symmetry, sense), half_turn) = (found.symmetry()?, found.half_turn());
         let noise = NoiseTerms::new(definition, names, symmetry, &mut tape)?;
         let velocity_mode = velocity_mode(definition, &velocity, &tape);
         let modes = definition.modes.len();
@@ -78,6 +80,7 @@ impl Equations {
             rates,
             velocity,
             symmetry,
+            half_turn,
             sense,
             velocity_mode,
             program: rates_program,
@@ -252,6 +255,16 @@ impl Found<'_> {
         let first = self.velocity.0.keys().next();
         let index = first.map_or(-1, |monomial| monomial.angular_index(&self.definition.modes));
         if index > 0 { 1 } else { -1 }
+    }
+
+    /// Whether all terms change sign with their amplitudes under a turn by half a circle.
+    fn half_turn(&self) -> bool {
+        let modes = &self.definition.modes;
+        let even = |polynomial: &Polynomial, index: i64| {
+            polynomial.0.keys().all(|monomial| (monomial.angular_index(modes) - index) % 2 == 0)
+        };
+        let rates = self.rates.iter().zip(modes).all(|(rate, &mode)| even(rate, i64::from(mode)));
+        rates && even(self.velocity, 1)
     }
 
     fn check_rotations(&self, sense: i8) -> Result<(), DefinitionError> {

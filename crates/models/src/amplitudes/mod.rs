@@ -128,6 +128,11 @@ impl Equivariant for Amplitudes {
         self.known.equations.symmetry
     }
 
+    /// Every term has an index that differs from that of its equation by an even number.
+    fn half_turn(&self) -> bool {
+        self.known.equations.half_turn
+    }
+
     /// `z_n -> exp(-i n angle) z_n`, or with a plus for a velocity like `z1`.
     fn rotate(&self, angle: f64, shape: &mut [f64]) {
         if !self.symmetry().rotations {

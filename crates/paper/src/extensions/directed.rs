@@ -50,12 +50,12 @@ fn stretched(context: &Context<'_>) -> Result<[Claim; 2], Error> {
     }
     let names: Vec<&str> = courses.iter().map(|course| course.map_or("none", Course::name)).collect();
     let (along, across) = (Some(Course::AlongField), Some(Course::AcrossField));
-    let axis = |course: &Option<Course>| *course == along || *course == Some(Course::AgainstField);
     let says =
         "A body that a field stretches moves along the field for *a*_1 < 0 and across it for *a*_1 > 0.";
     let finds = format!("*a*_1 = −0.5, −0.2, 0.2, 0.5: {}", names.join(", "));
     let how = "the direction of the velocity, within 10^{-6} rad of the axes";
-    let holds = courses[..2].iter().all(axis) && courses[2..].iter().all(|course| *course == across);
+    let holds = courses[..2].iter().all(|course| *course == along)
+        && courses[2..].iter().all(|course| *course == across);
     let first = check(says, finds, how, holds);
     let says = "Its speed is *v*^2 = *γ* + |*a*_1| *E*^2/2*κ*_2.";
     let finds = format!("the squares differ from the formula by at most {worst:.1e}");

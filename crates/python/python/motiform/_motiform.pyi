@@ -54,7 +54,8 @@ class Study:
 class Sample:
     @staticmethod
     def read(
-        paths: list[str], asked: tuple[float | None, float | None, tuple[str, str], str | None]
+        paths: list[str],
+        asked: tuple[float | None, float | None, tuple[str, str], str | None, list[tuple[str, str]]],
     ) -> Sample: ...
     @staticmethod
     def given(

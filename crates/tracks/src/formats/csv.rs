@@ -9,7 +9,8 @@ use crate::{Error, Options, Place, Result};
 use std::borrow::Cow;
 
 /// What to do where several cells have one name.
-pub(super) const REMEDY: &str = "name the column of the cell with the option columns.cell";
+pub(super) const REMEDY: &str =
+    "name the column of the cell: --column cell=HEADER, in Python columns={'cell': HEADER}";
 
 /// Rows `cell, frame, i, x, y` in any order; without a cell there is one, without i the order of the rows is that of the vertices.
 pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {

@@ -9,7 +9,8 @@ use crate::split::split;
 use crate::{Error, Options, Place, Result};
 use std::borrow::Cow;
 
-const REMEDY: &str = "give a column with the cell, and name it with the option columns.cell";
+const REMEDY: &str =
+    "give a column with the cell, and name it: --column cell=HEADER, in Python columns={'cell': HEADER}";
 
 /// With a header: columns cell, frame and wkt. Without: lines of `POLYGON (...)`, before it nothing, the frame, or cell and frame.
 pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {

@@ -109,7 +109,7 @@ fn two_cells_under_one_name() {
         }
     }
     let error = refusal(text);
-    assert!(error.contains("6 of its 6 frames") && error.contains("columns.cell"), "{error}");
+    assert!(error.contains("6 of its 6 frames") && error.contains("--column cell="), "{error}");
 }
 
 #[test]

@@ -27,6 +27,7 @@ def read(
     time_unit: str = "s",
     length_unit: str = "um",
     format: str | None = None,
+    columns: Mapping[str, str] | None = None,
 ) -> Cells:
     """Reads outlines of tracked cells.
 
@@ -41,6 +42,9 @@ def read(
     format
         ``csv``, ``parquet``, ``trackmate``, ``quimp-csv``, ``quimp-snqp``, ``amoepy``, ``roi``, ``roi-zip`` or ``wkt``, where the
         content fits several formats.
+    columns
+        Headers of the columns of a table, where they are not the usual ones: ``{"frame": "t", "x": "pos_x"}`` for ``cell``,
+        ``frame``, ``i``, ``x``, ``y`` and ``wkt``.
 
     Raises
     ------
@@ -48,7 +52,11 @@ def read(
         For content that cannot be read, with the place in the file; ``OSError`` if the file cannot be opened.
     """
     paths = [path] if isinstance(path, (str, os.PathLike)) else list(path)
-    asked = (pixel_size, interval, (length_unit, time_unit), format)
+    known = ("cell", "frame", "i", "x", "y", "wkt")
+    named = dict(columns or {})
+    if unknown := [name for name in named if name not in known]:
+        raise ValueError(f"columns has no {unknown[0]!r}: the columns are {', '.join(known)}")
+    asked = (pixel_size, interval, (length_unit, time_unit), format, list(named.items()))
     return Cells(_motiform.Sample.read([os.fspath(one) for one in paths], asked))
 
 

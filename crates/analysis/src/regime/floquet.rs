@@ -1,0 +1,86 @@
+//! The exponents of a periodic orbit.
+//!
+//! `ln |m|/T` for each multiplier m. The matrix of a period has errors of about its accuracy times its largest entries: a multiplier that
+//! is not far above them says nothing. Such exponents are measured along the orbit instead, where vectors are kept orthogonal.
+
+use super::settings::Settings;
+use crate::Estimate;
+use crate::Result;
+use crate::lyapunov::{LyapunovSettings, lyapunov};
+use crate::periodic::{PeriodicOrbit, is_small};
+use motiform_dynamics::{Equivariant, Outcome, Watch};
+
+/// Relative error of a multiplier from which on its exponent is measured instead.
+const UNRESOLVED: f64 = 1e-2;
+/// Periods over which it is measured, after one.
+const PERIODS: f64 = 2.0;
+
+/// The exponents of an orbit with those of its neutral directions, largest first.
+pub(super) fn exponents<B: Equivariant + ?Sized>(
+    body: &B,
+    orbit: &PeriodicOrbit,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Result<Vec<Estimate>> {
+    let (accuracy, time) = (settings.accuracy(), orbit.time);
+    let neutral = if body.symmetry().rotations { 2 } else { 1 };
+    let mut all = vec![Estimate { value: 0.0, error: accuracy / time }; neutral];
+    let mut unresolved = 0;
+    for m in &orbit.multipliers {
+        let size = libm::hypot(m.0, m.1);
+        let relative = accuracy / size.min(1.0);
+        if relative < UNRESOLVED {
+            all.push(Estimate { value: libm::log(size) / time, error: relative / time });
+        } else {
+            unresolved += 1;
+        }
+    }
+    all.sort_by(|a, b| b.value.total_cmp(&a.value));
+    if unresolved > 0 && is_small(body.dim()) {
+        let measured = measured(body, orbit, settings, watch)?;
+        all.extend(measured.into_iter().skip(all.len()));
+    }
+    Ok(all)
+}
+
+/// All exponents along the orbit; none where it could not be followed. The error is the change from one period to the next.
+fn measured<B: Equivariant + ?Sized>(
+    body: &B,
+    orbit: &PeriodicOrbit,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Result<Vec<Estimate>> {
+    let run = LyapunovSettings {
+        count: body.dim(),
+        method: settings.method,
+        control: settings.control,
+        transient: orbit.time,
+        span: PERIODS * orbit.time,
+        escape_norm: settings.escape_norm,
+        max_steps: settings.max_steps,
+    };
+    let found = lyapunov(body, &orbit.shape, &run, watch)?;
+    if !matches!(found.outcome, Outcome::Completed { .. }) {
+        return Ok(Vec::new());
+    }
+    let half = found.transient + 0.5 * found.time;
+    let mean = |i: usize, part: &dyn Fn(f64) -> bool| {
+        let (mut growth, mut length, mut from) = (0.0, 0.0, found.transient);
+        for (end, rates) in &found.history {
+            if part(*end) {
+                growth += rates[i] * (end - from);
+                length += end - from;
+            }
+            from = *end;
+        }
+        growth / length
+    };
+    let estimate = |i: usize| {
+        let change = mean(i, &|end| end > half) - mean(i, &|end| end <= half);
+        let error = change.abs().max(settings.accuracy() / orbit.time);
+        Estimate { value: mean(i, &|_| true), error }
+    };
+    let mut all: Vec<Estimate> = (0..body.dim()).map(estimate).filter(|e| e.error.is_finite()).collect();
+    all.sort_by(|a, b| b.value.total_cmp(&a.value));
+    Ok(all)
+}
