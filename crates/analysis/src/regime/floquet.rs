@@ -12,6 +12,8 @@ use motiform_dynamics::{Equivariant, Outcome, Watch};
 
 /// Relative error of a multiplier from which on its exponent is measured instead.
 const UNRESOLVED: f64 = 1e-2;
+/// The same from which on it is left out in a large system, where measuring takes too long.
+const LOST: f64 = 0.5;
 /// Periods over which it is measured, after one.
 const PERIODS: f64 = 2.0;
 
@@ -26,10 +28,11 @@ pub(super) fn exponents<B: Equivariant + ?Sized>(
     let neutral = if body.symmetry().rotations { 2 } else { 1 };
     let mut all = vec![Estimate { value: 0.0, error: accuracy / time }; neutral];
     let mut unresolved = 0;
+    let most = if is_small(body.dim()) { UNRESOLVED } else { LOST };
     for m in &orbit.multipliers {
         let size = libm::hypot(m.0, m.1);
         let relative = accuracy / size.min(1.0);
-        if relative < UNRESOLVED {
+        if relative < most {
             all.push(Estimate { value: libm::log(size) / time, error: relative / time });
         } else {
             unresolved += 1;

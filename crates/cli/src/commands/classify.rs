@@ -6,7 +6,7 @@ use crate::output::{End, estimate, print, warn};
 use crate::progress::Progress;
 use motiform_analysis::{Regime, Verdict};
 use motiform_lab::analyse;
-use motiform_lab::samples::{self, Basins, Escapes, Samples};
+use motiform_lab::samples::{self, Basins, Escapes, Named, Samples};
 use motiform_study::Plan;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -44,8 +44,11 @@ fn many(options: &ClassifyOptions, plan: &Plan, samples: Samples, budget: f64) -
     let basins = Basins::new(&samples, &verdicts);
     let motions = samples::motions(&verdicts);
     if options.motion.json {
-        let counts: serde_json::Map<String, Value> =
-            motions.iter().map(|&(name, count)| (name.to_owned(), count.into())).collect();
+        let mut counts = serde_json::Map::new();
+        for (motion, count) in &motions {
+            let so_far = counts.get(motion.regime).and_then(Value::as_u64).unwrap_or(0);
+            counts.insert(motion.regime.to_owned(), (so_far + *count as u64).into());
+        }
         let mut object = json!({
             "model": plan.computation.model,
             "parameters": plan.computation.parameters,
@@ -70,12 +73,13 @@ fn many(options: &ClassifyOptions, plan: &Plan, samples: Samples, budget: f64) -
 fn motions_summary(
     plan: &Plan,
     verdicts: &[Verdict],
-    motions: &[(&str, usize)],
+    motions: &[(Named, usize)],
     (basins, escapes): (&Basins, Option<&Escapes>),
 ) -> anyhow::Result<String> {
     let mut text = String::new();
-    for (name, count) in motions {
-        let first = verdicts.iter().position(|verdict| verdict.regime.name() == *name).unwrap_or(0);
+    for (motion, count) in motions {
+        let first = verdicts.iter().position(|verdict| Named::of(verdict) == *motion).unwrap_or(0);
+        let name = motion.to_string();
         writeln!(text, "{name:14} {count} of {}, the first is initial state {first}", verdicts.len())?;
         writeln!(text, "               {}", verdicts[first].why)?;
     }

@@ -59,7 +59,8 @@ fn equations_without_terms() {
         let library = Library::tensor().select(&names).unwrap();
         let definition = equations(&library, false, &[0.3, -0.4]);
         let model = amplitudes::info(&definition).unwrap_or_else(|error| panic!("{names:?}: {error}"));
-        let body = model.build(&[0.3, -0.4]).unwrap();
+        let values: Vec<f64> = definition.parameters.iter().map(|p| p.default).collect();
+        let body = model.build(&values).unwrap();
         let (u, mut du) = ([0.5, -0.3, 0.1, 0.2, -0.15, 0.05], [1.0; 6]);
         VectorField::<f64>::eval(&*body, 0.0, &u, &mut du);
         let c = [0.3, -0.4].map(|c| Complex::new(c, 0.0));

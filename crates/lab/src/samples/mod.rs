@@ -6,7 +6,7 @@ mod shares;
 
 use crate::analyse;
 pub use escapes::{EscapeLimits, Escapes};
-use motiform_analysis::regime::{Settings, Verdict, classifies_in_lanes};
+use motiform_analysis::regime::{Course, Settings, Verdict, classifies_in_lanes};
 use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings};
 use motiform_dynamics::Watch;
 use motiform_dynamics::{Outcome, StopOnly};
@@ -14,6 +14,7 @@ use motiform_kernels::{Kernel, Row, classify_rows, exponents_of_body, has_expone
 use motiform_study::plan::check;
 use motiform_study::{Error, Plan, Random};
 use population::{Asked, Population};
+use serde::Serialize;
 pub use shares::{Basins, MotionShare, Starts};
 use std::collections::BTreeMap;
 
@@ -160,14 +161,40 @@ fn mean(estimates: &[Estimate]) -> Estimate {
     Estimate { value, error: own.max(spread) }
 }
 
+/// A motion as samples are counted: where a model tells left from right, or has a field, each course is a motion of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Named {
+    /// The regime.
+    pub regime: &'static str,
+    /// Its course, if it has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub course: Option<Course>,
+}
+
+impl Named {
+    /// The motion of a verdict.
+    #[must_use]
+    pub fn of(verdict: &Verdict) -> Self {
+        Self { regime: verdict.regime.name(), course: verdict.course }
+    }
+}
+
+impl std::fmt::Display for Named {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.regime)?;
+        self.course.map_or(Ok(()), |course| write!(f, ", {}", course.name().replace('-', " ")))
+    }
+}
+
 /// How many samples lead to each motion, the most frequent first.
 #[must_use]
-pub fn motions(verdicts: &[Verdict]) -> Vec<(&'static str, usize)> {
-    let mut counts: BTreeMap<_, usize> = BTreeMap::new();
+pub fn motions(verdicts: &[Verdict]) -> Vec<(Named, usize)> {
+    let mut counts: BTreeMap<_, (Named, usize)> = BTreeMap::new();
     for verdict in verdicts {
-        *counts.entry(verdict.regime).or_default() += 1;
+        let course = verdict.course.map(Course::name);
+        counts.entry((verdict.regime, course)).or_insert((Named::of(verdict), 0)).1 += 1;
     }
-    let mut counts: Vec<_> = counts.into_iter().map(|(regime, count)| (regime.name(), count)).collect();
+    let mut counts: Vec<_> = counts.into_values().collect();
     counts.sort_by_key(|entry| std::cmp::Reverse(entry.1)); // stable: the order of legends
     counts
 }
@@ -203,7 +230,7 @@ mod tests {
             )
             .unwrap();
             assert_eq!(found[3], alone.unwrap());
-            assert_eq!(motions(&found)[0], ("chaotic", 5));
+            assert_eq!(motions(&found)[0], (Named { regime: "chaotic", course: None }, 5));
         }
     }
 

@@ -1,6 +1,6 @@
 //! The motions of many initial states: shares with intervals, and a description of what was sampled.
 
-use super::{Samples, motions};
+use super::{Named, Samples, motions};
 use motiform_analysis::{Share, Verdict};
 use motiform_study::Random;
 use serde::Serialize;
@@ -31,7 +31,8 @@ pub struct Starts {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MotionShare {
     /// The motion.
-    pub regime: &'static str,
+    #[serde(flatten)]
+    pub motion: Named,
     /// Its share of the starts that were drawn, with Wilson's 95 % interval.
     #[serde(flatten)]
     pub share: Share,
@@ -42,7 +43,7 @@ impl Basins {
     #[must_use]
     pub fn new(samples: &Samples, verdicts: &[Verdict]) -> Self {
         let drawn = &verdicts[usize::from(samples.given).min(verdicts.len())..];
-        let share = |(regime, count)| Some(MotionShare { regime, share: Share::new(count, drawn.len())? });
+        let share = |(motion, count)| Some(MotionShare { motion, share: Share::new(count, drawn.len())? });
         Self { starts: Starts::of(samples), shares: motions(drawn).into_iter().filter_map(share).collect() }
     }
 
@@ -74,7 +75,7 @@ impl Starts {
 impl MotionShare {
     fn words(&self) -> String {
         let Share { value, lower, upper, .. } = self.share;
-        format!("{} {:.0} % ({:.0} to {:.0} %)", self.regime, 100.0 * value, 100.0 * lower, 100.0 * upper)
+        format!("{} {:.0} % ({:.0} to {:.0} %)", self.motion, 100.0 * value, 100.0 * lower, 100.0 * upper)
     }
 }
 

@@ -180,3 +180,43 @@ fn errors_are_shown_at_their_place_in_the_file() {
             .contains("unknown key")
     );
 }
+
+/// Multipliers of strongly contracting directions are lost in the matrix of a period: their exponents are measured along the orbit. The mean
+/// divergence is their sum, and the mirror image has the same.
+#[test]
+fn exponents_of_contracting_orbits() {
+    let text = "[model.amplitudes]\nmodes = [1]\nsymmetry = \"none\"\n[model.amplitudes.equations]\n\
+                z1 = \"(1 + 0.3*i - |z1|^2)*z1 + 0.1\"";
+    let plan = Plan::new(&Study::parse(text, "text", "drift").unwrap()).unwrap();
+    let found = analyse::classify(&plan, 0.0, &()).unwrap().unwrap();
+    // the mean of the divergence 2 - 4 |z|^2 over a long orbit, by the trapezoidal rule
+    let (mut z, h) = ([1.0_f64, 0.0_f64], 1e-3);
+    let (mut sum, mut count) = (0.0, 0);
+    for step in 0..300_000 {
+        let rate = |[x, y]: [f64; 2]| {
+            let g = 1.0 - x * x - y * y;
+            [g * x - 0.3 * y + 0.1, g * y + 0.3 * x]
+        };
+        let first = rate(z);
+        let middle = rate([z[0] + 0.5 * h * first[0], z[1] + 0.5 * h * first[1]]);
+        z = [z[0] + h * middle[0], z[1] + h * middle[1]];
+        if step > 78_090 {
+            sum += 2.0 - 4.0 * (z[0] * z[0] + z[1] * z[1]);
+            count += 1;
+        }
+    }
+    let divergence = sum / f64::from(count);
+    let last = found.exponents[1];
+    assert_eq!(found.exponents.len(), 2);
+    assert!((last.value - divergence).abs() < last.error.max(3e-3), "{last:?} {divergence}");
+    let of = |omega: f64| {
+        let mut study = find_any("chiral", NAME).unwrap();
+        study.set("omega", omega).unwrap();
+        analyse::classify(&Plan::new(&study).unwrap(), 0.0, &()).unwrap().unwrap().exponents
+    };
+    let (left, right) = (of(0.05), of(-0.05));
+    assert_eq!((left.len(), right.len()), (6, 6));
+    for (a, b) in left.iter().zip(&right) {
+        assert!((a.value - b.value).abs() <= 2.0 * (a.error + b.error) + 1e-4, "{left:?} {right:?}");
+    }
+}

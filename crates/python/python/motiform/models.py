@@ -413,8 +413,9 @@ class Model:
         return hash(self.to_toml())
 
     def __repr__(self) -> str:
-        given = ", ".join(f"{name}={value:g}" for name, value in self._study.given())
-        return f"{type(self).__name__}({given})"
+        # Equations given as text have no defaults to leave out.
+        values = self.parameters.items() if type(self).__name__ == "Amplitudes" else self._study.given()
+        return f"{type(self).__name__}({', '.join(f'{name}={value:g}' for name, value in values)})"
 
 
 _SETTINGS = frozenset({

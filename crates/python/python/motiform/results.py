@@ -121,7 +121,8 @@ class Verdict:
     """Durations of the rests (model time)."""
 
     def __str__(self) -> str:
-        return f"{self.regime}: {self.why}"
+        course = f", {self.course.replace('-', ' ')}" if self.course else ""
+        return f"{self.regime}{course}: {self.why}"
 
 
 def verdict_of(raw: dict[str, Any]) -> Verdict:
@@ -147,6 +148,8 @@ class Share:
     value: float
     lower: float
     upper: float
+    course: str | None = None
+    """Where the model tells left from right, or has a field."""
 
 
 @dataclass(frozen=True)
