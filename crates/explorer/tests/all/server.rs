@@ -139,9 +139,13 @@ fn floods_and_huge_messages_end_a_connection_and_nothing_else() {
     let server = Running::anywhere();
     let mut other = server.page();
     other.begin("tensor", Some("fig5b"));
-    let mut huge = server.page();
-    huge.socket.send(Message::text("x".repeat(100_000))).unwrap();
-    assert_eq!(huge.closed(), Some(1009));
+    // What the system drops of a connection with data that nobody read may be the reason, too: rarely.
+    let told = (0..5).any(|_| {
+        let mut huge = server.page();
+        let _ = huge.socket.send(Message::text("x".repeat(100_000))); // may be closed before it is all sent
+        huge.closed() == Some(1009)
+    });
+    assert!(told, "a page is told why");
     let mut flood = server.page();
     flood.begin("tensor", Some("fig5a"));
     for _ in 0..5000 {
