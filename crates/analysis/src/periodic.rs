@@ -169,7 +169,7 @@ impl PeriodicOrbit {
         self.multipliers.first().map_or(0.0, |m| libm::hypot(m.0, m.1))
     }
 
-    /// Floquet exponents `ln |multiplier| / T`, largest first.
+    /// Floquet exponents `ln |multiplier| / T`, largest first: round-off where a multiplier is below the accuracy of the matrix of a period.
     #[must_use]
     pub fn exponents(&self) -> Vec<f64> {
         self.multipliers.iter().map(|m| libm::log(libm::hypot(m.0, m.1)) / self.time).collect()

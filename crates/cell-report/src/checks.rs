@@ -50,7 +50,7 @@ fn intervals(fitted: &Fitted, units: &Units) -> Table {
             let change = drift.changes.get(place).copied().unwrap_or_default();
             row.push(Cell::number(format!("{change:.1}")));
         }
-        let weak = fitted.checks.weak(place).filter(|_| !fitted.is_handed());
+        let weak = fitted.checks.weak(place); // none of a handed model
         row.push(Cell::number(weak.map_or_else(|| "-".to_owned(), plain)));
         row
     };

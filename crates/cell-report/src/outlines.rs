@@ -52,7 +52,10 @@ pub(crate) fn section(
         ),
         ReportFigure::new(
             sheet(&series(case, units))?,
-            "Modes of the shape over time: *z*_2 elongation, *z*_3 triangle, of models with it *z*_4 square. Grey: frames that are missing or left out.",
+            format!(
+                "Modes of the shape over time: *z*_2 elongation, *z*_3 triangle{}. Grey: frames that are missing or left out.",
+                if case.modes() > 3 { ", *z*_4 square" } else { "" }
+            ),
         ),
     ];
     Ok(Some(Section { title: "Outlines".to_owned(), about: String::new(), figures, ..Section::default() }))

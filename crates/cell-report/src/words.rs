@@ -101,7 +101,14 @@ const WORDS: &[(&str, &str)] = &[
         "robust error",
         "Standard error from the scatter of the scores (sandwich). Larger than the other one where the noise is not white or not the same throughout.",
     ),
-    ("95 % interval", "Estimate ∓ 1.96 standard errors."),
+    (
+        "95 % interval",
+        "Of an estimate: estimate ∓ 1.96 standard errors. Of a mean over cells: from whole cells drawn with replacement.",
+    ),
+    (
+        "95 % interval of the share",
+        "Wilson (1927), J. Am. Stat. Assoc. 22, 209: the shares of all such cells with which the counted number agrees.",
+    ),
     ("parameter of the study file", "The same number by the paper's name, with the paper's factor."),
     (
         "largest change",

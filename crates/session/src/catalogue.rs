@@ -47,7 +47,7 @@ pub struct StudyFile {
     pub text: String,
     /// The study.
     pub study: Study,
-    /// The cell that it was fitted to, to be shown beside it.
+    /// The tracked cell that it was fitted to, if there is one.
     pub tracked: Option<TrackedCell>,
 }
 

@@ -63,7 +63,7 @@ fn settings(options: &ExploreOptions) -> anyhow::Result<Options> {
     Ok(settings)
 }
 
-/// A study file; of one that `motiform fit` wrote also the cell beside it.
+/// A study file, with the tracked cell that it was fitted to if `motiform fit` wrote it.
 fn study_file(path: &Path) -> anyhow::Result<StudyFile> {
     let mut file = StudyFile::read(path)?;
     file.tracked = recorded(path)?.map(|cell| TrackedCell {

@@ -172,7 +172,7 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
     writeln!(text, "noise          velocity {:.4e}, shape {:.4e}", noise.eta_v.value, noise.eta_shape.value)?;
     if !fitted.is_identifiable() {
         for equation in &fitted.known_of_all.equations {
-            writeln!(text, "determined     {}", equation.text)?;
+            writeln!(text, "equation of z{}  {} (of all terms)", equation.equation + 1, equation.text)?;
         }
     }
     for (name, placement) in ["plane of Fig. 4", "plane of Fig. 1"].into_iter().zip(&fitted.places) {

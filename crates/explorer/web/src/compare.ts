@@ -36,7 +36,7 @@ export class Compare {
     });
   }
 
-  /** A body begins: the cell that its model was fitted to stands beside it. */
+  /** A body begins. If its model was fitted to a tracked cell, the cell is shown in the left half. */
   begin({ tracked, model }: Session): void {
     const wanted = !this.hidden && tracked?.model === model.name ? tracked : null;
     if (this.beside instanceof TrackedView && this.beside.cell !== wanted) this.beside.end();

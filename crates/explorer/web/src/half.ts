@@ -1,9 +1,9 @@
-/** The half of the body's picture that shows something beside it: a place that is held, or a tracked cell. */
+/** The left half of the body's picture: it shows a place that is held, or a tracked cell. */
 
 import type { Frame } from "./binary";
 import { byId } from "./dom";
 
-/** What stands there. */
+/** What is shown there. */
 export interface Beside {
   /** Draws; `seconds` since the last picture, `moving` whether the page moves. */
   draw(seconds: number, moving: boolean): void;
