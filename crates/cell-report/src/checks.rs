@@ -1,9 +1,10 @@
 //! Checks of a fit: other sampling intervals, the weak form, and what the fit leaves unexplained.
 
-use crate::Units;
 use crate::numbers::{plain, with_error};
+use crate::terms::typeset;
 use motiform_cells::Fitted;
-use motiform_figures::{BandCurve, BandFigure, BandPoint, literal};
+use motiform_cells::Units;
+use motiform_figures::{BandCurve, BandFigure, BandPoint};
 use motiform_inference::{Channel, Coefficient};
 use motiform_lab::draw::sheet;
 use motiform_report::{Cell, ReportFigure, Section, Table};
@@ -41,7 +42,7 @@ fn intervals(fitted: &Fitted, units: &Units) -> Table {
     head.push("weak form".to_owned());
     let row = |(place, c): (usize, &Coefficient)| {
         let mut row =
-            vec![Cell::text(literal(&c.name)), Cell::number(with_error(c.estimate.value, c.estimate.error))];
+            vec![Cell::text(typeset(&c.name)), Cell::number(with_error(c.estimate.value, c.estimate.error))];
         for point in points {
             let text = |e: &motiform_inference::Estimate| with_error(e.value, e.error);
             row.push(Cell::number(point.estimates.get(place).map_or_else(String::new, text)));

@@ -1,8 +1,9 @@
 //! Simulated cells beside the observed one.
 
+use crate::Case;
 use crate::numbers::plain;
 use crate::outlines::{observed, track};
-use crate::{Case, Units};
+use motiform_cells::Units;
 use motiform_cells::{Agreement, Axis, Comparison, Kind, Prediction};
 use motiform_figures::{BandCurve, BandFigure, BandPoint, TrackPanels};
 use motiform_lab::draw::sheet;

@@ -1,8 +1,9 @@
 //! The fitted equations: coefficients, noise, what the data determine, the motion, what is doubtful.
 
-use crate::Units;
 use crate::motion::capital;
 use crate::numbers::{estimate, plain, with_error};
+use crate::terms::typeset;
+use motiform_cells::Units;
 use motiform_cells::{CellFit, Fitted};
 use motiform_figures::literal;
 use motiform_inference::{Coefficient, paper};
@@ -26,7 +27,7 @@ pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
     tables.extend(motions(fitted));
     tables.extend(bifurcations(fit));
     tables.extend(determined(fitted));
-    tables.extend(warnings(fitted));
+    tables.extend(warnings(fit));
     Section { title, about, parameters: parameters(fitted, units), tables, ..Section::default() }
 }
 
@@ -59,7 +60,7 @@ fn coefficients(fitted: &Fitted) -> Table {
         let part = if c.imaginary { "imaginary part of " } else { "" };
         let [low, high] = c.estimate.interval;
         let mut row = vec![
-            Cell::text(literal(&format!("{part}{}", c.name))),
+            Cell::text(format!("{part}{}", typeset(&c.name))),
             Cell::number(with_error(c.estimate.value, c.estimate.error)),
             Cell::number(plain(c.estimate.robust)),
             Cell::number(format!("{} to {}", plain(low), plain(high))),
@@ -126,12 +127,12 @@ fn determined(fitted: &Fitted) -> Option<Table> {
     })
 }
 
-fn warnings(fitted: &Fitted) -> Option<Table> {
+fn warnings(fit: &CellFit) -> Option<Table> {
     let rows: Vec<Vec<Cell>> =
-        fitted.warnings.iter().map(|warning| vec![Cell::text(literal(&warning.to_string()))]).collect();
+        fit.warnings().iter().map(|warning| vec![Cell::text(literal(warning))]).collect();
     (!rows.is_empty()).then(|| Table {
         caption: "What makes the fit doubtful.".to_owned(),
-        head: vec!["warning".to_owned()],
+        head: vec!["warnings".to_owned()],
         rows,
     })
 }

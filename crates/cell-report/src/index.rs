@@ -2,8 +2,9 @@
 
 use crate::numbers::{estimate, plain};
 use crate::place::{self, PLANES, map};
-use crate::{Case, Maps, Units, fitted, page_name, population, words};
+use crate::{Case, Maps, fitted, page_name, population, words};
 use motiform_analysis::regime::Regime;
+use motiform_cells::Units;
 use motiform_cells::{Agreement, CellFit, Fitted, Sample};
 use motiform_figures::literal;
 use motiform_inference::{Place, Placement};
@@ -60,11 +61,11 @@ pub(crate) fn verdict(case: &Case<'_>) -> &'static str {
     fitted_regime(case).or(case.observation.motion.regime).map_or("undecided", |regime| regime.name())
 }
 
-fn fitted_of<'c>(case: &Case<'c>) -> Option<&'c Fitted> {
+pub(crate) fn fitted_of<'c>(case: &Case<'c>) -> Option<&'c Fitted> {
     case.fit?.fitted.as_deref().ok()
 }
 
-fn fitted_regime(case: &Case<'_>) -> Option<Regime> {
+pub(crate) fn fitted_regime(case: &Case<'_>) -> Option<Regime> {
     fitted_of(case)?.regime.as_ref()?.regime
 }
 
@@ -112,7 +113,7 @@ fn placed(fitted: &Fitted, plane: usize) -> Option<&Place> {
     }
 }
 
-fn place_words(fitted: &Fitted) -> String {
+pub(crate) fn place_words(fitted: &Fitted) -> String {
     let place = placed(fitted, 0).or(placed(fitted, 1));
     let words = |place: &Place| {
         let both = place.coordinates.iter().map(|c| format!("{} = {}", c.name, estimate(&c.estimate)));
@@ -121,7 +122,7 @@ fn place_words(fitted: &Fitted) -> String {
     place.map_or_else(|| "none".to_owned(), words)
 }
 
-fn agreement(case: &Case<'_>) -> String {
+pub(crate) fn agreement(case: &Case<'_>) -> String {
     match case.prediction() {
         None => String::new(),
         Some(found) if found.is_unstable() => "unstable".to_owned(),

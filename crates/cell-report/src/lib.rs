@@ -15,11 +15,13 @@ mod outlines;
 mod place;
 mod population;
 mod relatives;
+mod summary;
+mod terms;
 mod words;
 
 pub use maps::Maps;
 
-use motiform_cells::{CellFit, CellTrack, Observation, Prediction, Sample};
+use motiform_cells::{CellFit, CellTrack, Observation, Prediction, Sample, Units};
 use motiform_dynamics::Watch;
 use motiform_inference::{Placement, Plane};
 use motiform_lab::pool;
@@ -49,30 +51,6 @@ impl<'c> Case<'c> {
     /// Cells simulated by the fit.
     fn prediction(&self) -> Option<&'c Prediction> {
         self.fit?.prediction.as_ref()
-    }
-}
-
-/// Units of the data, as they stand on axes.
-#[derive(Debug, Clone, PartialEq, Eq)]
-struct Units {
-    length: String,
-    time: String,
-    /// Whether y points down in the images: figures then show what the images show.
-    y_down: bool,
-}
-
-impl Units {
-    fn of(sample: &Sample) -> Self {
-        let tracks = &sample.tracks;
-        Self {
-            length: tracks.length_unit.clone(),
-            time: tracks.time_unit.clone(),
-            y_down: tracks.y_down == Some(true),
-        }
-    }
-
-    fn speed(&self) -> String {
-        format!("{}/{}", self.length, self.time)
     }
 }
 
@@ -143,7 +121,7 @@ fn cell(
     maps: &Maps,
     units: &Units,
 ) -> Result<Report, Error> {
-    let mut sections = vec![motion::section(case, units)?];
+    let mut sections = vec![summary::section(case), motion::section(case, units)?];
     sections.extend(outlines::section(case, drawn, units)?);
     if let Some(fit) = case.fit {
         sections.push(fitted::section(fit, name, units));

@@ -1,7 +1,8 @@
 //! The observed motion: verdict, numbers, displacements and correlations.
 
 use crate::numbers::{answer, plain, with_error};
-use crate::{Case, Units, relatives};
+use crate::{Case, relatives};
+use motiform_cells::Units;
 use motiform_cells::{AtLag, Memory, MotionStatistics};
 use motiform_figures::{BandCurve, BandFigure, BandPoint, literal};
 use motiform_lab::draw::sheet;
@@ -12,8 +13,8 @@ pub(crate) fn section(case: &Case<'_>, units: &Units) -> Result<Section, Error> 
     let found = case.observation;
     let name = found.motion.regime.map_or("undecided", |regime| regime.name());
     let mut about = format!("Observed motion: {name}. {}.", capital(&literal(&found.motion.why)));
-    if found.motion.regime.is_some() {
-        about += &format!(" {:.0} % of resampled records say the same.", 100.0 * found.motion.confidence);
+    if let Some(confidence) = found.motion.confidence {
+        about += &format!(" {:.0} % of resampled records say the same.", 100.0 * confidence);
     }
     let mut figures = match &found.statistics {
         Some(statistics) => figures(statistics, units)?,
@@ -49,9 +50,14 @@ fn parameters(case: &Case<'_>, units: &Units) -> Vec<(String, String)> {
         ("mean radius".to_owned(), format!("{} {length}", plain(case.cell.radius))),
     ];
     for (flag, count) in case.cell.flags() {
-        all.push((flag.to_owned(), format!("{count} frames")));
+        all.push((flag.to_owned(), format!("{count} frame{}", if count == 1 { "" } else { "s" })));
     }
     if let Some(m) = &case.observation.measures {
+        if m.frames < case.cell.frames() {
+            let [from, to] = m.span.map(plain);
+            let text = format!("{} frames, *t* = {from} to {to} {time}", m.frames);
+            all.push(("stretch without gaps".to_owned(), text));
+        }
         all.push(("sampling interval".to_owned(), format!("{} {time}", plain(case.cell.track.interval()))));
         all.push(("speed".to_owned(), format!("{} {}", plain(m.speed), units.speed())));
         all.push(("scatter of the speed".to_owned(), format!("{:.0} %", 100.0 * m.speed_scatter)));
@@ -69,10 +75,7 @@ pub(crate) fn walk(statistics: &MotionStatistics, units: &Units) -> Table {
     let time = &units.time;
     let mut all = vec![
         ("persistence time".to_owned(), answer(&statistics.walk.persistence, time)),
-        (
-            "diffusion coefficient".to_owned(),
-            answer(&statistics.walk.diffusion, &format!("{}^2/{time}", units.length)),
-        ),
+        ("diffusion coefficient".to_owned(), answer(&statistics.walk.diffusion, &units.diffusion())),
     ];
     for memory in &statistics.memories {
         let name = format!("correlation time of {}", symbol(&memory.quantity));

@@ -1,10 +1,12 @@
 //! The outlines: a film strip, the path, and the modes of the shape over time.
 
-use crate::{Case, Units};
+use crate::Case;
+use motiform_cells::Units;
 use motiform_cells::{CellTrack, Record};
 use motiform_figures::geometry::Point;
 use motiform_figures::palette::{BLUE, INK, VERMILION};
 use motiform_figures::{Curve, Panel, SeriesFigure, TrackPanel, TrackPanels};
+use motiform_inference::Observation;
 use motiform_lab::draw::sheet;
 use motiform_report::{ReportFigure, Section};
 use motiform_statistics::four_digits;
@@ -16,6 +18,8 @@ use motiform_tracks::synthetic::Synthetic;
 const STRIP: usize = 8;
 /// Outlines along a path.
 const ALONG: usize = 14;
+/// Length of the path in a picture of the film strip, in mean radii.
+const TRAIL: f64 = 1.6;
 /// Vertices of an outline that is drawn from modes.
 const VERTICES: usize = 72;
 
@@ -42,7 +46,10 @@ pub(crate) fn section(
         ..TrackPanels::default()
     };
     let figures = vec![
-        ReportFigure::new(sheet(&strip)?, "The outline at eight times, as it was read."),
+        ReportFigure::new(
+            sheet(&strip)?,
+            "The outline at eight times, as it was read, with the path of the centre before, from the ring on.",
+        ),
         ReportFigure::new(
             sheet(&path)?,
             format!(
@@ -90,11 +97,21 @@ fn strip(cell: &CellTrack, drawn: Option<&Cell>, units: &Units) -> Vec<TrackPane
         };
         TrackPanel {
             name: format!("*t* = {} {}", four_digits(frame.t), units.time),
-            path: Vec::new(),
+            path: vec![before(frames, k, cell.radius).iter().map(|p| up(*p, units)).collect()],
             outlines: vec![points],
         }
     };
     chosen(frames.len(), STRIP).map(panel).collect()
+}
+
+/// The path of the centre up to a frame, as far back as it stays within [`TRAIL`] radii.
+fn before(frames: &[Observation], k: usize, radius: f64) -> Vec<Point> {
+    let [x, y] = [frames[k].y[0], frames[k].y[1]];
+    let near = |frame: &&Observation| libm::hypot(frame.y[0] - x, frame.y[1] - y) < TRAIL * radius;
+    let mut path: Vec<Point> =
+        frames[..=k].iter().rev().take_while(near).map(|frame| [frame.y[0], frame.y[1]]).collect();
+    path.reverse();
+    path
 }
 
 /// The observed cell.

@@ -1,12 +1,13 @@
 //! The population: names and numbers over cells.
 
 use crate::numbers::plain;
-use crate::{Case, Units, motion};
+use crate::terms::typeset;
+use crate::{Case, motion};
+use motiform_cells::Units;
 use motiform_cells::{
     CellFit, FittedPopulation, NameShare, Observation, ObservedPopulation, OverCells, fitted_population,
     observed_population, population_statistics,
 };
-use motiform_figures::literal;
 use motiform_report::{Cell, Section, Table};
 use motiform_study::Error;
 
@@ -72,7 +73,7 @@ fn numbers(found: &ObservedPopulation, units: &Units) -> Table {
 }
 
 fn coefficients(found: &FittedPopulation) -> Table {
-    let rows = found.coefficients.iter().map(|one| row(literal(&one.term), &one.over));
+    let rows = found.coefficients.iter().map(|one| row(typeset(&one.term), &one.over));
     table("Coefficients over cells, from the fits with all terms.", rows.collect())
 }
 

@@ -1,8 +1,8 @@
 //! Spectra, rests, legs, rotation and the 0-1 test of a record.
 
-use crate::Units;
 use crate::motion::capital;
 use crate::numbers::plain;
+use motiform_cells::Units;
 use motiform_cells::{Finding, ObservedLegs, ObservedRests, Relatives, SpectralPeak};
 use motiform_figures::palette::CATEGORIES;
 use motiform_figures::{SpectrumCurve, SpectrumFigure};

@@ -13,6 +13,22 @@ const WORDS: &[(&str, &str)] = &[
         "Frames whose outline is an observation of the shape: not clipped at the border, not self-crossing, not repeated, without a jump of the area, star-shaped about the centre. The flags of all others are listed.",
     ),
     (
+        "stretch without gaps",
+        "The longest run of frames that count at the sampling interval. The observed motion, its numbers and its name are those of this part of the record; the rest is not seen by them.",
+    ),
+    (
+        "area step",
+        "The area changes from one frame to the next and stays at the other level: another unit, or another cell under the same name. Such a record is not observed or fitted as one cell.",
+    ),
+    (
+        "position jump",
+        "The outline is at another place, 1.5 radii away or more, for at most three frames, and back within half of that distance. Such frames are left out; where they are more than a fifth, two cells have one name.",
+    ),
+    (
+        "position step",
+        "The centroid moves by more than 1.5 radii and by more than four times the 90 % quantile of all displacements, and stays: another cell under the same name.",
+    ),
+    (
         "mean radius",
         "R_0, the mean over frames of the constant part of R(θ) = R_0 + 2 Re(*z*_2 e^{2iθ}) + 2 Re(*z*_3 e^{3iθ}) + ..., the distance of the outline from the centre in the direction θ. The centre is the point about which there is no first harmonic; it is not the centroid.",
     ),
@@ -153,7 +169,7 @@ const WORDS: &[(&str, &str)] = &[
         "Combinations of the coefficients with independent errors (eigenvectors of their covariance) that the motion fixes, and those that it leaves free.",
     ),
     (
-        "warning",
+        "warnings",
         "What makes the fit doubtful: sampling too coarse for the filter, unbounded coefficients, noise at a bound, coloured residuals, coefficients that depend on the sampling interval.",
     ),
     (

@@ -55,6 +55,19 @@ impl Sample {
         of(&|one| one.name == cell).or_else(|| of(&|one| one.radius > 0.0)).unwrap_or(0.0)
     }
 
+    /// These cells alone, with the notes that are about them or about the files. Borders of images were found with all cells.
+    #[must_use]
+    pub fn only(mut self, names: &[String]) -> Self {
+        let chosen = |name: &str| names.iter().any(|one| one == name);
+        self.tracks.cells.retain(|cell| chosen(&cell.name));
+        self.cells.retain(|cell| chosen(&cell.name));
+        self.tracks.notes.retain(|note| {
+            let about = note.cells();
+            about.is_empty() || about.into_iter().any(chosen)
+        });
+        self
+    }
+
     /// Notes about the files, as sentences.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {

@@ -78,6 +78,15 @@ pub struct CellFit {
     pub bifurcations: Vec<NearBifurcation>,
 }
 
+impl CellFit {
+    /// What makes the fit doubtful, in sentences.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        let of_fit = self.fitted.iter().flat_map(|fitted| fitted.warnings.iter().map(ToString::to_string));
+        of_fit.chain(self.prediction.as_ref().and_then(Prediction::warning)).collect()
+    }
+}
+
 /// Fits cells on `threads` threads, in their order; `None` for those that the watch left out. The result does not depend on the threads.
 ///
 /// # Errors
@@ -112,8 +121,11 @@ pub(crate) fn fit_or_reason(
 
 /// A cell that cannot be fitted, and why.
 fn without_fit(cell: &CellTrack, why: &dyn std::fmt::Display) -> CellFit {
-    let (name, frames) = (cell.name.clone(), cell.frames());
-    CellFit { name, frames, fitted: Err(why.to_string()), prediction: None, bifurcations: Vec::new() }
+    refused(&cell.name, cell.frames(), why.to_string())
+}
+
+fn refused(name: &str, frames: usize, why: String) -> CellFit {
+    CellFit { name: name.to_owned(), frames, fitted: Err(why), prediction: None, bifurcations: Vec::new() }
 }
 
 /// Fits a cell. What the data cannot give is in the result, with reasons.
@@ -122,7 +134,9 @@ fn without_fit(cell: &CellTrack, why: &dyn std::fmt::Display) -> CellFit {
 /// Settings that cannot be used; [`motiform_study::Error::Interrupted`].
 pub fn fit_cell(cell: &CellTrack, options: &FitOptions, watch: &dyn Watch) -> Result<CellFit> {
     let settings = Settings { library: options.library()?, ..Settings::default() };
-    let mut fitted = if cell.frames() < LEAST_FRAMES {
+    let mut fitted = if let Some(reason) = cell.modes.inconsistent() {
+        Err(reason)
+    } else if cell.frames() < LEAST_FRAMES {
         Err(format!("{} frames count, and a fit needs at least {LEAST_FRAMES}", cell.frames()))
     } else {
         fitted(std::slice::from_ref(&cell.track), (&settings, options), &Stages::default(), watch)?
@@ -164,6 +178,9 @@ pub(crate) fn fit_in_stages(
     watch: &dyn Watch,
 ) -> Result<CellFit> {
     let settings = Settings { library: options.library()?, ..Settings::default() };
+    if let Some((cell, reason)) = cells.iter().find_map(|cell| Some((cell, cell.modes.inconsistent()?))) {
+        return Ok(refused(TOGETHER, 0, format!("cell {}: {reason}", cell.name)));
+    }
     let long = cells.iter().filter(|cell| cell.frames() >= LEAST_FRAMES);
     let tracks: Vec<Track> = long.map(|cell| cell.track.clone()).collect();
     let mut fitted = if tracks.len() < 2 {

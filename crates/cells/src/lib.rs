@@ -21,6 +21,7 @@ mod regime;
 mod stages;
 mod summary;
 mod tables;
+mod units;
 mod work;
 
 pub use bifurcations::{NearBifurcation, near_bifurcations};
@@ -47,4 +48,5 @@ pub use recorded::{RecordedCell, RecordedFrame, recorded};
 pub use regime::{FittedRegime, LEAST_SHARE, regime_of};
 pub use summary::{cell_json, fits_json, observations_json};
 pub use tables::{coefficient_columns, mode_columns};
+pub use units::Units;
 pub use work::FitWork;

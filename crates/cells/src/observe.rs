@@ -16,6 +16,7 @@ pub use statistics::{AtLag, Memory, MotionStatistics};
 use crate::CellTrack;
 use measures::Measures;
 use motiform_analysis::regime::Regime;
+use motiform_statistics::{Walk, four_digits, with_error};
 use repeats::Repeats;
 use serde::Serialize;
 
@@ -43,8 +44,8 @@ pub struct Motion {
     pub regime: Option<Regime>,
     /// The evidence, or what is missing.
     pub why: String,
-    /// Share of resamples (blocks of the record) that give the same name.
-    pub confidence: f64,
+    /// Share of resamples (blocks of the record) that give the same name; `None` without a name.
+    pub confidence: Option<f64>,
 }
 
 /// The observed motion of one cell.
@@ -74,12 +75,15 @@ pub fn observe(cell: &CellTrack) -> Observation {
     let bare = |why: String| Observation {
         cell: cell.name.clone(),
         frames,
-        motion: Motion { regime: None, why, confidence: 0.0 },
+        motion: Motion { regime: None, why, confidence: None },
         measures: None,
         repeats: None,
         statistics: None,
         relatives: None,
     };
+    if let Some(reason) = cell.modes.inconsistent() {
+        return bare(reason);
+    }
     if frames < LEAST_FRAMES {
         return bare(format!("{frames} frames count; at least {LEAST_FRAMES} are needed to name a motion"));
     }
@@ -91,20 +95,33 @@ pub fn observe(cell: &CellTrack) -> Observation {
     };
     let repeats = Repeats::of(&measures);
     let (regime, why) = decide(&measures, cell.radius, repeats.as_ref());
-    let same =
-        measures.resampled().filter(|other| decide(other, cell.radius, repeats.as_ref()).0 == regime).count();
-    let confidence = same as f64 / measures::RESAMPLES as f64;
-    let sure = regime.is_none() || confidence >= LEAST_CONFIDENCE;
-    let motion = if sure {
-        Motion { regime, why, confidence }
-    } else {
-        let why = format!("{why}; but only {:.0} % of the resampled records say so", 100.0 * confidence);
-        Motion { regime: None, why, confidence }
+    let motion = match regime {
+        None => Motion { regime, why, confidence: None },
+        Some(_) => resampled(&measures, (regime, why), cell.radius, repeats.as_ref()),
     };
-    let statistics = statistics::of_records(std::iter::once(&measures.series));
+    let mut statistics = statistics::of_records(std::iter::once(&measures.series));
+    if let (Some(Regime::Circular), Some(statistics)) = (motion.regime, &mut statistics) {
+        statistics.walk = Walk::unknown("the heading turns steadily: this is no persistent random walk");
+    }
     let relatives = Some(Relatives::of(&measures));
     let cell = cell.name.clone();
     Observation { cell, frames, motion, measures: Some(measures), repeats, statistics, relatives }
+}
+
+/// The verdict, if enough resampled records agree with it.
+fn resampled(
+    measures: &Measures,
+    (regime, why): (Option<Regime>, String),
+    radius: f64,
+    repeats: Option<&Repeats>,
+) -> Motion {
+    let same = measures.resampled().filter(|other| decide(other, radius, repeats).0 == regime).count();
+    let confidence = same as f64 / measures::RESAMPLES as f64;
+    if confidence >= LEAST_CONFIDENCE {
+        return Motion { regime, why, confidence: Some(confidence) };
+    }
+    let why = format!("{why}; but only {:.0} % of the resampled records say so", 100.0 * confidence);
+    Motion { regime: None, why, confidence: None }
 }
 
 /// Statistics over cells, each with the weight of its length: intervals are those over cells where there are 8 and more. Cells of another sampling interval than most are left
@@ -138,8 +155,8 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
             return (None, why);
         }
         let why = format!(
-            "straight over {:.4} of length: net displacement is {:.1} % of the path, and the turning rate is 0 within its error",
-            m.length,
+            "straight over a path of {}: net displacement is {:.1} % of the path, and the turning rate is 0 within its error",
+            four_digits(m.length),
             100.0 * m.directness
         );
         return (Some(Regime::Straight), why);
@@ -151,8 +168,10 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
             let why = format!("it turns steadily, but {turns:.1} turns were seen; {LEAST_TURNS} are needed");
             return (None, why);
         }
-        let why =
-            format!("{turns:.1} turns at a steady rate of {:.4e} rad per time and a steady speed", m.turning);
+        let why = format!(
+            "{turns:.1} turns at a steady rate, {} rad per unit of time, and a steady speed",
+            with_error(m.turning, m.turning_error)
+        );
         return (Some(Regime::Circular), why);
     }
     match repeats {
@@ -167,8 +186,9 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
 fn rest(m: &Measures) -> (Option<Regime>, String) {
     if m.shape_change < CLEAR {
         let why = format!(
-            "displacements of {:.2e} are within {CLEAR} of their errors, {:.2e}, and so are changes of shape",
-            m.displacement, m.displacement_error
+            "displacements of {} are within {CLEAR} of their errors, {}, and so are changes of shape",
+            four_digits(m.displacement),
+            four_digits(m.displacement_error)
         );
         return (Some(Regime::Motionless), why);
     }
@@ -177,26 +197,22 @@ fn rest(m: &Measures) -> (Option<Regime>, String) {
 
 fn repeating(repeats: &Repeats) -> (Option<Regime>, String) {
     let Repeats { period, periods, likeness, rotation, rotation_error } = repeats;
+    let (period, turn) = (four_digits(*period), with_error(*rotation, *rotation_error));
     if *periods < LEAST_REPEATS {
         let why = format!(
-            "it repeats with a period of {period:.4}, but {periods:.1} periods were seen; {LEAST_REPEATS} are needed"
+            "it repeats with a period of {period}, but {periods:.1} periods were seen; {LEAST_REPEATS} are needed"
         );
         return (None, why);
     }
-    let seen = format!("repeats {periods:.1} times with a period of {period:.4} (likeness {likeness:.2})");
+    let seen = format!("repeats {periods:.1} times with a period of {period} (likeness {likeness:.2})");
     let clear = rotation.abs() > CLEAR * rotation_error && rotation.abs() > NO_TURN;
     if clear {
-        let why = format!("{seen}, turned by {rotation:.3} +- {rotation_error:.3} rad each time");
+        let why = format!("{seen}, turned by {turn} rad each time");
         return (Some(Regime::QuasiPeriodic), why);
     }
     if *rotation_error < 0.5 * NO_TURN && rotation.abs() < NO_TURN {
-        let why = format!("{seen} without net rotation: {rotation:.3} +- {rotation_error:.3} rad each time");
+        let why = format!("{seen} without net rotation: {turn} rad each time");
         return (Some(Regime::Zigzag), why);
     }
-    (
-        None,
-        format!(
-            "{seen}; whether it turns on, {rotation:.3} +- {rotation_error:.3} rad each time, is not clear"
-        ),
-    )
+    (None, format!("{seen}; whether it turns a little each time is not clear: {turn} rad"))
 }

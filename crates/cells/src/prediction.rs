@@ -68,6 +68,18 @@ impl Prediction {
         self.lost as f64 > MOST_LOST * (self.cells + self.lost) as f64
     }
 
+    /// That the cell differs from simulated ones in more than one statistic, as a clause.
+    #[must_use]
+    pub fn warning(&self) -> Option<String> {
+        let differ = self.count(Agreement::Differs);
+        (differ > 1).then(|| {
+            format!(
+                "{differ} of {} statistics of the cell differ from those of simulated cells: the equations, or the noise, do not describe all of its motion",
+                self.comparisons.len()
+            )
+        })
+    }
+
     /// How many statistics have this verdict.
     #[must_use]
     pub fn count(&self, agreement: Agreement) -> usize {

@@ -70,7 +70,10 @@ pub fn cell_json(fit: &CellFit) -> Value {
             object["why"] = json!(why);
             object["identifiable"] = false.into();
         }
-        Ok(fitted) => add(&mut object, fitted),
+        Ok(fitted) => {
+            add(&mut object, fitted);
+            object["warnings"] = json!(fit.warnings());
+        }
     }
     if let Some(prediction) = &fit.prediction {
         object["simulated"] = simulated(prediction);
@@ -130,7 +133,6 @@ fn add(object: &mut Value, fitted: &Fitted) {
             Placement::Refused { reasons } => object[format!("no_{key}")] = json!(reasons),
         }
     }
-    object["warnings"] = json!(fitted.warnings.iter().map(ToString::to_string).collect::<Vec<_>>());
 }
 
 impl Fitted {

@@ -43,7 +43,7 @@ pub struct Combination {
     pub error: f64,
     /// How well it is known.
     pub knowledge: Knowledge,
-    /// In the units of the data and with the paper's names: `kappa2 - 0.3 b1 = 0.52 +- 0.01`.
+    /// In the units of the data and with the paper's names: `kappa2 - 0.3 b1 = 0.52 +- 0.01`; of a free one `kappa2 + 3 b1 (standard error 2.1)`.
     pub text: String,
 }
 
@@ -158,12 +158,12 @@ fn combine(fit: &Fit, own: &[usize], factors: Vec<f64>, error: f64) -> Combinati
         error if error <= FREE => Knowledge::Weak,
         _ => Knowledge::Free,
     };
-    let text = text(fit, own, &factors, (value, error));
+    let text = text(fit, own, &factors, (knowledge != Knowledge::Free).then_some(value), error);
     Combination { factors, value, error, knowledge, text }
 }
 
-/// The combination with the paper's names, divided by its largest factor.
-fn text(fit: &Fit, own: &[usize], factors: &[f64], (value, error): (f64, f64)) -> String {
+/// The combination with the paper's names, divided by its largest factor. Of a free one the error alone.
+fn text(fit: &Fit, own: &[usize], factors: &[f64], value: Option<f64>, error: f64) -> String {
     let in_data: Vec<(String, f64)> = own
         .iter()
         .zip(factors)
@@ -194,7 +194,11 @@ fn text(fit: &Fit, own: &[usize], factors: &[f64], (value, error): (f64, f64)) -
         };
         words += &format!("{sign}{size}{name}");
     }
-    format!("{words} = {} +- {}", digits(value / unit), digits((error / unit).abs()))
+    let error = digits((error / unit).abs());
+    match value {
+        Some(value) => format!("{words} = {} +- {error}", digits(value / unit)),
+        None => format!("{words} (standard error {error})"),
+    }
 }
 
 /// Three digits.

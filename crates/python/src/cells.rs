@@ -172,11 +172,8 @@ fn cell((name, outlines): (String, Outlines<'_>)) -> PyResult<Cell> {
 
 /// Notes that name this cell.
 fn notes(sample: &motiform_cells::Sample, name: &str) -> Vec<String> {
-    let names = |value: &Value| {
-        ["cell", "first", "second"].iter().any(|key| value.get(*key).and_then(Value::as_str) == Some(name))
-    };
-    let of_cell = |note: &&motiform_tracks::Note| serde_json::to_value(note).is_ok_and(|value| names(&value));
-    sample.tracks.notes.iter().filter(of_cell).map(ToString::to_string).collect()
+    let of_cell = sample.tracks.notes.iter().filter(|note| note.cells().contains(&name));
+    of_cell.map(ToString::to_string).collect()
 }
 
 fn text(value: &Value) -> PyResult<String> {

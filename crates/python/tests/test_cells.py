@@ -161,6 +161,17 @@ def test_simulated_written_read_fitted_and_named_again(name: str, regime: str, t
     with pytest.raises(KeyError, match="mean-square displacement"):
         fit.bands("nothing")
     assert fits["short"].simulated.empty
+    with pytest.raises(ValueError, match="no simulated cells"):
+        fits["short"].plot()
+    titles = [ax.get_title() for ax in fit.plot().axes if ax.get_visible()]
+    assert titles and all(name in title for name, title in zip(fit.simulated["statistic"], titles, strict=True))
+    assert sum(share["count"] for share in fits.population["regimes"] if share["name"] == regime) == 1
+    square, memory = observed.plot().axes
+    assert "(s)" in square.get_xlabel() and len(memory.lines) == 4
+    assert np.isnan(observed.confidence) == (not observed.decided)
+    with pytest.raises(ValueError, match="no statistics"):
+        cells["short"].observe().plot()
+    plt.close("all")
     # the fit is a model like all others
     assert fit.model is not None and fit.model.classify().regime == regime
     run = fit.model.simulate(100.0, transient=300.0)
@@ -176,6 +187,9 @@ def test_one_cell_alone_has_the_same_fit() -> None:
     together = cells.fit(draws=4, threads=2, progress=False)
     alone = cells["two"].fit(draws=4, progress=False)
     assert alone.summary == together["two"].summary and alone.coefficients.equals(together["two"].coefficients)
+    assert alone.place == cells["two"].place() != cells["two"].place("fig1")
+    with pytest.raises(ValueError, match="give 'fig4' or 'fig1'"):
+        cells["two"].place("fig6")
 
 
 def test_plots() -> None:

@@ -98,3 +98,33 @@ pub fn four_digits(x: f64) -> String {
         format!("{rounded:e}")
     }
 }
+
+/// Significant digits of an error.
+const ERROR_DIGITS: i32 = 2;
+
+/// `0.123 ± 0.012`: the error to two digits, the value to the same place.
+#[must_use]
+pub fn with_error(value: f64, error: f64) -> String {
+    if !(error > 0.0 && error.is_finite()) || value.abs() > 1e6 * error {
+        return format!("{} ± {}", four_digits(value), four_digits(error));
+    }
+    let exponent = error.abs().log10().floor() as i32;
+    let places = (ERROR_DIGITS - 1 - exponent).max(0) as usize;
+    if exponent < -6 || value.abs().max(error) >= 1e6 {
+        return format!("{value:.3e} ± {error:.1e}");
+    }
+    format!("{value:.places$} ± {error:.places$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_have_the_digits_of_their_errors() {
+        assert_eq!(with_error(0.123_456, 0.0123), "0.123 ± 0.012");
+        assert_eq!(with_error(-123.456, 20.0), "-123 ± 20");
+        assert_eq!(with_error(1.0, 0.0), "1 ± 0");
+        assert_eq!(with_error(2e-9, 1e-9), "2.000e-9 ± 1.0e-9");
+    }
+}

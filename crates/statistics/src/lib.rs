@@ -23,7 +23,7 @@ mod tracks;
 mod turning;
 mod windows;
 
-pub use answer::{Answer, Measured, four_digits};
+pub use answer::{Answer, Measured, four_digits, with_error};
 pub use correlate::lagged_sums;
 pub use correlation::{Autocorrelation, autocorrelation};
 pub use displacement::{DisplacementPoint, MeanSquare, mean_square};

@@ -61,18 +61,18 @@ pub fn furth(square: f64, persistence: f64, t: f64) -> f64 {
 pub fn persistent_walk(curve: &MeanSquare) -> Walk {
     let points = points(curve);
     if points.is_empty() || points.iter().any(|point| point[1] <= 0.0) {
-        return Walk::without("nothing moved within the shortest lag");
+        return Walk::unknown("nothing moved within the shortest lag");
     }
     let [square, persistence] = fit(&points);
     let deviation = deviation(&points, [square, persistence]);
     let errors = (points.iter().map(|p| p[2] * p[2]).sum::<f64>() / points.len() as f64).sqrt();
-    let mut walk = Walk { curve: Some([square, persistence]), deviation, ..Walk::without("") };
+    let mut walk = Walk { curve: Some([square, persistence]), deviation, ..Walk::unknown("") };
     if deviation > MISFIT.max(2.0 * errors) {
         let reason = format!(
             "a persistent random walk does not describe the displacements (they deviate by {:.0} %)",
             100.0 * deviation
         );
-        return Walk { curve: walk.curve, deviation, ..Walk::without(&reason) };
+        return Walk { curve: walk.curve, deviation, ..Walk::unknown(&reason) };
     }
     let without: Vec<[f64; 2]> =
         (0..curve.groups()).map(|group| fit(&left_out(curve, &points, group))).collect();
@@ -89,7 +89,9 @@ pub fn persistent_walk(curve: &MeanSquare) -> Walk {
 }
 
 impl Walk {
-    fn without(reason: &str) -> Self {
+    /// No numbers, for this reason.
+    #[must_use]
+    pub fn unknown(reason: &str) -> Self {
         let unknown = || Answer::unknown(reason);
         Self { persistence: unknown(), speed: unknown(), diffusion: unknown(), curve: None, deviation: 0.0 }
     }

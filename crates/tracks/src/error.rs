@@ -18,6 +18,12 @@ pub enum Error {
     /// No path was given.
     #[error("there is no file to read: give at least one")]
     NoFile,
+    /// A file that would be read twice.
+    #[error("{} is given twice: give every file once", .file.display())]
+    Twice {
+        /// The file.
+        file: PathBuf,
+    },
     /// The content is that of no known format.
     #[error("{}: not a file of outlines that is known here ({found}); the formats are {}", .file.display(), Format::list())]
     UnknownFormat {

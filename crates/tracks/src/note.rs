@@ -43,6 +43,23 @@ pub enum Note {
     SameCell { first: String, second: String, frames: usize },
 }
 
+impl Note {
+    /// The cells that it names; none where it is about a file or a track.
+    #[must_use]
+    pub fn cells(&self) -> Vec<&str> {
+        match self {
+            Self::ImplausibleArea { cell, .. }
+            | Self::UnevenTimes { cell }
+            | Self::SameFrameTwice { cell, .. }
+            | Self::ConflictingFrames { cell, .. }
+            | Self::MissingVertices { cell, .. }
+            | Self::SentinelFrames { cell, .. } => vec![cell],
+            Self::SameCell { first, second, .. } => vec![first, second],
+            _ => Vec::new(),
+        }
+    }
+}
+
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -4,7 +4,7 @@ use crate::after::{filed_twice, implausible, sentinels};
 use crate::formats::{self, Found};
 use crate::scale::{apply, scales};
 use crate::{Cell, Error, Format, Image, Note, Options, Result, Tracks, detect};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Reads files of outlines; several files are one data set.
@@ -20,6 +20,9 @@ use std::path::{Path, PathBuf};
 /// # Checked by  tests/all/: a file of each format, damaged files, random bytes
 pub fn read<P: AsRef<Path>>(paths: &[P], options: &Options) -> Result<Tracks> {
     options.check()?;
+    if let Some(file) = twice(paths) {
+        return Err(Error::Twice { file: file.to_owned() });
+    }
     let mut together: Option<Tracks> = None;
     let mut whence: Vec<Source> = Vec::new();
     for path in paths {
@@ -41,6 +44,13 @@ pub fn read<P: AsRef<Path>>(paths: &[P], options: &Options) -> Result<Tracks> {
     tracks.notes.extend(filed_twice(&tracks.cells));
     once(&mut tracks.notes);
     Ok(tracks)
+}
+
+/// A path that is given more than once.
+fn twice<P: AsRef<Path>>(paths: &[P]) -> Option<&Path> {
+    let known = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let mut seen = BTreeSet::new();
+    paths.iter().map(AsRef::as_ref).find(|path| !seen.insert(known(path)))
 }
 
 /// Where a cell was read from.
@@ -69,8 +79,12 @@ fn file(path: &Path, options: &Options) -> Result<(Tracks, Format)> {
 /// At least one outline must have an area.
 pub(crate) fn sound(cells: &[Cell], path: &Path) -> Result<()> {
     let most = cells.iter().flat_map(|cell| &cell.frames).map(|outline| outline.points.len()).max();
+    let missing: usize = cells.iter().flat_map(|cell| &cell.frames).map(|outline| outline.missing).sum();
     let reason = match most {
         None => "the file holds no vertex".to_owned(),
+        Some(0..3) if missing > 0 => {
+            format!("{missing} vertices are not finite numbers, and no frame has 3 others")
+        }
         Some(0..3) => {
             format!("no frame has more than {} vertices: is this a table of positions?", most.unwrap_or(0))
         }

@@ -184,7 +184,12 @@ fn one_law_for_all_cells_is_on_the_first_page() {
     let files = written(&sample, &cases, Some(&fit), &Maps::default());
     assert_eq!(files.len(), 3);
     let page = std::str::from_utf8(&files[0].1).unwrap();
-    for words in ["One law for all cells", "error between cells", " cell-together.toml", "z1: z1* z2"] {
+    for words in [
+        "One law for all cells",
+        "error between cells",
+        " cell-together.toml",
+        "<i>z</i><sub>1</sub><sup>*</sup> <i>z</i><sub>2</sub>",
+    ] {
         assert!(page.contains(words), "{words}");
     }
 }

@@ -17,7 +17,11 @@ const LEAST: usize = 40;
 /// Numbers of a record (times and lengths in the units of the data).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Measures {
-    /// Duration of the stretch without gaps that they are from.
+    /// Frames of the stretch without gaps that they are from.
+    pub frames: usize,
+    /// Times of its first and last frame.
+    pub span: [f64; 2],
+    /// Its duration.
     pub duration: f64,
     /// Sampling interval times the step over which displacements are taken: headings are clear there.
     pub step: f64,
@@ -93,6 +97,8 @@ impl Measures {
         let size_variance = (scatter(&sizes) * scatter(&sizes) - 0.5 * noise).max(0.0);
         let speeds = sizes.iter().map(|s| s / time).collect();
         Some(Self {
+            frames: frames.len(),
+            span: ends.map(|frame| frame.t),
             duration: (frames.len() - 1) as f64 * dt,
             step: time,
             displacement: (square - noise).max(0.0).sqrt(),

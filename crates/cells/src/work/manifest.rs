@@ -19,6 +19,25 @@ pub(super) struct Input {
     name: String,
     /// SHA-256 of the frames that count, with their errors.
     frames: String,
+    /// Time between frames, and mean radius: they tell another interval or scale from other outlines.
+    #[serde(default)]
+    interval: f64,
+    #[serde(default)]
+    radius: f64,
+}
+
+impl Input {
+    /// What of the frames is another.
+    fn change(&self, asked: &Self) -> String {
+        let differ = |there: f64, asked: f64| (there / asked - 1.0).abs() > 1e-9;
+        if self.interval > 0.0 && differ(self.interval, asked.interval) {
+            return format!("frame interval {} there, {} requested", self.interval, asked.interval);
+        }
+        if self.radius > 0.0 && differ(self.radius, asked.radius) {
+            return format!("mean radius {:.4} there, {:.4} requested", self.radius, asked.radius);
+        }
+        "other frames".to_owned()
+    }
 }
 
 /// The settings, the units and the cells.
@@ -33,8 +52,12 @@ pub(super) struct Manifest {
 
 impl Manifest {
     pub(super) fn new(sample: &Sample, cells: &[&CellTrack], options: &FitOptions) -> Self {
-        let input =
-            |cell: &&CellTrack| Input { name: cell.name.clone(), frames: digest(cell, options.modes) };
+        let input = |cell: &&CellTrack| Input {
+            name: cell.name.clone(),
+            frames: digest(cell, options.modes),
+            interval: cell.track.interval(),
+            radius: cell.radius,
+        };
         Self {
             motiform: VERSION.to_owned(),
             format: FORMAT,
@@ -88,8 +111,11 @@ impl Manifest {
         }
         let names = |of: &Self| of.cells.iter().map(|cell| cell.name.clone()).collect::<Vec<_>>();
         if names(self) == names(asked) {
-            let changed = self.cells.iter().zip(&asked.cells).filter(|(there, asked)| there != asked);
-            found.extend(changed.take(3).map(|(cell, _)| format!("cell {}: other frames", cell.name)));
+            let changed =
+                self.cells.iter().zip(&asked.cells).filter(|(there, asked)| there.frames != asked.frames);
+            found.extend(
+                changed.take(3).map(|(there, asked)| format!("cell {}: {}", there.name, there.change(asked))),
+            );
         } else {
             found.push(format!(
                 "{} cells there, {} requested, not the same ones",

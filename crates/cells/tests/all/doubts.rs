@@ -4,8 +4,9 @@
 
 use super::bodies::{RADIUS, cell_of, preset};
 use motiform_analysis::regime::Regime;
-use motiform_cells::{FitOptions, Prediction, fit_cell};
+use motiform_cells::{CellTrack, FitOptions, Prediction, Sample, fit_cell, fit_together, observe};
 use motiform_inference::{Placement, Symmetry};
+use motiform_tracks::modes::ModeOptions;
 
 /// Weakly handed cells: where the likelihood ratio is between both levels, nothing is said; beyond, they are handed; neither is ever called mirror symmetric with a
 /// ratio that speaks against it.
@@ -53,4 +54,32 @@ fn a_fit_whose_simulated_cells_blow_up_has_no_name() {
     assert_eq!((found.regime, found.best, found.share), (None, Regime::Circular, 1.0));
     assert!(fitted.why().contains("simulated by the fit"), "{}", fitted.why());
     assert!(fitted.places.iter().all(|place| matches!(place, Placement::Refused { .. })));
+}
+
+/// Circling cells give names at once; two of them under one name, or one whose unit changes, give none, and no fit.
+#[test]
+fn records_of_two_cells_or_two_units_are_neither_named_nor_fitted() {
+    let mut study = preset("fig3", 0.001, (0.5, 300));
+    study.set("gamma", 0.1).unwrap();
+    study.set("kappa2", -0.05).unwrap();
+    let sound = cell_of(&study, 0.35, 0.01).tracks;
+    let changed = |change: &dyn Fn(usize, &mut [f64; 2])| {
+        let mut tracks = cell_of(&study, 0.35, 0.01).tracks;
+        for (k, outline) in tracks.cells[0].frames.iter_mut().enumerate() {
+            outline.points.iter_mut().for_each(|point| change(k, point));
+        }
+        Sample::of_tracks(tracks, &ModeOptions::default())
+    };
+    let mixed = changed(&|k, point| point[0] += if k % 2 == 0 { 40.0 } else { 0.0 });
+    let unit = changed(&|k, point| point.iter_mut().for_each(|x| *x *= if k < 150 { 1.0 } else { 0.4 }));
+    assert!(Sample::of_tracks(sound, &ModeOptions::default()).cells[0].modes.inconsistent().is_none());
+    for (sample, why) in [(mixed, "two cells have one name"), (unit, "frame 150: another unit")] {
+        let seen = observe(&sample.cells[0]);
+        assert!(seen.motion.regime.is_none() && seen.motion.why.contains(why), "{:?}", seen.motion);
+        let reason = fit_cell(&sample.cells[0], &FitOptions::default(), &()).unwrap().fitted.unwrap_err();
+        assert!(reason.contains(why), "{reason}");
+        let all: Vec<&CellTrack> = sample.cells.iter().collect();
+        let reason = fit_together(&all, &FitOptions::default(), &()).unwrap().fitted.unwrap_err();
+        assert!(reason.contains("cell one: ") && reason.contains(why), "{reason}");
+    }
 }

@@ -1,26 +1,28 @@
 //! `motiform fit`.
 
 use crate::args::FitCellsOptions;
-use crate::commands::observe::{all_cores, chosen, head, plain_error, quality, read};
+use crate::commands::observe::{all_cores, head, plain_error, quality, read};
 use crate::commands::pages::draw;
 use crate::commands::population::fitted;
 use crate::output::{End, print, warn};
 use crate::progress::Progress;
 use motiform_cells::{
-    Agreement, CellFit, CellTrack, FitOptions, FitWork, Fitted, Observation, Prediction, Sample, fit_cells,
-    fit_together, fits_json, fitted_population, observe,
+    Agreement, CellFit, CellTrack, FitFolder, FitOptions, FitWork, Fitted, Observation, Prediction, Sample,
+    Units, fit_cells, fit_together, fits_json, fitted_population, observe,
 };
 use motiform_inference::{Place, Placement, Symmetry};
 use motiform_lab::scan::Opening;
+use motiform_statistics::{four_digits, with_error};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
     let sample = read(&options.cells)?;
-    let cells = chosen(&sample, &options.cells)?;
+    let cells: Vec<&CellTrack> = sample.cells.iter().collect();
     let settings = settings(options);
-    let open = |out: &PathBuf| FitWork::open(out, &sample, &cells, &settings, opening(options));
-    let mut work = options.cells.out.as_ref().map(open).transpose().map_err(plain_error)?;
+    let open =
+        |out: &PathBuf| FitWork::open(out, &sample, &cells, &settings, opening(options)).map_err(exists);
+    let mut work = options.cells.out.as_ref().map(open).transpose()?;
     if let Some((path, summary)) =
         work.as_ref().and_then(|work| Some((work.path(), work.finished(!options.cells.no_report)?)))
     {
@@ -53,6 +55,19 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
     }
     let named = |fit: &CellFit| fit.fitted.as_ref().is_ok_and(|fitted| regime(fitted) != "undecided");
     Ok(if fits.iter().all(named) { End::Done } else { End::NotAsAsked })
+}
+
+/// A folder of fits that exists can also be continued.
+fn exists(error: motiform_cells::Error) -> anyhow::Error {
+    match error {
+        motiform_cells::Error::Study(motiform_study::Error::Exists { path }) if FitFolder::is_one(&path) => {
+            anyhow::anyhow!(
+                "{} contains fits; --resume continues them, --force replaces them, or choose another --out",
+                path.display()
+            )
+        }
+        other => plain_error(other),
+    }
 }
 
 fn settings(options: &FitCellsOptions) -> FitOptions {
@@ -122,7 +137,7 @@ fn show(
         write!(text, "\n{}", sentences(sample, fit)?)?;
     }
     if fits.len() > 1 {
-        write!(text, "\n{}", fitted(&fitted_population(fits))?)?;
+        write!(text, "\n{}", fitted(&fitted_population(fits), &Units::of(sample))?)?;
     }
     if let Some(path) = folder {
         write!(text, "\nwritten        {}", path.display())?;
@@ -155,12 +170,13 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
     for (place, coefficient) in model.coefficients.iter().enumerate() {
         let part = if coefficient.imaginary { "imaginary part of " } else { "" };
         let estimate = &coefficient.estimate;
-        write!(text, "  {part}{:<16} {:>12.5} +- {:.5}", coefficient.name, estimate.value, estimate.error)?;
+        let value = with_error(estimate.value, estimate.error);
+        write!(text, "  {:<20} {value:<22}", format!("{part}{}", coefficient.name))?;
         if let Some(error) = fitted.between.as_ref().and_then(|between| between.errors.get(place)) {
-            write!(text, " ({error:.5} between cells)")?;
+            write!(text, " ({} between cells)", four_digits(*error))?;
         }
         if let Some(weak) = fitted.checks.weak(place) {
-            write!(text, "   weak form {weak:.5}")?;
+            write!(text, " weak form {}", four_digits(weak))?;
         }
         text.push('\n');
     }
@@ -169,7 +185,13 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
         writeln!(text, "               {ties} sets of terms are as good")?;
     }
     let noise = &model.noise;
-    writeln!(text, "noise          velocity {:.4e}, shape {:.4e}", noise.eta_v.value, noise.eta_shape.value)?;
+    let [velocity, shape] =
+        [&noise.eta_v, &noise.eta_shape].map(|estimate| with_error(estimate.value, estimate.error));
+    let Units { length, time, .. } = Units::of(sample);
+    writeln!(
+        text,
+        "noise          velocity {velocity} {length}/{time}^1.5, shape {shape} {length}/{time}^0.5"
+    )?;
     if !fitted.is_identifiable() {
         for equation in &fitted.known_of_all.equations {
             writeln!(text, "equation of z{}  {} (of all terms)", equation.equation + 1, equation.text)?;
@@ -184,7 +206,7 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
     for near in &fit.bifurcations {
         writeln!(text, "bifurcation    {}", near.sentence())?;
     }
-    for warning in &fitted.warnings {
+    for warning in fit.warnings() {
         writeln!(text, "warning        {warning}")?;
     }
     Ok(text)

@@ -5,20 +5,23 @@ use crate::commands::pages::draw;
 use crate::commands::population::observed;
 use crate::output::{End, print, warn};
 use motiform_cells::{
-    CellTrack, FitFolder, Observation, Sample, observations_json, observe, observed_population,
+    CellTrack, FitFolder, Observation, Sample, Units, observations_json, observe, observed_population,
     write_observations,
 };
 use motiform_files::Staging;
-use motiform_statistics::{Answer, four_digits};
+use motiform_statistics::{Answer, four_digits, with_error};
 use motiform_study::Error;
 use motiform_tracks::modes::ModeOptions;
-use motiform_tracks::{Columns, Options};
+use motiform_tracks::{Columns, Note, Options};
 use std::fmt::Write;
+
+/// Notes of one kind that are printed.
+const MOST_NOTES: usize = 4;
 
 pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
     let staging = staging(&options.cells)?;
     let sample = read(&options.cells)?;
-    let cells = chosen(&sample, &options.cells)?;
+    let cells: Vec<&CellTrack> = sample.cells.iter().collect();
     let found: Vec<Observation> = cells.iter().map(|cell| observe(cell)).collect();
     if let (Some(staging), false) = (&staging, options.cells.no_report) {
         let write = |name: &str, bytes: &[u8]| staging.write(name, bytes);
@@ -32,13 +35,13 @@ pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
     print(&match json {
         Some(json) => json,
         None => {
-            let mut text = head(&sample);
+            let (mut text, units) = (head(&sample), Units::of(&sample));
             for one in &found {
                 let cell = sample.cells.iter().find(|cell| cell.name == one.cell);
-                write!(text, "\n{}", sentences(one, cell)?)?;
+                write!(text, "\n{}", sentences(one, cell, &units)?)?;
             }
             if found.len() > 1 {
-                write!(text, "\n{}", observed(&observed_population(&found))?)?;
+                write!(text, "\n{}", observed(&observed_population(&found), &units)?)?;
             }
             if let Some(path) = written {
                 write!(text, "\nwritten        {}", path.display())?;
@@ -50,42 +53,41 @@ pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
     Ok(if undecided { End::NotAsAsked } else { End::Done })
 }
 
-fn sentences(found: &Observation, cell: Option<&CellTrack>) -> anyhow::Result<String> {
+fn sentences(found: &Observation, cell: Option<&CellTrack>, units: &Units) -> anyhow::Result<String> {
     let name = found.motion.regime.map_or("undecided", |regime| regime.name());
     let mut text = format!("cell {:<9} {name}\nbecause        {}\n", found.cell, found.motion.why);
-    if found.motion.regime.is_some() {
-        writeln!(text, "confidence     {:.0} % of resampled records", 100.0 * found.motion.confidence)?;
+    if let Some(confidence) = found.motion.confidence {
+        writeln!(text, "confidence     {:.0} % of resampled records", 100.0 * confidence)?;
     }
     text += &quality(cell, found.frames)?;
     if let Some(measures) = &found.measures {
-        writeln!(
-            text,
-            "speed          {:.4e}, scatter {:.0} %",
-            measures.speed,
-            100.0 * measures.speed_scatter
-        )?;
-        writeln!(
-            text,
-            "turning rate   {:.4e} +- {:.1e} rad per time",
-            measures.turning, measures.turning_error
-        )?;
+        if measures.frames < found.frames {
+            let [from, to] = measures.span.map(four_digits);
+            let stretch = format!("{} frames, t = {from} to {to} {}", measures.frames, units.time);
+            writeln!(text, "seen           the longest stretch without gaps: {stretch}")?;
+        }
+        let (speed, scatter) = (four_digits(measures.speed), 100.0 * measures.speed_scatter);
+        writeln!(text, "speed          {speed} {}, scatter {scatter:.0} %", units.speed())?;
+        let turning = with_error(measures.turning, measures.turning_error);
+        writeln!(text, "turning rate   {turning} rad/{}", units.time)?;
     }
     if let Some(statistics) = &found.statistics {
-        writeln!(text, "persistence    {}", answer(&statistics.walk.persistence))?;
-        writeln!(text, "diffusion      {}", answer(&statistics.walk.diffusion))?;
+        writeln!(text, "persistence    {}", answer(&statistics.walk.persistence, &units.time))?;
+        writeln!(text, "diffusion      {}", answer(&statistics.walk.diffusion, &units.diffusion()))?;
     }
     Ok(text)
 }
 
 /// A value with its interval, or why there is none.
-fn answer(found: &Answer) -> String {
+fn answer(found: &Answer, unit: &str) -> String {
     match found {
         Answer::Unknown { reason } => reason.clone(),
         Answer::Known(found) => match found.interval {
             Some([low, high]) => {
-                format!("{} ({} to {})", four_digits(found.value), four_digits(low), four_digits(high))
+                let [value, low, high] = [found.value, low, high].map(four_digits);
+                format!("{value} ({low} to {high}) {unit}")
             }
-            None => four_digits(found.value),
+            None => format!("{} {unit}", four_digits(found.value)),
         },
     }
 }
@@ -127,22 +129,36 @@ pub(crate) fn read(options: &CellsOptions) -> anyhow::Result<Sample> {
         ..Options::default()
     };
     let sample = Sample::read(&options.files, &settings, &ModeOptions::default()).map_err(plain_error)?;
-    sample.notes().iter().for_each(|note| warn(note));
+    let sample = chosen(sample, options)?;
+    notes(&sample);
     Ok(sample)
 }
 
+/// The first notes of each kind as warnings, and how many more there are.
+fn notes(sample: &Sample) {
+    let kind = |note: &Note| std::mem::discriminant(note);
+    let notes = &sample.tracks.notes;
+    let mut shown: Vec<&Note> = Vec::new();
+    for note in notes {
+        let alike = notes.iter().filter(|other| kind(other) == kind(note)).count();
+        let place = shown.iter().filter(|other| kind(other) == kind(note)).count();
+        match place {
+            0..MOST_NOTES => warn(&note.to_string()),
+            MOST_NOTES => warn(&format!("and {} more of this kind; --json lists all", alike - MOST_NOTES)),
+            _ => {}
+        }
+        shown.push(note);
+    }
+}
+
 /// The cells that are asked for.
-pub(crate) fn chosen<'s>(sample: &'s Sample, options: &CellsOptions) -> anyhow::Result<Vec<&'s CellTrack>> {
+fn chosen(sample: Sample, options: &CellsOptions) -> anyhow::Result<Sample> {
     if let Some(name) = options.cell.iter().find(|name| !sample.cells.iter().any(|cell| cell.name == **name))
     {
         let known: Vec<&str> = sample.cells.iter().take(12).map(|cell| cell.name.as_str()).collect();
         anyhow::bail!("--cell {name}: there is no such cell; the cells are {}", known.join(", "));
     }
-    Ok(sample
-        .cells
-        .iter()
-        .filter(|cell| options.cell.is_empty() || options.cell.contains(&cell.name))
-        .collect())
+    Ok(if options.cell.is_empty() { sample } else { sample.only(&options.cell) })
 }
 
 pub(crate) fn staging(options: &CellsOptions) -> Result<Option<Staging>, Error> {

@@ -1,27 +1,34 @@
 //! Populations of cells, as text.
 
-use motiform_cells::{FittedPopulation, NameShare, ObservedPopulation, OverCells};
+use motiform_cells::{FittedPopulation, NameShare, ObservedPopulation, OverCells, Units};
+use motiform_statistics::four_digits;
 use std::fmt::{Result, Write};
 
 /// Shares of names and numbers of observed cells.
-pub(crate) fn observed(population: &ObservedPopulation) -> std::result::Result<String, std::fmt::Error> {
+pub(crate) fn observed(
+    population: &ObservedPopulation,
+    units: &Units,
+) -> std::result::Result<String, std::fmt::Error> {
     let mut text = format!("population     {} cells\n", population.cells);
     shares(&mut text, &population.regimes)?;
     let numbers = [
-        ("speed", &population.speed),
-        ("turning rate", &population.turning),
-        ("directness", &population.directness),
+        ("speed", &population.speed, units.speed()),
+        ("turning rate", &population.turning, format!("rad/{}", units.time)),
+        ("directness", &population.directness, String::new()),
     ];
-    for (name, number) in numbers {
+    for (name, number, unit) in numbers {
         if let Some(over) = number {
-            line(&mut text, name, over)?;
+            line(&mut text, name, over, &unit)?;
         }
     }
     Ok(text)
 }
 
 /// Shares of names and coefficients of fitted cells.
-pub(crate) fn fitted(population: &FittedPopulation) -> std::result::Result<String, std::fmt::Error> {
+pub(crate) fn fitted(
+    population: &FittedPopulation,
+    units: &Units,
+) -> std::result::Result<String, std::fmt::Error> {
     let mut text = format!("population     {} cells\n", population.cells);
     shares(&mut text, &population.regimes)?;
     if population.fitted == 0 {
@@ -30,11 +37,12 @@ pub(crate) fn fitted(population: &FittedPopulation) -> std::result::Result<Strin
     }
     writeln!(text, "               coefficients of fits with all terms, over {} cells:", population.fitted)?;
     for coefficient in &population.coefficients {
-        line(&mut text, &coefficient.term, &coefficient.over)?;
+        line(&mut text, &coefficient.term, &coefficient.over, "")?;
     }
     if let Some([velocity, shape]) = &population.noise {
-        line(&mut text, "noise, velocity", velocity)?;
-        line(&mut text, "noise, shape", shape)?;
+        let Units { length, time, .. } = units;
+        line(&mut text, "noise, velocity", velocity, &format!("{length}/{time}^1.5"))?;
+        line(&mut text, "noise, shape", shape, &format!("{length}/{time}^0.5"))?;
     }
     Ok(text)
 }
@@ -47,15 +55,11 @@ fn shares(text: &mut String, names: &[NameShare]) -> Result {
     Ok(())
 }
 
-fn line(text: &mut String, name: &str, over: &OverCells) -> Result {
-    write!(text, "  {name:<16} mean {:.4e}", over.mean)?;
-    if let Some([low, high]) = over.mean_interval {
-        write!(text, " ({low:.4e} to {high:.4e})")?;
-    }
-    write!(text, ", median {:.4e}", over.median)?;
-    if let Some([low, high]) = over.median_interval {
-        write!(text, " ({low:.4e} to {high:.4e})")?;
-    }
-    text.push('\n');
-    Ok(())
+fn line(text: &mut String, name: &str, over: &OverCells, unit: &str) -> Result {
+    let number = |value: f64, interval: Option<[f64; 2]>| match interval.map(|ends| ends.map(four_digits)) {
+        Some([low, high]) => format!("{} ({low} to {high})", four_digits(value)),
+        None => four_digits(value),
+    };
+    let (mean, median) = (number(over.mean, over.mean_interval), number(over.median, over.median_interval));
+    writeln!(text, "{}", format!("  {name:<16} mean {mean}, median {median} {unit}").trim_end())
 }

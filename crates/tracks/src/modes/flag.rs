@@ -41,6 +41,12 @@ pub enum Flag {
     Repeated { of: i64 },
     /// The area differs from the median of the frames around it by this factor.
     AreaJump { factor: f64 },
+    /// The area changes by this factor and stays: another unit, or another cell.
+    AreaStep { factor: f64 },
+    /// The outline is at another place than those before and after it, this far away.
+    PositionJump { distance: f64 },
+    /// The outline is at another place than all before it, this far away, and stays there: another cell.
+    PositionStep { distance: f64 },
     /// A straight run of vertices at the border of the images: part of the cell is not seen.
     Clipped { side: Side, at: f64, run: f64 },
     /// Frames are missing before this one.
@@ -61,6 +67,9 @@ impl Flag {
             Self::NoFit => "no fit",
             Self::Repeated { .. } => "repeated frame",
             Self::AreaJump { .. } => "area jump",
+            Self::AreaStep { .. } => "area step",
+            Self::PositionJump { .. } => "position jump",
+            Self::PositionStep { .. } => "position step",
             Self::Clipped { .. } => "clipped",
             Self::Gap { .. } => "gap",
         }
@@ -71,7 +80,12 @@ impl Flag {
     pub fn leaves_out(&self) -> bool {
         !matches!(
             self,
-            Self::NotStarShaped { .. } | Self::NoFit | Self::CrossingUnknown { .. } | Self::Gap { .. }
+            Self::NotStarShaped { .. }
+                | Self::NoFit
+                | Self::CrossingUnknown { .. }
+                | Self::Gap { .. }
+                | Self::AreaStep { .. }
+                | Self::PositionStep { .. }
         )
     }
 }
@@ -95,8 +109,15 @@ impl fmt::Display for Flag {
             }
             Self::Repeated { of } => write!(f, "{name}: the outline of frame {of}"),
             Self::AreaJump { factor } => write!(f, "{name}: {factor:.2} times the frames around it"),
+            Self::AreaStep { factor } => {
+                write!(f, "{name}: {factor:.2} times the frames before, from here on")
+            }
+            Self::PositionJump { distance } => write!(f, "{name}: {distance:.3} from the frames around it"),
+            Self::PositionStep { distance } => write!(f, "{name}: {distance:.3} from the frame before"),
             Self::Clipped { side, at, run } => write!(f, "{name}: {run:.3} along {side:?} = {at:.3}"),
-            Self::Gap { missing } => write!(f, "{name}: {missing} frames missing before it"),
+            Self::Gap { missing } => {
+                write!(f, "{name}: {missing} frame{} missing before it", if *missing == 1 { "" } else { "s" })
+            }
         }
     }
 }

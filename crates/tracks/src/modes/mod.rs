@@ -5,6 +5,7 @@
 //! the radius has no first harmonic; the centroid of the area is another point.
 
 mod border;
+mod breaks;
 mod crossing;
 mod fit;
 mod flag;

@@ -1,5 +1,6 @@
 //! What is wrong with a frame beside the others of its cell.
 
+use super::breaks::areas;
 use super::flag::Flag;
 use super::frame::FrameModes;
 use crate::after::digest;
@@ -44,27 +45,34 @@ pub(super) fn gaps(modes: &mut [FrameModes]) {
 }
 
 /// Areas that differ from the median of the 3 frames on each side by more than the threshold, and by more than 6 robust standard deviations of all
-/// such differences (1.4826 times their median size). Logarithms: half and double are as far.
+/// such differences (1.4826 times their median size). Logarithms: half and double are as far. Areas that step to another level and stay there are
+/// flagged as steps; the frames on both sides of a step are not compared.
 pub(super) fn jumps(modes: &mut [FrameModes], threshold: f64) {
     let logs: Vec<Option<f64>> =
         modes.iter().map(|frame| (frame.area > 0.0).then(|| libm::log(frame.area))).collect();
-    let deviations: Vec<Option<f64>> = (0..logs.len())
-        .map(|k| {
-            let around = k.saturating_sub(AROUND)..(k + AROUND + 1).min(logs.len());
-            let others: Vec<f64> = around.filter(|&j| j != k).filter_map(|j| logs[j]).collect();
-            Some(logs[k]? - median(others)?)
-        })
-        .collect();
-    let scatter = median(deviations.iter().flatten().map(|d| d.abs()).collect()).unwrap_or(0.0);
+    let scatter = median(deviations(&logs, &[]).iter().flatten().map(|d| d.abs()).collect()).unwrap_or(0.0);
     let limit = threshold.max(SCATTER * 1.4826 * scatter);
-    for (frame, deviation) in modes.iter_mut().zip(deviations) {
+    let steps = areas(modes, &logs, limit);
+    for (frame, deviation) in modes.iter_mut().zip(deviations(&logs, &steps)) {
         if let Some(deviation) = deviation.filter(|deviation| deviation.abs() > limit) {
             frame.flags.push(Flag::AreaJump { factor: libm::exp(deviation) });
         }
     }
 }
 
-fn median(mut values: Vec<f64>) -> Option<f64> {
+/// Differences from the median of the frames around, which lie on the same side of every step.
+fn deviations(logs: &[Option<f64>], steps: &[usize]) -> Vec<Option<f64>> {
+    let level = |k: usize| steps.iter().filter(|&&step| step <= k).count();
+    (0..logs.len())
+        .map(|k| {
+            let around = k.saturating_sub(AROUND)..(k + AROUND + 1).min(logs.len());
+            let others = around.filter(|&j| j != k && level(j) == level(k)).filter_map(|j| logs[j]).collect();
+            Some(logs[k]? - median(others)?)
+        })
+        .collect()
+}
+
+pub(super) fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     let (low, high) = (values.get(values.len().saturating_sub(1) / 2)?, values.get(values.len() / 2)?);
     Some(0.5 * (low + high))

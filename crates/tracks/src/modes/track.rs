@@ -1,6 +1,7 @@
 //! The modes of all frames of all cells.
 
 use super::border::Borders;
+use super::breaks::{displacements, reason};
 use super::flag::Flag;
 use super::frame::{FrameModes, ModeOptions, outline_modes};
 use super::quality::{gaps, jumps, repeated};
@@ -22,6 +23,12 @@ impl CellModes {
     /// Frames that are no observations of the shape, with the reasons.
     pub fn left_out(&self) -> impl Iterator<Item = &FrameModes> {
         self.frames.iter().filter(|frame| frame.is_left_out())
+    }
+
+    /// Why the record is not that of one cell in one unit: two cells under one name, or a unit that changes. `None` for a sound record.
+    #[must_use]
+    pub fn inconsistent(&self) -> Option<String> {
+        reason(&self.frames)
     }
 
     /// Frames with modes of the radius that count.
@@ -51,6 +58,7 @@ fn cell_modes(cell: &Cell, borders: &Borders, options: &ModeOptions) -> CellMode
     repeated(cell, &mut frames);
     gaps(&mut frames);
     jumps(&mut frames, options.jump);
+    displacements(&mut frames);
     let mut modes = CellModes { name: cell.name.clone(), frames, sigma: None };
     let squares: Vec<f64> =
         modes.used().filter_map(|frame| frame.radius.as_ref()).map(|fit| fit.sigma * fit.sigma).collect();

@@ -55,6 +55,68 @@ fn what_happens_in_time() {
     assert_eq!(flags(&tracks(frames)), [(10, "area jump"), (20, "repeated frame"), (33, "gap")]);
 }
 
+fn shifted(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    points.iter().map(|[x, y]| [x + 60.0, y - 45.0]).collect()
+}
+
+fn reason(frames: Vec<(i64, Vec<[f64; 2]>)>) -> Option<String> {
+    modes(&tracks(frames), &ModeOptions::default())[0].inconsistent()
+}
+
+/// A frame of another cell is left out; the record remains that of one cell.
+#[test]
+fn a_frame_elsewhere_is_left_out() {
+    let mut frames = wandering(40);
+    frames[10].1 = shifted(&frames[10].1);
+    for frame in &mut frames[20..22] {
+        frame.1 = shifted(&frame.1);
+    }
+    assert_eq!(
+        flags(&tracks(frames.clone())),
+        [(10, "position jump"), (20, "position jump"), (21, "position jump")]
+    );
+    assert_eq!(reason(frames), None);
+}
+
+/// Two cells under one name: in turns, in an irregular order, and one after the other.
+#[test]
+fn two_cells_under_one_name_are_noticed() {
+    let mixed = |other: &dyn Fn(i64) -> bool| {
+        let place = |(k, points): (i64, Vec<[f64; 2]>)| (k, if other(k) { shifted(&points) } else { points });
+        wandering(60).into_iter().map(place).collect::<Vec<_>>()
+    };
+    for order in [&(|k: i64| k % 2 == 1) as &dyn Fn(i64) -> bool, &|k: i64| (k * k + k / 3) % 5_i64 < 2] {
+        assert!(reason(mixed(order)).is_some_and(|why| why.contains("two cells have one name")));
+    }
+    let later = mixed(&|k| k >= 25);
+    assert_eq!(flags(&tracks(later.clone())), [(25, "position step")]);
+    assert!(reason(later).is_some_and(|why| why.contains("from frame 25 on")));
+}
+
+/// Pixels up to frame 24, micrometres from there on: no frame of either part is an outlier.
+#[test]
+fn a_unit_that_changes_is_noticed() {
+    let mut frames = wandering(60);
+    for (_, points) in &mut frames[25..] {
+        points.iter_mut().flatten().for_each(|x| *x *= 0.65);
+    }
+    let found = flags(&tracks(frames.clone()));
+    assert_eq!(found.first(), Some(&(25, "area step")));
+    assert!(found.iter().all(|(_, name)| *name != "area jump"), "{found:?}");
+    assert!(reason(frames).is_some_and(|why| why.contains("frame 25: another unit")));
+}
+
+/// A cell that circles about a point outside of it, sampled a few times in a turn, is no other cell.
+#[test]
+fn coarse_sampling_is_no_jump() {
+    let frame = |k: i64| {
+        let angle = 0.8 * k as f64;
+        let shape = Synthetic { centre: [40.0 * angle.cos(), 40.0 * angle.sin()], ..cell(k) };
+        (k, shape.vertices(50, 0.0))
+    };
+    assert_eq!(reason((0..60).map(frame).collect()), None);
+}
+
 #[test]
 fn every_second_frame_is_no_gap() {
     let frames = wandering(20).into_iter().map(|(k, points)| (2 * k, points)).collect();

@@ -5,11 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import pandas as pd
 
 from ..equations import Amplitudes
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_Result = TypeVar("_Result")
 
 
 @dataclass(frozen=True)
@@ -45,13 +50,15 @@ class Observation:
     why: str
     """The evidence, or what is missing."""
     confidence: float
-    """Share of resampled records that give the same motion."""
+    """Share of resampled records that give the same motion; NaN without a name."""
     measures: Mapping[str, Any] | None
     """The numbers behind it; ``None`` for records that are too short."""
     repeats: Mapping[str, Any] | None
     """Period, likeness and rotation of a motion that repeats; ``None`` where nothing repeats."""
     statistics: Mapping[str, Any] | None
     """Persistence time, diffusion coefficient and correlation times as ``motiform observe --json`` prints them; ``None`` for records that are too short."""
+    units: tuple[str, str]
+    """Units of length and time."""
 
     @property
     def displacement(self) -> pd.DataFrame:
@@ -68,6 +75,23 @@ class Observation:
     def decided(self) -> bool:
         """Whether the motion has a name."""
         return self.regime != "undecided"
+
+    def plot(self) -> Figure:
+        """Mean-square displacement and autocorrelations, with 95 % intervals. ``ValueError`` for records that are too short."""
+        from .curves import plot_observation
+
+        return plot_observation(self)
+
+
+class Found(dict[str, _Result]):
+    """Results by the names of the cells, with those over all cells."""
+
+    population: Mapping[str, Any]
+    """Shares of names and numbers over cells, as ``--json`` prints them; empty for fewer than two cells."""
+
+    def __init__(self, results: Mapping[str, _Result], population: Mapping[str, Any]) -> None:
+        super().__init__(results)
+        self.population = population
 
 
 @dataclass(frozen=True)
@@ -157,6 +181,8 @@ class CellFit:
     """The equations with the process noise of the fit, to be simulated."""
     summary: Mapping[str, Any]
     """Everything, as ``motiform fit --json`` prints it."""
+    units: tuple[str, str]
+    """Units of length and time."""
 
     @property
     def decided(self) -> bool:
@@ -173,6 +199,12 @@ class CellFit:
         known = ", ".join(one["statistic"] for one in found) or "none: there are no simulated cells"
         raise KeyError(f"{statistic!r}; the statistics are {known}")
 
+    def plot(self) -> Figure:
+        """Each statistic of the cell among those of the simulated cells, with the verdict. ``ValueError`` without simulated cells."""
+        from .curves import plot_fit
+
+        return plot_fit(self)
+
     def __repr__(self) -> str:
         return f"<fit of cell {self.cell}: {self.regime}, {len(self.coefficients)} coefficients, {self.frames} frames>"
 
@@ -185,13 +217,15 @@ def _curve(points: Sequence[Mapping[str, float]]) -> pd.DataFrame:
     return pd.DataFrame([[point.get(name, math.nan) for name in columns] for point in points], columns=list(columns))
 
 
-def observation_of(raw: Mapping[str, Any]) -> Observation:
+def observation_of(raw: Mapping[str, Any], units: tuple[str, str]) -> Observation:
     """The observation of the native module's JSON."""
-    names = ("cell", "frames", "regime", "why", "confidence", "measures", "repeats", "statistics")
-    return Observation(*(raw[name] for name in names))
+    names = ("cell", "frames", "regime", "why", "measures", "repeats", "statistics")
+    return Observation(**{name: raw[name] for name in names}, confidence=_number(raw["confidence"]), units=units)
 
 
-def fit_of(raw: Mapping[str, Any], coefficients: pd.DataFrame, model: Amplitudes | None) -> CellFit:
+def fit_of(
+    raw: Mapping[str, Any], coefficients: pd.DataFrame, model: Amplitudes | None, units: tuple[str, str]
+) -> CellFit:
     """The fit of the native module's JSON, with the rows of this cell and its model."""
     noise = raw.get("noise")
     return CellFit(
@@ -219,6 +253,7 @@ def fit_of(raw: Mapping[str, Any], coefficients: pd.DataFrame, model: Amplitudes
         model=None if model is None else model.replace(noise=0.0, noise_velocity=0.0),
         noisy_model=model,
         summary=raw,
+        units=units,
     )
 
 

@@ -18,7 +18,7 @@ from ..equations import Amplitudes
 from ..models import _raised
 from ..progress import Bar, Progress
 from ..trajectory import Floats
-from .results import CellFit, Observation, fit_of, observation_of
+from .results import CellFit, Found, Observation, Place, fit_of, observation_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -46,6 +46,7 @@ class Cells(Sequence["Cell"]):
         """Whether y points down, as in images; ``None`` where nobody says so."""
         self.notes: tuple[str, ...] = (*notes, *(note for own in of_cells.values() for note in own), *raw["notes"])
         """What was noticed about the data."""
+        self._units = (self.length_unit, self.time_unit)
         self._cells = [Cell(self, entry, of_cells.get(entry["name"], ())) for entry in raw["cells"]]
         self._table: pd.DataFrame | None = None
 
@@ -59,8 +60,8 @@ class Cells(Sequence["Cell"]):
         """The modes of all cells, a row per frame, with the columns of ``modes.parquet``."""
         return self._modes().copy()
 
-    def observe(self, *, progress: Progress = None) -> dict[str, Observation]:
-        """How each cell moves, from its samples alone, by name. Ctrl-C raises ``Interrupted`` with those that are done."""
+    def observe(self, *, progress: Progress = None) -> Found[Observation]:
+        """How each cell moves, from its samples alone, by name; ``population`` has shares and numbers over cells. Ctrl-C raises ``Interrupted`` with those that are done."""
         return self._observe(self.names, progress)
 
     def fit(
@@ -73,8 +74,8 @@ class Cells(Sequence["Cell"]):
         simulations: int = 199,
         threads: int | None = None,
         progress: Progress = None,
-    ) -> dict[str, CellFit]:
-        """The equations of each cell, by name. The result does not depend on `threads`.
+    ) -> Found[CellFit]:
+        """The equations of each cell, by name; ``population`` has shares and coefficients over cells. The result does not depend on `threads`.
 
         Parameters
         ----------
@@ -94,24 +95,27 @@ class Cells(Sequence["Cell"]):
         settings = (order, modes, draws, seed, simulations, threads or os.cpu_count() or 1)
         return self._fit(self.names, settings, progress)
 
-    def _observe(self, names: list[str], progress: Progress) -> dict[str, Observation]:
+    def _observe(self, names: list[str], progress: Progress) -> Found[Observation]:
         with Bar(progress, len(names), "cells") as bar:
             text, raised = self._native.observe(names, bar.callable())
-        found = {raw["cell"]: observation_of(raw) for raw in json.loads(text)["cells"]}
+        raw = json.loads(text)
+        cells = {one["cell"]: observation_of(one, self._units) for one in raw["cells"]}
+        found = Found(cells, raw.get("population", {}))
         if raised is not None:
             raise _raised(raised, found)
         return found
 
     def _fit(
         self, names: list[str], settings: tuple[int, int, int, int, int, int], progress: Progress
-    ) -> dict[str, CellFit]:
+    ) -> Found[CellFit]:
         with Bar(progress, len(names), "cells") as bar:
             text, table, models, raised = self._native.fit(names, settings, bar.callable())
         rows, bodies = _frame(table), {name: Amplitudes._of(study) for name, study in models}
-        found = {}
-        for raw in json.loads(text)["cells"]:
-            own = rows[rows["cell"] == raw["cell"]].drop(columns="cell").reset_index(drop=True)
-            found[raw["cell"]] = fit_of(raw, own, bodies.get(raw["cell"]))
+        raw = json.loads(text)
+        found: Found[CellFit] = Found({}, raw.get("population", {}))
+        for one in raw["cells"]:
+            own = rows[rows["cell"] == one["cell"]].drop(columns="cell").reset_index(drop=True)
+            found[one["cell"]] = fit_of(one, own, bodies.get(one["cell"]), self._units)
         if raised is not None:
             raise _raised(raised, found)
         return found
@@ -166,6 +170,7 @@ class Cell:
         """Numbers of the frames that do not count."""
         self.notes: tuple[str, ...] = (*notes, *raw["notes"])
         """What was noticed about this cell."""
+        self._last: CellFit | None = None
 
     @property
     def modes(self) -> xr.Dataset:
@@ -204,7 +209,20 @@ class Cell:
         progress: Progress = None,
     ) -> CellFit:
         """The equations that describe it; :meth:`Cells.fit` explains the settings."""
-        return self._cells._fit([self.name], (order, modes, draws, seed, simulations, 1), progress)[self.name]
+        settings = (order, modes, draws, seed, simulations, 1)
+        found = self._cells._fit([self.name], settings, progress)[self.name]
+        self._last = found
+        return found
+
+    def place(self, plane: str = "fig4") -> Place:
+        """Where it lies on the plane of Fig. 4 (``"fig4"``) or of Fig. 1 (``"fig1"``), or why it has no place there.
+
+        That of the last ``fit()``; without one, of a fit with its default settings.
+        """
+        if plane not in ("fig4", "fig1"):
+            raise ValueError(f"plane = {plane!r}: give 'fig4' or 'fig1'")
+        found = self._last or self.fit()
+        return found.place if plane == "fig4" else found.place_reduced
 
     def plot(self, outlines: int = 12) -> Figure:
         """A film strip of `outlines` outlines at equal times, and the path below, both coloured by time."""
