@@ -167,11 +167,13 @@ fn an_interruption_keeps_the_cells_that_are_done() {
         ("--order 4", "order: 3 there, 4 requested"),
         ("--seed 9", "seed: 1 there, 9 requested"),
         ("--cell 3", "200 cells there, 1 requested"),
-        ("--interval 2 --time-unit frame", "frame interval 1 there, 2 requested"),
     ] {
         let refused = folder.run(&format!("{words} --resume {change}")).expect(2);
         assert!(refused.stderr.contains(reason), "{}", refused.stderr);
     }
+    let refused =
+        folder.run("fit cells.csv --interval 2 --pixel-size 1 --draws 3 --out parts --resume").expect(2);
+    assert!(refused.stderr.contains("frame interval 1 there, 2 requested"), "{}", refused.stderr);
     let mut other = outlines(200);
     other.truncate(other.len() - 3);
     other.push_str("9\n");
