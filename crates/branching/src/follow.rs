@@ -6,7 +6,7 @@ use super::origin::{Origin, both};
 use super::reading::Reading;
 use super::settle::settle;
 use super::sweep::{Sweeps, sweeps};
-use motiform_analysis::regime::{Form, Regime};
+use motiform_analysis::regime::{Course, Form, Regime};
 use motiform_continuation::{Branch, End, Motion, Point};
 use motiform_dynamics::{StopOnly, Watch};
 use motiform_study::{BranchPlan, Error};
@@ -145,7 +145,12 @@ impl Work<'_> {
         let mut followed = Followed { origin, legs: Vec::new() };
         for (number, leg) in legs.into_iter().enumerate() {
             let (mut seen, mut on) = (0, None);
+            // where a branch meets a motion of more symmetry, that motion is on both
+            let mut met = matches!(origin, Origin::Meets { .. });
             let mut is_known = |sample: &Sample| {
+                if std::mem::take(&mut met) {
+                    return false;
+                }
                 if number == 0 && seen < COMPARED && on.is_none() {
                     seen += 1;
                     on = known(self.bodies, &self.done.branches, sample, &settings, self.stop);
@@ -250,6 +255,16 @@ impl Followed {
         let forms = Form::ALL.into_iter().filter(|form| regime == Some(form.regime()));
         let form = forms.map(|form| (count(&|s| s.reading.form == Some(form)), form));
         (regime, form.filter(|entry| entry.0 > 0).max_by_key(|entry| entry.0).map(|entry| entry.1))
+    }
+}
+
+impl Followed {
+    /// The course of its motions, if all that have one have the same.
+    #[must_use]
+    pub fn course(&self) -> Option<Course> {
+        let mut all = self.samples().filter_map(|sample| sample.reading.direction.course);
+        let first = all.next()?;
+        all.all(|course| course == first).then_some(first)
     }
 }
 

@@ -4,6 +4,7 @@ use super::family::Bodies;
 use super::follow::{Followed, Leg, Sample};
 use super::settle::Start;
 use super::single_loop::single_loop;
+use motiform_analysis::linear::norm;
 use motiform_analysis::{Error as Refused, Isotropy, RelativeEquilibrium};
 use motiform_continuation::{Branch, End, Settings, Special, switch};
 use motiform_dynamics::{Equivariant, Watch};
@@ -38,6 +39,13 @@ pub enum Origin {
         /// Its leg.
         leg: usize,
     },
+    /// The end of a leg where its motion gains a symmetry: the motion of more symmetry there.
+    Meets {
+        /// The branch.
+        branch: usize,
+        /// Its leg.
+        leg: usize,
+    },
     /// The end of a leg where an orbit shrinks to a steady motion: that motion.
     Shrinks {
         /// The branch.
@@ -52,9 +60,17 @@ impl Origin {
     pub(super) fn on(number: usize, followed: &Followed) -> Vec<Self> {
         let mut all = Vec::new();
         for (leg, done) in followed.legs.iter().enumerate() {
-            for (point, sample) in done.samples.iter().enumerate() {
+            let meets = matches!(done.end, End::Meets { .. });
+            let inner = done.samples.len() - usize::from(meets && !done.samples.is_empty());
+            for (point, sample) in done.samples[..inner].iter().enumerate() {
                 let leads_on = |special| {
-                    !matches!(special, Special::Fold | Special::Torus { .. } | Special::Unresolved { .. })
+                    !matches!(
+                        special,
+                        Special::Fold
+                            | Special::Continuum
+                            | Special::Torus { .. }
+                            | Special::Unresolved { .. }
+                    )
                 };
                 if sample.point.special.is_some_and(leads_on) {
                     all.push(Self::Special { branch: number, leg, point });
@@ -69,6 +85,7 @@ impl Origin {
                     }
                 }
                 End::Shrinks { .. } => all.push(Self::Shrinks { branch: number, leg }),
+                End::Meets { .. } => all.push(Self::Meets { branch: number, leg }),
                 _ => {}
             }
         }
@@ -79,7 +96,11 @@ impl Origin {
     pub(super) fn cost(self, branches: &[Followed]) -> f64 {
         let period = |sample: Option<&Sample>| sample.and_then(|sample| sample.reading.period).unwrap_or(0.0);
         match self {
-            Self::Start | Self::Saddle { .. } | Self::Loop { .. } | Self::Shrinks { .. } => 0.0,
+            Self::Start
+            | Self::Saddle { .. }
+            | Self::Loop { .. }
+            | Self::Meets { .. }
+            | Self::Shrinks { .. } => 0.0,
             Self::Special { branch, leg, point } => {
                 let sample = &branches[branch].legs[leg].samples[point];
                 match sample.point.special {
@@ -99,6 +120,7 @@ impl Origin {
             Self::Special { branch, .. }
             | Self::Saddle { branch, .. }
             | Self::Loop { branch, .. }
+            | Self::Meets { branch, .. }
             | Self::Shrinks { branch, .. } => Some(branch),
         }
     }
@@ -125,6 +147,11 @@ impl Origin {
                 let leg = &branches[branch].legs[leg];
                 let saddle = saddle(leg).ok_or_else(|| nothing("saddle", leg))?;
                 single_loop(bodies, leg, saddle, watch)?.ok_or_else(|| nothing("loop", leg))
+            }
+            Self::Meets { branch, leg } => {
+                let leg = &branches[branch].legs[leg];
+                let met = met(leg).ok_or_else(|| nothing("motion of more symmetry", leg))?;
+                both(bodies, parameter(leg), &Start::Equilibrium(met), watch)
             }
             Self::Shrinks { branch, leg } => {
                 let leg = &branches[branch].legs[leg];
@@ -170,6 +197,20 @@ fn saddle(leg: &Leg) -> Option<&RelativeEquilibrium> {
         _ => None,
     }
 }
+
+/// The motion of more symmetry at the end of a leg: what is left of a shape at rest is round-off.
+fn met(leg: &Leg) -> Option<RelativeEquilibrium> {
+    let mut met = leg.samples.last()?.point.motion.equilibrium()?.clone();
+    let largest = leg.samples.iter().map(|sample| sample.reading.size).fold(0.0, f64::max);
+    if norm(&met.shape) < SAME * largest {
+        met.shape.fill(0.0);
+        met.turning_rate = 0.0;
+    }
+    Some(met)
+}
+
+/// Size of a shape, beside that of the others of its branch, that is none.
+const SAME: f64 = 1e-6;
 
 fn nothing(what: &'static str, leg: &Leg) -> Refused {
     let why = "Newton's method finds none from the last orbit of the branch".to_owned();

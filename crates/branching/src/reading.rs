@@ -1,7 +1,7 @@
 //! What is read off one point of a branch.
 
 use super::family::Bodies;
-use motiform_analysis::regime::{Form, Regime, repeating};
+use motiform_analysis::regime::{Direction, Form, Regime, repeating};
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium};
 use motiform_continuation::{Motion, Point};
 use motiform_dynamics::{Model, Watch, escape::norm};
@@ -18,6 +18,9 @@ pub struct Reading {
     pub form: Option<Form>,
     /// Period of the reduced motion (model time).
     pub period: Option<f64>,
+    /// Its direction, as far as the symmetry of the model distinguishes directions.
+    #[serde(default)]
+    pub direction: Direction,
     /// Mean turning rate of the heading (rad per model time).
     pub turning_rate: Option<f64>,
     /// Net rotation per period (rad, in -pi..pi).
@@ -52,9 +55,12 @@ fn still(model: &dyn Model, found: &RelativeEquilibrium) -> Reading {
         Regime::Straight => Some(0.0),
         _ => Some(found.turning_rate),
     };
+    let drift = if motion == Regime::Motionless { [0.0; 2] } else { found.velocity };
+    let turning = turning_rate.filter(|_| motion == Regime::Circular);
     Reading {
         motion,
         form: None,
+        direction: Direction::of(model, turning, drift),
         period: None,
         turning_rate,
         net_rotation: None,
@@ -75,6 +81,7 @@ fn periodic(
     Ok(Reading {
         motion: seen.form.regime(),
         form: Some(seen.form),
+        direction: seen.direction,
         period: Some(orbit.period()),
         turning_rate: seen.turning_rate,
         net_rotation: Some(orbit.net_rotation()),

@@ -11,7 +11,7 @@ use serde_json::{Map, Value, json};
 /// A place where a branch changes or ends.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpecialEntry {
-    /// `hopf`, `fold`, `pitchfork`, `branch-point`, `symmetry-breaking`, `period-doubling`, `torus`, or the end `homoclinic`.
+    /// `hopf`, `fold`, `pitchfork`, `branch-point`, `continuum`, `symmetry-breaking`, `period-doubling`, `torus`, or the end `homoclinic`.
     pub kind: &'static str,
     /// The value of the parameter.
     pub parameter: f64,
@@ -63,6 +63,9 @@ fn entry(plan: &BranchPlan, found: &Branches, (number, followed): (usize, &Follo
     if let Some(form) = form {
         put("form", json!(form));
     }
+    if let Some(course) = followed.course() {
+        put("course", json!(course));
+    }
     put("origin", json!(followed.origin));
     put("points", followed.samples().count().into());
     put("stable", json!(stretches(found, followed)));
@@ -100,12 +103,16 @@ impl Branches {
 
     fn entry(&self, (branch, leg, point): (usize, usize, usize), sample: &Sample) -> Option<SpecialEntry> {
         let special = sample.point.special?;
-        let origin = Origin::Special { branch, leg, point };
+        let done = &self.branches[branch].legs[leg];
+        let ends = point + 1 == done.samples.len() && matches!(done.end, End::Meets { .. });
+        let origin =
+            if ends { Origin::Meets { branch, leg } } else { Origin::Special { branch, leg, point } };
         let next = self.links.iter().find(|link| link.origin == origin).and_then(|link| link.branch);
         let begins = next.and_then(|next| self.branches.get(next)).filter(|next| next.origin == origin);
         let first = begins.and_then(|next| Some(next.legs.first()?.samples.first()?.point.parameter));
         let supercritical = match special {
             Special::Hopf(hopf) => hopf.is_supercritical(),
+            _ if ends => None,
             _ => first.and_then(|first| is_supercritical(&self.branches[branch].legs[leg], point, first)),
         };
         let criticality = supercritical.map(|is| if is { "supercritical" } else { "subcritical" });

@@ -58,6 +58,11 @@ fn motions(rows: &Rows<'_>) -> Vec<Column> {
             "symmetry of a motion that repeats, empty for the others",
             text(&|sample| sample.reading.form.map_or("", |form| form.name())),
         ),
+        Column::new(
+            "course",
+            "sense of rotation, or direction to the field, where the model has no mirror or has a field; otherwise empty",
+            text(&|sample| sample.reading.direction.course.map_or("", |course| course.name())),
+        ),
         Column::new("special", "what happens here, empty at ordinary points", text(&special)),
         Column::new(
             "stable",
@@ -75,11 +80,16 @@ fn motions(rows: &Rows<'_>) -> Vec<Column> {
 /// Name, meaning, and how it is read; NaN where it has no meaning.
 type Number = (&'static str, &'static str, fn(&Sample) -> f64);
 
-const NUMBERS: [Number; 10] = [
+const NUMBERS: [Number; 11] = [
     ("period", "period of the reduced motion (model time)", |s| s.reading.period.unwrap_or(f64::NAN)),
     ("turning_rate", "mean turning rate of the heading (rad per model time)", |s| {
         s.reading.turning_rate.unwrap_or(f64::NAN)
     }),
+    (
+        "heading",
+        "direction of the displacement (rad from the x-axis), where rotations are no symmetry",
+        |s| s.reading.direction.heading.unwrap_or(f64::NAN),
+    ),
     ("net_rotation", "net rotation per period (rad, -pi to pi)", |s| {
         s.reading.net_rotation.unwrap_or(f64::NAN)
     }),

@@ -27,7 +27,7 @@ pub struct NearBifurcation {
     pub error: f64,
     /// Its value at the bifurcation.
     pub at: f64,
-    /// The kind: `fold`, `hopf`, `pitchfork`, `symmetry-breaking`, `period-doubling`, `torus`, `branch-point`, `homoclinic`.
+    /// The kind: `fold`, `hopf`, `pitchfork`, `symmetry-breaking`, `period-doubling`, `torus`, `branch-point`, `continuum`, `homoclinic`.
     pub kind: String,
     /// What is broken there: the `mirror` symmetry, or `rotations`.
     pub breaks: Option<String>,

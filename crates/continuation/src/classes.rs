@@ -12,7 +12,7 @@ const SAME: f64 = 1e-6;
 #[derive(Clone, Debug)]
 pub(super) struct Classes {
     /// Order of the rotations that leave the shapes unchanged.
-    folds: usize,
+    pub(super) folds: usize,
     /// Whether every rotation leaves them unchanged.
     pub(super) circle: bool,
     /// The angle of `R(angle) M`, which leaves the shapes unchanged, if they have a mirror axis.

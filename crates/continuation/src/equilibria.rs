@@ -1,18 +1,27 @@
 //! The equations of relative equilibria along a parameter.
 
 use super::classes::Classes;
+use super::correct::{correct, normal, scaled};
 use super::family::{Bodies, Neighbours, Sides};
 use super::hopf::first_lyapunov;
 use super::levels::Level;
 use super::point::Motion;
 use super::problem::{Equations, Failure, Linear, Problem};
 use super::special::{Broken, Hopf, Special};
-use motiform_analysis::RelativeEquilibrium;
+use super::tracer::TOLERANCE;
 use motiform_analysis::equilibrium::neutral_direction;
 use motiform_analysis::linear::{add, apply, eigenvalues, norm, restrict};
+use motiform_analysis::{Isotropy, RelativeEquilibrium};
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField, Watch, model};
 use nalgebra::DMatrix;
+
+/// Where a branch turns back, a shape that differs from its image by less than this part of its size has the symmetry: turning points are located far closer.
+const GAINED: f64 = 1e-6;
+
+/// Distances at which members of a family with one value of the parameter are looked for, in sizes of the shape, and the part of the range within which it is one value.
+const FAMILY: [f64; 2] = [0.05, 0.1];
+const SAME_PARAMETER: f64 = 1e-7;
 
 /// `f(u, p) - omega G u = 0` and `Gu . du = 0`; unknowns `(u, omega, p)`. Without a neutral direction (a circle, a system without
 /// symmetry) omega means nothing and is held instead.
@@ -119,6 +128,7 @@ impl Problem for Equilibria<'_> {
         let body = local.body.as_ref();
         let vector = self.critical_vector(&local, class);
         match vector {
+            Some(v) if self.is_one_of_a_family(x, &v) => Special::Continuum,
             Some(v) if self.classes.breaks_rotations(body, &v) => {
                 Special::Pitchfork { breaks: Broken::Rotations }
             }
@@ -142,6 +152,19 @@ impl Problem for Equilibria<'_> {
             scale: local.matrix.iter().fold(0.0, |m: f64, a| m.max(a.abs())),
             shape,
         })
+    }
+
+    fn gains(&self, x: &[f64], local: &Local) -> Option<Broken> {
+        let (body, shape) = (local.body.as_ref(), &x[..self.dim]);
+        if self.classes.circle {
+            return None;
+        }
+        let found = Isotropy::of(body, shape, GAINED);
+        let rests = body.symmetry().rotations && norm(shape) < GAINED * self.size;
+        if rests || found.circle || found.folds > self.classes.folds {
+            return Some(Broken::Rotations);
+        }
+        (found.mirror.is_some() && self.classes.axis.is_none()).then_some(Broken::Mirror)
     }
 
     fn body<'l>(&self, local: &'l Local) -> &'l dyn Equivariant {
@@ -189,6 +212,30 @@ impl Equilibria<'_> {
             None => all[(dim, dim)] = 1.0,
         }
         Linear { residual, matrix: all }
+    }
+
+    /// Whether motions in the direction `vector` exist for the same parameter, at two distances: beside a pitchfork the parameter changes as the square of the distance.
+    fn is_one_of_a_family(&self, x: &[f64], vector: &[f64]) -> bool {
+        let Ok(body) = self.bodies.at(x) else { return false };
+        let classes = Classes::of(body.as_ref(), &[]);
+        let free = Self {
+            bodies: self.bodies,
+            classes,
+            dim: self.dim,
+            size: self.size,
+            widths: self.widths.clone(),
+        };
+        let weights = free.weights(x);
+        let mut direction = vector.to_vec();
+        direction.resize(x.len(), 0.0);
+        let Some(direction) = scaled(direction, &weights) else { return false };
+        let row = normal(&direction, &weights);
+        let last = x.len() - 1;
+        FAMILY.iter().all(|distance| {
+            let guess = x.iter().zip(&direction).map(|(x, d)| x + distance * d).collect();
+            let found = correct(&free, guess, &row, TOLERANCE, &());
+            found.is_ok_and(|found| (found.x[last] - x[last]).abs() < SAME_PARAMETER * self.widths[0])
+        })
     }
 
     /// The direction of class `class` that neither grows nor decays at a steady bifurcation.

@@ -1,7 +1,7 @@
 //! What a branch is made of.
 
 use super::homoclinic::Connection;
-use super::special::Special;
+use super::special::{Broken, Special};
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium};
 use motiform_dynamics::Outcome;
 use serde::{Deserialize, Serialize};
@@ -120,6 +120,13 @@ pub enum End {
         /// The time reached.
         time: f64,
     },
+    /// The motion gains a symmetry: the branch meets its own images at a motion of more symmetry. The last point, a pitchfork of that motion, lies there.
+    Meets {
+        /// The parameter there.
+        parameter: f64,
+        /// The symmetry, which the motions of the branch do not have.
+        gains: Broken,
+    },
     /// The orbit shrinks to a relative equilibrium: the branch ends at its Hopf bifurcation.
     Shrinks {
         /// The parameter there.
@@ -169,6 +176,18 @@ impl std::fmt::Display for End {
             Self::StepUnderflow { step, why } => write!(f, "no point after a step of {step:.1e}: {why}"),
             Self::Homoclinic(connection) => write!(f, "{connection}"),
             Self::PeriodLimit { time } => write!(f, "the time of the orbit grew to {time}"),
+            Self::Meets { parameter, gains: Broken::Mirror } => {
+                write!(
+                    f,
+                    "the motion becomes its own mirror image at {parameter:.9}; beyond, the branch is its mirror image"
+                )
+            }
+            Self::Meets { parameter, gains: Broken::Rotations } => {
+                write!(
+                    f,
+                    "the shape becomes symmetric under rotations at {parameter:.9}; beyond, the branch is a rotated copy"
+                )
+            }
             Self::Shrinks { parameter, .. } => {
                 write!(f, "the orbit shrinks to an equilibrium at {parameter:.9}")
             }

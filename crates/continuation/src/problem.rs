@@ -2,7 +2,7 @@
 
 use super::levels::Level;
 use super::point::{Motion, Obstruction};
-use super::special::Special;
+use super::special::{Broken, Special};
 use motiform_analysis::{Error, RelativeEquilibrium};
 use motiform_dynamics::{Equivariant, Watch};
 use nalgebra::DMatrix;
@@ -80,6 +80,11 @@ pub(super) trait Problem: Equations {
 
     /// The place of the time among the unknowns, for orbits.
     fn time(&self) -> Option<usize> {
+        None
+    }
+
+    /// The symmetry that the motion at `x` has and the branch has not. There the parameter turns back, and the branch goes on with its own images.
+    fn gains(&self, _x: &[f64], _local: &Self::Local) -> Option<Broken> {
         None
     }
 

@@ -18,6 +18,9 @@ pub enum Special {
     },
     /// A real eigenvalue 0 (multiplier +1) that keeps all symmetry, where the branch does not turn back: another one crosses it.
     BranchPoint,
+    /// A real eigenvalue 0 at which a whole family of motions exists for this one value of the parameter: the equations regain a symmetry there. So a body in a field
+    /// may move in every direction where the field vanishes.
+    Continuum,
     /// A pair of imaginary eigenvalues: an oscillation of the shape begins.
     Hopf(Hopf),
     /// Multiplier -1 over the period: an orbit of twice the period begins.
@@ -86,6 +89,7 @@ impl Special {
             Self::Fold => "fold",
             Self::Pitchfork { .. } => "pitchfork",
             Self::BranchPoint => "branch-point",
+            Self::Continuum => "continuum",
             Self::Hopf(_) => "hopf",
             Self::PeriodDoubling => "period-doubling",
             Self::SymmetryBreaking => "symmetry-breaking",
@@ -96,10 +100,11 @@ impl Special {
 }
 
 /// All names.
-const NAMES: [&str; 8] = [
+const NAMES: [&str; 9] = [
     "fold",
     "pitchfork",
     "branch-point",
+    "continuum",
     "hopf",
     "period-doubling",
     "symmetry-breaking",

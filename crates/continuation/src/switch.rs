@@ -26,7 +26,7 @@ const NODES: usize = 8;
 /// Vectors that the equations see less than this part of the largest are solutions to first order.
 const NULL: f64 = 1e-6;
 
-/// The branches that begin or cross at a special point, each on to one side from there; none at a fold or a torus, nor where the special point is unresolved.
+/// The branches that begin or cross at a special point, each on to one side from there; none at a fold, a continuum or a torus, nor where the special point is unresolved.
 ///
 /// Where the two sides of a new branch are images of each other under the symmetry (a pitchfork, a symmetry breaking) or under time (a
 /// period doubling, a Hopf bifurcation), there is one: its copies are not followed. The first step does not know the direction of
@@ -43,7 +43,9 @@ pub fn switch<'f>(
     settings.check(point.parameter)?;
     let Some(special) = point.special else { return Ok(Vec::new()) };
     match (&point.motion, special) {
-        (_, Special::Fold | Special::Torus { .. } | Special::Unresolved { .. }) => Ok(Vec::new()),
+        (_, Special::Fold | Special::Continuum | Special::Torus { .. } | Special::Unresolved { .. }) => {
+            Ok(Vec::new())
+        }
         (Motion::Equilibrium(start), Special::Hopf(hopf)) => {
             begin(family, (point.parameter, start, hopf.frequency), settings, watch)
                 .map(|branch| vec![branch])

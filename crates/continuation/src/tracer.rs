@@ -167,7 +167,11 @@ impl<P: Problem> Tracer<P> {
             (new, last) = (nearer, Some(end));
         }
         self.check(&new)?;
-        let (new, length, changes) = self.examine(new, length, &mut last, watch)?;
+        let (new, length, mut changes) = self.examine(new, length, &mut last, watch)?;
+        if let Some(end) = self.meets(length, &mut changes) {
+            self.hand_out_special(changes.found);
+            return Err(end);
+        }
         if let Some(end) = self.shrinks(&new, &changes.found) {
             return Err(end);
         }
@@ -231,12 +235,17 @@ impl<P: Problem> Tracer<P> {
         Ok((new, length, found))
     }
 
-    /// The points of a step.
-    fn hand_out(&mut self, new: &Place<P::Local>, changes: Changes<P::Local>) {
-        for (at, special) in changes.found {
+    /// The special points of a step.
+    fn hand_out_special(&mut self, found: Vec<(Place<P::Local>, Special)>) {
+        for (at, special) in found {
             let point = self.point(&at, Some(special));
             self.queue.push_back(point);
         }
+    }
+
+    /// The points of a step.
+    fn hand_out(&mut self, new: &Place<P::Local>, changes: Changes<P::Local>) {
+        self.hand_out_special(changes.found);
         let (from, to) = (self.place.parameter(), new.parameter());
         for seen in changes.missed {
             let point = self.point(new, Some(Special::Unresolved { seen, from, to }));
@@ -258,6 +267,21 @@ impl<P: Problem> Tracer<P> {
         }
         let saddle = || self.problem.saddle(&self.place.x, &self.place.local);
         self.periods.resonance().map_or(end, |found| End::Homoclinic(Box::new(found.through(saddle()))))
+    }
+
+    /// The end of the branch at the first turning point where the motion gains a symmetry: it is a pitchfork of the motion that has it. What was found beyond belongs to
+    /// images of the branch.
+    fn meets(&self, length: f64, changes: &mut Changes<P::Local>) -> Option<End> {
+        let gains = |(place, (at, special)): (usize, &(Place<P::Local>, Special))| {
+            let gained = (*special == Special::Fold).then(|| self.problem.gains(&at.x, &at.local)).flatten();
+            gained.map(|gained| (place, gained))
+        };
+        let (place, gains) = changes.found.iter().enumerate().find_map(gains)?;
+        let (at, _) = changes.found.swap_remove(place);
+        changes.found.retain(|(other, _)| at.arclength - other.arclength > 1e-4 * length);
+        let end = End::Meets { parameter: at.parameter(), gains };
+        changes.found.push((at, Special::Pitchfork { breaks: gains }));
+        Some(end)
     }
 
     /// Whether the orbits shrink to an equilibrium before `new`. The parameter has an extreme value there, as at a fold.

@@ -2,6 +2,7 @@
 
 use crate::analyse;
 use crate::naming::steady;
+use motiform_analysis::regime::Direction;
 use motiform_analysis::{Regime, RelativeEquilibrium};
 use motiform_dynamics::Watch;
 use motiform_dynamics::{Model, escape::norm};
@@ -15,6 +16,9 @@ use serde::Serialize;
 pub struct Equilibrium {
     /// Its name: motionless, straight or circular.
     pub motion: Regime,
+    /// Its direction, as far as the symmetry of the model distinguishes directions.
+    #[serde(flatten)]
+    pub direction: Direction,
     /// Its shape; all rotated copies are equilibria too.
     pub shape: Named,
     /// Speed of the centre of mass (model length per model time).
@@ -87,8 +91,12 @@ fn describe(model: &dyn Model, found: RelativeEquilibrium, hits: usize, starts: 
     let mut values = vec![0.0; model.coordinates().len()];
     model.decode(&found.shape, &mut values);
     let names = model.coordinates().iter().map(|coordinate| coordinate.name.to_owned());
+    let motion = steady(model, &found);
+    let turning = (motion == Regime::Circular).then_some(found.turning_rate);
+    let drift = if motion == Regime::Motionless { [0.0; 2] } else { found.velocity };
     Equilibrium {
-        motion: steady(model, &found),
+        motion,
+        direction: Direction::of(model, turning, drift),
         shape: Named(names.zip(values).collect()),
         speed: found.speed(),
         turning_rate: found.turning_rate,

@@ -1,7 +1,7 @@
 //! All names as JSON: models, parameters, presets, steppers, regimes. Front ends are built from it.
 
 use crate::scan::NUMBERS;
-use motiform_analysis::regime::{Attractor, Regime};
+use motiform_analysis::regime::{Attractor, Course, Regime};
 use motiform_dynamics::steppers::Method;
 use motiform_figures::regime_mark;
 use motiform_models::{MODELS, ModelInfo};
@@ -24,6 +24,7 @@ pub fn registry() -> Result<Value, Error> {
         "steppers": Method::names(),
         "regimes": Regime::ALL.map(regime),
         "attractors": Attractor::ALL.map(Attractor::name),
+        "courses": Course::ALL.map(Course::name),
         "numbers": named(&NUMBERS),
     }))
 }

@@ -20,7 +20,7 @@ pub enum Error {
     )]
     NoEquations,
     /// The model has no such parameter.
-    #[error("unknown parameter {name:?} of model {model}{}: `motiform models {model}` lists them", hint(.nearest))]
+    #[error("unknown parameter {name:?} of model {model}{}: {}", hint(.nearest), known_parameters(.model, .known))]
     UnknownParameter {
         /// The name given.
         name: String,
@@ -28,6 +28,8 @@ pub enum Error {
         model: &'static str,
         /// The most similar known name, if any is similar.
         nearest: Option<&'static str>,
+        /// All known names.
+        known: Vec<&'static str>,
     },
     /// The model has no such coordinate.
     #[error("unknown initial value {name:?} of model {model}{}: the names are {}", hint(.nearest), .known.join(", "))]
@@ -95,6 +97,14 @@ pub enum Error {
         /// The equation and its term.
         term: String,
     },
+}
+
+/// Where the parameters are: those of equations given as text are few, and no command knows the model by name.
+fn known_parameters(model: &str, known: &[&str]) -> String {
+    if model == crate::amplitudes::NAME {
+        return format!("the parameters are {}", known.join(", "));
+    }
+    format!("`motiform models {model}` lists them")
 }
 
 fn hint(nearest: &Option<&'static str>) -> String {

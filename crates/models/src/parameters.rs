@@ -64,6 +64,7 @@ pub fn index_of(specs: &[ParameterSpec], model: &'static str, name: &str) -> Res
         model,
         nearest: nearest(name, specs.iter().map(|spec| spec.name))
             .and_then(|found| specs.iter().map(|spec| spec.name).find(|&known| known == found)),
+        known: specs.iter().map(|spec| spec.name).collect(),
     })
 }
 

@@ -48,20 +48,20 @@ impl ScanFiles {
         Ok(raised)
     }
 
-    /// Stores the rows of a part that an executor computed.
+    /// Stores the rows of a part that an executor computed: codes of regimes, attractors and courses, numbers, evidence.
     fn keep(
         &self,
         part: usize,
-        regimes: Vec<i8>,
-        attractors: Vec<i8>,
+        motions: (Vec<i8>, Vec<i8>, Vec<i8>),
         numbers: Vec<PyReadonlyArray1<'_, f64>>,
         whys: Vec<String>,
     ) -> PyResult<()> {
         let codes = |codes: Vec<i8>| codes.into_iter().map(i8::cast_unsigned).collect();
         let columns: Vec<Vec<f64>> = numbers.iter().map(|column| column.as_array().to_vec()).collect();
         let numbers = columns.try_into().map_err(|_| PyValueError::new_err("columns are missing"))?;
-        let table =
-            ScanTable { regimes: codes(regimes), attractors: codes(attractors), numbers, whys: Some(whys) };
+        let (regimes, attractors, courses) = motions;
+        let (regimes, attractors, courses) = (codes(regimes), codes(attractors), codes(courses));
+        let table = ScanTable { regimes, attractors, courses, numbers, whys: Some(whys) };
         let plan = self.0.folder().plan();
         let samples = plan.computation.samples;
         let cells = plan.cells_of(part);

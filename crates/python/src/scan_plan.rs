@@ -16,8 +16,10 @@ use std::time::Instant;
 #[pyclass(frozen, module = "motiform._motiform")]
 pub(crate) struct ScanPlan(pub(crate) Inner);
 
-/// Rows as arrays: codes of regimes and attractors (-1: not computed), numbers, and the evidence if requested.
-pub(crate) type Arrays = (Py<PyArray1<i8>>, Py<PyArray1<i8>>, Vec<Py<PyArray1<f64>>>, Option<Vec<String>>);
+/// Codes of regimes, attractors and courses; -1: not computed, and where there is no course.
+pub(crate) type Motions = (Py<PyArray1<i8>>, Py<PyArray1<i8>>, Py<PyArray1<i8>>);
+/// Rows as arrays: codes, numbers, and the evidence if requested.
+pub(crate) type Arrays = (Motions, Vec<Py<PyArray1<f64>>>, Option<Vec<String>>);
 
 /// A table as NumPy arrays, which take over the numbers' memory.
 pub(crate) fn arrays(py: Python<'_>, table: ScanTable) -> Arrays {
@@ -26,7 +28,7 @@ pub(crate) fn arrays(py: Python<'_>, table: ScanTable) -> Arrays {
         PyArray1::from_vec(py, codes.into_iter().map(code).collect::<Vec<_>>()).unbind()
     };
     let numbers = table.numbers.into_iter().map(|column| PyArray1::from_vec(py, column).unbind()).collect();
-    (codes(table.regimes), codes(table.attractors), numbers, table.whys)
+    ((codes(table.regimes), codes(table.attractors), codes(table.courses)), numbers, table.whys)
 }
 
 /// Parts go into a table in memory.

@@ -44,11 +44,17 @@ def test_classified_and_scanned_like_the_others() -> None:
     assert found["omega"].attrs["symbol"] == "*ω*"
     rates = found["turning_rate"].values.ravel()
     assert rates[0] == pytest.approx(0.3) and rates[1] == pytest.approx(-0.3)
+    assert found.motiform.names("course").values.ravel().tolist() == ["anticlockwise", "clockwise"]
+    assert found.motiform.to_pandas()["course"].tolist() == ["anticlockwise", "clockwise"]
     preset = motiform.preset("ohta-ohkuma")
     assert isinstance(preset, motiform.Amplitudes)
 
 
 def test_errors_show_the_place() -> None:
+    with pytest.raises(TypeError, match="along = 'omega': give a parameter with its range"):
+        handed().branches("omega")  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="equation of z1 must be text"):
+        motiform.Amplitudes(modes=[1], equations={"z1": lambda z: z})  # type: ignore[dict-item]
     with pytest.raises(ValueError, match="did you mean gamma"):
         motiform.Amplitudes(modes=[1], equations={"z1": "gama*z1"}, parameters={"gamma": 1.0})
     with pytest.raises(ValueError, match="breaks rotations"):

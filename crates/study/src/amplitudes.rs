@@ -2,7 +2,9 @@
 
 use crate::toml_reader::{Table, Value};
 use crate::{Error, Study};
-use motiform_models::amplitudes::{Definition, DefinitionError, ParameterDefinition, Part, info};
+use motiform_models::amplitudes::{
+    Definition, DefinitionError, ParameterDefinition, Part, check_modes, info,
+};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use toml::Value as Toml;
@@ -43,7 +45,13 @@ pub(crate) fn read(table: Value<'_>) -> Result<Study, Error> {
     let modes = table.take("modes").ok_or_else(|| {
         whole.name_error("the table [model.amplitudes] needs modes, the angular index of each amplitude: modes = [1, 2, 3]")
     })?;
-    let list = modes.wholes()?.into_iter().map(|n| u32::try_from(n).unwrap_or(u32::MAX)).collect();
+    let list: Vec<u32> = match modes.wholes() {
+        Ok(list) => list.into_iter().map(|n| u32::try_from(n).unwrap_or(u32::MAX)).collect(),
+        Err(_) => {
+            return Err(modes.error("modes are whole numbers from 1 to 64, each once: modes = [1, 2, 3]"));
+        }
+    };
+    check_modes(&list).map_err(|error| modes.error(error))?;
     let mut definition = Definition {
         modes: list,
         velocity: None,

@@ -1,6 +1,6 @@
 //! The direction of a motion, where the model prefers one: the hand of a handed body, the angle to a field.
 
-use motiform_dynamics::Symmetry;
+use motiform_dynamics::{Equivariant, Symmetry};
 use serde::{Deserialize, Serialize};
 
 /// Angles below this (rad) are none.
@@ -22,6 +22,27 @@ pub enum Course {
     AcrossField,
     /// At another angle to the field.
     ObliqueToField,
+}
+
+/// The direction of a motion, as far as the symmetry of the model distinguishes directions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Direction {
+    /// Sense of rotation, or direction to the field.
+    pub course: Option<Course>,
+    /// Direction of the displacement (rad from the x-axis), where rotations are no symmetry.
+    pub heading: Option<f64>,
+}
+
+impl Direction {
+    /// Of a motion of this turning rate (rad per model time) and this displacement (model length); 0 for none.
+    #[must_use]
+    pub fn of<B: Equivariant + ?Sized>(body: &B, turning: Option<f64>, drift: [f64; 2]) -> Self {
+        let symmetry = body.symmetry();
+        let heading = (!symmetry.rotations && drift != [0.0; 2]).then(|| libm::atan2(drift[1], drift[0]));
+        let turning = turning.and_then(|rate| Course::of_turning(symmetry, rate));
+        let along = heading.and_then(|heading| Course::of_drift(symmetry, body.half_turn(), heading));
+        Self { course: turning.or(along), heading }
+    }
 }
 
 impl Course {
@@ -46,6 +67,24 @@ impl Course {
             Self::AcrossField => "across-field",
             Self::ObliqueToField => "oblique-to-field",
         }
+    }
+
+    /// Its name in sentences.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Anticlockwise | Self::Clockwise => self.name(),
+            Self::AlongField => "along the field",
+            Self::AgainstField => "against the field",
+            Self::AcrossField => "across the field",
+            Self::ObliqueToField => "oblique to the field",
+        }
+    }
+
+    /// The course of this name.
+    #[must_use]
+    pub fn find(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|course| course.name() == name)
     }
 
     /// The hand of a motion whose heading turns at `rate` (rad per model time), where left and right differ.

@@ -28,7 +28,7 @@ mod verdict;
 mod words;
 
 pub use classify::{classify, settle};
-pub use course::Course;
+pub use course::{Course, Direction};
 pub use form::Form;
 pub use lanes::{Candidate, classifies_in_lanes, classify_in_lanes};
 pub use repeating::{Repeating, repeating};

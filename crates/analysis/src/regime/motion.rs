@@ -123,6 +123,14 @@ impl Path {
         turned.map_or(0, |angle| (angle / std::f64::consts::TAU).round() as i32)
     }
 
+    /// The displacement from start to end, 0 where it is less than the part `least` of the path: a path that closes has no direction.
+    pub(super) fn displacement(&self, least: f64) -> [f64; 2] {
+        let time = self.times.last().copied().unwrap_or(0.0);
+        let length = self.speed().map_or(0.0, |speed| speed.mean * time);
+        let end = self.positions.last().copied().unwrap_or_default();
+        if self.drift() > least * length { end } else { [0.0; 2] }
+    }
+
     /// Distance from start to end.
     pub(super) fn drift(&self) -> f64 {
         self.positions.last().map_or(0.0, |p| libm::hypot(p[0], p[1]))

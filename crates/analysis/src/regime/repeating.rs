@@ -1,10 +1,11 @@
 //! What a body does on a periodic orbit that is given, stable or not.
 
+use super::course::Direction;
 use super::form::Form;
 use super::motion::Path;
 use super::recurrence::SYMMETRIC;
 use super::settings::Settings;
-use super::verdict::Spread;
+use super::verdict::{Regime, Spread};
 use super::words::{NO_TURN, SAMPLES};
 use crate::isotropy::Isotropy;
 use crate::periodic::PeriodicOrbit;
@@ -20,6 +21,8 @@ pub struct Repeating {
     /// Mean turning rate of the heading (rad per model time), exactly 0 where a symmetry makes it so; `None` where the body stops on
     /// the way.
     pub turning_rate: Option<f64>,
+    /// The direction of the motion, as far as the symmetry of the model distinguishes directions.
+    pub direction: Direction,
     /// The largest size `|u|` of a shape.
     pub size: f64,
 }
@@ -47,10 +50,15 @@ pub fn repeating<B: Equivariant + ?Sized>(
         return Err(crate::Error::Shape { what: "the list of nodes", expected: 1, got: 0 });
     };
     let symmetry = symmetry(body, nodes);
-    let form = Form::of(&symmetry, orbit, &path, NO_TURN.max(settings.accuracy()), body.symmetry());
+    let no_turn = NO_TURN.max(settings.accuracy());
+    let form = Form::of(&symmetry, orbit, &path, no_turn, body.symmetry());
     let straight = orbit.mirrored || symmetry.mirror.is_some();
     let turning_rate = if straight { Some(0.0) } else { path.turning_rate() };
-    Ok(Repeating { form, speed: path.speed(), turning_rate, size: path.largest })
+    let turning = turning_rate.filter(|_| form.regime() != Regime::Zigzag && !straight);
+    // of a mirrored orbit half a period was followed, whose displacement is not that of the whole
+    let drift = if orbit.mirrored { [0.0; 2] } else { path.displacement(no_turn) };
+    let direction = Direction::of(body, turning, drift);
+    Ok(Repeating { form, speed: path.speed(), turning_rate, direction, size: path.largest })
 }
 
 /// The symmetry that every node has.

@@ -2,7 +2,7 @@
 
 use crate::Estimate;
 use crate::equilibrium::Saddle;
-use crate::regime::course::Course;
+use crate::regime::course::{Course, Direction};
 use crate::regime::form::Form;
 use motiform_dynamics::Equivariant;
 use serde::{Deserialize, Serialize};
@@ -245,13 +245,7 @@ impl Verdict {
         turning: Option<f64>,
         drift: [f64; 2],
     ) {
-        let symmetry = body.symmetry();
-        self.course = turning.and_then(|rate| Course::of_turning(symmetry, rate));
-        if !symmetry.rotations && drift != [0.0; 2] {
-            let heading = libm::atan2(drift[1], drift[0]);
-            self.heading = Some(heading);
-            self.course = self.course.or(Course::of_drift(symmetry, body.half_turn(), heading));
-        }
+        Direction { course: self.course, heading: self.heading } = Direction::of(body, turning, drift);
     }
 
     /// A verdict without evidence beyond `why`.

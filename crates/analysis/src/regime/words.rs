@@ -211,12 +211,8 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
         let straight = symmetry.mirror.is_some();
         // exactly 0 where the second half of the period mirrors the first, and where the heading keeps to a mirror axis
         verdict.turning_rate = if orbit.mirrored || straight { Some(0.0) } else { path.turning_rate() };
-        // A path that closes has no direction.
-        let length = path.speed().map_or(0.0, |speed| speed.mean * orbit.period());
-        let end = path.positions.last().copied().unwrap_or_default();
-        let drift = if path.drift() > no_turn * length { end } else { [0.0; 2] };
         let turning = verdict.turning_rate.filter(|_| form.regime() != Regime::Zigzag && !straight);
-        verdict.directed(body, turning, drift);
+        verdict.directed(body, turning, path.displacement(no_turn));
         if !straight {
             super::legs::describe(&mut verdict, &path, rotation);
         }

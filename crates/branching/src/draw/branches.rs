@@ -1,5 +1,6 @@
 //! Branches: the bifurcation diagram, and the periods.
 
+use crate::family::Bodies;
 use crate::sweep::{SweepPoint, Sweeps};
 use crate::{Branches, Followed, Origin, Sample, is_stable};
 use motiform_continuation::{End, Special};
@@ -19,8 +20,12 @@ pub enum Ordinate {
     TurningRate,
     /// Largest size of the shape.
     Size,
+    /// The same with its sign: anticlockwise above 0.
+    SignedTurningRate,
     /// Net rotation per period.
     NetRotation,
+    /// The same with its sign.
+    SignedNetRotation,
     /// Period.
     Period,
 }
@@ -29,10 +34,19 @@ impl Ordinate {
     fn label(self) -> &'static str {
         match self {
             Self::Speed => "mean speed",
-            Self::TurningRate => "mean turning rate (rad/time)",
+            Self::TurningRate | Self::SignedTurningRate => "mean turning rate (rad/time)",
             Self::Size => "largest size |*u*| of the shape",
-            Self::NetRotation => "net rotation per period (rad)",
+            Self::NetRotation | Self::SignedNetRotation => "net rotation per period (rad)",
             Self::Period => "period (time)",
+        }
+    }
+
+    /// The quantity with its sign where the mirror is no symmetry: then left and right are different motions.
+    const fn of_model(self, mirror: bool) -> Self {
+        match (self, mirror) {
+            (Self::TurningRate, false) => Self::SignedTurningRate,
+            (Self::NetRotation, false) => Self::SignedNetRotation,
+            (as_given, _) => as_given,
         }
     }
 
@@ -41,8 +55,9 @@ impl Ordinate {
         match self {
             Self::Speed => point.speed.map(|speed| speed[0]),
             Self::TurningRate => point.turning_rate.map(f64::abs),
+            Self::SignedTurningRate => point.turning_rate,
             Self::Size => point.size,
-            Self::NetRotation | Self::Period => None,
+            Self::NetRotation | Self::SignedNetRotation | Self::Period => None,
         }
     }
 
@@ -50,9 +65,11 @@ impl Ordinate {
         let reading = &sample.reading;
         match self {
             Self::Speed => Some(reading.speed[0]),
-            // left and right are mirror images: one of them is followed
+            // where left and right are mirror images, one of them is followed
             Self::TurningRate => reading.turning_rate.map(f64::abs),
+            Self::SignedTurningRate => reading.turning_rate,
             Self::Size => Some(reading.size),
+            Self::SignedNetRotation => reading.net_rotation,
             Self::NetRotation => reading.net_rotation.map(f64::abs),
             Self::Period => reading.period,
         }
@@ -85,11 +102,13 @@ pub fn draw_branches(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) ->
 /// An unknown model.
 pub fn diagram(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Result<BranchDiagram, Error> {
     let info = plan.info()?;
+    let mirror = Bodies::new(plan)?.model(plan.start_value())?.symmetry().mirror;
+    let ordinate = ordinate.of_model(mirror);
     let along = &plan.computation.along;
     let spec = info.parameters().iter().find(|spec| spec.name == along.name);
     Ok(BranchDiagram {
         title: plan.title(),
-        caption: caption(plan, found)?,
+        caption: caption(plan, found, mirror)?,
         x_label: spec.map_or_else(|| along.name.clone(), |spec| spec.symbol.to_owned()),
         y_label: ordinate.label().to_owned(),
         logarithmic: ordinate == Ordinate::Period,
@@ -110,10 +129,14 @@ fn dots(sweeps: &Sweeps, ordinate: Ordinate) -> Vec<BranchDots> {
     dots.into_iter().filter(|dots| !dots.points.is_empty()).collect()
 }
 
-fn caption(plan: &BranchPlan, found: &Branches) -> Result<Vec<String>, Error> {
+fn caption(plan: &BranchPlan, found: &Branches, mirror: bool) -> Result<Vec<String>, Error> {
     let c = &plan.computation;
     let fixed = c.start.parameters.0.iter().filter(|entry| entry.0 != c.along.name).cloned().collect();
-    let count = found.branches.len();
+    let count = match found.branches.len() {
+        1 => "One branch".to_owned(),
+        count => format!("{count} branches"),
+    };
+    let once = if mirror { ", each drawn once for all its mirror images" } else { "" };
     let left = match found.left {
         0 => String::new(),
         1 => "; one point at which more may begin was left".to_owned(),
@@ -126,10 +149,8 @@ fn caption(plan: &BranchPlan, found: &Branches) -> Result<Vec<String>, Error> {
     };
     let unfinished = if found.complete { "" } else { " Interrupted: not all of them are followed." };
     Ok(vec![
-        words::named(plan.info()?, &Named(fixed)),
-        format!(
-            "{count} branches by pseudo-arclength continuation, each drawn once for all its mirror images{left}.{samples}{unfinished}"
-        ),
+        words::named(plan.info()?, &Named(fixed), &[&c.along.name]),
+        format!("{count} by pseudo-arclength continuation{once}{left}.{samples}{unfinished}"),
     ])
 }
 
@@ -201,6 +222,7 @@ fn mark(special: Special) -> (&'static str, Glyph) {
     match special {
         Special::Fold => ("fold", Glyph::Star),
         Special::Pitchfork { .. } => ("pitchfork", Glyph::Diamond),
+        Special::Continuum => ("continuum", Glyph::Ring),
         Special::Hopf(_) => ("Hopf", Glyph::Disc),
         Special::PeriodDoubling => ("period doubling", Glyph::Triangle),
         Special::SymmetryBreaking => ("symmetry breaking", Glyph::Square),

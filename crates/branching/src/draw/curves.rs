@@ -159,7 +159,7 @@ fn caption(
     let unfinished = if found.complete { "" } else { " Interrupted: not all of them are followed." };
     let at = format!("{}\u{a0}=\u{a0}{}", symbol(info, name), words::number(plan.fixed_value()));
     let mut all = vec![
-        words::named(info, &Named(fixed)),
+        words::named(info, &Named(fixed), &c.plane.each_ref().map(|side| side.name.as_str())),
         format!(
             "{} by pseudo-arclength continuation, through the special points of {} at {at}.{unfinished}",
             motiform_study::titles::capital(&number(curves, "curve", "curves")),

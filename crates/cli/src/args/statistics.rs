@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct StatisticsOptions {
-    /// A model (`motiform models` lists them), a study file ending in .toml, or folders written by `motiform simulate`, one body each
+    /// A model or a preset (`motiform models` lists them), a study file ending in .toml, or folders written by `motiform simulate`, one body each
     #[arg(value_name = "MODEL|STUDY.toml|DATASET", required_unless_present = "preset")]
     pub(crate) subjects: Vec<PathBuf>,
     /// Start from a preset of the model, e.g. fig5a

@@ -7,7 +7,7 @@ use motiform_study::Random;
 /// The subject of a command.
 #[derive(Args)]
 pub(crate) struct SubjectOptions {
-    /// A model (`motiform models` lists them) or a study file ending in .toml; not needed with --preset
+    /// A model or a preset (`motiform models` lists them), or a study file ending in .toml; not needed with --preset
     #[arg(value_name = "MODEL|STUDY.toml", required_unless_present = "preset")]
     pub(crate) subject: Option<String>,
     /// Start from a preset, e.g. fig5a

@@ -154,9 +154,10 @@ fn branch(
     let (motion, form) = followed.motion();
     let motion = motion.map_or("", |motion| motion.name());
     let form = form.map_or(String::new(), |form| format!(" ({})", form.name()));
-    writeln!(text, "branch {number:<3} {motion}{form}, {} points", followed.samples().count())?;
+    let course = followed.course().map_or(String::new(), |course| format!(" {}", course.words()));
+    writeln!(text, "branch {number:<3} {motion}{course}{form}, {} points", followed.samples().count())?;
     for [from, to] in stretches(&folder.found, followed) {
-        writeln!(text, "           stable from {from:.9} to {to:.9}")?;
+        writeln!(text, "           stable from {} to {}", nine(from), nine(to))?;
     }
     for special in folder.found.special(number) {
         writeln!(text, "           {}", line(&special))?;
@@ -167,8 +168,14 @@ fn branch(
     Ok(())
 }
 
+/// Nine decimals, and 0 without a sign.
+fn nine(x: f64) -> String {
+    let text = format!("{x:.9}");
+    if text.trim_start_matches(['-', '0', '.']).is_empty() { "0.000000000".to_owned() } else { text }
+}
+
 fn line(special: &SpecialEntry) -> String {
-    let mut line = format!("{:<17} {:.9}", special.kind, special.parameter);
+    let mut line = format!("{:<17} {}", special.kind, nine(special.parameter));
     let period = special.period.map(|period| format!("period {period:.6}"));
     let words = special.criticality.map(str::to_owned);
     let breaks = special.breaks.map(|what| format!("breaks the {what}"));

@@ -29,19 +29,24 @@ pub(crate) fn run(options: &EquilibriaOptions) -> anyhow::Result<End> {
 }
 
 fn table(found: &[Equilibrium]) -> anyhow::Result<String> {
+    let name = |one: &Equilibrium| match one.direction.course {
+        Some(course) => format!("{} {}", one.motion, course.words()),
+        None => one.motion.to_string(),
+    };
+    let names: Vec<String> = found.iter().map(name).collect();
+    let width = names.iter().map(String::len).max().unwrap_or(0).max(12);
     let mut text = format!(
-        "{:<12} {:>12} {:>13} {:>9} {:>8}  leading eigenvalues\n",
+        "{:<width$} {:>12} {:>13} {:>9} {:>8}  leading eigenvalues\n",
         "motion", "speed", "turning rate", "unstable", "share"
     );
-    for one in found {
+    for (one, name) in found.iter().zip(&names) {
         let values = one.eigenvalues.iter().take(3).map(|&(re, im)| match im {
             0.0 => format!("{re:.6}"),
             im => format!("{re:.6}{im:+.6}i"),
         });
         writeln!(
             text,
-            "{:<12} {:>12.8} {:>13.8} {:>9} {:>6.1} %  {}",
-            one.motion,
+            "{name:<width$} {:>12.8} {:>13.8} {:>9} {:>6.1} %  {}",
             one.speed,
             one.turning_rate,
             one.unstable,

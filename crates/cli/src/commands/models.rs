@@ -116,6 +116,7 @@ fn understood(text: &mut String, definition: &Definition) -> anyhow::Result<()> 
 /// `0.5`, `0.5 - 0.1 i`.
 fn complex([re, im]: [f64; 2]) -> String {
     match (re, im) {
+        (re, im) if !re.is_finite() || !im.is_finite() => "no finite value at these parameters".to_owned(),
         (re, 0.0) => re.to_string(),
         (0.0, im) => format!("{im} i"),
         (re, im) => format!("{re} {} {} i", if im < 0.0 { '-' } else { '+' }, im.abs()),

@@ -114,7 +114,12 @@ fn summary(folder: &ScanFolder, totals: &Totals) -> anyhow::Result<String> {
         writeln!(text, "axis      {axis}")?;
     }
     let (cells, samples) = (totals.cells, plan.computation.samples);
-    writeln!(text, "cells     {cells} of {}, {samples} initial states each", plan.cells())?;
+    writeln!(
+        text,
+        "cells     {cells} of {}, {samples} initial state{} each",
+        plan.cells(),
+        if samples == 1 { "" } else { "s" }
+    )?;
     if samples > 1 || plan.draws_first()? {
         let (random, seed) = (plan.computation.random.words(), plan.computation.seed);
         writeln!(text, "          random ones {random}, seed {seed}")?;

@@ -81,6 +81,10 @@ pub(crate) fn study(options: &SubjectOptions) -> Result<Study, Error> {
         if let (NAME, Some(name)) = (subject.as_str(), preset) {
             return with(presets::find_any(name, NAME)?, set);
         }
+        let named = presets::PRESETS.iter().chain(presets::EXTENSIONS).any(|known| known.name == subject);
+        if named && preset.is_none() {
+            return with(of_preset(subject)?, set);
+        }
         let info = ModelInfo::find(subject)?;
         match preset {
             Some(name) => presets::find(info, name)?,

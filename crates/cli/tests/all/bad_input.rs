@@ -26,7 +26,7 @@ fn names_that_do_not_exist() {
         &Folder::new(),
         &[
             "simulate tenser",
-            "simulate fig5a",
+            "simulate fig5",
             "models tenser",
             "simulate tensor --preset fig5c",
             "simulate tensor --set kapa2=1",

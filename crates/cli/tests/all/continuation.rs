@@ -70,6 +70,84 @@ fn one_command_leads_from_the_zigzag_to_the_hopf_bifurcation_of_circular_motion(
     assert_eq!(hopf["branch"], 2, "what begins there is known");
 }
 
+/// Rest, straight and circular motion of Ohta and Ohkuma's body: each begins at a pitchfork of the one before, at gamma = 0 and at kappa^2/(a b) + kappa/2 = 0.75,
+/// and a branch does not go on into its own images, from whichever of them it is followed.
+#[test]
+fn branches_that_gain_a_symmetry_end_at_a_pitchfork() {
+    let folder = Folder::new();
+    for (start, expected) in
+        [("1.2", ["circular", "straight", "motionless"]), ("0.4", ["straight", "circular", "motionless"])]
+    {
+        let along = format!("continue ohta-ohkuma --set gamma={start} --along gamma=-0.2:1.5 --json");
+        let json = folder.run(&along).expect(0).json();
+        let branches = json["branches"].as_array().unwrap();
+        let mut motions: Vec<&str> =
+            branches.iter().map(|branch| branch["motion"].as_str().unwrap()).collect();
+        assert_eq!(motions[0], expected[0]);
+        motions.sort_unstable();
+        assert_eq!(motions, ["circular", "motionless", "straight"]);
+        let specials = branches.iter().flat_map(|branch| branch["special"].as_array().unwrap());
+        for special in specials {
+            let gamma = special["gamma"].as_f64().unwrap();
+            let exact = if special["breaks"] == "mirror" { 0.75 } else { 0.0 };
+            assert!(special["kind"] == "pitchfork" && (gamma - exact).abs() < 1e-8, "{special}");
+            assert!(special["branch"].is_u64(), "{special}");
+        }
+        let of = |name: &str| branches.iter().find(|branch| branch["motion"] == name).unwrap();
+        let stable = |name: &str| of(name)["stable"][0].as_array().unwrap().clone();
+        let near = |value: &Value, exact: f64| (value.as_f64().unwrap() - exact).abs() < 1e-8;
+        assert!(near(&stable("circular")[0], 0.75) && near(&stable("circular")[1], 1.5));
+        assert!(near(&stable("straight")[0], 0.0) && near(&stable("straight")[1], 0.75));
+        assert!(near(&stable("motionless")[0], -0.2) && near(&stable("motionless")[1], 0.0));
+    }
+}
+
+/// Where a force vanishes, the body moves in every direction: no fold, no pitchfork, and no branch begins. The folds beside it are those of the motion against the force:
+/// for a body without an ellipse they lie at g = 2 (gamma/3)^(3/2).
+#[test]
+fn a_force_that_vanishes_is_no_bifurcation() {
+    let folder = Folder::new();
+    let along = "continue force --set a1=0 --along g=-0.2:0.3 --json";
+    let json = folder.run(along).expect(0).json();
+    let branches = json["branches"].as_array().unwrap();
+    assert_eq!(branches.len(), 1, "{json}");
+    let fold = 2.0 * (0.1_f64).powf(1.5);
+    let mut seen = [0, 0];
+    for special in branches[0]["special"].as_array().unwrap() {
+        let g = special["g"].as_f64().unwrap();
+        match special["kind"].as_str().unwrap() {
+            "continuum" => {
+                seen[0] += 1;
+                assert!(g.abs() < 1e-8);
+            }
+            kind => {
+                seen[1] += 1;
+                assert!(kind == "fold" && (g.abs() - fold).abs() < 1e-8, "{special}");
+            }
+        }
+    }
+    assert_eq!(seen, [2, 2]);
+}
+
+/// Branches of a handed body have a sense of rotation, and turning rates a sign: the mirror image for the opposite handedness.
+#[test]
+fn circular_branches_of_a_handed_body_have_a_sense() {
+    let folder = Folder::new();
+    let rates = [("0.3", "0.1:0.5", "clockwise"), ("-0.3", "-0.5:-0.1", "anticlockwise")].map(|(omega, range, course)| {
+        let words = format!(
+            "continue chiral --set kappa2=1.5 --set kappa3=0.8 --set omega={omega} --along omega={range} --out to{omega}"
+        );
+        let told = folder.run(&words).expect(0).stdout;
+        assert!(told.contains(&format!("circular {course}")), "{told}");
+        let summary = read_json(&folder.path(&format!("to{omega}/summary.json")));
+        assert_eq!(summary["branches"][0]["course"], course);
+        let found = read_json(&folder.path(&format!("to{omega}/branches.json")));
+        let last = found["branches"][0]["legs"][usize::from(omega == "0.3")]["samples"].as_array().unwrap().last().unwrap().clone();
+        last["reading"]["turning_rate"].as_f64().unwrap()
+    });
+    assert!(rates[0] < 0.0 && (rates[0] + rates[1]).abs() < 1e-9, "{rates:?}");
+}
+
 #[test]
 fn the_folder_holds_points_summary_figures_and_the_plan() {
     let folder = Folder::new();

@@ -253,7 +253,7 @@ fn files_are_what_they_are_called() {
     assert!(csv.starts_with("t,x,y,v1,v2,s11,s12,u111,u222,speed,turning_rate,s_norm,u_norm\n"));
     assert!(csv.lines().count() > 10_000 && !csv.contains("NaN"));
     let csv = String::from_utf8(page.export("map.csv").unwrap().1).unwrap();
-    assert!(csv.starts_with("cell,sample,kappa2,gamma,regime,attractor,margin"));
+    assert!(csv.starts_with("cell,sample,kappa2,gamma,regime,attractor,course,margin"));
     let toml = String::from_utf8(page.export("study.toml").unwrap().1).unwrap();
     let study = Study::parse(&toml, "study.toml", "study").unwrap();
     let now = page.advance(0.0).coordinates;

@@ -123,7 +123,8 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary]) -> Vec<Stri
         (samples, true) => format!("{samples} random initial states each, {random}"),
     };
     let method = format!("Computed by {}, {}.", words::stepper(&c.stepper), words::control(c.control));
-    vec![words::named(info, &c.parameters), format!("{computed}, {states}. {method}")]
+    let varied: Vec<&str> = c.axes.iter().map(|axis| axis.name.as_str()).collect();
+    vec![words::named(info, &c.parameters, &varied), format!("{computed}, {states}. {method}")]
 }
 
 /// Notation of a parameter in figures, or of a coordinate of the start.

@@ -86,5 +86,5 @@ pub fn exponents(plan: &Plan, history: &[(f64, Vec<Estimate>)]) -> Result<Option
 }
 
 fn parameters(plan: &Plan) -> Result<String, Error> {
-    Ok(words::named(plan.info()?, &plan.computation.parameters))
+    Ok(words::named(plan.info()?, &plan.computation.parameters, &[]))
 }

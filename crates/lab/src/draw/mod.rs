@@ -30,7 +30,7 @@ pub fn undrawable(error: FigureError) -> Error {
 /// # Errors
 /// An unknown model.
 pub fn parameters(plan: &Plan) -> Result<String, Error> {
-    Ok(words::named(plan.info()?, &plan.computation.parameters))
+    Ok(words::named(plan.info()?, &plan.computation.parameters, &[]))
 }
 
 /// Draws a figure, with its data.

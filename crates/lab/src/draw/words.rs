@@ -12,20 +12,21 @@ const SPACE: char = '\u{a0}';
 
 /// `Tensor model: γ = 1, κ_2 = 0.9, ...; all others 0.`
 pub(super) fn parameters(body: &Body<'_>) -> String {
-    named(body.info, &body.dataset.manifest.plan.computation.parameters)
+    named(body.info, &body.dataset.manifest.plan.computation.parameters, &[])
 }
 
-/// The values of a model that are not 0, as a sentence.
+/// The values of a model that are not 0, as a sentence; `varied` are those that the figure shows.
 #[must_use]
-pub fn named(info: &ModelInfo, values: &Named) -> String {
+pub fn named(info: &ModelInfo, values: &Named, varied: &[&str]) -> String {
     let specs = info.parameters();
     let set: Vec<String> = specs
         .iter()
+        .filter(|spec| !varied.contains(&spec.name))
         .filter_map(|spec| Some((spec, values.get(spec.name).filter(|&value| value != 0.0)?)))
         .map(|(spec, value)| format!("{}{SPACE}={SPACE}{}", spec.symbol, number(value)))
         .collect();
-    let others =
-        if set.len() < specs.len() { format!("; all other parameters{SPACE}0") } else { String::new() };
+    let given = set.len() + specs.iter().filter(|spec| varied.contains(&spec.name)).count();
+    let others = if given < specs.len() { format!("; all other parameters{SPACE}0") } else { String::new() };
     format!("{} model: {}{others}.", capital(info.name), set.join(", "))
 }
 

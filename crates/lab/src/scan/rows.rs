@@ -1,12 +1,12 @@
 //! A row of a scan: one cell, one initial state, its verdict.
 
 use super::ScanPlan;
-use motiform_analysis::regime::{Attractor, Regime, Verdict};
+use motiform_analysis::regime::{Attractor, Course, Regime, Verdict};
 use motiform_files::columns::{Column, Values, to_csv};
 use motiform_study::Error;
 
 /// The numbers of a row, in file order: name and meaning.
-pub const NUMBERS: [(&str, &str); 13] = [
+pub const NUMBERS: [(&str, &str); 14] = [
     (
         "margin",
         "how clear the decision is: its number's distance from the limit, in units of its own uncertainty",
@@ -18,6 +18,7 @@ pub const NUMBERS: [(&str, &str); 13] = [
     ("period", "period of the reduced motion (model time)"),
     ("net_rotation", "net rotation of the body per period (rad, in -pi..pi)"),
     ("drift", "distance travelled per period (model length)"),
+    ("heading", "direction of the displacement (rad from the x-axis), where rotations are no symmetry"),
     ("swing", "peak-to-peak swing of the heading over one period (rad)"),
     ("lambda_1", "largest Lyapunov exponent (inverse model time)"),
     ("lambda_1_error", "half width of its 95 % confidence interval"),
@@ -36,6 +37,8 @@ pub struct Row {
     pub regime: Regime,
     /// The kind of reduced attractor.
     pub attractor: Attractor,
+    /// Which of several motions of this name, where the model tells them apart: left or right, along or across a field.
+    pub course: Option<Course>,
     /// As in [`NUMBERS`]; NaN if it is not defined (null in files).
     pub numbers: [f64; NUMBERS.len()],
     /// The evidence in one sentence.
@@ -57,6 +60,7 @@ impl Row {
             v.period,
             v.net_rotation,
             v.drift,
+            v.heading,
             v.swing,
             lambda.map(|exponent| exponent.value),
             lambda.map(|exponent| exponent.error).filter(|error| error.is_finite()),
@@ -65,7 +69,15 @@ impl Row {
         ];
         // One undefined number: the sign and payload of a NaN mean nothing.
         let numbers = numbers.map(|number| number.filter(|value| !value.is_nan()).unwrap_or(f64::NAN));
-        Self { cell, sample, regime: v.regime, attractor: v.attractor, numbers, why: verdict.why }
+        Self {
+            cell,
+            sample,
+            regime: v.regime,
+            attractor: v.attractor,
+            course: v.course,
+            numbers,
+            why: verdict.why,
+        }
     }
 
     /// The row of an evaluation: `None` if it was stopped; if the numerics reject the input, the row states this.
@@ -94,8 +106,8 @@ impl Row {
 pub(super) fn same_rows(a: &[Row], b: &[Row]) -> bool {
     let same = |(a, b): (&Row, &Row)| {
         a.numbers.map(f64::to_bits) == b.numbers.map(f64::to_bits)
-            && (a.cell, a.sample, a.regime, a.attractor, &a.why)
-                == (b.cell, b.sample, b.regime, b.attractor, &b.why)
+            && (a.cell, a.sample, a.regime, a.attractor, a.course, &a.why)
+                == (b.cell, b.sample, b.regime, b.attractor, b.course, &b.why)
     };
     a.len() == b.len() && a.iter().zip(b).all(same)
 }
@@ -124,6 +136,11 @@ pub(super) fn to_columns(plan: &ScanPlan, rows: &[Row]) -> Vec<Column> {
     }
     columns.push(Column::new("regime", "the motion", text(|row| row.regime.name())));
     columns.push(Column::new("attractor", "the kind of reduced attractor", text(|row| row.attractor.name())));
+    columns.push(Column::new(
+        "course",
+        "sense of rotation, or direction to the field, where the model has no mirror or has a field; otherwise empty",
+        text(|row| row.course.map_or("", Course::name)),
+    ));
     for (place, (name, meaning)) in NUMBERS.iter().enumerate() {
         let values = rows.iter().map(|row| row.numbers[place]).collect();
         columns.push(Column::new(name, meaning, Values::Number(values)));
@@ -149,7 +166,9 @@ pub(super) fn from_columns(plan: &ScanPlan, columns: Vec<Column>) -> Option<Vec<
             Values::Text(values) => texts.push(values),
         }
     }
-    let ([cells, samples], [regimes, attractors, whys]) = (&whole[..], &mut texts[..]) else { return None };
+    let ([cells, samples], [regimes, attractors, courses, whys]) = (&whole[..], &mut texts[..]) else {
+        return None;
+    };
     let numbers = numbers.get(axes..).filter(|numbers| numbers.len() == NUMBERS.len())?;
     let row = |place: usize| {
         let mut row = Row {
@@ -157,6 +176,10 @@ pub(super) fn from_columns(plan: &ScanPlan, columns: Vec<Column>) -> Option<Vec<
             sample: usize::try_from(samples[place]).ok()?,
             regime: Regime::find(&regimes[place])?,
             attractor: Attractor::find(&attractors[place])?,
+            course: match courses[place].as_str() {
+                "" => None,
+                name => Some(Course::find(name)?),
+            },
             numbers: [f64::NAN; NUMBERS.len()],
             why: std::mem::take(&mut whys[place]),
         };
@@ -183,8 +206,9 @@ mod tests {
     /// An axis becomes a column: no parameter may have the name of another column.
     #[test]
     fn no_parameter_has_the_name_of_a_column() {
-        let ours =
-            ["cell", "sample", "regime", "attractor", "why"].into_iter().chain(NUMBERS.map(|known| known.0));
+        let ours = ["cell", "sample", "regime", "attractor", "course", "why"]
+            .into_iter()
+            .chain(NUMBERS.map(|known| known.0));
         for name in ours {
             assert!(MODELS.iter().flat_map(ModelInfo::parameters).all(|spec| spec.name != name));
             assert!(amplitudes::reserved(name).is_some(), "{name} can be a parameter of amplitude equations");

@@ -156,7 +156,11 @@ fn velocity_mode(definition: &Definition, velocity: &Polynomial, tape: &Tape) ->
     (alone && tape.number(coefficient) == Some(1.0)).then_some(place)
 }
 
-fn check_modes(modes: &[u32]) -> Result<(), DefinitionError> {
+/// Checks angular indices: 1 to 16 of them, each once, from 1 to 64.
+///
+/// # Errors
+/// [`DefinitionError`] about [`Part::Modes`].
+pub fn check_modes(modes: &[u32]) -> Result<(), DefinitionError> {
     let wrong = |problem: String| Err(DefinitionError { part: Part::Modes, span: 0..0, problem });
     if modes.is_empty() || modes.len() > MOST_MODES {
         return wrong(format!("modes has {} entries: give 1 to {MOST_MODES}, like [1, 2, 3]", modes.len()));
@@ -261,7 +265,9 @@ impl Found<'_> {
     fn half_turn(&self) -> bool {
         let modes = &self.definition.modes;
         let even = |polynomial: &Polynomial, index: i64| {
-            polynomial.0.keys().all(|monomial| (monomial.angular_index(modes) - index) % 2 == 0)
+            polynomial.0.iter().all(|(monomial, &coefficient)| {
+                (monomial.angular_index(modes) - index) % 2 == 0 || self.tape.number(coefficient) == Some(0.0)
+            })
         };
         let rates = self.rates.iter().zip(modes).all(|(rate, &mode)| even(rate, i64::from(mode)));
         rates && even(self.velocity, 1)
@@ -272,9 +278,9 @@ impl Found<'_> {
         let equations = self.rates.iter().zip(modes).enumerate();
         let rates = equations.map(|(number, (rate, &mode))| (Part::Equation(number), rate, i64::from(mode)));
         for (part, polynomial, expected) in rates.chain([(Part::Velocity, self.velocity, i64::from(sense))]) {
-            for monomial in polynomial.0.keys() {
+            for (monomial, &coefficient) in &polynomial.0 {
                 let index = monomial.angular_index(modes);
-                if index != expected {
+                if index != expected && self.tape.number(coefficient) != Some(0.0) {
                     return Err(self.breaks(part, monomial, index, expected));
                 }
             }

@@ -24,7 +24,7 @@ mod tokens;
 pub(crate) use built_in::of_tensor;
 pub use built_in::{of_model, tensor as tensor_as_text};
 pub use definition::{Definition, DefinitionError, ParameterDefinition, Part};
-pub use equations::Equations;
+pub use equations::{Equations, check_modes};
 pub use lanes::AmplitudesField;
 pub(crate) use names::Known;
 pub use names::{NAME, info, terms};

@@ -269,7 +269,10 @@ fn text(equations: &Equations) -> String {
         _ = writeln!(text, "(z{n})  dz{n}/dt = {short}");
     }
     for (n, strength) in &definition.noise {
-        _ = writeln!(text, "(z{n})  noise: + ({strength}) o dW{n}/dt, complex white noise (Stratonovich)");
+        _ = writeln!(
+            text,
+            "(z{n})  dz{n}/dt = ... + ({strength}) o dW{n}/dt, complex white noise (Stratonovich)"
+        );
     }
     let velocity = definition.velocity.as_deref().unwrap_or("conj(z1)");
     _ = writeln!(text, "(VEL) dx/dt + i dy/dt = v1 + i v2 = {velocity}");

@@ -6,11 +6,12 @@ use super::parser::RESERVED;
 const TRAJECTORY: [&str; 5] = ["t", "x", "y", "heading", "turning_rate"];
 
 /// Columns of scans.
-const SCAN: [&str; 17] = [
+const SCAN: [&str; 18] = [
     "cell",
     "sample",
     "regime",
     "attractor",
+    "course",
     "why",
     "margin",
     "speed_mean",

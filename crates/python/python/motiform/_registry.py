@@ -100,5 +100,6 @@ PRESETS: dict[str, Preset] = {
 STEPPERS: tuple[str, ...] = tuple(_RAW["steppers"])
 REGIMES: tuple[Regime, ...] = tuple(Regime(**raw) for raw in _RAW["regimes"])
 ATTRACTORS: tuple[str, ...] = tuple(_RAW["attractors"])
+COURSES: tuple[str, ...] = tuple(_RAW["courses"])
 NUMBERS: tuple[tuple[str, str], ...] = tuple((raw["name"], raw["meaning"]) for raw in _RAW["numbers"])
 """The numbers of a scan's rows: name and meaning."""

@@ -59,6 +59,9 @@ class Amplitudes(Model):
         noise: Mapping[str, str] | None = None,
         initial: Mapping[str, float] | None = None,
     ) -> None:
+        for name, equation in equations.items():
+            if not isinstance(equation, str):
+                raise TypeError(f"the equation of {name} must be text, such as 'gamma*z1', not {type(equation).__name__}; motiform.Field takes functions")
         text = _text(modes, equations, parameters or {}, {"velocity": velocity, "symmetry": symmetry}, noise or {})
         self._study = _motiform.Study.parse(text, "amplitudes").with_({}, dict(initial or {}))
 

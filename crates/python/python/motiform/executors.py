@@ -201,14 +201,15 @@ class _Keeper:
         pieces = self._waiting.setdefault(part, {})
         pieces[first] = arrays
         start, last = self._plan.cells_of(part)
-        if sum(len(piece[0]) for piece in pieces.values()) < (last - start) * self._plan.samples:
+        if sum(len(piece[0][0]) for piece in pieces.values()) < (last - start) * self._plan.samples:
             return
         ordered = [pieces[place] for place in sorted(pieces)]
-        regimes = [code for piece in ordered for code in piece[0].tolist()]
-        attractors = [code for piece in ordered for code in piece[1].tolist()]
-        numbers = [np.concatenate(columns) for columns in zip(*(piece[2] for piece in ordered), strict=True)]
-        whys = [why for piece in ordered for why in piece[3] or []]
-        self._files.keep(part, regimes, attractors, numbers, whys)
+        regimes, attractors, courses = (
+            [code for piece in ordered for code in piece[0][kind].tolist()] for kind in range(3)
+        )
+        numbers = [np.concatenate(columns) for columns in zip(*(piece[1] for piece in ordered), strict=True)]
+        whys = [why for piece in ordered for why in piece[2] or []]
+        self._files.keep(part, (regimes, attractors, courses), numbers, whys)
         del self._waiting[part]
 
     def close(self) -> None:

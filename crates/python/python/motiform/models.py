@@ -271,10 +271,10 @@ class Model:
         each over at most so many `points` to a side.
         """
         study = _with(self._study, initial, {"seed": seed})
-        name, low, high = along
+        name, low, high = _range("along", along)
         with Bar(progress, branches, "branches") as bar:
             found = _motiform.follow_branches(
-                study, (name, float(low), float(high)), from_, (branches, points), bar.callable()
+                study, (name, low, high), from_, (branches, points), bar.callable()
             )
         text, table, raised = found
         result = branches_of(text, table)
@@ -351,7 +351,7 @@ class Model:
         """
         study = _with(self._study, initial, {"seed": seed})
         names = [kinds] if isinstance(kinds, str) else list(kinds)
-        sides = tuple((name, float(low), float(high)) for name, low, high in (along, across))
+        sides = (_range("along", along), _range("across", across))
         with Bar(progress, 1, "of branches and curves") as bar:
             found = _motiform.follow_curves(
                 study, names, (sides[0], sides[1]), from_, (branches, points), bar.callable()
@@ -422,6 +422,17 @@ _SETTINGS = frozenset({
     "t_end", "transient", "dt_out", "random", "seed", "noise", "noise_velocity", "stepper", "rtol", "atol", "step", "max_steps",
     "escape_norm",
 })  # fmt: skip
+
+
+def _range(key: str, value: Any) -> tuple[str, float, float]:
+    """A parameter with its range."""
+    try:
+        name, low, high = value
+        if not isinstance(name, str) or isinstance(value, str):
+            raise TypeError
+        return name, float(low), float(high)
+    except (TypeError, ValueError):
+        raise TypeError(f"{key} = {value!r}: give a parameter with its range, ('kappa2', 0.3, 1.6)") from None
 
 
 def _with(study: _motiform.Study, initial: Mapping[str, float] | None, given: dict[str, Any]) -> _motiform.Study:

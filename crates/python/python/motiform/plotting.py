@@ -177,7 +177,7 @@ def _marked(cells: Any) -> tuple[Any, Any]:
 
 _SPECIAL = {
     "fold": (6, 2, 0), "pitchfork": "D", "hopf": "o", "period-doubling": "^", "symmetry-breaking": "s", "torus": "P",
-    "branch-point": "v",
+    "branch-point": "v", "continuum": "h",
 }  # fmt: skip
 
 

@@ -15,7 +15,7 @@ import pandas as pd
 import xarray as xr
 
 from . import _motiform
-from ._registry import ATTRACTORS, NUMBERS, REGIMES, VERSION, info_of
+from ._registry import ATTRACTORS, COURSES, NUMBERS, REGIMES, VERSION, info_of
 from .errors import Incomplete, Interrupted
 from .executors import gather
 from .models import Model, Random
@@ -74,7 +74,7 @@ def scan(
     -------
     xarray.Dataset
         Dimensions: the axes (the first one last, so that it runs along x in figures) and ``sample``. Variables:
-        ``regime`` and ``attractor`` (codes with CF ``flag_meanings``, -1 where missing; names by
+        ``regime``, ``attractor`` and ``course`` (codes with CF ``flag_meanings``, -1 where missing, or without a course; names by
         ``ds.motiform.names()``) and the numbers of each motion with ``units``, NaN where a number is not defined for
         the motion. ``ds.motiform.to_pandas()`` returns a data frame with categoricals, ``ds.motiform.plot()`` plots the diagram.
 
@@ -123,9 +123,9 @@ def read_scan(path: Path, why: bool, *, quiet: bool = False) -> xr.Dataset:
     """The dataset of a scan folder; missing rows have the regime -1."""
     plan, arrays, damaged = _motiform.read_scan(os.fspath(path), why)
     _warn_of(damaged)
-    missing = int(np.count_nonzero(arrays[0] < 0))
+    missing = int(np.count_nonzero(arrays[0][0] < 0))
     if missing and not quiet:
-        text = f"{os.fspath(path)}: {missing} of {arrays[0].size} rows are not computed yet"
+        text = f"{os.fspath(path)}: {missing} of {arrays[0][0].size} rows are not computed yet"
         warnings.warn(text, Incomplete, stacklevel=3)
     return dataset(plan, arrays)
 
@@ -138,15 +138,17 @@ class Table:
         self._samples = plan.samples
         self.regimes = np.full(rows, -1, np.int8)
         self.attractors = np.full(rows, -1, np.int8)
+        self.courses = np.full(rows, -1, np.int8)
         self.numbers = [np.full(rows, np.nan) for _ in NUMBERS]
         self.whys = [""] * rows if why else None
 
     def put(self, first: int, arrays: _motiform.Arrays) -> None:
         """Takes in the rows of cells from `first` on."""
-        regimes, attractors, numbers, whys = arrays
+        (regimes, attractors, courses), numbers, whys = arrays
         place = slice(first * self._samples, first * self._samples + len(regimes))
         self.regimes[place] = regimes
         self.attractors[place] = attractors
+        self.courses[place] = courses
         for column, values in zip(self.numbers, numbers, strict=True):
             column[place] = values
         if self.whys is not None and whys is not None:
@@ -154,12 +156,12 @@ class Table:
 
     def arrays(self) -> _motiform.Arrays:
         """The rows as the native module gives them."""
-        return self.regimes, self.attractors, self.numbers, self.whys
+        return (self.regimes, self.attractors, self.courses), self.numbers, self.whys
 
 
 def dataset(plan: _motiform.ScanPlan, arrays: _motiform.Arrays) -> xr.Dataset:
     """Named dimensions, units and codes for the rows of a plan."""
-    regimes, attractors, numbers, whys = arrays
+    (regimes, attractors, courses), numbers, whys = arrays
     axes = plan.axes()
     dims = (*(name for name, _ in reversed(axes)), "sample")
     sizes = (*(len(values) for _, values in reversed(axes)), plan.samples)
@@ -171,6 +173,7 @@ def dataset(plan: _motiform.ScanPlan, arrays: _motiform.Arrays) -> xr.Dataset:
     variables: dict[str, Any] = {
         "regime": (dims, regimes.reshape(sizes), _flags("the motion", [regime.name for regime in REGIMES])),
         "attractor": (dims, attractors.reshape(sizes), _flags("the kind of reduced attractor", ATTRACTORS)),
+        "course": (dims, courses.reshape(sizes), _flags("sense of rotation, or direction to the field", COURSES)),
     }
     for (name, meaning), values in zip(NUMBERS, numbers, strict=True):
         variables[name] = (dims, values.reshape(sizes), {"long_name": meaning, "units": _unit(meaning)})
@@ -202,7 +205,7 @@ class ScanAccessor:
         self._data = data
 
     def names(self, variable: str = "regime") -> xr.DataArray:
-        """The names of ``regime`` (or ``attractor``) codes; empty where a row is missing."""
+        """The names of ``regime`` (or ``attractor``, ``course``) codes; empty where a row is missing, or has no course."""
         codes = self._data[variable]
         names = np.array([*codes.attrs["flag_meanings"].split(), ""])
         return xr.DataArray(names[codes.values], codes.coords, codes.dims, attrs={"long_name": codes.long_name})
@@ -216,12 +219,12 @@ class ScanAccessor:
         return share
 
     def to_pandas(self, *, cells: bool = False) -> pd.DataFrame:
-        """One row per cell and sample; ``regime`` and ``attractor`` are categoricals in the order of legends. `cells`
+        """One row per cell and sample; ``regime``, ``attractor`` and ``course`` are categoricals in the order of legends. `cells`
         adds the number of each cell, which is the order of rows in files."""
         frame = self._data.to_dataframe(dim_order=list(self._data["regime"].dims)).reset_index()
         if cells:
             frame.insert(0, "cell", np.arange(len(frame)) // self._data.sizes["sample"])
-        for name in ("regime", "attractor"):
+        for name in ("regime", "attractor", "course"):
             names = self._data[name].attrs["flag_meanings"].split()
             frame[name] = pd.Categorical.from_codes(frame[name].to_numpy(), categories=names)
         return frame

@@ -7,7 +7,7 @@ use super::{Done, Job};
 use crate::answers::{Answers, Gone};
 use crate::frames::Cell;
 use crate::task::{Errand, Post, Task, Tell, lock};
-use motiform_analysis::regime::{Attractor, Regime, Verdict};
+use motiform_analysis::regime::{Attractor, Course, Regime, Verdict};
 use motiform_dynamics::Watch;
 use motiform_lab::scan::{Classify, Evaluate, NUMBERS, Row};
 use motiform_study::{Error, ScanPlan};
@@ -35,6 +35,7 @@ pub(super) struct Found {
     cell: usize,
     regime: Regime,
     attractor: Attractor,
+    course: Option<Course>,
     numbers: Vec<u64>,
     why: String,
 }
@@ -42,18 +43,19 @@ pub(super) struct Found {
 impl From<Row> for Found {
     fn from(row: Row) -> Self {
         let numbers = row.numbers.iter().map(|number| number.to_bits()).collect();
-        Self { cell: row.cell, regime: row.regime, attractor: row.attractor, numbers, why: row.why }
+        let Row { cell, regime, attractor, course, why, .. } = row;
+        Self { cell, regime, attractor, course, numbers, why }
     }
 }
 
 impl Found {
     fn row(self) -> Row {
-        let Self { cell, regime, attractor, why, .. } = self;
+        let Self { cell, regime, attractor, course, why, .. } = self;
         let mut numbers = [f64::NAN; NUMBERS.len()];
         for (number, bits) in numbers.iter_mut().zip(self.numbers) {
             *number = f64::from_bits(bits);
         }
-        Row { cell, sample: 0, regime, attractor, numbers, why }
+        Row { cell, sample: 0, regime, attractor, course, numbers, why }
     }
 }
 

@@ -51,7 +51,8 @@ fn row(Line(at, regime, attractor, known, why): Line) -> (Vec<f64>, Row) {
     for (number, known) in numbers.iter_mut().zip(known) {
         *number = known.unwrap_or(f64::NAN);
     }
-    (at, Row { cell: 0, sample: 0, regime, attractor, numbers, why })
+    // the paper's models have all symmetries: no motion has a course
+    (at, Row { cell: 0, sample: 0, regime, attractor, course: None, numbers, why })
 }
 
 #[cfg(test)]
