@@ -24,6 +24,7 @@ pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
         "Motion of the fitted equations, without their noise: {regime}. {why}.\n\nThe equations are the study file {name}.toml in the folder of this page: every command of motiform takes it as a model."
     );
     let mut tables = vec![coefficients(fitted)];
+    tables.extend(sets(fitted));
     tables.extend(motions(fitted));
     tables.extend(bifurcations(fit));
     tables.extend(determined(fitted));
@@ -34,7 +35,7 @@ pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
 fn parameters(fitted: &Fitted, units: &Units) -> Vec<(String, String)> {
     let model = fitted.model();
     let noise = &model.noise;
-    let (symmetry, p) = (fitted.handedness.symmetry.name(), plain(fitted.handedness.p_value));
+    let (symmetry, p) = (fitted.symmetry().name(), plain(fitted.handedness.p_value));
     vec![
         ("symmetry".to_owned(), format!("{symmetry}, p = {p}")),
         ("frames with a likelihood".to_owned(), model.frames.to_string()),
@@ -83,6 +84,24 @@ fn coefficients(fitted: &Fitted) -> Table {
     }
 }
 
+/// The terms that are not in all sets that are as good as the best.
+fn sets(fitted: &Fitted) -> Option<Table> {
+    let subsets = &fitted.selection.subsets;
+    let all = subsets.ties.len();
+    let best = subsets.best()?;
+    let row = |(name, count): (String, usize)| {
+        let chosen = if best.names.contains(&name) { "yes" } else { "no" };
+        vec![Cell::text(typeset(&name)), Cell::number(format!("{count} of {all}")), Cell::text(chosen)]
+    };
+    let rows: Vec<Vec<Cell>> =
+        subsets.counts().into_iter().filter(|(_, count)| *count < all).map(row).collect();
+    (!rows.is_empty()).then(|| Table {
+        caption: "Terms that some of the sets that are as good as the best have, and others do not: the data do not tell whether they are there.".to_owned(),
+        head: ["term", "sets of terms that are as good", "in the set above"].map(str::to_owned).to_vec(),
+        rows,
+    })
+}
+
 /// The motions of the models that the data allow.
 fn motions(fitted: &Fitted) -> Option<Table> {
     let found = fitted.regime.as_ref()?;
@@ -120,7 +139,8 @@ fn bifurcations(fit: &CellFit) -> Option<Table> {
 fn determined(fitted: &Fitted) -> Option<Table> {
     let rows: Vec<Vec<Cell>> =
         fitted.known_of_all.equations.iter().map(|of| vec![Cell::text(literal(&of.text))]).collect();
-    (!fitted.is_identifiable()).then(|| Table {
+    let whole = fitted.known_of_all.equations.iter().all(|of| of.fixed() == of.combinations.len());
+    (!whole).then(|| Table {
         caption: "What the data determine, equation by equation, among all terms.".to_owned(),
         head: vec!["determined".to_owned()],
         rows,

@@ -83,7 +83,7 @@ fn table(cases: &[Case<'_>], names: &[String], units: &Units) -> Table {
         ];
         if fits {
             row.push(name(fitted_regime(case)));
-            row.push(Cell::text(fitted_of(case).map_or("", |fitted| fitted.handedness.symmetry.name())));
+            row.push(Cell::text(fitted_of(case).map_or("", |fitted| fitted.symmetry().name())));
             row.push(Cell::text(fitted_of(case).map_or_else(String::new, place_words)));
             row.push(Cell::text(agreement(case)));
         }

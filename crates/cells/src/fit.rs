@@ -149,8 +149,9 @@ pub fn fit_cell(cell: &CellTrack, options: &FitOptions, watch: &dyn Watch) -> Re
     if watch.stopped() {
         return Err(motiform_study::Error::Interrupted.into());
     }
-    if let (Ok(fitted), Some(true)) = (&mut fitted, prediction.as_ref().map(Prediction::is_unstable)) {
-        fitted.doubt("cells simulated by the fit, with its noise and its uncertainty, leave all bounds");
+    if let (Ok(fitted), Some(reason)) = (&mut fitted, prediction.as_ref().and_then(Prediction::contradiction))
+    {
+        fitted.doubt(&reason);
     }
     let bifurcations = match &fitted {
         Ok(fitted) if options.bifurcations => near_bifurcations(fitted, watch)?,

@@ -37,7 +37,7 @@ pub struct Fitted {
     pub checks: Checks,
     /// What makes the fit doubtful.
     pub warnings: Vec<Warning>,
-    /// Why there is no place, and with the first of them no motion: serious warnings, handedness, blow-up.
+    /// Why there is neither motion nor place nor a symmetry: serious warnings, handedness that is not decided, blow-up, simulated cells that are unlike the observed one.
     pub doubts: Vec<String>,
     /// The motion; `None` where the coefficients are not determined.
     pub regime: Option<FittedRegime>,
@@ -51,13 +51,24 @@ impl Fitted {
     /// The model that describes the cell: handed if real coefficients are rejected.
     #[must_use]
     pub fn model(&self) -> &Fit {
-        if self.is_handed() { &self.handedness.fit } else { &self.selection.fit }
+        if self.rejects_real() { &self.handedness.fit } else { &self.selection.fit }
     }
 
-    /// Whether real coefficients are rejected.
+    /// Whether real coefficients are rejected: the model then has complex ones.
+    fn rejects_real(&self) -> bool {
+        self.handedness.symmetry == Symmetry::Handed
+    }
+
+    /// The symmetry of the cell: not decided where the fit is doubtful.
+    #[must_use]
+    pub fn symmetry(&self) -> Symmetry {
+        if self.doubts.is_empty() { self.handedness.symmetry } else { Symmetry::Undecided }
+    }
+
+    /// Whether the cell is handed.
     #[must_use]
     pub fn is_handed(&self) -> bool {
-        self.handedness.symmetry == Symmetry::Handed
+        self.symmetry() == Symmetry::Handed
     }
 
     /// Whether the data determine the coefficients of the model.
@@ -149,12 +160,13 @@ pub(crate) fn fitted(
             "the fitted equations blow up without noise, and a cell that was tracked did not".to_owned(),
         );
     }
+    let mut reasons = doubts.clone();
     if handed {
-        doubts.push("the cell is handed, and the paper's planes are not".to_owned());
+        reasons.push("the cell is handed, and the paper's planes are not".to_owned());
     }
-    let places = [Plane::Full, Plane::Reduced].map(|plane| match doubts.is_empty() {
+    let places = [Plane::Full, Plane::Reduced].map(|plane| match reasons.is_empty() {
         true => place_among(&whole, &selection, plane),
-        false => Placement::Refused { reasons: doubts.clone() },
+        false => Placement::Refused { reasons: reasons.clone() },
     });
     Ok(Ok(Box::new(Fitted {
         whole,
@@ -197,10 +209,14 @@ fn two_digits(x: f64) -> f64 {
     if power > 0.0 && power.is_finite() { (x / power).round() * power } else { x }
 }
 
+/// Significance below which innovations that are not white leave a cell without motion and place.
+const COLOURED: f64 = 1e-6;
+
 /// Whether there is no motion and no place with this warning.
 fn serious(warning: &Warning) -> bool {
-    matches!(
-        warning,
-        Warning::Unbounded { .. } | Warning::NotConverged { .. } | Warning::CoarseSampling { .. }
-    )
+    match warning {
+        Warning::Unbounded { .. } | Warning::NotConverged { .. } | Warning::CoarseSampling { .. } => true,
+        Warning::Coloured { channels } => channels.iter().any(|channel| channel.p_value < COLOURED),
+        _ => false,
+    }
 }

@@ -68,6 +68,20 @@ impl Prediction {
         self.lost as f64 > MOST_LOST * (self.cells + self.lost) as f64
     }
 
+    /// Why the fit does not describe the cell, if so: simulated cells blow up, or a third of the statistics differ from those of the cell.
+    #[must_use]
+    pub fn contradiction(&self) -> Option<String> {
+        if self.is_unstable() {
+            return Some(
+                "cells simulated by the fit, with its noise and its uncertainty, leave all bounds".to_owned(),
+            );
+        }
+        let (differ, all) = (self.count(Agreement::Differs), self.comparisons.len());
+        (3 * differ >= all && differ > 1).then(|| {
+            format!("{differ} of {all} statistics of cells simulated by the fit, with its noise and its uncertainty, differ from those of the cell")
+        })
+    }
+
     /// That the cell differs from simulated ones in more than one statistic, as a clause.
     #[must_use]
     pub fn warning(&self) -> Option<String> {

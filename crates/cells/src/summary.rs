@@ -7,6 +7,9 @@ use crate::{
 use motiform_inference::{Coefficient, Estimate, Knowledge, Place, Placement};
 use serde_json::{Map, Value, json};
 
+/// Sets of terms that are listed.
+const MOST_SETS: usize = 100;
+
 /// Fits of all cells: `{"cells": [..], "units": .., "notes": [..]}`.
 #[must_use]
 pub fn fits_json(sample: &Sample, fits: &[CellFit]) -> Value {
@@ -115,11 +118,18 @@ fn add(object: &mut Value, fitted: &Fitted) {
     object["unidentified"] = json!(unidentified(fitted));
     object["determined"] = json!(fitted.known_of_all.equations.iter().map(|of| &of.text).collect::<Vec<_>>());
     object["handed"] = fitted.is_handed().into();
-    object["symmetry"] = json!(fitted.handedness.symmetry);
+    object["symmetry"] = json!(fitted.symmetry());
     object["handed_p_value"] = json!(fitted.handedness.p_value);
     let noise = &model.noise;
     object["noise"] = json!({ "measurement_factor": number(&noise.s), "eta_v": number(&noise.eta_v), "eta_shape": number(&noise.eta_shape) });
     object["coefficients"] = coefficients(fitted);
+    let name = |c: &Coefficient| format!("{}{}", if c.imaginary { "i " } else { "" }, c.name);
+    object["covariance"] = json!({
+        "coefficients": model.coefficients.iter().map(name).collect::<Vec<_>>(),
+        "matrix": model.covariance_of_coefficients(),
+    });
+    let sets = fitted.selection.subsets.ties.iter().take(MOST_SETS);
+    object["sets"] = sets.map(|set| json!({ "terms": set.names, "excess": set.excess })).collect();
     let innovations: Map<String, Value> = (fitted.checks.innovations.iter())
         .map(|one| (one.name.clone(), json!({ "variance": one.variance, "autocorrelation": one.autocorrelation, "p_value": one.p_value })))
         .collect();

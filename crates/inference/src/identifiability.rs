@@ -215,7 +215,16 @@ fn sentence(combinations: &[Combination]) -> String {
     let (fixed, free) = (texts(Knowledge::Fixed), texts(Knowledge::Free));
     match (fixed.len(), free.len()) {
         (_, 0) if fixed.len() == all => format!("all {all} coefficients are fixed"),
-        (_, 0) => format!("all {all} coefficients are known, {} of their combinations well", fixed.len()),
+        (_, 0) => {
+            let weak = texts(Knowledge::Weak);
+            let (shown, more) = (weak.len().min(3), weak.len().saturating_sub(3));
+            let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+            format!(
+                "{} of {all} combinations of coefficients are well known; weakly known: {}{rest}",
+                fixed.len(),
+                weak[..shown].join("; ")
+            )
+        }
         (0, _) => "not identifiable: no combination is fixed".to_owned(),
         (fixed, unknown) if unknown < fixed => {
             format!("not identifiable: {unknown} of {all} combinations are free: {}", free.join("; "))

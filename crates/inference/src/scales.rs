@@ -110,8 +110,9 @@ impl Scales {
         [self.amplitudes[1], self.amplitudes[2]]
     }
 
-    /// Variances of the process noise of each mode for amplitudes 1.
-    pub(crate) fn noise_of_modes(&self) -> Vec<f64> {
+    /// Variances of the process noise of each mode in natural units, for amplitudes 1: in the units of the data all modes of the shape have the same noise.
+    #[must_use]
+    pub fn noise_of_modes(&self) -> Vec<f64> {
         let [l2, l3] = self.reference();
         let of = |(n, l): (usize, &f64)| if n == 0 { 1.0 } else { (l2 / l) * (l3 / l) };
         self.amplitudes.iter().enumerate().map(of).collect()

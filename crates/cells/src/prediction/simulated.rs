@@ -31,7 +31,10 @@ pub(super) fn simulated(
     let body = InPlane(model.as_ref());
     let orbit = Orbit::new(&body, &RK4, control, 0.0, &state).ok()?;
     let [_, eta_v, eta_shape] = fit.natural.logs.map(libm::exp);
-    let noise = Noise::on(model.as_ref(), eta_v, eta_shape, step);
+    let mut noise = Noise::on(model.as_ref(), eta_v, eta_shape, step);
+    for (own, variance) in noise.amplitudes.chunks_exact_mut(2).zip(fit.scales.noise_of_modes()) {
+        own.iter_mut().for_each(|amplitude| *amplitude *= variance.sqrt());
+    }
     let mut orbit = NoisyOrbit::new(orbit, noise, Normal::new(seed, 2 * number + 1)).ok()?;
     let mut frames = Vec::with_capacity(observed.frames.len());
     for (place, wanted) in observed.mask().enumerate() {

@@ -35,6 +35,24 @@ fn the_fit_of_a_cell_moves_like_the_cell_and_that_of_another_does_not() {
     }
 }
 
+/// Straight and circular cells whose triangles are far smaller than their ellipses: the noise of both modes is the same in the units of the data, not in natural ones.
+#[test]
+fn simulated_cells_have_the_noise_of_the_observed_one_in_each_mode() {
+    for (kappa2, kappa3) in [(1.5, 1.0), (0.9, 0.6)] {
+        let mut study = preset("fig4", 0.03, (0.5, 400));
+        study.set("kappa2", kappa2).unwrap();
+        study.set("kappa3", kappa3).unwrap();
+        let cell = cell(&study, 0.005).cells.remove(0);
+        let options = FitOptions { draws: 1, drift: false, simulations: 0, ..FitOptions::default() };
+        let fit = fit_cell(&cell, &options, &()).unwrap().fitted.unwrap();
+        let scales = &fit.model().scales;
+        assert!(scales.amplitudes[1] > 2.0 * scales.amplitudes[2], "{:?}", scales.amplitudes);
+        let found = predict(&cell, fit.model(), COMPANIONS, &()).unwrap();
+        assert!(found.count(Agreement::Differs) == 0, "{:?}", verdicts(&found));
+        assert!(found.count(Agreement::Agrees) >= 7, "{:?}", verdicts(&found));
+    }
+}
+
 #[test]
 fn the_same_seed_gives_the_same_cells_and_the_watch_stops_the_work() {
     struct Stop;

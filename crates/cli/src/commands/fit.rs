@@ -158,14 +158,18 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
     writeln!(text, "because        {}", fitted.why())?;
     text += &quality(sample.cells.iter().find(|cell| cell.name == fit.name), fit.frames)?;
     let handedness = &fitted.handedness;
-    let symmetry = match handedness.symmetry {
+    let symmetry = match fitted.symmetry() {
         Symmetry::Handed => "handed: real coefficients are rejected",
         Symmetry::Mirror => "mirror symmetric: imaginary parts would have been seen",
         Symmetry::Undecided => "not decided whether it is handed",
     };
     let p_value = handedness.p_value;
-    let p = if p_value < 0.01 { format!("{p_value:.1e}") } else { format!("{p_value:.2}") };
-    writeln!(text, "symmetry       {symmetry}, p = {p}")?;
+    let p = match p_value {
+        0.0 => "below 1e-300".to_owned(),
+        p if p < 0.01 => format!("{p:.1e}"),
+        p => format!("{p:.2}"),
+    };
+    writeln!(text, "symmetry       {symmetry}, p {}{p}", if p_value == 0.0 { "" } else { "= " })?;
     let model = fitted.model();
     for (place, coefficient) in model.coefficients.iter().enumerate() {
         let part = if coefficient.imaginary { "imaginary part of " } else { "" };
@@ -180,10 +184,7 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
         }
         text.push('\n');
     }
-    let ties = fitted.selection.subsets.ties.len();
-    if ties > 1 {
-        writeln!(text, "               {ties} sets of terms are as good")?;
-    }
+    text += &sets(fitted)?;
     let noise = &model.noise;
     let [velocity, shape] =
         [&noise.eta_v, &noise.eta_shape].map(|estimate| with_error(estimate.value, estimate.error));
@@ -192,7 +193,7 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
         text,
         "noise          velocity {velocity} {length}/{time}^1.5, shape {shape} {length}/{time}^0.5"
     )?;
-    if !fitted.is_identifiable() {
+    if fitted.known_of_all.equations.iter().any(|of| of.fixed() < of.combinations.len()) {
         for equation in &fitted.known_of_all.equations {
             writeln!(text, "equation of z{}  {} (of all terms)", equation.equation + 1, equation.text)?;
         }
@@ -208,6 +209,19 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
     }
     for warning in fit.warnings() {
         writeln!(text, "warning        {warning}")?;
+    }
+    Ok(text)
+}
+
+/// That other sets of terms are as good, and which terms the sets do not share.
+fn sets(fitted: &Fitted) -> Result<String, std::fmt::Error> {
+    let subsets = &fitted.selection.subsets;
+    let all = subsets.ties.len();
+    let mut text = String::new();
+    if all > 1 {
+        let not_in_all = subsets.counts().into_iter().filter(|(_, count)| *count < all);
+        let words: Vec<String> = not_in_all.map(|(name, count)| format!("{name} in {count}")).collect();
+        writeln!(text, "sets of terms  {all} are as good; not in all of them: {}", words.join(", "))?;
     }
     Ok(text)
 }

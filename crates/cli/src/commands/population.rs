@@ -61,5 +61,10 @@ fn line(text: &mut String, name: &str, over: &OverCells, unit: &str) -> Result {
         None => four_digits(value),
     };
     let (mean, median) = (number(over.mean, over.mean_interval), number(over.median, over.median_interval));
-    writeln!(text, "{}", format!("  {name:<16} mean {mean}, median {median} {unit}").trim_end())
+    writeln!(
+        text,
+        "{}",
+        format!("  {name:<16} mean {mean}, median {median} {unit}").trim_end().to_owned()
+            + &format!(" ({} cell{})", over.cells, if over.cells == 1 { "" } else { "s" })
+    )
 }

@@ -120,6 +120,14 @@ impl Fit {
         DMatrix::from_fn(n, n, |i, j| self.natural.covariance[i][j])
     }
 
+    /// The covariance of the coefficients in the units of the data, from the expected information, in the order of [`Fit::coefficients`].
+    #[must_use]
+    pub fn covariance_of_coefficients(&self) -> Vec<Vec<f64>> {
+        let units: Vec<f64> = self.coefficients.iter().map(|c| self.scales.coefficient(&c.term)).collect();
+        let row = |(row, a): (&Vec<f64>, &f64)| row.iter().zip(&units).map(|(x, b)| x * a * b).collect();
+        self.natural.covariance.iter().zip(&units).map(row).collect()
+    }
+
     /// Its parameters in natural units.
     pub(crate) fn theta(&self) -> Theta {
         Theta { coefficients: self.natural.coefficients.clone(), logs: self.natural.logs }

@@ -54,6 +54,20 @@ impl Subsets {
         self.ties.first()
     }
 
+    /// How many of the sets within [`TIE`] have each coefficient that any of them has, the most frequent first.
+    #[must_use]
+    pub fn counts(&self) -> Vec<(String, usize)> {
+        let mut counts: Vec<(String, usize)> = Vec::new();
+        for name in self.ties.iter().flat_map(|set| &set.names) {
+            match counts.iter_mut().find(|entry| entry.0 == *name) {
+                Some(entry) => entry.1 += 1,
+                None => counts.push((name.clone(), 1)),
+            }
+        }
+        counts.sort_by(|a, b| b.1.cmp(&a.1));
+        counts
+    }
+
     /// Names that are in every set within [`TIE`].
     #[must_use]
     pub fn certain(&self) -> Vec<String> {

@@ -12,6 +12,7 @@ mod evaluation;
 mod lanes;
 mod names;
 mod noise;
+mod paper;
 mod parser;
 mod polynomial;
 mod program;

@@ -4,6 +4,7 @@
 //! `sum_b b (c_b + sum_k c_bk N_k)`. A product that occurs several times is computed once.
 
 use super::coefficient::{Kind, Place, Tape, Value};
+use super::paper::Paper;
 use super::polynomial::{Monomial, Polynomial};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -40,6 +41,68 @@ pub(super) struct Sum {
     pub(super) complex: Range<usize>,
 }
 
+/// A list of products as the evaluation reads it: one that is made when the program runs, or one that is known when it is compiled.
+pub(super) trait List {
+    /// Numbers of coefficients, unknowns and rates, which are `given`: lengths that are known when the program is compiled take loops apart.
+    fn lengths(&self, given: [usize; 3]) -> [usize; 3];
+    /// [`Program::one`].
+    fn one(&self) -> bool;
+    /// [`Program::products`].
+    fn products(&self) -> &[[Operand; 2]];
+    /// [`Program::norms`].
+    fn norms(&self) -> &[u16];
+    /// [`Program::norm_products`].
+    fn norm_products(&self) -> &[[u16; 2]];
+    /// [`Factor::norm`] of each of [`Program::factors`].
+    fn norm(&self, factor: usize) -> Option<u16>;
+    /// [`Program::groups`].
+    fn groups(&self) -> &[Group];
+    /// [`Program::sums`].
+    fn sums(&self) -> &[Sum];
+}
+
+impl List for Program {
+    #[inline(always)]
+    fn lengths(&self, given: [usize; 3]) -> [usize; 3] {
+        given
+    }
+
+    #[inline(always)]
+    fn one(&self) -> bool {
+        self.one
+    }
+
+    #[inline(always)]
+    fn products(&self) -> &[[Operand; 2]] {
+        &self.products
+    }
+
+    #[inline(always)]
+    fn norms(&self) -> &[u16] {
+        &self.norms
+    }
+
+    #[inline(always)]
+    fn norm_products(&self) -> &[[u16; 2]] {
+        &self.norm_products
+    }
+
+    #[inline(always)]
+    fn norm(&self, factor: usize) -> Option<u16> {
+        self.factors[factor].norm
+    }
+
+    #[inline(always)]
+    fn groups(&self) -> &[Group] {
+        &self.groups
+    }
+
+    #[inline(always)]
+    fn sums(&self) -> &[Sum] {
+        &self.sums
+    }
+}
+
 /// Several polynomials, ready to be evaluated.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Program {
@@ -54,6 +117,8 @@ pub(super) struct Program {
     pub(super) factors: Vec<Factor>,
     pub(super) groups: Vec<Group>,
     pub(super) sums: Vec<Sum>,
+    /// Whether it is the list of [`Paper`].
+    pub(super) paper: bool,
 }
 
 /// Number of registers of each kind that are available.
@@ -74,7 +139,9 @@ impl Program {
         }
         let Builder { products, norms, norm_products, factors, groups, .. } = builder;
         let fits = products.len() <= REGISTERS && norms.len() + norm_products.len() <= REGISTERS;
-        fits.then_some(Self { one, products, norms, norm_products, factors, groups, sums })
+        let mut program = Self { one, products, norms, norm_products, factors, groups, sums, paper: false };
+        program.paper = modes == 3 && Paper::is(&program);
+        fits.then_some(program)
     }
 
     /// The coefficient of each factor, of all values of a tape.

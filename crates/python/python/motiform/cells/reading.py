@@ -68,14 +68,20 @@ def from_arrays(
     An outline is an (n, 2) array or a polygon with ``exterior.coords``, such as those of shapely. Frames are counted in intervals
     of time, so that missing ones are gaps.
     """
+    if not isinstance(outlines, Mapping):
+        raise TypeError(f"outlines must be {{name: [(t, outline), ...]}}, not {type(outlines).__name__}")
     cells = [(str(name), _frames(str(name), frames)) for name, frames in outlines.items()]
     return Cells(_motiform.Sample.given(cells, ((length_unit, time_unit), y_down, None)))
 
 
 def _frames(name: str, frames: Iterable[tuple[float, Any]]) -> list[tuple[int | None, float, Floats]]:
     found: dict[float, Floats] = {}
-    for t, outline in frames:
-        time = float(t)
+    for entry in frames:
+        try:
+            t, outline = entry
+            time = float(t)
+        except (TypeError, ValueError):
+            raise TypeError(f"cell {name}: give pairs of a time and an outline: [(0.0, points), (1.0, points), ...]") from None
         if not math.isfinite(time):
             raise ValueError(f"cell {name}: the time {t} is not a finite number")
         if time in found:
