@@ -64,7 +64,7 @@ impl Subsets {
                 None => counts.push((name.clone(), 1)),
             }
         }
-        counts.sort_by(|a, b| b.1.cmp(&a.1));
+        counts.sort_by_key(|entry| std::cmp::Reverse(entry.1));
         counts
     }
 

@@ -17,7 +17,7 @@ impl Program {
     pub(super) fn eval<T: Scalar>(&self, coefficients: &[[T::Real; 2]], u: &[T], du: &mut [T]) {
         match self.registers(u.len() / 2) {
             _ if KNOWN && self.paper => {
-                T::apart(Evaluation::<T, Paper, 8> { program: &Paper, coefficients, u, du })
+                T::apart(Evaluation::<T, Paper, 8> { program: &Paper, coefficients, u, du });
             }
             ..=8 => T::apart(Evaluation::<T, Self, 8> { program: self, coefficients, u, du }),
             9..=16 => T::apart(Evaluation::<T, Self, 16> { program: self, coefficients, u, du }),
