@@ -140,7 +140,7 @@ pub(crate) fn fitted(
         false => Ok(None),
     })?;
     let checks = Checks::of(tracks, model);
-    let warnings = warnings(tracks, &selection.fit, drift.as_ref())?;
+    let warnings = warnings(tracks, model, drift.as_ref())?;
     let mut doubts: Vec<String> = warnings.iter().filter(|w| serious(w)).map(ToString::to_string).collect();
     if handedness.is_doubted() && !handed {
         doubts.push(format!(

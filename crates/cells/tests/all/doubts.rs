@@ -3,9 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use super::bodies::{RADIUS, cell_of, preset};
-use motiform_analysis::regime::Regime;
-use motiform_cells::{CellTrack, FitOptions, Prediction, Sample, fit_cell, fit_together, observe};
+use motiform_cells::{CellTrack, FitOptions, Sample, fit_cell, fit_together, observe};
 use motiform_inference::{Placement, Symmetry};
+use motiform_tracks::centroid;
 use motiform_tracks::modes::ModeOptions;
 
 /// Weakly handed cells: where the likelihood ratio is between both levels, nothing is said; beyond, they are handed; neither is ever called mirror symmetric with a
@@ -33,26 +33,47 @@ fn a_cell_that_may_be_handed_has_neither_motion_nor_place() {
         if doubted {
             assert!(fitted.places.iter().all(|place| matches!(place, Placement::Refused { .. })));
             assert!(symmetry == Symmetry::Handed || fitted.regime.is_none());
-            assert!(fitted.doubts.iter().any(|doubt| doubt.contains("handed")));
+            let named = |reasons: &[String]| reasons.iter().any(|reason| reason.contains("handed"));
+            assert!(
+                fitted
+                    .places
+                    .iter()
+                    .all(|place| matches!(place, Placement::Refused { reasons } if named(reasons)))
+            );
+            assert_eq!(named(&fitted.doubts), symmetry == Symmetry::Undecided);
         }
     }
     assert!(seen[0] > 0 && seen[2] > 0, "{seen:?}");
 }
 
-/// A quasi-periodic cell whose short record is described best by equations that circle, and blow up under the fitted noise: by the draws alone it had a wrong
-/// name (2 of 150 such cells, 1 of a thousand of four motions).
+/// A cell that moves straight, and from the middle on another one that circles, where the first one ended: no step shows it, but the fit of both does not describe the record.
 #[test]
-fn a_fit_whose_simulated_cells_blow_up_has_no_name() {
-    let mut study = preset("fig3", 0.002, (0.5, 300));
-    study.run.seed = 46;
-    let sample = cell_of(&study, 0.35, 0.01);
-    let options = FitOptions { draws: 4, drift: false, simulations: 40, ..FitOptions::default() };
+fn a_fit_that_its_cell_contradicts_has_neither_name_nor_symmetry() {
+    let body = |kappa2: f64, kappa3: f64| {
+        let mut study = preset("fig4", 0.01, (0.5, 200));
+        study.set("kappa2", kappa2).unwrap();
+        study.set("kappa3", kappa3).unwrap();
+        cell_of(&study, RADIUS, 0.01).tracks
+    };
+    let (mut tracks, second) = (body(1.5, 1.0), body(0.9, 0.6));
+    let end = tracks.cells[0].frames.last().unwrap().clone();
+    let start = &second.cells[0].frames[0];
+    let shift = [0, 1].map(|k| centroid(&end.points)[k] - centroid(&start.points)[k]);
+    for outline in second.cells[0].frames.iter().skip(1) {
+        let mut outline = outline.clone();
+        outline.frame += end.frame;
+        outline.t += end.t;
+        outline.points.iter_mut().for_each(|point| *point = [point[0] + shift[0], point[1] + shift[1]]);
+        tracks.cells[0].frames.push(outline);
+    }
+    let sample = Sample::of_tracks(tracks, &ModeOptions::default());
+    assert!(sample.cells[0].modes.inconsistent().is_none());
+    let options = FitOptions { draws: 4, drift: false, simulations: 99, ..FitOptions::default() };
     let fit = fit_cell(&sample.cells[0], &options, &()).unwrap();
-    assert!(fit.prediction.as_ref().is_some_and(Prediction::is_unstable));
     let fitted = fit.fitted.unwrap();
-    let found = fitted.regime.as_ref().unwrap();
-    assert_eq!((found.regime, found.best, found.share), (None, Regime::Circular, 1.0));
-    assert!(fitted.why().contains("simulated by the fit"), "{}", fitted.why());
+    assert!(!fitted.doubts.is_empty(), "{:?}", fitted.warnings);
+    assert!(fitted.regime.as_ref().is_none_or(|found| found.regime.is_none()), "{}", fitted.why());
+    assert!(fitted.symmetry() == Symmetry::Undecided && !fitted.is_handed());
     assert!(fitted.places.iter().all(|place| matches!(place, Placement::Refused { .. })));
 }
 
