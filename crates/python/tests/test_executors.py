@@ -185,5 +185,5 @@ def test_a_task_ends_in_time() -> None:
     plan = _motiform.ScanPlan(BODY._study, [("kappa2", "-0.2:0.2:200"), ("gamma", "-0.1:0.1:200")])
     began = time.monotonic()
     arrays, end, seconds = plan.task(0, plan.cells, 0.2, False)
-    assert 0 < end < plan.cells and len(arrays[0]) == end and arrays[3] is None
+    assert 0 < end < plan.cells and len(arrays[0][0]) == end and arrays[2] is None
     assert 0.2 <= seconds <= time.monotonic() - began

@@ -238,6 +238,10 @@ class Equilibrium:
     residual: float
     share: float
     """Fraction of the random starts from which Newton's method converged to this equilibrium."""
+    course: str | None = None
+    """Sense of rotation, or direction to the field, where the model tells them apart."""
+    heading: float | None = None
+    """Direction of the velocity (rad from the x-axis), where rotations are no symmetry."""
 
     @property
     def stable(self) -> bool:
