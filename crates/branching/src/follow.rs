@@ -30,6 +30,13 @@ pub struct Leg {
     pub end: End,
 }
 
+impl Leg {
+    /// Whether the leg ends at this of its points because its motion gains a symmetry there: the point then belongs to the motion of more symmetry.
+    pub(super) fn meets_at(&self, point: usize) -> bool {
+        point + 1 == self.samples.len() && matches!(self.end, End::Meets { .. })
+    }
+}
+
 /// A branch.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Followed {

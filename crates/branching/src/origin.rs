@@ -60,9 +60,8 @@ impl Origin {
     pub(super) fn on(number: usize, followed: &Followed) -> Vec<Self> {
         let mut all = Vec::new();
         for (leg, done) in followed.legs.iter().enumerate() {
-            let meets = matches!(done.end, End::Meets { .. });
-            let inner = done.samples.len() - usize::from(meets && !done.samples.is_empty());
-            for (point, sample) in done.samples[..inner].iter().enumerate() {
+            for (point, sample) in done.samples.iter().enumerate().filter(|(point, _)| !done.meets_at(*point))
+            {
                 let leads_on = |special| {
                     !matches!(
                         special,

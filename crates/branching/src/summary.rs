@@ -104,7 +104,7 @@ impl Branches {
     fn entry(&self, (branch, leg, point): (usize, usize, usize), sample: &Sample) -> Option<SpecialEntry> {
         let special = sample.point.special?;
         let done = &self.branches[branch].legs[leg];
-        let ends = point + 1 == done.samples.len() && matches!(done.end, End::Meets { .. });
+        let ends = done.meets_at(point);
         let origin =
             if ends { Origin::Meets { branch, leg } } else { Origin::Special { branch, leg, point } };
         let next = self.links.iter().find(|link| link.origin == origin).and_then(|link| link.branch);

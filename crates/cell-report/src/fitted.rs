@@ -6,7 +6,7 @@ use crate::terms::typeset;
 use motiform_cells::Units;
 use motiform_cells::{CellFit, Fitted};
 use motiform_figures::literal;
-use motiform_inference::{Coefficient, paper};
+use motiform_inference::{Coefficient, EquationKnowledge, paper};
 use motiform_report::{Cell, Section, Table};
 
 pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
@@ -137,12 +137,15 @@ fn bifurcations(fit: &CellFit) -> Option<Table> {
 
 /// What the motion fixes, where it does not fix everything.
 fn determined(fitted: &Fitted) -> Option<Table> {
-    let rows: Vec<Vec<Cell>> =
-        fitted.known_of_all.equations.iter().map(|of| vec![Cell::text(literal(&of.text))]).collect();
-    let whole = fitted.known_of_all.equations.iter().all(|of| of.fixed() == of.combinations.len());
+    let equations = &fitted.known_of_all.equations;
+    let row = |of: &EquationKnowledge| {
+        vec![Cell::text(format!("*z*_{}", of.equation + 1)), Cell::text(literal(&of.text))]
+    };
+    let rows: Vec<Vec<Cell>> = equations.iter().map(row).collect();
+    let whole = equations.iter().all(|of| of.fixed() == of.combinations.len());
     (!whole).then(|| Table {
         caption: "What the data determine, equation by equation, among all terms.".to_owned(),
-        head: vec!["determined".to_owned()],
+        head: vec!["equation".to_owned(), "determined".to_owned()],
         rows,
     })
 }

@@ -35,7 +35,7 @@ fn sentence(case: &Case<'_>) -> String {
             )
         }
         (Some(a), Some(b)) => format!(
-            "The samples alone say {a}, the fitted equations without their noise {b}. Both hold for this record: noise, or a transient, can show another motion than the equations settle to. Compare the simulated cells below."
+            "The samples alone say {a}, the fitted equations without their noise {b}. They need not contradict each other: with noise, or in a transient, a cell can move in another way than the equations settle to. Compare the simulated cells below."
         ),
         (None, Some(b)) => format!(
             "The samples alone do not decide the motion; the fitted equations, without their noise, do: {b}. The name rests on the fit; the checks and the simulated cells below show how far it holds."

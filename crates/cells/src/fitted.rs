@@ -205,8 +205,7 @@ fn plane(study: &Study) -> Vec<Axis> {
 
 /// A number with two digits.
 fn two_digits(x: f64) -> f64 {
-    let power = libm::pow(10.0, libm::floor(libm::log10(x.abs())) - 1.0);
-    if power > 0.0 && power.is_finite() { (x / power).round() * power } else { x }
+    format!("{x:.1e}").parse().unwrap_or(x)
 }
 
 /// Significance below which innovations that are not white leave a cell without motion and place.

@@ -1,9 +1,10 @@
 //! The folder of a result: `summary.json`, `modes.parquet`, and for fits `coefficients.parquet` and a study file per cell.
 
+use crate::provenance::study_file;
 use crate::work::MANIFEST;
 use crate::{
-    CellFit, Observation, Result, Sample, coefficient_columns, file_names, fits_json, mode_columns,
-    observations_json,
+    CellFit, FitOptions, Observation, Result, Sample, coefficient_columns, file_names, fits_json,
+    mode_columns, observations_json,
 };
 use motiform_files::Staging;
 use motiform_files::columns::{Column, encode};
@@ -31,14 +32,14 @@ impl FitFolder {
 pub(crate) fn result_files(
     sample: &Sample,
     fits: &[CellFit],
+    options: &FitOptions,
     target: &Path,
 ) -> Result<Vec<(String, Vec<u8>)>> {
     let mut files = common(sample, &fits_json(sample, fits), target)?;
     files.push(("coefficients.parquet".to_owned(), table(&coefficient_columns(fits), target)?));
     for (fit, name) in fits.iter().zip(file_names(fits.iter().map(|fit| fit.name.as_str()))) {
         let Ok(fitted) = &fit.fitted else { continue };
-        let study = fitted.study(&fit.name, sample.radius(&fit.name))?;
-        files.push((format!("{name}.toml"), study.to_toml()?.into_bytes()));
+        files.push((format!("{name}.toml"), study_file(sample, fit, fitted, options)?.into_bytes()));
     }
     Ok(files)
 }

@@ -16,6 +16,7 @@ mod observe;
 mod packed;
 mod population;
 mod prediction;
+mod provenance;
 mod recorded;
 mod regime;
 mod stages;

@@ -88,10 +88,10 @@ pub fn observe(cell: &CellTrack) -> Observation {
         return bare(format!("{frames} frames count; at least {LEAST_FRAMES} are needed to name a motion"));
     }
     let Some(measures) = Measures::of(&cell.track) else {
-        return bare(
-            "the frames are not equally spaced for long enough: gaps leave no stretch of 40 frames"
-                .to_owned(),
-        );
+        let all = cell.modes.frames.len();
+        return bare(format!(
+            "the {frames} frames that count, of {all}, are not equally spaced for long enough: gaps and frames left out leave no stretch of {LEAST_FRAMES}"
+        ));
     };
     let repeats = Repeats::of(&measures);
     let (regime, why) = decide(&measures, cell.radius, repeats.as_ref());

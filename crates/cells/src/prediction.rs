@@ -82,11 +82,11 @@ impl Prediction {
         })
     }
 
-    /// That the cell differs from simulated ones in more than one statistic, as a clause.
+    /// That the cell differs from simulated ones in more than one statistic, as a clause; `None` where that contradicts the fit, which says it.
     #[must_use]
     pub fn warning(&self) -> Option<String> {
         let differ = self.count(Agreement::Differs);
-        (differ > 1).then(|| {
+        (differ > 1 && self.contradiction().is_none()).then(|| {
             format!(
                 "{differ} of {} statistics of the cell differ from those of simulated cells: the equations, or the noise, do not describe all of its motion",
                 self.comparisons.len()

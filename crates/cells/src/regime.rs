@@ -14,6 +14,8 @@ pub const LEAST_SHARE: f64 = 0.9;
 
 /// Sets of terms with less weight than this, relative to the best, have no draws.
 const LEAST_WEIGHT: f64 = 0.05;
+/// Most steps of the integration for one model: some draws are so stiff that their motion would take minutes. They count as undetermined.
+const MOST_STEPS: u64 = 1_000_000;
 /// Most sets of terms that have draws.
 const MOST_SETS: usize = 6;
 
@@ -108,7 +110,9 @@ pub(crate) fn natural_study(fit: &Fit, values: &[f64]) -> std::result::Result<St
 }
 
 fn classify(fit: &Fit, values: &[f64], watch: &dyn Watch) -> Result<Regime> {
-    let plan = Plan::new(&natural_study(fit, values)?)?;
+    let mut study = natural_study(fit, values)?;
+    study.run.max_steps = MOST_STEPS;
+    let plan = Plan::new(&study)?;
     let verdict =
         analyse::classify(&plan, 0.0, &StopOnly(watch))?.ok_or(motiform_study::Error::Interrupted)?;
     Ok(verdict.regime)

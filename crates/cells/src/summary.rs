@@ -7,7 +7,7 @@ use crate::{
 use motiform_inference::{Coefficient, Estimate, Knowledge, Place, Placement};
 use serde_json::{Map, Value, json};
 
-/// Sets of terms that are listed.
+/// Sets of terms that are listed at most, the best first; `ties` counts all of them.
 const MOST_SETS: usize = 100;
 
 /// Fits of all cells: `{"cells": [..], "units": .., "notes": [..]}`.

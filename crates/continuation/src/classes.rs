@@ -5,8 +5,8 @@ use motiform_analysis::linear::{add, apply, basis, complement, dot, norm};
 use motiform_dynamics::Equivariant;
 use std::f64::consts::TAU;
 
-/// A mirror image counts as equal up to this part of the shape's size.
-const SAME: f64 = 1e-6;
+/// A shape counts as equal to its image up to this part of its size; turning points of branches are located far closer.
+pub(super) const SAME: f64 = 1e-6;
 
 /// What all shapes of a branch have in common.
 #[derive(Clone, Debug)]

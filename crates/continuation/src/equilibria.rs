@@ -1,6 +1,6 @@
 //! The equations of relative equilibria along a parameter.
 
-use super::classes::Classes;
+use super::classes::{Classes, SAME};
 use super::correct::{correct, normal, scaled};
 use super::family::{Bodies, Neighbours, Sides};
 use super::hopf::first_lyapunov;
@@ -15,9 +15,6 @@ use motiform_analysis::{Isotropy, RelativeEquilibrium};
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField, Watch, model};
 use nalgebra::DMatrix;
-
-/// Where a branch turns back, a shape that differs from its image by less than this part of its size has the symmetry: turning points are located far closer.
-const GAINED: f64 = 1e-6;
 
 /// Distances at which members of a family with one value of the parameter are looked for, in sizes of the shape, and the part of the range within which it is one value.
 const FAMILY: [f64; 2] = [0.05, 0.1];
@@ -159,8 +156,8 @@ impl Problem for Equilibria<'_> {
         if self.classes.circle {
             return None;
         }
-        let found = Isotropy::of(body, shape, GAINED);
-        let rests = body.symmetry().rotations && norm(shape) < GAINED * self.size;
+        let found = Isotropy::of(body, shape, SAME);
+        let rests = body.symmetry().rotations && norm(shape) < SAME * self.size;
         if rests || found.circle || found.folds > self.classes.folds {
             return Some(Broken::Rotations);
         }

@@ -29,6 +29,8 @@ pub enum Glyph {
     Star,
     /// A diagonal cross.
     Cross,
+    /// An upright cross.
+    Plus,
     /// A question mark.
     Question,
 }
@@ -54,6 +56,7 @@ impl Glyph {
             Self::Zigzag => svg.polyline(&zigzag(at, radius), false, &line),
             Self::Star => svg.lines(&arms(at, 1.2 * radius, 3, FRAC_PI_2), &line),
             Self::Cross => svg.lines(&arms(at, 1.2 * radius, 2, 0.25 * PI), &line),
+            Self::Plus => svg.lines(&arms(at, 1.2 * radius, 2, 0.0), &line),
             Self::Question => {
                 let size = 2.5 * radius;
                 svg.text([at[0], at[1] + 0.36 * size], size, Anchor::Middle, &Label::parse("?"));
@@ -90,7 +93,9 @@ mod tests {
 
     #[test]
     fn markers_are_centred_and_about_as_large_as_a_disc() {
-        for glyph in SERIES.into_iter().chain([Glyph::Zigzag, Glyph::Star, Glyph::Cross, Glyph::Question]) {
+        for glyph in
+            SERIES.into_iter().chain([Glyph::Zigzag, Glyph::Star, Glyph::Cross, Glyph::Plus, Glyph::Question])
+        {
             let mut svg = Svg::new(60.0, 60.0);
             glyph.draw(&mut svg, [30.0, 30.0], 10.0, Colour(0, 114, 178));
             let picture = super::super::raster::pixmap(&svg.finish(), 1.0).expect("a picture");

@@ -56,6 +56,7 @@ impl Study {
         if let Some(table) = top.table("display")? {
             study.display = read_display(&study, table)?;
         }
+        top.take("fit"); // what fitted equations come from: for readers and scripts
         top.finish()?;
         Ok(study)
     }
@@ -268,6 +269,7 @@ pub fn schema() -> serde_json::Value {
             "return_map": section::<ReturnMapSettings>(),
             "figure": section::<FigureSettings>(),
             "display": section::<DisplaySettings>(),
+            "fit": { "type": "object", "description": "what fitted equations come from; not read by simulations" },
         },
     })
 }

@@ -53,7 +53,7 @@ pub fn given(mut cells: Vec<Cell>, about: Given) -> Result<Tracks> {
     }
     notes.extend(filed_twice(&cells));
     let Given { length_unit, time_unit, y_down, image, .. } = about;
-    Ok(Tracks { cells, length_unit, time_unit, y_down, image, notes })
+    Ok(Tracks { cells, files: Vec::new(), length_unit, time_unit, y_down, image, notes })
 }
 
 /// Numbers of frames from their times; in order where these are not multiples of one interval.

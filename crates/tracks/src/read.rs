@@ -73,7 +73,11 @@ fn file(path: &Path, options: &Options) -> Result<(Tracks, Format)> {
     let scaled = |value: f64| value * length.factor;
     let image = image.map(|image| Image { size: image.size.map(scaled), pixel: scaled(image.pixel) });
     let y_down = format.is_of_images().then_some(true);
-    Ok((Tracks { cells, length_unit: length.unit, time_unit: time.unit, y_down, image, notes }, format))
+    let files = vec![path.display().to_string()];
+    Ok((
+        Tracks { cells, files, length_unit: length.unit, time_unit: time.unit, y_down, image, notes },
+        format,
+    ))
 }
 
 /// At least one outline must have an area.
@@ -109,6 +113,7 @@ fn add(all: &mut Tracks, one: Tracks, path: &Path) -> Result<()> {
     all.y_down = if all.y_down == one.y_down { all.y_down } else { None };
     all.image = if all.image == one.image { all.image } else { None };
     all.cells.extend(one.cells);
+    all.files.extend(one.files);
     all.notes.extend(one.notes);
     Ok(())
 }

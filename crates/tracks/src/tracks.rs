@@ -17,6 +17,8 @@ pub const FRAME: &str = "frame";
 pub struct Tracks {
     /// The cells, in the order of the files.
     pub cells: Vec<Cell>,
+    /// The files, as they were named; empty for outlines that were given.
+    pub files: Vec<String>,
     /// Unit of coordinates; [`PIXEL`] where the scale is unknown.
     pub length_unit: String,
     /// Unit of times; [`FRAME`] where the interval is unknown.

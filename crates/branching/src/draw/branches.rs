@@ -136,7 +136,11 @@ fn caption(plan: &BranchPlan, found: &Branches, mirror: bool) -> Result<Vec<Stri
         1 => "One branch".to_owned(),
         count => format!("{count} branches"),
     };
-    let once = if mirror { ", each drawn once for all its mirror images" } else { "" };
+    let once = match (mirror, found.branches.len()) {
+        (false, _) => "",
+        (true, 1) => ", drawn once for all its mirror images",
+        (true, _) => ", each drawn once for all its mirror images",
+    };
     let left = match found.left {
         0 => String::new(),
         1 => "; one point at which more may begin was left".to_owned(),
@@ -222,7 +226,7 @@ fn mark(special: Special) -> (&'static str, Glyph) {
     match special {
         Special::Fold => ("fold", Glyph::Star),
         Special::Pitchfork { .. } => ("pitchfork", Glyph::Diamond),
-        Special::Continuum => ("continuum", Glyph::Ring),
+        Special::Continuum => ("continuum", Glyph::Plus),
         Special::Hopf(_) => ("Hopf", Glyph::Disc),
         Special::PeriodDoubling => ("period doubling", Glyph::Triangle),
         Special::SymmetryBreaking => ("symmetry breaking", Glyph::Square),

@@ -43,6 +43,7 @@ fn sample() -> Sample {
         time_unit: "s".to_owned(),
         y_down: Some(true),
         image: None,
+        files: Vec::new(),
         notes: Vec::new(),
     };
     Sample::of_tracks(tracks, &motiform_tracks::modes::ModeOptions::default())

@@ -11,7 +11,7 @@ use std::path::Path;
 /// What is computed in a folder.
 pub(crate) const MANIFEST: &str = "_fit.json";
 /// Raised when the numbers of a fit, or what is stored of it, change.
-const FORMAT: u32 = 3;
+const FORMAT: u32 = 4;
 
 /// One cell of the input.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -128,7 +128,7 @@ impl Manifest {
 }
 
 /// SHA-256 of what a fit is made from.
-fn digest(cell: &CellTrack, modes: usize) -> String {
+pub(crate) fn digest(cell: &CellTrack, modes: usize) -> String {
     let own = 2 * modes;
     let mut bytes = Vec::with_capacity(cell.frames() * 43 * 8);
     for frame in &cell.track.0 {

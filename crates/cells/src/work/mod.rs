@@ -10,8 +10,8 @@ use crate::folder::{FitFolder, result_files};
 use crate::packed::{read_packed, write_packed};
 use crate::stages::Stages;
 use crate::{CellFit, CellTrack, Error, FitOptions, Result, Sample, fit_in_stages, fit_or_reason};
-pub(crate) use manifest::MANIFEST;
 use manifest::Manifest;
+pub(crate) use manifest::{MANIFEST, digest};
 use motiform_dynamics::{StopOnly, Watch};
 use motiform_files::{Staging, replace_file, sweep};
 use motiform_lab::pool;
@@ -162,7 +162,7 @@ impl FitWork {
     /// # Errors
     /// Files that cannot be written.
     pub fn write(&self, sample: &Sample, fits: &[CellFit], pages: bool) -> Result<PathBuf> {
-        for (name, bytes) in &result_files(sample, fits, &self.path)? {
+        for (name, bytes) in &result_files(sample, fits, &self.options, &self.path)? {
             self.write_file(name, bytes)?;
         }
         if pages && fits.len() == self.manifest.fits() {

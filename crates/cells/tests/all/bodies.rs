@@ -73,6 +73,7 @@ pub(crate) fn cell_of(study: &Study, radius: f64, vertex_noise: f64) -> Sample {
         time_unit: "s".to_owned(),
         y_down: None,
         image: None,
+        files: Vec::new(),
         notes: Vec::new(),
     };
     let folder = tempfile::tempdir().unwrap();

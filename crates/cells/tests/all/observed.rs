@@ -56,6 +56,7 @@ fn a_straight_path_with_a_shape_that_turns_is_no_straight_motion() {
         time_unit: "s".to_owned(),
         y_down: None,
         image: None,
+        files: Vec::new(),
         notes: Vec::new(),
     };
     let found = observe(&Sample::of_tracks(tracks, &ModeOptions::default()).cells[0]);

@@ -37,6 +37,7 @@ fn seen(body: impl Fn(usize) -> Body, (dt, frames): (f64, usize), noise: f64) ->
         time_unit: units("s"),
         y_down: None,
         image: None,
+        files: Vec::new(),
         notes: Vec::new(),
     };
     let sample = Sample::of_tracks(tracks, &ModeOptions::default());

@@ -8,6 +8,7 @@ use motiform_cells::{Agreement, CellFit, FitFolder, FitOptions, FitWork, Fitted,
 use motiform_inference::Placement;
 use motiform_lab::scan::Opening;
 use motiform_study::Study;
+use std::fs;
 
 fn fitted(study: &Study, options: &FitOptions) -> (motiform_cells::Sample, CellFit) {
     let sample = cell(study, 0.01);
@@ -54,10 +55,32 @@ fn a_chaotic_cell_is_found_chaotic_at_its_place() {
     );
     let cells = [&sample.cells[0]];
     let work = FitWork::open(&target, &sample, &cells, &FitOptions::default(), Opening::New).unwrap();
-    let path = work.write(&sample, &[fit], true).unwrap();
+    let path = work.write(&sample, std::slice::from_ref(&fit), true).unwrap();
     assert!(FitFolder::is_one(&path));
     let back = Study::read(&path.join("cell-one.toml")).unwrap();
     assert!(back.model.definition().is_some() && back.run.noise > 0.0);
+    says_where_it_comes_from(&fs::read_to_string(path.join("cell-one.toml")).unwrap(), &back, &fit);
+}
+
+/// The covariance is that of the parameters of the file: `b1/4*z1^2` has a coefficient with a quarter of the error of `b1`.
+fn says_where_it_comes_from(text: &str, study: &Study, fit: &CellFit) {
+    let table: toml::Table = text.parse().unwrap();
+    let own = table["fit"].as_table().unwrap();
+    assert_eq!(own["cells"].as_array().unwrap()[0].as_str(), Some("one"));
+    assert_eq!(own["frames"].as_integer(), i64::try_from(fit.frames).ok());
+    assert_eq!(own["sha256_of_frames"].as_array().unwrap()[0].as_str().unwrap().len(), 64);
+    let names: Vec<&str> =
+        own["parameters"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
+    let parameters = &study.model.definition().unwrap().parameters;
+    assert_eq!(names, parameters.iter().map(|one| one.name.as_str()).collect::<Vec<_>>());
+    let rows = own["covariance"].as_array().unwrap();
+    let model = fit.fitted.as_ref().unwrap().model();
+    for (i, (coefficient, parameter)) in model.coefficients.iter().zip(parameters).enumerate() {
+        let variance = rows[i].as_array().unwrap()[i].as_float().unwrap();
+        let ratio = coefficient.estimate.value / parameter.default;
+        let error = coefficient.estimate.error / ratio.abs();
+        assert!((variance.sqrt() / error - 1.0).abs() < 1e-9, "{}: {variance} {error}", parameter.name);
+    }
 }
 
 /// Equations with z4, as a user types them: found again among 45 terms, with the same motion, and compared in all its modes.

@@ -110,8 +110,7 @@ fn json(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
 }
 
 fn summary(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
-    let course =
-        verdict.course.map_or_else(String::new, |course| format!(", {}", course.name().replace('-', " ")));
+    let course = verdict.course.map_or_else(String::new, |course| format!(", {}", course.words()));
     let mut text = format!("{}{course}\n", verdict.regime);
     writeln!(text, "because        {}", verdict.why)?;
     if let Some(margin) = verdict.margin {

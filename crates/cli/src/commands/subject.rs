@@ -5,7 +5,8 @@ use crate::output::warn;
 use motiform_lab::samples::Samples;
 use motiform_models::ModelInfo;
 use motiform_models::amplitudes::NAME;
-use motiform_study::{Error, Plan, Random, Study, presets};
+use motiform_study::presets::{self, Preset};
+use motiform_study::{Error, Plan, Random, Study};
 use std::path::Path;
 
 /// The study of a command about one motion.
@@ -81,9 +82,8 @@ pub(crate) fn study(options: &SubjectOptions) -> Result<Study, Error> {
         if let (NAME, Some(name)) = (subject.as_str(), preset) {
             return with(presets::find_any(name, NAME)?, set);
         }
-        let named = presets::PRESETS.iter().chain(presets::EXTENSIONS).any(|known| known.name == subject);
-        if named && preset.is_none() {
-            return with(of_preset(subject)?, set);
+        if let (Some(named), None) = (find_preset(subject), preset) {
+            return with(presets::find_any(named.name, named.model)?, set);
         }
         let info = ModelInfo::find(subject)?;
         match preset {
@@ -96,8 +96,7 @@ pub(crate) fn study(options: &SubjectOptions) -> Result<Study, Error> {
 
 /// The study of a preset, whatever its model.
 fn of_preset(name: &str) -> Result<Study, Error> {
-    let found = presets::PRESETS.iter().chain(presets::EXTENSIONS).find(|preset| preset.name == name);
-    match found {
+    match find_preset(name) {
         Some(preset) => presets::find_any(name, preset.model),
         None => Err(Error::Setting {
             key: "--preset",
@@ -105,6 +104,11 @@ fn of_preset(name: &str) -> Result<Study, Error> {
             remedy: "no model has such a preset; `motiform models` lists them",
         }),
     }
+}
+
+/// The preset of this name, whatever its model.
+fn find_preset(name: &str) -> Option<&'static Preset> {
+    presets::PRESETS.iter().chain(presets::EXTENSIONS).find(|preset| preset.name == name)
 }
 
 /// The study with these parameters.

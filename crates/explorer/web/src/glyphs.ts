@@ -35,6 +35,7 @@ const SHAPES: Record<string, Shape> = {
   Zigzag: { path: "M-1.5 .8L-.5 -.8L.5 .8L1.5 -.8", filled: false },
   Star: { path: arms(1.2, 3, Math.PI / 2), filled: false },
   Cross: { path: arms(1.2, 2, Math.PI / 4), filled: false },
+  Plus: { path: arms(1.2, 2, 0), filled: false },
   Question: { path: "M-.62 -.55C-.6 -1.25 .68 -1.3 .68 -.5C.68 .1 0 .1 0 .6M0 1.1L0 1.25", filled: false },
 };
 

@@ -35,6 +35,8 @@ pub(crate) struct Evaluation {
     pub(crate) scores: Vec<Vec<DVector<f64>>>,
     /// Largest variance of a velocity or mode that is predicted for a frame, and the time of that frame after the first one.
     pub(crate) vaguest: (f64, f64),
+    /// Steps of the integration: what the evaluation cost.
+    pub(crate) steps: usize,
 }
 
 /// Evaluates the likelihood; innovations and scores of frames are kept if `keep`.
@@ -85,6 +87,7 @@ struct Run<'a, B, const SHAPE: usize, const STATE: usize> {
     innovations: Vec<Vec<Vec<f64>>>,
     scores: Vec<Vec<DVector<f64>>>,
     vaguest: (f64, f64),
+    steps: usize,
 }
 
 impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, STATE> {
@@ -106,6 +109,7 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
             innovations: Vec::new(),
             scores: Vec::new(),
             vaguest: (0.0, 0.0),
+            steps: 0,
         }
     }
 
@@ -123,6 +127,7 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
             let h = dt / steps;
             for _ in 0..steps as usize {
                 let parts = self.law.parts(&state, h, &mut self.stages[0].values);
+                self.steps += parts;
                 for part in 0..parts {
                     self.law.step(&mut state, h / parts as f64, part == 0, &mut self.stages);
                     if !state.is_sound() {
@@ -179,6 +184,7 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
             innovations: self.innovations,
             scores: self.scores,
             vaguest: self.vaguest,
+            steps: self.steps,
         }
     }
 }

@@ -23,6 +23,9 @@ use nalgebra::{DMatrix, DVector};
 const CONVERGED: f64 = 2e-4;
 /// Most evaluations.
 const MOST: usize = 200;
+/// Most steps of the integration in all of them, or so many for each frame if that is more. Cells that follow the equations need 2 to 100 for each frame and real
+/// ones up to 1700; equations that blow up between frames, which have no maximum, take 16 times the steps of others.
+const MOST_STEPS: [usize; 2] = [500_000, 500];
 /// First radius and the largest one.
 const RADII: [f64; 2] = [2.0, 8.0];
 /// Radius below which no step can improve the likelihood beyond round-off.
@@ -76,6 +79,8 @@ struct Climb<'a> {
     correction: Correction,
     radius: f64,
     evaluations: usize,
+    /// Steps of the integration in all of them.
+    steps: usize,
     /// Natural unit of time.
     time: f64,
 }
@@ -103,6 +108,7 @@ impl Climb<'_> {
         let (length, promised) = (step.norm(), self.correction.gain(&self.at, &step));
         let trial = objective(self.problem, &next, Want::Exact);
         self.evaluations += 1;
+        self.steps += trial.steps;
         if !trial.value.is_finite() {
             self.radius = 0.25 * length;
             return;
@@ -147,6 +153,9 @@ impl Climb<'_> {
             if self.evaluations >= MOST {
                 return stopped(&self.why(&format!("{MOST} evaluations were not enough")));
             }
+            if self.steps >= self.most_steps() {
+                return stopped(&self.why(&format!("{} steps of the filter were not enough", self.steps)));
+            }
             if self.radius < SMALLEST {
                 if again {
                     return self.stuck(&free);
@@ -157,6 +166,10 @@ impl Climb<'_> {
             }
             self.advance(&model, &free);
         }
+    }
+
+    fn most_steps(&self) -> usize {
+        MOST_STEPS[0].max(MOST_STEPS[1] * self.problem.frames())
     }
 
     /// The end where no step improves the likelihood: a maximum within the accuracy of the integration, or none.
@@ -193,6 +206,7 @@ pub(crate) fn polish(problem: &Problem, theta: &Theta, time: f64, watch: &dyn Wa
         correction: Correction(DMatrix::zeros(n, n)),
         radius: RADII[0],
         evaluations: 1,
+        steps: 0,
         time,
     };
     let ending = climb.run(watch);

@@ -182,7 +182,7 @@ impl Named {
 impl std::fmt::Display for Named {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.regime)?;
-        self.course.map_or(Ok(()), |course| write!(f, ", {}", course.name().replace('-', " ")))
+        self.course.map_or(Ok(()), |course| write!(f, ", {}", course.words()))
     }
 }
 

@@ -40,6 +40,9 @@ pub(super) fn read(path: &Path, options: &Options) -> Result<Found> {
     };
     let file = BufReader::new(File::open(path).map_err(io(path))?);
     let mut archive = ZipArchive::new(file).map_err(damaged)?;
+    if archive.is_empty() {
+        return Err(Error::NoOutlines { file: path.to_owned(), reason: "the archive is empty".to_owned() });
+    }
     let alone = stem(path);
     let mut gather = Gather::new(options.limits);
     let mut total = 0;

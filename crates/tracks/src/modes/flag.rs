@@ -17,6 +17,9 @@ pub enum Side {
     GreatestY,
 }
 
+/// A frame counts as long as so many times the vertices that are missing are not more than all of them.
+const MOST_MISSING: usize = 10;
+
 /// Something that is wrong with a frame. Lengths are in the unit of the tracks.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -25,8 +28,8 @@ pub enum Side {
 pub enum Flag {
     /// Fewer distinct vertices than are needed.
     TooFewVertices { vertices: usize, least: usize },
-    /// Vertices of the file were not finite: the outline has holes.
-    MissingVertices { count: usize },
+    /// Vertices of the file, `of` in all, were not finite: the outline has holes. Up to a tenth of them the others still give the modes.
+    MissingVertices { count: usize, of: usize },
     /// The polygon encloses nothing.
     NoArea,
     /// Two edges cross.
@@ -78,6 +81,9 @@ impl Flag {
     /// Whether the frame is no observation of the shape: its modes, if there are any, must not be used.
     #[must_use]
     pub fn leaves_out(&self) -> bool {
+        if let Self::MissingVertices { count, of } = self {
+            return MOST_MISSING * count > *of;
+        }
         !matches!(
             self,
             Self::NotStarShaped { .. }
@@ -97,7 +103,7 @@ impl fmt::Display for Flag {
             Self::TooFewVertices { vertices, least } => {
                 write!(f, "{name}: {vertices}, at least {least} are needed")
             }
-            Self::MissingVertices { count } => write!(f, "{name}: {count} not finite"),
+            Self::MissingVertices { count, of } => write!(f, "{name}: {count} of {of} are not finite"),
             Self::NoArea | Self::NoFit => f.write_str(name),
             Self::SelfCrossing { edges: [a, b] } => write!(f, "{name}: edges {a} and {b}"),
             Self::CrossingUnknown { vertices } => write!(f, "{name}: {vertices} vertices are too many"),

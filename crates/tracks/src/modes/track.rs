@@ -50,7 +50,8 @@ fn cell_modes(cell: &Cell, borders: &Borders, options: &ModeOptions) -> CellMode
         let mut modes = outline_modes(&outline.points, options);
         (modes.frame, modes.t) = (outline.frame, outline.t);
         if outline.missing > 0 {
-            modes.flags.push(Flag::MissingVertices { count: outline.missing });
+            let of = outline.points.len() + outline.missing;
+            modes.flags.push(Flag::MissingVertices { count: outline.missing, of });
         }
         modes.flags.extend(borders.flags(&outline.points));
         frames.push(modes);

@@ -15,6 +15,7 @@ fn tracks(frames: Vec<(i64, Vec<[f64; 2]>)>) -> Tracks {
         time_unit: unit("s"),
         y_down: None,
         image: None,
+        files: vec![],
         notes: vec![],
     }
 }
@@ -185,10 +186,24 @@ fn known_images_have_known_borders() {
 }
 
 #[test]
-fn missing_vertices_leave_the_frame_out() {
-    let mut tracks = tracks(wandering(5));
-    tracks.cells[0].frames[2].missing = 3;
-    assert_eq!(flags(&tracks), [(2, "missing vertices")]);
+fn missing_vertices_leave_the_frame_out_from_a_tenth_on() {
+    let mut tracks = tracks((0..5).map(|k| (k, cell(k).vertices(50, 0.0))).collect());
+    let whole = modes(&tracks, &ModeOptions::default());
+    let vertices = tracks.cells[0].frames[2].points.len();
+    let limit = vertices / 10;
+    for missing in [1, limit, limit + 1] {
+        let outline = &mut tracks.cells[0].frames[2];
+        outline.points.truncate(vertices - missing);
+        outline.missing = missing;
+        let found = modes(&tracks, &ModeOptions::default());
+        let frame = &found[0].frames[2];
+        assert_eq!(frame.flags.iter().map(Flag::name).collect::<Vec<_>>(), ["missing vertices"]);
+        assert_eq!(frame.is_left_out(), 10 * missing > vertices);
+        // the outline is exact: the vertices that are left give the same modes
+        let (own, other) = (frame.radius.as_ref().unwrap(), whole[0].frames[2].radius.as_ref().unwrap());
+        let off = own.z.iter().zip(&other.z).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]));
+        assert!(off.fold(0.0, f64::max) < 1e-9 * other.r0, "{missing}");
+    }
 }
 
 /// Outlines of pixels, as segmentations give them: star-shaped, areas to the pixel, modes to a fraction of it.

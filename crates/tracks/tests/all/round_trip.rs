@@ -18,7 +18,15 @@ fn cells(names: &[&str]) -> Tracks {
     };
     let cells = names.iter().map(one).collect();
     let unit = |name: &str| name.to_owned();
-    Tracks { cells, length_unit: unit("um"), time_unit: unit("s"), y_down: None, image: None, notes: vec![] }
+    Tracks {
+        cells,
+        files: vec![],
+        length_unit: unit("um"),
+        time_unit: unit("s"),
+        y_down: None,
+        image: None,
+        notes: vec![],
+    }
 }
 
 #[test]

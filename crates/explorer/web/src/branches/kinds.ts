@@ -10,7 +10,7 @@ const KINDS: Record<string, Kind> = {
   fold: { label: "fold", glyph: "Star", meaning: "The branch turns back: two motions meet, and beyond there is neither." },
   pitchfork: { label: "pitchfork", glyph: "Diamond", meaning: "Two motions with less symmetry begin, images of each other." },
   "branch-point": { label: "branch point", glyph: "DownTriangle", meaning: "Another branch crosses this one." },
-  continuum: { label: "continuum", glyph: "Ring", meaning: "A whole family of motions exists at this one value: the equations regain a symmetry there, as where a field vanishes." },
+  continuum: { label: "continuum", glyph: "Plus", meaning: "A whole family of motions exists at this one value: the equations regain a symmetry there, as where a field vanishes." },
   hopf: { label: "Hopf", glyph: "Disc", meaning: "An oscillation of the shape begins: a pair of eigenvalues crosses the imaginary axis." },
   "period-doubling": { label: "period doubling", glyph: "Triangle", meaning: "An orbit of twice the period begins: a multiplier passes \u22121." },
   "symmetry-breaking": { label: "symmetry breaking", glyph: "Square", meaning: "Zigzags begin whose left and right legs differ: the multiplier over half the period passes \u22121." },

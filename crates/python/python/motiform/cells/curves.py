@@ -29,7 +29,7 @@ def plot_observation(found: Observation) -> Figure:
     positive = displacement[(displacement["lag"] > 0.0) & (displacement["value"] > 0.0)]
     _curve(left, positive, "#0072b2", None)
     left.set(xscale="log", yscale="log", xlabel=f"lag $\\tau$ ({time})")
-    left.set_ylabel(f"mean-square displacement (${length}^2$)")
+    left.set_ylabel(f"mean-square displacement ({length}$^2$)")
     for name, curve in correlations.items():
         _curve(right, curve, _COLOURS.get(name, "black"), _SYMBOLS.get(name, name))
     right.axhline(0.0, color="0.6", linewidth=0.8)
