@@ -34,14 +34,14 @@ pub struct NearBifurcation {
 }
 
 impl NearBifurcation {
-    /// `kappa2 = 0.51 +- 0.01: pitchfork (breaks the mirror symmetry) at 0.55, 0.04 away (3.1 standard errors)`.
+    /// `kappa2 = 0.51 ± 0.01: pitchfork (breaks the mirror symmetry) at 0.55, 0.04 away (3.1 standard errors)`.
     #[must_use]
     pub fn sentence(&self) -> String {
         let Self { parameter, value, error, at, kind, breaks } = self;
         let breaks = breaks.as_ref().map_or_else(String::new, |what| format!(" (breaks {what})"));
         let off = (at - value).abs();
         format!(
-            "{parameter} = {value:.4} +- {error:.4}: {kind}{breaks} at {at:.4}, {off:.4} away ({:.1} standard errors)",
+            "{parameter} = {value:.4} ± {error:.4}: {kind}{breaks} at {at:.4}, {off:.4} away ({:.1} standard errors)",
             off / error.max(f64::MIN_POSITIVE)
         )
     }

@@ -17,7 +17,7 @@ const LEAST_WEIGHT: f64 = 0.05;
 /// Most steps of the integration for one model: some draws are so stiff that their motion would take minutes. They count as undetermined.
 const MOST_STEPS: u64 = 1_000_000;
 /// Most sets of terms that have draws.
-const MOST_SETS: usize = 6;
+const MOST_SETS: usize = 20;
 
 /// The motions of draws from the estimate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

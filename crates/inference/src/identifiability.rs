@@ -43,7 +43,7 @@ pub struct Combination {
     pub error: f64,
     /// How well it is known.
     pub knowledge: Knowledge,
-    /// In the units of the data and with the paper's names: `kappa2 - 0.3 b1 = 0.52 +- 0.01`; of a free one `kappa2 + 3 b1 (standard error 2.1)`.
+    /// In the units of the data and with the paper's names: `kappa2 - 0.3 b1 = 0.52 ± 0.01`; of a free one `kappa2 + 3 b1 (standard error 2.1)`.
     pub text: String,
 }
 
@@ -196,7 +196,7 @@ fn text(fit: &Fit, own: &[usize], factors: &[f64], value: Option<f64>, error: f6
     }
     let error = digits((error / unit).abs());
     match value {
-        Some(value) => format!("{words} = {} +- {error}", digits(value / unit)),
+        Some(value) => format!("{words} = {} ± {error}", digits(value / unit)),
         None => format!("{words} (standard error {error})"),
     }
 }

@@ -251,7 +251,7 @@ fn place(placement: &Placement) -> String {
             let Place { coordinates, distance, deviation, .. } = &**found;
             let at: Vec<String> = coordinates
                 .iter()
-                .map(|c| format!("{} = {:.4} +- {:.4}", c.name, c.estimate.value, c.estimate.error))
+                .map(|c| format!("{} = {:.4} ± {:.4}", c.name, c.estimate.value, c.estimate.error))
                 .collect();
             format!(" {}; {distance:.3} off the slice ({deviation:.1} standard errors)", at.join(", "))
         }

@@ -132,7 +132,7 @@ fn obstacles(fit: &Fit, plane: Plane) -> Vec<String> {
         };
         let (value, error) = (c.estimate.value, c.estimate.error.max(c.estimate.robust));
         if value.abs() < CERTAIN * error {
-            reasons.push(format!("{symbol} = {value:.3} +- {error:.3}, which sets a unit, may be 0"));
+            reasons.push(format!("{symbol} = {value:.3} ± {error:.3}, which sets a unit, may be 0"));
         } else if sign != 0.0 && value * sign < 0.0 {
             let side = if sign < 0.0 { "below" } else { "above" };
             reasons.push(format!("{symbol} = {value:.3}: it must be {side} 0 for this plane"));
