@@ -117,6 +117,14 @@ fn a_preset_is_changed_key_by_key() {
 }
 
 #[test]
+fn what_a_fit_says_of_itself_is_passed_over() {
+    let alone = parse("[model.tensor]\ngamma = 0.5\n").unwrap();
+    let fitted =
+        "[model.tensor]\ngamma = 0.5\n[fit]\nfiles = [\"a.csv\"]\ncovariance = [[1e-3, nan], [nan, 2]]\n";
+    assert_eq!(parse(fitted).unwrap(), alone);
+}
+
+#[test]
 fn a_model_alone_is_a_study() {
     let mut expected = Study::of_model(tensor());
     "study".clone_into(&mut expected.name);
@@ -129,6 +137,9 @@ fn schema_keys(info: &ModelInfo) -> Vec<(String, Value)> {
     let schema = study::schema();
     let mut keys = Vec::new();
     for (name, value) in schema["properties"].as_object().unwrap() {
+        if name == "fit" {
+            continue; // whatever fits say of themselves: see `what_a_fit_says_of_itself_is_passed_over`
+        }
         let tables = match name.as_str() {
             "model" => vec![(format!("model.{}", info.name), &value["properties"][info.name])],
             _ if value["type"] == "object" => vec![(name.clone(), value)],
@@ -203,7 +214,7 @@ fn keys_that_the_reader_knows(info: &ModelInfo) -> BTreeSet<String> {
     }
     let initial = listed(&complaint(&format!("[{model}]\n[initial]\nzzz = 1\n")));
     known.extend(initial.iter().chain([&"random".to_owned()]).map(|key| format!("initial.{key}")));
-    let tables = ["model", "initial", "run", "scan", "continue", "return_map", "figure", "display"];
+    let tables = ["model", "initial", "run", "scan", "continue", "return_map", "figure", "display", "fit"];
     let top = listed(&complaint(&format!("zzz = 1\n[{model}]\n")));
     known.extend(top.into_iter().filter(|key| !tables.contains(&key.as_str())));
     known
