@@ -25,7 +25,7 @@ const CONVERGED: f64 = 2e-4;
 const MOST: usize = 200;
 /// Most steps of the integration in all of them, or so many for each frame if that is more. Cells that follow the equations need 2 to 100 for each frame and real
 /// ones up to 1700; equations that blow up between frames, which have no maximum, take 16 times the steps of others.
-const MOST_STEPS: [usize; 2] = [500_000, 500];
+const MOST_STEPS: [usize; 2] = [1_000_000, 1_000];
 /// First radius and the largest one.
 const RADII: [f64; 2] = [2.0, 8.0];
 /// Radius below which no step can improve the likelihood beyond round-off.
