@@ -227,7 +227,8 @@ fn sentence(combinations: &[Combination]) -> String {
         }
         (0, _) => "not identifiable: no combination is fixed".to_owned(),
         (fixed, unknown) if unknown < fixed => {
-            format!("not identifiable: {unknown} of {all} combinations are free: {}", free.join("; "))
+            let are = if unknown == 1 { "is" } else { "are" };
+            format!("not identifiable: {unknown} of {all} combinations {are} free: {}", free.join("; "))
         }
         _ => format!("not identifiable: of {all} combinations only these are fixed: {}", fixed.join("; ")),
     }

@@ -102,7 +102,7 @@ fn branches_that_gain_a_symmetry_end_at_a_pitchfork() {
     }
 }
 
-/// Where a force vanishes, the body may move in every direction. That point is neither a fold nor a pitchfork, and no branch begins at it. The folds beside it are those of the motion against the force:
+/// At zero force the body can move in any direction. This point is neither a fold nor a pitchfork, and no branch starts there. The folds beside it are those of the motion against the force:
 /// for a body without an ellipse they lie at g = 2 (gamma/3)^(3/2).
 #[test]
 fn a_force_that_vanishes_is_no_bifurcation() {

@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
 
 if TYPE_CHECKING:
     from .results import CellFit, Observation
@@ -29,6 +30,9 @@ def plot_observation(found: Observation) -> Figure:
     positive = displacement[(displacement["lag"] > 0.0) & (displacement["value"] > 0.0)]
     _curve(left, positive, "#0072b2", None)
     left.set(xscale="log", yscale="log", xlabel=f"lag $\\tau$ ({time})")
+    left.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    left.xaxis.set_major_formatter("{x:g}")
+    left.xaxis.set_minor_formatter(NullFormatter())
     left.set_ylabel(f"mean-square displacement ({length}$^2$)")
     for name, curve in correlations.items():
         _curve(right, curve, _COLOURS.get(name, "black"), _SYMBOLS.get(name, name))
