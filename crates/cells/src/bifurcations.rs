@@ -56,11 +56,12 @@ impl NearBifurcation {
 /// # Checked by  tests/all/bifurcations.rs: a cell on the plane of Fig. 1, whose lines are known in closed form
 pub fn near_bifurcations(fitted: &Fitted, watch: &dyn Watch) -> Result<Vec<NearBifurcation>, Error> {
     let fit = fitted.model();
-    let Some(regime) = fitted.regime.as_ref().and_then(|found| found.regime) else { return Ok(Vec::new()) };
+    let Some(found) = &fitted.regime else { return Ok(Vec::new()) };
+    let Some(regime) = found.regime else { return Ok(Vec::new()) };
     let mut all = Vec::new();
     for term in TERMS {
         let Some(along) = Varied::of(fit, term) else { continue };
-        let mut study = natural_study(fit, &fit.natural.coefficients)?;
+        let mut study = natural_study(fit, (&fit.natural.coefficients, &found.start))?;
         study.run.seed = 1;
         let settings = BranchSettings {
             along: Along {

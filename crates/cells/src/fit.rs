@@ -112,8 +112,9 @@ pub(crate) fn fit_or_reason(
     match fit_cell(cell, options, watch) {
         Ok(fit) => Ok(Some(fit)),
         Err(Error::Study(motiform_study::Error::Interrupted)) => Ok(None),
-        // Equations that are no model are this cell's matter; other errors of studies, such as files that cannot be written, end the work.
+        // Equations that are no model, or that cannot be analysed, are this cell's matter; other errors of studies, such as files that cannot be written, end the work.
         Err(Error::Study(motiform_study::Error::Models(error))) => Ok(Some(without_fit(cell, &error))),
+        Err(Error::Study(motiform_study::Error::Analysis(error))) => Ok(Some(without_fit(cell, &error))),
         Err(Error::Study(error)) => Err(error),
         Err(other) => Ok(Some(without_fit(cell, &other))),
     }

@@ -1,12 +1,12 @@
 //! A fit, and what follows from it: what the data determine, the motion, the places.
 
-use crate::regime::{FittedRegime, regime_of};
+use crate::regime::{FittedRegime, begin, regime_of};
 use crate::stages::Stages;
 use crate::{Checks, Error, FitOptions, Result};
 use motiform_dynamics::Watch;
 use motiform_inference::{
-    BetweenCells, Drift, Fit, Handedness, Identifiability, Placement, Plane, Selection, Settings, Symmetry,
-    Track, Warning, drift, fit, handedness, identifiability, place_among, select, warnings,
+    BetweenCells, Drift, Fit, Handedness, Identifiability, Placement, Plane, Selection, Settings, Stretch,
+    Symmetry, Track, Warning, drift, fit, handedness, identifiability, place_among, select, warnings,
 };
 use motiform_models::amplitudes::info;
 use motiform_study::Study;
@@ -88,7 +88,8 @@ impl Fitted {
         }
     }
 
-    /// The model as a study, in the units of the data, with its noise. It is drawn with the radius of the cell, and shown at a speed that suits its rates.
+    /// The model as a study, in the units of the data, with its noise, from a state of the cell where its motion was looked at. It is drawn with the radius of the
+    /// cell, and shown at a speed that suits its rates.
     ///
     /// # Errors
     /// Equations that are no model.
@@ -98,6 +99,11 @@ impl Fitted {
             .map_err(|error| motiform_models::Error::Equations { problem: error.to_string() })
             .map_err(motiform_study::Error::from)?;
         let mut study = Study::of_model(info);
+        if let Some(found) = &self.regime {
+            let sizes = fit.scales.amplitudes.iter().flat_map(|size| [size; 2]);
+            let start = found.start.iter().zip(sizes).map(|(own, size)| rounded(own * size));
+            begin(&mut study, start)?;
+        }
         study.title = format!("Cell {cell}");
         study.about = format!(
             "Fitted to {} frames by maximum likelihood; lengths and times in the units of the data.",
@@ -147,6 +153,10 @@ pub(crate) fn fitted(
             "whether the cell is handed is not decided: a mirror-symmetric one has such a likelihood ratio with p = {:.1e}",
             handedness.p_value
         ));
+    }
+    let unclear = |found: Stretch| found.is_possible(tracks.len()) && !found.is_clear(tracks.len());
+    if handed && tracks.iter().filter_map(Stretch::of).any(unclear) {
+        doubts.push("it is handed, or the images are stretched: the cell keeps to a few directions, which does not tell one from the other".to_owned());
     }
     let regime = stages.get("regime", watch, |watch| {
         if !known.identifiable || !doubts.is_empty() {
@@ -203,6 +213,11 @@ fn plane(study: &Study) -> Vec<Axis> {
     }
 }
 
+/// A number with five digits.
+fn rounded(x: f64) -> f64 {
+    format!("{x:.4e}").parse().unwrap_or(x)
+}
+
 /// A number with two digits.
 fn two_digits(x: f64) -> f64 {
     format!("{x:.1e}").parse().unwrap_or(x)
@@ -214,7 +229,10 @@ const COLOURED: f64 = 1e-6;
 /// Whether there is no motion and no place with this warning.
 fn serious(warning: &Warning) -> bool {
     match warning {
-        Warning::Unbounded { .. } | Warning::NotConverged { .. } | Warning::CoarseSampling { .. } => true,
+        Warning::Unbounded { .. }
+        | Warning::NotConverged { .. }
+        | Warning::CoarseSampling { .. }
+        | Warning::Stretched { .. } => true,
         Warning::Coloured { channels } => channels.iter().any(|channel| channel.p_value < COLOURED),
         _ => false,
     }

@@ -20,6 +20,7 @@ mod provenance;
 mod recorded;
 mod regime;
 mod stages;
+mod start;
 mod summary;
 mod tables;
 mod units;

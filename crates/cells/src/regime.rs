@@ -1,6 +1,6 @@
 //! The motion of the models that the data allow.
 
-use crate::Result;
+use crate::{Result, start};
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::{StopOnly, Watch};
 use motiform_inference::{Fit, Selection, Subset, Track, draws, equations, refit_with};
@@ -32,6 +32,9 @@ pub struct FittedRegime {
     pub counts: Vec<(Regime, usize)>,
     /// Number of draws.
     pub draws: usize,
+    /// Where the motion of each model begins: a state of the cell, as coordinates of the model in natural units.
+    #[serde(default)]
+    pub start: Vec<f64>,
 }
 
 impl FittedRegime {
@@ -43,7 +46,8 @@ impl FittedRegime {
 }
 
 /// Classifies models drawn from the estimate: from the sets of terms that the data do not tell apart, each with the share of its weight
-/// `exp(-excess/2)`, and from the normal distribution of each set's coefficients. Noise is left out: the motion is that of the equations.
+/// `exp(-excess/2)`, and from the normal distribution of each set's coefficients. Noise is left out: the motion is that of the equations, from a state that the
+/// cell had in the middle of its record. Equations with several motions, or with states that blow up, have that of the cell.
 ///
 /// # Errors
 /// Equations that are no model; [`motiform_study::Error::Interrupted`].
@@ -54,14 +58,15 @@ pub fn regime_of(
     (count, seed): (usize, u64),
     watch: &dyn Watch,
 ) -> Result<FittedRegime> {
-    let best = classify(&selection.fit, &selection.fit.natural.coefficients, watch)?;
+    let start = start::observed(tracks, &selection.fit.scales).unwrap_or_default();
+    let best = classify(&selection.fit, (&selection.fit.natural.coefficients, &start), watch)?;
     let mut counts: Vec<(Regime, usize)> = Vec::new();
     for (number, (fit, share)) in sets(tracks, whole, selection, watch)?.into_iter().enumerate() {
         let here = ((share * count as f64).round() as usize).max(1);
         for drawn in draws(&fit, here, seed.wrapping_add(number as u64)) {
             let units = fit.coefficients.iter().map(|c| fit.scales.coefficient(&c.term));
             let values: Vec<f64> = drawn.iter().zip(units).map(|(value, unit)| value / unit).collect();
-            let regime = classify(&fit, &values, watch)?;
+            let regime = classify(&fit, (&values, &start), watch)?;
             match counts.iter_mut().find(|entry| entry.0 == regime) {
                 Some(entry) => entry.1 += 1,
                 None => counts.push((regime, 1)),
@@ -74,7 +79,7 @@ pub fn regime_of(
     let share = if draws == 0 { 0.0 } else { most as f64 / draws as f64 };
     let named =
         share >= LEAST_SHARE && first == best && !matches!(first, Regime::Undetermined | Regime::BlowUp);
-    Ok(FittedRegime { regime: named.then_some(first), best, share, counts, draws })
+    Ok(FittedRegime { regime: named.then_some(first), best, share, counts, draws, start })
 }
 
 /// The models of the sets that the data do not tell apart, with their shares of the weight.
@@ -95,22 +100,36 @@ fn sets(tracks: &[Track], whole: &Fit, selection: &Selection, watch: &dyn Watch)
 }
 
 /// A study of the equations with these coefficients in natural units, in which every number is of order 1. The names of a model are kept as long as the
-/// process: they are those of the set of terms, and the values are given apart.
-pub(crate) fn natural_study(fit: &Fit, values: &[f64]) -> std::result::Result<Study, motiform_study::Error> {
+/// process: they are those of the set of terms, and the values are given apart. It begins at these coordinates of the model.
+pub(crate) fn natural_study(
+    fit: &Fit,
+    (values, start): (&[f64], &[f64]),
+) -> std::result::Result<Study, motiform_study::Error> {
     let names = info(&equations(&fit.library, fit.handed, &[]))
         .map_err(|error| motiform_models::Error::Equations { problem: error.to_string() })?;
     let mut study = Study::of_model(names);
     for parameter in equations(&fit.library, fit.handed, values).parameters {
         study.set(&parameter.name, parameter.default)?;
     }
-    study.set_initial("v1", 1.0)?;
-    study.set_initial("z2_re", 0.3)?;
-    study.set_initial("z2_im", 0.2)?;
+    begin(&mut study, start.iter().copied())?;
     Ok(study)
 }
 
-fn classify(fit: &Fit, values: &[f64], watch: &dyn Watch) -> Result<Regime> {
-    let mut study = natural_study(fit, values)?;
+/// Lets a study begin at these coordinates of its model; those that are not given stay.
+pub(crate) fn begin(
+    study: &mut Study,
+    start: impl Iterator<Item = f64>,
+) -> std::result::Result<(), motiform_study::Error> {
+    let names: Vec<String> =
+        study.info()?.coordinates(&study.values()?).iter().map(|c| c.name.to_owned()).collect();
+    for (name, value) in names.iter().zip(start) {
+        study.set_initial(name, value)?;
+    }
+    Ok(())
+}
+
+fn classify(fit: &Fit, at: (&[f64], &[f64]), watch: &dyn Watch) -> Result<Regime> {
+    let mut study = natural_study(fit, at)?;
     study.run.max_steps = MOST_STEPS;
     let plan = Plan::new(&study)?;
     let verdict =

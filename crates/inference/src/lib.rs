@@ -43,5 +43,7 @@ pub use observation::{LEAST_FRAMES, Observation, Track};
 pub use place::{Coordinate, Place, Placement, Plane, coordinates, place, place_among};
 pub use scales::Scales;
 pub use subsets::{Selection, Subset, Subsets, TIE, refit_with, select, subsets};
-pub use warnings::{COARSE, Channel, Drift, DriftPoint, Warning, drift, fastest_rate, warnings, whiteness};
+pub use warnings::{
+    COARSE, Channel, Drift, DriftPoint, Stretch, Warning, drift, fastest_rate, warnings, whiteness,
+};
 pub use weak::{Weak, weak};

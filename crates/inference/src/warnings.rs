@@ -1,9 +1,11 @@
 //! What makes a fit doubtful.
 
 mod drift;
+mod stretch;
 mod whiteness;
 
 pub use drift::{Drift, DriftPoint, drift};
+pub use stretch::Stretch;
 pub use whiteness::{Channel, whiteness};
 
 use crate::field::{Field, Values};
@@ -52,6 +54,15 @@ pub enum Warning {
         /// Their names.
         names: Vec<String>,
     },
+    /// Outlines are elongated along one direction whatever the heading, as [`Stretch`] says of one cell: no equations that keep their form under rotations do this.
+    Stretched {
+        /// Mean elongation that does not turn with the cell, over the root mean square of `|z2|`.
+        share: f64,
+        /// Its direction, in degrees from the x axis.
+        degrees: f64,
+        /// Its significance.
+        p_value: f64,
+    },
     /// Robust standard errors are much larger than expected ones.
     ErrorsDiffer {
         /// Median ratio.
@@ -86,6 +97,12 @@ impl std::fmt::Display for Warning {
             Self::Drifting { names } => {
                 write!(f, "coefficients change with the sampling interval: {}", names.join(", "))
             }
+            Self::Stretched { share, degrees, p_value } => write!(
+                f,
+                "outlines are elongated at {:.0} degrees from the x axis whatever the heading, by {:.0} % of their root mean square elongation (p = {p_value:.1e}): pixels are not square, or a direction of the surroundings acts on the shape",
+                degrees.round() + 0.0, // no minus before 0
+                100.0 * share
+            ),
             Self::ErrorsDiffer { ratio } => {
                 write!(
                     f,
@@ -129,8 +146,16 @@ pub fn warnings(tracks: &[Track], fit: &Fit, drift: Option<&Drift>) -> Result<Ve
     if let Some(names) = drift.map(Drift::names).filter(|names| !names.is_empty()) {
         all.push(Warning::Drifting { names });
     }
+    all.extend(stretched(tracks));
     all.extend(errors_differ(fit));
     Ok(all)
+}
+
+/// The clearest stretch of a cell, if there is one.
+fn stretched(tracks: &[Track]) -> Option<Warning> {
+    let found = tracks.iter().filter_map(Stretch::of).filter(|found| found.is_clear(tracks.len()));
+    let Stretch { share, degrees, p_value, .. } = found.min_by(|a, b| a.p_value.total_cmp(&b.p_value))?;
+    Some(Warning::Stretched { share, degrees, p_value })
 }
 
 fn errors_differ(fit: &Fit) -> Option<Warning> {

@@ -1,5 +1,7 @@
 //! Orthonormal tangent vectors, over any bundle: the frame that exponents are measured in.
 
+use super::SplitMix;
+use crate::linear;
 use motiform_dynamics::{Bundle, Mask};
 
 /// A vector that keeps less than this part of its length has lost digits: it is cleaned once more, and its rates are evaluated
@@ -10,7 +12,8 @@ const POOR: f64 = 1e-5;
 const NOTHING: f64 = 1e-14;
 
 /// Makes the vectors of length `dim` orthonormal, in order, in the lanes of `due`, by modified Gram-Schmidt; the lengths that
-/// were divided out, the diagonal of R, go into `lengths`. A vector that depends on the earlier ones becomes 0, with length 0.
+/// were divided out, the diagonal of R, go into `lengths`. A vector that depends on the earlier ones becomes 0, with length 0: its
+/// direction is lost, see [`replace_lost`].
 ///
 /// W = Q R, and the rates `Df W = (Df Q) R` are put through the same operations: `rates` holds those of `W` before, and those of
 /// `Q` after. In the lanes of the returned mask they have lost digits and must be evaluated again.
@@ -47,6 +50,23 @@ pub(crate) fn orthonormalise<B: Bundle>(
         lengths[k] = B::select(kept, length, zero);
     }
     lost
+}
+
+/// Puts unit vectors in general position, orthogonal to all others, in the places of those that became 0.
+#[cold]
+pub(crate) fn replace_lost(dim: usize, vectors: &mut [f64], lengths: &[f64]) {
+    let mut random = SplitMix(2);
+    let (mut kept, mut replaced) = (Vec::new(), Vec::new());
+    for (vector, &length) in vectors.chunks_exact_mut(dim).zip(lengths) {
+        if length > 0.0 {
+            kept.push(vector);
+        } else {
+            vector.fill_with(|| random.next());
+            replaced.push(vector);
+        }
+    }
+    kept.append(&mut replaced);
+    linear::orthonormalise(&mut kept);
 }
 
 /// `w_k -= (w_j . w_k) w_j` for all `j < k` in the lanes of `due`, and the same with the rates.

@@ -38,7 +38,7 @@ pub fn runs_in_lanes(settings: &LyapunovSettings) -> bool {
 /// the same bits as [`super::lyapunov()`] gives one by one. `D` must be `N (1 + K)`, the
 /// members' settings must ask for `K` exponents with the same control, see [`runs_in_lanes`].
 ///
-/// A member that escapes or fails is run again alone, which says how it ended. When `watch` stops it, the rest is left.
+/// A member that escapes, fails or loses the direction of a vector is run again alone. When `watch` stops it, the rest is left.
 pub fn lyapunov_in_lanes<B, F, const N: usize, const K: usize, const D: usize>(
     control: (f64, f64),
     next: &mut dyn FnMut() -> Option<TangentMember<B, F, N>>,
@@ -86,6 +86,8 @@ impl<B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, cons
 struct InLane<B, F, const N: usize> {
     member: TangentMember<B, F, N>,
     renormalisation: Renormalisation,
+    /// The direction of a vector was lost.
+    lost: bool,
 }
 
 /// The members in the lanes of one thread.
@@ -112,7 +114,7 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
     }
 
     /// Tells the lanes in `due` what their vectors have grown to, and takes the ends of their next stretches. A lane that has
-    /// none, or has spent its steps, is at its end.
+    /// none, has spent its steps, or has lost a direction, is at its end.
     #[inline(always)]
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts")]
     fn stretched(&mut self, due: Mask, landed: &mut AfterStep<'_, L, D>, lengths: &[L; K], speed: L) {
@@ -132,7 +134,9 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
             let Some(in_lane) = &mut self.in_lanes[lane] else { continue };
             let lengths = grown.map(|lanes| lanes[lane]);
             let next = in_lane.renormalisation.stretched(t[lane], &lengths, speeds[lane], steps[lane] as u64);
-            let next = next.filter(|_| (work[lane] as u64) < in_lane.member.settings.max_steps);
+            in_lane.lost = lengths.contains(&0.0);
+            let next =
+                next.filter(|_| !in_lane.lost && (work[lane] as u64) < in_lane.member.settings.max_steps);
             (stop[lane], end[lane]) = next.map_or((t[lane], t[lane]), |next| (next.stop, next.limit));
         }
         self.stop = L::load(&stop);
@@ -157,7 +161,8 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
                 return None;
             }
             let member = self.first.take().or_else(|| (self.next)())?;
-            let mut in_lane = InLane { renormalisation: Renormalisation::new(&member.settings, N), member };
+            let mut in_lane =
+                InLane { renormalisation: Renormalisation::new(&member.settings, N), member, lost: false };
             let Some(Stretch { stop, limit }) = in_lane.renormalisation.begin(0.0) else {
                 self.alone(&in_lane);
                 continue;
@@ -209,7 +214,7 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
             return Then::Leave;
         }
         let work = leaving.steps + leaving.rejected;
-        if leaving.why != Why::Arrived || work >= in_lane.member.settings.max_steps {
+        if leaving.why != Why::Arrived || in_lane.lost || work >= in_lane.member.settings.max_steps {
             self.alone(&in_lane);
             return Then::Leave;
         }

@@ -204,6 +204,9 @@ pub fn lyapunov_followed<B: Equivariant + ?Sized>(
         let (shape, vectors) = state.split_at_mut(start.len());
         let (rate, vector_rates) = rates.split_at_mut(start.len());
         let lost = frame::orthonormalise(Mask::only(0), start.len(), vectors, vector_rates, &mut lengths);
+        if lengths.contains(&0.0) {
+            frame::replace_lost(start.len(), vectors, &lengths);
+        }
         let speed = reduced_speed(body, shape, rate);
         stretch = renormalisation.stretched(orbit.t(), &lengths, speed, orbit.counters().steps);
         if let Some(so_far) = renormalisation.so_far(pace(shape, rate)) {

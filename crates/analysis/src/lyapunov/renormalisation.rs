@@ -7,6 +7,9 @@ use motiform_dynamics::{Equivariant, Outcome, StepControl, VectorField};
 /// Vectors are made orthonormal when they have separated by this factor (natural logarithm).
 const PARTED: f64 = 8.0;
 
+/// By this factor (natural logarithm) at most: what is left of the shortest vector is then of the size of the errors of steps.
+const LOST: f64 = 20.0;
+
 /// Least number of intervals to average over; steps may be twice as long as one of them, so there are half as many stretches
 /// or more: enough for an error.
 const INTERVALS: f64 = 160.0;
@@ -74,7 +77,9 @@ impl Renormalisation {
     /// Takes in the end of a stretch at time `t`, after so many steps in all: the lengths that the vectors had grown to, and how
     /// fast the reduced shape changes there. The next stretch.
     pub(crate) fn stretched(&mut self, t: f64, lengths: &[f64], speed: f64, steps: u64) -> Option<Stretch> {
-        if self.averaging {
+        if self.averaging && separated(lengths) > LOST {
+            self.begin_averages_again(t, steps);
+        } else if self.averaging {
             let lasted = t - self.start;
             self.history.push((t, lengths.iter().map(|&length| libm::log(length) / lasted).collect()));
             self.time += lasted;
@@ -85,6 +90,15 @@ impl Renormalisation {
         self.next(t, steps)
     }
 
+    /// Directions were lost within a stretch: stretches are halved, and averages begin here.
+    fn begin_averages_again(&mut self, t: f64, steps: u64) {
+        self.interval *= 0.5;
+        self.history.clear();
+        self.reduced_speeds.clear();
+        self.time = 0.0;
+        (self.begun, self.end, self.steps_before) = (t, t + self.settings.span, steps);
+    }
+
     /// What there is of the averages of a shape that changes at this pace; `None` before they begin.
     pub(crate) fn so_far(&self, pace: f64) -> Option<SoFar<'_>> {
         (!self.history.is_empty()).then_some(SoFar { history: &self.history, begun: self.begun, pace })
@@ -92,11 +106,10 @@ impl Renormalisation {
 
     /// Stretches half or twice as long, by how far the vectors have separated.
     fn adjust(&mut self, lengths: &[f64]) {
-        let most = libm::log(lengths.iter().copied().fold(1.0, f64::max));
-        let least = libm::log(lengths.iter().copied().fold(1.0, f64::min));
-        if most - least > PARTED {
+        let separated = separated(lengths);
+        if separated > PARTED {
             self.interval *= 0.5;
-        } else if most - least < 0.25 * PARTED {
+        } else if separated < 0.25 * PARTED {
             self.interval = (2.0 * self.interval).min((self.settings.transient / 8.0).max(1.0));
         }
     }
@@ -168,4 +181,11 @@ impl Renormalisation {
             shape: shape.to_vec(),
         })
     }
+}
+
+/// By what factor (natural logarithm) vectors of these lengths have separated, from each other or from the length 1.
+fn separated(lengths: &[f64]) -> f64 {
+    let most = libm::log(lengths.iter().copied().fold(1.0, f64::max));
+    let least = libm::log(lengths.iter().copied().fold(1.0, f64::min));
+    most - least
 }

@@ -41,6 +41,20 @@ fn agree(seen: &[Estimate], want: &[f64], tolerance: f64) {
     }
 }
 
+/// Within the first stretches such vectors become parallel to the last digit, and lose their directions; in lanes too (tests/all/lanes.rs).
+#[test]
+fn rates_that_differ_by_hundreds_are_all_found() {
+    let body = Linear { rows: [[-0.1, 3.0, 0.0], [0.0, -60.0, 1.0], [0.0, 0.0, -700.0]] };
+    let seen = run(&body, &[1.0, 1.0, 1.0], &settings(3, 10.0, 40.0));
+    agree(&seen.exponents, &[-0.1, -60.0, -700.0], 0.0);
+    assert!(seen.exponents.iter().all(|x| x.error < 1e-2), "{seen:?}");
+
+    // without a transient, the length of stretches is found while averages are taken, which begin again
+    let seen = run(&body, &[1.0, 1.0, 1.0], &settings(3, 0.0, 40.0));
+    agree(&seen.exponents, &[-0.1, -60.0, -700.0], 1e-2);
+    assert!((seen.time - 40.0).abs() < 1e-9, "{seen:?}");
+}
+
 /// Real eigenvalues, and a pair -0.1 +- 2 i, in a matrix that is not normal.
 #[test]
 fn a_linear_flow_has_the_real_parts_of_its_eigenvalues() {

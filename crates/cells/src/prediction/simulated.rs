@@ -1,6 +1,7 @@
 //! A cell simulated from a fit, seen as the observed one was.
 
 use super::record::Record;
+use crate::start::{coordinates, pair};
 use motiform_dynamics::steppers::RK4;
 use motiform_dynamics::{InPlane, Integration, Model, Noise, NoisyOrbit, Normal, Orbit, StepControl};
 use motiform_inference::{Fit, Observation, Scales, Track, equations};
@@ -70,25 +71,15 @@ fn start(
     errors: &Errors,
     normal: &mut Normal,
 ) -> Option<Vec<f64>> {
-    let first = track.0.first()?;
-    let later = track.0[1..].iter().find(|frame| clear(first, frame)).or(track.0.last())?;
-    let by = later.t - first.t;
+    let [first, later] = pair(track, 0)?;
     let own = |frame: &Observation| frame.y[..2 * units.0.amplitudes.len()].to_vec();
     let y = errors.add(0, own(first), normal);
     let end = errors.add(0, own(later), normal);
-    let velocity = [0, 1].map(|k| (end[k] - y[k]) / by / units.0.amplitudes[0]);
-    let shape = y.iter().enumerate().skip(2).map(|(i, y)| y / units.0.amplitudes[i / 2]);
-    let coordinates: Vec<f64> = velocity.into_iter().chain(shape).collect();
+    let coordinates = coordinates([&y, &end], later.t - first.t, units.0);
     let mut state = vec![0.0; model.dim()];
     model.encode(&coordinates, &mut state);
     state.extend([y[0] / units.length(), y[1] / units.length()]);
     Some(state)
-}
-
-/// Whether the displacement is 5 times its error.
-fn clear(a: &Observation, b: &Observation) -> bool {
-    let variance = |frame: &Observation| 0.5 * (frame.covariance[0][0] + frame.covariance[1][1]);
-    libm::hypot(b.y[0] - a.y[0], b.y[1] - a.y[1]) > 5.0 * (variance(a) + variance(b)).sqrt()
 }
 
 /// The natural units, in those of the data.

@@ -11,7 +11,7 @@ use std::path::Path;
 /// What is computed in a folder.
 pub(crate) const MANIFEST: &str = "_fit.json";
 /// Raised when the numbers of a fit, or what is stored of it, change.
-const FORMAT: u32 = 4;
+const FORMAT: u32 = 5;
 
 /// One cell of the input.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

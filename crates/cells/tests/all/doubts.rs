@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use super::bodies::{RADIUS, cell_of, preset};
+use motiform_analysis::regime::Regime;
 use motiform_cells::{CellTrack, FitOptions, Sample, fit_cell, fit_together, observe};
 use motiform_inference::{Placement, Symmetry};
 use motiform_tracks::centroid;
@@ -103,4 +104,28 @@ fn records_of_two_cells_or_two_units_are_neither_named_nor_fitted() {
         let reason = fit_together(&all, &FitOptions::default(), &()).unwrap().fitted.unwrap_err();
         assert!(reason.contains("cell one: ") && reason.contains(why), "{reason}");
     }
+}
+
+/// A circling cell in images whose pixels are taken for squares and are not: the fit of stretched outlines is called handed by its likelihood, and is not.
+#[test]
+fn outlines_of_pixels_that_are_not_square_are_doubted() {
+    let fitted = |scale: f64| {
+        let mut study = preset("fig4", 0.01, (0.5, 300));
+        study.set("kappa2", 0.5).unwrap();
+        study.set("kappa3", 0.5).unwrap();
+        let mut tracks = cell_of(&study, 0.6, 0.01).tracks;
+        let points = tracks.cells[0].frames.iter_mut().flat_map(|outline| &mut outline.points);
+        points.for_each(|point| point[1] *= scale);
+        let sample = Sample::of_tracks(tracks, &ModeOptions::default());
+        let options = FitOptions { drift: false, simulations: 0, draws: 10, ..FitOptions::default() };
+        fit_cell(&sample.cells[0], &options, &()).unwrap().fitted.unwrap()
+    };
+    let [square, other] = [1.0, 0.8].map(fitted);
+    assert_eq!(square.regime.as_ref().and_then(|found| found.regime), Some(Regime::Circular));
+    assert_eq!(square.symmetry(), Symmetry::Mirror);
+    let why = other.why();
+    assert!(why.contains("pixels are not square") && why.contains("elongated at"), "{why}");
+    assert_eq!((other.symmetry(), other.is_handed()), (Symmetry::Undecided, false));
+    assert!(other.regime.is_none());
+    assert!(other.places.iter().all(|place| matches!(place, Placement::Refused { .. })));
 }

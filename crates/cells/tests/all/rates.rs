@@ -36,9 +36,10 @@ fn named(studies: &[Study], (radius, vertex_noise): (f64, f64), truth: Regime) -
     let options = FitOptions { drift: false, ..FitOptions::default() };
     let fits = fit_cells(&cells, &options, 2, &()).unwrap();
     let (mut counts, mut handed) = ([0; 3], 0);
-    for fit in fits.iter().flatten() {
+    for (fit, study) in fits.iter().flatten().zip(studies) {
         let Ok(fitted) = &fit.fitted else {
             counts[1] += 1;
+            println!("    seed {}: no fit", study.run.seed);
             continue;
         };
         handed += usize::from(fitted.is_handed());
@@ -49,7 +50,7 @@ fn named(studies: &[Study], (radius, vertex_noise): (f64, f64), truth: Regime) -
         }
         if fitted.regime.as_ref().and_then(|found| found.regime) != Some(truth) {
             let why = motiform_cells::cell_json(fit)["why"].as_str().unwrap_or_default().to_owned();
-            println!("    {}", why.chars().take(160).collect::<String>());
+            println!("    seed {}: {}", study.run.seed, why.chars().take(160).collect::<String>());
         }
     }
     (counts, handed)

@@ -97,7 +97,7 @@ fn a_cell_with_a_square_mode() {
     "#;
     let mut study = Study::parse(text, "text", "square").unwrap();
     sampled(&mut study, 0.01, (0.5, 600));
-    let options = FitOptions { modes: 4, draws: 10, drift: false, simulations: 39, ..FitOptions::default() };
+    let options = FitOptions { modes: 4, drift: false, simulations: 39, ..FitOptions::default() };
     let (_, fit) = fitted(&study, &options);
     let found = fit.fitted.as_ref().unwrap();
     assert_eq!(regime(found), Some(Regime::Chaotic), "{:?} {:?}", found.regime, found.warnings);

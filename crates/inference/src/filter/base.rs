@@ -7,8 +7,10 @@ use motiform_dynamics::Complex;
 
 /// Longest step of the integration times the largest row sum of the Jacobian.
 const LONGEST_TURN: f64 = 1.0;
-/// Most parts of a step.
+/// Most parts of a step for the rates, and as many again for the covariance of the first frame.
 const MOST_PARTS: usize = 16;
+/// Largest ratio of two variances for which steps of [`LONGEST_TURN`] do: the first frame, whose velocity is hardly known, has up to 1e5, later ones 50 to 100.
+const CONDITION: f64 = 1e3;
 
 /// Mean and covariance of the state.
 #[derive(Clone, Copy, Debug)]
@@ -198,6 +200,23 @@ impl<const STATE: usize> State<STATE> {
             }
         }
         sum
+    }
+
+    /// In how many times as many parts steps after the first frame must be made, so that errors of its large variances stay below the small ones: the square
+    /// root of the ratio of variances over [`CONDITION`], as a power of two. Otherwise the covariance may lose its positive definiteness there, and the search
+    /// for the maximum ends between points where the filter breaks down.
+    #[inline(always)]
+    pub(crate) fn refinement(&self) -> usize {
+        let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+        for i in 0..STATE {
+            least = least.min(self.p[i][i]);
+            most = most.max(self.p[i][i]);
+        }
+        let mut parts = 1;
+        while parts < MOST_PARTS && most > CONDITION * (parts * parts) as f64 * least {
+            parts *= 2;
+        }
+        parts
     }
 
     /// Whether the filter can continue from it: finite, and not far beyond natural units.

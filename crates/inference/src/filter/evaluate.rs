@@ -125,8 +125,9 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
             let dt = frames[pair + 1].t - frames[pair].t;
             let steps = (dt / LONGEST_STEP - 1e-9).ceil().max(1.0);
             let h = dt / steps;
+            let refinement = if pair == 0 { state.refinement() } else { 1 };
             for _ in 0..steps as usize {
-                let parts = self.law.parts(&state, h, &mut self.stages[0].values);
+                let parts = refinement * self.law.parts(&state, h, &mut self.stages[0].values);
                 self.steps += parts;
                 for part in 0..parts {
                     self.law.step(&mut state, h / parts as f64, part == 0, &mut self.stages);

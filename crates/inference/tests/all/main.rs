@@ -11,6 +11,7 @@ mod identifiability;
 mod library;
 mod order_five;
 mod place;
+mod stretch;
 mod subsets;
 mod together;
 mod warnings;
