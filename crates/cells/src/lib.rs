@@ -13,6 +13,7 @@ mod fitted;
 mod folder;
 mod names;
 mod observe;
+mod outlines;
 mod packed;
 mod population;
 mod prediction;
@@ -39,6 +40,7 @@ pub use observe::{
     AtLag, Finding, Memory, Motion, MotionStatistics, Observation, ObservedChaos, ObservedLegs,
     ObservedRests, ObservedSpectrum, Relatives, Rotation, SpectralPeak, observe, population_statistics,
 };
+pub use outlines::OutlineFile;
 pub use population::{
     FittedPopulation, NameShare, ObservedPopulation, OverCells, PopulationCoefficient, fitted_population,
     observed_population, over_cells,

@@ -4,12 +4,12 @@ use crate::errors::{of_cells, of_json, of_tracks};
 use crate::study::Study;
 use crate::watch::Caller;
 use motiform_cells::{
-    CellFit, CellTrack, FitOptions, coefficient_columns, fit_cells, fits_json, mode_columns,
+    CellFit, CellTrack, FitOptions, OutlineFile, coefficient_columns, fit_cells, fits_json, mode_columns,
     observations_json, observe,
 };
 use motiform_files::columns::to_csv;
 use motiform_tracks::modes::ModeOptions;
-use motiform_tracks::{Cell, Columns, Given, Image, Options, Outline, given};
+use motiform_tracks::{Cell, Columns, Given, Image, Options, Outline, Tracks, given};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
@@ -91,6 +91,16 @@ impl Sample {
             Ok((outline.frame, outline.t, values.reshape([outline.points.len(), 2])?))
         };
         cell.frames.iter().map(drawn).collect()
+    }
+
+    /// Writes the outlines of these cells: the long table or AmoePy's text, by the ending of the name.
+    fn write(&self, py: Python<'_>, names: Vec<String>, path: PathBuf) -> PyResult<()> {
+        self.chosen(&names)?;
+        let tracks = &self.0.tracks;
+        let cells = tracks.cells.iter().filter(|cell| names.contains(&cell.name)).cloned().collect();
+        let (length_unit, time_unit) = (tracks.length_unit.clone(), tracks.time_unit.clone());
+        let chosen = Tracks { cells, length_unit, time_unit, files: vec![], notes: vec![], ..*tracks };
+        py.detach(|| OutlineFile::new(&path, true)?.write(&chosen)).map(drop).map_err(of_cells)
     }
 
     /// How these cells move, as JSON; those that an interruption left out are missing.

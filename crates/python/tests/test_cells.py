@@ -294,6 +294,28 @@ def test_masks_in_one_file_and_what_is_no_mask(tmp_path: Path) -> None:
         motiform.cells.read_masks(tmp_path / "none.tif")
 
 
+def test_written_outlines_come_back(tmp_path: Path) -> None:
+    outlines = simulated("fig5b")[:6]
+    cells = motiform.cells.from_arrays({"a, 1": outlines, "2": outlines[2:]}, length_unit="um", time_unit="s")
+    cells.write(tmp_path / "both.csv")
+    back = motiform.cells.read(tmp_path / "both.csv", pixel_size=1.0, interval=STEP)
+    assert back.names == cells.names and back.time_unit == "s"
+    for before, after in zip(cells["a, 1"].outlines, back["a, 1"].outlines, strict=True):
+        assert np.array_equal(before[1], after[1])
+    cells["2"].write(tmp_path / "one.txt")
+    (only,) = motiform.cells.read(tmp_path / "one.txt")
+    for (t, before), (again, after) in zip(cells["2"].outlines, only.outlines, strict=True):
+        assert t == again and np.array_equal(before, after)
+    with pytest.raises(ValueError, match="it holds one cell, and there are 2"):
+        cells.write(tmp_path / "both.txt")
+    with pytest.raises(ValueError, match="one.xls.*end the name"):
+        cells.write(tmp_path / "one.xls")
+    pixels = motiform.cells.from_arrays({"one": outlines})
+    with pytest.raises(ValueError, match="it needs um and s"):
+        pixels[0].write(tmp_path / "pixels.txt")
+    assert not (tmp_path / "pixels.txt").exists()
+
+
 def test_columns_have_names(tmp_path: Path) -> None:
     path = write(tmp_path / "cells.csv", {"one": simulated("fig5b")[:4]})
     text = path.read_text().replace("cell,frame,i,x,y", "who,when,k,east,north", 1)

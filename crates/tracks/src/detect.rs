@@ -20,9 +20,9 @@ pub fn detect(path: &Path, options: &Options) -> Result<Format> {
         [b'P', b'A', b'R', b'1', ..] => return Ok(Format::Parquet),
         [b'I', b'o', b'u', b't', ..] => return Ok(Format::Roi),
         [b'I', b'I', 42, 0, ..] | [b'M', b'M', 0, 42, ..] => {
-            return Err(unknown("a TIFF image: extract outlines first"));
+            return Err(unknown(&image("TIFF")));
         }
-        [0x89, b'P', b'N', b'G', ..] => return Err(unknown("a PNG image: extract outlines first")),
+        [0x89, b'P', b'N', b'G', ..] => return Err(unknown(&image("PNG"))),
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => return Err(unknown("text in UTF-16: save it as UTF-8")),
         bytes if bytes.contains(&0) => return Err(unknown("binary data")),
         bytes => String::from_utf8_lossy(bytes),
@@ -44,6 +44,12 @@ pub fn detect(path: &Path, options: &Options) -> Result<Format> {
         [] => Err(unknown(&looks(text))),
         _ => Err(Error::Ambiguous { file: path.to_owned(), candidates }),
     }
+}
+
+fn image(kind: &str) -> String {
+    format!(
+        "a {kind} image: Python's motiform.cells.read_masks takes label masks, and write(\"cells.csv\") makes a table of their outlines"
+    )
 }
 
 /// The text formats that the first lines fit.

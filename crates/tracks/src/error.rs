@@ -167,6 +167,12 @@ pub enum Error {
         /// Why.
         reason: String,
     },
+    /// A file to write whose name ends in nothing known.
+    #[error("{}: outlines are written as a table (.csv: cell, frame, i, x, y) or, one cell in um and s, as AmoePy's text (.txt): end the name in one of these", .file.display())]
+    Ending {
+        /// The file.
+        file: PathBuf,
+    },
 }
 
 impl Error {

@@ -25,7 +25,11 @@ impl Input {
     pub(crate) fn open(path: &Path, limits: Limits) -> Result<Self> {
         let metadata = path.metadata().map_err(io(path))?;
         if !metadata.is_file() {
-            let found = if metadata.is_dir() { "a folder: give its files" } else { "not a file" };
+            let found = if metadata.is_dir() {
+                "a folder: give its files; Python's motiform.cells.read_masks takes folders of label masks"
+            } else {
+                "not a file"
+            };
             return Err(Error::UnknownFormat { file: path.to_owned(), found: found.to_owned() });
         }
         let mut file = BufReader::new(File::open(path).map_err(io(path))?);

@@ -76,7 +76,10 @@ impl fmt::Display for Note {
                 )
             }
             Self::ScaleOne { file, what } => {
-                write!(f, "{file}: {what} is 1, which often stands for unknown, and is taken as unknown")
+                write!(
+                    f,
+                    "{file}: {what}: the file says 1, which often stands for unknown, and is taken as unknown"
+                )
             }
             Self::ImplausibleArea { cell, area, unit } => {
                 write!(

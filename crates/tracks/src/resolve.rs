@@ -2,6 +2,9 @@
 
 use crate::gather::Vertex;
 
+/// Coordinates beyond this count as not finite: moments of their outline would not be.
+const LARGEST: f64 = 1e60;
+
 /// What the vertices of a frame are.
 pub(crate) enum Resolved {
     /// One outline, filed `copies` times, without `missing` vertices that are not finite.
@@ -26,7 +29,7 @@ pub(crate) fn resolve(mut vertices: Vec<Vertex>) -> Resolved {
         return Resolved::Conflict;
     }
     let all = points.len();
-    points.retain(|point| point.iter().all(|value| value.is_finite()));
+    points.retain(|point| point.iter().all(|value| value.abs() <= LARGEST));
     let missing = all - points.len();
     if points.len() > 1 && points.first() == points.last() {
         points.pop(); // some formats repeat the first vertex to close the polygon

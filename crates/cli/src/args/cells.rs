@@ -38,7 +38,7 @@ pub(crate) struct CellsOptions {
     /// Do not draw pages (report.html and a page per cell) in this folder
     #[arg(long, requires = "out")]
     pub(crate) no_report: bool,
-    /// Replace an existing folder of results
+    /// Replace an existing folder of results (or the file of --outlines)
     #[arg(long)]
     pub(crate) force: bool,
     /// Print one JSON object
@@ -60,6 +60,10 @@ fn column(text: &str) -> Result<(String, String), String> {
 pub(crate) struct ObserveOptions {
     #[command(flatten)]
     pub(crate) cells: CellsOptions,
+    /// Also write the outlines, for other programs: a table (.csv with cell, frame, i, x, y), or, one cell in um and s, the text
+    /// of AmoePy (.txt)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) outlines: Option<PathBuf>,
 }
 
 #[derive(Args)]
@@ -101,6 +105,7 @@ Examples:
   motiform observe cells.xml
   motiform observe outlines.csv --pixel-size 0.2 --interval 5 --out observed
   motiform observe roi.zip --interval 6 --time-unit min --json
+  motiform observe cells.xml --outlines cells.csv    the outlines as a table
 
 A motion is named where the record leaves no other: straight, circular, zigzag, quasi-periodic
 or motionless. Otherwise it is 'undecided', with what is missing. Frames that are no observation

@@ -5,8 +5,8 @@ use crate::commands::pages::draw;
 use crate::commands::population::observed;
 use crate::output::{End, print, warn};
 use motiform_cells::{
-    CellTrack, FitFolder, Observation, Sample, Units, observations_json, observe, observed_population,
-    write_observations,
+    CellTrack, FitFolder, Observation, OutlineFile, Sample, Units, observations_json, observe,
+    observed_population, write_observations,
 };
 use motiform_files::Staging;
 use motiform_statistics::{Answer, four_digits, with_error};
@@ -20,7 +20,10 @@ const MOST_NOTES: usize = 4;
 
 pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
     let staging = staging(&options.cells)?;
+    let file = |path| OutlineFile::new(path, options.cells.force);
+    let outlines = options.outlines.as_deref().map(file).transpose().map_err(plain_error)?;
     let sample = read(&options.cells)?;
+    let outlines = outlines.map(|file| file.write(&sample.tracks)).transpose().map_err(plain_error)?;
     let cells: Vec<&CellTrack> = sample.cells.iter().collect();
     let found: Vec<Observation> = cells.iter().map(|cell| observe(cell)).collect();
     if let (Some(staging), false) = (&staging, options.cells.no_report) {
@@ -43,7 +46,7 @@ pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
             if found.len() > 1 {
                 write!(text, "\n{}", observed(&observed_population(&found), &units)?)?;
             }
-            if let Some(path) = written {
+            for path in outlines.iter().chain(&written) {
                 write!(text, "\nwritten        {}", path.display())?;
             }
             text.trim_end().to_owned()

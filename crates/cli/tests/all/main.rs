@@ -19,6 +19,7 @@ mod kills;
 mod layers;
 mod lifetimes;
 mod motions;
+mod observe;
 mod outcomes;
 mod scan;
 mod startup;

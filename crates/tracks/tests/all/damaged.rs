@@ -50,7 +50,7 @@ fn unknown_content_says_what_it_looks_like() {
 fn vertices_that_are_not_finite() {
     let text = csv(2);
     let row = text.lines().find(|line| line.starts_with("a,1,3,")).unwrap().to_owned();
-    for value in ["NaN", "", "inf"] {
+    for value in ["NaN", "", "inf", "-1e200"] {
         let tracks = read(text.replace(&row, &format!("a,1,3,{value},2.0"))).unwrap();
         let outline = &tracks.cells[0].frames[1];
         assert_eq!((outline.points.len(), outline.missing), (39, 1));

@@ -57,7 +57,7 @@ fn amoepy_needs_its_units() {
     let tracks = read(csv(2)).unwrap();
     let error = write_amoepy(&tracks, &tracks.cells[0], &files.path("x")).unwrap_err();
     assert!(
-        matches!(&error, Error::Unwritable { .. }) && error.to_string().contains("give pixel_size"),
+        matches!(&error, Error::Unwritable { .. }) && error.to_string().contains("give pixel size"),
         "{error}"
     );
 }

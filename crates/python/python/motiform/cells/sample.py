@@ -60,6 +60,14 @@ class Cells(Sequence["Cell"]):
         """The modes of all cells, a row per frame, with the columns of ``modes.parquet``."""
         return self._modes().copy()
 
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes the outlines of all cells with all digits, in their units: ``.csv`` is a table with the columns cell, frame, i, x, y.
+
+        An existing file is replaced. ``read(path, pixel_size=1, interval=...)`` reads it. One cell may also be written as the text of AmoePy
+        (:meth:`Cell.write`).
+        """
+        self._native.write(self.names, os.fspath(path))
+
     def observe(self, *, progress: Progress = None) -> Found[Observation]:
         """How each cell moves, from its samples alone, by name; ``population`` has shares and numbers over cells. Ctrl-C raises ``Interrupted`` with those that are done."""
         return self._observe(self.names, progress)
@@ -193,6 +201,10 @@ class Cell:
     def outlines(self) -> list[tuple[float, Floats]]:
         """Time and vertices, (n, 2), of all frames."""
         return [(t, points) for _, t, points in self._cells._native.outlines(self.name)]
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes its outlines with all digits: ``.csv`` is a table (:meth:`Cells.write`), ``.txt`` the text of AmoePy, which needs um and s."""
+        self._cells._native.write([self.name], os.fspath(path))
 
     def observe(self, *, progress: Progress = None) -> Observation:
         """How it moves, from its samples alone."""

@@ -1,0 +1,45 @@
+//! Outlines -> a file for other programs.
+
+use crate::Result;
+use motiform_files::Staging;
+use motiform_tracks::{Error, Format, Tracks, write_amoepy, write_csv};
+use std::path::{Path, PathBuf};
+
+/// A file that outlines will be written to. It appears when it is complete.
+#[derive(Debug)]
+pub struct OutlineFile {
+    staging: Staging,
+    format: Format,
+}
+
+impl OutlineFile {
+    /// Prepares a file: the long table (columns cell, frame, i, x, y) for a name that ends in `.csv`, AmoePy's text for `.txt`.
+    ///
+    /// # Errors
+    /// Another ending; a file that exists, without `force`; a folder that cannot be written to.
+    pub fn new(path: &Path, force: bool) -> Result<Self> {
+        let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+        let format = match ending.to_str() {
+            Some("csv") => Format::Csv,
+            Some("txt") => Format::AmoePy,
+            _ => return Err(Error::Ending { file: path.to_owned() }.into()),
+        };
+        Ok(Self { staging: Staging::new(path, false, force)?, format })
+    }
+
+    /// Writes the outlines with all digits, in the units of the tracks.
+    ///
+    /// # Errors
+    /// For AmoePy's text, several cells, or units other than um and s; the file system.
+    pub fn write(self, tracks: &Tracks) -> Result<PathBuf> {
+        match (self.format, tracks.cells.as_slice()) {
+            (Format::AmoePy, [cell]) => write_amoepy(tracks, cell, self.staging.path())?,
+            (Format::AmoePy, cells) => {
+                let reason = format!("it holds one cell, and there are {}: choose one", cells.len());
+                return Err(Error::Unwritable { format: self.format, reason }.into());
+            }
+            _ => write_csv(tracks, self.staging.path())?,
+        }
+        Ok(self.staging.commit()?)
+    }
+}

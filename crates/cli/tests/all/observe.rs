@@ -1,0 +1,53 @@
+//! `motiform observe`: exit codes, and outlines that are written again.
+
+use crate::common::Folder;
+use std::fmt::Write;
+
+/// A table of cells that do not move: ellipses of 16 vertices in 5 frames.
+fn table(cells: &[&str]) -> String {
+    let mut text = "cell,frame,i,x,y\n".to_owned();
+    for (number, name) in cells.iter().enumerate() {
+        for (frame, i) in (0..5).flat_map(|frame| (0..16).map(move |i| (frame, i))) {
+            let angle = f64::from(i) / 16.0 * std::f64::consts::TAU;
+            let (x, y) = (30.0 * number as f64 + 9.0 * libm::cos(angle), 8.0 * libm::sin(angle));
+            _ = writeln!(text, "{name},{frame},{i},{x},{y}");
+        }
+    }
+    text
+}
+
+#[test]
+fn outlines_are_written_for_other_programs() {
+    let folder = Folder::new();
+    folder.write("cells.csv", &table(&["a", "b"]));
+    let words = "observe cells.csv --pixel-size 0.5 --interval 2";
+    let text = folder.run(&format!("{words} --outlines again.csv")).expect(1).stdout;
+    assert!(text.contains("written        again.csv"), "{text}");
+    let half = folder.run("observe cells.csv --pixel-size 0.5 --interval 2 --json").expect(1).json();
+    let again = folder.run("observe again.csv --pixel-size 1 --interval 2 --json").expect(1).json();
+    assert_eq!(half["cells"], again["cells"]);
+
+    folder.run(&format!("{words} --cell b --outlines b.txt")).expect(1);
+    let b = folder.run("observe b.txt --json").expect(1).json();
+    assert_eq!(b["cells"][0]["measures"], half["cells"][1]["measures"]);
+}
+
+#[test]
+fn files_that_cannot_be_written_are_named() {
+    let folder = Folder::new();
+    folder.write("cells.csv", &table(&["a", "b"]));
+    folder.write("there.csv", "x");
+    for (words, problem) in [
+        ("--outlines cells.xml", "end the name in one of these"),
+        ("--outlines there.csv", "--force"),
+        ("--outlines both.txt --pixel-size 1 --interval 1", "there are 2: choose one"),
+        ("--outlines a.txt --cell a", "give pixel size and interval"),
+    ] {
+        let done = folder.run(&format!("observe cells.csv {words}")).expect(2);
+        let error = done.stderr.lines().last().unwrap_or_default(); // after warnings about units
+        assert!(error.starts_with("error: ") && error.contains(problem), "{words}: {error}");
+        assert_eq!(done.stdout, "");
+    }
+    folder.run("observe cells.csv --outlines there.csv --force").expect(1);
+    assert_eq!(folder.names(), ["cells.csv", "there.csv"]);
+}
