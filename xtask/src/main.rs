@@ -1,6 +1,7 @@
 //! Development tasks: `cargo xtask test`, `cargo xtask deny`.
 
 mod browser;
+mod build_cost;
 mod dist;
 mod emulated;
 mod explorer;
@@ -27,6 +28,8 @@ usage: cargo xtask COMMAND
   dist     a wheel and a stripped program with checksums in target/dist; the wheel is installed and tried where no cargo is
   emulated the tests of lanes under qemu-user, as a processor without vector registers to speak of and as one with AVX2
            (needs qemu-user)
+  build-cost [--runs N] [--write]: a build from an empty cargo folder to the first picture, beside `cargo install ripgrep`, compared
+           with budgets.toml; --write renews the table in CONTRIBUTING.md. Needs a quiet machine: six minutes for each run
   mutants  [K/N] [OPTION..]: changes the mathematics in small ways, every N-th possible one from the K-th (0/100), and asks
            the tests to notice; see docs/mutants.md (needs `cargo install --locked cargo-mutants`)
   deny     licences, advisories and sources of the dependencies (needs `cargo install --locked cargo-deny`)";
@@ -70,6 +73,7 @@ fn run() -> Result<()> {
         Some("mutants") => mutants::run(&std::env::args().skip(2).collect::<Vec<_>>()),
         Some("dist") => dist::run(),
         Some("emulated") => emulated::run(),
+        Some("build-cost") => build_cost::run(&std::env::args().skip(2).collect::<Vec<_>>()),
         Some("deny") => cargo("dependencies", &["deny", "check"]),
         _ => {
             println!("{HELP}");

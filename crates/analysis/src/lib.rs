@@ -11,6 +11,7 @@ mod escape;
 mod estimate;
 mod gauge;
 mod isotropy;
+mod lagged;
 mod legs;
 mod lifetime;
 pub mod linear;
@@ -33,6 +34,7 @@ pub use error::{Error, Result};
 pub use escape::{EscapeRate, Stay, SurvivalStep, escape_limits, escape_rate, survival};
 pub use estimate::Estimate;
 pub use isotropy::Isotropy;
+pub use lagged::lagged_sums;
 pub use legs::{CornerKind, Ends, Leg, Legs, PathSample, legs};
 pub use lifetime::{
     Critical, ExponentialLife, Goodness, LifeCount, LifeLaws, MeanLife, PowerLawLife, compare_life_laws,

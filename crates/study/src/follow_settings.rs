@@ -3,33 +3,31 @@
 use crate::Error;
 use crate::branches::{Along, BranchSettings, origin};
 use crate::curves::{CurveKind, CurveSettings, Plane};
+use crate::described::settings;
 use crate::toml_reader::Table;
 use motiform_analysis::Regime;
 use motiform_models::ModelInfo;
 use motiform_models::parameters::index_of;
-use schemars::JsonSchema;
 
-/// Which motion is followed, and how far.
-#[derive(Clone, Debug, PartialEq, JsonSchema)]
-pub struct FollowSettings {
-    /// The parameter to vary, with its range: "kappa2=0.3:1.6"; the start lies inside.
-    #[schemars(with = "String")]
-    pub along: Option<Along>,
-    /// The motion that the start must settle on, such as "zigzag"; any, if not given.
-    #[schemars(with = "String")]
-    pub from: Option<Regime>,
-    /// Kinds of special points that are followed over two parameters, such as ["hopf", "fold"].
-    #[schemars(with = "Vec<String>")]
-    pub curve: Vec<CurveKind>,
-    /// The plane of these curves: "kappa2,kappa3=0.02:1"; one of the parameters is that of `along`.
-    #[schemars(with = "String", rename = "in")]
-    pub plane: Option<Plane>,
-    /// Most points of a branch or curve to each side.
-    pub points: u64,
-    /// Most branches.
-    pub branches: u64,
-    /// Values of the parameter at which motions are sampled, swept upwards and downwards.
-    pub samples: u64,
+settings! {
+    /// Which motion is followed, and how far.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct FollowSettings {
+        /// The parameter to vary, with its range: "kappa2=0.3:1.6"; the start lies inside.
+        pub along: Option<Along>,
+        /// The motion that the start must settle on, such as "zigzag"; any, if not given.
+        pub from: Option<Regime>,
+        /// Kinds of special points that are followed over two parameters, such as ["hopf", "fold"].
+        pub curve: Vec<CurveKind>,
+        /// The plane of these curves: "kappa2,kappa3=0.02:1"; one of the parameters is that of `along`.
+        pub plane as "in": Option<Plane>,
+        /// Most points of a branch or curve to each side.
+        pub points: u64,
+        /// Most branches.
+        pub branches: u64,
+        /// Values of the parameter at which motions are sampled, swept upwards and downwards.
+        pub samples: u64,
+    }
 }
 
 impl Default for FollowSettings {

@@ -9,6 +9,7 @@ mod checks;
 mod control;
 pub mod curves;
 pub mod dataset;
+mod described;
 mod ending;
 mod error;
 mod follow_settings;

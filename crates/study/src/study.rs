@@ -1,5 +1,6 @@
 //! A study as typed: everything is optional, nothing is computed yet.
 
+use crate::described::settings;
 pub use crate::follow_settings::FollowSettings;
 use crate::input;
 use crate::random::Random;
@@ -9,7 +10,6 @@ pub use crate::study_reader::schema;
 use crate::{Error, presets};
 use motiform_models::registry::Display;
 use motiform_models::{ModelInfo, ModelName};
-use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A study: a model with its parameters, initial state, run settings and drawing settings.
@@ -49,17 +49,18 @@ pub struct Study {
     pub display: DisplaySettings,
 }
 
-/// The settings of a scan.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct ScanSettings {
-    /// One or two axes: "kappa2=0.1:1.6:64" is 64 values from 0.1 to 1.6, both ends included; "kappa2=0.1,0.2" lists
-    /// them.
-    #[schemars(with = "Vec<String>")]
-    pub axes: Vec<Axis>,
-    /// Initial states per cell: all random, except that the first one is that of `initial` if values are given.
-    pub samples: u64,
-    /// Maximum model time for classifying one motion; 0 chooses the model's default.
-    pub budget: f64,
+settings! {
+    /// The settings of a scan.
+    #[derive(Clone, Debug, PartialEq, Serialize)]
+    pub struct ScanSettings {
+        /// One or two axes: "kappa2=0.1:1.6:64" is 64 values from 0.1 to 1.6, both ends included; "kappa2=0.1,0.2" lists
+        /// them.
+        pub axes: Vec<Axis>,
+        /// Initial states per cell: all random, except that the first one is that of `initial` if values are given.
+        pub samples: u64,
+        /// Maximum model time for classifying one motion; 0 chooses the model's default.
+        pub budget: f64,
+    }
 }
 
 impl Default for ScanSettings {
@@ -68,47 +69,52 @@ impl Default for ScanSettings {
     }
 }
 
-/// A return map: x at each crossing of a horizontal segment by the path.
-#[derive(Clone, Debug, PartialEq, Serialize, serde::Deserialize, JsonSchema)]
-pub struct ReturnMapSettings {
-    /// The segment lies at this y.
-    pub y: f64,
-    /// Left end.
-    pub x_min: f64,
-    /// Right end.
-    pub x_max: f64,
-    /// Shift the centre of the path (its time average) to the origin first.
-    pub centre: bool,
+settings! {
+    /// A return map: x at each crossing of a horizontal segment by the path.
+    #[derive(Clone, Debug, PartialEq, Serialize, serde::Deserialize)]
+    pub struct ReturnMapSettings {
+        /// The segment lies at this y.
+        pub y: f64,
+        /// Left end.
+        pub x_min: f64,
+        /// Right end.
+        pub x_max: f64,
+        /// Shift the centre of the path (its time average) to the origin first.
+        pub centre: bool,
+    }
 }
 
-/// How to draw a dataset. These settings do not affect results.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, serde::Deserialize, JsonSchema)]
-#[serde(default)]
-pub struct FigureSettings {
-    /// Radius R0 of the undeformed body (model length); 0 chooses it so that the deformation is visible.
-    pub radius: f64,
-    /// Scale of the outlines relative to the path; 0 chooses a readable scale.
-    pub scale: f64,
-    /// Number of outlines along the path; 0 chooses.
-    pub outlines: u64,
-    /// Path, series and animation show the recording from this time ...
-    pub from: f64,
-    /// ... to this time; 0 is the end.
-    pub to: f64,
-    /// Draw the animation.
-    pub animation: bool,
+settings! {
+    /// How to draw a dataset. These settings do not affect results.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, serde::Deserialize)]
+    #[serde(default)]
+    pub struct FigureSettings {
+        /// Radius R0 of the undeformed body (model length); 0 chooses it so that the deformation is visible.
+        pub radius: f64,
+        /// Scale of the outlines relative to the path; 0 chooses a readable scale.
+        pub scale: f64,
+        /// Number of outlines along the path; 0 chooses.
+        pub outlines: u64,
+        /// Path, series and animation show the recording from this time ...
+        pub from: f64,
+        /// ... to this time; 0 is the end.
+        pub to: f64,
+        /// Draw the animation.
+        pub animation: bool,
+    }
 }
 
-/// The initial display of a body in the explorer. These settings do not affect results.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct DisplaySettings {
-    /// Model time between the samples of the animation.
-    pub sample: f64,
-    /// Model time per second.
-    pub speed: f64,
-    /// Sides of the map, one or two: "kappa2=0.05,1.65" is the parameter with its lowest and highest value.
-    #[schemars(with = "Vec<String>")]
-    pub plane: Vec<Axis>,
+settings! {
+    /// The initial display of a body in the explorer. These settings do not affect results.
+    #[derive(Clone, Debug, PartialEq, Serialize)]
+    pub struct DisplaySettings {
+        /// Model time between the samples of the animation.
+        pub sample: f64,
+        /// Model time per second.
+        pub speed: f64,
+        /// Sides of the map, one or two: "kappa2=0.05,1.65" is the parameter with its lowest and highest value.
+        pub plane: Vec<Axis>,
+    }
 }
 
 /// Samples per second at the highest speed that the explorer offers: 50 in each of 60 pictures.

@@ -1,6 +1,7 @@
 //! TOML text to study, table by table; and the schema of such texts.
 
 use crate::checks::{check_display, check_plane};
+use crate::described::Described;
 use crate::random::Random;
 use crate::run_settings::RunSettings;
 use crate::scan::Axis;
@@ -9,7 +10,6 @@ use crate::toml_reader::{Source, Table, Value};
 use crate::{Error, amplitudes, presets};
 use motiform_models::amplitudes::NAME;
 use motiform_models::{MODELS, ModelInfo};
-use schemars::JsonSchema;
 
 impl Study {
     /// Reads a study from TOML text; `file` names it in messages, `name` becomes its short name.
@@ -263,24 +263,13 @@ pub fn schema() -> serde_json::Value {
             "free": { "type": "array", "items": { "type": "string" }, "description": "parameters to vary" },
             "model": { "type": "object", "additionalProperties": false, "properties": models },
             "initial": initial,
-            "run": section::<RunSettings>(),
-            "scan": section::<ScanSettings>(),
-            "continue": section::<FollowSettings>(),
-            "return_map": section::<ReturnMapSettings>(),
-            "figure": section::<FigureSettings>(),
-            "display": section::<DisplaySettings>(),
+            "run": RunSettings::schema(),
+            "scan": ScanSettings::schema(),
+            "continue": FollowSettings::schema(),
+            "return_map": ReturnMapSettings::schema(),
+            "figure": FigureSettings::schema(),
+            "display": DisplaySettings::schema(),
             "fit": { "type": "object", "description": "what fitted equations come from; not read by simulations" },
         },
     })
-}
-
-/// The schema of one table; every key is optional.
-fn section<T: JsonSchema>() -> serde_json::Value {
-    let mut schema = schemars::schema_for!(T).to_value();
-    if let Some(object) = schema.as_object_mut() {
-        object.remove("$schema");
-        object.remove("required");
-        object.insert("additionalProperties".to_owned(), false.into());
-    }
-    schema
 }

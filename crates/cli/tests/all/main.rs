@@ -3,6 +3,7 @@
 mod bad_input;
 mod bits;
 mod bounds;
+mod budgets;
 mod cell;
 mod common;
 mod continuation;

@@ -3,6 +3,7 @@
 use super::lane::{AfterStep, Entry, LaneTask, Leaving, Pace, Stepped, Then, Why};
 use crate::control::{Controller, Tolerance, pair_error};
 use crate::scalar::MOST_LANES;
+use crate::simd::Kernel;
 use crate::steppers::tableau::ErrorEstimate;
 use crate::steppers::unrolled::{LaneStep, Method, StepSlopes};
 use crate::{Bundle, Mask, System as _, VectorField as _};
@@ -20,12 +21,52 @@ pub fn run_adaptive<M: Method, B: Bundle, const D: usize, C: LaneTask<B, D>>(
     let mut slopes = StepSlopes::zero();
     loop {
         if lanes.vacant.any() {
-            lanes.fill::<M, C>(members, &mut slopes);
+            B::apart(Fill::<M, B, C, D> {
+                lanes: &mut lanes,
+                members,
+                slopes: &mut slopes,
+                method: PhantomData,
+            });
         }
         if !lanes.active.any() {
             return;
         }
         lanes.advance::<M, C>(members, &mut slopes);
+    }
+}
+
+/// Lanes to be filled, see [`Lanes::fill`]: rare, so a function of its own.
+struct Fill<'l, M, B, C, const D: usize> {
+    lanes: &'l mut Lanes<B, D>,
+    members: &'l mut C,
+    slopes: &'l mut StepSlopes<B, D>,
+    method: PhantomData<M>,
+}
+
+impl<M: Method, B: Bundle, C: LaneTask<B, D>, const D: usize> Kernel for Fill<'_, M, B, C, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.lanes.fill::<M, C>(self.members, self.slopes);
+    }
+}
+
+/// Lanes that have stopped, see [`Lanes::stop`]: rare, so a function of its own.
+struct Stop<'l, B, C, const D: usize> {
+    lanes: &'l mut Lanes<B, D>,
+    members: &'l mut C,
+    failed: Mask,
+    called: Mask,
+    arrived: Mask,
+}
+
+impl<B: Bundle, C: LaneTask<B, D>, const D: usize> Kernel for Stop<'_, B, C, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.lanes.stop::<C>(self.members, self.failed, self.called, self.arrived);
     }
 }
 
@@ -106,7 +147,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         }
         let arrived = self.t_end.at_most(self.t) & self.active;
         if (failed | called | arrived).any() {
-            self.stop::<C>(members, failed, called, arrived);
+            B::apart(Stop { lanes: self, members, failed, called, arrived });
         }
     }
 

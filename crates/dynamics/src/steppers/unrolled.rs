@@ -7,7 +7,9 @@
 use super::DOP853;
 use super::tableau::{ErrorEstimate, Tableau, Term};
 use crate::control::Tolerance;
+use crate::simd::Kernel;
 use crate::{Bundle, VectorField};
+use std::marker::PhantomData;
 
 /// A method, as a type.
 pub trait Method: Copy + Send + Sync + 'static {
@@ -106,6 +108,23 @@ pub struct LaneStep<'u, B, const D: usize> {
     pub u: &'u [B; D],
 }
 
+/// A step to make, see [`StepSlopes::step`].
+struct Step<'s, M, B, F, const D: usize> {
+    slopes: &'s mut StepSlopes<B, D>,
+    field: &'s F,
+    at: &'s LaneStep<'s, B, D>,
+    method: PhantomData<M>,
+}
+
+impl<M: Method, B: Bundle, F: VectorField<B>, const D: usize> Kernel for Step<'_, M, B, F, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.slopes.make_step::<M, F>(self.field, self.at);
+    }
+}
+
 impl<B: Bundle, const D: usize> StepSlopes<B, D> {
     /// Room for the slopes of a step.
     #[inline(always)]
@@ -162,8 +181,15 @@ impl<B: Bundle, const D: usize> StepSlopes<B, D> {
     }
 
     /// One step: `u_new = u + h sum_i b_i k_i`. Slope 0 must hold `f(t, u)`.
+    ///
+    /// A function of its own, compiled once for all kernels of this field: it is the longest part of each.
     #[inline(always)]
     pub fn step<M: Method, F: VectorField<B>>(&mut self, field: &F, at: &LaneStep<'_, B, D>) {
+        B::apart(Step::<M, B, F, D> { slopes: self, field, at, method: PhantomData });
+    }
+
+    #[inline(always)]
+    fn make_step<M: Method, F: VectorField<B>>(&mut self, field: &F, at: &LaneStep<'_, B, D>) {
         self.k[START] = *at.u;
         let this = std::hint::black_box(self);
         macro_rules! advance {

@@ -12,6 +12,7 @@ use super::base::Correction;
 use super::seen;
 use super::tangent::Tangent;
 use motiform_dynamics::Bundle;
+use motiform_dynamics::simd::Kernel;
 
 /// What a frame says about a block of parameters: the score, and marks, whose products with those of another parameter are the information.
 pub(crate) struct Marks<B, const SHAPE: usize> {
@@ -179,14 +180,33 @@ pub(crate) fn correct<B: Bundle, const SHAPE: usize, const STATE: usize, const F
     correction: &Correction<SHAPE, STATE>,
     s: B,
 ) -> Marks<B, SHAPE> {
-    if !FULL {
-        let found = marks_of_mean(tangent, correction);
+    B::apart(Correct::<B, SHAPE, STATE, FULL> { tangent, correction, s })
+}
+
+/// See [`correct`]: a function of its own, compiled once.
+struct Correct<'c, B, const SHAPE: usize, const STATE: usize, const FULL: bool> {
+    tangent: &'c mut Tangent<B, STATE>,
+    correction: &'c Correction<SHAPE, STATE>,
+    s: B,
+}
+
+impl<B: Bundle, const SHAPE: usize, const STATE: usize, const FULL: bool> Kernel
+    for Correct<'_, B, SHAPE, STATE, FULL>
+{
+    type Output = Marks<B, SHAPE>;
+
+    #[inline(always)]
+    fn run(self) -> Marks<B, SHAPE> {
+        let Self { tangent, correction, s } = self;
+        if !FULL {
+            let found = marks_of_mean(tangent, correction);
+            mean::<B, SHAPE, STATE, FULL>(tangent, correction, s);
+            return found;
+        }
+        let ds = innovation_covariance(tangent, correction, s);
+        let found = marks(tangent, correction, &ds);
         mean::<B, SHAPE, STATE, FULL>(tangent, correction, s);
-        return found;
+        covariance(tangent, correction, &ds);
+        found
     }
-    let ds = innovation_covariance(tangent, correction, s);
-    let found = marks(tangent, correction, &ds);
-    mean::<B, SHAPE, STATE, FULL>(tangent, correction, s);
-    covariance(tangent, correction, &ds);
-    found
 }

@@ -1,11 +1,11 @@
 //! The likelihood of all frames, and what it says about the parameters.
 
 use super::LONGEST_STEP;
-use super::base::{self, Correction, Law, Seen, Stage};
+use super::base::{self, Correction, Law, Seen, Stage, State};
 use super::blocks::Blocks;
 use super::problem::{Frame, Problem, Theta};
 use super::sums::Sums;
-use motiform_dynamics::simd::{LaneKernel, run_lanes};
+use motiform_dynamics::simd::{self, LaneKernel, run_lanes};
 use motiform_dynamics::{Bundle, Complex};
 use nalgebra::{DMatrix, DVector};
 
@@ -90,6 +90,24 @@ struct Run<'a, B, const SHAPE: usize, const STATE: usize> {
     steps: usize,
 }
 
+/// A step of the law, with the instructions of the lanes: a function of its own, see [`Law::step`].
+struct Step<'s, 'l, const SHAPE: usize, const STATE: usize> {
+    law: &'s Law<'l, SHAPE, STATE>,
+    state: &'s mut State<STATE>,
+    h: f64,
+    known: bool,
+    stages: &'s mut [Stage<SHAPE, STATE>; 4],
+}
+
+impl<const SHAPE: usize, const STATE: usize> simd::Kernel for Step<'_, '_, SHAPE, STATE> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.law.step(self.state, self.h, self.known, self.stages);
+    }
+}
+
 impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, STATE> {
     #[inline(always)]
     fn new(work: &'a Work<'a>, c: &'a [Complex<f64>]) -> Self {
@@ -130,7 +148,9 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
                 let parts = refinement * self.law.parts(&state, h, &mut self.stages[0].values);
                 self.steps += parts;
                 for part in 0..parts {
-                    self.law.step(&mut state, h / parts as f64, part == 0, &mut self.stages);
+                    let (law, stages) = (&self.law, &mut self.stages);
+                    let (state, h, known) = (&mut state, h / parts as f64, part == 0);
+                    B::apart(Step { law, state, h, known, stages });
                     if !state.is_sound() {
                         return false;
                     }

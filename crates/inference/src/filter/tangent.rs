@@ -9,6 +9,7 @@
 
 use super::base::Stage;
 use motiform_dynamics::Bundle;
+use motiform_dynamics::simd::Kernel;
 
 /// Numbers of a parameter that force its derivatives at a stage: `df/dc` and `dA/dc`.
 pub(crate) const fn forcing_of(shape: usize) -> usize {
@@ -161,7 +162,7 @@ fn covariance_rate<B: Bundle, const SHAPE: usize, const STATE: usize>(
     }
 }
 
-/// The rates at `at`.
+/// The rates at `at`. A function of its own: written out for each stage, it would be most of a program that takes long to compile.
 #[inline(always)]
 fn rate<B: Bundle, const SHAPE: usize, const STATE: usize, const DEPTH: u8>(
     stage: &Stage<SHAPE, STATE>,
@@ -170,17 +171,38 @@ fn rate<B: Bundle, const SHAPE: usize, const STATE: usize, const DEPTH: u8>(
     at: &Tangent<B, STATE>,
     rate: &mut Tangent<B, STATE>,
 ) {
-    rate.m[0] = at.m[2];
-    rate.m[1] = -at.m[3];
-    for i in 0..SHAPE {
-        let mut sum = B::load(&forcing.values[i * B::LANES..]);
-        for k in 0..SHAPE {
-            sum += at.m[k + 2] * B::splat(stage.values.jacobian[i][k]);
+    B::apart(Rate::<B, SHAPE, STATE, DEPTH> { stage, forcing, q, at, rate });
+}
+
+/// See [`rate`].
+struct Rate<'r, B, const SHAPE: usize, const STATE: usize, const DEPTH: u8> {
+    stage: &'r Stage<SHAPE, STATE>,
+    forcing: Forcing<'r>,
+    q: &'r [B; STATE],
+    at: &'r Tangent<B, STATE>,
+    rate: &'r mut Tangent<B, STATE>,
+}
+
+impl<B: Bundle, const SHAPE: usize, const STATE: usize, const DEPTH: u8> Kernel
+    for Rate<'_, B, SHAPE, STATE, DEPTH>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { stage, forcing, q, at, rate } = self;
+        rate.m[0] = at.m[2];
+        rate.m[1] = -at.m[3];
+        for i in 0..SHAPE {
+            let mut sum = B::load(&forcing.values[i * B::LANES..]);
+            for k in 0..SHAPE {
+                sum += at.m[k + 2] * B::splat(stage.values.jacobian[i][k]);
+            }
+            rate.m[i + 2] = sum;
         }
-        rate.m[i + 2] = sum;
-    }
-    if DEPTH > depth::MEAN {
-        covariance_rate(&products::<B, SHAPE, STATE, DEPTH>(stage, forcing, at), q, at, rate);
+        if DEPTH > depth::MEAN {
+            covariance_rate(&products::<B, SHAPE, STATE, DEPTH>(stage, forcing, at), q, at, rate);
+        }
     }
 }
 

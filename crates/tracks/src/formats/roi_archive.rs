@@ -51,7 +51,7 @@ pub(super) fn read(path: &Path, options: &Options) -> Result<Found> {
         if entry.is_dir() {
             continue;
         }
-        let name = entry.name().map_err(damaged)?.into_owned();
+        let name = entry.name().to_owned();
         let place = whole.entry(&name);
         let bytes = bounded(&mut entry, options.limits.piece, &place)?;
         total += bytes.len() as u64;

@@ -1,0 +1,100 @@
+//! The budgets of `budgets.toml` that need no timing: the size of the program, its packages, its lane kernels.
+
+use cargo_metadata::MetadataCommand;
+use std::collections::BTreeSet;
+use std::process::Command;
+
+fn root() -> std::path::PathBuf {
+    MetadataCommand::new().no_deps().exec().unwrap().workspace_root.into()
+}
+
+/// A number of the table `[program]`.
+fn budget(key: &str) -> u64 {
+    let text = std::fs::read_to_string(root().join("budgets.toml")).unwrap();
+    let budgets: toml::Table = text.parse().unwrap();
+    budgets["program"][key].as_integer().unwrap().try_into().unwrap()
+}
+
+fn check(key: &str, found: u64) {
+    let allowed = budget(key);
+    assert!(found <= allowed, "{key} is {found}, and budgets.toml allows {allowed}");
+    // A budget far above what is needed limits nothing.
+    assert!(found * 5 >= allowed * 4, "{key} is {found}: lower the budget of {allowed} in budgets.toml");
+}
+
+#[test]
+fn the_program_is_built_from_no_more_packages() {
+    let mut tree = Command::new(env!("CARGO"));
+    tree.args(["tree", "--offline", "--locked", "-p", "motiform", "-e", "normal,build", "--prefix", "none"]);
+    let output = tree.current_dir(root()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    let name = |line: &str| line.split(" (").next().unwrap().to_owned();
+    let external: BTreeSet<String> =
+        text.lines().filter(|line| !line.contains("motiform") && !line.is_empty()).map(name).collect();
+    check("packages", external.len() as u64);
+}
+
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+mod program {
+    use super::check;
+
+    /// A section of a 64-bit ELF file: its name's place, offset, size, and the section that it refers to.
+    struct Section {
+        name: usize,
+        offset: usize,
+        size: usize,
+        link: usize,
+    }
+
+    /// A little-endian number.
+    fn number(file: &[u8], at: usize, bytes: usize) -> usize {
+        file[at..at + bytes].iter().rev().fold(0, |sum, byte| sum << 8 | usize::from(*byte))
+    }
+
+    fn sections(file: &[u8]) -> Vec<Section> {
+        let (table, size, count) = (number(file, 0x28, 8), number(file, 0x3a, 2), number(file, 0x3c, 2));
+        let section = |index| {
+            let at = table + index * size;
+            Section {
+                name: number(file, at, 4),
+                offset: number(file, at + 0x18, 8),
+                size: number(file, at + 0x20, 8),
+                link: number(file, at + 0x28, 4),
+            }
+        };
+        (0..count).map(section).collect()
+    }
+
+    fn text_at(file: &[u8], at: usize) -> &str {
+        let end = file[at..].iter().position(|byte| *byte == 0).unwrap();
+        std::str::from_utf8(&file[at..at + end]).unwrap()
+    }
+
+    /// The section of this name.
+    fn section(file: &[u8], name: &str) -> Section {
+        let names = sections(file).swap_remove(number(file, 0x3e, 2)).offset;
+        sections(file).into_iter().find(|section| text_at(file, names + section.name) == name).unwrap()
+    }
+
+    fn program() -> Vec<u8> {
+        std::fs::read(env!("CARGO_BIN_EXE_motiform")).unwrap()
+    }
+
+    #[test]
+    fn the_program_is_no_larger() {
+        check("text_bytes", section(&program(), ".text").size as u64);
+    }
+
+    /// Each kernel is one instance of the function that enters the widest instructions.
+    #[test]
+    fn there_are_no_more_lane_kernels() {
+        let file = program();
+        let symbols = section(&file, ".symtab");
+        let names = sections(&file)[symbols.link].offset;
+        let name = |entry| text_at(&file, names + number(&file, symbols.offset + 24 * entry, 4));
+        let kernels =
+            (0..symbols.size / 24).filter(|entry| name(*entry).contains("4simd3x866avx512")).count();
+        check("lane_kernels", kernels as u64);
+    }
+}
