@@ -6,7 +6,7 @@
 mod absent;
 pub mod columns;
 mod csv_table;
-pub mod disk;
+pub use motiform_store::disk;
 mod fields;
 mod folder;
 #[cfg(feature = "formats")]
