@@ -250,6 +250,9 @@ pub(crate) struct FigureOptions {
     /// Folders written by `motiform simulate` or `motiform scan`
     #[arg(value_name = "DATASET", required = true)]
     pub(crate) datasets: Vec<PathBuf>,
+    /// Draw figures again that were edited since; the edited ones are kept as NAME.edited.svg
+    #[arg(long)]
+    pub(crate) force: bool,
     #[command(flatten)]
     pub(crate) drawing: DrawingOptions,
 }

@@ -1,14 +1,17 @@
 //! The folder of a dataset: `manifest.json`, `trajectory.*`, `crossings.*`, and figures.
 
 use super::Fields;
-use super::staging::{MANIFEST, Staging};
 use super::{csv_table, parquet_table};
 use motiform_dynamics::Model;
+use motiform_store::{Staged, mend};
 use motiform_study::Error;
 use motiform_study::dataset::{Dataset, Manifest};
 use motiform_study::input;
 use motiform_study::table::Table;
 use std::path::{Path, PathBuf};
+
+/// The name of the manifest in every dataset folder.
+const MANIFEST: &str = "manifest.json";
 
 /// The file format of tables.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,7 +45,7 @@ impl Format {
 /// Writes one table to `path` in the given format, with the manifest inside if the format supports it.
 ///
 /// # Errors
-/// [`Error::WriteFailed`].
+/// Files that cannot be written.
 pub fn write_table(table: &Table, manifest: &Manifest, format: Format, path: &Path) -> Result<(), Error> {
     match format {
         Format::Csv => csv_table::write(table, path),
@@ -57,28 +60,36 @@ pub fn write_table(table: &Table, manifest: &Manifest, format: Format, path: &Pa
 /// Writes the tables, the fields (if any) and the manifest of a dataset into a staged folder.
 ///
 /// # Errors
-/// [`Error::WriteFailed`].
+/// Files that cannot be written.
 pub fn write_dataset(
     dataset: &Dataset,
     fields: Option<&Fields>,
     format: Format,
-    staging: &Staging,
+    staged: &Staged,
 ) -> Result<(), Error> {
     let manifest = &dataset.manifest;
     let tables = [("trajectory", Some(&dataset.trajectory)), ("crossings", dataset.crossings.as_ref())];
     for (name, table) in tables.into_iter().filter_map(|(name, table)| Some((name, table?))) {
         let file = format!("{name}.{}", format.extension());
-        write_table(table, manifest, format, &staging.path().join(file))
-            .map_err(|error| staging.shown(error))?;
+        write_table(table, manifest, format, &staged.path().join(file))
+            .map_err(|error| shown(staged, error))?;
     }
     if let Some(fields) = fields {
-        super::write_fields(&staging.path().join("fields.h5"), fields)
-            .map_err(|error| staging.shown(error))?;
+        super::write_fields(&staged.path().join("fields.h5"), fields)
+            .map_err(|error| shown(staged, error))?;
     }
     let mut json =
-        serde_json::to_vec_pretty(manifest).map_err(|error| Error::write_failed(staging.target(), error))?;
+        serde_json::to_vec_pretty(manifest).map_err(|error| Error::write_failed(staged.target(), error))?;
     json.push(b'\n');
-    staging.write(MANIFEST, &json)
+    Ok(staged.write(MANIFEST, &json)?)
+}
+
+/// The same failure with the final name of the file.
+fn shown(staged: &Staged, error: Error) -> Error {
+    match error {
+        Error::Store(error) => staged.shown(error).into(),
+        other => other,
+    }
 }
 
 /// Reads a dataset folder back.
@@ -86,6 +97,7 @@ pub fn write_dataset(
 /// # Errors
 /// [`Error::Unreadable`] for a folder without a manifest, or files that are missing or damaged.
 pub fn read_dataset(folder: &Path) -> Result<Dataset, Error> {
+    mend(folder)?;
     let path = folder.join(MANIFEST);
     let text = input::manifest(&path).map_err(|error| {
         Error::unreadable(&path, format!("{error}; give a folder written by `motiform simulate`"))

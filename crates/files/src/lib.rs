@@ -6,12 +6,11 @@
 mod absent;
 pub mod columns;
 mod csv_table;
-pub use motiform_store::disk;
+pub use motiform_store::{self as store, Folder, Kind, Opening, Staged, StagedFile, disk, kind_of};
 mod fields;
 mod folder;
 #[cfg(feature = "formats")]
 mod hdf5;
-mod leftovers;
 #[cfg(feature = "formats")]
 mod parquet_columns;
 #[cfg(feature = "formats")]
@@ -20,7 +19,6 @@ pub mod parquet_input;
 mod parquet_output;
 #[cfg(feature = "formats")]
 mod parquet_table;
-mod staging;
 
 #[cfg(not(feature = "formats"))]
 use absent as parquet_table;
@@ -31,7 +29,5 @@ pub use fields::Fields;
 pub use folder::{Format, read_dataset, read_table_file, write_dataset, write_table};
 #[cfg(feature = "formats")]
 pub use hdf5::{read_fields, write_fields};
-pub use leftovers::sweep;
 #[cfg(feature = "formats")]
 pub use parquet_input::decoding;
-pub use staging::{Staging, replace_file};

@@ -1,7 +1,7 @@
 //! Dataset to fields: phi(s, t) and the outlines, for models with a field on the boundary.
 
 use motiform_dynamics::Outline;
-use motiform_files::{Fields, Format, Staging};
+use motiform_files::{Fields, Format, Staged};
 use motiform_study::{Dataset, Error};
 
 /// Maximum number of times that are kept (beyond it, rows are skipped evenly).
@@ -13,9 +13,9 @@ const POINTS: usize = 128;
 /// Writes a dataset with its fields into a staged folder.
 ///
 /// # Errors
-/// [`Error::WriteFailed`].
-pub fn write_dataset(dataset: &Dataset, format: Format, staging: &Staging) -> Result<(), Error> {
-    motiform_files::write_dataset(dataset, fields(dataset)?.as_ref(), format, staging)
+/// Files that cannot be written.
+pub fn write_dataset(dataset: &Dataset, format: Format, staged: &Staged) -> Result<(), Error> {
+    motiform_files::write_dataset(dataset, fields(dataset)?.as_ref(), format, staged)
 }
 
 /// The fields of a dataset; `None` for models without a field on the boundary.

@@ -14,7 +14,7 @@ pub use bodies::{MOST, simulated};
 pub use datasets::read;
 pub use draw::draw;
 pub use error::{Error, Result};
-pub use folder::{is_one, write};
+pub use folder::write;
 pub use record::{Measurement, mode_names};
 pub use summary::{sentences, summary};
 pub use tables::{Named, tables};

@@ -4,7 +4,7 @@ use crate::inventory::file_line;
 use crate::place::{name_of, number, sweep};
 use crate::replace::{is_taken, make_folders, replaced, retire, retires, set_aside};
 use crate::staged::owned;
-use crate::survey::{is_ours, is_partial};
+use crate::survey::{Survey, is_ours, is_partial};
 use crate::target::Target;
 use crate::{Error, INVENTORY, Inventory, Kind, Staged, disk, is_figure, lock, mend, sha256_hex};
 use serde_json::json;
@@ -42,6 +42,8 @@ impl Opening {
 pub struct Folder {
     shown: PathBuf,
     path: PathBuf,
+    /// Its place, if it is new.
+    new: Option<Target>,
     start: String,
     state: Mutex<State>,
     /// Held as long as it is written: the lock, and that of an inventory that was replaced.
@@ -72,7 +74,8 @@ impl Folder {
             staged.write(name, bytes)?;
         }
         let mut notes = staged.notes().to_vec();
-        let (path, lock, more) = staged.finish(false)?;
+        let (target, lock, more) = staged.finish(false)?;
+        let path = target.path.clone();
         notes.extend(more);
         notes.extend(replaced(&path).iter().filter(|old| retires(old, &path)).map(|old| {
             format!(
@@ -81,7 +84,7 @@ impl Folder {
                 old.display()
             )
         }));
-        Self::begin(shown, path, lock, notes)
+        Ok(Self { new: Some(target), ..Self::begin(shown, path, lock, notes)? })
     }
 
     /// Opens a result to go on with it. Incomplete files of a killed run are removed.
@@ -122,6 +125,7 @@ impl Folder {
         Ok(Self {
             shown: shown.to_owned(),
             path: target.path,
+            new: None,
             start: start(),
             state: Mutex::new(state),
             _lock: lock,
@@ -155,7 +159,7 @@ impl Folder {
         let line = format!("\n{}\n", json!({ "partial": start }));
         log.write_all(line.as_bytes()).map_err(|error| Error::write_failed(shown, error))?;
         let state = State { inventory, log: Some(log), files: 0, notes, locks: Vec::new() };
-        Ok(Self { shown: shown.to_owned(), path, start, state: Mutex::new(state), _lock: lock })
+        Ok(Self { shown: shown.to_owned(), path, new: None, start, state: Mutex::new(state), _lock: lock })
     }
 
     /// Where it is, as given.
@@ -310,6 +314,33 @@ impl Folder {
         if name.ends_with('/') {
             let _ = fs::remove_dir(self.path.join(name)); // it fails where something else is inside
         }
+    }
+
+    /// Checks that no listed file is changed, figures excepted, so that work of hours is not done in vain.
+    ///
+    /// # Errors
+    /// [`Error::Changed`].
+    pub fn check(&self) -> Result<(), Error> {
+        let survey =
+            Survey::of(&self.path, &self.state().inventory).map_err(Error::unwritable(&self.shown))?;
+        match survey.changed.first() {
+            Some(name) => Err(Error::Changed { path: self.shown.join(name) }),
+            None => Ok(()),
+        }
+    }
+
+    /// Takes a result away whose computation failed before there was anything of it, and puts back what it replaced.
+    pub fn abandon(self) {
+        let Some(target) = &self.new else { return };
+        self.names().iter().for_each(|name| self.discard(name));
+        let inventory = self.path.join(INVENTORY);
+        if fs::read_dir(&self.path).is_ok_and(|rest| rest.count() == 1) {
+            let _ = fs::remove_file(inventory).and_then(|()| fs::remove_dir(&self.path));
+        }
+        if let Some(old) = replaced(&self.path).iter().filter(|old| retires(old, &self.path)).max() {
+            let _ = disk::rename_new(old, &self.path); // it fails where something is left
+        }
+        target.undo();
     }
 
     /// Says that the result is complete: its inventory gets its final bytes, and what it replaced is taken away.

@@ -10,6 +10,7 @@
 
 mod digest;
 pub mod disk;
+mod earlier;
 mod error;
 mod folder;
 mod inventory;
@@ -24,6 +25,7 @@ mod survey;
 mod target;
 
 pub use digest::{sha256_file, sha256_hex};
+pub use earlier::kind_of;
 pub use error::Error;
 pub use folder::{Folder, Opening};
 pub use inventory::{INVENTORY, Inventory, is_figure};

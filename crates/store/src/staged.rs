@@ -80,13 +80,12 @@ impl Staged {
     /// # Errors
     /// [`Error::Exists`] if something appeared there in the meantime, [`Error::Changed`], [`Error::Taken`], [`Error::WriteFailed`].
     pub fn commit(self) -> Result<(PathBuf, Vec<String>), Error> {
-        let shown = self.target.shown.clone();
-        let (_, _, notes) = self.finish(true)?;
-        Ok((shown, notes))
+        let (target, _, notes) = self.finish(true)?;
+        Ok((target.shown, notes))
     }
 
-    /// Gives the folder its name, with its own lock; its place on disk and what stayed there, in sentences.
-    pub(crate) fn finish(mut self, complete: bool) -> Result<(PathBuf, File, Vec<String>), Error> {
+    /// Gives the folder its name; its place, its lock, and what stayed there, in sentences.
+    pub(crate) fn finish(mut self, complete: bool) -> Result<(Target, File, Vec<String>), Error> {
         let failed = |error: std::io::Error| Error::write_failed(&self.target.shown, error);
         let new = self.path();
         let mut inventory = Inventory { complete, ..Inventory::new(self.kind) };
@@ -111,7 +110,7 @@ impl Staged {
         if complete {
             replaced(&self.target.path).iter().for_each(|old| drop(retire(old, &self.target.path)));
         }
-        Ok((self.target.path.clone(), own, notes))
+        Ok((self.target.clone(), own, notes))
     }
 }
 

@@ -13,7 +13,7 @@ const ENDINGS: [&str; 29] = [
 ];
 
 /// The place of an output, and the folders above it that were made for it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Target {
     /// As given.
     pub(crate) shown: PathBuf,

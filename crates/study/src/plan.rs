@@ -11,8 +11,8 @@ use crate::{Error, initial};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Model, Noise, Semilinear};
 use motiform_models::{ModelInfo, ModelName};
+pub use motiform_store::sha256_hex;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 /// Version of the meaning of a plan; part of the hash.
 pub const PLAN_FORMAT: u32 = 2;
@@ -156,11 +156,6 @@ impl Plan {
     pub fn method(&self) -> Result<Method, Error> {
         stepper(&self.computation.stepper)
     }
-}
-
-/// SHA-256 in hexadecimal.
-pub fn sha256_hex(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().fold(String::new(), |hex, byte| hex + &format!("{byte:02x}"))
 }
 
 /// The noise of a study, if it has any.

@@ -2,8 +2,9 @@
 
 use crate::args::ExploreOptions;
 use crate::output::{End, print, warn};
-use motiform_cells::{FitFolder, RecordedFrame, recorded};
+use motiform_cells::{RecordedFrame, recorded};
 use motiform_explorer::{Options, Server, StudyFile, TrackedCell};
+use motiform_files::{Kind, kind_of};
 use motiform_models::ModelInfo;
 use motiform_models::amplitudes::NAME;
 use motiform_study::presets::{EXTENSIONS, PRESETS, Preset};
@@ -37,7 +38,7 @@ fn settings(options: &ExploreOptions) -> anyhow::Result<Options> {
         settings.file = Some(study_file(Path::new(path))?);
         return Ok(settings);
     }
-    if let Some(folder) = subject.as_ref().filter(|name| FitFolder::is_one(Path::new(name))) {
+    if let Some(folder) = subject.as_ref().filter(|name| is_fit(Path::new(name))) {
         let files = study_files(Path::new(folder))?;
         anyhow::bail!("{folder} is a folder of results; give a study file in it: {}", files.join(", "));
     }
@@ -116,4 +117,9 @@ fn open(address: &str) -> bool {
     // The child is waited for, so that it leaves no zombie; if it fails, the printed address remains.
     std::thread::spawn(move || child.wait());
     true
+}
+
+/// Whether a folder was written by `motiform fit` or `motiform observe`.
+fn is_fit(folder: &Path) -> bool {
+    matches!(kind_of(folder), Some(Kind::Fits | Kind::Observations))
 }

@@ -4,7 +4,7 @@ use crate::args::ReproduceOptions;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_figures::{DEFAULT_SCALE, png};
-use motiform_files::replace_file;
+use motiform_files::{Folder, Kind, Opening};
 use motiform_lab::draw::undrawable;
 use motiform_paper::{Options, reproduce};
 use motiform_report::{Claim, Counts, Picture, Report};
@@ -12,6 +12,9 @@ use motiform_study::Error;
 use serde_json::json;
 use std::fmt::Write;
 use std::path::Path;
+
+/// The page.
+const PAGE: &str = "report.html";
 
 pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     let out = &options.out;
@@ -22,8 +25,9 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
         threads: options.threads.map_or_else(all, usize::from),
     };
     wanted.check()?;
-    let unwritable = |reason| Error::Unwritable { path: out.clone(), reason };
-    std::fs::create_dir_all(out).map_err(unwritable)?;
+    let files = Folder::open(out, Kind::Report, Opening::Resume, &[])?;
+    files.check()?;
+    files.notes().iter().for_each(|note| warn(note));
     let watch = Progress::new(1000.0, "permille");
     let report = reproduce(&wanted, out, &watch);
     watch.finish();
@@ -34,27 +38,29 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
         }
         report => report?,
     };
-    write_figures(&report, out)?;
-    let page = out.join("report.html");
-    replace_file(&page, report.html().as_bytes())?;
+    write_figures(&report, &files)?;
+    files.put(PAGE, report.html().as_bytes())?;
+    files.complete()?;
+    files.notes().iter().for_each(|note| warn(note));
+    let page = out.join(PAGE);
     print(&if options.json { json(&report, &page)? } else { summary(&report, &page)? })?;
     Ok(if report.all_hold() { End::Done } else { End::NotAsAsked })
 }
 
 /// The figures of the report as files: `figure-4.1.svg` and `.png` are the page's Figure 4.1, `.csv` the numbers that it shows.
-fn write_figures(report: &Report, out: &Path) -> Result<(), Error> {
+fn write_figures(report: &Report, files: &Folder) -> Result<(), Error> {
     for (section, number) in report.sections.iter().zip(1..) {
         for (figure, place) in section.figures.iter().zip(1..) {
-            let file = |ending: &str| out.join(format!("figure-{number}.{place}.{ending}"));
+            let file = |ending: &str| format!("figure-{number}.{place}.{ending}");
             match &figure.picture {
                 Picture::Svg(svg) => {
-                    replace_file(&file("svg"), svg.as_bytes())?;
-                    replace_file(&file("png"), &png(svg, DEFAULT_SCALE, &[]).map_err(undrawable)?)?;
+                    files.put(&file("svg"), svg.as_bytes())?;
+                    files.put(&file("png"), &png(svg, DEFAULT_SCALE, &[]).map_err(undrawable)?)?;
                 }
-                Picture::Png(bytes) => replace_file(&file("png"), bytes)?,
+                Picture::Png(bytes) => files.put(&file("png"), bytes)?,
             }
             if let Some(data) = &figure.data {
-                replace_file(&file("csv"), data.as_bytes())?;
+                files.put(&file("csv"), data.as_bytes())?;
             }
         }
     }

@@ -5,7 +5,7 @@ use crate::commands::{figure, film, subject};
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_analysis::Verdict;
-use motiform_files::{Format, Staging, write_table};
+use motiform_files::{Format, Kind, Staged, StagedFile, write_table};
 use motiform_lab::fields::write_dataset;
 use motiform_lab::naming;
 use motiform_lab::simulate::simulate;
@@ -18,7 +18,7 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     film::check(&options.drawing.film)?;
     let plan = Plan::new(&study(options)?)?;
     let target = Target::prepare(options, &plan)?;
-    target.swept().iter().for_each(|note| warn(note));
+    target.notes().iter().for_each(|note| warn(note));
     let c = &plan.computation;
     let watch = Progress::new(c.transient + c.t_end, "model time");
     let dataset =
@@ -72,8 +72,8 @@ fn study(options: &SimulateOptions) -> Result<Study, Error> {
 /// The destination of the result.
 enum Target {
     Nowhere,
-    Folder(Staging),
-    Table(Staging, Format),
+    Folder(Staged),
+    Table(StagedFile, Format),
 }
 
 impl Target {
@@ -85,16 +85,17 @@ impl Target {
             None => PathBuf::from(default_folder(plan)),
         };
         Ok(match Format::of_path(&out) {
-            Some(format) => Self::Table(Staging::new(&out, false, options.force)?, format),
-            None => Self::Folder(Staging::new(&out, true, options.force)?),
+            Some(format) => Self::Table(StagedFile::new(&out, Kind::Table, options.force)?, format),
+            None => Self::Folder(Staged::new(&out, Kind::Dataset, options.force)?),
         })
     }
 
-    /// Leftovers of killed runs that were found.
-    fn swept(&self) -> &[String] {
+    /// What was found in its place, in sentences.
+    fn notes(&self) -> &[String] {
         match self {
             Self::Nowhere => &[],
-            Self::Folder(staging) | Self::Table(staging, _) => staging.swept(),
+            Self::Folder(staged) => staged.notes(),
+            Self::Table(staged, _) => staged.notes(),
         }
     }
 
@@ -107,17 +108,21 @@ impl Target {
     ) -> anyhow::Result<(Option<String>, Option<anyhow::Error>)> {
         match self {
             Self::Nowhere => Ok((None, None)),
-            Self::Table(staging, format) => {
-                write_table(&dataset.trajectory, &dataset.manifest, format, staging.path())
-                    .map_err(|error| staging.shown(error))?;
-                Ok((Some(staging.commit()?.display().to_string()), None))
+            Self::Table(staged, format) => {
+                write_table(&dataset.trajectory, &dataset.manifest, format, &staged.path()).map_err(
+                    |error| match error {
+                        Error::Store(error) => staged.shown(error).into(),
+                        other => other,
+                    },
+                )?;
+                Ok((Some(staged.commit()?.display().to_string()), None))
             }
-            Self::Folder(staging) => {
+            Self::Folder(staged) => {
                 let format = match options.format {
                     TableFormat::Parquet => Format::Parquet,
                     TableFormat::Csv => Format::Csv,
                 };
-                write_dataset(dataset, format, &staging)?;
+                write_dataset(dataset, format, &staged)?;
                 let drawn = if options.no_figures {
                     Ok(Vec::new())
                 } else {
@@ -139,13 +144,15 @@ impl Target {
                 };
                 let undrawn = undrawn.or(unfilmed);
                 for picture in pictures.into_iter().chain(films) {
-                    staging.write(&picture.name, &picture.bytes)?;
+                    staged.write(&picture.name, &picture.bytes)?;
                 }
-                let mut names: Vec<String> = std::fs::read_dir(staging.path())?
+                let mut names: Vec<String> = std::fs::read_dir(staged.path())?
                     .map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()))
                     .collect::<std::io::Result<_>>()?;
                 names.sort();
-                let written = format!("{}: {}", staging.commit()?.display(), names.join(" "));
+                let (path, kept) = staged.commit()?;
+                kept.iter().for_each(|note| warn(note));
+                let written = format!("{}: {}", path.display(), names.join(" "));
                 Ok((Some(written), undrawn))
             }
         }

@@ -4,9 +4,9 @@ use crate::args::{StatisticsOptions, SubjectOptions};
 use crate::commands::subject;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
-use motiform_files::Staging;
+use motiform_files::{Kind, Staged};
 use motiform_lab::draw::FigureFormat;
-use motiform_measure::{Measurement, is_one, read, sentences, simulated, summary, write};
+use motiform_measure::{Measurement, read, sentences, simulated, summary, write};
 use motiform_statistics::Settings;
 use motiform_study::{Error, Study};
 use std::fmt::Write;
@@ -16,9 +16,9 @@ use std::path::Path;
 const BODIES: u64 = 100;
 
 pub(crate) fn run(options: &StatisticsOptions) -> anyhow::Result<End> {
-    let staging =
-        options.out.as_ref().map(|out| Staging::replacing(out, options.force, is_one)).transpose()?;
-    for note in staging.iter().flat_map(Staging::swept) {
+    let stage = |out| Staged::new(out, Kind::Statistics, options.force);
+    let staged = options.out.as_deref().map(stage).transpose()?;
+    for note in staged.iter().flat_map(Staged::notes) {
         warn(note);
     }
     let datasets = !options.subjects.is_empty() && options.subjects.iter().all(|path| is_dataset(path));
@@ -32,9 +32,10 @@ pub(crate) fn run(options: &StatisticsOptions) -> anyhow::Result<End> {
         found
     };
     let json = options.json.then(|| summary(&found).to_string());
-    let written = match staging {
-        Some(staging) => {
-            let path = write(&found, &FigureFormat::default(), staging).map_err(plain_error)?;
+    let written = match staged {
+        Some(staged) => {
+            let (path, kept) = write(&found, &FigureFormat::default(), staged).map_err(plain_error)?;
+            kept.iter().for_each(|note| warn(note));
             Some(path.display().to_string())
         }
         None => None,

@@ -15,7 +15,7 @@ const LAYERS: [(&str, &[&str]); 26] = [
     ("motiform-statistics", &["motiform-analysis"]),
     ("motiform-inference", &["motiform-dynamics", "motiform-models"]),
     ("motiform-kernels", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
-    ("motiform-study", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
+    ("motiform-study", &["motiform-analysis", "motiform-dynamics", "motiform-models", "motiform-store"]),
     ("motiform-files", &["motiform-dynamics", "motiform-models", "motiform-store", "motiform-study"]),
     ("motiform-tracks", &["motiform-files"]),
     ("motiform-figures", &[]),
