@@ -107,7 +107,7 @@ pub(crate) fn open<T: for<'d> Deserialize<'d>>(
     same: impl FnOnce(&Path) -> Result<bool, Error>,
     state: &str,
 ) -> Result<(Folder, Option<T>), Error> {
-    if opening != Opening::Resume || path.symlink_metadata().is_err() {
+    if opening != Opening::Resume || !path.exists() {
         return Ok((Folder::open(path, kind, opening, &[(MANIFEST, manifest)])?, None));
     }
     mend(path)?;

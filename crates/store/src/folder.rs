@@ -3,8 +3,8 @@
 use crate::inventory::file_line;
 use crate::place::{name_of, number, sweep};
 use crate::replace::{is_taken, make_folders, replaced, retire, retires, set_aside};
-use crate::staged::owned;
-use crate::survey::{Survey, is_ours, is_partial};
+use crate::staged::{is_empty, owned};
+use crate::survey::{Survey, is_ours, is_partial, kept};
 use crate::target::Target;
 use crate::{Error, INVENTORY, Inventory, Kind, Staged, disk, is_figure, lock, mend, sha256_hex};
 use serde_json::json;
@@ -66,8 +66,11 @@ impl Folder {
     /// # Errors
     /// Those of [`Staged::new`] and [`Folder::resume`].
     pub fn open(shown: &Path, kind: Kind, opening: Opening, files: &[(&str, &[u8])]) -> Result<Self, Error> {
-        if opening == Opening::Resume && Target::new(shown)?.exists() {
-            return Self::resume(shown, kind);
+        if opening == Opening::Resume {
+            let target = Target::new(shown)?;
+            if target.exists() && !(kind == Kind::Report && is_empty(&target.path)) {
+                return Self::resume(shown, kind);
+            }
         }
         let staged = Staged::new(shown, kind, opening == Opening::Replace)?;
         for (name, bytes) in files {
@@ -81,7 +84,7 @@ impl Folder {
             format!(
                 "what was in {} is in {} until the new result is complete",
                 shown.display(),
-                old.display()
+                shown.with_file_name(name_of(old)).display()
             )
         }));
         Ok(Self { new: Some(target), ..Self::begin(shown, path, lock, notes)? })
@@ -94,12 +97,14 @@ impl Folder {
     pub fn resume(shown: &Path, kind: Kind) -> Result<Self, Error> {
         let target = Target::new(shown)?;
         mend(&target.path)?;
-        let notes = sweep(&target.path);
-        owned(&target, kind).map_err(|error| match error {
+        let mut notes = sweep(&target.path);
+        let inventory = owned(&target, kind).map_err(|error| match error {
             Error::NotOurs { path } => Error::NotContinued { path },
             other => other,
         })?;
         let lock = lock::lock(&target.path, shown)?;
+        let others = Survey::names(&target.path, &inventory).map_err(Error::unwritable(shown))?;
+        notes.extend(kept(shown, &others));
         Self::begin(shown, target.path, lock, notes)
     }
 
@@ -287,7 +292,13 @@ impl Folder {
             match disk::rename_new(&self.path.join(name), &self.path.join(&aside)) {
                 Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(Error::write_failed(&self.shown.join(name), error)),
-                Ok(()) => return Ok(aside),
+                Ok(()) => {
+                    let path = self.shown.join(name).display().to_string();
+                    self.state()
+                        .notes
+                        .push(format!("{path} is not as motiform wrote it: it is kept as {aside}"));
+                    return Ok(aside);
+                }
             }
         }
         Ok(name.to_owned())

@@ -139,7 +139,7 @@ fn prepare(target: &Target, kind: Kind, force: bool) -> Result<Prepared, Error> 
 }
 
 /// Whether there is a folder with nothing in it.
-fn is_empty(path: &Path) -> bool {
+pub(crate) fn is_empty(path: &Path) -> bool {
     path.symlink_metadata().is_ok_and(|there| there.is_dir())
         && fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_none())
 }

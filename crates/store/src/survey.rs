@@ -20,14 +20,29 @@ impl Survey {
     /// Reads a folder. Every listed file is read.
     pub(crate) fn of(folder: &Path, inventory: &Inventory) -> Result<Self> {
         let mut survey = Self::default();
-        survey.walk(folder, "", inventory)?;
+        survey.walk(folder, "", inventory, &|name, digests| is_ours(&folder.join(name), digests))?;
         for names in [&mut survey.changed, &mut survey.edited, &mut survey.foreign] {
             names.sort();
         }
         Ok(survey)
     }
 
-    fn walk(&mut self, folder: &Path, prefix: &str, inventory: &Inventory) -> Result<()> {
+    /// What is not listed, without reading files. Results inside a result have their own inventory.
+    pub(crate) fn names(folder: &Path, inventory: &Inventory) -> Result<Vec<String>> {
+        let mut survey = Self::default();
+        survey.walk(folder, "", inventory, &|_, _| true)?;
+        survey.foreign.retain(|name| !(name.ends_with('/') && folder.join(name).join(INVENTORY).is_file()));
+        survey.foreign.sort();
+        Ok(survey.foreign)
+    }
+
+    fn walk(
+        &mut self,
+        folder: &Path,
+        prefix: &str,
+        inventory: &Inventory,
+        is_unchanged: &dyn Fn(&str, &[String]) -> bool,
+    ) -> Result<()> {
         for entry in fs::read_dir(folder.join(prefix))?.collect::<Result<Vec<_>>>()? {
             let Ok(name) = entry.file_name().into_string() else {
                 self.foreign.push(format!("{prefix}{}", entry.file_name().to_string_lossy()));
@@ -36,13 +51,13 @@ impl Survey {
             let name = format!("{prefix}{name}");
             let kind = entry.file_type()?;
             if let Some(digests) = inventory.files.get(&name) {
-                if !is_ours(&folder.join(&name), digests) {
+                if !is_unchanged(&name, digests) {
                     if is_figure(&name) { self.edited.push(name) } else { self.changed.push(name) }
                 }
             } else if kind.is_dir() {
                 let inside = format!("{name}/");
                 if inventory.files.keys().any(|listed| listed.starts_with(&inside)) {
-                    self.walk(folder, &inside, inventory)?;
+                    self.walk(folder, &inside, inventory, is_unchanged)?;
                 } else {
                     self.foreign.push(inside);
                 }

@@ -49,7 +49,7 @@ impl FitWork {
     ) -> Result<Self> {
         options.library()?;
         let manifest = Manifest::new(sample, cells, options);
-        if opening == Opening::Resume && path.symlink_metadata().is_ok() {
+        if opening == Opening::Resume && path.exists() {
             return Self::resume(path, &manifest);
         }
         let files = Folder::open(path, Kind::Fits, opening, &[(MANIFEST, &manifest.bytes(path)?)])?;

@@ -25,7 +25,8 @@ pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
         }
         folder.settle()?;
         let kept = folder.notes();
-        kept.iter().for_each(|note| warn(&format!("{note}; --force draws those of motiform again")));
+        let remedy = if options.force { "" } else { "; --force draws those of motiform again" };
+        kept.iter().for_each(|note| warn(&format!("{note}{remedy}")));
         if !(kept.is_empty() || options.force) {
             end = End::NotAsAsked;
         }

@@ -28,7 +28,7 @@ fn shim() -> &'static PathBuf {
 }
 
 /// Runs the program with a fault at one call; whether it struck.
-fn struck(folder: &Folder, words: &str, kind: &str, at: usize) -> (Done, bool) {
+pub(crate) fn struck(folder: &Folder, words: &str, kind: &str, at: usize) -> (Done, bool) {
     let mut command = folder.command(words);
     command.env("LD_PRELOAD", shim()).env("FAULT_KIND", kind).env("FAULT_AT", at.to_string());
     let done = Done::from(command.output().unwrap());
@@ -150,7 +150,7 @@ fn a_scan_goes_on_after_every_fault() {
         names.iter().map(|name| (name.clone(), read(name))).collect::<Vec<_>>()
     };
     let want = parts(&whole);
-    assert_eq!(want.len(), 4, "{:?}", names(&whole.path("scan")));
+    assert_eq!(want.len(), 5, "{:?}", names(&whole.path("scan")));
     for kind in ["full", "error", "kill"] {
         each_call(&format!("{SCAN} --no-figures --out scan"), kind, nothing, |folder, done| {
             if kind == "kill" {

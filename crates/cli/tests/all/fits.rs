@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Ellipses that turn and drift, each with its own noise from a small generator: short cells, whose fits take some tenths of a second.
-fn outlines(cells: usize) -> String {
+pub(crate) fn outlines(cells: usize) -> String {
     let mut text = "cell,frame,i,x,y\n".to_owned();
     let mut state = 1_u64;
     let mut noise = move || {

@@ -21,6 +21,7 @@ mod lifetimes;
 mod motions;
 mod observe;
 mod outcomes;
+mod ownership;
 mod scan;
 mod startup;
 mod statistics;

@@ -41,7 +41,7 @@ pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged, Err
         }
     }
     let plan = first.plan();
-    if !force && out.symlink_metadata().is_ok() {
+    if !force && out.exists() {
         return Err(StoreError::Exists { path: out.to_owned() }.into());
     }
     let staged = Staged::new(out, Kind::Scan, force)?;

@@ -29,7 +29,7 @@ impl Scan {
     /// # Errors
     /// [`Error::Store`] where it exists, is not ours, is used by others or cannot be written; [`Error::NoScan`], [`Error::OtherScan`].
     pub fn open(path: &Path, plan: &ScanPlan, shard: Shard, opening: Opening) -> Result<Self, Error> {
-        if opening == Opening::Resume && path.symlink_metadata().is_ok() {
+        if opening == Opening::Resume && path.exists() {
             return Self::resume(path, plan, shard);
         }
         let files = Folder::open(path, Kind::Scan, opening, &[(MANIFEST, &manifest(plan, path)?)])?;

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use motiform_files::{Format, Staging};
+use motiform_files::{Format, Kind, Staged};
 use motiform_lab::draw::FigureFormat;
 use motiform_lab::fields::write_dataset;
 use motiform_lab::simulate::simulate;
@@ -14,9 +14,9 @@ use std::path::{Path, PathBuf};
 /// Writes a dataset of this study, with other lines in `[run]`.
 fn dataset(folder: &Path, name: &str, text: &str) -> PathBuf {
     let plan = Plan::new(&Study::parse(text, "text", "test").unwrap()).unwrap();
-    let staged = Staging::new(&folder.join(name), true, false).unwrap();
-    write_dataset(&simulate(&plan, &()).unwrap(), Format::Parquet, &staging).unwrap();
-    staging.commit().unwrap()
+    let staged = Staged::new(&folder.join(name), Kind::Dataset, false).unwrap();
+    write_dataset(&simulate(&plan, &()).unwrap(), Format::Parquet, &staged).unwrap();
+    staged.commit().unwrap().0
 }
 
 fn tensor(run: &str) -> String {
