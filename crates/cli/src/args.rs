@@ -84,6 +84,8 @@ pub(crate) enum Command {
     Explore(ExploreOptions),
     /// Check a study file and print the resulting plan, without computing
     Check(CheckOptions),
+    /// Check a result: digests of its files, the hash of its plan, and a sample of rows computed again and compared bit by bit
+    Verify(VerifyOptions),
     /// Redraw the figures of datasets and scans, without computing
     Figure(FigureOptions),
     /// Print shell completions
@@ -255,6 +257,19 @@ pub(crate) struct FigureOptions {
     pub(crate) force: bool,
     #[command(flatten)]
     pub(crate) drawing: DrawingOptions,
+}
+
+#[derive(Args)]
+pub(crate) struct VerifyOptions {
+    /// A folder that motiform wrote
+    #[arg(value_name = "DIR")]
+    pub(crate) folder: PathBuf,
+    /// Compute all rows of a dataset or scan again, not only a sample
+    #[arg(long)]
+    pub(crate) all: bool,
+    /// Print the findings as one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Args)]

@@ -21,3 +21,4 @@ pub mod samples;
 pub mod scan;
 pub mod section;
 pub mod simulate;
+pub mod verify;

@@ -49,6 +49,12 @@ pub enum Error {
         /// The folder.
         path: PathBuf,
     },
+    /// A folder without an inventory cannot be verified.
+    #[error("{} has no inventory of motiform (others wrote it, or an earlier version): there is nothing to compare it with", .path.display())]
+    NotVerified {
+        /// The folder.
+        path: PathBuf,
+    },
     /// A file of ours was changed by others.
     #[error("{} was changed after motiform wrote it: it is not replaced; move it to another place", .path.display())]
     Changed {

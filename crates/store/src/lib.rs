@@ -8,6 +8,7 @@
 //! * [`Folder`]: a result that grows file by file, and can be continued after a kill.
 //! * [`StagedFile`]: a single file, with its inventory in a hidden file beside it.
 
+mod audit;
 mod digest;
 pub mod disk;
 mod earlier;
@@ -24,6 +25,7 @@ mod staged;
 mod survey;
 mod target;
 
+pub use audit::Audit;
 pub use digest::{sha256_file, sha256_hex};
 pub use earlier::kind_of;
 pub use error::Error;

@@ -26,3 +26,4 @@ mod scan;
 mod startup;
 mod statistics;
 mod steady;
+mod verify;
