@@ -131,7 +131,7 @@ pub(crate) struct SimulateOptions {
     /// Output folder (default: MODEL-PRESET in the current folder), or a single table if it ends in .parquet or .csv
     #[arg(long, value_name = "DIR|FILE")]
     pub(crate) out: Option<PathBuf>,
-    /// Replace an existing dataset
+    /// Replace an existing dataset; what motiform did not write stays
     #[arg(long)]
     pub(crate) force: bool,
     /// Print the result as one JSON object; writes files only with --out

@@ -1,4 +1,4 @@
-//! Datasets on disk, written atomically.
+//! Datasets on disk: tables, fields, and their folder (in [`store`], as all results).
 //!
 //! The feature `formats`, on by default, has Parquet and HDF5 files, which need C and threads; without it they are refused.
 

@@ -48,7 +48,7 @@ pub(crate) struct StatisticsOptions {
     /// Write tables, statistics.json and figures into this folder
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Replace an existing folder of statistics
+    /// Replace an existing folder of statistics; what motiform did not write stays
     #[arg(long)]
     pub(crate) force: bool,
     /// Print one JSON object
