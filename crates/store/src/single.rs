@@ -4,7 +4,7 @@ use crate::place::{Place, name_of, sweep};
 use crate::survey::is_ours;
 use crate::target::Target;
 use crate::{Error, Inventory, Kind, disk, lock, sha256_file};
-use std::fs::File;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 /// A file that is written beside its place and renamed when it is complete. Dropped without [`StagedFile::commit`], it leaves nothing behind.
@@ -74,14 +74,19 @@ impl StagedFile {
             known.iter().for_each(|digest| both.list(&name_of(&path), digest));
             self.list(&both, &beside).map_err(failed)?;
             disk::rename(&new, &path).map_err(failed)?;
+            self.list(&inventory, &beside).map_err(failed)?;
         } else {
             self.list(&inventory, &beside).map_err(failed)?;
-            disk::rename_new(&new, &path).map_err(|error| match error.kind() {
-                std::io::ErrorKind::AlreadyExists => Error::Exists { path: shown.clone() },
-                _ => failed(error),
+            disk::rename_new(&new, &path).map_err(|error| {
+                if path.symlink_metadata().is_err() {
+                    let _ = fs::remove_file(&beside); // it would list what is not there
+                }
+                match error.kind() {
+                    std::io::ErrorKind::AlreadyExists => Error::Exists { path: shown.clone() },
+                    _ => failed(error),
+                }
             })?;
         }
-        self.list(&inventory, &beside).map_err(failed)?;
         self.committed = true;
         self.place.remove();
         Ok(shown)
