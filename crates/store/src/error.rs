@@ -123,9 +123,13 @@ impl Error {
         Self::WriteFailed { path: path.to_owned(), reason: reason.to_string() }
     }
 
-    /// [`Error::Unwritable`] of a path.
+    /// [`Error::Unwritable`] of a path; [`Error::WriteFailed`] where there is no space.
     pub(crate) fn unwritable(path: &Path) -> impl Fn(std::io::Error) -> Self {
-        move |reason| Self::Unwritable { path: path.to_owned(), reason }
+        use std::io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
+        move |reason| match reason.kind() {
+            StorageFull | QuotaExceeded | FileTooLarge => Self::write_failed(path, reason),
+            _ => Self::Unwritable { path: path.to_owned(), reason },
+        }
     }
 }
 

@@ -286,9 +286,10 @@ impl Folder {
     /// # Errors
     /// [`Error::WriteFailed`].
     pub fn keep_aside(&self, name: &str) -> Result<String, Error> {
+        let end = name.rsplit('/').next().unwrap_or(name);
         for count in 1.. {
             let aside =
-                if count == 1 { format!("_damaged-{name}") } else { format!("_damaged-{count}-{name}") };
+                if count == 1 { format!("_damaged-{end}") } else { format!("_damaged-{count}-{end}") };
             match disk::rename_new(&self.path.join(name), &self.path.join(&aside)) {
                 Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(Error::write_failed(&self.shown.join(name), error)),
@@ -327,17 +328,20 @@ impl Folder {
         }
     }
 
-    /// Checks that no listed file is changed, figures excepted, so that work of hours is not done in vain.
+    /// Checks that no listed file is changed, figures excepted, so that work of hours is not done in vain. Changed files of unfinished work (in a folder
+    /// whose name begins with `_`) are kept under another name, with a note: they are computed again.
     ///
     /// # Errors
-    /// [`Error::Changed`].
+    /// [`Error::Changed`], [`Error::WriteFailed`].
     pub fn check(&self) -> Result<(), Error> {
-        let survey =
-            Survey::of(&self.path, &self.state().inventory).map_err(Error::unwritable(&self.shown))?;
-        match survey.changed.first() {
-            Some(name) => Err(Error::Changed { path: self.shown.join(name) }),
-            None => Ok(()),
+        let survey = Survey::of(&self.path, &self.state().inventory).map_err(Error::unwritable(&self.shown));
+        for name in survey?.changed {
+            if !(name.starts_with('_') && name.contains('/')) {
+                return Err(Error::Changed { path: self.shown.join(name) });
+            }
+            self.keep_aside(&name)?;
         }
+        Ok(())
     }
 
     /// Takes a result away whose computation failed before there was anything of it, and puts back what it replaced.

@@ -76,8 +76,11 @@ impl StagedFile {
             disk::rename(&new, &path).map_err(failed)?;
             self.list(&inventory, &beside).map_err(failed)?;
         } else {
-            self.list(&inventory, &beside).map_err(failed)?;
-            disk::rename_new(&new, &path).map_err(|error| {
+            let appear = || {
+                self.list(&inventory, &beside)?;
+                disk::rename_new(&new, &path)
+            };
+            appear().map_err(|error| {
                 if path.symlink_metadata().is_err() {
                     let _ = fs::remove_file(&beside); // it would list what is not there
                 }

@@ -132,7 +132,7 @@ type Prepared = (Place, Option<File>, Vec<String>);
 fn prepare(target: &Target, kind: Kind, force: bool) -> Result<Prepared, Error> {
     mend(&target.path)?;
     let mut notes = sweep(&target.path);
-    let empty = (force || kind == Kind::Report) && is_empty(&target.path);
+    let empty = kind == Kind::Report && is_empty(&target.path);
     let held = if target.exists() && !empty { Some(admit(target, kind, force, &mut notes)?) } else { None };
     let place = Place::make(&target.path, kind).map_err(Error::unwritable(&target.shown))?;
     Ok((place, held, notes))

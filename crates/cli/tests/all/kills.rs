@@ -115,7 +115,7 @@ fn merges() {
         let killed = kill(&folder, words, time, &mut random);
         assert_eq!(
             names(&folder.path("all")).len(),
-            names(&folder.path("s1")).len() + names(&folder.path("s2")).len() - 1
+            names(&folder.path("s1")).len() + names(&folder.path("s2")).len() - 2
         );
         killed
     });
