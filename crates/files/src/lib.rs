@@ -11,6 +11,7 @@ mod fields;
 mod folder;
 #[cfg(feature = "formats")]
 mod hdf5;
+mod journal;
 #[cfg(feature = "formats")]
 mod parquet_columns;
 #[cfg(feature = "formats")]
@@ -19,6 +20,7 @@ pub mod parquet_input;
 mod parquet_output;
 #[cfg(feature = "formats")]
 mod parquet_table;
+mod table_file;
 
 #[cfg(not(feature = "formats"))]
 use absent as parquet_table;
@@ -26,8 +28,12 @@ use absent as parquet_table;
 pub use absent::{Absent, read_fields, write_fields};
 pub use csv_table::table_to_csv;
 pub use fields::Fields;
-pub use folder::{Format, read_dataset, read_table_file, write_dataset, write_table};
+pub use folder::{
+    Format, read_dataset, read_dataset_by, read_table_file, table_path, write_dataset, write_rest,
+};
 #[cfg(feature = "formats")]
 pub use hdf5::{read_fields, write_fields};
+pub use journal::{Journal, end_of_work};
 #[cfg(feature = "formats")]
 pub use parquet_input::decoding;
+pub use table_file::{GROUP_ROWS, TableWriter, read_groups, write_table};

@@ -7,8 +7,9 @@ use motiform_branching::BranchFolder;
 use motiform_branching::curves::CurveFolder;
 use motiform_branching::draw::{Ordinate, draw_branches, draw_curves};
 use motiform_figures::Style;
-use motiform_files::{Folder, Kind, kind_of, read_dataset};
+use motiform_files::{Folder, Kind, kind_of, read_dataset_by};
 use motiform_lab::draw::{FigureFormat, Picture, draw, draw_scan};
+use motiform_lab::long::read_shown;
 use motiform_lab::scan::ScanFolder;
 use motiform_study::study::FigureSettings;
 use motiform_study::{Dataset, Error, plan};
@@ -49,9 +50,13 @@ fn drawn(path: &Path, options: &FigureOptions) -> anyhow::Result<Vec<Picture>> {
             Ok(draw_curves(&plan, &found, None)?)
         }
         _ => {
-            let mut dataset = read_dataset(path)?;
-            apply(&options.drawing, &mut dataset.manifest.plan.figure);
-            plan::check_figure(&dataset.manifest.plan.figure)?;
+            let dataset = read_dataset_by(path, &|manifest, path| {
+                apply(&options.drawing, &mut manifest.plan.figure);
+                plan::check_figure(&manifest.plan.figure)?;
+                let (trajectory, stride) = read_shown(manifest, path)?;
+                note_stride(stride);
+                Ok(trajectory)
+            })?;
             let mut stills = pictures(&dataset, &options.drawing)?;
             stills.extend(film::convert(&stills, &options.drawing.film)?);
             Ok(stills)
@@ -67,6 +72,13 @@ pub(crate) fn apply(options: &DrawingOptions, settings: &mut FigureSettings) {
     settings.from = options.from.unwrap_or(settings.from);
     settings.to = options.to.unwrap_or(settings.to);
     settings.animation &= !options.no_animation;
+}
+
+/// Says that a long run is not drawn from all of its rows.
+pub(crate) fn note_stride(stride: u32) {
+    if stride > 1 {
+        warn(&format!("the run is long: its figures show one row of {stride}"));
+    }
 }
 
 /// Every picture of a dataset.
