@@ -75,6 +75,14 @@ impl BranchFolder {
         open(path, (Kind::Branches, opening), &manifest, same, STATE)
     }
 
+    /// Keeps branches that are not all of them.
+    ///
+    /// # Errors
+    /// They cannot be written.
+    pub fn keep(found: &Branches, folder: &Folder) -> Result<(), Error> {
+        keep(STATE, found, folder)
+    }
+
     /// Writes everything.
     ///
     /// # Errors
@@ -118,6 +126,12 @@ pub(crate) fn open<T: for<'d> Deserialize<'d>>(
     folder.check()?;
     let found = folder.read(state).map(|bytes| serde_json::from_slice(&bytes)).transpose();
     Ok((folder, found.map_err(|error| Error::unreadable(&path.join(state), error))?))
+}
+
+/// Writes a state from which the work can go on.
+pub(crate) fn keep(name: &str, state: &impl Serialize, folder: &Folder) -> Result<(), Error> {
+    let state = serde_json::to_vec(state).map_err(|error| Error::write_failed(folder.shown(), error))?;
+    Ok(folder.put(name, &state)?)
 }
 
 /// Writes the state, the figures and, last, the manifest, which says whether the result is complete.

@@ -1,39 +1,68 @@
 //! The folder of statistics: tables as Parquet, `statistics.json`, figures.
 
 use crate::{Measurement, Result, draw, summary, tables};
-use motiform_files::{Staged, columns};
+use motiform_files::{Folder, Journal as _, Kind, Opening, columns, end_of_work};
 use motiform_lab::draw::FigureFormat;
-use motiform_study::Error;
 use motiform_study::dataset::VERSION;
-use serde_json::Value;
-use std::path::PathBuf;
+use motiform_study::{Error, Plan};
+use serde_json::{Value, json};
+use std::path::Path;
 
 /// The file of the summary.
 const FILE: &str = "statistics.json";
 
-/// Writes tables, summary and figures into a staged folder and gives it its name, which is returned, with what stayed there, in sentences.
+/// What the plan of bodies is compared by.
+const PLAN: &str = "plan.json";
+
+/// Opens a folder of the statistics of so many bodies of a plan (`None`: of datasets), to write it or to go on with it.
+///
+/// # Errors
+/// [`Error::OtherBranches`] where it holds those of another plan; [`Error::Store`] where it exists, is not ours, is used by others or cannot be
+/// written.
+pub fn open(
+    path: &Path,
+    opening: Opening,
+    bodies: Option<(&Plan, u64)>,
+) -> std::result::Result<Folder, Error> {
+    let folder = Folder::open(path, Kind::Statistics, opening, &[])?;
+    let Some((plan, count)) = bodies else { return Ok(folder) };
+    let asked = json!({ "plan_hash": plan.hash(), "bodies": count });
+    let whole = || {
+        let summary: Value = serde_json::from_slice(&folder.read(FILE)?).ok()?;
+        Some(json!({ "plan_hash": summary["source"]["plan_hash"], "bodies": summary["source"]["bodies"] }))
+    };
+    let begun = || serde_json::from_slice(&folder.finished(PLAN)?).ok();
+    if begun().or_else(whole).is_some_and(|there: Value| there != asked) {
+        return Err(Error::OtherBranches { path: path.to_owned() });
+    }
+    folder.check()?;
+    folder.finish(PLAN, asked.to_string().as_bytes())?;
+    Ok(folder)
+}
+
+/// Writes tables, summary and figures into a folder. Of a complete result, nothing else is kept.
 ///
 /// # Errors
 /// Numbers that do not fit on an axis, files that cannot be written.
-pub fn write(
-    measurement: &Measurement,
-    format: &FigureFormat,
-    staged: Staged,
-) -> Result<(PathBuf, Vec<String>)> {
-    let failed = |error: String| Error::write_failed(staged.target(), error);
+pub fn write(measurement: &Measurement, format: &FigureFormat, folder: &Folder) -> Result<()> {
+    let failed = |error: String| Error::write_failed(folder.shown(), error);
     let mut object = summary(measurement);
     object["motiform"] = Value::from(VERSION);
     let source = serde_json::to_string(&object["source"]).map_err(|error| failed(error.to_string()))?;
     for table in tables(&measurement.statistics) {
         let bytes = columns::encode(&table.columns, vec![("motiform", source.clone())]);
         let bytes = bytes.map_err(|error| failed(error.to_string()))?;
-        staged.write(&format!("{}.parquet", table.name), &bytes).map_err(Error::from)?;
+        folder.put(&format!("{}.parquet", table.name), &bytes).map_err(Error::from)?;
     }
     let mut text = serde_json::to_vec_pretty(&object).map_err(|error| failed(error.to_string()))?;
     text.push(b'\n');
-    staged.write(FILE, &text).map_err(Error::from)?;
     for picture in draw(measurement, format)? {
-        staged.write(&picture.name, &picture.bytes).map_err(Error::from)?;
+        folder.put(&picture.name, &picture.bytes).map_err(Error::from)?;
     }
-    Ok(staged.commit().map_err(Error::from)?)
+    folder.put(FILE, &text).map_err(Error::from)?;
+    if !measurement.complete {
+        return Ok(folder.settle().map_err(Error::from)?);
+    }
+    end_of_work(folder);
+    Ok(folder.complete().map_err(Error::from)?)
 }

@@ -3,7 +3,7 @@
 use super::follow::Curves;
 use super::summary::curve_summary;
 use super::table::curve_columns;
-use crate::folder::{MANIFEST, finish, open, pretty, read};
+use crate::folder::{MANIFEST, finish, keep, open, pretty, read};
 use motiform_files::store::mend;
 use motiform_files::{Folder, Kind, Opening, columns};
 use motiform_lab::draw::Picture;
@@ -75,6 +75,14 @@ impl CurveFolder {
             check_starts(path, found)?;
         }
         Ok((folder, found))
+    }
+
+    /// Keeps branches and curves that are not all of them.
+    ///
+    /// # Errors
+    /// They cannot be written.
+    pub fn keep(found: &Curves, folder: &Folder) -> Result<(), Error> {
+        keep(STATE, found, folder)
     }
 
     /// Writes everything.

@@ -5,7 +5,9 @@ use crate::commands::{curves, subject};
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_branching::draw::{Ordinate, draw_branches};
-use motiform_branching::{BranchFolder, Followed, SpecialEntry, default_folder, follow, stretches, summary};
+use motiform_branching::{
+    BranchFolder, Followed, SpecialEntry, default_folder, follow_kept, stretches, summary,
+};
 use motiform_files::{Folder, Opening};
 use motiform_lab::draw::Picture;
 use motiform_study::branches::{Along, origin};
@@ -27,7 +29,8 @@ fn branches(options: &ContinueOptions, plan: BranchPlan) -> anyhow::Result<End> 
     let out = output(options, default_folder(&plan));
     let (files, before) = prepare(options, out, |path, opening| BranchFolder::open(path, &plan, opening))?;
     let watch = Progress::new(plan.computation.branches as f64, "branches");
-    let found = follow(&plan, before, &watch);
+    let mut keep = |found: &_| files.as_ref().map_or(Ok(()), |folder| BranchFolder::keep(found, folder));
+    let found = follow_kept(&plan, before, &mut keep, &watch);
     watch.finish();
     let (files, found) = or_abandon(files, found)?;
     let folder = BranchFolder { plan, found };

@@ -6,7 +6,7 @@ use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_branching::curves::{
     CurveFolder, FollowedCurve, codimension_2, curve_ends, curve_summary, default_curve_folder,
-    follow_curves, not_found,
+    follow_curves_kept, not_found,
 };
 use motiform_branching::draw::{check_scan, draw_curves};
 use motiform_lab::scan::ScanFolder;
@@ -21,7 +21,8 @@ pub(crate) fn run(options: &ContinueOptions, plan: &CurvePlan) -> anyhow::Result
     let out = output(options, default_curve_folder(plan));
     let (files, before) = prepare(options, out, |path, opening| CurveFolder::open(path, plan, opening))?;
     let watch = Progress::new(1.0, "of branches and curves");
-    let found = follow_curves(plan, before, &watch);
+    let mut keep = |found: &_| files.as_ref().map_or(Ok(()), |folder| CurveFolder::keep(found, folder));
+    let found = follow_curves_kept(plan, before, &mut keep, &watch);
     watch.finish();
     let (files, found) = or_abandon(files, found)?;
     let folder = CurveFolder { plan: plan.clone(), found };

@@ -8,7 +8,7 @@ use motiform_analysis::LifeLaws;
 use motiform_files::{Folder, Kind, Opening};
 use motiform_lab::draw::FigureFormat;
 use motiform_lab::draw::lifetimes::draw_lifetimes;
-use motiform_lab::lifetimes::{LifeAt, Lifetimes, Lives, follow_lives};
+use motiform_lab::lifetimes::{LifeAt, Lifetimes, Lives, follow_lives_kept};
 use motiform_lab::scan::Axis;
 use motiform_study::{Error, Random, ScanPlan};
 use serde_json::json;
@@ -26,7 +26,8 @@ pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
     let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = options.threads.map_or_else(all, usize::from);
     let watch = Progress::new(plan.rows() as f64, "orbits");
-    let lives = follow_lives(&plan, before, threads, &watch);
+    let kept = |lives: &Lives| files.as_ref().map_or(Ok(()), |files| keep(files, lives));
+    let lives = follow_lives_kept(&plan, before, threads, &kept, &watch);
     watch.finish();
     let lives = match lives {
         Ok(lives) => lives,
@@ -36,7 +37,7 @@ pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
         }
     };
     if let Some(files) = &files {
-        files.put(ORBITS, &serde_json::to_vec(&lives)?)?;
+        keep(files, &lives)?;
     }
     if !lives.is_complete() {
         return interrupted(files);
@@ -55,6 +56,12 @@ pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
     print(&if options.json { json(&plan, &found)?.to_string() } else { summary(&plan, &found, options)? })?;
     let answered = !matches!(found.laws, LifeLaws::TooFew { .. } | LifeLaws::Neither { .. });
     Ok(if answered { End::Done } else { End::NotAsAsked })
+}
+
+/// Writes the orbits that are finished.
+fn keep(files: &Folder, lives: &Lives) -> Result<(), Error> {
+    let orbits = serde_json::to_vec(lives).map_err(|error| Error::write_failed(files.shown(), error))?;
+    Ok(files.put(ORBITS, &orbits)?)
 }
 
 /// Opens the output before any computing, and reads the orbits that are there.

@@ -4,9 +4,9 @@ use crate::args::ReproduceOptions;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_figures::{DEFAULT_SCALE, png};
-use motiform_files::{Folder, Kind, Opening};
+use motiform_files::{Folder, Kind, Opening, end_of_work};
 use motiform_lab::draw::undrawable;
-use motiform_paper::{Options, reproduce};
+use motiform_paper::{Keeping, Options, reproduce_kept};
 use motiform_report::{Claim, Counts, Picture, Report};
 use motiform_study::Error;
 use serde_json::json;
@@ -29,10 +29,12 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     files.check()?;
     files.notes().iter().for_each(|note| warn(note));
     let watch = Progress::new(1000.0, "permille");
-    let report = reproduce(&wanted, out, &watch);
+    let page = |report: &Report| Ok(files.put(PAGE, report.html().as_bytes())?);
+    let report = reproduce_kept(&wanted, out, Keeping { journal: &files, page: &page }, &watch);
     watch.finish();
     let report = match report {
         Err(Error::Interrupted) => {
+            files.settle()?;
             warn(&format!("interrupted: the same command continues with the results in {}", out.display()));
             return Ok(End::Interrupted);
         }
@@ -40,6 +42,7 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     };
     write_figures(&report, &files)?;
     files.put(PAGE, report.html().as_bytes())?;
+    end_of_work(&files);
     files.complete()?;
     files.notes().iter().for_each(|note| warn(note));
     let page = out.join(PAGE);

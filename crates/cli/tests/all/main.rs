@@ -15,6 +15,7 @@ mod faults;
 mod fits;
 mod fuzz;
 mod interruption;
+mod journals;
 mod kills;
 mod layers;
 mod lifetimes;
