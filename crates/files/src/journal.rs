@@ -4,7 +4,7 @@ use motiform_store::Folder;
 use motiform_study::Error;
 
 /// Where unfinished work lies in the folder of its result.
-const WORK: &str = "_work/";
+pub const WORK: &str = "_work/";
 
 /// Keeps finished items by their names.
 pub trait Journal: Sync {

@@ -33,7 +33,7 @@ pub use folder::{
 };
 #[cfg(feature = "formats")]
 pub use hdf5::{read_fields, write_fields};
-pub use journal::{Journal, end_of_work};
+pub use journal::{Journal, WORK, end_of_work};
 #[cfg(feature = "formats")]
 pub use parquet_input::decoding;
 pub use table_file::{GROUP_ROWS, TableWriter, read_groups, write_table};

@@ -20,12 +20,15 @@ pub(crate) struct Jobs<'p, A> {
     watch: &'p dyn Watch,
 }
 
+/// Takes the answers so far.
+type Keep<'k, A> = dyn Fn(&[Option<A>]) -> Result<(), Error> + Sync + 'k;
+
 /// Keeps the answers so far, now and then.
 #[derive(Clone, Copy)]
 pub(crate) struct Keeping<'k, A> {
     /// At most as often as this.
     pub(crate) every: Duration,
-    pub(crate) keep: &'k (dyn Fn(&[Option<A>]) -> Result<(), Error> + Sync),
+    pub(crate) keep: &'k Keep<'k, A>,
 }
 
 impl<A> Keeping<'_, A> {

@@ -1,7 +1,8 @@
 //! The folder of statistics: tables as Parquet, `statistics.json`, figures.
 
 use crate::{Measurement, Result, draw, summary, tables};
-use motiform_files::{Folder, Journal as _, Kind, Opening, columns, end_of_work};
+use motiform_files::store::mend;
+use motiform_files::{Folder, Journal as _, Kind, Opening, WORK, columns, end_of_work};
 use motiform_lab::draw::FigureFormat;
 use motiform_study::dataset::VERSION;
 use motiform_study::{Error, Plan};
@@ -24,20 +25,29 @@ pub fn open(
     opening: Opening,
     bodies: Option<(&Plan, u64)>,
 ) -> std::result::Result<Folder, Error> {
-    let folder = Folder::open(path, Kind::Statistics, opening, &[])?;
-    let Some((plan, count)) = bodies else { return Ok(folder) };
-    let asked = json!({ "plan_hash": plan.hash(), "bodies": count });
-    let whole = || {
-        let summary: Value = serde_json::from_slice(&folder.read(FILE)?).ok()?;
-        Some(json!({ "plan_hash": summary["source"]["plan_hash"], "bodies": summary["source"]["bodies"] }))
-    };
-    let begun = || serde_json::from_slice(&folder.finished(PLAN)?).ok();
-    if begun().or_else(whole).is_some_and(|there: Value| there != asked) {
-        return Err(Error::OtherBranches { path: path.to_owned() });
+    let asked = bodies.map(|(plan, count)| json!({ "plan_hash": plan.hash(), "bodies": count }));
+    if let Some(asked) = asked.as_ref().filter(|_| opening == Opening::Resume) {
+        mend(path)?;
+        // Another plan is refused before anything is written.
+        if there(path).is_some_and(|there| there != *asked) {
+            return Err(Error::OtherBranches { path: path.to_owned() });
+        }
     }
+    let folder = Folder::open(path, Kind::Statistics, opening, &[])?;
     folder.check()?;
-    folder.finish(PLAN, asked.to_string().as_bytes())?;
+    if let Some(asked) = asked {
+        folder.finish(PLAN, asked.to_string().as_bytes())?;
+    }
     Ok(folder)
+}
+
+/// The bodies of a folder: those that were begun, or those of its result.
+fn there(path: &Path) -> Option<Value> {
+    let read = |name: &str| serde_json::from_slice::<Value>(&std::fs::read(path.join(name)).ok()?).ok();
+    read(&format!("{WORK}{PLAN}")).or_else(|| {
+        let source = &read(FILE)?["source"];
+        Some(json!({ "plan_hash": source["plan_hash"], "bodies": source["bodies"] }))
+    })
 }
 
 /// Writes tables, summary and figures into a folder. Of a complete result, nothing else is kept.

@@ -107,7 +107,7 @@ fn bodies() {
     let command =
         "statistics tensor --preset fig5b --bodies 400 --t-end 2000 --dt-out 1 --transient 0 --threads 2";
     is_kept(command, "--resume", &items, 3);
-    let cell = "statistics cell --preset fig6a --noise 0.001 --bodies 4 --t-end 20 --dt-out 1 --transient 0 --threads 1";
+    let cell = "statistics cell --preset fig6a --noise 0.001 --bodies 4 --t-end 40 --dt-out 0.5 --transient 0 --threads 1";
     is_kept(cell, "--resume", &items, 2);
 }
 

@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use motiform_files::{Format, Kind, Staged};
+use motiform_files::{Format, Kind, Opening, Staged};
 use motiform_lab::draw::FigureFormat;
 use motiform_lab::fields::write_dataset;
 use motiform_lab::simulate::simulate;
-use motiform_measure::{read, write};
+use motiform_measure::{open, read, write};
 use motiform_statistics::{Errors, Settings};
 use motiform_study::{Plan, Study};
 use std::path::{Path, PathBuf};
@@ -38,8 +38,9 @@ fn folders_are_bodies() {
     let found = read(&paths, 10.0, &Settings::default()).unwrap();
     assert_eq!((found.statistics.bodies, found.statistics.samples), (3, [1901, 1901]));
     assert_eq!(found.statistics.errors, Errors::Blocks { count: 18, samples: 316 });
-    let staged = Staged::new(&folder.path().join("out"), Kind::Statistics, false).unwrap();
-    let (out, _) = write(&found, &FigureFormat::default(), staged).unwrap();
+    let out = folder.path().join("out");
+    let into = open(&out, Opening::New, None).unwrap();
+    write(&found, &FigureFormat::default(), &into).unwrap();
     assert!(out.join("msd.parquet").is_file() && out.join("msd.png").is_file());
 }
 
