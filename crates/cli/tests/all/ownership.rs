@@ -55,7 +55,7 @@ pub(crate) const WRITERS: [Writer; 11] = [
     },
     Writer {
         words: "statistics tensor --bodies 3 --noise 0.01 --t-end 100 --transient 0 --dt-out 1",
-        options: FORCE,
+        options: BOTH,
     },
     Writer { words: "observe cells.csv --no-report", options: FORCE },
     Writer {
