@@ -82,6 +82,19 @@ const COMPARED: usize = 8;
 /// # Errors
 /// [`Error::Start`]; what the models and the numerics refuse.
 pub fn follow(plan: &BranchPlan, before: Option<Branches>, watch: &dyn Watch) -> Result<Branches, Error> {
+    follow_kept(plan, before, &mut |_| Ok(()), watch)
+}
+
+/// As [`follow()`]; `keep` gets what there is after each branch, all of it whole, so that nothing of it is lost however the program ends.
+///
+/// # Errors
+/// As [`follow()`], and those of `keep`.
+pub fn follow_kept(
+    plan: &BranchPlan,
+    before: Option<Branches>,
+    keep: &mut dyn FnMut(&Branches) -> Result<(), Error>,
+    watch: &dyn Watch,
+) -> Result<Branches, Error> {
     let bodies = Bodies::new(plan)?;
     let mut work = Work {
         bodies: &bodies,
@@ -89,16 +102,23 @@ pub fn follow(plan: &BranchPlan, before: Option<Branches>, watch: &dyn Watch) ->
         stop: &StopOnly(watch),
         done: before.map_or_else(Branches::none, Branches::whole),
     };
-    if work.done.branches.is_empty() && !work.begin()? {
-        return Ok(work.done);
+    if work.done.branches.is_empty() {
+        if !work.begin()? {
+            return Ok(work.done);
+        }
+        keep(&work.done)?;
     }
     while let Some(origin) = work.next() {
         if work.done.branches.len() >= plan.computation.branches {
             work.done.left = work.open().count();
             break;
         }
+        let there = work.done.branches.len();
         if !work.grow(origin)? {
             return Ok(work.done);
+        }
+        if work.done.branches.len() > there {
+            keep(&work.done)?;
         }
     }
     let mut done = work.done;

@@ -25,7 +25,7 @@ pub mod sweep;
 mod table;
 
 pub use folder::{BranchFolder, default_folder};
-pub use follow::{Branches, Followed, Leg, Link, Sample, follow};
+pub use follow::{Branches, Followed, Leg, Link, Sample, follow, follow_kept};
 pub use origin::Origin;
 pub use path::path;
 pub use reading::Reading;

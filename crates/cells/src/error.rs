@@ -35,6 +35,12 @@ pub enum Error {
 /// The result of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
+impl From<motiform_files::store::Error> for Error {
+    fn from(error: motiform_files::store::Error) -> Self {
+        Self::Study(error.into())
+    }
+}
+
 impl From<motiform_inference::Error> for Error {
     /// A fit that was stopped is a computation that was stopped.
     fn from(error: motiform_inference::Error) -> Self {

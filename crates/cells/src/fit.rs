@@ -176,7 +176,7 @@ pub fn fit_together(cells: &[&CellTrack], options: &FitOptions, watch: &dyn Watc
 pub(crate) fn fit_in_stages(
     cells: &[&CellTrack],
     options: &FitOptions,
-    stages: &Stages,
+    stages: &Stages<'_>,
     watch: &dyn Watch,
 ) -> Result<CellFit> {
     let settings = Settings { library: options.library()?, ..Settings::default() };

@@ -126,7 +126,7 @@ impl Fitted {
 pub(crate) fn fitted(
     tracks: &[Track],
     (settings, options): (&Settings, &FitOptions),
-    stages: &Stages,
+    stages: &Stages<'_>,
     watch: &dyn Watch,
 ) -> Result<std::result::Result<Box<Fitted>, String>> {
     let whole = match stages.get("whole", watch, |watch| Ok(fit(tracks, settings, watch)?)) {

@@ -1,32 +1,18 @@
 //! The folder of a result: `summary.json`, `modes.parquet`, and for fits `coefficients.parquet` and a study file per cell.
 
 use crate::provenance::study_file;
-use crate::work::MANIFEST;
 use crate::{
     CellFit, FitOptions, Observation, Result, Sample, coefficient_columns, file_names, fits_json,
     mode_columns, observations_json,
 };
-use motiform_files::Staging;
+use motiform_files::Staged;
 use motiform_files::columns::{Column, encode};
 use motiform_study::Error;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// What shows that a folder is one of these.
 pub(crate) const SUMMARY: &str = "summary.json";
 pub(crate) const MODES: &str = "modes.parquet";
-
-/// Names of the folders of results.
-#[derive(Debug, Clone, Copy)]
-pub struct FitFolder;
-
-impl FitFolder {
-    /// Whether a folder was written by `motiform fit` or `motiform observe`.
-    #[must_use]
-    pub fn is_one(path: &Path) -> bool {
-        path.join(MANIFEST).is_file() || (path.join(SUMMARY).is_file() && path.join(MODES).is_file())
-    }
-}
 
 /// The files of fits, by name; `target` is what errors name.
 pub(crate) fn result_files(
@@ -44,15 +30,19 @@ pub(crate) fn result_files(
     Ok(files)
 }
 
-/// Writes observations, beside what was written before, such as pages. Returns the folder.
+/// Writes observations, beside what was written before, such as pages. Returns the folder, and what stayed there, in sentences.
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write_observations(sample: &Sample, found: &[Observation], staging: Staging) -> Result<PathBuf> {
-    for (name, bytes) in &common(sample, &observations_json(sample, found), staging.target())? {
-        staging.write(name, bytes)?;
+pub fn write_observations(
+    sample: &Sample,
+    found: &[Observation],
+    staged: Staged,
+) -> Result<(PathBuf, Vec<String>)> {
+    for (name, bytes) in &common(sample, &observations_json(sample, found), staged.target())? {
+        staged.write(name, bytes)?;
     }
-    Ok(staging.commit()?)
+    Ok(staged.commit()?)
 }
 
 /// What both kinds of results have.

@@ -34,7 +34,7 @@ pub use error::{Error, Result};
 pub use fit::{CellFit, FitOptions, TOGETHER, fit_cell, fit_cells, fit_together};
 pub(crate) use fit::{fit_in_stages, fit_or_reason};
 pub use fitted::Fitted;
-pub use folder::{FitFolder, write_observations};
+pub use folder::write_observations;
 pub use names::file_names;
 pub use observe::{
     AtLag, Finding, Memory, Motion, MotionStatistics, Observation, ObservedChaos, ObservedLegs,

@@ -1,14 +1,14 @@
 //! Outlines -> a file for other programs.
 
 use crate::Result;
-use motiform_files::Staging;
+use motiform_files::{Kind, StagedFile};
 use motiform_tracks::{Error, Format, Tracks, write_amoepy, write_csv};
 use std::path::{Path, PathBuf};
 
 /// A file that outlines will be written to. It appears when it is complete.
 #[derive(Debug)]
 pub struct OutlineFile {
-    staging: Staging,
+    staged: StagedFile,
     format: Format,
 }
 
@@ -24,7 +24,7 @@ impl OutlineFile {
             Some("txt") => Format::AmoePy,
             _ => return Err(Error::Ending { file: path.to_owned() }.into()),
         };
-        Ok(Self { staging: Staging::new(path, false, force)?, format })
+        Ok(Self { staged: StagedFile::new(path, Kind::Outlines, force)?, format })
     }
 
     /// Writes the outlines with all digits, in the units of the tracks.
@@ -33,13 +33,13 @@ impl OutlineFile {
     /// For AmoePy's text, several cells, or units other than um and s; the file system.
     pub fn write(self, tracks: &Tracks) -> Result<PathBuf> {
         match (self.format, tracks.cells.as_slice()) {
-            (Format::AmoePy, [cell]) => write_amoepy(tracks, cell, self.staging.path())?,
+            (Format::AmoePy, [cell]) => write_amoepy(tracks, cell, &self.staged.path())?,
             (Format::AmoePy, cells) => {
                 let reason = format!("it holds one cell, and there are {}: choose one", cells.len());
                 return Err(Error::Unwritable { format: self.format, reason }.into());
             }
-            _ => write_csv(tracks, self.staging.path())?,
+            _ => write_csv(tracks, &self.staged.path())?,
         }
-        Ok(self.staging.commit()?)
+        Ok(self.staged.commit()?)
     }
 }

@@ -1,30 +1,28 @@
-//! Values as compressed JSON files: what is done of a computation that can be continued.
+//! Values as compressed JSON: what is done of a computation that can be continued.
 
 use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
-use motiform_files::replace_file;
+use motiform_files::Folder;
 use motiform_study::Error;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use std::fs::File;
 use std::io::{Read, Write};
-use std::path::Path;
 
 /// Writes a value, at once or not at all.
-pub(crate) fn write_packed(path: &Path, value: &impl Serialize) -> Result<(), Error> {
+pub(crate) fn write_packed(folder: &Folder, name: &str, value: &impl Serialize) -> Result<(), Error> {
     let packed = || -> std::io::Result<Vec<u8>> {
         let mut packer = GzEncoder::new(Vec::new(), Compression::fast());
         packer.write_all(&serde_json::to_vec(value)?)?;
         packer.finish()
     };
-    let bytes = packed().map_err(|error| Error::write_failed(path, error))?;
-    replace_file(path, &bytes)
+    let bytes = packed().map_err(|error| Error::write_failed(&folder.shown().join(name), error))?;
+    Ok(folder.put(name, &bytes)?)
 }
 
-/// A value that was written; `None` where there is none, or where it cannot be read: then it is computed again.
-pub(crate) fn read_packed<T: DeserializeOwned>(path: &Path) -> Option<T> {
+/// A value that was written; `None` where there is none, or where it cannot be read or was changed: then it is computed again.
+pub(crate) fn read_packed<T: DeserializeOwned>(folder: &Folder, name: &str) -> Option<T> {
     let mut text = Vec::new();
-    GzDecoder::new(File::open(path).ok()?).read_to_end(&mut text).ok()?;
+    GzDecoder::new(folder.read(name)?.as_slice()).read_to_end(&mut text).ok()?;
     serde_json::from_slice(&text).ok()
 }

@@ -3,9 +3,9 @@
 use crate::Result;
 use crate::packed::{read_packed, write_packed};
 use motiform_dynamics::{Part, Watch};
+use motiform_files::Folder;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use std::path::PathBuf;
 
 /// The stages of a fit, by name, with the share of the work that is done when each ends: rough values, for the display of progress.
 const STAGES: [(&str, f64); 5] =
@@ -13,14 +13,14 @@ const STAGES: [(&str, f64); 5] =
 
 /// Where the results of stages are kept, if they are.
 #[derive(Debug, Default)]
-pub(crate) struct Stages {
-    folder: Option<PathBuf>,
+pub(crate) struct Stages<'f> {
+    folder: Option<(&'f Folder, &'f str)>,
 }
 
-impl Stages {
-    /// Stages that are kept in a folder, which exists.
-    pub(crate) fn kept_in(folder: PathBuf) -> Self {
-        Self { folder: Some(folder) }
+impl<'f> Stages<'f> {
+    /// Stages that are kept in a folder inside a result.
+    pub(crate) fn kept_in(result: &'f Folder, folder: &'f str) -> Self {
+        Self { folder: Some((result, folder)) }
     }
 
     /// The result of a stage: the one that is kept, or else that of `make`, with the watch on its share of the work.
@@ -36,14 +36,14 @@ impl Stages {
         let number = STAGES.iter().position(|stage| stage.0 == name).unwrap_or(0);
         let from = if number == 0 { 0.0 } else { STAGES[number - 1].1 };
         let part = Part { watch, from, to: STAGES[number].1 };
-        let path = self.folder.as_ref().map(|folder| folder.join(format!("{name}.json.gz")));
-        if let Some(found) = path.as_deref().and_then(read_packed) {
+        let file = self.folder.map(|(result, folder)| (result, format!("{folder}{name}.json.gz")));
+        if let Some(found) = file.as_ref().and_then(|(result, name)| read_packed(result, name)) {
             part.progress(1.0);
             return Ok(found);
         }
         let made = make(&part)?;
-        if let Some(path) = path {
-            write_packed(&path, &made)?;
+        if let Some((result, name)) = file {
+            write_packed(result, &name, &made)?;
         }
         part.progress(1.0);
         Ok(made)

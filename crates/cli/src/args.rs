@@ -84,6 +84,8 @@ pub(crate) enum Command {
     Explore(ExploreOptions),
     /// Check a study file and print the resulting plan, without computing
     Check(CheckOptions),
+    /// Check a result: digests of its files, the hash of its plan, and a sample of rows computed again and compared bit by bit
+    Verify(VerifyOptions),
     /// Redraw the figures of datasets and scans, without computing
     Figure(FigureOptions),
     /// Print shell completions
@@ -129,7 +131,7 @@ pub(crate) struct SimulateOptions {
     /// Output folder (default: MODEL-PRESET in the current folder), or a single table if it ends in .parquet or .csv
     #[arg(long, value_name = "DIR|FILE")]
     pub(crate) out: Option<PathBuf>,
-    /// Replace an existing dataset
+    /// Replace an existing dataset; what motiform did not write stays
     #[arg(long)]
     pub(crate) force: bool,
     /// Print the result as one JSON object; writes files only with --out
@@ -250,8 +252,24 @@ pub(crate) struct FigureOptions {
     /// Folders written by `motiform simulate` or `motiform scan`
     #[arg(value_name = "DATASET", required = true)]
     pub(crate) datasets: Vec<PathBuf>,
+    /// Draw figures again that were edited since; the edited ones are kept as NAME.edited.svg
+    #[arg(long)]
+    pub(crate) force: bool,
     #[command(flatten)]
     pub(crate) drawing: DrawingOptions,
+}
+
+#[derive(Args)]
+pub(crate) struct VerifyOptions {
+    /// A folder that motiform wrote
+    #[arg(value_name = "DIR")]
+    pub(crate) folder: PathBuf,
+    /// Compute all rows of a dataset or scan again, not only a sample
+    #[arg(long)]
+    pub(crate) all: bool,
+    /// Print the findings as one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Args)]

@@ -33,6 +33,7 @@ fn main() -> ExitCode {
         #[cfg(feature = "explorer")]
         Command::Explore(options) => commands::explore::run(&options),
         Command::Check(options) => commands::check::run(&options),
+        Command::Verify(options) => commands::verify::run(&options),
         Command::Figure(options) => commands::figure::run(&options),
         Command::Completions(options) => commands::completions::run(&options),
     };

@@ -1,9 +1,10 @@
 //! Output for the user, and the exit code.
 
-use crate::remedy::remedy;
+use crate::remedy::{in_place, remedy};
 use motiform_analysis::Estimate;
 use motiform_dynamics::Outcome;
 use motiform_figures::Label;
+use motiform_files::store::Error as StoreError;
 use motiform_study::Error;
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -82,9 +83,14 @@ impl std::error::Error for StdoutFailed {}
 /// Prints an error on standard error: exit code 1 if the machine failed, 2 if the input is invalid.
 pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     // Standard error is the last resort: nothing is left to say if it fails too.
-    let remedy = error.downcast_ref().and_then(remedy).unwrap_or_default();
+    let remedy = match error.downcast_ref::<StoreError>() {
+        Some(error) => in_place(error),
+        None => error.downcast_ref().and_then(remedy),
+    };
+    let remedy = remedy.unwrap_or_default();
     let _ = writeln!(io::stderr(), "error: {error:#}{remedy}");
-    let machine =
-        error.is::<StdoutFailed>() || error.downcast_ref::<Error>().is_some_and(Error::is_machine_failure);
+    let machine = error.is::<StdoutFailed>()
+        || error.downcast_ref::<Error>().is_some_and(Error::is_machine_failure)
+        || error.downcast_ref::<StoreError>().is_some_and(StoreError::is_machine_failure);
     ExitCode::from(if machine { 1 } else { 2 })
 }

@@ -1,5 +1,6 @@
 //! What to type after an error: the library speaks of values, the command line of its options.
 
+use motiform_files::store::Error as StoreError;
 use motiform_study::Error;
 
 /// The options that mend an error, where there are some: the end of its sentence.
@@ -9,14 +10,30 @@ pub(crate) fn remedy(error: &Error) -> Option<&'static str> {
         Error::NoAlong => ": --along NAME=LOW:HIGH, or along in [continue]",
         Error::Setting { key: "curve", .. } => ": --in NAME,NAME=LOW:HIGH",
         Error::Setting { key: "in", .. } => ": --curve KIND",
-        Error::ScanExists { .. } => "; --resume continues it, --force replaces it; or choose another --out",
-        Error::OtherScan { .. } | Error::OtherBranches { .. } | Error::Exists { .. } => {
+        Error::Store(error) => return in_place(error),
+        Error::OtherScan { .. } | Error::OtherBranches { .. } => {
             "; choose another --out, or --force to replace it"
         }
-        Error::Busy { .. } => ", or choose another --out",
-        Error::NotOurs { .. } => "; choose another --out",
-        Error::Unwritable { .. } => "; choose an --out in a folder that exists and is writable",
         Error::PartFailed { .. } | Error::InTheWay { .. } => "; --resume continues it",
+        _ => return None,
+    })
+}
+
+/// The options that mend an error of the place of a result.
+pub(crate) fn in_place(error: &StoreError) -> Option<&'static str> {
+    Some(match error {
+        StoreError::Resumable { .. } => {
+            "; --resume continues it, --force replaces it; or choose another --out"
+        }
+        StoreError::Exists { .. } => "; choose another --out, or --force to replace it",
+        StoreError::Busy { .. } | StoreError::Changed { .. } | StoreError::Taken { .. } => {
+            ", or choose another --out"
+        }
+        StoreError::NotOurs { .. } | StoreError::NotContinued { .. } | StoreError::OtherKind { .. } => {
+            "; choose another --out, or move it to another place"
+        }
+        StoreError::Unwritable { .. } => "; choose an --out in a folder that is writable",
+        StoreError::Inventory { .. } => "; choose another --out",
         _ => return None,
     })
 }

@@ -19,7 +19,7 @@ const TRY_AGAIN_LATER: u16 = 1013;
 const WAITING: usize = 64;
 
 /// A page has so long to read why it is closed, and to close in turn.
-const GOODBYE: Duration = Duration::from_secs(1);
+const GOODBYE: Duration = Duration::from_millis(400);
 
 /// What a page is served with.
 pub(crate) struct Guest {
@@ -32,24 +32,30 @@ pub(crate) struct Guest {
 /// The reason why a connection is closed.
 type End = (u16, &'static str);
 
+/// Both ends of a session. They are dropped in this order, wherever the server stops: its threads may be waiting to say something to a page
+/// that does not read, and end only once nobody listens any more.
+struct Ends {
+    waiting: mpsc::Receiver<Answer>,
+    session: Session,
+}
+
 /// Serves one page.
 pub(crate) async fn serve(mut socket: WebSocket, guest: Guest) {
     let Guest { greeting, catalogue, mut stop, patience } = guest;
-    let (sender, mut waiting) = mpsc::channel(WAITING);
+    let (sender, waiting) = mpsc::channel(WAITING);
     let answers = Answers::new(move |answer| sender.blocking_send(answer).map_err(|_| Gone));
     let Ok(session) = Session::start(answers, catalogue) else {
         return close(socket, (FAILED, "the system provides no threads")).await;
     };
+    let mut ends = Ends { waiting, session };
     let end = match socket.send(Message::text(greeting.text())).await {
         Ok(()) => {
-            let mut line = Line { socket: &mut socket, session: &session, patience };
-            line.talk(&mut waiting, &mut stop).await
+            let mut line = Line { socket: &mut socket, session: &ends.session, patience };
+            line.talk(&mut ends.waiting, &mut stop).await
         }
         Err(_) => None,
     };
-    // Its threads may be waiting to say something: nobody listens any more.
-    drop(waiting);
-    let ended = tokio::task::spawn_blocking(move || drop(session));
+    let ended = tokio::task::spawn_blocking(move || drop(ends));
     if let Some(end) = end {
         close(socket, end).await;
     }

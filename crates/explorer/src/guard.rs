@@ -85,6 +85,14 @@ impl Names {
     }
 }
 
+/// The origin of a page that has none, such as one in a sandboxed frame.
+pub(crate) const NO_ORIGIN: &str = "null";
+
+/// Whether a request comes from a page without an origin.
+pub(crate) fn no_origin(headers: &HeaderMap) -> bool {
+    one(headers, header::ORIGIN) == Some(NO_ORIGIN)
+}
+
 /// The value of a header that must occur exactly once.
 fn one(headers: &HeaderMap, name: HeaderName) -> Option<&str> {
     let mut values = headers.get_all(name).iter();

@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::accept::{Patience, accept};
 use crate::connection::{self, Guest};
-use crate::guard::{Names, Token};
+use crate::guard::{NO_ORIGIN, Names, Token, no_origin};
 use crate::page::asset;
 use axum::Router;
 use axum::extract::{Path, RawQuery, State, WebSocketUpgrade};
@@ -22,8 +22,8 @@ pub const DEFAULT_PORT: u16 = 7373;
 /// Maximum number of pages at a time: each has its own threads.
 const PAGES: u32 = 8;
 
-/// Time for pages to receive the message that the server is stopping.
-const GOODBYE: Duration = Duration::from_secs(2);
+/// Time for pages to receive the message that the server is stopping, and for their sessions to end: Ctrl-C takes less than a second.
+const GOODBYE: Duration = Duration::from_millis(700);
 
 /// Settings of the server.
 #[derive(Clone, Debug, Default)]
@@ -158,6 +158,11 @@ impl Shared {
     }
 }
 
+/// Whether the reader asks for a page to stand within another one.
+fn is_embed(query: Option<&str>) -> bool {
+    query.is_some_and(|query| query == "embed" || query.starts_with("embed="))
+}
+
 async fn page(
     State(shared): State<Arc<Shared>>,
     Path(token): Path<String>,
@@ -168,8 +173,7 @@ async fn page(
         return StatusCode::FORBIDDEN.into_response();
     }
     let mut response = asset_response("");
-    if query.is_some_and(|query| query == "embed" || query.starts_with("embed=")) {
-        // Its reader asks for a page to stand within another one.
+    if is_embed(query.as_deref()) {
         let headers = response.headers_mut();
         headers.remove(header::X_FRAME_OPTIONS);
         let policy = POLICY.replace("; frame-ancestors 'none'", "");
@@ -185,11 +189,16 @@ async fn file(
     Path((token, name)): Path<(String, String)>,
     headers: HeaderMap,
 ) -> Response {
-    if shared.admits(&token, &headers) {
-        asset_response(&name)
-    } else {
-        StatusCode::FORBIDDEN.into_response()
+    if !shared.admits(&token, &headers) {
+        return StatusCode::FORBIDDEN.into_response();
     }
+    let mut response = asset_response(&name);
+    if no_origin(&headers) {
+        // The page in a sandboxed frame: it has no origin, and its browser asks whether it may read its own script.
+        let name = header::ACCESS_CONTROL_ALLOW_ORIGIN;
+        response.headers_mut().insert(name, HeaderValue::from_static(NO_ORIGIN));
+    }
+    response
 }
 
 /// What the page may load, and that no other page may embed it.
@@ -220,10 +229,12 @@ fn asset_response(name: &str) -> Response {
 async fn live(
     State(shared): State<Arc<Shared>>,
     Path(token): Path<String>,
+    RawQuery(query): RawQuery,
     headers: HeaderMap,
     upgrade: WebSocketUpgrade,
 ) -> Response {
-    if !shared.admits(&token, &headers) || !shared.names.origin_is_ours(&headers) {
+    let ours = shared.names.origin_is_ours(&headers) || (is_embed(query.as_deref()) && no_origin(&headers));
+    if !shared.admits(&token, &headers) || !ours {
         return StatusCode::FORBIDDEN.into_response();
     }
     let upgrade = upgrade.max_message_size(LONGEST).max_frame_size(LONGEST);

@@ -29,7 +29,7 @@ export function oneFile(folder) {
   };
   const script = text("app.js").replaceAll("</script", "<\\/script");
   let page = text("index.html");
-  page = put(page, /<script type="module"[^>]*><\/script>/, `<script type="module">${script}</script>`);
+  page = put(page, /<script defer[^>]*><\/script>/, `<script type="module">${script}</script>`);
   page = put(page, /<link rel="stylesheet"[^>]*>/, `<style>${text("app.css")}</style>`);
   page = put(page, /href="[^"]*icon\.svg"/, `href="data:image/svg+xml;base64,${base64("icon.svg")}"`);
   return put(page, /<\/body>/, `<script type="text/plain" id="module">${base64(MODULE)}</script>\n  </body>`);

@@ -5,6 +5,7 @@ use crate::Fields;
 use crate::columns::Column;
 use motiform_study::Error;
 use motiform_study::table::Table;
+use std::ops::Range;
 use std::path::Path;
 
 /// This build has no Parquet and HDF5 files.
@@ -43,11 +44,24 @@ pub fn decode(_path: &Path) -> Result<Vec<Column>, Absent> {
     Err(Absent)
 }
 
-pub(crate) fn write(_table: &Table, _metadata: &str, path: &Path) -> Result<(), Error> {
-    Err(Error::write_failed(path, Absent))
+/// No file of a table.
+pub(crate) struct Writer(std::convert::Infallible);
+
+impl Writer {
+    pub(crate) fn new(_table: &Table, _path: &Path) -> Result<Self, Absent> {
+        Err(Absent)
+    }
+
+    pub(crate) fn rows(&mut self, _table: &Table, _rows: Range<usize>) -> Result<(), Absent> {
+        match self.0 {}
+    }
+
+    pub(crate) fn finish(self, _metadata: &str) -> Result<(), Absent> {
+        match self.0 {}
+    }
 }
 
-pub(crate) fn read(path: &Path) -> Result<Table, Error> {
+pub(crate) fn groups(path: &Path, _take: &mut dyn FnMut(Table) -> Result<(), Error>) -> Result<(), Error> {
     Err(Error::unreadable(path, Absent))
 }
 

@@ -1,31 +1,55 @@
 //! Tables as CSV: a header line, shortest round-trip numbers, an empty field where a value is undefined.
 
 use motiform_study::Error;
-use motiform_study::table::{Column, Table};
+use motiform_study::table::Table;
+use std::fs::File;
 use std::io::{BufWriter, Write};
+use std::ops::Range;
 use std::path::Path;
 
-pub(crate) fn write(table: &Table, path: &Path) -> Result<(), Error> {
-    let failed = |error: std::io::Error| Error::write_failed(path, error);
-    let mut out = BufWriter::new(std::fs::File::create(path).map_err(failed)?);
-    write_to(table, &mut out).map_err(failed)?;
-    out.into_inner().map_err(|error| failed(error.into_error()))?.sync_all().map_err(failed)
+/// Rows that are read at a time.
+const ROWS: usize = 1 << 16;
+
+/// A file of a table that is written while its rows come.
+pub(crate) struct Writer(BufWriter<File>);
+
+impl Writer {
+    /// A file with the columns of this table.
+    pub(crate) fn new(table: &Table, path: &Path) -> std::io::Result<Self> {
+        let mut out = BufWriter::new(File::create(path)?);
+        write_names(table, &mut out)?;
+        Ok(Self(out))
+    }
+
+    /// Writes the rows of this table.
+    pub(crate) fn rows(&mut self, table: &Table, rows: Range<usize>) -> std::io::Result<()> {
+        write_rows(table, rows, &mut self.0)
+    }
+
+    /// Ends the file.
+    pub(crate) fn finish(self) -> std::io::Result<()> {
+        self.0.into_inner().map_err(std::io::IntoInnerError::into_error)?.sync_all()
+    }
 }
 
 /// The text of a table's CSV file.
 #[must_use]
 pub fn table_to_csv(table: &Table) -> Vec<u8> {
     let mut text = Vec::new();
-    let _ = write_to(table, &mut text); // writing into memory does not fail
+    // Writing into memory does not fail.
+    let _ = write_names(table, &mut text).and_then(|()| write_rows(table, 0..table.rows(), &mut text));
     text
 }
 
-fn write_to(table: &Table, out: &mut impl Write) -> std::io::Result<()> {
+fn write_names(table: &Table, out: &mut impl Write) -> std::io::Result<()> {
     let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
-    writeln!(out, "{}", names.join(","))?;
+    writeln!(out, "{}", names.join(","))
+}
+
+fn write_rows(table: &Table, rows: Range<usize>, out: &mut impl Write) -> std::io::Result<()> {
     // Readers skip an empty line, so the only field of a row is quoted where it is empty.
     let undefined = if table.columns.len() == 1 { "\"\"" } else { "" };
-    for row in 0..table.rows() {
+    for row in rows {
         for (place, column) in table.columns.iter().enumerate() {
             let comma = if place == 0 { "" } else { "," };
             let value = column.values[row];
@@ -36,28 +60,30 @@ fn write_to(table: &Table, out: &mut impl Write) -> std::io::Result<()> {
     Ok(())
 }
 
-pub(crate) fn read(path: &Path) -> Result<Table, Error> {
+/// Gives `take` the rows of a table, some at a time; without rows, one empty group. `take` ends it by an error.
+pub(crate) fn groups(path: &Path, take: &mut dyn FnMut(Table) -> Result<(), Error>) -> Result<(), Error> {
     let unreadable = |error: csv::Error| Error::unreadable(path, error);
     let mut reader = csv::Reader::from_path(path).map_err(unreadable)?;
-    let names = reader.headers().map_err(unreadable)?.clone();
-    let mut columns: Vec<Column> = names
-        .iter()
-        .map(|name| Column { name: name.to_owned(), meaning: String::new(), values: Vec::new() })
-        .collect();
+    let mut empty = Table::default();
+    reader.headers().map_err(unreadable)?.iter().for_each(|name| empty.push(name, "", Vec::new()));
+    let mut table = empty.clone();
+    let mut given = false;
     for (row, record) in reader.records().enumerate() {
         let record = record.map_err(unreadable)?;
-        for (column, field) in columns.iter_mut().zip(&record) {
+        for (column, field) in table.columns.iter_mut().zip(&record) {
             let value = if field.is_empty() { Ok(f64::NAN) } else { field.parse() };
             let value = value.map_err(|_| {
-                Error::unreadable(
-                    path,
-                    format!("row {}, column {}: {field:?} is not a number", row + 2, column.name),
-                )
+                let problem = format!("row {}, column {}: {field:?} is not a number", row + 2, column.name);
+                Error::unreadable(path, problem)
             })?;
             column.values.push(value);
         }
+        if table.rows() == ROWS {
+            take(std::mem::replace(&mut table, empty.clone()))?;
+            given = true;
+        }
     }
-    Ok(Table { columns })
+    if table.rows() > 0 || !given { take(table) } else { Ok(()) }
 }
 
 #[cfg(test)]
@@ -71,7 +97,14 @@ mod tests {
         let mut table = Table::default();
         table.push("rest_time", "", vec![1.0, f64::NAN, -0.0, f64::NAN]);
         let file = tempfile::NamedTempFile::new().expect("a temporary file");
-        write(&table, file.path()).expect("written");
-        assert!(same_bits(&table, &read(file.path()).expect("read")));
+        let mut writer = Writer::new(&table, file.path()).expect("a file");
+        writer.rows(&table, 0..4).and_then(|()| writer.finish()).expect("written");
+        let mut read = None;
+        groups(file.path(), &mut |rows| {
+            read = Some(rows);
+            Ok(())
+        })
+        .expect("read");
+        assert!(read.is_some_and(|read| same_bits(&table, &read)));
     }
 }

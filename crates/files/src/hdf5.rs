@@ -27,7 +27,7 @@ struct Part<'a> {
 /// `outline` has `undefined`, which gives the reason for NaN values. Double precision, lossless compression.
 ///
 /// # Errors
-/// [`Error::WriteFailed`], also for inconsistent lengths, or without any time, arc or point.
+/// A file that cannot be written, also for inconsistent lengths, or without any time, arc or point.
 ///
 /// # Not
 /// HDF5 dimension scales: `hdf5-pure` 0.47 writes no `DIMENSION_LIST` (references of variable length), so `dims` names

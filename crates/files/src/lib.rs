@@ -1,4 +1,4 @@
-//! Datasets on disk, written atomically.
+//! Datasets on disk: tables, fields, and their folder (in [`store`], as all results).
 //!
 //! The feature `formats`, on by default, has Parquet and HDF5 files, which need C and threads; without it they are refused.
 
@@ -6,12 +6,12 @@
 mod absent;
 pub mod columns;
 mod csv_table;
-pub mod disk;
+pub use motiform_store::{self as store, Folder, Kind, Opening, Staged, StagedFile, disk, kind_of};
 mod fields;
 mod folder;
 #[cfg(feature = "formats")]
 mod hdf5;
-mod leftovers;
+mod journal;
 #[cfg(feature = "formats")]
 mod parquet_columns;
 #[cfg(feature = "formats")]
@@ -20,7 +20,7 @@ pub mod parquet_input;
 mod parquet_output;
 #[cfg(feature = "formats")]
 mod parquet_table;
-mod staging;
+mod table_file;
 
 #[cfg(not(feature = "formats"))]
 use absent as parquet_table;
@@ -28,10 +28,12 @@ use absent as parquet_table;
 pub use absent::{Absent, read_fields, write_fields};
 pub use csv_table::table_to_csv;
 pub use fields::Fields;
-pub use folder::{Format, read_dataset, read_table_file, write_dataset, write_table};
+pub use folder::{
+    Format, read_dataset, read_dataset_by, read_table_file, table_path, write_dataset, write_rest,
+};
 #[cfg(feature = "formats")]
 pub use hdf5::{read_fields, write_fields};
-pub use leftovers::sweep;
+pub use journal::{Journal, WORK, end_of_work};
 #[cfg(feature = "formats")]
 pub use parquet_input::decoding;
-pub use staging::{Staging, replace_file};
+pub use table_file::{GROUP_ROWS, TableWriter, read_groups, write_table};

@@ -3,6 +3,7 @@
 //! Numbers of a short table are stored as they are: preparing the compressor of a column costs more than writing a thousand numbers, and
 //! they hardly get shorter. (The parts of a scan have some 40 rows and 17 columns of numbers: compressors took a tenth of Fig. 1.)
 
+use crate::table_file::GROUP_ROWS;
 use parquet::basic::{Compression, LogicalType, Repetition, Type as PhysicalType, ZstdLevel};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::Result;
@@ -13,9 +14,6 @@ use parquet::schema::types::{ColumnPath, Type};
 use std::io::Write;
 use std::ops::Range;
 use std::sync::Arc;
-
-/// Rows of a row group: bounded memory while writing and reading.
-const GROUP_ROWS: usize = 1 << 18;
 
 /// Rows from which on numbers are compressed.
 const COMPRESSED_ROWS: usize = 1024;
@@ -41,36 +39,58 @@ pub(crate) enum Values<'c> {
 pub(crate) fn write<W: Write + Send>(
     out: W,
     columns: &[Field<'_>],
-    mut metadata: Vec<(&str, String)>,
+    metadata: Vec<(&str, String)>,
     created_by: String,
 ) -> Result<W> {
-    let fields = columns.iter().map(Field::schema).collect::<Result<Vec<_>>>()?;
-    let schema = Type::group_type_builder("schema").with_fields(fields).build()?;
-    let meanings: serde_json::Map<String, serde_json::Value> =
-        columns.iter().map(|column| (column.name.to_owned(), column.meaning.into())).collect();
-    metadata.push(("motiform.columns", serde_json::Value::Object(meanings).to_string()));
-    let entry = |(key, value): (&str, String)| KeyValue::new(key.to_owned(), value);
     let rows = columns.first().map_or(0, |column| column.values.len());
-    let mut properties =
-        WriterProperties::builder().set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?));
-    for column in columns.iter().filter(|column| rows < COMPRESSED_ROWS && !column.is_text()) {
-        let path = ColumnPath::from(column.name);
-        properties = properties.set_column_compression(path, Compression::UNCOMPRESSED);
-    }
-    let properties = properties
-        .set_dictionary_enabled(false)
-        .set_created_by(created_by)
-        .set_key_value_metadata(Some(metadata.into_iter().map(entry).collect()))
-        .build();
-    let mut writer = SerializedFileWriter::new(out, Arc::new(schema), Arc::new(properties))?;
+    let mut writer = Groups::new(out, columns, rows, created_by)?;
     for start in (0..rows).step_by(GROUP_ROWS) {
-        let mut group = writer.next_row_group()?;
+        writer.group(columns, start..rows.min(start + GROUP_ROWS))?;
+    }
+    writer.finish(metadata)
+}
+
+/// A file that is written group by group.
+pub(crate) struct Groups<W: Write + Send> {
+    writer: SerializedFileWriter<W>,
+    meanings: String,
+}
+
+impl<W: Write + Send> Groups<W> {
+    /// A file with columns of these names and types; `rows` of them at least decide whether numbers are compressed.
+    pub(crate) fn new(out: W, columns: &[Field<'_>], rows: usize, created_by: String) -> Result<Self> {
+        let fields = columns.iter().map(Field::schema).collect::<Result<Vec<_>>>()?;
+        let schema = Type::group_type_builder("schema").with_fields(fields).build()?;
+        let meanings: serde_json::Map<String, serde_json::Value> =
+            columns.iter().map(|column| (column.name.to_owned(), column.meaning.into())).collect();
+        let mut properties =
+            WriterProperties::builder().set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?));
+        for column in columns.iter().filter(|column| rows < COMPRESSED_ROWS && !column.is_text()) {
+            let path = ColumnPath::from(column.name);
+            properties = properties.set_column_compression(path, Compression::UNCOMPRESSED);
+        }
+        let properties = properties.set_dictionary_enabled(false).set_created_by(created_by).build();
+        let writer = SerializedFileWriter::new(out, Arc::new(schema), Arc::new(properties))?;
+        Ok(Self { writer, meanings: serde_json::Value::Object(meanings).to_string() })
+    }
+
+    /// Writes these rows as a group.
+    pub(crate) fn group(&mut self, columns: &[Field<'_>], rows: Range<usize>) -> Result<()> {
+        let mut group = self.writer.next_row_group()?;
         for column in columns {
-            column.values.write(start..rows.min(start + GROUP_ROWS), &mut group)?;
+            column.values.write(rows.clone(), &mut group)?;
         }
         group.close()?;
+        Ok(())
     }
-    writer.into_inner()
+
+    /// Ends the file.
+    pub(crate) fn finish(mut self, metadata: Vec<(&str, String)>) -> Result<W> {
+        for (key, value) in metadata.into_iter().chain([("motiform.columns", self.meanings)]) {
+            self.writer.append_key_value_metadata(KeyValue::new(key.to_owned(), value));
+        }
+        self.writer.into_inner()
+    }
 }
 
 impl Field<'_> {

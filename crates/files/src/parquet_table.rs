@@ -1,61 +1,90 @@
 //! Tables as Parquet: one DOUBLE column each, null where a value is undefined; zstd; opens in pandas, polars, R, Julia.
 
 use super::parquet_input::{self, wrong};
-use super::parquet_output::{self, Field, Values};
+use super::parquet_output::{Field, Groups, Values};
 use motiform_study::Error;
 use motiform_study::table::{Column, Table};
 use parquet::column::reader::ColumnReader;
 use parquet::errors::Result;
+use parquet::file::metadata::FileMetaData;
 use parquet::file::reader::FileReader;
+use std::fs::File;
+use std::ops::Range;
 use std::path::Path;
 
-/// Writes the table; `metadata` (a JSON text) is kept under the key `motiform`, column meanings under
-/// `motiform.columns`.
-pub(crate) fn write(table: &Table, metadata: &str, path: &Path) -> std::result::Result<(), Error> {
-    try_write(table, metadata, path).map_err(|error| Error::write_failed(path, error))
-}
+/// A file of a table that is written while its rows come.
+pub(crate) struct Writer(Groups<File>);
 
-fn try_write(table: &Table, metadata: &str, path: &Path) -> Result<()> {
+fn fields(table: &Table) -> Vec<Field<'_>> {
     fn field(column: &Column) -> Field<'_> {
         Field { name: &column.name, meaning: &column.meaning, values: Values::Number(&column.values) }
     }
-    let fields: Vec<Field<'_>> = table.columns.iter().map(field).collect();
-    let version = format!("motiform {}", motiform_study::dataset::VERSION);
-    let file = std::fs::File::create(path)?;
-    parquet_output::write(file, &fields, vec![("motiform", metadata.to_owned())], version)?.sync_all()?;
-    Ok(())
+    table.columns.iter().map(field).collect()
 }
 
-/// Reads a table back.
-pub(crate) fn read(path: &Path) -> std::result::Result<Table, Error> {
-    try_read(path).map_err(|error| Error::unreadable(path, error))
+impl Writer {
+    /// A file with the columns of this table; its number of rows decides whether they are compressed.
+    pub(crate) fn new(table: &Table, path: &Path) -> Result<Self> {
+        let version = format!("motiform {}", motiform_study::dataset::VERSION);
+        Ok(Self(Groups::new(File::create(path)?, &fields(table), table.rows(), version)?))
+    }
+
+    /// Writes these rows of a table as a group.
+    pub(crate) fn rows(&mut self, table: &Table, rows: Range<usize>) -> Result<()> {
+        self.0.group(&fields(table), rows)
+    }
+
+    /// Ends the file; `metadata` (a JSON text) is kept under the key `motiform`, column meanings under `motiform.columns`.
+    pub(crate) fn finish(self, metadata: &str) -> Result<()> {
+        self.0.finish(vec![("motiform", metadata.to_owned())])?.sync_all()?;
+        Ok(())
+    }
 }
 
-fn try_read(path: &Path) -> Result<Table> {
-    parquet_input::read(path, |reader| {
-        let file = reader.metadata().file_metadata();
-        let meanings = file
-            .key_value_metadata()
-            .and_then(|entries| entries.iter().find(|entry| entry.key == "motiform.columns"))
-            .and_then(|entry| serde_json::from_str::<serde_json::Value>(entry.value.as_deref()?).ok());
-        let mut columns: Vec<Column> = Vec::new();
-        for field in file.schema_descr().columns() {
-            let name = field.name().to_owned();
-            let meaning = meanings.as_ref().and_then(|all| all.get(&name)?.as_str()).unwrap_or("").to_owned();
-            columns.push(Column { name, meaning, values: Vec::new() });
+/// Gives `take` the groups of rows of a table, one after the other; without rows, one empty group. `take` ends it by an error.
+pub(crate) fn groups(
+    path: &Path,
+    take: &mut dyn FnMut(Table) -> std::result::Result<(), Error>,
+) -> std::result::Result<(), Error> {
+    let mut refused = None;
+    let read = parquet_input::read(path, |reader| {
+        let empty = columns(reader.metadata().file_metadata());
+        if reader.num_row_groups() == 0 {
+            refused = take(empty.clone()).err();
         }
         for group in 0..reader.num_row_groups() {
             let group = reader.get_row_group(group)?;
-            for (index, column) in columns.iter_mut().enumerate() {
+            let mut table = empty.clone();
+            for (index, column) in table.columns.iter_mut().enumerate() {
                 let ColumnReader::DoubleColumnReader(mut input) = group.get_column_reader(index)? else {
                     return Err(wrong(&format!("column {} does not hold numbers", column.name)));
                 };
                 let (values, levels) = parquet_input::column(&mut input, group.metadata().num_rows(), true)?;
-                column.values.extend(parquet_input::numbers(values, &levels));
+                column.values = parquet_input::numbers(values, &levels);
+            }
+            refused = take(table).err();
+            if refused.is_some() {
+                break;
             }
         }
-        Ok(Table { columns })
-    })
+        Ok(())
+    });
+    read.map_err(|error| Error::unreadable(path, error))?;
+    refused.map_or(Ok(()), Err)
+}
+
+/// The columns of a file, without their values.
+fn columns(file: &FileMetaData) -> Table {
+    let meanings = file
+        .key_value_metadata()
+        .and_then(|entries| entries.iter().find(|entry| entry.key == "motiform.columns"))
+        .and_then(|entry| serde_json::from_str::<serde_json::Value>(entry.value.as_deref()?).ok());
+    let mut table = Table::default();
+    for field in file.schema_descr().columns() {
+        let meaning = meanings.as_ref().and_then(|all| all.get(field.name())?.as_str()).unwrap_or("");
+        table.push(field.name(), meaning, Vec::new());
+    }
+    table
 }
 
 /// The `metadata` that was written, if the file has it.

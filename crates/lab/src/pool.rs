@@ -1,9 +1,11 @@
 //! Work distributed over threads: jobs are numbered, each thread takes the next one, and answers come back in the order of the jobs.
 
+use crate::clock::Moment;
 use motiform_dynamics::{StopOnly, Watch};
 use motiform_study::Error;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 /// The remaining jobs, and the answers so far.
 pub(crate) struct Jobs<'p, A> {
@@ -12,7 +14,28 @@ pub(crate) struct Jobs<'p, A> {
     next: AtomicUsize,
     /// The answers, their number, and the first error.
     found: Mutex<(Vec<Option<A>>, usize, Option<Error>)>,
+    keeping: Keeping<'p, A>,
+    /// When the answers were kept.
+    kept: Mutex<Moment>,
     watch: &'p dyn Watch,
+}
+
+/// Takes the answers so far.
+type Keep<'k, A> = dyn Fn(&[Option<A>]) -> Result<(), Error> + Sync + 'k;
+
+/// Keeps the answers so far, now and then.
+#[derive(Clone, Copy)]
+pub(crate) struct Keeping<'k, A> {
+    /// At most as often as this.
+    pub(crate) every: Duration,
+    pub(crate) keep: &'k Keep<'k, A>,
+}
+
+impl<A> Keeping<'_, A> {
+    /// Nothing is kept.
+    fn never() -> Self {
+        Self { every: Duration::MAX, keep: &|_| Ok(()) }
+    }
 }
 
 impl<A> Jobs<'_, A> {
@@ -38,7 +61,14 @@ impl<A> Jobs<'_, A> {
             }
         }
         let part = *count as f64 / answers.len() as f64;
-        drop(found);
+        let mut kept = held(&self.kept);
+        if kept.elapsed() >= self.keeping.every {
+            if let Err(error) = (self.keeping.keep)(answers) {
+                failure.get_or_insert(error);
+            }
+            *kept = Moment::now();
+        }
+        drop((found, kept));
         self.watch.progress(part);
     }
 
@@ -60,7 +90,7 @@ pub(crate) fn spread<A: Send>(
     watch: &dyn Watch,
     work: impl Fn(&Jobs<'_, A>) + Sync,
 ) -> Result<Option<Vec<A>>, Error> {
-    let answers = complete((0..count).map(|_| None).collect(), threads, watch, work)?;
+    let answers = complete((0..count).map(|_| None).collect(), threads, Keeping::never(), watch, work)?;
     Ok(answers.into_iter().collect())
 }
 
@@ -71,12 +101,15 @@ pub(crate) fn spread<A: Send>(
 pub(crate) fn complete<A: Send>(
     answers: Vec<Option<A>>,
     threads: usize,
+    keeping: Keeping<'_, A>,
     watch: &dyn Watch,
     work: impl Fn(&Jobs<'_, A>) + Sync,
 ) -> Result<Vec<Option<A>>, Error> {
     let open: Vec<usize> = (0..answers.len()).filter(|&job| answers[job].is_none()).collect();
     let (count, done) = (open.len(), answers.len() - open.len());
-    let jobs = Jobs { open, next: AtomicUsize::new(0), found: Mutex::new((answers, done, None)), watch };
+    let found = Mutex::new((answers, done, None));
+    let kept = Mutex::new(Moment::now());
+    let jobs = Jobs { open, next: AtomicUsize::new(0), found, keeping, kept, watch };
     std::thread::scope(|scope| {
         for _ in 1..threads.min(count) {
             if std::thread::Builder::new().spawn_scoped(scope, || work(&jobs)).is_err() {
@@ -120,7 +153,7 @@ pub fn as_far_as<I: Sync, A: Send>(
     answer: impl Fn(&I) -> Result<Option<A>, Error> + Sync,
 ) -> Result<Vec<Option<A>>, Error> {
     let open = (0..items.len()).map(|_| None).collect();
-    complete(open, threads, watch, |jobs| jobs.each(|job| answer(&items[job])))
+    complete(open, threads, Keeping::never(), watch, |jobs| jobs.each(|job| answer(&items[job])))
 }
 
 /// The lock, even if another thread panicked while holding it: the guarded data are consistent at every point.
@@ -140,6 +173,22 @@ mod tests {
             assert_eq!(squares, Some((0..50).map(|job| job * job).collect()));
         }
         assert_eq!(spread(0, 2, &(), |jobs: &Jobs<'_, u8>| jobs.each(|_| Ok(None))).unwrap(), Some(vec![]));
+    }
+
+    #[test]
+    fn answers_are_kept_while_others_are_missing() {
+        let seen = Mutex::new(Vec::new());
+        let keep = |answers: &[Option<usize>]| {
+            held(&seen).push(answers.iter().flatten().count());
+            if answers.len() == 3 { Err(Error::Interrupted) } else { Ok(()) }
+        };
+        let keeping = Keeping { every: Duration::ZERO, keep: &keep };
+        complete(vec![Some(7), None, None, None], 1, keeping, &(), |jobs| jobs.each(|job| Ok(Some(job))))
+            .unwrap();
+        assert_eq!(*held(&seen), [2, 3, 4]);
+        let failed = complete(vec![None; 3], 1, keeping, &(), |jobs| jobs.each(|job| Ok(Some(job))));
+        assert!(failed.is_err(), "what cannot be kept ends the work");
+        assert_eq!(held(&seen).len(), 4);
     }
 
     #[test]

@@ -8,50 +8,66 @@ use motiform_study::table::Table;
 
 /// The trajectory as a table, with derived quantities.
 pub(crate) fn motion(model: &dyn Model, trajectory: &Trajectory, c: &Computation) -> Table {
-    let atol = c.control.absolute_tolerance();
-    // A velocity that is read off a shape under noise has no derivative.
-    let turns = c.noise.is_none() || model.velocities() > 0;
-    let shape = ..model.dim();
-    let rows = trajectory.len();
-    let read = |of: &dyn Fn(&[f64]) -> f64| -> Vec<f64> { trajectory.iter().map(|(_, u)| of(u)).collect() };
+    let mut table = columns(model);
+    table.columns.iter_mut().for_each(|column| column.values.reserve_exact(trajectory.len()));
+    let mut readings = Readings::new(model, c);
+    trajectory.iter().for_each(|(t, u)| readings.push(t, u, &mut table));
+    table
+}
+
+/// The columns of a trajectory, without rows.
+pub(crate) fn columns(model: &dyn Model) -> Table {
     let mut table = Table::default();
-    table.push("t", "model time", trajectory.times().to_vec());
-    table.push("x", "position of the centre of mass (model length)", read(&|u| u[u.len() - 2]));
-    table.push("y", "position of the centre of mass (model length)", read(&|u| u[u.len() - 1]));
-    let mut coordinates = vec![Vec::with_capacity(rows); model.coordinates().len()];
-    let mut observed = vec![Vec::with_capacity(rows); model.observables().len()];
-    let mut measured = vec![Vec::with_capacity(rows); model.measures().len()];
-    let (mut named, mut seen) = (vec![0.0; coordinates.len()], vec![0.0; observed.len()]);
-    let mut boundary = vec![0.0; measured.len()];
-    let (mut speed, mut turning) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
-    for (_, u) in trajectory.iter() {
-        model.decode(&u[shape], &mut named);
-        model.observe(&u[shape], &mut seen);
-        model.measure(&u[shape], &mut boundary);
-        let columns = coordinates.iter_mut().chain(&mut observed).chain(&mut measured);
-        for (column, &value) in columns.zip(named.iter().chain(&seen).chain(&boundary)) {
-            column.push(value);
-        }
-        let (size, rate) = pace(model, &u[shape], atol);
-        speed.push(size);
-        turning.push(if turns { rate } else { f64::NAN });
-    }
-    for (coordinate, values) in model.coordinates().iter().zip(coordinates) {
-        table.push(coordinate.name, coordinate.meaning, values);
-    }
-    table.push("speed", "|v| (model length per model time)", speed);
-    table.push(
+    let mut push = |name: &str, meaning: &str| table.push(name, meaning, Vec::new());
+    push("t", "model time");
+    push("x", "position of the centre of mass (model length)");
+    push("y", "position of the centre of mass (model length)");
+    model.coordinates().iter().for_each(|coordinate| push(coordinate.name, coordinate.meaning));
+    push("speed", "|v| (model length per model time)");
+    push(
         "turning_rate",
         "d(heading)/dt (rad per model time); undefined at rest, and where noise leaves the velocity no derivative",
-        turning,
     );
-    for (observable, values) in model.observables().iter().zip(observed) {
-        table.push(observable.name, observable.meaning, values);
-    }
-    for (measure, values) in model.measures().iter().zip(measured) {
-        table.push(measure.name, measure.meaning, values);
-    }
+    model.observables().iter().for_each(|observable| push(observable.name, observable.meaning));
+    model.measures().iter().for_each(|measure| push(measure.name, measure.meaning));
     table
+}
+
+/// Turns states into rows.
+pub(crate) struct Readings<'m> {
+    model: &'m dyn Model,
+    atol: f64,
+    turns: bool,
+    named: Vec<f64>,
+    seen: Vec<f64>,
+    boundary: Vec<f64>,
+}
+
+impl<'m> Readings<'m> {
+    pub(crate) fn new(model: &'m dyn Model, c: &Computation) -> Self {
+        Self {
+            model,
+            atol: c.control.absolute_tolerance(),
+            // A velocity that is read off a shape under noise has no derivative.
+            turns: c.noise.is_none() || model.velocities() > 0,
+            named: vec![0.0; model.coordinates().len()],
+            seen: vec![0.0; model.observables().len()],
+            boundary: vec![0.0; model.measures().len()],
+        }
+    }
+
+    /// Adds the row of a state `(shape, x, y)` to a table with [`columns`].
+    pub(crate) fn push(&mut self, t: f64, u: &[f64], table: &mut Table) {
+        let (shape, position) = u.split_at(self.model.dim());
+        self.model.decode(shape, &mut self.named);
+        self.model.observe(shape, &mut self.seen);
+        self.model.measure(shape, &mut self.boundary);
+        let (speed, rate) = pace(self.model, shape, self.atol);
+        let pace = [speed, if self.turns { rate } else { f64::NAN }];
+        let values = [t].into_iter().chain(position.iter().copied()).chain(self.named.iter().copied());
+        let values = values.chain(pace).chain(self.seen.iter().copied()).chain(self.boundary.iter().copied());
+        table.columns.iter_mut().zip(values).for_each(|(column, value)| column.values.push(value));
+    }
 }
 
 /// Speed and turning rate of a shape; the latter is NaN at rest: below what a run with absolute tolerance `atol` resolves.
@@ -70,30 +86,38 @@ pub(crate) fn measures(model: &dyn Model, shape: &[f64]) -> Named {
     Named(names.zip(values).filter(|entry| !entry.1.is_nan()).collect())
 }
 
-/// The crossings of the segment, in order.
-pub(crate) fn crossings(trajectory: &Trajectory, map: &ReturnMapSettings) -> Table {
-    let inside = |x: f64| map.x_min < x && x < map.x_max;
-    let kept: Vec<_> = trajectory
-        .crossings()
-        .iter()
-        .filter(|crossing| inside(crossing.state[crossing.state.len() - 2]))
-        .collect();
-    let mut table = Table::default();
-    table.push("t", "time of the crossing", kept.iter().map(|c| c.t).collect());
-    table.push(
-        "x",
-        "x where the path crosses the segment",
-        kept.iter().map(|c| c.state[c.state.len() - 2]).collect(),
-    );
-    table.push(
-        "y",
-        "y of the segment, to round-off",
-        kept.iter().map(|c| c.state[c.state.len() - 1]).collect(),
-    );
-    table.push(
-        "rising",
-        "1 where y grows, 0 where it falls",
-        kept.iter().map(|c| f64::from(u8::from(c.rising))).collect(),
-    );
-    table
+/// The crossings of a segment.
+pub(crate) struct Crossings {
+    span: [f64; 2],
+    table: Table,
+}
+
+impl Crossings {
+    pub(crate) fn new(map: &ReturnMapSettings) -> Self {
+        let mut table = Table::default();
+        table.push("t", "time of the crossing", Vec::new());
+        table.push("x", "x where the path crosses the segment", Vec::new());
+        table.push("y", "y of the segment, to round-off", Vec::new());
+        table.push("rising", "1 where y grows, 0 where it falls", Vec::new());
+        Self { span: [map.x_min, map.x_max], table }
+    }
+
+    /// Adds a crossing of its line, if it lies on the segment.
+    pub(crate) fn push(&mut self, t: f64, [x, y]: [f64; 2], rising: bool) {
+        if self.span[0] < x && x < self.span[1] {
+            let values = [t, x, y, f64::from(u8::from(rising))];
+            self.table.columns.iter_mut().zip(values).for_each(|(column, value)| column.values.push(value));
+        }
+    }
+
+    /// The same without what was found.
+    pub(crate) fn emptied(mut self) -> Self {
+        self.table.columns.iter_mut().for_each(|column| column.values.clear());
+        self
+    }
+
+    /// In order.
+    pub(crate) fn table(self) -> Table {
+        self.table
+    }
 }

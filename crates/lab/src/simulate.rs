@@ -2,7 +2,8 @@
 
 use crate::ensemble::{Track, named};
 use crate::live::start;
-use crate::readings::{crossings, measures, motion};
+use crate::readings::{self, measures};
+use crate::recorder::{Centre, Record, Recorder, Rows, Unless};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::escape::norm;
 use motiform_dynamics::model::velocity;
@@ -12,6 +13,7 @@ use motiform_dynamics::{
 };
 use motiform_study::dataset::{Dataset, Manifest, VERSION};
 use motiform_study::plan::{Computation, Control, Named, NoiseSettings, Plan};
+use motiform_study::table::Table;
 use motiform_study::{Ending, Error};
 
 /// Runs a plan.
@@ -19,11 +21,38 @@ use motiform_study::{Ending, Error};
 /// # Errors
 /// Input that only the numerics can reject. A run that ends early is a [`Dataset`] with its [`Outcome`].
 pub fn simulate(plan: &Plan, watch: &dyn Watch) -> Result<Dataset, Error> {
+    plan.check_in_memory()?;
+    let mut trajectory = columns(plan)?;
+    let Run { manifest, crossings } = simulate_into(plan, &mut trajectory, watch)?;
+    Ok(Dataset { manifest, trajectory, crossings })
+}
+
+/// The columns of a plan's trajectory, without rows.
+///
+/// # Errors
+/// An unknown model.
+pub fn columns(plan: &Plan) -> Result<Table, Error> {
+    Ok(readings::columns(plan.info()?.build(&plan.computation.parameters.values())?.as_ref()))
+}
+
+/// Runs a plan whose trajectory goes to `rows` as it is computed: nothing of it is kept here.
+///
+/// # Errors
+/// As [`simulate`], and what `rows` cannot take: the run then ends.
+pub fn simulate_into(plan: &Plan, rows: &mut dyn Rows, watch: &dyn Watch) -> Result<Run, Error> {
     let info = plan.info()?;
     let model = info.build(&plan.computation.parameters.values())?;
     let body = InPlane(model.as_ref());
     let run = Simulation { plan, computation: &plan.computation, model: model.as_ref(), body: &body, watch };
-    run.all()
+    run.all(rows)
+}
+
+/// A run without its trajectory.
+pub struct Run {
+    /// The plan, and how the run ended.
+    pub manifest: Manifest,
+    /// The crossings of the return map's segment.
+    pub crossings: Option<Table>,
 }
 
 /// The state `(shape, x, y)` after the plan's transient, and how the run ended if it ended before that was over.
@@ -37,18 +66,17 @@ pub(crate) fn after_transient(
     Ok((stretch.early(), stretch.last))
 }
 
-struct Simulation<'r> {
+pub(crate) struct Simulation<'r> {
     plan: &'r Plan,
-    computation: &'r Computation,
-    model: &'r dyn Model,
+    pub(crate) computation: &'r Computation,
+    pub(crate) model: &'r dyn Model,
     body: &'r InPlane<&'r dyn Model>,
     watch: &'r dyn Watch,
 }
 
-/// A part of a run: how it ended, and what was recorded of it.
+/// A part of a run: how it ended.
 struct Stretch {
     ending: Ending,
-    trajectory: Trajectory,
     last: Vec<f64>,
     steps: u64,
     rejected: u64,
@@ -62,28 +90,37 @@ impl Stretch {
 }
 
 impl Simulation<'_> {
-    fn all(&self) -> Result<Dataset, Error> {
-        let centring = self.computation.return_map.as_ref().is_some_and(|map| map.centre);
+    fn all(&self, rows: &mut dyn Rows) -> Result<Run, Error> {
+        let map = self.computation.return_map.as_ref();
+        let mut record = Recorder::new(self, rows);
+        let centring = map.is_some_and(|map| map.centre);
         let passes = if centring { 2.0 } else { 1.0 };
         let settled = self.transient(0.0, passes)?;
         if let Some(ending) = settled.early() {
-            return Ok(self.dataset(&Stretch { trajectory: self.before(ending)?, ..settled }, None));
+            self.before(ending, &mut record)?;
+            return Ok(self.run(&settled, None, record.finish()?));
         }
         let (start, end) = (settled.last, self.computation.t_end);
-        let first = self.record(&start, (0.0, end), passes, 0.0)?;
+        let first = self.record(&start, (0.0, end), passes, 0.0, &mut record)?;
         if !(centring && first.ending.is_complete()) {
-            return Ok(self.dataset(&first, None));
+            return Ok(self.run(&first, None, record.finish()?));
         }
         // The flow does not depend on the position: the second pass is the first one, moved.
-        let path = first.trajectory.iter().map(|(t, u)| (t, [u[u.len() - 2], u[u.len() - 1]]));
-        let last = first.trajectory.times().last().copied().unwrap_or(1.0);
-        let centre = centre_of(path, 0.0, last);
+        let centre = match record.centre() {
+            Ok(centre) => centre,
+            Err(last) => {
+                let mut again = Centre::new(0.0, last);
+                self.record(&start, (0.0, end), passes, 0.0, &mut again)?;
+                again.found()
+            }
+        };
         let mut moved = start;
         let place = moved.len() - 2;
         moved[place] -= centre[0];
         moved[place + 1] -= centre[1];
-        let second = self.record(&moved, (0.0, end), passes, 1.0)?;
-        Ok(self.dataset(&second, Some(centre)))
+        record.restart()?;
+        let second = self.record(&moved, (0.0, end), passes, 1.0, &mut record)?;
+        Ok(self.run(&second, Some(centre), record.finish()?))
     }
 
     /// The shape through the transient, except for its last part of length `rest`; the position is reset.
@@ -101,22 +138,20 @@ impl Simulation<'_> {
         last[shape].copy_from_slice(orbit.state());
         let counters = orbit.counters();
         let ending = Ending::of_transient(outcome, c.transient);
-        let trajectory = Trajectory::new(last.len());
-        Ok(Stretch { ending, trajectory, last, steps: counters.steps, rejected: counters.rejected })
+        Ok(Stretch { ending, last, steps: counters.steps, rejected: counters.rejected })
     }
 
-    /// The recorded part of a run that ended during its transient: its last interval, as long as the recording would have
-    /// been. Empty with noise, which is not drawn a second time, and after an interruption, which must not wait.
-    fn before(&self, ending: Ending) -> Result<Trajectory, Error> {
+    /// Records the last interval of a run that ended during its transient, as long as the recording would have been. Nothing with noise,
+    /// which is not drawn a second time, and after an interruption, which must not wait.
+    fn before(&self, ending: Ending, record: &mut dyn Record) -> Result<(), Error> {
         let c = self.computation;
-        let nothing = Trajectory::new(self.model.dim() + 2);
         let lasted = ending.t_last();
         if c.noise.is_some() || matches!(*ending, Outcome::Interrupted { .. }) || lasted == 0.0 {
-            return Ok(nothing);
+            return Ok(());
         }
         let from = (lasted - c.t_end).max(0.0);
         let settled = self.transient(c.transient - from, 1.0)?;
-        Ok(self.record(&settled.last, (from, lasted), 1.0, 0.0)?.trajectory)
+        self.record(&settled.last, (from, lasted), 1.0, 0.0, record).map(drop)
     }
 
     fn request<'g>(&self, sections: &'g [Section<'g>]) -> Request<'g> {
@@ -136,25 +171,27 @@ impl Simulation<'_> {
         (from, to): (f64, f64),
         passes: f64,
         pass: f64,
+        record: &mut dyn Record,
     ) -> Result<Stretch, Error> {
         let c = self.computation;
         let orbit = self.plan.method()?.orbit(self.body, c.control.into(), from, start)?;
         let mut orbit = noisy(c, orbit, self.model, 1)?;
-        let mut trajectory = Trajectory::new(start.len());
         let height = c.return_map.as_ref().map_or(0.0, |map| map.y);
         let above = |_t: f64, u: &[f64]| u[u.len() - 1] - height;
         let sections = [Section { g: &above, direction: Direction::Either, terminal: false }];
         let wanted = if c.return_map.is_some() { &sections[..] } else { &[] };
         let total = c.transient + passes * c.t_end;
         let share = |pass: f64| (c.transient + pass * c.t_end) / total;
-        let watch = Part { watch: self.watch, from: share(pass), to: share(pass + 1.0) };
+        let stop = record.full();
+        let watch = Unless { watch: self.watch, stop: &stop };
+        let watch = Part { watch: &watch, from: share(pass), to: share(pass + 1.0) };
         let request =
             Request { t_end: to, sample_every: Some(c.dt_out), watch: &watch, ..self.request(wanted) };
-        let outcome = drive(orbit.as_mut(), &request, &mut trajectory)?;
+        let outcome = drive(orbit.as_mut(), &request, record.sink())?;
         let counters = orbit.counters();
         let last = orbit.state().to_vec();
         let ending = Ending::from(outcome);
-        Ok(Stretch { ending, trajectory, last, steps: counters.steps, rejected: counters.rejected })
+        Ok(Stretch { ending, last, steps: counters.steps, rejected: counters.rejected })
     }
 
     /// The local error of a fixed step at the end of the run, by halving it; `None` for adaptive steps, and if the
@@ -176,7 +213,7 @@ impl Simulation<'_> {
         relative.is_finite().then_some(relative)
     }
 
-    fn dataset(&self, recording: &Stretch, centre: Option<[f64; 2]>) -> Dataset {
+    fn run(&self, recording: &Stretch, centre: Option<[f64; 2]>, crossings: Option<Table>) -> Run {
         let (shape, position) = recording.last.split_at(recording.last.len() - 2);
         let mut values = shape.to_vec();
         self.model.decode(shape, &mut values);
@@ -197,12 +234,7 @@ impl Simulation<'_> {
             step_error: self.step_error(shape),
             centre,
         };
-        let map = self.computation.return_map.as_ref();
-        Dataset {
-            manifest,
-            trajectory: motion(self.model, &recording.trajectory, self.computation),
-            crossings: map.map(|map| crossings(&recording.trajectory, map)),
-        }
+        Run { manifest, crossings }
     }
 }
 
@@ -239,13 +271,15 @@ pub(crate) fn noise_steps(
 /// The run of a plan as a track of its rows; `None` if the watch stopped it.
 pub(crate) fn track(plan: &Plan, model: &dyn Model, watch: &dyn Watch) -> Result<Option<Track>, Error> {
     let run = Simulation { plan, computation: &plan.computation, model, body: &InPlane(model), watch };
+    plan.check_in_memory()?;
     let settled = run.transient(0.0, 1.0)?;
+    let mut trajectory = Trajectory::new(settled.last.len());
     let recorded = match settled.early() {
         Some(_) => settled,
-        None => run.record(&settled.last, (0.0, plan.computation.t_end), 1.0, 0.0)?,
+        None => run.record(&settled.last, (0.0, plan.computation.t_end), 1.0, 0.0, &mut trajectory)?,
     };
     let outcome = recorded.ending.outcome;
-    let states = recorded.trajectory.iter().map(|(_, state)| named(model, state)).collect();
+    let states = trajectory.iter().map(|(_, state)| named(model, state)).collect();
     Ok((!matches!(outcome, Outcome::Interrupted { .. })).then_some(Track { states, outcome }))
 }
 
@@ -255,18 +289,4 @@ pub(crate) fn finite(mut ending: Ending) -> Ending {
         *norm = norm.min(f64::MAX);
     }
     ending
-}
-
-/// The time average of the position with a smooth window that vanishes with all its derivatives at both ends: for a
-/// periodic or quasi-periodic path it converges to the centre faster than any power of the time.
-pub(crate) fn centre_of(path: impl Iterator<Item = (f64, [f64; 2])>, start: f64, end: f64) -> [f64; 2] {
-    let (mut weight_sum, mut centre) = (0.0, [0.0; 2]);
-    for (t, [x, y]) in path {
-        let s = (t - start) / (end - start);
-        let weight = if s > 0.0 && s < 1.0 { libm::exp(-1.0 / (s * (1.0 - s))) } else { 0.0 };
-        weight_sum += weight;
-        centre[0] += weight * x;
-        centre[1] += weight * y;
-    }
-    if weight_sum > 0.0 { centre.map(|sum| sum / weight_sum) } else { [0.0; 2] }
 }

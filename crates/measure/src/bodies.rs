@@ -1,9 +1,11 @@
 //! Many bodies of one study: other seeds, so other random starts and other noise.
 
 use crate::Result;
+use crate::kept::Kept;
 use crate::record::{Measurement, Recorder, measured, title};
 use motiform_dynamics::{Model, Outcome, Part, StopOnly, Watch};
-use motiform_lab::ensemble::{Member, tracks};
+use motiform_files::Journal;
+use motiform_lab::ensemble::{Member, Track as Tracked, tracks};
 use motiform_lab::noisy::{has_noisy_lanes, noisy_tracks};
 use motiform_lab::pool;
 use motiform_lab::simulate::simulate;
@@ -35,10 +37,28 @@ pub fn simulated(
     threads: usize,
     watch: &dyn Watch,
 ) -> Result<Measurement> {
-    let plans = plans(study, count)?;
+    simulated_kept(study, count, settings, (threads, &()), watch)
+}
+
+/// As [`simulated`]; finished bodies go to a journal, and those that it has are not computed again.
+///
+/// # Errors
+/// As [`simulated`], and those of the journal.
+pub fn simulated_kept(
+    study: &Study,
+    count: usize,
+    settings: &Settings,
+    (threads, journal): (usize, &dyn Journal),
+    watch: &dyn Watch,
+) -> Result<Measurement> {
+    let (plans, kept) = (plans(study, count)?, Kept(journal));
     let noisy = plans[0].computation.noise.is_some();
     let alone = noisy && !has_noisy_lanes(&plans[0])?;
-    let found = if alone { one_by_one(&plans, threads, watch)? } else { in_lanes(&plans, threads, watch)? };
+    let found = if alone {
+        one_by_one(&plans, &kept, threads, watch)?
+    } else {
+        in_lanes(&plans, &kept, threads, watch)?
+    };
     let mut kept = Vec::new();
     let mut seeds = Vec::new();
     let (mut early, mut missing) = (Vec::new(), 0);
@@ -93,14 +113,18 @@ fn plans(study: &Study, count: usize) -> Result<Vec<Plan>> {
 }
 
 /// How a body ended, and its track; `None` if it was stopped.
-type Body = Option<(Outcome, Track)>;
+pub(crate) type Body = Option<(Outcome, Track)>;
 
 /// Runs of their own, with noise, of models without lanes.
-fn one_by_one(plans: &[Plan], threads: usize, watch: &dyn Watch) -> Result<Vec<Body>> {
+fn one_by_one(plans: &[Plan], kept: &Kept<'_>, threads: usize, watch: &dyn Watch) -> Result<Vec<Body>> {
     let done = AtomicUsize::new(0);
-    let run = |plan: &Plan| {
+    let run = |&(number, plan): &(usize, &Plan)| {
         if watch.stopped() {
             return Ok(None);
+        }
+        if let Some([body]) = kept.read(number).as_deref() {
+            done.fetch_add(1, Ordering::Relaxed);
+            return Ok(body.clone());
         }
         let dataset = simulate(plan, &StopOnly(watch))?;
         let outcome = dataset.manifest.outcome.outcome;
@@ -108,13 +132,19 @@ fn one_by_one(plans: &[Plan], threads: usize, watch: &dyn Watch) -> Result<Vec<B
         let track = crate::datasets::track(&dataset.trajectory, model.as_ref(), 0.0);
         let part = (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / plans.len() as f64;
         watch.progress(part);
-        Ok((!matches!(outcome, Outcome::Interrupted { .. })).then_some((outcome, track)))
+        let body = (!matches!(outcome, Outcome::Interrupted { .. })).then_some((outcome, track));
+        if body.is_some() {
+            kept.write(number, std::slice::from_ref(&body))?;
+        }
+        Ok(body)
     };
-    Ok(pool::each(plans, threads, &(), run)?) // the watch is asked above: what is finished is kept
+    let plans: Vec<(usize, &Plan)> = plans.iter().enumerate().collect();
+    Ok(pool::each(&plans, threads, &(), run)?) // the watch is asked above: what is finished is kept
 }
 
 /// Tracks of an ensemble, some bodies at a time.
-fn in_lanes(plans: &[Plan], threads: usize, watch: &dyn Watch) -> Result<Vec<Body>> {
+fn in_lanes(plans: &[Plan], kept: &Kept<'_>, threads: usize, watch: &dyn Watch) -> Result<Vec<Body>> {
+    plans[0].check_in_memory()?;
     let c = &plans[0].computation;
     let rows = (c.t_end / c.dt_out * (1.0 + 1e-12)).floor() as usize;
     let times: Vec<f64> = (0..=rows).map(|k| c.transient + k as f64 * c.dt_out).collect();
@@ -123,15 +153,21 @@ fn in_lanes(plans: &[Plan], threads: usize, watch: &dyn Watch) -> Result<Vec<Bod
     for (number, chunk) in plans.chunks(TOGETHER).enumerate() {
         let at = |body: usize| body.min(plans.len()) as f64 / plans.len() as f64;
         let part = Part { watch, from: at(number * TOGETHER), to: at((number + 1) * TOGETHER) };
+        if let Some(bodies) = kept.read(number * TOGETHER).filter(|bodies| bodies.len() == chunk.len()) {
+            found.extend(bodies);
+            part.progress(1.0);
+            continue;
+        }
         let tracks = if c.noise.is_some() {
             noisy_tracks(chunk, threads, &part)?
         } else {
             tracks(&plans[0], &chunk.iter().map(member).collect::<Vec<_>>(), &times, threads, &part)?
         };
         let Some(tracks) = tracks else { break };
-        found.extend(
-            tracks.iter().map(|track| Some((track.outcome, recorded(model.as_ref(), &track.states)))),
-        );
+        let body = |track: &Tracked| Some((track.outcome, recorded(model.as_ref(), &track.states)));
+        let bodies: Vec<Body> = tracks.iter().map(body).collect();
+        kept.write(number * TOGETHER, &bodies)?;
+        found.extend(bodies);
     }
     found.resize(plans.len(), None);
     Ok(found)

@@ -6,15 +6,16 @@ mod datasets;
 mod draw;
 mod error;
 mod folder;
+mod kept;
 mod record;
 mod summary;
 mod tables;
 
-pub use bodies::{MOST, simulated};
+pub use bodies::{MOST, simulated, simulated_kept};
 pub use datasets::read;
 pub use draw::draw;
 pub use error::{Error, Result};
-pub use folder::{is_one, write};
+pub use folder::{open, write};
 pub use record::{Measurement, mode_names};
 pub use summary::{sentences, summary};
 pub use tables::{Named, tables};

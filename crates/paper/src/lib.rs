@@ -11,6 +11,7 @@ mod fig3;
 mod fig4;
 mod fig5;
 mod fig6;
+mod kept;
 mod models;
 mod sentences;
 mod strip;
@@ -18,11 +19,13 @@ mod strip;
 use motiform_chapter::context::{Context, Progress, Share};
 use motiform_chapter::{claims, context};
 use motiform_dynamics::Watch;
+use motiform_files::Journal;
 use motiform_lab::pool;
 use motiform_report::{Counts, Report, Section};
 use motiform_study::Error;
 pub use sentences::{checked_in, entry_of};
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 /// What to rebuild, and how.
 #[derive(Clone, Debug)]
@@ -82,33 +85,101 @@ fn finished(name: &str, section: &Section) -> String {
     format!("{name}: {hold} hold, {differ} differ, {fail} fail")
 }
 
+/// What becomes of chapters while others are computed.
+#[derive(Clone, Copy)]
+pub struct Keeping<'k> {
+    /// Keeps finished chapters: they are not computed again.
+    pub journal: &'k dyn Journal,
+    /// Gets the report after each chapter; those that are missing say so.
+    pub page: &'k (dyn Fn(&Report) -> Result<(), Error> + Sync),
+}
+
 /// Rebuilds the paper, or parts of it. Scans are kept in folders inside `out`, so that an interrupted run goes on where it
 /// was; `out` must exist.
 ///
 /// # Errors
 /// An unknown name; [`Error::Interrupted`] if the watch stopped it; files that cannot be written.
 pub fn reproduce(options: &Options, out: &Path, watch: &dyn Watch) -> Result<Report, Error> {
+    reproduce_kept(options, out, Keeping { journal: &(), page: &|_| Ok(()) }, watch)
+}
+
+/// As [`reproduce`]; finished chapters survive the end of the program, however it ends.
+///
+/// # Errors
+/// As [`reproduce`], and those of `keeping`.
+pub fn reproduce_kept(
+    options: &Options,
+    out: &Path,
+    keeping: Keeping<'_>,
+    watch: &dyn Watch,
+) -> Result<Report, Error> {
     options.check()?;
     let named = |chapter: &&Chapter| options.figures.iter().any(|name| name == chapter.name);
     let paper = CHAPTERS.iter().filter(|chapter| options.figures.is_empty() || named(chapter));
     let chapters: Vec<&Chapter> = paper.chain(FURTHER.iter().filter(named)).collect();
     let progress = Progress::new(watch, &chapters.iter().map(|chapter| chapter.work).collect::<Vec<_>>());
+    let pages = Pages::new(&chapters, keeping);
     // Much of a chapter is one long run after the other: chapters side by side keep all cores busy.
     let rebuild = |&(index, chapter): &(usize, &Chapter)| {
         let share = Share { progress: &progress, index };
         let context = Context { out, quick: options.quick, threads: options.threads, watch: &share };
-        let section = (chapter.rebuild)(&context)?;
+        let section = match kept::read(keeping.journal, chapter.name, options.quick) {
+            Some(section) => section,
+            None => {
+                let section = (chapter.rebuild)(&context)?;
+                kept::write(keeping.journal, chapter.name, options.quick, &section)?;
+                section
+            }
+        };
         share.progress(1.0);
         share.note(&finished(chapter.name, &section));
-        Ok(section)
+        pages.turn(index, section)
     };
-    let numbered: Vec<(usize, &Chapter)> = chapters.into_iter().enumerate().collect();
-    let sections = pool::each(&numbered, options.threads, watch, rebuild)?;
-    Ok(Report {
+    let numbered: Vec<(usize, &Chapter)> = chapters.iter().copied().enumerate().collect();
+    pool::each(&numbered, options.threads, watch, rebuild)?;
+    Ok(report(pages.sections()))
+}
+
+/// The report of these sections.
+fn report(sections: Vec<Section>) -> Report {
+    Report {
         title: "Dynamics of a deformable self-propelled domain, rebuilt".to_owned(),
         about: claims::ABOUT.to_owned(),
         sections,
         sentences: sentences::sentences(),
         ..Report::default()
-    })
+    }
+}
+
+/// The sections so far.
+struct Pages<'k> {
+    sections: Mutex<Vec<Section>>,
+    keeping: Keeping<'k>,
+}
+
+impl<'k> Pages<'k> {
+    /// Sections that say that they are missing.
+    fn new(chapters: &[&Chapter], keeping: Keeping<'k>) -> Self {
+        let missing = |chapter: &&Chapter| {
+            Section {
+            title: chapter.name.to_owned(),
+            about: "This chapter is not rebuilt yet. The page is written again after each chapter; if the computation was \
+                    ended, the same command goes on with what is finished."
+                .to_owned(),
+            ..Section::default()
+        }
+        };
+        Self { sections: Mutex::new(chapters.iter().map(missing).collect()), keeping }
+    }
+
+    /// Takes the section of a chapter, and gives the report to the page.
+    fn turn(&self, index: usize, section: Section) -> Result<(), Error> {
+        let mut sections = self.sections.lock().unwrap_or_else(PoisonError::into_inner);
+        sections[index] = section;
+        (self.keeping.page)(&report(sections.clone())) // one page after the other
+    }
+
+    fn sections(self) -> Vec<Section> {
+        self.sections.into_inner().unwrap_or_else(PoisonError::into_inner)
+    }
 }

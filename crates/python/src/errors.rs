@@ -1,5 +1,6 @@
 //! Conversion of errors to Python exceptions, with the texts of the library and the keywords that mend them.
 
+use motiform_files::store::Error as StoreError;
 use motiform_models::Error as ModelError;
 use motiform_study::Error;
 use pyo3::PyErr;
@@ -12,10 +13,11 @@ pub(crate) fn python(error: Error) -> PyErr {
     let text = format!("{error}{}", remedy(&error).unwrap_or_default());
     match error {
         Error::Interrupted => PyKeyboardInterrupt::new_err(text),
-        Error::Exists { .. } | Error::NotOurs { .. } | Error::ScanExists { .. } => {
-            PyFileExistsError::new_err(text)
-        }
-        Error::Unreadable { .. } | Error::Unwritable { .. } | Error::Busy { .. } => PyOSError::new_err(text),
+        Error::Store(
+            StoreError::Unwritable { .. } | StoreError::Busy { .. } | StoreError::WriteFailed { .. },
+        ) => PyOSError::new_err(text),
+        Error::Store(_) => PyFileExistsError::new_err(text),
+        Error::Unreadable { .. } => PyOSError::new_err(text),
         failure if failure.is_machine_failure() => PyOSError::new_err(text),
         _ => PyValueError::new_err(text),
     }
@@ -25,16 +27,25 @@ pub(crate) fn python(error: Error) -> PyErr {
 fn remedy(error: &Error) -> Option<&'static str> {
     Some(match error {
         Error::NoAxis { .. } => "; give axes={\"NAME\": values}",
-        Error::ScanExists { .. } => {
-            "resume=True continues it, overwrite=True replaces it; or choose another folder"
-        }
-        Error::OtherScan { .. } | Error::Exists { .. } => {
-            "choose another one, or overwrite=True to replace it"
-        }
-        Error::Busy { .. } => ", or choose another folder",
-        Error::NotOurs { .. } => "; choose another one",
-        Error::Unwritable { .. } => "; choose a place in a folder that exists and is writable",
+        Error::Store(error) => return in_place(error),
+        Error::OtherScan { .. } => "; choose another one, or overwrite=True to replace it",
         Error::PartFailed { .. } | Error::InTheWay { .. } => "; resume=True continues it",
+        _ => return None,
+    })
+}
+
+/// The keywords that mend an error of the place of a result.
+fn in_place(error: &StoreError) -> Option<&'static str> {
+    Some(match error {
+        StoreError::Resumable { .. } => {
+            "; resume=True continues it, overwrite=True replaces it; or choose another folder"
+        }
+        StoreError::Exists { .. } => "; choose another one, or overwrite=True to replace it",
+        StoreError::Busy { .. } => ", or choose another folder",
+        StoreError::NotOurs { .. } | StoreError::NotContinued { .. } | StoreError::OtherKind { .. } => {
+            "; choose another one"
+        }
+        StoreError::Unwritable { .. } => "; choose a place in a folder that is writable",
         _ => return None,
     })
 }

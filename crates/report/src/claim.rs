@@ -1,7 +1,9 @@
 //! A claim, whose it is, and what became of it.
 
+use serde::{Deserialize, Serialize};
+
 /// A statement and what became of it.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Claim {
     /// Whose statement it is.
     pub source: Source,
@@ -16,7 +18,7 @@ pub struct Claim {
 }
 
 /// Whose statement a claim is.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Source {
     /// The paper's, in the sentences of these numbers (see [`super::Sentence`]).
     Paper(Vec<u16>),
@@ -47,7 +49,7 @@ impl Claim {
 }
 
 /// Whether a claim holds.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {
     /// It does.
     Holds,

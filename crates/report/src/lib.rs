@@ -17,6 +17,7 @@ pub use sentence::Sentence;
 pub use table::{Cell, Table};
 
 use motiform_figures::{Drawn, Label};
+use serde::{Deserialize, Serialize};
 
 /// A page of sections.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -36,7 +37,7 @@ pub struct Report {
 }
 
 /// A part of a report, such as one figure of a paper.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Section {
     /// Heading.
     pub title: String,
@@ -55,7 +56,7 @@ pub struct Section {
 }
 
 /// A picture and the words below it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReportFigure {
     /// Words below the picture; they also stand for it where it cannot be seen.
     pub caption: String,
@@ -80,7 +81,7 @@ impl ReportFigure {
 }
 
 /// A picture as a file's content.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Picture {
     /// Self-contained SVG text.
     Svg(String),

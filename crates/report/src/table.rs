@@ -3,9 +3,10 @@
 use crate::glossary::{Definition, linked};
 use crate::inline;
 use motiform_figures::svg::escape;
+use serde::{Deserialize, Serialize};
 
 /// A table.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Table {
     /// What it shows (markup).
     pub caption: String,
@@ -16,7 +17,7 @@ pub struct Table {
 }
 
 /// A field of a table.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Cell {
     /// Its text (markup); where it is defined it is a link.
     pub text: String,

@@ -2,13 +2,17 @@
 
 use crate::TrackedCell;
 use crate::protocol::{self, Registry, SectionKind};
+use crate::task::lock;
 use motiform_lab::registry;
 use motiform_models::{ModelInfo, amplitudes};
 use motiform_study::scan::Axis;
 use motiform_study::study::{DisplaySettings, ReturnMapSettings};
 use motiform_study::{Error, Study, input, presets};
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
+use std::sync::Mutex;
 
 /// Name under which the page's own equations are kept.
 pub(crate) const EDITED: &str = "edited";
@@ -60,6 +64,35 @@ impl StudyFile {
         let study = Study::read(path)?;
         let text = input::text(path, input::STUDY).map_err(|error| Error::unreadable(path, error))?;
         Ok(Self { path: path.display().to_string(), text, study, tracked: None })
+    }
+}
+
+/// Texts that pages have sent: the models that they define stay in memory as long as the process lives (some 10 kB each).
+static TEXTS: Texts = Texts { known: Mutex::new(BTreeSet::new()), most: 2000 };
+
+/// Different texts, up to a number of them.
+struct Texts {
+    /// By their digests.
+    known: Mutex<BTreeSet<u64>>,
+    most: usize,
+}
+
+impl Texts {
+    /// Takes a text, unless there are too many others.
+    fn admit(&self, text: &str) -> Result<(), Error> {
+        let mut digest = DefaultHasher::new();
+        text.hash(&mut digest);
+        let digest = digest.finish();
+        let mut known = lock(&self.known);
+        if known.len() >= self.most && !known.contains(&digest) {
+            return Err(Error::Setting {
+                key: "text",
+                value: format!("one of more than {} studies", self.most),
+                remedy: "each stays in memory: save it as a file, and start the explorer again",
+            });
+        }
+        known.insert(digest);
+        Ok(())
     }
 }
 
@@ -115,6 +148,7 @@ impl Catalogue {
     /// # Errors
     /// The text is no study: where, and what to write instead.
     pub(crate) fn define(&mut self, text: &str) -> Result<protocol::Model, Error> {
+        TEXTS.admit(text)?;
         let study = Study::parse(text, "the text", EDITED)?;
         let source = Source::File("study.toml".to_owned());
         let subject = Subject { source, study, text: Some(text.to_owned()) };
@@ -238,6 +272,16 @@ mod tests {
                 assert_eq!(parameter.whole, refused, "{}", parameter.name);
             }
         }
+    }
+
+    /// Memory is bounded: what was taken is taken again, one more is not.
+    #[test]
+    fn texts_are_counted() {
+        let texts = Texts { known: Mutex::default(), most: 2 };
+        assert!(["a", "b", "a", "b"].iter().all(|text| texts.admit(text).is_ok()));
+        let why = texts.admit("c").unwrap_err().to_string();
+        assert!(why.contains("more than 2 studies") && why.contains("save it as a file"), "{why}");
+        assert!(texts.admit("a").is_ok());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The present study as a command, as Python, and as text: equivalent to what the explorer shows.
 
 use crate::catalogue::{Source, Subject, file_name};
-use motiform_models::amplitudes;
+use motiform_models::{ModelInfo, ParameterSpec, amplitudes};
 use motiform_study::{Error, Study};
 
 /// States with more numbers than this are only in the study file.
@@ -108,9 +108,7 @@ pub(crate) fn source(start: &Subject, study: &Study) -> Result<String, Error> {
             remedy: "its equations cannot be changed as text: choose the tensor model or an extension",
         });
     };
-    let info = amplitudes::info(&definition)
-        .map_err(|error| motiform_models::Error::Equations { problem: error.to_string() })?;
-    let mut text = Study::of_model(info);
+    let mut text = Study::of_model(typical(study.info()?, &values)?);
     text.title = match &start.source {
         Source::Model(model) => format!("The {model} model, changed"),
         Source::Preset { name, .. } => format!("{name}, changed"),
@@ -121,7 +119,21 @@ pub(crate) fn source(start: &Subject, study: &Study) -> Result<String, Error> {
     if study.display.plane.iter().all(known) {
         text.display.plane.clone_from(&study.display.plane);
     }
-    text.to_toml()
+    text.to_toml_with(&definition)
+}
+
+/// The model of these equations at values that are typical of their parameters. The process keeps every model that it has met: there is one
+/// for each set of terms, not for each position of a slider.
+fn typical(info: &'static ModelInfo, values: &[f64]) -> Result<&'static ModelInfo, Error> {
+    let typical = |(spec, &value): (&ParameterSpec, &f64)| {
+        let (low, high) = spec.range;
+        let open = value != 0.0 && (low..=high).contains(&value); // at zero a term may be left out
+        if open { [spec.default, high, low].into_iter().find(|x| *x != 0.0).unwrap_or(value) } else { value }
+    };
+    let values: Vec<f64> = info.parameters().iter().zip(values).map(typical).collect();
+    let Some(definition) = amplitudes::of_model(info, &values) else { return Ok(info) };
+    amplitudes::info(&definition)
+        .map_err(|error| motiform_models::Error::Equations { problem: error.to_string() }.into())
 }
 
 #[cfg(test)]
@@ -178,6 +190,24 @@ mod tests {
         );
         let changed = Study::parse(&source(&start, &study).unwrap(), "x", "x").unwrap();
         assert_eq!(changed.values().unwrap(), [0.5]);
+    }
+
+    /// The text has the values of now, and the model that it is compared with is the same for all of them.
+    #[test]
+    fn a_position_of_a_slider_is_no_further_model() {
+        let start = Catalogue::new(None).unwrap().subject("tensor", Some("fig5a")).unwrap();
+        let at = |kappa2: f64| {
+            let mut study = start.study.clone();
+            study.set("kappa2", kappa2).unwrap();
+            let info = typical(study.info().unwrap(), &study.values().unwrap()).unwrap();
+            (source(&start, &study).unwrap(), info)
+        };
+        let ((one, a), (other, b)) = (at(0.5), at(0.625));
+        assert!(std::ptr::eq(a, b));
+        assert!(one.contains("kappa2 = { ") || one.contains("kappa2 = {"), "{one}");
+        assert_eq!(one.replace("value = 0.5,", "value = 0.625,"), other);
+        let values = Study::parse(&other, "x", "x").unwrap().values().unwrap();
+        assert!(values.contains(&0.625) && values.len() == 8, "{other}");
     }
 
     /// The tensor model's equations as text are those of the tensor model.

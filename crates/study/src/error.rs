@@ -32,6 +32,9 @@ pub enum Error {
         /// Dimension of the shape.
         dim: usize,
     },
+    /// A result on disk is not written, replaced or continued.
+    #[error(transparent)]
+    Store(#[from] motiform_store::Error),
     /// The models rejected a name or a value.
     #[error(transparent)]
     Models(#[from] motiform_models::Error),
@@ -152,12 +155,6 @@ pub enum Error {
         /// The parameters that the study leaves free, in brackets.
         free: String,
     },
-    /// A scan folder that already exists.
-    #[error("{} exists and contains a scan", .path.display())]
-    ScanExists {
-        /// The folder.
-        path: PathBuf,
-    },
     /// A folder that is not a scan.
     #[error("{} contains no scan: {reason}; give a folder written by `motiform scan`", .path.display())]
     NoScan {
@@ -176,12 +173,6 @@ pub enum Error {
         path: PathBuf,
         /// The differences: each key with its value in the folder and the requested value.
         differences: String,
-    },
-    /// Another process is computing in the folder.
-    #[error("another motiform process computes in {}: wait until it is done", .path.display())]
-    Busy {
-        /// The folder.
-        path: PathBuf,
     },
     /// Folders of different scans cannot be merged.
     #[error("{} and {} contain different scans ({differences}): merge the shards of one scan", .first.display(), .second.display())]
@@ -254,34 +245,6 @@ pub enum Error {
         /// The residual of the closing condition, relative to the length of the boundary.
         residual: f64,
     },
-    /// The output exists.
-    #[error("{} exists", .path.display())]
-    Exists {
-        /// The path.
-        path: PathBuf,
-    },
-    /// The output exists and was not written by motiform.
-    #[error("{} exists and is not a motiform dataset: it is not replaced", .path.display())]
-    NotOurs {
-        /// The path.
-        path: PathBuf,
-    },
-    /// A folder without write access.
-    #[error("cannot write {}: {reason}", .path.display())]
-    Unwritable {
-        /// The path.
-        path: PathBuf,
-        /// The system's reason. (Not a `source`, because the message already contains it.)
-        reason: std::io::Error,
-    },
-    /// Writing failed (for example because of a full disk). No incomplete output is left.
-    #[error("writing {} failed: {reason}; nothing was left behind, free some space and run again", .path.display())]
-    WriteFailed {
-        /// The path.
-        path: PathBuf,
-        /// The reason.
-        reason: String,
-    },
     /// Something other than a file is in the place of a file.
     #[error("{} is not a file, but a part of the scan belongs there: remove it and resume the scan", .path.display())]
     InTheWay {
@@ -305,7 +268,10 @@ impl Error {
     /// Whether the input was valid but the machine failed (exit code 1 rather than 2).
     #[must_use]
     pub fn is_machine_failure(&self) -> bool {
-        matches!(self, Self::WriteFailed { .. } | Self::PartFailed { .. } | Self::Figure(_))
+        match self {
+            Self::Store(error) => error.is_machine_failure(),
+            _ => matches!(self, Self::PartFailed { .. } | Self::Figure(_)),
+        }
     }
 
     /// [`Error::Unreadable`] of a path, with the reason as text.
@@ -314,10 +280,10 @@ impl Error {
         Self::Unreadable { path: path.to_owned(), reason: reason.to_string() }
     }
 
-    /// [`Error::WriteFailed`] of a path, with the reason as text.
+    /// A file that cannot be written, with the reason as text.
     #[must_use]
     pub fn write_failed(path: &Path, reason: impl std::fmt::Display) -> Self {
-        Self::WriteFailed { path: path.to_owned(), reason: reason.to_string() }
+        motiform_store::Error::write_failed(path, reason).into()
     }
 }
 

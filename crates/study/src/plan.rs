@@ -11,14 +11,17 @@ use crate::{Error, initial};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Model, Noise, Semilinear};
 use motiform_models::{ModelInfo, ModelName};
+pub use motiform_store::sha256_hex;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 /// Version of the meaning of a plan; part of the hash.
 pub const PLAN_FORMAT: u32 = 2;
 
-/// Maximum number of rows of a trajectory (about 2 GB in memory).
-pub const MOST_ROWS: f64 = 2e7;
+/// Maximum number of rows of a trajectory (a file of about 2 TB).
+pub const MOST_ROWS: f64 = 2e10;
+
+/// Maximum number of rows of a trajectory in memory (about 2 GB).
+pub const MOST_IN_MEMORY: f64 = 2e7;
 
 /// Maximum model time: beyond it, the time has too few digits for steps of order 1.
 pub const LONGEST: f64 = 1e9;
@@ -74,6 +77,16 @@ pub struct Computation {
 }
 
 impl Plan {
+    /// Rejects a trajectory that is too long to be held in memory; [`Plan::new`] takes those that are written as they are computed.
+    ///
+    /// # Errors
+    /// [`Error::Setting`].
+    pub fn check_in_memory(&self) -> Result<(), Error> {
+        let Computation { t_end, dt_out, .. } = self.computation;
+        let remedy = "this gives more than 20 million rows, too many for memory: give a longer time, or write the run with `motiform simulate`";
+        check("dt_out", dt_out, t_end / dt_out <= MOST_IN_MEMORY, remedy)
+    }
+
     /// Resolves a study and checks every number.
     ///
     /// # Errors
@@ -96,7 +109,7 @@ impl Plan {
             "dt_out",
             dt_out,
             run.t_end / dt_out <= MOST_ROWS,
-            "this gives more than 20 million rows: give a longer time",
+            "this gives more than 20 thousand million rows: give a longer time",
         )?;
         check("escape_norm", run.escape_norm, run.escape_norm > 0.0, "give a number above 0")?;
         study.random.unwrap_or(Random::SMALL).check()?;
@@ -156,11 +169,6 @@ impl Plan {
     pub fn method(&self) -> Result<Method, Error> {
         stepper(&self.computation.stepper)
     }
-}
-
-/// SHA-256 in hexadecimal.
-pub fn sha256_hex(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().fold(String::new(), |hex, byte| hex + &format!("{byte:02x}"))
 }
 
 /// The noise of a study, if it has any.

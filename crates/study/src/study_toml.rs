@@ -3,6 +3,7 @@
 use crate::random::Random;
 use crate::scan::Axis;
 use crate::{Error, Study, amplitudes};
+use motiform_models::amplitudes::Definition;
 use serde::Serialize;
 use toml::{Table, Value};
 
@@ -13,6 +14,18 @@ impl Study {
     /// # Errors
     /// An unknown model; [`Error::Setting`] for whole numbers of 2^63 and more, which TOML does not have.
     pub fn to_toml(&self) -> Result<String, Error> {
+        self.text(self.model.definition(), &self.parameters)
+    }
+
+    /// As [`Study::to_toml`], but with these equations. They need not be those of a model of this process, which keeps every model it has met.
+    ///
+    /// # Errors
+    /// As [`Study::to_toml`].
+    pub fn to_toml_with(&self, equations: &Definition) -> Result<String, Error> {
+        self.text(Some(equations), &[])
+    }
+
+    fn text(&self, equations: Option<&Definition>, parameters: &[(String, f64)]) -> Result<String, Error> {
         let bare = Self::of_model(self.info()?);
         let mut top = Table::new();
         for (key, text) in [("title", &self.title), ("about", &self.about)] {
@@ -24,9 +37,9 @@ impl Study {
             top.insert("free".to_owned(), self.free.clone().into());
         }
         // Equations are written line by line, behind what has no table.
-        let equations = self.model.definition().map(|definition| {
+        let equations = equations.map(|definition| {
             let head = std::mem::take(&mut top).to_string();
-            format!("{head}\n{}\n", amplitudes::written(definition, &self.parameters))
+            format!("{head}\n{}\n", amplitudes::written(definition, parameters))
         });
         if equations.is_none() {
             let model = Table::from_iter([(self.model.to_string(), Value::Table(numbers(&self.parameters)))]);

@@ -1,7 +1,7 @@
 //! Titles of figures: as typed, otherwise from the verdict, otherwise from the parameters. Never from the motion of a preset with modified
 //! parameters ([`Study::set`] removes its title).
 
-use crate::{Dataset, Plan, Study, presets};
+use crate::{Dataset, Manifest, Plan, Study, presets};
 use motiform_models::ModelInfo;
 
 /// More parameters than this do not fit into a title.
@@ -43,10 +43,18 @@ impl Plan {
 }
 
 impl Dataset {
+    /// Title of its figures: that of its manifest.
+    #[must_use]
+    pub fn title(&self) -> String {
+        self.manifest.title()
+    }
+}
+
+impl Manifest {
     /// Title of its figures: as typed, otherwise from the regime of its motion, otherwise from its parameters.
     #[must_use]
     pub fn title(&self) -> String {
-        let (plan, regime) = (&self.manifest.plan, self.manifest.regime.as_deref());
+        let (plan, regime) = (&self.plan, self.regime.as_deref());
         if plan.title.is_empty() { plan.parametric(regime) } else { plan.title.clone() }
     }
 }

@@ -71,7 +71,7 @@ pub enum Error {
         known: Vec<String>,
     },
     /// More than is read at once.
-    #[error("{place}: more than {limit} {what}; split the file, or raise the option limits.{key}")]
+    #[error("{place}: more than {limit} {what}; split the file (in Rust: or raise Options::limits.{key})")]
     Limit {
         /// Where.
         place: Place,

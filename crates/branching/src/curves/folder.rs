@@ -3,13 +3,14 @@
 use super::follow::Curves;
 use super::summary::curve_summary;
 use super::table::curve_columns;
-use crate::folder::{MANIFEST, pretty, read};
-use motiform_files::{Staging, columns};
+use crate::folder::{MANIFEST, finish, keep, open, pretty, read};
+use motiform_files::store::mend;
+use motiform_files::{Folder, Kind, Opening, columns};
 use motiform_lab::draw::Picture;
 use motiform_study::dataset::VERSION;
 use motiform_study::{CurvePlan, Error};
 use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 const STATE: &str = "curves.json";
 
@@ -43,66 +44,71 @@ pub fn default_curve_folder(plan: &CurvePlan) -> String {
 }
 
 impl CurveFolder {
-    /// Whether a folder holds curves.
-    #[must_use]
-    pub fn is_one(path: &Path) -> bool {
-        path.join(STATE).is_file() && path.join(MANIFEST).is_file()
-    }
-
     /// Reads a folder.
     ///
     /// # Errors
     /// [`Error::Unreadable`] where a file is missing or damaged.
     pub fn read(path: &Path) -> Result<Self, Error> {
+        mend(path)?;
         let manifest: Manifest = read(&path.join(MANIFEST))?;
         if manifest.curves.hash() != manifest.plan_hash {
             let path = path.join(MANIFEST);
             return Err(Error::unreadable(&path, "it was changed: its plan does not give its hash"));
         }
         let found: Curves = read(&path.join(STATE))?;
-        if found.curves.iter().any(|curve| found.branches.at(curve.start).is_none()) {
-            return Err(Error::unreadable(&path.join(STATE), "a curve starts at no point of a branch"));
-        }
+        check_starts(path, &found)?;
         Ok(Self { plan: manifest.curves, found })
     }
 
-    /// Reads what a folder holds of the curves of `plan`, to go on with; `None` if there is no folder.
+    /// Opens the folder of the curves of `plan` to write it, and reads what it holds of them, to go on with.
     ///
     /// # Errors
-    /// [`Error::OtherBranches`] for another plan, [`Error::Unreadable`].
-    pub fn resume(path: &Path, plan: &CurvePlan) -> Result<Option<Curves>, Error> {
-        if path.symlink_metadata().is_err() {
-            return Ok(None);
+    /// [`Error::OtherBranches`] for another plan; [`Error::Store`] where it exists, is not ours, is used by others or cannot be written.
+    pub fn open(path: &Path, plan: &CurvePlan, opening: Opening) -> Result<(Folder, Option<Curves>), Error> {
+        let same = |path: &Path| {
+            let there: Manifest = read(&path.join(MANIFEST))?;
+            Ok(there.curves.hash() == plan.hash())
+        };
+        let manifest = pretty(&manifest(plan, false), path)?;
+        let (folder, found) = open(path, (Kind::Curves, opening), &manifest, same, STATE)?;
+        if let Some(found) = &found {
+            check_starts(path, found)?;
         }
-        let there = Self::read(path)?;
-        if there.plan.hash() != plan.hash() {
-            return Err(Error::OtherBranches { path: path.to_owned() });
-        }
-        Ok(Some(there.found))
+        Ok((folder, found))
     }
 
-    /// Writes everything into a staged folder and gives it its name, which is returned.
+    /// Keeps branches and curves that are not all of them.
     ///
     /// # Errors
-    /// [`Error::WriteFailed`].
-    pub fn write(&self, pictures: &[Picture], staging: Staging) -> Result<PathBuf, Error> {
-        let failed = |error: String| Error::write_failed(staging.target(), error);
-        let manifest = Manifest {
-            motiform: VERSION.to_owned(),
-            plan_hash: self.plan.hash(),
-            complete: self.found.complete,
-            curves: self.plan.clone(),
-        };
+    /// They cannot be written.
+    pub fn keep(found: &Curves, folder: &Folder) -> Result<(), Error> {
+        keep(STATE, found, folder)
+    }
+
+    /// Writes everything.
+    ///
+    /// # Errors
+    /// Files that cannot be written.
+    pub fn write(&self, pictures: &[Picture], folder: &Folder) -> Result<(), Error> {
+        let failed = |error: String| Error::write_failed(folder.shown(), error);
+        let manifest = manifest(&self.plan, self.found.complete);
         let text = serde_json::to_string(&manifest).map_err(|error| failed(error.to_string()))?;
         let points = columns::encode(&curve_columns(&self.plan, &self.found)?, vec![("motiform", text)]);
-        staging.write("points.parquet", &points.map_err(|error| failed(error.to_string()))?)?;
-        staging.write(MANIFEST, &pretty(&manifest, &staging)?)?;
-        staging.write("summary.json", &pretty(&curve_summary(&self.plan, &self.found), &staging)?)?;
+        folder.put("points.parquet", &points.map_err(|error| failed(error.to_string()))?)?;
+        folder.put("summary.json", &pretty(&curve_summary(&self.plan, &self.found), folder.shown())?)?;
         let state = serde_json::to_vec(&self.found).map_err(|error| failed(error.to_string()))?;
-        staging.write(STATE, &state)?;
-        for picture in pictures {
-            staging.write(&picture.name, &picture.bytes)?;
-        }
-        staging.commit()
+        finish(folder, (STATE, &state), pictures, &pretty(&manifest, folder.shown())?, self.found.complete)
+    }
+}
+
+fn manifest(plan: &CurvePlan, complete: bool) -> Manifest {
+    Manifest { motiform: VERSION.to_owned(), plan_hash: plan.hash(), complete, curves: plan.clone() }
+}
+
+/// Rejects curves that start nowhere on their branches.
+fn check_starts(path: &Path, found: &Curves) -> Result<(), Error> {
+    match found.curves.iter().any(|curve| found.branches.at(curve.start).is_none()) {
+        true => Err(Error::unreadable(&path.join(STATE), "a curve starts at no point of a branch")),
+        false => Ok(()),
     }
 }

@@ -3,7 +3,7 @@
 use super::crossing::{Target, passes};
 use super::family::PlaneBodies;
 use crate::family::Bodies;
-use crate::follow::{Branches, Sample, follow};
+use crate::follow::{Branches, Sample, follow_kept};
 use motiform_continuation::{Curve, CurvePoint, Degenerate, End, Motion, Point, Special};
 use motiform_dynamics::{Part, Watch};
 use motiform_lab::pool::each;
@@ -80,11 +80,29 @@ const BRANCHES: f64 = 0.2;
 /// # Errors
 /// As [`follow()`].
 pub fn follow_curves(plan: &CurvePlan, before: Option<Curves>, watch: &dyn Watch) -> Result<Curves, Error> {
+    follow_curves_kept(plan, before, &mut |_| Ok(()), watch)
+}
+
+/// As [`follow_curves`]; `keep` gets what there is after each branch and each curve, all of it whole.
+///
+/// # Errors
+/// As [`follow_curves`], and those of `keep`.
+pub fn follow_curves_kept(
+    plan: &CurvePlan,
+    before: Option<Curves>,
+    keep: &mut dyn FnMut(&Curves) -> Result<(), Error>,
+    watch: &dyn Watch,
+) -> Result<Curves, Error> {
     let (branches, curves) = before.map_or((None, Vec::new()), |found| (Some(found.branches), found.curves));
     let part = Part { watch, from: 0.0, to: BRANCHES };
     let branches = match branches {
         Some(branches) if branches.complete => branches,
-        begun => follow(&plan.branches(), begun, &part)?,
+        begun => {
+            let mut kept = |branches: &Branches| {
+                keep(&Curves { branches: branches.clone(), curves: curves.clone(), complete: false })
+            };
+            follow_kept(&plan.branches(), begun, &mut kept, &part)?
+        }
     };
     let mut done = Curves { complete: branches.complete, branches, curves };
     if !done.complete {
@@ -100,7 +118,10 @@ pub fn follow_curves(plan: &CurvePlan, before: Option<Curves>, watch: &dyn Watch
             continue;
         }
         match curve(plan, &done.branches, (*kind, *start), watch) {
-            Ok(followed) => done.curves.push(followed),
+            Ok(followed) => {
+                done.curves.push(followed);
+                keep(&done)?;
+            }
             Err(Error::Interrupted) => {
                 done.complete = false;
                 return Ok(done);

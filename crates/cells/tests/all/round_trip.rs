@@ -4,7 +4,7 @@
 
 use super::bodies::{cell, preset, sampled};
 use motiform_analysis::regime::Regime;
-use motiform_cells::{Agreement, CellFit, FitFolder, FitOptions, FitWork, Fitted, fit_cell, fits_json};
+use motiform_cells::{Agreement, CellFit, FitOptions, FitWork, Fitted, fit_cell, fits_json};
 use motiform_inference::Placement;
 use motiform_lab::scan::Opening;
 use motiform_study::Study;
@@ -55,8 +55,9 @@ fn a_chaotic_cell_is_found_chaotic_at_its_place() {
     );
     let cells = [&sample.cells[0]];
     let work = FitWork::open(&target, &sample, &cells, &FitOptions::default(), Opening::New).unwrap();
-    let path = work.write(&sample, std::slice::from_ref(&fit), true).unwrap();
-    assert!(FitFolder::is_one(&path));
+    work.write(&sample, std::slice::from_ref(&fit), true).unwrap();
+    let path = work.path();
+    assert_eq!(motiform_files::kind_of(path), Some(motiform_files::Kind::Fits));
     let back = Study::read(&path.join("cell-one.toml")).unwrap();
     assert!(back.model.definition().is_some() && back.run.noise > 0.0);
     says_where_it_comes_from(&fs::read_to_string(path.join("cell-one.toml")).unwrap(), &back, &fit);

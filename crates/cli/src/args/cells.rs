@@ -38,7 +38,7 @@ pub(crate) struct CellsOptions {
     /// Do not draw pages (report.html and a page per cell) in this folder
     #[arg(long, requires = "out")]
     pub(crate) no_report: bool,
-    /// Replace an existing folder of results (or the file of --outlines)
+    /// Replace an existing folder of results (or the file of --outlines); what motiform did not write stays
     #[arg(long)]
     pub(crate) force: bool,
     /// Print one JSON object

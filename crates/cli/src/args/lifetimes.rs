@@ -40,7 +40,7 @@ pub(crate) struct LifetimesOptions {
     /// Go on with the orbits in the output folder (begin, if there is none); an interrupted run keeps what it followed there
     #[arg(long, requires = "out", conflicts_with = "force")]
     pub(crate) resume: bool,
-    /// Replace an existing folder of lifetimes
+    /// Replace an existing folder of lifetimes; what motiform did not write stays
     #[arg(long)]
     pub(crate) force: bool,
     /// Print one JSON object

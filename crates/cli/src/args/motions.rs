@@ -50,7 +50,7 @@ pub(crate) struct ContinueOptions {
     /// Go on with what is in the output folder (begin, if there is none)
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,
-    /// Replace earlier branches or curves
+    /// Replace earlier branches or curves; what motiform did not write stays
     #[arg(long)]
     pub(crate) force: bool,
     /// Leave the figures out

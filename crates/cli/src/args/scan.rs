@@ -46,7 +46,7 @@ pub(crate) struct ScanOptions {
     /// Number of threads (default: all cores); does not affect the results
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
     pub(crate) threads: Option<u16>,
-    /// Replace an existing scan
+    /// Replace an existing scan; what motiform did not write stays
     #[arg(long)]
     pub(crate) force: bool,
     /// Do not draw figures
@@ -65,7 +65,7 @@ pub(crate) struct MergeOptions {
     /// Output folder
     #[arg(long, value_name = "DIR", required = true)]
     pub(crate) out: PathBuf,
-    /// Replace an existing scan
+    /// Replace an existing scan; what motiform did not write stays
     #[arg(long)]
     pub(crate) force: bool,
     /// Print the summary as one JSON object

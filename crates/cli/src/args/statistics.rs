@@ -48,9 +48,12 @@ pub(crate) struct StatisticsOptions {
     /// Write tables, statistics.json and figures into this folder
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Replace an existing folder of statistics
+    /// Replace an existing folder of statistics; what motiform did not write stays
     #[arg(long)]
     pub(crate) force: bool,
+    /// Go on in a folder of statistics whose computation was ended: finished bodies are not computed again
+    #[arg(long, requires = "out", conflicts_with = "force")]
+    pub(crate) resume: bool,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,

@@ -5,8 +5,10 @@ use crate::commands::{curves, subject};
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_branching::draw::{Ordinate, draw_branches};
-use motiform_branching::{BranchFolder, Followed, SpecialEntry, default_folder, follow, stretches, summary};
-use motiform_files::Staging;
+use motiform_branching::{
+    BranchFolder, Followed, SpecialEntry, default_folder, follow_kept, stretches, summary,
+};
+use motiform_files::{Folder, Opening};
 use motiform_lab::draw::Picture;
 use motiform_study::branches::{Along, origin};
 use motiform_study::curves::{CurveKind, Plane};
@@ -25,13 +27,15 @@ pub(crate) fn run(options: &ContinueOptions) -> anyhow::Result<End> {
 
 fn branches(options: &ContinueOptions, plan: BranchPlan) -> anyhow::Result<End> {
     let out = output(options, default_folder(&plan));
-    let (staging, before) = prepare(options, out, |path| BranchFolder::resume(path, &plan))?;
+    let (files, before) = prepare(options, out, |path, opening| BranchFolder::open(path, &plan, opening))?;
     let watch = Progress::new(plan.computation.branches as f64, "branches");
-    let found = follow(&plan, before, &watch);
+    let mut keep = |found: &_| files.as_ref().map_or(Ok(()), |folder| BranchFolder::keep(found, folder));
+    let found = follow_kept(&plan, before, &mut keep, &watch);
     watch.finish();
-    let folder = BranchFolder { plan, found: found? };
+    let (files, found) = or_abandon(files, found)?;
+    let folder = BranchFolder { plan, found };
     let drawn = || pictures(options.observable, &folder);
-    let (written, undrawn) = write(options, staging, drawn, |pictures, to| folder.write(pictures, to))?;
+    let (written, undrawn) = write(options, files, drawn, |pictures, to| folder.write(pictures, to))?;
     print(&if options.json {
         serde_json::to_string(&summary(&folder.plan, &folder.found))?
     } else {
@@ -78,34 +82,49 @@ pub(super) fn output(options: &ContinueOptions, default: String) -> Option<PathB
     }
 }
 
-/// Prepares the output before any computing, so that a wrong --out costs nothing, and reads what is there of the result.
+/// Opens the output before any computing, so that a wrong --out costs nothing, and reads what is there of the result.
 pub(super) fn prepare<T>(
     options: &ContinueOptions,
     out: Option<PathBuf>,
-    resume: impl FnOnce(&Path) -> Result<Option<T>, Error>,
-) -> Result<(Option<Staging>, Option<T>), Error> {
+    open: impl FnOnce(&Path, Opening) -> Result<(Folder, Option<T>), Error>,
+) -> Result<(Option<Folder>, Option<T>), Error> {
     let Some(out) = out else { return Ok((None, None)) };
-    let before = if options.resume { resume(&out)? } else { None };
-    let staging = Staging::new(&out, true, options.force || options.resume)?;
-    staging.swept().iter().for_each(|note| warn(note));
-    Ok((Some(staging), before))
+    let (folder, before) = open(&out, Opening::of(options.resume, options.force))?;
+    folder.notes().iter().for_each(|note| warn(note));
+    Ok((Some(folder), before))
+}
+
+/// What was found; nothing is left of the output if nothing could be computed.
+pub(super) fn or_abandon<T>(
+    files: Option<Folder>,
+    found: Result<T, Error>,
+) -> Result<(Option<Folder>, T), Error> {
+    match found {
+        Ok(found) => Ok((files, found)),
+        Err(error) => {
+            files.into_iter().for_each(Folder::abandon);
+            Err(error)
+        }
+    }
 }
 
 /// Writes the folder; what was written, and why there are no figures, if there are none.
 pub(super) fn write(
     options: &ContinueOptions,
-    staging: Option<Staging>,
+    files: Option<Folder>,
     draw: impl FnOnce() -> Result<Vec<Picture>, Error>,
-    write: impl FnOnce(&[Picture], Staging) -> Result<PathBuf, Error>,
+    write: impl FnOnce(&[Picture], &Folder) -> Result<(), Error>,
 ) -> Result<(Option<String>, Option<Error>), Error> {
-    let Some(staging) = staging else { return Ok((None, None)) };
+    let Some(files) = files else { return Ok((None, None)) };
     let drawn = if options.no_figures { Ok(Vec::new()) } else { draw() };
     let (pictures, undrawn) = match drawn {
         Ok(pictures) => (pictures, None),
         Err(error @ Error::Figure(_)) => (Vec::new(), Some(error)),
         Err(error) => return Err(error),
     };
-    Ok((Some(write(&pictures, staging)?.display().to_string()), undrawn))
+    write(&pictures, &files)?;
+    files.notes().iter().for_each(|note| warn(note));
+    Ok((Some(files.shown().display().to_string()), undrawn))
 }
 
 /// How the command ends.

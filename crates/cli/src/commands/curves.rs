@@ -1,16 +1,16 @@
 //! `motiform continue --curve`.
 
-use super::continuation::{end, output, prepare, write};
+use super::continuation::{end, or_abandon, output, prepare, write};
 use crate::args::ContinueOptions;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_branching::curves::{
     CurveFolder, FollowedCurve, codimension_2, curve_ends, curve_summary, default_curve_folder,
-    follow_curves, not_found,
+    follow_curves_kept, not_found,
 };
 use motiform_branching::draw::{check_scan, draw_curves};
 use motiform_lab::scan::ScanFolder;
-use motiform_study::{CurvePlan, Error};
+use motiform_study::CurvePlan;
 use std::fmt::Write;
 
 pub(crate) fn run(options: &ContinueOptions, plan: &CurvePlan) -> anyhow::Result<End> {
@@ -19,13 +19,15 @@ pub(crate) fn run(options: &ContinueOptions, plan: &CurvePlan) -> anyhow::Result
         check_scan(plan, folder.plan())?;
     }
     let out = output(options, default_curve_folder(plan));
-    let (staging, before) = prepare(options, out, |path| CurveFolder::resume(path, plan))?;
+    let (files, before) = prepare(options, out, |path, opening| CurveFolder::open(path, plan, opening))?;
     let watch = Progress::new(1.0, "of branches and curves");
-    let found = follow_curves(plan, before, &watch);
+    let mut keep = |found: &_| files.as_ref().map_or(Ok(()), |folder| CurveFolder::keep(found, folder));
+    let found = follow_curves_kept(plan, before, &mut keep, &watch);
     watch.finish();
-    let folder = CurveFolder { plan: plan.clone(), found: found? };
+    let (files, found) = or_abandon(files, found)?;
+    let folder = CurveFolder { plan: plan.clone(), found };
     let drawn = || draw_curves(&folder.plan, &folder.found, over.as_ref());
-    let (written, undrawn) = write(options, staging, drawn, |pictures, to| folder.write(pictures, to))?;
+    let (written, undrawn) = write(options, files, drawn, |pictures, to| folder.write(pictures, to))?;
     if folder.found.complete && folder.found.curves.is_empty() {
         warn(
             "no special point of these kinds lies on the branches that were followed; --branches N follows more",
@@ -82,15 +84,4 @@ fn curve(
         writeln!(text, "           ends: {end}")?;
     }
     Ok(())
-}
-
-/// Draws the curves again; the names of the figures.
-pub(super) fn redraw(path: &std::path::Path) -> Result<Vec<String>, Error> {
-    let CurveFolder { plan, found } = CurveFolder::read(path)?;
-    let mut names = Vec::new();
-    for picture in draw_curves(&plan, &found, None)? {
-        motiform_files::replace_file(&path.join(&picture.name), &picture.bytes)?;
-        names.push(picture.name);
-    }
-    Ok(names)
 }

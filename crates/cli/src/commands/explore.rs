@@ -2,8 +2,9 @@
 
 use crate::args::ExploreOptions;
 use crate::output::{End, print, warn};
-use motiform_cells::{FitFolder, RecordedFrame, recorded};
-use motiform_explorer::{Options, Server, StudyFile, TrackedCell};
+use motiform_cells::{RecordedFrame, recorded};
+use motiform_explorer::{Handover, Options, Server, StudyFile, TrackedCell};
+use motiform_files::{Kind, kind_of};
 use motiform_models::ModelInfo;
 use motiform_models::amplitudes::NAME;
 use motiform_study::presets::{EXTENSIONS, PRESETS, Preset};
@@ -17,10 +18,12 @@ pub(crate) fn run(options: &ExploreOptions) -> anyhow::Result<End> {
     let handle = server.handle();
     // Fails only if a handler is set already: then the first Ctrl-C ends the program, and nothing is lost.
     let _ = ctrlc::set_handler(move || handle.stop());
-    if !options.no_open && !open(&address) {
+    let handover = if options.no_open { None } else { open(&address) };
+    if !options.no_open && handover.is_none() {
         warn("no browser could be opened: open the address above");
     }
     server.run()?;
+    drop(handover); // the file stays while its browser may still read it
     Ok(End::Done)
 }
 
@@ -37,7 +40,7 @@ fn settings(options: &ExploreOptions) -> anyhow::Result<Options> {
         settings.file = Some(study_file(Path::new(path))?);
         return Ok(settings);
     }
-    if let Some(folder) = subject.as_ref().filter(|name| FitFolder::is_one(Path::new(name))) {
+    if let Some(folder) = subject.as_ref().filter(|name| is_fit(Path::new(name))) {
         let files = study_files(Path::new(folder))?;
         anyhow::bail!("{folder} is a folder of results; give a study file in it: {}", files.join(", "));
     }
@@ -101,8 +104,10 @@ fn known(name: &str) -> Option<&'static Preset> {
     PRESETS.iter().chain(EXTENSIONS).find(|preset| preset.name == name)
 }
 
-/// Opens an address in the browser; returns whether this was possible.
-fn open(address: &str) -> bool {
+/// Opens an address in the browser, through a file: the arguments of a program can be read by everybody on the machine. `None` where
+/// this was not possible.
+fn open(address: &str) -> Option<Handover> {
+    let handover = Handover::new(address).ok()?;
     let (program, arguments): (&str, &[&str]) = if cfg!(target_os = "macos") {
         ("open", &[])
     } else if cfg!(windows) {
@@ -111,9 +116,19 @@ fn open(address: &str) -> bool {
         ("xdg-open", &[])
     };
     let mut command = Command::new(program);
-    command.args(arguments).arg(address).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
-    let Ok(mut child) = command.spawn() else { return false };
+    command
+        .args(arguments)
+        .arg(handover.path())
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
+    let mut child = command.spawn().ok()?;
     // The child is waited for, so that it leaves no zombie; if it fails, the printed address remains.
     std::thread::spawn(move || child.wait());
-    true
+    Some(handover)
+}
+
+/// Whether a folder was written by `motiform fit` or `motiform observe`.
+fn is_fit(folder: &Path) -> bool {
+    matches!(kind_of(folder), Some(Kind::Fits | Kind::Observations))
 }

@@ -1,14 +1,15 @@
 //! `motiform figure`, and the drawing that `simulate` shares with it.
 
-use super::{curves, film};
+use super::film;
 use crate::args::{DrawingOptions, FigureOptions};
-use crate::output::{End, print};
+use crate::output::{End, print, warn};
 use motiform_branching::BranchFolder;
 use motiform_branching::curves::CurveFolder;
-use motiform_branching::draw::{Ordinate, draw_branches};
+use motiform_branching::draw::{Ordinate, draw_branches, draw_curves};
 use motiform_figures::Style;
-use motiform_files::{read_dataset, replace_file};
+use motiform_files::{Folder, Kind, kind_of, read_dataset_by};
 use motiform_lab::draw::{FigureFormat, Picture, draw, draw_scan};
+use motiform_lab::long::read_shown;
 use motiform_lab::scan::ScanFolder;
 use motiform_study::study::FigureSettings;
 use motiform_study::{Dataset, Error, plan};
@@ -16,35 +17,51 @@ use std::path::Path;
 
 pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
     film::check(&options.drawing.film)?;
-    for folder in &options.datasets {
-        if ScanFolder::is_one(folder) {
-            let names = write_scan(&ScanFolder::read(folder)?, &format(&options.drawing))?;
-            print(&format!("{}: {}", folder.display(), names.join(" ")))?;
-            continue;
+    let mut end = End::Done;
+    for path in &options.datasets {
+        let pictures = drawn(path, options)?;
+        let folder = Folder::redraw(path)?;
+        for picture in &pictures {
+            folder.draw(&picture.name, &picture.bytes, options.force)?;
         }
-        if BranchFolder::is_one(folder) {
-            let names = write_branches(folder)?;
-            print(&format!("{}: {}", folder.display(), names.join(" ")))?;
-            continue;
+        folder.settle()?;
+        let kept = folder.notes();
+        let remedy = if options.force { "" } else { "; --force draws those of motiform again" };
+        kept.iter().for_each(|note| warn(&format!("{note}{remedy}")));
+        if !(kept.is_empty() || options.force) {
+            end = End::NotAsAsked;
         }
-        if CurveFolder::is_one(folder) {
-            let names = curves::redraw(folder)?;
-            print(&format!("{}: {}", folder.display(), names.join(" ")))?;
-            continue;
-        }
-        let mut dataset = read_dataset(folder)?;
-        apply(&options.drawing, &mut dataset.manifest.plan.figure);
-        plan::check_figure(&dataset.manifest.plan.figure)?;
-        let mut names = Vec::new();
-        let stills = pictures(&dataset, &options.drawing)?;
-        let films = film::convert(&stills, &options.drawing.film)?;
-        for picture in stills.into_iter().chain(films) {
-            replace_file(&folder.join(&picture.name), &picture.bytes)?;
-            names.push(picture.name);
-        }
-        print(&format!("{}: {}", folder.display(), names.join(" ")))?;
+        let names: Vec<&str> = pictures.iter().map(|picture| picture.name.as_str()).collect();
+        print(&format!("{}: {}", path.display(), names.join(" ")))?;
     }
-    Ok(End::Done)
+    Ok(end)
+}
+
+/// The pictures of a folder, whatever is in it.
+fn drawn(path: &Path, options: &FigureOptions) -> anyhow::Result<Vec<Picture>> {
+    match kind_of(path) {
+        Some(Kind::Scan) => Ok(draw_scan(&ScanFolder::read(path)?, &format(&options.drawing))?),
+        Some(Kind::Branches) => {
+            let BranchFolder { plan, found } = BranchFolder::read(path)?;
+            Ok(draw_branches(&plan, &found, Ordinate::Speed)?)
+        }
+        Some(Kind::Curves) => {
+            let CurveFolder { plan, found } = CurveFolder::read(path)?;
+            Ok(draw_curves(&plan, &found, None)?)
+        }
+        _ => {
+            let dataset = read_dataset_by(path, &|manifest, path| {
+                apply(&options.drawing, &mut manifest.plan.figure);
+                plan::check_figure(&manifest.plan.figure)?;
+                let (trajectory, stride) = read_shown(manifest, path)?;
+                note_stride(stride);
+                Ok(trajectory)
+            })?;
+            let mut stills = pictures(&dataset, &options.drawing)?;
+            stills.extend(film::convert(&stills, &options.drawing.film)?);
+            Ok(stills)
+        }
+    }
 }
 
 /// Overrides the study's settings with those given on the command line.
@@ -57,25 +74,11 @@ pub(crate) fn apply(options: &DrawingOptions, settings: &mut FigureSettings) {
     settings.animation &= !options.no_animation;
 }
 
-/// Draws a scan into its folder; returns the names of its figures.
-pub(crate) fn write_scan(folder: &ScanFolder, format: &FigureFormat) -> Result<Vec<String>, Error> {
-    let mut names = Vec::new();
-    for picture in draw_scan(folder, format)? {
-        replace_file(&folder.path().join(&picture.name), &picture.bytes)?;
-        names.push(picture.name);
+/// Says that a long run is not drawn from all of its rows.
+pub(crate) fn note_stride(stride: u32) {
+    if stride > 1 {
+        warn(&format!("the run is long: its figures show one row of {stride}"));
     }
-    Ok(names)
-}
-
-/// Draws branches into their folder; the names of the figures.
-fn write_branches(path: &Path) -> Result<Vec<String>, Error> {
-    let BranchFolder { plan, found } = BranchFolder::read(path)?;
-    let mut names = Vec::new();
-    for picture in draw_branches(&plan, &found, Ordinate::Speed)? {
-        replace_file(&path.join(&picture.name), &picture.bytes)?;
-        names.push(picture.name);
-    }
-    Ok(names)
 }
 
 /// Every picture of a dataset.

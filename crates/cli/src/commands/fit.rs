@@ -7,11 +7,11 @@ use crate::commands::population::fitted;
 use crate::output::{End, print, warn};
 use crate::progress::Progress;
 use motiform_cells::{
-    Agreement, CellFit, CellTrack, FitFolder, FitOptions, FitWork, Fitted, Observation, Prediction, Sample,
-    Units, fit_cells, fit_together, fits_json, fitted_population, observe,
+    Agreement, CellFit, CellTrack, FitOptions, FitWork, Fitted, Observation, Prediction, Sample, Units,
+    fit_cells, fit_together, fits_json, fitted_population, observe,
 };
+use motiform_files::Opening;
 use motiform_inference::{Place, Placement, Symmetry};
-use motiform_lab::scan::Opening;
 use motiform_statistics::{four_digits, with_error};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -20,9 +20,10 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
     let sample = read(&options.cells)?;
     let cells: Vec<&CellTrack> = sample.cells.iter().collect();
     let settings = settings(options);
-    let open =
-        |out: &PathBuf| FitWork::open(out, &sample, &cells, &settings, opening(options)).map_err(exists);
+    let opening = Opening::of(options.resume, options.cells.force);
+    let open = |out: &PathBuf| FitWork::open(out, &sample, &cells, &settings, opening).map_err(plain_error);
     let mut work = options.cells.out.as_ref().map(open).transpose()?;
+    work.iter().flat_map(FitWork::notes).for_each(|note| warn(&note));
     if let Some((path, summary)) =
         work.as_ref().and_then(|work| Some((work.path(), work.finished(!options.cells.no_report)?)))
     {
@@ -37,11 +38,12 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
         let write = |name: &str, bytes: &[u8]| work.write_file(name, bytes);
         draw(&sample, (&cells, &observations), (&fits, options.together), threads(options), &write)?;
     }
-    let folder = work
-        .map(|work| work.write(&sample, &fits, !options.cells.no_report))
-        .transpose()
-        .map_err(plain_error)?;
-    show(options, &sample, &fits, folder.as_deref())?;
+    if let Some(work) = &work {
+        work.write(&sample, &fits, !options.cells.no_report).map_err(plain_error)?;
+        work.notes().iter().for_each(|note| warn(note));
+    }
+    let folder = work.as_ref().map(FitWork::path);
+    show(options, &sample, &fits, folder)?;
     let asked = if options.together { 1 } else { cells.len() };
     if fits.len() < asked {
         let further = if folder.is_some() { "; the same `motiform fit` with --resume continues" } else { "" };
@@ -57,19 +59,6 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
     Ok(if fits.iter().all(named) { End::Done } else { End::NotAsAsked })
 }
 
-/// A folder of fits that exists can also be continued.
-fn exists(error: motiform_cells::Error) -> anyhow::Error {
-    match error {
-        motiform_cells::Error::Study(motiform_study::Error::Exists { path }) if FitFolder::is_one(&path) => {
-            anyhow::anyhow!(
-                "{} contains fits; --resume continues them, --force replaces them, or choose another --out",
-                path.display()
-            )
-        }
-        other => plain_error(other),
-    }
-}
-
 fn settings(options: &FitCellsOptions) -> FitOptions {
     FitOptions {
         order: options.order,
@@ -80,14 +69,6 @@ fn settings(options: &FitCellsOptions) -> FitOptions {
         bifurcations: options.bifurcations,
         together: options.together,
         ..FitOptions::default()
-    }
-}
-
-fn opening(options: &FitCellsOptions) -> Opening {
-    match (options.resume, options.cells.force) {
-        (true, _) => Opening::Resume,
-        (_, true) => Opening::Replace,
-        _ => Opening::New,
     }
 }
 

@@ -5,17 +5,16 @@ use crate::commands::subject;
 use crate::output::{End, print, warn};
 use crate::progress::Progress;
 use motiform_analysis::LifeLaws;
-use motiform_files::Staging;
+use motiform_files::{Folder, Kind, Opening};
 use motiform_lab::draw::FigureFormat;
 use motiform_lab::draw::lifetimes::draw_lifetimes;
-use motiform_lab::lifetimes::{LifeAt, Lifetimes, Lives, follow_lives};
+use motiform_lab::lifetimes::{LifeAt, Lifetimes, Lives, follow_lives_kept};
 use motiform_lab::scan::Axis;
 use motiform_study::{Error, Random, ScanPlan};
 use serde_json::json;
 use std::fmt::Write;
-use std::path::Path;
 
-/// The file that marks a folder of lifetimes.
+/// The file of the results.
 const FILE: &str = "lifetimes.json";
 
 /// The file of the orbits, from which the work goes on.
@@ -23,47 +22,64 @@ const ORBITS: &str = "orbits.json";
 
 pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
     let plan = plan(options)?;
-    let ours = |path: &Path| path.join(FILE).is_file() || path.join(ORBITS).is_file();
-    let before = options
-        .out
-        .as_deref()
-        .filter(|_| options.resume)
-        .map(|out| out.join(ORBITS))
-        .filter(|path| path.symlink_metadata().is_ok());
-    let before = before.map(|path| Lives::read(&path, &plan)).transpose()?;
-    let force = options.force || options.resume;
-    let staging = options.out.as_ref().map(|out| Staging::replacing(out, force, ours)).transpose()?;
+    let (files, before) = open(options, &plan)?;
     let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = options.threads.map_or_else(all, usize::from);
     let watch = Progress::new(plan.rows() as f64, "orbits");
-    let lives = follow_lives(&plan, before, threads, &watch);
+    let kept = |lives: &Lives| files.as_ref().map_or(Ok(()), |files| keep(files, lives));
+    let lives = follow_lives_kept(&plan, before, threads, &kept, &watch);
     watch.finish();
-    let lives = lives?;
-    if let Some(staging) = &staging {
-        staging.write(ORBITS, &serde_json::to_vec(&lives)?)?;
+    let lives = match lives {
+        Ok(lives) => lives,
+        Err(error) => {
+            files.into_iter().for_each(Folder::abandon);
+            return Err(error.into());
+        }
+    };
+    if let Some(files) = &files {
+        keep(files, &lives)?;
     }
     if !lives.is_complete() {
-        return interrupted(staging);
+        return interrupted(files);
     }
     let found = lives.summarised(&plan, options.transient)?;
-    if let Some(staging) = staging {
+    if let Some(files) = files {
         let mut text = serde_json::to_vec_pretty(&json(&plan, &found)?)?;
         text.push(b'\n');
-        staging.write(FILE, &text)?;
+        files.put(FILE, &text)?;
         for picture in draw_lifetimes(&plan, &found, &FigureFormat::default())? {
-            staging.write(&picture.name, &picture.bytes)?;
+            files.put(&picture.name, &picture.bytes)?;
         }
-        staging.commit()?;
+        files.complete()?;
+        files.notes().iter().for_each(|note| warn(note));
     }
     print(&if options.json { json(&plan, &found)?.to_string() } else { summary(&plan, &found, options)? })?;
     let answered = !matches!(found.laws, LifeLaws::TooFew { .. } | LifeLaws::Neither { .. });
     Ok(if answered { End::Done } else { End::NotAsAsked })
 }
 
+/// Writes the orbits that are finished.
+fn keep(files: &Folder, lives: &Lives) -> Result<(), Error> {
+    let orbits = serde_json::to_vec(lives).map_err(|error| Error::write_failed(files.shown(), error))?;
+    Ok(files.put(ORBITS, &orbits)?)
+}
+
+/// Opens the output before any computing, and reads the orbits that are there.
+fn open(options: &LifetimesOptions, plan: &ScanPlan) -> anyhow::Result<(Option<Folder>, Option<Lives>)> {
+    let Some(out) = &options.out else { return Ok((None, None)) };
+    let orbits = out.join(ORBITS);
+    let there = options.resume && orbits.symlink_metadata().is_ok();
+    let before = if there { Some(Lives::read(&orbits, plan)?) } else { None };
+    let files = Folder::open(out, Kind::Lifetimes, Opening::of(options.resume, options.force), &[])?;
+    files.check()?;
+    files.notes().iter().for_each(|note| warn(note));
+    Ok((Some(files), before))
+}
+
 /// Ends a run that was interrupted.
-fn interrupted(staging: Option<Staging>) -> anyhow::Result<End> {
-    if let Some(staging) = staging {
-        staging.commit()?;
+fn interrupted(files: Option<Folder>) -> anyhow::Result<End> {
+    if let Some(files) = files {
+        files.settle()?;
         warn(
             "interrupted: the orbits followed to their ends are kept; the same `motiform lifetimes` with --resume goes on",
         );

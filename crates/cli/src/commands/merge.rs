@@ -7,7 +7,7 @@ use motiform_lab::scan::{ScanFolder, Totals, merge};
 
 pub(crate) fn run(options: &MergeOptions) -> anyhow::Result<End> {
     let merged = merge(&options.folders, &options.out, options.force)?;
-    merged.swept.iter().for_each(|note| warn(note));
+    merged.notes.iter().for_each(|note| warn(note));
     for damaged in &merged.damaged {
         warn(&format!("{damaged}; it was omitted"));
     }

@@ -24,3 +24,4 @@ pub(crate) mod section;
 pub(crate) mod simulate;
 pub(crate) mod statistics;
 pub(crate) mod subject;
+pub(crate) mod verify;

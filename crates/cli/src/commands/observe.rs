@@ -5,12 +5,11 @@ use crate::commands::pages::draw;
 use crate::commands::population::observed;
 use crate::output::{End, print, warn};
 use motiform_cells::{
-    CellTrack, FitFolder, Observation, OutlineFile, Sample, Units, observations_json, observe,
-    observed_population, write_observations,
+    CellTrack, Observation, OutlineFile, Sample, Units, observations_json, observe, observed_population,
+    write_observations,
 };
-use motiform_files::Staging;
+use motiform_files::{Kind, Staged};
 use motiform_statistics::{Answer, four_digits, with_error};
-use motiform_study::Error;
 use motiform_tracks::modes::ModeOptions;
 use motiform_tracks::{Columns, Note, Options};
 use std::fmt::Write;
@@ -19,22 +18,26 @@ use std::fmt::Write;
 const MOST_NOTES: usize = 4;
 
 pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
-    let staging = staging(&options.cells)?;
+    let stage = |out| Staged::new(out, Kind::Observations, options.cells.force);
+    let staged = options.cells.out.as_deref().map(stage).transpose()?;
+    staged.iter().flat_map(Staged::notes).for_each(|note| warn(note));
     let file = |path| OutlineFile::new(path, options.cells.force);
     let outlines = options.outlines.as_deref().map(file).transpose().map_err(plain_error)?;
     let sample = read(&options.cells)?;
     let outlines = outlines.map(|file| file.write(&sample.tracks)).transpose().map_err(plain_error)?;
     let cells: Vec<&CellTrack> = sample.cells.iter().collect();
     let found: Vec<Observation> = cells.iter().map(|cell| observe(cell)).collect();
-    if let (Some(staging), false) = (&staging, options.cells.no_report) {
-        let write = |name: &str, bytes: &[u8]| staging.write(name, bytes);
+    if let (Some(staged), false) = (&staged, options.cells.no_report) {
+        let write = |name: &str, bytes: &[u8]| Ok(staged.write(name, bytes)?);
         draw(&sample, (&cells, &found), (&[], false), all_cores(), &write)?;
     }
     let json = options.cells.json.then(|| observations_json(&sample, &found).to_string());
-    let written = staging
-        .map(|staging| write_observations(&sample, &found, staging))
-        .transpose()
-        .map_err(plain_error)?;
+    let written =
+        staged.map(|staged| write_observations(&sample, &found, staged)).transpose().map_err(plain_error)?;
+    let written = written.map(|(path, kept)| {
+        kept.iter().for_each(|note| warn(note));
+        path
+    });
     print(&match json {
         Some(json) => json,
         None => {
@@ -162,10 +165,6 @@ fn chosen(sample: Sample, options: &CellsOptions) -> anyhow::Result<Sample> {
         anyhow::bail!("--cell {name}: there is no such cell; the cells are {}", known.join(", "));
     }
     Ok(if options.cell.is_empty() { sample } else { sample.only(&options.cell) })
-}
-
-pub(crate) fn staging(options: &CellsOptions) -> Result<Option<Staging>, Error> {
-    options.out.as_ref().map(|out| Staging::replacing(out, options.force, FitFolder::is_one)).transpose()
 }
 
 /// The error itself, so that remedies and exit codes are those of every command.

@@ -4,14 +4,17 @@ use crate::args::ReproduceOptions;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_figures::{DEFAULT_SCALE, png};
-use motiform_files::replace_file;
+use motiform_files::{Folder, Kind, Opening, end_of_work};
 use motiform_lab::draw::undrawable;
-use motiform_paper::{Options, reproduce};
+use motiform_paper::{Keeping, Options, reproduce_kept};
 use motiform_report::{Claim, Counts, Picture, Report};
 use motiform_study::Error;
 use serde_json::json;
 use std::fmt::Write;
 use std::path::Path;
+
+/// The page.
+const PAGE: &str = "report.html";
 
 pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     let out = &options.out;
@@ -22,39 +25,45 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
         threads: options.threads.map_or_else(all, usize::from),
     };
     wanted.check()?;
-    let unwritable = |reason| Error::Unwritable { path: out.clone(), reason };
-    std::fs::create_dir_all(out).map_err(unwritable)?;
+    let files = Folder::open(out, Kind::Report, Opening::Resume, &[])?;
+    files.check()?;
+    files.notes().iter().for_each(|note| warn(note));
     let watch = Progress::new(1000.0, "permille");
-    let report = reproduce(&wanted, out, &watch);
+    let page = |report: &Report| Ok(files.put(PAGE, report.html().as_bytes())?);
+    let report = reproduce_kept(&wanted, out, Keeping { journal: &files, page: &page }, &watch);
     watch.finish();
     let report = match report {
         Err(Error::Interrupted) => {
+            files.settle()?;
             warn(&format!("interrupted: the same command continues with the results in {}", out.display()));
             return Ok(End::Interrupted);
         }
         report => report?,
     };
-    write_figures(&report, out)?;
-    let page = out.join("report.html");
-    replace_file(&page, report.html().as_bytes())?;
+    write_figures(&report, &files)?;
+    files.put(PAGE, report.html().as_bytes())?;
+    end_of_work(&files);
+    files.complete()?;
+    files.notes().iter().for_each(|note| warn(note));
+    let page = out.join(PAGE);
     print(&if options.json { json(&report, &page)? } else { summary(&report, &page)? })?;
     Ok(if report.all_hold() { End::Done } else { End::NotAsAsked })
 }
 
 /// The figures of the report as files: `figure-4.1.svg` and `.png` are the page's Figure 4.1, `.csv` the numbers that it shows.
-fn write_figures(report: &Report, out: &Path) -> Result<(), Error> {
+fn write_figures(report: &Report, files: &Folder) -> Result<(), Error> {
     for (section, number) in report.sections.iter().zip(1..) {
         for (figure, place) in section.figures.iter().zip(1..) {
-            let file = |ending: &str| out.join(format!("figure-{number}.{place}.{ending}"));
+            let file = |ending: &str| format!("figure-{number}.{place}.{ending}");
             match &figure.picture {
                 Picture::Svg(svg) => {
-                    replace_file(&file("svg"), svg.as_bytes())?;
-                    replace_file(&file("png"), &png(svg, DEFAULT_SCALE, &[]).map_err(undrawable)?)?;
+                    files.put(&file("svg"), svg.as_bytes())?;
+                    files.put(&file("png"), &png(svg, DEFAULT_SCALE, &[]).map_err(undrawable)?)?;
                 }
-                Picture::Png(bytes) => replace_file(&file("png"), bytes)?,
+                Picture::Png(bytes) => files.put(&file("png"), bytes)?,
             }
             if let Some(data) = &figure.data {
-                replace_file(&file("csv"), data.as_bytes())?;
+                files.put(&file("csv"), data.as_bytes())?;
             }
         }
     }

@@ -1,11 +1,10 @@
 //! `motiform scan`.
 
 use crate::args::ScanOptions;
-use crate::commands::figure::write_scan;
 use crate::commands::subject;
 use crate::output::{End, print, warn};
 use crate::progress::Progress;
-use motiform_lab::draw::FigureFormat;
+use motiform_lab::draw::{FigureFormat, draw_scan};
 use motiform_lab::scan::{Axis, Classify, Opening, Scan, ScanFolder, Shard, Totals, default_folder};
 use motiform_study::{Error, ScanPlan, Study};
 use serde_json::json;
@@ -16,15 +15,8 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
     let plan = ScanPlan::new(&study(options)?)?;
     let shard = options.shard.as_deref().map_or(Ok(Shard::WHOLE), Shard::parse)?;
     let out = options.out.clone().unwrap_or_else(|| PathBuf::from(default_folder(&plan)));
-    let opening = match (options.resume, options.force) {
-        (true, _) => Opening::Resume,
-        (_, true) => Opening::Replace,
-        _ => Opening::New,
-    };
-    let scan = Scan::open(&out, &plan, shard, opening)?;
-    for note in scan.swept() {
-        warn(note);
-    }
+    let scan = Scan::open(&out, &plan, shard, Opening::of(options.resume, options.force))?;
+    scan.notes().iter().for_each(|note| warn(note));
     for damaged in scan.damaged() {
         warn(&format!("{damaged}; its cells are recomputed"));
     }
@@ -34,8 +26,10 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
     watch.finish();
     let ended = ended?;
     if !options.no_figures {
-        write_scan(scan.folder(), &FigureFormat::default())?;
+        let pictures = draw_scan(scan.folder(), &FigureFormat::default())?;
+        scan.draw(pictures.iter().map(|picture| (picture.name.as_str(), picture.bytes.as_slice())))?;
     }
+    scan.notes().iter().for_each(|note| warn(note));
     let totals = Totals::of(scan.folder())?;
     show(scan.folder(), &totals, options.json)?;
     for damaged in &totals.damaged {

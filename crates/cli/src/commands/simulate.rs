@@ -5,11 +5,15 @@ use crate::commands::{figure, film, subject};
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_analysis::Verdict;
-use motiform_files::{Format, Staging, write_table};
-use motiform_lab::fields::write_dataset;
+use motiform_files::{Format, Kind, Staged, StagedFile, TableWriter};
+use motiform_lab::draw::Picture;
+use motiform_lab::fields::write_rest;
+use motiform_lab::long::read_shown;
 use motiform_lab::naming;
-use motiform_lab::simulate::simulate;
-use motiform_study::{Dataset, Error, Plan, Study};
+use motiform_lab::recorder::{Rows, Unwanted};
+use motiform_lab::simulate::{Run, columns, simulate_into};
+use motiform_study::table::Table;
+use motiform_study::{Dataset, Error, Manifest, Plan, Study};
 use serde_json::json;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -18,19 +22,25 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     film::check(&options.drawing.film)?;
     let plan = Plan::new(&study(options)?)?;
     let target = Target::prepare(options, &plan)?;
-    target.swept().iter().for_each(|note| warn(note));
+    target.notes().iter().for_each(|note| warn(note));
     let c = &plan.computation;
     let watch = Progress::new(c.transient + c.t_end, "model time");
-    let dataset =
-        simulate(&plan, &watch).and_then(|dataset| Ok((naming::name(&dataset.manifest, &watch)?, dataset)));
+    let mut rows = target.rows(options, &plan)?;
+    let run = simulate_into(&plan, rows.as_mut(), &watch)
+        .map_err(|error| target.shown(error))
+        .and_then(|run| Ok((naming::name(&run.manifest, &watch)?, run)));
     watch.finish();
-    let (verdict, mut dataset) = dataset?;
-    dataset.manifest.regime = verdict.as_ref().map(|verdict| verdict.regime.name().to_owned());
-    let (written, undrawn) = target.write(options, &dataset)?;
-    let text =
-        if options.json { json(&dataset)? } else { summary(&dataset, verdict.as_ref(), written.as_deref())? };
+    let (verdict, mut run) = run?;
+    run.manifest.regime = verdict.as_ref().map(|verdict| verdict.regime.name().to_owned());
+    let whole = rows.finish(&run.manifest).map_err(|error| target.shown(error))?;
+    let (written, undrawn) = target.write(options, &run, whole)?;
+    let text = if options.json {
+        json(&run.manifest)?
+    } else {
+        summary(&run, verdict.as_ref(), written.as_deref())?
+    };
     print(&text)?;
-    if let Some(error) = dataset.manifest.step_error.filter(|&error| error > COARSE) {
+    if let Some(error) = run.manifest.step_error.filter(|&error| error > COARSE) {
         warn(&format!(
             "the step loses accuracy: halving it changes one step by {error:.1e} of the state; give a smaller --step"
         ));
@@ -38,7 +48,7 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     if let Some(error) = undrawn {
         return Err(error);
     }
-    Ok(End::from(&*dataset.manifest.outcome))
+    Ok(End::from(&*run.manifest.outcome))
 }
 
 /// A fixed step whose error is a larger fraction of the state than this gives a warning.
@@ -72,8 +82,8 @@ fn study(options: &SimulateOptions) -> Result<Study, Error> {
 /// The destination of the result.
 enum Target {
     Nowhere,
-    Folder(Staging),
-    Table(Staging, Format),
+    Folder(Staged),
+    Table(StagedFile, Format),
 }
 
 impl Target {
@@ -85,44 +95,57 @@ impl Target {
             None => PathBuf::from(default_folder(plan)),
         };
         Ok(match Format::of_path(&out) {
-            Some(format) => Self::Table(Staging::new(&out, false, options.force)?, format),
-            None => Self::Folder(Staging::new(&out, true, options.force)?),
+            Some(format) => Self::Table(StagedFile::new(&out, Kind::Table, options.force)?, format),
+            None => Self::Folder(Staged::new(&out, Kind::Dataset, options.force)?),
         })
     }
 
-    /// Leftovers of killed runs that were found.
-    fn swept(&self) -> &[String] {
+    /// What was found in its place, in sentences.
+    fn notes(&self) -> &[String] {
         match self {
             Self::Nowhere => &[],
-            Self::Folder(staging) | Self::Table(staging, _) => staging.swept(),
+            Self::Folder(staged) => staged.notes(),
+            Self::Table(staged, _) => staged.notes(),
         }
     }
 
-    /// Writes everything and renames it; returns what was written, and why there are no figures: numbers that
+    /// Where the rows of the trajectory go.
+    fn rows(&self, options: &SimulateOptions, plan: &Plan) -> Result<Box<dyn Destination>, Error> {
+        let (path, format) = match self {
+            Self::Nowhere => return Ok(Box::new(Unwanted::default())),
+            Self::Table(staged, format) => (staged.path(), *format),
+            Self::Folder(staged) => {
+                let format = format(options);
+                (staged.path().join(format.file("trajectory")), format)
+            }
+        };
+        Ok(Box::new(TableWriter::new(columns(plan)?, format, &path)))
+    }
+
+    /// A failure with the final name of the file.
+    fn shown(&self, error: Error) -> Error {
+        match (self, error) {
+            (Self::Folder(staged), Error::Store(error)) => staged.shown(error).into(),
+            (Self::Table(staged, _), Error::Store(error)) => staged.shown(error).into(),
+            (_, other) => other,
+        }
+    }
+
+    /// Writes everything beside the trajectory and renames it; returns what was written, and why there are no figures: numbers that
     /// do not fit on an axis must not prevent the tables from being written.
     fn write(
         self,
         options: &SimulateOptions,
-        dataset: &Dataset,
+        run: &Run,
+        whole: Option<Table>,
     ) -> anyhow::Result<(Option<String>, Option<anyhow::Error>)> {
         match self {
             Self::Nowhere => Ok((None, None)),
-            Self::Table(staging, format) => {
-                write_table(&dataset.trajectory, &dataset.manifest, format, staging.path())
-                    .map_err(|error| staging.shown(error))?;
-                Ok((Some(staging.commit()?.display().to_string()), None))
-            }
-            Self::Folder(staging) => {
-                let format = match options.format {
-                    TableFormat::Parquet => Format::Parquet,
-                    TableFormat::Csv => Format::Csv,
-                };
-                write_dataset(dataset, format, &staging)?;
-                let drawn = if options.no_figures {
-                    Ok(Vec::new())
-                } else {
-                    figure::pictures(dataset, &options.drawing)
-                };
+            Self::Table(staged, _) => Ok((Some(staged.commit()?.display().to_string()), None)),
+            Self::Folder(staged) => {
+                write_rest(run, whole.as_ref(), format(options), &staged)?;
+                let drawn =
+                    if options.no_figures { Ok(Vec::new()) } else { pictures(options, run, whole, &staged) };
                 let (pictures, undrawn) = match drawn {
                     Ok(pictures) => (pictures, None),
                     Err(error @ Error::Figure(_)) => (
@@ -139,17 +162,64 @@ impl Target {
                 };
                 let undrawn = undrawn.or(unfilmed);
                 for picture in pictures.into_iter().chain(films) {
-                    staging.write(&picture.name, &picture.bytes)?;
+                    staged.write(&picture.name, &picture.bytes)?;
                 }
-                let mut names: Vec<String> = std::fs::read_dir(staging.path())?
+                let mut names: Vec<String> = std::fs::read_dir(staged.path())?
                     .map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()))
                     .collect::<std::io::Result<_>>()?;
                 names.sort();
-                let written = format!("{}: {}", staging.commit()?.display(), names.join(" "));
+                let (path, kept) = staged.commit()?;
+                kept.iter().for_each(|note| warn(note));
+                let written = format!("{}: {}", path.display(), names.join(" "));
                 Ok((Some(written), undrawn))
             }
         }
     }
+}
+
+/// Rows that end with a manifest.
+trait Destination: Rows {
+    /// Ends the file. Gives the whole table where it is short.
+    fn finish(self: Box<Self>, manifest: &Manifest) -> Result<Option<Table>, Error>;
+}
+
+impl Destination for TableWriter {
+    fn finish(self: Box<Self>, manifest: &Manifest) -> Result<Option<Table>, Error> {
+        (*self).finish(manifest)
+    }
+}
+
+impl Destination for Unwanted {
+    fn finish(self: Box<Self>, _manifest: &Manifest) -> Result<Option<Table>, Error> {
+        Ok(None)
+    }
+}
+
+fn format(options: &SimulateOptions) -> Format {
+    match options.format {
+        TableFormat::Parquet => Format::Parquet,
+        TableFormat::Csv => Format::Csv,
+    }
+}
+
+/// The figures of a run whose trajectory is in the staged folder, and `whole` where it is short.
+fn pictures(
+    options: &SimulateOptions,
+    run: &Run,
+    whole: Option<Table>,
+    staged: &Staged,
+) -> Result<Vec<Picture>, Error> {
+    let mut manifest = run.manifest.clone();
+    let trajectory = match whole {
+        Some(whole) => whole,
+        None => {
+            let path = staged.path().join(format(options).file("trajectory"));
+            let (shown, stride) = read_shown(&mut manifest, &path)?;
+            figure::note_stride(stride);
+            shown
+        }
+    };
+    figure::pictures(&Dataset { manifest, trajectory, crossings: run.crossings.clone() }, &options.drawing)
 }
 
 fn default_folder(plan: &Plan) -> String {
@@ -157,8 +227,7 @@ fn default_folder(plan: &Plan) -> String {
     if plan.name == model.as_str() { model.to_string() } else { format!("{model}-{}", plan.name) }
 }
 
-fn json(dataset: &Dataset) -> anyhow::Result<String> {
-    let manifest = &dataset.manifest;
+fn json(manifest: &Manifest) -> anyhow::Result<String> {
     let mut object = json!({
         "model": manifest.plan.computation.model,
         "parameters": manifest.plan.computation.parameters,
@@ -182,10 +251,10 @@ fn json(dataset: &Dataset) -> anyhow::Result<String> {
     Ok(serde_json::to_string(&object)?)
 }
 
-fn summary(dataset: &Dataset, verdict: Option<&Verdict>, written: Option<&str>) -> anyhow::Result<String> {
-    let manifest = &dataset.manifest;
+fn summary(run: &Run, verdict: Option<&Verdict>, written: Option<&str>) -> anyhow::Result<String> {
+    let manifest = &run.manifest;
     let plan = &manifest.plan;
-    let mut text = format!("{} ({}, {})\n", plain(&dataset.title()), plan.computation.model, plan.name);
+    let mut text = format!("{} ({}, {})\n", plain(&manifest.title()), plan.computation.model, plan.name);
     writeln!(text, "outcome   {}", manifest.outcome)?;
     let (steps, rejected) = (manifest.steps, manifest.rejected_steps);
     let c = &plan.computation;
@@ -200,7 +269,7 @@ fn summary(dataset: &Dataset, verdict: Option<&Verdict>, written: Option<&str>) 
         manifest.state.0.iter().map(|(name, value)| format!("{name} = {value:.6}")).collect();
     writeln!(text, "state     {}", state.join("  "))?;
     writeln!(text, "position  x = {:.6}  y = {:.6}", manifest.position[0], manifest.position[1])?;
-    if let Some(crossings) = &dataset.crossings {
+    if let Some(crossings) = &run.crossings {
         writeln!(text, "crossings {}", crossings.rows())?;
     }
     if let Some(written) = written {

@@ -4,11 +4,11 @@ use crate::args::{StatisticsOptions, SubjectOptions};
 use crate::commands::subject;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
-use motiform_files::Staging;
+use motiform_files::{Folder, Journal, Opening};
 use motiform_lab::draw::FigureFormat;
-use motiform_measure::{Measurement, is_one, read, sentences, simulated, summary, write};
+use motiform_measure::{Measurement, read, sentences, simulated_kept, summary, write};
 use motiform_statistics::Settings;
-use motiform_study::{Error, Study};
+use motiform_study::{Error, Plan, Study};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -16,29 +16,38 @@ use std::path::Path;
 const BODIES: u64 = 100;
 
 pub(crate) fn run(options: &StatisticsOptions) -> anyhow::Result<End> {
-    let staging =
-        options.out.as_ref().map(|out| Staging::replacing(out, options.force, is_one)).transpose()?;
-    for note in staging.iter().flat_map(Staging::swept) {
-        warn(note);
-    }
     let datasets = !options.subjects.is_empty() && options.subjects.iter().all(|path| is_dataset(path));
-    let found = if datasets {
-        recorded(options)?
+    let (folder, found) = if datasets {
+        (open(options, None)?, recorded(options).map(Some))
     } else {
-        let Some(found) = bodies(options)? else {
+        let (study, count) = (study(options)?, options.bodies.unwrap_or(BODIES));
+        let folder = open(options, Some((&Plan::new(&study)?, count)))?;
+        let found = bodies(options, &study, count, folder.as_ref());
+        (folder, found)
+    };
+    let found = match found {
+        Ok(Some(found)) => found,
+        Ok(None) => {
+            folder.iter().try_for_each(Folder::settle)?;
             warn("interrupted: no body was finished");
             return Ok(End::Interrupted);
-        };
-        found
+        }
+        Err(error) => {
+            folder.into_iter().for_each(Folder::abandon);
+            return Err(error);
+        }
     };
     let json = options.json.then(|| summary(&found).to_string());
-    let written = match staging {
-        Some(staging) => {
-            let path = write(&found, &FigureFormat::default(), staging).map_err(plain_error)?;
-            Some(path.display().to_string())
+    if let Some(folder) = &folder {
+        write(&found, &FigureFormat::default(), folder).map_err(plain_error)?;
+        folder.notes().iter().for_each(|note| warn(note));
+        if !found.complete {
+            warn(
+                "interrupted: the finished bodies are kept; the same `motiform statistics` with --resume goes on",
+            );
         }
-        None => None,
-    };
+    }
+    let written = folder.map(|folder| folder.shown().display().to_string());
     print(&match json {
         Some(json) => json,
         None => text(&found, written.as_deref())?,
@@ -60,6 +69,7 @@ fn recorded(options: &StatisticsOptions) -> anyhow::Result<Measurement> {
         ("--t-end", options.t_end.is_some()),
         ("--dt-out", options.dt_out.is_some()),
         ("--noise", options.noise.is_some() || options.noise_velocity.is_some()),
+        ("--resume", options.resume),
     ];
     if let Some((key, _)) = given.iter().find(|(_, given)| *given) {
         let remedy = "datasets are recorded already: leave it out, or give a model or a study";
@@ -68,19 +78,27 @@ fn recorded(options: &StatisticsOptions) -> anyhow::Result<Measurement> {
     read(&options.subjects, options.transient.unwrap_or(0.0), &settings(options)).map_err(plain_error)
 }
 
+/// Opens the output before any computing.
+fn open(options: &StatisticsOptions, bodies: Option<(&Plan, u64)>) -> Result<Option<Folder>, Error> {
+    let Some(out) = &options.out else { return Ok(None) };
+    let folder = motiform_measure::open(out, Opening::of(options.resume, options.force), bodies)?;
+    folder.notes().iter().for_each(|note| warn(note));
+    Ok(Some(folder))
+}
+
 /// Bodies that are simulated; `None` if none was finished before an interruption.
-fn bodies(options: &StatisticsOptions) -> anyhow::Result<Option<Measurement>> {
-    let ([] | [_]) = &options.subjects[..] else {
-        let list: Vec<_> = options.subjects.iter().map(|path| path.display().to_string()).collect();
-        let remedy = "give one model or study, or only folders written by `motiform simulate`";
-        return Err(Error::Setting { key: "subject", value: list.join(" "), remedy }.into());
-    };
-    let study = study(options)?;
-    let count = options.bodies.unwrap_or(BODIES);
+fn bodies(
+    options: &StatisticsOptions,
+    study: &Study,
+    count: u64,
+    folder: Option<&Folder>,
+) -> anyhow::Result<Option<Measurement>> {
     let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = options.threads.map_or_else(all, usize::from);
+    let journal: &dyn Journal = folder.map_or(&(), |folder| folder);
     let watch = Progress::new(count as f64, "bodies");
-    let found = simulated(&study, usize::try_from(count)?, &settings(options), threads, &watch);
+    let found =
+        simulated_kept(study, usize::try_from(count)?, &settings(options), (threads, journal), &watch);
     watch.finish();
     match found {
         Err(motiform_measure::Error::Study(Error::Interrupted)) => Ok(None),
@@ -89,6 +107,11 @@ fn bodies(options: &StatisticsOptions) -> anyhow::Result<Option<Measurement>> {
 }
 
 fn study(options: &StatisticsOptions) -> Result<Study, Error> {
+    let ([] | [_]) = &options.subjects[..] else {
+        let list: Vec<_> = options.subjects.iter().map(|path| path.display().to_string()).collect();
+        let remedy = "give one model or study, or only folders written by `motiform simulate`";
+        return Err(Error::Setting { key: "subject", value: list.join(" "), remedy });
+    };
     let subject = options.subjects.first().map(|path| path.to_string_lossy().into_owned());
     let subject = SubjectOptions { subject, preset: options.preset.clone(), set: options.set.clone() };
     let mut study = subject::study(&subject)?;

@@ -137,7 +137,6 @@ fn places_that_cannot_be_written() {
         &folder,
         &[
             "simulate tensor --t-end 1 --out file/run",
-            "simulate tensor --t-end 1 --out missing/run",
             "simulate tensor --t-end 1 --out /proc/run",
             "simulate tensor --t-end 1 --out /proc/run.csv",
             "simulate tensor --t-end 1 --out /",
@@ -179,7 +178,7 @@ fn nothing_is_overwritten_without_force_and_only_datasets_with_it() {
     folder.run("simulate tensor --t-end 2 --no-figures --out run --force").expect(0);
     folder.run("simulate tensor --t-end 2 --out run.csv --force").expect(0);
     assert!(contents("run/manifest.json") != before[0] && contents("run.csv") != before[1]);
-    assert_eq!(folder.names(), ["app", "notes.txt", "run", "run.csv", "thesis"]);
+    assert_eq!(folder.names(), [".run.csv.inventory", "app", "notes.txt", "run", "run.csv", "thesis"]);
 }
 
 #[test]
@@ -222,7 +221,6 @@ fn scans() {
             "scan tensor --axis kappa2=0:1:3 --out file",
             "scan tensor --axis kappa2=0:1:3 --out thesis --force",
             "scan tensor --axis kappa2=0:1:3 --out thesis --resume",
-            "scan tensor --axis kappa2=0:1:3 --out missing/run",
             "scan tensor --preset fig1 --axis gamma=-1,-0.5 --out run",
             "scan tensor --preset fig1 --axis gamma=-1,-0.6 --set a1=2 --seed 3 --out run --resume",
             "simulate tensor --t-end 1 --out run --force",
@@ -255,7 +253,7 @@ fn a_full_disk() {
             "{}",
             done.stderr
         );
-        assert!(done.stderr.contains("nothing was left behind, free some space"), "{}", done.stderr);
+        assert!(done.stderr.contains("free some space and run again"), "{}", done.stderr);
         assert_eq!(folder.names(), [""; 0], "{words}");
     }
 }
@@ -265,7 +263,9 @@ fn a_full_disk_leaves_old_figures_and_datasets_whole() {
     let folder = Folder::new();
     folder.run("simulate tensor --preset fig5a --transient 0 --out run").expect(0);
     let names = common::names(&folder.path("run"));
-    let contents = || names.iter().map(|name| std::fs::read(folder.path("run").join(name)).unwrap());
+    // the inventory may have a further line, which lists nothing
+    let files: Vec<&String> = names.iter().filter(|name| *name != "_inventory.jsonl").collect();
+    let contents = || files.iter().map(|name| std::fs::read(folder.path("run").join(name)).unwrap());
     let before: Vec<_> = contents().collect();
     for words in ["figure run", "simulate tensor --preset fig5a --out run --force"] {
         folder.bash(&format!("trap '' XFSZ; ulimit -f 8; exec $motiform {words}")).expect_error(1);

@@ -154,6 +154,7 @@ fn the_folder_holds_points_summary_figures_and_the_plan() {
     let told = folder.run(&format!("{ZIGZAG} kappa2=0.85:0.95 --branches 1 --out run")).expect(0).stdout;
     assert!(told.contains("stable from 0.850000000 to 0.950000000"), "{told}");
     let expected = [
+        "_inventory.jsonl",
         "branches.csv",
         "branches.json",
         "branches.png",

@@ -71,11 +71,11 @@ fn a_run_writes_a_folder_with_tables_figures_and_its_manifest() {
         "trajectory.parquet",
     ];
     assert_eq!(folder.names(), ["tensor-fig3"]);
-    assert_eq!(names(&folder.path("tensor-fig3")), expected);
+    assert_eq!(names(&folder.path("tensor-fig3")), [&["_inventory.jsonl"], &expected[..]].concat());
     assert!(told.contains(&format!("written   tensor-fig3: {}", expected.join(" "))), "{told}");
     let csv = "simulate tensor --t-end 5 --out plain --format csv --no-figures";
     folder.run(csv).expect(0);
-    assert_eq!(names(&folder.path("plain")), ["manifest.json", "trajectory.csv"]);
+    assert_eq!(names(&folder.path("plain")), ["_inventory.jsonl", "manifest.json", "trajectory.csv"]);
 }
 
 #[test]

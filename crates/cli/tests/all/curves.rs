@@ -44,6 +44,7 @@ fn straight_motion_bends_along_the_line_of_the_formula() {
         assert!((kappa2 - (4.0 * s - 8.0 * s * s)).abs() < 1e-8, "{gamma} {kappa2}");
     }
     let expected = [
+        "_inventory.jsonl",
         "curves.csv",
         "curves.json",
         "curves.png",

@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Ellipses that turn and drift, each with its own noise from a small generator: short cells, whose fits take some tenths of a second.
-fn outlines(cells: usize) -> String {
+pub(crate) fn outlines(cells: usize) -> String {
     let mut text = "cell,frame,i,x,y\n".to_owned();
     let mut state = 1_u64;
     let mut noise = move || {
@@ -93,6 +93,10 @@ fn killed_and_resumed_fits_have_the_bytes_of_uninterrupted_ones() {
     fs::write(some, b"damaged").unwrap();
     let again = folder.run(&format!("{words} --out parts --resume"));
     assert_eq!((again.code, &again.stdout), (whole.code, &whole.stdout));
+    let aside = common::names(&folder.path("parts")).into_iter().find(|name| name.starts_with("_damaged-"));
+    let aside = folder.path("parts").join(aside.unwrap());
+    assert_eq!(fs::read(&aside).unwrap(), b"damaged");
+    fs::remove_file(aside).unwrap();
     assert_eq!(files(&folder, "parts"), files(&folder, "whole"));
     // complete: nothing is computed, and the same is printed
     let start = Instant::now();

@@ -73,7 +73,7 @@ fn json_says_so_too() {
     let json = interrupt(&folder, "--transient 0 --json --no-figures").expect(130).json();
     assert_eq!(json["outcome"]["kind"], "interrupted");
     assert_eq!(json["t"], json["outcome"]["t"]);
-    assert_eq!(names(&folder.path("run")), ["manifest.json", "trajectory.parquet"]);
+    assert_eq!(names(&folder.path("run")), ["_inventory.jsonl", "manifest.json", "trajectory.parquet"]);
 }
 
 /// An end during the transient says so, with the time since the start; that is a dataset too.
@@ -85,7 +85,7 @@ fn during_the_transient() {
     assert_eq!(manifest["outcome"]["kind"], "interrupted");
     assert!(manifest["outcome"]["t"].as_f64().unwrap() > 0.0);
     assert_eq!(manifest["outcome"]["during"], "transient");
-    assert_eq!(names(&folder.path("run")), ["manifest.json", "trajectory.parquet"]);
+    assert_eq!(names(&folder.path("run")), ["_inventory.jsonl", "manifest.json", "trajectory.parquet"]);
     folder.run("figure run").expect(0);
 }
 

@@ -6,7 +6,8 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::process::Command;
 
 /// Each crate, and the crates below it that it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &[&str]); 25] = [
+const LAYERS: [(&str, &[&str]); 26] = [
+    ("motiform-store", &[]),
     ("motiform-dynamics", &[]),
     ("motiform-models", &["motiform-dynamics"]),
     ("motiform-analysis", &["motiform-dynamics"]),
@@ -14,8 +15,8 @@ const LAYERS: [(&str, &[&str]); 25] = [
     ("motiform-statistics", &["motiform-analysis"]),
     ("motiform-inference", &["motiform-dynamics", "motiform-models"]),
     ("motiform-kernels", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
-    ("motiform-study", &["motiform-analysis", "motiform-dynamics", "motiform-models"]),
-    ("motiform-files", &["motiform-dynamics", "motiform-models", "motiform-study"]),
+    ("motiform-study", &["motiform-analysis", "motiform-dynamics", "motiform-models", "motiform-store"]),
+    ("motiform-files", &["motiform-dynamics", "motiform-models", "motiform-store", "motiform-study"]),
     ("motiform-tracks", &["motiform-files"]),
     ("motiform-figures", &[]),
     ("motiform-report", &["motiform-figures"]),

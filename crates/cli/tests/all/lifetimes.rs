@@ -27,7 +27,10 @@ fn a_short_run_has_too_few_events_and_says_so() {
     assert_eq!((json["values"].as_array().unwrap().len(), &json["values"][0]["starts"]), (2, &6.into()));
     assert!(keys(&json["values"][0]["life"]).contains(&"lower"));
     let names = common::names(&folder.path("lives"));
-    assert_eq!(names, ["lifetimes.json", "mean-life.png", "mean-life.svg", "orbits.json"]);
+    assert_eq!(
+        names,
+        ["_inventory.jsonl", "lifetimes.json", "mean-life.png", "mean-life.svg", "orbits.json"]
+    );
     assert!(folder.run(&format!("{SHORT} --out lives")).expect(2).stderr.contains("--force"));
     folder.run(&format!("{SHORT} --out lives --force")).expect(1);
 }
@@ -57,7 +60,7 @@ fn an_interrupted_run_goes_on_to_the_same_numbers() {
     let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     let code = interrupt(child, Duration::from_millis(200));
     if code == Some(130) {
-        assert_eq!(common::names(&folder.path("parts")), ["orbits.json"]);
+        assert_eq!(common::names(&folder.path("parts")), ["_inventory.jsonl", "orbits.json"]);
         let orbits = common::read_json(&folder.path("parts/orbits.json"));
         let orbits = orbits["orbits"].as_array().unwrap();
         assert!(orbits.len() == 192 && orbits.iter().any(serde_json::Value::is_null));

@@ -48,6 +48,10 @@ fn files_that_cannot_be_written_are_named() {
         assert!(error.starts_with("error: ") && error.contains(problem), "{words}: {error}");
         assert_eq!(done.stdout, "");
     }
-    folder.run("observe cells.csv --outlines there.csv --force").expect(1);
-    assert_eq!(folder.names(), ["cells.csv", "there.csv"]);
+    let refused = folder.run("observe cells.csv --outlines there.csv --force").expect(2);
+    assert!(refused.stderr.contains("it is not replaced"), "{}", refused.stderr);
+    for force in ["", "--force"] {
+        folder.run(&format!("observe cells.csv --outlines new.csv {force}")).expect(1);
+    }
+    assert_eq!(folder.names(), [".new.csv.inventory", "cells.csv", "new.csv", "there.csv"]);
 }

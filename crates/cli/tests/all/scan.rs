@@ -58,7 +58,7 @@ fn killed_at_any_moment_and_resumed() {
     let folder = Folder::new();
     scan(&folder, &format!("{MANY} --threads 2 --out whole"));
     let whole = contents(&folder.path("whole"));
-    assert_eq!(whole.len(), 151);
+    assert_eq!(whole.len(), 152);
     let mut killed = 0;
     for parts in [0, 1, 2, 40, 90, 140] {
         let mut child = start(&folder, &format!("{MANY} --threads 2 --out run --resume"), parts);
@@ -161,6 +161,11 @@ fn damaged_parts_are_found_recomputed_and_said() {
         assert!(done.stderr.contains(part), "{}", done.stderr);
     }
     assert_eq!(done.stderr.matches("its cells are recomputed").count(), 2);
+    for part in [7, 11] {
+        let aside = format!("_damaged-part-{part:05}.parquet");
+        assert!(done.stderr.contains(&format!("it is kept as {aside}")), "{}", done.stderr);
+        std::fs::remove_file(folder.path("run").join(aside)).unwrap();
+    }
     assert!(contents(&folder.path("run")) == whole);
 }
 
@@ -191,15 +196,15 @@ fn a_full_disk() {
         full.stderr.contains("File too large")
             && full.stderr.contains("free some space and resume the scan; --resume continues it")
     );
-    assert_eq!(names(&folder.path("run")), ["_manifest.json"]);
+    assert_eq!(names(&folder.path("run")), ["_inventory.jsonl", "_manifest.json"]);
     scan(&folder, &format!("{words} --resume"));
     assert_eq!(count_parts(&folder.path("run")), 20);
     // No room for anything: nothing is left behind.
     let words = words.replace("--out run", "--out none");
     let full = folder.bash(&format!("trap '' XFSZ; ulimit -f 0; exec $motiform {words}")).expect_error(1);
-    assert!(full.stderr.contains("_manifest.json failed"), "{}", full.stderr);
+    assert!(full.stderr.contains("writing none failed"), "{}", full.stderr);
     let full = folder.bash("trap '' XFSZ; ulimit -f 4; exec $motiform merge run --out all").expect_error(1);
-    assert!(full.stderr.contains("nothing was left behind"), "{}", full.stderr);
+    assert!(full.stderr.contains("free some space and run again"), "{}", full.stderr);
     assert_eq!(folder.names(), ["run"]);
 }
 

@@ -93,6 +93,34 @@ fn a_socket_is_opened_from_our_page_alone() {
     server.page().begin("tensor", Some("fig5a"));
 }
 
+/// The page that may stand in a frame may stand in a sandboxed one, which has no origin: it reads its files and opens its socket.
+#[test]
+fn a_sandboxed_frame_is_served_where_its_reader_asks_for_it() {
+    let server = Running::anywhere();
+    let (token, host) = (server.token().to_owned(), server.host().to_owned());
+    let from = format!("{host}\r\nOrigin: null");
+    for name in ["app.js", "app.css"] {
+        let allowed = |host: &str| {
+            server.get(&format!("/{token}/{name}"), host).0.contains("access-control-allow-origin: null")
+        };
+        assert!(
+            allowed(&from) && !allowed(&host) && !allowed(&format!("{host}\r\nOrigin: http://evil.example"))
+        );
+    }
+    let page = server.get(&format!("/{token}/?embed"), &from).0;
+    assert!(!page.contains("access-control-allow-origin"), "nobody reads the page itself: {page}");
+    let open = |query: &str, origin: &str| {
+        let mut request = server.request();
+        *request.uri_mut() = format!("ws://{host}/{token}/live{query}").parse().unwrap();
+        request.headers_mut().insert("origin", origin.parse().unwrap());
+        server.try_page(request).map(|_| ())
+    };
+    assert_eq!(open("?embed", "null"), Ok(()));
+    for (query, origin) in [("", "null"), ("?embedded", "null"), ("?embed", "http://evil.example")] {
+        assert_eq!(open(query, origin), Err(403), "{query} {origin}");
+    }
+}
+
 #[test]
 fn what_is_no_message_is_refused_and_the_connection_stays() {
     let server = Running::anywhere();

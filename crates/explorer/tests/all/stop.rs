@@ -27,6 +27,29 @@ fn end(server: Running) -> Duration {
     begun.elapsed()
 }
 
+/// A page that never answers the close, one that never reads, and a connection that never asks: none of them is waited for.
+#[test]
+fn whoever_does_not_listen() {
+    let server = Running::anywhere();
+    let mut silent = server.page();
+    let mut deaf = server.page();
+    silent.begin("tensor", Some("fig5a"));
+    deaf.begin("tensor", Some("fig5a"));
+    let mute = std::net::TcpStream::connect(server.host()).unwrap();
+    // More answers than the system keeps for who does not read them.
+    deaf.socket.get_mut().set_write_timeout(Some(Duration::from_millis(200))).unwrap();
+    for _ in 0..1000 {
+        if deaf.socket.send(tungstenite::Message::text(r#"{"do":"advance","dt":5}"#)).is_err() {
+            break;
+        }
+    }
+    std::thread::sleep(Duration::from_millis(300));
+    let took = end(server);
+    println!("nobody listens: {took:?}");
+    assert!(took < Duration::from_secs(1), "{took:?}");
+    drop((silent, deaf, mute));
+}
+
 /// At several moments of naming and of exponents.
 #[test]
 fn while_a_body_is_named() {

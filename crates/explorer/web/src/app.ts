@@ -26,7 +26,7 @@ import { PresetBar } from "./presets";
 import type { Begun, Changed, Defined, Exponents, Hello, Member, Mistake, Model, Named, Orbit, Refused, Regime, ReturnsAhead, Share, Source, Strips, Values, Wish } from "./protocol";
 import { Session } from "./session";
 import { ShareMenu } from "./share";
-import { showConnected, showConnection } from "./status";
+import { showConnected, showConnection, showSilence } from "./status";
 import { StripPanels } from "./strips/panels";
 import { onTheme, visible } from "./theme";
 import { SwarmPanel } from "./swarm";
@@ -74,7 +74,7 @@ export class App implements Hearer {
     sight: () => this.body.sight(),
   });
   private readonly parameters = new ParameterPanel((name, value) => this.choose({ [name]: value }), () => this.send({ do: "source" }));
-  private readonly editor = new Editor({ send: (wish) => this.send(wish), run: (model) => this.run(model) });
+  private readonly editor = new Editor({ send: (wish) => this.send(wish), longest: () => this.connection.longest, run: (model) => this.run(model) });
   private readonly presets = new PresetBar((name) => this.openPreset(name), (name) => this.visit(fresh(name, null, this.loop.playing)));
   private readonly strips: StripPanels;
   private readonly controls: Controls;
@@ -88,7 +88,8 @@ export class App implements Hearer {
       cells: (cells) => this.map.cells(cells),
       file: (file) => void this.share.take(file),
       swarm: (frame) => this.swarm.take(frame),
-      open: (open, code) => this.opened(open, code),
+      open: (open, code, reason) => this.opened(open, code, reason),
+      silent: (silent) => showSilence(silent),
     });
     const send = (wish: Wish): void => this.send(wish);
     this.strips = new StripPanels(this.history, send, (time) => this.body.point(time), (before) => {
@@ -175,8 +176,9 @@ export class App implements Hearer {
     return this.session?.revision ?? -1;
   }
 
-  private opened(open: boolean, code: number): void {
+  private opened(open: boolean, code: number, reason = ""): void {
     showConnection(open, code);
+    if (reason) toast(reason);
     this.greeted = false;
     this.loop.received();
     if (!open) this.share.drop();

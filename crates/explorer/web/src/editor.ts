@@ -2,6 +2,7 @@
 
 import { byId, setText } from "./dom";
 import type { Mistake, Model, Wish } from "./protocol";
+import { keep, recall } from "./stored";
 
 /** Where the text is kept while the tab of the browser is open. */
 export const KEPT = "motiform.equations";
@@ -9,6 +10,8 @@ export const KEPT = "motiform.equations";
 /** What the editor needs of the page. */
 export interface EditorHost {
   send(wish: Wish): void;
+  /** Bytes of the longest message. */
+  longest(): number;
   /** The text has become this model: run it. */
   run(model: Model): void;
 }
@@ -42,20 +45,35 @@ export class Editor {
 
   /** Gives the server the text that this tab has kept; `then` hears its model, or `null` where there is none. */
   restore(then: (model: Model | null) => void): void {
-    const text = sessionStorage.getItem(KEPT);
-    if (text === null) return then(null);
+    const text = recall("sessionStorage", KEPT);
+    if (text === null || this.excess(text)) return then(null);
     this.waiting = then;
     this.host.send({ do: "define", text });
   }
 
   private define(): void {
+    const excess = this.excess(this.area.value);
+    if (excess) return this.complain(excess);
     this.waiting = (model) => {
       if (!model) return;
-      sessionStorage.setItem(KEPT, this.area.value);
+      keep("sessionStorage", KEPT, this.area.value);
       this.dialog.close();
       this.host.run(model);
     };
     this.host.send({ do: "define", text: this.area.value });
+  }
+
+  /** Why a text cannot be sent: a longer message ends the connection. Empty for one that can. */
+  private excess(text: string): string {
+    const { length } = new TextEncoder().encode(JSON.stringify({ do: "define", text } satisfies Wish));
+    const longest = this.host.longest();
+    if (length <= longest) return "";
+    return `This study is too long to be sent: ${Math.ceil(length / 1024)} kB of at most ${longest / 1024} kB. Shorten it, or save it as a file and open it with: motiform explore FILE`;
+  }
+
+  private complain(problem: string): void {
+    setText(this.mistake, problem);
+    this.mistake.hidden = false;
   }
 
   defined(model: Model): void {
@@ -65,8 +83,7 @@ export class Editor {
   /** Shows a mistake below the text and selects its place. */
   mistaken({ line, column, length, problem }: Mistake): void {
     if (this.dialog.open) {
-      setText(this.mistake, `Line ${line}, column ${column}: ${problem}`);
-      this.mistake.hidden = false;
+      this.complain(`Line ${line}, column ${column}: ${problem}`);
       const start = offset(this.area.value, line, column);
       this.area.focus();
       this.area.setSelectionRange(start, Math.min(start + length, this.area.value.length));

@@ -9,12 +9,16 @@ export interface Listener {
   cells(cells: Cells): void;
   file(file: File): void;
   swarm(frame: SwarmFrame): void;
-  /** The connection opened, or closed with this code. */
-  open(open: boolean, code: number): void;
+  /** The connection opened, or closed with this code, and a sentence says why where something went wrong. */
+  open(open: boolean, code: number, reason?: string): void;
+  /** Whoever is there stopped answering, or answers again. */
+  silent?(silent: boolean): void;
 }
 
 /** Where wishes go. */
 export interface Transport {
+  /** Bytes of the longest message that it carries. */
+  readonly longest: number;
   /** Says it where somebody hears; a wish made meanwhile is dropped, `begin` follows the next greeting. */
   send(wish: Wish): void;
   /** Ends it for good. */

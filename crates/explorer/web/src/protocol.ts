@@ -1,5 +1,8 @@
 /** What the page and the server say to each other, as JSON; see PROTOCOL.md. Made from `src/protocol`: do not edit. */
 
+/** Bytes of the longest message of the page. */
+export const LONGEST = 32768;
+
 /** Named numbers. */
 export type Values = Record<string, number>;
 

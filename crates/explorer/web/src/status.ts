@@ -16,10 +16,22 @@ export function showConnection(open: boolean, code: number): void {
   const full = code === FULL;
   byId("connection").dataset.state = "closed";
   setText(byId("connection-text"), full ? "no free place" : met ? "no server" : "connecting");
-  byId("banner-stopped").hidden = full;
-  byId("banner-full").hidden = !full;
   window.clearTimeout(timer);
-  timer = window.setTimeout(() => (byId("banner").hidden = false), full ? 0 : PATIENCE);
+  timer = window.setTimeout(() => show(full ? "full" : "stopped", false), full ? 0 : PATIENCE);
+}
+
+/** Shows that the server is there and does not answer, or that it answers again. */
+export function showSilence(silent: boolean): void {
+  byId("connection").dataset.state = silent ? "silent" : "open";
+  setText(byId("connection-text"), silent ? "no answer" : "connected");
+  show("silent", !silent);
+}
+
+/** The banner with one of its sentences. */
+function show(sentence: "stopped" | "full" | "silent", hidden: boolean): void {
+  for (const one of ["stopped", "full", "silent"]) byId(`banner-${one}`).hidden = one !== sentence;
+  byId("banner-again").hidden = sentence === "silent";
+  byId("banner").hidden = hidden;
 }
 
 /** Somebody has said hello: a server, or the page's own workers, which do without one. */

@@ -1,5 +1,7 @@
 /** Light and dark: the system's choice until the reader chooses; the colours of canvases come from the style sheet. */
 
+import { keep, recall } from "./stored";
+
 const KEY = "motiform-theme";
 
 /** Colours for canvases, as the style sheet has them now. */
@@ -56,13 +58,13 @@ export function onTheme(listener: () => void): () => void {
 
 /** Wires the button and follows the system. */
 export function startTheme(button: HTMLButtonElement): void {
-  const chosen = recall();
+  const chosen = recall("localStorage", KEY);
   if (chosen) document.documentElement.dataset.theme = chosen;
   dark.addEventListener("change", () => apply(button));
   button.addEventListener("click", () => {
     const next = read().dark ? "light" : "dark";
     document.documentElement.dataset.theme = next;
-    keep(next);
+    keep("localStorage", KEY, next);
     apply(button);
   });
   apply(button);
@@ -96,20 +98,4 @@ function read(): Inks {
   };
   probe.remove();
   return inks;
-}
-
-function recall(): string | null {
-  try {
-    return localStorage.getItem(KEY);
-  } catch {
-    return null; // storage may be forbidden
-  }
-}
-
-function keep(theme: string): void {
-  try {
-    localStorage.setItem(KEY, theme);
-  } catch {
-    // the choice then lasts as long as the page
-  }
 }

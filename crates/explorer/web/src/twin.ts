@@ -16,6 +16,7 @@ import { pretty } from "./numbers";
 import { SEED } from "./opening";
 import type { Answer, Begun, Model, Regime } from "./protocol";
 import { swatch } from "./glyphs";
+import { recall } from "./stored";
 import { symbol } from "./symbols";
 import { currentInks, edge, visible } from "./theme";
 import { toast } from "./toasts";
@@ -91,7 +92,7 @@ export class Twin implements Beside {
 
   private begin(): void {
     const { model, preset, parameters, state, position, t, noise } = this.holding.place;
-    const text = sessionStorage.getItem(KEPT);
+    const text = recall("sessionStorage", KEPT);
     if (model === "edited" && text !== null) this.connection.send({ do: "define", text });
     // After a loss of the connection it goes on where it was.
     const { frame } = this;

@@ -11,11 +11,22 @@ import { oneFile } from "../site.mjs";
 import { assertAccessible } from "./axe.mjs";
 import { SITE } from "./engine.mjs";
 import { assertAllFiles } from "./files.mjs";
-import { launch, PATIENCE, shoot } from "./stage.mjs";
+import { denied, launch, PATIENCE, shoot } from "./stage.mjs";
 
 /** Where the static host has the page: it must not need the root. */
 const PATH = "/talks/2026/";
 const KINDS = { html: "text/html; charset=utf-8", js: "text/javascript", css: "text/css", svg: "image/svg+xml", gz: "application/gzip" };
+
+/** Where the same host lets anybody read. */
+const OPEN = "/open/";
+
+/** Pages with a frame in them. */
+const FRAMES = {
+  "/lecture.html": `src="${PATH}?embed=body"`,
+  "/sandboxed-one.html": 'sandbox="allow-scripts" src="/one.html?embed=body"',
+  "/sandboxed-open.html": `sandbox="allow-scripts" src="${OPEN}?embed=body"`,
+  "/sandboxed-closed.html": `sandbox="allow-scripts" src="${PATH}?embed=body"`,
+};
 
 const it = {};
 
@@ -24,10 +35,13 @@ function host() {
   const server = createServer((request, response) => {
     const path = new URL(request.url, "http://host").pathname;
     const name = path.slice(PATH.length) || "index.html";
-    const frame = `<!doctype html><title>lecture</title><iframe src="${PATH}?embed=body" width="600" height="500"></iframe>`;
+    const inner = FRAMES[path];
+    const frame = inner && `<!doctype html><title>lecture</title><iframe ${inner} width="600" height="500"></iframe>`;
+    // Under the second path the host lets pages of any origin read its files.
+    const open = path.startsWith(OPEN) ? { "access-control-allow-origin": "*" } : {};
     try {
-      const content = path === "/lecture.html" ? frame : readFileSync(join(SITE, path.startsWith(PATH) ? name : "none"));
-      response.writeHead(200, { "content-type": KINDS[path === "/lecture.html" ? "html" : name.split(".").at(-1)] }).end(content);
+      const content = frame ?? (path === "/one.html" ? oneFile(SITE) : readFileSync(join(SITE, path.startsWith(PATH) ? name : path.startsWith(OPEN) ? path.slice(OPEN.length) || "index.html" : "none")));
+      response.writeHead(200, { "content-type": KINDS[frame ? "html" : path.endsWith("/") ? "html" : path.split(".").at(-1)], ...open }).end(content);
     } catch {
       response.writeHead(404).end();
     }
@@ -48,7 +62,7 @@ after(async () => {
 });
 
 /** Opens an address; any error in the console fails the test. */
-async function visit(address, act, context = {}) {
+async function visit(address, act, context = {}, tolerate = null) {
   const place = await it.browser.newContext({ viewport: { width: 1280, height: 720 }, colorScheme: "light", ...context });
   const page = await place.newPage();
   page.setDefaultTimeout(PATIENCE);
@@ -58,7 +72,7 @@ async function visit(address, act, context = {}) {
   await page.goto(address);
   await act(page);
   await place.close();
-  assert.deepEqual(faults, []);
+  assert.deepEqual(faults.filter((text) => !tolerate?.test(text)), []);
 }
 
 /** Waits until the body moves; gives the milliseconds since the page was opened. */
@@ -146,5 +160,35 @@ test("in a frame of a lecture page", async () => {
     const frame = await (await page.locator("iframe").elementHandle()).contentFrame();
     await moving(frame);
     assert.ok(await frame.locator("#map-panel").isHidden());
+  });
+});
+
+for (const [what, name] of [["one file", "one"], ["a host that allows it", "open"]]) {
+  test(`in a sandboxed frame: ${what}`, async () => {
+    await visit(`${it.origin}/sandboxed-${name}.html`, async (page) => {
+      const frame = await (await page.locator("iframe").elementHandle()).contentFrame();
+      await moving(frame);
+      await frame.locator("#regime:not([data-regime=''])").waitFor({ timeout: 4 * PATIENCE });
+      await shoot(page, `sandboxed-${name}`);
+    });
+  });
+}
+
+test("in a sandboxed frame of a host that does not allow it, the page says what to do", async () => {
+  const refused = /CORS|Access-Control-Allow-Origin|ERR_FAILED|computation failed|helper failed|Cross-Origin/;
+  await visit(`${it.origin}/sandboxed-closed.html`, async (page) => {
+    const frame = await (await page.locator("iframe").elementHandle()).contentFrame();
+    const note = frame.locator("#toasts li").first();
+    await note.waitFor();
+    assert.match(await note.textContent(), /motiform\.html/);
+  }, {}, refused);
+});
+
+test("where storage is denied, a body moves and is named", async () => {
+  await visit("about:blank", async (page) => {
+    await page.addInitScript(denied);
+    await page.goto(`${it.origin}${PATH}#preset=fig5a&x=kappa2:1.2:1.6&y=kappa3:0.7:1`);
+    await moving(page);
+    await named(page, "zigzag");
   });
 });

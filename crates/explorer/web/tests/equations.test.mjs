@@ -5,7 +5,7 @@ import { mkdtempSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
-import { shoot, stage, upon } from "./stage.mjs";
+import { denied, shoot, stage, upon } from "./stage.mjs";
 import { moves, named, seen } from "./waits.mjs";
 
 const TEXT = `title = "A handed circle"
@@ -81,4 +81,39 @@ test("the tensor model is changed as text", upon(it, { hash: "preset=fig5a&x=kap
   await moves(page, wire);
   assert.ok(await page.locator("[data-name=omega], [data-parameter=omega]").count());
   await shoot(page, "edited");
+}));
+
+test("where storage is denied the page works, and equations last as long as it does", upon(it, { hash: "model=my.toml" }, async ({ page, wire }) => {
+  await page.addInitScript(denied);
+  await page.reload();
+  await moves(page, wire);
+  await named(page, "circular");
+  await edit(page);
+  await editor(page).fill(TEXT.replace("0.3", "-0.3").replace("handed circle", "circle, changed"));
+  await page.locator("#editor-run").click();
+  await page.waitForFunction(() => document.title.startsWith("A circle, changed"));
+  await moves(page, wire);
+  await page.locator("#theme").click();
+  await page.locator("#compare").click();
+  await page.locator("#twin").waitFor();
+  await page.waitForFunction(() => window.motiform.beside() !== null);
+}));
+
+test("a study that is too long to be sent is refused in the editor, and the connection stays", upon(it, { hash: "model=my.toml" }, async ({ page, wire }) => {
+  await moves(page, wire);
+  await edit(page);
+  const sent = wire.count("define");
+  const head = JSON.stringify({ do: "define", text: "" }).length;
+  const rest = 32 * 1024 - head - JSON.stringify(TEXT).length + 2;
+  // Bytes, not characters: the text has an omega.
+  await editor(page).fill(`${TEXT}#${"x".repeat(rest - 1)}`);
+  await page.locator("#editor-run").click();
+  await page.locator("#editor-mistake").waitFor();
+  assert.match(await page.locator("#editor-mistake").textContent(), /too long.*33 kB of at most 32 kB.*motiform explore FILE/);
+  assert.equal(wire.count("define"), sent);
+  await moves(page, wire);
+  assert.equal(await page.locator("#connection").getAttribute("data-state"), "open");
+  await editor(page).fill(`${TEXT}#${"x".repeat(rest - 2)}`);
+  await page.locator("#editor-run").click();
+  await page.waitForFunction(() => document.querySelector("#model").value === "edited");
 }));

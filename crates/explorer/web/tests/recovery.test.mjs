@@ -75,3 +75,36 @@ test("a page that comes back says nothing before the greeting, however late it c
   assert.deepEqual(early, []);
   await leave();
 });
+
+test("a server that stops answering is no green light, and the body goes on when it answers again", async () => {
+  const server = await Server.start();
+  const { page, wire, leave } = await visit({ browser: it.browser, server }, { hash: LIGHT });
+  await moves(page, wire);
+  server.child.kill("SIGSTOP");
+  await page.locator("#connection[data-state=silent]").waitFor();
+  await page.locator("#banner").waitFor();
+  assert.match(await page.locator("#banner").innerText(), /does not answer/);
+  assert.doesNotMatch(await page.locator("#banner").innerText(), /Restart|reconnects|Eight/);
+  assert.equal(await page.locator("#connection-text").textContent(), "no answer");
+  await shoot(page, "server-silent");
+  server.child.kill("SIGCONT");
+  await page.locator("#connection[data-state=open]").waitFor();
+  await page.locator("#banner").waitFor({ state: "hidden" });
+  await moves(page, wire);
+  await leave();
+  await server.stop();
+});
+
+test("why a connection was closed is said", async () => {
+  const { page, wire, leave } = await visit(it, { hash: LIGHT });
+  await page.routeWebSocket(/live$/, (ours) => {
+    const server = ours.connectToServer();
+    ours.onMessage((message) => server.send(message.includes('"kick"') ? "x".repeat(40_000) : message));
+  });
+  await page.reload();
+  await page.waitForFunction(() => window.motiform?.position());
+  await page.locator("#kick").click();
+  await page.locator("#toasts li", { hasText: "The server closed the connection: a message was too long" }).waitFor();
+  await page.locator("#connection[data-state=open]").waitFor();
+  await leave();
+});

@@ -141,6 +141,17 @@ export async function doubleClick(page, x, y) {
 /** To take a picture in Firefox, Playwright adds a style to the page, which the page does not allow. */
 const DRIVERS = /Content-Security-Policy.*inline style \(style-src-elem\)/;
 
+/** In the page, before it begins: storage is denied, as browsers do in frames of other sites and where cookies are blocked. */
+export function denied() {
+  for (const name of ["localStorage", "sessionStorage"]) {
+    Object.defineProperty(window, name, {
+      get() {
+        throw new DOMException(`Failed to read the '${name}' property from 'Window': Access is denied for this document.`, "SecurityError");
+      },
+    });
+  }
+}
+
 let folder = null;
 
 /** Keeps a picture for people to look at, in MOTIFORM_SHOTS or in a temporary folder. */

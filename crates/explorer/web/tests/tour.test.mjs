@@ -70,3 +70,21 @@ test("?embed shows the wanted panels in a frame of another page; any other addre
   await slides.close();
   elsewhere.close();
 }));
+
+test("?embed stands in a sandboxed frame, which has no origin", upon(it, { hash: LIGHT }, async ({ page, wire, server, browser }) => {
+  await moves(page, wire);
+  const elsewhere = createServer((_, response) => response.setHeader("content-type", "text/html").end(`<!doctype html><title>elsewhere</title><iframe sandbox="allow-scripts" src="${server.address}?embed=body,map#${LIGHT}" width="640" height="420"></iframe>`));
+  elsewhere.listen(0, "127.0.0.1");
+  await once(elsewhere, "listening");
+  const slides = await browser.newPage({ viewport: { width: 700, height: 480 } });
+  const faults = [];
+  slides.on("console", (message) => message.type() === "error" && faults.push(message.text()));
+  slides.on("pageerror", (error) => faults.push(String(error)));
+  await slides.goto(`http://127.0.0.1:${elsewhere.address().port}/`);
+  await slides.frameLocator("iframe").locator("#regime[data-regime=zigzag]").waitFor();
+  await pictures(slides, 5);
+  await shoot(slides, "sandboxed");
+  await slides.close();
+  elsewhere.close();
+  assert.deepEqual(faults.filter((text) => !/icon\.svg|favicon/.test(text)), []);
+}));

@@ -5,7 +5,7 @@ use crate::ensemble::{Track, check_times};
 use crate::pool::spread;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Outcome, Part, Request, Section, StopOnly, Trajectory, Watch};
-use motiform_study::plan::{LONGEST, MOST_ROWS, check};
+use motiform_study::plan::{LONGEST, MOST_IN_MEMORY, check};
 use motiform_study::{Ending, Error};
 
 /// The times of a run. The function is asked for times from `-transient` to `t_end`.
@@ -31,7 +31,7 @@ impl Span {
         let every = if dt_out == 0.0 { t_end / 2000.0 } else { dt_out };
         check("dt_out", every, every > 0.0, "give a time above 0")?;
         let remedy = "this gives more than 20 million rows: give a longer time";
-        check("dt_out", every, t_end / every <= MOST_ROWS, remedy)?;
+        check("dt_out", every, t_end / every <= MOST_IN_MEMORY, remedy)?;
         Ok(Some(every))
     }
 }

@@ -4,7 +4,7 @@ mod follow;
 #[cfg(test)]
 mod tests;
 
-use crate::pool::complete;
+use crate::pool::{Keeping, complete};
 use follow::{End, Followed, Follower};
 use motiform_analysis::{LifeCount, LifeLaws, MeanLife, Stay, compare_life_laws, mean_life};
 use motiform_dynamics::Watch;
@@ -12,9 +12,13 @@ use motiform_study::plan::check;
 use motiform_study::{Error, ScanPlan, input};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
+use std::time::Duration;
 
 /// The longest time of an orbit if the plan has no budget, in looks of the model.
 const LOOKS: f64 = 100.0;
+
+/// What a killed run loses at most, beside the orbits under way.
+const KEPT_EVERY: Duration = Duration::from_secs(5);
 
 /// Mean lives of chaos along a parameter, and their law.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -95,10 +99,26 @@ pub fn follow_lives(
     threads: usize,
     watch: &dyn Watch,
 ) -> Result<Lives, Error> {
+    follow_lives_kept(plan, before, threads, &|_| Ok(()), watch)
+}
+
+/// As [`follow_lives`]; `keep` gets the orbits that are finished, every five seconds.
+///
+/// # Errors
+/// As [`lifetimes`], and those of `keep`.
+pub fn follow_lives_kept(
+    plan: &ScanPlan,
+    before: Option<Lives>,
+    threads: usize,
+    keep: &(dyn Fn(&Lives) -> Result<(), Error> + Sync),
+    watch: &dyn Watch,
+) -> Result<Lives, Error> {
+    let keep = |orbits: &[Option<Followed>]| keep(&Lives { plan_hash: plan.hash(), orbits: orbits.to_vec() });
+    let keeping = Keeping { every: KEPT_EVERY, keep: &keep };
     let follower = Follower::new(plan, looks(plan)? as usize, watch)?;
     let mut orbits = before.map_or_else(Vec::new, |lives| lives.orbits);
     orbits.resize(plan.rows(), None);
-    let orbits = complete(orbits, threads, watch, |jobs| follower.run(jobs))?;
+    let orbits = complete(orbits, threads, keeping, watch, |jobs| follower.run(jobs))?;
     Ok(Lives { plan_hash: plan.hash(), orbits })
 }
 

@@ -1,7 +1,7 @@
 //! Return maps of a recorded motion: of the maxima of its speed, or of its path through a segment.
 
 use super::Record;
-use crate::simulate::centre_of;
+use crate::recorder::Centre;
 use motiform_dynamics::Model;
 use motiform_dynamics::model::velocity;
 use motiform_study::study::ReturnMapSettings;
@@ -73,7 +73,9 @@ fn table([t, x, y, rising]: [Vec<f64>; 4]) -> Table {
 fn centre(record: &Record) -> [f64; 2] {
     let mut ends = record.rows().map(|row| row.t);
     let (Some(start), Some(end)) = (ends.next(), ends.next_back()) else { return [0.0; 2] };
-    centre_of(record.rows().map(|row| (row.t, row.position())), start, end)
+    let mut centre = Centre::new(start, end);
+    record.rows().for_each(|row| centre.add(row.t, row.position()));
+    centre.found()
 }
 
 /// The path between two samples.

@@ -4,16 +4,16 @@
 //! folder as one table.
 
 use super::{Parts, ScanPlan};
-use motiform_files::{Staging, disk};
+use motiform_files::store::mend;
 use motiform_study::Error;
 use motiform_study::dataset::VERSION;
 use motiform_study::input;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 
-const MANIFEST: &str = "_manifest.json";
+/// The name of the manifest.
+pub(super) const MANIFEST: &str = "_manifest.json";
 
 /// Provenance of a scan. Contains no host, user, time of day, threads or shards.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -39,6 +39,7 @@ impl ScanFolder {
     /// # Errors
     /// [`Error::NoScan`] if it is missing or damaged.
     pub fn read(path: &Path) -> Result<Self, Error> {
+        mend(path)?;
         let no_scan = |reason: String| Error::NoScan { path: path.to_owned(), reason };
         let text =
             input::manifest(&path.join(MANIFEST)).map_err(|error| no_scan(format!("{MANIFEST}: {error}")))?;
@@ -48,14 +49,6 @@ impl ScanFolder {
             return Err(no_scan(format!("{MANIFEST} was changed: its plan does not give its hash")));
         }
         Ok(Self { path: path.to_owned(), manifest })
-    }
-
-    /// Whether there is a scan in a folder.
-    #[must_use]
-    pub fn is_one(path: &Path) -> bool {
-        let manifest = input::manifest(&path.join(MANIFEST)).unwrap_or_default();
-        let manifest: Value = serde_json::from_str(&manifest).unwrap_or_default();
-        manifest["motiform"].is_string() && manifest["plan_hash"].is_string()
     }
 
     /// Where it is.
@@ -90,28 +83,13 @@ pub fn default_folder(plan: &ScanPlan) -> String {
     if plan.name == model.as_str() { format!("{model}-scan") } else { format!("{model}-{}-scan", plan.name) }
 }
 
-/// The lock of a folder, which is on its manifest: a separate file could be deleted during a running scan. Held as long as the file is
-/// open: the system releases it when the process ends, however it ends.
-pub(super) fn lock(folder: &Path, shown: &Path) -> Result<File, Error> {
-    let unwritable = |reason| Error::Unwritable { path: shown.to_owned(), reason };
-    let file = File::options().read(true).write(true).open(folder.join(MANIFEST));
-    let file = file.map_err(unwritable)?;
-    match file.try_lock() {
-        Ok(()) => Ok(file),
-        Err(TryLockError::WouldBlock) => Err(Error::Busy { path: shown.to_owned() }),
-        Err(TryLockError::Error(reason)) => Err(unwritable(reason)),
-    }
-}
-
-/// Prepares a folder with its manifest beside `target`; it is renamed when the staging is committed.
-pub(super) fn stage(target: &Path, plan: &ScanPlan, force: bool) -> Result<Staging, Error> {
-    let staging = Staging::replacing(target, force, ScanFolder::is_one)?;
+/// The manifest of a scan.
+pub(super) fn manifest(plan: &ScanPlan, target: &Path) -> Result<Vec<u8>, Error> {
     let manifest = ScanManifest { motiform: VERSION.to_owned(), plan_hash: plan.hash(), plan: plan.clone() };
-    let failed = |reason: String| Error::write_failed(&target.join(MANIFEST), reason);
-    let mut json = serde_json::to_vec_pretty(&manifest).map_err(|error| failed(error.to_string()))?;
+    let mut json = serde_json::to_vec_pretty(&manifest)
+        .map_err(|error| Error::write_failed(&target.join(MANIFEST), error))?;
     json.push(b'\n');
-    disk::write(&staging.path().join(MANIFEST), &json).map_err(|error| failed(error.to_string()))?;
-    Ok(staging)
+    Ok(json)
 }
 
 /// The differences between two plans: the values in the folder and the requested ones.

@@ -1,9 +1,11 @@
 //! Merging of folders with shards of one scan.
 
-use super::folder::{ScanFolder, differences, stage};
+use super::folder::{MANIFEST, ScanFolder, differences, manifest};
 use super::part::PartError;
 use super::rows::same_rows;
 use super::{Parts, ScanPlan, read_part};
+use motiform_files::store::Error as StoreError;
+use motiform_files::{Kind, Staged};
 use motiform_study::Error;
 use std::path::{Path, PathBuf};
 
@@ -14,8 +16,8 @@ pub struct Merged {
     pub missing: usize,
     /// Damaged parts, each with a description; they were omitted.
     pub damaged: Vec<String>,
-    /// The leftovers of killed merges to the same destination that were found and removed, in sentences.
-    pub swept: Vec<String>,
+    /// What was found at the destination, in sentences: leftovers of killed merges, files that stay.
+    pub notes: Vec<String>,
 }
 
 /// Merges the parts of `folders` into a new folder at `out`, which is created atomically. Missing parts are not an
@@ -27,7 +29,7 @@ pub struct Merged {
 pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged, Error> {
     let folders = folders.iter().map(|path| ScanFolder::read(path)).collect::<Result<Vec<_>, _>>()?;
     let Some((first, others)) = folders.split_first() else {
-        return Ok(Merged { missing: 0, damaged: Vec::new(), swept: Vec::new() });
+        return Ok(Merged { missing: 0, damaged: Vec::new(), notes: Vec::new() });
     };
     for other in others {
         if other.manifest().plan_hash != first.manifest().plan_hash {
@@ -39,27 +41,23 @@ pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged, Err
         }
     }
     let plan = first.plan();
-    if !force && out.symlink_metadata().is_ok() {
-        return Err(Error::Exists { path: out.to_owned() });
+    if !force && out.exists() {
+        return Err(StoreError::Exists { path: out.to_owned() }.into());
     }
-    let staging = stage(out, plan, force)?;
-    let target = Parts::new(staging.path(), plan);
+    let staged = Staged::new(out, Kind::Scan, force)?;
+    staged.write(MANIFEST, &manifest(plan, out)?)?;
     let sources: Vec<Parts> = folders.iter().map(ScanFolder::parts).collect();
-    let mut merged = Merged { missing: 0, damaged: Vec::new(), swept: staging.swept().to_vec() };
+    let mut merged = Merged { missing: 0, damaged: Vec::new(), notes: staged.notes().to_vec() };
     for part in 0..plan.parts() {
         let Some(source) = choose(plan, &sources, part, &mut merged.damaged)? else {
             merged.missing += 1;
             continue;
         };
-        let failed = |error: std::io::Error| {
-            let name = target.path(part);
-            Error::write_failed(&out.join(name.file_name().unwrap_or_default()), error)
-        };
         let path = source.path(part);
         let bytes = std::fs::read(&path).map_err(|error| Error::unreadable(&path, error))?;
-        target.put(part, &bytes).map_err(failed)?;
+        staged.write(&source.name(part), &bytes)?;
     }
-    staging.commit()?;
+    merged.notes.extend(staged.commit()?.1);
     Ok(merged)
 }
 

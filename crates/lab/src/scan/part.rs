@@ -6,7 +6,6 @@
 use super::ScanPlan;
 use super::rows::{Row, from_columns, to_columns};
 use motiform_files::columns;
-use motiform_files::disk;
 use motiform_study::Error;
 use motiform_study::dataset::VERSION;
 use motiform_study::plan::sha256_hex;
@@ -49,7 +48,7 @@ impl Parts {
     /// The file of a part.
     #[must_use]
     pub fn path(&self, part: usize) -> PathBuf {
-        self.folder.join(format!("part-{part:0width$}.parquet", width = self.digits))
+        self.folder.join(self.name(part))
     }
 
     /// Checks the file of a part; returns its digest.
@@ -83,15 +82,18 @@ impl Parts {
         Ok(said)
     }
 
-    /// Writes a part completely and then renames it, so that it is complete or absent, even after a power failure.
-    pub(super) fn write(&self, plan: &ScanPlan, part: usize, rows: &[Row]) -> Result<(), Error> {
-        let path = self.path(part);
-        let failed = |reason: String| Error::PartFailed { path: path.clone(), reason };
-        let bytes = self.encode(plan, part, rows).map_err(failed)?;
-        self.put(part, &bytes).map_err(|error| failed(error.to_string()))
+    /// The name of the file of a part.
+    pub(super) fn name(&self, part: usize) -> String {
+        format!("part-{part:0width$}.parquet", width = self.digits)
     }
 
-    fn encode(&self, plan: &ScanPlan, part: usize, rows: &[Row]) -> Result<Vec<u8>, String> {
+    /// The bytes of a part.
+    pub(super) fn encode(&self, plan: &ScanPlan, part: usize, rows: &[Row]) -> Result<Vec<u8>, Error> {
+        let failed = |reason| Error::PartFailed { path: self.path(part), reason };
+        self.try_encode(plan, part, rows).map_err(failed)
+    }
+
+    fn try_encode(&self, plan: &ScanPlan, part: usize, rows: &[Row]) -> Result<Vec<u8>, String> {
         let metadata = vec![
             (PLAN, self.plan_hash.clone()),
             (NUMBER, part.to_string()),
@@ -105,24 +107,7 @@ impl Parts {
         bytes[place].copy_from_slice(digest.as_bytes());
         Ok(bytes)
     }
-
-    /// Puts the bytes of a part in its place.
-    pub(super) fn put(&self, part: usize, bytes: &[u8]) -> std::io::Result<()> {
-        let path = self.path(part);
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let partial = path.with_file_name(format!(".{name}{PARTIAL}"));
-        let write = || {
-            disk::write(&partial, bytes)?;
-            disk::rename(&partial, &path)
-        };
-        write().inspect_err(|_| {
-            let _ = fs::remove_file(&partial); // the error that matters is the first one
-        })
-    }
 }
-
-/// The suffix of the names of incomplete parts.
-pub(super) const PARTIAL: &str = ".partial";
 
 /// The position of the digest in a file: the key is followed by two bytes of framing (field type, length 64).
 fn digest_place(bytes: &[u8]) -> Option<std::ops::Range<usize>> {

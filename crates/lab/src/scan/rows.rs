@@ -104,12 +104,17 @@ impl Row {
 
 /// Equality of bits, so that an undefined number equals itself.
 pub(super) fn same_rows(a: &[Row], b: &[Row]) -> bool {
-    let same = |(a, b): (&Row, &Row)| {
-        a.numbers.map(f64::to_bits) == b.numbers.map(f64::to_bits)
-            && (a.cell, a.sample, a.regime, a.attractor, a.course, &a.why)
-                == (b.cell, b.sample, b.regime, b.attractor, b.course, &b.why)
-    };
-    a.len() == b.len() && a.iter().zip(b).all(same)
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.is_same(b))
+}
+
+impl Row {
+    /// Whether two rows are the same to the last bit.
+    #[must_use]
+    pub fn is_same(&self, other: &Self) -> bool {
+        self.numbers.map(f64::to_bits) == other.numbers.map(f64::to_bits)
+            && (self.cell, self.sample, self.regime, self.attractor, self.course, &self.why)
+                == (other.cell, other.sample, other.regime, other.attractor, other.course, &other.why)
+    }
 }
 
 /// The columns of a part, in file order.

@@ -1,26 +1,15 @@
 //! The folder of a scan that is being computed: opening it, finding missing parts, storing results.
 
 use super::evaluate::Evaluate;
-use super::folder::{ScanFolder, differences, lock, stage};
-use super::part::{PARTIAL, PartError};
+use super::folder::{MANIFEST, ScanFolder, differences, manifest};
+use super::part::PartError;
 use super::work::{Ended, Store, compute};
-use super::{Parts, Row, ScanPlan, Shard};
+use super::{Row, ScanPlan, Shard};
 use motiform_dynamics::Watch;
-use motiform_files::sweep;
+use motiform_files::store::{Error as StoreError, Inventory};
+use motiform_files::{Folder, Kind, Opening};
 use motiform_study::Error;
-use std::fs::{self, File};
 use std::path::Path;
-
-/// What to do with an existing folder.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Opening {
-    /// Reject it.
-    New,
-    /// Continue the scan in it.
-    Resume,
-    /// Replace the scan in it.
-    Replace,
-}
 
 /// A scan that is being computed. While it lives, no other process computes in its folder.
 #[derive(Debug)]
@@ -30,43 +19,22 @@ pub struct Scan {
     /// Whether each part exists and is undamaged: only this memory, one byte per part, grows with the cells.
     whole: Vec<bool>,
     damaged: Vec<String>,
-    swept: Vec<String>,
-    /// The folder's lock, and that of the folder it replaced.
-    _locks: (File, Option<File>),
+    /// Its files, locked.
+    files: Folder,
 }
 
 impl Scan {
     /// Opens the folder of a scan, creating it if it does not exist, and checks the parts in it.
     ///
     /// # Errors
-    /// [`Error::ScanExists`], [`Error::NotOurs`], [`Error::NoScan`], [`Error::OtherScan`], [`Error::Busy`],
-    /// [`Error::Unwritable`], [`Error::WriteFailed`].
+    /// [`Error::Store`] where it exists, is not ours, is used by others or cannot be written; [`Error::NoScan`], [`Error::OtherScan`].
     pub fn open(path: &Path, plan: &ScanPlan, shard: Shard, opening: Opening) -> Result<Self, Error> {
-        let mut swept = sweep(path);
-        let there = path.symlink_metadata().is_ok();
-        if there && opening == Opening::Resume {
-            return Ok(Self { swept, ..Self::resume(path, plan, shard)? });
+        if opening == Opening::Resume && path.exists() {
+            return Self::resume(path, plan, shard);
         }
-        if there && !ScanFolder::is_one(path) {
-            return Err(Error::NotOurs { path: path.to_owned() });
-        }
-        if there && opening == Opening::New {
-            return Err(Error::ScanExists { path: path.to_owned() });
-        }
-        let replaced = if there { Some(lock(path, path)?) } else { None };
-        let staging = stage(path, plan, there)?;
-        let new = lock(staging.path(), path)?;
-        swept.extend_from_slice(staging.swept());
-        staging.commit()?;
+        let files = Folder::open(path, Kind::Scan, opening, &[(MANIFEST, &manifest(plan, path)?)])?;
         let whole = vec![false; plan.parts()];
-        Ok(Self {
-            folder: ScanFolder::read(path)?,
-            shard,
-            whole,
-            damaged: Vec::new(),
-            swept,
-            _locks: (new, replaced),
-        })
+        Ok(Self { folder: ScanFolder::read(path)?, shard, whole, damaged: Vec::new(), files })
     }
 
     fn resume(path: &Path, plan: &ScanPlan, shard: Shard) -> Result<Self, Error> {
@@ -75,8 +43,10 @@ impl Scan {
             let differences = differences(folder.plan(), plan);
             return Err(Error::OtherScan { path: path.to_owned(), differences });
         }
-        let lock = lock(path, path)?;
-        remove_partial(path)?;
+        if Inventory::read(path)?.is_none() {
+            adopt(&folder)?;
+        }
+        let files = Folder::resume(path, Kind::Scan)?;
         let parts = folder.parts();
         let (mut whole, mut damaged) = (vec![false; plan.parts()], Vec::new());
         for (part, whole) in whole.iter_mut().enumerate().filter(|(part, _)| shard.holds(*part)) {
@@ -87,7 +57,7 @@ impl Scan {
                 Err(PartError::InTheWay(path)) => return Err(Error::InTheWay { path }),
             }
         }
-        Ok(Self { folder, shard, whole, damaged, swept: Vec::new(), _locks: (lock, None) })
+        Ok(Self { folder, shard, whole, damaged, files })
     }
 
     /// The folder.
@@ -125,7 +95,48 @@ impl Scan {
         if !places.eq(rows.iter().map(|row| (row.cell, row.sample))) {
             return Err(Error::OtherRows { part });
         }
-        self.folder.parts().write(plan, part, rows)
+        self.put(part, rows)
+    }
+
+    /// Writes a part. A damaged one that has its name is kept under another.
+    fn put(&self, part: usize, rows: &[Row]) -> Result<(), Error> {
+        let parts = self.folder.parts();
+        let bytes = parts.encode(self.folder.plan(), part, rows)?;
+        let name = parts.name(part);
+        let put = match self.files.put(&name, &bytes) {
+            Err(StoreError::Changed { .. }) => {
+                self.files.keep_aside(&name).and_then(|_| self.files.put(&name, &bytes))
+            }
+            put => put,
+        };
+        put.map_err(|error| match error {
+            StoreError::WriteFailed { path, reason } => Error::PartFailed { path, reason },
+            other => other.into(),
+        })
+    }
+
+    /// Writes figures of the scan. Those that others drew or edited stay.
+    ///
+    /// # Errors
+    /// Files that cannot be written.
+    pub fn draw<'p>(&self, pictures: impl IntoIterator<Item = (&'p str, &'p [u8])>) -> Result<(), Error> {
+        for (name, bytes) in pictures {
+            self.files.put(name, bytes)?;
+        }
+        Ok(self.files.settle()?)
+    }
+
+    /// Brings the inventory up to date, once all parts of this shard are there: the scan is complete then. [`Scan::run`] does it.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn settle(&self) -> Result<(), Error> {
+        let parts = self.folder.parts();
+        let names = self.files.names();
+        let listed =
+            |part: usize| names.binary_search(&parts.name(part)).is_ok() && parts.path(part).is_file();
+        let complete = (0..self.whole.len()).all(|part| !self.shard.holds(part) || listed(part));
+        Ok(if complete { self.files.complete() } else { self.files.settle() }?)
     }
 
     /// The parts of this scan that are missing or damaged although all of them were written: another process changed the folder.
@@ -135,10 +146,10 @@ impl Scan {
         (0..self.whole.len()).filter(|&part| self.shard.holds(part) && parts.check(part).is_err()).count()
     }
 
-    /// The leftovers of scans in this folder that were killed at their start, found and removed, in sentences.
+    /// What a person should know, in sentences, each once: leftovers of killed runs that were removed, files that stay.
     #[must_use]
-    pub fn swept(&self) -> &[String] {
-        &self.swept
+    pub fn notes(&self) -> Vec<String> {
+        self.files.notes()
     }
 
     /// Computes the missing parts on `threads` threads. Rows in progress stop soon after `watch` requests it.
@@ -146,33 +157,23 @@ impl Scan {
     /// # Errors
     /// [`Error::PartFailed`]: the parts written before are kept.
     pub fn run(&self, evaluate: &dyn Evaluate, threads: usize, watch: &dyn Watch) -> Result<Ended, Error> {
-        let files = Files { plan: self.folder.plan(), parts: self.folder.parts() };
-        compute(files.plan, self.parts_left().collect(), evaluate, threads, watch, &files)
+        let ended = compute(self.folder.plan(), self.parts_left().collect(), evaluate, threads, watch, self)?;
+        self.settle()?;
+        Ok(ended)
     }
 }
 
-/// The parts as files.
-struct Files<'f> {
-    plan: &'f ScanPlan,
-    parts: Parts,
-}
-
-impl Store for Files<'_> {
+impl Store for Scan {
     fn put(&self, part: usize, rows: Vec<Row>) -> Result<(), Error> {
-        self.parts.write(self.plan, part, &rows)
+        self.put(part, &rows)
     }
 }
 
-/// Removes incomplete files of a killed process (we hold the lock, so no other process writes here).
-fn remove_partial(folder: &Path) -> Result<(), Error> {
-    let unwritable = |reason| Error::Unwritable { path: folder.to_owned(), reason };
-    for entry in fs::read_dir(folder).map_err(unwritable)? {
-        let entry = entry.map_err(unwritable)?;
-        let name = entry.file_name();
-        let name = name.to_string_lossy();
-        if name.starts_with(".part-") && name.ends_with(PARTIAL) {
-            fs::remove_file(entry.path()).map_err(unwritable)?;
-        }
-    }
-    Ok(())
+/// Gives a scan of an earlier version its inventory: its manifest gives the hash of its plan, and whole parts give their own digests.
+fn adopt(folder: &ScanFolder) -> Result<(), Error> {
+    let parts = folder.parts();
+    let whole = (0..folder.plan().parts()).filter(|&part| parts.check(part).is_ok());
+    let names: Vec<String> =
+        std::iter::once(MANIFEST.to_owned()).chain(whole.map(|part| parts.name(part))).collect();
+    Ok(Folder::adopt(folder.path(), Kind::Scan, &names)?)
 }

@@ -5,7 +5,7 @@
 use crate::common;
 
 use common::{preset, run};
-use motiform_files::{Format, Staging, read_dataset};
+use motiform_files::{Format, Kind, Staged, read_dataset};
 use motiform_lab::fields::write_dataset;
 use motiform_study::table::{Table, same_bits};
 use motiform_study::{Dataset, Manifest};
@@ -29,9 +29,9 @@ static SHORT: LazyLock<Dataset> = LazyLock::new(|| {
 });
 
 fn write(dataset: &Dataset, format: Format, folder: &Path) {
-    let staging = Staging::new(folder, true, true).unwrap();
-    write_dataset(dataset, format, &staging).unwrap();
-    staging.commit().unwrap();
+    let staged = Staged::new(folder, Kind::Dataset, true).unwrap();
+    write_dataset(dataset, format, &staged).unwrap();
+    staged.commit().unwrap();
 }
 
 #[test]
@@ -184,56 +184,37 @@ fn listing(folder: &Path) -> Vec<PathBuf> {
 }
 
 #[test]
-fn what_is_not_committed_leaves_nothing() {
-    let place = TempDir::new().unwrap();
-    for folder in [true, false] {
-        let staging = Staging::new(&place.path().join("run"), folder, false).unwrap();
-        if folder {
-            staging.write("a.txt", b"half").unwrap();
-        }
-        assert!(!listing(place.path()).is_empty());
-        drop(staging);
-        assert!(listing(place.path()).is_empty(), "{:?}", listing(place.path()));
-    }
-}
-
-#[test]
 fn only_datasets_are_replaced() {
     let place = TempDir::new().unwrap();
     let (ours, theirs) = (place.path().join("ours"), place.path().join("theirs"));
     write(&SHORT, Format::Csv, &ours);
-    fs::write(ours.join("path.svg"), "an old figure").unwrap();
-    assert!(Staging::new(&ours, true, false).unwrap_err().to_string().ends_with("ours exists"));
+    fs::write(ours.join("path.svg"), "a figure of others").unwrap();
     write(&SHORT, Format::Parquet, &ours);
     let names: Vec<_> = listing(&ours).iter().map(|path| path.file_name().unwrap().to_owned()).collect();
     assert_eq!(
         names,
-        ["crossings.parquet", "manifest.json", "trajectory.parquet"],
-        "the old one is gone whole"
+        ["_inventory.jsonl", "crossings.parquet", "manifest.json", "path.svg", "trajectory.parquet"],
+        "the old one is gone, what others wrote is not"
     );
 
     fs::create_dir(&theirs).unwrap();
-    for manifest in ["", "{}", "[1, 2]", "{\"name\": \"an app\", \"manifest_version\": 3}"] {
+    for manifest in ["", "{}", "[1, 2]", "{\"motiform\": \"0.1.0\", \"plan_hash\": \"\"}"] {
         fs::write(theirs.join("manifest.json"), manifest).unwrap();
-        let refusal = Staging::new(&theirs, true, true).unwrap_err().to_string();
-        assert!(refusal.contains("not a motiform dataset"), "{refusal}");
+        let refusal = Staged::new(&theirs, Kind::Dataset, true).unwrap_err().to_string();
+        assert!(refusal.contains("no inventory of motiform"), "{refusal}");
     }
-    let file = place.path().join("file");
-    fs::write(&file, "mine").unwrap();
-    assert!(Staging::new(&file, true, true).is_err(), "a file where a folder is to be");
-    assert!(Staging::new(&theirs, false, true).is_err(), "a folder where a file is to be");
-    assert_eq!(listing(place.path()), [file, ours, theirs]);
+    assert_eq!(listing(place.path()), [ours, theirs]);
 }
 
+/// A dataset of an earlier version has no inventory: it is read.
 #[test]
-fn what_appears_in_the_meantime_is_kept() {
+fn datasets_of_earlier_versions_are_read() {
     let place = TempDir::new().unwrap();
-    let target = place.path().join("run");
-    let staging = Staging::new(&target, true, false).unwrap();
-    fs::write(&target, "someone was faster").unwrap();
-    assert!(staging.commit().unwrap_err().to_string().contains("exists"));
-    assert_eq!(fs::read_to_string(&target).unwrap(), "someone was faster");
-    assert_eq!(listing(place.path()), [target]);
+    let folder = place.path().join("run");
+    write(&SHORT, Format::Csv, &folder);
+    fs::remove_file(folder.join("_inventory.jsonl")).unwrap();
+    assert_eq!(read_dataset(&folder).unwrap().trajectory.rows(), SHORT.trajectory.rows());
+    assert_eq!(motiform_files::kind_of(&folder), Some(Kind::Dataset));
 }
 
 /// Each count of a Parquet file changed alone: its columns then differ in length from each other or from the footer.

@@ -8,7 +8,9 @@ use crate::common;
 mod mutate;
 
 use common::{preset, run};
-use motiform_files::{Format, Staging, decoding, read_dataset, read_fields, read_table_file, write_fields};
+use motiform_files::{
+    Format, Kind, Staged, decoding, read_dataset, read_fields, read_table_file, write_fields,
+};
 use motiform_lab::fields::write_dataset;
 use motiform_lab::scan::{Axis, Classify, Opening, Scan, ScanFolder, Shard, Totals, read_part};
 use motiform_study::presets::PRESETS;
@@ -32,9 +34,9 @@ fn dataset(folder: &Path, format: Format, name: &str) {
     let dataset = run(&preset(name, |study| {
         (study.run.transient, study.run.t_end, study.run.dt_out) = (0.0, 2.0, 0.1);
     }));
-    let staging = Staging::new(folder, true, true).unwrap();
-    write_dataset(&dataset, format, &staging).unwrap();
-    staging.commit().unwrap();
+    let staged = Staged::new(folder, Kind::Dataset, true).unwrap();
+    write_dataset(&dataset, format, &staged).unwrap();
+    staged.commit().unwrap();
 }
 
 #[test]

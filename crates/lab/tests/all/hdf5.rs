@@ -134,7 +134,7 @@ fn lengths_that_do_not_belong_together_are_refused() {
     assert!(refused(Fields { points: usize::MAX, ..good() }).contains("outline has 30 values"));
     assert!(!path.exists());
     let nowhere = folder.path().join("nowhere").join("fields.h5");
-    assert!(matches!(write_fields(&nowhere, &good()), Err(motiform_study::Error::WriteFailed { .. })));
+    assert!(matches!(write_fields(&nowhere, &good()), Err(motiform_study::Error::Store(_))));
 }
 
 #[test]

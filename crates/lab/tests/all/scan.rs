@@ -7,6 +7,7 @@ use crate::common;
 use common::preset;
 use motiform_analysis::regime::{Attractor, Regime, Spread, Verdict};
 use motiform_dynamics::Watch;
+use motiform_files::store::Error as StoreError;
 use motiform_lab::scan::{
     Axis, Classify, Ended, Evaluate, NUMBERS, Opening, PartError, Row, SCAN_FORMAT, Scan, ScanFolder, Shard,
     Totals, cells, for_each_part, merge,
@@ -111,7 +112,7 @@ fn shards_merge_to_the_same_bytes() {
     // What is missing can be computed in the merged folder as well.
     open(&at("two"), &plan, "1/1", Opening::Resume).unwrap().run(&Toy, 2, &()).unwrap();
     assert!(contents(&at("two")) == contents(&at("whole")));
-    assert!(matches!(merge(&[at("1")], &at("all"), false), Err(Error::Exists { .. })));
+    assert!(matches!(merge(&[at("1")], &at("all"), false), Err(Error::Store(StoreError::Exists { .. }))));
 }
 
 /// Stops after so many questions.
@@ -172,7 +173,6 @@ fn damaged_parts_are_computed_again() {
     let whole = contents(&at("scan"));
     let parts = ScanFolder::read(&at("scan")).unwrap().parts();
     std::fs::write(parts.path(3), b"PAR1").unwrap();
-    std::fs::write(at("scan").join(".part-00007.parquet.partial"), b"killed").unwrap();
     let totals = Totals::of(&ScanFolder::read(&at("scan")).unwrap()).unwrap();
     assert_eq!((totals.damaged.len(), totals.missing), (1, plan.cells_of(3).len()));
     let scan = open(&at("scan"), &plan, "1/1", Opening::Resume).unwrap();
@@ -183,6 +183,27 @@ fn damaged_parts_are_computed_again() {
     );
     assert_eq!(scan.cells_left(), plan.cells_of(3).len());
     scan.run(&Toy, 2, &()).unwrap();
+    let aside = at("scan").join("_damaged-part-00003.parquet");
+    assert_eq!(std::fs::read(&aside).unwrap(), b"PAR1");
+    assert!(scan.notes().iter().any(|note| note.contains("_damaged-part-00003.parquet")));
+    std::fs::remove_file(aside).unwrap();
+    assert!(contents(&at("scan")) == whole);
+}
+
+/// A scan of an earlier version has no inventory; what its plan and the digests of its parts prove is continued.
+#[test]
+fn scans_of_earlier_versions_go_on() {
+    let ((_keep, at), plan) = (folder(), plan());
+    compute(&at("scan"), &plan, "1/1", 2);
+    let whole = contents(&at("scan"));
+    let parts = ScanFolder::read(&at("scan")).unwrap().parts();
+    std::fs::remove_file(parts.path(3)).unwrap();
+    std::fs::remove_file(at("scan").join("_inventory.jsonl")).unwrap();
+    let replaced = open(&at("scan"), &plan, "1/1", Opening::Replace);
+    assert!(matches!(replaced, Err(Error::Store(StoreError::NotOurs { .. }))));
+    let scan = open(&at("scan"), &plan, "1/1", Opening::Resume).unwrap();
+    assert_eq!(scan.cells_left(), plan.cells_of(3).len());
+    scan.run(&Toy, 2, &()).unwrap();
     assert!(contents(&at("scan")) == whole);
 }
 
@@ -191,10 +212,16 @@ fn one_process_at_a_time_and_one_plan_per_folder() {
     let ((_keep, at), plan) = (folder(), plan());
     let scan = open(&at("scan"), &plan, "1/1", Opening::New).unwrap();
     for opening in [Opening::Resume, Opening::Replace] {
-        assert!(matches!(open(&at("scan"), &plan, "1/2", opening), Err(Error::Busy { .. })));
+        assert!(matches!(
+            open(&at("scan"), &plan, "1/2", opening),
+            Err(Error::Store(StoreError::Busy { .. }))
+        ));
     }
     drop(scan);
-    assert!(matches!(open(&at("scan"), &plan, "1/1", Opening::New), Err(Error::ScanExists { .. })));
+    assert!(matches!(
+        open(&at("scan"), &plan, "1/1", Opening::New),
+        Err(Error::Store(StoreError::Resumable { .. }))
+    ));
     let other = study(|study| {
         study.scan.axes.pop();
         study.scan.samples = 4;
@@ -214,8 +241,12 @@ fn one_process_at_a_time_and_one_plan_per_folder() {
     open(&at("scan"), &other, "1/1", Opening::Replace).unwrap();
     assert_eq!(ScanFolder::read(&at("scan")).unwrap().plan(), &other);
     std::fs::create_dir(at("mine")).unwrap();
+    std::fs::write(at("mine").join("notes.md"), "mine").unwrap();
     for opening in [Opening::New, Opening::Replace] {
-        assert!(matches!(open(&at("mine"), &plan, "1/1", opening), Err(Error::NotOurs { .. })));
+        assert!(matches!(
+            open(&at("mine"), &plan, "1/1", opening),
+            Err(Error::Store(StoreError::NotOurs { .. }))
+        ));
     }
     assert!(matches!(open(&at("mine"), &plan, "1/1", Opening::Resume), Err(Error::NoScan { .. })));
 }
@@ -450,7 +481,9 @@ fn what_a_killed_run_left_is_removed_when_a_scan_goes_on() {
     drop(Scan::open(&folder, &plan(), Shard::WHOLE, Opening::New).unwrap());
     let left = place.path().join(".scan.0123456789abcdef.partial");
     std::fs::create_dir(&left).unwrap();
+    let marker = "{\"motiform\":\"0.1.0\",\"kind\":\"scan\",\"format\":1,\"complete\":false,\"staging_for\":\"scan\"}\n";
+    std::fs::write(left.join("_inventory.jsonl"), marker).unwrap();
     let scan = Scan::open(&folder, &plan(), Shard::WHOLE, Opening::Resume).unwrap();
     assert!(!left.exists());
-    assert!(scan.swept()[0].contains("left by a killed run"), "{:?}", scan.swept());
+    assert!(scan.notes()[0].contains("left by a killed run"));
 }

@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use motiform_files::{Format, Staging};
+use motiform_files::{Format, Kind, Opening, Staged};
 use motiform_lab::draw::FigureFormat;
 use motiform_lab::fields::write_dataset;
 use motiform_lab::simulate::simulate;
-use motiform_measure::{is_one, read, write};
+use motiform_measure::{open, read, write};
 use motiform_statistics::{Errors, Settings};
 use motiform_study::{Plan, Study};
 use std::path::{Path, PathBuf};
@@ -14,9 +14,9 @@ use std::path::{Path, PathBuf};
 /// Writes a dataset of this study, with other lines in `[run]`.
 fn dataset(folder: &Path, name: &str, text: &str) -> PathBuf {
     let plan = Plan::new(&Study::parse(text, "text", "test").unwrap()).unwrap();
-    let staging = Staging::new(&folder.join(name), true, false).unwrap();
-    write_dataset(&simulate(&plan, &()).unwrap(), Format::Parquet, &staging).unwrap();
-    staging.commit().unwrap()
+    let staged = Staged::new(&folder.join(name), Kind::Dataset, false).unwrap();
+    write_dataset(&simulate(&plan, &()).unwrap(), Format::Parquet, &staged).unwrap();
+    staged.commit().unwrap().0
 }
 
 fn tensor(run: &str) -> String {
@@ -38,9 +38,10 @@ fn folders_are_bodies() {
     let found = read(&paths, 10.0, &Settings::default()).unwrap();
     assert_eq!((found.statistics.bodies, found.statistics.samples), (3, [1901, 1901]));
     assert_eq!(found.statistics.errors, Errors::Blocks { count: 18, samples: 316 });
-    let staging = Staging::replacing(&folder.path().join("out"), false, is_one).unwrap();
-    let out = write(&found, &FigureFormat::default(), staging).unwrap();
-    assert!(is_one(&out) && out.join("msd.parquet").is_file() && out.join("msd.png").is_file());
+    let out = folder.path().join("out");
+    let into = open(&out, Opening::New, None).unwrap();
+    write(&found, &FigureFormat::default(), &into).unwrap();
+    assert!(out.join("msd.parquet").is_file() && out.join("msd.png").is_file());
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use super::setting::{Seen, Setting, decode, state_of};
 use crate::branches::Spot;
+use crate::map::FARTHEST;
 use crate::protocol::Put;
 use motiform_dynamics::Normal;
 use motiform_lab::live::start;
@@ -139,7 +140,9 @@ impl Setting {
         let (shape, position) = state.split_at(model.dim());
         let mut values = decode(model, shape);
         for (name, value) in coordinates {
-            check("start", *value, value.is_finite(), "give a finite number")?;
+            let remedy =
+                "coordinates of the start lie within those of maps: give a number of at most 1e9 in size";
+            check("start", *value, value.abs() <= FARTHEST, remedy)?;
             if let Some(entry) = values.get_mut(info.coordinate(&parameters, name)?) {
                 *entry = *value;
             }

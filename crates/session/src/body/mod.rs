@@ -108,6 +108,7 @@ async fn answer_all(asks: &impl Asks, services: &Services) -> Result<(), Gone> {
         next = match Stage::new(&setting, &body, services) {
             Ok(mut stage) => play(&mut stage, asks).await?,
             Err(error) => {
+                services.swarms.end(); // it was that of the body before
                 services.answers.refused(None, &error.to_string())?;
                 first(asks, services).await?
             }
@@ -125,8 +126,10 @@ async fn first(asks: &impl Asks, services: &Services) -> Result<Option<Setting>,
                 define(text, services)?;
                 continue;
             }
-            _ => {
-                services.answers.refused(None, "there is no body yet: send begin first")?;
+            other => {
+                // A file that was asked for is refused by its number: the page waits for it.
+                let id = if let Ask::Export(export) = other { Some(export.id) } else { None };
+                services.answers.refused(id, "there is no body yet: send begin first")?;
                 continue;
             }
         };
@@ -174,4 +177,27 @@ async fn play(stage: &mut Stage<'_>, asks: &impl Asks) -> Result<Option<Setting>
         }
     }
     Ok(None)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+    use crate::answers::Answer;
+    use std::sync::mpsc::channel;
+
+    /// Members that are no numbers any more end their swarm, not the session: the body goes on, and the next one begins.
+    #[test]
+    fn a_swarm_that_cannot_go_on_ends_alone() {
+        let (send, said) = channel();
+        let answers = Answers::new(move |answer| send.send(answer).map_err(|_| Gone));
+        let services = Services::new(&answers, &Crew::Threads, Catalogue::new(None).unwrap()).unwrap();
+        services.swarms.hold(vec![vec![f64::NAN; 8]]);
+        let setting = setting::tests::begin("tensor", "fig5a");
+        let body = InPlane(setting.model());
+        assert!(Stage::new(&setting, &body, &services).is_ok() && !services.swarms.goes_on());
+        let Ok(Answer::Text(text)) = said.try_recv() else { unreachable!() };
+        assert!(text.contains("the swarm ends here"), "{text}");
+    }
 }

@@ -7,6 +7,7 @@ use crate::protocol::{Begin, Begun, Changed, Observable};
 use motiform_dynamics::{InPlane, Model};
 use motiform_lab::draw::radius_for;
 use motiform_lab::live::{Record, Stretch, settled};
+use motiform_study::plan::check;
 use motiform_study::study::{DisplaySettings, ReturnMapSettings};
 use motiform_study::{Error, Plan, Study};
 use std::rc::Rc;
@@ -17,6 +18,9 @@ const SETTLING: Duration = Duration::from_millis(300);
 
 /// A short integration ahead, to draw the body from the start with a radius that suits its deformation: samples, and time limit.
 const AHEAD: (usize, Duration) = (600, Duration::from_millis(30));
+
+/// No entry of a shape is larger, and no body is farther away or later: sums of squares and steps of time stay numbers.
+const LARGEST: (f64, f64) = (1e9, 1e12);
 
 /// What stays the same until the next change.
 pub(crate) struct Setting {
@@ -82,6 +86,7 @@ impl Setting {
         state: Vec<f64>,
     ) -> Result<Self, Error> {
         let model = study.info()?.build(&study.values()?)?;
+        within(t, &state, model.dim())?;
         let mut now = at(&study, model.as_ref(), &state);
         let plan = Plan::new(&now)?;
         now.run.silence();
@@ -228,6 +233,17 @@ pub(super) fn state_of(
     model.encode(coordinates, &mut state);
     state.extend(position);
     Ok(state)
+}
+
+/// Rejects a state that is no shape any more, or lies beyond any distance and time that can be shown.
+fn within(t: f64, state: &[f64], dim: usize) -> Result<(), Error> {
+    let far = "the explorer takes times and positions up to 1e12";
+    check("t", t, t.abs() <= LARGEST.1, far)?;
+    let (shape, position) = state.split_at(dim);
+    for &entry in shape {
+        check("state", entry, entry.abs() <= LARGEST.0, "the explorer takes shapes up to 1e9")?;
+    }
+    position.iter().try_for_each(|&entry| check("position", entry, entry.abs() <= LARGEST.1, far))
 }
 
 /// A study that starts from a state, without transient.

@@ -61,7 +61,12 @@ impl<'s> Stage<'s> {
         let stretch = Stretch::new(setting.plan(), body, t, state, u64::from(setting.revision()))?;
         let record =
             Record::new(setting.model(), setting.plan().computation.control.absolute_tolerance(), KEPT);
-        let swarm = Swimmers::again(setting, body, t, &services.swarms)?;
+        let swarm = Swimmers::again(setting, body, t, &services.swarms).unwrap_or_else(|error| {
+            services.swarms.end();
+            // A page that has gone is noticed at its next request.
+            let _ = services.answers.refused(None, &format!("the swarm ends here: {error}"));
+            None
+        });
         Ok(Self {
             setting,
             body,

@@ -108,6 +108,12 @@ impl Swarms {
         self.group.borrow().is_some()
     }
 
+    /// A swarm in these states.
+    #[cfg(test)]
+    pub(super) fn hold(&self, states: Vec<Vec<f64>>) {
+        self.group.replace(Some(Group { from: SwarmStart::Near, states }));
+    }
+
     /// There is no swarm any more.
     pub(super) fn end(&self) {
         self.worker.clear();
@@ -147,7 +153,7 @@ impl<'s> Swimmers<'s> {
         check("spread", wish.spread, (0.0..=1.0).contains(&wish.spread), remedy)?;
         let states: Result<_, Error> = (0..wish.bodies).map(|k| begins(wish, k, setting, state)).collect();
         swarms.group.replace(Some(Group { from: wish.from, states: states? }));
-        Self::again(setting, body, t, swarms)
+        Self::again(setting, body, t, swarms).inspect_err(|_| swarms.end())
     }
 
     /// Goes on with the swarm that there was before a change of the body, if there is one and its shapes are those of the model.

@@ -12,8 +12,8 @@ use motiform_study::{Error, Plan, ScanPlan, Study};
 /// Maximum and minimum number of cells along an axis.
 const COUNTS: (u16, u16) = (8, 160);
 
-/// No window reaches further.
-const LARGEST: f64 = 1e9;
+/// No window reaches further, and no start lies further away.
+pub(crate) const FARTHEST: f64 = 1e9;
 
 /// The computed rows of a plane, and its visible window.
 #[derive(Default)]
@@ -137,7 +137,7 @@ impl Range {
         let info = study.info()?;
         let varies_start = axis(side, Vec::new()).varies_start(info, &study.values()?)?;
         if !(side.low < side.high
-            && side.low.abs().max(side.high.abs()) < LARGEST
+            && side.low.abs().max(side.high.abs()) < FARTHEST
             && side.high - side.low > 1e-12)
         {
             let problem =
@@ -145,7 +145,7 @@ impl Range {
             return Err(Error::Axis { text: side.name.clone(), problem });
         }
         if varies_start {
-            return Ok(Self { allowed: (-LARGEST, LARGEST), whole: false, typical: 0.0 });
+            return Ok(Self { allowed: (-FARTHEST, FARTHEST), whole: false, typical: 0.0 });
         }
         let spec = &info.parameters()[index_of(info.parameters(), info.name, &side.name)?];
         Ok(Self { allowed: spec.allowed, whole: spec.whole, typical: spec.default })

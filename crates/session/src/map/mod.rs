@@ -16,6 +16,7 @@ use crate::protocol::{Evidence, MapWindow, Values};
 use crate::task::{self, Crew, Errand, lock};
 #[cfg(feature = "threads")]
 use crate::task::{Task as _, thread::Thread};
+pub(crate) use map_state::FARTHEST;
 use map_state::MapState;
 use motiform_lab::draw::{exponents, phase_diagram, sheet};
 use motiform_lab::scan::{CellSummary, Row, rows_to_csv};

@@ -225,9 +225,12 @@ impl Request {
 /// The messages as TypeScript: the page's `protocol.ts`.
 #[must_use]
 pub fn typescript() -> String {
-    let head = "/** What the page and the server say to each other, as JSON; see PROTOCOL.md. Made from `src/protocol`: do not edit. */\n\n\
-                /** Named numbers. */\nexport type Values = Record<string, number>;\n";
-    [head, &SectionKind::declaration(), &SwarmStart::declaration(), &parts(), &answers(), &wishes()]
+    let head = format!(
+        "/** What the page and the server say to each other, as JSON; see PROTOCOL.md. Made from `src/protocol`: do not edit. */\n\n\
+         /** Bytes of the longest message of the page. */\nexport const LONGEST = {LONGEST};\n\n\
+         /** Named numbers. */\nexport type Values = Record<string, number>;\n"
+    );
+    [head.as_str(), &SectionKind::declaration(), &SwarmStart::declaration(), &parts(), &answers(), &wishes()]
         .join("\n")
 }
 

@@ -25,6 +25,57 @@ fn what_is_no_message_is_refused_and_the_session_goes_on() {
     assert_eq!(page.next("named")["regime"], "zigzag");
 }
 
+/// The page waits for the file with this number.
+#[test]
+fn a_file_of_no_body_is_refused_by_its_number() {
+    let mut page = Alone::new(1);
+    page.say(r#"{"do":"export","id":41,"what":"study.toml"}"#);
+    let refused = page.next("refused");
+    assert_eq!(refused["id"], 41);
+    assert!(refused["why"].as_str().unwrap().contains("begin first"), "{refused}");
+}
+
+/// A start, a state, a place or a time beyond anything that can be shown is refused, and the body goes on.
+#[test]
+fn what_lies_beyond_everything_is_refused() {
+    let mut page = begun();
+    for (bad, says) in [
+        (r#"{"do":"start","coordinates":{"s11":3e299}}"#, "1e9"),
+        (r#"{"do":"start","coordinates":{"s11":-1.001e9}}"#, "1e9"),
+        (r#"{"do":"put","state":[0.3,0.1,3e299,0,0,0]}"#, "1e9"),
+        (r#"{"do":"put","velocity":[3e299,0]}"#, "1e9"),
+        (r#"{"do":"put","position":[0,-3e299]}"#, "1e12"),
+        (r#"{"do":"put","t":3e299}"#, "1e12"),
+        (r#"{"do":"begin","model":"tensor","preset":"fig5a","state":[3e299,0,0,0,0,0]}"#, "1e9"),
+        (r#"{"do":"begin","model":"tensor","preset":"fig5a","t":3e299}"#, "1e12"),
+    ] {
+        page.say(bad);
+        let why = page.next("refused")["why"].as_str().unwrap().to_owned();
+        assert!(why.contains(says), "{bad}: {why}");
+    }
+    page.say(r#"{"do":"start","coordinates":{"s11":0.999e9}}"#);
+    assert_eq!(page.next("changed")["revision"], 2, "just inside");
+}
+
+/// Whatever a swarm begins from, the next body can begin.
+#[test]
+fn a_swarm_from_the_largest_start_leaves_the_session_as_it_was() {
+    for from in ["starts", "near", "noises"] {
+        let mut page = begun();
+        page.say(r#"{"do":"start","coordinates":{"s11":1e9,"u111":-1e9}}"#);
+        page.next("changed");
+        page.say(&format!(r#"{{"do":"swarm","bodies":3,"from":"{from}","spread":1}}"#));
+        page.say(r#"{"do":"advance","dt":1}"#);
+        page.say(r#"{"do":"kick","strength":0.2}"#);
+        for revision in 1..3 {
+            page.say(BEGIN);
+            assert!(page.next("begun")["revision"].as_u64() >= Some(revision), "{from}");
+        }
+        page.say(r#"{"do":"share"}"#);
+        page.next("share");
+    }
+}
+
 #[test]
 fn what_is_found_of_an_earlier_motion_is_not_told() {
     let mut page = begun();

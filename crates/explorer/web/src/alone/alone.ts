@@ -16,6 +16,7 @@ const MAPPERS = [2, 8];
 let first = true;
 
 export class Alone implements Transport {
+  readonly longest = Infinity;
   private worker: Worker | null = null;
   private helpers: Helpers | null = null;
   private greeted = false;
@@ -64,7 +65,7 @@ export class Alone implements Transport {
     console.error(`the computation failed: ${why}`);
     this.stop();
     if (this.over) return;
-    this.listener.open(false, FAILED);
+    this.listener.open(false, FAILED, `The computation failed: ${why}`);
     window.setTimeout(() => this.begin(), RETRY);
   }
 

@@ -27,7 +27,11 @@ async function compressed(): Promise<ReadableStream<BufferSource>> {
     for (let k = 0; k < digits.length; k++) bytes[k] = digits.charCodeAt(k); // a function called for each takes ten times as long
     return new Blob([bytes]).stream() as ReadableStream<BufferSource>;
   }
-  const answer = await fetch(new URL(BESIDE, document.baseURI));
+  const answer = await fetch(new URL(BESIDE, document.baseURI)).catch((error: unknown) => {
+    // To a page without an origin every host is another one.
+    const sandboxed = "in a sandboxed frame its host must allow it (Access-Control-Allow-Origin: *), or the page must be the one file motiform.html";
+    throw window.origin === "null" ? new Error(`${BESIDE} cannot be read: ${sandboxed}`) : error;
+  });
   if (!answer.ok || !answer.body) throw new Error(`${BESIDE}: ${answer.status}`);
   return answer.body as ReadableStream<BufferSource>;
 }

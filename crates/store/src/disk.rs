@@ -50,3 +50,38 @@ pub fn exchange(one: &Path, other: &Path) -> bool {
 pub fn exchange(_one: &Path, _other: &Path) -> bool {
     false
 }
+
+/// Renames what has no other's name: what has the new name already stays, and it is an error.
+pub fn rename_new(from: &Path, to: &Path) -> Result<()> {
+    rename_without_replacing(from, to)?;
+    sync_folder(to.parent().unwrap_or(Path::new(".")))
+}
+
+#[cfg(target_os = "linux")]
+fn rename_without_replacing(from: &Path, to: &Path) -> Result<()> {
+    use rustix::fs::{CWD, RenameFlags, renameat_with};
+    use rustix::io::Errno;
+    match renameat_with(CWD, from, CWD, to, RenameFlags::NOREPLACE) {
+        Err(Errno::INVAL | Errno::NOSYS | Errno::OPNOTSUPP) => rename_if_absent(from, to), // a file system without it
+        renamed => Ok(renamed?),
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+fn rename_without_replacing(from: &Path, to: &Path) -> Result<()> {
+    rename_if_absent(from, to)
+}
+
+fn rename_if_absent(from: &Path, to: &Path) -> Result<()> {
+    if to.symlink_metadata().is_ok() {
+        return Err(std::io::ErrorKind::AlreadyExists.into());
+    }
+    fs::rename(from, to)
+}
+
+/// Writes new bytes into a file that exists and may be locked, and waits until they are on disk.
+pub fn overwrite(path: &Path, bytes: &[u8]) -> Result<()> {
+    let mut file = File::options().write(true).truncate(true).open(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}

@@ -1,0 +1,219 @@
+//! Tables on disk, Parquet or CSV, written and read in groups of rows: in memory that does not grow with the table.
+
+use crate::{Format, csv_table, parquet_table};
+use motiform_study::table::Table;
+use motiform_study::{Error, Manifest};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// Rows of a group: what is in memory while a table is written or read. A table with fewer has one group.
+pub const GROUP_ROWS: usize = 1 << 18;
+
+/// A table that is written while its rows come.
+///
+/// The same rows give the same bytes as [`crate::write_table`], however they come.
+pub struct TableWriter {
+    path: PathBuf,
+    format: Format,
+    /// Rows that are not in the file yet: at most one group.
+    table: Table,
+    /// Whether there are rows in the file that are not in the table any more.
+    written: bool,
+    /// Begins with the first full group, or at the end: a short table is stored differently.
+    file: Option<Kind>,
+}
+
+enum Kind {
+    Csv(csv_table::Writer),
+    Parquet(parquet_table::Writer),
+}
+
+impl Kind {
+    fn new(table: &Table, format: Format, path: &Path) -> Result<Self, Error> {
+        let failed = |error: &dyn std::fmt::Display| Error::write_failed(path, error);
+        Ok(match format {
+            Format::Csv => Self::Csv(csv_table::Writer::new(table, path).map_err(|error| failed(&error))?),
+            Format::Parquet => {
+                Self::Parquet(parquet_table::Writer::new(table, path).map_err(|error| failed(&error))?)
+            }
+        })
+    }
+
+    fn rows(&mut self, table: &Table, rows: Range<usize>, path: &Path) -> Result<(), Error> {
+        match self {
+            Self::Csv(file) => file.rows(table, rows).map_err(|error| Error::write_failed(path, error)),
+            Self::Parquet(file) => file.rows(table, rows).map_err(|error| Error::write_failed(path, error)),
+        }
+    }
+
+    fn finish(self, manifest: &Manifest, path: &Path) -> Result<(), Error> {
+        match self {
+            Self::Csv(file) => file.finish().map_err(|error| Error::write_failed(path, error)),
+            Self::Parquet(file) => {
+                let metadata =
+                    serde_json::to_string(manifest).map_err(|error| Error::write_failed(path, error))?;
+                file.finish(&metadata).map_err(|error| Error::write_failed(path, error))
+            }
+        }
+    }
+}
+
+impl TableWriter {
+    /// A table at `path` with the columns of `empty`, which has no rows.
+    #[must_use]
+    pub fn new(empty: Table, format: Format, path: &Path) -> Self {
+        Self { path: path.to_owned(), format, table: empty, written: false, file: None }
+    }
+
+    /// The rows that are not in the file yet, for a further one: call [`TableWriter::advance`] after each.
+    pub fn table(&mut self) -> &mut Table {
+        &mut self.table
+    }
+
+    /// Writes a group where there is a whole one.
+    ///
+    /// # Errors
+    /// [`Error::WriteFailed`].
+    pub fn advance(&mut self) -> Result<(), Error> {
+        if self.table.rows() < GROUP_ROWS {
+            return Ok(());
+        }
+        self.flush()?;
+        self.written = true;
+        self.table.columns.iter_mut().for_each(|column| column.values.clear());
+        Ok(())
+    }
+
+    /// Begins again: the rows so far are no part of the table.
+    pub fn restart(&mut self) {
+        self.table.columns.iter_mut().for_each(|column| column.values.clear());
+        (self.written, self.file) = (false, None); // the next file of this name replaces it
+    }
+
+    fn flush(&mut self) -> Result<(), Error> {
+        let file = match &mut self.file {
+            Some(file) => file,
+            none => none.insert(Kind::new(&self.table, self.format, &self.path)?),
+        };
+        if self.table.rows() == 0 { Ok(()) } else { file.rows(&self.table, 0..self.table.rows(), &self.path) }
+    }
+
+    /// Ends the file, with the manifest inside if the format supports it. Gives the whole table where it has one group at most.
+    ///
+    /// # Errors
+    /// [`Error::WriteFailed`].
+    pub fn finish(mut self, manifest: &Manifest) -> Result<Option<Table>, Error> {
+        self.flush()?;
+        if let Some(file) = self.file {
+            file.finish(manifest, &self.path)?;
+        }
+        Ok((!self.written).then_some(self.table))
+    }
+}
+
+/// Writes one table to `path` in the given format, with the manifest inside if the format supports it.
+///
+/// # Errors
+/// [`Error::WriteFailed`].
+pub fn write_table(table: &Table, manifest: &Manifest, format: Format, path: &Path) -> Result<(), Error> {
+    let mut file = Kind::new(table, format, path)?;
+    for start in (0..table.rows()).step_by(GROUP_ROWS) {
+        file.rows(table, start..table.rows().min(start + GROUP_ROWS), path)?;
+    }
+    file.finish(manifest, path)
+}
+
+/// Gives `take` the rows of a table, a group at a time; a table without rows is one empty group. An error of `take` ends it.
+///
+/// # Errors
+/// [`Error::Unreadable`], and what `take` refuses.
+pub fn read_groups(path: &Path, take: &mut dyn FnMut(Table) -> Result<(), Error>) -> Result<(), Error> {
+    match Format::of_path(path) {
+        Some(Format::Csv) => csv_table::groups(path, take),
+        Some(Format::Parquet) => parquet_table::groups(path, take),
+        None => Err(Error::unreadable(path, "it is not a table: give a .parquet or .csv file")),
+    }
+}
+
+/// A whole table.
+pub(crate) fn read(path: &Path) -> Result<Table, Error> {
+    let mut whole: Option<Table> = None;
+    read_groups(path, &mut |group| {
+        let Some(whole) = &mut whole else {
+            whole = Some(group);
+            return Ok(());
+        };
+        for (column, part) in whole.columns.iter_mut().zip(group.columns) {
+            column.values.extend(part.values);
+        }
+        Ok(())
+    })?;
+    Ok(whole.unwrap_or_default())
+}
+
+#[cfg(all(test, feature = "formats"))]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+    use motiform_study::table::same_bits;
+    use motiform_study::{Ending, Plan, presets};
+
+    fn table(rows: usize) -> Table {
+        let mut table = Table::default();
+        table.push("t", "model time", (0..rows).map(|row| 0.1 * row as f64).collect());
+        let gap = |row: usize| if row.is_multiple_of(7) { f64::NAN } else { -(row as f64).sqrt() };
+        table.push("x", "with gaps", (0..rows).map(gap).collect());
+        table
+    }
+
+    fn manifest() -> Manifest {
+        let plan = Plan::new(&presets::find_any("fig5a", "tensor").unwrap()).unwrap();
+        let outcome = Ending::from(motiform_dynamics::Outcome::Completed { t: 1.0 });
+        Manifest {
+            motiform: "0".to_owned(),
+            plan_hash: plan.hash(),
+            plan,
+            seed: 1,
+            outcome,
+            regime: None,
+            steps: 1,
+            rejected_steps: 0,
+            state: motiform_study::plan::Named(Vec::new()),
+            position: [0.0; 2],
+            velocity: [0.0; 2],
+            measures: motiform_study::plan::Named(Vec::new()),
+            step_error: None,
+            centre: None,
+        }
+    }
+
+    /// Row by row or at once: the same bytes, on both sides of everything that depends on the number of rows; and all of them are read.
+    #[test]
+    fn rows_that_come_one_by_one_give_the_same_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let manifest = manifest();
+        for rows in [0, 1, 1023, 1024, GROUP_ROWS - 1, GROUP_ROWS, GROUP_ROWS + 1, 2 * GROUP_ROWS + 5] {
+            let whole = table(rows);
+            for format in [Format::Parquet, Format::Csv] {
+                let at = |name: &str| folder.path().join(format.file(name));
+                write_table(&whole, &manifest, format, &at("whole")).unwrap();
+                let mut writer = TableWriter::new(table(0), format, &at("rows"));
+                // What came before a restart is no part of it.
+                writer.table().columns.iter_mut().for_each(|column| column.values.push(9.0));
+                writer.advance().unwrap();
+                writer.restart();
+                for row in 0..rows {
+                    for (column, from) in writer.table().columns.iter_mut().zip(&whole.columns) {
+                        column.values.push(from.values[row]);
+                    }
+                    writer.advance().unwrap();
+                }
+                let kept = writer.finish(&manifest).unwrap();
+                assert_eq!(kept.is_some(), rows < GROUP_ROWS, "{rows}");
+                assert!(std::fs::read(at("whole")).unwrap() == std::fs::read(at("rows")).unwrap(), "{rows}");
+                assert!(same_bits(&read(&at("rows")).unwrap(), &whole), "{rows}");
+            }
+        }
+    }
+}

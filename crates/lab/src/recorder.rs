@@ -1,0 +1,324 @@
+//! What is recorded of a run while it is computed: rows go where they are written, and nothing else is kept of them.
+
+use crate::readings::{Crossings, Readings};
+use crate::simulate::Simulation;
+use motiform_dynamics::section::Crossing;
+use motiform_dynamics::{Sink, Trajectory, Watch};
+use motiform_files::TableWriter;
+use motiform_study::Error;
+use motiform_study::table::Table;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Where the rows of a trajectory go.
+pub trait Rows {
+    /// The table that takes the next row.
+    fn table(&mut self) -> &mut Table;
+
+    /// A row was added.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    fn advance(&mut self) -> Result<(), Error>;
+
+    /// All rows so far were in vain: others follow.
+    ///
+    /// # Errors
+    /// They cannot be removed.
+    fn restart(&mut self) -> Result<(), Error>;
+}
+
+/// All rows stay in memory.
+impl Rows for Table {
+    fn table(&mut self) -> &mut Table {
+        self
+    }
+
+    fn advance(&mut self) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn restart(&mut self) -> Result<(), Error> {
+        self.columns.iter_mut().for_each(|column| column.values.clear());
+        Ok(())
+    }
+}
+
+impl Rows for TableWriter {
+    fn table(&mut self) -> &mut Table {
+        self.table()
+    }
+
+    fn advance(&mut self) -> Result<(), Error> {
+        self.advance()
+    }
+
+    fn restart(&mut self) -> Result<(), Error> {
+        self.restart();
+        Ok(())
+    }
+}
+
+/// Rows that nobody wants.
+#[derive(Default)]
+pub struct Unwanted(Table);
+
+impl Rows for Unwanted {
+    fn table(&mut self) -> &mut Table {
+        &mut self.0
+    }
+
+    fn advance(&mut self) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn restart(&mut self) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// What a run is recorded by.
+pub(crate) trait Record {
+    fn sink(&mut self) -> &mut dyn Sink;
+
+    /// Becomes true where nothing more can be taken: the run is in vain.
+    fn full(&self) -> Arc<AtomicBool> {
+        Arc::default()
+    }
+}
+
+impl Record for Trajectory {
+    fn sink(&mut self) -> &mut dyn Sink {
+        self
+    }
+}
+
+/// A watch that also stops a run whose rows cannot be written.
+pub(crate) struct Unless<'w> {
+    pub(crate) watch: &'w dyn Watch,
+    pub(crate) stop: &'w AtomicBool,
+}
+
+impl Watch for Unless<'_> {
+    fn progress(&self, done: f64) {
+        self.watch.progress(done);
+    }
+
+    fn note(&self, text: &str) {
+        self.watch.note(text);
+    }
+
+    fn stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed) || self.watch.stopped()
+    }
+}
+
+/// The recorder of a plan: rows, crossings, and the centre of the path where the return map is centred.
+pub(crate) struct Recorder<'r> {
+    readings: Readings<'r>,
+    rows: &'r mut dyn Rows,
+    crossings: Option<Crossings>,
+    centre: Centre,
+    failed: Option<Error>,
+    full: Arc<AtomicBool>,
+}
+
+impl<'r> Recorder<'r> {
+    pub(crate) fn new(run: &Simulation<'r>, rows: &'r mut dyn Rows) -> Self {
+        let c = run.computation;
+        Self {
+            readings: Readings::new(run.model, c),
+            rows,
+            crossings: c.return_map.as_ref().map(Crossings::new),
+            centre: Centre::new(0.0, last_sample(c.t_end, c.dt_out)),
+            failed: None,
+            full: Arc::default(),
+        }
+    }
+
+    /// The centre of the path; the time of its last sample where that was not foreseen.
+    pub(crate) fn centre(&self) -> Result<[f64; 2], f64> {
+        if self.centre.last == self.centre.end { Ok(self.centre.found()) } else { Err(self.centre.last) }
+    }
+
+    /// Another recording follows instead of the one so far.
+    pub(crate) fn restart(&mut self) -> Result<(), Error> {
+        self.failed.take().map_or(Ok(()), Err)?;
+        self.crossings = self.crossings.take().map(Crossings::emptied);
+        self.rows.restart()
+    }
+
+    /// The crossings.
+    ///
+    /// # Errors
+    /// Rows could not be written.
+    pub(crate) fn finish(self) -> Result<Option<Table>, Error> {
+        match self.failed {
+            Some(error) => Err(error),
+            None => Ok(self.crossings.map(Crossings::table)),
+        }
+    }
+}
+
+impl Record for Recorder<'_> {
+    fn sink(&mut self) -> &mut dyn Sink {
+        self
+    }
+
+    fn full(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.full)
+    }
+}
+
+impl Sink for Recorder<'_> {
+    fn sample(&mut self, t: f64, u: &[f64]) {
+        if self.failed.is_some() {
+            return; // the run ends with the step
+        }
+        self.centre.sample(t, u);
+        self.readings.push(t, u, self.rows.table());
+        if let Err(error) = self.rows.advance() {
+            self.failed = Some(error);
+            self.full.store(true, Ordering::Relaxed);
+        }
+    }
+
+    fn crossing(&mut self, crossing: &Crossing<'_>) {
+        if let Some(crossings) = &mut self.crossings {
+            crossings.push(crossing.t, position(crossing.state), crossing.rising);
+        }
+    }
+}
+
+fn position(u: &[f64]) -> [f64; 2] {
+    [u[u.len() - 2], u[u.len() - 1]]
+}
+
+/// The last time of the grid that a run from 0 to `end` samples, as [`motiform_dynamics::drive::Run`] finds it.
+fn last_sample(end: f64, every: f64) -> f64 {
+    let near = (end / every).round() * every;
+    if (near - end).abs() <= 1e-9 * every { end } else { (end / every).floor() * every }
+}
+
+/// The time average of the position with a smooth window that vanishes with all its derivatives at both ends: for a
+/// periodic or quasi-periodic path it converges to the centre faster than any power of the time.
+pub(crate) struct Centre {
+    start: f64,
+    end: f64,
+    last: f64,
+    weights: f64,
+    sum: [f64; 2],
+}
+
+impl Centre {
+    /// Of a path from `start` to `end`.
+    pub(crate) fn new(start: f64, end: f64) -> Self {
+        Self { start, end, last: start, weights: 0.0, sum: [0.0; 2] }
+    }
+
+    pub(crate) fn add(&mut self, t: f64, [x, y]: [f64; 2]) {
+        let s = (t - self.start) / (self.end - self.start);
+        let weight = if s > 0.0 && s < 1.0 { libm::exp(-1.0 / (s * (1.0 - s))) } else { 0.0 };
+        self.weights += weight;
+        self.sum[0] += weight * x;
+        self.sum[1] += weight * y;
+        self.last = t;
+    }
+
+    pub(crate) fn found(&self) -> [f64; 2] {
+        if self.weights > 0.0 { self.sum.map(|sum| sum / self.weights) } else { [0.0; 2] }
+    }
+}
+
+impl Sink for Centre {
+    fn sample(&mut self, t: f64, u: &[f64]) {
+        self.add(t, position(u));
+    }
+}
+
+impl Record for Centre {
+    fn sink(&mut self) -> &mut dyn Sink {
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+    use crate::simulate::{Run, columns, simulate, simulate_into};
+    use motiform_dynamics::Outcome;
+    use motiform_models::ModelInfo;
+    use motiform_study::table::same_bits;
+    use motiform_study::{Plan, presets};
+
+    fn plan(model: &str, preset: &str, change: impl Fn(&mut motiform_study::Study)) -> Plan {
+        let mut study = presets::find(ModelInfo::find(model).unwrap(), preset).unwrap();
+        change(&mut study);
+        Plan::new(&study).unwrap()
+    }
+
+    /// Rows that fail after a number of them.
+    struct Failing(Table, usize);
+
+    impl Rows for Failing {
+        fn table(&mut self) -> &mut Table {
+            &mut self.0
+        }
+
+        fn advance(&mut self) -> Result<(), Error> {
+            let error = || Error::unreadable(std::path::Path::new("disk"), "full");
+            if self.0.rows() >= self.1 { Err(error()) } else { Ok(()) }
+        }
+
+        fn restart(&mut self) -> Result<(), Error> {
+            Rows::restart(&mut self.0)
+        }
+    }
+
+    /// A centred return map is recorded twice; the last sample is not the end of the run in the second plan.
+    #[test]
+    fn what_is_written_is_what_is_kept() {
+        for dt_out in [0.05, 0.07] {
+            let plan = plan("tensor", "fig3", |study| {
+                (study.run.transient, study.run.t_end, study.run.dt_out) = (100.0, 300.0, dt_out);
+            });
+            let kept = simulate(&plan, &()).unwrap();
+            let file = tempfile::Builder::new().suffix(".csv").tempfile().unwrap();
+            let mut rows =
+                TableWriter::new(columns(&plan).unwrap(), motiform_files::Format::Csv, file.path());
+            let Run { manifest, crossings } = simulate_into(&plan, &mut rows, &()).unwrap();
+            let written = rows.finish(&manifest).unwrap().unwrap();
+            assert!(manifest == kept.manifest && manifest.centre.is_some());
+            assert!(same_bits(&written, &kept.trajectory) && written.rows() > 4000);
+            assert!(same_bits(&crossings.unwrap(), kept.crossings.as_ref().unwrap()));
+        }
+    }
+
+    #[test]
+    fn the_last_sample_is_foreseen() {
+        for (end, every) in [(300.0, 0.05), (300.0, 0.07), (1.0, 0.1), (0.3, 0.1), (1e6, 0.3), (10.0, 30.0)] {
+            let plan = plan("tensor", "fig5a", |study| {
+                (study.run.transient, study.run.t_end, study.run.dt_out) = (0.0, f64::min(end, 400.0), every);
+            });
+            let end = plan.computation.t_end;
+            let times = simulate(&plan, &()).unwrap().trajectory.get("t").unwrap().to_vec();
+            assert_eq!(times.last(), Some(&last_sample(end, every)), "{end} {every}");
+        }
+    }
+
+    /// A full disk ends the run at once, not after hours.
+    #[test]
+    fn rows_that_cannot_be_written_end_the_run() {
+        let long = plan("tensor", "fig5a", |study| (study.run.transient, study.run.t_end) = (0.0, 1e9));
+        let mut rows = Failing(columns(&long).unwrap(), 100);
+        let why = simulate_into(&long, &mut rows, &()).err().unwrap().to_string();
+        assert!(why.contains("full") && rows.0.rows() == 100, "{why}");
+        assert!(simulate(&long, &()).unwrap_err().to_string().contains("too many for memory"));
+        let short = plan("tensor", "fig5a", |study| (study.run.transient, study.run.t_end) = (0.0, 4.0));
+        let mut rows = Failing(columns(&short).unwrap(), 100);
+        let run = simulate_into(&short, &mut rows, &()).unwrap();
+        assert!(matches!(*run.manifest.outcome, Outcome::Completed { .. }));
+    }
+}

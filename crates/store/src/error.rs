@@ -1,0 +1,145 @@
+//! Errors of results on disk.
+
+use crate::Kind;
+use std::path::{Path, PathBuf};
+
+/// A place that is not written to, or a file that cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The output exists.
+    #[error("{} exists", .path.display())]
+    Exists {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The output exists and is a result of the same kind, which can be continued.
+    #[error("{} exists and contains {}", .path.display(), .kind.words())]
+    Resumable {
+        /// The folder.
+        path: PathBuf,
+        /// What it is.
+        kind: Kind,
+    },
+    /// The output exists and has no inventory.
+    #[error(
+        "{} exists and has no inventory of motiform (others wrote it, or an earlier version): it is not replaced",
+        .path.display()
+    )]
+    NotOurs {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The output exists and is a result of another kind.
+    #[error("{} exists and contains {found}, not {}: it is not replaced", .path.display(), .asked.words())]
+    OtherKind {
+        /// The folder.
+        path: PathBuf,
+        /// What it is.
+        found: String,
+        /// What would be written.
+        asked: Kind,
+    },
+    /// A folder without an inventory cannot be continued.
+    #[error(
+        "{} has no inventory of motiform (others wrote it, or an earlier version): it is not continued",
+        .path.display()
+    )]
+    NotContinued {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A folder without an inventory cannot be verified.
+    #[error("{} has no inventory of motiform (others wrote it, or an earlier version): there is nothing to compare it with", .path.display())]
+    NotVerified {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A file of ours was changed by others.
+    #[error("{} was changed after motiform wrote it: it is not replaced; move it to another place", .path.display())]
+    Changed {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Something that is not ours has the name of a file of the result.
+    #[error(
+        "{} was not written by motiform, and a file of the result has this name: it is not replaced; move it to another place",
+        .path.display()
+    )]
+    Taken {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A folder whose name ends as that of a file.
+    #[error("{}: the output is a folder, and this is the name of a file; give a name without .{ending}", .path.display())]
+    NamedAsFile {
+        /// The path.
+        path: PathBuf,
+        /// The end of its name.
+        ending: String,
+    },
+    /// An inventory that is damaged, or of a later version.
+    #[error("cannot read {}: {reason}", .path.display())]
+    Inventory {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        reason: String,
+    },
+    /// Another process writes there.
+    #[error("another motiform process computes in {}: wait until it is done", .path.display())]
+    Busy {
+        /// The path.
+        path: PathBuf,
+    },
+    /// A place without write access.
+    #[error("cannot write {}: {reason}", .path.display())]
+    Unwritable {
+        /// The path.
+        path: PathBuf,
+        /// The system's reason. (Not a `source`, because the message already contains it.)
+        reason: std::io::Error,
+    },
+    /// Writing failed (for example because of a full disk).
+    #[error("writing {} failed: {reason}; {}", .path.display(), advice(.reason))]
+    WriteFailed {
+        /// The path.
+        path: PathBuf,
+        /// The reason.
+        reason: String,
+    },
+}
+
+impl Error {
+    /// Whether the input was valid but the machine failed (exit code 1 rather than 2).
+    #[must_use]
+    pub fn is_machine_failure(&self) -> bool {
+        matches!(self, Self::WriteFailed { .. })
+    }
+
+    /// [`Error::WriteFailed`] of a path, with the reason as text.
+    #[must_use]
+    pub fn write_failed(path: &Path, reason: impl std::fmt::Display) -> Self {
+        Self::WriteFailed { path: path.to_owned(), reason: reason.to_string() }
+    }
+
+    /// [`Error::Unwritable`] of a path; [`Error::WriteFailed`] where there is no space.
+    pub(crate) fn unwritable(path: &Path) -> impl Fn(std::io::Error) -> Self {
+        use std::io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
+        move |reason| match reason.kind() {
+            StorageFull | QuotaExceeded | FileTooLarge => Self::write_failed(path, reason),
+            _ => Self::Unwritable { path: path.to_owned(), reason },
+        }
+    }
+}
+
+/// What to do about a failed write: it depends on the system's reason, which ends with its number.
+fn advice(reason: &str) -> &'static str {
+    const ADVICE: [(&[&str], &str); 3] = [
+        (&["(os error 28)", "(os error 122)", "(os error 27)"], "free some space and run again"),
+        (&["(os error 36)", "(os error 63)"], "choose a shorter name"),
+        (&["(os error 24)", "(os error 23)"], "allow more open files (ulimit -n) and run again"),
+    ];
+    let known = ADVICE.iter().find(|(ends, _)| ends.iter().any(|end| reason.ends_with(end)));
+    known.map_or("mend this and run again", |(_, advice)| advice)
+}

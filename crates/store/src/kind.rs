@@ -1,0 +1,93 @@
+//! Kinds of results.
+
+/// What a result is: only a result of the same kind may replace it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A body's path and shape.
+    Dataset,
+    /// Rows over one or two axes.
+    Scan,
+    /// Branches of a motion.
+    Branches,
+    /// Curves of special points.
+    Curves,
+    /// Mean lives of transient chaos.
+    Lifetimes,
+    /// Statistics of many bodies.
+    Statistics,
+    /// How tracked cells move.
+    Observations,
+    /// Equations of tracked cells.
+    Fits,
+    /// The reproduction of the paper.
+    Report,
+    /// A single table.
+    Table,
+    /// Outlines in a file for other programs.
+    Outlines,
+}
+
+impl Kind {
+    /// Every kind.
+    pub const ALL: [Self; 11] = [
+        Self::Dataset,
+        Self::Scan,
+        Self::Branches,
+        Self::Curves,
+        Self::Lifetimes,
+        Self::Statistics,
+        Self::Observations,
+        Self::Fits,
+        Self::Report,
+        Self::Table,
+        Self::Outlines,
+    ];
+
+    /// Its name in inventories.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dataset => "dataset",
+            Self::Scan => "scan",
+            Self::Branches => "branches",
+            Self::Curves => "curves",
+            Self::Lifetimes => "lifetimes",
+            Self::Statistics => "statistics",
+            Self::Observations => "observations",
+            Self::Fits => "fits",
+            Self::Report => "report",
+            Self::Table => "table",
+            Self::Outlines => "outlines",
+        }
+    }
+
+    /// The kind of a name.
+    #[must_use]
+    pub fn of_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+
+    /// What it is in a sentence: `a scan`.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Dataset => "a dataset",
+            Self::Scan => "a scan",
+            Self::Branches => "branches",
+            Self::Curves => "curves",
+            Self::Lifetimes => "lifetimes",
+            Self::Statistics => "statistics",
+            Self::Observations => "observations of cells",
+            Self::Fits => "fits of cells",
+            Self::Report => "a reproduction of the paper",
+            Self::Table => "a table",
+            Self::Outlines => "outlines",
+        }
+    }
+
+    /// Whether its command continues it with `--resume`.
+    #[must_use]
+    pub fn resumes(self) -> bool {
+        matches!(self, Self::Scan | Self::Branches | Self::Curves | Self::Lifetimes | Self::Fits)
+    }
+}
