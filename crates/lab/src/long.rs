@@ -10,7 +10,7 @@ use std::path::Path;
 const DRAWN: usize = 1 << 16;
 
 /// Reads the rows of a trajectory that figures are drawn from, and how many rows each stands for: all of a trajectory with fewer rows
-/// than a group of a file; of a longer one every second, fourth, .. row of the shown window, at least half of [`DRAWN`]. The sampling
+/// than a group of a file; of a longer one every second, fourth, .. row of the shown window, at least half of 65,536. The sampling
 /// interval of the manifest's plan becomes that of these rows.
 ///
 /// # Errors

@@ -78,7 +78,7 @@ const BRANCHES: f64 = 0.2;
 /// Interrupted by the watch, the result is not complete and holds the curves that were followed to both ends.
 ///
 /// # Errors
-/// As [`follow()`].
+/// As [`crate::follow()`].
 pub fn follow_curves(plan: &CurvePlan, before: Option<Curves>, watch: &dyn Watch) -> Result<Curves, Error> {
     follow_curves_kept(plan, before, &mut |_| Ok(()), watch)
 }

@@ -1,5 +1,7 @@
 //! The budgets of `budgets.toml` that need no timing: the size of the program, its packages, its lane kernels.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
 use cargo_metadata::MetadataCommand;
 use std::collections::BTreeSet;
 use std::process::Command;
