@@ -65,7 +65,7 @@ pub fn write_dataset(
 /// Writes what belongs to a trajectory, which is in the staged folder: crossings and fields (if any) and the manifest.
 ///
 /// # Errors
-/// [`Error::WriteFailed`].
+/// [`Error::Store`].
 pub fn write_rest(
     manifest: &Manifest,
     crossings: Option<&Table>,

@@ -73,7 +73,7 @@ impl TableWriter {
     /// Writes a group where there is a whole one.
     ///
     /// # Errors
-    /// [`Error::WriteFailed`].
+    /// [`Error::Store`].
     pub fn advance(&mut self) -> Result<(), Error> {
         if self.table.rows() < GROUP_ROWS {
             return Ok(());
@@ -101,7 +101,7 @@ impl TableWriter {
     /// Ends the file, with the manifest inside if the format supports it. Gives the whole table where it has one group at most.
     ///
     /// # Errors
-    /// [`Error::WriteFailed`].
+    /// [`Error::Store`].
     pub fn finish(mut self, manifest: &Manifest) -> Result<Option<Table>, Error> {
         self.flush()?;
         if let Some(file) = self.file {
@@ -114,7 +114,7 @@ impl TableWriter {
 /// Writes one table to `path` in the given format, with the manifest inside if the format supports it.
 ///
 /// # Errors
-/// [`Error::WriteFailed`].
+/// [`Error::Store`].
 pub fn write_table(table: &Table, manifest: &Manifest, format: Format, path: &Path) -> Result<(), Error> {
     let mut file = Kind::new(table, format, path)?;
     for start in (0..table.rows()).step_by(GROUP_ROWS) {

@@ -2,7 +2,7 @@
 //!
 //! Where the old folder has nothing but ours, the two folders are exchanged. Otherwise the folder stays, with everything in it that is not
 //! ours, and files are renamed one by one. A kill may come between two renames: the inventory says so (`moving`), and the next reader or
-//! writer goes on ([`crate::mend`]).
+//! writer goes on ([`crate::mend()`]).
 
 use crate::inventory::file_line;
 use crate::place::{Place, move_to, name_of};
