@@ -93,7 +93,7 @@ fn threads_change_no_bit() {
         assert_eq!((ended.complete, ended.cells), (true, 1200));
     }
     let one = contents(&at("1"));
-    assert_eq!(one.len(), plan.parts() + 1);
+    assert_eq!(one.len(), plan.parts() + 2);
     assert!(one == contents(&at("2")) && one == contents(&at("5")));
 }
 
