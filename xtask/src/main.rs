@@ -5,6 +5,7 @@ mod build_cost;
 mod dist;
 mod emulated;
 mod explorer;
+mod harness;
 mod mutants;
 mod python;
 mod web;
@@ -26,6 +27,9 @@ usage: cargo xtask COMMAND
            docs/site for any static host, and the page as one file, target/motiform.html
   python   the Python package: builds it into target/python and runs its tests there
   dist     a wheel and a stripped program with checksums in target/dist; the wheel is installed and tried where no cargo is
+  faults   [N]: every N-th call that changes the file system fails, or is the last one, in every command that writes (1: every call)
+  kills    [N]: every command that writes is killed N times at random moments (1000)
+  fuzz     [N]: N damaged inputs of each kind (100000)
   emulated the tests of lanes under qemu-user, as a processor without vector registers to speak of and as one with AVX2
            (needs qemu-user)
   build-cost [--runs N] [--write]: a build from an empty cargo folder to the first picture, beside `cargo install ripgrep`, compared
@@ -75,11 +79,14 @@ fn run() -> Result<()> {
         Some("emulated") => emulated::run(),
         Some("build-cost") => build_cost::run(&std::env::args().skip(2).collect::<Vec<_>>()),
         Some("deny") => cargo("dependencies", &["deny", "check"]),
-        _ => {
-            println!("{HELP}");
-            Ok(())
-        }
+        Some(name) => harness::run(name, &std::env::args().skip(2).collect::<Vec<_>>()).unwrap_or_else(help),
+        None => help(),
     }
+}
+
+fn help() -> Result<()> {
+    println!("{HELP}");
+    Ok(())
 }
 
 /// The checkout. From cargo at run time: a program built in another checkout must not test that one.

@@ -89,7 +89,7 @@ impl Staged {
         let failed = |error: std::io::Error| Error::write_failed(&self.target.shown, error);
         let new = self.path();
         let mut inventory = Inventory { complete, ..Inventory::new(self.kind) };
-        list(&new, "", &mut inventory).map_err(failed)?;
+        list(&new, &mut inventory).map_err(failed)?;
         disk::write(&new.join(INVENTORY), inventory.text().as_bytes()).map_err(failed)?;
         disk::sync_folder(&new).map_err(failed)?;
         let own = lock::lock(&new, &self.target.shown)?;
@@ -178,15 +178,28 @@ pub(crate) fn owned(target: &Target, kind: Kind) -> Result<Inventory, Error> {
     Ok(inventory)
 }
 
-/// Lists the files of a folder with their digests, and waits until they are on disk.
-fn list(folder: &Path, prefix: &str, inventory: &mut Inventory) -> std::io::Result<()> {
+/// Lists the files of a folder with their digests, and waits until they are on disk: both at the same time.
+fn list(folder: &Path, inventory: &mut Inventory) -> std::io::Result<()> {
+    let mut names = Vec::new();
+    collect(folder, "", &mut names)?;
+    let synced = || names.iter().try_for_each(|name| File::open(folder.join(name))?.sync_all());
+    std::thread::scope(|scope| {
+        let syncing = scope.spawn(synced);
+        for name in &names {
+            inventory.list(name, &sha256_file(&folder.join(name))?);
+        }
+        syncing.join().unwrap_or_else(|_| Err(std::io::Error::other("a file could not be synchronised")))
+    })
+}
+
+/// The names of all files below a folder.
+fn collect(folder: &Path, prefix: &str, names: &mut Vec<String>) -> std::io::Result<()> {
     for entry in fs::read_dir(folder.join(prefix))?.collect::<std::io::Result<Vec<_>>>()? {
         let name = format!("{prefix}{}", name_of(&entry.path()));
         if entry.file_type()?.is_dir() {
-            list(folder, &format!("{name}/"), inventory)?;
+            collect(folder, &format!("{name}/"), names)?;
         } else {
-            inventory.list(&name, &sha256_file(&entry.path())?);
-            File::open(entry.path())?.sync_all()?;
+            names.push(name);
         }
     }
     Ok(())

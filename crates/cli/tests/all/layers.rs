@@ -109,6 +109,7 @@ const LAYERS: [(&str, &[&str]); 26] = [
             "motiform-chapter",
             "motiform-dynamics",
             "motiform-figures",
+            "motiform-files",
             "motiform-lab",
             "motiform-models",
             "motiform-report",

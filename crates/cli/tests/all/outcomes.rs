@@ -89,7 +89,7 @@ fn overflow_is_an_outcome_that_files_can_hold() {
     let done = folder.run(&format!("{words} --force")).expect(1);
     let reason = "error: the tables are written, the figures are not: ";
     assert!(done.stderr.starts_with(reason), "{}", done.stderr);
-    assert_eq!(names(&folder.path("run")), ["manifest.json", "trajectory.parquet"]);
+    assert_eq!(names(&folder.path("run")), ["_inventory.jsonl", "manifest.json", "trajectory.parquet"]);
     assert_no_nan(&read_json(&folder.path("run/manifest.json")), "");
 }
 

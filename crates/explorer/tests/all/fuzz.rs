@@ -1,6 +1,6 @@
 //! Damaged messages are refused, and the server answers the next page as ever. `MOTIFORM_FUZZ=200000` tries more.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
 use crate::common;
 #[path = "../../../lab/tests/all/common/mutate.rs"]
@@ -30,10 +30,14 @@ const MESSAGES: [&str; 12] = [
 fn fresh(server: &Running) -> Page {
     loop {
         match server.try_page(server.request()) {
-            Ok(mut page) => {
-                page.json("hello");
-                return page;
-            }
+            Ok(mut page) => match page.socket.read().unwrap() {
+                Message::Text(hello) => {
+                    assert!(hello.contains("hello"), "{hello}");
+                    return page;
+                }
+                Message::Close(Some(end)) => assert_eq!(u16::from(end.code), 1013, "{end:?}"),
+                other => panic!("{other:?}"),
+            },
             Err(status) => assert_eq!(status, 503),
         }
         std::thread::sleep(Duration::from_millis(10));

@@ -147,14 +147,14 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
             for _ in 0..steps as usize {
                 let parts = refinement * self.law.parts(&state, h, &mut self.stages[0].values);
                 self.steps += parts;
+                let h = h / parts as f64;
                 for part in 0..parts {
-                    let (law, stages) = (&self.law, &mut self.stages);
-                    let (state, h, known) = (&mut state, h / parts as f64, part == 0);
-                    B::apart(Step { law, state, h, known, stages });
+                    let (law, stages, known) = (&self.law, &mut self.stages, part == 0);
+                    B::apart(Step { law, state: &mut state, h, known, stages });
                     if !state.is_sound() {
                         return false;
                     }
-                    self.blocks.step(&self.stages, self.work.problem, self.work.want, h / parts as f64);
+                    self.blocks.step(&self.stages, self.work.problem, self.work.want, h);
                 }
             }
             for i in 2..STATE {
