@@ -4,7 +4,7 @@ use crate::inventory::file_line;
 use crate::place::{name_of, number, sweep};
 use crate::replace::{is_taken, make_folders, replaced, retire, retires, set_aside};
 use crate::staged::{is_empty, owned};
-use crate::survey::{Survey, is_ours, is_partial, kept};
+use crate::survey::{Survey, is_ours, kept, remove_partials};
 use crate::target::Target;
 use crate::{Error, INVENTORY, Inventory, Kind, Staged, disk, is_figure, lock, mend, sha256_hex};
 use serde_json::json;
@@ -428,14 +428,4 @@ impl Folder {
 /// How the names of this process's incomplete files begin.
 fn start() -> String {
     format!(".{}-", number())
-}
-
-/// Removes incomplete files of killed runs, which the inventory announces.
-fn remove_partials(folder: &Path, inventory: &Inventory) -> std::io::Result<()> {
-    for entry in fs::read_dir(folder)?.collect::<std::io::Result<Vec<_>>>()? {
-        if is_partial(&name_of(&entry.path()), inventory) && entry.file_type()?.is_file() {
-            fs::remove_file(entry.path())?;
-        }
-    }
-    Ok(())
 }

@@ -95,6 +95,11 @@ pub(crate) fn name_of(path: &Path) -> String {
     path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
+/// A name for what is about to be removed: a kill before that leaves a leftover that is known by it.
+pub(crate) fn on_its_way_out(target: &Path) -> PathBuf {
+    beside(target, &number(), NEW)
+}
+
 fn beside(target: &Path, number: &str, end: &str) -> PathBuf {
     target.with_file_name(format!("{}{number}.{end}", start_of(&name_of(target))))
 }
@@ -167,9 +172,12 @@ fn is_left(path: &Path, target: &Path, end: &str) -> bool {
         made.and_then(|made| made.elapsed().ok()).is_some_and(|age| age > SHORT)
     };
     let ours = match Inventory::read(path) {
+        Ok(Some(marker)) if marker.replaced_by == Some(name_of(target)) => {
+            end == NEW && has_at_most_its_inventory(path, true)
+        }
         Ok(Some(marker)) => marker.staging_for == Some(name_of(target)),
-        // killed before the inventory was whole
-        Ok(None) | Err(Error::Inventory { .. }) => end == NEW && has_at_most_its_inventory(path),
+        // killed before the inventory was whole, or after it was removed
+        Ok(None) | Err(Error::Inventory { .. }) => end == NEW && has_at_most_its_inventory(path, false),
         Err(_) => false,
     };
     let free = || match File::open(path.join(INVENTORY)) {
@@ -179,11 +187,11 @@ fn is_left(path: &Path, target: &Path, end: &str) -> bool {
     ours && (end != NEW || old()) && free()
 }
 
-fn has_at_most_its_inventory(path: &Path) -> bool {
+/// Whether nothing else is in a folder; an inventory that is not `whole` is empty.
+fn has_at_most_its_inventory(path: &Path, whole: bool) -> bool {
     let mut names = fs::read_dir(path).into_iter().flatten().flatten();
-    names.all(|entry| {
-        entry.file_name() == INVENTORY && entry.metadata().is_ok_and(|it| it.is_file() && it.len() == 0)
-    })
+    let is_empty = |entry: &fs::DirEntry| entry.metadata().is_ok_and(|it| it.is_file() && it.len() == 0);
+    names.all(|entry| entry.file_name() == INVENTORY && (whole || is_empty(&entry)))
 }
 
 /// Renames; what has the new name already stays.

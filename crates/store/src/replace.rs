@@ -5,8 +5,8 @@
 //! writer goes on ([`crate::mend()`]).
 
 use crate::inventory::file_line;
-use crate::place::{Place, move_to, name_of};
-use crate::survey::{Survey, is_ours, is_partial};
+use crate::place::{Place, move_to, name_of, on_its_way_out};
+use crate::survey::{Survey, is_ours, is_partial, remove_partials};
 use crate::{Error, INVENTORY, Inventory, disk, is_figure};
 use serde_json::{Value, json};
 use std::fs::{self, File};
@@ -21,6 +21,7 @@ pub(crate) fn replace(place: &Place, target: &Path, shown: &Path) -> Result<Vec<
     let failed = |error: std::io::Error| Error::write_failed(shown, error);
     let new = place.result();
     let old = Inventory::read(target)?.ok_or_else(|| Error::NotOurs { path: shown.to_owned() })?;
+    remove_partials(target, &old).map_err(failed)?; // the new inventory does not know them
     let mut survey = Survey::of(target, &old).map_err(failed)?;
     if let Some(name) = survey.changed.first() {
         return Err(Error::Changed { path: shown.join(name) });
@@ -187,11 +188,16 @@ fn take_away(old: &Path, target: &Path, inventory: &Inventory) -> IoResult<()> {
             let _ = move_to(&entry.path(), &target.join(entry.file_name())); // otherwise it stays with the old one
         }
     }
-    if fs::read_dir(old)?.count() == 1 {
-        fs::remove_file(old.join(INVENTORY))?;
-        fs::remove_dir(old)?;
+    if fs::read_dir(old)?.count() > 1 {
+        return Ok(());
     }
-    Ok(())
+    // Without its inventory nobody would know what an empty folder of this name is.
+    let last = if old.parent() == target.parent() { on_its_way_out(target) } else { old.to_owned() };
+    if last != old {
+        fs::rename(old, &last)?;
+    }
+    fs::remove_file(last.join(INVENTORY))?;
+    fs::remove_dir(last)
 }
 
 /// `run` -> `run.replaced`, or with a number.

@@ -1,5 +1,6 @@
 //! What is in a folder, compared with its inventory.
 
+use crate::place::name_of;
 use crate::{INVENTORY, Inventory, is_figure, sha256_file};
 use std::fs;
 use std::io::Result;
@@ -92,4 +93,14 @@ pub(crate) fn kept(folder: &Path, foreign: &[String]) -> Option<String> {
     (!first.is_empty()).then(|| {
         format!("kept in {}: {}{more}, which motiform did not write", folder.display(), first.join(", "))
     })
+}
+
+/// Removes incomplete files of killed runs, which the inventory announces.
+pub(crate) fn remove_partials(folder: &Path, inventory: &Inventory) -> Result<()> {
+    for entry in fs::read_dir(folder)?.collect::<Result<Vec<_>>>()? {
+        if is_partial(&name_of(&entry.path()), inventory) && entry.file_type()?.is_file() {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    Ok(())
 }
