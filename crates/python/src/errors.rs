@@ -13,11 +13,11 @@ pub(crate) fn python(error: Error) -> PyErr {
     let text = format!("{error}{}", remedy(&error).unwrap_or_default());
     match error {
         Error::Interrupted => PyKeyboardInterrupt::new_err(text),
-        Error::Store(
+        Error::Unreadable { .. }
+        | Error::Store(
             StoreError::Unwritable { .. } | StoreError::Busy { .. } | StoreError::WriteFailed { .. },
         ) => PyOSError::new_err(text),
         Error::Store(_) => PyFileExistsError::new_err(text),
-        Error::Unreadable { .. } => PyOSError::new_err(text),
         failure if failure.is_machine_failure() => PyOSError::new_err(text),
         _ => PyValueError::new_err(text),
     }
