@@ -18,7 +18,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 fn wait_until_it_listens(child: &Child) {
     let start = Instant::now();
     loop {
-        let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
+        let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
         let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
         if u64::from_str_radix(caught.trim(), 16).unwrap() & 2 != 0 {
             return;
