@@ -28,7 +28,7 @@ impl Harness {
         let given = arguments.first().map(|text| text.parse::<u64>());
         let count = given.transpose().with_context(|| format!("{} needs a whole number", self.name))?;
         let mut test = cargo_command();
-        test.args(["test", "--release", "--workspace", "--test", "all", self.filter]);
+        test.args(["test", "--release", "--workspace", self.filter, "--", "--nocapture"]);
         step(self.name, test.env(self.variable, count.unwrap_or(self.most).to_string()))
     }
 }

@@ -23,6 +23,7 @@ mod stretches;
 mod summary;
 pub mod sweep;
 mod table;
+mod verify;
 
 pub use folder::{BranchFolder, default_folder};
 pub use follow::{Branches, Followed, Leg, Link, Sample, follow, follow_kept};
@@ -32,3 +33,4 @@ pub use reading::Reading;
 pub use stretches::{is_stable, stretches};
 pub use summary::{SpecialEntry, summary};
 pub use table::columns;
+pub use verify::Verification;

@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 /// A file that outlines will be written to. It appears when it is complete.
 #[derive(Debug)]
 pub struct OutlineFile {
+    /// Where the user wants it: errors name this.
+    target: PathBuf,
     staged: StagedFile,
     format: Format,
 }
@@ -24,7 +26,8 @@ impl OutlineFile {
             Some("txt") => Format::AmoePy,
             _ => return Err(Error::Ending { file: path.to_owned() }.into()),
         };
-        Ok(Self { staged: StagedFile::new(path, Kind::Outlines, force)?, format })
+        let staged = StagedFile::new(path, Kind::Outlines, force)?;
+        Ok(Self { target: path.to_owned(), staged, format })
     }
 
     /// Writes the outlines with all digits, in the units of the tracks.
@@ -33,13 +36,17 @@ impl OutlineFile {
     /// For AmoePy's text, several cells, or units other than um and s; the file system.
     pub fn write(self, tracks: &Tracks) -> Result<PathBuf> {
         match (self.format, tracks.cells.as_slice()) {
-            (Format::AmoePy, [cell]) => write_amoepy(tracks, cell, &self.staged.path())?,
+            (Format::AmoePy, [cell]) => write_amoepy(tracks, cell, &self.staged.path()),
             (Format::AmoePy, cells) => {
                 let reason = format!("it holds one cell, and there are {}: choose one", cells.len());
                 return Err(Error::Unwritable { format: self.format, reason }.into());
             }
-            _ => write_csv(tracks, &self.staged.path())?,
+            _ => write_csv(tracks, &self.staged.path()),
         }
+        .map_err(|error| match error {
+            Error::Io { reason, .. } => motiform_study::Error::write_failed(&self.target, reason).into(),
+            other => crate::Error::from(other),
+        })?;
         Ok(self.staged.commit()?)
     }
 }

@@ -2,6 +2,8 @@
 
 mod cells;
 mod drawing;
+#[cfg(test)]
+mod fuzz;
 mod help;
 mod lifetimes;
 mod motions;

@@ -80,7 +80,7 @@ impl std::fmt::Display for StdoutFailed {
 
 impl std::error::Error for StdoutFailed {}
 
-/// Prints an error on standard error: exit code 1 if the machine failed, 2 if the input is invalid.
+/// Prints an error on standard error. Exit code 2: nothing was found, because of the input or because files could not be written; 130 if it was a stop.
 pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     // Standard error is the last resort: nothing is left to say if it fails too.
     let remedy = match error.downcast_ref::<StoreError>() {
@@ -89,8 +89,8 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     };
     let remedy = remedy.unwrap_or_default();
     let _ = writeln!(io::stderr(), "error: {error:#}{remedy}");
-    let machine = error.is::<StdoutFailed>()
-        || error.downcast_ref::<Error>().is_some_and(Error::is_machine_failure)
-        || error.downcast_ref::<StoreError>().is_some_and(StoreError::is_machine_failure);
-    ExitCode::from(if machine { 1 } else { 2 })
+    match error.downcast_ref() {
+        Some(Error::Interrupted) => End::Interrupted.into(),
+        _ => ExitCode::from(2),
+    }
 }

@@ -84,6 +84,13 @@ pub fn column<T: DataType>(
         }
         read += records;
     }
+    if nulls && levels.is_empty() {
+        levels.resize(values.len(), 1); // a column that has no nulls has no levels
+    }
+    let found = if nulls { levels.len() } else { values.len() };
+    if found != rows {
+        return Err(wrong(&format!("a column has {found} values in {rows} rows")));
+    }
     Ok((values, levels))
 }
 

@@ -13,10 +13,14 @@ pub(crate) fn python(error: Error) -> PyErr {
     let text = format!("{error}{}", remedy(&error).unwrap_or_default());
     match error {
         Error::Interrupted => PyKeyboardInterrupt::new_err(text),
-        Error::Store(
-            StoreError::Unwritable { .. } | StoreError::Busy { .. } | StoreError::WriteFailed { .. },
-        )
-        | Error::Unreadable { .. } => PyOSError::new_err(text),
+        Error::Unreadable { .. }
+        | Error::Store(
+            StoreError::Unwritable { .. }
+            | StoreError::Busy { .. }
+            | StoreError::WriteFailed { .. }
+            | StoreError::Inventory { .. },
+        ) => PyOSError::new_err(text),
+        Error::Store(StoreError::NotVerified { .. }) => PyValueError::new_err(text),
         Error::Store(_) => PyFileExistsError::new_err(text),
         failure if failure.is_machine_failure() => PyOSError::new_err(text),
         _ => PyValueError::new_err(text),

@@ -20,6 +20,7 @@ mod scan_files;
 mod scan_plan;
 mod statistics;
 mod study;
+mod verify;
 mod watch;
 
 use pyo3::prelude::*;
@@ -55,4 +56,6 @@ mod _motiform {
     use super::statistics::{statistics, statistics_of};
     #[pymodule_export]
     use super::study::Study;
+    #[pymodule_export]
+    use super::verify::verify;
 }

@@ -111,7 +111,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// Whether the input was valid but the machine failed (exit code 1 rather than 2).
+    /// Whether the input was valid but the machine failed.
     #[must_use]
     pub fn is_machine_failure(&self) -> bool {
         matches!(self, Self::WriteFailed { .. })

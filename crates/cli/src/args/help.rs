@@ -8,8 +8,8 @@ Start here:
                                                 where its motion begins and ends
   motiform models tensor                        its equations, parameters and presets
 
-Exit codes: 0 success; 1 finished, but some result is not as requested (a run escaped, a disk is full); \
-2 invalid input; 130 interrupted (results computed so far are kept).";
+Exit codes: 0 success; 1 finished, but some result is not as requested (a run escaped, a motion is undecided); \
+2 invalid input, or a file that cannot be written; 130 interrupted (results computed so far are kept).";
 
 pub(super) const SIMULATE_HELP: &str = "\
 Examples:

@@ -33,10 +33,11 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
     }
     let found = compute(options, &cells, &settings, work.as_mut()).map_err(plain_error)?;
     let fits: Vec<CellFit> = found.into_iter().flatten().collect();
+    let mut drawn = true;
     if let (Some(work), false) = (&work, options.cells.no_report) {
         let observations: Vec<Observation> = cells.iter().map(|cell| observe(cell)).collect();
         let write = |name: &str, bytes: &[u8]| work.write_file(name, bytes);
-        draw(&sample, (&cells, &observations), (&fits, options.together), threads(options), &write)?;
+        drawn = draw(&sample, (&cells, &observations), (&fits, options.together), threads(options), &write)?;
     }
     if let Some(work) = &work {
         work.write(&sample, &fits, !options.cells.no_report).map_err(plain_error)?;
@@ -53,6 +54,9 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
             format!("{} of {asked} cells are done", fits.len())
         };
         warn(&format!("interrupted: {done}{further}"));
+        return Ok(End::Interrupted);
+    }
+    if !drawn {
         return Ok(End::Interrupted);
     }
     let named = |fit: &CellFit| fit.fitted.as_ref().is_ok_and(|fitted| regime(fitted) != "undecided");

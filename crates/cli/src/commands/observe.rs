@@ -4,15 +4,18 @@ use crate::args::{CellsOptions, ObserveOptions};
 use crate::commands::pages::draw;
 use crate::commands::population::observed;
 use crate::output::{End, print, warn};
+use crate::progress::Progress;
 use motiform_cells::{
     CellTrack, Observation, OutlineFile, Sample, Units, observations_json, observe, observed_population,
     write_observations,
 };
+use motiform_dynamics::Watch;
 use motiform_files::{Kind, Staged};
 use motiform_statistics::{Answer, four_digits, with_error};
 use motiform_tracks::modes::ModeOptions;
 use motiform_tracks::{Columns, Note, Options};
 use std::fmt::Write;
+use std::path::PathBuf;
 
 /// Notes of one kind that are printed.
 const MOST_NOTES: usize = 4;
@@ -26,10 +29,11 @@ pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
     let sample = read(&options.cells)?;
     let outlines = outlines.map(|file| file.write(&sample.tracks)).transpose().map_err(plain_error)?;
     let cells: Vec<&CellTrack> = sample.cells.iter().collect();
-    let found: Vec<Observation> = cells.iter().map(|cell| observe(cell)).collect();
+    let Some(found) = observe_all(&cells) else { return Ok(End::Interrupted) };
+    let mut drawn = true;
     if let (Some(staged), false) = (&staged, options.cells.no_report) {
         let write = |name: &str, bytes: &[u8]| Ok(staged.write(name, bytes)?);
-        draw(&sample, (&cells, &found), (&[], false), all_cores(), &write)?;
+        drawn = draw(&sample, (&cells, &found), (&[], false), all_cores(), &write)?;
     }
     let json = options.cells.json.then(|| observations_json(&sample, &found).to_string());
     let written =
@@ -38,25 +42,50 @@ pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
         kept.iter().for_each(|note| warn(note));
         path
     });
-    print(&match json {
-        Some(json) => json,
-        None => {
-            let (mut text, units) = (head(&sample), Units::of(&sample));
-            for one in &found {
-                let cell = sample.cells.iter().find(|cell| cell.name == one.cell);
-                write!(text, "\n{}", sentences(one, cell, &units)?)?;
-            }
-            if found.len() > 1 {
-                write!(text, "\n{}", observed(&observed_population(&found), &units)?)?;
-            }
-            for path in outlines.iter().chain(&written) {
-                write!(text, "\nwritten        {}", path.display())?;
-            }
-            text.trim_end().to_owned()
-        }
-    })?;
+    let files: Vec<PathBuf> = outlines.into_iter().chain(written).collect();
+    print(&json.map_or_else(|| text(&sample, &found, &files), Ok)?)?;
     let undecided = found.iter().any(|one| one.motion.regime.is_none());
-    Ok(if undecided { End::NotAsAsked } else { End::Done })
+    Ok(match (drawn, undecided) {
+        (false, _) => End::Interrupted,
+        (true, true) => End::NotAsAsked,
+        (true, false) => End::Done,
+    })
+}
+
+/// How each cell moves; `None`, and a warning, if Ctrl-C stopped it.
+fn observe_all(cells: &[&CellTrack]) -> Option<Vec<Observation>> {
+    let watch = Progress::new(cells.len() as f64, "cells");
+    let mut found = Vec::with_capacity(cells.len());
+    while let (Some(cell), false) = (cells.get(found.len()), watch.stopped()) {
+        found.push(observe(cell));
+        watch.progress(found.len() as f64 / cells.len() as f64);
+    }
+    watch.finish();
+    if found.len() < cells.len() {
+        warn(&format!(
+            "interrupted after {} of {} cells: no observation is written",
+            found.len(),
+            cells.len()
+        ));
+        return None;
+    }
+    Some(found)
+}
+
+/// What people read: each cell, all of them together, and the files that were written.
+fn text(sample: &Sample, found: &[Observation], files: &[PathBuf]) -> anyhow::Result<String> {
+    let (mut text, units) = (head(sample), Units::of(sample));
+    for one in found {
+        let cell = sample.cells.iter().find(|cell| cell.name == one.cell);
+        write!(text, "\n{}", sentences(one, cell, &units)?)?;
+    }
+    if found.len() > 1 {
+        write!(text, "\n{}", observed(&observed_population(found), &units)?)?;
+    }
+    for path in files {
+        write!(text, "\nwritten        {}", path.display())?;
+    }
+    Ok(text.trim_end().to_owned())
 }
 
 fn sentences(found: &Observation, cell: Option<&CellTrack>, units: &Units) -> anyhow::Result<String> {

@@ -8,15 +8,15 @@ use motiform_dynamics::Watch;
 use motiform_study::Error;
 use std::collections::HashMap;
 
-/// Draws the pages of observed cells, with their fits as far as these are done; `together`: with the one fit of all cells. Each goes to `write` at once. A
-/// warning, and not all pages, if Ctrl-C stopped the drawing.
+/// Draws the pages of observed cells, with their fits as far as these are done; `together`: with the one fit of all cells. Each goes to `write` at once. If
+/// Ctrl-C stopped the drawing, a warning and `false`: not all pages are drawn.
 pub(crate) fn draw(
     sample: &Sample,
     (cells, observations): (&[&CellTrack], &[Observation]),
     (fits, together): (&[CellFit], bool),
     threads: usize,
     write: &Sink<'_>,
-) -> anyhow::Result<()> {
+) -> anyhow::Result<bool> {
     let own: HashMap<&str, &CellFit> = match together {
         true => HashMap::new(),
         false => fits.iter().map(|fit| (fit.name.as_str(), fit)).collect(),
@@ -29,16 +29,16 @@ pub(crate) fn draw(
     let common = if together { fits.first() } else { None };
     let watch = Progress::new(cells.len() as f64, "pages");
     if watch.stopped() {
-        return Ok(());
+        return Ok(false);
     }
     let made = Maps::compute(&planes(fits), threads, &watch)
         .and_then(|maps| pages(sample, (&cases, common), &maps, (threads, &watch), write));
     watch.finish();
     match made {
-        Ok(true) => Ok(()),
+        Ok(true) => Ok(true),
         Ok(false) | Err(Error::Interrupted) => {
             warn("interrupted: not all pages are drawn");
-            Ok(())
+            Ok(false)
         }
         Err(error) => Err(error.into()),
     }

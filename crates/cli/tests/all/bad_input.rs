@@ -1,4 +1,4 @@
-//! Bad input gets one clear text that names key, value and remedy, exit code 2 (1 for a full disk), and leaves nothing
+//! Bad input gets one clear text that names key, value and remedy, exit code 2, and leaves nothing
 //! behind.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
@@ -247,7 +247,7 @@ fn a_full_disk() {
         "simulate tensor --preset fig5a --out run.parquet",
         "simulate tensor --preset fig5a --out run --dt-out 40", // the table fits, a figure does not
     ] {
-        let done = folder.bash(&format!("{full} {words}")).expect_error(1);
+        let done = folder.bash(&format!("{full} {words}")).expect_error(2);
         assert!(
             done.stderr.starts_with("error: writing ") && done.stderr.contains("File too large"),
             "{}",
@@ -268,7 +268,7 @@ fn a_full_disk_leaves_old_figures_and_datasets_whole() {
     let contents = || files.iter().map(|name| std::fs::read(folder.path("run").join(name)).unwrap());
     let before: Vec<_> = contents().collect();
     for words in ["figure run", "simulate tensor --preset fig5a --out run --force"] {
-        folder.bash(&format!("trap '' XFSZ; ulimit -f 8; exec $motiform {words}")).expect_error(1);
+        folder.bash(&format!("trap '' XFSZ; ulimit -f 8; exec $motiform {words}")).expect_error(2);
         assert_eq!(common::names(&folder.path("run")), names, "{words}");
         assert!(contents().eq(before.iter().cloned()), "{words}");
         assert_eq!(folder.names(), ["run"], "{words}");
@@ -278,7 +278,7 @@ fn a_full_disk_leaves_old_figures_and_datasets_whole() {
 #[test]
 fn standard_output_that_cannot_be_written() {
     let folder = Folder::new();
-    let done = folder.bash("exec $motiform simulate tensor --t-end 1 --json > /dev/full").expect_error(1);
+    let done = folder.bash("exec $motiform simulate tensor --t-end 1 --json > /dev/full").expect_error(2);
     assert!(done.stderr.contains("writing standard output failed: No space left"), "{}", done.stderr);
     // A reader that went away (`| head`) has what it wanted: silence, and the exit code of the work.
     for words in ["models tensor", "completions bash", "simulate tensor --t-end 1 --json"] {

@@ -6,6 +6,7 @@
 use crate::common;
 
 use common::{Done, Folder, names, read_json};
+use std::fs;
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -17,7 +18,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 fn wait_until_it_listens(child: &Child) {
     let start = Instant::now();
     loop {
-        let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
+        let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
         let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
         if u64::from_str_radix(caught.trim(), 16).unwrap() & 2 != 0 {
             return;
@@ -47,9 +48,13 @@ fn interrupt(folder: &Folder, words: &str) -> Done {
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     wait_until_it_listens(&child);
     sleep(Duration::from_millis(300)); // some rows; none would be right too
+    interrupt_child(&child);
+    wait(child)
+}
+
+fn interrupt_child(child: &Child) {
     let kill = Command::new("bash").args(["-c", &format!("kill -INT {}", child.id())]).status().unwrap();
     assert!(kill.success());
-    wait(child)
 }
 
 #[test]
@@ -99,12 +104,36 @@ fn bodies_that_are_finished_are_measured() {
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     wait_until_it_listens(&child);
     sleep(Duration::from_millis(5000)); // 64 bodies take a fifth of a second, or several on a busy machine
-    let kill = Command::new("bash").args(["-c", &format!("kill -INT {}", child.id())]).status().unwrap();
-    assert!(kill.success());
+    interrupt_child(&child);
     let done = wait(child).expect(130);
     assert!(done.stderr.contains("of 100000 bodies were not finished and are left out"), "{}", done.stderr);
     let found = read_json(&folder.path("found/statistics.json"));
     let bodies = found["bodies"].as_u64().unwrap();
     assert!((1..100_000).contains(&bodies) && found["complete"] == false, "{bodies}");
     assert!(found["mean_speed"]["value"].is_f64());
+}
+
+/// Tracked cells: nothing is written while cells are observed, and everything but pages while these are drawn.
+#[test]
+fn observations_say_so_too() {
+    let folder = Folder::new();
+    let names: Vec<String> = (0..600).map(|number| format!("c{number}")).collect();
+    let cells: Vec<&str> = names.iter().map(String::as_str).collect();
+    folder.write("cells.csv", &crate::observe::table(&cells));
+    for pause in [0, 300] {
+        let mut command =
+            folder.command("observe cells.csv --pixel-size 0.5 --interval 2 --out seen --force");
+        let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        wait_until_it_listens(&child);
+        sleep(Duration::from_millis(pause));
+        interrupt_child(&child);
+        let done = wait(child).expect(130);
+        assert!(done.stderr.contains("interrupted"), "{}", done.stderr);
+        if done.stderr.contains("no observation is written") {
+            assert_eq!(folder.names(), ["cells.csv"]);
+        } else {
+            folder.run("verify seen").expect(0); // all but pages
+            fs::remove_dir_all(folder.path("seen")).unwrap();
+        }
+    }
 }

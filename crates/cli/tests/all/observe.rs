@@ -4,7 +4,7 @@ use crate::common::Folder;
 use std::fmt::Write;
 
 /// A table of cells that do not move: ellipses of 16 vertices in 5 frames.
-fn table(cells: &[&str]) -> String {
+pub(crate) fn table(cells: &[&str]) -> String {
     let mut text = "cell,frame,i,x,y\n".to_owned();
     for (number, name) in cells.iter().enumerate() {
         for (frame, i) in (0..5).flat_map(|frame| (0..16).map(move |i| (frame, i))) {
@@ -54,4 +54,32 @@ fn files_that_cannot_be_written_are_named() {
         folder.run(&format!("observe cells.csv --outlines new.csv {force}")).expect(1);
     }
     assert_eq!(folder.names(), [".new.csv.inventory", "cells.csv", "new.csv", "there.csv"]);
+}
+
+/// 1 is for cells that are undecided, and nothing else: a file that cannot be written is an error like bad input.
+#[test]
+fn a_failed_write_is_not_an_undecided_cell() {
+    let folder = Folder::new();
+    folder.write("cells.csv", &table(&["a", "b"]));
+    let words = "observe cells.csv --pixel-size 0.5 --interval 2";
+    folder.run(words).expect(1);
+    for (limit, line) in [
+        ("", "--json > /dev/full"),
+        ("ulimit -f 0;", "--out seen"),
+        ("ulimit -f 1;", "--out seen"),
+        ("ulimit -f 0;", "--outlines again.csv"),
+        ("ulimit -f 1;", "--outlines again.csv"),
+    ] {
+        let done = folder.bash(&format!("trap '' XFSZ; {limit} exec $motiform {words} {line}")).expect(2);
+        let error = done.stderr.lines().last().unwrap_or_default();
+        assert!(
+            error.starts_with("error: writing ") && !error.contains(".partial"),
+            "{limit} {line}: {error}"
+        );
+        assert_eq!(
+            (done.stdout.as_str(), folder.names()),
+            ("", vec!["cells.csv".to_owned()]),
+            "{limit} {line}"
+        );
+    }
 }

@@ -190,7 +190,7 @@ fn two_processes_do_not_share_a_folder() {
 fn a_full_disk() {
     let folder = Folder::new();
     let words = "scan tensor --preset fig1 --axis kappa2=0.1:1.6:20 --samples 4 --budget 30 --out run";
-    let full = folder.bash(&format!("trap '' XFSZ; ulimit -f 4; exec $motiform {words}")).expect_error(1);
+    let full = folder.bash(&format!("trap '' XFSZ; ulimit -f 4; exec $motiform {words}")).expect_error(2);
     assert!(full.stderr.starts_with("error: writing run/part-000"), "{}", full.stderr);
     assert!(
         full.stderr.contains("File too large")
@@ -201,9 +201,9 @@ fn a_full_disk() {
     assert_eq!(count_parts(&folder.path("run")), 20);
     // No room for anything: nothing is left behind.
     let words = words.replace("--out run", "--out none");
-    let full = folder.bash(&format!("trap '' XFSZ; ulimit -f 0; exec $motiform {words}")).expect_error(1);
+    let full = folder.bash(&format!("trap '' XFSZ; ulimit -f 0; exec $motiform {words}")).expect_error(2);
     assert!(full.stderr.contains("writing none failed"), "{}", full.stderr);
-    let full = folder.bash("trap '' XFSZ; ulimit -f 4; exec $motiform merge run --out all").expect_error(1);
+    let full = folder.bash("trap '' XFSZ; ulimit -f 4; exec $motiform merge run --out all").expect_error(2);
     assert!(full.stderr.contains("free some space and run again"), "{}", full.stderr);
     assert_eq!(folder.names(), ["run"]);
 }

@@ -1,30 +1,18 @@
-//! Damaged messages are refused, and the server answers the next page as ever. `MOTIFORM_FUZZ=200000` tries more.
+//! A sample of damaged messages, sent to a server: it answers the next page as ever. Far more of them are read in the process (`session/tests/all/fuzz.rs`).
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
 use crate::common;
+#[path = "../../../session/tests/all/messages.rs"]
+mod messages;
 #[path = "../../../lab/tests/all/common/mutate.rs"]
 mod mutate;
 
 use common::{Page, Running};
+use messages::MESSAGES;
 use mutate::{Mutator, cases};
 use std::time::Duration;
 use tungstenite::Message;
-
-const MESSAGES: [&str; 12] = [
-    r#"{"do":"begin","model":"tensor","preset":"fig5a"}"#,
-    r#"{"do":"begin","model":"cell","preset":"fig6a","parameters":{"length":21.0},"noise":0.001,"seed":3}"#,
-    r#"{"do":"set","parameters":{"kappa2":0.5,"kappa3":0.1}}"#,
-    r#"{"do":"noise","amplitude":0.05}"#,
-    r#"{"do":"kick"}"#,
-    r#"{"do":"advance","dt":0.5}"#,
-    r#"{"do":"strips","section":"path","y":0.5}"#,
-    r#"{"do":"map","epoch":1,"x":{"name":"kappa2","low":-0.2,"high":0.2},"y":{"name":"gamma","low":-0.1,"high":0.1},"count":9}"#,
-    r#"{"do":"evidence","epoch":1,"cell":[1,1]}"#,
-    r#"{"do":"share"}"#,
-    r#"{"do":"follow","epoch":1,"along":{"name":"kappa2","low":0.3,"high":1.6},"branches":2}"#,
-    r#"{"do":"place","epoch":1,"branch":0,"point":3}"#,
-];
 
 /// A page, as soon as those that were left are gone: a server takes only so many.
 fn fresh(server: &Running) -> Page {
@@ -49,7 +37,7 @@ fn messages() {
     let server = Running::anywhere();
     let mut random = Mutator::new(20);
     let mut page = fresh(&server);
-    let count = cases(3000);
+    let count = cases(3000).min(20_000); // each goes through a socket
     let mut lost = 0;
     for case in 0..count {
         let text =

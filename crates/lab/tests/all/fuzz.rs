@@ -8,14 +8,15 @@ use crate::common;
 mod mutate;
 
 use common::{preset, run};
+use motiform_files::store::{Audit, INVENTORY, Inventory};
 use motiform_files::{
     Format, Kind, Staged, decoding, read_dataset, read_fields, read_table_file, write_fields,
 };
 use motiform_lab::fields::write_dataset;
 use motiform_lab::scan::{Axis, Classify, Opening, Scan, ScanFolder, Shard, Totals, read_part};
-use motiform_study::presets::PRESETS;
+use motiform_study::presets::{EXTENSIONS, PRESETS};
 use motiform_study::{Plan, ScanPlan, Study};
-use mutate::{Mutator, cases};
+use mutate::{Mutator, cases, each, in_turn};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -30,6 +31,11 @@ fn quiet() {
     }));
 }
 
+/// A folder in memory, where the system has one: a file that is written and read there costs a twentieth.
+fn in_memory() -> TempDir {
+    TempDir::new_in("/dev/shm").or_else(|_| TempDir::new()).unwrap()
+}
+
 fn dataset(folder: &Path, format: Format, name: &str) {
     let dataset = run(&preset(name, |study| {
         (study.run.transient, study.run.t_end, study.run.dt_out) = (0.0, 2.0, 0.1);
@@ -39,52 +45,85 @@ fn dataset(folder: &Path, format: Format, name: &str) {
     staged.commit().unwrap();
 }
 
-#[test]
-fn studies() {
-    let mut seeds: Vec<Vec<u8>> = PRESETS.iter().map(|preset| preset.text.as_bytes().to_vec()).collect();
-    seeds.push(b"[model.tensor]\nkappa2 = 0.5\n[scan]\naxes = [\"kappa2=0:1:3\"]\n[initial]\nv1 = 0.1\nrandom = \"0.1:1\"\n".to_vec());
-    let (mut random, mut good) = (Mutator::new(1), 0);
-    let count = cases(4000);
-    for case in 0..count {
-        let text = String::from_utf8_lossy(&random.mutate(&seeds[case % seeds.len()])).into_owned();
-        match Study::parse(&text, "study.toml", "study") {
-            Ok(study) => {
-                good += 1;
-                let _ = (Plan::new(&study), ScanPlan::new(&study));
-            }
-            Err(error) => {
-                let said = error.to_string();
-                assert!(said.len() < 20_000, "{} bytes: {}", said.len(), &said[..400]);
-            }
+/// Reads a text as a study and plans it. An error must say its sentence, however long the text is.
+fn planned(text: &[u8]) -> bool {
+    match Study::parse(&String::from_utf8_lossy(text), "study.toml", "study") {
+        Ok(study) => {
+            let _ = (Plan::new(&study), ScanPlan::new(&study));
+            true
+        }
+        Err(error) => {
+            let said = error.to_string();
+            assert!(said.len() < 20_000, "{} bytes: {}", said.len(), &said[..400]);
+            false
         }
     }
-    println!("{good} of {count} were studies");
-    assert!(good > count / 50);
+}
+
+#[test]
+fn studies() {
+    let mut seeds: Vec<&str> = PRESETS.iter().map(|preset| preset.text).collect();
+    seeds.push("[model.tensor]\nkappa2 = 0.5\n[scan]\naxes = [\"kappa2=0:1:3\"]\n[initial]\nv1 = 0.1\nrandom = \"0.1:1\"\n");
+    let good = each("studies", (1, 4000), in_turn(&seeds), planned);
+    assert!(good > cases(4000) / 50);
+}
+
+#[test]
+fn equations() {
+    let seeds: Vec<&str> = EXTENSIONS.iter().map(|preset| preset.text).collect();
+    let good = each("equations", (10, 4000), in_turn(&seeds), planned);
+    assert!(good > cases(4000) / 50);
 }
 
 /// Mutates one file of a folder and reads the folder.
 fn damage(folder: &Path, file: &str, seed: u64, usual: usize, read: impl Fn(&Path) -> bool) {
     let path = folder.join(file);
     let whole = fs::read(&path).unwrap();
-    let (mut random, mut good) = (Mutator::new(seed), 0);
-    let count = cases(usual);
-    for _ in 0..count {
+    let damaged = |random: &mut Mutator, _| {
         // Parquet and HDF5 keep what they are about at the end, and texts all over: half of the changes are in the last part.
         let tail = whole.len().saturating_sub(if random.below(2) == 0 { 1500 } else { whole.len() });
-        let mut bytes = whole[..tail].to_vec();
-        bytes.extend(random.mutate(&whole[tail..]));
+        [&whole[..tail], &random.mutate(&whole[tail..])].concat()
+    };
+    each(file, (seed, usual), damaged, |bytes| {
         fs::write(&path, bytes).unwrap();
-        good += usize::from(read(folder));
-    }
-    fs::write(&path, whole).unwrap();
-    println!("{file}: {good} of {count} could be read");
+        read(folder)
+    });
+    fs::write(&path, &whole).unwrap();
     assert!(read(folder), "{file} is as it was");
+}
+
+/// Whatever an inventory says, no file outside its folder is listed.
+#[test]
+fn inventories() {
+    let place = in_memory();
+    let folder = place.path().join("run");
+    dataset(&folder, Format::Csv, "fig3");
+    let leads_out =
+        |name: &String| name.is_empty() || name.split('/').any(|part| matches!(part, "" | "." | ".."));
+    damage(&folder, INVENTORY, 11, 4000, |folder| {
+        Audit::of(folder).is_ok_and(|audit| {
+            let Audit { inventory, unchanged, changed, missing, .. } = audit;
+            assert!(!inventory.files.keys().any(leads_out));
+            assert_eq!(inventory.files.len(), unchanged.len() + changed.len() + missing.len());
+            true
+        })
+    });
+    let mut text = fs::read_to_string(folder.join(INVENTORY)).unwrap();
+    for line in ["partial\":\".run.12", "moving\":\"3", "gives_way_to\":\"z", "replaced_by\":\"z"] {
+        text += &format!("{{\"{line}\"}}\n");
+    }
+    fs::write(folder.join(INVENTORY), text).unwrap();
+    let read = |folder: &Path| {
+        Inventory::read(folder)
+            .is_ok_and(|found| found.is_some_and(|found| !found.files.keys().any(leads_out)))
+    };
+    damage(&folder, INVENTORY, 12, 4000, read);
 }
 
 #[test]
 fn datasets() {
     quiet();
-    let place = TempDir::new().unwrap();
+    let place = in_memory();
     let folder = place.path().join("run");
     let whole = |folder: &Path| {
         read_dataset(folder).is_ok_and(|data| {
@@ -104,10 +143,32 @@ fn datasets() {
     });
 }
 
+/// Found by `datasets`: a schema that says of a column that it has no nulls, or several values a row, gave columns of different lengths.
+#[test]
+fn a_column_of_another_length_is_damage() {
+    let place = in_memory();
+    let folder = place.path().join("run");
+    dataset(&folder, Format::Parquet, "fig3");
+    let table = folder.join("trajectory.parquet");
+    let whole = fs::read(&table).unwrap();
+    let optional = b"\x25\x02\x18\x05speed"; // repetition 1, name: in Thrift's compact form
+    let at = whole.windows(optional.len()).position(|window| window == optional).unwrap();
+    for repetition in [0, 4] {
+        let mut damaged = whole.clone();
+        damaged[at + 1] = repetition;
+        fs::write(&table, damaged).unwrap();
+        if let Ok(data) = read_dataset(&folder) {
+            let columns = data.trajectory.columns.iter();
+            let lengths: Vec<usize> = columns.map(|column| column.values.len()).collect();
+            assert!(lengths.iter().all(|length| *length == lengths[0]), "{repetition}: {lengths:?}");
+        }
+    }
+}
+
 #[test]
 fn fields() {
     quiet();
-    let place = TempDir::new().unwrap();
+    let place = in_memory();
     let folder = place.path().join("run");
     dataset(&folder, Format::Parquet, "fig6a");
     damage(&folder, "fields.h5", 7, 400, |folder| {
@@ -119,7 +180,7 @@ fn fields() {
 #[test]
 fn scans() {
     quiet();
-    let place = TempDir::new().unwrap();
+    let place = in_memory();
     let folder = place.path().join("scan");
     let plan = ScanPlan::new(&preset("fig1", |study| {
         study.scan.axes = vec![Axis::parse("gamma=0.05:0.1:3").unwrap()];

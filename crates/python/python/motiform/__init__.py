@@ -25,6 +25,7 @@ from .reading import read
 from .results import Accuracy, Crossings, Equilibrium, Estimate, Exponents, Motions, Outcome, Share, Spread, Verdict
 from .scans import merge, scan
 from .trajectory import Trajectory
+from .verification import Verification, verify
 
 __all__ = [
     "MODELS",
@@ -58,6 +59,7 @@ __all__ = [
     "Tensor",
     "Trajectory",
     "Verdict",
+    "Verification",
     "WorkersLost",
     "__version__",
     "cells",
@@ -68,4 +70,5 @@ __all__ = [
     "scan",
     "statistics",
     "study",
+    "verify",
 ]

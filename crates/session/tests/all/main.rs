@@ -2,4 +2,5 @@
 
 mod common;
 mod drives;
+mod fuzz;
 mod local;

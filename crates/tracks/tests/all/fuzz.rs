@@ -5,8 +5,11 @@ use crate::formats::{amoepy, quimp_nodes, quimp_table, wkt};
 use crate::imagej::roi;
 use crate::tables::parquet;
 use crate::trackmate::dividing;
+#[path = "../../../lab/tests/all/common/mutate.rs"]
+mod mutate;
 use motiform_tracks::modes::{ModeOptions, fit_radius, fold, modes, outline_modes, tangent_modes};
 use motiform_tracks::{Format, Limits, Options, read};
+use mutate::{each, in_turn};
 use proptest::prelude::*;
 
 fn samples() -> Vec<(Format, Vec<u8>)> {
@@ -25,8 +28,8 @@ fn samples() -> Vec<(Format, Vec<u8>)> {
     ]
 }
 
-/// Reads and measures; with the format given, detection does not stand in the way of damage.
-fn follow(bytes: &[u8], format: Option<Format>) {
+/// Reads and measures, and says whether it could; with the format given, detection does not stand in the way of damage.
+fn follow(bytes: &[u8], format: Option<Format>) -> bool {
     let files = Files::new();
     let path = files.put("x", bytes);
     files.put("x.paQP", bytes);
@@ -42,8 +45,19 @@ fn follow(bytes: &[u8], format: Option<Format>) {
                     assert!(fit.z.iter().flatten().chain(&fit.unit_covariance).all(finite));
                 }
             }
+            true
         }
-        Err(error) => assert!(!error.to_string().is_empty()),
+        Err(error) => {
+            assert!(!error.to_string().is_empty());
+            false
+        }
+    }
+}
+
+#[test]
+fn formats() {
+    for (seed, (format, sample)) in (50..).zip(samples()) {
+        each(&format!("{format:?}"), (seed, 300), in_turn(&[sample]), |bytes| follow(bytes, Some(format)));
     }
 }
 

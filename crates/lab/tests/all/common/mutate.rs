@@ -1,6 +1,9 @@
 //! Damaged inputs: mutations of valid ones, deterministic by a seed.
 #![allow(unreachable_pub, dead_code, reason = "shared by tests of several crates")]
 
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::time::Instant;
+
 /// A sequence of random numbers.
 pub struct Mutator(u64);
 
@@ -99,4 +102,35 @@ impl Mutator {
 /// How many cases each target gets: `MOTIFORM_FUZZ`, or some thousand.
 pub fn cases(usual: usize) -> usize {
     std::env::var("MOTIFORM_FUZZ").ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
+}
+
+/// Hands damaged inputs to `read`, which says whether they could be used, and returns how many could; prints the rate. A panic fails the test and shows its
+/// input, so that it can become a test of its own.
+pub fn each(
+    name: &str,
+    (seed, usual): (u64, usize),
+    damage: impl Fn(&mut Mutator, usize) -> Vec<u8>,
+    mut read: impl FnMut(&[u8]) -> bool,
+) -> usize {
+    let (mut random, count, begun) = (Mutator::new(seed), cases(usual), Instant::now());
+    let mut good = 0;
+    for case in 0..count {
+        let bytes = damage(&mut random, case);
+        match catch_unwind(AssertUnwindSafe(|| read(&bytes))) {
+            Ok(used) => good += usize::from(used),
+            Err(panic) => {
+                let shown = &bytes[..bytes.len().min(20_000)];
+                eprintln!("{name}, case {case}, {} bytes: b\"{}\"", bytes.len(), shown.escape_ascii());
+                resume_unwind(panic);
+            }
+        }
+    }
+    let rate = count as f64 / begun.elapsed().as_secs_f64();
+    println!("{name}: {count} cases, {good} could be read, {rate:.0} a second");
+    good
+}
+
+/// The inputs in turn, damaged.
+pub fn in_turn(inputs: &[impl AsRef<[u8]>]) -> impl Fn(&mut Mutator, usize) -> Vec<u8> {
+    move |random, case| random.mutate(inputs[case % inputs.len()].as_ref())
 }
