@@ -80,7 +80,8 @@ impl std::fmt::Display for StdoutFailed {
 
 impl std::error::Error for StdoutFailed {}
 
-/// Prints an error on standard error. Exit code 2: nothing was found, because of the input or because files could not be written; 130 if it was a stop.
+/// Prints an error on standard error. Exit code 2: nothing was found, because of the input or because files could not be written; 1 where numbers are
+/// there and only a figure cannot be drawn; 130 if it was a stop.
 pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     // Standard error is the last resort: nothing is left to say if it fails too.
     let remedy = match error.downcast_ref::<StoreError>() {
@@ -91,6 +92,7 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     let _ = writeln!(io::stderr(), "error: {error:#}{remedy}");
     match error.downcast_ref() {
         Some(Error::Interrupted) => End::Interrupted.into(),
+        Some(Error::Figure(_)) => End::NotAsAsked.into(),
         _ => ExitCode::from(2),
     }
 }
