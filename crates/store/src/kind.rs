@@ -88,6 +88,9 @@ impl Kind {
     /// Whether its command continues it with `--resume`.
     #[must_use]
     pub fn resumes(self) -> bool {
-        matches!(self, Self::Scan | Self::Branches | Self::Curves | Self::Lifetimes | Self::Fits)
+        matches!(
+            self,
+            Self::Scan | Self::Branches | Self::Curves | Self::Lifetimes | Self::Statistics | Self::Fits
+        )
     }
 }

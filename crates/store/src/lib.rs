@@ -6,7 +6,7 @@
 //!
 //! * [`Staged`]: a result that is there whole or not at all, written beside its place.
 //! * [`Folder`]: a result that grows file by file, and can be continued after a kill.
-//! * [`StagedFile`]: a single file, with its inventory in a hidden file beside it.
+//! * [`StagedFile`]: a single file; its inventory is a hidden file in the same folder.
 
 mod audit;
 mod digest;

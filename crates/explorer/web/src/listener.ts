@@ -11,7 +11,7 @@ export interface Listener {
   swarm(frame: SwarmFrame): void;
   /** The connection opened, or closed with this code, and a sentence says why where something went wrong. */
   open(open: boolean, code: number, reason?: string): void;
-  /** Whoever is there stopped answering, or answers again. */
+  /** The server stopped answering, or answers again. */
   silent?(silent: boolean): void;
 }
 
