@@ -59,7 +59,7 @@ impl Rows for TableWriter {
     }
 }
 
-/// Rows that nobody wants.
+/// Rows that are not kept.
 #[derive(Default)]
 pub struct Unwanted(Table);
 
@@ -118,7 +118,8 @@ pub(crate) struct Recorder<'r> {
     readings: Readings<'r>,
     rows: &'r mut dyn Rows,
     crossings: Option<Crossings>,
-    centre: Centre,
+    /// Where the return map is centred: the others do without its exponentials.
+    centre: Option<Centre>,
     failed: Option<Error>,
     full: Arc<AtomicBool>,
 }
@@ -130,15 +131,20 @@ impl<'r> Recorder<'r> {
             readings: Readings::new(run.model, c),
             rows,
             crossings: c.return_map.as_ref().map(Crossings::new),
-            centre: Centre::new(0.0, last_sample(c.t_end, c.dt_out)),
+            centre: c
+                .return_map
+                .as_ref()
+                .filter(|map| map.centre)
+                .map(|_| Centre::new(0.0, last_sample(c.t_end, c.dt_out))),
             failed: None,
             full: Arc::default(),
         }
     }
 
-    /// The centre of the path; the time of its last sample where that was not foreseen.
-    pub(crate) fn centre(&self) -> Result<[f64; 2], f64> {
-        if self.centre.last == self.centre.end { Ok(self.centre.found()) } else { Err(self.centre.last) }
+    /// The centre of the path, if the return map is centred; the time of its last sample where that was not foreseen.
+    pub(crate) fn centre(&self) -> Option<Result<[f64; 2], f64>> {
+        let centre = self.centre.as_ref()?;
+        Some(if centre.last == centre.end { Ok(centre.found()) } else { Err(centre.last) })
     }
 
     /// Another recording follows instead of the one so far.
@@ -175,7 +181,9 @@ impl Sink for Recorder<'_> {
         if self.failed.is_some() {
             return; // the run ends with the step
         }
-        self.centre.sample(t, u);
+        if let Some(centre) = &mut self.centre {
+            centre.sample(t, u);
+        }
         self.readings.push(t, u, self.rows.table());
         if let Err(error) = self.rows.advance() {
             self.failed = Some(error);

@@ -93,7 +93,7 @@ impl Simulation<'_> {
     fn all(&self, rows: &mut dyn Rows) -> Result<Run, Error> {
         let map = self.computation.return_map.as_ref();
         let mut record = Recorder::new(self, rows);
-        let centring = map.is_some_and(|map| map.centre);
+        let centring = map.is_some_and(|map| map.centre); // two passes
         let passes = if centring { 2.0 } else { 1.0 };
         let settled = self.transient(0.0, passes)?;
         if let Some(ending) = settled.early() {
@@ -102,11 +102,11 @@ impl Simulation<'_> {
         }
         let (start, end) = (settled.last, self.computation.t_end);
         let first = self.record(&start, (0.0, end), passes, 0.0, &mut record)?;
-        if !(centring && first.ending.is_complete()) {
+        let Some(centre) = record.centre().filter(|_| first.ending.is_complete()) else {
             return Ok(self.run(&first, None, record.finish()?));
-        }
+        };
         // The flow does not depend on the position: the second pass is the first one, moved.
-        let centre = match record.centre() {
+        let centre = match centre {
             Ok(centre) => centre,
             Err(last) => {
                 let mut again = Centre::new(0.0, last);
