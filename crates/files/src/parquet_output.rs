@@ -128,9 +128,14 @@ impl Values<'_> {
             Self::Whole(values) => out.typed::<Int64Type>().write_batch(&values[rows], None, None)?,
             Self::Number(values) => {
                 let values = &values[rows];
-                let levels: Vec<i16> = values.iter().map(|value| i16::from(!value.is_nan())).collect();
-                let defined: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
-                out.typed::<DoubleType>().write_batch(&defined, Some(&levels), None)?
+                let levels = levels(values);
+                let numbers = out.typed::<DoubleType>();
+                if levels.contains(&0) {
+                    let defined: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
+                    numbers.write_batch(&defined, Some(&levels), None)?
+                } else {
+                    numbers.write_batch(values, Some(&levels), None)?
+                }
             }
             Self::Text(values) => {
                 let texts: Vec<ByteArray> =
@@ -140,4 +145,17 @@ impl Values<'_> {
         };
         out.close()
     }
+}
+
+/// 1 for each number, 0 for one that is not defined. A loop: this crate is built for size, where iterators are calls for every number.
+fn levels(values: &[f64]) -> Vec<i16> {
+    let mut levels = vec![1; values.len()];
+    let mut row = 0;
+    while row < values.len() {
+        if values[row].is_nan() {
+            levels[row] = 0;
+        }
+        row += 1;
+    }
+    levels
 }
