@@ -13,6 +13,29 @@ use std::path::Path;
 const BUDGETS: &str = "budgets.toml";
 const DOCUMENT: &str = "CONTRIBUTING.md";
 
+/// The table `[ratio]` of the budgets.
+struct Budget {
+    /// Version of ripgrep.
+    reference: String,
+    seconds: f64,
+    cpu_seconds: f64,
+}
+
+impl Budget {
+    fn read(root: &Path) -> Result<Self> {
+        let budgets: toml::Table = fs::read_to_string(root.join(BUDGETS)).context(BUDGETS)?.parse()?;
+        let ratio = budgets.get("ratio").with_context(|| format!("{BUDGETS} has no table [ratio]"))?;
+        let number = |key: &str| {
+            let value = ratio.get(key).and_then(toml::Value::as_float);
+            value.with_context(|| format!("{BUDGETS} has no number ratio.{key}"))
+        };
+        let reference = ratio.get("reference").and_then(toml::Value::as_str);
+        let reference = reference.with_context(|| format!("{BUDGETS} has no text ratio.reference"))?;
+        let (seconds, cpu_seconds) = (number("seconds")?, number("cpu_seconds")?);
+        Ok(Self { reference: reference.to_owned(), seconds, cpu_seconds })
+    }
+}
+
 /// A cold build, and that of the reference.
 pub(crate) struct Pair {
     ours: Cost,
@@ -22,20 +45,20 @@ pub(crate) struct Pair {
 /// Measures as often as `--runs N` says (once by default), fails where a budget is exceeded, and writes the table of the last run with `--write`.
 pub(crate) fn run(arguments: &[String]) -> Result<()> {
     let root = root()?.canonicalize()?;
-    let budgets = fs::read_to_string(root.join(BUDGETS)).context(BUDGETS)?;
-    let (version, runs) = (quoted(&budgets, "reference")?, runs(arguments)?);
+    let (budget, runs) = (Budget::read(&root)?, runs(arguments)?);
+    let version = &budget.reference;
     let mut pairs = Vec::new();
     for number in 1..=runs {
-        let pair = pair(&root, &version)?;
-        eprintln!("== run {number} of {runs}: {}", pair.sentence(&version));
+        let pair = pair(&root, version)?;
+        eprintln!("== run {number} of {runs}: {}", pair.sentence(version));
         pairs.push(pair);
     }
     if arguments.iter().any(|argument| argument == "--write") {
         let path = root.join(DOCUMENT);
         let document = fs::read_to_string(&path).context(DOCUMENT)?;
-        fs::write(&path, table::renewed(&document, &pairs, &version)?)?;
+        fs::write(&path, table::renewed(&document, &pairs, version)?)?;
     }
-    let [elapsed, cpu] = [number(&budgets, "seconds")?, number(&budgets, "cpu_seconds")?];
+    let Budget { seconds: elapsed, cpu_seconds: cpu, .. } = budget;
     for pair in &pairs {
         let [seconds, cpu_seconds] = pair.ratios();
         if seconds > elapsed || cpu_seconds > cpu {
@@ -75,21 +98,4 @@ fn pair(root: &Path, version: &str) -> Result<Pair> {
 fn runs(arguments: &[String]) -> Result<usize> {
     let Some(at) = arguments.iter().position(|argument| argument == "--runs") else { return Ok(1) };
     arguments.get(at + 1).and_then(|text| text.parse().ok()).context("--runs needs a whole number")
-}
-
-/// The value of a key in the file of budgets, as text.
-fn value<'b>(budgets: &'b str, key: &str) -> Result<&'b str> {
-    let line = |line: &'b str| {
-        let (name, rest) = line.split_once('=')?;
-        (name.trim() == key).then(|| rest.split('#').next().unwrap_or_default().trim())
-    };
-    budgets.lines().find_map(line).with_context(|| format!("{BUDGETS} has no key {key}"))
-}
-
-fn quoted(budgets: &str, key: &str) -> Result<String> {
-    Ok(value(budgets, key)?.trim_matches('"').to_owned())
-}
-
-fn number(budgets: &str, key: &str) -> Result<f64> {
-    value(budgets, key)?.parse().with_context(|| format!("{key} in {BUDGETS} is no number"))
 }

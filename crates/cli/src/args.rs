@@ -18,7 +18,7 @@ pub(crate) use drawing::{DrawingOptions, FilmFormat};
 use help::EXPLORE_HELP;
 use help::{
     CLASSIFY_HELP, CONTINUE_HELP, EQUILIBRIA_HELP, EXAMPLES, LYAPUNOV_HELP, REPRODUCE_HELP, SCAN_HELP,
-    SECTION_HELP, SIMULATE_HELP,
+    SECTION_HELP, SIMULATE_HELP, VERIFY_HELP,
 };
 pub(crate) use lifetimes::LifetimesOptions;
 use motiform_study::Random;
@@ -87,6 +87,7 @@ pub(crate) enum Command {
     /// Check a study file and print the resulting plan, without computing
     Check(CheckOptions),
     /// Check a result: digests of its files, the hash of its plan, and a sample of rows computed again and compared bit by bit
+    #[command(after_help = VERIFY_HELP)]
     Verify(VerifyOptions),
     /// Redraw the figures of datasets and scans, without computing
     Figure(FigureOptions),

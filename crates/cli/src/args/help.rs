@@ -118,6 +118,22 @@ The output folder contains report.html (figures, parameters, and for each claim:
 decided, and the reason for any difference), its figures (figure-4.1.svg and .png, .csv with their numbers), and the underlying scans. \
 Exit code 1: a claim failed.";
 
+pub(super) const VERIFY_HELP: &str = "\
+Examples:
+  motiform verify tensor-fig5a           the first thousand rows of the trajectory
+  motiform verify tensor-fig4 --all      every cell of the scan
+
+Checked of every result: the files that its inventory (_inventory.jsonl) lists, by their SHA-256. In
+addition, of
+  a dataset            the hash of its plan; rows of the trajectory, computed again; with --all the
+                       crossings of its return map, too
+  a scan               the digests inside its parts; the first, a middle and the last part,
+                       computed again
+  branches, curves     the hash of their plan; points are not computed again
+  other results        nothing: their numbers are not computed again
+
+Files that motiform did not write are listed, and are no fault. Exit code 0: intact; 1: not intact.";
+
 pub(super) const LYAPUNOV_HELP: &str = "\
 Examples:
   motiform lyapunov tensor --preset fig5b

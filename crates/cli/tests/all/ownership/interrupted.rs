@@ -1,0 +1,73 @@
+//! Failing calls, and kills at random moments.
+
+use super::{WRITERS, Writer, is_kept, litter};
+use crate::common::Folder;
+use crate::faults::struck;
+use crate::kills::{Random, kill, kills};
+use std::time::{Duration, Instant};
+
+/// Every n-th call that changes the file system fails, or is the last one: what is of others is there at once, and the next run works.
+#[test]
+fn things_of_others_survive_faults() {
+    let every: usize = std::env::var("MOTIFORM_FAULTS").ok().and_then(|text| text.parse().ok()).unwrap_or(23);
+    for (number, writer) in WRITERS.iter().enumerate() {
+        if writer.command() == "reproduce" && every > 1 {
+            continue; // three seconds for each call
+        }
+        let option = if writer.options.contains(&"--force") { "--force" } else { "" };
+        let words = format!("{} --out z {option}", writer.words);
+        for kind in ["error", "kill"] {
+            for at in (1 + number % every..).step_by(every) {
+                let folder = writer.place();
+                writer.run(&folder, "--out z");
+                let mine = litter(&folder.path("z"));
+                let (done, struck) = struck(&folder, &words, kind, at);
+                is_kept(&folder.path("z"), &mine, &format!("{kind} at {at} of {words}"));
+                if !struck {
+                    break;
+                }
+                assert!(!done.stderr.contains("panicked"), "{}", done.stderr);
+                let again = folder.run(&words);
+                assert!(matches!(again.code, Some(0 | 1)), "{kind} at {at} of {words}: {}", again.stderr);
+                is_kept(&folder.path("z"), &mine, &format!("{kind} at {at} of {words}, then again"));
+                is_tidy(&folder, &words);
+            }
+        }
+    }
+}
+
+/// Only what was made and not yet locked may stay, for a minute.
+fn is_tidy(folder: &Folder, words: &str) {
+    let left: Vec<String> =
+        folder.names().into_iter().filter(|name| name.contains("z.") && !name.ends_with(".new")).collect();
+    assert!(left.is_empty(), "{left:?} after {words}");
+}
+
+/// All writing commands, killed at random moments.
+#[test]
+fn things_of_others_survive_kills() {
+    let mut random = Random(7);
+    let writers: Vec<&Writer> = WRITERS.iter().filter(|it| it.options.len() > 1).collect();
+    let rounds = (kills() / (2 * writers.len())).max(2);
+    let mut killed = 0;
+    for writer in writers {
+        let folder = writer.place();
+        writer.run(&folder, "--out z");
+        let begun = Instant::now();
+        writer.run(&folder, "--out z --force");
+        let time: Duration = begun.elapsed();
+        let mine = litter(&folder.path("z"));
+        for round in 0..rounds {
+            let option = if round % 3 == 1 { writer.options.last().unwrap() } else { &"--force" };
+            let words = format!("{} --out z {option}", writer.words);
+            killed += usize::from(kill(&folder, &words, time, &mut random));
+            is_kept(&folder.path("z"), &mine, &words);
+        }
+        let words = format!("{} --out z --force", writer.words);
+        let done = folder.run(&words);
+        assert!(matches!(done.code, Some(0 | 1)), "{words}: {}", done.stderr);
+        is_kept(&folder.path("z"), &mine, &words);
+        is_tidy(&folder, &words);
+    }
+    println!("{killed} were still running");
+}

@@ -1,0 +1,150 @@
+//! Results that are begun, or gone on with.
+
+use super::{Folder, State};
+use crate::place::{name_of, number, sweep};
+use crate::replace::{replaced, retires};
+use crate::staged::{is_empty, owned};
+use crate::survey::{Survey, kept, remove_partials};
+use crate::target::Target;
+use crate::{Error, INVENTORY, Inventory, Kind, Staged, disk, lock, mend};
+use serde_json::json;
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+/// What to do with a result that exists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Opening {
+    /// Refuse it.
+    New,
+    /// Go on with it.
+    Resume,
+    /// Replace it.
+    Replace,
+}
+
+impl Opening {
+    /// That of the options `--resume` and `--force`.
+    #[must_use]
+    pub fn of(resume: bool, force: bool) -> Self {
+        match (resume, force) {
+            (true, _) => Self::Resume,
+            (_, true) => Self::Replace,
+            _ => Self::New,
+        }
+    }
+}
+
+impl Folder {
+    /// Opens a folder as `opening` says; a new one has `files` from the beginning (such as its manifest).
+    ///
+    /// # Errors
+    /// Those of [`Staged::new`] and [`Folder::resume`].
+    pub fn open(shown: &Path, kind: Kind, opening: Opening, files: &[(&str, &[u8])]) -> Result<Self, Error> {
+        if opening == Opening::Resume {
+            let target = Target::new(shown)?;
+            if target.exists() && !(kind == Kind::Report && is_empty(&target.path)) {
+                return Self::resume(shown, kind);
+            }
+        }
+        let staged = Staged::new(shown, kind, opening == Opening::Replace)?;
+        for (name, bytes) in files {
+            staged.write(name, bytes)?;
+        }
+        let mut notes = staged.notes().to_vec();
+        let (target, lock, more) = staged.finish(false)?;
+        let path = target.path.clone();
+        notes.extend(more);
+        notes.extend(replaced(&path).iter().filter(|old| retires(old, &path)).map(|old| {
+            format!(
+                "what was in {} is in {} until the new result is complete",
+                shown.display(),
+                shown.with_file_name(name_of(old)).display()
+            )
+        }));
+        Ok(Self { new: Some(target), ..Self::begin(shown, path, lock, notes)? })
+    }
+
+    /// Opens a result to go on with it. Incomplete files of a killed run are removed.
+    ///
+    /// # Errors
+    /// [`Error::NotContinued`], [`Error::OtherKind`], [`Error::Busy`], [`Error::Unwritable`].
+    pub fn resume(shown: &Path, kind: Kind) -> Result<Self, Error> {
+        let target = Target::new(shown)?;
+        mend(&target.path)?;
+        let mut notes = sweep(&target.path);
+        let inventory = owned(&target, kind).map_err(|error| match error {
+            Error::NotOurs { path } => Error::NotContinued { path },
+            other => other,
+        })?;
+        let lock = lock::lock(&target.path, shown)?;
+        let others = Survey::names(&target.path, &inventory).map_err(Error::unwritable(shown))?;
+        notes.extend(kept(shown, &others));
+        Self::begin(shown, target.path, lock, notes)
+    }
+
+    /// Opens a result of any kind to draw its figures again. A folder without an inventory (an earlier version's) gets those that it does not have.
+    ///
+    /// # Errors
+    /// [`Error::Busy`], [`Error::Inventory`], [`Error::Unwritable`].
+    pub fn redraw(shown: &Path) -> Result<Self, Error> {
+        let target = Target::new(shown)?;
+        mend(&target.path)?;
+        if Inventory::read(&target.path)?.is_some() {
+            let lock = lock::lock(&target.path, shown)?;
+            return Self::begin(shown, target.path, lock, Vec::new());
+        }
+        let lock = File::open(&target.path).map_err(Error::unwritable(shown))?;
+        let state = State {
+            inventory: Inventory::default(),
+            log: None,
+            files: 0,
+            notes: Vec::new(),
+            locks: Vec::new(),
+        };
+        Ok(Self {
+            shown: shown.to_owned(),
+            path: target.path,
+            new: None,
+            start: start(),
+            state: Mutex::new(state),
+            _lock: lock,
+        })
+    }
+
+    /// Gives a folder of an earlier version its inventory: it lists `names`, which the caller knows to be ours and unchanged.
+    ///
+    /// # Errors
+    /// [`Error::Unwritable`].
+    pub fn adopt(shown: &Path, kind: Kind, names: &[String]) -> Result<(), Error> {
+        let unwritable = Error::unwritable(shown);
+        let mut inventory = Inventory::new(kind);
+        for name in names {
+            let digest = crate::sha256_file(&shown.join(name)).map_err(&unwritable)?;
+            inventory.list(name, &digest);
+        }
+        let new = shown.join(format!("{}0.partial", start()));
+        disk::write(&new, inventory.text().as_bytes()).map_err(&unwritable)?;
+        disk::rename_new(&new, &shown.join(INVENTORY))
+            .inspect_err(|_| drop(fs::remove_file(&new)))
+            .map_err(unwritable)
+    }
+
+    fn begin(shown: &Path, path: PathBuf, lock: File, notes: Vec<String>) -> Result<Self, Error> {
+        let unwritable = Error::unwritable(shown);
+        let inventory = Inventory::read(&path)?.unwrap_or_default();
+        remove_partials(&path, &inventory).map_err(&unwritable)?;
+        let mut log = File::options().append(true).open(path.join(INVENTORY)).map_err(&unwritable)?;
+        let start = start();
+        let line = format!("\n{}\n", json!({ "partial": start }));
+        log.write_all(line.as_bytes()).map_err(|error| Error::write_failed(shown, error))?;
+        let state = State { inventory, log: Some(log), files: 0, notes, locks: Vec::new() };
+        Ok(Self { shown: shown.to_owned(), path, new: None, start, state: Mutex::new(state), _lock: lock })
+    }
+}
+
+/// How the names of this process's incomplete files begin.
+fn start() -> String {
+    format!(".{}-", number())
+}
