@@ -69,11 +69,13 @@ impl Folder {
         };
         inventory.files =
             listed.into_iter().filter_map(|(name, digests)| self.one_digest(name, digests)).collect();
+        state.announce(&self.start).map_err(failed)?;
         let new = self.path.join(format!("{}0.partial", self.start));
         disk::write(&new, inventory.text().as_bytes()).map_err(failed)?;
         let lock = lock::lock_file(&new, &self.shown)?;
         disk::rename(&new, &self.path.join(INVENTORY)).map_err(failed)?;
         state.log = Some(File::options().append(true).open(self.path.join(INVENTORY)).map_err(failed)?);
+        state.announced = false;
         state.locks.push(lock);
         state.inventory = inventory;
         if complete {

@@ -10,6 +10,7 @@ use crate::replace::{is_taken, make_folders, set_aside};
 use crate::survey::is_ours;
 use crate::target::Target;
 use crate::{Error, Inventory, disk, is_figure, sha256_hex};
+use serde_json::json;
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -34,9 +35,22 @@ struct State {
     inventory: Inventory,
     /// Where lines are appended; none in a folder without an inventory, in which only new figures are drawn.
     log: Option<File>,
+    /// Whether the inventory on disk says how the names of incomplete files begin.
+    announced: bool,
     files: u64,
     notes: Vec<String>,
     locks: Vec<File>,
+}
+
+impl State {
+    /// Writes down how the names of incomplete files begin, before there is one: after a kill they are known to be ours.
+    fn announce(&mut self, start: &str) -> std::io::Result<()> {
+        if let Some(log) = self.log.as_mut().filter(|_| !self.announced) {
+            log.write_all(format!("\n{}\n", json!({ "partial": start })).as_bytes())?;
+            self.announced = true;
+        }
+        Ok(())
+    }
 }
 
 impl Folder {
@@ -108,6 +122,7 @@ impl Folder {
             self.path.join(format!("{}{}.partial", self.start, state.files))
         };
         let write = || {
+            self.state().announce(&self.start)?;
             make_folders(&self.path, name)?;
             disk::write(&partial, bytes)?;
             self.list(name, &sha256_hex(bytes))?;

@@ -7,9 +7,7 @@ use crate::staged::{is_empty, owned};
 use crate::survey::{Survey, kept, remove_partials};
 use crate::target::Target;
 use crate::{Error, INVENTORY, Inventory, Kind, Staged, disk, lock, mend};
-use serde_json::json;
 use std::fs::{self, File};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
@@ -99,6 +97,7 @@ impl Folder {
         let state = State {
             inventory: Inventory::default(),
             log: None,
+            announced: false,
             files: 0,
             notes: Vec::new(),
             locks: Vec::new(),
@@ -135,11 +134,11 @@ impl Folder {
         let unwritable = Error::unwritable(shown);
         let inventory = Inventory::read(&path)?.unwrap_or_default();
         remove_partials(&path, &inventory).map_err(&unwritable)?;
-        let mut log = File::options().append(true).open(path.join(INVENTORY)).map_err(&unwritable)?;
+        let log = File::options().append(true).open(path.join(INVENTORY)).map_err(&unwritable)?;
         let start = start();
-        let line = format!("\n{}\n", json!({ "partial": start }));
-        log.write_all(line.as_bytes()).map_err(|error| Error::write_failed(shown, error))?;
-        let state = State { inventory, log: Some(log), files: 0, notes, locks: Vec::new() };
+        let mut state =
+            State { inventory, log: Some(log), announced: false, files: 0, notes, locks: Vec::new() };
+        state.announce(&start).map_err(|error| Error::write_failed(shown, error))?;
         Ok(Self { shown: shown.to_owned(), path, new: None, start, state: Mutex::new(state), _lock: lock })
     }
 }

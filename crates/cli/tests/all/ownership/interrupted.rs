@@ -1,6 +1,6 @@
 //! Failing calls, and kills at random moments.
 
-use super::{WRITERS, Writer, is_kept, litter};
+use super::{Tree, WRITERS, Writer, is_kept, litter, tree};
 use crate::common::Folder;
 use crate::faults::struck;
 use crate::kills::{Random, kill, kills};
@@ -20,6 +20,7 @@ fn things_of_others_survive_faults() {
             for at in (1 + number % every..).step_by(every) {
                 let folder = writer.place();
                 writer.run(&folder, "--out z");
+                let clean = tree(&folder.path("z"));
                 let mine = litter(&folder.path("z"));
                 let (done, struck) = struck(&folder, &words, kind, at);
                 is_kept(&folder.path("z"), &mine, &format!("{kind} at {at} of {words}"));
@@ -29,8 +30,10 @@ fn things_of_others_survive_faults() {
                 assert!(!done.stderr.contains("panicked"), "{}", done.stderr);
                 let again = folder.run(&words);
                 assert!(matches!(again.code, Some(0 | 1)), "{kind} at {at} of {words}: {}", again.stderr);
-                is_kept(&folder.path("z"), &mine, &format!("{kind} at {at} of {words}, then again"));
+                let words = format!("{kind} at {at} of {words}, then again");
+                is_kept(&folder.path("z"), &mine, &words);
                 is_tidy(&folder, &words);
+                is_whole(&folder, &clean, &mine, &words);
             }
         }
     }
@@ -43,16 +46,28 @@ fn is_tidy(folder: &Folder, words: &str) {
     assert!(left.is_empty(), "{left:?} after {words}");
 }
 
+/// The result has the bytes of one that nobody disturbed, and beside what is of others nothing else is there.
+fn is_whole(folder: &Folder, clean: &Tree, mine: &Tree, words: &str) {
+    let mut now = tree(&folder.path("z"));
+    now.retain(|name, _| !mine.contains_key(name));
+    let names = |tree: &Tree| tree.keys().cloned().collect::<Vec<_>>();
+    assert_eq!(names(&now), names(clean), "{words}");
+    for (name, there) in clean {
+        assert!(now[name].1 == there.1, "{} is another after {words}", name.display());
+    }
+}
+
 /// All writing commands, killed at random moments.
 #[test]
 fn things_of_others_survive_kills() {
     let mut random = Random(7);
     let writers: Vec<&Writer> = WRITERS.iter().filter(|it| it.options.len() > 1).collect();
-    let rounds = (kills() / (2 * writers.len())).max(2);
+    let rounds = kills().div_ceil(writers.len());
     let mut killed = 0;
     for writer in writers {
         let folder = writer.place();
         writer.run(&folder, "--out z");
+        let clean = tree(&folder.path("z"));
         let begun = Instant::now();
         writer.run(&folder, "--out z --force");
         let time: Duration = begun.elapsed();
@@ -68,6 +83,7 @@ fn things_of_others_survive_kills() {
         assert!(matches!(done.code, Some(0 | 1)), "{words}: {}", done.stderr);
         is_kept(&folder.path("z"), &mine, &words);
         is_tidy(&folder, &words);
+        is_whole(&folder, &clean, &mine, &words);
     }
     println!("{killed} were still running");
 }

@@ -119,8 +119,10 @@ fn refused(done: Done) {
     assert_eq!(done.stdout, "");
 }
 
-/// Everything below a folder: the contents of files, where links lead, and modes.
-pub(crate) fn tree(folder: &Path) -> BTreeMap<PathBuf, (u32, Vec<u8>)> {
+/// Everything below a folder: modes, and the contents of files or where links lead.
+pub(crate) type Tree = BTreeMap<PathBuf, (u32, Vec<u8>)>;
+
+pub(crate) fn tree(folder: &Path) -> Tree {
     let mut found = BTreeMap::new();
     let mut open = vec![folder.to_owned()];
     while let Some(next) = open.pop() {
@@ -144,7 +146,7 @@ pub(crate) fn tree(folder: &Path) -> BTreeMap<PathBuf, (u32, Vec<u8>)> {
 }
 
 /// Puts things of others into a folder; their tree.
-pub(crate) fn litter(folder: &Path) -> BTreeMap<PathBuf, (u32, Vec<u8>)> {
+pub(crate) fn litter(folder: &Path) -> Tree {
     let outside = folder.parent().unwrap().join("outside");
     fs::create_dir_all(&outside).unwrap();
     fs::write(outside.join("thesis.txt"), MINE).unwrap();
@@ -172,7 +174,7 @@ pub(crate) fn litter(folder: &Path) -> BTreeMap<PathBuf, (u32, Vec<u8>)> {
 }
 
 /// That everything of others is as it was.
-pub(crate) fn is_kept(folder: &Path, mine: &BTreeMap<PathBuf, (u32, Vec<u8>)>, after: &str) {
+pub(crate) fn is_kept(folder: &Path, mine: &Tree, after: &str) {
     let now = tree(folder);
     for (name, there) in mine {
         assert!(now.get(name) == Some(there), "{} after {after}: {:?}", name.display(), now.keys());
