@@ -236,3 +236,24 @@ fn an_interrupted_replacement_goes_on() {
     mend(&target).unwrap();
     assert_eq!(text(&target, "a.txt"), "1");
 }
+
+#[test]
+fn a_failure_takes_away_what_is_empty_and_keeps_what_was_computed() {
+    let place = tempfile::tempdir().unwrap();
+    let at = place.path().join("z");
+    let begin = |opening| Folder::open(&at, Kind::Scan, opening, &[("_manifest.json", b"{}")]).unwrap();
+    begin(Opening::New).abandon();
+    assert!(names(place.path()).is_empty());
+    let hours = begin(Opening::New);
+    hours.put("_work/1.json", b"1").unwrap();
+    hours.abandon();
+    assert_eq!(begin(Opening::Resume).read("_work/1.json").unwrap(), b"1");
+    // what is replaced comes back if nothing was computed, and stays beside the new result otherwise
+    begin(Opening::Replace).abandon();
+    assert_eq!(begin(Opening::Resume).read("_work/1.json").unwrap(), b"1");
+    let other = begin(Opening::Replace);
+    other.put("2", b"2").unwrap();
+    other.abandon();
+    assert_eq!(names(place.path()), ["z", "z.replaced"]);
+    assert_eq!(text(&place.path().join("z.replaced"), "_work/1.json"), "1");
+}

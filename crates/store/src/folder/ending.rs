@@ -23,9 +23,13 @@ impl Folder {
         Ok(())
     }
 
-    /// Takes a result away whose computation failed before there was anything of it, and puts back what it replaced.
+    /// Takes a result away whose computation failed before there was anything of it, and puts back what it replaced. What was written by then
+    /// stays, for a run that goes on with it: a full disk must not cost hours.
     pub fn abandon(self) {
-        let Some(target) = &self.new else { return };
+        let Some(target) = self.new.as_ref().filter(|_| self.state().files == 0) else {
+            let _ = self.settle(); // if this fails, too, the lines of the inventory say the same
+            return;
+        };
         self.names().iter().for_each(|name| self.discard(name));
         let inventory = self.path.join(INVENTORY);
         if fs::read_dir(&self.path).is_ok_and(|rest| rest.count() == 1) {
