@@ -11,9 +11,10 @@ struct Harness {
     filter: &'static str,
 }
 
-const ALL: [Harness; 3] = [
+const ALL: [Harness; 4] = [
     Harness { name: "faults", variable: "MOTIFORM_FAULTS", most: 1, filter: "faults" },
     Harness { name: "kills", variable: "MOTIFORM_KILLS", most: 1000, filter: "kills" },
+    Harness { name: "invariances", variable: "MOTIFORM_INVARIANCES", most: 1, filter: "invariances::" },
     Harness { name: "fuzz", variable: "MOTIFORM_FUZZ", most: 100_000, filter: "fuzz::" },
 ];
 

@@ -7,12 +7,15 @@
 //! Source: Stoer and Bulirsch, Introduction to Numerical Analysis, section 7.3; the product of reduced maps as in Fairgrieve and
 //! Jepson (1991), SIAM J. Numer. Anal. 28, 1446.
 
-use crate::equilibrium::neutral_direction;
-use crate::linear::{add, apply, basis, complement, dot, norm, solve};
-use crate::periodic::{Flow, PeriodicOrbit, back, multipliers};
+use crate::equilibrium::{matrix_of, neutral_direction};
+use crate::linear::{add, basis, complement, norm, solve};
+use crate::multipliers::errors;
+use crate::periodic::{Flow, PeriodicOrbit, back, is_whole};
+use crate::product::eigenvalues_of_product;
 use crate::symmetry::wrap;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Equivariant, Request, System, Tangent, VectorField, Watch};
+use nalgebra::DMatrix;
 
 /// Over one part of the period deviations grow by less than this.
 const GROWTH: f64 = 30.0;
@@ -69,7 +72,7 @@ pub(crate) fn refine<B: Equivariant + ?Sized>(
         let rest = nodes.misfit(&parts);
         let residual = rest.iter().map(|rest| norm(rest)).fold(0.0, f64::max);
         if residual <= tolerance * size && moved <= 30.0 * tolerance {
-            return nodes.describe(&parts, residual);
+            return nodes.describe(&parts, residual, flow.accuracy());
         }
         let before = nodes.time;
         nodes.step(&parts, &rest)?;
@@ -185,32 +188,47 @@ impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
     }
 
     /// The orbit with its multipliers: those of the product of the parts' maps, each reduced to the directions across the flow and the
-    /// group.
-    fn describe(&self, parts: &[Part], residual: f64) -> Option<PeriodicOrbit> {
+    /// group. Each multiplier has its own digits ([`eigenvalues_of_product`]).
+    fn describe(&self, parts: &[Part], residual: f64, accuracy: f64) -> Option<PeriodicOrbit> {
         let (count, dim) = (parts.len(), self.shapes[0].len());
-        let across: Vec<Vec<Vec<f64>>> = (0..count).map(|node| complement(&self.fixed(node), dim)).collect();
-        let mut columns = across[0].clone();
-        for (i, part) in parts.iter().enumerate() {
-            for column in &mut columns {
-                let mut image = apply(&part.tangents, column);
-                if i + 1 == count {
-                    self.back(&mut image);
-                }
-                column.fill(0.0);
-                across[(i + 1) % count].iter().for_each(|q| add(column, dot(q, &image), q));
+        let across: Vec<DMatrix<f64>> =
+            (0..count).map(|node| matrix_of(&complement(&self.fixed(node), dim))).collect();
+        let map = |(i, part): (usize, &Part)| {
+            let mut columns: Vec<Vec<f64>> = part.tangents.chunks_exact(dim).map(<[f64]>::to_vec).collect();
+            if i + 1 == count {
+                columns.iter_mut().for_each(|column| self.back(column));
             }
+            across[(i + 1) % count].transpose() * matrix_of(&columns) * &across[i]
+        };
+        let maps: Vec<DMatrix<f64>> = parts.iter().enumerate().map(map).collect();
+        if !maps.iter().all(DMatrix::is_square) {
+            return None;
         }
-        let inside = |column: &Vec<f64>| across[0].iter().map(|q| dot(q, column)).collect();
-        let multipliers = multipliers(&columns.iter().map(inside).collect::<Vec<_>>())?;
+        let multipliers = eigenvalues_of_product(&maps)?;
+        let whole = maps.iter().skip(1).fold(maps[0].clone(), |whole, map| map * whole);
         Some(PeriodicOrbit {
             shape: self.shapes[0].clone(),
             time: self.time,
             angle: wrap(self.angle),
             mirrored: self.mirrored,
             residual,
+            errors: errors(&whole, &multipliers, accuracy),
             multipliers,
         })
     }
+}
+
+/// The orbit with all its multipliers and their errors, by the maps of the parts of its period; as it is where deviations grow too much on
+/// the way.
+pub(crate) fn with_multipliers<B: Equivariant + ?Sized>(
+    body: &B,
+    orbit: PeriodicOrbit,
+    flow: &Flow,
+    watch: &dyn Watch,
+) -> PeriodicOrbit {
+    let described = Nodes::along(body, &orbit, flow, watch)
+        .and_then(|(nodes, parts)| nodes.describe(&parts, orbit.residual, flow.accuracy()));
+    described.unwrap_or(orbit)
 }
 
 /// The flow and all its tangents over `span`; `None` where the run does not reach its end.
@@ -222,7 +240,7 @@ fn part<B: Equivariant + ?Sized>(
     watch: &dyn Watch,
 ) -> Option<Part> {
     let dim = start.len();
-    let field = Tangent::new(body, dim);
+    let field = if is_whole(dim) { Tangent::new(body, dim) } else { Tangent::following(body, dim) };
     let mut state = start.to_vec();
     state.extend((0..dim * dim).map(|i| if i / dim == i % dim { 1.0 } else { 0.0 }));
     let mut orbit = flow.method.shape_orbit(&field, flow.control, 0.0, &state).ok()?;

@@ -5,13 +5,14 @@
 use crate::equilibrium::neutral_direction;
 use crate::linear::{add, basis, dot, least_squares, norm, orthonormalise};
 use crate::lyapunov::SplitMix;
-use crate::periodic::{Flow, PeriodicGuess, PeriodicOrbit, back, is_small, multipliers};
+use crate::multipliers::{errors, multipliers};
+use crate::periodic::{Flow, PeriodicGuess, PeriodicOrbit, back, is_whole};
 use crate::symmetry::wrap;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Equivariant, Request, System, Tangent, VectorField, Watch};
 
 /// Directions that are followed exactly; the others contract within a period and are iterated.
-const DIRECTIONS: usize = 5;
+pub(crate) const DIRECTIONS: usize = 5;
 
 /// Where tangent vectors of a large system grow beyond this, the try is given up: they agree to half of their digits, and span no
 /// space that Newton's method could solve in.
@@ -50,7 +51,7 @@ impl Image {
 impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
     pub(crate) fn new(body: &'b B, guess: &PeriodicGuess<'_>) -> Self {
         let dim = guess.shape.len();
-        let count = if is_small(dim) { dim } else { DIRECTIONS };
+        let count = if is_whole(dim) { dim } else { DIRECTIONS };
         let mut random = SplitMix(2);
         let mut directions: Vec<Vec<f64>> =
             (0..count).map(|_| (0..dim).map(|_| random.next()).collect()).collect();
@@ -80,7 +81,7 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
     }
 
     /// Whether it is followed in all directions.
-    pub(crate) fn is_small(&self) -> bool {
+    pub(crate) fn is_whole(&self) -> bool {
         self.directions.len() == self.shape.len()
     }
 
@@ -101,12 +102,12 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
     pub(crate) fn image(&self, flow: &Flow, watch: &dyn Watch) -> Option<Image> {
         let dim = self.shape.len();
         let count = self.directions.len();
-        let small = self.is_small();
+        let whole = self.is_whole();
         let tangent =
-            if small { Tangent::new(self.body, count) } else { Tangent::following(self.body, count) };
+            if whole { Tangent::new(self.body, count) } else { Tangent::following(self.body, count) };
         let start: Vec<f64> = self.shape.iter().chain(self.directions.iter().flatten()).copied().collect();
         let mut orbit = flow.method.shape_orbit(&tangent, flow.control, 0.0, &start).ok()?;
-        let (watched, escape_norm) = if small { (dim, 1e6) } else { (tangent.dim(), PARALLEL) };
+        let (watched, escape_norm) = if whole { (dim, 1e6) } else { (tangent.dim(), PARALLEL) };
         let request = Request {
             max_steps: flow.max_steps,
             watched,
@@ -158,14 +159,16 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
         add(&mut self.shape, 1.0, &outside);
         self.time += solution[count];
         self.angle += solution[count + 1];
-        if !self.is_small() {
+        if !self.is_whole() {
             self.directions.clone_from(&image.directions);
             self.orthonormalise();
         }
         (self.time > 0.0).then_some(())
     }
 
-    pub(crate) fn describe(&self, image: &Image, residual: f64) -> Option<PeriodicOrbit> {
+    /// The orbit, with the multipliers of the directions that are followed: in a large system their space is not known well enough for any
+    /// error.
+    pub(crate) fn describe(&self, image: &Image, residual: f64, accuracy: f64) -> Option<PeriodicOrbit> {
         let mut flow = self.shape.clone();
         VectorField::<f64>::eval(self.body, 0.0, &self.shape, &mut flow);
         let mut fixed: Vec<Vec<f64>> = neutral_direction(self.body, &self.shape);
@@ -182,7 +185,12 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
             }
             out
         };
-        let multipliers = multipliers(&crate::linear::restrict(free, act))?;
+        let map = crate::linear::restrict(free, act);
+        let multipliers = multipliers(&map)?;
+        let errors = match self.is_whole() {
+            true => errors(&crate::equilibrium::matrix_of(&map), &multipliers, accuracy),
+            false => vec![f64::INFINITY; multipliers.len()],
+        };
         Some(PeriodicOrbit {
             shape: self.shape.clone(),
             time: self.time,
@@ -190,6 +198,7 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
             mirrored: self.mirrored,
             residual,
             multipliers,
+            errors,
         })
     }
 }

@@ -1,8 +1,8 @@
 //! Relative periodic orbits: shapes that come back turned (and mirrored), after a period.
 
-use crate::linear::{add, eigenvalues, norm};
-use crate::multiple_shooting::refine;
-use crate::newton_picard::Newton;
+use crate::linear::{add, norm};
+use crate::multiple_shooting::{refine, with_multipliers};
+use crate::newton_picard::{DIRECTIONS, Newton};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Equivariant, StepControl, Watch};
 use serde::{Deserialize, Serialize};
@@ -20,9 +20,12 @@ pub struct PeriodicOrbit {
     pub mirrored: bool,
     /// `|Phi_T(u) - R [M] u|`, what Newton's method left.
     pub residual: f64,
-    /// Floquet multipliers over T, largest modulus first, the neutral ones (time, rotations) removed: all of them for
-    /// small systems, the leading ones for large ones.
+    /// Floquet multipliers over T, largest modulus first, the neutral ones (time, rotations) removed.
     pub multipliers: Vec<(f64, f64)>,
+    /// How far the modulus of each multiplier may be away, as far as the accuracy of the flow says; infinite for a multiplier of
+    /// directions that do not span its space. Empty where each multiplier has the accuracy of the shape, on a branch.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub errors: Vec<f64>,
 }
 
 /// Where Newton's method starts.
@@ -41,12 +44,20 @@ pub struct PeriodicGuess<'s> {
 /// Steps that Newton's method may take.
 const STEPS: usize = 12;
 
-/// Systems up to this size are followed in all directions.
+/// Systems up to this size are looked at closely all the time: a look or a try costs little.
 const SMALL: usize = 8;
 
-/// Whether a system of this dimension is followed in all directions.
+/// Systems up to this size are solved in all directions by Newton's method.
+const WHOLE: usize = 16;
+
+/// Whether a system of this dimension is small.
 pub(crate) const fn is_small(dim: usize) -> bool {
     dim <= SMALL
+}
+
+/// Whether Newton's method follows a system of this dimension in all directions.
+pub(crate) const fn is_whole(dim: usize) -> bool {
+    dim <= WHOLE
 }
 
 /// A shape whose image is farther from it than this part of its size does not return.
@@ -58,6 +69,9 @@ const HOPELESS: f64 = 1e12;
 /// Where a small deviation grows by more than this on the way, several short shots are asked ([`refine`]).
 const SENSITIVE: f64 = 1e4;
 
+/// Steps of a tighter relative tolerance are round-off.
+const TIGHTEST: f64 = 1e-13;
+
 /// Method and tolerance of the flow over a period.
 #[derive(Clone, Copy, Debug)]
 pub struct Flow {
@@ -67,6 +81,24 @@ pub struct Flow {
     pub control: StepControl,
     /// Most steps over one period.
     pub max_steps: u64,
+}
+
+impl Flow {
+    /// The same with a tolerance a thousand times tighter, as far as rounding allows; `None` where it cannot be tighter.
+    pub(crate) fn tighter(&self) -> Option<Self> {
+        let StepControl::Adaptive { rtol, atol } = self.control else { return None };
+        let control = StepControl::Adaptive { rtol: (1e-3 * rtol).max(TIGHTEST), atol: 1e-3 * atol };
+        (rtol > 2.0 * TIGHTEST).then_some(Self { control, ..*self })
+    }
+
+    /// The relative accuracy of states and maps over a period.
+    #[must_use]
+    pub fn accuracy(&self) -> f64 {
+        match self.control {
+            StepControl::Adaptive { rtol, .. } => 1e3 * rtol,
+            StepControl::Fixed { .. } => 1e-6,
+        }
+    }
 }
 
 impl PeriodicOrbit {
@@ -127,15 +159,18 @@ impl PeriodicOrbit {
                 return None;
             }
             if step > 0 && residual <= tolerance * size {
-                let found = state.describe(&image, residual)?;
-                return if state.is_small() && image.amplification() > SENSITIVE {
-                    refine(body, &found, flow, tolerance, watch)
-                } else {
-                    Some(found)
+                let found = state.describe(&image, residual, flow.accuracy())?;
+                return match state.is_whole() {
+                    true if image.amplification() > SENSITIVE => refine(body, &found, flow, tolerance, watch),
+                    true => Some(found),
+                    false => {
+                        *effort -= state.time * body.dim() as f64 / DIRECTIONS as f64;
+                        Some(with_multipliers(body, found, flow, watch))
+                    }
                 };
             }
             let amplification = image.amplification();
-            if state.is_small() && amplification > HOPELESS {
+            if state.is_whole() && amplification > HOPELESS {
                 return None;
             }
             if step >= 2 && amplification > SENSITIVE && residual > 0.5 * before {
@@ -169,6 +204,26 @@ impl PeriodicOrbit {
         self.multipliers.first().map_or(0.0, |m| libm::hypot(m.0, m.1))
     }
 
+    /// Whether every deviation decays, beyond the errors of the multipliers.
+    #[must_use]
+    pub fn is_stable(&self) -> bool {
+        self.growth() < 1.0 - self.growth_error()
+    }
+
+    /// Whether some deviation grows, beyond the errors of the multipliers.
+    #[must_use]
+    pub fn is_unstable(&self) -> bool {
+        self.growth() > 1.0 + self.growth_error()
+    }
+
+    /// How far [`PeriodicOrbit::growth`] may be away.
+    #[must_use]
+    pub fn growth_error(&self) -> f64 {
+        let moduli = self.multipliers.iter().map(|m| libm::hypot(m.0, m.1));
+        // one that is nearly the largest may be the largest
+        moduli.zip(&self.errors).map(|(size, error)| size + error).fold(0.0, f64::max) - self.growth()
+    }
+
     /// Floquet exponents `ln |multiplier| / T`, largest first: round-off where a multiplier is below the accuracy of the matrix of a period.
     #[must_use]
     pub fn exponents(&self) -> Vec<f64> {
@@ -182,11 +237,4 @@ pub fn back<B: Equivariant + ?Sized>(body: &B, angle: f64, mirrored: bool, x: &m
     if mirrored {
         body.mirror(x);
     }
-}
-
-/// The eigenvalues of a reduced map, largest modulus first.
-pub fn multipliers(columns: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
-    let mut values = eigenvalues(columns)?;
-    values.sort_by(|a, b| libm::hypot(b.0, b.1).total_cmp(&libm::hypot(a.0, a.1)));
-    Some(values)
 }

@@ -2,10 +2,9 @@
 
 use super::family::Bodies;
 use motiform_analysis::regime::{Direction, Form, Regime, repeating};
-use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium};
+use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, SteadyMotion};
 use motiform_continuation::{Motion, Point};
 use motiform_dynamics::{Model, Watch, escape::norm};
-use motiform_lab::naming::steady;
 use motiform_study::Error;
 use serde::{Deserialize, Serialize};
 
@@ -49,20 +48,15 @@ impl Reading {
 
 fn still(model: &dyn Model, found: &RelativeEquilibrium) -> Reading {
     let speed = found.speed();
-    let motion = steady(model, found);
-    let turning_rate = match motion {
-        Regime::Motionless => None,
-        Regime::Straight => Some(0.0),
-        _ => Some(found.turning_rate),
-    };
-    let drift = if motion == Regime::Motionless { [0.0; 2] } else { found.velocity };
-    let turning = turning_rate.filter(|_| motion == Regime::Circular);
+    let steady = SteadyMotion::of(model, found);
+    let drift = if steady.moves() { found.velocity } else { [0.0; 2] };
+    let turning = steady.turns().then_some(found.turning_rate);
     Reading {
-        motion,
+        motion: steady.regime(),
         form: None,
         direction: Direction::of(model, turning, drift),
         period: None,
-        turning_rate,
+        turning_rate: steady.turning(),
         net_rotation: None,
         speed: [speed; 3],
         size: norm(&found.shape),

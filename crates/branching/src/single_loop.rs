@@ -71,6 +71,7 @@ fn guess(
         mirrored: false,
         residual: plain.distance,
         multipliers: Vec::new(),
+        errors: Vec::new(),
     }))
 }
 

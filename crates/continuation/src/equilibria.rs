@@ -9,7 +9,7 @@ use super::point::Motion;
 use super::problem::{Equations, Failure, Linear, Problem};
 use super::special::{Broken, Hopf, Special};
 use super::tracer::TOLERANCE;
-use motiform_analysis::equilibrium::neutral_direction;
+use motiform_analysis::equilibrium::{neutral_direction, rounding};
 use motiform_analysis::linear::{add, apply, eigenvalues, norm, restrict};
 use motiform_analysis::{Isotropy, RelativeEquilibrium};
 use motiform_dynamics::tangent::jacobian;
@@ -140,13 +140,15 @@ impl Problem for Equilibria<'_> {
             levels.iter().flatten().map(|level| (level.growth, level.angle)).collect();
         eigenvalues.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1)));
         let neutral = local.neutral.len();
+        let scale = local.matrix.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
         Motion::Equilibrium(RelativeEquilibrium {
             velocity: model::velocity(local.body.as_ref(), &shape),
             turning_rate: if neutral == 0 { 0.0 } else { x[self.dim] },
             residual: norm(&local.linear.residual),
+            errors: vec![rounding(self.dim, scale); eigenvalues.len()],
             eigenvalues,
             neutral,
-            scale: local.matrix.iter().fold(0.0, |m: f64, a| m.max(a.abs())),
+            scale,
             shape,
         })
     }

@@ -31,7 +31,6 @@ mod degenerate;
 mod elimination;
 mod equilibria;
 mod family;
-mod graded;
 mod homoclinic;
 mod hopf;
 mod levels;

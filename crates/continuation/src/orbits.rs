@@ -2,7 +2,6 @@
 
 use super::classes::Classes;
 use super::family::{Bodies, Neighbours};
-use super::graded::eigenvalues_of_product;
 use super::levels::Level;
 use super::point::Motion;
 use super::problem::{Equations, Failure, Linear, Problem};
@@ -12,7 +11,7 @@ use super::special::{Broken, Special};
 use motiform_analysis::linear::{add, dot, norm};
 use motiform_analysis::periodic::{Flow, back};
 use motiform_analysis::symmetry::wrap;
-use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium};
+use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, eigenvalues_of_product};
 use motiform_dynamics::{Equivariant, VectorField, Watch};
 use nalgebra::DMatrix;
 
@@ -230,6 +229,7 @@ impl Problem for Orbits<'_> {
             mirrored: self.mirrored,
             residual: norm(&local.linear.residual),
             multipliers: all.into_iter().map(multiplier).collect(),
+            errors: Vec::new(),
         };
         Motion::Orbit { orbit, nodes }
     }

@@ -1,9 +1,8 @@
 //! The steady motions of a plan: shapes that are constant up to a steady rotation.
 
 use crate::analyse;
-use crate::naming::steady;
 use motiform_analysis::regime::Direction;
-use motiform_analysis::{Regime, RelativeEquilibrium};
+use motiform_analysis::{Regime, RelativeEquilibrium, SteadyMotion};
 use motiform_dynamics::Watch;
 use motiform_dynamics::{Model, escape::norm};
 use motiform_study::initial::random_shape;
@@ -91,16 +90,16 @@ fn describe(model: &dyn Model, found: RelativeEquilibrium, hits: usize, starts: 
     let mut values = vec![0.0; model.coordinates().len()];
     model.decode(&found.shape, &mut values);
     let names = model.coordinates().iter().map(|coordinate| coordinate.name.to_owned());
-    let motion = steady(model, &found);
-    let turning = (motion == Regime::Circular).then_some(found.turning_rate);
-    let drift = if motion == Regime::Motionless { [0.0; 2] } else { found.velocity };
+    let steady = SteadyMotion::of(model, &found);
+    let turning = steady.turns().then_some(found.turning_rate);
+    let drift = if steady.moves() { found.velocity } else { [0.0; 2] };
     Equilibrium {
-        motion,
+        motion: steady.regime(),
         direction: Direction::of(model, turning, drift),
         shape: Named(names.zip(values).collect()),
-        speed: found.speed(),
-        turning_rate: found.turning_rate,
-        unstable: found.eigenvalues.iter().filter(|value| value.0 > found.resolution()).count(),
+        speed: if steady.moves() { steady.speed.value } else { 0.0 },
+        turning_rate: turning.unwrap_or(0.0),
+        unstable: found.growing(),
         residual: found.residual,
         share: hits as f64 / starts as f64,
         eigenvalues: found.eigenvalues,

@@ -1,9 +1,7 @@
 //! The regime of a simulated motion, from a short integration after the end of the run.
 
 use crate::analyse;
-use motiform_analysis::RelativeEquilibrium;
 use motiform_analysis::regime::{Regime, Verdict};
-use motiform_dynamics::Model;
 use motiform_dynamics::Outcome;
 use motiform_dynamics::Watch;
 use motiform_study::{Error, Manifest};
@@ -31,19 +29,4 @@ pub fn name(manifest: &Manifest, watch: &dyn Watch) -> Result<Option<Verdict>, E
     let budget = LOOKS * plan.info()?.look;
     let verdict = analyse::classify(&plan, budget, watch)?;
     Ok(verdict.filter(|verdict| verdict.regime != Regime::Undetermined))
-}
-
-/// Speeds below this, and turning rates below this part of the fastest rate, are none.
-const NONE: f64 = 1e-9;
-
-/// The name of a steady motion: whether it moves, and whether it turns.
-#[must_use]
-pub fn steady(model: &dyn Model, found: &RelativeEquilibrium) -> Regime {
-    let moves = found.speed() > model.speed_resolution(&found.shape, NONE).max(NONE);
-    let turns = found.turning_rate.abs() > NONE * found.scale;
-    match (moves, turns) {
-        (false, false) => Regime::Motionless,
-        (true, false) => Regime::Straight,
-        (_, true) => Regime::Circular,
-    }
 }

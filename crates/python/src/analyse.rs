@@ -105,6 +105,7 @@ pub(crate) fn exponents_json(found: &Lyapunov, accuracy: Value) -> PyResult<Stri
         "accuracy": accuracy,
         "exponents": found.exponents,
         "zeros": found.zeros(),
+        "dimension": found.dimension(),
         "without_error": found.without_error(),
         "neutral": found.neutral,
         "time": found.time,

@@ -1,5 +1,6 @@
 //! Lyapunov exponents, from the exact tangent flow.
 
+mod dimension;
 mod frame;
 mod lanes;
 mod renormalisation;

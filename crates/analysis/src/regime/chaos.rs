@@ -12,6 +12,11 @@ use motiform_dynamics::{Equivariant, Watch};
 /// Growth by less than this (natural logarithm) over all runs may be a power of time.
 const GROWN: f64 = 10.0;
 
+/// And so may growth by less than this in each run. Every run begins with a new tangent vector and is averaged from a fifth of its span on:
+/// from there to its end time grows by a factor of 6, and a vector along neutral or slowly decaying directions as its first or second
+/// power.
+const SECULAR: f64 = 2.0 * 1.791_759_469_228_055;
+
 /// Chaos needs a pooled exponent above this many of its 95 % errors.
 const ERRORS: f64 = 3.0;
 
@@ -94,8 +99,11 @@ pub(super) fn chaotic(
     };
     let asked = if witness.sees_order() { DOUBT } else { 1.0 };
     let Estimate { value, error } = all.estimate;
-    let grows = value > asked * ERRORS * error && value * all.time >= asked * GROWN;
-    if all.runs < 2 || !grows || last.value <= last.error {
+    let least = GROWN.max(SECULAR * all.runs as f64);
+    let grows = value > asked * ERRORS * error && value * all.time >= asked * least;
+    // the last run alone, with its own tangent vector, says the same
+    let lasts = last.value > last.error && last.value * run.time > SECULAR;
+    if all.runs < 2 || !grows || !lasts {
         return Ok(None);
     }
     let lasted = time - all.since;
@@ -125,8 +133,14 @@ const NEARLY: f64 = 2.0;
 
 /// Whether the pooled exponent of at least two runs is above twice its error: too much for order, and maybe too little for chaos.
 pub(super) fn is_near(runs: &[Growth]) -> bool {
-    let near = |all: Pooled| all.runs > 1 && all.estimate.value > NEARLY * all.estimate.error;
-    pooled(runs).is_some_and(near)
+    let near = |all: &Pooled| all.runs > 1 && all.estimate.value > NEARLY * all.estimate.error;
+    pooled(runs).filter(near).is_some()
+}
+
+/// Whether as much time again as the latest runs took would decide: each of them is long enough for a growth beyond a power of time.
+pub(super) fn is_long_enough(runs: &[Growth]) -> bool {
+    let long = |all: Pooled| all.estimate.value * all.time > SECULAR * all.runs as f64;
+    pooled(runs).is_some_and(long)
 }
 
 /// A torus of shapes: returns on a curve that early and late ones fill alike, and an exponent that is zero within its error.

@@ -7,7 +7,7 @@ use super::settings::Settings;
 use crate::Estimate;
 use crate::Result;
 use crate::lyapunov::{LyapunovSettings, lyapunov};
-use crate::periodic::{PeriodicOrbit, is_small};
+use crate::periodic::{PeriodicOrbit, is_whole};
 use motiform_dynamics::{Equivariant, Outcome, Watch};
 
 /// Relative error of a multiplier from which on its exponent is measured instead.
@@ -27,11 +27,15 @@ pub(super) fn exponents<B: Equivariant + ?Sized>(
     let (accuracy, time) = (settings.accuracy(), orbit.time);
     let neutral = if body.symmetry().rotations { 2 } else { 1 };
     let mut all = vec![Estimate { value: 0.0, error: accuracy / time }; neutral];
+    // what is missing are the neutral directions of a family that the orbit lies in
+    let complete = orbit.errors.iter().all(|error| error.is_finite());
+    let family = body.dim().saturating_sub(neutral + orbit.multipliers.len());
+    all.extend(std::iter::repeat_n(all[0], if complete { family } else { 0 }));
     let mut unresolved = 0;
-    let most = if is_small(body.dim()) { UNRESOLVED } else { LOST };
-    for m in &orbit.multipliers {
+    let most = if is_whole(body.dim()) { UNRESOLVED } else { LOST };
+    for (m, error) in orbit.multipliers.iter().zip(&orbit.errors) {
         let size = libm::hypot(m.0, m.1);
-        let relative = accuracy / size.min(1.0);
+        let relative = error / size;
         if relative < most {
             all.push(Estimate { value: libm::log(size) / time, error: relative / time });
         } else {
@@ -39,7 +43,7 @@ pub(super) fn exponents<B: Equivariant + ?Sized>(
         }
     }
     all.sort_by(|a, b| b.value.total_cmp(&a.value));
-    if unresolved > 0 && is_small(body.dim()) {
+    if unresolved > 0 && is_whole(body.dim()) {
         let measured = measured(body, orbit, settings, watch)?;
         all.extend(measured.into_iter().skip(all.len()));
     }

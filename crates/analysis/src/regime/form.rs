@@ -115,7 +115,9 @@ impl Form {
         if !path.moves() {
             return Self::PulsatingAtRest;
         }
-        match (symmetry.mirror.is_some(), orbit.mirrored, turns) {
+        // equations without the mirror, or modes that do not act on the motion, may leave no axis: the velocity tells
+        let straight = symmetry.mirror.is_some() || !orbit.mirrored && path.keeps_to_a_line(no_turn);
+        match (straight, orbit.mirrored, turns) {
             (true, _, false) => Self::PulsatingStraight,
             (true, _, true) => Self::BackAndForth,
             (false, true, _) => Self::MirrorZigzag,

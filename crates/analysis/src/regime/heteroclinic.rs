@@ -1,7 +1,7 @@
 //! Is it a heteroclinic cycle? Rests near saddles that attract as a cycle.
 
 use super::look::Rest;
-use super::settings::Settings;
+use crate::SteadyMotion;
 use crate::equilibrium::{RelativeEquilibrium, Saddle};
 use crate::linear::norm;
 use motiform_dynamics::Equivariant;
@@ -9,9 +9,7 @@ use motiform_dynamics::Equivariant;
 /// The evidence for a cycle.
 #[derive(Clone, Debug)]
 pub(super) struct Cycle {
-    /// The saddle of the last rest.
-    pub(super) equilibrium: RelativeEquilibrium,
-    /// Its rates.
+    /// Rates at the saddle of the last rest.
     pub(super) saddle: Saddle,
     /// Durations of the rests.
     pub(super) rests: Vec<f64>,
@@ -33,36 +31,31 @@ const LONG: f64 = 8.0;
 ///
 /// The rests are those of all looks so far: near the end of a window one rest may be as long as a look. One of which only a part was
 /// seen counts as well, but its duration is not told.
-pub(super) fn cycle<B: Equivariant + ?Sized>(body: &B, rests: &[Rest], settings: &Settings) -> Option<Cycle> {
+pub(super) fn cycle<B: Equivariant + ?Sized>(body: &B, rests: &[Rest]) -> Option<Cycle> {
     let longest = rests.iter().map(Rest::duration).fold(0.0, f64::max);
     let long: Vec<&Rest> = rests.iter().filter(|rest| LONG * rest.duration() >= longest).collect();
     let latest = &long[long.len().checked_sub(LEAST_RESTS)?..];
     let mut closest = f64::INFINITY;
-    let mut found: Option<(RelativeEquilibrium, Saddle)> = None;
+    let mut found: Option<Saddle> = None;
     for rest in latest.iter().rev() {
-        let (equilibrium, saddle, distance) = attracting_saddle(body, &rest.shape, settings)?;
+        let (saddle, distance) = attracting_saddle(body, &rest.shape)?;
         closest = closest.min(distance);
-        found.get_or_insert((equilibrium, saddle));
+        found.get_or_insert(saddle);
     }
-    let (equilibrium, saddle) = found?;
+    let saddle = found?;
     let durations = long.iter().filter(|rest| rest.whole).map(|rest| rest.duration()).collect();
-    Some(Cycle { equilibrium, saddle, rests: durations, closest })
+    Some(Cycle { saddle, rests: durations, closest })
 }
 
 /// The motionless saddle beside `shape` that a cycle could attract by, with the distance to it (against its size).
 ///
 /// No periodic orbit passes so near to one: the cycle itself attracts what does (Krupa and Melbourne 1995).
-pub(super) fn attracting_saddle<B: Equivariant + ?Sized>(
-    body: &B,
-    shape: &[f64],
-    settings: &Settings,
-) -> Option<(RelativeEquilibrium, Saddle, f64)> {
+pub(super) fn attracting_saddle<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> Option<(Saddle, f64)> {
     let equilibrium = RelativeEquilibrium::find(body, shape)?;
     let size = norm(&equilibrium.shape);
     let distance = equilibrium.distance(body, shape) / size.max(f64::MIN_POSITIVE);
-    let still = equilibrium.speed() <= body.speed_resolution(&equilibrium.shape, settings.atol()).max(1e-9)
-        && equilibrium.turning_rate.abs() <= equilibrium.resolution().max(1e-9 * equilibrium.scale);
     let saddle = equilibrium.saddle(body)?;
-    let attracts = still && distance < CLOSE && saddle.out + saddle.inward < 0.0;
-    attracts.then_some((equilibrium, saddle, distance))
+    let attracts = distance < CLOSE && saddle.out + saddle.inward < -saddle.error;
+    let rests = |steady: SteadyMotion| !steady.moves() && !steady.turns();
+    (attracts && rests(SteadyMotion::of(body, &equilibrium))).then_some((saddle, distance))
 }

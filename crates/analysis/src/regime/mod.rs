@@ -3,6 +3,7 @@
 mod chaos;
 mod classify;
 mod course;
+mod family;
 mod floquet;
 mod form;
 mod growth;
@@ -18,6 +19,7 @@ mod repeats;
 mod returns;
 mod search;
 mod settings;
+mod shrinking;
 mod stay;
 mod steady_turns;
 #[cfg(test)]

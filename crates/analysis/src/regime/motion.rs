@@ -87,10 +87,11 @@ impl Path {
         self.speeds().iter().any(|&speed| speed > self.resolution.max(1e-12))
     }
 
-    /// Mean and extremes of the speed.
+    /// Mean over time, by the trapezoidal rule, and extremes of the speed. (Of a smooth speed over a whole period the rule is exact to
+    /// more digits than the orbit has.)
     pub(super) fn speed(&self) -> Option<Spread> {
         let speeds = self.speeds();
-        let mean = speeds.iter().sum::<f64>() / speeds.len() as f64;
+        let mean = time_mean(&self.times, &speeds);
         let min = speeds.iter().copied().fold(f64::INFINITY, f64::min);
         let max = speeds.iter().copied().fold(0.0, f64::max);
         (!speeds.is_empty()).then_some(Spread { mean, min, max })
@@ -117,6 +118,15 @@ impl Path {
         Some(out)
     }
 
+    /// Whether the velocity keeps to one line, forwards or backwards, to within `angle` (rad) of its largest value.
+    pub(super) fn keeps_to_a_line(&self, angle: f64) -> bool {
+        let speed = |v: &[f64; 2]| libm::hypot(v[0], v[1]);
+        let fastest = self.velocities.iter().max_by(|a, b| speed(a).total_cmp(&speed(b)));
+        let Some([x, y]) = fastest.copied() else { return false };
+        let most = angle * (x * x + y * y);
+        self.velocities.iter().all(|v| (x * v[1] - y * v[0]).abs() <= most)
+    }
+
     /// Full turns of the heading from start to end; 0 where the body stops on the way.
     pub(super) fn windings(&self) -> i32 {
         let turned = self.heading().and_then(|heading| Some(heading.last()? - heading.first()?));
@@ -135,6 +145,16 @@ impl Path {
     pub(super) fn drift(&self) -> f64 {
         self.positions.last().map_or(0.0, |p| libm::hypot(p[0], p[1]))
     }
+}
+
+/// The mean over time of values at these times.
+fn time_mean(times: &[f64], values: &[f64]) -> f64 {
+    let span = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
+    if span <= 0.0 {
+        return values.first().copied().unwrap_or(f64::NAN);
+    }
+    let parts = times.windows(2).zip(values.windows(2));
+    parts.map(|(t, x)| 0.5 * (t[1] - t[0]) * (x[0] + x[1])).sum::<f64>() / span
 }
 
 struct Sampler<'b, B: ?Sized> {

@@ -1,5 +1,6 @@
 //! Does the shape come back? Recurrences of the reduced orbit, polished by Newton's method.
 
+use super::family::within_family;
 use super::heteroclinic::attracting_saddle;
 use super::look::{Extreme, Look, Rest};
 use super::settings::Settings;
@@ -98,9 +99,9 @@ const ON: f64 = 1e-6;
 pub(super) enum Returns {
     /// The look ends on a stable periodic orbit; the recurrence led to it.
     Stable(Box<PeriodicOrbit>, Recurrence),
-    /// The look ends on an unstable periodic orbit with this largest multiplier, to within round-off: an orbit of exact
-    /// symmetry stays there, and its tangent vectors grow at the orbit's own rate.
-    Unstable { growth: f64 },
+    /// The look ends, to within round-off, on a periodic orbit that is unstable or neutral. An orbit of exact symmetry stays there, and its
+    /// tangent vectors grow at the orbit's own rate.
+    NotStable(Box<PeriodicOrbit>),
     /// No periodic orbit was found.
     None,
 }
@@ -127,7 +128,7 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     let most = settings.first_look.max(EFFORT * (look.end - look.start));
     let mut effort = if large { most } else { f64::INFINITY };
     for recurrence in recurrences(body, &minima, diameter) {
-        if passes_attracting_saddle(body, rests, (last.t - recurrence.time, last.t), settings) {
+        if passes_attracting_saddle(body, rests, (last.t - recurrence.time, last.t)) {
             continue;
         }
         let guess = PeriodicGuess {
@@ -142,10 +143,11 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
         };
         // Against the latest swing: an equilibrium, approached in a spiral, is a periodic orbit of no size.
         let away = align(body, &orbit.shape, &last.shape, false).distance / swing;
-        if away < ON && orbit.growth() > 1.0 + settings.accuracy() {
-            return Returns::Unstable { growth: orbit.growth() };
+        let orbit = resolved(body, orbit, settings, &mut effort, watch);
+        if away < ON && !orbit.is_stable() {
+            return Returns::NotStable(Box::new(orbit));
         }
-        if orbit.growth() < 1.0 && away < NEAR && is_of_the_flow(body, &orbit, settings, watch) {
+        if orbit.is_stable() && away < NEAR && is_of_the_flow(body, &orbit, settings, watch) {
             let (orbit, recurrence) = shortest(body, orbit, recurrence, settings, watch);
             let (orbit, recurrence) = unmirrored(body, orbit, recurrence, settings, watch);
             return Returns::Stable(Box::new(orbit), recurrence);
@@ -154,16 +156,38 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     Returns::None
 }
 
+/// The orbit in a tighter tolerance, where its multipliers do not say at this one whether it is stable, or without the neutral ones of a
+/// family that it lies in.
+fn resolved<B: Equivariant + ?Sized>(
+    body: &B,
+    orbit: PeriodicOrbit,
+    settings: &Settings,
+    effort: &mut f64,
+    watch: &dyn Watch,
+) -> PeriodicOrbit {
+    let decided = |orbit: &PeriodicOrbit| orbit.is_stable() || orbit.is_unstable();
+    if decided(&orbit) {
+        return orbit;
+    }
+    let PeriodicOrbit { time, angle, mirrored, .. } = orbit;
+    let guess = PeriodicGuess { shape: &orbit.shape, time, angle, mirrored };
+    let flow = settings.flow().tighter();
+    let tighter = flow.and_then(|flow| PeriodicOrbit::find_within(body, &guess, &flow, effort, watch));
+    match tighter.filter(decided) {
+        Some(tighter) => tighter,
+        None => within_family(body, &orbit, settings, effort, watch).unwrap_or(orbit),
+    }
+}
+
 /// Whether one of the rests between two times was at a saddle by which cycles attract ([`attracting_saddle`]).
 pub(super) fn passes_attracting_saddle<B: Equivariant + ?Sized>(
     body: &B,
     rests: &[Rest],
     (from, to): (f64, f64),
-    settings: &Settings,
 ) -> bool {
     let within = rests.iter().filter(|rest| rest.end > from && rest.start < to);
     let shapes = within.rev().map(|rest| &rest.shape);
-    shapes.into_iter().any(|shape| attracting_saddle(body, shape, settings).is_some())
+    shapes.into_iter().any(|shape| attracting_saddle(body, shape).is_some())
 }
 
 /// An orbit that is mirror symmetric at every moment is its own mirror image after any time: its period ends when the shape comes
@@ -219,7 +243,7 @@ fn is_of_the_flow<B: Equivariant + ?Sized>(
     };
     let request = settings.request(orbit.time, body.dim());
     let Ok(look) = Look::take(body, flow.as_mut(), orbit.time, &request, watch) else { return true };
-    attracting_saddle(body, &look.slowest, settings).is_none()
+    attracting_saddle(body, &look.slowest).is_none()
 }
 
 /// The same orbit with its shortest period: more returns than one may have been tried first.
@@ -250,7 +274,7 @@ fn shortest<B: Equivariant + ?Sized>(
                     let guess = PeriodicGuess { shape: &start.shape, time, angle: near.angle, mirrored };
                     let found = PeriodicOrbit::find(body, &guess, &settings.flow(), watch)?;
                     let recurrence = Recurrence { returns: returns + 1, mirrored, time, angle: near.angle };
-                    return (found.growth() < 1.0).then_some((found, recurrence));
+                    return found.is_stable().then_some((found, recurrence));
                 }
             }
         }

@@ -52,7 +52,7 @@ pub fn repeating<B: Equivariant + ?Sized>(
     let symmetry = symmetry(body, nodes);
     let no_turn = NO_TURN.max(settings.accuracy());
     let form = Form::of(&symmetry, orbit, &path, no_turn, body.symmetry());
-    let straight = orbit.mirrored || symmetry.mirror.is_some();
+    let straight = orbit.mirrored || form.regime() == Regime::PulsatingStraight;
     let turning_rate = if straight { Some(0.0) } else { path.turning_rate() };
     let turning = turning_rate.filter(|_| form.regime() != Regime::Zigzag && !straight);
     // of a mirrored orbit half a period was followed, whose displacement is not that of the whole

@@ -6,6 +6,7 @@ use super::look::{Look, RESTS, Rest, Seen};
 use super::recurrence::{Returns, periodic};
 use super::repeats::Repeats;
 use super::settings::{CLOSE, EXACT, NEARLY, Settings, ended};
+use super::shrinking::{Shrinking, shrinking};
 use super::stay::Stay;
 use super::steady_turns::SteadyTurns;
 use super::verdict::{Attractor, Regime, Verdict};
@@ -33,7 +34,7 @@ pub(super) enum Ask {
 
 impl From<Verdict> for Ask {
     fn from(verdict: Verdict) -> Self {
-        Self::Nothing(Some(Box::new(verdict)))
+        Self::Nothing(Some(Box::new(verdict.or_undetermined())))
     }
 }
 
@@ -133,7 +134,7 @@ impl Search {
         let largest = self.largest.max(seen.sizes.1);
         self.arrived = RelativeEquilibrium::find(body, shape).filter(|found| {
             let size = norm(&found.shape).max(largest);
-            found.growth() <= -found.resolution() && found.distance(body, shape) <= CLOSE * size
+            found.is_stable() && found.distance(body, shape) <= CLOSE * size
         });
         self.arrived.is_some()
     }
@@ -159,8 +160,7 @@ impl Search {
                     "the orbit did not come closer to the nearby equilibrium".clone_into(&mut self.missing);
                     return self.again(body, watch);
                 }
-                Ok(words::equilibrium(body, &found, (after / size, self.largest), &self.settings, self.time)
-                    .into())
+                Ok(words::equilibrium(body, &found, after / size, self.time).into())
             }
             _ => self.rests(body, look, watch),
         }
@@ -198,8 +198,8 @@ impl Search {
         let size = norm(&found.shape).max(self.largest);
         let before = found.distance(body, &self.shape);
         let reached = (self.settings.hovering() * size).max(100.0 * self.settings.atol());
-        if found.growth() > -found.resolution() {
-            self.missing = if found.growth() > found.resolution() {
+        if !found.is_stable() {
+            self.missing = if found.is_unstable() {
                 format!("the orbit rests at an unstable shape (growth rate {:.2e})", found.growth())
             } else {
                 "the orbit rests at a shape that is neutral in a direction beside those of its symmetry (growth rate 0 within round-off): at these parameters the equations have more symmetry than stated, or the shape bifurcates".to_owned()
@@ -219,7 +219,7 @@ impl Search {
             self.pending = Pending::Approach { found: Box::new(found), before, reached, size };
             return Ok(Ask::Look(wait));
         }
-        Ok(words::equilibrium(body, &found, (before / size, self.largest), &self.settings, self.time).into())
+        Ok(words::equilibrium(body, &found, before / size, self.time).into())
     }
 
     /// The orbit is at an unstable equilibrium: does it stay there? It is not asked whether neighbouring orbits separate: at a
@@ -233,15 +233,7 @@ impl Search {
     ) -> Result<Ask> {
         let still = look.is_still(self.settings.hovering());
         if self.stay.goes_on(look.end - look.start, still, found.growth()) {
-            return Ok(words::unstable(
-                body,
-                found,
-                self.largest,
-                self.stay.time(),
-                &self.settings,
-                self.time,
-            )
-            .into());
+            return Ok(words::unstable(body, found, self.stay.time(), self.time).into());
         }
         self.budget = self.budget.max(self.stay.budget(&self.settings, self.time, found.growth()));
         self.remember(&mut look);
@@ -251,7 +243,7 @@ impl Search {
         } else if let Some(rest) = self.rests.last_mut().filter(|rest| !rest.whole) {
             rest.end = look.end;
         }
-        if let Some(cycle) = cycle(body, &self.rests, &self.settings) {
+        if let Some(cycle) = cycle(body, &self.rests) {
             return Ok(
                 words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, watch)?.into()
             );
@@ -276,7 +268,7 @@ impl Search {
         self.stay = Stay::default();
         let earlier = self.rests.len();
         self.remember(&mut look);
-        if let Some(cycle) = cycle(body, &self.rests, &self.settings) {
+        if let Some(cycle) = cycle(body, &self.rests) {
             return Ok(
                 words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, watch)?.into()
             );
@@ -287,14 +279,13 @@ impl Search {
                     words::periodic(body, &found, &recurrence, &self.settings, self.time, watch)?.into()
                 );
             }
-            Returns::Unstable { growth } => {
-                self.missing =
-                    format!("the orbit stays on an unstable periodic orbit (largest multiplier {growth:.3})");
+            Returns::NotStable(orbit) => {
+                self.missing = words::not_stable(&orbit);
                 return self.again(body, watch);
             }
             Returns::None => {}
         }
-        self.repeats.turned(SteadyTurns::of(body, &look, &self.settings));
+        self.repeats.turned(SteadyTurns::of(body, &look));
         if self.first || look.is_still(self.settings.hovering()) {
             return self.again(body, watch);
         }
@@ -331,11 +322,25 @@ impl Search {
         let chaos = chaos::chaotic(&self.growth, &run, &witness, self.time)?;
         // Out of a subspace of exact symmetry neighbouring orbits may separate at a rate that no chaos has made.
         let symmetric = chaos.is_some() && !Isotropy::of(body, &self.shape, EXACT).is_trivial();
-        let decided = chaos.filter(|_| !symmetric).or_else(|| chaos::torus(&run, &witness, self.time));
-        if let Some(verdict) = decided {
+        if let Some(verdict) = chaos.filter(|_| !symmetric) {
             return Ok(self.described(verdict, body, look.end - look.start, watch)?.into());
         }
-        self.missing = if symmetric {
+        let mut unclear = false;
+        if let Some(verdict) = chaos::torus(&run, &witness, self.time) {
+            match shrinking(body, &look, &self.settings, watch) {
+                Shrinking::No => {
+                    return Ok(self.described(verdict, body, look.end - look.start, watch)?.into());
+                }
+                Shrinking::Onto(orbit, recurrence) => {
+                    let settings = &self.settings;
+                    return Ok(words::periodic(body, &orbit, &recurrence, settings, self.time, watch)?.into());
+                }
+                Shrinking::Unclear => unclear = true,
+            }
+        }
+        self.missing = if unclear {
+            "the returns lie on a curve beside a stable periodic orbit, and whether they shrink onto it is not seen".to_owned()
+        } else if symmetric {
             "the orbit keeps an exact symmetry, and neighbouring orbits leave it".to_owned()
         } else {
             chaos::missing(&self.growth, &witness)
@@ -352,7 +357,8 @@ impl Search {
             self.extended = true;
             self.budget *= 2.0;
         }
-        let longer = if !is_small(body.dim()) && chaos::is_near(&self.growth) {
+        let nearly = chaos::is_near(&self.growth) && chaos::is_long_enough(&self.growth);
+        let longer = if !is_small(body.dim()) && nearly {
             self.span.min(NEARLY * self.settings.first_look)
         } else {
             2.0 * self.span

@@ -40,10 +40,7 @@ impl Settings {
 
     /// The relative accuracy of states that these settings give.
     pub(super) fn accuracy(&self) -> f64 {
-        match self.control {
-            StepControl::Adaptive { rtol, .. } => 1e3 * rtol,
-            StepControl::Fixed { .. } => 1e-6,
-        }
+        self.flow().accuracy()
     }
 
     /// How near (against its size) to a stable equilibrium an orbit of these settings hovers: nearer than this it has

@@ -1,8 +1,8 @@
 //! Turns that are always the same, between rests whose length round-off decides.
 
 use super::look::{Look, RESTS};
-use super::settings::Settings;
 use super::verdict::{Attractor, Regime, Verdict};
+use crate::SteadyMotion;
 use crate::equilibrium::RelativeEquilibrium;
 use crate::symmetry::{align, reduced_speed};
 use motiform_dynamics::{Equivariant, VectorField};
@@ -31,7 +31,7 @@ pub(super) struct SteadyTurns {
 
 impl SteadyTurns {
     /// The last turns of a look between rests at a saddle whose cycle repels: `None` where they differ, or the body does not rest.
-    pub(super) fn of<B: Equivariant + ?Sized>(body: &B, look: &Look, settings: &Settings) -> Option<Self> {
+    pub(super) fn of<B: Equivariant + ?Sized>(body: &B, look: &Look) -> Option<Self> {
         let minima = look.minima();
         let last = &minima[minima.len().checked_sub(TURNS + 1)?..];
         let mut rate = look.slowest.clone();
@@ -41,8 +41,7 @@ impl SteadyTurns {
         }
         let equilibrium = RelativeEquilibrium::find(body, &look.slowest)?;
         let saddle = equilibrium.saddle(body)?;
-        let still =
-            equilibrium.speed() <= body.speed_resolution(&equilibrium.shape, settings.atol()).max(1e-9);
+        let still = !SteadyMotion::of(body, &equilibrium).moves();
         let allowed = CLOSE * look.diameter(body);
         let mut turns = Vec::with_capacity(TURNS);
         for pair in last.windows(2) {
@@ -55,7 +54,7 @@ impl SteadyTurns {
         let times = last.windows(2).map(|pair| pair[1].t - pair[0].t);
         let times = times.fold((f64::INFINITY, 0.0_f64), |(low, high), t| (low.min(t), high.max(t)));
         let steady = same && (flips == 0 || flips + 1 == turns.len());
-        (still && steady && saddle.out + saddle.inward > 0.0).then_some(Self {
+        (still && steady && saddle.out + saddle.inward > saddle.error).then_some(Self {
             angle,
             alternates: flips > 0,
             times,

@@ -3,9 +3,6 @@
 
 use super::look::Rest;
 use super::recurrence::passes_attracting_saddle;
-use super::settings::Settings;
-use motiform_dynamics::StepControl;
-use motiform_dynamics::steppers::{DOP853, Method};
 use motiform_models::tensor::{Tensor, TensorParameters};
 
 const KAPPA2: f64 = -0.1;
@@ -14,18 +11,10 @@ fn passes(gamma: f64, away: f64, span: (f64, f64)) -> bool {
     let others = TensorParameters::default();
     let parameters =
         TensorParameters { gamma, kappa2: KAPPA2, kappa3: 1.0, a1: 1.0, b1: 0.5, b3: 1.0, ..others };
-    let settings = Settings {
-        method: Method::Explicit(&DOP853),
-        control: StepControl::Adaptive { rtol: 1e-9, atol: 1e-12 },
-        first_look: 100.0,
-        budget: 1e4,
-        escape_norm: 1e6,
-        max_steps: 1_000_000,
-    };
     let r2 = libm::sqrt(-KAPPA2 / 8.0);
     let shape = vec![away * r2, 0.0, r2, 0.0, 0.0, 0.0];
     let rests = [Rest { start: 10.0, end: 20.0, shape, whole: true }];
-    passes_attracting_saddle(&Tensor::new(&parameters), &rests, span, &settings)
+    passes_attracting_saddle(&Tensor::new(&parameters), &rests, span)
 }
 
 #[test]

@@ -248,6 +248,20 @@ impl Verdict {
         Direction { course: self.course, heading: self.heading } = Direction::of(body, turning, drift);
     }
 
+    /// This verdict, or 'undetermined' where its margin is below 1: what was found, and that its errors do not let it be told.
+    #[must_use]
+    pub(super) fn or_undetermined(mut self) -> Self {
+        let Some(margin) = self.margin.filter(|margin| *margin < 1.0 || margin.is_nan()) else { return self };
+        let named = self.regime;
+        self.why = format!(
+            "{}; but the quantity that decides between {named} and another motion is {margin:.2} times its uncertainty: not resolved",
+            self.why
+        );
+        (self.regime, self.attractor, self.form, self.margin) =
+            (Regime::Undetermined, Attractor::Unknown, None, None);
+        self
+    }
+
     /// A verdict without evidence beyond `why`.
     #[must_use]
     pub fn new(regime: Regime, attractor: Attractor, why: String, time: f64) -> Self {

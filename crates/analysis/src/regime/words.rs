@@ -8,7 +8,7 @@ use super::settings::Settings;
 use super::verdict::{Attractor, Regime, Spread, Verdict};
 use crate::equilibrium::RelativeEquilibrium;
 use crate::periodic::PeriodicOrbit;
-use crate::{Estimate, Result};
+use crate::{Estimate, Result, SteadyMotion};
 use motiform_dynamics::{Equivariant, Watch};
 
 /// Samples of a period: enough for the legs of its path.
@@ -29,94 +29,56 @@ pub(super) fn blow_up(singular: bool, t: f64, time: f64) -> Verdict {
     verdict
 }
 
-/// Speeds below this part of the largest shape on the way are what is left of it: Newton's method goes no further.
-const REST: f64 = 1e-11;
-
-/// What a body does at a relative equilibrium.
-struct Steady {
-    regime: Regime,
-    /// In words.
-    what: String,
-    moves: bool,
-    turns: bool,
-    /// Speeds and turning rates below these are zero.
-    least: (f64, f64),
-}
-
-impl Steady {
-    /// At this equilibrium, for an orbit that was as large as `largest`.
-    fn of<B: Equivariant + ?Sized>(
-        body: &B,
-        found: &RelativeEquilibrium,
-        largest: f64,
-        settings: &Settings,
-    ) -> Self {
-        let speed = found.speed();
-        let least_speed = body
-            .speed_resolution(&found.shape, settings.atol())
-            .max(1e-9 * found.scale * settings.accuracy())
-            .max(REST * largest);
-        let least_turn = (1e3 * found.resolution()).max(1e-12);
-        let (moves, turns) = (speed > least_speed, found.turning_rate.abs() > least_turn);
-        let regime = match (moves, turns) {
-            (false, false) => Regime::Motionless,
-            (true, false) => Regime::Straight,
-            (_, true) => Regime::Circular,
-        };
-        let what = match (moves, turns) {
-            (false, false) => "a fixed shape at rest".to_owned(),
-            (true, false) => format!("a fixed shape that moves at {speed:.4e} without turning"),
-            (false, true) => format!("a fixed shape that turns on the spot at {:.4e}", found.turning_rate),
-            (true, true) => {
-                format!("a fixed shape that moves at {speed:.4e} and turns at {:.4e}", found.turning_rate)
-            }
-        };
-        Self { regime, what, moves, turns, least: (least_speed, least_turn) }
-    }
-
-    /// Notes the direction of the motion.
-    fn direct<B: Equivariant + ?Sized>(&self, verdict: &mut Verdict, body: &B, found: &RelativeEquilibrium) {
-        let drift = if self.moves { found.velocity } else { [0.0; 2] };
-        verdict.directed(body, self.turns.then_some(found.turning_rate), drift);
-    }
-
-    /// A verdict with the numbers of the equilibrium.
-    fn verdict(&self, found: &RelativeEquilibrium, attractor: Attractor, why: String, time: f64) -> Verdict {
-        let mut verdict = Verdict::new(self.regime, attractor, why, time);
-        let speed = found.speed();
-        verdict.speed = Some(Spread { mean: speed, min: speed, max: speed });
-        verdict.turning_rate = self.moves.then_some(if self.turns { found.turning_rate } else { 0.0 });
-        let error = found.resolution();
-        let neutral = std::iter::repeat_n(0.0, found.neutral);
-        let mut values: Vec<f64> = found.eigenvalues.iter().map(|value| value.0).chain(neutral).collect();
-        values.sort_by(|a, b| b.total_cmp(a));
-        verdict.exponents = values.into_iter().map(|value| Estimate { value, error }).collect();
-        verdict
+/// What a body does at a relative equilibrium, in words.
+fn what(steady: &SteadyMotion) -> String {
+    let (speed, turning) = (steady.speed.value, steady.turning_rate.value);
+    match (steady.moves(), steady.turns()) {
+        (false, false) => "a fixed shape at rest".to_owned(),
+        (true, false) => format!("a fixed shape that moves at {speed:.4e} without turning"),
+        (false, true) => format!("a fixed shape that turns on the spot at {turning:.4e}"),
+        (true, true) => format!("a fixed shape that moves at {speed:.4e} and turns at {turning:.4e}"),
     }
 }
 
-/// A stable relative equilibrium, reached up to `distance` (against its size) by an orbit that was as large as `largest`.
+/// A verdict with the numbers of an equilibrium.
+fn at_equilibrium<B: Equivariant + ?Sized>(
+    body: &B,
+    (found, steady): (&RelativeEquilibrium, &SteadyMotion),
+    attractor: Attractor,
+    why: String,
+    time: f64,
+) -> Verdict {
+    let mut verdict = Verdict::new(steady.regime(), attractor, why, time);
+    let speed = steady.speed.value;
+    verdict.speed = Some(Spread { mean: speed, min: speed, max: speed });
+    verdict.turning_rate = steady.turning();
+    let values = found.eigenvalues.iter().zip(&found.errors);
+    let mut exponents: Vec<Estimate> =
+        values.map(|(value, &error)| Estimate { value: value.0, error }).collect();
+    exponents.extend(std::iter::repeat_n(Estimate { value: 0.0, error: 0.0 }, found.neutral));
+    exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
+    verdict.exponents = exponents;
+    let drift = if steady.moves() { found.velocity } else { [0.0; 2] };
+    verdict.directed(body, steady.turns().then_some(found.turning_rate), drift);
+    verdict
+}
+
+/// A stable relative equilibrium, reached up to `distance` (against its size).
 pub(super) fn equilibrium<B: Equivariant + ?Sized>(
     body: &B,
     found: &RelativeEquilibrium,
-    (distance, largest): (f64, f64),
-    settings: &Settings,
+    distance: f64,
     time: f64,
 ) -> Verdict {
-    let steady = Steady::of(body, found, largest, settings);
+    let steady = SteadyMotion::of(body, found);
     let growth = found.growth();
-    let why =
-        format!("{}, reached to {distance:.0e}; stable: its leading eigenvalue is {growth:.2e}", steady.what);
-    let mut verdict = steady.verdict(found, Attractor::Equilibrium, why, time);
-    steady.direct(&mut verdict, body, found);
-    let sure =
-        |value: f64, least: f64| if value > least { value / least } else { least / value.max(1e-3 * least) };
-    let margins = [
-        -growth / found.resolution(),
-        sure(found.speed(), steady.least.0),
-        sure(found.turning_rate.abs(), steady.least.1),
-    ];
-    verdict.margin = Some(margins.into_iter().fold(f64::MAX, f64::min));
+    let why = format!(
+        "{}, reached to {distance:.0e}; stable: its leading eigenvalue is {growth:.2e}",
+        what(&steady)
+    );
+    let mut verdict = at_equilibrium(body, (found, &steady), Attractor::Equilibrium, why, time);
+    let stability = -growth / found.growth_error().max(f64::MIN_POSITIVE);
+    verdict.margin = Some(stability.min(steady.margin()).min(f64::MAX));
     verdict
 }
 
@@ -125,20 +87,16 @@ pub(super) fn equilibrium<B: Equivariant + ?Sized>(
 pub(super) fn unstable<B: Equivariant + ?Sized>(
     body: &B,
     found: &RelativeEquilibrium,
-    largest: f64,
     stay: f64,
-    settings: &Settings,
     time: f64,
 ) -> Verdict {
-    let steady = Steady::of(body, found, largest, settings);
+    let steady = SteadyMotion::of(body, found);
     let why = format!(
         "{}, but unstable, growth rate {:.4e}: this start has an exact symmetry, and its orbit stayed for a time of {stay:.0}; a typical start leaves it",
-        steady.what,
+        what(&steady),
         found.growth()
     );
-    let mut verdict = steady.verdict(found, Attractor::Unstable, why, time);
-    steady.direct(&mut verdict, body, found);
-    verdict
+    at_equilibrium(body, (found, &steady), Attractor::Unstable, why, time)
 }
 
 /// A heteroclinic cycle.
@@ -157,7 +115,7 @@ pub(super) fn rectangular<B: Equivariant + ?Sized>(
         cycle.closest
     );
     let mut verdict = Verdict::new(Regime::Rectangular, Attractor::Heteroclinic, why, time);
-    verdict.margin = Some(-(out + inward) / (1e3 * cycle.equilibrium.resolution()));
+    verdict.margin = Some((-(out + inward) / cycle.saddle.error.max(f64::MIN_POSITIVE)).min(f64::MAX));
     verdict.rests.clone_from(&cycle.rests);
     verdict.saddle = Some(cycle.saddle);
     // Rests may be known of which none was seen whole.
@@ -198,9 +156,12 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     );
     let mut verdict = Verdict::new(form.regime(), Attractor::Periodic, why, time);
     verdict.form = Some(form);
-    let stability = (1.0 - orbit.growth()) / settings.accuracy();
-    let turning =
-        if orbit.mirrored || symmetry.mirror.is_some() { f64::MAX } else { rotation.abs() / no_turn };
+    let stability = ((1.0 - orbit.growth()) / orbit.growth_error().max(f64::MIN_POSITIVE)).min(f64::MAX);
+    let turning = if orbit.mirrored || form.regime() == Regime::PulsatingStraight {
+        f64::MAX
+    } else {
+        rotation.abs() / no_turn
+    };
     verdict.margin = Some(stability.min(if turning < 1.0 { 1.0 / turning.max(1e-3) } else { turning }));
     verdict.period = Some(orbit.period());
     verdict.net_rotation = Some(rotation);
@@ -208,7 +169,7 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     verdict.exponents = super::floquet::exponents(body, orbit, settings, watch)?;
     if path.moves() {
         verdict.drift = Some(path.drift());
-        let straight = symmetry.mirror.is_some();
+        let straight = form.regime() == Regime::PulsatingStraight;
         // exactly 0 where the second half of the period mirrors the first, and where the heading keeps to a mirror axis
         verdict.turning_rate = if orbit.mirrored || straight { Some(0.0) } else { path.turning_rate() };
         let turning = verdict.turning_rate.filter(|_| form.regime() != Regime::Zigzag && !straight);
@@ -218,6 +179,19 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
         }
     }
     Ok(verdict)
+}
+
+/// Why a motion that stays on a periodic orbit has no name.
+pub(super) fn not_stable(orbit: &PeriodicOrbit) -> String {
+    let (growth, error) = (orbit.growth(), orbit.growth_error());
+    if orbit.is_unstable() {
+        format!("the orbit stays on an unstable periodic orbit (largest multiplier {growth:.3})")
+    } else {
+        format!(
+            "the orbit stays on a periodic orbit that is neutral in a direction beside those of its symmetry (largest multiplier {growth:.6} +- \
+             {error:.0e}): the equations have more symmetry than stated, or the orbit bifurcates"
+        )
+    }
 }
 
 /// Speeds and turning along a stretch of an orbit that does not repeat.

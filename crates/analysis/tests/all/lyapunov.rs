@@ -98,6 +98,12 @@ fn lorenz_has_its_published_exponents_and_their_exact_sum() {
     near(sum, -(body.sigma + 1.0 + body.beta), 1e-6); // 1e-9 per step, some 50 steps per time unit
     assert_eq!(seen.neutral, 1);
     assert!(seen.zeros()[0].covers(0.0));
+    // Sprott (2003), app. A: 2.0621
+    let dimension = seen.dimension().unwrap();
+    near(dimension.value, 2.0621, dimension.error + 1e-4);
+    assert!(dimension.error < 2e-3 && seen.exponents[..2].iter().all(|x| x.value > -0.5), "{dimension:?}");
+    let few = run(&body, &[1.0, 1.0, 20.0], &settings(2, 50.0, 300.0));
+    assert_eq!(few.dimension(), None, "the sum of two exponents is not negative");
 }
 
 #[test]

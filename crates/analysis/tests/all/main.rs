@@ -21,6 +21,7 @@ mod returns;
 mod same_set;
 mod series_mean;
 mod share;
+mod steady;
 mod symmetric_motions;
 mod symmetry;
 mod thresholds;

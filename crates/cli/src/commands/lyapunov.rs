@@ -58,6 +58,9 @@ fn json(plan: &Plan, found: &Lyapunov) -> anyhow::Result<String> {
         "transient": found.transient,
         "outcome": found.outcome,
     });
+    if let Some(dimension) = found.dimension() {
+        object["dimension"] = serde_json::to_value(dimension)?;
+    }
     if let Some(why) = found.without_error() {
         object["without_error"] = why.into();
     }
@@ -95,6 +98,13 @@ fn summary(plan: &Plan, found: &Lyapunov) -> anyhow::Result<String> {
             text,
             "self-check {} exponents must be 0: at most {worst:.1e} off, {verdict}",
             found.neutral
+        )?;
+    }
+    if let Some(dimension) = found.dimension() {
+        writeln!(
+            text,
+            "dimension  {} (Kaplan-Yorke; of all shapes, rotated copies included)",
+            estimate(&dimension, 0, 4)
         )?;
     }
     let digits = if found.time < 10.0 { 4 } else { 0 };

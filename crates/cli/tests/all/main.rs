@@ -16,6 +16,7 @@ mod faults;
 mod fits;
 mod fuzz;
 mod interruption;
+mod invariances;
 mod journals;
 mod kills;
 mod layers;

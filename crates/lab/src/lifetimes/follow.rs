@@ -220,7 +220,7 @@ impl<'p> Follower<'p> {
             return None;
         }
         let steady = RelativeEquilibrium::find(model, shape)?;
-        let stable = steady.growth() < -steady.resolution();
+        let stable = steady.is_stable();
         let near = steady.distance(model, shape) < NEAR * size(&steady.shape);
         (stable && near).then(|| -steady.growth())
     }

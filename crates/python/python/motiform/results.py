@@ -196,6 +196,8 @@ class Exponents:
     accuracy: Accuracy
     without_error: str | None = None
     """The reason why exponents have no error."""
+    dimension: Estimate | None = None
+    """The Kaplan-Yorke dimension of the set of shapes, rotated copies included; None if too few exponents were computed."""
 
     @property
     def sum(self) -> float:
@@ -216,7 +218,8 @@ def exponents_of(raw: dict[str, Any]) -> Exponents:
     estimates = np.array(pairs, dtype=float).reshape(-1, 2)
     outcome = outcome_of(raw["outcome"], raw["complete"], raw["ended"])
     ends = (raw["neutral"], raw["time"], raw["transient"], outcome, Accuracy(**raw["accuracy"]), raw["without_error"])
-    return Exponents(estimates[:, 0], estimates[:, 1], *ends)
+    dimension = raw.get("dimension")
+    return Exponents(estimates[:, 0], estimates[:, 1], *ends, Estimate(**dimension) if dimension else None)
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 //! Eigenvalues of a product of matrices, each with its own digits.
 
-use motiform_analysis::periodic::multipliers;
+use crate::multipliers::multipliers;
 use nalgebra::DMatrix;
 
 /// Times that the frames are taken around the product: they converge by the ratio of neighbouring moduli each time.
@@ -16,7 +16,8 @@ const SEPARATE: f64 = 1e-12;
 /// rotations within groups of eigenvalues of similar modulus. The groups are then separate diagonal blocks, in every factor.
 ///
 /// Source: the periodic QR iteration: Bojanczyk, Golub, Van Dooren (1992), Proc. SPIE 1770, 31.
-pub(super) fn eigenvalues_of_product(factors: &[DMatrix<f64>]) -> Option<Vec<(f64, f64)>> {
+#[must_use]
+pub fn eigenvalues_of_product(factors: &[DMatrix<f64>]) -> Option<Vec<(f64, f64)>> {
     let dim = factors.first()?.nrows();
     let Frames { before, last: frame, triangles } = frames(factors, dim)?;
     let back = before.transpose() * &frame;

@@ -1,0 +1,137 @@
+//! Relative equilibria: shapes that do not change but for a steady rotation.
+
+mod newton;
+mod saddle;
+mod spectrum;
+mod uncertainty;
+
+use crate::linear::{add, norm};
+use crate::symmetry::align;
+use motiform_dynamics::tangent::jacobian;
+use motiform_dynamics::{Equivariant, model};
+use nalgebra::DMatrix;
+pub use saddle::Saddle;
+use serde::{Deserialize, Serialize};
+pub use spectrum::rounding;
+pub use uncertainty::Uncertainty;
+
+/// A solution of `f(u) = omega G u`, with `G` the infinitesimal rotation: at rest or straight (`omega = 0`), or
+/// circular.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RelativeEquilibrium {
+    /// The shape.
+    pub shape: Vec<f64>,
+    /// Its turning rate omega (rad per model time).
+    pub turning_rate: f64,
+    /// Velocity of the centre of mass.
+    pub velocity: [f64; 2],
+    /// `|f - omega Gu|`, what Newton's method left.
+    pub residual: f64,
+    /// Eigenvalues of the reduced linearisation, largest real part first (inverse model time). The neutral direction of
+    /// the rotations is removed exactly.
+    pub eigenvalues: Vec<(f64, f64)>,
+    /// How far the real part of each eigenvalue may be away, by rounding and by the error of the shape. Only as sharp as signs need:
+    /// after the first eigenvalue that is clearly negative a bound of all of them.
+    #[serde(default)]
+    pub errors: Vec<f64>,
+    /// How many neutral directions were removed (0 for a circle, which no rotation changes).
+    pub neutral: usize,
+    /// Size of the linearisation's entries: what its eigenvalues are small against.
+    pub scale: f64,
+}
+
+impl RelativeEquilibrium {
+    /// The equilibrium at a solution of its equations, as far as Newton's method goes.
+    fn describe<B: Equivariant + ?Sized>(body: &B, shape: Vec<f64>, omega: f64) -> Option<Self> {
+        let columns = linearisation(body, &shape, omega);
+        let scale = columns.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let neutral = neutral_direction(body, &shape);
+        let turns = !neutral.is_empty();
+        let omega = if turns { omega } else { 0.0 }; // a circle does not turn
+        let uncertainty = Uncertainty::of(body, &shape, omega, turns);
+        let matrix = matrix_of(&columns);
+        let entries = uncertainty.of_linearisation(body, (&shape, omega), &matrix);
+        let (eigenvalues, errors) = spectrum::across(&neutral, &matrix, &entries)?;
+        let velocity = model::velocity(body, &shape);
+        let residual = norm(&uncertainty::residual(body, &shape, omega));
+        let neutral = neutral.len();
+        Some(Self { shape, turning_rate: omega, velocity, residual, eigenvalues, errors, neutral, scale })
+    }
+
+    /// The largest real part of an eigenvalue: negative if stable. `-inf` without any eigenvalue.
+    #[must_use]
+    pub fn growth(&self) -> f64 {
+        self.eigenvalues.first().map_or(f64::NEG_INFINITY, |value| value.0)
+    }
+
+    /// How far [`RelativeEquilibrium::growth`] may be away: a growth rate closer to zero than this has no sign.
+    #[must_use]
+    pub fn growth_error(&self) -> f64 {
+        self.errors.first().copied().unwrap_or(0.0)
+    }
+
+    /// Whether every perturbation decays, beyond the error of the growth rates.
+    #[must_use]
+    pub fn is_stable(&self) -> bool {
+        self.growth() < -self.growth_error()
+    }
+
+    /// How many directions grow, beyond the error of their growth rates.
+    #[must_use]
+    pub fn growing(&self) -> usize {
+        let clear = |(value, error): (&(f64, f64), &f64)| value.0 > *error;
+        self.eigenvalues.iter().zip(&self.errors).filter(|&pair| clear(pair)).count()
+    }
+
+    /// Whether some direction grows, beyond the error of its growth rate.
+    #[must_use]
+    pub fn is_unstable(&self) -> bool {
+        self.growing() > 0
+    }
+
+    /// Speed of the centre of mass.
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        libm::hypot(self.velocity[0], self.velocity[1])
+    }
+
+    /// Distance of `shape` from it, rotations divided out.
+    #[must_use]
+    pub fn distance<B: Equivariant + ?Sized>(&self, body: &B, shape: &[f64]) -> f64 {
+        align(body, shape, &self.shape, false).distance
+    }
+}
+
+/// The columns of `Df - omega G`.
+fn linearisation<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64) -> Vec<Vec<f64>> {
+    let dim = shape.len();
+    let matrix = jacobian(body, shape);
+    let mut unit = vec![0.0; dim];
+    let mut spin = vec![0.0; dim];
+    let column = |(j, column): (usize, &[f64])| {
+        unit.fill(0.0);
+        unit[j] = 1.0;
+        body.spin(&unit, &mut spin); // the action is linear
+        let mut column = column.to_vec();
+        add(&mut column, -omega, &spin);
+        column
+    };
+    matrix.chunks_exact(dim).enumerate().map(column).collect()
+}
+
+/// The direction of the group orbit, as a unit vector; none for a circle.
+pub fn neutral_direction<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> Vec<Vec<f64>> {
+    let mut spin = vec![0.0; shape.len()];
+    body.spin(shape, &mut spin);
+    let size = norm(&spin);
+    if size <= 1e-10 || size <= 1e-12 * norm(shape) {
+        return Vec::new();
+    }
+    spin.iter_mut().for_each(|x| *x /= size);
+    vec![spin]
+}
+
+/// The matrix of these columns.
+pub(crate) fn matrix_of(columns: &[Vec<f64>]) -> DMatrix<f64> {
+    DMatrix::from_fn(columns.first().map_or(0, Vec::len), columns.len(), |i, j| columns[j][i])
+}

@@ -1,0 +1,66 @@
+//! Newton's method for relative equilibria.
+
+use super::uncertainty::residual;
+use super::{RelativeEquilibrium, linearisation};
+use crate::graded::scale;
+use crate::linear::{add, least_squares, norm};
+use crate::symmetry::turning_of_shape;
+use motiform_dynamics::{Equivariant, VectorField};
+
+/// Steps that Newton's method may take.
+const STEPS: usize = 30;
+
+impl RelativeEquilibrium {
+    /// Newton's method from `guess`; `None` where it does not converge.
+    ///
+    /// Each step solves `(Df - omega G) du - Gu domega = -(f - omega Gu)` for the smallest `(du, domega)`: there is one
+    /// solution per direction along the group orbit, and the smallest step does not move along it. Works for circles,
+    /// pure modes and bodies at rest alike. Each equation is measured against its own largest coefficient: the rates of modes differ by
+    /// many powers of ten.
+    ///
+    /// # Checked by  tests/all/equilibrium.rs: the analytic states of the reduced model, eigenvalues against its formulas
+    #[must_use]
+    pub fn find<B: Equivariant + ?Sized>(body: &B, guess: &[f64]) -> Option<Self> {
+        let mut shape = guess.to_vec();
+        let mut rate = vec![0.0; shape.len()];
+        VectorField::<f64>::eval(body, 0.0, &shape, &mut rate);
+        let mut omega = turning_of_shape(body, &shape, &rate);
+        let mut last = f64::INFINITY;
+        for _ in 0..STEPS {
+            let (unknowns, target) = equations(body, &shape, omega);
+            let size = norm(&target);
+            if !size.is_finite() {
+                return None;
+            }
+            // against the guess too: towards a circle the shape shrinks with its residual
+            let floor = 1e-14 * norm(&shape).max(norm(guess));
+            let still = size >= 0.5 * last && size <= 1e-9 * norm(&shape).max(1e-12);
+            if size <= floor || still {
+                return Self::describe(body, shape, omega);
+            }
+            last = size;
+            let step = least_squares(&unknowns, &target)?;
+            let turned = step.len() - 1;
+            add(&mut shape, 1.0, &step[..turned]);
+            omega += step[turned];
+        }
+        None
+    }
+}
+
+/// The columns of `[Df - omega G, -Gu]` and `-(f - omega Gu)`, each row divided by the largest coefficient of its equation.
+fn equations<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64) -> (Vec<Vec<f64>>, Vec<f64>) {
+    let mut columns = linearisation(body, shape, omega);
+    let mut spin = vec![0.0; shape.len()];
+    body.spin(shape, &mut spin);
+    let mut target = residual(body, shape, omega);
+    let scales: Vec<f64> = (0..shape.len()).map(|i| scale(columns.iter().map(|column| &column[i]))).collect();
+    columns.push(spin);
+    let last = columns.len() - 1;
+    for (i, scale) in scales.iter().enumerate() {
+        columns.iter_mut().for_each(|column| column[i] *= scale);
+        columns[last][i] *= -1.0;
+        target[i] *= -scale;
+    }
+    (columns, target)
+}

@@ -1,0 +1,103 @@
+//! How far a computed relative equilibrium may be from the true one.
+
+use super::{RelativeEquilibrium, linearisation, matrix_of};
+use crate::graded::{EPS, Graded};
+use crate::linear::add;
+use motiform_dynamics::{Equivariant, VectorField};
+use nalgebra::DMatrix;
+
+/// Rounding of a sum of products, in units of the roundoff of its terms.
+const ROUNDINGS: f64 = 2.0;
+
+/// Bounds, to first order, of the errors that the residual and rounding leave in a relative equilibrium.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Uncertainty {
+    /// Of each entry of the shape, in the directions that are not along the group.
+    pub shape: Vec<f64>,
+    /// Of the turning rate (rad per model time).
+    pub turning_rate: f64,
+}
+
+impl Uncertainty {
+    /// Of the solution `(u, omega)` of `f(u) - omega Gu = 0`, `Gu . du = 0`: `|M^-1| (|r| + rho)` with the matrix M of these equations,
+    /// their residual r and its rounding `rho_i = 2 eps sum_j |A_ij u_j|`.
+    ///
+    /// A residual in a mode that decays fast moves nothing by much: it is divided by that mode's rate. Infinite where M is singular: the
+    /// equilibrium is then one of a family, or bifurcates.
+    pub(super) fn of<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64, turns: bool) -> Self {
+        let dim = shape.len();
+        let columns = linearisation(body, shape, omega);
+        let mut spin = vec![0.0; dim];
+        body.spin(shape, &mut spin);
+        let mut bounds = residual(body, shape, omega);
+        for (i, bound) in bounds.iter_mut().enumerate() {
+            let terms: f64 = columns.iter().zip(shape).map(|(column, u)| (column[i] * u).abs()).sum();
+            *bound = bound.abs() + ROUNDINGS * EPS * (terms + (omega * spin[i]).abs());
+        }
+        bounds.push(0.0);
+        let entry = |i: usize, j: usize| match (i < dim, j < dim) {
+            (true, true) => columns[j][i],
+            (true, false) => {
+                if turns {
+                    -spin[i]
+                } else {
+                    0.0
+                }
+            }
+            (false, true) => {
+                if turns {
+                    spin[j]
+                } else {
+                    0.0
+                }
+            }
+            (false, false) => f64::from(u8::from(!turns)),
+        };
+        let matrix = DMatrix::from_fn(dim + 1, dim + 1, entry);
+        match Graded::of(matrix).and_then(|graded| graded.spread(&bounds)) {
+            Some(mut spread) => {
+                let turning_rate = spread.pop().unwrap_or(f64::INFINITY);
+                Self { shape: spread, turning_rate }
+            }
+            None => Self { shape: vec![f64::INFINITY; dim], turning_rate: f64::INFINITY },
+        }
+    }
+
+    /// Bounds of the errors of `Df - omega G`: rounding against the largest entry of each row, and what the error of the shape changes.
+    pub(super) fn of_linearisation<B: Equivariant + ?Sized>(
+        &self,
+        body: &B,
+        found: (&[f64], f64),
+        matrix: &DMatrix<f64>,
+    ) -> DMatrix<f64> {
+        let (shape, omega) = found;
+        let mut beside = shape.to_vec();
+        let known = self.shape.iter().all(|x| x.is_finite());
+        if known {
+            add(&mut beside, 1.0, &self.shape);
+        }
+        let moved = matrix_of(&linearisation(body, &beside, omega));
+        let mut errors = (moved - matrix).abs();
+        for (mut row, values) in errors.row_iter_mut().zip(matrix.row_iter()) {
+            row.add_scalar_mut(2.0 * ROUNDINGS * EPS * values.amax());
+        }
+        errors
+    }
+}
+
+impl RelativeEquilibrium {
+    /// How far it may be from the true one.
+    #[must_use]
+    pub fn uncertainty<B: Equivariant + ?Sized>(&self, body: &B) -> Uncertainty {
+        Uncertainty::of(body, &self.shape, self.turning_rate, self.neutral > 0)
+    }
+}
+
+/// `f - omega Gu`.
+pub(super) fn residual<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64) -> Vec<f64> {
+    let (mut rate, mut spin) = (vec![0.0; shape.len()], vec![0.0; shape.len()]);
+    VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
+    body.spin(shape, &mut spin);
+    add(&mut rate, -omega, &spin);
+    rate
+}

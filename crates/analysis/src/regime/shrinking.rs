@@ -1,0 +1,151 @@
+//! Does a curve of returns shrink onto a stable periodic orbit?
+//!
+//! Beside a bifurcation of a torus the returns of an orbit fill a closed curve that shrinks as slowly as the multiplier of the periodic orbit
+//! inside is near 1: by a tenth in a look. What they shrink by is compared with what the multipliers say.
+
+use super::look::{Extreme, Look};
+use super::recurrence::Recurrence;
+use super::settings::Settings;
+use crate::linear::{add, norm};
+use crate::periodic::{PeriodicGuess, PeriodicOrbit};
+use crate::symmetry::{align, wrap};
+use motiform_dynamics::{Equivariant, Watch};
+
+/// Most returns per period of the orbit inside.
+const LONGEST: usize = 8;
+
+/// Fewest and most returns that are looked at.
+const RETURNS: (usize, usize) = (80, 1000);
+
+/// Parts of a look whose mean sizes are compared.
+const PARTS: usize = 8;
+
+/// 97.5 % quantile of Student's t with `PARTS - 2` degrees of freedom (closed form for whole degrees: Abramowitz and Stegun 26.7.4).
+const QUANTILE: f64 = 2.446_911_851_145;
+
+/// A rate may differ from the one of the multipliers by this part: the curve has a size.
+const LIKE: f64 = 0.3;
+
+/// What the returns do beside the orbit inside.
+#[derive(Debug)]
+pub(super) enum Shrinking {
+    /// They shrink onto it as its multipliers say.
+    Onto(Box<PeriodicOrbit>, Recurrence),
+    /// It is stable, and the look is too short to tell whether they shrink.
+    Unclear,
+    /// They do not: it is unstable, there is none, or they stay away from it.
+    No,
+}
+
+/// Whether the returns of a look shrink onto a stable periodic orbit.
+pub(super) fn shrinking<B: Equivariant + ?Sized>(
+    body: &B,
+    look: &Look,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Shrinking {
+    let minima = look.minima();
+    let last = &minima[minima.len().saturating_sub(RETURNS.1)..];
+    if last.len() < RETURNS.0 {
+        return Shrinking::No;
+    }
+    let Some((orbit, recurrence)) = inside(body, last, settings, watch) else { return Shrinking::No };
+    if !orbit.is_stable() {
+        return Shrinking::No;
+    }
+    let Some(centre) = minimum_of(body, &orbit, last[last.len() - 1], settings, watch) else {
+        return Shrinking::No;
+    };
+    let step = if recurrence.mirrored { 2 * recurrence.returns } else { recurrence.returns };
+    let sizes: Vec<(f64, f64)> = last
+        .iter()
+        .rev()
+        .step_by(step)
+        .map(|minimum| (minimum.t, libm::log(align(body, &minimum.shape, &centre, false).distance)))
+        .collect();
+    let Some((rate, error)) = slope(&sizes) else { return Shrinking::No };
+    let expected = libm::log(orbit.growth()) / orbit.time;
+    let like = (rate - expected).abs() <= error + LIKE * expected.abs();
+    match (rate + error < 0.0, like) {
+        (true, true) => Shrinking::Onto(Box::new(orbit), recurrence),
+        (false, true) => Shrinking::Unclear,
+        (_, false) => Shrinking::No,
+    }
+}
+
+/// The periodic orbit in the middle of the returns, if Newton's method finds one: from the mean of those shapes that are alike.
+fn inside<B: Equivariant + ?Sized>(
+    body: &B,
+    minima: &[&Extreme],
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Option<(PeriodicOrbit, Recurrence)> {
+    let images = if body.symmetry().mirror { &[false, true][..] } else { &[false] };
+    let pairs = (1..=LONGEST).flat_map(|returns| images.iter().map(move |&mirrored| (returns, mirrored)));
+    let apart = |&(returns, mirrored): &(usize, bool)| {
+        let last = &minima[minima.len() - 3 * LONGEST..];
+        let pairs = last[returns..].iter().zip(last);
+        pairs.map(|(a, b)| align(body, &a.shape, &b.shape, mirrored).distance.powi(2)).sum::<f64>()
+            / (last.len() - returns) as f64
+    };
+    let (returns, mirrored) = pairs.min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+    let (last, before) = (minima[minima.len() - 1], minima[minima.len() - 1 - returns]);
+    let (mut mean, mut count, mut time) = (vec![0.0; last.shape.len()], 0.0, 0.0);
+    for (k, pair) in minima.windows(returns + 1).rev().step_by(returns).enumerate() {
+        let alike = align(body, &last.shape, &pair[returns].shape, mirrored && k % 2 == 1);
+        let mut shape = pair[returns].shape.clone();
+        if mirrored && k % 2 == 1 {
+            body.mirror(&mut shape);
+        }
+        body.rotate(alike.angle, &mut shape);
+        add(&mut mean, 1.0, &shape);
+        time += pair[returns].t - pair[0].t;
+        count += 1.0;
+    }
+    mean.iter_mut().for_each(|x| *x /= count);
+    let time = time / count;
+    let angle = align(body, &last.shape, &before.shape, mirrored).angle;
+    let guess = PeriodicGuess { shape: &mean, time, angle: wrap(angle), mirrored };
+    let mut effort = settings.first_look.max(0.25 * (last.t - minima[0].t));
+    let orbit = PeriodicOrbit::find_within(body, &guess, &settings.flow(), &mut effort, watch)?;
+    Some((orbit, Recurrence { returns, mirrored, time, angle }))
+}
+
+/// The minimum of the size on the orbit that is nearest to `near`.
+fn minimum_of<B: Equivariant + ?Sized>(
+    body: &B,
+    orbit: &PeriodicOrbit,
+    near: &Extreme,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Option<Vec<f64>> {
+    let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape).ok()?;
+    let span = 1.1 * orbit.period();
+    let look = Look::take(body, flow.as_mut(), span, &settings.request(span, body.dim()), watch).ok()?;
+    let away = |minimum: &&&Extreme| align(body, &near.shape, &minimum.shape, false).distance;
+    let minima = look.minima();
+    let nearest = minima.iter().min_by(|a, b| away(a).total_cmp(&away(b)))?;
+    (norm(&nearest.shape) > 0.0).then(|| nearest.shape.clone())
+}
+
+/// The slope of a line through the means of parts of these points, with its 95 % error.
+fn slope(points: &[(f64, f64)]) -> Option<(f64, f64)> {
+    let part = points.len() / PARTS;
+    if part < 3 {
+        return None;
+    }
+    let mean = |part: &[(f64, f64)], of: fn(&(f64, f64)) -> f64| {
+        part.iter().map(of).sum::<f64>() / part.len() as f64
+    };
+    let means: Vec<(f64, f64)> = points
+        .chunks_exact(part)
+        .take(PARTS)
+        .map(|part| (mean(part, |p| p.0), mean(part, |p| p.1)))
+        .collect();
+    let (t, x) = (mean(&means, |p| p.0), mean(&means, |p| p.1));
+    let width: f64 = means.iter().map(|p| (p.0 - t) * (p.0 - t)).sum();
+    let slope = means.iter().map(|p| (p.0 - t) * (p.1 - x)).sum::<f64>() / width;
+    let rest: f64 = means.iter().map(|p| (p.1 - x - slope * (p.0 - t)).powi(2)).sum();
+    let error = QUANTILE * libm::sqrt(rest / (PARTS as f64 - 2.0) / width);
+    (slope.is_finite() && error.is_finite()).then_some((slope, error))
+}

@@ -1,0 +1,83 @@
+//! Whether two answers say the same.
+
+use super::request::{Answer, Request};
+use std::fmt;
+
+/// The outcome of a comparison.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Judged {
+    Same,
+    /// One of the answers is 'undetermined'.
+    Undecided,
+    Contradiction(String),
+}
+
+impl fmt::Display for Judged {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Same => f.write_str("same"),
+            Self::Undecided => f.write_str("undecided"),
+            Self::Contradiction(why) => write!(f, "CONTRADICTION {why}"),
+        }
+    }
+}
+
+/// Exponents may differ by this many times the sum of their errors: those of chaos are 95 % intervals, and hundreds of them are compared.
+const ERRORS: f64 = 2.0;
+
+/// Exponents that are compared, from the largest.
+const LEADING: usize = 8;
+
+/// Numbers without a stated error: relative difference of those of a steady or periodic motion. (The tolerance of the cell is 1e-6.)
+const SAME: f64 = 1e-4;
+
+/// Judges two answers to requests in their own units.
+pub(crate) fn judge(base: &Answer, other: &Answer, asked: &Request, also: &Request) -> Judged {
+    same(base, other, also.time / asked.time, also.length / asked.length)
+}
+
+/// Judges two answers; the second one is in units in which times are `time` and lengths `length` times as large.
+pub(crate) fn same(base: &Answer, other: &Answer, time: f64, length: f64) -> Judged {
+    let names = (base.regime(), other.regime());
+    if names.0 == "undetermined" || names.1 == "undetermined" {
+        return Judged::Undecided;
+    }
+    if names.0 != names.1 {
+        return Judged::Contradiction(format!("{} and {}", names.0, names.1));
+    }
+    if !matches!(names.0, "chaotic" | "rectangular" | "blow-up") {
+        // a velocity is an amplitude where z1 is the velocity: its unit is that of amplitudes, whatever the unit of time
+        for (path, unit) in [("/period", time), ("/speed/mean", length), ("/turning_rate", 1.0 / time)] {
+            let (Some(x), Some(y)) = (base.number(path), other.number(path)) else { continue };
+            let (x, y) = (x.abs() * unit, y.abs());
+            if (x - y).abs() > SAME * x.abs().max(y.abs()) + 1e-9 {
+                return Judged::Contradiction(format!("{path} {x} and {y}"));
+            }
+        }
+    }
+    exponents(base, other, time)
+}
+
+/// Compares exponents, as many as both answers have. A further silent mode adds its own: those of the shorter list must be in the longer one.
+fn exponents(base: &Answer, other: &Answer, time: f64) -> Judged {
+    let scaled: Vec<(f64, f64)> = base.exponents().iter().map(|(x, e)| (x / time, e / time)).collect();
+    let (mut few, mut many) = (scaled, other.exponents());
+    // the last modes of a truncation decay at rates of their own
+    few.truncate(LEADING);
+    many.truncate(2 * LEADING);
+    if few.len() > many.len() {
+        std::mem::swap(&mut few, &mut many);
+    }
+    if few.len() == many.len() || few.len() == 1 {
+        many.truncate(few.len());
+    }
+    for &(x, error) in &few {
+        let fits = |&(y, other): &(f64, f64)| (x - y).abs() <= ERRORS * (error + other) + 1e-12;
+        if !many.iter().any(fits) {
+            let near = |a: &&(f64, f64), b: &&(f64, f64)| (a.0 - x).abs().total_cmp(&(b.0 - x).abs());
+            let nearest = many.iter().min_by(near);
+            return Judged::Contradiction(format!("exponent {x} +- {error}, nearest {nearest:?}"));
+        }
+    }
+    Judged::Same
+}
