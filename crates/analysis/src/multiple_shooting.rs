@@ -9,7 +9,7 @@
 
 use crate::equilibrium::{matrix_of, neutral_direction};
 use crate::linear::{add, basis, complement, norm, solve};
-use crate::multipliers::errors;
+use crate::multipliers::errors_of_product;
 use crate::periodic::{Flow, PeriodicOrbit, back, is_whole};
 use crate::product::eigenvalues_of_product;
 use crate::symmetry::wrap;
@@ -205,14 +205,13 @@ impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
             return None;
         }
         let multipliers = eigenvalues_of_product(&maps)?;
-        let whole = maps.iter().skip(1).fold(maps[0].clone(), |whole, map| map * whole);
         Some(PeriodicOrbit {
             shape: self.shapes[0].clone(),
             time: self.time,
             angle: wrap(self.angle),
             mirrored: self.mirrored,
             residual,
-            errors: errors(&whole, &multipliers, accuracy),
+            errors: errors_of_product(&maps, &multipliers, accuracy),
             multipliers,
         })
     }

@@ -2,6 +2,8 @@
 
 use crate::graded::refined;
 use crate::linear::{ComplexPair, eigenvalues};
+use crate::lyapunov::SplitMix;
+use crate::product::eigenvalues_of_product;
 use nalgebra::DMatrix;
 
 /// The eigenvalues of a reduced map, largest modulus first.
@@ -23,4 +25,26 @@ pub(crate) fn errors(map: &DMatrix<f64>, values: &[ComplexPair], accuracy: f64) 
         refined(map, &uncertain, *value).map_or(most, |found| found.error.min(most))
     };
     values.iter().map(error).collect()
+}
+
+/// Changes of the factors that are tried.
+const TRIES: u64 = 4;
+
+/// How far the eigenvalues `values` of a product of maps may be away where every entry of each map is wrong by `accuracy` of itself: twice
+/// what some random changes of that size make of them. Infinite where one of the changes leaves no eigenvalues.
+pub(crate) fn errors_of_product(maps: &[DMatrix<f64>], values: &[ComplexPair], accuracy: f64) -> Vec<f64> {
+    let modulus = |value: &ComplexPair| libm::hypot(value.0, value.1);
+    let mut errors: Vec<f64> = values.iter().map(|value| accuracy * modulus(value)).collect();
+    for seed in 0..TRIES {
+        let mut random = SplitMix(100 + seed);
+        let changed: Vec<DMatrix<f64>> =
+            maps.iter().map(|map| map.map(|x| x * (1.0 + accuracy * random.next().signum()))).collect();
+        let Some(others) = eigenvalues_of_product(&changed) else {
+            return vec![f64::INFINITY; values.len()];
+        };
+        for ((error, value), other) in errors.iter_mut().zip(values).zip(&others) {
+            *error = error.max(2.0 * (modulus(value) - modulus(other)).abs());
+        }
+    }
+    errors
 }

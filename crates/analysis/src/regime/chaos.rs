@@ -74,6 +74,11 @@ impl Witness {
         }
     }
 
+    /// Whether the returns drift or shrink, and the 0-1 test sees order.
+    pub(super) fn shrinks_orderly(&self) -> bool {
+        self.stationary == Some(false) && self.sees_order()
+    }
+
     /// Whether the 0-1 test sees order. It may be right, or blind to weak chaos in narrow bands.
     fn sees_order(&self) -> bool {
         self.zero_one.is_some_and(|k| k < ORDER)

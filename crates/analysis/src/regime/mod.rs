@@ -19,6 +19,7 @@ mod repeats;
 mod returns;
 mod search;
 mod settings;
+mod shortest;
 mod shrinking;
 mod stay;
 mod steady_turns;

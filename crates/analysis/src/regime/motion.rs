@@ -4,6 +4,7 @@ use super::settings::Settings;
 use super::verdict::Spread;
 use crate::linear::norm;
 use crate::symmetry::wrap;
+use crate::{Estimate, series_mean};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::model::velocity;
 use motiform_dynamics::{Equivariant, Request, Sink, Watch};
@@ -94,7 +95,22 @@ impl Path {
         let mean = time_mean(&self.times, &speeds);
         let min = speeds.iter().copied().fold(f64::INFINITY, f64::min);
         let max = speeds.iter().copied().fold(0.0, f64::max);
-        (!speeds.is_empty()).then_some(Spread { mean, min, max })
+        (!speeds.is_empty()).then_some(Spread { mean, min, max, error: None })
+    }
+
+    /// As [`Path::speed`] for a part of a motion that does not repeat, with the error of the mean.
+    pub(super) fn sampled_speed(&self) -> Option<Spread> {
+        let error = series_mean(&self.speeds()).ok().map(|mean| mean.error).filter(|error| error.is_finite());
+        self.speed().map(|speed| Spread { error, ..speed })
+    }
+
+    /// The mean turning rate of such a part, with its error (infinite where the part is too short for one).
+    pub(super) fn sampled_turning_rate(&self) -> Option<Estimate> {
+        let (heading, value) = (self.heading()?, self.turning_rate()?);
+        let steps = heading.windows(2).zip(self.times.windows(2));
+        let rates: Vec<f64> = steps.map(|(angle, t)| (angle[1] - angle[0]) / (t[1] - t[0])).collect();
+        let error = series_mean(&rates).map_or(f64::INFINITY, |mean| mean.error);
+        Some(Estimate { value, error })
     }
 
     /// Mean turning rate of the heading (rad per model time); `None` where the body stops on the way.

@@ -4,6 +4,7 @@ use super::family::within_family;
 use super::heteroclinic::attracting_saddle;
 use super::look::{Extreme, Look, Rest};
 use super::settings::Settings;
+use super::shortest::shortest;
 use crate::isotropy::Isotropy;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit, is_small};
 use crate::symmetry::{align, wrap};
@@ -244,41 +245,4 @@ fn is_of_the_flow<B: Equivariant + ?Sized>(
     let request = settings.request(orbit.time, body.dim());
     let Ok(look) = Look::take(body, flow.as_mut(), orbit.time, &request, watch) else { return true };
     attracting_saddle(body, &look.slowest).is_none()
-}
-
-/// The same orbit with its shortest period: more returns than one may have been tried first.
-fn shortest<B: Equivariant + ?Sized>(
-    body: &B,
-    orbit: PeriodicOrbit,
-    recurrence: Recurrence,
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> (PeriodicOrbit, Recurrence) {
-    if recurrence.returns == 1 && (recurrence.mirrored || !body.symmetry().mirror) {
-        return (orbit, recurrence);
-    }
-    let found = || -> Option<(PeriodicOrbit, Recurrence)> {
-        let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape).ok()?;
-        let request = settings.request(2.2 * orbit.time, body.dim());
-        let look = Look::take(body, flow.as_mut(), 2.2 * orbit.time, &request, watch).ok()?;
-        let diameter = look.diameter(body);
-        let minima = look.minima();
-        let (start, later) = minima.split_first()?;
-        let images = if body.symmetry().mirror { &[true, false][..] } else { &[false] };
-        for (returns, minimum) in later.iter().enumerate() {
-            for &mirrored in images {
-                let near = align(body, &minimum.shape, &start.shape, mirrored);
-                let time = minimum.t - start.t;
-                let shorter = time < 0.75 * orbit.time || mirrored && !orbit.mirrored;
-                if near.distance < 1e-2 * diameter && shorter {
-                    let guess = PeriodicGuess { shape: &start.shape, time, angle: near.angle, mirrored };
-                    let found = PeriodicOrbit::find(body, &guess, &settings.flow(), watch)?;
-                    let recurrence = Recurrence { returns: returns + 1, mirrored, time, angle: near.angle };
-                    return found.is_stable().then_some((found, recurrence));
-                }
-            }
-        }
-        None
-    };
-    found().unwrap_or((orbit, recurrence))
 }

@@ -27,6 +27,14 @@ pub(super) fn stationary(minima: &[&Extreme]) -> Option<bool> {
     same_set(early, late, 1e-9 * spread(&points)).ok()
 }
 
+/// The standard deviation of the sizes at the minima: how large the set of returns is.
+pub(super) fn width(minima: &[&Extreme]) -> f64 {
+    let sizes: Vec<f64> = latest(minima).iter().map(|minimum| minimum.size).collect();
+    let count = sizes.len().max(1) as f64;
+    let mean = sizes.iter().sum::<f64>() / count;
+    libm::sqrt(sizes.iter().map(|size| (size - mean) * (size - mean)).sum::<f64>() / count)
+}
+
 fn latest<'m, 'e>(minima: &'m [&'e Extreme]) -> &'m [&'e Extreme] {
     &minima[minima.len().saturating_sub(MOST)..]
 }

@@ -10,7 +10,7 @@ use super::shrinking::{Shrinking, shrinking};
 use super::stay::Stay;
 use super::steady_turns::SteadyTurns;
 use super::verdict::{Attractor, Regime, Verdict};
-use super::{chaos, words};
+use super::{chaos, returns, words};
 use crate::equilibrium::RelativeEquilibrium;
 use crate::isotropy::Isotropy;
 use crate::linear::norm;
@@ -20,6 +20,9 @@ use motiform_dynamics::{Equivariant, Outcome, Watch};
 
 /// An equilibrium is sought during a look where the reduced shape changes slower than this, against its fastest.
 const SETTLED: f64 = 1e-3;
+
+/// Closed curves of returns whose sizes differ by less than this part are the same.
+const AS_LARGE: f64 = 0.01;
 
 /// What a search wants to see next.
 #[derive(Debug)]
@@ -69,6 +72,8 @@ pub(super) struct Search {
     sought: f64,
     /// What the latest looks and runs have in common.
     repeats: Repeats,
+    /// How large the closed curve was that the returns of the last look lay on.
+    torus: Option<f64>,
     /// What kept the last look from deciding.
     missing: String,
     /// What the next observation is for.
@@ -105,6 +110,7 @@ impl Search {
             arrived: None,
             sought: f64::INFINITY,
             repeats: Repeats::default(),
+            torus: None,
             missing: "no motion had established itself".to_owned(),
             pending: Pending::Look,
         };
@@ -325,27 +331,45 @@ impl Search {
         if let Some(verdict) = chaos.filter(|_| !symmetric) {
             return Ok(self.described(verdict, body, look.end - look.start, watch)?.into());
         }
-        let mut unclear = false;
-        if let Some(verdict) = chaos::torus(&run, &witness, self.time) {
-            match shrinking(body, &look, &self.settings, watch) {
-                Shrinking::No => {
-                    return Ok(self.described(verdict, body, look.end - look.start, watch)?.into());
-                }
-                Shrinking::Onto(orbit, recurrence) => {
-                    let settings = &self.settings;
-                    return Ok(words::periodic(body, &orbit, &recurrence, settings, self.time, watch)?.into());
-                }
-                Shrinking::Unclear => unclear = true,
-            }
+        if let Some(verdict) = self.on_a_curve(body, &look, &run, &witness, watch)? {
+            return Ok(verdict.into());
         }
-        self.missing = if unclear {
-            "the returns lie on a curve beside a stable periodic orbit, and whether they shrink onto it is not seen".to_owned()
-        } else if symmetric {
-            "the orbit keeps an exact symmetry, and neighbouring orbits leave it".to_owned()
-        } else {
-            chaos::missing(&self.growth, &witness)
-        };
+        if symmetric {
+            "the orbit keeps an exact symmetry, and neighbouring orbits leave it"
+                .clone_into(&mut self.missing);
+        } else if self.torus.is_none() {
+            self.missing = chaos::missing(&self.growth, &witness);
+        }
         self.again(body, watch)
+    }
+
+    /// The verdict where the returns lie on a closed curve: a periodic orbit that they shrink onto, or a torus. A torus is seen in two looks in a
+    /// row, and is as large in both: beside an unstable one an orbit stays for thousands of turns.
+    fn on_a_curve<B: Equivariant + ?Sized>(
+        &mut self,
+        body: &B,
+        look: &Look,
+        run: &Lyapunov,
+        witness: &chaos::Witness,
+        watch: &dyn Watch,
+    ) -> Result<Option<Verdict>> {
+        let torus = chaos::torus(run, witness, self.time);
+        let before = self.torus.take();
+        if torus.is_none() && !witness.shrinks_orderly() {
+            return Ok(None);
+        }
+        if let Shrinking::Onto(orbit, recurrence) = shrinking(body, look, &self.settings, watch) {
+            return words::periodic(body, &orbit, &recurrence, &self.settings, self.time, watch).map(Some);
+        }
+        let Some(verdict) = torus else { return Ok(None) };
+        let width = returns::width(&look.minima());
+        if before.is_some_and(|before| (width / before - 1.0).abs() < AS_LARGE) {
+            return self.described(verdict, body, look.end - look.start, watch).map(Some);
+        }
+        self.torus = Some(width);
+        "the returns lie on a closed curve that was not seen twice with the same size"
+            .clone_into(&mut self.missing);
+        Ok(None)
     }
 
     /// Twice as long, or the end of the budget. In a large system, where model time costs most, looks do not grow while an exponent is

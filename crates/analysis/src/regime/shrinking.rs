@@ -23,18 +23,16 @@ const PARTS: usize = 8;
 /// 97.5 % quantile of Student's t with `PARTS - 2` degrees of freedom (closed form for whole degrees: Abramowitz and Stegun 26.7.4).
 const QUANTILE: f64 = 2.446_911_851_145;
 
-/// A rate may differ from the one of the multipliers by this part: the curve has a size.
+/// A rate may be slower than the one of the multipliers by this part: the curve has a size.
 const LIKE: f64 = 0.3;
 
 /// What the returns do beside the orbit inside.
 #[derive(Debug)]
 pub(super) enum Shrinking {
-    /// They shrink onto it as its multipliers say.
+    /// They shrink onto it, at least as fast as its multipliers say.
     Onto(Box<PeriodicOrbit>, Recurrence),
-    /// It is stable, and the look is too short to tell whether they shrink.
-    Unclear,
-    /// They do not: it is unstable, there is none, or they stay away from it.
-    No,
+    /// That is not seen: there is none, it is unstable, they stay away from it, or the look is too short to tell.
+    NotSeen,
 }
 
 /// Whether the returns of a look shrink onto a stable periodic orbit.
@@ -47,14 +45,14 @@ pub(super) fn shrinking<B: Equivariant + ?Sized>(
     let minima = look.minima();
     let last = &minima[minima.len().saturating_sub(RETURNS.1)..];
     if last.len() < RETURNS.0 {
-        return Shrinking::No;
+        return Shrinking::NotSeen;
     }
-    let Some((orbit, recurrence)) = inside(body, last, settings, watch) else { return Shrinking::No };
+    let Some((orbit, recurrence)) = inside(body, last, settings, watch) else { return Shrinking::NotSeen };
     if !orbit.is_stable() {
-        return Shrinking::No;
+        return Shrinking::NotSeen;
     }
     let Some(centre) = minimum_of(body, &orbit, last[last.len() - 1], settings, watch) else {
-        return Shrinking::No;
+        return Shrinking::NotSeen;
     };
     let step = if recurrence.mirrored { 2 * recurrence.returns } else { recurrence.returns };
     let sizes: Vec<(f64, f64)> = last
@@ -63,14 +61,14 @@ pub(super) fn shrinking<B: Equivariant + ?Sized>(
         .step_by(step)
         .map(|minimum| (minimum.t, libm::log(align(body, &minimum.shape, &centre, false).distance)))
         .collect();
-    let Some((rate, error)) = slope(&sizes) else { return Shrinking::No };
+    let Some((rate, error)) = slope(&sizes) else { return Shrinking::NotSeen };
     let expected = libm::log(orbit.growth()) / orbit.time;
-    let like = (rate - expected).abs() <= error + LIKE * expected.abs();
-    match (rate + error < 0.0, like) {
-        (true, true) => Shrinking::Onto(Box::new(orbit), recurrence),
-        (false, true) => Shrinking::Unclear,
-        (_, false) => Shrinking::No,
+    // a curve of some size shrinks faster than a small one beside the bifurcation in which a torus arises
+    let as_fast = rate - error <= (1.0 - LIKE) * expected;
+    if rate + error < 0.0 && as_fast {
+        return Shrinking::Onto(Box::new(orbit), recurrence);
     }
+    Shrinking::NotSeen
 }
 
 /// The periodic orbit in the middle of the returns, if Newton's method finds one: from the mean of those shapes that are alike.

@@ -172,6 +172,9 @@ pub struct Spread {
     pub min: f64,
     /// Largest value.
     pub max: f64,
+    /// 95 % error of the average; absent where it has the accuracy of the motion itself, or a part of the motion is too short for one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<f64>,
 }
 
 /// A classified motion. What has no meaning for the regime is absent.
@@ -202,6 +205,9 @@ pub struct Verdict {
     /// Mean turning rate (rad per model time): the heading's, over the motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turning_rate: Option<f64>,
+    /// Its 95 % error, where it is an average over a part of the motion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turning_error: Option<f64>,
     /// Period of the reduced motion (model time).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub period: Option<f64>,
@@ -275,6 +281,7 @@ impl Verdict {
             margin: None,
             speed: None,
             turning_rate: None,
+            turning_error: None,
             period: None,
             net_rotation: None,
             drift: None,

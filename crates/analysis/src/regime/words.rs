@@ -50,7 +50,7 @@ fn at_equilibrium<B: Equivariant + ?Sized>(
 ) -> Verdict {
     let mut verdict = Verdict::new(steady.regime(), attractor, why, time);
     let speed = steady.speed.value;
-    verdict.speed = Some(Spread { mean: speed, min: speed, max: speed });
+    verdict.speed = Some(Spread { mean: speed, min: speed, max: speed, error: Some(steady.speed.error) });
     verdict.turning_rate = steady.turning();
     let values = found.eigenvalues.iter().zip(&found.errors);
     let mut exponents: Vec<Estimate> =
@@ -166,7 +166,7 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     verdict.period = Some(orbit.period());
     verdict.net_rotation = Some(rotation);
     verdict.speed = path.speed();
-    verdict.exponents = super::floquet::exponents(body, orbit, settings, watch)?;
+    verdict.exponents = super::floquet::exponents(body, orbit, settings, watch);
     if path.moves() {
         verdict.drift = Some(path.drift());
         let straight = form.regime() == Regime::PulsatingStraight;
@@ -204,7 +204,9 @@ pub(super) fn along<B: Equivariant + ?Sized>(
     watch: &dyn Watch,
 ) -> Result<()> {
     let path = Path::follow(body, shape, time, SAMPLES, settings, watch)?;
-    verdict.speed = path.speed();
-    verdict.turning_rate = path.turning_rate();
+    verdict.speed = path.sampled_speed();
+    let turning = path.sampled_turning_rate();
+    verdict.turning_rate = turning.map(|rate| rate.value);
+    verdict.turning_error = turning.map(|rate| rate.error).filter(|error| error.is_finite());
     Ok(())
 }

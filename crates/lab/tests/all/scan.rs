@@ -42,7 +42,7 @@ impl Evaluate for Toy {
         model.eval(0.0, &start, &mut rate);
         let regime = if rate[0] > 0.0 { Regime::Zigzag } else { Regime::Straight };
         let verdict = Verdict::new(regime, Attractor::Periodic, format!("{:?}", rate[0]), start[0]);
-        let speed = Spread { mean: rate[1], min: -0.0, max: f64::MAX };
+        let speed = Spread { mean: rate[1], min: -0.0, max: f64::MAX, error: None };
         Ok(Some(Verdict { speed: Some(speed), period: (sample > 0).then_some(rate[2]), ..verdict }))
     }
 }

@@ -36,7 +36,7 @@ impl Boundary {
             closed: 0.0,
             length: 0.0,
             without: 0.0,
-            area: Spread { mean: 0.0, min: f64::MAX, max: f64::MIN },
+            area: Spread { mean: 0.0, min: f64::MAX, max: f64::MIN, error: None },
         };
         let mut shape = vec![0.0; with.dim()];
         for state in states {

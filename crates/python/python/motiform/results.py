@@ -49,6 +49,8 @@ class Spread:
     mean: float
     min: float
     max: float
+    error: float | None = None
+    """Half width of the 95 % confidence interval of the mean; None where the mean has the accuracy of the motion itself, or no error."""
 
 
 @dataclass(frozen=True)
@@ -72,6 +74,8 @@ class Saddle:
 
     out: float
     inward: float
+    error: float = 0.0
+    """The error of their sum."""
 
 
 @dataclass(frozen=True)
@@ -100,6 +104,8 @@ class Verdict:
     """Speed of the centre of mass (model length per model time)."""
     turning_rate: float | None = None
     """Mean turning rate of the heading (rad per model time)."""
+    turning_error: float | None = None
+    """Its half width of the 95 % confidence interval, where it is an average over a part of the motion."""
     period: float | None = None
     """Period of the reduced motion (model time)."""
     net_rotation: float | None = None

@@ -45,17 +45,36 @@ pub(crate) fn same(base: &Answer, other: &Answer, time: f64, length: f64) -> Jud
     if names.0 != names.1 {
         return Judged::Contradiction(format!("{} and {}", names.0, names.1));
     }
-    if !matches!(names.0, "chaotic" | "rectangular" | "blow-up") {
-        // a velocity is an amplitude where z1 is the velocity: its unit is that of amplitudes, whatever the unit of time
-        for (path, unit) in [("/period", time), ("/speed/mean", length), ("/turning_rate", 1.0 / time)] {
-            let (Some(x), Some(y)) = (base.number(path), other.number(path)) else { continue };
-            let (x, y) = (x.abs() * unit, y.abs());
-            if (x - y).abs() > SAME * x.abs().max(y.abs()) + 1e-9 {
-                return Judged::Contradiction(format!("{path} {x} and {y}"));
-            }
-        }
+    if let Some(wrong) = numbers(base, other, time, length) {
+        return Judged::Contradiction(wrong);
     }
     exponents(base, other, time)
+}
+
+/// The first number that differs by more than its errors; one without an error has the accuracy of a steady or periodic motion.
+fn numbers(base: &Answer, other: &Answer, time: f64, length: f64) -> Option<String> {
+    let repeats =
+        |answer: &Answer| matches!(answer.0["attractor"].as_str(), Some("equilibrium" | "periodic"));
+    let exact = repeats(base) && repeats(other);
+    // a velocity is an amplitude where z1 is the velocity: its unit is that of amplitudes, whatever the unit of time
+    for (path, error, unit) in [
+        ("/period", "/none", time),
+        ("/speed/mean", "/speed/error", length),
+        ("/turning_rate", "/turning_error", 1.0 / time),
+    ] {
+        let (Some(x), Some(y)) = (base.number(path), other.number(path)) else { continue };
+        let errors = (base.number(error), other.number(error));
+        let (x, y) = (x.abs() * unit, y.abs());
+        let allowed = match errors {
+            _ if exact => SAME * x.abs().max(y.abs()) + 1e-9,
+            (Some(e), Some(f)) => ERRORS * (e * unit + f),
+            _ => continue,
+        };
+        if (x - y).abs() > allowed {
+            return Some(format!("{path} {x} and {y}, allowed {allowed:.1e}"));
+        }
+    }
+    None
 }
 
 /// Compares exponents, as many as both answers have. A further silent mode adds its own: those of the shorter list must be in the longer one.

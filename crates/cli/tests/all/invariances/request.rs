@@ -49,7 +49,7 @@ impl Request {
     }
 
     /// The command line after the name of the command.
-    fn words(&self) -> String {
+    pub(crate) fn words(&self) -> String {
         let mut words = format!("{} --seed {}", self.model, self.seed);
         for (option, pairs) in [("--set", &self.set), ("--initial", &self.initial)] {
             for (name, value) in pairs {

@@ -1,0 +1,105 @@
+//! The shortest period of an orbit that came back after some multiple of it.
+
+use super::look::Look;
+use super::recurrence::Recurrence;
+use super::settings::Settings;
+use crate::periodic::{PeriodicGuess, PeriodicOrbit};
+use crate::symmetry::align;
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::{Equivariant, Request, Watch};
+
+/// Parts of the period after which the shape may be back already: extremes that a step passes over hide a return.
+const PARTS: usize = 8;
+
+/// Shapes nearer to each other than this part of the diameter may be the same.
+const NEAR: f64 = 1e-2;
+
+/// The same orbit with its shortest period: more returns than one may have been tried first.
+pub(super) fn shortest<B: Equivariant + ?Sized>(
+    body: &B,
+    orbit: PeriodicOrbit,
+    recurrence: Recurrence,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> (PeriodicOrbit, Recurrence) {
+    let (orbit, recurrence) = of_fewer_returns(body, orbit, recurrence, settings, watch);
+    match divided(body, &orbit, settings, watch) {
+        Some((part, parts)) => {
+            let returns = (recurrence.returns / parts).max(1);
+            let (mirrored, time, angle) = (part.mirrored, part.time, part.angle);
+            (part, Recurrence { returns, mirrored, time, angle })
+        }
+        None => (orbit, recurrence),
+    }
+}
+
+/// The same orbit, if its shape comes back after fewer returns to the section.
+fn of_fewer_returns<B: Equivariant + ?Sized>(
+    body: &B,
+    orbit: PeriodicOrbit,
+    recurrence: Recurrence,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> (PeriodicOrbit, Recurrence) {
+    if recurrence.returns == 1 && (recurrence.mirrored || !body.symmetry().mirror) {
+        return (orbit, recurrence);
+    }
+    let found = || -> Option<(PeriodicOrbit, Recurrence)> {
+        let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape).ok()?;
+        let request = settings.request(2.2 * orbit.time, body.dim());
+        let look = Look::take(body, flow.as_mut(), 2.2 * orbit.time, &request, watch).ok()?;
+        let diameter = look.diameter(body);
+        let minima = look.minima();
+        let (start, later) = minima.split_first()?;
+        let images = if body.symmetry().mirror { &[true, false][..] } else { &[false] };
+        for (returns, minimum) in later.iter().enumerate() {
+            for &mirrored in images {
+                let near = align(body, &minimum.shape, &start.shape, mirrored);
+                let time = minimum.t - start.t;
+                let shorter = time < 0.75 * orbit.time || mirrored && !orbit.mirrored;
+                if near.distance < NEAR * diameter && shorter {
+                    let guess = PeriodicGuess { shape: &start.shape, time, angle: near.angle, mirrored };
+                    let found = PeriodicOrbit::find(body, &guess, &settings.flow(), watch)?;
+                    let recurrence = Recurrence { returns: returns + 1, mirrored, time, angle: near.angle };
+                    return found.is_stable().then_some((found, recurrence));
+                }
+            }
+        }
+        None
+    };
+    found().unwrap_or((orbit, recurrence))
+}
+
+/// The orbit of a whole fraction of this one's time, if its shape is back after that, and the number of parts.
+fn divided<B: Equivariant + ?Sized>(
+    body: &B,
+    orbit: &PeriodicOrbit,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Option<(PeriodicOrbit, usize)> {
+    let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape).ok()?;
+    let mut shapes: Vec<(usize, Vec<f64>)> = Vec::new();
+    for parts in (2..=PARTS).rev() {
+        let request = Request { watch, ..settings.request(orbit.time / parts as f64, body.dim()) };
+        drive(flow.as_mut(), &request, &mut ()).ok()?;
+        shapes.push((parts, flow.state().to_vec()));
+    }
+    let away = |shape: &[f64]| align(body, shape, &orbit.shape, false).distance;
+    let diameter = shapes.iter().map(|(_, shape)| away(shape)).fold(0.0, f64::max);
+    let images = if body.symmetry().mirror { &[true, false][..] } else { &[false] };
+    for (parts, shape) in &shapes {
+        for &mirrored in images {
+            let near = align(body, shape, &orbit.shape, mirrored);
+            if near.distance >= NEAR * diameter {
+                continue;
+            }
+            let time = orbit.time / *parts as f64;
+            let guess = PeriodicGuess { shape: &orbit.shape, time, angle: near.angle, mirrored };
+            let found = PeriodicOrbit::find(body, &guess, &settings.flow(), watch);
+            if let Some(found) = found.filter(PeriodicOrbit::is_stable) {
+                return Some((found, *parts));
+            }
+        }
+    }
+    None
+}
