@@ -27,6 +27,11 @@ fn shim() -> &'static PathBuf {
     })
 }
 
+/// How many calls there are from one that fails to the next.
+pub(crate) fn every() -> usize {
+    std::env::var("MOTIFORM_FAULTS").ok().and_then(|text| text.parse().ok()).unwrap_or(23)
+}
+
 /// Runs the program with a fault at one call; whether it struck.
 pub(crate) fn struck(folder: &Folder, words: &str, kind: &str, at: usize) -> (Done, bool) {
     let mut command = folder.command(words);
