@@ -126,7 +126,7 @@ fn bodies() {
 #[test]
 fn chapters() {
     let folder = Folder::new();
-    let command = "reproduce fig2 equations --quick --threads 2 --out killed";
+    let command = "reproduce fig2 fig5 --quick --threads 2 --out killed";
     let out = folder.path("killed");
     assert!(kill_when(&folder, command, || items(&out) > 0 && out.join("report.html").exists()));
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
@@ -134,7 +134,7 @@ fn chapters() {
     let kept = contents(&out.join("_work"));
     assert!(matches!(folder.run(command).code, Some(0 | 1)));
     assert!(!kept.is_empty() && items(&out) == 0);
-    let done = folder.run("reproduce fig2 equations --quick --threads 2 --out whole");
+    let done = folder.run("reproduce fig2 fig5 --quick --threads 2 --out whole");
     assert!(matches!(done.code, Some(0 | 1)));
     assert!(contents(&out) == contents(&folder.path("whole")));
 }
