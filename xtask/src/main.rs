@@ -7,6 +7,7 @@ mod emulated;
 mod explorer;
 mod harness;
 mod mutants;
+mod parts;
 mod python;
 mod web;
 
@@ -46,6 +47,7 @@ const STEPS: &[(&str, &[&str])] = &[
         &["clippy", "--release", "--workspace", "--all-targets", "--all-features", "--", "-D", "warnings"],
     ),
     ("documentation", &["doc", "--release", "--workspace", "--no-deps", "--document-private-items"]),
+    ("build of the tests", &["test", "--release", "--workspace", "--no-run"]),
     ("tests", TESTS),
     ("PDF", &["test", "--release", "-p", "motiform-figures", "--features", "pdf", "--lib", "pdf"]),
 ];
@@ -65,9 +67,9 @@ fn main() -> ExitCode {
 fn run() -> Result<()> {
     match std::env::args().nth(1).as_deref() {
         Some("test") => {
-            STEPS.iter().try_for_each(|(name, arguments)| cargo(name, arguments))?;
-            explorer::test()?;
-            python::test()
+            let done = everything();
+            parts::print();
+            done
         }
         Some("quick") => cargo("tests", TESTS),
         Some("explorer") => explorer::test(),
@@ -82,6 +84,12 @@ fn run() -> Result<()> {
         Some(name) => harness::run(name, &std::env::args().skip(2).collect::<Vec<_>>()).unwrap_or_else(help),
         None => help(),
     }
+}
+
+fn everything() -> Result<()> {
+    STEPS.iter().try_for_each(|(name, arguments)| cargo(name, arguments))?;
+    explorer::test()?;
+    python::test()
 }
 
 fn help() -> Result<()> {
@@ -110,7 +118,8 @@ fn step(name: &str, command: &mut Command) -> Result<()> {
     let words = std::iter::once(command.get_program()).chain(command.get_args());
     let words: Vec<String> = words.map(|word| word.to_string_lossy().into_owned()).collect();
     eprintln!("== {name}: {}", words.join(" "));
-    let status = command.current_dir(root()?).status();
+    let folder = root()?;
+    let status = parts::timed(name, || command.current_dir(folder).status());
     if !status.with_context(|| format!("{} could not be started for {name}", words[0]))?.success() {
         bail!("{name} failed");
     }

@@ -4,7 +4,7 @@ use super::follow::Branches;
 use super::summary::summary;
 use super::table::{columns as table, sweep_columns};
 use motiform_files::store::mend;
-use motiform_files::{Folder, Kind, Opening, columns};
+use motiform_files::{Folder, Kind, Opening, columns, end_of_work};
 use motiform_lab::draw::Picture;
 use motiform_study::dataset::VERSION;
 use motiform_study::{BranchPlan, Error, input};
@@ -145,6 +145,9 @@ pub(crate) fn finish(
     folder.put(name, state)?;
     for picture in pictures {
         folder.put(&picture.name, &picture.bytes)?;
+    }
+    if complete {
+        end_of_work(folder);
     }
     folder.put(MANIFEST, manifest)?;
     Ok(if complete { folder.complete() } else { folder.settle() }?)

@@ -9,6 +9,7 @@ use super::sweep::{Sweeps, sweeps};
 use motiform_analysis::regime::{Course, Form, Regime};
 use motiform_continuation::{Branch, End, Motion, Point};
 use motiform_dynamics::{StopOnly, Watch};
+use motiform_files::Journal;
 use motiform_study::{BranchPlan, Error};
 use serde::{Deserialize, Serialize};
 
@@ -82,17 +83,18 @@ const COMPARED: usize = 8;
 /// # Errors
 /// [`Error::Start`]; what the models and the numerics refuse.
 pub fn follow(plan: &BranchPlan, before: Option<Branches>, watch: &dyn Watch) -> Result<Branches, Error> {
-    follow_kept(plan, before, &mut |_| Ok(()), watch)
+    follow_kept(plan, before, (&mut |_| Ok(()), &()), watch)
 }
 
-/// As [`follow()`]; `keep` gets what there is after each branch, all of it whole, so that nothing of it is lost however the program ends.
+/// As [`follow()`]; `keep` gets what there is after each branch, all of it whole, and the journal what is sampled ([`sweeps`]), so that nothing of it is
+/// lost however the program ends.
 ///
 /// # Errors
-/// As [`follow()`], and those of `keep`.
+/// As [`follow()`], and those of `keep` and of the journal.
 pub fn follow_kept(
     plan: &BranchPlan,
     before: Option<Branches>,
-    keep: &mut dyn FnMut(&Branches) -> Result<(), Error>,
+    (keep, journal): (&mut dyn FnMut(&Branches) -> Result<(), Error>, &dyn Journal),
     watch: &dyn Watch,
 ) -> Result<Branches, Error> {
     let bodies = Bodies::new(plan)?;
@@ -123,7 +125,7 @@ pub fn follow_kept(
     }
     let mut done = work.done;
     if plan.computation.samples > 0 && done.sweeps.is_none() {
-        done.sweeps = sweeps(plan, watch)?;
+        done.sweeps = sweeps(plan, journal, watch)?;
     }
     done.complete = done.sweeps.is_some() || plan.computation.samples == 0;
     Ok(done)

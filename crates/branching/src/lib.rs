@@ -13,6 +13,7 @@ pub mod draw;
 mod family;
 mod folder;
 mod follow;
+mod kept;
 mod known;
 mod origin;
 mod path;

@@ -1,10 +1,12 @@
 //! Motions sampled along a parameter, swept upwards and downwards: what a simulation shows, beside the branches.
 
 use crate::family::Bodies;
+use crate::kept::Kept;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::escape::norm;
 use motiform_dynamics::model::{turning_rate, velocity_and_acceleration};
 use motiform_dynamics::{Model, Request, Sink, StopOnly, Watch};
+use motiform_files::Journal;
 use motiform_lab::pool::each;
 use motiform_study::{BranchPlan, Error};
 use serde::{Deserialize, Serialize};
@@ -46,14 +48,17 @@ const OFF: f64 = 1e-6;
 /// early (by a blow-up). Means are weighted by `sin^4` over the time recorded, so that they are those of whole periods. The two
 /// sweeps run at the same time; the numbers do not depend on that. `None` if the watch stopped it.
 ///
+/// What is sampled goes to the journal every second and when the watch stops it; what the journal has is not sampled again.
+///
 /// # Errors
-/// What the model refuses.
-pub fn sweeps(plan: &BranchPlan, watch: &dyn Watch) -> Result<Option<Sweeps>, Error> {
+/// What the model refuses, and those of the journal.
+pub fn sweeps(plan: &BranchPlan, journal: &dyn Journal, watch: &dyn Watch) -> Result<Option<Sweeps>, Error> {
     let (count, along) = (plan.computation.samples, &plan.computation.along);
     let value = |k: usize| along.from + (along.to - along.from) * (k as f64 / (count - 1) as f64);
     let upwards: Vec<f64> = (0..count).map(value).collect();
     let downwards = upwards.iter().rev().copied().collect();
-    match each(&[upwards, downwards], 2, watch, |values| sweep(plan, values, watch)) {
+    let both = [("upwards.json", upwards), ("downwards.json", downwards)];
+    match each(&both, 2, watch, |(item, values)| sweep(plan, values, Kept::new(journal, item), watch)) {
         Ok(mut both) => {
             let down = both.pop().unwrap_or_default();
             Ok(both.pop().map(|up| Sweeps { up, down }))
@@ -63,25 +68,31 @@ pub fn sweeps(plan: &BranchPlan, watch: &dyn Watch) -> Result<Option<Sweeps>, Er
     }
 }
 
-fn sweep(plan: &BranchPlan, values: &[f64], watch: &dyn Watch) -> Result<Vec<SweepPoint>, Error> {
+fn sweep(
+    plan: &BranchPlan,
+    values: &[f64],
+    mut kept: Kept<'_>,
+    watch: &dyn Watch,
+) -> Result<Vec<SweepPoint>, Error> {
     let bodies = Bodies::new(plan)?;
-    let mut state: Option<Vec<f64>> = None;
-    let mut all = Vec::with_capacity(values.len());
-    for (number, &value) in values.iter().enumerate() {
+    let mut begun = kept.read(values);
+    for (number, &value) in values.iter().enumerate().skip(begun.points.len()) {
         let model = bodies.model(value)?;
-        let mut shape = match state.take() {
-            Some(shape) => shape,
+        let mut shape = match &begun.state {
+            Some(shape) => shape.clone(),
             None => start(plan, model.as_ref()),
         };
         push_off(&mut shape, number);
         let (point, end) = run(&bodies, (model.as_ref(), value), &shape, watch)?;
         if watch.stopped() {
+            kept.write(&begun)?;
             return Err(Error::Interrupted);
         }
-        all.push(point);
-        state = end;
+        begun.points.push(point);
+        begun.state = end;
+        kept.now_and_then(&begun)?;
     }
-    Ok(all)
+    Ok(begun.points)
 }
 
 fn start(plan: &BranchPlan, model: &dyn Model) -> Vec<f64> {

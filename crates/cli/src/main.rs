@@ -7,6 +7,8 @@ mod commands;
 mod output;
 mod progress;
 mod remedy;
+#[cfg(unix)]
+mod standard_output;
 
 use args::{Arguments, Command};
 use clap::Parser;
@@ -14,6 +16,9 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     prepare();
+    if let Err(error) = output::check() {
+        return output::report(&error);
+    }
     let arguments = Arguments::parse();
     let done = match arguments.command {
         Command::Models(options) => commands::models::run(&options),

@@ -57,6 +57,17 @@ pub(crate) fn print(text: &str) -> anyhow::Result<()> {
     }
 }
 
+/// Checks that there is a standard output, before anything is computed for it.
+pub(crate) fn check() -> anyhow::Result<()> {
+    #[cfg(unix)]
+    if crate::standard_output::was_closed() {
+        anyhow::bail!(
+            "standard output is closed: what this command says would be lost; give it a place, or `> /dev/null`"
+        );
+    }
+    Ok(())
+}
+
 /// A label of figures as text: 10^-3, z_1.
 pub(crate) fn plain(label: &str) -> String {
     Label::parse(label).terminal()

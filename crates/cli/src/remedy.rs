@@ -14,6 +14,9 @@ pub(crate) fn remedy(error: &Error) -> Option<&'static str> {
         Error::OtherScan { .. } | Error::OtherBranches { .. } => {
             "; choose another --out, or --force to replace it"
         }
+        Error::Unreadable { reason, .. } if reason.ends_with("(os error 24)") => {
+            "; allow more open files (ulimit -n)"
+        }
         Error::PartFailed { .. } | Error::InTheWay { .. } => "; --resume continues it",
         _ => return None,
     })

@@ -34,7 +34,9 @@ impl Audit {
             let path = folder.join(name);
             match path.symlink_metadata() {
                 Err(_) => missing.push(name.clone()),
-                Ok(_) if is_ours(&path, digests) => unchanged.push(name.clone()),
+                Ok(_) if is_ours(&path, digests).map_err(Error::unwritable(&path))? => {
+                    unchanged.push(name.clone())
+                }
                 Ok(_) => changed.push(name.clone()),
             }
         }

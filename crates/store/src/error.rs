@@ -123,18 +123,25 @@ impl Error {
         Self::WriteFailed { path: path.to_owned(), reason: reason.to_string() }
     }
 
-    /// [`Error::Unwritable`] of a path; [`Error::WriteFailed`] where there is no space.
+    /// [`Error::Unwritable`] of a path; [`Error::WriteFailed`] where there is no space, or the process may open no more files.
     pub(crate) fn unwritable(path: &Path) -> impl Fn(std::io::Error) -> Self {
         use std::io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
         move |reason| match reason.kind() {
             StorageFull | QuotaExceeded | FileTooLarge => Self::write_failed(path, reason),
+            _ if is_shortage(&reason) => Self::write_failed(path, reason),
             _ => Self::Unwritable { path: path.to_owned(), reason },
         }
     }
 }
 
+/// Whether the process has too little of something to look at a file: open files, of its own or of the system, or memory.
+pub(crate) fn is_shortage(error: &std::io::Error) -> bool {
+    cfg!(unix) && matches!(error.raw_os_error(), Some(24 | 23 | 12))
+}
+
 /// What to do about a failed write: it depends on the system's reason, which ends with its number.
-fn advice(reason: &str) -> &'static str {
+#[must_use]
+pub fn advice(reason: &str) -> &'static str {
     const ADVICE: [(&[&str], &str); 3] = [
         (&["(os error 28)", "(os error 122)", "(os error 27)"], "free some space and run again"),
         (&["(os error 36)", "(os error 63)"], "choose a shorter name"),

@@ -28,7 +28,7 @@ mod target;
 pub use audit::Audit;
 pub use digest::{sha256_file, sha256_hex};
 pub use earlier::kind_of;
-pub use error::Error;
+pub use error::{Error, advice};
 pub use folder::{Folder, Opening};
 pub use inventory::{INVENTORY, Inventory, is_figure};
 pub use kind::Kind;

@@ -128,7 +128,7 @@ pub(crate) fn forward(place: &Place, target: &Path, shown: &Path) -> Result<(), 
     let new = Inventory::read(&result)?.unwrap_or_default();
     for (name, digests) in &old.files {
         let moved_in = new.files.contains_key(name) && result.join(name).symlink_metadata().is_err();
-        if !moved_in && is_ours(&target.join(name), digests) {
+        if !moved_in && is_ours(&target.join(name), digests).map_err(failed)? {
             make_folders(&replaced, name).map_err(failed)?;
             fs::rename(target.join(name), replaced.join(name)).map_err(failed)?;
         }
@@ -170,7 +170,7 @@ pub(crate) fn retire(old: &Path, target: &Path) -> IoResult<()> {
 /// Removes what is ours in an old result; what is not goes to the new one, if its name is free there.
 fn take_away(old: &Path, target: &Path, inventory: &Inventory) -> IoResult<()> {
     for (name, digests) in &inventory.files {
-        if is_ours(&old.join(name), digests) {
+        if is_ours(&old.join(name), digests)? {
             fs::remove_file(old.join(name))?;
         }
     }

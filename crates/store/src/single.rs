@@ -67,7 +67,7 @@ impl StagedFile {
         let before = Inventory::read_file(&beside)?;
         if let (Some(_), Some(before)) = (&self.held, before) {
             let known = before.files.get(&name_of(&path)).cloned().unwrap_or_default();
-            if path.symlink_metadata().is_ok() && !is_ours(&path, &known) {
+            if path.symlink_metadata().is_ok() && !is_ours(&path, &known).map_err(failed)? {
                 return Err(Error::Changed { path: shown });
             }
             let mut both = inventory.clone();
@@ -132,7 +132,7 @@ fn prepare(target: &Target, kind: Kind, force: bool) -> Result<(Place, Option<Fi
         let Some(known) = known.filter(|_| target.path.is_file()) else {
             return Err(Error::NotOurs { path: shown() });
         };
-        if !is_ours(&target.path, &known) {
+        if !is_ours(&target.path, &known).map_err(Error::unwritable(&target.shown))? {
             return Err(Error::Changed { path: shown() });
         }
         held = Some(lock::lock_file(&beside, &target.shown)?);

@@ -1,7 +1,7 @@
 //! What is in a folder, compared with its inventory.
 
 use crate::place::name_of;
-use crate::{INVENTORY, Inventory, is_figure, sha256_file};
+use crate::{INVENTORY, Inventory, error, is_figure, sha256_file};
 use std::fs;
 use std::io::Result;
 use std::path::Path;
@@ -31,7 +31,7 @@ impl Survey {
     /// What is not listed, without reading files. Results inside a result have their own inventory.
     pub(crate) fn names(folder: &Path, inventory: &Inventory) -> Result<Vec<String>> {
         let mut survey = Self::default();
-        survey.walk(folder, "", inventory, &|_, _| true)?;
+        survey.walk(folder, "", inventory, &|_, _| Ok(true))?;
         survey.foreign.retain(|name| !(name.ends_with('/') && folder.join(name).join(INVENTORY).is_file()));
         survey.foreign.sort();
         Ok(survey.foreign)
@@ -42,7 +42,7 @@ impl Survey {
         folder: &Path,
         prefix: &str,
         inventory: &Inventory,
-        is_unchanged: &dyn Fn(&str, &[String]) -> bool,
+        is_unchanged: &dyn Fn(&str, &[String]) -> Result<bool>,
     ) -> Result<()> {
         for entry in fs::read_dir(folder.join(prefix))?.collect::<Result<Vec<_>>>()? {
             let Ok(name) = entry.file_name().into_string() else {
@@ -52,7 +52,7 @@ impl Survey {
             let name = format!("{prefix}{name}");
             let kind = entry.file_type()?;
             if let Some(digests) = inventory.files.get(&name) {
-                if !is_unchanged(&name, digests) {
+                if !is_unchanged(&name, digests)? {
                     if is_figure(&name) { self.edited.push(name) } else { self.changed.push(name) }
                 }
             } else if kind.is_dir() {
@@ -70,10 +70,19 @@ impl Survey {
     }
 }
 
-/// Whether a file is there as it was listed.
-pub(crate) fn is_ours(path: &Path, digests: &[String]) -> bool {
-    let is_file = path.symlink_metadata().is_ok_and(|there| there.is_file());
-    is_file && sha256_file(path).is_ok_and(|found| digests.contains(&found))
+/// Whether a file is there as it was listed. One that cannot be read is not.
+///
+/// # Errors
+/// The process may open no more files, or has no memory: then nothing is known of the file.
+pub(crate) fn is_ours(path: &Path, digests: &[String]) -> Result<bool> {
+    if !path.symlink_metadata().is_ok_and(|there| there.is_file()) {
+        return Ok(false);
+    }
+    match sha256_file(path) {
+        Ok(found) => Ok(digests.contains(&found)),
+        Err(error) if error::is_shortage(&error) => Err(error),
+        Err(_) => Ok(false),
+    }
 }
 
 /// Whether it is an incomplete file of this folder.

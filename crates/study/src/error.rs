@@ -196,7 +196,7 @@ pub enum Error {
         second: PathBuf,
     },
     /// Writing a part failed (for example because of a full disk).
-    #[error("writing {} failed: {reason}; complete parts are kept: free some space and resume the scan", .path.display())]
+    #[error("writing {} failed: {reason}; complete parts are kept; {}", .path.display(), motiform_store::advice(.reason))]
     PartFailed {
         /// The part.
         path: PathBuf,

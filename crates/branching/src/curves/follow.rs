@@ -101,7 +101,7 @@ pub fn follow_curves_kept(
             let mut kept = |branches: &Branches| {
                 keep(&Curves { branches: branches.clone(), curves: curves.clone(), complete: false })
             };
-            follow_kept(&plan.branches(), begun, &mut kept, &part)?
+            follow_kept(&plan.branches(), begun, (&mut kept, &()), &part)?
         }
     };
     let mut done = Curves { complete: branches.complete, branches, curves };

@@ -90,6 +90,14 @@ impl FitWork {
         if complete { serde_json::from_slice(&bytes).ok() } else { None }
     }
 
+    /// Leaves the folder as it is, where nothing is left to do.
+    ///
+    /// # Errors
+    /// The inventory cannot be written.
+    pub fn leave(&self) -> Result<()> {
+        Ok(self.files.settle()?)
+    }
+
     /// Where it is.
     #[must_use]
     pub fn path(&self) -> &Path {

@@ -8,7 +8,7 @@ use motiform_branching::draw::{Ordinate, draw_branches};
 use motiform_branching::{
     BranchFolder, Followed, SpecialEntry, default_folder, follow_kept, stretches, summary,
 };
-use motiform_files::{Folder, Opening};
+use motiform_files::{Folder, Journal, Opening};
 use motiform_lab::draw::Picture;
 use motiform_study::branches::{Along, origin};
 use motiform_study::curves::{CurveKind, Plane};
@@ -30,7 +30,8 @@ fn branches(options: &ContinueOptions, plan: BranchPlan) -> anyhow::Result<End> 
     let (files, before) = prepare(options, out, |path, opening| BranchFolder::open(path, &plan, opening))?;
     let watch = Progress::new(plan.computation.branches as f64, "branches");
     let mut keep = |found: &_| files.as_ref().map_or(Ok(()), |folder| BranchFolder::keep(found, folder));
-    let found = follow_kept(&plan, before, &mut keep, &watch);
+    let journal: &dyn Journal = files.as_ref().map_or(&(), |folder| folder);
+    let found = follow_kept(&plan, before, (&mut keep, journal), &watch);
     watch.finish();
     let (files, found) = or_abandon(files, found)?;
     let folder = BranchFolder { plan, found };

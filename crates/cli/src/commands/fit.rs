@@ -24,10 +24,11 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
     let open = |out: &PathBuf| FitWork::open(out, &sample, &cells, &settings, opening).map_err(plain_error);
     let mut work = options.cells.out.as_ref().map(open).transpose()?;
     work.iter().flat_map(FitWork::notes).for_each(|note| warn(&note));
-    if let Some((path, summary)) =
-        work.as_ref().and_then(|work| Some((work.path(), work.finished(!options.cells.no_report)?)))
+    if let Some((work, summary)) =
+        work.as_ref().and_then(|work| Some((work, work.finished(!options.cells.no_report)?)))
     {
-        let text = format!("complete       {}: nothing left to compute", path.display());
+        work.leave().map_err(plain_error)?;
+        let text = format!("complete       {}: nothing left to compute", work.path().display());
         print(&if options.cells.json { summary.to_string() } else { text })?;
         return Ok(End::Done);
     }

@@ -88,6 +88,17 @@ fn branches() {
     is_kept(command, "--resume", &size("branches.json"), 3);
 }
 
+/// What is sampled along the parameter is kept every second.
+#[test]
+fn sweeps() {
+    let command = "continue tensor --preset fig5a --along kappa2=0.7:1.6 --branches 1 --points 5 --samples 160 --no-figures";
+    let sampled = |folder: &Path| {
+        let entries = std::fs::read_dir(folder.join("_work")).into_iter().flatten().flatten();
+        entries.filter_map(|entry| Some(entry.metadata().ok()?.len() as usize)).sum()
+    };
+    is_kept(command, "--resume", &sampled, 2);
+}
+
 #[test]
 fn curves() {
     let command = "continue tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.9 --along kappa2=0.7:1.2 --branches 2 --points 60 \
@@ -115,7 +126,7 @@ fn bodies() {
 #[test]
 fn chapters() {
     let folder = Folder::new();
-    let command = "reproduce fig2 equations --quick --threads 2 --out killed";
+    let command = "reproduce fig2 fig5 --quick --threads 2 --out killed";
     let out = folder.path("killed");
     assert!(kill_when(&folder, command, || items(&out) > 0 && out.join("report.html").exists()));
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
@@ -123,7 +134,7 @@ fn chapters() {
     let kept = contents(&out.join("_work"));
     assert!(matches!(folder.run(command).code, Some(0 | 1)));
     assert!(!kept.is_empty() && items(&out) == 0);
-    let done = folder.run("reproduce fig2 equations --quick --threads 2 --out whole");
+    let done = folder.run("reproduce fig2 fig5 --quick --threads 2 --out whole");
     assert!(matches!(done.code, Some(0 | 1)));
     assert!(contents(&out) == contents(&folder.path("whole")));
 }

@@ -5,6 +5,7 @@ mod bits;
 mod bounds;
 mod budgets;
 mod cell;
+mod closed_output;
 mod common;
 mod continuation;
 mod contract;

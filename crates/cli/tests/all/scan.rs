@@ -194,7 +194,9 @@ fn a_full_disk() {
     assert!(full.stderr.starts_with("error: writing run/part-000"), "{}", full.stderr);
     assert!(
         full.stderr.contains("File too large")
-            && full.stderr.contains("free some space and resume the scan; --resume continues it")
+            && full
+                .stderr
+                .contains("complete parts are kept; free some space and run again; --resume continues it")
     );
     assert_eq!(names(&folder.path("run")), ["_inventory.jsonl", "_manifest.json"]);
     scan(&folder, &format!("{words} --resume"));

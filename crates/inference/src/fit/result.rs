@@ -5,7 +5,7 @@ use super::{Settings, covariance, likelihood};
 use crate::filter::{Problem, Theta};
 use crate::{Library, Scales, Term};
 use nalgebra::DMatrix;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// Half the width of a 95 % interval in standard errors.
 const NORMAL_95: f64 = 1.959_963_984_540_054;
@@ -19,8 +19,15 @@ pub struct Estimate {
     pub error: f64,
     /// Standard error from the scatter of the scores (sandwich): larger where the noise is not white.
     pub robust: f64,
-    /// 95 % interval from `error`.
+    /// 95 % interval from `error`; an end at infinity is `null` in JSON.
+    #[serde(deserialize_with = "ends")]
     pub interval: [f64; 2],
+}
+
+/// The ends of an interval, of which the lower one may be negative infinity and the upper one infinity.
+fn ends<'d, D: Deserializer<'d>>(from: D) -> Result<[f64; 2], D::Error> {
+    let [low, high] = <[Option<f64>; 2]>::deserialize(from)?;
+    Ok([low.unwrap_or(f64::NEG_INFINITY), high.unwrap_or(f64::INFINITY)])
 }
 
 /// A fitted coefficient.
@@ -208,4 +215,18 @@ fn noise(natural: &Natural, scales: &Scales, at_bound: [bool; 3]) -> Noise {
         Estimate { value, error: value * error, robust: value * size(&natural.robust), interval }
     });
     Noise { s, eta_v, eta_shape, at_bound }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test may fail")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_at_infinity_are_read_back() {
+        let estimate =
+            Estimate { value: 0.01, error: 5.0, robust: 2.0, interval: [f64::NEG_INFINITY, f64::INFINITY] };
+        let text = serde_json::to_string(&estimate).unwrap();
+        assert_eq!(serde_json::from_str::<Estimate>(&text).unwrap(), estimate);
+    }
 }

@@ -139,7 +139,8 @@ impl Folder {
         let path = self.shown.join(name);
         let digests = self.state().inventory.files.get(name).cloned();
         let listed = digests.is_some();
-        if is_ours(&self.path.join(name), &digests.unwrap_or_default()) {
+        let ours = is_ours(&self.path.join(name), &digests.unwrap_or_default());
+        if ours.map_err(|error| Error::write_failed(&path, error))? {
             return Ok(true);
         }
         if !is_figure(name) {
@@ -207,7 +208,7 @@ impl Folder {
                 .collect()
         };
         for (listed, digests) in files {
-            if is_ours(&self.path.join(&listed), &digests) {
+            if is_ours(&self.path.join(&listed), &digests).unwrap_or(false) {
                 let _ = fs::remove_file(self.path.join(&listed)); // what is left over harms nothing
             }
         }

@@ -2,14 +2,14 @@
 
 use super::{Tree, WRITERS, Writer, is_kept, litter, tree};
 use crate::common::Folder;
-use crate::faults::struck;
+use crate::faults::{every, struck};
 use crate::kills::{Random, kill, kills};
 use std::time::{Duration, Instant};
 
 /// Every n-th call that changes the file system fails, or is the last one: what is of others is there at once, and the next run works.
 #[test]
 fn things_of_others_survive_faults() {
-    let every: usize = std::env::var("MOTIFORM_FAULTS").ok().and_then(|text| text.parse().ok()).unwrap_or(23);
+    let every = every();
     for (number, writer) in WRITERS.iter().enumerate() {
         if writer.command() == "reproduce" && every > 1 {
             continue; // three seconds for each call
@@ -40,20 +40,23 @@ fn things_of_others_survive_faults() {
 }
 
 /// Only what was made and not yet locked may stay, for a minute.
-fn is_tidy(folder: &Folder, words: &str) {
+pub(super) fn is_tidy(folder: &Folder, words: &str) {
     let left: Vec<String> =
         folder.names().into_iter().filter(|name| name.contains("z.") && !name.ends_with(".new")).collect();
     assert!(left.is_empty(), "{left:?} after {words}");
 }
 
 /// The result has the bytes of one that nobody disturbed, and beside what is of others nothing else is there.
-fn is_whole(folder: &Folder, clean: &Tree, mine: &Tree, words: &str) {
+pub(super) fn is_whole(folder: &Folder, clean: &Tree, mine: &Tree, words: &str) {
     let mut now = tree(&folder.path("z"));
     now.retain(|name, _| !mine.contains_key(name));
     let names = |tree: &Tree| tree.keys().cloned().collect::<Vec<_>>();
     assert_eq!(names(&now), names(clean), "{words}");
     for (name, there) in clean {
-        assert!(now[name].1 == there.1, "{} is another after {words}", name.display());
+        let text =
+            |tree: &Tree| String::from_utf8_lossy(&tree[name].1).chars().take(2000).collect::<String>();
+        let shown = || format!("{}\nbefore {}", text(&now), text(clean));
+        assert!(now[name].1 == there.1, "{} is another after {words}: {}", name.display(), shown());
     }
 }
 

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 #![cfg(target_os = "linux")]
 
+mod few_files;
 mod interrupted;
 mod options;
 mod outputs;
@@ -61,7 +62,7 @@ pub(crate) const WRITERS: [Writer; 11] = [
         words: "fit cells.csv --interval 1 --pixel-size 1 --no-report --simulations 0 --draws 1",
         options: BOTH,
     },
-    Writer { words: "reproduce fig2 --quick", options: &[""] },
+    Writer { words: "reproduce fig3 --quick", options: &[""] },
 ];
 
 /// Commands that write nothing, or, as `figure`, only into folders that are there.

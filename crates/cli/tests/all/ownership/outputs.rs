@@ -12,17 +12,16 @@ fn outputs_of_every_shape() {
         let folder = writer.place();
         fs::create_dir_all(folder.path("disk/free")).unwrap();
         symlink("disk/run", folder.path("link")).unwrap();
-        for shape in ["a/b/c", "./d/", "link", "e/.", "f/../g"] {
+        for (number, shape) in ["a/b/c", "./d/", "link", "e/.", "f/../g"].into_iter().enumerate() {
             if shape == "f/../g" {
                 fs::create_dir(folder.path("f")).unwrap();
             }
             writer.run(&folder, &format!("--out {shape}"));
             let there = folder.path(shape.trim_end_matches('.')).join("_inventory.jsonl");
             assert!(there.is_file(), "{} {shape}", writer.words);
-            for option in writer.options {
-                writer.run(&folder, &format!("--out {shape} {option}"));
-                assert!(there.is_file(), "{} {shape} {option}", writer.words);
-            }
+            let option = writer.options[number % writer.options.len()]; // each with some shape
+            writer.run(&folder, &format!("--out {shape} {option}"));
+            assert!(there.is_file(), "{} {shape} {option}", writer.words);
         }
         assert!(folder.path("link").symlink_metadata().unwrap().is_symlink());
         assert!(folder.path("disk/run/_inventory.jsonl").is_file());
