@@ -1,6 +1,7 @@
 //! The velocity of the active cell as an expansion in the curvature.
 
 use super::super::claims::claim;
+use super::super::context::Context;
 use motiform_report::Claim;
 use motiform_study::initial::Uniform;
 use std::f64::consts::TAU;
@@ -71,12 +72,13 @@ fn size([x, y]: [f64; 2]) -> f64 {
     libm::hypot(x, y)
 }
 
-pub(super) fn claims() -> [Claim; 3] {
+pub(super) fn claims(context: &Context<'_>) -> [Claim; 3] {
     let mut random = Uniform::new(9, 0);
     let open: Vec<Shape> = (0..100).map(|_| Shape::random(&mut random)).collect();
     let of = |shapes: &[Shape], weight: fn([f64; 3]) -> f64| {
         let sizes: Vec<f64> = shapes.iter().map(|shape| size(shape.mean(weight))).collect();
-        (sizes.iter().copied().fold(0.0, f64::max), sizes.iter().sum::<f64>() / sizes.len() as f64)
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        (context.number(largest), context.number(sizes.iter().sum::<f64>() / sizes.len() as f64))
     };
     let (unclosed, first_open) = (of(&open, |_| 1.0), of(&open, |phi| 1.0 + phi[1]));
     let closed: Vec<Shape> = open.into_iter().map(Shape::closed).collect();
@@ -102,12 +104,12 @@ pub(super) fn claims() -> [Claim; 3] {
             "the same shapes, *κ* = (2π/*L*)(1 + ∂_s*φ*); below 10^{-12}",
             first.0 < 1e-12 && first_open.0 < 1e-12,
         ),
-        result(&closed),
+        result(context, &closed),
     ]
 }
 
 /// All orders of the expansion against the paper's result.
-fn result(closed: &[Shape]) -> Claim {
+fn result(context: &Context<'_>, closed: &[Shape]) -> Claim {
     let alpha = [0.7, -1.1, 0.4, -0.9];
     let expansion = |[_, first, second]: [f64; 3]| {
         let kappa = 1.0 + first;
@@ -118,7 +120,7 @@ fn result(closed: &[Shape]) -> Claim {
         let (a, b) = (shape.mean(expansion), shape.mean(paper));
         size([a[0] - b[0], a[1] - b[1]]) / size(b)
     };
-    let worst = closed.iter().map(apart).fold(0.0, f64::max);
+    let worst = context.number(closed.iter().map(apart).fold(0.0, f64::max));
     claim(
         &[74],
         "As a result **v** = ((2π)^2/*L*^3) ∫ d*s* [*α*_2(∂_s*φ*)^2 + *α*_3(∂_s^2*φ*)^2] **n**.",
