@@ -167,14 +167,19 @@ impl Context<'_> {
         // as in the paper, motions grow from small perturbations of a circle
         let study = Study { random: study.random.or(Some(Random::SMALL)), ..study.clone() };
         let plan = ScanPlan::new(&study)?;
+        let scan = || self.scanned(name, &plan);
+        let mut cells = self.kept.once(&format!("scan {name} {}", plan.hash()), scan)?;
+        cells.iter_mut().for_each(|cell| self.changed(cell, |fault| fault.cells));
+        Ok((plan, cells))
+    }
+
+    fn scanned(&self, name: &str, plan: &ScanPlan) -> Result<Vec<CellSummary>, Error> {
         let folder = self.out.join(format!("{name}{}-scan", if self.quick { "-quick" } else { "" }));
-        let scan = Scan::open(&folder, &plan, Shard::WHOLE, Opening::Resume)?;
+        let scan = Scan::open(&folder, plan, Shard::WHOLE, Opening::Resume)?;
         if !scan.run(&Classify, self.threads, self.watch)?.complete {
             return Err(Error::Interrupted);
         }
-        let mut cells: Vec<CellSummary> = cells(scan.folder())?.into_iter().flatten().collect();
-        cells.iter_mut().for_each(|cell| self.changed(cell, |fault| fault.cells));
-        Ok((plan, cells))
+        Ok(cells(scan.folder())?.into_iter().flatten().collect())
     }
 }
 

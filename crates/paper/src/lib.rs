@@ -99,6 +99,8 @@ pub struct Keeping<'k> {
     pub journal: &'k dyn Journal,
     /// Gets the report after each chapter; those that are missing say so.
     pub page: &'k (dyn Fn(&Report) -> Result<(), Error> + Sync),
+    /// What is computed once for all chapters.
+    pub kept: &'k Kept,
 }
 
 /// Rebuilds the paper, or parts of it. Scans are kept in folders inside `out`, so that an interrupted run goes on where it
@@ -107,7 +109,7 @@ pub struct Keeping<'k> {
 /// # Errors
 /// An unknown name; [`Error::Interrupted`] if the watch stopped it; files that cannot be written.
 pub fn reproduce(options: &Options, out: &Path, watch: &dyn Watch) -> Result<Report, Error> {
-    reproduce_kept(options, out, Keeping { journal: &(), page: &|_| Ok(()) }, watch)
+    reproduce_kept(options, out, Keeping { journal: &(), page: &|_| Ok(()), kept: &Kept::default() }, watch)
 }
 
 /// As [`reproduce`]; finished chapters survive the end of the program, however it ends.
@@ -126,7 +128,6 @@ pub fn reproduce_kept(
     let chapters: Vec<&Chapter> = paper.chain(FURTHER.iter().filter(named)).collect();
     let progress = Progress::new(watch, &chapters.iter().map(|chapter| chapter.work).collect::<Vec<_>>());
     let pages = Pages::new(&chapters, keeping);
-    let kept = Kept::default();
     // Much of a chapter is one long run after the other: chapters side by side keep all cores busy.
     let rebuild = |&(index, chapter): &(usize, &Chapter)| {
         let share = Share { progress: &progress, index };
@@ -135,7 +136,7 @@ pub fn reproduce_kept(
             quick: options.quick,
             threads: options.threads,
             watch: &share,
-            kept: &kept,
+            kept: keeping.kept,
             fault: None,
         };
         let section = match kept::read(keeping.journal, chapter.name, options.quick) {

@@ -6,7 +6,7 @@ use crate::progress::Progress;
 use motiform_figures::{DEFAULT_SCALE, png};
 use motiform_files::{Folder, Kind, Opening, end_of_work};
 use motiform_lab::draw::undrawable;
-use motiform_paper::{Keeping, Options, reproduce_kept};
+use motiform_paper::{Keeping, Kept, Options, reproduce_kept};
 use motiform_report::{Claim, Counts, Picture, Report};
 use motiform_study::Error;
 use serde_json::json;
@@ -30,7 +30,12 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     files.notes().iter().for_each(|note| warn(note));
     let watch = Progress::new(1000.0, "permille");
     let page = |report: &Report| Ok(files.put(PAGE, report.html().as_bytes())?);
-    let report = reproduce_kept(&wanted, out, Keeping { journal: &files, page: &page }, &watch);
+    let report = reproduce_kept(
+        &wanted,
+        out,
+        Keeping { journal: &files, page: &page, kept: &Kept::default() },
+        &watch,
+    );
     watch.finish();
     let report = match report {
         Err(Error::Interrupted) => {

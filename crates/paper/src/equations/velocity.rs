@@ -11,6 +11,7 @@ const POINTS: usize = 256;
 const MODES: usize = 6;
 
 /// A boundary of length L = 2 pi: `phi` by its modes `c_n cos(n s) + s_n sin(n s)`.
+#[derive(Clone)]
 struct Shape(Vec<[f64; 2]>);
 
 impl Shape {
@@ -48,6 +49,9 @@ impl Shape {
     fn closed(mut self) -> Self {
         for _ in 0..30 {
             let open = self.mean(|_| 1.0);
+            if size(open) < 1e-15 {
+                break;
+            }
             let mut columns = [[0.0; 2]; 2];
             for (i, column) in columns.iter_mut().enumerate() {
                 let (h, before) = (1e-6, self.0[0][i]);
