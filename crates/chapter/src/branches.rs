@@ -10,6 +10,7 @@ use motiform_lab::draw::sheet;
 use motiform_report::{Claim, ReportFigure, Section};
 use motiform_study::branches::{Along, BranchPlan, BranchSettings};
 use motiform_study::{Error, Study};
+use std::sync::Arc;
 
 /// Measured before, by another program (multiple shooting, checked by AUTO and by simulation): kind, kappa2, digits given.
 const KNOWN: [(&str, f64, f64); 5] = [
@@ -42,21 +43,25 @@ pub fn follow(
     context: &Context<'_>,
     (kappa2, kappa3): (f64, f64),
     (origin, branches): (Regime, usize),
-) -> Result<(BranchPlan, Branches), Error> {
+) -> Result<(BranchPlan, Arc<Branches>), Error> {
     let mut study = at(context, kappa2, kappa3)?;
     "Branches along *κ*_2".clone_into(&mut study.title);
     let along = Along { name: "kappa2".to_owned(), from: 0.3, to: 1.6 };
     let settings = BranchSettings { along, origin: Some(origin), points: 2000, branches, samples: 0 };
     let plan = BranchPlan::new(&study, &settings)?;
-    let found = motiform_branching::follow(&plan, None, &context.quiet())?;
-    if found.complete { Ok((plan, found)) } else { Err(Error::Interrupted) }
+    let follow = || {
+        let found = motiform_branching::follow(&plan, None, &context.quiet())?;
+        if found.complete { Ok(Arc::new(found)) } else { Err(Error::Interrupted) }
+    };
+    let found = context.kept.once(&format!("branches {}", plan.hash()), follow)?;
+    Ok((plan, found))
 }
 
 /// The branches at kappa3 = 0.1, from the zigzag.
 ///
 /// # Errors
 /// As [`follow`].
-pub fn slow(context: &Context<'_>) -> Result<(BranchPlan, Branches), Error> {
+pub fn slow(context: &Context<'_>) -> Result<(BranchPlan, Arc<Branches>), Error> {
     follow(context, (0.9, 0.1), (Regime::Zigzag, context.choose(8, 5)))
 }
 
@@ -67,7 +72,7 @@ pub fn slow(context: &Context<'_>) -> Result<(BranchPlan, Branches), Error> {
 pub fn add(
     context: &Context<'_>,
     section: &mut Section,
-    (plan, found): &(BranchPlan, Branches),
+    (plan, found): &(BranchPlan, Arc<Branches>),
 ) -> Result<(), Error> {
     let words = [
         (
@@ -79,7 +84,8 @@ pub fn add(
     for (ordinate, caption) in words {
         section.figures.push(ReportFigure::new(sheet(&branch_diagram(plan, found, ordinate)?)?, caption));
     }
-    section.claims.extend([ends(found), kinds(found), known(found), bistable(context, found)?]);
+    let own = |of: fn(&Context<'_>, &Branches) -> Claim| of(context, found);
+    section.claims.extend([own(ends), own(kinds), own(known), bistable(context, found)?]);
     Ok(())
 }
 
@@ -97,11 +103,12 @@ fn of(found: &Branches, regime: Regime) -> impl Iterator<Item = &Followed> {
     found.branches.iter().filter(move |followed| followed.motion().0 == Some(regime))
 }
 
-fn ends(found: &Branches) -> Claim {
+fn ends(context: &Context<'_>, found: &Branches) -> Claim {
     let own = found.special(0);
     let end = own.iter().find(|entry| entry.kind == "homoclinic").map_or(f64::NAN, |entry| entry.parameter);
     let straight = of(found, Regime::Straight).flat_map(Followed::samples);
     let hopf = straight.filter(|sample| matches!(sample.point.special, Some(Special::Hopf(_)))).count();
+    let hopf = context.number(hopf as f64);
     let straight = of(found, Regime::Straight).count();
     check(
         "The zigzag is not born from straight motion: its branch ends where its period becomes infinite, on a homoclinic orbit.",
@@ -112,12 +119,12 @@ fn ends(found: &Branches) -> Claim {
         &format!(
             "{HOW}. The end is one where the time grows as the logarithm of the distance, at the rate of the saddle"
         ),
-        end.is_finite() && straight == 1 && hopf == 0,
+        end.is_finite() && straight == 1 && hopf == 0.0,
     )
 }
 
 /// Which transitions are continuous.
-fn kinds(found: &Branches) -> Claim {
+fn kinds(context: &Context<'_>, found: &Branches) -> Claim {
     let words = |kind: &str| {
         let one = |entry: SpecialEntry| {
             format!("{:.6} ({})", entry.parameter, entry.criticality.unwrap_or("not followed"))
@@ -141,7 +148,7 @@ fn kinds(found: &Branches) -> Claim {
         &format!(
             "{HOW}. Supercritical: what begins is stable where the motion itself is not (Hopf: by the first Lyapunov coefficient)"
         ),
-        special(found, "symmetry-breaking").count() == 2
+        context.number(special(found, "symmetry-breaking").count() as f64) == 2.0
             && !breaks.is_empty()
             && begins.all(|entry| entry.criticality == Some("supercritical"))
             && special(found, "period-doubling").count() >= 1
@@ -149,10 +156,11 @@ fn kinds(found: &Branches) -> Claim {
     )
 }
 
-fn known(found: &Branches) -> Claim {
+fn known(context: &Context<'_>, found: &Branches) -> Claim {
     let off = |(kind, value, digits): (&'static str, f64, f64)| {
         let off =
             special(found, kind).map(|entry| (entry.parameter - value).abs()).fold(f64::INFINITY, f64::min);
+        let off = context.number(off);
         (format!("{kind} {value}: {off:.0e}"), off < digits)
     };
     let all = KNOWN.map(off);

@@ -10,6 +10,7 @@ use motiform_continuation::{CurvePoint, Degenerate, Motion, Point, Settings, Spe
 use motiform_figures::{BoundaryLine, LineStyle};
 use motiform_report::Claim;
 use motiform_study::Error;
+use std::sync::Arc;
 
 /// The box in which curves are followed.
 const KAPPA2: (f64, f64) = (0.02, 1.75);
@@ -56,7 +57,7 @@ const KINDS: [(&str, &str, LineStyle); 4] = [
 pub struct Curves {
     plane: Plane,
     settings: Settings,
-    all: Vec<WholeCurve>,
+    all: Arc<Vec<WholeCurve>>,
 }
 
 impl Curves {
@@ -68,19 +69,10 @@ impl Curves {
         let plane = Plane::new(&at(context, 0.9, SLOW)?, ["kappa2", "kappa3"])?;
         let over = Settings::over(KAPPA2.0, KAPPA2.1);
         let settings = Settings { largest_step: STEP, longest_time: LONGEST, ..over };
-        let mut curves = Self { plane, settings, all: Vec::new() };
-        let (_, fast) = follow(context, (1.4, FAST), (Regime::Straight, 1))?;
-        for (row, branches) in [(SLOW, found), (FAST, &fast)] {
-            let samples = branches.branches.iter().flat_map(Followed::samples);
-            for point in samples.map(|sample| &sample.point).filter(|point| point.special.is_some()) {
-                if !curves.all.iter().any(|curve| passes(curve, point, row)) {
-                    let (plane, settings) = (&curves.plane, &curves.settings);
-                    let curve = WholeCurve::through(plane, point, row, settings, KAPPA3, &context.quiet())?;
-                    curves.all.push(curve);
-                }
-            }
-        }
-        Ok(curves)
+        let all = context
+            .kept
+            .once("curves of Fig. 4", || Ok(Arc::new(all(context, (&plane, &settings), found)?)))?;
+        Ok(Self { plane, settings, all })
     }
 
     fn of<'s>(&'s self, kind: &'s str) -> impl Iterator<Item = &'s WholeCurve> {
@@ -100,7 +92,7 @@ impl Curves {
 
     /// What follows from the curves and the motions found on two lattices: over the plane, and about the zigzags.
     pub fn claims(&self, context: &Context<'_>, places: &[Place], arch: &[Place]) -> [Claim; 3] {
-        [self.straight(context, places), self.circular(), self.arch(arch)]
+        [self.straight(context, places), self.circular(context), self.arch(arch)]
     }
 
     /// Straight and circular motion on the two sides of the drift pitchfork.
@@ -108,11 +100,11 @@ impl Curves {
         let points = || self.of("pitchfork").flat_map(|curve| &curve.points);
         let step = (points().count() / PLACES).max(1);
         // The first point is at the edge of the plane, where what begins may lie outside.
-        let asked: Vec<Option<bool>> = points()
-            .skip(step / 2)
-            .step_by(step)
-            .map(|at| self.plane.is_continuous(at, &self.settings, &context.quiet()))
-            .collect();
+        let asked = context.kept.once("what begins on the curve of straight motion", || {
+            let ask = |at: &CurvePoint| self.plane.is_continuous(at, &self.settings, &context.quiet());
+            Ok(points().skip(step / 2).step_by(step).map(ask).collect::<Vec<_>>())
+        });
+        let asked: Vec<Option<bool>> = asked.unwrap_or_default();
         let continuous = asked.iter().filter(|is| **is == Some(true)).count();
         let line: Vec<[f64; 2]> = points().map(|point| point.parameters).collect();
         // beyond the box straight motion is unstable throughout
@@ -143,7 +135,7 @@ impl Curves {
     }
 
     /// The kind of the Hopf bifurcation of circular motion.
-    fn circular(&self) -> Claim {
+    fn circular(&self, context: &Context<'_>) -> Claim {
         let points = || self.of("hopf").flat_map(|curve| &curve.points);
         let subcritical = |at: &&CurvePoint| matches!(at.special, Special::Hopf(hopf) if hopf.is_supercritical() == Some(false));
         let inside =
@@ -161,7 +153,7 @@ impl Curves {
                 if bautin.is_empty() { "no point".to_owned() } else { bautin.join("; ") }
             ),
             "first Lyapunov coefficient along the continued curve; Bautin points where it changes its sign",
-            all > 3 && jumps == all,
+            all > 3 && context.number(jumps as f64) == all as f64,
         )
     }
 
@@ -197,6 +189,25 @@ impl Curves {
                 && 5 * outside.len() * count <= inside.len() * (places.len() - count),
         )
     }
+}
+
+/// The curve of every special point of the branches found, and of those at a faster triangle.
+fn all(
+    context: &Context<'_>,
+    (plane, settings): (&Plane, &Settings),
+    found: &Branches,
+) -> Result<Vec<WholeCurve>, Error> {
+    let mut all: Vec<WholeCurve> = Vec::new();
+    let (_, fast) = follow(context, (1.4, FAST), (Regime::Straight, 1))?;
+    for (row, branches) in [(SLOW, found), (FAST, &*fast)] {
+        let samples = branches.branches.iter().flat_map(Followed::samples);
+        for point in samples.map(|sample| &sample.point).filter(|point| point.special.is_some()) {
+            if !all.iter().any(|curve| passes(curve, point, row)) {
+                all.push(WholeCurve::through(plane, point, row, settings, KAPPA3, &context.quiet())?);
+            }
+        }
+    }
+    Ok(all)
 }
 
 /// Whether a curve passes a special point of the row.

@@ -7,5 +7,7 @@ pub mod branches;
 pub mod claims;
 pub mod context;
 pub mod curves;
+pub mod fault;
+pub mod kept;
 pub mod lines;
 pub mod plane;

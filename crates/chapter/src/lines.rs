@@ -25,6 +25,7 @@ const CLOSE: f64 = 1e-8;
 const PLACES: usize = 7;
 
 /// A line as it is continued; the parameters of its points are (gamma, kappa2) or (kappa2, gamma).
+#[derive(Clone)]
 struct Track {
     line: Line,
     swapped: bool,
@@ -34,6 +35,7 @@ struct Track {
 }
 
 /// All of them.
+#[derive(Clone)]
 pub struct Continued(Vec<Track>);
 
 /// Which points of curves are of a kind.
@@ -53,6 +55,15 @@ impl Continued {
     /// # Errors
     /// What the continuation refuses; [`Error::Interrupted`].
     pub fn follow(context: &Context<'_>) -> Result<Self, Error> {
+        let mut found = context.kept.once("lines of Fig. 1", || Self::followed(context))?;
+        // A fault makes the points other ones along gamma.
+        for point in found.0.iter_mut().flat_map(|track| &mut track.points) {
+            point.parameters = point.parameters.map(|x| context.number(x));
+        }
+        Ok(found)
+    }
+
+    fn followed(context: &Context<'_>) -> Result<Self, Error> {
         let study = context.preset("fig1", |_| Ok(()))?;
         let planes = [Plane::new(&study, ["gamma", "kappa2"])?, Plane::new(&study, ["kappa2", "gamma"])?];
         let mut walk = Walk { context, planes, found: Vec::new() };
@@ -184,6 +195,7 @@ impl Track {
 
 impl Continued {
     /// What follows.
+    #[must_use]
     pub fn claims(&self) -> [Claim; 2] {
         [self.agree(), self.kinds()]
     }

@@ -67,7 +67,7 @@ fn onset(context: &Context<'_>) -> Result<(Vec<Claim>, ReportFigure), Error> {
     let entries = summary(&plan, &found);
     let special = entries["branches"][0]["special"].as_array().cloned().unwrap_or_default();
     let broken = special.iter().find(|entry| entry["kind"] == "pitchfork");
-    let gamma = broken.and_then(|entry| entry["gamma"].as_f64()).unwrap_or(f64::NAN);
+    let gamma = context.number(broken.and_then(|entry| entry["gamma"].as_f64()).unwrap_or(f64::NAN));
     let says = "Straight motion becomes circular at *γ*_c = *κ*^2/(*a* *b*) + *κ*/2 (Ohta and Ohkuma 2009).";
     let finds =
         format!("the pitchfork of straight motion lies at *γ* = {gamma:.10}; the formula gives {exact}");

@@ -44,14 +44,16 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     claims.extend(continued.claims());
     claims.push(schemes::claim_of(context)?);
     claims.extend(correspondence::claims(context)?);
-    let drawn = sheet(&phase_diagram(&plan, &cells)?)?;
     let caption = "The motions found, one marker or colour per cell, and the analytic lines. Solid, broken and dotted lines \
                    are those of the paper's figure; the other two are lines that the paper does not draw.";
     Ok(Section {
         title: "Fig. 1: phase diagram of velocity and ellipse".to_owned(),
         about: ABOUT.to_owned(),
         parameters: parameters(&plan),
-        figures: vec![ReportFigure::new(drawn, caption), continued.figure(&boundary_lines(&plan))?],
+        figures: context.drawn(|| {
+            let diagram = ReportFigure::new(sheet(&phase_diagram(&plan, &cells)?)?, caption).of_paper("1");
+            Ok(vec![diagram, continued.figure(&boundary_lines(&plan))?])
+        })?,
         claims,
         ..Section::default()
     })

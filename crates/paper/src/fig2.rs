@@ -39,11 +39,14 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     };
     let (shown, long, other) = (run(1e-12, 1500.0)?, run(1e-12, 5000.0)?, run(1e-11, 5000.0)?);
     let noise = noisy::measure(context)?;
-    let mut figures = drawn(&shown)?;
-    figures.push(noise.figure()?);
+    let figures = context.drawn(|| {
+        let mut figures = drawn(&shown)?;
+        figures.push(noise.figure()?);
+        Ok(figures)
+    })?;
     let mut claims =
         vec![regime(context)?, right_angles(&long)?, growth(&long)?, by_rounding(&long, &other)?];
-    claims.extend(noise.claims()?);
+    claims.extend(noise.claims());
     let parameters = [
         ("parameters", "*κ*_2 = -0.1, *γ* = -0.04, *a*_1 = 1, *b*_1 = 0.5, *b*_3 = 1"),
         (
@@ -72,7 +75,10 @@ fn drawn(dataset: &Dataset) -> Result<Vec<ReportFigure>, Error> {
         ),
         _ => None,
     };
-    let figure = |(name, drawn)| Some(ReportFigure::new(drawn, words(name)?));
+    let figure = |(name, drawn)| {
+        let figure = ReportFigure::new(drawn, words(name)?);
+        Some(if name == "path" { figure.of_paper("2") } else { figure })
+    };
     Ok(draw::drawn(dataset)?.into_iter().filter_map(figure).collect())
 }
 

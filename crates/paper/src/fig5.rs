@@ -44,8 +44,23 @@ fn parameters(context: &Context<'_>) -> Result<Vec<(String, String)>, Error> {
     Ok(rows)
 }
 
-/// The drawings of a dataset by name (`motion` is the animation), with the words below each.
-pub(super) fn drawings(dataset: &Dataset, wanted: &[(&str, &str)]) -> Result<Vec<ReportFigure>, Error> {
+/// The drawings of a dataset by name (`motion` is the animation), with the words below each; the path is the paper's figure `name`.
+pub(super) fn drawings(
+    context: &Context<'_>,
+    (name, dataset): (&str, &Dataset),
+    wanted: &[(&str, &str)],
+) -> Result<Vec<ReportFigure>, Error> {
+    context.drawn(|| {
+        let mut figures = draw_all(dataset, wanted)?;
+        let path = wanted.iter().position(|(known, _)| *known == "path");
+        if let Some(figure) = path.and_then(|place| figures.get_mut(place)) {
+            figure.of_paper = Some(name.to_owned());
+        }
+        Ok(figures)
+    })
+}
+
+fn draw_all(dataset: &Dataset, wanted: &[(&str, &str)]) -> Result<Vec<ReportFigure>, Error> {
     let mut drawn = draw::drawn(dataset)?;
     let mut figures = Vec::new();
     for &(name, caption) in wanted {

@@ -17,11 +17,13 @@ mod sentences;
 mod strip;
 
 use motiform_chapter::context::{Context, Progress, Share};
+pub use motiform_chapter::fault::Fault;
+pub use motiform_chapter::kept::Kept;
 use motiform_chapter::{claims, context};
 use motiform_dynamics::Watch;
 use motiform_files::Journal;
 use motiform_lab::pool;
-use motiform_report::{Counts, Report, Section};
+use motiform_report::{Claim, Counts, Report, Section};
 use motiform_study::Error;
 pub use sentences::{checked_in, entry_of};
 use std::path::Path;
@@ -58,15 +60,15 @@ struct Chapter {
     rebuild: fn(&Context<'_>) -> Result<Section, Error>,
 }
 
-/// In the order of the paper.
+/// The figures, numbered as in the paper; then what is not about one figure.
 const CHAPTERS: &[Chapter] = &[
-    Chapter { name: "equations", work: 1.0, rebuild: equations::section },
     Chapter { name: "fig1", work: 3.0, rebuild: fig1::section },
     Chapter { name: "fig2", work: 1.0, rebuild: fig2::section },
     Chapter { name: "fig3", work: 0.5, rebuild: fig3::section },
     Chapter { name: "fig4", work: 3.0, rebuild: fig4::section },
     Chapter { name: "fig5", work: 1.0, rebuild: fig5::section },
     Chapter { name: "fig6", work: 8.0, rebuild: fig6::section },
+    Chapter { name: "equations", work: 1.0, rebuild: equations::section },
     Chapter { name: "models", work: 0.5, rebuild: models::section },
 ];
 
@@ -79,10 +81,15 @@ pub fn names() -> Vec<&'static str> {
     CHAPTERS.iter().chain(FURTHER).map(|chapter| chapter.name).collect()
 }
 
-/// `fig1: 12 hold, 3 differ, 0 fail`, over the claims of the paper and the checks of ours.
+/// The number of a chapter, which does not depend on what else is rebuilt.
+fn number_of(name: &str) -> Option<usize> {
+    names().iter().position(|known| *known == name).map(|place| place + 1)
+}
+
+/// `fig1: 12 hold, 3 differ, 0 fail, 1 not judged`, over the claims of the paper and the checks of ours.
 fn finished(name: &str, section: &Section) -> String {
-    let Counts { hold, differ, fail } = Counts::of(section.claims.iter());
-    format!("{name}: {hold} hold, {differ} differ, {fail} fail")
+    let Counts { hold, differ, fail, unjudged } = Counts::of(section.claims.iter());
+    format!("{name}: {hold} hold, {differ} differ, {fail} fail, {unjudged} not judged")
 }
 
 /// What becomes of chapters while others are computed.
@@ -92,6 +99,8 @@ pub struct Keeping<'k> {
     pub journal: &'k dyn Journal,
     /// Gets the report after each chapter; those that are missing say so.
     pub page: &'k (dyn Fn(&Report) -> Result<(), Error> + Sync),
+    /// What is computed once for all chapters.
+    pub kept: &'k Kept,
 }
 
 /// Rebuilds the paper, or parts of it. Scans are kept in folders inside `out`, so that an interrupted run goes on where it
@@ -100,7 +109,7 @@ pub struct Keeping<'k> {
 /// # Errors
 /// An unknown name; [`Error::Interrupted`] if the watch stopped it; files that cannot be written.
 pub fn reproduce(options: &Options, out: &Path, watch: &dyn Watch) -> Result<Report, Error> {
-    reproduce_kept(options, out, Keeping { journal: &(), page: &|_| Ok(()) }, watch)
+    reproduce_kept(options, out, Keeping { journal: &(), page: &|_| Ok(()), kept: &Kept::default() }, watch)
 }
 
 /// As [`reproduce`]; finished chapters survive the end of the program, however it ends.
@@ -122,11 +131,18 @@ pub fn reproduce_kept(
     // Much of a chapter is one long run after the other: chapters side by side keep all cores busy.
     let rebuild = |&(index, chapter): &(usize, &Chapter)| {
         let share = Share { progress: &progress, index };
-        let context = Context { out, quick: options.quick, threads: options.threads, watch: &share };
+        let context = Context {
+            out,
+            quick: options.quick,
+            threads: options.threads,
+            watch: &share,
+            kept: keeping.kept,
+            fault: None,
+        };
         let section = match kept::read(keeping.journal, chapter.name, options.quick) {
             Some(section) => section,
             None => {
-                let section = (chapter.rebuild)(&context)?;
+                let section = Section { number: number_of(chapter.name), ..(chapter.rebuild)(&context)? };
                 kept::write(keeping.journal, chapter.name, options.quick, &section)?;
                 section
             }
@@ -138,6 +154,23 @@ pub fn reproduce_kept(
     let numbered: Vec<(usize, &Chapter)> = chapters.iter().copied().enumerate().collect();
     pool::each(&numbered, options.threads, watch, rebuild)?;
     Ok(report(pages.sections()))
+}
+
+/// The claims of a chapter, with a fault in what they are judged by: what is computed is kept, so that many faults cost little. There
+/// are no figures, and claims with little evidence are judged as well.
+///
+/// # Errors
+/// As [`reproduce`].
+pub fn claims_under(
+    fault: &Fault,
+    chapter: &str,
+    kept: &Kept,
+    (out, threads): (&Path, usize),
+) -> Result<Vec<Claim>, Error> {
+    let found = CHAPTERS.iter().chain(FURTHER).find(|known| known.name == chapter);
+    let found = found.ok_or_else(|| Error::UnknownFigure { name: chapter.to_owned(), known: names() })?;
+    let context = Context { out, quick: true, threads, watch: &(), kept, fault: Some(fault) };
+    Ok((found.rebuild)(&context)?.claims)
 }
 
 /// The report of these sections.
@@ -162,6 +195,7 @@ impl<'k> Pages<'k> {
     fn new(chapters: &[&Chapter], keeping: Keeping<'k>) -> Self {
         let missing = |chapter: &&Chapter| {
             Section {
+            number: number_of(chapter.name),
             title: chapter.name.to_owned(),
             about: "This chapter is not rebuilt yet. The page is written again after each chapter; if the computation was \
                     ended, the same command goes on with what is finished."

@@ -63,6 +63,11 @@ pub enum Verdict {
         /// What goes wrong.
         explanation: String,
     },
+    /// Too little was computed to say.
+    Unjudged {
+        /// What is missing.
+        explanation: String,
+    },
 }
 
 impl Verdict {
@@ -73,6 +78,7 @@ impl Verdict {
             Self::Holds => "✓ holds",
             Self::Differs { .. } => "≠ differs",
             Self::Fails { .. } => "✗ fails",
+            Self::Unjudged { .. } => "○ not judged",
         }
     }
 
@@ -81,7 +87,9 @@ impl Verdict {
     pub fn explanation(&self) -> Option<&str> {
         match self {
             Self::Holds => None,
-            Self::Differs { explanation } | Self::Fails { explanation } => Some(explanation),
+            Self::Differs { explanation } | Self::Fails { explanation } | Self::Unjudged { explanation } => {
+                Some(explanation)
+            }
         }
     }
 
@@ -91,11 +99,12 @@ impl Verdict {
             Self::Holds => "holds",
             Self::Differs { .. } => "differs",
             Self::Fails { .. } => "fails",
+            Self::Unjudged { .. } => "unjudged",
         }
     }
 }
 
-/// How many claims hold, differ and fail.
+/// How many claims hold, differ, fail, and are not judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
     /// Claims that hold.
@@ -104,6 +113,8 @@ pub struct Counts {
     pub differ: usize,
     /// Claims that fail.
     pub fail: usize,
+    /// Claims for which too little was computed.
+    pub unjudged: usize,
 }
 
 impl Counts {
@@ -115,6 +126,7 @@ impl Counts {
                 Verdict::Holds => counts.hold += 1,
                 Verdict::Differs { .. } => counts.differ += 1,
                 Verdict::Fails { .. } => counts.fail += 1,
+                Verdict::Unjudged { .. } => counts.unjudged += 1,
             }
         }
         counts

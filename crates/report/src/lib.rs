@@ -39,6 +39,8 @@ pub struct Report {
 /// A part of a report, such as one figure of a paper.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Section {
+    /// Its number; `None`: its place on the page.
+    pub number: Option<usize>,
     /// Heading.
     pub title: String,
     /// What is shown and asked.
@@ -55,9 +57,27 @@ pub struct Section {
     pub claims: Vec<Claim>,
 }
 
+impl Section {
+    /// What the figures, then the small ones, are called in the section of this number: those of a paper `3(b)`, others `3.1`, `3.2`, ...
+    #[must_use]
+    pub fn figure_names(&self, number: usize) -> Vec<String> {
+        let mut further = 0;
+        let mut name = |figure: &ReportFigure| match &figure.of_paper {
+            Some(name) => name.clone(),
+            None => {
+                further += 1;
+                format!("{number}.{further}")
+            }
+        };
+        self.figures.iter().chain(&self.small_figures).map(&mut name).collect()
+    }
+}
+
 /// A picture and the words below it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReportFigure {
+    /// Which figure of a paper it is, such as `3(b)`; `None`: a further one, which is counted within its section.
+    pub of_paper: Option<String>,
     /// Words below the picture; they also stand for it where it cannot be seen.
     pub caption: String,
     /// The picture.
@@ -70,13 +90,24 @@ impl ReportFigure {
     /// A drawn figure, with its data.
     #[must_use]
     pub fn new(drawn: Drawn, caption: impl Into<String>) -> Self {
-        Self { caption: caption.into(), picture: Picture::Svg(drawn.svg), data: Some(drawn.data) }
+        Self {
+            of_paper: None,
+            caption: caption.into(),
+            picture: Picture::Svg(drawn.svg),
+            data: Some(drawn.data),
+        }
+    }
+
+    /// The same as a figure of a paper.
+    #[must_use]
+    pub fn of_paper(self, name: &str) -> Self {
+        Self { of_paper: Some(name.to_owned()), ..self }
     }
 
     /// An animation.
     #[must_use]
     pub fn film(png: Vec<u8>, caption: impl Into<String>) -> Self {
-        Self { caption: caption.into(), picture: Picture::Png(png), data: None }
+        Self { of_paper: None, caption: caption.into(), picture: Picture::Png(png), data: None }
     }
 }
 
@@ -102,11 +133,16 @@ impl Report {
         Counts::of(self.claims().filter(|claim| claim.is_ours()))
     }
 
+    /// The sections, each with its number.
+    pub fn numbered(&self) -> impl Iterator<Item = (usize, &Section)> {
+        (1..).zip(&self.sections).map(|(place, section)| (section.number.unwrap_or(place), section))
+    }
+
     fn claims(&self) -> impl Iterator<Item = &Claim> {
         self.sections.iter().flat_map(|section| &section.claims)
     }
 
-    /// Whether no claim and no check fails. One that differs for a known reason is not a failure; a report without claims has none.
+    /// Whether no claim and no check fails. One that differs for a known reason or is not judged is no failure; a report without claims has none.
     #[must_use]
     pub fn all_hold(&self) -> bool {
         self.counts().fail + self.checks().fail == 0

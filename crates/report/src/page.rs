@@ -10,7 +10,7 @@ const STYLE: &str = include_str!("style.css");
 
 pub(super) fn html(report: &Report) -> String {
     let sections: String =
-        (1..).zip(&report.sections).map(|(number, s)| section::html(number, s, &report.glossary)).collect();
+        report.numbered().map(|(number, s)| section::html(number, s, &report.glossary)).collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
@@ -55,9 +55,13 @@ fn total(report: &Report) -> String {
             let class = if n == 0 { "none" } else { class };
             format!("<span class=\"badge {class}\">{symbol} {words}</span>")
         };
-        let all = counts.hold + counts.differ + counts.fail;
+        let all = counts.hold + counts.differ + counts.fail + counts.unjudged;
+        let rest = match counts.unjudged {
+            0 => String::new(),
+            n => format!(" {}", badge(n, "unjudged", "○", &unjudged(n))),
+        };
         format!(
-            "<p class=\"total\">{all} {}: {} {} {}</p>\n",
+            "<p class=\"total\">{all} {}: {} {} {}{rest}</p>\n",
             if all == 1 { one } else { many },
             badge(counts.hold, "holds", "✓", &held(counts.hold)),
             badge(counts.differ, "differs", "≠", &differing(counts.differ)),
@@ -95,7 +99,7 @@ fn table(report: &Report, ours: bool, says: &str) -> String {
         )
     };
     let mut rows = String::new();
-    for (i, section) in (1..).zip(&report.sections) {
+    for (i, section) in report.numbered() {
         let wanted = (1..).zip(&section.claims).filter(|entry| entry.1.is_ours() == ours);
         rows.extend(wanted.map(|(j, claim)| row(i, j, claim)));
     }
@@ -118,9 +122,9 @@ fn contents(report: &Report) -> String {
             true => String::new(),
             false => counted(of(false), of(true)),
         };
-        format!("<li><a href=\"#s{i}\">{}</a> {counts}</li>\n", inline(&s.title))
+        format!("<li value=\"{i}\"><a href=\"#s{i}\">{}</a> {counts}</li>\n", inline(&s.title))
     };
-    let items: String = (1..).zip(&report.sections).map(item).collect();
+    let items: String = report.numbered().map(item).collect();
     if items.is_empty() {
         return items;
     }
@@ -138,8 +142,9 @@ fn contents(report: &Report) -> String {
 
 /// "3 held, 1 differs; checks: 2 held": what is 0 is left out.
 fn counted(claims: Counts, checks: Counts) -> String {
-    let words = |Counts { hold, differ, fail }: Counts| {
-        let parts = [(hold, held(hold)), (differ, differing(differ)), (fail, failed(fail))];
+    let words = |Counts { hold, differ, fail, unjudged: open }: Counts| {
+        let parts =
+            [(hold, held(hold)), (differ, differing(differ)), (fail, failed(fail)), (open, unjudged(open))];
         let parts: Vec<_> = parts.into_iter().filter(|(n, _)| *n > 0).map(|(_, words)| words).collect();
         parts.join(", ")
     };
@@ -163,4 +168,8 @@ fn differing(n: usize) -> String {
 
 fn failed(n: usize) -> String {
     format!("{n} failed")
+}
+
+fn unjudged(n: usize) -> String {
+    format!("{n} not judged")
 }

@@ -9,11 +9,10 @@ use motiform_figures::svg::escape;
 use motiform_figures::{Label, embedded};
 
 pub(super) fn html(number: usize, section: &Section, glossary: &[Definition]) -> String {
-    let drawn = |figures: &[ReportFigure], first: usize| -> String {
-        figures.iter().enumerate().map(|(i, f)| figure(number, first + i, f)).collect()
-    };
-    let figures = drawn(&section.figures, 1);
-    let mut small = drawn(&section.small_figures, section.figures.len() + 1);
+    let names = section.figure_names(number);
+    let mut drawn = names.iter().zip(section.figures.iter().chain(&section.small_figures)).map(figure);
+    let figures: String = drawn.by_ref().take(section.figures.len()).collect();
+    let mut small: String = drawn.collect();
     if !small.is_empty() {
         small = format!("<div class=\"small\">\n{small}</div>\n");
     }
@@ -39,8 +38,8 @@ fn parameters(parameters: &[(String, String)], glossary: &[Definition]) -> Strin
 }
 
 /// Drawings are elements of the page, which has their fonts once.
-fn figure(section: usize, number: usize, figure: &ReportFigure) -> String {
-    let name = format!("f{section}-{number}");
+fn figure((number, figure): (&String, &ReportFigure)) -> String {
+    let name = format!("f{}", number.replace('.', "-").replace(['(', ')'], ""));
     let words = Label::parse(&figure.caption).plain();
     let picture = match &figure.picture {
         Picture::Svg(text) => embedded(text, &name, &words),
@@ -53,7 +52,7 @@ fn figure(section: usize, number: usize, figure: &ReportFigure) -> String {
         }
     };
     format!(
-        "<figure id=\"{name}\">\n{picture}<figcaption><b>Figure {section}.{number}.</b> {}</figcaption>\n</figure>\n",
+        "<figure id=\"{name}\">\n{picture}<figcaption><b>Figure {number}.</b> {}</figcaption>\n</figure>\n",
         inline(&figure.caption)
     )
 }

@@ -66,7 +66,7 @@ fn fate(report: &Report, sentence: &Sentence) -> String {
     if let Some(reason) = &sentence.unchecked {
         return format!("<span class=\"unchecked\">not checked: {}</span>", inline(reason));
     }
-    let numbered = report.sections.iter().zip(1..).flat_map(|(section, i)| {
+    let numbered = report.numbered().flat_map(|(i, section)| {
         section.claims.iter().zip(1..).map(move |(claim, j): (&Claim, usize)| (i, j, claim))
     });
     let link = |(i, j, claim): (usize, usize, &Claim)| {

@@ -21,7 +21,8 @@ fn report() -> Report {
     let svg =
         ReturnMapFigure { points: vec![[0.0, 1.0]], ..ReturnMapFigure::default() }.svg().expect("a figure");
     let bytes = png(&svg, 0.5, &[]).expect("a png");
-    let figure = |picture| ReportFigure { caption: "a \"quoted\" *x*_1".into(), picture, data: None };
+    let figure =
+        |picture| ReportFigure { of_paper: None, caption: "a \"quoted\" *x*_1".into(), picture, data: None };
     let explanation = || "the paper's *a*_1 is rounded".to_owned();
     let first = Section {
         title: "Phase diagram, *κ*_2 > 0".into(),
@@ -69,7 +70,7 @@ fn texts_are_escaped_and_markup_is_set() {
 #[test]
 fn counts_are_those_of_the_claims() {
     let report = report();
-    assert_eq!(report.counts(), Counts { hold: 2, differ: 1, fail: 1 });
+    assert_eq!(report.counts(), Counts { hold: 2, differ: 1, fail: 1, unjudged: 0 });
     let html = report.html();
     assert!(html.contains("4 claims of the paper: ") && html.contains("✓ 2 held"));
     assert!(html.contains("1 check of ours: ") && html.contains("✓ 1 held"));
@@ -82,7 +83,7 @@ fn counts_are_those_of_the_claims() {
 #[test]
 fn checks_of_ours_are_counted_apart() {
     let mut report = report();
-    assert_eq!(report.checks(), Counts { hold: 1, differ: 0, fail: 0 });
+    assert_eq!(report.checks(), Counts { hold: 1, ..Counts::default() });
     let html = report.html();
     assert_eq!(html.matches("<h3>Check 2.3").count(), 1);
     assert_eq!((html.matches("<dt>The paper says").count(), html.matches("<dt>We check").count()), (4, 1));
@@ -172,4 +173,32 @@ fn defined_words_lead_to_their_definitions_and_tables_have_heads_in_every_field(
     assert!(html.contains("<a href=\"cell-1.html\">cell &lt;1&gt;</a>"), "{html}");
     assert!(html.contains("<td class=\"number\" data-name=\"κ2\">\u{2212}1.5</td>"), "{html}");
     assert!(html.contains("a &lt;rate&gt;") && !html.contains("no claim"));
+}
+
+#[test]
+fn claims_without_evidence_are_counted_apart_and_are_no_failure() {
+    let mut report = report();
+    let why = || "one length only".to_owned();
+    report.sections[1].claims = vec![claim(Verdict::Unjudged { explanation: why() })];
+    assert_eq!(report.counts(), Counts { hold: 1, differ: 1, fail: 0, unjudged: 1 });
+    assert!(report.all_hold());
+    let html = report.html();
+    assert!(html.contains("○ 1 not judged") && html.contains(">1 not judged<"));
+    assert_eq!(html.matches("○ not judged").count(), 3, "in the summary, at the claim and at its sentence");
+}
+
+#[test]
+fn sections_and_figures_keep_their_numbers_in_a_part_of_the_report() {
+    let mut report = report();
+    report.sections.remove(1);
+    report.sections[0].number = Some(3);
+    report.sections[0].figures[1].of_paper = Some("3(b)".to_owned());
+    report.sections[1].number = Some(8);
+    assert_eq!(report.sections[0].figure_names(3), ["3.1", "3(b)"]);
+    let html = report.html();
+    for there in
+        ["Figure 3.1.", "Figure 3(b).", "id=\"f3b\"", "id=\"c3-1\"", "<h2>3. ", "<li value=\"8\">", "#s8"]
+    {
+        assert!(html.contains(there), "{there}");
+    }
 }

@@ -115,8 +115,9 @@ Examples:
   motiform reproduce fig4 fig5 --out paper
 
 The output folder contains report.html (figures, parameters, and for each claim: the statement of the paper, our result, how it was \
-decided, and the reason for any difference), its figures (figure-4.1.svg and .png, .csv with their numbers), and the underlying scans. \
-Exit code 1: a claim failed.";
+decided, and the reason for any difference), its figures (figure-3b.svg and .png for Fig. 3(b) of the paper, figure-3.1.svg for what is added \
+to Fig. 3, .csv with their numbers), and the underlying scans. The page is written again after each chapter. After Ctrl-C or a kill the same command \
+goes on with the finished chapters. Exit code 1: a claim failed; one that differs or is not judged is no failure.";
 
 pub(super) const VERIFY_HELP: &str = "\
 Examples:

@@ -6,7 +6,7 @@ use crate::progress::Progress;
 use motiform_figures::{DEFAULT_SCALE, png};
 use motiform_files::{Folder, Kind, Opening, end_of_work};
 use motiform_lab::draw::undrawable;
-use motiform_paper::{Keeping, Options, reproduce_kept};
+use motiform_paper::{Keeping, Kept, Options, reproduce_kept};
 use motiform_report::{Claim, Counts, Picture, Report};
 use motiform_study::Error;
 use serde_json::json;
@@ -30,7 +30,12 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     files.notes().iter().for_each(|note| warn(note));
     let watch = Progress::new(1000.0, "permille");
     let page = |report: &Report| Ok(files.put(PAGE, report.html().as_bytes())?);
-    let report = reproduce_kept(&wanted, out, Keeping { journal: &files, page: &page }, &watch);
+    let report = reproduce_kept(
+        &wanted,
+        out,
+        Keeping { journal: &files, page: &page, kept: &Kept::default() },
+        &watch,
+    );
     watch.finish();
     let report = match report {
         Err(Error::Interrupted) => {
@@ -50,11 +55,12 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     Ok(if report.all_hold() { End::Done } else { End::NotAsAsked })
 }
 
-/// The figures of the report as files: `figure-4.1.svg` and `.png` are the page's Figure 4.1, `.csv` the numbers that it shows.
+/// The figures of the report as files: `figure-3b.svg` and `.png` are Fig. 3(b) of the paper, `figure-3.1.svg` the page's further Figure 3.1, `.csv`
+/// the numbers that it shows.
 fn write_figures(report: &Report, files: &Folder) -> Result<(), Error> {
-    for (section, number) in report.sections.iter().zip(1..) {
-        for (figure, place) in section.figures.iter().zip(1..) {
-            let file = |ending: &str| format!("figure-{number}.{place}.{ending}");
+    for (number, section) in report.numbered() {
+        for (figure, name) in section.figures.iter().zip(section.figure_names(number)) {
+            let file = |ending: &str| format!("figure-{}.{ending}", name.replace(['(', ')'], ""));
             match &figure.picture {
                 Picture::Svg(svg) => {
                     files.put(&file("svg"), svg.as_bytes())?;
@@ -70,7 +76,7 @@ fn write_figures(report: &Report, files: &Folder) -> Result<(), Error> {
     Ok(())
 }
 
-/// `hold`, `differ`, `fail` count the claims of the paper; `checks` has the same for the checks of ours.
+/// `hold`, `differ`, `fail`, `not_judged` count the claims of the paper; `checks` has the same for the checks of ours.
 fn json(report: &Report, page: &Path) -> anyhow::Result<String> {
     let claim = |claim: &Claim| {
         json!({ "source": if claim.is_ours() { "check" } else { "paper" }, "sentences": claim.sentences(),
@@ -78,14 +84,14 @@ fn json(report: &Report, page: &Path) -> anyhow::Result<String> {
                 "explanation": claim.verdict.explanation() })
     };
     let sections: Vec<_> = report
-        .sections
-        .iter()
-        .map(|section| json!({ "title": section.title, "claims": section.claims.iter().map(claim).collect::<Vec<_>>() }))
+        .numbered()
+        .map(|(number, section)| json!({ "number": number, "title": section.title, "claims": section.claims.iter().map(claim).collect::<Vec<_>>() }))
         .collect();
     let (counts, checks) = (report.counts(), report.checks());
     Ok(serde_json::to_string(&json!({
-        "report": page, "hold": counts.hold, "differ": counts.differ, "fail": counts.fail,
-        "checks": { "hold": checks.hold, "differ": checks.differ, "fail": checks.fail }, "sections": sections,
+        "report": page, "hold": counts.hold, "differ": counts.differ, "fail": counts.fail, "not_judged": counts.unjudged,
+        "checks": { "hold": checks.hold, "differ": checks.differ, "fail": checks.fail, "not_judged": checks.unjudged },
+        "sections": sections,
     }))?)
 }
 
@@ -95,15 +101,16 @@ fn summary(report: &Report, page: &Path) -> anyhow::Result<String> {
         writeln!(text, "{}", plain(&section.title))?;
         for claim in &section.claims {
             let ours = if claim.is_ours() { "check: " } else { "" };
-            writeln!(text, "  {:9} {ours}{}", claim.verdict.words(), plain(&claim.says))?;
+            writeln!(text, "  {:12} {ours}{}", claim.verdict.words(), plain(&claim.says))?;
             if let Some(explanation) = claim.verdict.explanation() {
-                writeln!(text, "            found: {}", plain(&claim.finds))?;
-                writeln!(text, "            {}", plain(explanation))?;
+                writeln!(text, "               found: {}", plain(&claim.finds))?;
+                writeln!(text, "               {}", plain(explanation))?;
             }
         }
     }
-    let counted = |Counts { hold, differ, fail }: Counts| {
-        format!("{hold} hold, {differ} differ for a known reason, {fail} fail")
+    let counted = |Counts { hold, differ, fail, unjudged }: Counts| {
+        let open = if unjudged == 0 { String::new() } else { format!(", {unjudged} not judged") };
+        format!("{hold} hold, {differ} differ for a known reason, {fail} fail{open}")
     };
     writeln!(text, "claims of the paper: {}", counted(report.counts()))?;
     writeln!(text, "additional checks:   {}", counted(report.checks()))?;

@@ -1,6 +1,7 @@
 //! All possible couplings, those of the equations, and their coefficients.
 
 use super::super::claims::claim;
+use super::super::context::Context;
 use super::fields::{C, Monomial, Z, apart, parameters, rates, state, turned};
 use super::least_squares::least_squares;
 use motiform_models::tensor::TensorParameters;
@@ -14,8 +15,8 @@ const SETS: u64 = 3;
 /// The size of an absent coefficient due to round-off: the condition of the fit is about 1e3.
 const NOTHING: f64 = 1e-9;
 
-pub(super) fn claims() -> Vec<Claim> {
-    let fits: Vec<Fit> = (0..SETS).map(Fit::new).collect();
+pub(super) fn claims(context: &Context<'_>) -> Vec<Claim> {
+    let fits: Vec<Fit> = (0..SETS).map(|seed| Fit::new(context, seed)).collect();
     vec![possible(&fits), reduced(&fits), table(&fits)]
 }
 
@@ -30,7 +31,7 @@ struct Fit {
 }
 
 impl Fit {
-    fn new(seed: u64) -> Self {
+    fn new(context: &Context<'_>, seed: u64) -> Self {
         let (parameters, monomials) = (parameters(seed), Monomial::all());
         let mut random = Uniform::new(seed, 0);
         let states: Vec<Z> = (0..STATES).map(|_| state(&mut random)).collect();
@@ -47,7 +48,7 @@ impl Fit {
             let (x, rest) = least_squares(&columns, &right);
             left = left.max(rest);
             let (real, imaginary) = x.split_at(monomials.len());
-            real.iter().zip(imaginary).map(|(re, im)| C::new(*re, *im)).collect()
+            real.iter().zip(imaginary).map(|(re, im)| C::new(context.number(*re), *im)).collect()
         });
         Self { parameters, monomials, coefficients, left }
     }

@@ -1,14 +1,15 @@
 //! Which terms of the active cell's equation derive from a potential.
 
 use super::super::claims::claim;
+use super::super::context::Context;
 use super::terms::{PAPER, Term, derivative, inner, random};
 use motiform_report::Claim;
 
 /// The size of round-off for a variational term.
 const NOTHING: f64 = 1e-8;
 
-pub(super) fn claims() -> [Claim; 2] {
-    let turning = PAPER.map(Term::turning);
+pub(super) fn claims(context: &Context<'_>) -> [Claim; 2] {
+    let turning = PAPER.map(|term| context.number(term.turning()));
     [variational(&turning), not_variational(&turning)]
 }
 

@@ -42,7 +42,9 @@ fn circle(context: &Context<'_>) -> Result<Claim, Error> {
         (study.run.transient, study.run.t_end, study.run.dt_out) = (0.0, 0.5, 0.5);
         (study.run.rtol, study.run.atol) = (1e-10, Some(1e-18));
         let end = context.simulate(&study)?.manifest.state;
-        Ok((1..=8).map(|n| (end.get(&format!("c{n}")).unwrap_or(f64::NAN) / 1e-9).ln() / 0.5).collect())
+        Ok((1..=8)
+            .map(|n| context.number((end.get(&format!("c{n}")).unwrap_or(f64::NAN) / 1e-9).ln() / 0.5))
+            .collect())
     };
     let (with, without) = (growth(1.0)?, growth(-1.0)?);
     let growing = |rates: &[f64]| rates.iter().filter(|rate| **rate > 0.0).count();

@@ -26,7 +26,9 @@ pub(super) fn claim_of(context: &Context<'_>) -> Result<Claim, Error> {
         for (name, value) in [("c1", 0.3), ("s2", -0.2), ("c3", 0.25), ("s3", 0.1)] {
             study.set_initial(name, units * value)?;
         }
-        (study.run.transient, study.run.t_end, study.run.dt_out) = (0.0, duration, duration);
+        // the path, which is recorded at the end only, costs far more than the shape
+        (study.run.transient, study.run.t_end, study.run.dt_out) =
+            (0.99 * duration, 0.01 * duration, 0.01 * duration);
         (study.run.rtol, study.run.atol) = (1e-11, Some(1e-13));
         let state = context.simulate(&study)?.manifest.state.values();
         Ok(state[..2 * modes].iter().map(|x| x / units).collect())
@@ -34,6 +36,7 @@ pub(super) fn claim_of(context: &Context<'_>) -> Result<Claim, Error> {
     let (plain, scaled) = (run(false)?, run(true)?);
     let size = plain.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     let worst = plain.iter().zip(&scaled).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / size;
+    let worst = context.number(worst);
     Ok(claim(
         &[60, 61, 62],
         "The minimal equation: coefficients are eliminated by redefining *t*, *s* and *φ*; the sign of the last term is chosen without loss of \

@@ -25,19 +25,19 @@ terms are asked whether they derive from a potential. Where the paper says what 
 without it are named by the classifier.";
 
 pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
-    let mut claims = outlines::claims();
-    claims.extend(couplings::claims());
-    claims.extend(rotation::claims());
+    let mut claims = outlines::claims(context);
+    claims.extend(couplings::claims(context));
+    claims.extend(rotation::claims(context));
     claims.extend(tensor_motion::claims(context)?);
     context.watch.progress(0.3);
-    claims.extend(symmetries::claims());
-    claims.extend(gradient::claims());
+    claims.extend(symmetries::claims(context));
+    claims.extend(gradient::claims(context));
     let (rest, figure) = active::claim_of(context)?;
     claims.extend(rest);
     context.watch.progress(0.6);
     claims.extend(long_waves::claims(context)?);
     claims.push(minimal::claim_of(context)?);
-    claims.extend(velocity::claims());
+    claims.extend(velocity::claims(context));
     Ok(Section {
         title: "The equations".to_owned(),
         about: ABOUT.to_owned(),

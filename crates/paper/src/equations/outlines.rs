@@ -1,17 +1,18 @@
 //! The modes of the outline and the tensors.
 
 use super::super::claims::claim;
+use super::super::context::Context;
 use super::fields::{state, tensors};
 use motiform_report::Claim;
 use motiform_study::initial::Uniform;
 use std::f64::consts::TAU;
 
-pub(super) fn claims() -> Vec<Claim> {
-    vec![ellipse(), contracted()]
+pub(super) fn claims(context: &Context<'_>) -> Vec<Claim> {
+    vec![ellipse(context), contracted(context)]
 }
 
 /// `R0 + 2 a cos(2 theta)` against an ellipse with half axes `R0 +- 2 a`: apart by O(a^2).
-fn ellipse() -> Claim {
+fn ellipse(context: &Context<'_>) -> Claim {
     let apart = |a: f64| {
         let (long, short) = (1.0 + 2.0 * a, 1.0 - 2.0 * a);
         let off = |i: u32| {
@@ -22,7 +23,7 @@ fn ellipse() -> Claim {
         };
         (0..360).map(off).fold(0.0, f64::max)
     };
-    let order = (apart(0.01) / apart(0.005)).log2();
+    let order = context.number((apart(0.01) / apart(0.005)).log2());
     claim(
         &[33],
         "The modes *z*_{±2} represent an elliptical shape of the domain.",
@@ -36,7 +37,7 @@ fn ellipse() -> Claim {
 }
 
 /// `S_ij n_i n_j + U_ijk n_i n_j n_k` against the sum over modes.
-fn contracted() -> Claim {
+fn contracted(context: &Context<'_>) -> Claim {
     let mut random = Uniform::new(8, 0);
     let (mut worst, mut defect): (f64, f64) = (0.0, 0.0);
     for _ in 0..1000 {
@@ -58,6 +59,7 @@ fn contracted() -> Claim {
         worst = worst.max((with_tensors - wave(1) - wave(2)).abs());
         defect = defect.max(t.defect());
     }
+    let (worst, defect) = (context.number(worst), context.number(defect));
     claim(
         &[34, 35],
         "*S*_{11} = *z*_2 + *z*_{-2}, *S*_{12} = *i*(*z*_2 − *z*_{-2}); *U*_{111} = *z*_3 + *z*_{-3}, *U*_{222} = −*i*(*z*_3 − *z*_{-3}).",

@@ -1,17 +1,18 @@
 //! The invariance of the equations, and its origin.
 
 use super::super::claims::claim;
+use super::super::context::Context;
 use super::fields::{C, Z, amplitudes, apart, parameters, rates, state, tensors, turned};
 use motiform_models::tensor::indices::Tensors;
 use motiform_report::Claim;
 use motiform_study::initial::Uniform;
 
-pub(super) fn claims() -> [Claim; 2] {
-    [invariance(), isotropy()]
+pub(super) fn claims(context: &Context<'_>) -> [Claim; 2] {
+    [invariance(context), isotropy(context)]
 }
 
 /// f(R z) = R f(z), for the equations with indices.
-fn invariance() -> Claim {
+fn invariance(context: &Context<'_>) -> Claim {
     let mut random = Uniform::new(5, 0);
     let (mut worst, mut broken): (f64, f64) = (0.0, f64::INFINITY);
     for seed in 0..1000 {
@@ -28,6 +29,7 @@ fn invariance() -> Claim {
             broken = broken.min(off(rates(&parameters, wrong), turned(rate, angle)));
         }
     }
+    let worst = context.number(worst);
     claim(
         &[163],
         "This set of equations is invariant under (*z*_1, *z*_2, *z*_3) → (e^{i*θ*}*z*_1, e^{2i*θ*}*z*_2, e^{3i*θ*}*z*_3) for an \
@@ -41,7 +43,7 @@ fn invariance() -> Claim {
 }
 
 /// A rotation of the plane, applied to every index, is that transformation.
-fn isotropy() -> Claim {
+fn isotropy(context: &Context<'_>) -> Claim {
     let mut random = Uniform::new(6, 0);
     let mut worst: f64 = 0.0;
     for _ in 0..1000 {
@@ -50,6 +52,7 @@ fn isotropy() -> Claim {
         let phases = turned(z, -angle);
         worst = turned_plane.iter().zip(phases).map(|(a, b)| apart(*a, b)).fold(worst, f64::max);
     }
+    let worst = context.number(worst);
     claim(
         &[164],
         "This invariance arises from the isotropy of space.",

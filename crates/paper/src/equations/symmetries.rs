@@ -1,14 +1,15 @@
 //! The three symmetries of the active cell's equation, term by term, on a grid.
 
 use super::super::claims::{claim, differs};
+use super::super::context::Context;
 use super::terms::{PAPER, POINTS, Term, random};
 use motiform_dynamics::VectorField as _;
 use motiform_models::cell::{CellField, CellParameters};
 use motiform_report::Claim;
 use std::f64::consts::TAU;
 
-pub(super) fn claims() -> [Claim; 2] {
-    [invariant(), general()]
+pub(super) fn claims(context: &Context<'_>) -> [Claim; 2] {
+    [invariant(context), general(context)]
 }
 
 /// The field that is computed against the paper's five terms on the grid.
@@ -41,8 +42,8 @@ fn field_defect() -> f64 {
     computed.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / size
 }
 
-fn invariant() -> Claim {
-    let worst = PAPER.map(Term::defects).into_iter().flatten().fold(0.0, f64::max);
+fn invariant(context: &Context<'_>) -> Claim {
+    let worst = context.number(PAPER.map(Term::defects).into_iter().flatten().fold(0.0, f64::max));
     let field = field_defect();
     let refused = |i: usize| {
         Term::all().into_iter().find(|term| term.defects()[i] > 0.1).map_or("none".to_owned(), Term::words)
@@ -63,7 +64,7 @@ fn invariant() -> Claim {
     )
 }
 
-fn general() -> Claim {
+fn general(context: &Context<'_>) -> Claim {
     let allowed: Vec<Term> = Term::all().into_iter().filter(|term| term.is_allowed()).collect();
     let kept = PAPER.iter().all(|term| allowed.contains(term));
     let others: Vec<Term> = allowed.iter().copied().filter(|term| !PAPER.contains(term)).collect();
@@ -86,6 +87,6 @@ fn general() -> Claim {
             words(&others),
             Term::Bilinear(1, 4).turning()
         ),
-        kept && others == [Term::Bilinear(1, 4)] && Term::Bilinear(1, 4).turning() > 0.01,
+        kept && others == [Term::Bilinear(1, 4)] && context.number(Term::Bilinear(1, 4).turning()) > 0.01,
     )
 }

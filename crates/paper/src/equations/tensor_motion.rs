@@ -137,7 +137,7 @@ fn fast_triangle(context: &Context<'_>) -> Result<Claim, Error> {
     let values = [10.0, 100.0, 1000.0];
     let off: Vec<f64> = values
         .iter()
-        .map(|kappa3| Ok((run(*kappa3, 1.0)? / without - 1.0).abs()))
+        .map(|kappa3| Ok(context.number((run(*kappa3, 1.0)? / without - 1.0).abs())))
         .collect::<Result<_, Error>>()?;
     let words: Vec<String> =
         values.iter().zip(&off).map(|(kappa3, off)| format!("{off:.1e} at *κ*_3 = {kappa3}")).collect();
@@ -170,7 +170,7 @@ fn saturation(context: &Context<'_>) -> Result<Claim, Error> {
     let (one, three, half) = (run(1.0)?, run(3.0)?, run(0.5)?);
     let top = one.iter().copied().fold(0.0, f64::max);
     let apart = |other: &[f64]| one.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / top;
-    let worst = apart(&three).max(apart(&half));
+    let worst = context.number(apart(&three).max(apart(&half)));
     Ok(claim(
         &[83],
         "We put *b*_3 = 1 without loss of generality.",

@@ -1,6 +1,7 @@
 //! The velocity of the active cell as an expansion in the curvature.
 
 use super::super::claims::claim;
+use super::super::context::Context;
 use motiform_report::Claim;
 use motiform_study::initial::Uniform;
 use std::f64::consts::TAU;
@@ -10,6 +11,7 @@ const POINTS: usize = 256;
 const MODES: usize = 6;
 
 /// A boundary of length L = 2 pi: `phi` by its modes `c_n cos(n s) + s_n sin(n s)`.
+#[derive(Clone)]
 struct Shape(Vec<[f64; 2]>);
 
 impl Shape {
@@ -47,6 +49,9 @@ impl Shape {
     fn closed(mut self) -> Self {
         for _ in 0..30 {
             let open = self.mean(|_| 1.0);
+            if size(open) < 1e-15 {
+                break;
+            }
             let mut columns = [[0.0; 2]; 2];
             for (i, column) in columns.iter_mut().enumerate() {
                 let (h, before) = (1e-6, self.0[0][i]);
@@ -71,12 +76,13 @@ fn size([x, y]: [f64; 2]) -> f64 {
     libm::hypot(x, y)
 }
 
-pub(super) fn claims() -> [Claim; 3] {
+pub(super) fn claims(context: &Context<'_>) -> [Claim; 3] {
     let mut random = Uniform::new(9, 0);
     let open: Vec<Shape> = (0..100).map(|_| Shape::random(&mut random)).collect();
     let of = |shapes: &[Shape], weight: fn([f64; 3]) -> f64| {
         let sizes: Vec<f64> = shapes.iter().map(|shape| size(shape.mean(weight))).collect();
-        (sizes.iter().copied().fold(0.0, f64::max), sizes.iter().sum::<f64>() / sizes.len() as f64)
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        (context.number(largest), context.number(sizes.iter().sum::<f64>() / sizes.len() as f64))
     };
     let (unclosed, first_open) = (of(&open, |_| 1.0), of(&open, |phi| 1.0 + phi[1]));
     let closed: Vec<Shape> = open.into_iter().map(Shape::closed).collect();
@@ -102,12 +108,12 @@ pub(super) fn claims() -> [Claim; 3] {
             "the same shapes, *κ* = (2π/*L*)(1 + ∂_s*φ*); below 10^{-12}",
             first.0 < 1e-12 && first_open.0 < 1e-12,
         ),
-        result(&closed),
+        result(context, &closed),
     ]
 }
 
 /// All orders of the expansion against the paper's result.
-fn result(closed: &[Shape]) -> Claim {
+fn result(context: &Context<'_>, closed: &[Shape]) -> Claim {
     let alpha = [0.7, -1.1, 0.4, -0.9];
     let expansion = |[_, first, second]: [f64; 3]| {
         let kappa = 1.0 + first;
@@ -118,7 +124,7 @@ fn result(closed: &[Shape]) -> Claim {
         let (a, b) = (shape.mean(expansion), shape.mean(paper));
         size([a[0] - b[0], a[1] - b[1]]) / size(b)
     };
-    let worst = closed.iter().map(apart).fold(0.0, f64::max);
+    let worst = context.number(closed.iter().map(apart).fold(0.0, f64::max));
     claim(
         &[74],
         "As a result **v** = ((2π)^2/*L*^3) ∫ d*s* [*α*_2(∂_s*φ*)^2 + *α*_3(∂_s^2*φ*)^2] **n**.",

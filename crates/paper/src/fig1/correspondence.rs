@@ -36,7 +36,8 @@ fn end(context: &Context<'_>, kappa2: f64, gamma: f64) -> Result<Polar, Error> {
         (study.run.transient, study.run.t_end) = (3000.0, 1.0);
         Ok(())
     })?;
-    Ok(polar(&context.simulate(&study)?))
+    let Polar { r1, r2, psi } = polar(&context.simulate(&study)?);
+    Ok(Polar { r1: context.number(r1), r2: context.number(r2), psi: context.number(psi) })
 }
 
 fn polar(dataset: &Dataset) -> Polar {

@@ -25,10 +25,11 @@ const STEP: f64 = 0.2;
 const TRANSIENT: f64 = 500.0;
 
 /// One amplitude.
+#[derive(Clone, Copy)]
 struct NoisyRun {
     eta: f64,
     mean: Estimate,
-    left: usize,
+    left: f64,
     turns: usize,
 }
 
@@ -49,11 +50,17 @@ pub(super) fn measure(context: &Context<'_>) -> Result<Rests, Error> {
 }
 
 fn measured(context: &Context<'_>, eta: f64, stream: u64, time: f64) -> Result<NoisyRun, Error> {
+    let name = format!("rests under noise {eta} {stream} {time}");
+    let run = context.kept.once(&name, || counted(context, eta, stream, time))?;
+    Ok(NoisyRun { mean: context.estimate(run.mean), left: context.number(run.left), ..run })
+}
+
+fn counted(context: &Context<'_>, eta: f64, stream: u64, time: f64) -> Result<NoisyRun, Error> {
     let path = path(context, eta, stream, time)?;
     let mean = series_mean(&durations(&path)?.0)?;
     let turns = legs(&path, Ends::Open)?.heading_turns;
     let left = turns.iter().filter(|turn| **turn > 0.0).count();
-    Ok(NoisyRun { eta, mean, left, turns: turns.len() })
+    Ok(NoisyRun { eta, mean, left: left as f64, turns: turns.len() })
 }
 
 /// A path under noise.
@@ -149,8 +156,8 @@ impl Rests {
         Ok(ReportFigure::new(sheet(&figure)?, caption))
     }
 
-    pub(super) fn claims(&self) -> Result<Vec<Claim>, Error> {
-        Ok(vec![self.law(), self.sides()])
+    pub(super) fn claims(&self) -> [Claim; 2] {
+        [self.law(), self.sides()]
     }
 
     fn law(&self) -> Claim {
@@ -171,8 +178,8 @@ impl Rests {
 
     fn sides(&self) -> Claim {
         let (left, all) =
-            self.runs.iter().fold((0, 0), |(left, all), run| (left + run.left, all + run.turns));
-        let share = left as f64 / all.max(1) as f64;
+            self.runs.iter().fold((0.0, 0), |(left, all), run| (left + run.left, all + run.turns));
+        let share = left / all.max(1) as f64;
         let error = 0.5 / (all.max(1) as f64).sqrt();
         let finds = format!("{left} of {all} turns go to the left: {share:.3} ± {error:.3}");
         let how = "turns of the heading at all amplitudes; within three standard errors of a fair coin";

@@ -1,13 +1,15 @@
 //! The last steps before a singularity.
 
+use super::super::context::Context;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Outcome, Request, Sink};
 use motiform_study::{Error, Plan, Study};
 
-/// Far enough that time is resolved to 10^-6 before t*.
-const BOUND: f64 = 1e12;
+/// Far enough that time is resolved to 10^-6 before t*; in a quick run to 10^-4: the steps are as many as one over the time left.
+const BOUND: (f64, f64) = (1e12, 1e10);
 
 /// The modes z1, z2, z3 at the steps of a run that blows up.
+#[derive(Clone)]
 pub(super) struct Approach {
     pub(super) t_star: f64,
     /// Time and |z1|, |z2|, |z3|.
@@ -19,20 +21,23 @@ pub(super) struct Approach {
 /// Runs a study that blows up, keeping every step.
 ///
 /// The shape of the tensor model is z1, z2, z3, real and imaginary parts in turn.
-pub(super) fn follow(start: &Study) -> Result<Approach, Error> {
+pub(super) fn follow(context: &Context<'_>, start: &Study) -> Result<Approach, Error> {
     let mut study = start.clone();
-    (study.run.rtol, study.run.atol, study.run.escape_norm) = (1e-13, Some(1e-16), BOUND);
+    let bound = context.choose(BOUND.0, BOUND.1);
+    (study.run.rtol, study.run.atol, study.run.escape_norm) = (1e-13, Some(1e-16), bound);
     let plan = Plan::new(&study)?;
     let c = &plan.computation;
     let model = plan.info()?.build(&c.parameters.values())?;
     let mut shape = vec![0.0; model.dim()];
     model.encode(&c.initial.values()[..model.dim()], &mut shape);
     let mut orbit = plan.method()?.shape_orbit(model.as_ref(), c.control.into(), 0.0, &shape)?;
-    let request = Request { escape_norm: BOUND, ..Request::until(c.t_end, shape.len()) };
+    let watch = &context.quiet();
+    let request = Request { escape_norm: bound, watch, ..Request::until(c.t_end, shape.len()) };
     let mut steps = Steps(Vec::new());
     let outcome = drive(orbit.as_mut(), &request, &mut steps)?;
     let t_star = match outcome {
         Outcome::Escaped { t, .. } => t,
+        Outcome::Interrupted { .. } => return Err(Error::Interrupted),
         other => other.t(),
     };
     let of = |name: &str| c.parameters.get(name).unwrap_or(0.0);

@@ -40,12 +40,12 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
         section.claims.push(claim(&[156], "The region × exists.", "No run escaped.", how, false));
         return Ok(());
     };
-    let approach = follow(&start)?;
+    let approach = context.kept.once("approach of the singularity", || follow(context, &start))?;
     let law = law(&start)?;
     section.figures.push(picture(&approach, law)?);
     let (adaptive, fixed) = (times(context, &start, &ADAPTIVE)?, times(context, &start, &FIXED)?);
     let (spread, list) = compare(&adaptive, &approach);
-    let (coefficient, ratio) = (approach.coefficient(), approach.ratio());
+    let (coefficient, ratio) = (context.number(approach.coefficient()), context.number(approach.ratio()));
     let off = (coefficient / law - 1.0).abs();
     section.claims.push(differs(
         &[156],
@@ -64,7 +64,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
          however small, integrates past it",
         spread < 1e-5 && off < 1e-3 && (ratio - 0.5).abs() < 5e-4,
     ));
-    section.claims.push(paper_steps(&fixed, approach.t_star, law));
+    section.claims.push(paper_steps(&fixed, context.number(approach.t_star), law));
     section.claims.push(bounded(context, &start)?);
     Ok(())
 }
@@ -171,7 +171,7 @@ fn bounded(context: &Context<'_>, start: &Study) -> Result<motiform_report::Clai
     study.set("d3", 0.01)?;
     study.run.t_end = 1000.0;
     let dataset = context.simulate(&study)?;
-    let complete = dataset.manifest.outcome.is_complete();
+    let complete = context.number(f64::from(u8::from(dataset.manifest.outcome.is_complete()))) > 0.5;
     let fastest = dataset.trajectory.get("speed").unwrap_or(&[]).iter().copied().fold(0.0, f64::max);
     Ok(claim(
         &[110],

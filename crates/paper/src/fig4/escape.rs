@@ -4,12 +4,11 @@ use super::super::claims::check;
 use super::super::context::Context;
 use super::{at, figure, power};
 use motiform_analysis::Stay;
-use motiform_dynamics::StopOnly;
 use motiform_figures::{Drawn, ExpectedLine, LineStyle, SurvivalCurve, SurvivalFigure, SurvivalStep};
 use motiform_lab::draw::sheet;
-use motiform_lab::saddle::{Saddle, saddle};
+use motiform_lab::saddle::Saddle;
 use motiform_report::Section;
-use motiform_study::{Error, Plan};
+use motiform_study::Error;
 
 /// Time for the starts to reach the saddle.
 const SETTLE: f64 = 100.0;
@@ -19,10 +18,8 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     let (runs, t_end) = context.choose((400, 4000.0), (80, 1500.0));
     let mut found = Vec::new();
     for kappa2 in values {
-        let plan = Plan::new(&at(context, *kappa2, 0.1)?)?;
         let times = (Some(SETTLE), Some(t_end));
-        let one = saddle(&plan, runs, times, context.threads, &StopOnly(context.watch))?
-            .ok_or(Error::Interrupted)?;
+        let one = context.saddle(&at(context, *kappa2, 0.1)?, runs, times)?;
         found.push((*kappa2, one));
     }
     section.figures.push(figure(

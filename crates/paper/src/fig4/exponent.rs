@@ -4,13 +4,10 @@ use super::super::claims::{check, claim, differs};
 use super::super::context::Context;
 use super::{at, figure, power};
 use motiform_analysis::Estimate;
-use motiform_dynamics::{Outcome, StopOnly};
 use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
-use motiform_lab::analyse::lyapunov;
 use motiform_lab::draw::sheet;
-use motiform_lab::saddle::saddle;
 use motiform_report::{Claim, Section};
-use motiform_study::{Error, Plan};
+use motiform_study::Error;
 
 /// Values of kappa2.
 const FINE: [f64; 24] = [
@@ -63,7 +60,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
             saddles.extend(left(context, *kappa2)?);
         }
     }
-    section.figures.push(picture(&runs, &saddles, span)?);
+    section.figures.push(picture(&runs, &saddles, span)?.of_paper("4(b)"));
     section.claims.extend([chaos_ends(&runs, &saddles), chaos_again(&runs), known(&runs, &saddles)]);
     section.claims.extend([instability(&saddles), neutral(&runs)]);
     Ok(())
@@ -72,18 +69,12 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
 fn run(context: &Context<'_>, (kappa2, seed): (f64, u64), span: f64) -> Result<Run, Error> {
     let mut study = at(context, kappa2, 0.1)?;
     study.run.seed = seed;
-    let found = lyapunov(&Plan::new(&study)?, COUNT, (Some(800.0), Some(span)), &StopOnly(context.watch))?;
-    if matches!(found.outcome, Outcome::Interrupted { .. }) {
-        return Err(Error::Interrupted);
-    }
+    let found = context.lyapunov(&study, COUNT, (800.0, span))?;
     Ok(Run { kappa2, largest: found.exponents.first().copied(), zeros: found.zeros() })
 }
 
 fn left(context: &Context<'_>, kappa2: f64) -> Result<Option<Left>, Error> {
-    let plan = Plan::new(&at(context, kappa2, 0.1)?)?;
-    let found =
-        saddle(&plan, context.choose(100, 24), (None, None), context.threads, &StopOnly(context.watch))?
-            .ok_or(Error::Interrupted)?;
+    let found = context.saddle(&at(context, kappa2, 0.1)?, context.choose(100, 24), (None, None))?;
     let of = |exponent| Left { kappa2, exponent, escaped: found.escaped, runs: found.runs };
     Ok(found.exponent.map(of))
 }

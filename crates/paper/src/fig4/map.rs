@@ -91,7 +91,8 @@ fn scan(
         lines: curves.lines(),
         ..phase_diagram(&plan, &cells)?
     };
-    section.figures.push(figure(sheet(&svg)?, words));
+    let drawn = figure(sheet(&svg)?, words);
+    section.figures.push(if name == "fig4" { drawn.of_paper("4(a)") } else { drawn });
     Ok(places(&plan, &cells))
 }
 

@@ -4,13 +4,13 @@ use super::super::claims::claim;
 use super::super::context::Context;
 use super::{at, power};
 use motiform_analysis::Regime;
-use motiform_dynamics::StopOnly;
-use motiform_lab::analyse::classify;
 use motiform_report::Section;
-use motiform_study::{Error, Plan, Study};
+use motiform_study::{Error, Study};
 
-/// A place in each region: kappa2, kappa3.
+/// A place in each region: kappa2, kappa3; and the paper's name of the motion there.
 const PLACES: [(f64, f64); 5] = [(1.4, 0.6), (0.5, 0.6), (0.9, 0.1), (0.5, 0.1), (0.05, 0.1)];
+const NAMES: [Regime; 5] =
+    [Regime::Straight, Regime::Circular, Regime::Zigzag, Regime::Chaotic, Regime::BlowUp];
 
 /// Modified Euler's steps in the paper.
 const STEPS: [f64; 2] = [1e-3, 1e-4];
@@ -35,10 +35,10 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
         format!("{}.", list.join("; ")),
         &format!(
             "classification at a place of each region, from the same start, by dop853 with error control and by modified \
-             Euler (heun) with {}: the same motion",
+             Euler (heun) with {}: straight, circular, zigzag, chaos and blow-up by all",
             names.join(" and ")
         ),
-        rows.iter().all(|row| row.iter().all(|regime| *regime == row[0])),
+        rows.iter().zip(NAMES).all(|(row, name)| row.iter().all(|regime| *regime == name)),
     ));
     Ok(())
 }
@@ -50,6 +50,5 @@ fn regime(context: &Context<'_>, (kappa2, kappa3): (f64, f64), step: Option<f64>
         "heun".clone_into(&mut study.run.stepper);
         study.run.step = Some(step);
     }
-    let verdict = classify(&Plan::new(&study)?, 0.0, &StopOnly(context.watch))?;
-    Ok(verdict.ok_or(Error::Interrupted)?.regime)
+    Ok(context.classify(&study)?.regime)
 }

@@ -5,17 +5,16 @@ use super::super::context::Context;
 use super::super::fig4::power;
 use super::drawings;
 use motiform_analysis::Lyapunov;
-use motiform_dynamics::{Outcome, StopOnly};
-use motiform_lab::analyse::lyapunov;
-use motiform_lab::saddle::{Saddle, saddle};
+use motiform_lab::saddle::Saddle;
 use motiform_report::{Claim, Section};
-use motiform_study::{Error, Plan, Study};
+use motiform_study::{Error, Study};
 
 pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Error> {
     let study = context.preset("fig5b", |_| Ok(()))?;
     let dataset = context.simulate(&study)?;
     section.figures.extend(drawings(
-        &dataset,
+        context,
+        ("5(b)", &dataset),
         &[
             (
                 "path",
@@ -31,12 +30,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
 
 /// The exponent of the preset over a long run.
 pub(super) fn measure(context: &Context<'_>, study: &Study) -> Result<Lyapunov, Error> {
-    let times = (Some(study.run.transient), Some(context.choose(40_000.0, 6000.0)));
-    let found = lyapunov(&Plan::new(study)?, 3, times, &StopOnly(context.watch))?;
-    match found.outcome {
-        Outcome::Interrupted { .. } => Err(Error::Interrupted),
-        _ => Ok(found),
-    }
+    context.lyapunov(study, 3, (study.run.transient, context.choose(40_000.0, 6000.0)))
 }
 
 fn exponent(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
@@ -61,14 +55,7 @@ fn exponent(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
 /// Does the chaos end in a blow-up, as it does at smaller kappa2?
 fn lasting(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
     let (runs, t_end) = context.choose((100, 20_000.0), (24, 5000.0));
-    let found = saddle(
-        &Plan::new(study)?,
-        runs,
-        (Some(100.0), Some(t_end)),
-        context.threads,
-        &StopOnly(context.watch),
-    )?
-    .ok_or(Error::Interrupted)?;
+    let found = context.saddle(study, runs, (Some(100.0), Some(t_end)))?;
     let watched = watched(&found);
     let finds = if found.escaped == 0 {
         format!(
@@ -90,7 +77,9 @@ fn lasting(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
         finds,
         "escapes over many starts; three over the time watched is the 95 % bound where there are none; lasting: at least a \
          hundred times 1/λ_1 on average",
-        found.exponent.is_some_and(|e| watched / (found.escaped.max(3) as f64) > 100.0 / e.value),
+        found
+            .exponent
+            .is_some_and(|e| e.value > 0.0 && watched / (found.escaped.max(3) as f64) > 100.0 / e.value),
     ))
 }
 

@@ -15,7 +15,8 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     let dataset = context.simulate(&study)?;
     let verdict = context.classify(&study)?;
     section.figures.extend(drawings(
-        &dataset,
+        context,
+        ("5(a)", &dataset),
         &[
             (
                 "path",

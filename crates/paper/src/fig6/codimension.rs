@@ -1,6 +1,7 @@
 //! The points of codimension two: where two neighbouring modes of the circle become unstable simultaneously.
 
 use super::super::claims::differs;
+use super::super::context::Context;
 use super::onset::{Onsets, WINDOWS};
 use motiform_dynamics::VectorField as _;
 use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
@@ -55,8 +56,8 @@ fn outside(length: f64, (from, to): (f64, f64)) -> f64 {
 }
 
 /// Sentence 145.
-pub(super) fn claim(onsets: &Onsets) -> Claim {
-    let points = [1, 2, 3].map(crossing);
+pub(super) fn claim(context: &Context<'_>, onsets: &Onsets) -> Claim {
+    let points = [1, 2, 3].map(crossing).map(|p| Point { length: context.number(p.length), ..p });
     let words = |(point, window): (&Point, &(f64, f64))| {
         let off = outside(point.length, *window);
         let place =

@@ -6,6 +6,7 @@ use motiform_models::cell::{CellField, CellParameters};
 use motiform_study::Error;
 
 /// The lengths at which something changes. `None`: not within the examined lengths.
+#[derive(Clone)]
 pub(super) struct Edges {
     /// The largest growth rate, and k^2 there.
     pub(super) fastest: (f64, f64),
@@ -45,6 +46,35 @@ const PLACES: [(f64, usize); 6] = [(9.0, 10), (12.6, 10), (16.0, 14), (22.2, 15)
 impl Edges {
     /// Follows all branches.
     pub(super) fn find(context: &Context<'_>) -> Result<Self, Error> {
+        Ok(context.kept.once("edges of Fig. 6", || Self::followed(context))?.through(context))
+    }
+
+    /// On the way to the claims.
+    fn through(self, context: &Context<'_>) -> Self {
+        let one = |x: f64| context.number(x);
+        let edge = |x: Option<f64>| x.map(one);
+        let both = |(a, b): (f64, f64)| (one(a), one(b));
+        let ends = |(a, b): (Option<f64>, Option<f64>)| (edge(a), edge(b));
+        Self {
+            fastest: both(self.fastest),
+            straight: edge(self.straight),
+            straight_refined: edge(self.straight_refined),
+            straight_growth: one(self.straight_growth),
+            circular: edge(self.circular),
+            circular_slow: both(self.circular_slow),
+            cycle: edge(self.cycle),
+            two_fold: edge(self.two_fold),
+            two_fold_end: edge(self.two_fold_end),
+            leaving: one(self.leaving),
+            second_leaving: one(self.second_leaving),
+            second_circular: ends(self.second_circular),
+            three_fold: ends(self.three_fold),
+            four_fold: edge(self.four_fold),
+            folds: self.folds,
+        }
+    }
+
+    fn followed(context: &Context<'_>) -> Result<Self, Error> {
         let branches = Branch::all(context, &PLACES)?;
         let [straight, circular, two_fold, second, three_fold, four_fold] = &branches[..] else {
             return Err(Error::Interrupted);

@@ -3,11 +3,9 @@
 use super::super::context::Context;
 use super::lengths::{modes_for, study};
 use motiform_analysis::Estimate;
-use motiform_dynamics::StopOnly;
 use motiform_figures::{Drawn, ErrorBarFigure, ErrorBarSeries, Measured};
-use motiform_lab::analyse;
 use motiform_lab::draw::sheet;
-use motiform_study::{Error, Plan};
+use motiform_study::Error;
 
 /// Hundredths of the lengths.
 const FULL: [u32; 10] = [2120, 2130, 2140, 2150, 2160, 2170, 2180, 2185, 2190, 2200];
@@ -26,14 +24,10 @@ impl Exponents {
         let transient = context.choose(6e3, 2e3);
         let one = |hundredths: &u32| {
             let length = f64::from(*hundredths) / 100.0;
-            let plan = Plan::new(&study(length, modes_for(length))?)?;
-            let found = analyse::lyapunov(&plan, 1, (Some(transient), Some(span)), &StopOnly(context.watch))?;
+            let found = context.lyapunov(&study(length, modes_for(length))?, 1, (transient, span))?;
             Ok(found.exponents.first().map(|exponent| (length, *exponent)))
         };
         let found: Vec<Option<(f64, Estimate)>> = context.each(&lengths, one)?;
-        if context.watch.stopped() {
-            return Err(Error::Interrupted);
-        }
         Ok(Self { found: found.into_iter().flatten().collect(), span })
     }
 

@@ -1,6 +1,7 @@
 //! The first window: circular, quasi-periodic and rectangular motion.
 
 use super::super::claims::{claim, differs};
+use super::super::context::Context;
 use super::edges::Edges;
 use super::lengths::Lengths;
 use super::quasi::Search;
@@ -12,14 +13,19 @@ use std::f64::consts::TAU;
 /// Share of the lengths that must be rectangular: with finite accuracy a run may repeat exactly beside the cycle.
 const MOST: f64 = 0.8;
 
-pub(super) fn claims(edges: &Edges, lengths: &Lengths, quasi: &Search) -> [Claim; 4] {
-    [circular(edges, lengths), quasi_periodic(edges, quasi), rectangular(edges, lengths), end(edges)]
+pub(super) fn claims(context: &Context<'_>, edges: &Edges, lengths: &Lengths, quasi: &Search) -> [Claim; 4] {
+    [
+        circular(context, edges, lengths),
+        quasi_periodic(context, edges, quasi),
+        rectangular(context, edges, lengths),
+        end(edges),
+    ]
 }
 
-fn circular(edges: &Edges, lengths: &Lengths) -> Claim {
+fn circular(context: &Context<'_>, edges: &Edges, lengths: &Lengths) -> Claim {
     let (from, to) = (number(edges.straight), number(edges.circular));
     let (all, count) = lengths.only(Regime::Circular, from, number(edges.cycle));
-    claim(
+    let found = claim(
         &[137, 138],
         "Circular motion emerges in *W*_1 = [12.0, 14.4].",
         format!(
@@ -28,17 +34,18 @@ fn circular(edges: &Edges, lengths: &Lengths) -> Claim {
         ),
         "Leading eigenvalue of the turning shape, followed in length; runs from random starts.",
         all && count > 0 && from < to && from > 12.0 && to < 14.4,
-    )
+    );
+    context.resting_on(count, "lengths", found)
 }
 
-fn quasi_periodic(edges: &Edges, quasi: &Search) -> Claim {
+fn quasi_periodic(context: &Context<'_>, edges: &Edges, quasi: &Search) -> Claim {
     let (cycle, circular) = (number(edges.cycle), number(edges.circular));
     let says = "Quasi-periodic motion emerges in *W*_1, between circular and rectangular motion.";
     let how = "Random starts at lengths through the edge between circular and rectangular motion, each named by the classifier; eigenvalues of the circular motion and of the saddles of the cycle.";
     if quasi.found > 0 {
         return claim(&[138], says, quasi.words(), how, true);
     }
-    differs(
+    let found = differs(
         &[138],
         says,
         quasi.words(),
@@ -54,10 +61,11 @@ fn quasi_periodic(edges: &Edges, quasi: &Search) -> Claim {
             && quasi.runs > 0
             && edges.circular_slow.0 < 0.0
             && edges.circular_slow.0 > -5e-3,
-    )
+    );
+    context.resting_on(quasi.runs, "runs", found)
 }
 
-fn rectangular(edges: &Edges, lengths: &Lengths) -> Claim {
+fn rectangular(context: &Context<'_>, edges: &Edges, lengths: &Lengths) -> Claim {
     let (from, to) = (number(edges.cycle), number(edges.two_fold));
     let inside: Vec<_> = lengths.inside(number(edges.circular), 14.45).collect();
     let share: f64 = inside
@@ -66,7 +74,7 @@ fn rectangular(edges: &Edges, lengths: &Lengths) -> Claim {
         .map(|motion| motion.share)
         .sum::<f64>()
         / inside.len() as f64;
-    claim(
+    let found = claim(
         &[138],
         "Rectangular motion emerges in *W*_1.",
         format!(
@@ -76,7 +84,8 @@ fn rectangular(edges: &Edges, lengths: &Lengths) -> Claim {
         ),
         "*λ*_+ + *λ*_− < 0 < *λ*_+ at the two-fold shape, followed in length; rests near it in runs from random starts.",
         share >= MOST && from > 12.0 && from < 14.4,
-    )
+    );
+    context.resting_on(inside.len(), "lengths", found)
 }
 
 fn end(edges: &Edges) -> Claim {

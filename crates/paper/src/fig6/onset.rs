@@ -25,7 +25,8 @@ pub(super) struct Onsets(pub(super) [f64; 4]);
 impl Onsets {
     /// Bisection in the length: does a small mode `n` grow or decay in a run?
     pub(super) fn find(context: &Context<'_>) -> Result<Self, Error> {
-        let found: Vec<f64> = context.each(&MODES, |n| onset(context, *n))?;
+        let found = context.kept.once("onsets of Fig. 6", || context.each(&MODES, |n| onset(context, *n)))?;
+        let found: Vec<f64> = found.into_iter().map(|length| context.number(length)).collect();
         found.try_into().map(Self).map_err(|_| Error::Interrupted)
     }
 

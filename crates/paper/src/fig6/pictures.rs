@@ -1,5 +1,6 @@
 //! The figures of the chapter.
 
+use super::super::context::Context;
 use super::super::strip::strip;
 use super::exponents::Exponents;
 use super::lengths::Lengths;
@@ -29,23 +30,30 @@ const MOVING: [Regime; 7] = [
 const LETTERS: [&str; 4] = ["a", "b", "c", "d"];
 
 pub(super) fn all(
+    context: &Context<'_>,
     lengths: &Lengths,
     exponents: &Exponents,
     tracks: &[Track],
 ) -> Result<Vec<ReportFigure>, Error> {
-    let mut figures = vec![
+    let mut figures = Vec::new();
+    for (track, letter) in tracks.iter().zip(LETTERS) {
+        figures.extend(track.figures(context, letter)?);
+    }
+    figures.extend(context.drawn(|| over_lengths(lengths, exponents))?);
+    Ok(figures)
+}
+
+/// What is drawn over the length.
+fn over_lengths(lengths: &Lengths, exponents: &Exponents) -> Result<Vec<ReportFigure>, Error> {
+    Ok(vec![
         ReportFigure::new(
             windows(lengths)?,
             "Which motion random starts lead to, over the length. Brackets: the paper's windows.",
         ),
         ReportFigure::new(speeds(lengths)?, "Mean speed over the length (motionless shapes are left out)."),
         ReportFigure::new(exponents.drawn()?, "Largest Lyapunov exponent in *W*_2."),
-    ];
-    figures.push(super::codimension::figure()?);
-    for (track, letter) in tracks.iter().zip(LETTERS) {
-        figures.extend(track.figures(letter)?);
-    }
-    Ok(figures)
+        super::codimension::figure()?,
+    ])
 }
 
 fn windows(lengths: &Lengths) -> Result<Drawn, Error> {

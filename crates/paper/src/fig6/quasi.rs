@@ -7,7 +7,7 @@ use motiform_study::Error;
 
 /// Lengths through the edge between circular and rectangular motion.
 const FULL: [f64; 8] = [12.94, 12.955, 12.965, 12.97, 12.975, 12.98, 13.0, 13.03];
-const QUICK: [f64; 2] = [12.968, 12.98];
+const QUICK: [f64; 4] = [12.96, 12.968, 12.975, 12.98];
 
 /// The runs and their results.
 pub(super) struct Search {

@@ -8,8 +8,8 @@ use motiform_analysis::{Verdict, welch};
 use motiform_report::ReportFigure;
 use motiform_study::{Dataset, Error, Study};
 
-/// Rows at which the boundary is measured.
-const MEASURED: usize = 200;
+/// Rows at which the boundary is measured: in a full, and in a quick run.
+const MEASURED: (usize, usize) = (200, 50);
 
 /// Recorded time of a quick run, where the spectrum needs no more.
 const QUICK: f64 = 1000.0;
@@ -42,7 +42,8 @@ impl Track {
         })?;
         let dataset = context.simulate(&study)?;
         let verdict = context.classify(&continued(&study, &dataset)?)?;
-        let boundary = measured(&dataset)?;
+        let boundary = context.kept.once(&format!("boundary of {name}"), || measured(context, &dataset))?;
+        let boundary = boundary.through(context);
         Ok(Self { dataset, verdict, boundary })
     }
 
@@ -77,7 +78,7 @@ impl Track {
     }
 
     /// Path, boundary field, spectrum and film.
-    pub(super) fn figures(&self, letter: &str) -> Result<Vec<ReportFigure>, Error> {
+    pub(super) fn figures(&self, context: &Context<'_>, letter: &str) -> Result<Vec<ReportFigure>, Error> {
         let length = self.parameter("length");
         let turns: Vec<String> = self.turns().iter().map(|turn| format!("{turn:.0}")).collect();
         let turns = match turns.is_empty() {
@@ -85,7 +86,7 @@ impl Track {
             false => format!(", turns of {} degrees", turns.join(" and ")),
         };
         let words = [
-            ("path", format!("Fig. 6({letter}), *L* = {length}: {}{turns}.", self.verdict.regime)),
+            ("path", format!("*L* = {length}: {}{turns}.", self.verdict.regime)),
             ("phi", format!("*φ*(*s*, *t*) of the motion above, *L* = {length}.")),
             (
                 "spectrum",
@@ -93,7 +94,12 @@ impl Track {
             ),
             ("motion", format!("The motion at *L* = {length}, animated.")),
         ];
-        drawings(&self.dataset, &words.each_ref().map(|(name, caption)| (*name, caption.as_str())))
+        let name = format!("6({letter})");
+        drawings(
+            context,
+            (&name, &self.dataset),
+            &words.each_ref().map(|(name, caption)| (*name, caption.as_str())),
+        )
     }
 }
 
@@ -107,7 +113,7 @@ pub(super) fn continued(study: &Study, dataset: &Dataset) -> Result<Study, Error
 }
 
 /// Measures the boundary along a run.
-fn measured(dataset: &Dataset) -> Result<Boundary, Error> {
+fn measured(context: &Context<'_>, dataset: &Dataset) -> Result<Boundary, Error> {
     let plan = &dataset.manifest.plan;
     let (info, parameters) = (plan.info()?, &plan.computation.parameters);
     let build = |open: bool| {
@@ -120,7 +126,8 @@ fn measured(dataset: &Dataset) -> Result<Boundary, Error> {
         model.coordinates().iter().filter_map(|c| dataset.trajectory.get(c.name)).collect();
     let rows = dataset.trajectory.rows();
     let state = |row: usize| columns.iter().map(|column| column[row]).collect();
-    let states: Vec<Vec<f64>> = (0..rows).step_by(rows.div_ceil(MEASURED).max(1)).map(state).collect();
+    let states: Vec<Vec<f64>> =
+        (0..rows).step_by(rows.div_ceil(context.choose(MEASURED.0, MEASURED.1)).max(1)).map(state).collect();
     let length = parameters.get("length").unwrap_or(f64::NAN);
     Boundary::along(&states, length, [model.as_ref(), bare.as_ref()])
 }

@@ -1,6 +1,7 @@
 //! What the paper says about Fig. 6(a) to (d).
 
-use super::super::claims::claim;
+use super::super::claims::{claim, differs};
+use super::super::context::Context;
 use super::exponents::Exponents;
 use super::tracks::Track;
 use motiform_analysis::Regime;
@@ -10,10 +11,15 @@ use motiform_report::Claim;
 /// Tolerance in degrees of an angle measured in a picture.
 const ANGLE: f64 = 6.0;
 
-pub(super) fn claims(tracks: &[Track], exponents: &Exponents) -> Vec<Claim> {
+pub(super) fn claims(context: &Context<'_>, tracks: &[Track], exponents: &Exponents) -> Vec<Claim> {
     let [a, b, c, d] = tracks else { return Vec::new() };
-    let mut claims =
-        vec![irregular(a, exponents), broad(a, b), quasi_periodic(b, exponents), reversing(c), net(d)];
+    let mut claims = vec![
+        irregular(a, exponents),
+        broad(context, a, b),
+        quasi_periodic(b, exponents),
+        reversing(c),
+        net(d),
+    ];
     claims.extend(super::boundary::claims(tracks));
     claims
 }
@@ -31,8 +37,9 @@ fn irregular(a: &Track, exponents: &Exponents) -> Claim {
     )
 }
 
-fn broad(a: &Track, b: &Track) -> Claim {
+fn broad(context: &Context<'_>, a: &Track, b: &Track) -> Claim {
     let (here, there) = (a.flatness().unwrap_or(f64::NAN), b.flatness().unwrap_or(f64::NAN));
+    let here = context.number(here);
     claim(
         &[147, 178],
         "Its power spectrum is broad.",
@@ -78,19 +85,37 @@ fn turns_are(track: &Track, wanted: &[f64]) -> bool {
     turns.len() == wanted.len() && turns.iter().zip(wanted).all(|(a, b)| (a - b).abs() < ANGLE)
 }
 
+/// The sums of two consecutive turns, in degrees.
+fn pairs(track: &Track) -> Vec<f64> {
+    track.verdict.legs.windows(2).map(|pair| wrap(pair[0] + pair[1]).to_degrees().abs()).collect()
+}
+
 fn reversing(c: &Track) -> Claim {
-    claim(
+    let (pairs, turns) = (pairs(c), c.turns());
+    let nets: Vec<String> = pairs.iter().map(|net| format!("{net:.1}")).collect();
+    let [aside, back] = turns[..] else {
+        let says = "Fig. 6(c), *L* = 29.2: turns of 180 and 45 degrees.";
+        return claim(&[149, 150, 180], says, listed(c), "Change of heading from leg to leg.", false);
+    };
+    differs(
         &[149, 150, 180],
-        "Fig. 6(c), *L* = 29.2: a zigzag with turns of 180 degrees and of 45 degrees to either side.",
-        listed(c),
-        "Change of heading at top speed from leg to leg (the body stops in between); within 6 degrees, as read off a figure.",
-        c.verdict.regime == Regime::Zigzag && turns_are(c, &[45.0, 180.0]),
+        "Fig. 6(c), *L* = 29.2: the orderly turns have almost 180° ± 45°; thus this is a kind of zigzag.",
+        format!("{}; two consecutive turns together: {} degrees", listed(c), nets.join(", ")),
+        "Change of heading at top speed from leg to leg (the body stops in between). 180° ± 45° of one turn would be 135 degrees to either side; \
+         found must be turns of 180 and of 45 degrees, each within 6 degrees, as read off a figure, and 135 for two together, within twice that",
+        &format!(
+            "it is a zigzag, but no single turn is 180° ± 45°: the body turns back (by {back:.0}°) and aside (by {aside:.0}° to one side or the other). \
+             If the sentence means the turning back together with the turn beside it, it holds: that is {back:.0}° ± {aside:.0}°"
+        ),
+        c.verdict.regime == Regime::Zigzag
+            && turns_are(c, &[45.0, 180.0])
+            && !pairs.is_empty()
+            && pairs.iter().all(|net| (net - 135.0).abs() < 2.0 * ANGLE),
     )
 }
 
 fn net(d: &Track) -> Claim {
-    let pairs: Vec<f64> =
-        d.verdict.legs.windows(2).map(|pair| wrap(pair[0] + pair[1]).to_degrees().abs()).collect();
+    let pairs = pairs(d);
     let nets: Vec<String> = pairs.iter().map(|net| format!("{net:.1}")).collect();
     claim(
         &[149, 152, 182, 183],

@@ -1,6 +1,7 @@
 //! What the paper says about the windows of length, against edges computed from eigenvalues and scans from random starts.
 
 use super::super::claims::{check, claim, differs};
+use super::super::context::Context;
 use super::edges::Edges;
 use super::lengths::Lengths;
 use super::onset::Onsets;
@@ -12,6 +13,7 @@ use motiform_report::Claim;
 const NEAR: f64 = 0.1;
 
 pub(super) fn claims(
+    context: &Context<'_>,
     edges: &Edges,
     lengths: &Lengths,
     zigzags: &Zigzags,
@@ -19,16 +21,16 @@ pub(super) fn claims(
     onsets: &Onsets,
 ) -> Vec<Claim> {
     let mut claims = onsets.claims(edges).to_vec();
-    claims.extend([super::codimension::claim(onsets), fastest(edges)]);
-    claims.extend([nothing(onsets, lengths), straight(edges, onsets, lengths)]);
-    claims.extend(super::first_window::claims(edges, lengths, quasi));
+    claims.extend([super::codimension::claim(context, onsets), fastest(edges)]);
+    claims.extend([nothing(context, onsets, lengths), straight(context, edges, onsets, lengths)]);
+    claims.extend(super::first_window::claims(context, edges, lengths, quasi));
     claims.extend([
-        two_fold(edges, lengths),
+        two_fold(context, edges, lengths),
         second_start(edges),
         second_end(edges),
-        three_fold(edges, lengths),
+        three_fold(context, edges, lengths),
     ]);
-    claims.extend([zigzags.claim(edges), four_fold(edges, lengths)]);
+    claims.extend([zigzags.claim(edges), four_fold(context, edges, lengths)]);
     claims
 }
 
@@ -46,6 +48,7 @@ pub(super) fn number(edge: Option<f64>) -> f64 {
 pub(super) fn places(count: usize) -> String {
     match count {
         1 => "the one length scanned".to_owned(),
+        2 => "both lengths scanned".to_owned(),
         _ => format!("all {count} lengths scanned"),
     }
 }
@@ -60,9 +63,9 @@ fn fastest(edges: &Edges) -> Claim {
     )
 }
 
-fn nothing(onsets: &Onsets, lengths: &Lengths) -> Claim {
+fn nothing(context: &Context<'_>, onsets: &Onsets, lengths: &Lengths) -> Claim {
     let (still, count) = lengths.only(Regime::Motionless, 0.0, onsets.0[0]);
-    claim(
+    let found = claim(
         &[141],
         "No shape instability and no motion for *L* < 6.2.",
         format!(
@@ -72,14 +75,15 @@ fn nothing(onsets: &Onsets, lengths: &Lengths) -> Claim {
         ),
         "Runs: growth of a small mode 1, and motions from random starts; the paper gives two digits.",
         still && count > 0 && (onsets.0[0] - 6.2).abs() < NEAR,
-    )
+    );
+    context.resting_on(count, "lengths", found)
 }
 
-fn straight(edges: &Edges, onsets: &Onsets, lengths: &Lengths) -> Claim {
+fn straight(context: &Context<'_>, edges: &Edges, onsets: &Onsets, lengths: &Lengths) -> Claim {
     let end = number(edges.straight);
     let (all, count) = lengths.only(Regime::Straight, onsets.0[0], end);
     let same = (end - number(edges.straight_refined)).abs();
-    differs(
+    let found = differs(
         &[140],
         "The straight motion is found for 6.2 < *L* < 12.0.",
         format!("straight at {} between 2π and *L* = {end:.3}, where it loses its stability", places(count)),
@@ -90,13 +94,14 @@ fn straight(edges: &Edges, onsets: &Onsets, lengths: &Lengths) -> Claim {
             same.max(1e-5)
         ),
         all && count > 0 && edges.straight_growth < 0.0 && same < 1e-4 && end > 12.0 && end < 12.5,
-    )
+    );
+    context.resting_on(count, "lengths", found)
 }
 
-fn two_fold(edges: &Edges, lengths: &Lengths) -> Claim {
+fn two_fold(context: &Context<'_>, edges: &Edges, lengths: &Lengths) -> Claim {
     let (from, to) = (number(edges.two_fold), number(edges.two_fold_end));
     let (all, count) = lengths.only(Regime::Motionless, from + NEAR, to);
-    claim(
+    let found = claim(
         &[137],
         "Between *W*_1 and *W*_2 there is no intricate motion.",
         format!(
@@ -105,7 +110,8 @@ fn two_fold(edges: &Edges, lengths: &Lengths) -> Claim {
         ),
         "Leading eigenvalue of the shape followed in length; number of folds from its modes; runs from random starts.",
         all && count > 0 && edges.folds[0] == 2,
-    )
+    );
+    context.resting_on(count, "lengths", found)
 }
 
 fn second_start(edges: &Edges) -> Claim {
@@ -139,12 +145,12 @@ fn second_end(edges: &Edges) -> Claim {
     )
 }
 
-fn three_fold(edges: &Edges, lengths: &Lengths) -> Claim {
+fn three_fold(context: &Context<'_>, edges: &Edges, lengths: &Lengths) -> Claim {
     let (from, to) = edges.three_fold;
     let circular = number(edges.second_circular.0);
     let (all, count) = lengths.only(Regime::Motionless, number(from) + 3.0 * NEAR, 28.95);
     let (turning, turned) = lengths.only(Regime::Circular, circular + 0.5 * NEAR, number(from) - 0.5 * NEAR);
-    differs(
+    let found = differs(
         &[137],
         "Between *W*_2 and *W*_3 there is no intricate motion.",
         format!(
@@ -160,13 +166,14 @@ fn three_fold(edges: &Edges, lengths: &Lengths) -> Claim {
             words(from)
         ),
         all && count > 0 && edges.folds[1] == 3 && turning && turned > 0,
-    )
+    );
+    context.resting_on(count.min(turned), "lengths", found)
 }
 
-fn four_fold(edges: &Edges, lengths: &Lengths) -> Claim {
+fn four_fold(context: &Context<'_>, edges: &Edges, lengths: &Lengths) -> Claim {
     let from = number(edges.four_fold);
     let (all, count) = lengths.only(Regime::Motionless, from + 5.0 * NEAR, 32.0);
-    claim(
+    let found = claim(
         &[137],
         "Beyond *W*_3 there is no intricate motion (up to *L* = 31).",
         format!(
@@ -176,5 +183,6 @@ fn four_fold(edges: &Edges, lengths: &Lengths) -> Claim {
         ),
         "Leading eigenvalue of the four-fold shape, followed in length; runs from random starts.",
         all && count > 0 && edges.folds[2] == 4,
-    )
+    );
+    context.resting_on(count, "lengths", found)
 }

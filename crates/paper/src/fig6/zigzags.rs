@@ -3,7 +3,7 @@
 use super::super::claims::{claim, differs};
 use super::super::context::Context;
 use super::edges::Edges;
-use super::lengths::study;
+use super::lengths::{Lengths, study};
 use super::tracks::Track;
 use super::windows::words;
 use motiform_analysis::Regime;
@@ -20,6 +20,9 @@ const QUICK: [u32; 6] = [2910, 2920, 2940, 2960, 3000, 3020];
 
 /// Modes; enough for the longest.
 const MODES: usize = 20;
+
+/// The lengths about the third window.
+const WINDOW: (f64, f64) = (28.8, 30.4);
 
 /// The lengths inside which the zigzag may have lost its mirror symmetry (measured: 29.4 and 29.45).
 const GAP: (f64, f64) = (29.25, 29.55);
@@ -85,6 +88,30 @@ impl Zigzags {
         let before = self.0[..first].last()?.length;
         let after = self.0.get(last + 1)?.length;
         Some([(before, self.0[first].length), (self.0[last].length, after)])
+    }
+
+    /// Sentence 153: zigzags at other lengths than about those of mode 4.
+    pub(super) fn elsewhere(&self, context: &Context<'_>, lengths: &Lengths) -> Claim {
+        let scanned = lengths.0.iter().map(|(length, cell)| {
+            (*length, cell.motions.iter().any(|motion| motion.regime == Regime::Zigzag))
+        });
+        let followed = self.0.iter().map(|kept| (kept.length, kept.regime == Regime::Zigzag));
+        let all: Vec<(f64, bool)> = scanned.chain(followed).collect();
+        let outside = || all.iter().filter(|entry| !(WINDOW.0..WINDOW.1).contains(&entry.0));
+        let there = all.iter().filter(|entry| entry.1 && (WINDOW.0..WINDOW.1).contains(&entry.0)).count();
+        let found: Vec<String> = outside().filter(|entry| entry.1).map(|entry| entry.0.to_string()).collect();
+        let count = outside().count();
+        let words = if found.is_empty() { "none".to_owned() } else { found.join(", ") };
+        let says =
+            "The zigzag motion with *n* = ±3 as in Fig. 5(a) has not been found in the active cell model.";
+        let finds = format!(
+            "zigzags at {there} of the lengths in and about *W*_3, where *L*/2π is close to 4; at the {count} lengths below and above it that were \
+             looked at, from 6 to 31: {words}"
+        );
+        let how = "the motions of random starts at the lengths of the scan, and the zigzag of (c) followed in length; no zigzag outside \
+                   28.8 < *L* < 30.4. The turns of those inside, at the two lengths of the paper, stand in the chapter on both models. A search with few \
+                   starts does not exclude a small basin";
+        context.resting_on(count, "lengths", claim(&[153], says, finds, how, found.is_empty() && there > 0))
     }
 
     pub(super) fn claim(&self, edges: &Edges) -> Claim {

@@ -116,7 +116,10 @@ impl Term {
         let modes = self.cell.iter().map(|length| fig6::modes_for(*length)).max().unwrap_or(8);
         let lengths =
             self.cell.iter().map(|length| fig6::study(*length, modes)).collect::<Result<Vec<_>, _>>()?;
-        let found = [Steady::along(context, &points)?, Steady::along(context, &lengths)?];
+        let found = [("tensor", &points), ("cell", &lengths)]
+            .map(|(model, studies)| Steady::along(context, &format!("{model} {}", self.says), studies));
+        let [tensor, cell] = found;
+        let found = [tensor?, cell?];
         let words = found.iter().map(|s| s.as_ref().map_or("not found".to_owned(), self.finds));
         let words: Vec<String> = words.collect();
         let (kappa2, gamma) = self.tensor.last().copied().unwrap_or((f64::NAN, f64::NAN));

@@ -15,18 +15,18 @@ boundary with many modes, and its length. The same motions are looked for in bot
 Guckenheimer and Holmes (1988): each term is a property of the reduced dynamics, checked by the same function in either model.";
 
 pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
-    let mut claims = vec![reduction::exact()?];
+    let mut claims = vec![reduction::exact(context)];
     claims.extend(correspondence::claims(context)?);
     claims.push(chaos::claim_of(context)?);
     context.watch.progress(0.4);
     let zigzags = zigzags::Zigzags::find(context)?;
-    claims.extend(zigzags.claims());
+    claims.extend(zigzags.claims(context));
     claims.extend(reduction::edges(context)?);
     Ok(Section {
         title: "Both models".to_owned(),
         about: ABOUT.to_owned(),
         parameters: correspondence::parameters(),
-        figures: vec![zigzags.figure()?],
+        figures: context.drawn(|| Ok(vec![zigzags.figure()?]))?,
         claims,
         ..Section::default()
     })

@@ -6,6 +6,7 @@ use motiform_analysis::symmetry::align;
 use motiform_study::{Error, Plan, Study};
 
 /// What is known of a steady shape.
+#[derive(Clone)]
 pub(super) struct Steady {
     /// Size of the deformation (norm of the state).
     pub(super) size: f64,
@@ -20,8 +21,22 @@ pub(super) struct Steady {
 }
 
 impl Steady {
+    /// As [`Steady::followed`], on the way to the claims.
+    pub(super) fn along(context: &Context<'_>, name: &str, studies: &[Study]) -> Result<Option<Self>, Error> {
+        let found = context.kept.once(&format!("steady: {name}"), || Self::followed(context, studies))?;
+        let change = |s: Self| Self {
+            size: context.number(s.size),
+            speed: context.number(s.speed),
+            turning: context.number(s.turning),
+            asymmetry: context.number(s.asymmetry),
+            growth: context.number(s.growth),
+            saddle: s.saddle.map(|(out, inward)| (context.number(out), context.number(inward))),
+        };
+        Ok(found.map(change))
+    }
+
     /// The shape that a random start settles on at the first study, followed through the others by Newton's method.
-    pub(super) fn along(context: &Context<'_>, studies: &[Study]) -> Result<Option<Self>, Error> {
+    fn followed(context: &Context<'_>, studies: &[Study]) -> Result<Option<Self>, Error> {
         let Some(first) = studies.first() else { return Ok(None) };
         let mut run = first.clone();
         run.run.transient = 3000.0;

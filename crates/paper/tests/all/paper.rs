@@ -1,8 +1,19 @@
 //! What every chapter's report must fulfil.
 
-use motiform_paper::{checked_in, entry_of};
+use motiform_paper::{Keeping, Kept, Options, checked_in, entry_of, reproduce_kept};
 use motiform_report::{Report, Verdict};
 use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::LazyLock;
+
+/// What all tests compute once: quick chapters, with and without faults.
+pub(crate) static KEPT: LazyLock<Kept> = LazyLock::new(Kept::default);
+
+/// A report from what is kept.
+pub(crate) fn reproduced(options: &Options, out: &Path) -> Report {
+    let keeping = Keeping { journal: &(), page: &|_| Ok(()), kept: &KEPT };
+    reproduce_kept(options, out, keeping, &()).expect("a report")
+}
 
 /// Prints and checks a report of these chapters: nothing fails, what differs has its reason, claims name sentences, and every
 /// sentence that the table gives to a chapter has a claim in it.

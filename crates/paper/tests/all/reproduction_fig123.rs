@@ -4,7 +4,7 @@
 
 use crate::paper;
 
-use motiform_paper::{Options, reproduce};
+use motiform_paper::Options;
 use motiform_report::Verdict;
 
 #[test]
@@ -12,7 +12,7 @@ fn no_claim_of_simulations_one_fails() {
     let folder = tempfile::tempdir().unwrap();
     let options =
         Options { figures: ["fig1", "fig2", "fig3"].map(str::to_owned).to_vec(), quick: true, threads: 2 };
-    let report = reproduce(&options, folder.path(), &()).unwrap();
+    let report = paper::reproduced(&options, folder.path());
     assert_eq!(report.sections.len(), 3);
     for section in &report.sections {
         assert!(section.claims.len() >= 5 && !section.figures.is_empty(), "{}", section.title);

@@ -4,14 +4,14 @@
 
 use crate::paper;
 
-use motiform_paper::{Options, reproduce};
+use motiform_paper::Options;
 use motiform_report::Verdict;
 
 #[test]
 fn no_claim_about_figures_4_and_5_fails() {
     let folder = tempfile::tempdir().unwrap();
     let options = Options { figures: vec!["fig4".into(), "fig5".into()], quick: true, threads: 2 };
-    let report = reproduce(&options, folder.path(), &()).unwrap();
+    let report = paper::reproduced(&options, folder.path());
     paper::check(&report, &["fig4", "fig5"]);
     for section in &report.sections {
         assert!(section.figures.len() >= 4 && section.claims.len() >= 8, "{} is thin", section.title);

@@ -96,6 +96,7 @@ fn folders_of_others_stay() {
             "summary.json",
             "modes.parquet",
             "report.html",
+            "figure-1.svg",
             "figure-1.1.svg",
             "path.svg",
         ] {
