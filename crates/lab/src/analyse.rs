@@ -1,6 +1,6 @@
 //! Analyses of the motion of a plan: its regime and its Lyapunov exponents.
 
-use motiform_analysis::regime::{Settings, Verdict};
+use motiform_analysis::regime::{Settings, Verdict, settle};
 use motiform_analysis::{Lyapunov, LyapunovSettings, SoFar};
 use motiform_dynamics::Watch;
 use motiform_dynamics::steppers::Method;
@@ -10,14 +10,52 @@ use motiform_study::plan::{Control, LONGEST, check, check_no_noise};
 use motiform_study::{Error, Plan};
 
 /// Classifies the motion that starts from the plan's initial state, within at most `budget` model time (the model's
-/// default, if 0); `None` if the watch stopped it. The plan's transient and recording do not matter.
+/// default, if 0); `None` if the watch stopped it. Where the model has a number of modes, the motion is found again with half as many
+/// more ([`Verdict::resolved_by`]). The plan's transient and recording do not matter.
 ///
 /// # Errors
 /// Input that only the numerics can reject.
 pub fn classify(plan: &Plan, budget: f64, watch: &dyn Watch) -> Result<Option<Verdict>, Error> {
     let (model, shape) = start(plan)?;
     let settings = settings(plan, budget)?;
-    Ok(motiform_analysis::classify(model.as_ref(), &shape, &settings, &StopOnly(watch))?)
+    let watch = StopOnly(watch);
+    let Some((verdict, shape)) = settle(model.as_ref(), &shape, &settings, &watch)? else { return Ok(None) };
+    let Some(Finer { body, shape, parameter, value }) = finer(plan, model.as_ref(), &shape)? else {
+        return Ok(Some(verdict));
+    };
+    let tighter = settings.tighter().unwrap_or(settings);
+    Ok(Some(verdict.resolved_by(body.as_ref(), &shape, (parameter, value), &tighter, &watch)?))
+}
+
+/// The body of a plan with more modes, and a shape in its representation.
+struct Finer {
+    body: Box<dyn Model>,
+    shape: Vec<f64>,
+    parameter: &'static str,
+    value: f64,
+}
+
+/// With half as many modes again; `None` for a model without a parameter for their number, or at its largest value.
+fn finer(plan: &Plan, model: &dyn Model, shape: &[f64]) -> Result<Option<Finer>, Error> {
+    let info = plan.info()?;
+    let Some(parameter) = info.resolution else { return Ok(None) };
+    let mut values = plan.computation.parameters.values();
+    let place = motiform_models::parameters::index_of(info.parameters(), info.name, parameter)?;
+    let (_, most) = info.parameters()[place].allowed;
+    let value = (1.5 * values[place]).ceil();
+    if value > most {
+        return Ok(None);
+    }
+    values[place] = value;
+    let body = info.build(&values)?;
+    let mut known = vec![0.0; model.coordinates().len()];
+    model.decode(shape, &mut known);
+    let of = |name: &str| model.coordinates().iter().position(|coordinate| coordinate.name == name);
+    let coordinates: Vec<f64> =
+        body.coordinates().iter().map(|one| of(one.name).map_or(0.0, |place| known[place])).collect();
+    let mut shape = vec![0.0; body.dim()];
+    body.encode(&coordinates, &mut shape);
+    Ok(Some(Finer { body, shape, parameter, value }))
 }
 
 /// The classifier's settings for a plan.
@@ -107,7 +145,7 @@ pub(crate) fn model(plan: &Plan) -> Result<Box<dyn Model>, Error> {
 }
 
 /// The model of a plan, and its initial shape.
-fn start(plan: &Plan) -> Result<(Box<dyn Model>, Vec<f64>), Error> {
+pub(crate) fn start(plan: &Plan) -> Result<(Box<dyn Model>, Vec<f64>), Error> {
     let model = model(plan)?;
     let mut shape = vec![0.0; model.dim()];
     model.encode(&plan.computation.initial.values()[..model.dim()], &mut shape);

@@ -2,9 +2,13 @@
 
 use crate::analyse;
 use motiform_analysis::regime::{Regime, Verdict};
-use motiform_dynamics::Outcome;
-use motiform_dynamics::Watch;
-use motiform_study::{Error, Manifest};
+use motiform_analysis::{RelativeEquilibrium, SteadyMotion};
+use motiform_dynamics::escape::norm;
+use motiform_dynamics::{Outcome, Watch};
+use motiform_study::{Error, Manifest, Plan};
+
+/// A shape nearer to a steady motion than this part of its size is on it.
+const ON: f64 = 1e-6;
 
 /// Maximum model time, in looks of the model: a motion that has settled is identified within the first.
 const LOOKS: f64 = 2.0;
@@ -18,15 +22,34 @@ const LOOKS: f64 = 2.0;
 ///
 /// # Checked by  tests/all/naming.rs: the presets' motions, other parameters, noise, blow-up
 pub fn name(manifest: &Manifest, watch: &dyn Watch) -> Result<Option<Verdict>, Error> {
-    let mut plan = manifest.plan.clone();
-    let complete = matches!(*manifest.outcome, Outcome::Completed { .. });
-    if !complete || plan.computation.noise.is_some() || watch.stopped() {
-        return Ok(None);
-    }
-    for (entry, state) in plan.computation.initial.0.iter_mut().zip(&manifest.state.0) {
-        entry.1 = state.1;
-    }
+    let Some(plan) = from_its_end(manifest).filter(|_| !watch.stopped()) else { return Ok(None) };
     let budget = LOOKS * plan.info()?.look;
     let verdict = analyse::classify(&plan, budget, watch)?;
     Ok(verdict.filter(|verdict| verdict.regime != Regime::Undetermined))
+}
+
+/// The unstable steady motion that a run ended on, and its growth rate (inverse model time): only an orbit of exact symmetry stays there.
+/// `None` where it ended elsewhere, did not complete, or is under noise.
+///
+/// # Errors
+/// Input that only the numerics can reject.
+pub fn unstable(manifest: &Manifest) -> Result<Option<(Regime, f64)>, Error> {
+    let Some(plan) = from_its_end(manifest) else { return Ok(None) };
+    let (model, shape) = analyse::start(&plan)?;
+    let model = model.as_ref();
+    let on = |found: &RelativeEquilibrium| {
+        found.distance(model, &shape) <= ON * norm(&shape) && found.is_unstable()
+    };
+    let found = RelativeEquilibrium::find(model, &shape).filter(on);
+    Ok(found.map(|found| (SteadyMotion::of(model, &found).regime(), found.growth())))
+}
+
+/// The plan of a run with its end as the start; `None` for a run that did not complete, or is under noise.
+fn from_its_end(manifest: &Manifest) -> Option<Plan> {
+    let complete = matches!(*manifest.outcome, Outcome::Completed { .. });
+    let mut plan = manifest.plan.clone();
+    for (entry, state) in plan.computation.initial.0.iter_mut().zip(&manifest.state.0) {
+        entry.1 = state.1;
+    }
+    (complete && plan.computation.noise.is_none()).then_some(plan)
 }

@@ -36,6 +36,8 @@ pub struct ModelInfo {
     pub display: Display,
     /// Size of coordinates in random shapes, by their index.
     pub weight: fn(usize) -> f64,
+    /// The parameter that says how finely the body is resolved, if there is one.
+    pub resolution: Option<&'static str>,
     pub(crate) inner: Source,
 }
 
@@ -88,6 +90,7 @@ pub static MODELS: &[ModelInfo] = &[
             plane: &[("kappa2", 0.05, 1.65), ("kappa3", 0.05, 1.05)],
         },
         weight: |_| 1.0,
+        resolution: None,
         inner: Source::BuiltIn {
             parameters: TensorParameters::specs,
             coordinates: |_| &tensor::COORDINATES,
@@ -107,6 +110,7 @@ pub static MODELS: &[ModelInfo] = &[
         size: 4.0,
         display: Display { sample: 0.5, speed: 80.0, plane: &[("length", 6.0, 32.0)] },
         weight: |place| 1.0 / ((place / 2 + 1) * (place / 2 + 1)) as f64, // mode n: as smooth as a boundary whose slope jumps
+        resolution: Some("modes"),
         inner: Source::BuiltIn {
             parameters: CellParameters::specs,
             coordinates: |values| from_values::<CellParameters>(values).coordinates(),

@@ -33,6 +33,12 @@ impl Settings {
         }
     }
 
+    /// The same with a tighter tolerance; `None` where it cannot be tighter.
+    #[must_use]
+    pub fn tighter(&self) -> Option<Self> {
+        Some(Self { control: self.flow().tighter()?.control, ..*self })
+    }
+
     /// The flow over one period.
     pub(super) fn flow(&self) -> Flow {
         Flow { method: self.method, control: self.control, max_steps: self.max_steps }

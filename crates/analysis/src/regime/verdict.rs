@@ -4,6 +4,7 @@ use crate::Estimate;
 use crate::equilibrium::Saddle;
 use crate::regime::course::{Course, Direction};
 use crate::regime::form::Form;
+use crate::regime::resolution::Resolution;
 use motiform_dynamics::Equivariant;
 use serde::{Deserialize, Serialize};
 
@@ -199,6 +200,9 @@ pub struct Verdict {
     /// tolerance: 1 and less is weak, 10 is clear. Absent where nothing was decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margin: Option<f64>,
+    /// How far its numbers move with more modes, where the model has a parameter for their number.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub resolution: Option<Resolution>,
     /// Speed of the centre of mass (model length per model time).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<Spread>,
@@ -279,6 +283,7 @@ impl Verdict {
             heading: None,
             why,
             margin: None,
+            resolution: None,
             speed: None,
             turning_rate: None,
             turning_error: None,

@@ -4,6 +4,7 @@ use crate::args::ClassifyOptions;
 use crate::commands::subject;
 use crate::output::{End, estimate, print, warn};
 use crate::progress::Progress;
+use motiform_analysis::regime::Resolution;
 use motiform_analysis::{Regime, Verdict};
 use motiform_lab::analyse;
 use motiform_lab::samples::{self, Basins, Escapes, Named, Samples};
@@ -115,7 +116,14 @@ fn summary(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
     writeln!(text, "because        {}", verdict.why)?;
     if let Some(margin) = verdict.margin {
         let sure = if margin < 3.0 { "weak" } else { "clear" };
-        writeln!(text, "margin         {margin:.1} times the uncertainty of the decisive quantity ({sure})")?;
+        let margin = if margin < 1e4 { format!("{margin:.1}") } else { format!("{margin:.0e}") };
+        writeln!(text, "margin         {margin} times the uncertainty of the decisive quantity ({sure})")?;
+    }
+    if let Some(Resolution { parameter, value, change }) = &verdict.resolution {
+        writeln!(
+            text,
+            "resolution     with {parameter} = {value}, speed, turning rate and period change by at most {change:.0e} of themselves"
+        )?;
     }
     if let Some(form) = verdict.form {
         writeln!(text, "form           {}", form.name())?;

@@ -40,6 +40,12 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
         summary(&run, verdict.as_ref(), written.as_deref())?
     };
     print(&text)?;
+    if let Some((motion, growth)) = naming::unstable(&run.manifest)? {
+        warn(&format!(
+            "the run ends on {motion} motion that is unstable (growth rate {growth:.2e}): its start has an exact symmetry, and a typical start \
+             leaves it; change a coordinate that is 0 in the start a little"
+        ));
+    }
     if let Some(error) = run.manifest.step_error.filter(|&error| error > COARSE) {
         warn(&format!(
             "the step loses accuracy: halving it changes one step by {error:.1e} of the state; give a smaller --step"

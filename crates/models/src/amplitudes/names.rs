@@ -72,6 +72,7 @@ fn make(equations: Equations) -> ModelInfo {
         size: 1.0,
         display: Display { sample: look / 4000.0, speed: look / 25.0, plane: plane(&known.parameters) },
         weight: |_| 1.0,
+        resolution: None,
         inner: Source::Amplitudes(known),
     }
 }

@@ -100,6 +100,8 @@ class Verdict:
     """Direction of the velocity, or of the drift of a motion that repeats (rad, from the x axis), in a model without rotations."""
     margin: float | None = None
     """Distance of the decisive quantity from its threshold, in units of its own uncertainty: 1 is weak, 10 is clear."""
+    resolution: Mapping[str, Any] | None = None
+    """How far the numbers move with more modes: the ``parameter`` that was changed, its ``value``, the largest relative ``change``."""
     speed: Spread | None = None
     """Speed of the centre of mass (model length per model time)."""
     turning_rate: float | None = None

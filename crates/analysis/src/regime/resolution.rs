@@ -1,0 +1,104 @@
+//! How far an answer moves in a finer model: the resolution of a verdict.
+
+use super::form::Form;
+use super::settings::Settings;
+use super::verdict::{Attractor, Regime, Verdict};
+use super::{recurrence::Recurrence, words};
+use crate::equilibrium::RelativeEquilibrium;
+use crate::periodic::{PeriodicGuess, PeriodicOrbit};
+use crate::symmetry::align;
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::{Equivariant, Request, Watch};
+use serde::{Deserialize, Serialize};
+
+/// The same motion with more modes and a tighter tolerance.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Resolution {
+    /// The parameter that was changed.
+    pub parameter: String,
+    /// Its other value.
+    pub value: f64,
+    /// The largest relative change of speed, turning rate and period.
+    pub change: f64,
+}
+
+impl Verdict {
+    /// This verdict with its resolution: what Newton's method finds from `shape` on this motion, given in the representation of `finer`, a
+    /// model of the same body in which `parameter` has this value. Undetermined where it is another motion there, or none. Motions that are
+    /// neither steady nor periodic are left as they are.
+    ///
+    /// # Errors
+    /// What the numerics refuse.
+    pub fn resolved_by<B: Equivariant + ?Sized>(
+        mut self,
+        finer: &B,
+        shape: &[f64],
+        (parameter, value): (&str, f64),
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> crate::Result<Self> {
+        let other = match (self.attractor, self.period) {
+            (Attractor::Equilibrium, _) => RelativeEquilibrium::find(finer, shape)
+                .map(|found| words::equilibrium(finer, &found, 0.0, 0.0)),
+            (Attractor::Periodic, Some(period)) => orbit(finer, shape, (period, self.form), settings, watch)?,
+            _ => return Ok(self),
+        };
+        if watch.stopped() {
+            return Ok(self);
+        }
+        let other = other.map(Verdict::or_undetermined);
+        match other.filter(|other| other.attractor == self.attractor && other.regime == self.regime) {
+            Some(other) => {
+                let change = self.change(&other);
+                self.resolution = Some(Resolution { parameter: parameter.to_owned(), value, change });
+            }
+            None => {
+                self.why = format!(
+                    "{}; but with {parameter} = {value} Newton's method does not find this motion there: it is not resolved",
+                    self.why
+                );
+                (self.regime, self.attractor) = (Regime::Undetermined, Attractor::Unknown);
+                (self.form, self.margin) = (None, None);
+            }
+        }
+        Ok(self)
+    }
+
+    /// The largest relative difference of the numbers of two verdicts on one motion.
+    fn change(&self, other: &Self) -> f64 {
+        let speed = |verdict: &Self| verdict.speed.map(|speed| speed.mean);
+        let pairs = [
+            (speed(self), speed(other)),
+            (self.turning_rate, other.turning_rate),
+            (self.period, other.period),
+        ];
+        let change = |(x, y): (Option<f64>, Option<f64>)| {
+            let (x, y) = (x?.abs(), y?.abs());
+            (x.max(y) > 0.0).then(|| (x - y).abs() / x.max(y))
+        };
+        pairs.into_iter().filter_map(change).fold(0.0, f64::max)
+    }
+}
+
+/// The verdict on the periodic orbit that Newton's method finds from `shape`, if it is stable.
+fn orbit<B: Equivariant + ?Sized>(
+    body: &B,
+    shape: &[f64],
+    (period, form): (f64, Option<Form>),
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> crate::Result<Option<Verdict>> {
+    let mirrored = form == Some(Form::MirrorZigzag);
+    let time = if mirrored { 0.5 * period } else { period };
+    let flow = settings.flow();
+    let mut run = flow.method.shape_orbit(body, flow.control, 0.0, shape)?;
+    let request = Request { watch, ..settings.request(time, body.dim()) };
+    drive(run.as_mut(), &request, &mut ())?;
+    let angle = align(body, run.state(), shape, mirrored).angle;
+    let guess = PeriodicGuess { shape, time, angle, mirrored };
+    let Some(found) = PeriodicOrbit::find(body, &guess, &flow, watch).filter(PeriodicOrbit::is_stable) else {
+        return Ok(None);
+    };
+    let recurrence = Recurrence { returns: 1, mirrored, time, angle };
+    words::periodic(body, &found, &recurrence, settings, 0.0, watch).map(Some)
+}
