@@ -35,7 +35,7 @@ impl Audit {
             match path.symlink_metadata() {
                 Err(_) => missing.push(name.clone()),
                 Ok(_) if is_ours(&path, digests).map_err(Error::unwritable(&path))? => {
-                    unchanged.push(name.clone())
+                    unchanged.push(name.clone());
                 }
                 Ok(_) => changed.push(name.clone()),
             }
