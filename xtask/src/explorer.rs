@@ -16,8 +16,14 @@ const FIREFOX: [&str; 2] = ["firefox-esr", "firefox"];
 /// What is tested in Firefox, too: the page without a server, and swarms. `cargo xtask firefox` runs all files there.
 const IN_FIREFOX: [&str; 2] = ["alone.test.mjs", "swarm.test.mjs"];
 
-/// Builds the page, compares it with the committed one, and tests the program's own in Chromium, and in part in Firefox.
+/// Builds the program, and tests its page.
 pub(crate) fn test() -> Result<()> {
+    cargo("program", &["build", "--release", "--workspace"])?;
+    test_built()
+}
+
+/// Builds the page, compares it with the committed one, and tests that of the program that was built last, in Chromium, and in part in Firefox.
+pub(crate) fn test_built() -> Result<()> {
     let root = root()?.canonicalize()?;
     let folder = root.join("crates/explorer/web");
     let node = node(&root)?;
@@ -25,7 +31,6 @@ pub(crate) fn test() -> Result<()> {
     npm("page dependencies", &node, &folder, &["ci", "--no-audit", "--no-fund"])?;
     compare(&node, &root, &folder)?;
     web::compare(&node, &root, &folder)?;
-    cargo("program", &["build", "--release", "--workspace"])?;
     let mut files = files(&folder.join("tests"))?;
     Browser::new(&node, chromium, binary(&root)).test(&files)?;
     files.retain(|file| IN_FIREFOX.iter().any(|name| file.ends_with(name)));

@@ -9,7 +9,9 @@ use std::process::Command;
 pub(crate) fn test() -> Result<()> {
     let python = environment("target/python")?;
     let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", ".[test]"];
-    step("python package", Command::new(&python).args(install))?;
+    // Crates with the features that they have in the whole workspace are not built again (crates/python/Cargo.toml).
+    let features = "--features workspace";
+    step("python package", Command::new(&python).args(install).env("MATURIN_PEP517_ARGS", features))?;
     step("python tests", Command::new(&python).args(["-m", "pytest"]))
 }
 

@@ -76,6 +76,9 @@ pub struct Branches {
 /// A new branch is compared with the others over so many points.
 const COMPARED: usize = 8;
 
+/// Takes the branches that there are.
+pub type Keep<'k> = dyn FnMut(&Branches) -> Result<(), Error> + 'k;
+
 /// Follows the branches of a plan, after those that `before` holds of an interrupted run.
 ///
 /// Interrupted by the watch, the last branch ends with [`End::Stopped`], and the result is not complete.
@@ -94,7 +97,7 @@ pub fn follow(plan: &BranchPlan, before: Option<Branches>, watch: &dyn Watch) ->
 pub fn follow_kept(
     plan: &BranchPlan,
     before: Option<Branches>,
-    (keep, journal): (&mut dyn FnMut(&Branches) -> Result<(), Error>, &dyn Journal),
+    (keep, journal): (&mut Keep<'_>, &dyn Journal),
     watch: &dyn Watch,
 ) -> Result<Branches, Error> {
     let bodies = Bodies::new(plan)?;

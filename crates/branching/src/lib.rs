@@ -27,7 +27,7 @@ mod table;
 mod verify;
 
 pub use folder::{BranchFolder, default_folder};
-pub use follow::{Branches, Followed, Leg, Link, Sample, follow, follow_kept};
+pub use follow::{Branches, Followed, Keep, Leg, Link, Sample, follow, follow_kept};
 pub use origin::Origin;
 pub use path::path;
 pub use reading::Reading;

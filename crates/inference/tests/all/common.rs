@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use motiform_dynamics::{Complex, Normal};
-use motiform_inference::{Observation, Track};
+use motiform_inference::{Fit, Observation, Settings, Track, fit};
+use std::sync::OnceLock;
 
 /// `(equation, coefficient, factors)`: each factor an amplitude from 1, negative for its conjugate.
 pub(crate) type Equations = Vec<(usize, Complex<f64>, Vec<i32>)>;
@@ -207,4 +208,14 @@ impl Experiment {
     fn modes(&self) -> usize {
         self.equations.iter().map(|(equation, ..)| *equation).max().unwrap_or(0).max(3)
     }
+}
+
+/// A circle of the full model without noise, 300 frames, and its fit: several tests look at it, and it takes long.
+pub(crate) fn circle() -> &'static ([Track; 1], Fit) {
+    static CIRCLE: OnceLock<([Track; 1], Fit)> = OnceLock::new();
+    CIRCLE.get_or_init(|| {
+        let tracks = [Experiment { frames: 300, ..Experiment::new(full(0.5, 0.3), 0.0, 7) }.track()];
+        let whole = fit(&tracks, &Settings::default(), &()).unwrap();
+        (tracks, whole)
+    })
 }

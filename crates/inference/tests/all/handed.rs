@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use crate::common::{Equations, Experiment, full, quasi_periodic, vertex_noise};
+use crate::common::{Equations, Experiment, circle, full, quasi_periodic, vertex_noise};
 use motiform_dynamics::Complex;
 use motiform_inference::{Handedness, Settings, Symmetry, fit, handedness, identifiability, select};
 
@@ -50,11 +50,8 @@ fn false_alarms() {
 /// A circle that real coefficients explain: turning alone does not make a cell handed, and nothing says that it is not.
 #[test]
 fn turning_is_not_handedness() {
-    let mut experiment = Experiment::new(full(0.5, 0.3), 0.0, 7);
-    experiment.frames = 300;
-    let tracks = [experiment.track()];
-    let whole = fit(&tracks, &Settings::default(), &()).unwrap();
-    let found = handedness(&tracks, &whole, &()).unwrap();
+    let (tracks, whole) = circle();
+    let found = handedness(tracks, whole, &()).unwrap();
     println!("{:?} ratio {:.1} of {}, p {:.3}", found.symmetry, found.ratio, found.degrees, found.p_value);
     assert_eq!(found.symmetry, Symmetry::Undecided);
 }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use crate::common::{Equations, Experiment, full};
+use crate::common::{Equations, Experiment, circle, full};
 use motiform_inference::{
     EquationKnowledge, Identifiability, Knowledge, Settings, fit, identifiability, select,
 };
@@ -10,7 +10,10 @@ use motiform_inference::{
 fn look(equations: Equations, (eta, frames): (f64, usize)) -> Identifiability {
     let mut experiment = Experiment::new(equations, eta, 7);
     experiment.frames = frames;
-    let found = identifiability(&fit(&[experiment.track()], &Settings::default(), &()).unwrap());
+    shown(identifiability(&fit(&[experiment.track()], &Settings::default(), &()).unwrap()))
+}
+
+fn shown(found: Identifiability) -> Identifiability {
     for of in &found.equations {
         println!("{:.3} {}", of.condition, of.text);
     }
@@ -27,7 +30,7 @@ fn still() -> Equations {
 /// One complex equation for each amplitude.
 #[test]
 fn a_circle_without_noise_fixes_two_combinations() {
-    let found = look(full(0.5, 0.3), (0.0, 300));
+    let found = shown(identifiability(&circle().1));
     assert!(!found.identifiable);
     assert_eq!(found.equations.iter().map(EquationKnowledge::fixed).collect::<Vec<_>>(), [2, 2, 2]);
 }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
-use crate::common::{Experiment, FULL, full};
+use crate::common::{Experiment, FULL, circle, full};
 use motiform_dynamics::Complex;
 use motiform_inference::{
     Library, Observation, Placement, Plane, Settings, Track, fit, place, place_among, select,
@@ -92,24 +92,26 @@ fn reduced_plane() {
 
 #[test]
 fn refusals() {
-    let mut circular = Experiment::new(full(0.5, 0.3), 0.0, 7);
-    circular.frames = 300;
     let mut short = Experiment::new(full(0.5, 0.1), 0.02, 7);
     short.frames = 30;
     let mut still = Experiment::new(full(1.5, 1.0), 0.01, 7);
     still.frames = 300;
     still.equations[0].1.re = -0.5;
-    for (name, experiment) in [("circular", circular), ("short", short), ("still", still)] {
+    let fitted = |experiment: Experiment| {
         let tracks = [experiment.track()];
         let whole = fit(&tracks, &Settings::default(), &()).unwrap();
-        let selection = select(&tracks, &whole, &()).unwrap();
+        (tracks, whole)
+    };
+    for (name, body) in [("circular", circle()), ("short", &fitted(short)), ("still", &fitted(still))] {
+        let (tracks, whole) = body;
+        let selection = select(tracks, whole, &()).unwrap();
         println!(
             "{name}: {} ties, {:?}",
             selection.subsets.ties.len(),
             selection.subsets.best().unwrap().names
         );
         for plane in [Plane::Full, Plane::Reduced] {
-            let answer = place_among(&whole, &selection, plane);
+            let answer = place_among(whole, &selection, plane);
             let Placement::Refused { reasons } = answer else { panic!("{name}: {answer:?}") };
             println!("  {reasons:?}");
         }

@@ -12,7 +12,7 @@ const ENOUGH: usize = 14;
 
 /// One limit of each command and option in every push, all of them with `MOTIFORM_FAULTS=1`.
 #[test]
-fn what_cannot_be_read_for_want_of_open_files_is_not_changed() {
+fn want_of_open_files_is_among_the_faults() {
     let all = every() == 1;
     let cases = WRITERS.iter().flat_map(|writer| writer.options.iter().map(move |option| (writer, *option)));
     let cases = cases.filter(|(writer, _)| all || !["fit", "reproduce"].contains(&writer.command())); // seconds each
