@@ -33,19 +33,29 @@ impl Graded {
         let x = self.qr.solve(&DVector::from_iterator(rhs.len(), scaled))?;
         x.iter().all(|x| x.is_finite()).then(|| x.iter().copied().collect())
     }
-
-    /// `|A^-1| bounds`: how far the solution may be away where equation i is wrong by up to `bounds[i]`.
-    pub(crate) fn spread(&self, bounds: &[f64]) -> Option<Vec<f64>> {
-        let count = self.scales.len();
-        let inverse = self.qr.solve(&DMatrix::identity(count, count))?;
-        let spread = |row: usize| {
-            let parts = bounds.iter().zip(&self.scales).enumerate();
-            parts.map(|(j, (bound, scale))| inverse[(row, j)].abs() * scale * bound).sum::<f64>()
-        };
-        let all: Vec<f64> = (0..count).map(spread).collect();
-        all.iter().all(|x| x.is_finite()).then_some(all)
-    }
 }
+
+/// `|A^-1| bounds`: how far the solution of `A x = b` may be away where equation i is wrong by up to `bounds[i]`. Where A is singular to the
+/// last digit, the solutions are a family, and the distance is that to the nearest one of them. `None` where an entry is not finite.
+pub(crate) fn spread(mut matrix: DMatrix<f64>, bounds: &[f64]) -> Option<Vec<f64>> {
+    let scales: Vec<f64> = matrix.row_iter().map(|row| scale(row.iter())).collect();
+    if !matrix.iter().chain(&scales).all(|x| x.is_finite()) {
+        return None;
+    }
+    matrix.row_iter_mut().zip(&scales).for_each(|(mut row, scale)| row *= *scale);
+    let svd = matrix.try_svd(true, true, EPS, 1000)?;
+    let least = SINGULAR * svd.singular_values.amax();
+    let inverse = svd.pseudo_inverse(least).ok()?;
+    let spread = |row: usize| {
+        let parts = bounds.iter().zip(&scales).enumerate();
+        parts.map(|(j, (bound, scale))| inverse[(row, j)].abs() * scale * bound).sum::<f64>()
+    };
+    let all: Vec<f64> = (0..bounds.len()).map(spread).collect();
+    all.iter().all(|x| x.is_finite()).then_some(all)
+}
+
+/// A singular value below this part of the largest is 0.
+const SINGULAR: f64 = 1e-14;
 
 /// The power of two that brings the largest of the entries to between 1/2 and 1; 1 where all are 0.
 pub(crate) fn scale<'x>(entries: impl Iterator<Item = &'x f64>) -> f64 {

@@ -44,7 +44,7 @@ impl SteadyMotion {
         let tolerance = if size > 0.0 { (2.0 * CLEAR * away / size).clamp(f64::EPSILON, 1.0) } else { 1.0 };
         let isotropy = Isotropy::of(body, &found.shape, tolerance);
         // towards a circle Newton's method ends with what is left of the guess
-        let circle = isotropy.circle || size <= CLEAR * away || size == 0.0;
+        let circle = isotropy.circle || away.is_finite() && size <= CLEAR * away || size == 0.0;
         let rests = body.symmetry().rotations && (circle || isotropy.folds > 1);
         let straight = rests && circle || isotropy.mirror.is_some() || found.neutral == 0;
         let none = Estimate { value: 0.0, error: 0.0 };

@@ -1,7 +1,7 @@
 //! How far a computed relative equilibrium may be from the true one.
 
 use super::{RelativeEquilibrium, linearisation, matrix_of};
-use crate::graded::{EPS, Graded};
+use crate::graded::{EPS, spread};
 use crate::linear::add;
 use motiform_dynamics::{Equivariant, VectorField};
 use nalgebra::DMatrix;
@@ -22,8 +22,8 @@ impl Uncertainty {
     /// Of the solution `(u, omega)` of `f(u) - omega Gu = 0`, `Gu . du = 0`: `|M^-1| (|r| + rho)` with the matrix M of these equations,
     /// their residual r and its rounding `rho_i = 2 eps sum_j |A_ij u_j|`.
     ///
-    /// A residual in a mode that decays fast moves nothing by much: it is divided by that mode's rate. Infinite where M is singular: the
-    /// equilibrium is then one of a family, or bifurcates.
+    /// A residual in a mode that decays fast moves nothing by much: it is divided by that mode's rate. Where M is singular the equilibrium is one of
+    /// a family, and the distance is that to the nearest of them.
     pub(super) fn of<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64, turns: bool) -> Self {
         let dim = shape.len();
         let columns = linearisation(body, shape, omega);
@@ -54,7 +54,7 @@ impl Uncertainty {
             (false, false) => f64::from(u8::from(!turns)),
         };
         let matrix = DMatrix::from_fn(dim + 1, dim + 1, entry);
-        match Graded::of(matrix).and_then(|graded| graded.spread(&bounds)) {
+        match spread(matrix, &bounds) {
             Some(mut spread) => {
                 let turning_rate = spread.pop().unwrap_or(f64::INFINITY);
                 Self { shape: spread, turning_rate }
