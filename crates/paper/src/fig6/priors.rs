@@ -93,12 +93,12 @@ impl Priors {
     /// Mean speeds and turns.
     pub(super) fn table(&self) -> Table {
         let mut head = vec!["prior".to_owned()];
-        head.extend(self.lengths.iter().map(|length| format!("*L* = {length}: speed")));
+        head.extend(self.lengths.iter().map(|length| format!("*L* = {length}: speed × 10^4")));
         head.push("turns (degrees)".to_owned());
         head.push("not closed".to_owned());
         let row = |(prior, seen): (&f64, &Vec<Seen>)| {
             let mut row = vec![Field::text(format!("*n*^{{-{prior}}}"))];
-            row.extend(seen.iter().map(|seen| Field::number(format!("{:.2e}", seen.speed))));
+            row.extend(seen.iter().map(|seen| Field::number(format!("{:.3}", 1e4 * seen.speed))));
             let named = |place: &usize| self.turning.contains(place) && !seen[*place].turns.is_empty();
             let turns = (0..seen.len()).filter(named).map(|place| (self.lengths[place], &seen[place]));
             let words = |(length, seen): (f64, &Seen)| {
@@ -168,8 +168,7 @@ impl Priors {
             ),
             "the same recorded shapes, closed with each prior; changes of the heading from the top speed of a leg to that of the next one, kinds within 8 degrees \
              taken together; within 6 degrees of those with *n*^{-4}, which are those that the classifier finds for (c) and (d), and 90 at *L* = 13.4; the \
-             speeds within a factor of 1.25. (With a flat prior or *n*^{-1} the boundary of longer runs cannot be closed at times; *n*^{-2} fails for \
-             the shapes counted in the table.)",
+             speeds within a factor of 1.25.",
             self.turning.len() >= 3
                 && apart < SAME
                 && named
