@@ -144,7 +144,7 @@ impl Context<'_> {
     /// Drawings: none where claims are tested.
     pub fn drawn(
         &self,
-        draw: impl FnOnce() -> Result<Vec<ReportFigure>, Error>,
+        draw: &dyn Fn() -> Result<Vec<ReportFigure>, Error>,
     ) -> Result<Vec<ReportFigure>, Error> {
         if self.fault.is_some() { Ok(Vec::new()) } else { draw() }
     }

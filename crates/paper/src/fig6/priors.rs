@@ -8,8 +8,7 @@ use super::lengths::{modes_for, study};
 use super::tracks::Track;
 use motiform_analysis::Regime;
 use motiform_analysis::symmetry::wrap;
-use motiform_dynamics::{Shape, System};
-use motiform_models::cell::{Cell, CellParameters};
+use motiform_dynamics::Shape;
 use motiform_report::{Cell as Field, Claim, Table};
 use motiform_study::{Dataset, Error};
 
@@ -66,7 +65,8 @@ impl Priors {
     }
 
     fn computed(context: &Context<'_>, tracks: &[Track]) -> Result<Self, Error> {
-        let mut all = context.each(&FURTHER, |length| recorded(context, *length))?;
+        let [one, other] = FURTHER.map(|length| recorded(context, length));
+        let mut all = vec![one?, other?];
         for track in tracks {
             let mut shapes = shapes_of(&track.dataset)?;
             if track.verdict.regime != Regime::Zigzag {
@@ -206,17 +206,13 @@ pub(super) fn shapes_of(dataset: &Dataset) -> Result<Shapes, Error> {
 /// Speeds and turns with a prior.
 pub(super) fn seen(shapes: &Shapes, prior: f64) -> Result<Seen, Error> {
     let modes = shapes.shapes.first().map_or(1, Vec::len) / 2;
-    let cell = Cell::new(&CellParameters {
-        length: shapes.length,
-        modes: modes as f64,
-        prior,
-        ..CellParameters::default()
-    })?;
-    let moves: Vec<Option<[f64; 2]>> = shapes
-        .shapes
-        .iter()
-        .map(|shape| cell.obstacle(shape).is_none().then(|| Shape::<f64>::velocity(&cell, shape)))
-        .collect();
+    let mut study = study(shapes.length, modes)?;
+    study.set("prior", prior)?;
+    let model = study.info()?.build(&study.values()?)?;
+    let velocity = |shape: &Vec<f64>| {
+        model.obstacle(shape).is_none().then(|| Shape::<f64>::velocity(model.as_ref(), shape))
+    };
+    let moves: Vec<Option<[f64; 2]>> = shapes.shapes.iter().map(velocity).collect();
     let speeds: Vec<f64> = moves.iter().flatten().map(|[x, y]| libm::hypot(*x, *y)).collect();
     let failed = moves.len() - speeds.len();
     let turns =
