@@ -84,10 +84,10 @@ pub struct Flow {
 }
 
 impl Flow {
-    /// The same with a tolerance a thousand times tighter, as far as rounding allows; `None` where it cannot be tighter.
-    pub(crate) fn tighter(&self) -> Option<Self> {
+    /// The same with a tolerance that is tighter by this factor, as far as rounding allows; `None` where it cannot be tighter.
+    pub(crate) fn tighter(&self, factor: f64) -> Option<Self> {
         let StepControl::Adaptive { rtol, atol } = self.control else { return None };
-        let control = StepControl::Adaptive { rtol: (1e-3 * rtol).max(TIGHTEST), atol: 1e-3 * atol };
+        let control = StepControl::Adaptive { rtol: (factor * rtol).max(TIGHTEST), atol: factor * atol };
         (rtol > 2.0 * TIGHTEST).then_some(Self { control, ..*self })
     }
 

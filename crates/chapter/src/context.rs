@@ -144,7 +144,7 @@ impl Context<'_> {
     /// Drawings: none where claims are tested.
     pub fn drawn(
         &self,
-        draw: impl FnOnce() -> Result<Vec<ReportFigure>, Error>,
+        draw: &dyn Fn() -> Result<Vec<ReportFigure>, Error>,
     ) -> Result<Vec<ReportFigure>, Error> {
         if self.fault.is_some() { Ok(Vec::new()) } else { draw() }
     }
@@ -220,5 +220,30 @@ impl Watch for Share<'_> {
 
     fn stopped(&self) -> bool {
         self.progress.watch.stopped()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::claims::claim;
+    use super::*;
+
+    #[test]
+    fn too_few_places_allow_no_judgement_but_a_failure_stays_one() {
+        let kept = Kept::default();
+        let mut context =
+            Context { out: Path::new("."), quick: true, threads: 1, watch: &(), kept: &kept, fault: None };
+        let one = |holds| claim(&[1], "it moves", "it does", "by looking", holds);
+        let verdict =
+            |context: &Context<'_>, count, holds| context.resting_on(count, "lengths", one(holds)).verdict;
+        let thin = verdict(&context, 1, true);
+        assert!(
+            thin.explanation().is_some_and(|why| why.contains("quick version") && why.contains("1 length,"))
+        );
+        assert_eq!(verdict(&context, ENOUGH - 1, true).words(), "○ not judged");
+        assert_eq!(verdict(&context, ENOUGH, true), Judged::Holds);
+        assert!(matches!(verdict(&context, 1, false), Judged::Fails { .. }));
+        context.fault = Some(&Fault::NONE);
+        assert_eq!(verdict(&context, 1, true), Judged::Holds);
     }
 }

@@ -5,8 +5,11 @@ use std::any::Any;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
+/// A result of any type.
+type Anything = Arc<dyn Any + Send + Sync>;
+
 /// Where a result will be; locked while it is computed.
-type Place = Arc<Mutex<Option<Arc<dyn Any + Send + Sync>>>>;
+type Place = Arc<Mutex<Option<Anything>>>;
 
 /// Results by what they are of.
 #[derive(Default)]
@@ -22,17 +25,30 @@ impl Kept {
         name: &str,
         compute: impl FnOnce() -> Result<T, Error>,
     ) -> Result<T, Error> {
+        let mut compute = Some(compute);
+        let found = self.any(name, &mut || {
+            // called at most once
+            let compute = compute.take().ok_or(Error::Interrupted)?;
+            Ok(Arc::new(compute()?))
+        })?;
+        found.downcast_ref::<T>().cloned().ok_or(Error::Interrupted)
+    }
+
+    /// The same for results of any type: compiled once.
+    fn any(
+        &self,
+        name: &str,
+        compute: &mut dyn FnMut() -> Result<Anything, Error>,
+    ) -> Result<Anything, Error> {
         let place = {
             let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
             Arc::clone(all.entry(name.to_owned()).or_default())
         };
         let mut there = place.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(found) = there.as_ref().and_then(|found| found.downcast_ref::<T>()) {
-            return Ok(found.clone());
+        if there.is_none() {
+            *there = Some(compute()?);
         }
-        let found = compute()?;
-        *there = Some(Arc::new(found.clone()));
-        Ok(found)
+        there.clone().ok_or(Error::Interrupted)
     }
 }
 

@@ -50,7 +50,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         title: "Fig. 1: phase diagram of velocity and ellipse".to_owned(),
         about: ABOUT.to_owned(),
         parameters: parameters(&plan),
-        figures: context.drawn(|| {
+        figures: context.drawn(&|| {
             let diagram = ReportFigure::new(sheet(&phase_diagram(&plan, &cells)?)?, caption).of_paper("1");
             Ok(vec![diagram, continued.figure(&boundary_lines(&plan))?])
         })?,

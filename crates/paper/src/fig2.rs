@@ -39,7 +39,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     };
     let (shown, long, other) = (run(1e-12, 1500.0)?, run(1e-12, 5000.0)?, run(1e-11, 5000.0)?);
     let noise = noisy::measure(context)?;
-    let figures = context.drawn(|| {
+    let figures = context.drawn(&|| {
         let mut figures = drawn(&shown)?;
         figures.push(noise.figure()?);
         Ok(figures)

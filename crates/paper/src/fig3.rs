@@ -58,7 +58,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         title: "Fig. 3: quasi-periodic motion".to_owned(),
         about: ABOUT.to_owned(),
         parameters: parameters.map(|(name, value)| (name.to_owned(), value)).to_vec(),
-        figures: context.drawn(|| drawn(&dataset, &radial))?,
+        figures: context.drawn(&|| drawn(&dataset, &radial))?,
         claims,
         ..Section::default()
     })

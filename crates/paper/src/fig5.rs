@@ -50,7 +50,7 @@ pub(super) fn drawings(
     (name, dataset): (&str, &Dataset),
     wanted: &[(&str, &str)],
 ) -> Result<Vec<ReportFigure>, Error> {
-    context.drawn(|| {
+    context.drawn(&|| {
         let mut figures = draw_all(dataset, wanted)?;
         let path = wanted.iter().position(|(known, _)| *known == "path");
         if let Some(figure) = path.and_then(|place| figures.get_mut(place)) {

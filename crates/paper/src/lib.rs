@@ -142,7 +142,10 @@ pub fn reproduce_kept(
         let section = match kept::read(keeping.journal, chapter.name, options.quick) {
             Some(section) => section,
             None => {
-                let section = Section { number: number_of(chapter.name), ..(chapter.rebuild)(&context)? };
+                let mut section = (chapter.rebuild)(&context)?;
+                section.number = number_of(chapter.name);
+                // the paper's own figures first
+                section.figures.sort_by_key(|figure| figure.of_paper.is_none());
                 kept::write(keeping.journal, chapter.name, options.quick, &section)?;
                 section
             }

@@ -11,7 +11,9 @@ use motiform_figures::{Label, embedded};
 pub(super) fn html(number: usize, section: &Section, glossary: &[Definition]) -> String {
     let names = section.figure_names(number);
     let mut drawn = names.iter().zip(section.figures.iter().chain(&section.small_figures)).map(figure);
-    let figures: String = drawn.by_ref().take(section.figures.len()).collect();
+    let papers = section.figures.iter().take_while(|figure| figure.of_paper.is_some()).count();
+    let first: String = drawn.by_ref().take(papers).collect();
+    let further: String = drawn.by_ref().take(section.figures.len() - papers).collect();
     let mut small: String = drawn.collect();
     if !small.is_empty() {
         small = format!("<div class=\"small\">\n{small}</div>\n");
@@ -19,7 +21,7 @@ pub(super) fn html(number: usize, section: &Section, glossary: &[Definition]) ->
     let tables: String = section.tables.iter().map(|t| table::html(t, glossary)).collect();
     let claims: String = section.claims.iter().enumerate().map(|(i, c)| claim(number, i + 1, c)).collect();
     format!(
-        "<section id=\"s{number}\">\n<h2>{number}. {}</h2>\n{}{}{tables}{figures}{small}{claims}</section>\n",
+        "<section id=\"s{number}\">\n<h2>{number}. {}</h2>\n{}{}{first}{tables}{further}{small}{claims}</section>\n",
         inline(&section.title),
         paragraphs(&section.about),
         parameters(&section.parameters, glossary),

@@ -157,6 +157,9 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     Returns::None
 }
 
+/// By this factor the tolerance is tighter where multipliers do not decide.
+const DECIDING: f64 = 1e-3;
+
 /// The orbit in a tighter tolerance, where its multipliers do not say at this one whether it is stable, or without the neutral ones of a
 /// family that it lies in.
 fn resolved<B: Equivariant + ?Sized>(
@@ -172,7 +175,7 @@ fn resolved<B: Equivariant + ?Sized>(
     }
     let PeriodicOrbit { time, angle, mirrored, .. } = orbit;
     let guess = PeriodicGuess { shape: &orbit.shape, time, angle, mirrored };
-    let flow = settings.flow().tighter();
+    let flow = settings.flow().tighter(DECIDING);
     let tighter = flow.and_then(|flow| PeriodicOrbit::find_within(body, &guess, &flow, effort, watch));
     match tighter.filter(decided) {
         Some(tighter) => tighter,

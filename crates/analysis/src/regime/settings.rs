@@ -33,10 +33,11 @@ impl Settings {
         }
     }
 
-    /// The same with a tighter tolerance; `None` where it cannot be tighter.
+    /// The same with a tolerance that is tighter by this factor (0 to 1), as far as rounding allows.
     #[must_use]
-    pub fn tighter(&self) -> Option<Self> {
-        Some(Self { control: self.flow().tighter()?.control, ..*self })
+    pub fn tighter(&self, factor: f64) -> Self {
+        let flow = self.flow().tighter(factor);
+        flow.map_or(*self, |flow| Self { control: flow.control, ..*self })
     }
 
     /// The flow over one period.

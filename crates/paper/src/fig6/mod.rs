@@ -83,7 +83,11 @@ fn parameters(context: &Context<'_>, lengths: &Lengths) -> Vec<(String, String)>
         text("stepper", "krogstad4 (exponential, order 4), relative tolerance 10^{-6}, absolute 10^{-7}"),
         (
             "scan".to_owned(),
-            format!("{} lengths, {} random starts each", lengths.0.len(), context.choose(2, 1)),
+            format!(
+                "{} lengths, {} each",
+                lengths.0.len(),
+                context.choose("two random starts", "one random start")
+            ),
         ),
     ]
 }

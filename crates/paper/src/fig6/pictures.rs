@@ -39,7 +39,7 @@ pub(super) fn all(
     for (track, letter) in tracks.iter().zip(LETTERS) {
         figures.extend(track.figures(context, letter)?);
     }
-    figures.extend(context.drawn(|| over_lengths(lengths, exponents))?);
+    figures.extend(context.drawn(&|| over_lengths(lengths, exponents))?);
     Ok(figures)
 }
 

@@ -8,8 +8,7 @@ use super::lengths::{modes_for, study};
 use super::tracks::Track;
 use motiform_analysis::Regime;
 use motiform_analysis::symmetry::wrap;
-use motiform_dynamics::{Shape, System};
-use motiform_models::cell::{Cell, CellParameters};
+use motiform_dynamics::Shape;
 use motiform_report::{Cell as Field, Claim, Table};
 use motiform_study::{Dataset, Error};
 
@@ -66,7 +65,8 @@ impl Priors {
     }
 
     fn computed(context: &Context<'_>, tracks: &[Track]) -> Result<Self, Error> {
-        let mut all = context.each(&FURTHER, |length| recorded(context, *length))?;
+        let [one, other] = FURTHER.map(|length| recorded(context, length));
+        let mut all = vec![one?, other?];
         for track in tracks {
             let mut shapes = shapes_of(&track.dataset)?;
             if track.verdict.regime != Regime::Zigzag {
@@ -93,12 +93,12 @@ impl Priors {
     /// Mean speeds and turns.
     pub(super) fn table(&self) -> Table {
         let mut head = vec!["prior".to_owned()];
-        head.extend(self.lengths.iter().map(|length| format!("*L* = {length}: speed")));
+        head.extend(self.lengths.iter().map(|length| format!("*L* = {length}: speed × 10^4")));
         head.push("turns (degrees)".to_owned());
         head.push("not closed".to_owned());
         let row = |(prior, seen): (&f64, &Vec<Seen>)| {
             let mut row = vec![Field::text(format!("*n*^{{-{prior}}}"))];
-            row.extend(seen.iter().map(|seen| Field::number(format!("{:.2e}", seen.speed))));
+            row.extend(seen.iter().map(|seen| Field::number(format!("{:.3}", 1e4 * seen.speed))));
             let named = |place: &usize| self.turning.contains(place) && !seen[*place].turns.is_empty();
             let turns = (0..seen.len()).filter(named).map(|place| (self.lengths[place], &seen[place]));
             let words = |(length, seen): (f64, &Seen)| {
@@ -168,8 +168,7 @@ impl Priors {
             ),
             "the same recorded shapes, closed with each prior; changes of the heading from the top speed of a leg to that of the next one, kinds within 8 degrees \
              taken together; within 6 degrees of those with *n*^{-4}, which are those that the classifier finds for (c) and (d), and 90 at *L* = 13.4; the \
-             speeds within a factor of 1.25. (With a flat prior or *n*^{-1} the boundary of longer runs cannot be closed at times; *n*^{-2} fails for \
-             the shapes counted in the table.)",
+             speeds within a factor of 1.25.",
             self.turning.len() >= 3
                 && apart < SAME
                 && named
@@ -207,17 +206,13 @@ pub(super) fn shapes_of(dataset: &Dataset) -> Result<Shapes, Error> {
 /// Speeds and turns with a prior.
 pub(super) fn seen(shapes: &Shapes, prior: f64) -> Result<Seen, Error> {
     let modes = shapes.shapes.first().map_or(1, Vec::len) / 2;
-    let cell = Cell::new(&CellParameters {
-        length: shapes.length,
-        modes: modes as f64,
-        prior,
-        ..CellParameters::default()
-    })?;
-    let moves: Vec<Option<[f64; 2]>> = shapes
-        .shapes
-        .iter()
-        .map(|shape| cell.obstacle(shape).is_none().then(|| Shape::<f64>::velocity(&cell, shape)))
-        .collect();
+    let mut study = study(shapes.length, modes)?;
+    study.set("prior", prior)?;
+    let model = study.info()?.build(&study.values()?)?;
+    let velocity = |shape: &Vec<f64>| {
+        model.obstacle(shape).is_none().then(|| Shape::<f64>::velocity(model.as_ref(), shape))
+    };
+    let moves: Vec<Option<[f64; 2]>> = shapes.shapes.iter().map(velocity).collect();
     let speeds: Vec<f64> = moves.iter().flatten().map(|[x, y]| libm::hypot(*x, *y)).collect();
     let failed = moves.len() - speeds.len();
     let turns =

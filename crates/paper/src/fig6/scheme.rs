@@ -6,9 +6,8 @@ use super::lengths::{modes_for, study};
 use super::priors::{Shapes, seen, shapes_of};
 use super::tracks::Track;
 use motiform_dynamics::drive::drive;
-use motiform_dynamics::steppers::{ExponentialTableau, IFRK4, KROGSTAD4};
-use motiform_dynamics::{ExponentialOrbit, Outcome, Request, Sink, StepControl};
-use motiform_models::cell::{CellField, CellParameters};
+use motiform_dynamics::{Outcome, Request, Sink};
+use motiform_models::cell::CellParameters;
 use motiform_report::Claim;
 use motiform_study::{Error, Plan};
 
@@ -28,8 +27,11 @@ const EXPLICIT: (f64, usize, f64) = (13.4, 8, 5e-4);
 /// Sentence 124.
 pub(super) fn claim_of(context: &Context<'_>, tracks: &[Track]) -> Result<Claim, Error> {
     let short = context.choose(50.0, 5.0);
-    let off = context.each(tracks, |track| apart(context, track, short))?;
-    let off = context.number(off.into_iter().fold(0.0, f64::max));
+    let mut off: f64 = 0.0;
+    for track in tracks {
+        off = off.max(apart(context, track, short)?);
+    }
+    let off = context.number(off);
     let (same, drawn) = if context.quick {
         (true, "; in the full version the motions of the figure are drawn again with it".to_owned())
     } else {
@@ -69,17 +71,25 @@ fn last(track: &Track, modes: usize) -> Result<Vec<f64>, Error> {
 fn onwards(
     context: &Context<'_>,
     track: &Track,
-    (modes, scheme, control): (usize, &'static ExponentialTableau, StepControl),
+    modes: usize,
+    papers: bool,
     (time, every): (f64, f64),
 ) -> Result<Shapes, Error> {
     let length = track.parameter("length");
-    let field = CellField::new(&CellParameters { length, ..CellParameters::default() }, modes);
-    let start = last(track, modes)?;
-    let mut orbit = ExponentialOrbit::new(&field, scheme, control, 0.0, &start)?;
+    let mut study = study(length, modes)?;
+    (study.run.rtol, study.run.atol) = (1e-10, Some(1e-12));
+    if papers {
+        "ifrk4".clone_into(&mut study.run.stepper);
+        study.run.step = Some(STEP);
+    }
+    let plan = Plan::new(&study)?;
+    let c = &plan.computation;
+    let (model, start) = (plan.info()?.build(&c.parameters.values())?, last(track, modes)?);
+    let mut orbit = plan.method()?.shape_orbit(model.as_ref(), c.control.into(), 0.0, &start)?;
     let watch = &context.quiet();
     let request = Request { sample_every: Some(every), watch, ..Request::until(time, start.len()) };
     let mut shapes = Shapes { length, shapes: Vec::new() };
-    match drive(&mut orbit, &request, &mut shapes)? {
+    match drive(orbit.as_mut(), &request, &mut shapes)? {
         Outcome::Interrupted { .. } => Err(Error::Interrupted),
         _ => Ok(shapes),
     }
@@ -91,17 +101,13 @@ impl Sink for Shapes {
     }
 }
 
-/// The paper's modes and scheme.
-static PAPER: (usize, &ExponentialTableau, StepControl) = (MODES, &IFRK4, StepControl::Fixed { step: STEP });
-
 /// The largest difference of the modes after a time, against the largest mode.
 fn apart(context: &Context<'_>, track: &Track, time: f64) -> Result<f64, Error> {
     let modes = modes_for(track.parameter("length"));
-    let ours = (modes, &KROGSTAD4, StepControl::Adaptive { rtol: 1e-10, atol: 1e-12 });
     let name = format!("the paper's scheme at {} over {time}", track.parameter("length"));
     context.kept.once(&name, || {
-        let paper = onwards(context, track, PAPER, (time, time))?;
-        let ours = onwards(context, track, ours, (time, time))?;
+        let paper = onwards(context, track, MODES, true, (time, time))?;
+        let ours = onwards(context, track, modes, false, (time, time))?;
         let ends = [paper, ours].map(|mut shapes| shapes.shapes.pop().unwrap_or_default());
         Ok(difference(&ends[0], &ends[1], 2 * modes))
     })
@@ -116,10 +122,11 @@ fn difference(a: &[f64], b: &[f64], count: usize) -> f64 {
 /// The four runs with the paper's scheme: whether turns and speeds are ours, and words.
 fn drawn_again(context: &Context<'_>, tracks: &[Track]) -> Result<(bool, String), Error> {
     let prior = CellParameters::default().prior;
-    let runs = context.each(tracks, |track| seen(&onwards(context, track, PAPER, (SPAN, 0.5))?, prior))?;
-    let ours = context.each(tracks, |track| seen(&shapes_of(&track.dataset)?, prior))?;
+    let runs =
+        context.each(tracks, |track| seen(&onwards(context, track, MODES, true, (SPAN, 0.5))?, prior))?;
     let (mut same, mut words) = (true, Vec::new());
-    for ((track, run), our) in tracks.iter().zip(&runs).zip(&ours) {
+    for (track, run) in tracks.iter().zip(&runs) {
+        let our = seen(&shapes_of(&track.dataset)?, prior)?;
         let length = track.parameter("length");
         if track.turns().is_empty() {
             same &= (run.speed / our.speed - 1.0).abs() < 0.2;

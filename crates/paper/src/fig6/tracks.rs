@@ -34,6 +34,7 @@ impl Track {
     pub(crate) fn of(context: &Context<'_>, name: &str) -> Result<Self, Error> {
         let study = context.preset(name, |study| {
             let length = study.parameters.iter().find(|entry| entry.0 == "length").map_or(21.6, |e| e.1);
+            study.title = format!("Active cell, *L* = {length}");
             study.set("modes", modes_for(length) as f64)?;
             if length > 25.0 {
                 study.run.t_end = context.choose(study.run.t_end, QUICK);
@@ -85,13 +86,11 @@ impl Track {
             true => String::new(),
             false => format!(", turns of {} degrees", turns.join(" and ")),
         };
+        let inset = if letter == "a" { ": the inset of Fig. 6(a)" } else { "" };
         let words = [
             ("path", format!("*L* = {length}: {}{turns}.", self.verdict.regime)),
-            ("phi", format!("*φ*(*s*, *t*) of the motion above, *L* = {length}.")),
-            (
-                "spectrum",
-                format!("Power spectra of the modes of *φ* at *L* = {length} (inset of Fig. 6(a))."),
-            ),
+            ("phi", format!("*φ*(*s*, *t*) of the motion of Fig. 6({letter}), *L* = {length}.")),
+            ("spectrum", format!("Power spectra of the modes of *φ* at *L* = {length}{inset}.")),
             ("motion", format!("The motion at *L* = {length}, animated.")),
         ];
         let name = format!("6({letter})");
