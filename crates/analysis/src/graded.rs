@@ -55,7 +55,7 @@ pub(crate) fn spread(mut matrix: DMatrix<f64>, bounds: &[f64]) -> Option<Vec<f64
 }
 
 /// A singular value below this part of the largest is 0.
-const SINGULAR: f64 = 1e-14;
+const SINGULAR: f64 = 1e-11;
 
 /// The power of two that brings the largest of the entries to between 1/2 and 1; 1 where all are 0.
 pub(crate) fn scale<'x>(entries: impl Iterator<Item = &'x f64>) -> f64 {

@@ -35,6 +35,16 @@ pub fn classify(plan: &Plan, budget: f64, watch: &dyn Watch) -> Result<Option<Ve
 /// The tolerance is tighter by this factor then: steps of order 4 are 1.8 times as many.
 const FINER: f64 = 0.1;
 
+/// As [`classify`], without another number of modes.
+pub(crate) fn classify_as_it_is(
+    plan: &Plan,
+    budget: f64,
+    watch: &dyn Watch,
+) -> Result<Option<Verdict>, Error> {
+    let (model, shape) = start(plan)?;
+    Ok(motiform_analysis::classify(model.as_ref(), &shape, &settings(plan, budget)?, &StopOnly(watch))?)
+}
+
 /// The body of a plan with more modes, and a shape in its representation.
 struct Finer {
     body: Box<dyn Model>,

@@ -24,7 +24,7 @@ const LOOKS: f64 = 2.0;
 pub fn name(manifest: &Manifest, watch: &dyn Watch) -> Result<Option<Verdict>, Error> {
     let Some(plan) = from_its_end(manifest).filter(|_| !watch.stopped()) else { return Ok(None) };
     let budget = LOOKS * plan.info()?.look;
-    let verdict = analyse::classify(&plan, budget, watch)?;
+    let verdict = analyse::classify_as_it_is(&plan, budget, watch)?;
     Ok(verdict.filter(|verdict| verdict.regime != Regime::Undetermined))
 }
 
