@@ -1,5 +1,6 @@
 //! How far an answer moves in a finer model: the resolution of a verdict.
 
+use super::classify::classify;
 use super::form::Form;
 use super::settings::Settings;
 use super::verdict::{Attractor, Regime, Verdict};
@@ -22,6 +23,9 @@ pub struct Resolution {
     pub change: f64,
 }
 
+/// Looks at the motion in the finer model where Newton's method does not find it.
+const LOOKS: f64 = 4.0;
+
 impl Verdict {
     /// This verdict with its resolution: what Newton's method finds from `shape` on this motion, given in the representation of `finer`, a
     /// model of the same body in which `parameter` has this value. Undetermined where it is another motion there, or none. Motions that are
@@ -37,25 +41,31 @@ impl Verdict {
         settings: &Settings,
         watch: &dyn Watch,
     ) -> crate::Result<Self> {
-        let other = match (self.attractor, self.period) {
+        let found = match (self.attractor, self.period) {
             (Attractor::Equilibrium, _) => RelativeEquilibrium::find(finer, shape)
                 .map(|found| words::equilibrium(finer, &found, 0.0, 0.0)),
             (Attractor::Periodic, Some(period)) => orbit(finer, shape, (period, self.form), settings, watch)?,
             _ => return Ok(self),
         };
-        if watch.stopped() {
-            return Ok(self);
-        }
-        let other = other.map(Verdict::or_undetermined);
-        match other.filter(|other| other.attractor == self.attractor && other.regime == self.regime) {
-            Some(other) => {
+        let same = |other: &Self| other.attractor == self.attractor && other.regime == self.regime;
+        let other = match found.map(Self::or_undetermined).filter(same) {
+            Some(other) => Some(other),
+            // Newton's method may fail from a shape that is not quite there
+            None => {
+                classify(finer, shape, &Settings { budget: LOOKS * settings.first_look, ..*settings }, watch)?
+            }
+        };
+        match other.filter(|other| other.regime != Regime::Undetermined) {
+            _ if watch.stopped() => {}
+            None => {}
+            Some(other) if same(&other) => {
                 let change = self.change(&other);
                 self.resolution = Some(Resolution { parameter: parameter.to_owned(), value, change });
             }
-            None => {
+            Some(other) => {
                 self.why = format!(
-                    "{}; but with {parameter} = {value} Newton's method does not find this motion there: it is not resolved",
-                    self.why
+                    "{}; but with {parameter} = {value} it is {}: not resolved",
+                    self.why, other.regime
                 );
                 (self.regime, self.attractor) = (Regime::Undetermined, Attractor::Unknown);
                 (self.form, self.margin) = (None, None);
