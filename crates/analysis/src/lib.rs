@@ -13,6 +13,7 @@ mod gauge;
 mod graded;
 mod isotropy;
 mod lagged;
+mod leading;
 mod legs;
 mod lifetime;
 pub mod linear;
@@ -46,7 +47,7 @@ pub use lifetime::{
 };
 pub use lyapunov::{Lyapunov, LyapunovSettings, SoFar, lyapunov, lyapunov_followed};
 pub use periodic::PeriodicOrbit;
-pub use product::eigenvalues_of_product;
+pub use product::logarithms_of_product;
 pub use regime::{Attractor, Course, Form, Regime, Settings, Spread, Verdict, classify};
 pub use rests::{Rest, Rests, rests};
 pub use returns::{Dimension, correlation_dimension, return_pairs};

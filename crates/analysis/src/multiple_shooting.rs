@@ -7,21 +7,33 @@
 //! Source: Stoer and Bulirsch, Introduction to Numerical Analysis, section 7.3; the product of reduced maps as in Fairgrieve and
 //! Jepson (1991), SIAM J. Numer. Anal. 28, 1446.
 
-use crate::equilibrium::{matrix_of, neutral_direction};
-use crate::linear::{add, basis, complement, norm, solve};
+use crate::Estimate;
+use crate::equilibrium::{along_group_and_flow, matrix_of};
+use crate::linear::{add, complement, norm, solve};
 use crate::multipliers::errors_of_product;
-use crate::periodic::{Flow, PeriodicOrbit, back, is_whole};
-use crate::product::eigenvalues_of_product;
+use crate::periodic::{Flow, PeriodicOrbit, back};
+use crate::product::logarithms_of_product;
 use crate::symmetry::wrap;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Equivariant, Request, System, Tangent, VectorField, Watch};
 use nalgebra::DMatrix;
 
-/// Over one part of the period deviations grow by less than this.
-const GROWTH: f64 = 30.0;
+/// How long the parts of a period may be.
+struct Limits {
+    /// Deviations grow by less than this over one of them,
+    growth: f64,
+    /// and shrink to no less than this.
+    least: f64,
+    /// Most parts.
+    parts: usize,
+}
 
-/// Most parts.
-const PARTS: usize = 64;
+/// For Newton's method.
+const SOLVING: Limits = Limits { growth: 30.0, least: 0.0, parts: 64 };
+
+/// For the exponents of all directions, those that shrink fast as well: what shrinks by more has lost the digits between this and the
+/// accuracy of the flow.
+const MEASURING: Limits = Limits { growth: 30.0, least: 1e-2, parts: 1024 };
 
 /// With a singular value below this part of the largest, round-off decides how long an orbit rests. (A deviation of `e^(-lambda T)` that
 /// grows to order 1 while the orbit rests for `T` makes one of this size.)
@@ -65,7 +77,7 @@ pub(crate) fn refine<B: Equivariant + ?Sized>(
     tolerance: f64,
     watch: &dyn Watch,
 ) -> Option<PeriodicOrbit> {
-    let (mut nodes, mut parts) = Nodes::along(body, orbit, flow, watch)?;
+    let (mut nodes, mut parts) = Nodes::along(body, orbit, &SOLVING, flow, watch)?;
     let size = norm(&orbit.shape);
     let mut moved = f64::INFINITY;
     for _ in 0..STEPS {
@@ -87,25 +99,26 @@ pub(crate) fn refine<B: Equivariant + ?Sized>(
 }
 
 impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
-    /// Shapes along an orbit, so close that nothing grows much between them.
+    /// Shapes along an orbit, so close that the parts between them keep within the limits.
     fn along(
         body: &'b B,
         orbit: &PeriodicOrbit,
+        limits: &Limits,
         flow: &Flow,
         watch: &dyn Watch,
     ) -> Option<(Self, Vec<Part>)> {
         let PeriodicOrbit { time, angle, mirrored, .. } = *orbit;
         let mut count = 4;
-        while count <= PARTS {
+        while count <= limits.parts {
             let mut nodes = Self { body, shapes: Vec::new(), time, angle, mirrored };
             let mut parts: Vec<Part> = Vec::new();
-            // One part of too much growth is enough to ask for shorter ones.
-            while parts.len() < count && parts.last().is_none_or(|part| norm(&part.tangents) < GROWTH) {
+            // One part that is too long is enough to ask for shorter ones.
+            while parts.len() < count && parts.last().is_none_or(|part| part.keeps(limits)) {
                 let start = parts.last().map_or(&orbit.shape, |part| &part.end).clone();
                 parts.push(part(body, &start, time / count as f64, flow, watch)?);
                 nodes.shapes.push(start);
             }
-            if parts.iter().all(|part| norm(&part.tangents) < GROWTH) {
+            if parts.iter().all(|part| part.keeps(limits)) {
                 return Some((nodes, parts));
             }
             count *= 2;
@@ -177,19 +190,14 @@ impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
         (self.time > 0.0).then_some(())
     }
 
-    /// Unit vectors along the group and the flow at a shape.
+    /// Unit vectors along the group and the flow at a node.
     fn fixed(&self, node: usize) -> Vec<Vec<f64>> {
-        let shape = &self.shapes[node];
-        let mut flow = shape.clone();
-        VectorField::<f64>::eval(self.body, 0.0, shape, &mut flow);
-        let mut fixed = neutral_direction(self.body, shape);
-        fixed.push(flow);
-        basis(&fixed.iter().map(Vec::as_slice).collect::<Vec<_>>(), 1e-8)
+        along_group_and_flow(self.body, &self.shapes[node])
     }
 
-    /// The orbit with its multipliers: those of the product of the parts' maps, each reduced to the directions across the flow and the
-    /// group. Each multiplier has its own digits ([`eigenvalues_of_product`]).
-    fn describe(&self, parts: &[Part], residual: f64, accuracy: f64) -> Option<PeriodicOrbit> {
+    /// The maps of the parts, each reduced to the directions across the flow and the group; `None` where a node has other neutral
+    /// directions than the next.
+    fn reduced(&self, parts: &[Part]) -> Option<Vec<DMatrix<f64>>> {
         let (count, dim) = (parts.len(), self.shapes[0].len());
         let across: Vec<DMatrix<f64>> =
             (0..count).map(|node| matrix_of(&complement(&self.fixed(node), dim))).collect();
@@ -201,33 +209,66 @@ impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
             across[(i + 1) % count].transpose() * matrix_of(&columns) * &across[i]
         };
         let maps: Vec<DMatrix<f64>> = parts.iter().enumerate().map(map).collect();
-        if !maps.iter().all(DMatrix::is_square) {
-            return None;
-        }
-        let multipliers = eigenvalues_of_product(&maps)?;
+        maps.iter().all(DMatrix::is_square).then_some(maps)
+    }
+
+    /// The orbit with its multipliers, those of the product of the parts' maps.
+    fn describe(&self, parts: &[Part], residual: f64, accuracy: f64) -> Option<PeriodicOrbit> {
+        let maps = self.reduced(parts)?;
+        let logarithms = logarithms_of_product(&maps)?;
+        let relative = errors_of_product(&maps, &logarithms, accuracy);
+        let multiplier = |&(log, angle): &(f64, f64)| {
+            let (modulus, (sin, cos)) = (libm::exp(log), libm::sincos(angle));
+            let real = angle == 0.0 || angle.abs() == std::f64::consts::PI;
+            (modulus * cos, if real { 0.0 } else { modulus * sin })
+        };
         Some(PeriodicOrbit {
             shape: self.shapes[0].clone(),
             time: self.time,
             angle: wrap(self.angle),
             mirrored: self.mirrored,
             residual,
-            errors: errors_of_product(&maps, &multipliers, accuracy),
-            multipliers,
+            multipliers: logarithms.iter().map(multiplier).collect(),
+            errors: logarithms
+                .iter()
+                .zip(&relative)
+                .map(|(value, error)| libm::exp(value.0) * error)
+                .collect(),
         })
     }
 }
 
-/// The orbit with all its multipliers and their errors, by the maps of the parts of its period; as it is where deviations grow too much on
-/// the way.
-pub(crate) fn with_multipliers<B: Equivariant + ?Sized>(
+impl Part {
+    /// Whether it is short enough.
+    fn keeps(&self, limits: &Limits) -> bool {
+        let dim = self.end.len();
+        norm(&self.tangents) < limits.growth && (limits.least == 0.0 || self.least(dim) > limits.least)
+    }
+
+    /// By how much the direction that shrinks most has shrunk, up to a factor of order 1: the least entry on the diagonal of R.
+    fn least(&self, dim: usize) -> f64 {
+        let (_, r) = DMatrix::from_column_slice(dim, dim, &self.tangents).qr().unpack();
+        r.diagonal().iter().fold(f64::INFINITY, |least, x| least.min(x.abs()))
+    }
+}
+
+/// The Floquet exponents of an orbit across the flow and the group, largest first, of directions that shrink fast as well; `None` where the
+/// maps of the parts do not give them.
+pub(crate) fn all_exponents<B: Equivariant + ?Sized>(
     body: &B,
-    orbit: PeriodicOrbit,
+    orbit: &PeriodicOrbit,
     flow: &Flow,
     watch: &dyn Watch,
-) -> PeriodicOrbit {
-    let described = Nodes::along(body, &orbit, flow, watch)
-        .and_then(|(nodes, parts)| nodes.describe(&parts, orbit.residual, flow.accuracy()));
-    described.unwrap_or(orbit)
+) -> Option<Vec<Estimate>> {
+    let (nodes, parts) = Nodes::along(body, orbit, &MEASURING, flow, watch)?;
+    let maps = nodes.reduced(&parts)?;
+    let logarithms = logarithms_of_product(&maps)?;
+    let errors = errors_of_product(&maps, &logarithms, flow.accuracy());
+    let exponent = |(value, error): (&(f64, f64), &f64)| Estimate {
+        value: value.0 / orbit.time,
+        error: error / orbit.time,
+    };
+    Some(logarithms.iter().zip(&errors).map(exponent).collect())
 }
 
 /// The flow and all its tangents over `span`; `None` where the run does not reach its end.
@@ -239,7 +280,7 @@ fn part<B: Equivariant + ?Sized>(
     watch: &dyn Watch,
 ) -> Option<Part> {
     let dim = start.len();
-    let field = if is_whole(dim) { Tangent::new(body, dim) } else { Tangent::following(body, dim) };
+    let field = Tangent::new(body, dim);
     let mut state = start.to_vec();
     state.extend((0..dim * dim).map(|i| if i / dim == i % dim { 1.0 } else { 0.0 }));
     let mut orbit = flow.method.shape_orbit(&field, flow.control, 0.0, &state).ok()?;

@@ -3,7 +3,7 @@
 use crate::graded::refined;
 use crate::linear::{ComplexPair, eigenvalues};
 use crate::lyapunov::SplitMix;
-use crate::product::eigenvalues_of_product;
+use crate::product::logarithms_of_product;
 use nalgebra::DMatrix;
 
 /// The eigenvalues of a reduced map, largest modulus first.
@@ -30,20 +30,23 @@ pub(crate) fn errors(map: &DMatrix<f64>, values: &[ComplexPair], accuracy: f64) 
 /// Changes of the factors that are tried.
 const TRIES: u64 = 4;
 
-/// How far the eigenvalues `values` of a product of maps may be away where every entry of each map is wrong by `accuracy` of itself: twice
-/// what some random changes of that size make of them. Infinite where one of the changes leaves no eigenvalues.
+/// How far the logarithms `values` of the moduli of a product's eigenvalues may be away where every column of each factor is wrong by
+/// `accuracy` of its length: twice what some random changes of that size make of them. Infinite where one of the changes leaves no eigenvalues.
 pub(crate) fn errors_of_product(maps: &[DMatrix<f64>], values: &[ComplexPair], accuracy: f64) -> Vec<f64> {
-    let modulus = |value: &ComplexPair| libm::hypot(value.0, value.1);
-    let mut errors: Vec<f64> = values.iter().map(|value| accuracy * modulus(value)).collect();
+    let mut errors = vec![accuracy; values.len()];
     for seed in 0..TRIES {
         let mut random = SplitMix(100 + seed);
-        let changed: Vec<DMatrix<f64>> =
-            maps.iter().map(|map| map.map(|x| x * (1.0 + accuracy * random.next().signum()))).collect();
-        let Some(others) = eigenvalues_of_product(&changed) else {
+        let mut changed = maps.to_vec();
+        for mut column in changed.iter_mut().flat_map(DMatrix::column_iter_mut) {
+            let most = accuracy * column.norm();
+            column.iter_mut().for_each(|x| *x += most * random.next().signum());
+        }
+        let Some(others) = logarithms_of_product(&changed) else {
             return vec![f64::INFINITY; values.len()];
         };
         for ((error, value), other) in errors.iter_mut().zip(values).zip(&others) {
-            *error = error.max(2.0 * (modulus(value) - modulus(other)).abs());
+            let moved = 2.0 * (value.0 - other.0).abs();
+            *error = if moved.is_finite() { error.max(moved) } else { f64::INFINITY };
         }
     }
     errors

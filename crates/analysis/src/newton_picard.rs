@@ -2,7 +2,7 @@
 //!
 //! Source: Lust, Roose, Spence, Champneys (1998), SIAM J. Sci. Comput. 19, 1188.
 
-use crate::equilibrium::neutral_direction;
+use crate::equilibrium::{along_group_and_flow, matrix_of};
 use crate::linear::{add, basis, dot, least_squares, norm, orthonormalise};
 use crate::lyapunov::SplitMix;
 use crate::multipliers::{errors, multipliers};
@@ -11,8 +11,8 @@ use crate::symmetry::wrap;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Equivariant, Request, System, Tangent, VectorField, Watch};
 
-/// Directions that are followed exactly; the others contract within a period and are iterated.
-pub(crate) const DIRECTIONS: usize = 5;
+/// Directions that are followed exactly by Newton's method in a large system; the others contract within a period and are iterated.
+const DIRECTIONS: usize = 5;
 
 /// Where tangent vectors of a large system grow beyond this, the try is given up: they agree to half of their digits, and span no
 /// space that Newton's method could solve in.
@@ -34,7 +34,7 @@ pub(crate) struct Image {
     /// `P(u) - u`.
     pub(crate) rest: Vec<f64>,
     /// `DP` applied to the directions.
-    directions: Vec<Vec<f64>>,
+    pub(crate) directions: Vec<Vec<f64>>,
     /// `dP/dT`.
     by_time: Vec<f64>,
     /// `dP/d(angle)`.
@@ -70,6 +70,12 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
         };
         newton.orthonormalise();
         newton
+    }
+
+    /// At an orbit, following nothing yet.
+    pub(crate) fn at(body: &'b B, orbit: &PeriodicOrbit) -> Self {
+        let PeriodicOrbit { time, angle, mirrored, .. } = *orbit;
+        Self { body, shape: orbit.shape.clone(), time, angle, mirrored, directions: Vec::new() }
     }
 
     fn orthonormalise(&mut self) {
@@ -166,18 +172,37 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
         (self.time > 0.0).then_some(())
     }
 
-    /// The orbit, with the multipliers of the directions that are followed: in a large system their space is not known well enough for any
-    /// error.
+    /// The orbit with its multipliers, in a large system with those of the directions that are followed.
+    pub(crate) fn described(
+        mut self,
+        image: Image,
+        residual: f64,
+        flow: &Flow,
+        watch: &dyn Watch,
+    ) -> Option<PeriodicOrbit> {
+        if self.is_whole() {
+            return self.describe(&image, residual, flow.accuracy());
+        }
+        self.follow(&image.directions, DIRECTIONS);
+        let image = self.image(flow, watch)?;
+        self.describe(&image, residual, flow.accuracy())
+    }
+
+    /// Follows the flow and the group, and at most `count` directions that `directions` span across them.
+    pub(crate) fn follow(&mut self, directions: &[Vec<f64>], count: usize) {
+        let fixed = along_group_and_flow(self.body, &self.shape);
+        let columns: Vec<&[f64]> = fixed.iter().chain(directions).map(Vec::as_slice).collect();
+        self.directions = basis(&columns, DEPENDENT);
+        self.directions.truncate(fixed.len() + count);
+    }
+
+    /// The multipliers of the directions that are followed, across the flow and the group.
     pub(crate) fn describe(&self, image: &Image, residual: f64, accuracy: f64) -> Option<PeriodicOrbit> {
-        let mut flow = self.shape.clone();
-        VectorField::<f64>::eval(self.body, 0.0, &self.shape, &mut flow);
-        let mut fixed: Vec<Vec<f64>> = neutral_direction(self.body, &self.shape);
-        fixed.push(flow);
+        let fixed = along_group_and_flow(self.body, &self.shape);
         // Neutral directions first: the rest of the span is what remains of the others.
         let columns: Vec<&[f64]> = fixed.iter().chain(&self.directions).map(Vec::as_slice).collect();
-        let neutral = basis(&columns[..fixed.len()], 1e-8).len();
         let all = basis(&columns, 1e-5);
-        let free = &all[neutral..];
+        let free = &all[fixed.len()..];
         let act = |x: &[f64]| {
             let mut out = vec![0.0; x.len()];
             for (q, w) in self.directions.iter().zip(&image.directions) {
@@ -185,12 +210,18 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
             }
             out
         };
+        let outside = |x: &Vec<f64>| {
+            let mut rest = act(x);
+            all.iter().for_each(|q| {
+                let along = dot(q, &rest);
+                add(&mut rest, -along, q);
+            });
+            norm(&rest)
+        };
+        let outside = free.iter().map(outside).fold(0.0, f64::max);
         let map = crate::linear::restrict(free, act);
         let multipliers = multipliers(&map)?;
-        let errors = match self.is_whole() {
-            true => errors(&crate::equilibrium::matrix_of(&map), &multipliers, accuracy),
-            false => vec![f64::INFINITY; multipliers.len()],
-        };
+        let errors = errors(&matrix_of(&map), &multipliers, accuracy + outside);
         Some(PeriodicOrbit {
             shape: self.shape.clone(),
             time: self.time,
@@ -202,3 +233,6 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
         })
     }
 }
+
+/// Directions that keep less than this part of their length across the others depend on them.
+const DEPENDENT: f64 = 1e-9;

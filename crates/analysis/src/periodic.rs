@@ -1,10 +1,12 @@
 //! Relative periodic orbits: shapes that come back turned (and mirrored), after a period.
 
 use crate::linear::{add, norm};
-use crate::multiple_shooting::{refine, with_multipliers};
-use crate::newton_picard::{DIRECTIONS, Newton};
+use crate::multiple_shooting::refine;
+use crate::newton_picard::Newton;
+use crate::symmetry::align;
+use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::Method;
-use motiform_dynamics::{Equivariant, StepControl, Watch};
+use motiform_dynamics::{Equivariant, Request, StepControl, Watch};
 use serde::{Deserialize, Serialize};
 
 /// A solution of `Phi_T(u) = R(angle) [M] u`: after the time T the shape is its own image.
@@ -20,10 +22,11 @@ pub struct PeriodicOrbit {
     pub mirrored: bool,
     /// `|Phi_T(u) - R [M] u|`, what Newton's method left.
     pub residual: f64,
-    /// Floquet multipliers over T, largest modulus first, the neutral ones (time, rotations) removed.
+    /// Floquet multipliers over T, largest modulus first, the neutral ones (time, rotations) removed; the leading ones in systems of more than
+    /// 16 unknowns.
     pub multipliers: Vec<(f64, f64)>,
-    /// How far the modulus of each multiplier may be away, as far as the accuracy of the flow says; infinite for a multiplier of
-    /// directions that do not span its space. Empty where each multiplier has the accuracy of the shape, on a branch.
+    /// How far the modulus of each multiplier may be away, as far as the accuracy of the flow says; in a large
+    /// system also how far the directions that were followed are from its space. Empty where each multiplier has the accuracy of the shape, on a branch.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub errors: Vec<f64>,
 }
@@ -123,6 +126,23 @@ impl PeriodicOrbit {
         Self::find_within(body, guess, flow, &mut effort, watch)
     }
 
+    /// The orbit near `shape` that comes back, mirrored or not, after nearly `time`: Newton's method with the rotation that brings the shape after
+    /// that time closest to itself.
+    #[must_use]
+    pub fn near<B: Equivariant + ?Sized>(
+        body: &B,
+        shape: &[f64],
+        (time, mirrored): (f64, bool),
+        flow: &Flow,
+        watch: &dyn Watch,
+    ) -> Option<Self> {
+        let mut orbit = flow.method.shape_orbit(body, flow.control, 0.0, shape).ok()?;
+        let request = Request { max_steps: flow.max_steps, watch, ..Request::until(time, shape.len()) };
+        drive(orbit.as_mut(), &request, &mut ()).ok()?;
+        let angle = align(body, orbit.state(), shape, mirrored).angle;
+        Self::find(body, &PeriodicGuess { shape, time, angle, mirrored }, flow, watch)
+    }
+
     /// As [`PeriodicOrbit::find`], but it integrates no more than `effort` of model time, and takes what it integrated from it.
     pub(crate) fn find_within<B: Equivariant + ?Sized>(
         body: &B,
@@ -159,15 +179,9 @@ impl PeriodicOrbit {
                 return None;
             }
             if step > 0 && residual <= tolerance * size {
-                let found = state.describe(&image, residual, flow.accuracy())?;
-                return match state.is_whole() {
-                    true if image.amplification() > SENSITIVE => refine(body, &found, flow, tolerance, watch),
-                    true => Some(found),
-                    false => {
-                        *effort -= state.time * body.dim() as f64 / DIRECTIONS as f64;
-                        Some(with_multipliers(body, found, flow, watch))
-                    }
-                };
+                let sensitive = state.is_whole() && image.amplification() > SENSITIVE;
+                let found = state.described(image, residual, flow, watch)?;
+                return if sensitive { refine(body, &found, flow, tolerance, watch) } else { Some(found) };
             }
             let amplification = image.amplification();
             if state.is_whole() && amplification > HOPELESS {

@@ -1,5 +1,6 @@
 //! Eigenvalues of a product of matrices, each with its own digits.
 
+use crate::graded::scale;
 use crate::multipliers::multipliers;
 use nalgebra::DMatrix;
 
@@ -9,7 +10,8 @@ const ROUNDS: usize = 8;
 /// Coupling of a group of eigenvalues to larger ones below which they are separate.
 const SEPARATE: f64 = 1e-12;
 
-/// The eigenvalues of `A_m .. A_2 A_1` (`factors` in the order in which they act), largest modulus first.
+/// The eigenvalues of `A_m .. A_2 A_1` (`factors` in the order in which they act), largest modulus first: `ln |m|` (minus infinity for
+/// 0) and the argument of each. A modulus may be far below the smallest number.
 ///
 /// Multiplied out, the large eigenvalues of the product would bury the small ones under their round-off. Instead orthonormal frames
 /// are taken around: `A_i Q_(i-1) = Q_i R_i` with triangular `R_i`, from the last frame on again, until the frames return up to
@@ -17,7 +19,7 @@ const SEPARATE: f64 = 1e-12;
 ///
 /// Source: the periodic QR iteration: Bojanczyk, Golub, Van Dooren (1992), Proc. SPIE 1770, 31.
 #[must_use]
-pub fn eigenvalues_of_product(factors: &[DMatrix<f64>]) -> Option<Vec<(f64, f64)>> {
+pub fn logarithms_of_product(factors: &[DMatrix<f64>]) -> Option<Vec<(f64, f64)>> {
     let dim = factors.first()?.nrows();
     let Frames { before, last: frame, triangles } = frames(factors, dim)?;
     let back = before.transpose() * &frame;
@@ -30,13 +32,20 @@ pub fn eigenvalues_of_product(factors: &[DMatrix<f64>]) -> Option<Vec<(f64, f64)
         let end = (from + 1..=dim).find(apart)?;
         let size = end - from;
         let block = |m: &DMatrix<f64>| m.view((from, from), (size, size)).into_owned();
-        let product = triangles.iter().fold(DMatrix::identity(size, size), |product, r| block(r) * product);
+        let (mut product, mut taken) = (DMatrix::identity(size, size), 0.0);
+        for triangle in &triangles {
+            product = block(triangle) * product;
+            let factor = scale(product.iter());
+            product *= factor;
+            taken -= libm::log(factor);
+        }
         let matrix = block(&back) * product;
         let columns: Vec<Vec<f64>> = matrix.column_iter().map(|c| c.iter().copied().collect()).collect();
-        values.extend(multipliers(&columns)?);
+        let logarithm = |(re, im): (f64, f64)| (libm::log(libm::hypot(re, im)) + taken, libm::atan2(im, re));
+        values.extend(multipliers(&columns)?.into_iter().map(logarithm));
         from = end;
     }
-    values.sort_by(|a, b| libm::hypot(b.0, b.1).total_cmp(&libm::hypot(a.0, a.1)));
+    values.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1)));
     Some(values)
 }
 
@@ -99,10 +108,16 @@ mod tests {
         let diagonal = DMatrix::from_diagonal(&nalgebra::DVector::from_vec(vec![1e9, -3.0, 2.0, 1e-3]));
         // in separate factors no digits are lost
         let factors = [from, diagonal.clone(), diagonal, to];
-        let values = eigenvalues_of_product(&factors).expect("they are finite");
+        let values = logarithms_of_product(&factors).expect("they are finite");
         let expected: [f64; 4] = [1e18, 9.0, 4.0, 1e-6];
         for (value, expected) in values.iter().zip(expected) {
-            assert!((value.0 / expected - 1.0).abs() < 1e-6 && value.1 == 0.0, "{values:?}");
+            assert!((value.0 - expected.ln()).abs() < 1e-6 && value.1 == 0.0, "{values:?}");
+        }
+        // a thousand factors, whose product no number holds
+        let diagonal = DMatrix::from_diagonal(&nalgebra::DVector::from_vec(vec![0.5, 1e-2]));
+        let values = logarithms_of_product(&vec![diagonal; 1000]).expect("they are finite");
+        for (value, expected) in values.iter().zip([0.5_f64, 1e-2]) {
+            assert!((value.0 / (1000.0 * expected.ln()) - 1.0).abs() < 1e-12, "{values:?}");
         }
     }
 }

@@ -1,13 +1,10 @@
 //! The motion that a start settles on, as Newton's method has it.
 
 use super::family::Bodies;
-use motiform_analysis::periodic::{Flow, PeriodicGuess};
 use motiform_analysis::regime::{Form, settle as settled};
-use motiform_analysis::symmetry::align;
 use motiform_analysis::{Attractor, PeriodicOrbit, RelativeEquilibrium, Verdict};
 use motiform_continuation::Settings;
-use motiform_dynamics::drive::drive;
-use motiform_dynamics::{Equivariant, Request, StopOnly, Watch};
+use motiform_dynamics::{Equivariant, StopOnly, Watch};
 use motiform_study::{BranchPlan, Error};
 
 /// A motion to begin with.
@@ -77,22 +74,5 @@ fn polish(
     };
     let mirrored = verdict.form == Some(Form::MirrorZigzag);
     let time = if mirrored { 0.5 * period } else { period };
-    closed(body, shape, (time, mirrored), &settings.flow, watch).map(Start::Orbit)
-}
-
-/// The orbit near `shape` that comes back after nearly `time`.
-fn closed(
-    body: &dyn Equivariant,
-    shape: &[f64],
-    (time, mirrored): (f64, bool),
-    flow: &Flow,
-    watch: &dyn Watch,
-) -> Option<PeriodicOrbit> {
-    let mut orbit = flow.method.shape_orbit(body, flow.control, 0.0, shape).ok()?;
-    let request =
-        Request { max_steps: flow.max_steps, watch: &StopOnly(watch), ..Request::until(time, shape.len()) };
-    drive(orbit.as_mut(), &request, &mut ()).ok()?;
-    let angle = align(body, orbit.state(), shape, mirrored).angle;
-    let guess = PeriodicGuess { shape, time, angle, mirrored };
-    PeriodicOrbit::find(body, &guess, flow, watch)
+    PeriodicOrbit::near(body, shape, (time, mirrored), &settings.flow, &StopOnly(watch)).map(Start::Orbit)
 }

@@ -97,16 +97,11 @@ impl Classes {
     /// Bases of the classes without the directions `neutral`, which are orthonormal and lie within the classes.
     pub(super) fn without(&self, neutral: &[Vec<f64>]) -> Vec<Vec<Vec<f64>>> {
         let free = |class: &Vec<Vec<f64>>| {
-            let project = |direction: &Vec<f64>| {
-                let mut out = direction.clone();
-                for fixed in neutral {
-                    let along = dot(fixed, &out);
-                    add(&mut out, -along, fixed);
-                }
-                out
-            };
-            let images: Vec<Vec<f64>> = class.iter().map(project).filter(|x| norm(x) > 1e-5).collect();
-            basis(&images.iter().map(Vec::as_slice).collect::<Vec<_>>(), 1e-5)
+            let along = |fixed: &&Vec<f64>| norm(&class.iter().map(|v| dot(v, fixed)).collect::<Vec<_>>());
+            let within: Vec<&Vec<f64>> = neutral.iter().filter(|fixed| along(fixed) > 0.5).collect();
+            // The neutral ones first: what is left of the others depends on them in parts that may be far below round-off.
+            let columns: Vec<&[f64]> = within.iter().copied().chain(class).map(Vec::as_slice).collect();
+            basis(&columns, 1e-6).split_off(within.len())
         };
         self.bases.iter().map(free).collect()
     }

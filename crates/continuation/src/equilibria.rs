@@ -110,7 +110,7 @@ impl Problem for Equilibria<'_> {
     fn levels(&self, _x: &[f64], local: &Local) -> Option<Vec<Vec<Level>>> {
         let classes = self.classes.without(&local.neutral);
         let of = |class: &Vec<Vec<f64>>| {
-            eigenvalues(&restrict(class, |v| apply(&local.matrix, v))).map(|v| Level::of_eigenvalues(&v))
+            eigenvalues(&restrict(class, |v| apply(&local.matrix, v))).map(|v| Level::of_pairs(&v))
         };
         classes.iter().map(of).collect()
     }

@@ -42,8 +42,20 @@ impl Connection {
         values.iter().map(|value| value.0).min_by(|a, b| a.abs().total_cmp(&b.abs()))
     }
 
-    pub(super) fn through(self, saddle: Option<RelativeEquilibrium>) -> Self {
-        Self { saddle, ..self }
+    /// With the relative equilibrium that the orbit passes closest by, where that can be the saddle of this connection: deviations grow in some
+    /// directions and decay in others, and one of the leading rates is that of the law (a resonant law has two rates of one size). Otherwise
+    /// the time grows for another reason, as along a canard explosion, where a branch goes on.
+    pub(super) fn through(self, saddle: Option<RelativeEquilibrium>) -> Option<Self> {
+        let found = saddle?;
+        let rates = || found.eigenvalues.iter().map(|value| value.0);
+        let grows = rates().filter(|rate| *rate > 0.0).fold(f64::INFINITY, f64::min);
+        let decays = rates().filter(|rate| *rate < 0.0).map(f64::abs).fold(f64::INFINITY, f64::min);
+        let near = |a: f64, b: f64| (a - b).abs() < RATES * a.max(b);
+        let fits = match self.law {
+            PeriodLaw::Logarithmic { rate } => near(rate, grows) || near(rate, decays),
+            PeriodLaw::Resonant { .. } => near(grows, decays),
+        };
+        (grows.is_finite() && decays.is_finite() && fits).then_some(Self { saddle: Some(found), ..self })
     }
 }
 
@@ -69,6 +81,9 @@ const POINTS: usize = 6;
 
 /// Rates over the two halves of the points agree up to this part: what remains of the parameter is then known to more than one digit.
 const AGREE: f64 = 0.05;
+
+/// Part up to which a rate of the saddle is that of the law.
+const RATES: f64 = 0.1;
 
 /// The rate is fitted over the times above this part of the last one.
 const WINDOW: f64 = 0.85;

@@ -10,18 +10,9 @@ pub(super) struct Level {
 }
 
 impl Level {
-    /// Of eigenvalues, largest real part first.
-    pub(super) fn of_eigenvalues(values: &[(f64, f64)]) -> Vec<Self> {
-        values.iter().map(|&(re, im)| Self { growth: re, angle: im }).collect()
-    }
-
-    /// Of multipliers, largest modulus first.
-    pub(super) fn of_multipliers(values: &[(f64, f64)]) -> Vec<Self> {
-        let level = |&(re, im): &(f64, f64)| Self {
-            growth: libm::log(libm::hypot(re, im)),
-            angle: libm::atan2(im, re),
-        };
-        values.iter().map(level).collect()
+    /// Of eigenvalues, largest real part first, or of the logarithms and arguments of multipliers, largest first.
+    pub(super) fn of_pairs(values: &[(f64, f64)]) -> Vec<Self> {
+        values.iter().map(|&(growth, angle)| Self { growth, angle }).collect()
     }
 }
 

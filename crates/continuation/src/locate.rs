@@ -89,7 +89,23 @@ pub(super) fn locate<P: Problem>(
         }
     }
     changes.found.sort_by(|a, b| a.0.arclength.total_cmp(&b.0.arclength));
+    without_folds(&mut changes.found);
     Ok(changes)
+}
+
+/// At a fold a level vanishes as well: each fold of a step takes the nearest vanishing level that seems to be a branch point. (Where a branch is
+/// stiff the two tests place one point at lengths that differ by far more than the solutions' accuracy.)
+fn without_folds<L>(found: &mut Vec<(Place<L>, Special)>) {
+    let folds: Vec<f64> =
+        found.iter().filter(|one| one.1 == Special::Fold).map(|one| one.0.arclength).collect();
+    for fold in folds {
+        let points = found.iter().enumerate().filter(|(_, one)| one.1 == Special::BranchPoint);
+        let distance = |place: usize| (found[place].0.arclength - fold).abs();
+        let nearest = points.map(|one| one.0).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
+        if let Some(nearest) = nearest {
+            found.remove(nearest);
+        }
+    }
 }
 
 fn kind<P: Problem>(problem: &P, at: &Place<P::Local>, test: Test) -> Special {
@@ -103,8 +119,7 @@ fn kind<P: Problem>(problem: &P, at: &Place<P::Local>, test: Test) -> Special {
 fn is_known<L>(found: &[(Place<L>, Special)], at: &Place<L>, special: Special, length: f64) -> bool {
     found.iter().any(|(other, kind)| {
         let same = kind.name() == special.name();
-        let close = (other.arclength - at.arclength).abs() < 1e-4 * length;
-        close && (same || *kind == Special::Fold && special == Special::BranchPoint)
+        same && (other.arclength - at.arclength).abs() < 1e-4 * length
     })
 }
 

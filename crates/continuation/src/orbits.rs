@@ -11,7 +11,7 @@ use super::special::{Broken, Special};
 use motiform_analysis::linear::{add, dot, norm};
 use motiform_analysis::periodic::{Flow, back};
 use motiform_analysis::symmetry::wrap;
-use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, eigenvalues_of_product};
+use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, logarithms_of_product};
 use motiform_dynamics::{Equivariant, VectorField, Watch};
 use nalgebra::DMatrix;
 
@@ -197,7 +197,7 @@ impl Problem for Orbits<'_> {
         if maps.iter().flatten().any(|map| !map.is_square()) {
             return None;
         }
-        maps.iter().map(|maps| eigenvalues_of_product(maps).map(|v| Level::of_multipliers(&v))).collect()
+        maps.iter().map(|maps| logarithms_of_product(maps).map(|v| Level::of_pairs(&v))).collect()
     }
 
     fn classify(&self, _x: &[f64], critical: Level, class: usize) -> Special {

@@ -266,7 +266,8 @@ impl<P: Problem> Tracer<P> {
             return end;
         }
         let saddle = || self.problem.saddle(&self.place.x, &self.place.local);
-        self.periods.resonance().map_or(end, |found| End::Homoclinic(Box::new(found.through(saddle()))))
+        let found = self.periods.resonance().and_then(|found| found.through(saddle()));
+        found.map_or(end, |found| End::Homoclinic(Box::new(found)))
     }
 
     /// The end of the branch at the first turning point where the motion gains a symmetry: it is a pitchfork of the motion that has it. What was found beyond belongs to
@@ -305,7 +306,9 @@ impl<P: Problem> Tracer<P> {
         self.periods.push(time, (parameter, self.place.slope()));
         if let Some(connection) = self.periods.connection() {
             let saddle = self.problem.saddle(&self.place.x, &self.place.local);
-            return Err(End::Homoclinic(Box::new(connection.through(saddle))));
+            if let Some(certain) = connection.through(saddle) {
+                return Err(End::Homoclinic(Box::new(certain)));
+            }
         }
         if time.0 > self.settings.longest_time {
             return Err(End::PeriodLimit { time: time.0 });

@@ -5,10 +5,10 @@ mod saddle;
 mod spectrum;
 mod uncertainty;
 
-use crate::linear::{add, norm};
+use crate::linear::{add, basis, norm};
 use crate::symmetry::align;
 use motiform_dynamics::tangent::jacobian;
-use motiform_dynamics::{Equivariant, model};
+use motiform_dynamics::{Equivariant, VectorField, model};
 use nalgebra::DMatrix;
 pub use saddle::Saddle;
 use serde::{Deserialize, Serialize};
@@ -129,6 +129,15 @@ pub fn neutral_direction<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> Ve
     }
     spin.iter_mut().for_each(|x| *x /= size);
     vec![spin]
+}
+
+/// Unit vectors along the group and the flow at a shape: the directions in which nothing grows or decays along an orbit.
+pub(crate) fn along_group_and_flow<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> Vec<Vec<f64>> {
+    let mut directions = neutral_direction(body, shape);
+    let mut flow = shape.to_vec();
+    VectorField::<f64>::eval(body, 0.0, shape, &mut flow);
+    directions.push(flow);
+    basis(&directions.iter().map(Vec::as_slice).collect::<Vec<_>>(), 1e-8)
 }
 
 /// The matrix of these columns.

@@ -10,9 +10,10 @@
 //!
 //! If nothing is decided the next look is twice as long, until the budget is spent. A look ends early where question 2 is answered.
 
+use super::ask::Ask;
 use super::chaos;
 use super::look::{Look, Seen};
-use super::search::{Ask, Search};
+use super::search::Search;
 use super::settings::Settings;
 use super::verdict::Verdict;
 use crate::Result;

@@ -5,11 +5,11 @@
 //! the same on all of its orbits.
 
 use super::settings::Settings;
-use crate::equilibrium::neutral_direction;
+use crate::equilibrium::along_group_and_flow;
 use crate::linear::{add, basis, dot, norm};
 use crate::lyapunov::SplitMix;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
-use motiform_dynamics::{Equivariant, VectorField, Watch};
+use motiform_dynamics::{Equivariant, Watch};
 
 /// Neighbouring orbits are looked for at this distance, against the size of the shape,
 const BESIDE: f64 = 1e-3;
@@ -35,7 +35,7 @@ pub(super) fn within_family<B: Equivariant + ?Sized>(
         return None;
     }
     let size = norm(&orbit.shape);
-    let own = own_directions(body, &orbit.shape);
+    let own = along_group_and_flow(body, &orbit.shape);
     let mut random = SplitMix(3);
     let mut found: Vec<Vec<f64>> = Vec::new();
     for _ in 0..count {
@@ -61,13 +61,4 @@ pub(super) fn within_family<B: Equivariant + ?Sized>(
     let errors = orbit.errors.iter().zip(&free).filter(|(_, free)| !**free).map(|(x, _)| *x).collect();
     let others = PeriodicOrbit { multipliers: kept(&orbit.multipliers), errors, ..orbit.clone() };
     (basis(&far, OTHER).len() == count && others.is_stable()).then_some(others)
-}
-
-/// Unit vectors along the flow and the group.
-fn own_directions<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> Vec<Vec<f64>> {
-    let mut directions = neutral_direction(body, shape);
-    let mut flow = shape.to_vec();
-    VectorField::<f64>::eval(body, 0.0, shape, &mut flow);
-    directions.push(flow);
-    basis(&directions.iter().map(Vec::as_slice).collect::<Vec<_>>(), 1e-8)
 }

@@ -4,10 +4,11 @@
 //! leaves its lane and waits until some tens of them can be measured together. Verdicts are those of [`super::classify()`], to
 //! the last bit of every number in them.
 
+use super::ask::Ask;
 use super::chaos::exponent_settings;
 use super::lane_look::LaneObserver;
 use super::look::{Ends, Look, Seen, pause};
-use super::search::{Ask, Search};
+use super::search::Search;
 use super::settings::Settings;
 use super::verdict::Verdict;
 use crate::Result;

@@ -1,5 +1,6 @@
 //! Which motion is it? The decision, with its evidence.
 
+mod ask;
 mod chaos;
 mod classify;
 mod course;

@@ -6,10 +6,8 @@ use super::settings::Settings;
 use super::verdict::{Attractor, Regime, Verdict};
 use super::{recurrence::Recurrence, words};
 use crate::equilibrium::RelativeEquilibrium;
-use crate::periodic::{PeriodicGuess, PeriodicOrbit};
-use crate::symmetry::align;
-use motiform_dynamics::drive::drive;
-use motiform_dynamics::{Equivariant, Request, Watch};
+use crate::periodic::PeriodicOrbit;
+use motiform_dynamics::{Equivariant, Watch};
 use serde::{Deserialize, Serialize};
 
 /// The same motion with more modes and a tighter tolerance.
@@ -100,15 +98,8 @@ fn orbit<B: Equivariant + ?Sized>(
 ) -> crate::Result<Option<Verdict>> {
     let mirrored = form == Some(Form::MirrorZigzag);
     let time = if mirrored { 0.5 * period } else { period };
-    let flow = settings.flow();
-    let mut run = flow.method.shape_orbit(body, flow.control, 0.0, shape)?;
-    let request = Request { watch, ..settings.request(time, body.dim()) };
-    drive(run.as_mut(), &request, &mut ())?;
-    let angle = align(body, run.state(), shape, mirrored).angle;
-    let guess = PeriodicGuess { shape, time, angle, mirrored };
-    let Some(found) = PeriodicOrbit::find(body, &guess, &flow, watch).filter(PeriodicOrbit::is_stable) else {
-        return Ok(None);
-    };
-    let recurrence = Recurrence { returns: 1, mirrored, time, angle };
+    let found = PeriodicOrbit::near(body, shape, (time, mirrored), &settings.flow(), watch);
+    let Some(found) = found.filter(PeriodicOrbit::is_stable) else { return Ok(None) };
+    let recurrence = Recurrence { returns: 1, mirrored, time, angle: found.angle };
     words::periodic(body, &found, &recurrence, settings, 0.0, watch).map(Some)
 }

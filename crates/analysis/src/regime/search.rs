@@ -1,16 +1,17 @@
 //! The search for a verdict: the questions of [`super::classify()`] in their order, independent of how the orbits are computed.
 
+use super::ask::Ask;
 use super::growth::{Growth, in_motion};
 use super::heteroclinic::cycle;
 use super::look::{Look, RESTS, Rest, Seen};
 use super::recurrence::{Returns, periodic};
 use super::repeats::Repeats;
 use super::settings::{CLOSE, EXACT, NEARLY, Settings, ended};
-use super::shrinking::{Shrinking, shrinking};
+use super::shrinking::{Curve, shrinking_onto};
 use super::stay::Stay;
 use super::steady_turns::SteadyTurns;
 use super::verdict::{Attractor, Regime, Verdict};
-use super::{chaos, returns, words};
+use super::{chaos, words};
 use crate::equilibrium::RelativeEquilibrium;
 use crate::isotropy::Isotropy;
 use crate::linear::norm;
@@ -20,26 +21,6 @@ use motiform_dynamics::{Equivariant, Outcome, Watch};
 
 /// An equilibrium is sought during a look where the reduced shape changes slower than this, against its fastest.
 const SETTLED: f64 = 1e-3;
-
-/// Closed curves of returns whose sizes differ by less than this part are the same.
-const AS_LARGE: f64 = 0.01;
-
-/// What a search wants to see next.
-#[derive(Debug)]
-pub(super) enum Ask {
-    /// The orbit, for this long, from where it is.
-    Look(f64),
-    /// The largest exponent over this time, from where the orbit is, which goes on from where that run ends.
-    Exponent(f64),
-    /// Nothing: it has decided, or was interrupted.
-    Nothing(Option<Box<Verdict>>),
-}
-
-impl From<Verdict> for Ask {
-    fn from(verdict: Verdict) -> Self {
-        Self::Nothing(Some(Box::new(verdict.or_undetermined())))
-    }
-}
 
 /// The decision on one motion, under way. It asks for observations and is told them: who makes them, one orbit or a lane of
 /// many, makes no difference to it.
@@ -72,8 +53,8 @@ pub(super) struct Search {
     sought: f64,
     /// What the latest looks and runs have in common.
     repeats: Repeats,
-    /// How large the closed curve was that the returns of the last look lay on.
-    torus: Option<f64>,
+    /// The closed curve that the returns of the last look lay on.
+    curve: Curve,
     /// What kept the last look from deciding.
     missing: String,
     /// What the next observation is for.
@@ -110,7 +91,7 @@ impl Search {
             arrived: None,
             sought: f64::INFINITY,
             repeats: Repeats::default(),
-            torus: None,
+            curve: Curve::default(),
             missing: "no motion had established itself".to_owned(),
             pending: Pending::Look,
         };
@@ -331,45 +312,41 @@ impl Search {
         if let Some(verdict) = chaos.filter(|_| !symmetric) {
             return Ok(self.described(verdict, body, look.end - look.start, watch)?.into());
         }
-        if let Some(verdict) = self.on_a_curve(body, &look, &run, &witness, watch)? {
+        if let Some(verdict) = self.on_a_curve(body, &look, (&run, &witness), watch)? {
             return Ok(verdict.into());
         }
-        if symmetric {
-            "the orbit keeps an exact symmetry, and neighbouring orbits leave it"
-                .clone_into(&mut self.missing);
-        } else if self.torus.is_none() {
-            self.missing = chaos::missing(&self.growth, &witness);
-        }
+        self.missing = if symmetric {
+            "the orbit keeps an exact symmetry, and neighbouring orbits leave it".to_owned()
+        } else if self.curve.is_seen() {
+            "the returns lie on a closed curve that was not seen twice with the same size".to_owned()
+        } else {
+            chaos::missing(&self.growth, &witness)
+        };
         self.again(body, watch)
     }
 
-    /// The verdict where the returns lie on a closed curve: a periodic orbit that they shrink onto, or a torus. A torus is seen in two looks in a
-    /// row, and is as large in both: beside an unstable one an orbit stays for thousands of turns.
+    /// The verdict where the returns lie on a closed curve: a periodic orbit that they shrink onto, or a torus, seen twice.
     fn on_a_curve<B: Equivariant + ?Sized>(
         &mut self,
         body: &B,
         look: &Look,
-        run: &Lyapunov,
-        witness: &chaos::Witness,
+        (run, witness): (&Lyapunov, &chaos::Witness),
         watch: &dyn Watch,
     ) -> Result<Option<Verdict>> {
         let torus = chaos::torus(run, witness, self.time);
-        let before = self.torus.take();
-        if torus.is_none() && !witness.shrinks_orderly() {
-            return Ok(None);
+        let again = self.curve.is_seen_again(look, torus.is_some());
+        let inside = (torus.is_some() || witness.shrinks_orderly())
+            .then(|| shrinking_onto(body, look, &self.settings, watch))
+            .flatten();
+        match (inside, torus) {
+            (Some((orbit, recurrence)), _) => {
+                words::periodic(body, &orbit, &recurrence, &self.settings, self.time, watch).map(Some)
+            }
+            (None, Some(verdict)) if again => {
+                self.described(verdict, body, look.end - look.start, watch).map(Some)
+            }
+            _ => Ok(None),
         }
-        if let Shrinking::Onto(orbit, recurrence) = shrinking(body, look, &self.settings, watch) {
-            return words::periodic(body, &orbit, &recurrence, &self.settings, self.time, watch).map(Some);
-        }
-        let Some(verdict) = torus else { return Ok(None) };
-        let width = returns::width(&look.minima());
-        if before.is_some_and(|before| (width / before - 1.0).abs() < AS_LARGE) {
-            return self.described(verdict, body, look.end - look.start, watch).map(Some);
-        }
-        self.torus = Some(width);
-        "the returns lie on a closed curve that was not seen twice with the same size"
-            .clone_into(&mut self.missing);
-        Ok(None)
     }
 
     /// Twice as long, or the end of the budget. In a large system, where model time costs most, looks do not grow while an exponent is

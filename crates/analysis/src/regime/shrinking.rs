@@ -5,7 +5,9 @@
 
 use super::look::{Extreme, Look};
 use super::recurrence::Recurrence;
+use super::returns;
 use super::settings::Settings;
+use super::shortest::shortest;
 use crate::linear::{add, norm};
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
 use crate::symmetry::{align, wrap};
@@ -26,34 +28,45 @@ const QUANTILE: f64 = 2.446_911_851_145;
 /// A rate may be slower than the one of the multipliers by this part: the curve has a size.
 const LIKE: f64 = 0.3;
 
-/// What the returns do beside the orbit inside.
-#[derive(Debug)]
-pub(super) enum Shrinking {
-    /// They shrink onto it, at least as fast as its multipliers say.
-    Onto(Box<PeriodicOrbit>, Recurrence),
-    /// That is not seen: there is none, it is unstable, they stay away from it, or the look is too short to tell.
-    NotSeen,
+/// Closed curves of returns whose sizes differ by less than this part are the same.
+const AS_LARGE: f64 = 0.01;
+
+/// The closed curve that the returns of the latest look lay on.
+#[derive(Debug, Default)]
+pub(super) struct Curve {
+    size: Option<f64>,
 }
 
-/// Whether the returns of a look shrink onto a stable periodic orbit.
-pub(super) fn shrinking<B: Equivariant + ?Sized>(
+impl Curve {
+    /// Takes in a look whose returns lie on a closed curve, or not. Whether it is the second one in a row with a curve of this size: beside an
+    /// unstable torus an orbit stays for thousands of turns, while the curve slowly changes.
+    pub(super) fn is_seen_again(&mut self, look: &Look, closed: bool) -> bool {
+        let size = closed.then(|| returns::width(&look.minima()));
+        let before = std::mem::replace(&mut self.size, size);
+        size.zip(before).is_some_and(|(size, before)| (size / before - 1.0).abs() < AS_LARGE)
+    }
+
+    /// Whether the last look had one.
+    pub(super) fn is_seen(&self) -> bool {
+        self.size.is_some()
+    }
+}
+
+/// The stable periodic orbit that the returns of a look shrink onto, at least as fast as its multipliers say, and its recurrence. `None` where
+/// that is not seen: there is none, it is unstable, they stay away from it, or the look is too short to tell.
+pub(super) fn shrinking_onto<B: Equivariant + ?Sized>(
     body: &B,
     look: &Look,
     settings: &Settings,
     watch: &dyn Watch,
-) -> Shrinking {
+) -> Option<(PeriodicOrbit, Recurrence)> {
     let minima = look.minima();
     let last = &minima[minima.len().saturating_sub(RETURNS.1)..];
     if last.len() < RETURNS.0 {
-        return Shrinking::NotSeen;
+        return None;
     }
-    let Some((orbit, recurrence)) = inside(body, last, settings, watch) else { return Shrinking::NotSeen };
-    if !orbit.is_stable() {
-        return Shrinking::NotSeen;
-    }
-    let Some(centre) = minimum_of(body, &orbit, last[last.len() - 1], settings, watch) else {
-        return Shrinking::NotSeen;
-    };
+    let (orbit, recurrence) = inside(body, last, settings, watch).filter(|(orbit, _)| orbit.is_stable())?;
+    let centre = minimum_of(body, &orbit, last[last.len() - 1], settings, watch)?;
     let step = if recurrence.mirrored { 2 * recurrence.returns } else { recurrence.returns };
     let sizes: Vec<(f64, f64)> = last
         .iter()
@@ -61,14 +74,11 @@ pub(super) fn shrinking<B: Equivariant + ?Sized>(
         .step_by(step)
         .map(|minimum| (minimum.t, libm::log(align(body, &minimum.shape, &centre, false).distance)))
         .collect();
-    let Some((rate, error)) = slope(&sizes) else { return Shrinking::NotSeen };
+    let (rate, error) = slope(&sizes)?;
     let expected = libm::log(orbit.growth()) / orbit.time;
     // a curve of some size shrinks faster than a small one beside the bifurcation in which a torus arises
     let as_fast = rate - error <= (1.0 - LIKE) * expected;
-    if rate + error < 0.0 && as_fast {
-        return Shrinking::Onto(Box::new(orbit), recurrence);
-    }
-    Shrinking::NotSeen
+    (rate + error < 0.0 && as_fast).then(|| shortest(body, orbit, recurrence, settings, watch))
 }
 
 /// The periodic orbit in the middle of the returns, if Newton's method finds one: from the mean of those shapes that are alike.

@@ -166,7 +166,7 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     verdict.period = Some(orbit.period());
     verdict.net_rotation = Some(rotation);
     verdict.speed = path.speed();
-    verdict.exponents = super::floquet::exponents(body, orbit, settings, watch)?;
+    verdict.exponents = super::floquet::exponents(body, orbit, settings, watch);
     if path.moves() {
         verdict.drift = Some(path.drift());
         let straight = form.regime() == Regime::PulsatingStraight;

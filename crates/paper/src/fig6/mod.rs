@@ -38,9 +38,9 @@ const ABOUT: &str = "The active cell model has one parameter, the length *L* of 
 five digits; random starts are classified in between. The paper's windows *W*_1, *W*_2 and *W*_3 are drawn as brackets. \n\n\
 Two things about the error function that closes the boundary are our inference, not the paper's words. The paper does not say whether it \
 acts back on the shape: here it does not, because with feedback nothing moves up to *L* = 15 and the paper's motions are absent; it acts \
-on the velocity and on the drawn boundary. And the paper maximises a likelihood with an a priori distribution that it does not give: here \
-the boundary closes exactly (a constraint in place of the likelihood), and of all error functions that close it the most likely one is \
-taken, where mode *n* has the width *n*^{-4}. The table shows how speeds and turns depend on that choice.";
+on the velocity and on the drawn boundary. And the paper maximises a likelihood with a prior distribution that it does not state. Here \
+closure is an exact constraint, which replaces the likelihood. Among all error functions that satisfy it, the one with the largest prior \
+density is taken; mode *n* of the prior has the standard deviation *n*^{-4}. The table shows how speeds and turns depend on that choice.";
 
 pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     let edges = Edges::find(context)?;

@@ -104,8 +104,8 @@ fn reversing(c: &Track) -> Claim {
         "Change of heading at top speed from leg to leg (the body stops in between). 180° ± 45° of one turn would be 135 degrees to either side; \
          found must be turns of 180 and of 45 degrees, each within 6 degrees, as read off a figure, and 135 for two together, within twice that",
         &format!(
-            "it is a zigzag, but no single turn is 180° ± 45°: the body turns back (by {back:.0}°) and aside (by {aside:.0}° to one side or the other). \
-             If the sentence means the turning back together with the turn beside it, it holds: that is {back:.0}° ± {aside:.0}°"
+            "it is a zigzag, but no single turn is 180° ± 45°: turns of {back:.0}° alternate with turns of {aside:.0}° to the left or to the right. \
+             If the sentence means the sum of two consecutive turns, it holds: {back:.0}° ± {aside:.0}°"
         ),
         c.verdict.regime == Regime::Zigzag
             && turns_are(c, &[45.0, 180.0])

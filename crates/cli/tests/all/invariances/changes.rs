@@ -9,7 +9,7 @@ use crate::common::Folder;
 pub(crate) fn changes(folder: &Folder, subject: &Subject, settled: &Request) -> Vec<(&'static str, Request)> {
     let mut all: Vec<(&'static str, Request)> = Vec::new();
     for seed in [5, 9, 12] {
-        all.push(("another start beside it", beside(settled, seed)));
+        all.push(("a start nearby", nearby(settled, seed)));
     }
     let tolerances: &[f64] = if settled.model == "cell" { &[1e-7, 1e-8] } else { &[1e-8, 1e-10, 1e-12] };
     for &rtol in tolerances {
@@ -30,7 +30,7 @@ pub(crate) fn changes(folder: &Folder, subject: &Subject, settled: &Request) -> 
 }
 
 /// Every entry changed by up to one part in a thousand.
-fn beside(request: &Request, seed: u64) -> Request {
+fn nearby(request: &Request, seed: u64) -> Request {
     let mut changed = request.clone();
     changed.seed = seed;
     for (k, (_, value)) in changed.initial.iter_mut().enumerate() {

@@ -81,6 +81,13 @@ fn numbers(base: &Answer, other: &Answer, time: f64, length: f64) -> Option<Stri
 fn exponents(base: &Answer, other: &Answer, time: f64) -> Judged {
     let scaled: Vec<(f64, f64)> = base.exponents().iter().map(|(x, e)| (x / time, e / time)).collect();
     let (mut few, mut many) = (scaled, other.exponents());
+    // of a large system only the leading ones are stated
+    let ends = [&few, &many].map(|list| list.iter().map(|one| one.0).fold(f64::INFINITY, f64::min));
+    let lowest = ends[0].max(ends[1]);
+    if few.len() != many.len() {
+        few.retain(|(x, error)| x + ERRORS * error >= lowest);
+        many.retain(|(x, error)| x + ERRORS * error >= lowest);
+    }
     // the last modes of a truncation decay at rates of their own
     few.truncate(LEADING);
     many.truncate(2 * LEADING);

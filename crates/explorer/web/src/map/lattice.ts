@@ -96,6 +96,11 @@ export class Lattice {
     return i >= 0 && i < this.columns && j >= 0 && j < this.rows ? [i, j] : null;
   }
 
+  /** The values at the centre of a cell, where its motion was computed. */
+  centre([i, j]: [number, number]): [number, number] {
+    return [this.x.first + i * this.x.step, this.y.first + j * this.y.step];
+  }
+
   /** The regime of a cell that has a verdict of its own; `null` where only a coarser look speaks for it. */
   verdict([i, j]: [number, number]): Regime | null {
     const at = j * this.columns + i;

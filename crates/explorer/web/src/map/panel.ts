@@ -44,6 +44,8 @@ const GAP = 125;
 /** Pixels per cell, about; and how many cells along an axis at least and at most. */
 const CELL = 6;
 const CELLS = { least: 24, most: 90 };
+/** Digits of the centre of a cell: this part of a cell is resolved. */
+const RESOLVED = 1e-3;
 /** Clicks that follow each other within so many milliseconds may be a double click. */
 const DOUBLE = 400;
 
@@ -61,6 +63,8 @@ export class MapPanel {
   private epoch = 0;
   private lastClick = -Infinity;
   private beforeClick: Values = {};
+  /** Where the pointer is, in pixels. */
+  private pointer: [number, number] | null = null;
 
   constructor(private readonly host: MapHost) {
     const canvas = byId<HTMLCanvasElement>("map");
@@ -144,6 +148,8 @@ export class MapPanel {
     if (start.epoch !== this.epoch || !view) return;
     this.picture.start(start, view);
     showProgress({ done: 0, total: start.x.count * (start.y?.count ?? 1), rate: 0 });
+    this.readout.renew();
+    if (this.pointer) this.hover(this.pointer);
   }
 
   cells(cells: Cells): void {
@@ -247,7 +253,8 @@ export class MapPanel {
   }
 
   private click(px: number, py: number): void {
-    const [values, view] = [this.under(px, py), this.window()];
+    const [under, view] = [this.under(px, py), this.window()];
+    const values = under && this.centred(under);
     if (!values || !view || this.host.upon.clickOnMap([px, py], this.box(), view)) return;
     const [now, before] = [performance.now(), this.host.parameters()];
     if (now - this.lastClick > DOUBLE) this.beforeClick = Object.fromEntries(Object.keys(values).filter((name) => name in before).map((name) => [name, before[name]]));
@@ -263,18 +270,37 @@ export class MapPanel {
   }
 
   private hover(at: [number, number] | null): void {
+    this.pointer = at;
     const [values, view] = [at && this.under(...at), this.window()];
     if (view) this.host.upon.hoverOnMap(values && at, this.box(), view);
     if (values) this.pointAt(values);
     else this.readout.leave();
   }
 
+  /** Names the cell about a point, at the values it was computed at. */
   private pointAt(values: Values): void {
     const sides = this.sides();
     if (!sides) return;
-    const { x, y } = sides;
-    const at: [Parameter, number][] = [x, ...(y ? [y] : [])].map((side) => [side, values[side.name]]);
-    this.readout.point(at, this.picture.lattice?.cell(values[x.name], y ? values[y.name] : 0) ?? null);
+    const centre = this.centred(values);
+    const at: [Parameter, number][] = [sides.x, ...(sides.y ? [sides.y] : [])].map((side) => [side, centre[side.name]]);
+    this.readout.point(at, this.cellAt(values));
+  }
+
+  /** The cell about a point in the map that was asked for last; `null` outside, and before the map has begun. */
+  private cellAt(values: Values): [number, number] | null {
+    const [sides, { lattice }] = [this.sides(), this.picture];
+    if (!sides || !lattice || lattice.start.epoch !== this.epoch) return null;
+    return lattice.cell(values[sides.x.name], sides.y ? values[sides.y.name] : 0);
+  }
+
+  /** The centre of the cell about a point: there its motion was computed. The point itself where there is no cell. */
+  private centred(values: Values): Values {
+    const [sides, cell, { lattice }] = [this.sides(), this.cellAt(values), this.picture];
+    if (!sides || !cell || !lattice) return values;
+    const [x, y] = lattice.centre(cell);
+    const centre: Values = { [sides.x.name]: rounded(x, RESOLVED * lattice.start.x.step, sides.x) };
+    if (sides.y && lattice.start.y) centre[sides.y.name] = rounded(y, RESOLVED * lattice.start.y.step, sides.y);
+    return centre;
   }
 
   private markPixel(): [number, number] {

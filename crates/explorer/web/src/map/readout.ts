@@ -1,4 +1,4 @@
-/** The line below the map: what is known about the cell under the pointer, asked at most fifteen times a second. */
+/** The lines below the map: what is known about the cell under the pointer, asked at most fifteen times a second. */
 
 import { byTouch, make, throttle } from "../dom";
 import { swatch } from "../glyphs";
@@ -22,12 +22,13 @@ export class Readout {
     private readonly regimes: () => Regime[],
     question: (cell: [number, number]) => void,
   ) {
-    element.replaceChildren(make("span", { class: "readout-head" }, this.place, this.verdict), this.why);
+    const head = make("span", { class: "readout-head" }, this.place, this.verdict);
+    element.replaceChildren(make("div", { class: "readout-text" }, head, this.why));
     this.ask = throttle(GAP, () => this.cell && question(this.cell));
     this.leave();
   }
 
-  /** The pointer is upon this point and this cell; the answer comes later. */
+  /** The pointer is upon this cell, whose motion was computed at these values; the answer comes later. */
   point(at: [Parameter, number][], cell: [number, number] | null): void {
     this.place.replaceChildren(
       ...at.map(([parameter, value]) => make("span", {}, symbol(parameter.symbol), ` = ${pretty(value)}`)),
@@ -35,7 +36,12 @@ export class Readout {
     if (cell && this.cell && cell[0] === this.cell[0] && cell[1] === this.cell[1]) return;
     this.cell = cell;
     if (cell) this.ask();
-    else this.show(undefined, "outside the computed map");
+    else this.show(undefined, "not computed yet");
+  }
+
+  /** Another map: its cells are others. */
+  renew(): void {
+    this.cell = null;
   }
 
   /** Cells have come: the question again, if it had no answer. */
