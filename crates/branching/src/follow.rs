@@ -34,7 +34,12 @@ pub struct Leg {
 impl Leg {
     /// Whether the leg ends at this of its points because its motion gains a symmetry there: the point then belongs to the motion of more symmetry.
     pub(super) fn meets_at(&self, point: usize) -> bool {
-        point + 1 == self.samples.len() && matches!(self.end, End::Meets { .. })
+        point + 1 == self.samples.len() && self.meets()
+    }
+
+    /// Whether its motion gains a symmetry at its end.
+    pub(super) const fn meets(&self) -> bool {
+        matches!(self.end, End::Meets { .. })
     }
 }
 
@@ -73,7 +78,8 @@ pub struct Branches {
     pub complete: bool,
 }
 
-/// A new branch is compared with the others over so many points.
+/// A new branch is compared with the others over so many points, and over fewer and fewer of the later ones: near a special point Newton's
+/// method may confuse the branches that meet there.
 const COMPARED: usize = 8;
 
 /// Takes the branches that there are.
@@ -183,8 +189,8 @@ impl Work<'_> {
                 if std::mem::take(&mut met) {
                     return false;
                 }
-                if number == 0 && seen < COMPARED && on.is_none() {
-                    seen += 1;
+                seen += 1;
+                if number == 0 && (seen <= COMPARED || usize::is_power_of_two(seen)) && on.is_none() {
                     on = known(self.bodies, &self.done.branches, sample, &settings, self.stop);
                 }
                 on.is_some()

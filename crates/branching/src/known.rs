@@ -1,7 +1,7 @@
 //! Is a motion on a branch that was followed already?
 
 use super::family::Bodies;
-use super::follow::{Followed, Sample};
+use super::follow::{Followed, Leg, Sample};
 use motiform_continuation::{Branch, Motion, Settings, same_motion};
 use motiform_dynamics::Watch;
 
@@ -29,14 +29,24 @@ pub(super) fn known(
             same_motion(body.as_ref(), &sample.point.motion, &found, &settings.flow, SAME)
         })
     };
-    let holds = |branch: &Followed| {
-        let pairs = branch.legs.iter().flat_map(|leg| leg.samples.windows(2));
-        pairs.filter(|pair| about(pair, sample)).any(|pair| {
-            let far = |sample: &Sample| (sample.point.parameter - parameter).abs();
-            is_here(if far(&pair[0]) <= far(&pair[1]) { &pair[0] } else { &pair[1] })
-        })
+    let far = |neighbour: &Sample| (neighbour.point.parameter - parameter).abs();
+    let holds_leg = |leg: &Leg| {
+        // where a leg ends at a motion of more symmetry, that is a motion of another branch
+        let own = leg.samples.len() - usize::from(leg.meets());
+        let is_near = |pair: &[Sample], place: usize| {
+            let likes = (0..2).filter(|i| place + i < own && is_alike(&pair[*i], sample)).map(|i| &pair[i]);
+            let nearest = likes.min_by(|a, b| far(a).total_cmp(&far(b)));
+            about(pair, sample) && nearest.is_some_and(is_here)
+        };
+        leg.samples.windows(2).enumerate().any(|(place, pair)| is_near(pair, place))
     };
+    let holds = |branch: &Followed| branch.legs.iter().any(holds_leg);
     branches.iter().position(holds)
+}
+
+/// Whether a neighbour may be the same motion at another parameter: near a pitchfork Newton's method leads from one steady motion to another.
+fn is_alike(neighbour: &Sample, sample: &Sample) -> bool {
+    sample.point.motion.orbit().is_some() || neighbour.reading.motion == sample.reading.motion
 }
 
 /// Whether the motion may lie between two neighbours.

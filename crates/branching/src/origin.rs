@@ -4,9 +4,8 @@ use super::family::Bodies;
 use super::follow::{Followed, Leg, Sample};
 use super::settle::Start;
 use super::single_loop::single_loop;
-use motiform_analysis::linear::norm;
-use motiform_analysis::{Error as Refused, Isotropy, RelativeEquilibrium};
-use motiform_continuation::{Branch, End, Settings, Special, switch};
+use motiform_analysis::{Error as Refused, Isotropy, PeriodicOrbit, RelativeEquilibrium};
+use motiform_continuation::{Branch, Broken, End, Motion, Settings, Special, switch};
 use motiform_dynamics::{Equivariant, Watch};
 use serde::{Deserialize, Serialize};
 
@@ -149,8 +148,10 @@ impl Origin {
             }
             Self::Meets { branch, leg } => {
                 let leg = &branches[branch].legs[leg];
-                let met = met(leg).ok_or_else(|| nothing("motion of more symmetry", leg))?;
-                both(bodies, parameter(leg), &Start::Equilibrium(met), watch)
+                let body = bodies.model(parameter(leg))?;
+                let met = met(body.as_ref(), leg, &settings, watch)
+                    .ok_or_else(|| nothing("motion of more symmetry", leg))?;
+                both(bodies, parameter(leg), &met, watch)
             }
             Self::Shrinks { branch, leg } => {
                 let leg = &branches[branch].legs[leg];
@@ -197,19 +198,22 @@ fn saddle(leg: &Leg) -> Option<&RelativeEquilibrium> {
     }
 }
 
-/// The motion of more symmetry at the end of a leg: what is left of a shape at rest is round-off.
-fn met(leg: &Leg) -> Option<RelativeEquilibrium> {
-    let mut met = leg.samples.last()?.point.motion.equilibrium()?.clone();
-    let largest = leg.samples.iter().map(|sample| sample.reading.size).fold(0.0, f64::max);
-    if norm(&met.shape) < SAME * largest {
-        met.shape.fill(0.0);
-        met.turning_rate = 0.0;
-    }
-    Some(met)
+/// The motion of more symmetry at the end of a leg: the steady motion or the orbit there, or the orbit of half of the period.
+fn met(body: &dyn Equivariant, leg: &Leg, settings: &Settings, watch: &dyn Watch) -> Option<Start> {
+    let mirrored = match leg.end {
+        End::Meets { gains: Broken::MirrorAfterHalf, .. } => true,
+        End::Meets { gains: Broken::HalfPeriod, .. } => false,
+        _ => {
+            return Some(match &leg.samples.last()?.point.motion {
+                Motion::Equilibrium(met) => Start::Equilibrium(met.clone()),
+                Motion::Orbit { orbit, .. } => Start::Orbit(orbit.clone()),
+            });
+        }
+    };
+    let orbit = leg.samples.last()?.point.motion.orbit()?;
+    let found = PeriodicOrbit::near(body, &orbit.shape, (0.5 * orbit.time, mirrored), &settings.flow, watch);
+    found.map(Start::Orbit)
 }
-
-/// Size of a shape, beside that of the others of its branch, that is none.
-const SAME: f64 = 1e-6;
 
 fn nothing(what: &'static str, leg: &Leg) -> Refused {
     let why = "Newton's method finds none from the last orbit of the branch".to_owned();

@@ -1,13 +1,32 @@
 //! Where a branch is stable.
 
-use super::follow::{Branches, Followed, Sample};
+use super::follow::{Branches, Followed, Leg, Sample};
 use super::origin::Origin;
 
 /// Ranges of the parameter over which a branch is stable, in its order, each from the smaller to the larger value. They end at special
 /// points, or where the branch does.
 #[must_use]
 pub fn stretches(found: &Branches, followed: &Followed) -> Vec<[f64; 2]> {
-    let samples: Vec<&Sample> = followed.samples().collect();
+    let Some(birth) = birth(found, followed) else { return along(&followed.samples().collect::<Vec<_>>()) };
+    let leg = |leg: &Leg| {
+        let samples: Vec<&Sample> = leg.samples.iter().collect();
+        let mut all = along(&samples);
+        // no level changes its sign between the special point and the first point after it
+        if let ([first, second, ..], Some(range)) = (&samples[..], all.first_mut())
+            && is_stable(first, second)
+        {
+            *range = [range[0].min(birth), range[1].max(birth)];
+        }
+        all
+    };
+    match &followed.legs[..] {
+        [back, ahead] => leg(back).into_iter().rev().chain(leg(ahead)).collect(),
+        legs => legs.iter().flat_map(leg).collect(),
+    }
+}
+
+/// The same along some samples.
+fn along(samples: &[&Sample]) -> Vec<[f64; 2]> {
     let mut all: Vec<[f64; 2]> = Vec::new();
     let mut open: Option<[f64; 2]> = None;
     for pair in samples.windows(2) {
@@ -15,27 +34,19 @@ pub fn stretches(found: &Branches, followed: &Followed) -> Vec<[f64; 2]> {
         let joint = pair[0].point.special.is_some();
         if !is_stable(pair[0], pair[1]) {
             all.extend(open.take());
-        } else if let Some(range) = open.as_mut().filter(|_| !joint || goes_on(&samples, pair[0])) {
+        } else if let Some(range) = open.as_mut().filter(|_| !joint || goes_on(samples, pair[0])) {
             *range = [range[0].min(a).min(b), range[1].max(a).max(b)];
         } else {
             all.extend(open.replace([a.min(b), a.max(b)]));
         }
     }
     all.extend(open);
-    if let (Some(birth), Some(first)) = (birth(found, followed), all.first_mut())
-        && samples.len() > 1
-        && is_stable(samples[0], samples[1])
-    {
-        *first = [first[0].min(birth), first[1].max(birth)];
-    }
     all
 }
 
-/// The parameter of the special point where a branch of one leg begins.
+/// The parameter of the special point where a branch begins.
 fn birth(found: &Branches, followed: &Followed) -> Option<f64> {
-    let (Origin::Special { branch, leg, point }, [_]) = (followed.origin, &followed.legs[..]) else {
-        return None;
-    };
+    let Origin::Special { branch, leg, point } = followed.origin else { return None };
     Some(found.branches.get(branch)?.legs.get(leg)?.samples.get(point)?.point.parameter)
 }
 

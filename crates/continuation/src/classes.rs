@@ -8,6 +8,9 @@ use std::f64::consts::TAU;
 /// A shape counts as equal to its image up to this part of its size; turning points of branches are located far closer.
 pub(super) const SAME: f64 = 1e-6;
 
+/// The same at a turning point, which Newton's method places less well across the branch than along it.
+pub(super) const GAINED: f64 = 1e-4;
+
 /// What all shapes of a branch have in common.
 #[derive(Clone, Debug)]
 pub(super) struct Classes {
@@ -24,10 +27,15 @@ pub(super) struct Classes {
 impl Classes {
     /// The symmetry of the shapes `nodes`: that of all of them.
     pub(super) fn of<B: Equivariant + ?Sized>(body: &B, nodes: &[&[f64]]) -> Self {
+        Self::within(body, nodes, SAME)
+    }
+
+    /// The same, with images that differ by up to the part `same` of a shape.
+    pub(super) fn within<B: Equivariant + ?Sized>(body: &B, nodes: &[&[f64]], same: f64) -> Self {
         let Some(&first) = nodes.first() else { return Self::none(body.dim()) };
-        let Isotropy { mut folds, mut circle, mut mirror } = Isotropy::of(body, first, SAME);
+        let Isotropy { mut folds, mut circle, mut mirror } = Isotropy::of(body, first, same);
         for node in &nodes[1..] {
-            let other = Isotropy::of(body, node, SAME);
+            let other = Isotropy::of(body, node, same);
             circle &= other.circle;
             if other.folds != folds {
                 folds = 1;
@@ -35,7 +43,7 @@ impl Classes {
             mirror = mirror.filter(|&axis| {
                 let mut image = reflected(body, axis, node);
                 add(&mut image, -1.0, node);
-                norm(&image) <= SAME * norm(node)
+                norm(&image) <= same * norm(node)
             });
         }
         let bases = match mirror {

@@ -1,6 +1,6 @@
 //! The equations of relative equilibria along a parameter.
 
-use super::classes::{Classes, SAME};
+use super::classes::{Classes, GAINED};
 use super::correct::{correct, normal, scaled};
 use super::family::{Bodies, Neighbours, Sides};
 use super::hopf::first_lyapunov;
@@ -9,9 +9,9 @@ use super::point::Motion;
 use super::problem::{Equations, Failure, Linear, Problem};
 use super::special::{Broken, Hopf, Special};
 use super::tracer::TOLERANCE;
+use motiform_analysis::RelativeEquilibrium;
 use motiform_analysis::equilibrium::{neutral_direction, rounding};
 use motiform_analysis::linear::{add, apply, eigenvalues, norm, restrict};
-use motiform_analysis::{Isotropy, RelativeEquilibrium};
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField, Watch, model};
 use nalgebra::DMatrix;
@@ -153,17 +153,23 @@ impl Problem for Equilibria<'_> {
         })
     }
 
-    fn gains(&self, x: &[f64], local: &Local) -> Option<Broken> {
+    fn gains(&self, x: &[f64], local: &Local) -> Option<(Broken, Vec<f64>)> {
         let (body, shape) = (local.body.as_ref(), &x[..self.dim]);
         if self.classes.circle {
             return None;
         }
-        let found = Isotropy::of(body, shape, SAME);
-        let rests = body.symmetry().rotations && norm(shape) < SAME * self.size;
-        if rests || found.circle || found.folds > self.classes.folds {
-            return Some(Broken::Rotations);
+        let mut symmetric = x.to_vec();
+        if body.symmetry().rotations && norm(shape) < GAINED * self.size {
+            symmetric[..=self.dim].fill(0.0);
+            return Some((Broken::Rotations, symmetric));
         }
-        (found.mirror.is_some() && self.classes.axis.is_none()).then_some(Broken::Mirror)
+        let found = Classes::within(body, &[shape], GAINED);
+        found.tidy(body, &mut symmetric[..self.dim]);
+        if found.circle || found.folds > self.classes.folds {
+            return Some((Broken::Rotations, symmetric));
+        }
+        symmetric[self.dim] = 0.0;
+        (found.axis.is_some() && self.classes.axis.is_none()).then_some((Broken::Mirror, symmetric))
     }
 
     fn body<'l>(&self, local: &'l Local) -> &'l dyn Equivariant {

@@ -26,8 +26,11 @@ pub enum PeriodLaw {
 pub struct Connection {
     /// The parameter `p0` of the connection.
     pub parameter: f64,
-    /// What remains between it and the last point of the branch: its error is much smaller.
+    /// What remains between it and the last point of the branch.
     pub remaining: f64,
+    /// How far `parameter` may be away.
+    #[serde(default)]
+    pub error: f64,
     /// How the time of the orbit grows (half the period for a zigzag).
     pub law: PeriodLaw,
     /// The relative equilibrium that the orbit passes closest by, at the last point.
@@ -43,25 +46,31 @@ impl Connection {
     }
 
     /// With the relative equilibrium that the orbit passes closest by, where that can be the saddle of this connection: deviations grow in some
-    /// directions and decay in others, and one of the leading rates is that of the law (a resonant law has two rates of one size). Otherwise
+    /// directions and decay in others, and one of the rates is that of the law (a resonant law has two rates of one size). Otherwise
     /// the time grows for another reason, as along a canard explosion, where a branch goes on.
     pub(super) fn through(self, saddle: Option<RelativeEquilibrium>) -> Option<Self> {
         let found = saddle?;
-        let rates = || found.eigenvalues.iter().map(|value| value.0);
-        let grows = rates().filter(|rate| *rate > 0.0).fold(f64::INFINITY, f64::min);
-        let decays = rates().filter(|rate| *rate < 0.0).map(f64::abs).fold(f64::INFINITY, f64::min);
+        let rates = |sign: f64| {
+            let sized = found.eigenvalues.iter().map(|value| sign * value.0);
+            sized.filter(|rate| *rate > 0.0).collect::<Vec<f64>>()
+        };
+        let (grow, decay) = (rates(1.0), rates(-1.0));
         let near = |a: f64, b: f64| (a - b).abs() < RATES * a.max(b);
         let fits = match self.law {
-            PeriodLaw::Logarithmic { rate } => near(rate, grows) || near(rate, decays),
-            PeriodLaw::Resonant { .. } => near(grows, decays),
+            PeriodLaw::Logarithmic { rate } => grow.iter().chain(&decay).any(|a| near(*a, rate)),
+            PeriodLaw::Resonant { .. } => grow.iter().any(|a| decay.iter().any(|b| near(*a, *b))),
         };
-        (grows.is_finite() && decays.is_finite() && fits).then_some(Self { saddle: Some(found), ..self })
+        (!grow.is_empty() && !decay.is_empty() && fits).then_some(Self { saddle: Some(found), ..self })
     }
 }
 
 impl std::fmt::Display for Connection {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "the orbit approaches a connection of a saddle with itself at {:.9}: ", self.parameter)?;
+        let (parameter, error) = (self.parameter, self.error);
+        write!(
+            f,
+            "the orbit approaches a connection of a saddle with itself at {parameter:.9} +- {error:.0e}: "
+        )?;
         match self.law {
             PeriodLaw::Logarithmic { rate } => write!(f, "its time grows as -ln|p - p0| / {rate:.6}"),
             PeriodLaw::Resonant { amplitude } => write!(f, "its time grows as {amplitude:.6} / |p - p0|"),
@@ -82,14 +91,17 @@ const POINTS: usize = 6;
 /// Rates over the two halves of the points agree up to this part: what remains of the parameter is then known to more than one digit.
 const AGREE: f64 = 0.05;
 
-/// Part up to which a rate of the saddle is that of the law.
-const RATES: f64 = 0.1;
+/// Part up to which a rate of the saddle is that of the law: the fitted rate comes near to it slowly.
+const RATES: f64 = 0.3;
 
 /// The rate is fitted over the times above this part of the last one.
 const WINDOW: f64 = 0.85;
 
 /// The connection is reached where this much of the parameter remains.
 const NEAR: f64 = 1e-7;
+
+/// Fits whose differences are the error of the best one.
+const COMPARED: usize = 12;
 
 /// The resonant law is tried where the time has grown by this factor.
 const GROWN: f64 = 2.0;
@@ -119,6 +131,7 @@ impl Periods {
         (remaining.abs() < NEAR * (1.0 + parameter.abs())).then(|| Connection {
             parameter: parameter + remaining,
             remaining: remaining.abs(),
+            error: AGREE * remaining.abs() + f64::EPSILON * parameter.abs(),
             law: PeriodLaw::Logarithmic { rate },
             saddle: None,
         })
@@ -130,8 +143,16 @@ impl Periods {
     pub(super) fn resonance(&self) -> Option<Connection> {
         let longest = self.points.last()?.0;
         let late = (0..self.points.len()).filter(|&i| self.points[i].0 > 0.5 * longest);
-        let fits = late.filter_map(|last| self.resonant(last));
-        fits.min_by(|a, b| a.1.total_cmp(&b.1)).map(|fit| fit.0)
+        let mut fits: Vec<(Connection, f64)> = late.filter_map(|last| self.resonant(last)).collect();
+        fits.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let away = |best: &Connection| {
+            let others = fits.iter().take(COMPARED).map(|fit| (fit.0.parameter - best.parameter).abs());
+            others.fold(0.0, f64::max)
+        };
+        let best = fits.first()?.0.clone();
+        // Fits of nearby points share their errors: the next term of the law is of the order of what the worst of them differ by.
+        let error = 3.0 * away(&best) + f64::EPSILON;
+        Some(Connection { error, ..best })
     }
 
     /// `p = p0 + A/T + B/T^2 + C/T^3` through the point number `last` and one well before it, with their slopes, and how far the points
@@ -154,7 +175,7 @@ impl Periods {
         let worst = self.points[first..last].iter().map(off).fold(0.0, f64::max);
         let leads = (fit[1] / time).abs() > 0.7 * remaining && (fit[1] / time).abs() < 1.3 * remaining;
         let law = PeriodLaw::Resonant { amplitude: fit[1].abs() };
-        let connection = Connection { parameter: fit[0], remaining, law, saddle: None };
+        let connection = Connection { parameter: fit[0], remaining, error: 0.0, law, saddle: None };
         (leads && worst < 1e-3).then_some((connection, worst))
     }
 }

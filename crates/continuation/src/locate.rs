@@ -1,6 +1,6 @@
 //! Special points between two points of a branch.
 
-use super::correct::{correct, normal, product};
+use super::correct::{correct, normal, null_vectors, product};
 use super::levels::Level;
 use super::place::{Before, Place, place};
 use super::point::Obstruction;
@@ -110,10 +110,20 @@ fn without_folds<L>(found: &mut Vec<(Place<L>, Special)>) {
 
 fn kind<P: Problem>(problem: &P, at: &Place<P::Local>, test: Test) -> Special {
     match test {
+        // where two branches cross there are two directions; the one that turns back is not at a fold
+        Test::Slope if crosses(problem, at) => Special::BranchPoint,
         Test::Slope => Special::Fold,
         Test::Level(class, rank) => problem.classify(&at.x, at.levels[class][rank], class),
     }
 }
+
+/// Whether the equations leave two directions to first order.
+fn crosses<P: Problem>(problem: &P, at: &Place<P::Local>) -> bool {
+    null_vectors(problem.linear(&at.local), CROSSES, &problem.weights(&at.x)).len() > 1
+}
+
+/// Vectors that the equations see less than this part of the largest are solutions to first order.
+const CROSSES: f64 = 1e-5;
 
 /// Whether another test has led to the same point.
 fn is_known<L>(found: &[(Place<L>, Special)], at: &Place<L>, special: Special, length: f64) -> bool {

@@ -1,6 +1,6 @@
 //! The equations of relative periodic orbits along a parameter.
 
-use super::classes::Classes;
+use super::classes::{Classes, GAINED};
 use super::family::{Bodies, Neighbours};
 use super::levels::Level;
 use super::point::Motion;
@@ -10,13 +10,16 @@ use super::shooting::{Segment, segment, shape_after};
 use super::special::{Broken, Special};
 use motiform_analysis::linear::{add, dot, norm};
 use motiform_analysis::periodic::{Flow, back};
-use motiform_analysis::symmetry::wrap;
+use motiform_analysis::symmetry::{align, wrap};
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, logarithms_of_product};
 use motiform_dynamics::{Equivariant, VectorField, Watch};
 use nalgebra::DMatrix;
 
 /// Parts over which a deviation grows by more than this are halved.
 const GROWTH: f64 = 1000.0;
+
+/// Least part of the size of a shape by which it changes along an orbit that is none of an equilibrium.
+const EXTENDED: f64 = 100.0 * GAINED;
 
 /// Most parts of an orbit.
 const PARTS: usize = 64;
@@ -269,6 +272,34 @@ impl Problem for Orbits<'_> {
 
     fn swing(&self, local: &Local) -> Option<Vec<f64>> {
         Some(reduced_rates(local).concat())
+    }
+
+    fn gains(&self, x: &[f64], local: &Local) -> Option<(Broken, Vec<f64>)> {
+        let body = local.body.as_ref();
+        let nodes: Vec<&[f64]> = (0..self.parts).map(|i| self.node(x, i)).collect();
+        let found = Classes::within(body, &nodes, GAINED);
+        if found.axis.is_some() && self.classes.axis.is_none() {
+            let mut symmetric = x.to_vec();
+            for node in symmetric[..self.parts * self.dim].chunks_exact_mut(self.dim) {
+                found.tidy(body, node);
+            }
+            return Some((Broken::Mirror, symmetric));
+        }
+        if self.mirrored || self.parts % 2 != 0 {
+            return None;
+        }
+        let (first, half) = (nodes[0], nodes[self.parts / 2]);
+        let extent = |node: &&[f64]| align(body, node, first, false).distance;
+        if nodes.iter().map(extent).fold(0.0, f64::max) < EXTENDED * self.size {
+            return None; // it shrinks to an equilibrium, which has all symmetries of time
+        }
+        let is = |mirrored| align(body, half, first, mirrored).distance < GAINED * self.size;
+        let gained = match (is(false), is(true) && body.symmetry().mirror) {
+            (true, _) => Broken::HalfPeriod,
+            (_, true) => Broken::MirrorAfterHalf,
+            _ => return None,
+        };
+        Some((gained, x.to_vec()))
     }
 
     fn saddle(&self, x: &[f64], local: &Local) -> Option<RelativeEquilibrium> {

@@ -188,6 +188,18 @@ impl std::fmt::Display for End {
                     "the shape becomes symmetric under rotations at {parameter:.9}; beyond, the branch is a rotated copy"
                 )
             }
+            Self::Meets { parameter, gains: Broken::MirrorAfterHalf } => {
+                write!(
+                    f,
+                    "half of the period makes the orbit its own mirror image at {parameter:.9}; beyond, the branch is its mirror image"
+                )
+            }
+            Self::Meets { parameter, gains: Broken::HalfPeriod } => {
+                write!(
+                    f,
+                    "the orbit is one of half of the period, passed twice, at {parameter:.9}; beyond, the branch is the same, half a period later"
+                )
+            }
             Self::Shrinks { parameter, .. } => {
                 write!(f, "the orbit shrinks to an equilibrium at {parameter:.9}")
             }

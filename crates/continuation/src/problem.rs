@@ -83,8 +83,9 @@ pub(super) trait Problem: Equations {
         None
     }
 
-    /// The symmetry that the motion at `x` has and the branch has not. There the parameter turns back, and the branch goes on with its own images.
-    fn gains(&self, _x: &[f64], _local: &Self::Local) -> Option<Broken> {
+    /// The symmetry that the motion at `x` has and the branch has not, and the same unknowns with that symmetry of the shapes exact. There the
+    /// parameter turns back, and the branch goes on with its own images.
+    fn gains(&self, _x: &[f64], _local: &Self::Local) -> Option<(Broken, Vec<f64>)> {
         None
     }
 

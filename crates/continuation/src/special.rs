@@ -46,13 +46,28 @@ pub enum Special {
     },
 }
 
-/// Which symmetry a pitchfork breaks.
+/// Which symmetry a motion loses where others begin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Broken {
     /// The mirror, of a shape that has a direction: the new shapes turn, left and right (a drift pitchfork).
     Mirror,
     /// Rotations (and perhaps a mirror) of a shape at rest: the new shapes have fewer axes.
     Rotations,
+    /// That an orbit is its own mirror image half a period later.
+    MirrorAfterHalf,
+    /// That an orbit is back after half of the period of the new ones.
+    HalfPeriod,
+}
+
+impl Broken {
+    /// The special point at which motions without this symmetry begin.
+    pub(super) const fn special(self) -> Special {
+        match self {
+            Self::Mirror | Self::Rotations => Special::Pitchfork { breaks: self },
+            Self::MirrorAfterHalf => Special::SymmetryBreaking,
+            Self::HalfPeriod => Special::PeriodDoubling,
+        }
+    }
 }
 
 /// A Hopf bifurcation of the reduced motion.

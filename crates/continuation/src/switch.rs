@@ -10,7 +10,7 @@ use super::orbits::Orbits;
 use super::point::{Motion, Point};
 use super::problem::{Equations, Problem};
 use super::settings::Settings;
-use super::special::Special;
+use super::special::{Broken, Special};
 use super::tracer::Tracer;
 use motiform_analysis::linear::{add, norm};
 use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
@@ -18,7 +18,23 @@ use motiform_dynamics::{Equivariant, Watch};
 use std::f64::consts::TAU;
 
 /// Distances from the special point at which the new branch is looked for, in the units of [`Settings`].
-const DISTANCES: [f64; 5] = [0.02, 0.05, 0.005, 0.1, 0.001];
+const DISTANCES: [f64; 6] = [0.005, 0.02, 0.05, 0.1, 0.001, 0.0002];
+
+/// A special point: its unknowns, a direction that a new branch leaves in, and in how many directions deviations grow on that branch at first.
+struct Begin<'b> {
+    origin: &'b [f64],
+    direction: &'b [f64],
+    growing: std::ops::RangeInclusive<usize>,
+}
+
+impl<'b> Begin<'b> {
+    /// Deviations grow in the directions in which they do at the point, and at most in those of the critical levels too.
+    fn at(point: &Point, origin: &'b [f64], direction: &'b [f64]) -> Self {
+        let twice = matches!(point.special, Some(Special::Pitchfork { breaks: Broken::Rotations }));
+        let critical = if twice { 2 } else { 1 };
+        Self { origin, direction, growing: point.unstable..=point.unstable + critical }
+    }
+}
 
 /// Nodes of the orbits that begin at a Hopf bifurcation.
 const NODES: usize = 8;
@@ -47,17 +63,16 @@ pub fn switch<'f>(
             Ok(Vec::new())
         }
         (Motion::Equilibrium(start), Special::Hopf(hopf)) => {
-            begin(family, (point.parameter, start, hopf.frequency), settings, watch)
-                .map(|branch| vec![branch])
+            begin(family, (point, start, hopf.frequency), settings, watch).map(|branch| vec![branch])
         }
         (Motion::Equilibrium(start), _) => {
             let sides: &[f64] = if special == Special::BranchPoint { &[1.0, -1.0] } else { &[1.0] };
-            sides.iter().map(|&side| cross(family, (point.parameter, start, side), settings, watch)).collect()
+            sides.iter().map(|&side| cross(family, (point, start, side), settings, watch)).collect()
         }
         (Motion::Orbit { orbit, nodes }, _) => {
             let sides: &[f64] = if special == Special::BranchPoint { &[1.0, -1.0] } else { &[1.0] };
             let doubled = matches!(special, Special::PeriodDoubling | Special::SymmetryBreaking);
-            let new = |&side| leave(family, (point.parameter, orbit, nodes, doubled, side), settings, watch);
+            let new = |&side| leave(family, (point, (orbit, nodes), doubled, side), settings, watch);
             sides.iter().map(new).collect()
         }
     }
@@ -68,24 +83,41 @@ fn nothing(parameter: f64) -> Error {
     Error::NotOnABranch { what: "new branch", parameter, why }
 }
 
-/// Follows the new branch from the nearest point that Newton's method reaches.
+/// Follows the new branch from a point at which as many deviations grow as the special point lets expect: otherwise there is another special
+/// point on the way, and a nearer one is looked for.
 fn follow<P: Problem>(
     mut problem: P,
-    (origin, direction): (&[f64], &[f64]),
+    &Begin { origin, direction, ref growing }: &Begin<'_>,
     settings: &Settings,
     watch: &dyn Watch,
 ) -> Result<Tracer<P>> {
+    let mut farthest = f64::INFINITY;
+    let mut doubtful = None;
     for distance in DISTANCES {
+        if distance > farthest {
+            continue;
+        }
         match Tracer::beside(problem, (origin, direction, distance), settings, watch) {
-            Ok(tracer) => return Ok(tracer),
+            Ok(tracer) if growing.contains(&tracer.growing()) => return Ok(tracer),
+            Ok(tracer) => {
+                farthest = distance;
+                problem = tracer.into_problem();
+                doubtful.get_or_insert(distance);
+            }
             Err((back, _)) => problem = back,
         }
     }
-    Err(nothing(origin.last().copied().unwrap_or(f64::NAN)))
+    let nothing = || nothing(origin.last().copied().unwrap_or(f64::NAN));
+    let distance = doubtful.ok_or_else(nothing)?;
+    Tracer::beside(problem, (origin, direction, distance), settings, watch).map_err(|_| nothing())
 }
 
-/// A direction of the new branch: what the equations do not see to first order, and leaves the parameter as it is.
-fn direction<P: Problem>(problem: &P, x: &[f64]) -> Option<Vec<f64>> {
+/// Where a branch has a slope below this it turns back, and the one that crosses it goes on with the parameter.
+const TURNS: f64 = 1e-6;
+
+/// A direction of the new branch: what the equations do not see to first order, and leaves the parameter as it is; where the branch itself
+/// does so (its `slope` is 0), the direction across that.
+fn direction<P: Problem>(problem: &P, x: &[f64], slope: f64) -> Option<Vec<f64>> {
     let local = problem.local(x, &()).ok()?;
     let weights = problem.weights(x);
     let null = null_vectors(problem.linear(&local), NULL, &weights);
@@ -98,25 +130,32 @@ fn direction<P: Problem>(problem: &P, x: &[f64]) -> Option<Vec<f64>> {
     };
     let candidates = null.iter().filter(|v| !std::ptr::eq(*v, along)).map(across);
     let length = |v: &Vec<f64>| product(&weights, v, v);
-    let best = candidates.max_by(|a, b| length(a).total_cmp(&length(b)))?;
-    scaled(best, &weights)
+    let best = scaled(candidates.max_by(|a, b| length(a).total_cmp(&length(b)))?, &weights)?;
+    if slope.abs() > TURNS {
+        return Some(best);
+    }
+    let mut along = along.clone();
+    let part = product(&weights, &along, &best);
+    add(&mut along, -part, &best);
+    scaled(along, &weights)
 }
 
 /// Another branch of relative equilibria.
 fn cross<'f>(
     family: &'f dyn Family,
-    (parameter, start, side): (f64, &RelativeEquilibrium, f64),
+    (point, start, side): (&Point, &RelativeEquilibrium, f64),
     settings: &Settings,
     watch: &'f dyn Watch,
 ) -> Result<Branch<'f>> {
+    let parameter = point.parameter;
     let mut problem = Equilibria::near(Bodies::One(family), &[parameter], &start.shape, &[settings.width()])?;
     let body = family.at(parameter)?;
     problem.classes = Classes::of(body.as_ref(), &[]);
     let mut x = start.shape.clone();
     x.extend([start.turning_rate, parameter]);
-    let direction = direction(&problem, &x).ok_or_else(|| nothing(parameter))?;
+    let direction = direction(&problem, &x, point.slope).ok_or_else(|| nothing(parameter))?;
     let direction: Vec<f64> = direction.iter().map(|d| side * d).collect();
-    let mut tracer = follow(problem, (&x, &direction), settings, watch)?;
+    let mut tracer = follow(problem, &Begin::at(point, &x, &direction), settings, watch)?;
     let dim = start.shape.len();
     let shape = tracer.unknowns()[..dim].to_vec();
     tracer.problem_mut().classes = Classes::of(body.as_ref(), &[&shape]);
@@ -127,10 +166,11 @@ fn cross<'f>(
 /// Another branch of orbits, of twice the length if `doubled`.
 fn leave<'f>(
     family: &'f dyn Family,
-    (parameter, orbit, nodes, doubled, side): (f64, &PeriodicOrbit, &[Vec<f64>], bool, f64),
+    (point, (orbit, nodes), doubled, side): (&Point, (&PeriodicOrbit, &[Vec<f64>]), bool, f64),
     settings: &Settings,
     watch: &'f dyn Watch,
 ) -> Result<Branch<'f>> {
+    let parameter = point.parameter;
     let body = family.at(parameter)?;
     let mut all = nodes.to_vec();
     let (mut time, mut angle) = (orbit.time, orbit.angle);
@@ -150,9 +190,21 @@ fn leave<'f>(
     let mirrored = orbit.mirrored && !doubled;
     let problem = orbits(family, body.as_ref(), (&all, mirrored), settings);
     let x = unknowns(&problem, &all, (time, angle, parameter));
-    let direction = direction(&problem, &x).ok_or_else(|| nothing(parameter))?;
+    let direction = direction(&problem, &x, point.slope).ok_or_else(|| nothing(parameter))?;
     let direction: Vec<f64> = direction.iter().map(|d| side * d).collect();
-    Ok(Branch::orbits(follow(problem, (&x, &direction), settings, watch)?, watch))
+    Ok(Branch::orbits(symmetric(follow(problem, &Begin::at(point, &x, &direction), settings, watch)?), watch))
+}
+
+/// With the symmetry that all shapes of the first orbit have.
+fn symmetric(mut tracer: Tracer<Orbits<'_>>) -> Tracer<Orbits<'_>> {
+    let x = tracer.unknowns().to_vec();
+    let problem = tracer.problem_mut();
+    if let Ok(body) = problem.bodies.at(&x) {
+        let nodes: Vec<&[f64]> = (0..problem.parts).map(|i| problem.node(&x, i)).collect();
+        problem.classes = Classes::of(body.as_ref(), &nodes);
+        tracer.renew();
+    }
+    tracer
 }
 
 fn orbits<'f>(
@@ -189,10 +241,11 @@ fn unknowns(problem: &Orbits<'_>, nodes: &[Vec<f64>], (time, angle, parameter): 
 /// half the period brings its mirror image.
 fn begin<'f>(
     family: &'f dyn Family,
-    (parameter, start, frequency): (f64, &RelativeEquilibrium, f64),
+    (point, start, frequency): (&Point, &RelativeEquilibrium, f64),
     settings: &Settings,
     watch: &'f dyn Watch,
 ) -> Result<Branch<'f>> {
+    let parameter = point.parameter;
     let body = family.at(parameter)?;
     let body = body.as_ref();
     let (mut re, mut im) = critical_pair(body, &start.shape, frequency).ok_or_else(|| nothing(parameter))?;
@@ -221,7 +274,7 @@ fn begin<'f>(
     let mut direction = swings.concat();
     direction.resize(x.len(), 0.0);
     let direction = scaled(direction, &problem.weights(&x)).ok_or_else(|| nothing(parameter))?;
-    Ok(Branch::orbits(follow(problem, (&x, &direction), settings, watch)?, watch))
+    Ok(Branch::orbits(symmetric(follow(problem, &Begin::at(point, &x, &direction), settings, watch)?), watch))
 }
 
 /// Whether a shape has a mirror axis and the deviation is odd under it.

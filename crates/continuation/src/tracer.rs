@@ -36,6 +36,11 @@ struct First {
     motion: Motion,
 }
 
+/// Whether a branch may turn back here: where another one goes on through the point it is no fold.
+fn turns(special: Special) -> bool {
+    matches!(special, Special::Fold | Special::BranchPoint)
+}
+
 /// A branch being followed.
 pub(super) struct Tracer<P: Problem> {
     pub(super) problem: P,
@@ -116,6 +121,15 @@ impl<P: Problem> Tracer<P> {
 
     pub(super) fn unknowns(&self) -> &[f64] {
         &self.place.x
+    }
+
+    /// In how many directions deviations grow at the present place.
+    pub(super) fn growing(&self) -> usize {
+        unstable(&self.place.levels)
+    }
+
+    pub(super) fn into_problem(self) -> P {
+        self.problem
     }
 
     pub(super) fn problem_mut(&mut self) -> &mut P {
@@ -270,18 +284,19 @@ impl<P: Problem> Tracer<P> {
         found.map_or(end, |found| End::Homoclinic(Box::new(found)))
     }
 
-    /// The end of the branch at the first turning point where the motion gains a symmetry: it is a pitchfork of the motion that has it. What was found beyond belongs to
+    /// The end of the branch at the first turning point where the motion gains a symmetry: it is a special point of the motion that has it. What was found beyond belongs to
     /// images of the branch.
     fn meets(&self, length: f64, changes: &mut Changes<P::Local>) -> Option<End> {
         let gains = |(place, (at, special)): (usize, &(Place<P::Local>, Special))| {
-            let gained = (*special == Special::Fold).then(|| self.problem.gains(&at.x, &at.local)).flatten();
+            let gained = turns(*special).then(|| self.problem.gains(&at.x, &at.local)).flatten();
             gained.map(|gained| (place, gained))
         };
-        let (place, gains) = changes.found.iter().enumerate().find_map(gains)?;
-        let (at, _) = changes.found.swap_remove(place);
+        let (place, (gains, x)) = changes.found.iter().enumerate().find_map(gains)?;
+        let (mut at, _) = changes.found.swap_remove(place);
+        at.x = x;
         changes.found.retain(|(other, _)| at.arclength - other.arclength > 1e-4 * length);
         let end = End::Meets { parameter: at.parameter(), gains };
-        changes.found.push((at, Special::Pitchfork { breaks: gains }));
+        changes.found.push((at, gains.special()));
         Some(end)
     }
 
@@ -291,7 +306,7 @@ impl<P: Problem> Tracer<P> {
         if dot(&before, &now) >= 0.0 {
             return None;
         }
-        let at = found.iter().find(|(_, special)| *special == Special::Fold).map_or(new, |(at, _)| at);
+        let at = found.iter().find(|(_, special)| turns(*special)).map_or(new, |(at, _)| at);
         let time = self.problem.time()?;
         Some(End::Shrinks { parameter: at.parameter(), time: at.x[time] })
     }
