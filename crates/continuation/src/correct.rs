@@ -74,6 +74,13 @@ pub(super) fn null_vectors(linear: &Linear, least: f64, weights: &[f64]) -> Vec<
     for (j, weight) in weights.iter().enumerate() {
         square.column_mut(j).scale_mut(1.0 / weight.sqrt());
     }
+    // each equation against its own coefficients: those of fast modes are many orders of magnitude above those of slow ones
+    for mut row in square.row_iter_mut() {
+        let size = row.norm();
+        if size > 0.0 {
+            row.scale_mut(1.0 / size);
+        }
+    }
     let Some(svd) = square.try_svd(false, true, f64::EPSILON, 10_000) else { return Vec::new() };
     let Some(rows) = svd.v_t else { return Vec::new() };
     let largest = svd.singular_values.max();
