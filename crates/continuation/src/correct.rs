@@ -66,29 +66,45 @@ pub(super) fn correct<P: Equations>(
 
 const SINGULAR: Failure = Failure::Obstructed(Obstruction::Singular);
 
-/// The vectors that the equations do not see to first order: those whose part in the equations is smaller than `least` of the
-/// largest, smallest first. There is one where a branch is alone.
-pub(super) fn null_vectors(linear: &Linear, least: f64, weights: &[f64]) -> Vec<Vec<f64>> {
+/// Directions with the part of the equations that sees them to first order (a singular value), smallest first.
+fn seen(linear: &Linear, weights: &[f64]) -> Vec<(f64, Vec<f64>)> {
     let dim = linear.matrix.ncols();
     let mut square = linear.matrix.clone().resize_vertically(dim, 0.0);
     for (j, weight) in weights.iter().enumerate() {
         square.column_mut(j).scale_mut(1.0 / weight.sqrt());
     }
-    // each equation against its own coefficients: those of fast modes are many orders of magnitude above those of slow ones
-    for mut row in square.row_iter_mut() {
-        let size = row.norm();
-        if size > 0.0 {
-            row.scale_mut(1.0 / size);
-        }
-    }
     let Some(svd) = square.try_svd(false, true, f64::EPSILON, 10_000) else { return Vec::new() };
     let Some(rows) = svd.v_t else { return Vec::new() };
-    let largest = svd.singular_values.max();
-    let mut order: Vec<usize> = (0..dim).filter(|&i| svd.singular_values[i] <= least * largest).collect();
-    order.sort_by(|&a, &b| svd.singular_values[a].total_cmp(&svd.singular_values[b]));
-    let unscaled = |&i: &usize| rows.row(i).iter().zip(weights).map(|(v, w)| v / w.sqrt()).collect();
-    order.iter().map(unscaled).collect()
+    let unscaled = |i: usize| rows.row(i).iter().zip(weights).map(|(v, w)| v / w.sqrt()).collect();
+    let mut all: Vec<(f64, Vec<f64>)> = (0..dim).map(|i| (svd.singular_values[i], unscaled(i))).collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    all
 }
+
+/// Directions, those first that the equations see least: one of them not at all where a branch is alone.
+pub(super) fn directions(linear: &Linear, weights: &[f64]) -> Vec<Vec<f64>> {
+    seen(linear, weights).into_iter().map(|one| one.1).collect()
+}
+
+/// Directions that the equations do not see where branches cross, at least two; empty where one branch is alone. The unseen parts are
+/// told from the others by the widest gap between them: a part that would be small beside the rates of fast modes is large beside those of
+/// slow ones.
+pub(super) fn crossing(linear: &Linear, weights: &[f64]) -> Vec<Vec<f64>> {
+    let all = seen(linear, weights);
+    let round_off = all.last().map_or(0.0, |last| f64::EPSILON * last.0);
+    let gap = |count: usize| all.get(count).map_or(0.0, |next| next.0 / all[count - 1].0.max(round_off));
+    let widest = (2..all.len().min(MOST_UNSEEN + 1)).max_by(|&a, &b| gap(a).total_cmp(&gap(b)));
+    match widest {
+        Some(count) if gap(count) > GAP => all.into_iter().take(count).map(|one| one.1).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// Most directions that are unseen at once: that of a branch, and those of a deviation and its rotated copies.
+const MOST_UNSEEN: usize = 4;
+
+/// Least ratio of a part that is seen to one that is not.
+const GAP: f64 = 1e5;
 
 /// The same direction with length 1.
 pub(super) fn scaled(mut direction: Vec<f64>, weights: &[f64]) -> Option<Vec<f64>> {

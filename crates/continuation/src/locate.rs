@@ -1,6 +1,6 @@
 //! Special points between two points of a branch.
 
-use super::correct::{correct, normal, null_vectors, product};
+use super::correct::{correct, crossing, normal, product};
 use super::levels::Level;
 use super::place::{Before, Place, place};
 use super::point::Obstruction;
@@ -119,11 +119,8 @@ fn kind<P: Problem>(problem: &P, at: &Place<P::Local>, test: Test) -> Special {
 
 /// Whether the equations leave two directions to first order.
 fn crosses<P: Problem>(problem: &P, at: &Place<P::Local>) -> bool {
-    null_vectors(problem.linear(&at.local), CROSSES, &problem.weights(&at.x)).len() > 1
+    !crossing(problem.linear(&at.local), &problem.weights(&at.x)).is_empty()
 }
-
-/// Vectors that the equations see less than this part of the largest are solutions to first order.
-const CROSSES: f64 = 1e-5;
 
 /// Whether another test has led to the same point.
 fn is_known<L>(found: &[(Place<L>, Special)], at: &Place<L>, special: Special, length: f64) -> bool {

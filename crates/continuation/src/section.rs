@@ -1,6 +1,6 @@
 //! The surface of motions over two parameters: its cuts and its directions.
 
-use super::correct::{normal, null_vectors, product, scaled};
+use super::correct::{directions, normal, product, scaled};
 use super::elimination::newton_step;
 use super::problem::{Equations, Failure, Linear};
 use motiform_dynamics::Watch;
@@ -72,7 +72,7 @@ impl Frame {
 
     /// Any two directions of the surface.
     pub(super) fn any(linear: &Linear, weights: &[f64]) -> Option<Self> {
-        let mut null = null_vectors(linear, 1.0, weights).into_iter();
+        let mut null = directions(linear, weights).into_iter();
         Some(Self { along: null.next()?, across: null.next()? })
     }
 

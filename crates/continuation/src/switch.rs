@@ -2,7 +2,7 @@
 
 use super::branch::Branch;
 use super::classes::Classes;
-use super::correct::{null_vectors, product, scaled};
+use super::correct::{crossing, product, scaled};
 use super::equilibria::Equilibria;
 use super::family::{Bodies, Family};
 use super::hopf::critical_pair;
@@ -38,9 +38,6 @@ impl<'b> Begin<'b> {
 
 /// Nodes of the orbits that begin at a Hopf bifurcation.
 const NODES: usize = 8;
-
-/// Vectors that the equations see less than this part of the largest are solutions to first order.
-const NULL: f64 = 1e-6;
 
 /// The branches that begin or cross at a special point, each on to one side from there; none at a fold, a continuum or a torus, nor where the special point is unresolved.
 ///
@@ -116,11 +113,11 @@ fn follow<P: Problem>(
 const TURNS: f64 = 1e-6;
 
 /// A direction of the new branch: what the equations do not see to first order, and leaves the parameter as it is; where the branch itself
-/// does so (its `slope` is 0), the direction across that.
-fn direction<P: Problem>(problem: &P, x: &[f64], slope: f64) -> Option<Vec<f64>> {
+/// does so (a branch point with the slope 0), the direction across that.
+fn direction<P: Problem>(problem: &P, x: &[f64], point: &Point) -> Option<Vec<f64>> {
     let local = problem.local(x, &()).ok()?;
     let weights = problem.weights(x);
-    let null = null_vectors(problem.linear(&local), NULL, &weights);
+    let null = crossing(problem.linear(&local), &weights);
     let last = |v: &Vec<f64>| v.last().copied().unwrap_or(0.0);
     let along = null.iter().max_by(|a, b| last(a).abs().total_cmp(&last(b).abs()))?;
     let across = |v: &Vec<f64>| {
@@ -131,7 +128,7 @@ fn direction<P: Problem>(problem: &P, x: &[f64], slope: f64) -> Option<Vec<f64>>
     let candidates = null.iter().filter(|v| !std::ptr::eq(*v, along)).map(across);
     let length = |v: &Vec<f64>| product(&weights, v, v);
     let best = scaled(candidates.max_by(|a, b| length(a).total_cmp(&length(b)))?, &weights)?;
-    if slope.abs() > TURNS {
+    if point.special != Some(Special::BranchPoint) || point.slope.abs() > TURNS {
         return Some(best);
     }
     let mut along = along.clone();
@@ -153,7 +150,7 @@ fn cross<'f>(
     problem.classes = Classes::of(body.as_ref(), &[]);
     let mut x = start.shape.clone();
     x.extend([start.turning_rate, parameter]);
-    let direction = direction(&problem, &x, point.slope).ok_or_else(|| nothing(parameter))?;
+    let direction = direction(&problem, &x, point).ok_or_else(|| nothing(parameter))?;
     let direction: Vec<f64> = direction.iter().map(|d| side * d).collect();
     let mut tracer = follow(problem, &Begin::at(point, &x, &direction), settings, watch)?;
     let dim = start.shape.len();
@@ -190,7 +187,7 @@ fn leave<'f>(
     let mirrored = orbit.mirrored && !doubled;
     let problem = orbits(family, body.as_ref(), (&all, mirrored), settings);
     let x = unknowns(&problem, &all, (time, angle, parameter));
-    let direction = direction(&problem, &x, point.slope).ok_or_else(|| nothing(parameter))?;
+    let direction = direction(&problem, &x, point).ok_or_else(|| nothing(parameter))?;
     let direction: Vec<f64> = direction.iter().map(|d| side * d).collect();
     Ok(Branch::orbits(symmetric(follow(problem, &Begin::at(point, &x, &direction), settings, watch)?), watch))
 }

@@ -1,7 +1,7 @@
 //! Pseudo-arclength continuation with step control, over any equations.
 
 use super::copies::same_motion;
-use super::correct::{correct, normal, null_vectors, scaled};
+use super::correct::{correct, directions, normal, scaled};
 use super::homoclinic::Periods;
 use super::levels::unstable;
 use super::locate::{Changes, Step, locate};
@@ -72,7 +72,7 @@ impl<P: Problem> Tracer<P> {
         let found = correct(&problem, x, &row, TOLERANCE, watch)?;
         let weights = problem.weights(&found.x);
         // the side is decided by the parameter; where the branch is vertical, by the sign that the decomposition gives
-        let null = null_vectors(problem.linear(&found.local), 1.0, &weights);
+        let null = directions(problem.linear(&found.local), &weights);
         let mut first = null.into_iter().next().ok_or(Failure::Obstructed(Obstruction::Singular))?;
         let along = first.last().copied().unwrap_or(0.0);
         let side = if along == 0.0 { 1.0 } else { along.signum() } * settings.first_step.signum();
