@@ -175,13 +175,13 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
     /// The orbit with its multipliers, in a large system with those of the directions that are followed.
     pub(crate) fn described(
         mut self,
-        image: Image,
+        image: &Image,
         residual: f64,
         flow: &Flow,
         watch: &dyn Watch,
     ) -> Option<PeriodicOrbit> {
         if self.is_whole() {
-            return self.describe(&image, residual, flow.accuracy());
+            return self.describe(image, residual, flow.accuracy());
         }
         self.follow(&image.directions, DIRECTIONS);
         let image = self.image(flow, watch)?;

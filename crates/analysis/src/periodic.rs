@@ -180,7 +180,7 @@ impl PeriodicOrbit {
             }
             if step > 0 && residual <= tolerance * size {
                 let sensitive = state.is_whole() && image.amplification() > SENSITIVE;
-                let found = state.described(image, residual, flow, watch)?;
+                let found = state.described(&image, residual, flow, watch)?;
                 return if sensitive { refine(body, &found, flow, tolerance, watch) } else { Some(found) };
             }
             let amplification = image.amplification();

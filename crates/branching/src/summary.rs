@@ -15,6 +15,8 @@ pub struct SpecialEntry {
     pub kind: &'static str,
     /// The value of the parameter.
     pub parameter: f64,
+    /// How far it may be away, at an end that is extrapolated.
+    pub error: Option<f64>,
     /// Period of the motion, or of the one that begins (model time).
     pub period: Option<f64>,
     /// `supercritical` where what begins is stable in the critical directions, or `subcritical`.
@@ -30,6 +32,7 @@ impl SpecialEntry {
         let mut object = Map::new();
         object.insert("kind".to_owned(), self.kind.into());
         object.insert(parameter.to_owned(), self.parameter.into());
+        object.extend(self.error.map(|error| ("error".to_owned(), error.into())));
         let words = [("criticality", self.criticality), ("breaks", self.breaks)];
         object.extend(self.period.map(|period| ("period".to_owned(), period.into())));
         object.extend(words.into_iter().filter_map(|(key, word)| Some((key.to_owned(), word?.into()))));
@@ -119,6 +122,7 @@ impl Branches {
         Some(SpecialEntry {
             kind: special.name(),
             parameter: sample.point.parameter,
+            error: None,
             period: match special {
                 Special::Hopf(hopf) => Some(hopf.period()),
                 _ => sample.reading.period,
@@ -156,6 +160,7 @@ fn end(leg: &Leg) -> Option<SpecialEntry> {
     Some(SpecialEntry {
         kind: "homoclinic",
         parameter: connection.parameter,
+        error: Some(connection.error),
         period: None,
         criticality: None,
         breaks: None,

@@ -66,16 +66,25 @@ impl Connection {
 
 impl std::fmt::Display for Connection {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (parameter, error) = (self.parameter, self.error);
         write!(
             f,
-            "the orbit approaches a connection of a saddle with itself at {parameter:.9} +- {error:.0e}: "
+            "the orbit approaches a connection of a saddle with itself at {}: ",
+            stated(self.parameter, self.error)
         )?;
         match self.law {
             PeriodLaw::Logarithmic { rate } => write!(f, "its time grows as -ln|p - p0| / {rate:.6}"),
             PeriodLaw::Resonant { amplitude } => write!(f, "its time grows as {amplitude:.6} / |p - p0|"),
         }
     }
+}
+
+/// A value with its error, to the decimals that the error leaves.
+#[must_use]
+pub fn stated(value: f64, error: f64) -> String {
+    let decimals = (-libm::log10(error)).ceil().clamp(0.0, 15.0) as usize;
+    let text = format!("{value:.decimals$}");
+    let zero = text.trim_start_matches(['-', '0', '.']).is_empty();
+    format!("{} +- {error:.0e}", if zero { text.trim_start_matches('-') } else { &text })
 }
 
 /// Times along a branch of orbits, with the slope of the parameter.

@@ -285,7 +285,7 @@ impl Problem for Orbits<'_> {
             }
             return Some((Broken::Mirror, symmetric));
         }
-        if self.mirrored || self.parts % 2 != 0 {
+        if self.mirrored || !self.parts.is_multiple_of(2) {
             return None;
         }
         let (first, half) = (nodes[0], nodes[self.parts / 2]);

@@ -6,7 +6,7 @@ use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_branching::draw::{Ordinate, draw_branches};
 use motiform_branching::{
-    BranchFolder, Followed, SpecialEntry, default_folder, follow_kept, stretches, summary,
+    BranchFolder, Followed, SpecialEntry, default_folder, follow_kept, stated, stretches, summary,
 };
 use motiform_files::{Folder, Journal, Opening};
 use motiform_lab::draw::Picture;
@@ -195,7 +195,9 @@ fn nine(x: f64) -> String {
 }
 
 fn line(special: &SpecialEntry) -> String {
-    let mut line = format!("{:<17} {}", special.kind, nine(special.parameter));
+    let value =
+        special.error.map_or_else(|| nine(special.parameter), |error| stated(special.parameter, error));
+    let mut line = format!("{:<17} {value}", special.kind);
     let period = special.period.map(|period| format!("period {period:.6}"));
     let words = special.criticality.map(str::to_owned);
     let breaks = special.breaks.map(|what| format!("breaks the {what}"));

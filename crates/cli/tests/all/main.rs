@@ -3,6 +3,7 @@
 mod bad_input;
 mod bits;
 mod bounds;
+mod branches;
 mod budgets;
 mod cell;
 mod closed_output;

@@ -1,0 +1,153 @@
+//! `motiform continue` lists the same special points whatever range or start they are found from, and invents none.
+
+use crate::common::Folder;
+use serde_json::Value;
+
+/// A special point: its kind and the value of the parameter.
+type Found = (String, f64);
+
+/// Runs `motiform continue`, and returns what it says.
+fn follow(folder: &Folder, arguments: &str) -> Value {
+    folder.run(&format!("continue {arguments} --json")).expect(0).json()
+}
+
+/// The special points of all branches, each once: a branch may meet another one at its end.
+fn special(json: &Value, along: &str) -> Vec<Found> {
+    let branches = json["branches"].as_array().expect("branches");
+    let entries = branches.iter().flat_map(|branch| branch["special"].as_array().expect("a list"));
+    let mut all: Vec<Found> = entries
+        .map(|entry| {
+            (entry["kind"].as_str().expect("a name").to_owned(), entry[along].as_f64().expect("a number"))
+        })
+        .collect();
+    all.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    all.dedup_by(|a, b| a.0 == b.0 && (a.1 - b.1).abs() < 1e-7);
+    all
+}
+
+fn same(a: &[Found], b: &[Found], error: f64) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.0 == b.0 && (a.1 - b.1).abs() < error)
+}
+
+fn expected(list: &[(&str, f64)]) -> Vec<Found> {
+    list.iter().map(|(kind, value)| ((*kind).to_owned(), *value)).collect()
+}
+
+/// A system of two real equations as a model text: x and y are the parts of one amplitude.
+fn planar(folder: &Folder, name: &str, parameters: &str, [x, y]: [&str; 2]) {
+    let real = |text: &str| text.replace('x', "((z1+conj(z1))/2)").replace('y', "((z1-conj(z1))*(-i/2))");
+    let text = format!(
+        "[model.amplitudes]\nmodes = [1]\nsymmetry = \"none\"\n[model.amplitudes.parameters]\n{parameters}\n\
+         [model.amplitudes.equations]\nz1 = \"{} + i*({})\"\n",
+        real(x),
+        real(y)
+    );
+    folder.write(name, &text);
+}
+
+/// Circular motion of the cell begins at a drift pitchfork of straight motion and oscillates from 12.973310 on: with 42 unknowns the neutral
+/// direction has parts below round-off.
+#[test]
+fn the_branches_of_the_cell_have_no_false_points() {
+    let folder = Folder::new();
+    let quiet =
+        follow(&folder, "cell --set length=12.6 --from circular --along length=12.5:12.7 --branches 1");
+    assert_eq!(special(&quiet, "length"), []);
+    assert_eq!(quiet["branches"][0]["stable"], serde_json::json!([[12.5, 12.7]]));
+    let circular =
+        follow(&folder, "cell --set length=12.6 --from circular --along length=12:13.5 --branches 1");
+    let list = expected(&[("hopf", 12.973_310), ("pitchfork", 12.278_498)]);
+    assert!(same(&special(&circular, "length"), &list, 1e-6), "{circular}");
+    let straight = follow(&folder, "cell --set length=9 --from straight --along length=6:12.5 --branches 3");
+    let list = expected(&[("pitchfork", std::f64::consts::TAU), ("pitchfork", 12.278_498)]);
+    let first = serde_json::json!({ "branches": [straight["branches"][0]] });
+    let found = special(&first, "length");
+    assert!(same(&found, &list, 1e-6), "{straight}");
+    let motions: Vec<&Value> =
+        straight["branches"].as_array().expect("branches").iter().map(|branch| &branch["motion"]).collect();
+    assert_eq!(motions, ["straight", "motionless", "circular"]);
+}
+
+/// Circular motion meets straight motion at a pitchfork, seen from either of them and over any range.
+#[test]
+fn the_reduced_model_has_one_list_from_all_starts_and_ranges() {
+    let folder = Folder::new();
+    let from = |gamma: f64, along: &str| {
+        let plan = format!(
+            "tensor --preset fig1 --set kappa2=-0.06 --set gamma={gamma} --along gamma={along} --branches 9"
+        );
+        special(&follow(&folder, &plan), "gamma")
+    };
+    let base = from(0.05, "-0.1:0.11");
+    let names: Vec<&str> = base.iter().map(|found| found.0.as_str()).collect();
+    assert_eq!(names, ["homoclinic", "homoclinic", "hopf", "hopf", "pitchfork", "pitchfork"], "{base:?}");
+    for (gamma, along) in [(0.05, "-0.1:0.12"), (0.05, "-0.1:0.1"), (-0.08, "-0.1:0.11"), (0.1, "-0.11:0.11")]
+    {
+        let other = from(gamma, along);
+        let worst = |kind: &str| if kind == "homoclinic" { 2e-4 } else { 1e-8 };
+        let agrees = base.len() == other.len()
+            && base.iter().zip(&other).all(|(a, b)| a.0 == b.0 && (a.1 - b.1).abs() < worst(&a.0));
+        assert!(agrees, "from {gamma} over {along}: {other:?}, not {base:?}");
+    }
+}
+
+/// A rotating zigzag ends where a zigzag begins, and one of twice the period where the former begins: neither is a fold.
+#[test]
+fn orbits_that_gain_a_symmetry_meet_the_orbit_that_has_it() {
+    let folder = Folder::new();
+    let from = |kappa2: f64| {
+        let plan = format!(
+            "tensor --preset fig4 --set kappa3=0.1 --set kappa2={kappa2} --along kappa2=0.7:0.85 --branches 5"
+        );
+        let mut found = special(&follow(&folder, &plan), "kappa2");
+        found.retain(|one| one.1 > 0.7237); // the cascade goes on below
+        found
+    };
+    let list = expected(&[
+        ("period-doubling", 0.723_804_366),
+        ("period-doubling", 0.725_650_983),
+        ("period-doubling", 0.734_341_551),
+        ("symmetry-breaking", 0.783_547_485),
+    ]);
+    for kappa2 in [0.73, 0.76, 0.8] {
+        let found = from(kappa2);
+        assert!(same(&found, &list, 1e-7), "from {kappa2}: {found:?}");
+    }
+}
+
+/// FitzHugh and Nagumo: the cycles explode within a range of the parameter of 1e-9, which is no connection, because there is no saddle.
+#[test]
+fn a_canard_explosion_is_no_homoclinic_orbit() {
+    let folder = Folder::new();
+    planar(&folder, "canard.toml", "I = 0.0", ["x-x^3/3-y+I", "0.08*(x+0.7-0.8*y)"]);
+    for start in [0.0, 0.6] {
+        let plan = format!("canard.toml --set I={start} --along I=-0.5:2 --branches 2");
+        let json = follow(&folder, &plan);
+        let list = expected(&[
+            ("fold", 0.324_178_523),
+            ("fold", 1.425_821_477),
+            ("hopf", 0.331_281_337),
+            ("hopf", 1.418_718_663),
+        ]);
+        assert!(same(&special(&json, "I"), &list, 1e-7), "from {start}: {json}");
+    }
+}
+
+/// Two branches exchange their stability where they cross.
+#[test]
+fn a_transcritical_point_is_where_the_branches_cross() {
+    let folder = Folder::new();
+    planar(&folder, "cross.toml", "mu = -0.5", ["mu*x-x^2", "-y"]);
+    let json = follow(&folder, "cross.toml --along mu=-1:1");
+    assert!(same(&special(&json, "mu"), &expected(&[("branch-point", 0.0)]), 1e-9), "{json}");
+    let stable: Vec<Vec<f64>> = json["branches"]
+        .as_array()
+        .expect("branches")
+        .iter()
+        .map(|branch| serde_json::from_value(branch["stable"][0].clone()).expect("a range"))
+        .collect();
+    assert_eq!(stable.len(), 2, "{json}");
+    for (range, expected) in stable.iter().zip([[-1.0, 0.0], [0.0, 1.0]]) {
+        assert!(range.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{json}");
+    }
+}
