@@ -34,6 +34,7 @@ async function paused(page, wire) {
 
 for (const preset of ["fig5a", "fig6a"]) {
   test(`${preset}: the outline is pulled, and the position stays`, upon(it, { hash: preset === "fig5a" ? LIGHT : "preset=fig6a&x=length:6:7&y=none" }, async ({ page, wire }) => {
+    await until(() => wire.frame && Number.isFinite(reach(wire.frame)), "an outline about the position");
     const before = await paused(page, wire);
     const [x, y, scale] = await centre(page, before);
     const from = reach(before);

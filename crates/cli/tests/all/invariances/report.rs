@@ -28,8 +28,10 @@ pub(crate) fn report(cases: &[Case]) -> String {
     let total: usize = all.iter().sum();
     let _ = writeln!(text, "| all | | {} | {} | {} |\n", all[0], all[1], all[2]);
     let share = 100.0 * all[1] as f64 / total.max(1) as f64;
-    let _ = writeln!(text, "{total} comparisons, {share:.1} % undecided. Not the same:\n");
-    for case in cases.iter().filter(|case| case.judged != Judged::Same) {
+    let differ: Vec<&Case> = cases.iter().filter(|case| case.judged != Judged::Same).collect();
+    let end = if differ.is_empty() { "All are the same." } else { "Not the same:\n" };
+    let _ = writeln!(text, "{total} comparisons, {share:.1} % undecided. {end}");
+    for case in differ {
         let _ = writeln!(text, "* {}, {}: {}", case.subject, case.change, case.judged);
     }
     text
