@@ -1,8 +1,8 @@
 //! The leading Floquet exponents of an orbit in a large system.
 //!
-//! An orbit that closes within its tolerance is not near enough: what directions that shrink by orders of magnitude gain from the distance to
-//! it is more than is left of them. So Newton's method goes on until the orbit closes to far below the tolerance. Then the flow brings a dozen
-//! directions across the flow and the group to the leading ones.
+//! A shape at a distance from the periodic orbit within its tolerance is not close enough: in directions that shrink by orders of magnitude, that
+//! distance changes the map of a period by more than what is left of them. So Newton's method goes on until the orbit closes to far below the
+//! tolerance. Then two periods of the flow bring a dozen directions across the flow and the group to the leading ones.
 
 use crate::Estimate;
 use crate::linear::norm;

@@ -45,22 +45,31 @@ impl Connection {
         values.iter().map(|value| value.0).min_by(|a, b| a.abs().total_cmp(&b.abs()))
     }
 
-    /// With the relative equilibrium that the orbit passes closest by, where that can be the saddle of this connection: deviations grow in some
-    /// directions and decay in others, and one of the rates is that of the law (a resonant law has two rates of one size). Otherwise
-    /// the time grows for another reason, as along a canard explosion, where a branch goes on.
+    /// The connection through this saddle, the relative equilibrium that the orbit passes closest by. `None` unless deviations from it grow in some
+    /// directions and decay in others, and one of their rates is that of the law (a resonant law has two rates of one size): otherwise the
+    /// period grows for another reason, as in a canard explosion, and the branch goes on.
     pub(super) fn through(self, saddle: Option<RelativeEquilibrium>) -> Option<Self> {
-        let found = saddle?;
+        let saddle = saddle?;
         let rates = |sign: f64| {
-            let sized = found.eigenvalues.iter().map(|value| sign * value.0);
+            let sized = saddle.eigenvalues.iter().map(|value| sign * value.0);
             sized.filter(|rate| *rate > 0.0).collect::<Vec<f64>>()
         };
         let (grow, decay) = (rates(1.0), rates(-1.0));
-        let near = |a: f64, b: f64| (a - b).abs() < RATES * a.max(b);
-        let fits = match self.law {
-            PeriodLaw::Logarithmic { rate } => grow.iter().chain(&decay).any(|a| near(*a, rate)),
-            PeriodLaw::Resonant { .. } => grow.iter().any(|a| decay.iter().any(|b| near(*a, *b))),
+        if grow.is_empty() || decay.is_empty() {
+            return None;
+        }
+        let apart = |a: f64, b: f64| (a - b).abs() / a.max(b);
+        let (apart, error) = match self.law {
+            PeriodLaw::Logarithmic { rate } => {
+                let apart = grow.iter().chain(&decay).map(|a| apart(*a, rate)).fold(f64::INFINITY, f64::min);
+                (apart, self.error.max(apart * self.remaining)) // what remains is in proportion to the rate
+            }
+            PeriodLaw::Resonant { .. } => {
+                let pairs = grow.iter().flat_map(|a| decay.iter().map(|b| apart(*a, *b)));
+                (pairs.fold(f64::INFINITY, f64::min), self.error)
+            }
         };
-        (!grow.is_empty() && !decay.is_empty() && fits).then_some(Self { saddle: Some(found), ..self })
+        (apart < RATES).then_some(Self { saddle: Some(saddle), error, ..self })
     }
 }
 
@@ -109,8 +118,8 @@ const WINDOW: f64 = 0.85;
 /// The connection is reached where this much of the parameter remains.
 const NEAR: f64 = 1e-7;
 
-/// Fits whose differences are the error of the best one.
-const COMPARED: usize = 12;
+/// Fits that the best one is compared with.
+const COMPARED: usize = 11;
 
 /// The resonant law is tried where the time has grown by this factor.
 const GROWN: f64 = 2.0;
@@ -154,14 +163,14 @@ impl Periods {
         let late = (0..self.points.len()).filter(|&i| self.points[i].0 > 0.5 * longest);
         let mut fits: Vec<(Connection, f64)> = late.filter_map(|last| self.resonant(last)).collect();
         fits.sort_by(|a, b| a.1.total_cmp(&b.1));
-        let away = |best: &Connection| {
-            let others = fits.iter().take(COMPARED).map(|fit| (fit.0.parameter - best.parameter).abs());
-            others.fold(0.0, f64::max)
+        let (best, others) = fits.split_first()?;
+        let away = |other: &(Connection, f64)| (other.0.parameter - best.0.parameter).abs();
+        // Neighbouring fits have errors in common: of those that are nearly as good, the farthest one counts three times.
+        let error = match &others[..others.len().min(COMPARED)] {
+            [] => best.0.remaining,
+            compared => 3.0 * compared.iter().map(away).fold(0.0, f64::max),
         };
-        let best = fits.first()?.0.clone();
-        // Fits of nearby points share their errors: the next term of the law is of the order of what the worst of them differ by.
-        let error = 3.0 * away(&best) + f64::EPSILON;
-        Some(Connection { error, ..best })
+        Some(Connection { error, ..best.0.clone() })
     }
 
     /// `p = p0 + A/T + B/T^2 + C/T^3` through the point number `last` and one well before it, with their slopes, and how far the points

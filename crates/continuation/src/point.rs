@@ -176,29 +176,19 @@ impl std::fmt::Display for End {
             Self::StepUnderflow { step, why } => write!(f, "no point after a step of {step:.1e}: {why}"),
             Self::Homoclinic(connection) => write!(f, "{connection}"),
             Self::PeriodLimit { time } => write!(f, "the time of the orbit grew to {time}"),
-            Self::Meets { parameter, gains: Broken::Mirror } => {
-                write!(
-                    f,
-                    "the motion becomes its own mirror image at {parameter:.9}; beyond, the branch is its mirror image"
-                )
-            }
-            Self::Meets { parameter, gains: Broken::Rotations } => {
-                write!(
-                    f,
-                    "the shape becomes symmetric under rotations at {parameter:.9}; beyond, the branch is a rotated copy"
-                )
-            }
-            Self::Meets { parameter, gains: Broken::MirrorAfterHalf } => {
-                write!(
-                    f,
-                    "half of the period makes the orbit its own mirror image at {parameter:.9}; beyond, the branch is its mirror image"
-                )
-            }
-            Self::Meets { parameter, gains: Broken::HalfPeriod } => {
-                write!(
-                    f,
-                    "the orbit is one of half of the period, passed twice, at {parameter:.9}; beyond, the branch is the same, half a period later"
-                )
+            Self::Meets { parameter, gains } => {
+                let (meets, beyond) = match gains {
+                    Broken::Mirror => ("the motion becomes its own mirror image", "its mirror image"),
+                    Broken::Rotations => ("the shape becomes symmetric under rotations", "a rotated copy"),
+                    Broken::MirrorAfterHalf => {
+                        ("the orbit becomes its own mirror image half a period later", "its mirror image")
+                    }
+                    Broken::HalfPeriod => (
+                        "the orbit becomes one of half the period, passed twice",
+                        "the same orbit, shifted by half a period",
+                    ),
+                };
+                write!(f, "{meets} at {parameter:.9}; beyond, the branch is {beyond}")
             }
             Self::Shrinks { parameter, .. } => {
                 write!(f, "the orbit shrinks to an equilibrium at {parameter:.9}")

@@ -3,8 +3,8 @@
 use crate::common::Folder;
 use serde_json::Value;
 
-/// A special point: its kind and the value of the parameter.
-type Found = (String, f64);
+/// A special point: its kind, the value of the parameter, and its error where it is extrapolated.
+type Found = (String, f64, f64);
 
 /// Runs `motiform continue`, and returns what it says.
 fn follow(folder: &Folder, arguments: &str) -> Value {
@@ -17,7 +17,12 @@ fn special(json: &Value, along: &str) -> Vec<Found> {
     let entries = branches.iter().flat_map(|branch| branch["special"].as_array().expect("a list"));
     let mut all: Vec<Found> = entries
         .map(|entry| {
-            (entry["kind"].as_str().expect("a name").to_owned(), entry[along].as_f64().expect("a number"))
+            let value = entry[along].as_f64().expect("a number");
+            (
+                entry["kind"].as_str().expect("a name").to_owned(),
+                value,
+                entry["error"].as_f64().unwrap_or(0.0),
+            )
         })
         .collect();
     all.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
@@ -30,7 +35,7 @@ fn same(a: &[Found], b: &[Found], error: f64) -> bool {
 }
 
 fn expected(list: &[(&str, f64)]) -> Vec<Found> {
-    list.iter().map(|(kind, value)| ((*kind).to_owned(), *value)).collect()
+    list.iter().map(|(kind, value)| ((*kind).to_owned(), *value, 0.0)).collect()
 }
 
 /// A system of two real equations as a model text: x and y are the parts of one amplitude.
@@ -84,11 +89,14 @@ fn the_reduced_model_has_one_list_from_all_starts_and_ranges() {
     for (gamma, along) in [(0.05, "-0.1:0.12"), (0.05, "-0.1:0.1"), (-0.08, "-0.1:0.11"), (0.1, "-0.11:0.11")]
     {
         let other = from(gamma, along);
-        let worst = |kind: &str| if kind == "homoclinic" { 2e-4 } else { 1e-8 };
         let agrees = base.len() == other.len()
-            && base.iter().zip(&other).all(|(a, b)| a.0 == b.0 && (a.1 - b.1).abs() < worst(&a.0));
+            && base.iter().zip(&other).all(|(a, b)| a.0 == b.0 && (a.1 - b.1).abs() < 1e-8 + a.2 + b.2);
         assert!(agrees, "from {gamma} over {along}: {other:?}, not {base:?}");
     }
+    // the torus ends where growth and decay at the ellipses are equal: gamma = 0
+    let resonant =
+        base.iter().find(|found| found.0 == "homoclinic" && found.1.abs() < 1e-3).expect("a resonance");
+    assert!(resonant.1.abs() < resonant.2 && resonant.2 < 1e-3, "{resonant:?}");
 }
 
 /// A rotating zigzag ends where a zigzag begins, and one of twice the period where the former begins: neither is a fold.

@@ -14,6 +14,7 @@ mod curves;
 mod drawing;
 mod equations;
 mod explore;
+mod exponents;
 mod faults;
 mod fits;
 mod fuzz;
