@@ -3,7 +3,7 @@
 use crate::accept::Patience;
 use crate::rate::Bucket;
 use axum::extract::ws::{CloseFrame, Message, WebSocket};
-use motiform_session::{Answer, Answers, Catalogue, Gone, Greeting, Request, Session, refusal};
+use motiform_session::{Answer, Answers, Catalogue, Gone, Greeting, LONGEST, Request, Session, refusal};
 use std::time::{Duration, Instant};
 use tokio::sync::{mpsc, watch};
 use tokio::time::timeout;
@@ -12,6 +12,10 @@ use tokio::time::timeout;
 const GOING_AWAY: u16 = 1001;
 const POLICY: u16 = 1008;
 const TOO_BIG: u16 = 1009;
+
+/// Bytes of a message that is read to its end, although it may be too long to be taken: what stays unread makes the operating system
+/// reset the connection, and the page never sees the reason.
+pub(crate) const READ_WHOLE: usize = 32 * LONGEST;
 const FAILED: u16 = 1011;
 const TRY_AGAIN_LATER: u16 = 1013;
 
@@ -143,8 +147,11 @@ impl Line<'_> {
         bucket: &mut Bucket,
     ) -> Option<Option<End>> {
         let text = match heard {
-            Ok(Message::Text(text)) => Some(text),
-            Ok(Message::Binary(_)) => None,
+            Ok(Message::Text(text)) if text.len() <= LONGEST => Some(text),
+            Ok(Message::Binary(bytes)) if bytes.len() <= LONGEST => None,
+            Ok(Message::Text(_) | Message::Binary(_)) => {
+                return Some(Some((TOO_BIG, "a message was too long")));
+            }
             Ok(Message::Close(_)) => return None,
             Ok(Message::Ping(_) | Message::Pong(_)) => {
                 let allowed = bucket.take(Instant::now());

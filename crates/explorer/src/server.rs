@@ -237,7 +237,7 @@ async fn live(
     if !shared.admits(&token, &headers) || !ours {
         return StatusCode::FORBIDDEN.into_response();
     }
-    let upgrade = upgrade.max_message_size(LONGEST).max_frame_size(LONGEST);
+    let upgrade = upgrade.max_message_size(connection::READ_WHOLE).max_frame_size(connection::READ_WHOLE);
     let Ok(place) = Arc::clone(&shared.pages).try_acquire_owned() else {
         // A refused upgrade looks to a page as if there were no server: it is told by a code instead.
         return upgrade.on_upgrade(connection::refuse);
