@@ -3,9 +3,11 @@
 use super::family::Neighbours;
 use super::point::Obstruction;
 use super::problem::Failure;
-use super::variation::Variation;
+use super::variation::{Variation, slope_at};
+use motiform_analysis::implicit_flow;
 use motiform_analysis::periodic::Flow;
 use motiform_dynamics::drive::drive;
+use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Equivariant, Outcome, Request, Semilinear, VectorField, Watch};
 
 /// What the flow over one part of an orbit gives.
@@ -28,6 +30,9 @@ pub(super) fn segment(
     flow: &Flow,
     watch: &dyn Watch,
 ) -> Result<Segment, Failure> {
+    if matches!(flow.method, Method::Exponential(_)) {
+        return stiff_segment(neighbours, start, span, watch);
+    }
     let dim = start.len();
     let variation = Variation::new(neighbours);
     let mut state = Vec::new();
@@ -45,6 +50,34 @@ pub(super) fn segment(
     })
 }
 
+/// The same by the implicit method, whose steps do not shorten with the stiff parts of vectors.
+fn stiff_segment(
+    neighbours: &Neighbours,
+    start: &[f64],
+    span: f64,
+    watch: &dyn Watch,
+) -> Result<Segment, Failure> {
+    let body = neighbours.body.as_ref();
+    let (dim, count) = (start.len(), neighbours.sides.len());
+    let mut vectors = vec![0.0; dim * (dim + count)];
+    (0..dim).for_each(|i| vectors[dim * i + i] = 1.0);
+    let forced = |u: &[f64]| neighbours.sides.iter().map(|sides| slope_at(sides, u)).collect();
+    let flowed = implicit_flow(body, start, &vectors, &forced, span, watch).map_err(failure)?;
+    let mut slope = vec![0.0; dim];
+    VectorField::<f64>::eval(body, 0.0, &flowed.end, &mut slope);
+    let by_parameter = flowed.vectors[dim * dim..].to_vec();
+    let mut tangents = flowed.vectors;
+    tangents.truncate(dim * dim);
+    Ok(Segment { end: flowed.end, slope, tangents, by_parameter })
+}
+
+fn failure(outcome: Outcome) -> Failure {
+    match outcome {
+        Outcome::Interrupted { .. } => Failure::Stopped,
+        other => Failure::Obstructed(Obstruction::Flow(other)),
+    }
+}
+
 /// The shape after `span`.
 pub(super) fn shape_after(
     body: &dyn Equivariant,
@@ -53,6 +86,10 @@ pub(super) fn shape_after(
     flow: &Flow,
     watch: &dyn Watch,
 ) -> Result<Vec<f64>, Failure> {
+    if matches!(flow.method, Method::Exponential(_)) {
+        let flowed = implicit_flow(body, start, &[], &|_| Vec::new(), span, watch);
+        return flowed.map(|flowed| flowed.end).map_err(failure);
+    }
     run(body, start, span, start.len(), flow, watch)
 }
 
@@ -71,9 +108,5 @@ fn run<F: Semilinear<f64> + ?Sized>(
     let request = Request { max_steps: flow.max_steps, watched, watch, ..Request::until(span, field.dim()) };
     let outcome = drive(orbit.as_mut(), &request, &mut ())
         .map_err(|error| Failure::from(motiform_analysis::Error::from(error)))?;
-    match outcome {
-        Outcome::Interrupted { .. } => Err(Failure::Stopped),
-        _ if outcome.is_complete() => Ok(orbit.state().to_vec()),
-        _ => Err(Failure::Obstructed(Obstruction::Flow(outcome))),
-    }
+    if outcome.is_complete() { Ok(orbit.state().to_vec()) } else { Err(failure(outcome)) }
 }

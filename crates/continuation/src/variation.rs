@@ -42,6 +42,13 @@ impl<'n> Variation<'n> {
     }
 }
 
+/// `df/dp` at `u`.
+pub(super) fn slope_at(sides: &Sides, u: &[f64]) -> Vec<f64> {
+    let (mut rates, mut out) = (vec![0.0; u.len()], vec![0.0; u.len()]);
+    slope_in(sides, u, &mut rates, &mut out);
+    out
+}
+
 fn slope<const N: usize>(sides: &Sides, u: &[f64], out: &mut [f64]) {
     let mut rates = [0.0; N];
     slope_in(sides, u, &mut rates[..u.len()], out);

@@ -10,7 +10,7 @@ use axum::extract::{Path, RawQuery, State, WebSocketUpgrade};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
-use motiform_session::{Catalogue, Greeting, LONGEST, StudyFile, file_name, quoted};
+use motiform_session::{Catalogue, Greeting, StudyFile, file_name, quoted};
 use std::net::{Ipv4Addr, TcpListener};
 use std::sync::Arc;
 use std::time::Duration;

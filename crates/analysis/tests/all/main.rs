@@ -6,6 +6,7 @@ mod common;
 mod equilibrium;
 mod escape;
 mod heteroclinic;
+mod implicit;
 mod isotropy;
 mod lanes;
 mod leaving_a_rest;
