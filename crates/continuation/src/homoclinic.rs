@@ -19,6 +19,26 @@ pub enum PeriodLaw {
         /// The amplitude.
         amplitude: f64,
     },
+    /// `T = amplitude / sqrt|p - p0|` to leading order: two equilibria meet on the orbit (a saddle-node on a circle).
+    SquareRoot {
+        /// The amplitude.
+        amplitude: f64,
+    },
+}
+
+/// What an orbit approaches where its period grows without bound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ConnectionKind {
+    /// The leading eigenvalues of the saddle are real, growing and decaying ones of different size.
+    Saddle,
+    /// A complex pair of the saddle leads on one side (Shilnikov): beside a connection where that side is the slower one (`quantity`
+    /// as in [`Connection::quantity`] on the side of the real eigenvalue) there are infinitely many periodic orbits.
+    SaddleFocus,
+    /// Growth and decay at the saddle are equal.
+    Resonant,
+    /// Two equilibria meet on the orbit and disappear.
+    SaddleNode,
 }
 
 /// Where a branch of periodic orbits ends because their period grows without bound.
@@ -38,6 +58,38 @@ pub struct Connection {
 }
 
 impl Connection {
+    /// What the orbit approaches: from its law, and from the leading eigenvalues of the saddle.
+    #[must_use]
+    pub fn kind(&self) -> ConnectionKind {
+        match self.law {
+            PeriodLaw::Resonant { .. } => ConnectionKind::Resonant,
+            PeriodLaw::SquareRoot { .. } => ConnectionKind::SaddleNode,
+            PeriodLaw::Logarithmic { .. } => match self.sides() {
+                Some([(_, 0.0), (_, 0.0)]) | None => ConnectionKind::Saddle,
+                Some(_) => ConnectionKind::SaddleFocus,
+            },
+        }
+    }
+
+    /// The slowest eigenvalues `(re, |im|)` of the saddle that grow and that decay.
+    fn sides(&self) -> Option<[(f64, f64); 2]> {
+        let values = &self.saddle.as_ref()?.eigenvalues;
+        let slowest = |sign: f64| {
+            let side = values.iter().filter(|value| sign * value.0 > 0.0);
+            let least = side.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+            Some((least.0, least.1.abs()))
+        };
+        Some([slowest(1.0)?, slowest(-1.0)?])
+    }
+
+    /// The saddle quantity: the sum of the real parts of the slowest growing and decaying eigenvalues. Where it is negative one stable orbit
+    /// meets a connection of real eigenvalues; where it is positive the orbit is unstable (Kuznetsov, Elements of Applied Bifurcation Theory,
+    /// theorems 6.2 and 6.3).
+    #[must_use]
+    pub fn quantity(&self) -> Option<f64> {
+        self.sides().map(|[grows, decays]| grows.0 + decays.0)
+    }
+
     /// The saddle's leading eigenvalue: the one whose real part is closest to 0. The fitted rate of a logarithmic law is its modulus.
     #[must_use]
     pub fn leading(&self) -> Option<f64> {
@@ -68,21 +120,71 @@ impl Connection {
                 let pairs = grow.iter().flat_map(|a| decay.iter().map(|b| apart(*a, *b)));
                 (pairs.fold(f64::INFINITY, f64::min), self.error)
             }
+            PeriodLaw::SquareRoot { .. } => return None, // there is no saddle on this side: see `at_fold`
         };
         (apart < RATES).then_some(Self { saddle: Some(saddle), error, ..self })
+    }
+
+    /// A saddle-node on a circle at the square-root law: beyond it, at the distances d and 4 d, `equilibrium` finds one whose slowest real
+    /// eigenvalue grows as the square root, `lambda = L sqrt(d)`. In the normal form `x' = d + x^2` the orbit takes the time `pi / sqrt(d)`, and
+    /// `lambda = 2 sqrt(d)`: `amplitude L` is 2 pi, or a multiple where the orbit passes several images of the place.
+    ///
+    /// Source: Kuznetsov, Elements of Applied Bifurcation Theory, section 7.1.
+    pub(super) fn at_fold(
+        self,
+        side: f64,
+        equilibrium: &dyn Fn(f64) -> Option<RelativeEquilibrium>,
+    ) -> Option<Self> {
+        let PeriodLaw::SquareRoot { amplitude } = self.law else { return None };
+        let slowest = |found: &RelativeEquilibrium| {
+            let real = found.eigenvalues.iter().filter(|value| value.1 == 0.0);
+            real.map(|value| value.0.abs()).fold(f64::INFINITY, f64::min)
+        };
+        let beyond = |d: f64| equilibrium(self.parameter - side * d).map(|found| (slowest(&found), found));
+        let d = self.remaining;
+        let ((near, saddle), (far, _)) = (beyond(d)?, beyond(4.0 * d)?);
+        let passes = near / d.sqrt() * amplitude / std::f64::consts::TAU;
+        let square_root = (far / near - 2.0).abs() < 2.0 * RATES;
+        let whole = passes.round() >= 1.0 && (passes - passes.round()).abs() < RATES;
+        (square_root && whole).then_some(Self { saddle: Some(saddle), ..self })
     }
 }
 
 impl std::fmt::Display for Connection {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(
-            f,
-            "the orbit approaches a connection of a saddle with itself at {}: ",
-            stated(self.parameter, self.error)
-        )?;
+        let place = stated(self.parameter, self.error);
+        match self.kind() {
+            ConnectionKind::Saddle => {
+                write!(f, "the orbit approaches a connection of a saddle with itself at {place}")
+            }
+            ConnectionKind::SaddleFocus => {
+                write!(
+                    f,
+                    "the orbit approaches a connection of a saddle-focus with itself (Shilnikov) at {place}"
+                )
+            }
+            ConnectionKind::Resonant => {
+                write!(f, "the orbit approaches a resonant connection of a saddle with itself at {place}")
+            }
+            ConnectionKind::SaddleNode => {
+                write!(
+                    f,
+                    "the orbit approaches a saddle-node on a circle at {place}: two equilibria appear on it"
+                )
+            }
+        }?;
         match self.law {
-            PeriodLaw::Logarithmic { rate } => write!(f, "its time grows as -ln|p - p0| / {rate:.6}"),
-            PeriodLaw::Resonant { amplitude } => write!(f, "its time grows as {amplitude:.6} / |p - p0|"),
+            PeriodLaw::Logarithmic { rate } => write!(f, ": its time grows as -ln|p - p0| / {rate:.6}"),
+            PeriodLaw::Resonant { amplitude } => write!(f, ": its time grows as {amplitude:.6} / |p - p0|"),
+            PeriodLaw::SquareRoot { amplitude } => {
+                write!(f, ": its time grows as {amplitude:.6} / sqrt|p - p0|")
+            }
+        }?;
+        match self.quantity() {
+            Some(quantity) if matches!(self.law, PeriodLaw::Logarithmic { .. }) => {
+                write!(f, "; saddle quantity {quantity:.4}")
+            }
+            _ => Ok(()),
         }
     }
 }
@@ -94,6 +196,15 @@ pub fn stated(value: f64, error: f64) -> String {
     let text = format!("{value:.decimals$}");
     let zero = text.trim_start_matches(['-', '0', '.']).is_empty();
     format!("{} +- {error:.0e}", if zero { text.trim_start_matches('-') } else { &text })
+}
+
+/// Laws by which the distance to a connection falls as a power of the time: `|p - p0| ~ 1/T^k`.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Algebraic {
+    /// [`PeriodLaw::Resonant`].
+    Resonant = 1,
+    /// [`PeriodLaw::SquareRoot`].
+    SquareRoot = 2,
 }
 
 /// Times along a branch of orbits, with the slope of the parameter.
@@ -121,7 +232,7 @@ const NEAR: f64 = 1e-7;
 /// Fits that the best one is compared with.
 const COMPARED: usize = 11;
 
-/// The resonant law is tried where the time has grown by this factor.
+/// The algebraic laws are tried where the time has grown by this factor.
 const GROWN: f64 = 2.0;
 
 impl Periods {
@@ -155,13 +266,13 @@ impl Periods {
         })
     }
 
-    /// The resonant connection ahead, for a branch whose flow cannot be resolved any further: at a resonance the distance to it falls so
-    /// slowly that a branch never comes near. Of the fits to the last half of the times the one that its points lie on best: the very
-    /// last points carry the most round-off.
-    pub(super) fn resonance(&self) -> Option<Connection> {
+    /// The connection ahead by one of the algebraic laws, for a branch whose flow cannot be resolved any further, or whose time has become very
+    /// long: there the distance falls so slowly that a branch never comes near. Of the fits to the last half of the times the one that its
+    /// points lie on best: the very last points carry the most round-off.
+    pub(super) fn algebraic(&self, law: Algebraic) -> Option<Connection> {
         let longest = self.points.last()?.0;
         let late = (0..self.points.len()).filter(|&i| self.points[i].0 > 0.5 * longest);
-        let mut fits: Vec<(Connection, f64)> = late.filter_map(|last| self.resonant(last)).collect();
+        let mut fits: Vec<(Connection, f64)> = late.filter_map(|last| self.fit(law, last)).collect();
         fits.sort_by(|a, b| a.1.total_cmp(&b.1));
         let (best, others) = fits.split_first()?;
         let away = |other: &(Connection, f64)| (other.0.parameter - best.0.parameter).abs();
@@ -170,12 +281,13 @@ impl Periods {
             [] => best.0.remaining,
             compared => 3.0 * compared.iter().map(away).fold(0.0, f64::max),
         };
-        Some(Connection { error, ..best.0.clone() })
+        Some(Connection { error: error.max(f64::EPSILON * best.0.parameter.abs()), ..best.0.clone() })
     }
 
-    /// `p = p0 + A/T + B/T^2 + C/T^3` through the point number `last` and one well before it, with their slopes, and how far the points
-    /// between them are from it, as a part of what remains. The first term must be the largest one.
-    fn resonant(&self, last: usize) -> Option<(Connection, f64)> {
+    /// `p = p0 + A/T^k + B/T^(k+1) + C/T^(k+2)` through the point number `last` and one well before it, with their slopes, and how far the
+    /// points between them are from it, as a part of what remains. The first term must be the largest one.
+    fn fit(&self, law: Algebraic, last: usize) -> Option<(Connection, f64)> {
+        let power = law as i32;
         let (time, parameter, _) = self.points[last];
         let first = self.points.iter().position(|point| point.0 > time / 1.6)?;
         if last < first + POINTS || self.points.first()?.0 > time / GROWN {
@@ -186,13 +298,18 @@ impl Periods {
             let value = |t: f64| [t.powi(-power), -f64::from(power) * t.powi(-power)]; // and t times the slope
             ends.map(|(t, _, _)| value(t)).concat()
         };
-        let fit = solve(&[0, 1, 2, 3].map(column), &ends.map(|(t, p, q)| [p, q * t]).concat(), 1e-14)?;
-        let at = |t: f64| fit[0] + (fit[1] + (fit[2] + fit[3] / t) / t) / t;
+        let powers = [0, power, power + 1, power + 2];
+        let fit = solve(&powers.map(column), &ends.map(|(t, p, q)| [p, q * t]).concat(), 1e-14)?;
+        let at = |t: f64| fit[0] + (fit[1] + (fit[2] + fit[3] / t) / t) / t.powi(power);
         let remaining = (fit[0] - parameter).abs();
         let off = |&(t, p, _): &(f64, f64, f64)| (at(t) - p).abs() / remaining;
         let worst = self.points[first..last].iter().map(off).fold(0.0, f64::max);
-        let leads = (fit[1] / time).abs() > 0.7 * remaining && (fit[1] / time).abs() < 1.3 * remaining;
-        let law = PeriodLaw::Resonant { amplitude: fit[1].abs() };
+        let term = (fit[1] / time.powi(power)).abs();
+        let leads = term > 0.7 * remaining && term < 1.3 * remaining;
+        let law = match law {
+            Algebraic::Resonant => PeriodLaw::Resonant { amplitude: fit[1].abs() },
+            Algebraic::SquareRoot => PeriodLaw::SquareRoot { amplitude: fit[1].abs().sqrt() },
+        };
         let connection = Connection { parameter: fit[0], remaining, error: 0.0, law, saddle: None };
         (leads && worst < 1e-3).then_some((connection, worst))
     }

@@ -56,7 +56,7 @@ pub use copies::same_motion;
 pub use curve::{Curve, CurvePoint};
 pub use degenerate::Degenerate;
 pub use family::{Family, Family2};
-pub use homoclinic::{Connection, PeriodLaw, stated};
+pub use homoclinic::{Connection, ConnectionKind, PeriodLaw, stated};
 pub use path::{OrbitPath, path};
 pub use point::{End, Motion, Point};
 pub use settings::Settings;

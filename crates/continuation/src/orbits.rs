@@ -69,6 +69,12 @@ impl Orbits<'_> {
         if self.turns { x[self.parts * self.dim + 1] } else { 0.0 }
     }
 
+    /// The node where the reduced shape changes most slowly.
+    fn slowest(&self, local: &Local) -> Option<usize> {
+        let speeds: Vec<f64> = reduced_rates(local).iter().map(|rate| norm(rate)).collect();
+        (0..self.parts).min_by(|&a, &b| speeds[a].total_cmp(&speeds[b]))
+    }
+
     fn fill(&self, x: &[f64], local: &Local) -> Linear {
         let unknowns = self.unknowns();
         let rows = unknowns - self.bodies.count();
@@ -303,9 +309,14 @@ impl Problem for Orbits<'_> {
     }
 
     fn saddle(&self, x: &[f64], local: &Local) -> Option<RelativeEquilibrium> {
-        let speeds: Vec<f64> = reduced_rates(local).iter().map(|rate| norm(rate)).collect();
-        let slowest = (0..self.parts).min_by(|&a, &b| speeds[a].total_cmp(&speeds[b]))?;
-        RelativeEquilibrium::find(local.body.as_ref(), self.node(x, slowest))
+        RelativeEquilibrium::find(local.body.as_ref(), self.node(x, self.slowest(local)?))
+    }
+
+    fn equilibrium(&self, x: &[f64], local: &Local, parameter: f64) -> Option<RelativeEquilibrium> {
+        let mut there = x.to_vec();
+        *there.last_mut()? = parameter;
+        let body = self.bodies.at(&there).ok()?;
+        RelativeEquilibrium::find(body.as_ref(), self.node(x, self.slowest(local)?))
     }
 }
 

@@ -99,4 +99,9 @@ pub(super) trait Problem: Equations {
     fn saddle(&self, _x: &[f64], _local: &Self::Local) -> Option<RelativeEquilibrium> {
         None
     }
+
+    /// The relative equilibrium at another value of the parameter, near the place where an orbit is slowest.
+    fn equilibrium(&self, _x: &[f64], _local: &Self::Local, _parameter: f64) -> Option<RelativeEquilibrium> {
+        None
+    }
 }

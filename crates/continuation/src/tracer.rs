@@ -2,7 +2,7 @@
 
 use super::copies::same_motion;
 use super::correct::{correct, directions, normal, scaled};
-use super::homoclinic::Periods;
+use super::homoclinic::{Algebraic, Periods};
 use super::levels::unstable;
 use super::locate::{Changes, Step, locate};
 use super::place::{Before, Place, place};
@@ -280,8 +280,13 @@ impl<P: Problem> Tracer<P> {
             return end;
         }
         let saddle = || self.problem.saddle(&self.place.x, &self.place.local);
-        let found = self.periods.resonance().and_then(|found| found.through(saddle()));
-        found.map_or(end, |found| End::Homoclinic(Box::new(found)))
+        let resonant = || self.periods.algebraic(Algebraic::Resonant)?.through(saddle());
+        let on_a_circle = || {
+            let found = self.periods.algebraic(Algebraic::SquareRoot)?;
+            let side = (self.place.parameter() - found.parameter).signum();
+            found.at_fold(side, &|p| self.problem.equilibrium(&self.place.x, &self.place.local, p))
+        };
+        resonant().or_else(on_a_circle).map_or(end, |found| End::Homoclinic(Box::new(found)))
     }
 
     /// The end of the branch at the first turning point where the motion gains a symmetry: it is a special point of the motion that has it. What was found beyond belongs to
