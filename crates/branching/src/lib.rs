@@ -28,7 +28,7 @@ mod verify;
 
 pub use folder::{BranchFolder, default_folder};
 pub use follow::{Branches, Followed, Keep, Leg, Link, Sample, follow, follow_kept};
-pub use motiform_continuation::stated;
+pub use motiform_continuation::{End as BranchEnd, stated};
 pub use origin::Origin;
 pub use path::path;
 pub use reading::Reading;

@@ -7,10 +7,22 @@ use super::origin::Origin;
 /// points, or where the branch does.
 #[must_use]
 pub fn stretches(found: &Branches, followed: &Followed) -> Vec<[f64; 2]> {
-    let Some(birth) = birth(found, followed) else { return along(&followed.samples().collect::<Vec<_>>()) };
+    let Some(birth) = birth(found, followed) else {
+        let samples: Vec<&Sample> = followed.samples().collect();
+        let mut all = along(&samples);
+        if let [back, .., ahead] | [back @ ahead] = &followed.legs[..] {
+            let backwards: Vec<&Sample> = samples.iter().rev().copied().collect();
+            if followed.legs.len() > 1 {
+                to_end(&backwards, back, all.first_mut());
+            }
+            to_end(&samples, ahead, all.last_mut());
+        }
+        return all;
+    };
     let leg = |leg: &Leg| {
         let samples: Vec<&Sample> = leg.samples.iter().collect();
         let mut all = along(&samples);
+        to_end(&samples, leg, all.last_mut());
         // no level changes its sign between the special point and the first point after it
         if let ([first, second, ..], Some(range)) = (&samples[..], all.first_mut())
             && is_stable(first, second)
@@ -22,6 +34,15 @@ pub fn stretches(found: &Branches, followed: &Followed) -> Vec<[f64; 2]> {
     match &followed.legs[..] {
         [back, ahead] => leg(back).into_iter().rev().chain(leg(ahead)).collect(),
         legs => legs.iter().flat_map(leg).collect(),
+    }
+}
+
+/// Extends the last range over `samples` to the place where the leg ends: no level changes its sign on the way there.
+fn to_end(samples: &[&Sample], leg: &Leg, last: Option<&mut [f64; 2]>) {
+    if let ([.., before, end], Some(range), Some(parameter)) = (samples, last, leg.end.parameter())
+        && is_stable(before, end)
+    {
+        *range = [range[0].min(parameter), range[1].max(parameter)];
     }
 }
 

@@ -55,6 +55,10 @@ pub struct Connection {
     pub law: PeriodLaw,
     /// The relative equilibrium that the orbit passes closest by, at the last point.
     pub saddle: Option<RelativeEquilibrium>,
+    /// Whether all shapes of the orbit have a symmetry. Deviations that break it, whose eigenvalues are among those of the saddle, then do not
+    /// matter.
+    #[serde(default)]
+    pub symmetric: bool,
 }
 
 impl Connection {
@@ -73,7 +77,7 @@ impl Connection {
 
     /// The slowest eigenvalues `(re, |im|)` of the saddle that grow and that decay.
     fn sides(&self) -> Option<[(f64, f64); 2]> {
-        let values = &self.saddle.as_ref()?.eigenvalues;
+        let values = &self.saddle.as_ref().filter(|_| !self.symmetric)?.eigenvalues;
         let slowest = |sign: f64| {
             let side = values.iter().filter(|value| sign * value.0 > 0.0);
             let least = side.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
@@ -82,7 +86,7 @@ impl Connection {
         Some([slowest(1.0)?, slowest(-1.0)?])
     }
 
-    /// The saddle quantity: the sum of the real parts of the slowest growing and decaying eigenvalues. Where it is negative one stable orbit
+    /// The saddle quantity, for orbits without symmetric shapes: the sum of the real parts of the slowest growing and decaying eigenvalues. Where it is negative one stable orbit
     /// meets a connection of real eigenvalues; where it is positive the orbit is unstable (Kuznetsov, Elements of Applied Bifurcation Theory,
     /// theorems 6.2 and 6.3).
     #[must_use]
@@ -100,7 +104,7 @@ impl Connection {
     /// The connection through this saddle, the relative equilibrium that the orbit passes closest by. `None` unless deviations from it grow in some
     /// directions and decay in others, and one of their rates is that of the law (a resonant law has two rates of one size): otherwise the
     /// period grows for another reason, as in a canard explosion, and the branch goes on.
-    pub(super) fn through(self, saddle: Option<RelativeEquilibrium>) -> Option<Self> {
+    pub(super) fn through(self, saddle: Option<RelativeEquilibrium>, symmetric: bool) -> Option<Self> {
         let saddle = saddle?;
         let rates = |sign: f64| {
             let sized = saddle.eigenvalues.iter().map(|value| sign * value.0);
@@ -122,7 +126,7 @@ impl Connection {
             }
             PeriodLaw::SquareRoot { .. } => return None, // there is no saddle on this side: see `at_fold`
         };
-        (apart < RATES).then_some(Self { saddle: Some(saddle), error, ..self })
+        (apart < RATES).then_some(Self { saddle: Some(saddle), error, symmetric, ..self })
     }
 
     /// A saddle-node on a circle at the square-root law: beyond it, at the distances d and 4 d, `equilibrium` finds one whose slowest real
@@ -263,6 +267,7 @@ impl Periods {
             error: AGREE * remaining.abs() + f64::EPSILON * parameter.abs(),
             law: PeriodLaw::Logarithmic { rate },
             saddle: None,
+            symmetric: false,
         })
     }
 
@@ -310,7 +315,8 @@ impl Periods {
             Algebraic::Resonant => PeriodLaw::Resonant { amplitude: fit[1].abs() },
             Algebraic::SquareRoot => PeriodLaw::SquareRoot { amplitude: fit[1].abs().sqrt() },
         };
-        let connection = Connection { parameter: fit[0], remaining, error: 0.0, law, saddle: None };
+        let connection =
+            Connection { parameter: fit[0], remaining, error: 0.0, law, saddle: None, symmetric: false };
         (leads && worst < 1e-3).then_some((connection, worst))
     }
 }

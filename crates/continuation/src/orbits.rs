@@ -312,6 +312,10 @@ impl Problem for Orbits<'_> {
         RelativeEquilibrium::find(local.body.as_ref(), self.node(x, self.slowest(local)?))
     }
 
+    fn is_symmetric(&self) -> bool {
+        self.classes.axis.is_some() || self.classes.folds > 1 || self.classes.circle
+    }
+
     fn equilibrium(&self, x: &[f64], local: &Local, parameter: f64) -> Option<RelativeEquilibrium> {
         let mut there = x.to_vec();
         *there.last_mut()? = parameter;

@@ -136,6 +136,18 @@ pub enum End {
     },
 }
 
+impl End {
+    /// The parameter at which the branch ends, where that is a place of its own beyond the last point that is computed, or at it.
+    #[must_use]
+    pub fn parameter(&self) -> Option<f64> {
+        match self {
+            Self::Homoclinic(connection) => Some(connection.parameter),
+            Self::Meets { parameter, .. } | Self::Shrinks { parameter, .. } => Some(*parameter),
+            _ => None,
+        }
+    }
+}
+
 /// Why Newton's method failed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]

@@ -100,6 +100,11 @@ pub(super) trait Problem: Equations {
         None
     }
 
+    /// Whether all shapes of the motions have a symmetry.
+    fn is_symmetric(&self) -> bool {
+        false
+    }
+
     /// The relative equilibrium at another value of the parameter, near the place where an orbit is slowest.
     fn equilibrium(&self, _x: &[f64], _local: &Self::Local, _parameter: f64) -> Option<RelativeEquilibrium> {
         None

@@ -280,7 +280,8 @@ impl<P: Problem> Tracer<P> {
             return end;
         }
         let saddle = || self.problem.saddle(&self.place.x, &self.place.local);
-        let resonant = || self.periods.algebraic(Algebraic::Resonant)?.through(saddle());
+        let resonant =
+            || self.periods.algebraic(Algebraic::Resonant)?.through(saddle(), self.problem.is_symmetric());
         let on_a_circle = || {
             let found = self.periods.algebraic(Algebraic::SquareRoot)?;
             let side = (self.place.parameter() - found.parameter).signum();
@@ -326,7 +327,7 @@ impl<P: Problem> Tracer<P> {
         self.periods.push(time, (parameter, self.place.slope()));
         if let Some(connection) = self.periods.connection() {
             let saddle = self.problem.saddle(&self.place.x, &self.place.local);
-            if let Some(certain) = connection.through(saddle) {
+            if let Some(certain) = connection.through(saddle, self.problem.is_symmetric()) {
                 return Err(End::Homoclinic(Box::new(certain)));
             }
         }

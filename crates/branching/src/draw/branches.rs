@@ -1,6 +1,7 @@
 //! Branches: the bifurcation diagram, and the periods.
 
 use crate::family::Bodies;
+use crate::follow::Leg;
 use crate::sweep::{SweepPoint, Sweeps};
 use crate::{Branches, Followed, Origin, Sample, is_stable};
 use motiform_continuation::{End, Special};
@@ -158,9 +159,20 @@ fn caption(plan: &BranchPlan, found: &Branches, mirror: bool) -> Result<Vec<Stri
     ])
 }
 
-/// The parts of a branch, the first one drawn from the special point where it begins.
+/// The parts of a branch, drawn from the special point where it begins to the connection at which it ends.
 fn all_parts(found: &Branches, followed: &Followed, ordinate: Ordinate) -> Vec<BranchPart> {
     let mut all = parts(followed, ordinate);
+    let (back, ahead) = match &followed.legs[..] {
+        [] => (None, None),
+        [only] => (None, Some(only)),
+        [back, .., ahead] => (Some(back), Some(ahead)),
+    };
+    if let (Some(at), Some(first)) = (back.and_then(|leg| connection(leg, ordinate)), all.first_mut()) {
+        first.points.insert(0, at);
+    }
+    if let (Some(at), Some(last)) = (ahead.and_then(|leg| connection(leg, ordinate)), all.last_mut()) {
+        last.points.push(at);
+    }
     if let (Some(at), [_], Some(first)) =
         (birth(found, followed.origin, ordinate), &followed.legs[..], all.first_mut())
     {
@@ -203,6 +215,21 @@ fn parts(followed: &Followed, ordinate: Ordinate) -> Vec<BranchPart> {
     all
 }
 
+/// The connection at which a leg ends. There the orbit is at its saddle for all but a vanishing part of the time, so that means over time are
+/// those of the saddle; a period that is infinite is marked at the last one computed.
+fn connection(leg: &Leg, ordinate: Ordinate) -> Option<[f64; 2]> {
+    let End::Homoclinic(connection) = &leg.end else { return None };
+    let last = ordinate.read(leg.samples.last()?)?;
+    let saddle = connection.saddle.as_ref();
+    let value = match ordinate {
+        Ordinate::Speed => saddle.map(|saddle| saddle.velocity[0].hypot(saddle.velocity[1])),
+        Ordinate::TurningRate => saddle.map(|saddle| saddle.turning_rate.abs()),
+        Ordinate::SignedTurningRate => saddle.map(|saddle| saddle.turning_rate),
+        _ => None,
+    };
+    Some([connection.parameter, value.unwrap_or(last)])
+}
+
 /// The special points of a branch, and the homoclinic connections that it ends at.
 fn marks(followed: &Followed, ordinate: Ordinate) -> Vec<BranchMark> {
     let mut all = Vec::new();
@@ -212,10 +239,7 @@ fn marks(followed: &Followed, ordinate: Ordinate) -> Vec<BranchMark> {
             let (label, glyph) = mark(special);
             all.push(BranchMark { label: label.to_owned(), glyph, at: [sample.point.parameter, y] });
         }
-        if let (End::Homoclinic(_), Some(last)) = (&leg.end, leg.samples.last())
-            && let Some(y) = ordinate.read(last)
-        {
-            let at = [last.point.parameter, y];
+        if let Some(at) = connection(leg, ordinate) {
             all.push(BranchMark { label: "homoclinic".to_owned(), glyph: Glyph::Cross, at });
         }
     }

@@ -6,7 +6,7 @@ use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_branching::draw::{Ordinate, draw_branches};
 use motiform_branching::{
-    BranchFolder, Followed, SpecialEntry, default_folder, follow_kept, stated, stretches, summary,
+    BranchEnd, BranchFolder, Followed, SpecialEntry, default_folder, follow_kept, stated, stretches, summary,
 };
 use motiform_files::{Folder, Journal, Opening};
 use motiform_lab::draw::Picture;
@@ -177,7 +177,8 @@ fn branch(
     let course = followed.course().map_or(String::new(), |course| format!(" {}", course.words()));
     writeln!(text, "branch {number:<3} {motion}{course}{form}, {} points", followed.samples().count())?;
     for [from, to] in stretches(&folder.found, followed) {
-        writeln!(text, "           stable from {} to {}", nine(from), nine(to))?;
+        let [from, to] = [from, to].map(|end| bound(followed, end));
+        writeln!(text, "           stable from {from} to {to}")?;
     }
     for special in folder.found.special(number) {
         writeln!(text, "           {}", line(&special))?;
@@ -186,6 +187,18 @@ fn branch(
         writeln!(text, "           ends: {}", leg.end)?;
     }
     Ok(())
+}
+
+/// The end of a stable range, with its error where that is an extrapolated end of the branch.
+fn bound(followed: &Followed, value: f64) -> String {
+    let connections = followed.legs.iter().filter_map(|leg| match &leg.end {
+        BranchEnd::Homoclinic(connection) => Some(connection),
+        _ => None,
+    });
+    let here = connections
+        .filter(|connection| connection.parameter == value)
+        .min_by(|a, b| a.error.total_cmp(&b.error));
+    here.map_or_else(|| nine(value), |connection| stated(value, connection.error))
 }
 
 /// Nine decimals, and 0 without a sign.
