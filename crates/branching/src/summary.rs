@@ -3,7 +3,7 @@
 use super::follow::{Branches, Followed, Leg, Sample};
 use super::origin::Origin;
 use super::stretches::stretches;
-use motiform_continuation::{Broken, End, Special};
+use motiform_continuation::{Broken, Certificate, End, Special};
 use motiform_study::BranchPlan;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -15,8 +15,12 @@ pub struct SpecialEntry {
     pub kind: &'static str,
     /// The value of the parameter.
     pub parameter: f64,
-    /// How far it may be away, at an end that is extrapolated.
+    /// How far it may be away.
     pub error: Option<f64>,
+    /// What shows that it is what it says, where it was solved for.
+    pub certificate: Option<Certificate>,
+    /// The first Lyapunov coefficient of a Hopf bifurcation, for a critical vector of length 1.
+    pub first_lyapunov: Option<f64>,
     /// Period of the motion, or of the one that begins (model time).
     pub period: Option<f64>,
     /// `supercritical` where what begins is stable in the critical directions, or `subcritical`.
@@ -36,6 +40,12 @@ impl SpecialEntry {
         let words = [("criticality", self.criticality), ("breaks", self.breaks)];
         object.extend(self.period.map(|period| ("period".to_owned(), period.into())));
         object.extend(words.into_iter().filter_map(|(key, word)| Some((key.to_owned(), word?.into()))));
+        object.extend(self.first_lyapunov.map(|value| ("first_lyapunov".to_owned(), value.into())));
+        if let Some(certificate) = self.certificate {
+            object.insert("test".to_owned(), json!(certificate.test));
+            object.insert("residual".to_owned(), certificate.residual.into());
+            object.insert("transversality".to_owned(), certificate.transversality.into());
+        }
         object.extend(self.branch.map(|branch| ("branch".to_owned(), branch.into())));
         object.into()
     }
@@ -122,7 +132,12 @@ impl Branches {
         Some(SpecialEntry {
             kind: special.name(),
             parameter: sample.point.parameter,
-            error: None,
+            error: sample.point.certificate.map(|certificate| certificate.error),
+            certificate: sample.point.certificate,
+            first_lyapunov: match special {
+                Special::Hopf(hopf) => hopf.first_lyapunov,
+                _ => None,
+            },
             period: match special {
                 Special::Hopf(hopf) => Some(hopf.period()),
                 _ => sample.reading.period,
@@ -161,6 +176,8 @@ fn end(leg: &Leg) -> Option<SpecialEntry> {
         kind: "homoclinic",
         parameter: connection.parameter,
         error: Some(connection.error),
+        certificate: None,
+        first_lyapunov: None,
         period: None,
         criticality: None,
         breaks: None,

@@ -37,6 +37,7 @@ impl Plane {
             unstable: at.unstable,
             slope: 0.0,
             special: Some(at.special),
+            certificate: None,
         };
         let row = self.row(at.parameters[1]);
         let mut new = switch(&row, &point, settings, watch).ok()?.pop()?;

@@ -72,6 +72,9 @@ fn linearisation(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> 
     matrix
 }
 
+/// Error of eigenvalues, as part of their size.
+const ROUNDING: f64 = 1e-14;
+
 impl Equations for Equilibria<'_> {
     type Local = Local;
 
@@ -113,6 +116,14 @@ impl Problem for Equilibria<'_> {
             eigenvalues(&restrict(class, |v| apply(&local.matrix, v))).map(|v| Level::of_pairs(&v))
         };
         classes.iter().map(of).collect()
+    }
+
+    fn noise(&self, levels: &[Vec<Level>]) -> f64 {
+        // fast modes have no part in the slow ones: the error is that of the slow half
+        let mut sizes: Vec<f64> =
+            levels.iter().flatten().map(|level| level.growth.hypot(level.angle)).collect();
+        sizes.sort_by(f64::total_cmp);
+        ROUNDING * sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
     }
 
     fn classify(&self, x: &[f64], critical: Level, class: usize) -> Special {

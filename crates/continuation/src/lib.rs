@@ -20,6 +20,7 @@
 //! SIAM J. Appl. Dyn. Syst. 5, 235; normal forms: Kuznetsov (2004), Elements of Applied Bifurcation Theory.
 
 mod branch;
+mod certificate;
 mod classes;
 mod copies;
 mod correct;
@@ -52,6 +53,7 @@ mod variation;
 mod whole_curve;
 
 pub use branch::Branch;
+pub use certificate::{Certificate, TestFunction};
 pub use copies::same_motion;
 pub use curve::{Curve, CurvePoint};
 pub use degenerate::Degenerate;

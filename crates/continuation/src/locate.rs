@@ -1,5 +1,6 @@
 //! Special points between two points of a branch.
 
+use super::certificate::{Certificate, Passing, TestFunction};
 use super::correct::{correct, crossing, normal, product};
 use super::levels::Level;
 use super::place::{Before, Place, place};
@@ -75,6 +76,8 @@ pub(super) fn locate<P: Problem>(
         match solve(problem, step, &bracket, watch) {
             Ok(at) => {
                 let special = kind(problem, &at, bracket.test);
+                let certificate = certified(problem, step, bracket.test, &at, watch);
+                let at = Place { certificate, ..at };
                 if !is_known(&changes.found, &at, special, step.length) {
                     changes.found.push((at, special));
                 }
@@ -91,6 +94,30 @@ pub(super) fn locate<P: Problem>(
     changes.found.sort_by(|a, b| a.0.arclength.total_cmp(&b.0.arclength));
     without_folds(&mut changes.found);
     Ok(changes)
+}
+
+/// Part of a step at which a solution beside a special point is looked at.
+const BESIDE: f64 = 1e-3;
+
+/// What shows that a test vanishes at a place.
+fn certified<P: Problem>(
+    problem: &P,
+    step: &Step<'_, P::Local>,
+    test: Test,
+    at: &Place<P::Local>,
+    watch: &dyn Watch,
+) -> Option<Certificate> {
+    let s = at.arclength - step.old.arclength;
+    let apart = if s < 0.5 * step.length { BESIDE } else { -BESIDE };
+    let near = between(problem, step, s + apart * step.length, watch).ok()?;
+    let passing =
+        |place: &Place<P::Local>| Passing { s: place.arclength, value: test.of(place), slope: place.slope() };
+    let (kind, noise) = match test {
+        Test::Slope => (TestFunction::Slope, f64::EPSILON),
+        Test::Level(..) => (TestFunction::Growth, problem.noise(&at.levels)),
+    };
+    let width = problem.weights(&at.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
+    Some(Certificate::of(kind, passing(at), passing(&near), noise, TIGHT * width))
 }
 
 /// At a fold a level vanishes as well: each fold of a step takes the nearest vanishing level that seems to be a branch point. (Where a branch is

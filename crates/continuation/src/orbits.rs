@@ -12,6 +12,7 @@ use motiform_analysis::linear::{add, dot, norm};
 use motiform_analysis::periodic::{Flow, back};
 use motiform_analysis::symmetry::{align, wrap};
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, logarithms_of_product};
+use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Equivariant, VectorField, Watch};
 use nalgebra::DMatrix;
 
@@ -20,6 +21,10 @@ const GROWTH: f64 = 1000.0;
 
 /// Least part of the size of a shape by which it changes along an orbit that is none of an equilibrium.
 const EXTENDED: f64 = 100.0 * GAINED;
+
+/// Error of the logarithms of multipliers near the unit circle, by the flow of ordinary models and by that of stiff ones.
+const EXPLICIT: f64 = 1e-10;
+const STIFF: f64 = 1e-8;
 
 /// Most parts of an orbit.
 const PARTS: usize = 64;
@@ -207,6 +212,13 @@ impl Problem for Orbits<'_> {
             return None;
         }
         maps.iter().map(|maps| logarithms_of_product(maps).map(|v| Level::of_pairs(&v))).collect()
+    }
+
+    fn noise(&self, _levels: &[Vec<Level>]) -> f64 {
+        match self.flow.method {
+            Method::Explicit(_) => EXPLICIT,
+            Method::Exponential(_) => STIFF,
+        }
     }
 
     fn classify(&self, _x: &[f64], critical: Level, class: usize) -> Special {

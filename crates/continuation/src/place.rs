@@ -1,5 +1,6 @@
 //! A solution with its tangent and its levels.
 
+use super::certificate::Certificate;
 use super::correct::{Corrected, scaled};
 use super::levels::Level;
 use super::point::Obstruction;
@@ -13,6 +14,8 @@ pub(super) struct Place<L> {
     pub(super) tangent: Vec<f64>,
     pub(super) levels: Vec<Vec<Level>>,
     pub(super) arclength: f64,
+    /// At a special point, what shows that it is one.
+    pub(super) certificate: Option<Certificate>,
 }
 
 /// The place before the present one.
@@ -48,5 +51,5 @@ pub(super) fn place<P: Problem>(
         tangent.iter_mut().for_each(|t| *t = -*t);
     }
     let levels = problem.levels(&x, &local).ok_or_else(broken)?;
-    Ok(Place { x, local, tangent, levels, arclength })
+    Ok(Place { x, local, tangent, levels, arclength, certificate: None })
 }

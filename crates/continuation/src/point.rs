@@ -1,5 +1,6 @@
 //! What a branch is made of.
 
+use super::certificate::Certificate;
 use super::homoclinic::Connection;
 use super::special::{Broken, Special};
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium};
@@ -74,6 +75,9 @@ pub struct Point {
     pub slope: f64,
     /// What happens here, if the point was solved for as a special one.
     pub special: Option<Special>,
+    /// What shows that the point is a special one; `None` at ordinary points, and where it was not solved for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub certificate: Option<Certificate>,
 }
 
 impl Point {

@@ -58,6 +58,9 @@ pub(super) trait Problem: Equations {
     /// Growth of the reduced deviations, class by class, largest first.
     fn levels(&self, x: &[f64], local: &Self::Local) -> Option<Vec<Vec<Level>>>;
 
+    /// The error of the levels that are closest to 0.
+    fn noise(&self, levels: &[Vec<Level>]) -> f64;
+
     /// What happens where a level of class `class` vanishes, and the branch does not turn back.
     fn classify(&self, x: &[f64], critical: Level, class: usize) -> Special;
 

@@ -364,6 +364,7 @@ impl<P: Problem> Tracer<P> {
             unstable: if special.is_some() { grown } else { unstable(&place.levels) },
             slope: place.slope(),
             special,
+            certificate: special.and(place.certificate),
         }
     }
 }

@@ -207,9 +207,14 @@ fn nine(x: f64) -> String {
     if text.trim_start_matches(['-', '0', '.']).is_empty() { "0.000000000".to_owned() } else { text }
 }
 
+/// An error below this one is not shown: all nine decimals are right.
+const SHOWN: f64 = 5e-10;
+
 fn line(special: &SpecialEntry) -> String {
-    let value =
-        special.error.map_or_else(|| nine(special.parameter), |error| stated(special.parameter, error));
+    let value = match special.error {
+        Some(error) if error > SHOWN => stated(special.parameter, error),
+        _ => nine(special.parameter),
+    };
     let mut line = format!("{:<17} {value}", special.kind);
     let period = special.period.map(|period| format!("period {period:.6}"));
     let words = special.criticality.map(str::to_owned);

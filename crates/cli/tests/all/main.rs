@@ -6,6 +6,7 @@ mod bounds;
 mod branches;
 mod budgets;
 mod cell;
+mod certificates;
 mod closed_output;
 mod common;
 mod continuation;

@@ -1,0 +1,102 @@
+//! What `motiform continue` states of its special points: errors that hold, and the kind of connection at an end.
+
+use crate::common::{Folder, read_json};
+use serde_json::Value;
+
+fn follow(folder: &Folder, arguments: &str) -> Value {
+    folder.run(&format!("continue {arguments} --json")).expect(0).json()
+}
+
+fn entries(json: &Value) -> Vec<&Value> {
+    let branches = json["branches"].as_array().expect("branches");
+    branches.iter().flat_map(|branch| branch["special"].as_array().expect("a list")).collect()
+}
+
+/// The special points of this kind nearest to an exact value are within their stated errors.
+fn holds(all: &[&Value], along: &str, kind: &str, exact: f64) {
+    let off = |entry: &Value| (entry[along].as_f64().expect("a number") - exact).abs();
+    let near: Vec<&&Value> = all.iter().filter(|one| one["kind"] == kind && off(one) < 1e-4).collect();
+    assert!(!near.is_empty(), "no {kind} near {exact}");
+    for entry in near {
+        let error = entry["error"].as_f64().expect("an error");
+        assert!(off(entry) <= error && error < 1e-6, "{kind} at {exact}: {entry}");
+        assert!(entry["transversality"].as_f64().expect("a derivative").abs() > 1e-3, "{entry}");
+    }
+}
+
+/// Along kappa2 = -.06 circular motion oscillates from gamma = .024 on, and straight motion begins at 0; the cell's circle is deformed by its second mode
+/// from length 4 pi on.
+#[test]
+fn errors_of_special_points_cover_exact_values() {
+    let folder = Folder::new();
+    let reduced =
+        follow(&folder, "tensor --preset fig1 --set kappa2=-.06 --set gamma=0.05 --along gamma=-.1:.1");
+    holds(&entries(&reduced), "gamma", "hopf", 0.024);
+    holds(&entries(&reduced), "gamma", "pitchfork", 0.0);
+    let cell =
+        follow(&folder, "cell --set length=12.6 --from circular --along length=12.2:12.9 --branches 3");
+    holds(&entries(&cell), "length", "pitchfork", 4.0 * std::f64::consts::PI);
+}
+
+/// In x' = x(1-r^2) - y(mu-x), y' = y(1-r^2) + x(mu-x) two equilibria appear on the circle at mu = 1, where x = 1 stops turning: the
+/// period is 2 pi / sqrt(mu^2 - 1).
+#[test]
+fn a_saddle_node_on_a_circle_is_named_where_it_is() {
+    let folder = Folder::new();
+    let x = "((z1+conj(z1))/2)";
+    folder.write(
+        "circle.toml",
+        &format!(
+            "[model.amplitudes]\nmodes = [1]\nsymmetry = \"none\"\n[model.amplitudes.parameters]\nmu = 1.3\n\
+             [model.amplitudes.equations]\nz1 = \"z1*(1-z1*conj(z1)) + i*z1*(mu-{x})\"\n"
+        ),
+    );
+    let json = follow(&folder, "circle.toml --along mu=0.5:2");
+    let found = entries(&json);
+    let [only] = &found[..] else { panic!("{found:?}") };
+    assert_eq!(only["kind"], "homoclinic");
+    let (value, error) = (only["mu"].as_f64().unwrap(), only["error"].as_f64().unwrap());
+    assert!((value - 1.0).abs() <= error && error < 1e-5, "{only}");
+    let branch = &json["branches"][0];
+    assert!(branch["ends"].to_string().contains("saddle-node on a circle"), "{}", branch["ends"]);
+    let amplitude = std::f64::consts::TAU / 2.0_f64.sqrt();
+    assert!(branch["ends"].to_string().contains(&format!("{amplitude:.2}")), "{}", branch["ends"]);
+    assert!((branch["stable"][0][0].as_f64().unwrap() - 1.0).abs() <= error, "stable up to the end");
+}
+
+/// The modulated circular motion of the cell that begins at the Hopf bifurcation is unstable, and beside it its deviations grow at the rate -2 times that
+/// of circular motion (the normal form): the multipliers of 42 unknowns against the eigenvalues.
+#[test]
+fn orbits_of_the_cell_grow_as_the_normal_form_says() {
+    let folder = Folder::new();
+    let arguments = "continue cell --set length=12.955 --from circular --along length=12.955:12.98 --points 45 --no-figures --out here";
+    folder.run(arguments).expect(0);
+    let json = read_json(&folder.path("here/branches.json"));
+    let samples = |branch: usize| -> Vec<Value> {
+        let legs = json["branches"][branch]["legs"].as_array().expect("legs");
+        legs.iter()
+            .flat_map(|leg| leg["samples"].as_array().expect("samples").clone())
+            .map(|one| one["point"].clone())
+            .collect()
+    };
+    let pair = |point: &Value| {
+        let all = point["motion"]["Equilibrium"]["eigenvalues"].as_array().expect("eigenvalues").clone();
+        let oscillating = all.iter().filter(|value| value[1].as_f64().unwrap().abs() > 0.1);
+        let growth = oscillating.map(|value| value[0].as_f64().unwrap()).fold(f64::NEG_INFINITY, f64::max);
+        (point["parameter"].as_f64().unwrap(), growth)
+    };
+    let circular: Vec<(f64, f64)> = samples(0).iter().map(pair).collect();
+    let hopf =
+        samples(0).iter().find(|point| point["special"].is_object()).map(pair).expect("a Hopf point").0;
+    let near = circular.iter().filter(|one| one.0 < hopf - 1e-4).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+    let slope = near.1 / (near.0 - hopf);
+    for point in &samples(1)[..4] {
+        let orbit = &point["motion"]["Orbit"]["orbit"];
+        let first = &orbit["multipliers"][0];
+        let modulus = first[0].as_f64().unwrap().hypot(first[1].as_f64().unwrap());
+        let growth = modulus.ln() / orbit["time"].as_f64().unwrap();
+        let expected = -2.0 * slope * (point["parameter"].as_f64().unwrap() - hopf);
+        assert!((growth / expected - 1.0).abs() < 0.03, "{growth:e} {expected:e}");
+        assert_eq!(point["unstable"], 1);
+    }
+}
