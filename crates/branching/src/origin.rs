@@ -7,6 +7,7 @@ use super::single_loop::single_loop;
 use motiform_analysis::{Error as Refused, Isotropy, PeriodicOrbit, RelativeEquilibrium};
 use motiform_continuation::{Branch, Broken, End, Motion, Settings, Special, switch};
 use motiform_dynamics::{Equivariant, Watch};
+use motiform_study::Towards;
 use serde::{Deserialize, Serialize};
 
 /// What a branch was followed from. Branches, their legs and points are counted from 0 in the order in which they were found.
@@ -139,7 +140,7 @@ impl Origin {
             Self::Saddle { branch, leg } => {
                 let leg = &branches[branch].legs[leg];
                 let saddle = saddle(leg).ok_or_else(|| nothing("saddle", leg))?;
-                both(bodies, parameter(leg), &Start::Equilibrium(saddle.clone()), watch)
+                both(bodies, parameter(leg), &Start::Equilibrium(saddle.clone()), Towards::Both, watch)
             }
             Self::Loop { branch, leg } => {
                 let leg = &branches[branch].legs[leg];
@@ -151,7 +152,7 @@ impl Origin {
                 let body = bodies.model(parameter(leg))?;
                 let met = met(body.as_ref(), leg, &settings, watch)
                     .ok_or_else(|| nothing("motion of more symmetry", leg))?;
-                both(bodies, parameter(leg), &met, watch)
+                both(bodies, parameter(leg), &met, Towards::Both, watch)
             }
             Self::Shrinks { branch, leg } => {
                 let leg = &branches[branch].legs[leg];
@@ -159,23 +160,27 @@ impl Origin {
                 let shape = leg.samples.last().map_or(&[][..], |sample| sample.point.motion.shape());
                 let found = RelativeEquilibrium::find(body.as_ref(), shape)
                     .ok_or_else(|| nothing("steady motion", leg))?;
-                both(bodies, parameter(leg), &Start::Equilibrium(found), watch)
+                both(bodies, parameter(leg), &Start::Equilibrium(found), Towards::Both, watch)
             }
         }
     }
 }
 
-/// The branch through a motion, towards smaller values of the parameter and towards larger ones; where it lies at the edge of the range,
-/// to one side.
+/// The branch through a motion, towards smaller values of the parameter and towards larger ones, as far as these sides are asked for;
+/// where it lies at the edge of the range, to one side.
 pub(super) fn both<'f>(
     bodies: &'f Bodies<'_>,
     parameter: f64,
     start: &Start,
+    towards: Towards,
     watch: &'f dyn Watch,
 ) -> Result<Vec<Branch<'f>>, Refused> {
     let settings = bodies.settings();
     let (low, high) = settings.range;
-    let sides = [(parameter > low, settings.reversed()), (parameter < high, settings)];
+    let sides = [
+        (towards.is_down() && parameter > low, settings.reversed()),
+        (towards.is_up() && parameter < high, settings),
+    ];
     let leg = |settings: &Settings| match start {
         Start::Equilibrium(start) => {
             let body = bodies.model(parameter)?;
