@@ -3,7 +3,7 @@
 use super::family::Bodies;
 use super::given::first;
 use super::known::known;
-use super::origin::{Origin, both};
+use super::origin::{Origin, sides};
 use super::reading::Reading;
 use super::sweep::{Sweeps, sweeps};
 use motiform_analysis::regime::{Course, Form, Regime};
@@ -165,9 +165,9 @@ impl Work<'_> {
     /// Follows the motion of the start. Whether it came to its end.
     fn begin(&mut self) -> Result<bool, Error> {
         let plan = self.bodies.plan;
-        let Some(start) = first(self.bodies, self.stop)? else { return Ok(false) };
+        let Some((start, settings)) = first(self.bodies, self.stop)? else { return Ok(false) };
         let towards = plan.computation.stride.direction;
-        let legs = both(self.bodies, plan.start_value(), &start, towards, self.stop)?;
+        let legs = sides(self.bodies, (plan.start_value(), &start), (&settings, towards), self.stop)?;
         let mut followed = Followed { origin: Origin::Start, legs: Vec::new() };
         for leg in legs {
             followed.legs.push(self.leg(leg, &mut |_| false)?.unwrap_or_else(Leg::none));

@@ -140,7 +140,7 @@ impl Origin {
             Self::Saddle { branch, leg } => {
                 let leg = &branches[branch].legs[leg];
                 let saddle = saddle(leg).ok_or_else(|| nothing("saddle", leg))?;
-                both(bodies, parameter(leg), &Start::Equilibrium(saddle.clone()), Towards::Both, watch)
+                both(bodies, parameter(leg), &Start::Equilibrium(saddle.clone()), watch)
             }
             Self::Loop { branch, leg } => {
                 let leg = &branches[branch].legs[leg];
@@ -152,7 +152,7 @@ impl Origin {
                 let body = bodies.model(parameter(leg))?;
                 let met = met(body.as_ref(), leg, &settings, watch)
                     .ok_or_else(|| nothing("motion of more symmetry", leg))?;
-                both(bodies, parameter(leg), &met, Towards::Both, watch)
+                both(bodies, parameter(leg), &met, watch)
             }
             Self::Shrinks { branch, leg } => {
                 let leg = &branches[branch].legs[leg];
@@ -160,26 +160,34 @@ impl Origin {
                 let shape = leg.samples.last().map_or(&[][..], |sample| sample.point.motion.shape());
                 let found = RelativeEquilibrium::find(body.as_ref(), shape)
                     .ok_or_else(|| nothing("steady motion", leg))?;
-                both(bodies, parameter(leg), &Start::Equilibrium(found), Towards::Both, watch)
+                both(bodies, parameter(leg), &Start::Equilibrium(found), watch)
             }
         }
     }
 }
 
-/// The branch through a motion, towards smaller values of the parameter and towards larger ones, as far as these sides are asked for;
-/// where it lies at the edge of the range, to one side.
+/// The branch through a motion, towards smaller values of the parameter and towards larger ones; where it lies at the edge of the range,
+/// to one side.
 pub(super) fn both<'f>(
     bodies: &'f Bodies<'_>,
     parameter: f64,
     start: &Start,
-    towards: Towards,
     watch: &'f dyn Watch,
 ) -> Result<Vec<Branch<'f>>, Refused> {
-    let settings = bodies.settings();
+    sides(bodies, (parameter, start), (&bodies.settings(), Towards::Both), watch)
+}
+
+/// The same with these settings, as far as the sides are asked for.
+pub(super) fn sides<'f>(
+    bodies: &'f Bodies<'_>,
+    (parameter, start): (f64, &Start),
+    (settings, towards): (&Settings, Towards),
+    watch: &'f dyn Watch,
+) -> Result<Vec<Branch<'f>>, Refused> {
     let (low, high) = settings.range;
     let sides = [
         (towards.is_down() && parameter > low, settings.reversed()),
-        (towards.is_up() && parameter < high, settings),
+        (towards.is_up() && parameter < high, *settings),
     ];
     let leg = |settings: &Settings| match start {
         Start::Equilibrium(start) => {

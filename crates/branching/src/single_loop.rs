@@ -10,7 +10,6 @@ use motiform_analysis::{Error as Refused, PeriodicOrbit, RelativeEquilibrium};
 use motiform_continuation::Branch;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Equivariant, Request, Watch, escape::norm};
-use motiform_study::Towards;
 
 /// An orbit that misses its own image by more than this part of its size has been amplified too much to be a guess.
 const HELD: f64 = 1e-3;
@@ -36,8 +35,7 @@ pub(super) fn single_loop<'f>(
     let mut tried = 0;
     for sample in leg.samples.iter().rev() {
         let Some(guess) = guess(bodies, sample, saddle, &flow)? else { continue };
-        if let Ok(branches) = both(bodies, sample.point.parameter, &Start::Orbit(guess), Towards::Both, watch)
-        {
+        if let Ok(branches) = both(bodies, sample.point.parameter, &Start::Orbit(guess), watch) {
             return Ok(Some(branches));
         }
         tried += 1;

@@ -28,6 +28,8 @@ pub struct Settings {
     pub largest_size: f64,
     /// The branch ends where the time of an orbit is longer (model time; half the period of a zigzag).
     pub longest_time: f64,
+    /// Parts of an orbit to begin with, at least 1; more follow where it amplifies deviations.
+    pub parts: usize,
     /// Method and tolerance of the flow, for orbits.
     pub flow: Flow,
 }
@@ -45,6 +47,7 @@ impl Settings {
             most_points: 10_000,
             largest_size: 1e6,
             longest_time: f64::INFINITY,
+            parts: 4,
             flow: Flow {
                 method: Method::Explicit(&DOP853),
                 control: StepControl::Adaptive { rtol: 1e-12, atol: 1e-16 },
@@ -86,6 +89,7 @@ impl Settings {
         check("tolerance", close, close > 0.0 && close < large, "above 0 and below the largest step")?;
         check("largest size", self.largest_size, self.largest_size > 0.0, "above 0")?;
         check("longest time", self.longest_time, self.longest_time > 0.0, "above 0")?;
+        check("parts", self.parts as f64, self.parts > 0, "of at least 1")?;
         self.flow.method.validate(self.flow.control)?;
         if (low..=high).contains(&start) { Ok(()) } else { Err(Error::OutsideRange { start, low, high }) }
     }
