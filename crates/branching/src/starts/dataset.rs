@@ -15,11 +15,11 @@ enum Row {
 }
 
 /// A state of the dataset in a folder.
-pub(super) fn folder(asked: &Asked<'_>) -> Result<StartPoint, Error> {
-    let path = table_path(&asked.path, "trajectory").ok_or_else(|| {
+pub(super) fn folder(asked: &Asked<'_>, folder: &Path) -> Result<StartPoint, Error> {
+    let path = table_path(folder, "trajectory").ok_or_else(|| {
         asked.wrong("it has no trajectory.parquet or trajectory.csv: give a run that has one".to_owned())
     })?;
-    state(asked, &path, manifest(&asked.path)?)
+    state(asked, &path, manifest(folder)?)
 }
 
 /// A state of a table; its manifest is in it, or in its folder, or there is none.

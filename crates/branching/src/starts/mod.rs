@@ -51,16 +51,16 @@ impl StartPoint {
         let path = &asked.path;
         let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
         let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-        let beside = path.parent().filter(|_| path.is_file()).unwrap_or(path);
-        match (kind_of(beside), extension) {
-            (Some(Kind::Branches), "" | "parquet" | "json") => branches::point(&asked, beside),
-            (Some(Kind::Dataset), _) if path.is_dir() => dataset::folder(&asked),
-            (_, "csv" | "parquet") if path.is_file() && stem != "points" => dataset::table(&asked),
-            (_, "json") if path.is_file() => equilibria::point(&asked),
-            (Some(Kind::Branches), _) => branches::point(&asked, beside),
-            (Some(kind), _) if path.is_dir() => {
-                Err(asked.wrong(format!("this folder holds {}: {KINDS}", kind.name())))
-            }
+        let folder = match path.is_file() && OURS.contains(&stem) {
+            true => path.parent().unwrap_or(path),
+            false => path,
+        };
+        match (kind_of(folder), extension) {
+            (Some(Kind::Branches), _) => branches::point(&asked, folder),
+            (Some(Kind::Dataset), _) => dataset::folder(&asked, folder),
+            (Some(kind), _) => Err(asked.wrong(format!("this folder holds {}: {KINDS}", kind.name()))),
+            (None, "csv" | "parquet") if path.is_file() => dataset::table(&asked),
+            (None, "json") if path.is_file() => equilibria::point(&asked),
             _ => Err(asked.wrong(format!("this holds no motion to start from: {KINDS}"))),
         }
     }
@@ -134,6 +134,9 @@ impl StartPoint {
         }
     }
 }
+
+/// Files of a folder of branches, which stand for the folder.
+const OURS: [&str; 4] = ["points", "branches", "summary", "manifest"];
 
 /// What can be a start.
 const KINDS: &str = "give a folder of `motiform continue`, the output of `motiform equilibria --json`, or a dataset of \
