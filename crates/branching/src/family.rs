@@ -7,7 +7,7 @@ use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Equivariant, Model, StepControl};
 use motiform_lab::analyse::settings_of;
 use motiform_models::ModelInfo;
-use motiform_study::{BranchPlan, Error};
+use motiform_study::{BranchPlan, Error, Stride};
 
 /// Tolerance of the flow along orbits for models that need an exponential stepper.
 const STIFF: StepControl = StepControl::Adaptive { rtol: 1e-10, atol: 1e-12 };
@@ -39,6 +39,10 @@ impl<'p> Bodies<'p> {
         settings.most_points = c.points;
         settings.largest_size = c.start.escape_norm;
         settings.longest_time = LOOKS * self.info.look;
+        let Stride { first_step, branch_step, tolerance, .. } = c.stride;
+        settings.first_step = first_step.unwrap_or(settings.first_step);
+        settings.largest_step = branch_step.unwrap_or(settings.largest_step);
+        settings.tolerance = tolerance.unwrap_or(settings.tolerance);
         if matches!(self.method, Method::Exponential(_)) {
             settings.flow = Flow { method: self.method, control: STIFF, max_steps: settings.flow.max_steps };
         }

@@ -1,10 +1,10 @@
 //! The work: branches followed one after the other, each from where the ones before lead to.
 
 use super::family::Bodies;
+use super::given::first;
 use super::known::known;
-use super::origin::{Origin, both};
+use super::origin::{Origin, sides};
 use super::reading::Reading;
-use super::settle::settle;
 use super::sweep::{Sweeps, sweeps};
 use motiform_analysis::regime::{Course, Form, Regime};
 use motiform_continuation::{Branch, End, Motion, Point};
@@ -162,11 +162,12 @@ impl Work<'_> {
         self.open().min_by(|a, b| cost(a).total_cmp(&cost(b)))
     }
 
-    /// Follows the motion that the start settles on. Whether it came to its end.
+    /// Follows the motion of the start. Whether it came to its end.
     fn begin(&mut self) -> Result<bool, Error> {
         let plan = self.bodies.plan;
-        let Some((start, _)) = settle(plan, self.stop)? else { return Ok(false) };
-        let legs = both(self.bodies, plan.start_value(), &start, self.stop)?;
+        let Some((start, settings)) = first(self.bodies, self.stop)? else { return Ok(false) };
+        let towards = plan.computation.stride.direction;
+        let legs = sides(self.bodies, (plan.start_value(), &start), (&settings, towards), self.stop)?;
         let mut followed = Followed { origin: Origin::Start, legs: Vec::new() };
         for leg in legs {
             followed.legs.push(self.leg(leg, &mut |_| false)?.unwrap_or_else(Leg::none));

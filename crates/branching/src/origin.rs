@@ -7,6 +7,7 @@ use super::single_loop::single_loop;
 use motiform_analysis::{Error as Refused, Isotropy, PeriodicOrbit, RelativeEquilibrium};
 use motiform_continuation::{Branch, Broken, End, Motion, Settings, Special, switch};
 use motiform_dynamics::{Equivariant, Watch};
+use motiform_study::Towards;
 use serde::{Deserialize, Serialize};
 
 /// What a branch was followed from. Branches, their legs and points are counted from 0 in the order in which they were found.
@@ -173,9 +174,21 @@ pub(super) fn both<'f>(
     start: &Start,
     watch: &'f dyn Watch,
 ) -> Result<Vec<Branch<'f>>, Refused> {
-    let settings = bodies.settings();
+    sides(bodies, (parameter, start), (&bodies.settings(), Towards::Both), watch)
+}
+
+/// The same with these settings, as far as the sides are asked for.
+pub(super) fn sides<'f>(
+    bodies: &'f Bodies<'_>,
+    (parameter, start): (f64, &Start),
+    (settings, towards): (&Settings, Towards),
+    watch: &'f dyn Watch,
+) -> Result<Vec<Branch<'f>>, Refused> {
     let (low, high) = settings.range;
-    let sides = [(parameter > low, settings.reversed()), (parameter < high, settings)];
+    let sides = [
+        (towards.is_down() && parameter > low, settings.reversed()),
+        (towards.is_up() && parameter < high, *settings),
+    ];
     let leg = |settings: &Settings| match start {
         Start::Equilibrium(start) => {
             let body = bodies.model(parameter)?;

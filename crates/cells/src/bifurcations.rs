@@ -63,16 +63,16 @@ pub fn near_bifurcations(fitted: &Fitted, watch: &dyn Watch) -> Result<Vec<NearB
         let Some(along) = Varied::of(fit, term) else { continue };
         let mut study = natural_study(fit, (&fit.natural.coefficients, &found.start))?;
         study.run.seed = 1;
+        let range = Along {
+            name: along.name.clone(),
+            from: along.value - along.reach,
+            to: along.value + along.reach,
+        };
         let settings = BranchSettings {
-            along: Along {
-                name: along.name.clone(),
-                from: along.value - along.reach,
-                to: along.value + along.reach,
-            },
             origin: Some(regime),
             points: POINTS,
             branches: 1,
-            samples: 0,
+            ..BranchSettings::over(range)
         };
         let Ok(plan) = BranchPlan::new(&study, &settings) else { continue };
         let found = match follow(&plan, None, watch) {

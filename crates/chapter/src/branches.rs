@@ -47,7 +47,7 @@ pub fn follow(
     let mut study = at(context, kappa2, kappa3)?;
     "Branches along *κ*_2".clone_into(&mut study.title);
     let along = Along { name: "kappa2".to_owned(), from: 0.3, to: 1.6 };
-    let settings = BranchSettings { along, origin: Some(origin), points: 2000, branches, samples: 0 };
+    let settings = BranchSettings { origin: Some(origin), branches, ..BranchSettings::over(along) };
     let plan = BranchPlan::new(&study, &settings)?;
     let follow = || {
         let found = motiform_branching::follow(&plan, None, &context.quiet())?;

@@ -13,9 +13,6 @@ use motiform_analysis::linear::norm;
 use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_dynamics::{Equivariant, Watch};
 
-/// Parts of an orbit to begin with; more where it amplifies deviations.
-const PARTS: usize = 4;
-
 /// A branch of motions: an iterator over its points, special ones among them. Same start, same settings: same bits.
 ///
 /// ```
@@ -143,9 +140,9 @@ fn shoot<'f>(
     if start.mirrored {
         body.rotate(-0.5 * start.angle, &mut node);
     }
-    let span = start.time / PARTS as f64;
+    let span = start.time / settings.parts as f64;
     let mut nodes = vec![node];
-    for _ in 1..PARTS {
+    for _ in 1..settings.parts {
         let last = nodes.last().map_or(&[][..], Vec::as_slice);
         let next = shape_after(body.as_ref(), last, span, &settings.flow, watch)?;
         nodes.push(next);

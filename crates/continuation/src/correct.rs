@@ -67,7 +67,7 @@ pub(super) fn correct<P: Equations>(
 const SINGULAR: Failure = Failure::Obstructed(Obstruction::Singular);
 
 /// Directions with the part of the equations that sees them to first order (a singular value), smallest first.
-fn seen(linear: &Linear, weights: &[f64]) -> Vec<(f64, Vec<f64>)> {
+pub(super) fn seen(linear: &Linear, weights: &[f64]) -> Vec<(f64, Vec<f64>)> {
     let dim = linear.matrix.ncols();
     let mut square = linear.matrix.clone().resize_vertically(dim, 0.0);
     for (j, weight) in weights.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Special points between two points of a branch.
 
 use super::certificate::{Certificate, Passing, TestFunction};
-use super::correct::{correct, crossing, normal, product};
+use super::correct::{correct, crossing, normal, product, seen};
 use super::levels::Level;
 use super::place::{Before, Place, place};
 use super::point::Obstruction;
@@ -75,6 +75,10 @@ pub(super) fn locate<P: Problem>(
     for bracket in brackets(problem, step, watch) {
         match solve(problem, step, &bracket, watch) {
             Ok(at) => {
+                let crossing = nearly_crosses(problem, &at, bracket.test)
+                    .then(|| at_crossing(problem, step, &at, watch))
+                    .flatten();
+                let at = crossing.unwrap_or(at);
                 let special = kind(problem, &at, bracket.test);
                 let certificate = certified(problem, step, bracket.test, &at, watch);
                 let at = Place { certificate, ..at };
@@ -147,6 +151,39 @@ fn kind<P: Problem>(problem: &P, at: &Place<P::Local>, test: Test) -> Special {
 /// Whether the equations leave two directions to first order.
 fn crosses<P: Problem>(problem: &P, at: &Place<P::Local>) -> bool {
     !crossing(problem.linear(&at.local), &problem.weights(&at.x)).is_empty()
+}
+
+/// The second smallest part of the equations, and the next one: at a crossing the former vanishes, at a fold it does not.
+fn second<P: Problem>(problem: &P, at: &Place<P::Local>) -> Option<(f64, f64)> {
+    let all = seen(problem.linear(&at.local), &problem.weights(&at.x));
+    Some((all.get(1)?.0, all.get(2)?.0))
+}
+
+/// Where the second part is smaller than this part of the next one, two branches may cross nearby.
+const NEARLY: f64 = 1e-3;
+
+/// Whether the place where a branch turns back may be beside a crossing. Solutions are exact to about the tolerance of the equations, but next to a
+/// crossing, at a distance s, the slope is known up to the tolerance divided by s: the place where it vanishes is off by the root of the tolerance.
+fn nearly_crosses<P: Problem>(problem: &P, at: &Place<P::Local>, test: Test) -> bool {
+    let nearly = |(second, next): (f64, f64)| second < NEARLY * next;
+    matches!(test, Test::Slope) && !crosses(problem, at) && second(problem, at).is_some_and(nearly)
+}
+
+/// The crossing near a place: there the second part of the equations vanishes, in proportion to the distance on both sides, and exactly so.
+fn at_crossing<P: Problem>(
+    problem: &P,
+    step: &Step<'_, P::Local>,
+    near: &Place<P::Local>,
+    watch: &dyn Watch,
+) -> Option<Place<P::Local>> {
+    let mut s = near.arclength - step.old.arclength;
+    for part in [1e-2, 1e-3, 1e-5] {
+        let (from, to) = (s - part * step.length, s + part * step.length);
+        let size = |s: f64| second(problem, &between(problem, step, s, watch).ok()?).map(|pair| pair.0);
+        let (a, b) = (size(from)?, size(to)?);
+        s = from + (to - from) * a / (a + b);
+    }
+    between(problem, step, s, watch).ok().filter(|at| crosses(problem, at))
 }
 
 /// Whether another test has led to the same point.

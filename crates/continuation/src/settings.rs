@@ -1,5 +1,6 @@
 //! How a branch is followed.
 
+use super::tracer::TOLERANCE;
 use motiform_analysis::periodic::Flow;
 use motiform_analysis::{Error, Result};
 use motiform_dynamics::StepControl;
@@ -19,12 +20,16 @@ pub struct Settings {
     pub smallest_step: f64,
     /// No step is longer.
     pub largest_step: f64,
+    /// Newton's method has converged on a branch with a step shorter than this. Special points are located to a tolerance of their own.
+    pub tolerance: f64,
     /// Most points of the branch (special points not counted).
     pub most_points: usize,
     /// The branch ends where a shape is larger: its amplitude blows up.
     pub largest_size: f64,
     /// The branch ends where the time of an orbit is longer (model time; half the period of a zigzag).
     pub longest_time: f64,
+    /// Parts of an orbit to begin with, at least 1; more follow where it amplifies deviations.
+    pub parts: usize,
     /// Method and tolerance of the flow, for orbits.
     pub flow: Flow,
 }
@@ -38,9 +43,11 @@ impl Settings {
             first_step: if to < from { -0.005 } else { 0.005 },
             smallest_step: 1e-7,
             largest_step: 0.02,
+            tolerance: TOLERANCE,
             most_points: 10_000,
             largest_size: 1e6,
             longest_time: f64::INFINITY,
+            parts: 4,
             flow: Flow {
                 method: Method::Explicit(&DOP853),
                 control: StepControl::Adaptive { rtol: 1e-12, atol: 1e-16 },
@@ -78,8 +85,11 @@ impl Settings {
         check("largest step", large, large >= small && large.is_finite(), "of at least the smallest step")?;
         let first = self.first_step;
         check("first step", first, first != 0.0 && first.is_finite(), "other than 0")?;
+        let close = self.tolerance;
+        check("tolerance", close, close > 0.0 && close < large, "above 0 and below the largest step")?;
         check("largest size", self.largest_size, self.largest_size > 0.0, "above 0")?;
         check("longest time", self.longest_time, self.longest_time > 0.0, "above 0")?;
+        check("parts", self.parts as f64, self.parts > 0, "of at least 1")?;
         self.flow.method.validate(self.flow.control)?;
         if (low..=high).contains(&start) { Ok(()) } else { Err(Error::OutsideRange { start, low, high }) }
     }

@@ -4,7 +4,7 @@ use super::correct::{correct, normal, product};
 use super::place::{Before, Place, place};
 use super::point::{End, Obstruction};
 use super::problem::{Failure, Problem};
-use super::tracer::{TOLERANCE, Tracer};
+use super::tracer::Tracer;
 use motiform_dynamics::Watch;
 
 /// Length of the first correction that the step is chosen for: the second is about its square. The first grows with the third power of
@@ -45,7 +45,7 @@ impl<P: Problem> Tracer<P> {
         let weights = self.problem.weights(&old.x);
         let row = normal(&old.tangent, &weights);
         let guess = self.guess(length, &weights);
-        let found = correct(&self.problem, guess, &row, TOLERANCE, watch)?;
+        let found = correct(&self.problem, guess, &row, self.settings.tolerance, watch)?;
         let first = found.first;
         let new = place(&self.problem, found, &row, old.arclength + length)?;
         if product(&weights, &old.tangent, &new.tangent) < STRAIGHT {
@@ -88,7 +88,7 @@ impl<P: Problem> Tracer<P> {
         }
         let weights = self.problem.weights(&old.x);
         let side = normal(&old.tangent, &weights);
-        let found = correct(&self.problem, guess, &row, TOLERANCE, watch)
+        let found = correct(&self.problem, guess, &row, self.settings.tolerance, watch)
             .and_then(|found| place(&self.problem, found, &side, 0.0));
         let mut new = found.map_err(|failure| match failure {
             Failure::Stopped => End::Stopped,

@@ -14,7 +14,7 @@ use motiform_analysis::linear::dot;
 use motiform_dynamics::Watch;
 use std::collections::VecDeque;
 
-/// Newton's method has converged with a step shorter than this.
+/// Newton's method has converged with a step shorter than this, if nothing else is asked for.
 pub(super) const TOLERANCE: f64 = 1e-9;
 
 /// Least part of a shape by which a motion differs from the start of a branch.
@@ -69,7 +69,7 @@ impl<P: Problem> Tracer<P> {
         if let Some(last) = row.last_mut() {
             *last = 1.0;
         }
-        let found = correct(&problem, x, &row, TOLERANCE, watch)?;
+        let found = correct(&problem, x, &row, settings.tolerance, watch)?;
         let weights = problem.weights(&found.x);
         // the side is decided by the parameter; where the branch is vertical, by the sign that the decomposition gives
         let null = directions(problem.linear(&found.local), &weights);
@@ -92,7 +92,7 @@ impl<P: Problem> Tracer<P> {
         let weights = problem.weights(origin);
         let row = normal(direction, &weights);
         let guess = origin.iter().zip(direction).map(|(x, d)| x + length * d).collect();
-        let found = correct(&problem, guess, &row, TOLERANCE, watch);
+        let found = correct(&problem, guess, &row, settings.tolerance, watch);
         match found.and_then(|found| place(&problem, found, &row, 0.0)) {
             Ok(place) => Ok(Self::at(problem, place, settings)),
             Err(failure) => Err((problem, failure)),
@@ -347,7 +347,7 @@ impl<P: Problem> Tracer<P> {
         row[from..].copy_from_slice(&old);
         let weights = self.problem.weights(&x);
         let found = scaled(row, &weights).map(|row| normal(&row, &weights)).and_then(|row| {
-            let found = correct(&self.problem, x, &row, TOLERANCE, watch).ok()?;
+            let found = correct(&self.problem, x, &row, self.settings.tolerance, watch).ok()?;
             place(&self.problem, found, &row, self.place.arclength).ok()
         });
         let Some(place) = found else { return self.problem.coarsen() };

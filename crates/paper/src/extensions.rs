@@ -54,10 +54,8 @@ fn onset(context: &Context<'_>) -> Result<(Vec<Claim>, ReportFigure), Error> {
     let mut study = with(context, "ohta-ohkuma", &[("gamma", 0.5)])?;
     "Straight and circular motion of an elliptic body".clone_into(&mut study.title);
     let along = Along { name: "gamma".to_owned(), from: 0.05, to: 1.5 };
-    let plan = BranchPlan::new(
-        &study,
-        &BranchSettings { along, origin: None, points: 500, branches: 3, samples: 0 },
-    )?;
+    let plan =
+        BranchPlan::new(&study, &BranchSettings { points: 500, branches: 3, ..BranchSettings::over(along) })?;
     let found = follow(&plan, None, &context.quiet())?;
     if !found.complete {
         return Err(Error::Interrupted);

@@ -3,10 +3,11 @@
 use crate::errors::{of_json, python};
 use crate::study::Study;
 use crate::watch::Caller;
+use motiform_branching::starts::StartPoint;
 use motiform_branching::{BranchFolder, columns, follow, summary};
 use motiform_files::columns::to_csv;
-use motiform_study::BranchPlan;
 use motiform_study::branches::{Along, BranchSettings, origin};
+use motiform_study::{BranchPlan, Stride, Towards};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use serde_json::{Value, json};
@@ -15,21 +16,35 @@ use std::path::PathBuf;
 /// The summary as JSON, the points as CSV (every digit), and what a signal or the callable raised: then not all is followed.
 type Followed<'py> = (String, Bound<'py, PyBytes>, Option<PyErr>);
 
-/// The branches of the motion that a study's start settles on.
+/// Direction, longest step, first step, tolerance.
+type Steps<'s> = (&'s str, Option<f64>, Option<f64>, Option<f64>);
+
+/// The branches of the motion that a study's start settles on, or of that at a point of an earlier result.
 #[pyfunction]
-#[pyo3(signature = (study, along, from_, counts, progress=None))]
+#[pyo3(signature = (study, along, starts, counts, steps, progress=None))]
 pub(crate) fn follow_branches<'py>(
     py: Python<'py>,
     study: &Study,
     along: (String, f64, f64),
-    from_: Option<&str>,
+    starts: (Option<&str>, Option<&str>),
     counts: (usize, usize),
+    steps: Steps<'_>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Followed<'py>> {
-    let ((name, from, to), (branches, points)) = (along, counts);
-    let origin = from_.map(origin).transpose().map_err(python)?;
-    let settings = BranchSettings { along: Along { name, from, to }, origin, points, branches, samples: 0 };
-    let study = study.0.perturbed().map_err(python)?.0;
+    let ((name, from, to), (branches, points), (motion, point)) = (along, counts, starts);
+    let origin = motion.map(origin).transpose().map_err(python)?;
+    let (mut study, mut given) = (study.0.clone(), None);
+    if let Some(point) = point {
+        let point = StartPoint::read(point).map_err(python)?;
+        point.put(&mut study).map_err(python)?;
+        given = Some(point.given);
+    }
+    let (direction, branch_step, first_step, tolerance) = steps;
+    let direction = Towards::find(direction).map_err(python)?;
+    let stride = Stride { first_step, branch_step, tolerance, direction };
+    let along = Along { name, from, to };
+    let settings = BranchSettings { origin, points, branches, stride, given, ..BranchSettings::over(along) };
+    let study = study.perturbed().map_err(python)?.0;
     let plan = BranchPlan::new(&study, &settings).map_err(python)?;
     let (found, raised) = Caller::here(py, progress, |watch| follow(&plan, None, watch));
     let found = found.map_err(python)?;

@@ -33,7 +33,7 @@ pub(crate) fn follow<'py>(
     let ((name, from, to), (second, low, high)) = plane;
     let ((branches, points), along) = (counts, Along { name: name.clone(), from, to });
     let origin = from_.map(origin).transpose().map_err(python)?;
-    let settings = BranchSettings { along, origin, points, branches, samples: 0 };
+    let settings = BranchSettings { origin, points, branches, ..BranchSettings::over(along) };
     let study = study.0.perturbed().map_err(python)?.0;
     let plan = BranchPlan::new(&study, &settings).map_err(python)?;
     let kinds = CurveKind::list(&kinds.join(",")).map_err(python)?;

@@ -1,7 +1,7 @@
 //! Branches as data: which motion is followed, along which parameter, how far.
 
 use crate::plan::{Computation, check, check_no_noise, sha256_hex};
-use crate::{Error, Plan, Study};
+use crate::{Error, Given, Plan, Stride, Study, Towards};
 use motiform_analysis::Regime;
 use motiform_models::ModelInfo;
 use motiform_models::parameters::index_of;
@@ -44,6 +44,20 @@ pub struct BranchSettings {
     pub branches: usize,
     /// Values of the parameter at which motions are sampled, swept upwards and downwards; 0 for none.
     pub samples: usize,
+    /// Steps, tolerance and sides.
+    pub stride: Stride,
+    /// What the start is, if it was taken from an earlier result; otherwise it is simulated.
+    pub given: Option<Given>,
+}
+
+impl BranchSettings {
+    /// The defaults: the motion that the start settles on and what begins on its branch, to both sides.
+    #[must_use]
+    pub const fn over(along: Along) -> Self {
+        let stride =
+            Stride { first_step: None, branch_step: None, tolerance: None, direction: Towards::Both };
+        Self { along, origin: None, points: 2000, branches: 8, samples: 0, stride, given: None }
+    }
 }
 
 /// What will be computed.
@@ -73,6 +87,12 @@ pub struct BranchComputation {
     /// Values of the parameter at which motions are sampled; 0 for none.
     #[serde(default, skip_serializing_if = "is_none")]
     pub samples: usize,
+    /// Steps, tolerance and sides.
+    #[serde(default, skip_serializing_if = "Stride::is_default")]
+    pub stride: Stride,
+    /// What the start is, if it was taken from an earlier result; otherwise it is simulated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub given: Option<Given>,
     /// The start: model, parameters, initial state, method.
     pub start: Computation,
 }
@@ -132,6 +152,18 @@ fn wrong(text: String, problem: String) -> Error {
     Error::Along { text, problem }
 }
 
+/// Refuses a kind of motion beside a motion that is known.
+fn check_known(origin: Option<Regime>, given: Option<Given>) -> Result<(), Error> {
+    match origin {
+        Some(regime) if given.is_some_and(Given::is_motion) => Err(Error::Setting {
+            key: "from",
+            value: regime.name().to_owned(),
+            remedy: "the start is a motion that is known, whose kind needs no check: leave this out",
+        }),
+        _ => Ok(()),
+    }
+}
+
 /// The regime of a kind of start.
 ///
 /// # Errors
@@ -151,13 +183,15 @@ impl BranchPlan {
     /// # Errors
     /// [`Error`] naming the key, the value and the remedy.
     pub fn new(study: &Study, settings: &BranchSettings) -> Result<Self, Error> {
-        let BranchSettings { along, origin, points, branches, samples } = settings.clone();
+        let BranchSettings { along, origin, points, branches, samples, stride, given } = settings.clone();
         let plan = Plan::new(study)?;
         let start = plan.computation;
         check_no_noise(start.noise.map_or(0.0, |noise| noise.largest()))?;
         let info = study.info()?;
         let value = start.parameters.get(&along.name).unwrap_or(f64::NAN);
         along.check(info, value)?;
+        stride.check(value, (along.from, along.to))?;
+        check_known(origin, given)?;
         check("points", points as f64, (2..=1_000_000).contains(&points), "give from 2 to 1000000")?;
         check("branches", branches as f64, (1..=1000).contains(&branches), "give from 1 to 1000")?;
         let some = samples == 0 || (2..=100_000).contains(&samples);
@@ -167,8 +201,9 @@ impl BranchPlan {
             some,
             "give from 2 to 100000 values of the parameter, or 0 for none",
         )?;
+        let format = BRANCH_FORMAT;
         let computation =
-            BranchComputation { format: BRANCH_FORMAT, along, origin, points, branches, samples, start };
+            BranchComputation { format, along, origin, points, branches, samples, stride, given, start };
         Ok(Self { name: plan.name, title: plan.title, computation })
     }
 

@@ -1,5 +1,6 @@
 //! Settings that describe themselves: the JSON schema of a table follows from the struct and its doc comments.
 
+use crate::Towards;
 use crate::branches::Along;
 use crate::curves::{CurveKind, Plane};
 use crate::scan::Axis;
@@ -79,7 +80,7 @@ macro_rules! texts {
     )*};
 }
 
-texts!(String, Along, Axis, CurveKind, Plane, Regime);
+texts!(String, Along, Axis, CurveKind, Plane, Regime, Towards);
 
 impl<T: Written> Written for Option<T> {
     fn kind() -> Value {

@@ -110,6 +110,22 @@ pub enum Error {
         /// The motions.
         known: Vec<&'static str>,
     },
+    /// A start is followed to no side of this name.
+    #[error("unknown direction {name:?}{}: give up, down or both", hint(.nearest))]
+    Towards {
+        /// The name given.
+        name: String,
+        /// The most similar name.
+        nearest: Option<&'static str>,
+    },
+    /// A point of an earlier result that cannot be a start.
+    #[error("start {text}: {problem}")]
+    StartPoint {
+        /// The point as given.
+        text: String,
+        /// What is wrong and how to mend it.
+        problem: String,
+    },
     /// Branches without a parameter to follow a motion along.
     #[error("nothing to follow: give the parameter to vary, with its range")]
     NoAlong,

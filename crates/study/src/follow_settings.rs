@@ -5,6 +5,7 @@ use crate::branches::{Along, BranchSettings, origin};
 use crate::curves::{CurveKind, CurveSettings, Plane};
 use crate::described::settings;
 use crate::toml_reader::Table;
+use crate::{Stride, Towards};
 use motiform_analysis::Regime;
 use motiform_models::ModelInfo;
 use motiform_models::parameters::index_of;
@@ -27,6 +28,14 @@ settings! {
         pub branches: u64,
         /// Values of the parameter at which motions are sampled, swept upwards and downwards.
         pub samples: u64,
+        /// First step along a branch, as a part of the range (and of the size of the shape, and of the period): 0.005, if not given.
+        pub first_step: Option<f64>,
+        /// Longest step along a branch, in the same units: 0.02, if not given.
+        pub branch_step: Option<f64>,
+        /// Newton's method has converged on a branch with a step shorter than this: 1e-9, if not given.
+        pub tolerance: Option<f64>,
+        /// The sides to which the start is followed: "up" (larger values of the parameter), "down" or "both", if not given.
+        pub direction: Option<Towards>,
     }
 }
 
@@ -40,6 +49,10 @@ impl Default for FollowSettings {
             points: 2000,
             branches: 8,
             samples: 0,
+            first_step: None,
+            branch_step: None,
+            tolerance: None,
+            direction: None,
         }
     }
 }
@@ -57,6 +70,13 @@ impl FollowSettings {
             points: whole(self.points),
             branches: whole(self.branches),
             samples: whole(self.samples),
+            stride: Stride {
+                first_step: self.first_step,
+                branch_step: self.branch_step,
+                tolerance: self.tolerance,
+                direction: self.direction.unwrap_or_default(),
+            },
+            given: None,
         })
     }
 
@@ -111,7 +131,26 @@ impl FollowSettings {
         table.whole("points", &mut self.points)?;
         table.whole("branches", &mut self.branches)?;
         table.whole("samples", &mut self.samples)?;
+        self.read_stride(&mut table)?;
         table.finish()
+    }
+
+    /// Reads the keys of the stride.
+    fn read_stride(&mut self, table: &mut Table<'_>) -> Result<(), Error> {
+        let numbers = [
+            ("first_step", &mut self.first_step),
+            ("branch_step", &mut self.branch_step),
+            ("tolerance", &mut self.tolerance),
+        ];
+        for (key, place) in numbers {
+            if let Some(value) = table.take(key) {
+                *place = Some(value.number()?);
+            }
+        }
+        if let Some(value) = table.take("direction") {
+            self.direction = Some(Towards::find(&value.text()?).map_err(|error| value.error(error))?);
+        }
+        Ok(())
     }
 
     /// The table that reads back as these settings: what differs from the default.
@@ -122,8 +161,15 @@ impl FollowSettings {
             ("along", self.along.as_ref().map(|Along { name, from, to }| format!("{name}={from:?}:{to:?}"))),
             ("from", self.from.map(|regime| regime.name().to_owned())),
             ("in", self.plane.as_ref().map(Plane::to_string)),
+            ("direction", self.direction.map(|direction| direction.name().to_owned())),
         ];
         table.extend(texts.into_iter().filter_map(|(key, text)| Some((key.to_owned(), text?.into()))));
+        let numbers = [
+            ("first_step", self.first_step),
+            ("branch_step", self.branch_step),
+            ("tolerance", self.tolerance),
+        ];
+        table.extend(numbers.into_iter().filter_map(|(key, number)| Some((key.to_owned(), number?.into()))));
         if !self.curve.is_empty() {
             let names: Vec<&str> = self.curve.iter().map(|kind| kind.name()).collect();
             table.insert("curve".to_owned(), names.into());

@@ -110,6 +110,7 @@ fn changed<T: Serialize>(key: &'static str, settings: &T, default: &T) -> Result
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Towards;
     use crate::branches::Along;
     use crate::curves::{CurveKind, Plane};
     use crate::presets::PRESETS;
@@ -164,6 +165,10 @@ mod tests {
             points: 7,
             branches: 3,
             samples: 40,
+            first_step: Some(0.1 + 0.2),
+            branch_step: Some(1.0 / 3.0),
+            tolerance: Some(1e-11),
+            direction: Some(Towards::Down),
         };
         study.return_map = Some(ReturnMapSettings { y: 1.0, x_min: -2.0, x_max: 3.5, centre: true });
         study.figure =

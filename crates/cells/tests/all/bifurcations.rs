@@ -16,7 +16,7 @@ fn a_zigzag_is_as_far_from_its_bifurcations_as_its_law() {
     let fit = fit_cell(&sample.cells[0], &options, &()).unwrap();
     let law = find_any("fig5a", "tensor").unwrap();
     let along = Along { name: "kappa2".to_owned(), from: 0.45, to: 1.35 };
-    let settings = BranchSettings { along, origin: None, points: 400, branches: 1, samples: 0 };
+    let settings = BranchSettings { points: 400, branches: 1, ..BranchSettings::over(along) };
     let truth = follow(&BranchPlan::new(&law, &settings).unwrap(), None, &()).unwrap().special(0);
     let mut compared = 0;
     for near in fit.bifurcations.iter().filter(|near| near.parameter == "kappa2") {

@@ -75,10 +75,15 @@ Examples:
   motiform continue tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.9 --along kappa2=0.3:1.6 --curve hopf,symmetry-breaking \
     --in kappa2,kappa3=0.02:0.3
   motiform continue cell --set length=12.6 --from circular --along length=12:13.5 --json
+  motiform equilibria my-study.toml --json > equilibria.json
+  motiform continue --start equilibria.json:2 --along r=0:30    # the second one listed, stable or not
+  motiform continue --start my-study-branches:0:17 --along s=5:15 --direction up --branch-step 0.005
 
 The start is simulated until its motion is named, as `motiform classify` does. That motion is followed to both sides of the range by \
 pseudo-arclength, through folds and whether or not it is stable. What begins at its special points is followed too, and so on, \
-each branch once, mirror images not twice:
+each branch once, mirror images not twice. With --start a point of an earlier result is the start, with its parameters: \
+a point of a branch (branch and point as in points.parquet) or an equilibrium is polished by Newton's method and not simulated, so that it may be \
+unstable; a state of a dataset is simulated on, but --from motionless, straight or circular takes the steady motion close to it. Special points:
   fold                branch turns back               hopf                a shape begins to pulsate
   pitchfork           a symmetry of a steady shape breaks (drift pitchfork: straight motion begins to turn)
   symmetry-breaking   left and right of a zigzag differ: it begins to rotate

@@ -5,6 +5,7 @@ use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
 #[derive(Args)]
+#[command(mut_arg("subject", |subject| subject.required_unless_present("start")))]
 pub(crate) struct ContinueOptions {
     #[command(flatten)]
     pub(crate) subject: SubjectOptions,
@@ -17,6 +18,24 @@ pub(crate) struct ContinueOptions {
     /// (default: the motion that the simulation settles on)
     #[arg(long, value_name = "MOTION")]
     pub(crate) from: Option<String>,
+    /// Start from a point of an earlier result, stable or not, with its parameters; --set changes them. FOLDER:BRANCH:POINT of
+    /// `continue`, FILE.json:NUMBER of `equilibria --json`, DATASET[:t=TIME|:ROW] of `simulate`. Without POINT, a dataset
+    /// starts from its last state, and the others list their points
+    #[arg(long, value_name = "FILE[:POINT]", conflicts_with_all = ["initial", "random"])]
+    pub(crate) start: Option<String>,
+    /// The sides to which the start is followed: up (larger values of the parameter), down or both (default: both)
+    #[arg(long, value_name = "SIDE")]
+    pub(crate) direction: Option<String>,
+    /// Longest step along a branch or curve, as a part of the range of the parameter, and of the size of the shape (default: 0.02)
+    #[arg(long, value_name = "PART", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) branch_step: Option<f64>,
+    /// First step along a branch or curve, in the same units (default: 0.005)
+    #[arg(long, value_name = "PART", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) first_step: Option<f64>,
+    /// Newton's method has converged on a branch with a step shorter than this, in the same units (default: 1e-9); --rtol is
+    /// the tolerance of the simulation
+    #[arg(long, value_name = "PART", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) tolerance: Option<f64>,
     /// Follow the special points of these kinds over two parameters: hopf, fold, pitchfork, symmetry-breaking, period-doubling, torus
     #[arg(long, value_name = "KIND,...")]
     pub(crate) curve: Option<String>,

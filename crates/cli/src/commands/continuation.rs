@@ -5,20 +5,22 @@ use crate::commands::{curves, subject};
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_branching::draw::{Ordinate, draw_branches};
+use motiform_branching::starts::StartPoint;
 use motiform_branching::{
     BranchEnd, BranchFolder, Followed, SpecialEntry, default_folder, follow_kept, stated, stretches, summary,
 };
 use motiform_files::{Folder, Journal, Opening};
 use motiform_lab::draw::Picture;
-use motiform_study::branches::{Along, origin};
+use motiform_study::branches::{Along, BranchSettings, origin};
 use motiform_study::curves::{CurveKind, Plane};
-use motiform_study::{BranchPlan, CurvePlan, Error, Study};
+use motiform_study::study::FollowSettings;
+use motiform_study::{BranchPlan, CurvePlan, Error, Given, Study, Towards};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(options: &ContinueOptions) -> anyhow::Result<End> {
-    let study = study(options)?;
-    let plan = BranchPlan::new(&study, &study.follow.branches()?)?;
+    let (study, given) = study(options)?;
+    let plan = BranchPlan::new(&study, &BranchSettings { given, ..study.follow.branches()? })?;
     match study.follow.curves()? {
         Some(settings) => curves::run(options, &CurvePlan::new(&study, plan, &settings)?),
         None => branches(options, plan),
@@ -45,9 +47,9 @@ fn branches(options: &ContinueOptions, plan: BranchPlan) -> anyhow::Result<End> 
     end(undrawn, folder.found.complete)
 }
 
-/// What the options describe.
-fn study(options: &ContinueOptions) -> Result<Study, Error> {
-    let mut study = subject::study(&options.subject)?;
+/// What the options describe, and what its start is, if it was taken from an earlier result.
+fn study(options: &ContinueOptions) -> Result<(Study, Option<Given>), Error> {
+    let (mut study, given) = subject(options)?;
     subject::note_noise(&mut study);
     subject::apply(&options.method, &mut study)?;
     study.perturb = options.perturb.unwrap_or(study.perturb);
@@ -55,7 +57,26 @@ fn study(options: &ContinueOptions) -> Result<Study, Error> {
     if let Some(perturbation) = perturbation {
         warn(&format!("{perturbation}; --perturb 0 keeps the exact start"));
     }
-    let settings = &mut study.follow;
+    follow_settings(options, &mut study.follow)?;
+    Ok((study, given))
+}
+
+/// The model with the parameters and the start of an earlier result, if one is given; --set has the last word.
+fn subject(options: &ContinueOptions) -> Result<(Study, Option<Given>), Error> {
+    let Some(text) = &options.start else { return Ok((subject::study(&options.subject)?, None)) };
+    let start = StartPoint::read(text)?;
+    let named = options.subject.subject.is_some() || options.subject.preset.is_some();
+    let mut study = if named { subject::study(&options.subject)? } else { start.study()? };
+    start.put(&mut study)?;
+    for (name, value) in &options.subject.set {
+        study.set(name, *value)?;
+    }
+    study.follow.from = None; // the motion of another start
+    Ok((study, Some(start.given)))
+}
+
+/// The settings of branches and curves that are given.
+fn follow_settings(options: &ContinueOptions, settings: &mut FollowSettings) -> Result<(), Error> {
     if let Some(along) = &options.along {
         settings.along = Some(Along::parse(along)?);
     }
@@ -68,10 +89,16 @@ fn study(options: &ContinueOptions) -> Result<Study, Error> {
     if let Some(plane) = &options.plane {
         settings.plane = Some(Plane::parse(plane)?);
     }
+    if let Some(direction) = &options.direction {
+        settings.direction = Some(Towards::find(direction)?);
+    }
+    settings.first_step = options.first_step.or(settings.first_step);
+    settings.branch_step = options.branch_step.or(settings.branch_step);
+    settings.tolerance = options.tolerance.or(settings.tolerance);
     settings.points = options.points.unwrap_or(settings.points);
     settings.samples = options.samples.unwrap_or(settings.samples);
     settings.branches = options.branches.unwrap_or(settings.branches);
-    Ok(study)
+    Ok(())
 }
 
 /// Where the result goes; nowhere, if it is only printed.

@@ -30,6 +30,7 @@ mod observe;
 mod outcomes;
 mod ownership;
 mod scan;
+mod starts;
 mod startup;
 mod statistics;
 mod steady;

@@ -133,8 +133,9 @@ def lyapunov(
 def follow_branches(
     study: Study,
     along: tuple[str, float, float],
-    from_: str | None,
+    starts: tuple[str | None, str | None],
     counts: tuple[int, int],
+    steps: tuple[str, float | None, float | None, float | None],
     progress: _Progress = None,
 ) -> tuple[str, bytes, BaseException | None]: ...
 def read_branches(path: str) -> tuple[str, bytes, BaseException | None]: ...

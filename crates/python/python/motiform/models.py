@@ -253,6 +253,11 @@ class Model:
         along: tuple[str, float, float],
         *,
         from_: str | None = None,
+        start: str | os.PathLike[str] | None = None,
+        direction: Literal["up", "down", "both"] = "both",
+        branch_step: float | None = None,
+        first_step: float | None = None,
+        tolerance: float | None = None,
         branches: int = 8,
         points: int = 2000,
         initial: Mapping[str, float] | None = None,
@@ -269,12 +274,22 @@ class Model:
         `along` is a parameter with its range, which holds the start. `from_` names the motion that the start must settle on
         (motionless, straight, circular, zigzag, quasi-periodic, pulsating-straight). At most so many `branches` are followed,
         each over at most so many `points` to a side.
+
+        `start` is a point of an earlier result, stable or not, whose parameters replace those of this model: ``"FOLDER:BRANCH:POINT"`` of
+        branches, ``"FILE.json:NUMBER"`` of ``motiform equilibria --json``, ``"DATASET:t=TIME"`` or ``"DATASET:ROW"``; a dataset alone starts from
+        its last state. `direction` says to which sides the start is followed. `branch_step` (0.02) and `first_step` (0.005) are the longest
+        and the first step, as parts of the range; Newton's method has converged with a step below `tolerance` (1e-9).
         """
         study = _with(self._study, initial, {"seed": seed})
         name, low, high = _range("along", along)
         with Bar(progress, branches, "branches") as bar:
             found = _motiform.follow_branches(
-                study, (name, low, high), from_, (branches, points), bar.callable()
+                study,
+                (name, low, high),
+                (from_, None if start is None else os.fspath(start)),
+                (branches, points),
+                (direction, branch_step, first_step, tolerance),
+                bar.callable(),
             )
         text, table, raised = found
         result = branches_of(text, table)

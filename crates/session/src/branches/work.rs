@@ -117,7 +117,7 @@ pub(super) fn plan(follow: &Follow, study: &Study) -> Result<BranchPlan, Error> 
     let value = study.info()?.parameters().iter().position(|spec| spec.name == name);
     let value = value.and_then(|place| Some(*study.values().ok()?.get(place)?)).unwrap_or(low);
     let along = Along { name, from: low.min(value), to: high.max(value) };
-    BranchPlan::new(&study, &BranchSettings { along, origin: None, points: MOST.0, branches: 1, samples: 0 })
+    BranchPlan::new(&study, &BranchSettings { points: MOST.0, branches: 1, ..BranchSettings::over(along) })
 }
 
 fn begun(epoch: u32, plan: &BranchPlan) -> BranchesBegun {
