@@ -28,9 +28,9 @@ impl Tableau {
     fn compute() -> Self {
         let nodes = nodes();
         // sum_j a_ij c_j^(k-1) = c_i^k / k
-        let powers = DMatrix::from_fn(STAGES, STAGES, |k, j| nodes[j].powi(k as i32)).lu();
+        let powers = DMatrix::from_fn(STAGES, STAGES, |k, j| power(nodes[j], k)).lu();
         let row = |c: f64| {
-            let rhs = DVector::from_fn(STAGES, |k, _| c.powi(k as i32 + 1) / (k + 1) as f64);
+            let rhs = DVector::from_fn(STAGES, |k, _| power(c, k + 1) / (k + 1) as f64);
             let row = powers.solve(&rhs).unwrap_or_else(|| DVector::zeros(STAGES));
             std::array::from_fn(|j| row[j])
         };
@@ -44,6 +44,10 @@ impl Tableau {
         let all = with_start(&self.nodes);
         std::array::from_fn(|j| differences(&all, j, c) * self.leading[j])
     }
+}
+
+fn power(c: f64, k: usize) -> f64 {
+    std::iter::repeat_n(c, k).product()
 }
 
 fn with_start(nodes: &[f64; STAGES]) -> [f64; STAGES + 1] {

@@ -33,9 +33,9 @@ fn reference<F: Equivariant>(
     let mut state = start.to_vec();
     state.extend(&units(dim)[..dim * count]);
     let control = StepControl::Adaptive { rtol: 1e-13, atol: 1e-15 };
-    let mut orbit = method.shape_orbit(&tangent, control, 0.0, &state).unwrap();
+    let mut orbit = method.shape_orbit(&tangent, control, 0.0, &state).expect("a method");
     let request = Request { watched: dim, ..Request::until(span, state.len()) };
-    assert!(drive(orbit.as_mut(), &request, &mut ()).unwrap().is_complete());
+    assert!(drive(orbit.as_mut(), &request, &mut ()).expect("a run").is_complete());
     let (u, w) = orbit.state().split_at(dim);
     (u.to_vec(), w.to_vec())
 }
