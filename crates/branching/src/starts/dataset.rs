@@ -26,7 +26,7 @@ pub(super) fn folder(asked: &Asked<'_>, folder: &Path) -> Result<StartPoint, Err
 pub(super) fn table(asked: &Asked<'_>) -> Result<StartPoint, Error> {
     let path = &asked.path;
     let parquet = path.extension().is_some_and(|extension| extension == "parquet");
-    let inside = if parquet { written_in(path)? } else { None };
+    let inside = if parquet { written_in(asked)? } else { None };
     let beside = || {
         path.parent()
             .filter(|_| path.file_stem().is_some_and(|stem| stem == "trajectory"))
@@ -42,11 +42,15 @@ pub(super) fn table(asked: &Asked<'_>) -> Result<StartPoint, Error> {
     }
 }
 
-/// The manifest in a Parquet file, if it has one of a dataset.
-fn written_in(path: &Path) -> Result<Option<Manifest>, Error> {
-    let entries = columns::metadata(path).map_err(|error| Error::unreadable(path, error))?;
+/// The manifest in a Parquet file, if it has one.
+fn written_in(asked: &Asked<'_>) -> Result<Option<Manifest>, Error> {
+    let entries = columns::metadata(&asked.path).map_err(|error| Error::unreadable(&asked.path, error))?;
     let text = entries.into_iter().find(|entry| entry.0 == "motiform").map(|entry| entry.1);
-    Ok(text.and_then(|text| serde_json::from_str(&text).ok()))
+    text.map(|text| serde_json::from_str(&text)).transpose().map_err(|_| {
+        asked.wrong(
+            "this is a table of another result than a dataset: of branches, give their folder".to_owned(),
+        )
+    })
 }
 
 fn manifest(folder: &Path) -> Result<Manifest, Error> {

@@ -58,7 +58,10 @@ impl StartPoint {
         match (kind_of(folder), extension) {
             (Some(Kind::Branches), _) => branches::point(&asked, folder),
             (Some(Kind::Dataset), _) => dataset::folder(&asked, folder),
-            (Some(kind), _) => Err(asked.wrong(format!("this folder holds {}: {KINDS}", kind.name()))),
+            (Some(kind), _) => {
+                Err(asked
+                    .wrong(format!("this folder holds a result of another kind ({}): {KINDS}", kind.name())))
+            }
             (None, "csv" | "parquet") if path.is_file() => dataset::table(&asked),
             (None, "json") if path.is_file() => equilibria::point(&asked),
             _ => Err(asked.wrong(format!("this holds no motion to start from: {KINDS}"))),

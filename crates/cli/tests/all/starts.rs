@@ -150,6 +150,7 @@ fn starts_that_are_none_are_refused_with_what_to_do() {
         .run("continue --start equilibria.json:1 --along r=0:30 --branches 1 --no-figures --out first")
         .expect(0);
     folder.write("empty.json", "{}");
+    std::fs::copy(folder.path("first/points.parquet"), folder.path("moved.parquet")).expect("a copy");
     for (arguments, says) in [
         (
             "--start nothing:1 --along r=0:30",
@@ -163,6 +164,7 @@ fn starts_that_are_none_are_refused_with_what_to_do() {
         ("--start empty.json:1 --along r=0:30", "this is no list of equilibria"),
         ("--start lorenz.toml --along r=0:30", "this holds no motion to start from"),
         ("--start first --along r=0:30", "give FOLDER:BRANCH:POINT"),
+        ("--start moved.parquet:0:0 --along r=0:30", "of branches, give their folder"),
         ("--start first:4:0 --along r=0:30", "there is no branch \"4\""),
         ("--start first:0:9999 --along r=0:30", "branch 0 has points 0 to"),
         ("tensor --start equilibria.json:1 --along kappa2=0:1", "not of the tensor model"),
