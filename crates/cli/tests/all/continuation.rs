@@ -39,7 +39,10 @@ fn the_zigzag_branch_has_its_symmetry_breakings() {
     let range: Vec<f64> =
         branch["stable"][0].as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect();
     assert_eq!(range, found, "stable between them");
-    assert_eq!(keys(&branch["special"][0]), ["kind", "kappa2", "period"]);
+    assert_eq!(
+        keys(&branch["special"][0]),
+        ["kind", "kappa2", "error", "period", "test", "residual", "transversality"]
+    );
     assert!((branch["special"][0]["period"].as_f64().unwrap() - 36.2047).abs() < 1e-4);
     assert!(branch["end"].is_string() && branch["ends"].as_array().unwrap().len() == 2);
     assert_eq!(folder.names(), [""; 0], "--json alone writes no file");
