@@ -72,6 +72,9 @@ fn linearisation(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> 
     matrix
 }
 
+/// Error of solutions.
+const SOLVED: f64 = 1e-11;
+
 /// Error of eigenvalues, as part of their size.
 const ROUNDING: f64 = 1e-14;
 
@@ -116,6 +119,10 @@ impl Problem for Equilibria<'_> {
             eigenvalues(&restrict(class, |v| apply(&local.matrix, v))).map(|v| Level::of_pairs(&v))
         };
         classes.iter().map(of).collect()
+    }
+
+    fn accuracy(&self) -> f64 {
+        SOLVED
     }
 
     fn noise(&self, levels: &[Vec<Level>]) -> f64 {

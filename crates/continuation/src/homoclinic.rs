@@ -32,8 +32,8 @@ pub enum PeriodLaw {
 pub enum ConnectionKind {
     /// The leading eigenvalues of the saddle are real, growing and decaying ones of different size.
     Saddle,
-    /// A complex pair of the saddle leads on one side (Shilnikov): beside a connection where that side is the slower one (`quantity`
-    /// as in [`Connection::quantity`] on the side of the real eigenvalue) there are infinitely many periodic orbits.
+    /// A complex pair of the saddle leads on one side (Shilnikov). Where the pair is slower than the leading eigenvalue of the other side there are
+    /// infinitely many periodic orbits beside the connection.
     SaddleFocus,
     /// Growth and decay at the saddle are equal.
     Resonant,
@@ -86,9 +86,9 @@ impl Connection {
         Some([slowest(1.0)?, slowest(-1.0)?])
     }
 
-    /// The saddle quantity, for orbits without symmetric shapes: the sum of the real parts of the slowest growing and decaying eigenvalues. Where it is negative one stable orbit
-    /// meets a connection of real eigenvalues; where it is positive the orbit is unstable (Kuznetsov, Elements of Applied Bifurcation Theory,
-    /// theorems 6.2 and 6.3).
+    /// The saddle quantity: the sum of the real parts of the slowest growing and decaying eigenvalues; `None` for orbits with symmetric shapes.
+    /// Where the leading eigenvalues are real and their sum is negative, one stable orbit meets the connection; where it is positive, the orbit
+    /// is unstable. Source: Kuznetsov, Elements of Applied Bifurcation Theory, section 6.2.
     #[must_use]
     pub fn quantity(&self) -> Option<f64> {
         self.sides().map(|[grows, decays]| grows.0 + decays.0)

@@ -117,11 +117,11 @@ fn certified<P: Problem>(
     let passing =
         |place: &Place<P::Local>| Passing { s: place.arclength, value: test.of(place), slope: place.slope() };
     let (kind, noise) = match test {
-        Test::Slope => (TestFunction::Slope, f64::EPSILON),
+        Test::Slope => (TestFunction::Slope, problem.accuracy()),
         Test::Level(..) => (TestFunction::Growth, problem.noise(&at.levels)),
     };
     let width = problem.weights(&at.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
-    Some(Certificate::of(kind, passing(at), passing(&near), noise, TIGHT * width))
+    Some(Certificate::of(kind, passing(at), passing(&near), noise, problem.accuracy().max(TIGHT) * width))
 }
 
 /// At a fold a level vanishes as well: each fold of a step takes the nearest vanishing level that seems to be a branch point. (Where a branch is

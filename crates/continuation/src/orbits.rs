@@ -22,7 +22,7 @@ const GROWTH: f64 = 1000.0;
 /// Least part of the size of a shape by which it changes along an orbit that is none of an equilibrium.
 const EXTENDED: f64 = 100.0 * GAINED;
 
-/// Error of the logarithms of multipliers near the unit circle, by the flow of ordinary models and by that of stiff ones.
+/// Error of orbits, and of the logarithms of their multipliers near the unit circle, by the flow of ordinary models and by that of stiff ones.
 const EXPLICIT: f64 = 1e-10;
 const STIFF: f64 = 1e-8;
 
@@ -214,11 +214,15 @@ impl Problem for Orbits<'_> {
         maps.iter().map(|maps| logarithms_of_product(maps).map(|v| Level::of_pairs(&v))).collect()
     }
 
-    fn noise(&self, _levels: &[Vec<Level>]) -> f64 {
+    fn accuracy(&self) -> f64 {
         match self.flow.method {
             Method::Explicit(_) => EXPLICIT,
             Method::Exponential(_) => STIFF,
         }
+    }
+
+    fn noise(&self, _levels: &[Vec<Level>]) -> f64 {
+        self.accuracy()
     }
 
     fn classify(&self, _x: &[f64], critical: Level, class: usize) -> Special {

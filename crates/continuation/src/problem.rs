@@ -58,6 +58,9 @@ pub(super) trait Problem: Equations {
     /// Growth of the reduced deviations, class by class, largest first.
     fn levels(&self, x: &[f64], local: &Self::Local) -> Option<Vec<Vec<Level>>>;
 
+    /// The error of solutions, in the units of [`Equations::weights`]: what the equations themselves are exact to, not what Newton's method leaves.
+    fn accuracy(&self) -> f64;
+
     /// The error of the levels that are closest to 0.
     fn noise(&self, levels: &[Vec<Level>]) -> f64;
 

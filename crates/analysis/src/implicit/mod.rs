@@ -34,8 +34,8 @@ pub struct Flowed {
     pub steps: u64,
 }
 
-/// The flow of `field` from `start` over `span`, and of `count` vectors tangent to it, which begin as `vectors` and are forced, the last
-/// of them, by what `forced` returns at a state: `w' = Df w + g`.
+/// The flow of `field` from `start` over `span`, and of the tangent vectors `vectors`, one after the other. `forced` returns a vector `g` at a state for each
+/// of the last of them: these follow `w' = Df w + g`, the others `w' = Df w`.
 ///
 /// # Errors
 /// The outcome, where it is not the end of the span: the solution leaves, steps become too short, or `watch` stops it.

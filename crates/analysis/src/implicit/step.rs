@@ -1,6 +1,7 @@
 //! One step of the implicit method.
 
 use super::tableau::{STAGES, Tableau};
+use crate::linear::norm;
 use motiform_dynamics::VectorField;
 use motiform_dynamics::tangent::{Differentiable, jacobian};
 use nalgebra::{DMatrix, Dyn, LU};
@@ -26,7 +27,7 @@ impl<'f, F: VectorField<f64> + Differentiable + ?Sized> Step<'f, F> {
     pub(super) fn solve(field: &'f F, h: f64, u: &[f64], stages: DMatrix<f64>) -> Option<Self> {
         let mut step = Self { field, h, stages };
         let matrix = step.factors();
-        let size = u.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let size = norm(u);
         let mut last = f64::INFINITY;
         for count in 0..ITERATIONS {
             let mut change = step.defect(u);
@@ -80,8 +81,7 @@ impl<'f, F: VectorField<f64> + Differentiable + ?Sized> Step<'f, F> {
     }
 
     /// Moves vectors along: `W_i = w + h sum_j a_ij (J_j W_j + g_j)`, with `forced(U_j)` for the last ones. These are the derivatives of
-    /// the step itself, exactly. `false` where they do not exist; the vectors
-    /// then stay as they are.
+    /// the step itself, exactly. `false` where they do not exist; the vectors then stay as they are.
     pub(super) fn carry(&self, vectors: &mut DMatrix<f64>, forced: &dyn Fn(&[f64]) -> Vec<Vec<f64>>) -> bool {
         let (dim, count) = vectors.shape();
         let forces: Vec<Vec<Vec<f64>>> = self.stages.column_iter().map(|u| forced(u.as_slice())).collect();
@@ -108,7 +108,7 @@ impl<'f, F: VectorField<f64> + Differentiable + ?Sized> Step<'f, F> {
 
     /// The size of the polynomial's fifth power over the step.
     pub(super) fn roughness(&self, u: &[f64]) -> f64 {
-        self.combined(u, &Tableau::get().leading).iter().map(|x| x * x).sum::<f64>().sqrt()
+        norm(&self.combined(u, &Tableau::get().leading))
     }
 
     fn combined(&self, u: &[f64], factors: &[f64; STAGES + 1]) -> Vec<f64> {

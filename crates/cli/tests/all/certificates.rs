@@ -64,8 +64,8 @@ fn a_saddle_node_on_a_circle_is_named_where_it_is() {
     assert!((branch["stable"][0][0].as_f64().unwrap() - 1.0).abs() <= error, "stable up to the end");
 }
 
-/// The modulated circular motion of the cell that begins at the Hopf bifurcation is unstable, and beside it its deviations grow at the rate -2 times that
-/// of circular motion (the normal form): the multipliers of 42 unknowns against the eigenvalues.
+/// At the Hopf bifurcation of the cell's circular motion an unstable periodic modulation begins. Close to it the normal form predicts the growth rate of
+/// deviations from the modulated motion: -2 times that of deviations from circular motion. Multipliers are compared with eigenvalues.
 #[test]
 fn orbits_of_the_cell_grow_as_the_normal_form_says() {
     let folder = Folder::new();
