@@ -230,6 +230,9 @@ const RATES: f64 = 0.3;
 /// The rate is fitted over the times above this part of the last one.
 const WINDOW: f64 = 0.85;
 
+/// The same in long steps.
+const LONG_WINDOW: f64 = 0.5;
+
 /// The connection is reached where this much of the parameter remains.
 const NEAR: f64 = 1e-7;
 
@@ -252,9 +255,11 @@ impl Periods {
     /// The connection ahead, where the logarithmic law holds and little remains.
     pub(super) fn connection(&self) -> Option<Connection> {
         let time = self.points.last()?.0;
+        // in long steps the times above the window are few: the law is tested over as many points, but not from far away
         let from = self.points.iter().position(|point| point.0 > WINDOW * time)?;
+        let from = from.min(self.points.len().checked_sub(POINTS)?);
         let last = &self.points[from..];
-        if last.len() < POINTS {
+        if last[0].0 < LONG_WINDOW * time {
             return None;
         }
         let &(_, parameter, slope) = last.last()?;

@@ -216,7 +216,20 @@ fn brackets<P: Problem>(problem: &P, step: &Step<'_, P::Local>, watch: &dyn Watc
             }
         }
     }
+    if is_level(problem, step) && out.iter().all(|bracket| matches!(bracket.test, Test::Slope)) {
+        out.clear(); // where a branch turns back a level vanishes as well
+    }
     out
+}
+
+/// Slopes below so many times the accuracy of the solutions may be noise: towards a connection the parameter converges and the branch goes on.
+const LEVEL: f64 = 10.0;
+
+/// Whether the parameter hardly changes over a step.
+fn is_level<P: Problem>(problem: &P, step: &Step<'_, P::Local>) -> bool {
+    let slope = step.old.slope().abs().max(step.new.slope().abs());
+    let width = problem.weights(&step.old.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
+    slope < LEVEL * problem.accuracy() * width
 }
 
 /// Where a test of the same sign at both ends of a step comes so near to 0 that it may change its sign twice: the vertex of the

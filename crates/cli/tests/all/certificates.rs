@@ -38,6 +38,36 @@ fn errors_of_special_points_cover_exact_values() {
     holds(&entries(&cell), "length", "pitchfork", 4.0 * std::f64::consts::PI);
 }
 
+/// Towards a connection the parameter converges to within round-off, and long steps leave few points to fit: no folds may be seen in the
+/// noise, and the connection must be.
+#[test]
+fn the_list_of_the_zigzag_does_not_depend_on_steps_and_tolerance() {
+    let folder = Folder::new();
+    let list = |options: &str| -> Vec<(String, f64, f64)> {
+        let run = "tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.95 --from zigzag --along kappa2=0.5:1.5 --branches 1";
+        let json = follow(&folder, &format!("{run} {options}"));
+        let number = |value: &Value| value.as_f64().expect("a number");
+        let one = |entry: &&Value| {
+            (
+                entry["kind"].as_str().expect("a name").to_owned(),
+                number(&entry["kappa2"]),
+                number(&entry["error"]),
+            )
+        };
+        entries(&json).iter().map(one).collect()
+    };
+    let first = list("");
+    let kinds: Vec<&str> = first.iter().map(|one| one.0.as_str()).collect();
+    assert_eq!(kinds, ["symmetry-breaking", "symmetry-breaking", "homoclinic"]);
+    for options in ["--branch-step 0.05", "--branch-step 0.1", "--tolerance 1e-11", "--seed 5"] {
+        let other = list(options);
+        assert_eq!(other.len(), first.len(), "{options}: {other:?}");
+        for (a, b) in first.iter().zip(&other) {
+            assert!(a.0 == b.0 && (a.1 - b.1).abs() <= a.2 + b.2, "{options}: {a:?} {b:?}");
+        }
+    }
+}
+
 /// In x' = x(1-r^2) - y(mu-x), y' = y(1-r^2) + x(mu-x) two equilibria appear on the circle at mu = 1, where x = 1 stops turning: the
 /// period is 2 pi / sqrt(mu^2 - 1).
 #[test]
