@@ -116,7 +116,10 @@ impl Form {
             return Self::PulsatingAtRest;
         }
         // equations without the mirror, or modes that do not act on the motion, may leave no axis: the velocity tells
-        let straight = symmetry.mirror.is_some() || !orbit.mirrored && path.keeps_to_a_line(no_turn);
+        // over one period; the next one is on the same line only if the net rotation maps the line to itself
+        let same_line = libm::sin(orbit.net_rotation()).abs() < no_turn;
+        let straight =
+            symmetry.mirror.is_some() || !orbit.mirrored && same_line && path.keeps_to_a_line(no_turn);
         match (straight, orbit.mirrored, turns) {
             (true, _, false) => Self::PulsatingStraight,
             (true, _, true) => Self::BackAndForth,
@@ -140,6 +143,44 @@ impl Form {
             Self::RotatingZigzag
         } else {
             Self::Rosette
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A body that goes along one line for a period and returns turned by `angle`.
+    fn form_of_legs(angle: f64) -> Form {
+        let speeds = [0.0, 1.0, 2.0, 1.0, 0.0];
+        let path = Path {
+            times: vec![0.0, 1.0, 2.0, 3.0, 4.0],
+            positions: vec![[0.0, 0.0], [0.5, 0.0], [2.0, 0.0], [3.5, 0.0], [4.0, 0.0]],
+            velocities: speeds.iter().map(|&v| [v, 0.0]).collect(),
+            resolution: 1e-12,
+            largest: 1.0,
+        };
+        let orbit = PeriodicOrbit {
+            shape: vec![1.0, 0.0],
+            time: 4.0,
+            angle,
+            mirrored: false,
+            residual: 0.0,
+            multipliers: Vec::new(),
+            errors: Vec::new(),
+        };
+        let isotropy = Isotropy { folds: 1, circle: false, mirror: None };
+        Form::of(&isotropy, &orbit, &path, 1e-6, Symmetry { rotations: true, mirror: true })
+    }
+
+    /// The legs of a rectangle, with corners at rest, are no motion along a line, straight as each of them is.
+    #[test]
+    fn legs_that_are_turned_against_each_other_are_on_no_line() {
+        assert_eq!(form_of_legs(0.0), Form::PulsatingStraight);
+        assert_eq!(form_of_legs(std::f64::consts::PI), Form::BackAndForth);
+        for angle in [0.5 * std::f64::consts::PI, 0.1, -2.0] {
+            assert_eq!(form_of_legs(angle).regime(), Regime::QuasiPeriodic, "{angle}");
         }
     }
 }

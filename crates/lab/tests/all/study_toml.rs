@@ -174,6 +174,7 @@ fn the_reader_accepts_every_key_of_the_schema() {
             "string" if key == "continue.along" => "\"gamma=0:1\"",
             "string" if key == "continue.in" => "\"gamma,kappa2=0:1\"",
             "string" if key == "continue.from" => "\"zigzag\"",
+            "string" if key == "continue.direction" => "\"up\"",
             "string" => "\"text\"",
             "number" if key == "display.speed" => "5",
             "number" => "0.5",
