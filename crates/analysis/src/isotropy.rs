@@ -51,3 +51,18 @@ fn folds<B: Equivariant + ?Sized>(body: &B, shape: &[f64], tolerance: f64) -> us
     let most = if body.symmetry().rotations { 16.min(shape.len()) } else { 1 };
     (2..=most).rev().find(fixed).unwrap_or(1)
 }
+
+/// The mean of the images of `shape` under the rotations by multiples of `2 pi / count`. With more of them than the shape has modes
+/// only what no rotation changes is left. What is below the rounding error of the sum is 0.
+#[must_use]
+pub fn mean_over_rotations<B: Equivariant + ?Sized>(body: &B, shape: &[f64], count: usize) -> Vec<f64> {
+    let mut sum = vec![0.0; shape.len()];
+    for k in 0..count {
+        let mut turned = shape.to_vec();
+        body.rotate(std::f64::consts::TAU * k as f64 / count as f64, &mut turned);
+        add(&mut sum, 1.0 / count as f64, &turned);
+    }
+    let rounding = f64::EPSILON * count as f64 * norm(shape);
+    sum.iter_mut().filter(|x| x.abs() <= rounding).for_each(|x| *x = 0.0);
+    sum
+}

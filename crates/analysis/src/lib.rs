@@ -40,7 +40,7 @@ pub use error::{Error, Result};
 pub use escape::{EscapeRate, Stay, SurvivalStep, escape_limits, escape_rate, survival};
 pub use estimate::Estimate;
 pub use implicit::{Flowed, implicit_flow};
-pub use isotropy::Isotropy;
+pub use isotropy::{Isotropy, mean_over_rotations};
 pub use lagged::lagged_sums;
 pub use legs::{CornerKind, Ends, Leg, Legs, PathSample, legs};
 pub use lifetime::{

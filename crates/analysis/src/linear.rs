@@ -136,12 +136,35 @@ pub fn apply(matrix: &[f64], x: &[f64]) -> Vec<f64> {
     out
 }
 
-/// Unit vectors that complete `fixed` (orthonormal) to a basis of the whole space.
+/// Unit vectors that complete `fixed` (orthonormal) to a basis of the whole space: `dim - fixed.len()` of them, whatever the sizes of the
+/// components of `fixed`.
+///
+/// The columns of `H_1 .. H_m` after the first `m`, with the reflections `H_k = 1 - 2 v_k v_k^T` that turn the vectors of `fixed` into
+/// the first unit vectors (Householder). Source: Golub and Van Loan (2013), section 5.2.
 pub fn complement(fixed: &[Vec<f64>], dim: usize) -> Vec<Vec<f64>> {
-    let unit = |i: usize| (0..dim).map(|j| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
-    let units: Vec<Vec<f64>> = (0..dim).map(unit).collect();
-    let columns: Vec<&[f64]> = fixed.iter().chain(&units).map(Vec::as_slice).collect();
-    basis(&columns, 1e-6).split_off(fixed.len().min(dim))
+    let mut mirrors: Vec<Vec<f64>> = Vec::new();
+    for (k, vector) in fixed.iter().take(dim).enumerate() {
+        let mut normal = vector.clone();
+        mirrors.iter().for_each(|mirror| reflect(mirror, &mut normal));
+        normal[..k].fill(0.0);
+        normal[k] += norm(&normal).copysign(normal[k]);
+        let length = norm(&normal);
+        normal.iter_mut().for_each(|x| *x /= length);
+        mirrors.push(normal);
+    }
+    let column = |i: usize| {
+        let mut unit = vec![0.0; dim];
+        unit[i] = 1.0;
+        mirrors.iter().rev().for_each(|mirror| reflect(mirror, &mut unit));
+        unit
+    };
+    (mirrors.len()..dim).map(column).collect()
+}
+
+/// `x -= 2 (normal . x) normal`.
+fn reflect(normal: &[f64], x: &mut [f64]) {
+    let along = dot(normal, x);
+    add(x, -2.0 * along, normal);
 }
 
 #[cfg(test)]
@@ -167,5 +190,26 @@ mod tests {
         assert!(dependent(1e-10).is_none() && dependent(1e-4).is_some());
         assert!(solve(&columns[..5], &rhs, 1e-14).is_none());
         assert!(solve(&columns, &[f64::NAN; 6], 1e-14).is_none());
+    }
+
+    /// Components that fall by powers of ten, down to round-off: as the modes of a smooth shape do.
+    #[test]
+    fn a_complement_has_all_directions_but_the_fixed_ones() {
+        let dim = 42;
+        for base in [1.0, 1.7, 3.0, 5.5, 10.0, 60.0] {
+            let graded = |k: i32| -> Vec<f64> {
+                (0..dim).map(|i| libm::sin(f64::from(3 * i + k)) * f64::powi(base, -i)).collect()
+            };
+            let columns = [graded(1), graded(4)];
+            let fixed = basis(&[&columns[0], &columns[1]], 1e-6);
+            let all: Vec<Vec<f64>> = fixed.iter().cloned().chain(complement(&fixed, dim as usize)).collect();
+            assert_eq!(all.len(), dim as usize, "{base}");
+            for (i, a) in all.iter().enumerate() {
+                for (j, b) in all.iter().enumerate() {
+                    let expected = f64::from(u8::from(i == j));
+                    assert!((dot(a, b) - expected).abs() < 1e-14, "{base} {i} {j}: {}", dot(a, b));
+                }
+            }
+        }
     }
 }

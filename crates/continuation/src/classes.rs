@@ -1,9 +1,8 @@
 //! The symmetry of a motion, and what it makes of deviations: even ones keep the mirror axis, odd ones do not.
 
-use motiform_analysis::Isotropy;
+use motiform_analysis::{Isotropy, mean_over_rotations};
 use motiform_analysis::linear::{add, apply, basis, complement, dot, norm};
 use motiform_dynamics::Equivariant;
-use std::f64::consts::TAU;
 
 /// A shape counts as equal to its image up to this part of its size; turning points of branches are located far closer.
 pub(super) const SAME: f64 = 1e-6;
@@ -105,27 +104,28 @@ impl Classes {
     /// Bases of the classes without the directions `neutral`, which are orthonormal and lie within the classes.
     pub(super) fn without(&self, neutral: &[Vec<f64>]) -> Vec<Vec<Vec<f64>>> {
         let free = |class: &Vec<Vec<f64>>| {
-            let along = |fixed: &&Vec<f64>| norm(&class.iter().map(|v| dot(v, fixed)).collect::<Vec<_>>());
-            let within: Vec<&Vec<f64>> = neutral.iter().filter(|fixed| along(fixed) > 0.5).collect();
-            // The neutral ones first: what is left of the others depends on them in parts that may be far below round-off.
-            let columns: Vec<&[f64]> = within.iter().copied().chain(class).map(Vec::as_slice).collect();
-            basis(&columns, 1e-6).split_off(within.len())
+            let coordinates = |v: &Vec<f64>| class.iter().map(|c| dot(c, v)).collect::<Vec<_>>();
+            let within = neutral.iter().map(coordinates).filter(|fixed| norm(fixed) > 0.5);
+            let within: Vec<Vec<f64>> = within.collect();
+            let fixed = basis(&within.iter().map(Vec::as_slice).collect::<Vec<_>>(), 1e-6);
+            complement(&fixed, class.len()).iter().map(|part| combined(class, part)).collect()
         };
         self.bases.iter().map(free).collect()
     }
 
     /// The mean over the rotations that leave the shape unchanged.
     fn mean<B: Equivariant + ?Sized>(&self, body: &B, x: &[f64]) -> Vec<f64> {
-        let mut sum = vec![0.0; x.len()];
         // for a circle more turns than there are modes: what is left is what no rotation changes
         let folds = if self.circle { x.len() + 1 } else { self.folds };
-        for k in 0..folds {
-            let mut turned = x.to_vec();
-            body.rotate(TAU * k as f64 / folds as f64, &mut turned);
-            add(&mut sum, 1.0 / folds as f64, &turned);
-        }
-        sum
+        mean_over_rotations(body, x, folds)
     }
+}
+
+/// `sum_i parts_i vectors_i`.
+fn combined(vectors: &[Vec<f64>], parts: &[f64]) -> Vec<f64> {
+    let mut sum = vec![0.0; vectors.first().map_or(0, Vec::len)];
+    vectors.iter().zip(parts).for_each(|(vector, part)| add(&mut sum, *part, vector));
+    sum
 }
 
 /// `R(axis) M shape`.
@@ -145,6 +145,6 @@ fn half<B: Equivariant + ?Sized>(body: &B, axis: f64, sign: f64) -> Vec<Vec<f64>
         out
     };
     let images: Vec<Vec<f64>> =
-        complement(&[], body.dim()).iter().map(part).filter(|x| norm(x) > 1e-6).collect();
+        complement(&[], body.dim()).iter().map(part).filter(|x| norm(x) > 1e-3).collect();
     basis(&images.iter().map(Vec::as_slice).collect::<Vec<_>>(), 1e-6)
 }

@@ -27,7 +27,7 @@ pub(super) struct Equilibria<'f> {
     pub(super) classes: Classes,
     /// Length of the state.
     pub(super) dim: usize,
-    /// Unit of the shape.
+    /// Least unit of the shape; that of a larger shape is its own size.
     pub(super) size: f64,
     /// Units of the parameters.
     pub(super) widths: Vec<f64>,
@@ -96,8 +96,10 @@ impl Equations for Equilibria<'_> {
         &local.linear
     }
 
-    fn weights(&self, _x: &[f64]) -> Vec<f64> {
-        let mut weights = vec![1.0 / (self.size * self.size); self.dim];
+    fn weights(&self, x: &[f64]) -> Vec<f64> {
+        // a branch that begins small may grow by powers of ten: its steps grow with it
+        let size = self.size.max(norm(&x[..self.dim]));
+        let mut weights = vec![1.0 / (size * size); self.dim];
         weights.push(1.0);
         weights.extend(self.widths.iter().map(|width| 1.0 / (width * width)));
         weights

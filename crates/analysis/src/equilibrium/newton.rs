@@ -3,6 +3,7 @@
 use super::uncertainty::residual;
 use super::{RelativeEquilibrium, linearisation};
 use crate::graded::scale;
+use crate::isotropy::mean_over_rotations;
 use crate::linear::{add, least_squares, norm};
 use crate::symmetry::turning_of_shape;
 use motiform_dynamics::{Equivariant, VectorField};
@@ -26,6 +27,7 @@ impl RelativeEquilibrium {
         VectorField::<f64>::eval(body, 0.0, &shape, &mut rate);
         let mut omega = turning_of_shape(body, &shape, &rate);
         let mut last = f64::INFINITY;
+        let mut moved = 0.0;
         for _ in 0..STEPS {
             let (unknowns, target) = equations(body, &shape, omega);
             let size = norm(&target);
@@ -36,16 +38,34 @@ impl RelativeEquilibrium {
             let floor = 1e-14 * norm(&shape).max(norm(guess));
             let still = size >= 0.5 * last && size <= 1e-9 * norm(&shape).max(1e-12);
             if size <= floor || still {
-                return Self::describe(body, shape, omega);
+                let is_circle = round(body, &mut shape, moved);
+                return Self::describe(body, shape, if is_circle { 0.0 } else { omega });
             }
             last = size;
             let step = least_squares(&unknowns, &target)?;
             let turned = step.len() - 1;
+            moved = norm(&step[..turned]);
             add(&mut shape, 1.0, &step[..turned]);
             omega += step[turned];
         }
         None
     }
+}
+
+/// Makes a circle of a shape that differs from one by less than the last step of Newton's method: it converged to the circle, and
+/// what is left of other modes is its error. Whether the shape is one.
+fn round<B: Equivariant + ?Sized>(body: &B, shape: &mut [f64], moved: f64) -> bool {
+    if !body.symmetry().rotations {
+        return false;
+    }
+    let circle = mean_over_rotations(body, shape, shape.len() + 1);
+    let mut rest = circle.clone();
+    add(&mut rest, -1.0, shape);
+    let is_circle = norm(&rest) <= moved;
+    if is_circle {
+        shape.copy_from_slice(&circle);
+    }
+    is_circle
 }
 
 /// The columns of `[Df - omega G, -Gu]` and `-(f - omega Gu)`, each row divided by the largest coefficient of its equation.
