@@ -13,7 +13,7 @@ KINDS = {1: "branch-point", 2: "fold", 3: "hopf", 5: "fold", 6: "branch-point", 
 ORBIT_KINDS = ("branch-point", "period-doubling")
 COMMON = dict(IRS=0, ILP=1, NCOL=4, IAD=3, ISW=1, IPLT=0, NPR=100000, ITNW=5, NWTN=3, JAC=0, IADS=1)
 STEADY = dict(COMMON, IPS=1, ICP="[1]", NTST=20, ISP=1, NMX=2000, ITMX=8, EPSL=1e-11, EPSU=1e-11, EPSS=1e-7, DSMIN=1e-8, MXBF=5)
-ORBIT = dict(COMMON, IPS=2, ICP="[1, 11]", NTST=100, ISP=2, NMX=500, ITMX=30, EPSL=1e-10, EPSU=1e-10, EPSS=1e-7, DSMIN=1e-9, MXBF=0,
+ORBIT = dict(COMMON, IPS=2, ICP="[1, 11]", ISP=2, NMX=500, ITMX=30, EPSL=1e-10, EPSU=1e-10, EPSS=1e-7, DSMIN=1e-9, MXBF=0,
              UZSTOP="{11: 300.0}")
 MOST_RUNS = 12
 
@@ -62,14 +62,14 @@ def special(rows, text, orbits):
 class Tree:
     """All runs from one start, until no special point is left from which orbits begin. `steady`: parameter and state of equilibria."""
 
-    def __init__(self, folder, problem):
+    def __init__(self, folder, problem, mesh):
         low, high = problem.span
         size = high - low
         self.folder, self.points, self.seconds, self.found, self.ends = folder, 0, 0.0, [], []
         self.steady = []
         self.fixed = dict(NDIM=2 * len(problem.texts), RL0=low, RL1=high)
         self.steps = dict(DS=5e-3 * size, DSMAX=2e-2 * size)
-        self.orbit_steps = dict(DS=1e-3 * size, DSMAX=0.2 * size)
+        self.orbit_steps = dict(NTST=mesh, DS=1e-3 * size, DSMAX=0.2 * size)
         self.close = 1e-6 * size
         self.table = ""
 

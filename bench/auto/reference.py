@@ -5,10 +5,11 @@ from math import sqrt
 
 import numpy as np
 from scipy.integrate import solve_ivp
-from scipy.optimize import root
+from scipy.optimize import brentq, minimize_scalar, root
 
 FLOW = dict(method="DOP853", rtol=1e-12, atol=1e-13)
 BEND = 2 / (3 * sqrt(3))
+CANARD = 0.3241785225037  # what `canard` returns
 
 
 def nagumo(x):
@@ -16,11 +17,12 @@ def nagumo(x):
     return (x + 0.7) / 0.8 - x + x**3 / 3
 
 
-# Per problem or case: kind and value. Closed forms; the homoclinic connection and the doublings are known to the digits given.
+# Per problem or case: kind and value. Closed forms, but for the homoclinic connection and the doublings (published, to the digits given)
+# and the folds of FitzHugh-Nagumo, which (x, y, I) -> (-x, 7/4 - y, 7/4 - I) maps to each other.
 KNOWN = {
     "lorenz": [("branch-point", 1.0), ("hopf", 470 / 19), ("homoclinic", 13.9265574)],
     "rossler": [("period-doubling", value) for value in (2.832445, 3.837358, 4.124215, 4.186997, 4.200537)],
-    "fhn": [("hopf", nagumo(-sqrt(0.936))), ("hopf", nagumo(sqrt(0.936)))],
+    "fhn": [("hopf", nagumo(-sqrt(0.936))), ("hopf", nagumo(sqrt(0.936))), ("fold", CANARD), ("fold", 1.75 - CANARD)],
     "lv": [("branch-point", 1.0)],
     "transcrit": [("branch-point", 0.0)],
     "cusp": [("fold", -BEND), ("fold", BEND)],
@@ -65,40 +67,15 @@ def steady_test(kind, matrix):
     return np.prod(roots).real
 
 
-def orbit_test(kind, monodromy):
-    """Zero where a multiplier is -1 (period doubling), or a second one is +1 (fold)."""
-    polynomial = np.poly(monodromy).real
-    return np.polyval(polynomial if kind == "period-doubling" else np.polyder(polynomial), -1 if kind == "period-doubling" else 1)
-
-
-def monodromy(problem, u, period, value):
-    """The state after a period, and its derivative by the start."""
-    size = len(u)
-
-    def law(_, y):
-        state, tangent = y[:size], y[size:].reshape(size, size)
-        return np.concatenate([problem.field(state, value), (problem.jacobian(state, value) @ tangent).ravel()])
-
-    last = solve_ivp(law, (0, period), np.concatenate([u, np.eye(size).ravel()]), **FLOW).y[:, -1]
-    return last[:size], last[size:].reshape(size, size)
-
-
 def solved(problem, point):
-    """The parameter of the special point next to a reported one; None if there is none within 1e-3 of the range."""
+    """The parameter of a fold or Hopf point of equilibria next to a reported one; None if there is none within 1e-3 of the range."""
     size, span = len(point.state), problem.span[1] - problem.span[0]
 
-    def steady(y):
+    def law(y):
         return [*problem.field(y[:size], y[-1]), steady_test(point.kind, problem.jacobian(y[:size], y[-1]))]
 
-    along = problem.field(point.state, point.value)
-
-    def orbit(y):
-        last, matrix = monodromy(problem, y[:size], y[size], y[-1])
-        return [*(last - y[:size]), along @ (y[:size] - point.state), orbit_test(point.kind, matrix)]
-
-    start = [*point.state, *([point.period] if point.period else []), point.value + 1e-6 * span]
-    answer = root(orbit if point.period else steady, start, tol=1e-9, options={"maxfev": 60})
-    good = (answer.success or np.abs(answer.fun).max() < 1e-7) and abs(answer.x[-1] - point.value) < 1e-3 * span
+    answer = root(law, [*point.state, point.value + 1e-4 * span], tol=1e-12)
+    good = np.abs(answer.fun).max() < 1e-9 and abs(answer.x[-1] - point.value) < 1e-3 * span
     return answer.x[-1] if good else None
 
 
@@ -114,3 +91,21 @@ def settled(problem, value, start, samples=401):
     period = next(t for t, u in zip(path.t_events[0], path.y_events[0]) if t > 1e-3 and np.abs(u - begin).max() < 1e-4 * size)
     times = np.linspace(0, period, samples)
     return np.column_stack([times, path.sol(times).T])
+
+
+def canard(problem):
+    """The first fold of FitzHugh-Nagumo's cycles: the least current of a cycle that crosses x = -1/2 leftwards, over its height there.
+
+    For each height the current is found at which the orbit comes back to it; with less current it comes back lower, or never.
+    """
+    section = lambda _, u: u[0] + 0.5
+    section.direction, section.terminal = -1.0, True
+
+    def lift(current, height):
+        law = lambda _, u: problem.field(u, current)
+        away = solve_ivp(law, (0, 5), [-0.5, height], **FLOW).y[:, -1]
+        back = solve_ivp(law, (0, 100), away, events=section, **FLOW).y_events[0]
+        return (back[0][1] if len(back) else 0.0) - height
+
+    currents = lambda height: brentq(lift, 0.3241, 0.3243, args=(height,), xtol=1e-13)
+    return minimize_scalar(currents, bounds=(0.95, 1.2), method="bounded", options={"xatol": 1e-3}).fun
