@@ -60,42 +60,48 @@ def special(rows, text, orbits):
 
 
 class Tree:
-    """All runs from one start, until no special point is left from which orbits begin. `steady`: parameter and state of equilibria."""
+    """All runs from one start, until no special point is left from which orbits begin.
+
+    `found`: special points. `steady`: parameter and state of every equilibrium. `table`: the labelled rows (branch, point, type, label,
+    parameter, norm, state or its maxima, period).
+    """
 
     def __init__(self, folder, problem, mesh):
         low, high = problem.span
         size = high - low
-        self.folder, self.points, self.seconds, self.found, self.ends = folder, 0, 0.0, [], []
-        self.steady = []
+        self.folder, self.points, self.seconds = folder, 0, 0.0
+        self.found, self.steady, self.table = [], [], ""
         self.fixed = dict(NDIM=2 * len(problem.texts), RL0=low, RL1=high)
         self.steps = dict(DS=5e-3 * size, DSMAX=2e-2 * size)
         self.orbit_steps = dict(NTST=mesh, DS=1e-3 * size, DSMAX=0.2 * size)
         self.close = 1e-6 * size
-        self.table = ""
+
+    def known(self, point):
+        return any(old.kind == point.kind and abs(old.value - point.value) < self.close
+                   and abs(old.period - point.period) < 1e-3 * (1 + point.period) for old in self.found)
 
     def run(self, constants, orbits, sides):
+        """Runs to these sides. Returns where orbits begin: label, special point, the solutions."""
+        begins = []
         for sign in sides:
             rows, seconds = once(self.folder, {**constants, **self.fixed, "DS": sign * constants["DS"]})
             self.points += len(rows)
+            self.seconds += seconds
+            self.table += "".join(" ".join(row) + "\n" for row in rows if row[3] != "0")
             if not orbits:
                 self.steady += [np.array([row[4], *row[6:6 + self.fixed["NDIM"]]], float) for row in rows]
-            self.seconds += seconds
-            self.table += (self.folder / "fort.7").read_text()
             text = (self.folder / "fort.8").read_text()
-            if orbits and rows:
-                self.ends.append((float(rows[-1][4]), float(rows[-1][-1])))
             for label, point in special(rows, text, orbits):
-                known = any(old.kind == point.kind and abs(old.value - point.value) < self.close
-                            and abs(old.period - point.period) < 1e-3 * (1 + point.period) for old in self.found)
+                if not self.known(point) and (point.kind == "hopf" or orbits and point.kind in ORBIT_KINDS):
+                    begins.append((label, point, text))
                 self.found.append(point)
-                if not known and (point.kind == "hopf" or orbits and point.kind in ORBIT_KINDS):
-                    yield label, point, text
+        return begins
 
     def follow(self, orbit=None):
         """From the start of the equations, or from the orbit in the file `orbit`.dat."""
         (self.folder / "fort.3").write_text("")
         first = {**ORBIT, **self.orbit_steps, "dat": f"'{orbit}'"} if orbit else {**STEADY, **self.steps}
-        waiting = list(self.run(first, bool(orbit), (1, -1)))
+        waiting = self.run(first, bool(orbit), (1, -1))
         for _ in range(MOST_RUNS):
             if not waiting:
                 break

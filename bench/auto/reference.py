@@ -17,11 +17,12 @@ def nagumo(x):
     return (x + 0.7) / 0.8 - x + x**3 / 3
 
 
-# Per problem or case: kind and value. Closed forms, but for the homoclinic connection and the doublings (published, to the digits given)
-# and the folds of FitzHugh-Nagumo, which (x, y, I) -> (-x, 7/4 - y, 7/4 - I) maps to each other.
+# Per problem or case: kind and value. Closed forms, except: the homoclinic connection and the doublings, to the digits given (the sixth
+# doubling lies between 4.20343 and 4.20345, where SciPy's multipliers are -0.99210 and -1.00697); the folds of FitzHugh-Nagumo, which
+# (x, y, I) -> (-x, 7/4 - y, 7/4 - I) maps to each other.
 KNOWN = {
     "lorenz": [("branch-point", 1.0), ("hopf", 470 / 19), ("homoclinic", 13.9265574)],
-    "rossler": [("period-doubling", value) for value in (2.832445, 3.837358, 4.124215, 4.186997, 4.200537)],
+    "rossler": [("period-doubling", value) for value in (2.832445, 3.837358, 4.124215, 4.186997, 4.200537, 4.203441)],
     "fhn": [("hopf", nagumo(-sqrt(0.936))), ("hopf", nagumo(sqrt(0.936))), ("fold", CANARD), ("fold", 1.75 - CANARD)],
     "lv": [("branch-point", 1.0)],
     "transcrit": [("branch-point", 0.0)],
