@@ -3,9 +3,11 @@
 import re
 import resource
 import subprocess
+from math import ceil
 from pathlib import Path
 
 import numpy as np
+
 from reference import Found
 
 LIBRARY = Path("/usr/lib/auto-07p/lib")
@@ -42,7 +44,7 @@ def solutions(text):
         label, columns, rows, parameters = head[3], head[7], head[8], head[11]
         block = lines[at + 1:at + 1 + rows]
         state = [float(word) for word in " ".join(block).split()[1:columns]]
-        tail = " ".join(block[-(-(-parameters // 7)):]).split()
+        tail = " ".join(block[-ceil(parameters / 7):]).split()
         found[label] = np.array(state), float(tail[10])
         at += 1 + rows
     return found

@@ -105,10 +105,10 @@ def main():
         count = len(rows)
         print(f"  {name}: {count} points, {1e3 * seconds / count:.3f} ms each;", special)
     print(f"motiform (wall clock; {points} points in {spent:.2f} s of CPU time):")
-    for line in re.findall(r"^\S.*points in.*$", text, re.M):
+    for line in re.findall(r"^\S.*points in.*$", text, re.MULTILINE):
         print("  " + line)
     names = {"Pitchfork": "branch point", "Hopf": "Hopf"}
-    ours = re.findall(r"^  (\S+)  period \S+  unstable \d+  (Pitchfork|Hopf)", text, re.M)
+    ours = re.findall(r"^  (\S+)  period \S+  unstable \d+  (Pitchfork|Hopf)", text, re.MULTILINE)
     ours = sorted({(round(float(value), 9), names[kind]) for value, kind in ours})
     for value, kind in ours:
         off, at = nearest(found, kind, value)

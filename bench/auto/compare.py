@@ -12,8 +12,9 @@ from pathlib import Path
 import auto
 import numpy as np
 import ours
-import reference
 from problem import problem
+
+import reference
 from reference import Found
 
 RUNS = Path(__file__).parent / "runs"

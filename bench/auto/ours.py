@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from problem import FOLDER
+
 from reference import Found
 
 KINDS = {"Fold": "fold", "BranchPoint": "branch-point", "PeriodDoubling": "period-doubling", "Hopf": "hopf", "Torus": "torus"}

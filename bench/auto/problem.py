@@ -1,11 +1,11 @@
 """A problem of the folder `problems`: one text of its equations, read by motiform and turned into Python and Fortran here."""
 
 import re
-import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+import tomllib
 
 FOLDER = Path(__file__).parent / "problems"
 NAMES = re.compile(r"\d+\.?\d*|[A-Za-z_]\w*|\^")
