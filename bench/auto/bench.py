@@ -66,7 +66,7 @@ def auto(folder, name, constants):
 
 
 def build(folder):
-    guess = fsolve(field, [1.0, -0.04, 0.0, 0.0, 0.0], args=(3.0,), xtol=1e-14)
+    guess = fsolve(field, [1.0, -0.04, 0.0, 0.0, 0.0], args=(3.0,), xtol=1e-12)
     lines = ["par(1) = 3.0d0", f"par(2) = {KAPPA3}d0"]
     lines += [f"u({n + 1}) = {value:.17e}".replace("e-", "d-").replace("e+", "d+") for n, value in enumerate(guess)]
     (folder / "start.inc").write_text("\n".join(lines) + "\n")
@@ -76,9 +76,11 @@ def build(folder):
 
 
 def motiform(program):
+    """The output of the example, and its seconds of CPU time."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     text = subprocess.run([program], check=True, capture_output=True, text=True).stdout
     (HERE / "runs" / "motiform.txt").write_text(text)
-    return text
+    return text, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
 
 def nearest(found, kind, value):
@@ -96,16 +98,17 @@ def main():
                 "zigzag up": auto(folder, "zigzag-up", ORBITS),
                 "zigzag down": auto(folder, "zigzag-down", {**ORBITS, "DS": -0.01})}
     found = [entry for special, _, _ in runs.values() for entry in special]
-    text = motiform(sys.argv[1])
+    text, spent = motiform(sys.argv[1])
+    points = sum(map(int, re.findall(r": (\d+) points in", text)))
     print("AUTO-07p:")
     for name, (special, rows, seconds) in runs.items():
         count = len(rows)
         print(f"  {name}: {count} points, {1e3 * seconds / count:.3f} ms each;", special)
-    print("motiform:")
-    for line in re.findall(r"^\S.*points in.*$", text, re.M):
+    print(f"motiform (wall clock; {points} points in {spent:.2f} s of CPU time):")
+    for line in re.findall(r"^\S.*points in.*$", text, re.MULTILINE):
         print("  " + line)
     names = {"Pitchfork": "branch point", "Hopf": "Hopf"}
-    ours = re.findall(r"^  (\S+)  period \S+  unstable \d+  (Pitchfork|Hopf)", text, re.M)
+    ours = re.findall(r"^  (\S+)  period \S+  unstable \d+  (Pitchfork|Hopf)", text, re.MULTILINE)
     ours = sorted({(round(float(value), 9), names[kind]) for value, kind in ours})
     for value, kind in ours:
         off, at = nearest(found, kind, value)
