@@ -67,7 +67,7 @@ pub struct Link {
 pub struct Branches {
     /// The branches in the order in which they were found.
     pub branches: Vec<Followed>,
-    /// What was found at each origin, in the order in which they were asked.
+    /// What was found at each origin, in the order in which they were asked: one entry for each branch, or one without a branch.
     pub links: Vec<Link>,
     /// How many origins were left because there were enough branches.
     pub left: usize,
@@ -177,9 +177,29 @@ impl Work<'_> {
 
     /// Follows what begins at an origin. Whether it came to its end.
     fn grow(&mut self, origin: Origin) -> Result<bool, Error> {
-        let Ok(legs) = origin.legs(self.bodies, &self.done.branches, self.stop) else {
-            return Ok(!self.watch.stopped() && self.link(origin, None));
+        let Ok(new) = origin.branches(self.bodies, &self.done.branches, self.stop) else {
+            return Ok(!self.watch.stopped() && self.link(origin, &[]));
         };
+        let mut found = Vec::new();
+        for legs in new {
+            match self.lead(origin, legs)? {
+                Led::Known(number) => found.push(number),
+                Led::New(followed) if followed.legs.is_empty() => {}
+                Led::New(followed) => {
+                    found.push(self.done.branches.len());
+                    let whole = followed.is_whole();
+                    self.done.branches.push(followed);
+                    if !whole {
+                        return Ok(false);
+                    }
+                }
+            }
+        }
+        Ok(self.link(origin, &found))
+    }
+
+    /// Follows one branch from an origin, as long as it is not one that is known.
+    fn lead(&self, origin: Origin, legs: Vec<Branch<'_>>) -> Result<Led, Error> {
         let settings = self.bodies.settings();
         let mut followed = Followed { origin, legs: Vec::new() };
         for (number, leg) in legs.into_iter().enumerate() {
@@ -196,12 +216,12 @@ impl Work<'_> {
                 }
                 on.is_some()
             };
-            match self.leg(leg, &mut is_known)? {
-                Some(leg) => followed.legs.push(leg),
-                None => return Ok(self.link(origin, on)),
+            match (self.leg(leg, &mut is_known)?, on) {
+                (None, Some(on)) => return Ok(Led::Known(on)),
+                (leg, _) => followed.legs.extend(leg),
             }
         }
-        Ok(if followed.legs.is_empty() { self.link(origin, None) } else { self.keep(followed) })
+        Ok(Led::New(followed))
     }
 
     /// The points of a leg; `None` as soon as `is_known` says that it is on a branch already followed.
@@ -238,18 +258,31 @@ impl Work<'_> {
         self.watch.progress((self.done.branches.len() as f64 + part) / c.branches as f64);
     }
 
-    /// Whether the branch came to its end.
+    /// Keeps the branch of the start. Whether it came to its end.
     fn keep(&mut self, followed: Followed) -> bool {
         let whole = followed.is_whole();
         let (number, origin) = (self.done.branches.len(), followed.origin);
         self.done.branches.push(followed);
-        whole && self.link(origin, Some(number))
+        whole && self.link(origin, &[number])
     }
 
-    fn link(&mut self, origin: Origin, branch: Option<usize>) -> bool {
-        self.done.links.push(Link { origin, branch });
+    /// Notes what was found at an origin.
+    fn link(&mut self, origin: Origin, found: &[usize]) -> bool {
+        let all = found.iter().map(|&number| Link { origin, branch: Some(number) });
+        self.done.links.extend(all);
+        if found.is_empty() {
+            self.done.links.push(Link { origin, branch: None });
+        }
         true
     }
+}
+
+/// What one branch from an origin is.
+enum Led {
+    /// The branch with this number, which was followed before.
+    Known(usize),
+    /// A new one.
+    New(Followed),
 }
 
 /// Points of a branch, roughly: for the progress bar alone.

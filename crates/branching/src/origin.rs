@@ -124,18 +124,19 @@ impl Origin {
         }
     }
 
-    /// The legs that begin here: one to each side, or those on which new motions leave.
-    pub(super) fn legs<'f>(
+    /// The branches that begin here, each with its legs: one to each side, or those on which new motions leave.
+    pub(super) fn branches<'f>(
         self,
         bodies: &'f Bodies<'_>,
         branches: &[Followed],
         watch: &'f dyn Watch,
-    ) -> Result<Vec<Branch<'f>>, Refused> {
+    ) -> Result<Vec<Vec<Branch<'f>>>, Refused> {
         let settings = bodies.settings();
-        match self {
+        let legs = match self {
             Self::Start => Ok(Vec::new()),
             Self::Special { branch, leg, point } => {
-                switch(bodies, &branches[branch].legs[leg].samples[point].point, &settings, watch)
+                let point = &branches[branch].legs[leg].samples[point].point;
+                return switch(bodies, point, &settings, watch);
             }
             Self::Saddle { branch, leg } => {
                 let leg = &branches[branch].legs[leg];
@@ -162,7 +163,8 @@ impl Origin {
                     .ok_or_else(|| nothing("steady motion", leg))?;
                 both(bodies, parameter(leg), &Start::Equilibrium(found), watch)
             }
-        }
+        };
+        legs.map(|legs| vec![legs])
     }
 }
 

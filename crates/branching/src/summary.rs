@@ -23,12 +23,15 @@ pub struct SpecialEntry {
     pub first_lyapunov: Option<f64>,
     /// Period of the motion, or of the one that begins (model time).
     pub period: Option<f64>,
-    /// `supercritical` where what begins is stable in the critical directions, or `subcritical`.
+    /// `supercritical` where what begins is stable in the critical directions, or `subcritical`; `transcritical` where one branch of each
+    /// kind begins.
     pub criticality: Option<&'static str>,
     /// What a pitchfork breaks: the `mirror` symmetry, or `rotations`.
     pub breaks: Option<&'static str>,
     /// The branch that begins or lies there, from 0.
     pub branch: Option<usize>,
+    /// The other branches that do, where a shape loses its rotations in more than one way.
+    pub others: Vec<usize>,
 }
 
 impl SpecialEntry {
@@ -47,6 +50,9 @@ impl SpecialEntry {
             object.insert("transversality".to_owned(), certificate.transversality.into());
         }
         object.extend(self.branch.map(|branch| ("branch".to_owned(), branch.into())));
+        if !self.others.is_empty() {
+            object.insert("others".to_owned(), json!(self.others));
+        }
         object.into()
     }
 }
@@ -120,15 +126,14 @@ impl Branches {
         let ends = done.meets_at(point);
         let origin =
             if ends { Origin::Meets { branch, leg } } else { Origin::Special { branch, leg, point } };
-        let next = self.links.iter().find(|link| link.origin == origin).and_then(|link| link.branch);
-        let begins = next.and_then(|next| self.branches.get(next)).filter(|next| next.origin == origin);
-        let first = begins.and_then(|next| Some(next.legs.first()?.samples.first()?.point.parameter));
-        let supercritical = match special {
-            Special::Hopf(hopf) => hopf.is_supercritical(),
+        let there = self.links.iter().filter(|link| link.origin == origin).filter_map(|link| link.branch);
+        let there: Vec<usize> = there.collect();
+        let criticality = match special {
+            Special::Hopf(hopf) => hopf.is_supercritical().map(critical),
+            Special::BranchPoint => None,
             _ if ends => None,
-            _ => first.and_then(|first| is_supercritical(&self.branches[branch].legs[leg], point, first)),
+            _ => self.criticality((branch, leg, point), &there, origin),
         };
-        let criticality = supercritical.map(|is| if is { "supercritical" } else { "subcritical" });
         Some(SpecialEntry {
             kind: special.name(),
             parameter: sample.point.parameter,
@@ -142,15 +147,40 @@ impl Branches {
                 Special::Hopf(hopf) => Some(hopf.period()),
                 _ => sample.reading.period,
             },
-            criticality: criticality.filter(|_| special != Special::BranchPoint),
+            criticality,
             breaks: match special {
                 Special::Pitchfork { breaks: Broken::Mirror } => Some("mirror"),
                 Special::Pitchfork { breaks: Broken::Rotations } => Some("rotations"),
                 _ => None,
             },
-            branch: next,
+            branch: there.first().copied(),
+            others: there.into_iter().skip(1).collect(),
         })
     }
+
+    /// Whether the branches `there` that begin at a point are stable in the critical direction, as far as all that begin agree.
+    fn criticality(
+        &self,
+        (branch, leg, point): (usize, usize, usize),
+        there: &[usize],
+        origin: Origin,
+    ) -> Option<&'static str> {
+        let of = |&next: &usize| {
+            let next = self.branches.get(next).filter(|next| next.origin == origin)?;
+            let first = next.legs.first()?.samples.first()?.point.parameter;
+            is_supercritical(&self.branches[branch].legs[leg], point, first)
+        };
+        let all: Vec<bool> = there.iter().filter_map(of).collect();
+        match &all[..] {
+            [] => None,
+            [first, rest @ ..] if rest.iter().all(|other| other == first) => Some(critical(*first)),
+            _ => Some("transcritical"),
+        }
+    }
+}
+
+const fn critical(is_supercritical: bool) -> &'static str {
+    if is_supercritical { "supercritical" } else { "subcritical" }
 }
 
 /// Whether what begins at a point of a leg, and is seen first at the parameter `first`, lies on the side where the leg has more growing
@@ -182,5 +212,6 @@ fn end(leg: &Leg) -> Option<SpecialEntry> {
         criticality: None,
         breaks: None,
         branch: None,
+        others: Vec::new(),
     })
 }

@@ -40,7 +40,7 @@ impl Plane {
             certificate: None,
         };
         let row = self.row(at.parameters[1]);
-        let mut new = switch(&row, &point, settings, watch).ok()?.pop()?;
+        let mut new = switch(&row, &point, settings, watch).ok()?.pop()?.pop()?;
         Some(at.unstable == 0 && new.next()?.unstable == 0)
     }
 }

@@ -45,7 +45,7 @@ fn switched(name: &str, points: &[Point], which: usize, settings: &Settings) -> 
     match switch(&family, special, settings, &()) {
         Ok(branches) => {
             let mut all = Vec::new();
-            for mut branch in branches {
+            for mut branch in branches.into_iter().flatten() {
                 all = follow(&name, &mut branch);
             }
             all

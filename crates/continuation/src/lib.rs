@@ -34,6 +34,7 @@ mod equilibria;
 mod family;
 mod homoclinic;
 mod hopf;
+mod leaving;
 mod levels;
 mod locate;
 mod orbits;

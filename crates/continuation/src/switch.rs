@@ -6,6 +6,7 @@ use super::correct::{crossing, product, scaled};
 use super::equilibria::Equilibria;
 use super::family::{Bodies, Family};
 use super::hopf::critical_pair;
+use super::leaving::leaving;
 use super::orbits::Orbits;
 use super::point::{Motion, Point};
 use super::problem::{Equations, Problem};
@@ -39,10 +40,12 @@ impl<'b> Begin<'b> {
 /// Nodes of the orbits that begin at a Hopf bifurcation.
 const NODES: usize = 8;
 
-/// The branches that begin or cross at a special point, each on to one side from there; none at a fold, a continuum or a torus, nor where the special point is unresolved.
+/// The branches that begin or cross at a special point, each with its legs: one where it begins, two where it crosses; none at a fold, a
+/// continuum or a torus, nor where the special point is unresolved.
 ///
 /// Where the two sides of a new branch are images of each other under the symmetry (a pitchfork, a symmetry breaking) or under time (a
-/// period doubling, a Hopf bifurcation), there is one: its copies are not followed. The first step does not know the direction of
+/// period doubling, a Hopf bifurcation), there is one: its copies are not followed. A shape with three or more axes may lose its rotations
+/// in two ways that are no images of each other: two branches. The first step does not know the direction of
 /// the parameter, so the sign of [`Settings::first_step`] means nothing here.
 ///
 /// # Errors
@@ -52,25 +55,30 @@ pub fn switch<'f>(
     point: &Point,
     settings: &Settings,
     watch: &'f dyn Watch,
-) -> Result<Vec<Branch<'f>>> {
+) -> Result<Vec<Vec<Branch<'f>>>> {
     settings.check(point.parameter)?;
     let Some(special) = point.special else { return Ok(Vec::new()) };
+    let sides: &[f64] = if special == Special::BranchPoint { &[1.0, -1.0] } else { &[1.0] };
     match (&point.motion, special) {
         (_, Special::Fold | Special::Continuum | Special::Torus { .. } | Special::Unresolved { .. }) => {
             Ok(Vec::new())
         }
         (Motion::Equilibrium(start), Special::Hopf(hopf)) => {
-            begin(family, (point, start, hopf.frequency), settings, watch).map(|branch| vec![branch])
+            begin(family, (point, start, hopf.frequency), settings, watch).map(|branch| vec![vec![branch]])
+        }
+        (Motion::Equilibrium(start), Special::Pitchfork { .. }) => {
+            fork(family, (point, start), settings, watch)
         }
         (Motion::Equilibrium(start), _) => {
-            let sides: &[f64] = if special == Special::BranchPoint { &[1.0, -1.0] } else { &[1.0] };
-            sides.iter().map(|&side| cross(family, (point, start, side), settings, watch)).collect()
+            let (problem, x) = crossed(family, point, start, settings)?;
+            let direction = direction(&problem, &x, point).ok_or_else(|| nothing(point.parameter))?;
+            let leg = |&side| cross(family, (point, start, &turned(&direction, side)), settings, watch);
+            sides.iter().map(leg).collect::<Result<_>>().map(|legs| vec![legs])
         }
         (Motion::Orbit { orbit, nodes }, _) => {
-            let sides: &[f64] = if special == Special::BranchPoint { &[1.0, -1.0] } else { &[1.0] };
             let doubled = matches!(special, Special::PeriodDoubling | Special::SymmetryBreaking);
             let new = |&side| leave(family, (point, (orbit, nodes), doubled, side), settings, watch);
-            sides.iter().map(new).collect()
+            sides.iter().map(new).collect::<Result<_>>().map(|legs| vec![legs])
         }
     }
 }
@@ -112,9 +120,8 @@ fn follow<P: Problem>(
 /// Where a branch has a slope below this it turns back, and the one that crosses it goes on with the parameter.
 const TURNS: f64 = 1e-6;
 
-/// A direction of the new branch: what the equations do not see to first order, and leaves the parameter as it is; where the branch itself
-/// does so (a branch point with the slope 0), the direction across that.
-fn direction<P: Problem>(problem: &P, x: &[f64], point: &Point) -> Option<Vec<f64>> {
+/// What the equations do not see to first order: the direction along the parameter, and those that leave the parameter as it is.
+fn unseen<P: Problem>(problem: &P, x: &[f64]) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
     let local = problem.local(x, &()).ok()?;
     let weights = problem.weights(x);
     let null = crossing(problem.linear(&local), &weights);
@@ -125,34 +132,75 @@ fn direction<P: Problem>(problem: &P, x: &[f64], point: &Point) -> Option<Vec<f6
         add(&mut out, -last(v) / last(along), along);
         out
     };
-    let candidates = null.iter().filter(|v| !std::ptr::eq(*v, along)).map(across);
+    let mut others: Vec<Vec<f64>> = null.iter().filter(|v| !std::ptr::eq(*v, along)).map(across).collect();
     let length = |v: &Vec<f64>| product(&weights, v, v);
-    let best = scaled(candidates.max_by(|a, b| length(a).total_cmp(&length(b)))?, &weights)?;
+    others.sort_by(|a, b| length(b).total_cmp(&length(a)));
+    let others: Option<Vec<Vec<f64>>> = others.into_iter().map(|v| scaled(v, &weights)).collect();
+    Some((along.clone(), others?))
+}
+
+/// A direction of the new branch: what the equations do not see to first order, and leaves the parameter as it is; where the branch itself
+/// does so (a branch point with the slope 0), the direction across that.
+fn direction<P: Problem>(problem: &P, x: &[f64], point: &Point) -> Option<Vec<f64>> {
+    let (mut along, others) = unseen(problem, x)?;
+    let best = others.into_iter().next()?;
     if point.special != Some(Special::BranchPoint) || point.slope.abs() > TURNS {
         return Some(best);
     }
-    let mut along = along.clone();
+    let weights = problem.weights(x);
     let part = product(&weights, &along, &best);
     add(&mut along, -part, &best);
     scaled(along, &weights)
 }
 
-/// Another branch of relative equilibria.
+fn turned(direction: &[f64], side: f64) -> Vec<f64> {
+    direction.iter().map(|d| side * d).collect()
+}
+
+/// The equations of all relative equilibria near one, and its unknowns.
+fn crossed<'f>(
+    family: &'f dyn Family,
+    point: &Point,
+    start: &RelativeEquilibrium,
+    settings: &Settings,
+) -> Result<(Equilibria<'f>, Vec<f64>)> {
+    let parameter = point.parameter;
+    let mut problem = Equilibria::near(Bodies::One(family), &[parameter], &start.shape, &[settings.width()])?;
+    problem.classes = Classes::of(family.at(parameter)?.as_ref(), &[]);
+    let mut x = start.shape.clone();
+    x.extend([start.turning_rate, parameter]);
+    Ok((problem, x))
+}
+
+/// The branches that leave a pitchfork, one of each kind; those that Newton's method finds, if it finds any.
+fn fork<'f>(
+    family: &'f dyn Family,
+    (point, start): (&Point, &RelativeEquilibrium),
+    settings: &Settings,
+    watch: &'f dyn Watch,
+) -> Result<Vec<Vec<Branch<'f>>>> {
+    let (problem, x) = crossed(family, point, start, settings)?;
+    let body = family.at(point.parameter)?;
+    let (_, critical) = unseen(&problem, &x).ok_or_else(|| nothing(point.parameter))?;
+    let directions = leaving(body.as_ref(), &start.shape, &critical, &problem.weights(&x));
+    let branch = |direction: &Vec<f64>| cross(family, (point, start, direction), settings, watch);
+    let (found, failed): (Vec<_>, Vec<_>) = directions.iter().map(branch).partition(Result::is_ok);
+    match failed.into_iter().next() {
+        Some(Err(error)) if found.is_empty() => Err(error),
+        _ => Ok(found.into_iter().flatten().map(|branch| vec![branch]).collect()),
+    }
+}
+
+/// Another branch of relative equilibria, which leaves in this direction.
 fn cross<'f>(
     family: &'f dyn Family,
-    (point, start, side): (&Point, &RelativeEquilibrium, f64),
+    (point, start, direction): (&Point, &RelativeEquilibrium, &[f64]),
     settings: &Settings,
     watch: &'f dyn Watch,
 ) -> Result<Branch<'f>> {
-    let parameter = point.parameter;
-    let mut problem = Equilibria::near(Bodies::One(family), &[parameter], &start.shape, &[settings.width()])?;
-    let body = family.at(parameter)?;
-    problem.classes = Classes::of(body.as_ref(), &[]);
-    let mut x = start.shape.clone();
-    x.extend([start.turning_rate, parameter]);
-    let direction = direction(&problem, &x, point).ok_or_else(|| nothing(parameter))?;
-    let direction: Vec<f64> = direction.iter().map(|d| side * d).collect();
-    let mut tracer = follow(problem, &Begin::at(point, &x, &direction), settings, watch)?;
+    let (problem, x) = crossed(family, point, start, settings)?;
+    let body = family.at(point.parameter)?;
+    let mut tracer = follow(problem, &Begin::at(point, &x, direction), settings, watch)?;
     let dim = start.shape.len();
     let shape = tracer.unknowns()[..dim].to_vec();
     tracer.problem_mut().classes = Classes::of(body.as_ref(), &[&shape]);

@@ -246,7 +246,11 @@ fn line(special: &SpecialEntry) -> String {
     let period = special.period.map(|period| format!("period {period:.6}"));
     let words = special.criticality.map(str::to_owned);
     let breaks = special.breaks.map(|what| format!("breaks the {what}"));
-    let next = special.branch.map(|branch| format!("to branch {branch}"));
+    let others: String = special.others.iter().map(|other| format!(" and {other}")).collect();
+    let next = special.branch.map(|branch| {
+        let word = if special.others.is_empty() { "branch" } else { "branches" };
+        format!("to {word} {branch}{others}")
+    });
     for part in [period, words, breaks, next].into_iter().flatten() {
         line += "  ";
         line += &part;

@@ -46,7 +46,7 @@ fn rosslers_cycles_double_their_period_and_have_the_published_multipliers() {
     near(multiplier(last), reference("rossler", "multiplier"), 3e-8);
     let doubling = points.iter().find(|point| point.special == Some(Special::PeriodDoubling)).unwrap();
     near(multiplier(doubling), -1.0, 1e-6);
-    let doubled: Vec<Point> = switch(&rossler, doubling, &settings, &()).unwrap().pop().unwrap().collect();
+    let doubled: Vec<Point> = switch(&rossler, doubling, &settings, &()).unwrap().pop().unwrap().pop().unwrap().collect();
     let last = doubled.last().unwrap();
     near(last.parameter, 5.7, 0.0);
     near(last.motion.orbit().unwrap().period(), reference("rossler", "period2"), 6e-9);
@@ -73,7 +73,7 @@ fn lorenzs_cycle_ends_on_the_homoclinic_orbit() {
     near(hopf.parameter, 470.0 / 19.0, 1e-8);
     let Some(Special::Hopf(kind)) = hopf.special else { unreachable!("{:?}", hopf.special) };
     assert_eq!(kind.is_supercritical(), Some(false));
-    let mut cycles = switch(&lorenz, &hopf, &settings, &()).unwrap().pop().unwrap();
+    let mut cycles = switch(&lorenz, &hopf, &settings, &()).unwrap().pop().unwrap().pop().unwrap();
     assert!(cycles.by_ref().all(|point| point.unstable > 0 || point.special.is_some()));
     let Some(End::Homoclinic(connection)) = cycles.end() else { unreachable!("{:?}", cycles.end()) };
     near(connection.parameter, reference("lorenz", "homoclinic"), 1e-4);

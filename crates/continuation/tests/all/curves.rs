@@ -289,7 +289,7 @@ fn the_hopf_curve_of_circular_motion_has_one_bautin_point_just_right_of_the_wind
     let wide = Settings::over(0.3, 3.0).reversed();
     let mut straight = Branch::of_equilibria(&along, 3.0, &guess, &wide, &()).unwrap();
     let bend = straight.find(|point| point.special.is_some()).unwrap();
-    let circular = switch(&along, &bend, &wide, &()).unwrap().pop().unwrap();
+    let circular = switch(&along, &bend, &wide, &()).unwrap().pop().unwrap().pop().unwrap();
     let hopf = circular.into_iter().find(|point| point.special.is_some()).unwrap();
     near(hopf.parameter, 1.121_937_264, 1e-8);
     let mut all = Vec::new();
@@ -343,7 +343,7 @@ fn the_period_doublings_of_rotating_zigzags_lie_on_an_arch_outside() {
     let settings = Settings::over(0.7, 1.6);
     let mut branch = Branch::of_orbits(&along, 0.9, &zigzag(), &settings.reversed(), &()).unwrap();
     let lower = branch.find(|point| point.special.is_some()).unwrap();
-    let rotating = switch(&along, &lower, &settings, &()).unwrap().pop().unwrap();
+    let rotating = switch(&along, &lower, &settings, &()).unwrap().pop().unwrap().pop().unwrap();
     let doubling = rotating.into_iter().find(|point| point.special.is_some()).unwrap();
     let settings = Settings { largest_step: 0.05, ..settings };
     let (points, end) = follow(&whole, &doubling, 0.1, &settings, (0.1, 0.2));

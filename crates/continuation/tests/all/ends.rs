@@ -216,7 +216,7 @@ fn zigzags_begin_at_an_odd_oscillation_of_straight_motion() {
     near(kind.frequency, 2.0, 1e-9);
     let mut zigzags = switch(&family, hopf, &settings, &()).unwrap();
     assert_eq!(zigzags.len(), 1);
-    let mut branch = zigzags.pop().unwrap();
+    let mut branch = zigzags.pop().unwrap().pop().unwrap();
     let points: Vec<Point> = branch.by_ref().collect();
     assert_eq!((branch.end(), points.last().unwrap().parameter), (Some(&End::RangeLeft), 0.2));
     for point in &points {

@@ -155,7 +155,7 @@ fn straight_motion_bends_and_circular_motion_oscillates_on_the_lines_of_the_redu
     assert_eq!(point.special, Some(Special::Pitchfork { breaks: Broken::Mirror }));
     near(point.parameter, gamma, 1e-9);
     // the branch that begins there turns at the rate of the formula, sqrt(1 - cos^2) (2 a1 r2)
-    let circular = switch(&family, point, &settings, &()).unwrap().pop().unwrap();
+    let circular = switch(&family, point, &settings, &()).unwrap().pop().unwrap().pop().unwrap();
     let far = circular.last().unwrap();
     assert_eq!(far.parameter, 0.2);
     let expected = Reduced::PAPER.circular(kappa2, 0.2).unwrap();

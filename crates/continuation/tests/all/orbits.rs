@@ -39,7 +39,7 @@ fn the_orbits_of_a_hopf_bifurcation_have_the_size_the_multiplier_and_the_fold_of
     let rest = RelativeEquilibrium::find(&Bent(-0.4), &[0.1, 0.0]).unwrap();
     let mut equilibria = Branch::of_equilibria(&bent, -0.4, &rest, &settings, &()).unwrap();
     let hopf = equilibria.find(|point| point.special.is_some()).unwrap();
-    let orbits = switch(&bent, &hopf, &settings, &()).unwrap().pop().unwrap();
+    let orbits = switch(&bent, &hopf, &settings, &()).unwrap().pop().unwrap().pop().unwrap();
     let mut folds = Vec::new();
     for point in orbits {
         let orbit = point.motion.orbit().unwrap();
@@ -124,7 +124,7 @@ fn zigzags_lose_their_symmetry_and_the_rotating_ones_double_their_period() {
 
     let mut rotating = switch(&full_model, found[0], &settings, &()).unwrap();
     assert_eq!(rotating.len(), 1, "left and right are copies");
-    let rotating: Vec<Point> = rotating.pop().unwrap().collect();
+    let rotating: Vec<Point> = rotating.pop().unwrap().pop().unwrap().collect();
     assert!(
         rotating[0].motion.orbit().unwrap().net_rotation() != 0.0
             && rotating[0].parameter < found[0].parameter
@@ -134,7 +134,7 @@ fn zigzags_lose_their_symmetry_and_the_rotating_ones_double_their_period() {
     assert_eq!(doubling.special, Some(Special::PeriodDoubling));
     near(doubling.parameter, 0.7343, 1e-4);
     near(period(doubling), 34.5256, 1e-4);
-    let doubled: Vec<Point> = switch(&full_model, doubling, &settings, &()).unwrap().pop().unwrap().collect();
+    let doubled: Vec<Point> = switch(&full_model, doubling, &settings, &()).unwrap().pop().unwrap().pop().unwrap().collect();
     let second = specials(&doubled)[0];
     assert_eq!(second.special, Some(Special::PeriodDoubling));
     near(second.parameter, 0.7257, 1e-4);
@@ -162,7 +162,7 @@ fn the_rotating_zigzags_on_the_other_side_end_elsewhere() {
     let settings = Settings::over(0.7, 1.6);
     let mut branch = Branch::of_orbits(&full_model, 0.9, &zigzag(), &settings, &()).unwrap();
     let breaking = branch.find(|point| point.special.is_some()).unwrap();
-    let mut rotating = switch(&full_model, &breaking, &settings, &()).unwrap().pop().unwrap();
+    let mut rotating = switch(&full_model, &breaking, &settings, &()).unwrap().pop().unwrap().pop().unwrap();
     let points: Vec<Point> = rotating.by_ref().collect();
     near(specials(&points)[0].parameter, 1.1621, 1e-4);
     let Some(End::Homoclinic(connection)) = rotating.end() else { unreachable!("{:?}", rotating.end()) };
@@ -182,7 +182,7 @@ fn the_quasi_periodic_motion_of_the_reduced_model_ends_in_a_resonance() {
     let mut equilibria = Branch::of_equilibria(&family, 0.05, &start, &settings.reversed(), &()).unwrap();
     let hopf = equilibria.find(|point| point.special.is_some()).unwrap();
     near(hopf.parameter, 0.4 * 0.06, 1e-9);
-    let mut orbits = switch(&family, &hopf, &settings, &()).unwrap().pop().unwrap();
+    let mut orbits = switch(&family, &hopf, &settings, &()).unwrap().pop().unwrap().pop().unwrap();
     assert!(orbits.by_ref().all(|point| point.is_stable()));
     let Some(End::Homoclinic(connection)) = orbits.end() else { unreachable!("{:?}", orbits.end()) };
     let PeriodLaw::Resonant { amplitude } = connection.law else { unreachable!("{:?}", connection.law) };
