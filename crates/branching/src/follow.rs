@@ -171,6 +171,9 @@ impl Work<'_> {
         let mut followed = Followed { origin: Origin::Start, legs: Vec::new() };
         for leg in legs {
             followed.legs.push(self.leg(leg, &mut |_| false)?.unwrap_or_else(Leg::none));
+            if followed.is_closed() {
+                break;
+            }
         }
         Ok(self.keep(followed))
     }
@@ -219,6 +222,9 @@ impl Work<'_> {
             match (self.leg(leg, &mut is_known)?, on) {
                 (None, Some(on)) => return Ok(Led::Known(on)),
                 (leg, _) => followed.legs.extend(leg),
+            }
+            if followed.is_closed() {
+                break;
             }
         }
         Ok(Led::New(followed))
@@ -307,6 +313,11 @@ impl Followed {
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.legs.iter().all(|leg| leg.end != End::Stopped)
+    }
+
+    /// Whether it came back to where it began: another leg would be the same one backwards.
+    pub(super) fn is_closed(&self) -> bool {
+        self.legs.last().is_some_and(|leg| leg.end == End::Closed)
     }
 
     /// Its points in order: the first leg backwards, then the second.

@@ -23,8 +23,9 @@ pub(super) fn known(
 ) -> Option<usize> {
     let parameter = sample.point.parameter;
     let body = bodies.model(parameter).ok()?;
-    let is_here = |neighbour: &Sample| {
-        let found = moved(bodies, neighbour, parameter, settings, watch);
+    let is_here = |pair: &[Sample], neighbour: &Sample| {
+        let between = between(pair, parameter);
+        let found = moved(bodies, between.as_ref().unwrap_or(neighbour), parameter, settings, watch);
         found.is_some_and(|found| {
             same_motion(body.as_ref(), &sample.point.motion, &found, &settings.flow, SAME)
         })
@@ -36,12 +37,29 @@ pub(super) fn known(
         let is_near = |pair: &[Sample], place: usize| {
             let likes = (0..2).filter(|i| place + i < own && is_alike(&pair[*i], sample)).map(|i| &pair[i]);
             let nearest = likes.min_by(|a, b| far(a).total_cmp(&far(b)));
-            about(pair, sample) && nearest.is_some_and(is_here)
+            about(pair, sample) && nearest.is_some_and(|nearest| is_here(pair, nearest))
         };
         leg.samples.windows(2).enumerate().any(|(place, pair)| is_near(pair, place))
     };
     let holds = |branch: &Followed| branch.legs.iter().any(holds_leg);
     branches.iter().position(holds)
+}
+
+/// The steady motion between two neighbours on a branch by linear interpolation: beside a point where branches cross, Newton's method leads from
+/// there to the same branch, and from one of the neighbours perhaps to the other.
+fn between(pair: &[Sample], parameter: f64) -> Option<Sample> {
+    let [a, b] = pair else { return None };
+    let (Motion::Equilibrium(first), Motion::Equilibrium(second)) = (&a.point.motion, &b.point.motion) else {
+        return None;
+    };
+    let part = (parameter - a.point.parameter) / (b.point.parameter - a.point.parameter);
+    let mixed = |x: f64, y: f64| x + part * (y - x);
+    let mut guess = first.clone();
+    guess.shape.iter_mut().zip(&second.shape).for_each(|(x, &y)| *x = mixed(*x, y));
+    guess.turning_rate = mixed(first.turning_rate, second.turning_rate);
+    let mut between = a.clone();
+    between.point.motion = Motion::Equilibrium(guess);
+    part.is_finite().then_some(between)
 }
 
 /// Whether a neighbour may be the same motion at another parameter: near a pitchfork Newton's method leads from one steady motion to another.

@@ -17,7 +17,7 @@ pub fn stretches(found: &Branches, followed: &Followed) -> Vec<[f64; 2]> {
             }
             to_end(&samples, ahead, all.last_mut());
         }
-        return all;
+        return if followed.is_closed() { joined(&samples, all) } else { all };
     };
     let leg = |leg: &Leg| {
         let samples: Vec<&Sample> = leg.samples.iter().collect();
@@ -44,6 +44,18 @@ fn to_end(samples: &[&Sample], leg: &Leg, last: Option<&mut [f64; 2]>) {
     {
         *range = [range[0].min(parameter), range[1].max(parameter)];
     }
+}
+
+/// The ranges of a branch that comes back to its start: one that reaches over the start is one range.
+fn joined(samples: &[&Sample], mut all: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    if let ([first, second, .., before, last], [_, _, ..]) = (samples, &all[..])
+        && is_stable(first, second)
+        && is_stable(before, last)
+        && let Some([low, high]) = all.pop()
+    {
+        all[0] = [all[0][0].min(low), all[0][1].max(high)];
+    }
+    all
 }
 
 /// The same along some samples.

@@ -134,7 +134,10 @@ impl Walk<'_> {
     ) -> Result<(Option<Point>, Point), Error> {
         let row = self.planes[plane].row(second);
         let (watch, point) = (self.context.quiet(), point.as_ref().ok_or(Error::Interrupted)?);
-        let mut new = switch(&row, point, settings, &watch)?.pop().and_then(|mut legs| legs.pop()).ok_or(Error::Interrupted)?;
+        let mut new = switch(&row, point, settings, &watch)?
+            .pop()
+            .and_then(|mut legs| legs.pop())
+            .ok_or(Error::Interrupted)?;
         let (special, last) = walked(&mut new)?;
         Ok((special.into_iter().next(), last))
     }

@@ -1,7 +1,7 @@
 //! The symmetry of a motion, and what it makes of deviations: even ones keep the mirror axis, odd ones do not.
 
-use motiform_analysis::{Isotropy, mean_over_rotations};
 use motiform_analysis::linear::{add, apply, basis, complement, dot, norm};
+use motiform_analysis::{Isotropy, mean_over_rotations};
 use motiform_dynamics::Equivariant;
 
 /// A shape counts as equal to its image up to this part of its size; turning points of branches are located far closer.

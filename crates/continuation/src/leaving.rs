@@ -27,7 +27,8 @@ pub(super) fn leaving(
     let isotropy = Isotropy::of(body, shape, super::classes::GAINED);
     let group = Group { body, dim: shape.len(), isotropy };
     let axes = if isotropy.circle { 1 } else { 2.min(isotropy.folds) };
-    let along: Vec<Vec<f64>> = (0..axes).filter_map(|axis| group.along_axis(axis, critical, weights)).collect();
+    let along: Vec<Vec<f64>> =
+        (0..axes).filter_map(|axis| group.along_axis(axis, critical, weights)).collect();
     let lines = if along.is_empty() { critical.iter().take(1).cloned().collect() } else { along };
     let mut found: Vec<Vec<f64>> = Vec::new();
     for line in lines {

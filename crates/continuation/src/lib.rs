@@ -49,6 +49,7 @@ mod shooting;
 mod special;
 mod steps;
 mod switch;
+mod tangents;
 mod tracer;
 mod variation;
 mod whole_curve;

@@ -2,16 +2,18 @@
 
 use super::branch::Branch;
 use super::classes::Classes;
-use super::correct::{crossing, product, scaled};
+use super::correct::{correct, crossing, normal, product, scaled};
 use super::equilibria::Equilibria;
 use super::family::{Bodies, Family};
 use super::hopf::critical_pair;
 use super::leaving::leaving;
+use super::levels::Level;
 use super::orbits::Orbits;
 use super::point::{Motion, Point};
 use super::problem::{Equations, Problem};
 use super::settings::Settings;
 use super::special::{Broken, Special};
+use super::tangents::tangents;
 use super::tracer::Tracer;
 use motiform_analysis::linear::{add, norm};
 use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
@@ -19,7 +21,18 @@ use motiform_dynamics::{Equivariant, Watch};
 use std::f64::consts::TAU;
 
 /// Distances from the special point at which the new branch is looked for, in the units of [`Settings`].
-const DISTANCES: [f64; 6] = [0.005, 0.02, 0.05, 0.1, 0.001, 0.0002];
+const DISTANCES: [f64; 7] = [0.005, 0.02, 0.05, 0.1, 0.001, 0.0002, 0.00004];
+
+/// How much nearer the branch is looked at again, and the ratios of the two changes of the parameter where it begins: this one to the power
+/// 1 or 2, within a factor 2.
+const NEARER: f64 = 8.0;
+const RATIOS: std::ops::RangeInclusive<f64> = 0.5 * NEARER..=2.0 * NEARER * NEARER;
+
+/// Levels below this may have either sign next to a special point.
+const UNCLEAR: f64 = 1e-6;
+
+/// Least change of the parameter that tells anything, in tolerances of Newton's method.
+const SEEN: f64 = 100.0;
 
 /// A special point: its unknowns, a direction that a new branch leaves in, and in how many directions deviations grow on that branch at first.
 struct Begin<'b> {
@@ -88,8 +101,8 @@ fn nothing(parameter: f64) -> Error {
     Error::NotOnABranch { what: "new branch", parameter, why }
 }
 
-/// Follows the new branch from a point at which as many deviations grow as the special point lets expect: otherwise there is another special
-/// point on the way, and a nearer one is looked for.
+/// Follows the new branch from a point at which as many deviations grow as the special point lets expect, and up to which the parameter
+/// changes as a branch begins: otherwise there may be another special point on the way, and a nearer one is looked for.
 fn follow<P: Problem>(
     mut problem: P,
     &Begin { origin, direction, ref growing }: &Begin<'_>,
@@ -103,11 +116,16 @@ fn follow<P: Problem>(
             continue;
         }
         match Tracer::beside(problem, (origin, direction, distance), settings, watch) {
-            Ok(tracer) if growing.contains(&tracer.growing()) => return Ok(tracer),
+            Ok(tracer)
+                if growing.contains(&tracer.growing())
+                    && is_beginning(&tracer, (origin, direction, distance), settings, watch) =>
+            {
+                return Ok(tracer);
+            }
             Ok(tracer) => {
                 farthest = distance;
                 problem = tracer.into_problem();
-                doubtful.get_or_insert(distance);
+                doubtful = Some(distance);
             }
             Err((back, _)) => problem = back,
         }
@@ -117,7 +135,36 @@ fn follow<P: Problem>(
     Tracer::beside(problem, (origin, direction, distance), settings, watch).map_err(|_| nothing())
 }
 
-/// Where a branch has a slope below this it turns back, and the one that crosses it goes on with the parameter.
+/// Whether nothing happens between the special point and the first point of a new branch: the parameter changes with the distance from the
+/// special point, or with its square, and as many deviations grow nearer to it.
+fn is_beginning<P: Problem>(
+    tracer: &Tracer<P>,
+    (origin, direction, distance): (&[f64], &[f64], f64),
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> bool {
+    let problem = tracer.problem();
+    let row = normal(direction, &problem.weights(origin));
+    let guess = origin.iter().zip(direction).map(|(x, d)| x + distance / NEARER * d).collect();
+    let Ok(near) = correct(problem, guess, &row, settings.tolerance, watch) else { return false };
+    let changed = |x: &[f64]| x.last().copied().unwrap_or(f64::NAN) - origin.last().copied().unwrap_or(0.0);
+    let (closer, far) = (changed(&near.x), changed(tracer.unknowns()));
+    let seen = SEEN * settings.tolerance * settings.width();
+    let begins =
+        if closer.abs() > seen { RATIOS.contains(&(far / closer)) } else { far.abs() <= RATIOS.end() * seen };
+    begins
+        && problem
+            .levels(&near.x, &near.local)
+            .is_some_and(|levels| growing(&levels).contains(&tracer.growing()))
+}
+
+/// How many levels grow: at least, and with those that are too small to tell.
+fn growing(levels: &[Vec<Level>]) -> std::ops::RangeInclusive<usize> {
+    let above = |least: f64| levels.iter().flatten().filter(|level| level.growth > least).count();
+    above(UNCLEAR)..=above(-UNCLEAR)
+}
+
+/// Slopes that differ by less than this may be of one branch.
 const TURNS: f64 = 1e-6;
 
 /// What the equations do not see to first order: the direction along the parameter, and those that leave the parameter as it is.
@@ -139,18 +186,18 @@ fn unseen<P: Problem>(problem: &P, x: &[f64]) -> Option<(Vec<f64>, Vec<Vec<f64>>
     Some((along.clone(), others?))
 }
 
-/// A direction of the new branch: what the equations do not see to first order, and leaves the parameter as it is; where the branch itself
-/// does so (a branch point with the slope 0), the direction across that.
+/// A direction of the new branch: the tangent of the branches that cross at a branch point which is not that of the point's own branch, known
+/// by its slope; elsewhere what the equations do not see to first order, and leaves the parameter as it is.
 fn direction<P: Problem>(problem: &P, x: &[f64], point: &Point) -> Option<Vec<f64>> {
-    let (mut along, others) = unseen(problem, x)?;
-    let best = others.into_iter().next()?;
-    if point.special != Some(Special::BranchPoint) || point.slope.abs() > TURNS {
-        return Some(best);
+    if point.special == Some(Special::BranchPoint) {
+        let slope = |v: &Vec<f64>| (v.last().copied().unwrap_or(0.0).abs() - point.slope.abs()).abs();
+        let width = problem.weights(x).last().map_or(1.0, |weight| 1.0 / weight.sqrt());
+        let other = tangents(problem, x).into_iter().max_by(|a, b| slope(a).total_cmp(&slope(b)));
+        if let Some(other) = other.filter(|other| slope(other) > TURNS * width) {
+            return Some(other);
+        }
     }
-    let weights = problem.weights(x);
-    let part = product(&weights, &along, &best);
-    add(&mut along, -part, &best);
-    scaled(along, &weights)
+    unseen(problem, x)?.1.into_iter().next()
 }
 
 fn turned(direction: &[f64], side: f64) -> Vec<f64> {

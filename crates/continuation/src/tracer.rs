@@ -132,6 +132,10 @@ impl<P: Problem> Tracer<P> {
         self.problem
     }
 
+    pub(super) const fn problem(&self) -> &P {
+        &self.problem
+    }
+
     pub(super) fn problem_mut(&mut self) -> &mut P {
         &mut self.problem
     }
@@ -246,7 +250,20 @@ impl<P: Problem> Tracer<P> {
         if !halved {
             self.halvings = 0;
         }
+        for (at, _) in found.found.iter_mut().filter(|(_, special)| *special == Special::BranchPoint) {
+            self.keep_course(at, &new, length);
+        }
         Ok((new, length, found))
+    }
+
+    /// Gives a point where branches cross the tangent of this one, which the equations there do not tell from that of the other: the mean of
+    /// those on both sides.
+    fn keep_course(&self, at: &mut Place<P::Local>, new: &Place<P::Local>, length: f64) {
+        let part = (at.arclength - self.place.arclength) / length;
+        let mean = self.place.tangent.iter().zip(&new.tangent).map(|(a, b)| a + part * (b - a)).collect();
+        if let Some(tangent) = scaled(mean, &self.problem.weights(&at.x)) {
+            at.tangent = tangent;
+        }
     }
 
     /// The special points of a step.

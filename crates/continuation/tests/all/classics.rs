@@ -46,7 +46,8 @@ fn rosslers_cycles_double_their_period_and_have_the_published_multipliers() {
     near(multiplier(last), reference("rossler", "multiplier"), 3e-8);
     let doubling = points.iter().find(|point| point.special == Some(Special::PeriodDoubling)).unwrap();
     near(multiplier(doubling), -1.0, 1e-6);
-    let doubled: Vec<Point> = switch(&rossler, doubling, &settings, &()).unwrap().pop().unwrap().pop().unwrap().collect();
+    let doubled: Vec<Point> =
+        switch(&rossler, doubling, &settings, &()).unwrap().pop().unwrap().pop().unwrap().collect();
     let last = doubled.last().unwrap();
     near(last.parameter, 5.7, 0.0);
     near(last.motion.orbit().unwrap().period(), reference("rossler", "period2"), 6e-9);

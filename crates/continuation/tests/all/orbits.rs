@@ -134,7 +134,8 @@ fn zigzags_lose_their_symmetry_and_the_rotating_ones_double_their_period() {
     assert_eq!(doubling.special, Some(Special::PeriodDoubling));
     near(doubling.parameter, 0.7343, 1e-4);
     near(period(doubling), 34.5256, 1e-4);
-    let doubled: Vec<Point> = switch(&full_model, doubling, &settings, &()).unwrap().pop().unwrap().pop().unwrap().collect();
+    let doubled: Vec<Point> =
+        switch(&full_model, doubling, &settings, &()).unwrap().pop().unwrap().pop().unwrap().collect();
     let second = specials(&doubled)[0];
     assert_eq!(second.special, Some(Special::PeriodDoubling));
     near(second.parameter, 0.7257, 1e-4);

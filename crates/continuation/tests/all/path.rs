@@ -70,7 +70,8 @@ fn a_zigzag_and_a_rotating_one_go_where_the_flow_takes_them() {
     compare(body.as_ref(), &first.motion, &found, &settings);
 
     let breaking = branch.find(|point| point.special.is_some()).unwrap();
-    let rotating = switch(&family, &breaking, &settings, &()).unwrap().pop().unwrap().pop().unwrap().nth(4).unwrap();
+    let rotating =
+        switch(&family, &breaking, &settings, &()).unwrap().pop().unwrap().pop().unwrap().nth(4).unwrap();
     let body = family(rotating.parameter).unwrap();
     let found = path(body.as_ref(), &rotating.motion, &settings.flow, &()).unwrap();
     assert!(found.rotation != 0.0);

@@ -1,0 +1,90 @@
+//! The tangents of two branches that cross.
+
+use super::correct::{crossing, product, scaled};
+use super::problem::Problem;
+use motiform_analysis::linear::{add, dot, norm};
+
+/// Distance of the second differences, in the units of the unknowns.
+const STEP: f64 = 1e-3;
+
+/// The tangents, of length 1, of the branches that cross at `x`, where `equations(x + v)` vanishes to first order for `v` in a plane: the
+/// two directions of this plane in which it vanishes to second order,
+///
+/// `psi . D^2 F(x)[v, v] = 0`, with the left null vector `psi` of `DF`.
+///
+/// Empty where the plane is none or no real direction solves this.
+///
+/// Source: Keller (1977), in: Applications of Bifurcation Theory, the algebraic bifurcation equation.
+pub(super) fn tangents<P: Problem>(problem: &P, x: &[f64]) -> Vec<Vec<f64>> {
+    let weights = problem.weights(x);
+    let Some((a, b, psi)) = plane(problem, x, &weights) else { return Vec::new() };
+    let seen = |v: &[f64]| {
+        let at = |side: f64| {
+            let mut moved = x.to_vec();
+            add(&mut moved, side * STEP, v);
+            Some(dot(&psi, &problem.linear(&problem.local(&moved, &()).ok()?).residual))
+        };
+        Some((at(1.0)? + at(-1.0)? - 2.0 * at(0.0)?) / (STEP * STEP))
+    };
+    let mixed = |side: f64| {
+        let mut v = a.clone();
+        add(&mut v, side, &b);
+        seen(&v)
+    };
+    let (Some(aa), Some(bb), Some(sum), Some(difference)) = (seen(&a), seen(&b), mixed(1.0), mixed(-1.0))
+    else {
+        return Vec::new();
+    };
+    let ab = 0.25 * (sum - difference);
+    let combined = |(alpha, beta): (f64, f64)| {
+        let mut v: Vec<f64> = a.iter().map(|x| alpha * x).collect();
+        add(&mut v, beta, &b);
+        scaled(v, &weights)
+    };
+    roots(aa, ab, bb).into_iter().filter_map(combined).collect()
+}
+
+/// The directions `(alpha, beta)` with `aa alpha^2 + 2 ab alpha beta + bb beta^2 = 0`.
+fn roots(aa: f64, ab: f64, bb: f64) -> Vec<(f64, f64)> {
+    let under = ab * ab - aa * bb;
+    if under.is_nan() || under <= 0.0 {
+        return Vec::new();
+    }
+    let larger = -(ab + under.sqrt().copysign(ab));
+    vec![(larger, aa), (bb, larger)]
+}
+
+/// An orthonormal basis of the unseen directions and the left null vector, where there are two of them.
+fn plane<P: Problem>(problem: &P, x: &[f64], weights: &[f64]) -> Option<(Vec<f64>, Vec<f64>, Vec<f64>)> {
+    let local = problem.local(x, &()).ok()?;
+    let linear = problem.linear(&local);
+    let null = crossing(linear, weights);
+    let [a, b] = &null[..] else { return None };
+    debug_assert!(product(weights, a, b).abs() < 1e-6);
+    let svd = linear.matrix.clone().try_svd(true, false, f64::EPSILON, 10_000)?;
+    let (least, _) = svd.singular_values.argmin();
+    let psi: Vec<f64> = svd.u?.column(least).iter().copied().collect();
+    (norm(&psi) > 0.0).then(|| (a.clone(), b.clone(), psi))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::roots;
+
+    #[test]
+    fn both_roots_whichever_coefficient_vanishes() {
+        for (aa, ab, bb) in
+            [(1.0, 0.0, -4.0), (0.0, 1.0, 0.0), (0.0, 1.0, 3.0), (2.0, -3.0, 1.0), (1.0, 2.0, 0.0)]
+        {
+            let found = roots(aa, ab, bb);
+            assert_eq!(found.len(), 2);
+            for (x, y) in &found {
+                let size = x * x + y * y;
+                assert!((aa * x * x + 2.0 * ab * x * y + bb * y * y).abs() < 1e-12 * size && size > 0.0);
+            }
+            let cross = found[0].0 * found[1].1 - found[0].1 * found[1].0;
+            assert!(cross.abs() > 0.1, "{found:?}");
+        }
+        assert!(roots(1.0, 0.5, 1.0).is_empty() && roots(0.0, 0.0, 0.0).is_empty());
+    }
+}
