@@ -1,0 +1,176 @@
+//! Deflation: Newton's method that does not come back to what is known.
+
+use super::newton::equations;
+use super::{RelativeEquilibrium, neutral_direction};
+use crate::linear::{add, dot, least_squares, norm, solve};
+use crate::symmetry::{align, turning_of_shape};
+use motiform_dynamics::{Equivariant, VectorField};
+
+/// Steps that the deflated method may take.
+const STEPS: usize = 60;
+
+/// A step this small against the distance from the nearest known equilibrium leads to another one: Newton's method itself does the rest.
+const CLOSE: f64 = 1e-2;
+
+/// How many times its error an equilibrium must be away from the known ones: errors are bounds to first order.
+const APART: f64 = 100.0;
+
+/// Equations are solved by elimination unless they are this near to singular ones.
+const SINGULAR: f64 = 1e-10;
+
+/// Equilibria nearer to each other than this, relative to their size, are one. If eigenvalues vanish, Newton's method gives few digits.
+const SAME: f64 = 1e-6;
+
+/// Equilibria that are known, for a search of others.
+///
+/// The deflated method solves `M(u) (f(u) - omega Gu) = 0`, `M = prod_i ((L/|u - u_i|)^p + 1)`: a known root `u_i` is none of these
+/// equations, because M grows as fast as the residual falls, or faster. The distance from `u_i` is that from the nearest of its rotated
+/// copies. As only a scalar is new, the step is Newton's step d times `1/(1 - d . grad ln M)`.
+///
+/// Equilibria that their linearisation does not determine (one of a family) are not deflated, since the next one is beside them, and none of
+/// them is found.
+///
+/// Source: Farrell, Birkisson, Funke (2015), SIAM J. Sci. Comput. 37, A2026, with shift 1; the scalar is from the formula of Sherman and
+/// Morrison.
+///
+/// # Checked by  tests/all/deflation.rs: all roots of known fields, rotated copies, families; lab's tests/all/equilibria.rs: other searches
+#[derive(Clone, Debug, Default)]
+pub struct Deflation {
+    known: Vec<Known>,
+}
+
+/// The factor of a known root, `(L/|u - u_i|)^p + 1`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Factor {
+    /// L: how far a known root is felt.
+    pub reach: f64,
+    /// p: 1 divides a simple root out and leaves those beside it where they are; 2 drives away from it.
+    pub power: f64,
+}
+
+impl Factor {
+    /// `d ln((L/D)^p + 1) / d ln D = -p/(1 + (D/L)^p)`.
+    fn slope(&self, distance: f64) -> f64 {
+        -self.power / (1.0 + libm::pow(distance / self.reach, self.power))
+    }
+}
+
+/// A known equilibrium.
+#[derive(Clone, Debug)]
+struct Known {
+    shape: Vec<f64>,
+    /// How far it may be from the true one.
+    error: f64,
+    /// Whether no other one is beside it.
+    isolated: bool,
+}
+
+impl Deflation {
+    /// Adds an equilibrium to the known ones.
+    pub fn add<B: Equivariant + ?Sized>(&mut self, body: &B, known: &RelativeEquilibrium) {
+        let error = norm(&known.uncertainty(body).shape);
+        self.known.push(Known { shape: known.shape.clone(), error, isolated: known.is_isolated(error) });
+    }
+
+    /// An equilibrium that is none of the known ones, by the deflated method from `guess`; `None` where that does not converge.
+    ///
+    /// A step is limited to the size of the shape, or to the reach of the factor where that is larger. Where steps become small against the
+    /// distance from the known ones, [`RelativeEquilibrium::find`] completes the result.
+    #[must_use]
+    pub fn find<B: Equivariant + ?Sized>(
+        &self,
+        body: &B,
+        guess: &[f64],
+        factor: Factor,
+    ) -> Option<RelativeEquilibrium> {
+        let mut shape = guess.to_vec();
+        let mut rate = vec![0.0; shape.len()];
+        VectorField::<f64>::eval(body, 0.0, &shape, &mut rate);
+        let mut omega = turning_of_shape(body, &shape, &rate);
+        for _ in 0..STEPS {
+            let step = step(body, &shape, omega)?;
+            let (turned, step) = step.split_last()?;
+            let length = norm(step);
+            let (pull, nearest) = self.pull(body, &shape, step, factor);
+            if length <= CLOSE * nearest {
+                return RelativeEquilibrium::find(body, &shape).filter(|found| self.lacks(body, found));
+            }
+            let most = norm(&shape).max(factor.reach) / length;
+            let part = (1.0 / (1.0 - pull)).clamp(-most, most);
+            add(&mut shape, part, step);
+            omega += part * turned;
+        }
+        None
+    }
+
+    /// `d . grad ln M` for the step d, and the distance from the nearest equilibrium that is deflated.
+    ///
+    /// `grad ln ((L/D)^p + 1) = -p/(1 + (D/L)^p) (u - u_i)/D^2`, `u_i` the nearest of its rotated copies.
+    fn pull<B: Equivariant + ?Sized>(
+        &self,
+        body: &B,
+        shape: &[f64],
+        step: &[f64],
+        factor: Factor,
+    ) -> (f64, f64) {
+        let (mut sum, mut nearest) = (0.0, f64::INFINITY);
+        for known in self.known.iter().filter(|known| known.isolated) {
+            let mut away = known.shape.clone();
+            body.rotate(align(body, shape, &away, false).angle, &mut away);
+            away.iter_mut().zip(shape).for_each(|(x, u)| *x = u - *x);
+            let square = dot(&away, &away).max(f64::MIN_POSITIVE);
+            let distance = square.sqrt();
+            sum += factor.slope(distance) * dot(&away, step) / square;
+            nearest = distance.min(nearest);
+        }
+        (sum, nearest.min(norm(shape).max(factor.reach)))
+    }
+
+    /// Whether it is determined by its linearisation and none of the known ones, beyond its error and theirs.
+    fn lacks<B: Equivariant + ?Sized>(&self, body: &B, found: &RelativeEquilibrium) -> bool {
+        let error = norm(&found.uncertainty(body).shape);
+        let apart = |known: &Known| {
+            let errors = error + if known.isolated { known.error } else { 0.0 };
+            let distance = found.distance(body, &known.shape);
+            distance > APART * errors && !near(distance, &known.shape)
+        };
+        found.is_isolated(error) && self.known.iter().all(apart)
+    }
+}
+
+/// Newton's step `(du, domega)`, with du across the group orbit; the smallest step where that is not determined.
+fn step<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64) -> Option<Vec<f64>> {
+    let (unknowns, target) = equations(body, shape, omega);
+    let (mut square, mut rhs) = (unknowns.clone(), target.clone());
+    match neutral_direction(body, shape).pop() {
+        Some(neutral) => {
+            rhs.push(0.0);
+            square.iter_mut().zip(neutral.iter().chain(&[0.0])).for_each(|(column, x)| column.push(*x));
+        }
+        None => square.truncate(shape.len()),
+    }
+    let Some(mut step) = solve(&square, &rhs, SINGULAR) else { return least_squares(&unknowns, &target) };
+    step.resize(unknowns.len(), 0.0);
+    Some(step)
+}
+
+impl RelativeEquilibrium {
+    /// Whether no other one is beside it, as far as its linearisation and its error tell: no eigenvalue is zero within its own error.
+    fn is_isolated(&self, error: f64) -> bool {
+        let rates = self.eigenvalues.iter().zip(&self.errors);
+        let mut leading = rates.take_while(|(value, error)| value.0 >= -APART * **error);
+        APART * error < norm(&self.shape).max(1e-3)
+            && leading.all(|(value, error)| libm::hypot(value.0, value.1) > APART * *error)
+    }
+
+    /// Whether these are one equilibrium, up to rotations.
+    #[must_use]
+    pub fn is_same<B: Equivariant + ?Sized>(&self, body: &B, other: &Self) -> bool {
+        near(self.distance(body, &other.shape), &other.shape)
+    }
+}
+
+/// Whether something this far from `shape` is the same.
+fn near(distance: f64, shape: &[f64]) -> bool {
+    distance < SAME * norm(shape).max(1e-3)
+}
