@@ -10,7 +10,7 @@ mod uncertainty;
 use crate::linear::{add, basis, norm};
 use crate::symmetry::align;
 pub use balance::balances;
-pub use deflation::{Deflation, Factor};
+pub use deflation::Deflation;
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField, model};
 use nalgebra::DMatrix;

@@ -6,7 +6,7 @@ use crate::common;
 
 use common::{Random, near, reduced};
 use motiform_analysis::RelativeEquilibrium;
-use motiform_analysis::equilibrium::{Deflation, Factor, balances};
+use motiform_analysis::equilibrium::{Deflation, balances};
 use motiform_dynamics::{Equivariant, Scalar, VectorField};
 use motiform_models::zoo::Linear;
 
@@ -32,9 +32,9 @@ impl<T: Scalar> VectorField<T> for Ring {
 }
 
 /// Everything that deflation finds from one start.
-fn all(body: &impl Equivariant, guess: &[f64], factor: Factor) -> Vec<RelativeEquilibrium> {
+fn all(body: &impl Equivariant, guess: &[f64], reach: f64) -> Vec<RelativeEquilibrium> {
     let (mut known, mut found) = (Deflation::default(), Vec::new());
-    while let Some(new) = known.find(body, guess, factor) {
+    while let Some(new) = known.find(body, guess, reach) {
         known.add(body, &new);
         found.push(new);
     }
@@ -44,9 +44,8 @@ fn all(body: &impl Equivariant, guess: &[f64], factor: Factor) -> Vec<RelativeEq
 #[test]
 fn one_start_leads_to_all_roots_one_after_the_other() {
     for unit in [1e-3, 1.0, 1e5] {
-        let factor = Factor { reach: 1e3 * unit, power: 1.0 };
         let mut roots: Vec<f64> =
-            all(&Quartic(unit), &[10.0 * unit], factor).iter().map(|one| one.shape[0] / unit).collect();
+            all(&Quartic(unit), &[10.0 * unit], 1e3 * unit).iter().map(|one| one.shape[0] / unit).collect();
         roots.sort_by(f64::total_cmp);
         assert_eq!(roots.len(), 4, "{roots:?}");
         for (root, want) in roots.iter().zip([-2.0, 1.0, 3.0, 3.001]) {
@@ -65,7 +64,7 @@ fn rotated_copies_are_known() {
     let mut found: Vec<RelativeEquilibrium> = Vec::new();
     for _ in 0..200 {
         let guess: Vec<f64> = (0..6).map(|_| 0.3 * random.next()).collect();
-        while let Some(new) = known.find(&body, &guess, Factor { reach: 0.3, power: 2.0 }) {
+        while let Some(new) = known.find(&body, &guess, 0.3) {
             assert!(found.iter().all(|old| old.distance(&body, &new.shape) > 1e-3));
             known.add(&body, &new);
             found.push(new);
@@ -83,7 +82,7 @@ fn rotated_copies_are_known() {
 
 #[test]
 fn members_of_a_family_are_not_found_one_by_one() {
-    let known = all(&Ring, &[0.1, 0.05], Factor { reach: 1.0, power: 2.0 });
+    let known = all(&Ring, &[0.1, 0.05], 1.0);
     assert!(known.iter().all(|one| one.shape[0].hypot(one.shape[1]) < 1e-12), "{known:?}");
 }
 

@@ -53,7 +53,7 @@ pub enum FoundBy {
 /// finds beside them, the most stable first; mirror images count as different. The list may be incomplete.
 ///
 /// Deflated searches start from sizes about those at which terms of the equations balance (from a tenth of the smallest to ten times the
-/// largest), and end when so many of them in turn found nothing: `2 starts` up to 12 unknowns, fewer of larger models, whose steps take longer.
+/// largest), and end when so many of them in turn found nothing: `3 starts` up to 8 unknowns, fewer for larger models, whose steps take longer.
 ///
 /// `None` if the watch stopped it.
 ///
@@ -79,7 +79,8 @@ pub fn equilibria(plan: &Plan, starts: usize, watch: &dyn Watch) -> Result<Optio
 
 /// How many deflated searches in turn may find nothing.
 fn patience(starts: usize, dim: usize) -> usize {
-    (starts as f64 * (24.0 / dim.max(1) as f64).clamp(0.25, 2.0)).ceil() as usize
+    let part = 8.0 / dim.max(1) as f64;
+    (starts as f64 * (3.0 * part * part).clamp(0.25, 3.0)).ceil() as usize
 }
 
 fn describe(model: &dyn Model, found: Found, starts: usize) -> Equilibrium {

@@ -2,7 +2,7 @@
 
 use super::FoundBy;
 use motiform_analysis::RelativeEquilibrium;
-use motiform_analysis::equilibrium::{Deflation, Factor, balances};
+use motiform_analysis::equilibrium::{Deflation, balances};
 use motiform_dynamics::escape::norm;
 use motiform_dynamics::{Model, Watch};
 use motiform_models::ModelInfo;
@@ -27,8 +27,8 @@ const RAY_COUNT: u64 = 8;
 /// Deflated searches begin with sizes from this factor below the smallest balance of terms to this factor above the largest.
 const BEYOND: f64 = 10.0;
 
-/// Deflation reaches as far as its start is large, and this many times as far in every other search.
-const FAR: f64 = 100.0;
+/// How far deflation reaches in successive pairs of searches, in units of the size of the start.
+const REACHES: [f64; 4] = [0.3, 1.0, 3.0, 10.0];
 
 /// Deflation ends when so many equilibria are known: there may be infinitely many.
 const MOST: usize = 400;
@@ -101,14 +101,12 @@ impl<'m> Search<'m> {
         Some(())
     }
 
-    /// Deflated searches from one start, until it leads to nothing new. All combinations of reach and power come in turn.
+    /// Deflated searches from one start, until it leads to nothing new.
     fn exhaust(&mut self, place: u64, guess: &[f64]) {
-        let times = if place / 2 % 2 == 0 { 1.0 } else { FAR };
-        let power = if place / 4 % 2 == 0 { 2.0 } else { 1.0 };
-        let factor = Factor { reach: times * norm(guess), power };
+        let reach = norm(guess) * REACHES[place as usize / 2 % REACHES.len()];
         while self.found.len() < MOST {
             let place = self.found.len();
-            let Some(new) = self.known.find(self.model, guess, factor) else { return };
+            let Some(new) = self.known.find(self.model, guess, reach) else { return };
             self.add(new, FoundBy::Deflation, 0);
             self.mirror(place);
         }

@@ -74,8 +74,8 @@ fn those_of_the_full_model_are_the_roots_of_its_two_quadratics() {
         };
         assert_same(&study, of_the_full_model(value("kappa2"), value("kappa3")));
     }
-    for kappa2 in [-0.3, 0.1, 0.5, 0.9, 1.3, 3.0] {
-        for kappa3 in [-0.05, 0.1, 1.0] {
+    for kappa2 in [-0.3, 0.1, 0.9, 1.3, 3.0] {
+        for kappa3 in [0.1, 1.0] {
             let study = preset("fig4", &[("kappa2", kappa2), ("kappa3", kappa3)]);
             assert_same(&study, of_the_full_model(kappa2, kappa3));
         }
@@ -110,8 +110,8 @@ fn of_the_reduced_model(kappa2: f64, gamma: f64) -> Vec<(f64, f64)> {
 
 #[test]
 fn those_of_the_reduced_model_are_those_of_its_amplitude_equations() {
-    for kappa2 in [-0.6, -0.21, -0.1, 0.03, 0.2] {
-        for gamma in [-0.15, -0.0375, 0.05, 0.1] {
+    for kappa2 in [-0.6, -0.1, 0.03, 0.2] {
+        for gamma in [-0.15, 0.05, 0.1] {
             let study = preset("fig1", &[("kappa2", kappa2), ("gamma", gamma)]);
             assert_same(&study, of_the_reduced_model(kappa2, gamma));
         }
