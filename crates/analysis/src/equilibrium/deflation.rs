@@ -33,7 +33,7 @@ const SAME: f64 = 1e-6;
 /// Source: Farrell, Birkisson, Funke (2015), SIAM J. Sci. Comput. 37, A2026: power 1, shift 1; the scalar is from the formula of Sherman and
 /// Morrison. In random equations of 4 to 6 unknowns power 2 takes half as many starts more: it drives away from the other roots near a known one.
 ///
-/// # Checked by  tests/all/deflation.rs: all roots of known fields, rotated copies, families; lab's tests/all/equilibria.rs: other searches
+/// # Checked by  tests/all/deflation.rs: all roots of known fields, rotated copies, families; lab's tests/all/equilibria/: other searches
 #[derive(Clone, Debug, Default)]
 pub struct Deflation {
     known: Vec<Known>,

@@ -60,7 +60,7 @@ pub enum FoundBy {
 /// # Errors
 /// A plan with noise; parameters that the model rejects.
 ///
-/// # Checked by  tests/all/equilibria.rs: closed forms of the tensor model and of the Lorenz equations, a search by other means
+/// # Checked by  tests/all/equilibria/: closed forms of the tensor model and of the Lorenz equations, a search by other means
 pub fn equilibria(plan: &Plan, starts: usize, watch: &dyn Watch) -> Result<Option<Vec<Equilibrium>>, Error> {
     check("starts", starts as f64, starts > 0, "give at least 1")?;
     let model = analyse::model(plan)?;

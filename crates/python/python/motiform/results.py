@@ -250,7 +250,7 @@ class Equilibrium:
     share: float
     """Fraction of the random starts from which Newton's method converged to this equilibrium."""
     found_by: str
-    """What led to it first: starts (the circle or a random one), deflation, or mirror (it is the mirror image of another)."""
+    """What led to it first: starts (the circle or a random start), deflation, or mirror (the mirror image of another)."""
     course: str | None = None
     """Sense of rotation, or direction to the field, where the model tells them apart."""
     heading: float | None = None

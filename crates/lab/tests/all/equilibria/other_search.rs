@@ -13,11 +13,10 @@ type Field = Vec<Vec<Term>>;
 /// Linear, four quadratic and, on request, four cubic terms in each equation, one of them `-x_i^3`, and in every other field a constant.
 fn field(dim: usize, cubic: bool, seed: u64) -> Field {
     let mut random = Uniform::new(seed, 0);
-    let mut factor =
-        |random: &mut Uniform| ((0.5 * (1.0 + random.draw()) * dim as f64) as usize).min(dim - 1);
-    let mut equation = |i: usize| {
+    let factor = |random: &mut Uniform| ((0.5 * (1.0 + random.draw()) * dim as f64) as usize).min(dim - 1);
+    let equation = |i: usize| {
         let mut terms: Vec<Term> = (0..dim).map(|j| (random.draw(), vec![j])).collect();
-        if seed % 2 == 0 {
+        if seed.is_multiple_of(2) {
             terms.push((random.draw(), Vec::new()));
         }
         terms.extend((0..4).map(|_| (random.draw(), vec![factor(&mut random), factor(&mut random)])));
@@ -31,7 +30,7 @@ fn field(dim: usize, cubic: bool, seed: u64) -> Field {
         terms.iter_mut().for_each(|term| term.0 = (1e3 * term.0).round() / 1e3);
         terms
     };
-    (0..dim).map(|i| equation(i)).collect()
+    (0..dim).map(equation).collect()
 }
 
 /// The field as a study: unknowns in pairs are real and imaginary parts; one that is left over decays.
