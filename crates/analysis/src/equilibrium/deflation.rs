@@ -3,7 +3,7 @@
 use super::newton::equations;
 use super::{RelativeEquilibrium, neutral_direction};
 use crate::linear::{add, dot, least_squares, norm, solve};
-use crate::symmetry::{align, turning_of_shape};
+use crate::symmetry::{Copies, turning_of_shape};
 use motiform_dynamics::{Equivariant, VectorField};
 
 /// Steps that the deflated method may take.
@@ -42,7 +42,7 @@ pub struct Deflation {
 /// A known equilibrium.
 #[derive(Clone, Debug)]
 struct Known {
-    shape: Vec<f64>,
+    copies: Copies,
     /// How far it may be from the true one.
     error: f64,
     /// Whether no other one is beside it.
@@ -53,7 +53,8 @@ impl Deflation {
     /// Adds an equilibrium to the known ones.
     pub fn add<B: Equivariant + ?Sized>(&mut self, body: &B, known: &RelativeEquilibrium) {
         let error = norm(&known.uncertainty(body).shape);
-        self.known.push(Known { shape: known.shape.clone(), error, isolated: known.is_isolated(error) });
+        let copies = Copies::of(body, &known.shape);
+        self.known.push(Known { copies, error, isolated: known.is_isolated(error) });
     }
 
     /// An equilibrium that is none of the known ones, by the deflated method from `guess` with `L = reach`; `None` where that does not
@@ -94,8 +95,7 @@ impl Deflation {
     fn pull<B: Equivariant + ?Sized>(&self, body: &B, shape: &[f64], step: &[f64], reach: f64) -> (f64, f64) {
         let (mut sum, mut nearest) = (0.0, f64::INFINITY);
         for known in self.known.iter().filter(|known| known.isolated) {
-            let mut away = known.shape.clone();
-            body.rotate(align(body, shape, &away, false).angle, &mut away);
+            let mut away = known.copies.nearest(body, shape);
             away.iter_mut().zip(shape).for_each(|(x, u)| *x = u - *x);
             let square = dot(&away, &away).max(f64::MIN_POSITIVE);
             let distance = square.sqrt();
@@ -110,8 +110,8 @@ impl Deflation {
         let error = norm(&found.uncertainty(body).shape);
         let apart = |known: &Known| {
             let errors = error + if known.isolated { known.error } else { 0.0 };
-            let distance = found.distance(body, &known.shape);
-            distance > APART * errors && !near(distance, &known.shape)
+            let distance = found.distance(body, known.copies.shape());
+            distance > APART * errors && !near(distance, known.copies.shape())
         };
         found.is_isolated(error) && self.known.iter().all(apart)
     }

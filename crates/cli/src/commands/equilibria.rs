@@ -20,6 +20,7 @@ pub(crate) fn run(options: &EquilibriaOptions) -> anyhow::Result<End> {
             "model": plan.computation.model,
             "parameters": plan.computation.parameters,
             "equilibria": found,
+            "complete": "not proven",
         }))?
     } else {
         table(&found)?
@@ -54,7 +55,9 @@ fn table(found: &[Equilibrium]) -> anyhow::Result<String> {
             values.collect::<Vec<_>>().join(", ")
         )?;
     }
-    Ok(text.trim_end().to_owned())
+    let count = found.len();
+    write!(text, "{count} found; nothing proves that these are all, more --starts may find more")?;
+    Ok(text)
 }
 
 /// The share of the random starts, or the other way that led to it.

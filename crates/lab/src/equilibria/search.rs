@@ -8,6 +8,7 @@ use motiform_dynamics::{Model, Watch};
 use motiform_models::ModelInfo;
 use motiform_study::Random;
 use motiform_study::initial::{Uniform, random_shape};
+use std::f64::consts::TAU;
 
 /// Random starts are drawn with these sizes in turn: the states of the built-in models have entries of about 1.
 const SIZES: [f64; 6] = [0.01, 0.1, 0.3, 1.0, 2.0, 4.0];
@@ -27,7 +28,7 @@ const RAY_COUNT: u64 = 8;
 /// Deflated searches begin with sizes from this factor below the smallest balance of terms to this factor above the largest.
 const BEYOND: f64 = 10.0;
 
-/// How far deflation reaches in successive pairs of searches, in units of the size of the start.
+/// How far deflation reaches in successive fours of searches, in units of the size of the start.
 const REACHES: [f64; 4] = [0.3, 1.0, 3.0, 10.0];
 
 /// Deflation ends when so many equilibria are known: there may be infinitely many.
@@ -103,7 +104,7 @@ impl<'m> Search<'m> {
 
     /// Deflated searches from one start, until it leads to nothing new.
     fn exhaust(&mut self, place: u64, guess: &[f64]) {
-        let reach = norm(guess) * REACHES[place as usize / 2 % REACHES.len()];
+        let reach = norm(guess) * REACHES[place as usize / 4 % REACHES.len()];
         while self.found.len() < MOST {
             let place = self.found.len();
             let Some(new) = self.known.find(self.model, guess, reach) else { return };
@@ -143,13 +144,41 @@ impl<'m> Search<'m> {
         Random::Sizes { min, max }.shape(self.info, self.model, self.seed, stream)
     }
 
-    /// The start of a deflated search. In every other one the coordinates have sizes of their own, over two decades.
+    /// The start of a deflated search. In every other one the coordinates have sizes of their own, over two decades; two of four are symmetric.
     fn guess(&self, place: u64, low: f64, high: f64) -> Vec<f64> {
         let mut shape = self.of_size(low, high, DEFLATED + place);
+        let mut random = Uniform::new(self.seed, UNEVEN + place);
         if place % 2 == 1 {
-            let mut random = Uniform::new(self.seed, UNEVEN + place);
             shape.iter_mut().for_each(|x| *x *= libm::exp10(random.draw() - 1.0));
         }
-        shape
+        if place / 2 % 2 == 1 { symmetric(self.model, shape, &mut random) } else { shape }
     }
+}
+
+/// The shape averaged over the turns by a k-th of a circle and, for `k = 1` and half of the others, with its mirror image, in its old size.
+///
+/// Newton's method stays among shapes with the symmetry of its start: they have a fraction of the unknowns, and many equilibria are among
+/// them. Small k are drawn more often.
+fn symmetric(model: &dyn Model, shape: Vec<f64>, random: &mut Uniform) -> Vec<f64> {
+    let symmetry = model.symmetry();
+    let most = if symmetry.rotations { model.highest_mode().max(1) as f64 } else { 1.0 };
+    let fold = libm::pow(most, 0.5 * (1.0 + random.draw())).round();
+    let mirrored = symmetry.mirror && (fold == 1.0 || random.draw() > 0.0);
+    let mut sum = vec![0.0; shape.len()];
+    for part in 0..fold as usize {
+        let mut turned = shape.clone();
+        model.rotate(TAU / fold * part as f64, &mut turned);
+        sum.iter_mut().zip(&turned).for_each(|(sum, x)| *sum += x);
+    }
+    if mirrored {
+        let mut image = sum.clone();
+        model.mirror(&mut image);
+        sum.iter_mut().zip(&image).for_each(|(sum, x)| *sum += x);
+    }
+    let (old, new) = (norm(&shape), norm(&sum));
+    if new <= 1e-9 * old {
+        return shape; // no shape but the circle is as symmetric
+    }
+    sum.iter_mut().for_each(|x| *x *= old / new);
+    sum
 }

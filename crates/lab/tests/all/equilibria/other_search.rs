@@ -8,10 +8,10 @@ use std::fmt::Write;
 type Term = (f64, Vec<usize>);
 
 /// Right-hand sides of real unknowns: sums of terms.
-type Field = Vec<Vec<Term>>;
+pub(super) type Field = Vec<Vec<Term>>;
 
 /// Linear, four quadratic and, on request, four cubic terms in each equation, one of them `-x_i^3`, and in every other field a constant.
-fn field(dim: usize, cubic: bool, seed: u64) -> Field {
+pub(super) fn field(dim: usize, cubic: bool, seed: u64) -> Field {
     let mut random = Uniform::new(seed, 0);
     let factor = |random: &mut Uniform| ((0.5 * (1.0 + random.draw()) * dim as f64) as usize).min(dim - 1);
     let equation = |i: usize| {
@@ -34,7 +34,7 @@ fn field(dim: usize, cubic: bool, seed: u64) -> Field {
 }
 
 /// The field as a study: unknowns in pairs are real and imaginary parts; one that is left over decays.
-fn text(field: &Field) -> String {
+pub(super) fn text(field: &Field) -> String {
     let modes = field.len().div_ceil(2);
     let part = |k: usize| match (k / 2 + 1, k % 2) {
         (n, 0) => format!("(0.5*(z{n}+conj(z{n})))"),
@@ -98,11 +98,11 @@ fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
     b
 }
 
-fn norm(x: &[f64]) -> f64 {
+pub(super) fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-fn distance(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
     norm(&a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>())
 }
 
