@@ -11,7 +11,7 @@
 
 pub use crate::gauge::Gauge;
 
-use crate::linear::{dot, norm};
+use crate::linear::{add, dot, norm};
 use motiform_dynamics::{Bundle, Equivariant, System, VectorField};
 use std::f64::consts::TAU;
 
@@ -48,21 +48,25 @@ pub fn align<B: Equivariant + ?Sized>(
     best(body, reference, &base, &overlaps)
 }
 
-/// A shape with its copies turned by equal angles: what many alignments with it have in common.
+/// A shape with its copies turned by equal angles: what many searches for the nearest copy have in common.
 #[derive(Clone, Debug)]
 pub(crate) struct Copies {
     shape: Vec<f64>,
+    /// The first coordinate of every copy, then the second, and so on.
     turned: Vec<f64>,
+    count: usize,
 }
 
 impl Copies {
     pub(crate) fn of<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> Self {
         let count = angles(body);
-        let mut turned = shape.repeat(count);
-        for (i, copy) in turned.chunks_exact_mut(shape.len().max(1)).enumerate() {
-            body.rotate(TAU / count as f64 * i as f64, copy);
+        let mut turned = vec![0.0; shape.len() * count];
+        for place in 0..count {
+            let mut copy = shape.to_vec();
+            body.rotate(TAU / count as f64 * place as f64, &mut copy);
+            copy.iter().enumerate().for_each(|(i, &x)| turned[i * count + place] = x);
         }
-        Self { shape: shape.to_vec(), turned }
+        Self { shape: shape.to_vec(), turned, count }
     }
 
     /// The shape.
@@ -70,12 +74,20 @@ impl Copies {
         &self.shape
     }
 
-    /// The copy nearest to `reference`, found as by [`align`], with the same bits.
+    /// The nearest of the copies of the shape at all angles, where one is nearer than half of the shape's size; farther away, the nearest of those
+    /// at equal angles (eight to a wave of the highest mode), which takes no sine.
     pub(crate) fn nearest<B: Equivariant + ?Sized>(&self, body: &B, reference: &[f64]) -> Vec<f64> {
-        let copies = self.turned.chunks_exact(self.shape.len().max(1));
-        let overlaps: Vec<f64> = copies.map(|copy| dot(reference, copy)).collect();
-        let mut copy = self.shape.clone();
-        body.rotate(best(body, reference, &self.shape, &overlaps).angle, &mut copy);
+        let mut overlaps = vec![0.0; self.count];
+        for (&x, column) in reference.iter().zip(self.turned.chunks_exact(self.count)) {
+            add(&mut overlaps, x, column);
+        }
+        let top = (0..self.count).max_by(|&i, &j| overlaps[i].total_cmp(&overlaps[j])).unwrap_or(0);
+        let mut copy: Vec<f64> = (0..self.shape.len()).map(|i| self.turned[i * self.count + top]).collect();
+        let square = dot(&self.shape, &self.shape);
+        if dot(reference, reference) + square - 2.0 * overlaps[top] < 0.25 * square {
+            copy.copy_from_slice(&self.shape);
+            body.rotate(best(body, reference, &self.shape, &overlaps).angle, &mut copy);
+        }
         copy
     }
 }
