@@ -53,7 +53,8 @@ pub enum FoundBy {
 /// finds beside them, the most stable first; mirror images count as different. The list may be incomplete.
 ///
 /// Deflated searches start from sizes about those at which terms of the equations balance (from a tenth of the smallest to ten times the
-/// largest), and end when so many of them in turn found nothing: `3 starts` up to 8 unknowns, fewer for larger models, whose steps take longer.
+/// largest), half of them from shapes with symmetries of the model, and end when so many of them in turn found nothing:
+/// `starts` for 2 unknowns, `3 starts` for 6 to 8, and fewer for larger models, whose steps take longer.
 ///
 /// `None` if the watch stopped it.
 ///
@@ -79,8 +80,9 @@ pub fn equilibria(plan: &Plan, starts: usize, watch: &dyn Watch) -> Result<Optio
 
 /// How many deflated searches in turn may find nothing.
 fn patience(starts: usize, dim: usize) -> usize {
-    let part = 8.0 / dim.max(1) as f64;
-    (starts as f64 * (3.0 * part * part).clamp(0.25, 3.0)).ceil() as usize
+    let dim = dim.max(1) as f64;
+    let many = (24.0 / dim).max(1.5) * (48.0 / dim).powi(2).min(1.0);
+    (starts as f64 * (0.5 * dim).min(3.0).min(many).max(0.25)).ceil() as usize
 }
 
 fn describe(model: &dyn Model, found: Found, starts: usize) -> Equilibrium {

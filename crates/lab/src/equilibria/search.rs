@@ -4,11 +4,11 @@ use super::FoundBy;
 use motiform_analysis::RelativeEquilibrium;
 use motiform_analysis::equilibrium::{Deflation, balances};
 use motiform_dynamics::escape::norm;
-use motiform_dynamics::{Model, Watch};
+use motiform_dynamics::{Model, Semilinear, Watch};
 use motiform_models::ModelInfo;
 use motiform_study::Random;
 use motiform_study::initial::{Uniform, random_shape};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Random starts are drawn with these sizes in turn: the states of the built-in models have entries of about 1.
 const SIZES: [f64; 6] = [0.01, 0.1, 0.3, 1.0, 2.0, 4.0];
@@ -28,7 +28,7 @@ const RAY_COUNT: u64 = 8;
 /// Deflated searches begin with sizes from this factor below the smallest balance of terms to this factor above the largest.
 const BEYOND: f64 = 10.0;
 
-/// How far deflation reaches in successive fours of searches, in units of the size of the start.
+/// How far deflation reaches in successive sixteens of searches, in units of the size of the start.
 const REACHES: [f64; 4] = [0.3, 1.0, 3.0, 10.0];
 
 /// Deflation ends when so many equilibria are known: there may be infinitely many.
@@ -104,7 +104,7 @@ impl<'m> Search<'m> {
 
     /// Deflated searches from one start, until it leads to nothing new.
     fn exhaust(&mut self, place: u64, guess: &[f64]) {
-        let reach = norm(guess) * REACHES[place as usize / 4 % REACHES.len()];
+        let reach = norm(guess) * REACHES[place as usize / 16 % REACHES.len()];
         while self.found.len() < MOST {
             let place = self.found.len();
             let Some(new) = self.known.find(self.model, guess, reach) else { return };
@@ -144,14 +144,46 @@ impl<'m> Search<'m> {
         Random::Sizes { min, max }.shape(self.info, self.model, self.seed, stream)
     }
 
-    /// The start of a deflated search. In every other one the coordinates have sizes of their own, over two decades; two of four are symmetric.
+    /// The start of a deflated search: a random shape, every other one with decaying modes as small as the others make them, and every fourth
+    /// between two known equilibria. In every other one of the former the coordinates have sizes of their own, over two decades; of four, two are
+    /// symmetric.
     fn guess(&self, place: u64, low: f64, high: f64) -> Vec<f64> {
-        let mut shape = self.of_size(low, high, DEFLATED + place);
         let mut random = Uniform::new(self.seed, UNEVEN + place);
+        if place / 4 % 4 == 2 && self.found.len() > 1 {
+            return self.between(&mut random);
+        }
+        let mut shape = self.of_size(low, high, DEFLATED + place);
         if place % 2 == 1 {
             shape.iter_mut().for_each(|x| *x *= libm::exp10(random.draw() - 1.0));
         }
+        if place / 4 % 2 == 1 {
+            slaved(self.model, &mut shape);
+        }
         if place / 2 % 2 == 1 { symmetric(self.model, shape, &mut random) } else { shape }
+    }
+
+    /// A shape on the line through two known equilibria, one of them turned at random.
+    fn between(&self, random: &mut Uniform) -> Vec<f64> {
+        let last = self.found.len() - 1;
+        let mut pick = || {
+            let place = 0.5 * (1.0 + random.draw()) * self.found.len() as f64;
+            self.found[(place as usize).min(last)].equilibrium.shape.clone()
+        };
+        let (one, mut other) = (pick(), pick());
+        let part = 0.5 + random.draw();
+        self.model.rotate(PI * random.draw(), &mut other);
+        one.iter().zip(&other).map(|(x, y)| part * x + (1.0 - part) * y).collect()
+    }
+}
+
+/// Divides each coordinate by `1 + |lambda|/growth`, with its rate and the largest one: what decays faster than anything grows follows the others,
+/// and is small in equilibria. Nothing changes where the linear part lets nothing grow.
+fn slaved(model: &dyn Model, shape: &mut [f64]) {
+    let mut rates = vec![0.0; shape.len()];
+    Semilinear::<f64>::linear(model, &mut rates);
+    let growth = rates.iter().copied().fold(0.0, f64::max);
+    if growth > 0.0 {
+        shape.iter_mut().zip(&rates).for_each(|(x, rate)| *x /= 1.0 + rate.abs() / growth);
     }
 }
 
