@@ -4,6 +4,7 @@ use super::newton::equations;
 use super::{RelativeEquilibrium, neutral_direction};
 use crate::linear::{add, dot, least_squares, norm, solve};
 use crate::symmetry::{Copies, turning_of_shape};
+use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField};
 
 /// Steps that the deflated method may take.
@@ -20,6 +21,10 @@ const SINGULAR: f64 = 1e-10;
 
 /// Equilibria nearer to each other than this, relative to their size, are one. If eigenvalues vanish, Newton's method gives few digits.
 const SAME: f64 = 1e-6;
+
+/// Step of differences, in units of the size of the shape, and how well they must agree with derivatives.
+const DIFFERENCE: f64 = 1e-4;
+const RESOLVED: f64 = 0.01;
 
 /// Equilibria that are known, for a search of others.
 ///
@@ -113,8 +118,32 @@ impl Deflation {
             let distance = found.distance(body, known.copies.shape());
             distance > APART * errors && !near(distance, known.copies.shape())
         };
-        found.is_isolated(error) && self.known.iter().all(apart)
+        found.is_isolated(error) && self.known.iter().all(apart) && is_resolved(body, &found.shape)
     }
+}
+
+/// Whether differences of the field's values confirm its derivatives, to the part [`RESOLVED`] of the largest one of each equation.
+///
+/// Far away, terms that cancel exactly (those of `(z + conj z)^3` for an imaginary z) leave derivatives that are rounding alone: any shape then
+/// seems to solve the equations, as the residual is small against them.
+fn is_resolved<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> bool {
+    let (dim, step) = (shape.len(), DIFFERENCE * norm(shape));
+    if step == 0.0 {
+        return true;
+    }
+    let matrix = jacobian(body, shape);
+    let largest = |i: usize| (0..dim).fold(0.0, |most: f64, j| most.max(matrix[j * dim + i].abs()));
+    let rate = |j: usize, step: f64| {
+        let (mut beside, mut rate) = (shape.to_vec(), vec![0.0; dim]);
+        beside[j] += step;
+        VectorField::<f64>::eval(body, 0.0, &beside, &mut rate);
+        rate
+    };
+    (0..dim).all(|j| {
+        let (above, below) = (rate(j, step), rate(j, -step));
+        let off = |i: usize| ((above[i] - below[i]) / (2.0 * step) - matrix[j * dim + i]).abs();
+        (0..dim).all(|i| off(i) <= RESOLVED * largest(i))
+    })
 }
 
 /// Newton's step `(du, domega)`, with du across the group orbit; the smallest step where that is not determined.

@@ -82,3 +82,20 @@ fn multiple_roots_and_families_are_not_multiplied() {
     assert!(found.iter().all(|one| one.found_by == FoundBy::Starts), "{found:?}");
     assert!(found.iter().any(|one| values(one)[0].hypot(values(one)[1]) < 1e-12));
 }
+
+/// FitzHugh-Nagumo: `x - x^3/3 - y = 0`, `x + a = b y` has one solution. Where y is 1e15, the derivatives of `x^3` are rounding alone, and hundreds
+/// of places seemed to be solutions.
+#[test]
+fn rounding_far_away_is_no_equilibrium() {
+    let text = "[model.amplitudes]\nmodes = [1]\nsymmetry = \"none\"\n[model.amplitudes.equations]\n\
+        z1 = \"X - X^3/3 - Y + i*(0.08*(X + 0.7 - 0.8*Y))\"";
+    let text = text.replace('X', "(0.5*(z1+conj(z1)))").replace('Y', "((-i/2)*(z1-conj(z1)))");
+    for seed in 0..3 {
+        let mut study = study(&text);
+        study.run.seed = seed;
+        let found = list(&study);
+        assert_eq!(found.len(), 1, "{found:?}");
+        let (x, y) = (values(&found[0])[0], values(&found[0])[1]);
+        assert!((x - x * x * x / 3.0 - y).abs() + (x + 0.7 - 0.8 * y).abs() < 1e-12, "{x} {y}");
+    }
+}
