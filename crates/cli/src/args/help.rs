@@ -104,9 +104,9 @@ Examples:
   motiform equilibria cell --set length=12.6 --starts 50 --json
 
 Newton's method from the circle and from random shapes of several sizes; then by deflation, which looks for what is not known yet, \
-from sizes about those at which terms of the equations balance (a tenth of the smallest to ten times the largest) and in half of the cases \
-from symmetric shapes, until three times \
-as many searches as --starts (fewer for models of more than 8 unknowns) in turn find nothing. Nothing proves that these are all.
+from sizes about those at which terms of the equations balance (a tenth of the smallest to ten times the largest), from \
+symmetric shapes and from shapes between known ones, until half as many searches as --starts for each unknown (1.5 as many for the cell) in turn \
+find nothing. Nothing proves that these are all.
 share: of the random starts that lead there; 'deflated' and 'mirrored' (the mirror image of another one) are those that no start led to. \
 unstable: number of growing directions; 0 is stable. Mirror images are listed apart.";
 

@@ -54,7 +54,7 @@ pub enum FoundBy {
 ///
 /// Deflated searches start from sizes about those at which terms of the equations balance (from a tenth of the smallest to ten times the
 /// largest), half of them from shapes with symmetries of the model, and end when so many of them in turn found nothing:
-/// `starts` for 2 unknowns, `3 starts` for 6 to 8, and fewer for larger models, whose steps take longer.
+/// half of `starts` for each unknown up to 10, and fewer for larger models, whose steps take longer (`1.5 starts` for the cell).
 ///
 /// `None` if the watch stopped it.
 ///
@@ -78,11 +78,11 @@ pub fn equilibria(plan: &Plan, starts: usize, watch: &dyn Watch) -> Result<Optio
     Ok(Some(found.map(|found| describe(model.as_ref(), found, starts)).collect()))
 }
 
-/// How many deflated searches in turn may find nothing.
+/// How many deflated searches in turn may find nothing. In random equations of 5 and 6 unknowns up to 428 found nothing before one that did (of 24 lists).
 fn patience(starts: usize, dim: usize) -> usize {
     let dim = dim.max(1) as f64;
-    let many = (24.0 / dim).max(1.5) * (48.0 / dim).powi(2).min(1.0);
-    (starts as f64 * (0.5 * dim).min(3.0).min(many).max(0.25)).ceil() as usize
+    let many = (60.0 / dim).max(1.5) * (48.0 / dim).powi(2).min(1.0);
+    (starts as f64 * (0.5 * dim).min(many).max(0.25)).ceil() as usize
 }
 
 fn describe(model: &dyn Model, found: Found, starts: usize) -> Equilibrium {
