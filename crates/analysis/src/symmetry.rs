@@ -11,7 +11,7 @@
 
 pub use crate::gauge::Gauge;
 
-use crate::linear::{dot, norm};
+use crate::linear::{add, dot, norm};
 use motiform_dynamics::{Bundle, Equivariant, System, VectorField};
 use std::f64::consts::TAU;
 
@@ -41,10 +41,68 @@ pub fn align<B: Equivariant + ?Sized>(
     if mirrored {
         body.mirror(&mut base);
     }
-    let points = if body.symmetry().rotations { (8 * body.highest_mode()).clamp(32, 512) } else { 1 };
-    let mut turned = base.clone();
+    let mut overlaps = vec![0.0; angles(body)];
+    if overlaps.len() > 1 {
+        body.overlaps(reference, &base, &mut overlaps);
+    }
+    best(body, reference, &base, &overlaps)
+}
+
+/// A shape with its copies turned by equal angles: what many searches for the nearest copy have in common.
+#[derive(Clone, Debug)]
+pub(crate) struct Copies {
+    shape: Vec<f64>,
+    /// The first coordinate of every copy, then the second, and so on.
+    turned: Vec<f64>,
+    count: usize,
+}
+
+impl Copies {
+    pub(crate) fn of<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> Self {
+        let count = angles(body);
+        let mut turned = vec![0.0; shape.len() * count];
+        for place in 0..count {
+            let mut copy = shape.to_vec();
+            body.rotate(TAU / count as f64 * place as f64, &mut copy);
+            copy.iter().enumerate().for_each(|(i, &x)| turned[i * count + place] = x);
+        }
+        Self { shape: shape.to_vec(), turned, count }
+    }
+
+    /// The shape.
+    pub(crate) fn shape(&self) -> &[f64] {
+        &self.shape
+    }
+
+    /// The nearest of the copies of the shape at all angles, where one is nearer than half of the shape's size; farther away, the nearest of those
+    /// at equal angles (eight to a wave of the highest mode), which takes no sine.
+    pub(crate) fn nearest<B: Equivariant + ?Sized>(&self, body: &B, reference: &[f64]) -> Vec<f64> {
+        let mut overlaps = vec![0.0; self.count];
+        for (&x, column) in reference.iter().zip(self.turned.chunks_exact(self.count)) {
+            add(&mut overlaps, x, column);
+        }
+        let top = (0..self.count).max_by(|&i, &j| overlaps[i].total_cmp(&overlaps[j])).unwrap_or(0);
+        let mut copy: Vec<f64> = (0..self.shape.len()).map(|i| self.turned[i * self.count + top]).collect();
+        let square = dot(&self.shape, &self.shape);
+        if dot(reference, reference) + square - 2.0 * overlaps[top] < 0.25 * square {
+            copy.copy_from_slice(&self.shape);
+            body.rotate(best(body, reference, &self.shape, &overlaps).angle, &mut copy);
+        }
+        copy
+    }
+}
+
+/// The number of equal angles that every mode of the body needs.
+fn angles<B: Equivariant + ?Sized>(body: &B) -> usize {
+    if body.symmetry().rotations { (8 * body.highest_mode()).clamp(32, 512) } else { 1 }
+}
+
+/// The best alignment of `base` with `reference`, from its overlaps at equal angles.
+fn best<B: Equivariant + ?Sized>(body: &B, reference: &[f64], base: &[f64], overlaps: &[f64]) -> Alignment {
+    let points = overlaps.len();
+    let mut turned = base.to_vec();
     let mut turn = |angle: f64| {
-        turned.copy_from_slice(&base);
+        turned.copy_from_slice(base);
         body.rotate(angle, &mut turned);
         let rest: f64 = reference.iter().zip(&turned).map(|(a, b)| (a - b) * (a - b)).sum();
         Alignment { angle: wrap(angle), distance: rest.sqrt() }
@@ -53,20 +111,18 @@ pub fn align<B: Equivariant + ?Sized>(
         return turn(0.0);
     }
     let cell = TAU / points as f64;
-    let mut overlaps = vec![0.0; points];
-    body.overlaps(reference, &base, &mut overlaps);
     // Between grid points c rises by (N cell / 2)^2 / 2 of |reference| |u| at most, N the highest mode: a shape that is
     // nearly its own image has several maxima that differ by less.
     let highest = overlaps.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let half = 0.5 * body.highest_mode() as f64 * cell;
-    let least = highest - 0.5 * half * half * norm(reference) * norm(&base);
+    let least = highest - 0.5 * half * half * norm(reference) * norm(base);
     let tops = (0..points).filter(|&i| {
         let (before, after) = (overlaps[(i + points - 1) % points], overlaps[(i + 1) % points]);
         overlaps[i] >= least && overlaps[i] >= before && overlaps[i] > after || overlaps[i] == highest
     });
     let mut best = turn(0.0);
     for top in tops {
-        let found = turn(refine(body, reference, &base, cell * top as f64, cell));
+        let found = turn(refine(body, reference, base, cell * top as f64, cell));
         if found.distance < best.distance {
             best = found;
         }

@@ -1,5 +1,7 @@
 //! Relative equilibria: shapes that do not change but for a steady rotation.
 
+mod balance;
+mod deflation;
 mod newton;
 mod saddle;
 mod spectrum;
@@ -7,6 +9,8 @@ mod uncertainty;
 
 use crate::linear::{add, basis, norm};
 use crate::symmetry::align;
+pub use balance::balances;
+pub use deflation::Deflation;
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField, model};
 use nalgebra::DMatrix;

@@ -69,7 +69,11 @@ fn round<B: Equivariant + ?Sized>(body: &B, shape: &mut [f64], moved: f64) -> bo
 }
 
 /// The columns of `[Df - omega G, -Gu]` and `-(f - omega Gu)`, each row divided by the largest coefficient of its equation.
-fn equations<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64) -> (Vec<Vec<f64>>, Vec<f64>) {
+pub(super) fn equations<B: Equivariant + ?Sized>(
+    body: &B,
+    shape: &[f64],
+    omega: f64,
+) -> (Vec<Vec<f64>>, Vec<f64>) {
     let mut columns = linearisation(body, shape, omega);
     let mut spin = vec![0.0; shape.len()];
     body.spin(shape, &mut spin);

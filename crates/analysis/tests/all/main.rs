@@ -3,6 +3,7 @@
 mod bodies;
 mod classification_of_the_cell;
 mod common;
+mod deflation;
 mod equilibrium;
 mod escape;
 mod heteroclinic;

@@ -103,8 +103,12 @@ Examples:
   motiform equilibria tensor --preset fig4 --set kappa2=0.9 --set kappa3=0.1
   motiform equilibria cell --set length=12.6 --starts 50 --json
 
-Newton's method from the circle and from random shapes of several sizes. Nothing proves that these are all; shapes that many starts \
-lead to have a large share. unstable: number of growing directions; 0 is stable. Mirror images are listed apart.";
+Newton's method from the circle and from random shapes of several sizes; then by deflation, which looks for what is not known yet, \
+from sizes about those at which terms of the equations balance (a tenth of the smallest to ten times the largest), from \
+symmetric shapes and from shapes between known ones, until half as many searches as --starts for each unknown (1.5 as many for the cell) in turn \
+find nothing. Nothing proves that these are all.
+share: of the random starts that lead there; 'deflated' and 'mirrored' (the mirror image of another one) are those that no start led to. \
+unstable: number of growing directions; 0 is stable. Mirror images are listed apart.";
 
 pub(super) const SECTION_HELP: &str = "\
 Examples:

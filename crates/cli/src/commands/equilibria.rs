@@ -4,7 +4,7 @@ use crate::args::EquilibriaOptions;
 use crate::commands::subject;
 use crate::output::{End, print};
 use crate::progress::Progress;
-use motiform_lab::equilibria::{Equilibrium, equilibria};
+use motiform_lab::equilibria::{Equilibrium, FoundBy, equilibria};
 use motiform_study::Plan;
 use serde_json::json;
 use std::fmt::Write;
@@ -20,6 +20,7 @@ pub(crate) fn run(options: &EquilibriaOptions) -> anyhow::Result<End> {
             "model": plan.computation.model,
             "parameters": plan.computation.parameters,
             "equilibria": found,
+            "complete": "not proven",
         }))?
     } else {
         table(&found)?
@@ -46,13 +47,24 @@ fn table(found: &[Equilibrium]) -> anyhow::Result<String> {
         });
         writeln!(
             text,
-            "{name:<width$} {:>12.8} {:>13.8} {:>9} {:>6.1} %  {}",
+            "{name:<width$} {:>12.8} {:>13.8} {:>9} {:>8}  {}",
             one.speed,
             one.turning_rate,
             one.unstable,
-            100.0 * one.share,
+            share(one),
             values.collect::<Vec<_>>().join(", ")
         )?;
     }
-    Ok(text.trim_end().to_owned())
+    let count = found.len();
+    write!(text, "{count} found; nothing proves that these are all, more --starts may find more")?;
+    Ok(text)
+}
+
+/// The share of the random starts, or the other way that led to it.
+fn share(one: &Equilibrium) -> String {
+    match one.found_by {
+        FoundBy::Starts => format!("{:.1} %", 100.0 * one.share),
+        FoundBy::Deflation => "deflated".to_owned(),
+        FoundBy::Mirror => "mirrored".to_owned(),
+    }
 }

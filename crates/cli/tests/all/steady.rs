@@ -20,7 +20,9 @@ fn equilibria_are_listed_with_their_stability() {
     );
     assert_eq!(keys(&found[0]["shape"]), ["v1", "v2", "s11", "s12", "u111", "u222"]);
     let table = folder.run(words).expect(0).stdout;
-    assert_eq!(table.lines().count(), 1 + found.len(), "{table}");
+    assert_eq!(table.lines().count(), 2 + found.len(), "{table}");
+    assert!(table.contains(&format!("{} found; nothing proves that these are all", found.len())), "{table}");
+    assert_eq!(json["complete"], "not proven");
 }
 
 #[test]

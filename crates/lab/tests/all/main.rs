@@ -6,6 +6,7 @@ mod analytic_diagram;
 mod basins;
 mod common;
 mod ensemble;
+mod equilibria;
 mod files;
 mod fuzz;
 mod given;

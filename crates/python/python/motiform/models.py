@@ -242,7 +242,7 @@ class Model:
 
     def equilibria(self, *, starts: int = 200, seed: int | None = None, progress: Progress = None) -> list[Equilibrium]:
         """The steady motions (at rest, straight, circular) that Newton's method finds from the circle and from random
-        shapes, the most stable first. The list may be incomplete; more `starts` may find more."""
+        shapes, and deflation beside them, the most stable first. The list may be incomplete; more `starts` may find more."""
         study = _with(self._study, None, {"seed": seed})
         with Bar(progress, starts, "starts") as bar:
             raw = json.loads(_motiform.equilibria(study, starts, bar.callable()))

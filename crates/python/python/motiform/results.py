@@ -249,6 +249,8 @@ class Equilibrium:
     residual: float
     share: float
     """Fraction of the random starts from which Newton's method converged to this equilibrium."""
+    found_by: str
+    """What led to it first: starts (the circle or a random start), deflation, or mirror (the mirror image of another)."""
     course: str | None = None
     """Sense of rotation, or direction to the field, where the model tells them apart."""
     heading: float | None = None

@@ -1,13 +1,14 @@
 //! The steady motions of a plan: shapes that are constant up to a steady rotation.
 
+mod search;
+
 use crate::analyse;
 use motiform_analysis::regime::Direction;
-use motiform_analysis::{Regime, RelativeEquilibrium, SteadyMotion};
-use motiform_dynamics::Watch;
-use motiform_dynamics::{Model, escape::norm};
-use motiform_study::initial::random_shape;
+use motiform_analysis::{Regime, SteadyMotion};
+use motiform_dynamics::{Model, Part, Watch};
 use motiform_study::plan::{Named, check};
 use motiform_study::{Error, Plan};
+use search::{Found, Search};
 use serde::Serialize;
 
 /// A steady motion: at rest, straight, or circular.
@@ -32,61 +33,60 @@ pub struct Equilibrium {
     pub residual: f64,
     /// The fraction of the random starts that converged to it.
     pub share: f64,
+    /// What led to it first.
+    pub found_by: FoundBy,
 }
 
-/// Starts are drawn with these sizes in turn: the states of these models have entries of about 1.
-const SIZES: [f64; 6] = [0.01, 0.1, 0.3, 1.0, 2.0, 4.0];
+/// What led to an equilibrium first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FoundBy {
+    /// Newton's method from the circle or a random start.
+    Starts,
+    /// Deflation.
+    Deflation,
+    /// It is the mirror image of another one.
+    Mirror,
+}
 
-/// Equilibria nearer to each other than this, relative to their size, are identified. If eigenvalues vanish, Newton's method
-/// gives few digits.
-const SAME: f64 = 1e-6;
-
-/// The equilibria that Newton's method finds from the circle and from `starts` random shapes of several sizes, the most
-/// stable first; mirror images count as different. The list may be incomplete.
+/// The equilibria that Newton's method finds from the circle and from `starts` random shapes of several sizes, and those that deflation
+/// finds beside them, the most stable first; mirror images count as different. The list may be incomplete.
+///
+/// Deflated searches start from sizes about those at which terms of the equations balance (from a tenth of the smallest to ten times the
+/// largest), half of them from shapes with symmetries of the model, and end when so many of them in turn found nothing:
+/// half of `starts` for each unknown up to 10, and fewer for larger models, whose steps take longer (`1.5 starts` for the cell).
 ///
 /// `None` if the watch stopped it.
 ///
 /// # Errors
 /// A plan with noise; parameters that the model rejects.
+///
+/// # Checked by  tests/all/equilibria/: closed forms of the tensor model and of the Lorenz equations, a search by other means
 pub fn equilibria(plan: &Plan, starts: usize, watch: &dyn Watch) -> Result<Option<Vec<Equilibrium>>, Error> {
     check("starts", starts as f64, starts > 0, "give at least 1")?;
     let model = analyse::model(plan)?;
-    let circle = vec![0.0; model.dim()];
-    let mut found: Vec<(RelativeEquilibrium, usize)> = Vec::new();
-    for start in 0..=starts {
-        if watch.stopped() {
-            return Ok(None);
-        }
-        let size = SIZES[start % SIZES.len()];
-        let guess = match start {
-            0 => circle.clone(),
-            _ => random_shape(model.as_ref(), size, plan.computation.seed, start as u64),
-        };
-        if let Some(equilibrium) = RelativeEquilibrium::find(model.as_ref(), &guess) {
-            count(&mut found, equilibrium, model.as_ref(), start > 0);
-        }
-        watch.progress((start + 1) as f64 / (starts + 1) as f64);
+    let mut search = Search::new(plan.info()?, model.as_ref(), plan.computation.seed);
+    let (first, second) = (Part { watch, from: 0.0, to: 0.5 }, Part { watch, from: 0.5, to: 1.0 });
+    if search
+        .starts(starts, &first)
+        .and_then(|()| search.deflate(patience(starts, model.dim()), &second))
+        .is_none()
+    {
+        return Ok(None);
     }
-    found.sort_by(|a, b| a.0.growth().total_cmp(&b.0.growth()));
-    Ok(Some(found.into_iter().map(|(found, hits)| describe(model.as_ref(), found, hits, starts)).collect()))
+    let found = search.finish().into_iter();
+    Ok(Some(found.map(|found| describe(model.as_ref(), found, starts)).collect()))
 }
 
-/// Adds an equilibrium, or counts another start for an existing one.
-fn count(
-    found: &mut Vec<(RelativeEquilibrium, usize)>,
-    new: RelativeEquilibrium,
-    model: &dyn Model,
-    drawn: bool,
-) {
-    let size = norm(&new.shape).max(1e-3);
-    let same = found.iter_mut().find(|(known, _)| known.distance(model, &new.shape) < SAME * size);
-    match same {
-        Some((_, hits)) => *hits += usize::from(drawn),
-        None => found.push((new, usize::from(drawn))),
-    }
+/// How many deflated searches in turn may find nothing. In random equations of 5 and 6 unknowns up to 428 found nothing before one that did (of 24 lists).
+fn patience(starts: usize, dim: usize) -> usize {
+    let dim = dim.max(1) as f64;
+    let many = (60.0 / dim).max(1.5) * (48.0 / dim).powi(2).min(1.0);
+    (starts as f64 * (0.5 * dim).min(many).max(0.25)).ceil() as usize
 }
 
-fn describe(model: &dyn Model, found: RelativeEquilibrium, hits: usize, starts: usize) -> Equilibrium {
+fn describe(model: &dyn Model, found: Found, starts: usize) -> Equilibrium {
+    let Found { equilibrium: found, by, hits } = found;
     let mut values = vec![0.0; model.coordinates().len()];
     model.decode(&found.shape, &mut values);
     let names = model.coordinates().iter().map(|coordinate| coordinate.name.to_owned());
@@ -102,6 +102,7 @@ fn describe(model: &dyn Model, found: RelativeEquilibrium, hits: usize, starts: 
         unstable: found.growing(),
         residual: found.residual,
         share: hits as f64 / starts as f64,
+        found_by: by,
         eigenvalues: found.eigenvalues,
     }
 }

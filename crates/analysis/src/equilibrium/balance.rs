@@ -1,0 +1,51 @@
+//! Sizes at which the terms of the equations balance.
+
+use crate::linear::norm;
+use motiform_dynamics::{Equivariant, VectorField};
+
+/// Powers of 2 between which sizes are looked at.
+const POWERS: std::ops::RangeInclusive<i32> = -40..=40;
+
+/// A slope is that of one term if it is this close to a whole number.
+const WHOLE: f64 = 0.1;
+
+/// The sizes at which terms of different degree balance along these directions, ascending.
+///
+/// Along a ray `t w` every equation is a sum of powers of t. The slope `d ln|f_i(t w)| / d ln t` is a whole number wherever one power
+/// dominates, and two of them balance where it changes. This needs nothing but values of f, and also finds sizes at which terms of equal
+/// sign balance: other equations may have roots there. Linear equations have none.
+///
+/// # Checked by  tests/all/deflation.rs: a field with a known balance, in any units
+#[must_use]
+pub fn balances<B: Equivariant + ?Sized>(body: &B, directions: &[Vec<f64>]) -> Vec<f64> {
+    let mut sizes: Vec<f64> =
+        directions.iter().filter(|ray| norm(ray) > 0.0).flat_map(|ray| along(body, ray)).collect();
+    sizes.sort_by(f64::total_cmp);
+    sizes
+}
+
+/// The same along one direction.
+fn along<B: Equivariant + ?Sized>(body: &B, ray: &[f64]) -> Vec<f64> {
+    let length = norm(ray);
+    let rate = |power: i32| {
+        let at: Vec<f64> = ray.iter().map(|x| x / length * libm::exp2(f64::from(power))).collect();
+        let mut rate = at.clone();
+        VectorField::<f64>::eval(body, 0.0, &at, &mut rate);
+        rate
+    };
+    let rates: Vec<Vec<f64>> = POWERS.map(rate).collect();
+    (0..ray.len())
+        .flat_map(|i| changes(&rates.iter().map(|rate| rate[i].abs()).collect::<Vec<_>>()))
+        .collect()
+}
+
+/// Where the slope of these values, at successive powers of 2, grows from one whole number to another.
+fn changes(values: &[f64]) -> Vec<f64> {
+    let slope = |(power, pair): (i32, &[f64])| (f64::from(power) + 0.5, libm::log2(pair[1] / pair[0]));
+    let of_one_term = |&(_, slope): &(f64, f64)| slope.is_finite() && (slope - slope.round()).abs() < WHOLE;
+    let slopes: Vec<(f64, f64)> = POWERS.zip(values.windows(2)).map(slope).filter(of_one_term).collect();
+    let grows = |pair: &[(f64, f64)]| {
+        (pair[0].1.round() < pair[1].1.round()).then(|| libm::exp2(0.5 * (pair[0].0 + pair[1].0)))
+    };
+    slopes.windows(2).filter_map(grows).collect()
+}

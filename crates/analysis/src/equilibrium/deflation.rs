@@ -1,0 +1,184 @@
+//! Deflation: Newton's method that does not come back to what is known.
+
+use super::newton::equations;
+use super::{RelativeEquilibrium, neutral_direction};
+use crate::linear::{add, dot, least_squares, norm, solve};
+use crate::symmetry::{Copies, turning_of_shape};
+use motiform_dynamics::tangent::jacobian;
+use motiform_dynamics::{Equivariant, VectorField};
+
+/// Steps that the deflated method may take.
+const STEPS: usize = 60;
+
+/// A step this small against the distance from the nearest known equilibrium leads to another one: Newton's method itself does the rest.
+const CLOSE: f64 = 1e-2;
+
+/// How many times its error an equilibrium must be away from the known ones: errors are bounds to first order.
+const APART: f64 = 100.0;
+
+/// Equations are solved by elimination unless they are this near to singular ones.
+const SINGULAR: f64 = 1e-10;
+
+/// Equilibria nearer to each other than this, relative to their size, are one. If eigenvalues vanish, Newton's method gives few digits.
+const SAME: f64 = 1e-6;
+
+/// Step of differences, in units of the size of the shape, and how well they must agree with derivatives.
+const DIFFERENCE: f64 = 1e-4;
+const RESOLVED: f64 = 0.01;
+
+/// Equilibria that are known, for a search of others.
+///
+/// The deflated method solves `M(u) (f(u) - omega Gu) = 0`, `M = prod_i (L/|u - u_i| + 1)`: a known root `u_i` is none of these
+/// equations, because M grows as fast as the residual falls. The distance from `u_i` is that from the nearest of its rotated
+/// copies. As only a scalar is new, the step is Newton's step d times `1/(1 - d . grad ln M)`.
+///
+/// Equilibria that their linearisation does not determine (one of a family) are not deflated, since the next one is beside them, and none of
+/// them is found.
+///
+/// Source: Farrell, Birkisson, Funke (2015), SIAM J. Sci. Comput. 37, A2026: power 1, shift 1; the scalar is from the formula of Sherman and
+/// Morrison. In random equations of 4 to 6 unknowns power 2 takes half as many starts more: it drives away from the other roots near a known one.
+///
+/// # Checked by  tests/all/deflation.rs: all roots of known fields, rotated copies, families; lab's tests/all/equilibria/: other searches
+#[derive(Clone, Debug, Default)]
+pub struct Deflation {
+    known: Vec<Known>,
+}
+
+/// A known equilibrium.
+#[derive(Clone, Debug)]
+struct Known {
+    copies: Copies,
+    /// How far it may be from the true one.
+    error: f64,
+    /// Whether no other one is beside it.
+    isolated: bool,
+}
+
+impl Deflation {
+    /// Adds an equilibrium to the known ones.
+    pub fn add<B: Equivariant + ?Sized>(&mut self, body: &B, known: &RelativeEquilibrium) {
+        let error = norm(&known.uncertainty(body).shape);
+        let copies = Copies::of(body, &known.shape);
+        self.known.push(Known { copies, error, isolated: known.is_isolated(error) });
+    }
+
+    /// An equilibrium that is none of the known ones, by the deflated method from `guess` with `L = reach`; `None` where that does not
+    /// converge.
+    ///
+    /// A step is limited to the size of the shape, or to the reach where that is larger. Where steps become small against the
+    /// distance from the known ones, [`RelativeEquilibrium::find`] completes the result.
+    #[must_use]
+    pub fn find<B: Equivariant + ?Sized>(
+        &self,
+        body: &B,
+        guess: &[f64],
+        reach: f64,
+    ) -> Option<RelativeEquilibrium> {
+        let mut shape = guess.to_vec();
+        let mut rate = vec![0.0; shape.len()];
+        VectorField::<f64>::eval(body, 0.0, &shape, &mut rate);
+        let mut omega = turning_of_shape(body, &shape, &rate);
+        for _ in 0..STEPS {
+            let step = step(body, &shape, omega)?;
+            let (turned, step) = step.split_last()?;
+            let length = norm(step);
+            let (pull, nearest) = self.pull(body, &shape, step, reach);
+            if length <= CLOSE * nearest {
+                return RelativeEquilibrium::find(body, &shape).filter(|found| self.lacks(body, found));
+            }
+            let most = norm(&shape).max(reach) / length;
+            let part = (1.0 / (1.0 - pull)).clamp(-most, most);
+            add(&mut shape, part, step);
+            omega += part * turned;
+        }
+        None
+    }
+
+    /// `d . grad ln M` for the step d, and the distance from the nearest equilibrium that is deflated.
+    ///
+    /// `grad ln (L/D + 1) = -1/(1 + D/L) (u - u_i)/D^2`, `u_i` the nearest of its rotated copies.
+    fn pull<B: Equivariant + ?Sized>(&self, body: &B, shape: &[f64], step: &[f64], reach: f64) -> (f64, f64) {
+        let (mut sum, mut nearest) = (0.0, f64::INFINITY);
+        for known in self.known.iter().filter(|known| known.isolated) {
+            let mut away = known.copies.nearest(body, shape);
+            away.iter_mut().zip(shape).for_each(|(x, u)| *x = u - *x);
+            let square = dot(&away, &away).max(f64::MIN_POSITIVE);
+            let distance = square.sqrt();
+            sum -= dot(&away, step) / square / (1.0 + distance / reach);
+            nearest = distance.min(nearest);
+        }
+        (sum, nearest.min(norm(shape).max(reach)))
+    }
+
+    /// Whether it is determined by its linearisation and none of the known ones, beyond its error and theirs.
+    fn lacks<B: Equivariant + ?Sized>(&self, body: &B, found: &RelativeEquilibrium) -> bool {
+        let error = norm(&found.uncertainty(body).shape);
+        let apart = |known: &Known| {
+            let errors = error + if known.isolated { known.error } else { 0.0 };
+            let distance = found.distance(body, known.copies.shape());
+            distance > APART * errors && !near(distance, known.copies.shape())
+        };
+        found.is_isolated(error) && self.known.iter().all(apart) && is_resolved(body, &found.shape)
+    }
+}
+
+/// Whether differences of the field's values confirm its derivatives, to the part [`RESOLVED`] of the largest one of each equation.
+///
+/// Far away, terms that cancel exactly (those of `(z + conj z)^3` for an imaginary z) leave derivatives that are rounding alone: any shape then
+/// seems to solve the equations, as the residual is small against them.
+fn is_resolved<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> bool {
+    let (dim, step) = (shape.len(), DIFFERENCE * norm(shape));
+    if step == 0.0 {
+        return true;
+    }
+    let matrix = jacobian(body, shape);
+    let largest = |i: usize| (0..dim).fold(0.0, |most: f64, j| most.max(matrix[j * dim + i].abs()));
+    let rate = |j: usize, step: f64| {
+        let (mut beside, mut rate) = (shape.to_vec(), vec![0.0; dim]);
+        beside[j] += step;
+        VectorField::<f64>::eval(body, 0.0, &beside, &mut rate);
+        rate
+    };
+    (0..dim).all(|j| {
+        let (above, below) = (rate(j, step), rate(j, -step));
+        let off = |i: usize| ((above[i] - below[i]) / (2.0 * step) - matrix[j * dim + i]).abs();
+        (0..dim).all(|i| off(i) <= RESOLVED * largest(i))
+    })
+}
+
+/// Newton's step `(du, domega)`, with du across the group orbit; the smallest step where that is not determined.
+fn step<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64) -> Option<Vec<f64>> {
+    let (unknowns, target) = equations(body, shape, omega);
+    let (mut square, mut rhs) = (unknowns.clone(), target.clone());
+    match neutral_direction(body, shape).pop() {
+        Some(neutral) => {
+            rhs.push(0.0);
+            square.iter_mut().zip(neutral.iter().chain(&[0.0])).for_each(|(column, x)| column.push(*x));
+        }
+        None => square.truncate(shape.len()),
+    }
+    let Some(mut step) = solve(&square, &rhs, SINGULAR) else { return least_squares(&unknowns, &target) };
+    step.resize(unknowns.len(), 0.0);
+    Some(step)
+}
+
+impl RelativeEquilibrium {
+    /// Whether no other one is beside it, as far as its linearisation and its error tell: no eigenvalue is zero within its own error.
+    fn is_isolated(&self, error: f64) -> bool {
+        let rates = self.eigenvalues.iter().zip(&self.errors);
+        let mut leading = rates.take_while(|(value, error)| value.0 >= -APART * **error);
+        APART * error < norm(&self.shape).max(1e-3)
+            && leading.all(|(value, error)| libm::hypot(value.0, value.1) > APART * *error)
+    }
+
+    /// Whether these are one equilibrium, up to rotations.
+    #[must_use]
+    pub fn is_same<B: Equivariant + ?Sized>(&self, body: &B, other: &Self) -> bool {
+        near(self.distance(body, &other.shape), &other.shape)
+    }
+}
+
+/// Whether something this far from `shape` is the same.
+fn near(distance: f64, shape: &[f64]) -> bool {
+    distance < SAME * norm(shape).max(1e-3)
+}

@@ -1,0 +1,101 @@
+//! The list of equilibria is complete: closed forms, and another search.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+mod irrelevant;
+mod other_search;
+mod tensor;
+
+use motiform_lab::equilibria::{Equilibrium, FoundBy, equilibria};
+use motiform_study::{Plan, Study};
+
+fn study(text: &str) -> Study {
+    Study::parse(text, "text", "test").unwrap()
+}
+
+/// The list with the default number of starts.
+fn list(study: &Study) -> Vec<Equilibrium> {
+    equilibria(&Plan::new(study).unwrap(), 200, &()).unwrap().unwrap()
+}
+
+/// The real and imaginary parts of the amplitudes: the velocity is the conjugate of z1.
+fn values(one: &Equilibrium) -> Vec<f64> {
+    let mut values = one.shape.values();
+    values[1] = -values[1];
+    values
+}
+
+/// The Lorenz equations for `x + iy = z1`, `z = Re z2`, in a unit of length: r = 20 has its steady states at distances of 21 units.
+fn lorenz(r: f64, unit: f64) -> Study {
+    let text = "[model.amplitudes]\nmodes = [1, 2]\nsymmetry = \"none\"\n[model.amplitudes.parameters]\nr = 20.0\ns = 10.0\n\
+        b = 2.6666666666666665\nk = 1.0\n[model.amplitudes.equations]\n\
+        z1 = \"s*(Y - X) + i*(r*X - Y - k*X*Z)\"\nz2 = \"k*X*Y - b*Z - i*((-i/2)*(z2-conj(z2)))\"";
+    let text = text.replace('X', "(0.5*(z1+conj(z1)))").replace('Y', "((-i/2)*(z1-conj(z1)))");
+    let mut study = study(&text.replace('Z', "(0.5*(z2+conj(z2)))"));
+    study.set("r", r).unwrap();
+    study.set("k", 1.0 / unit).unwrap();
+    study
+}
+
+/// The origin, and `x = y = -+sqrt(b(r-1))`, `z = r - 1`: Lorenz (1963), J. Atmos. Sci. 20, 130, eq. (31).
+#[test]
+fn the_lorenz_equations_have_three_steady_states_in_any_unit() {
+    for unit in [1e-3, 1.0, 1e4] {
+        for r in [0.5, 2.0, 10.0, 20.0, 24.0, 28.0_f64] {
+            let found = list(&lorenz(r, unit));
+            let x = (8.0 / 3.0 * (r - 1.0)).sqrt();
+            let mut wanted = vec![[0.0; 3]];
+            if r > 1.0 {
+                wanted.extend([[x, x, r - 1.0], [-x, -x, r - 1.0]]);
+            }
+            assert_eq!(found.len(), wanted.len(), "r = {r}, unit {unit}: {found:?}");
+            for want in wanted {
+                let near =
+                    |one: &Equilibrium| (0..3).all(|i| (values(one)[i] / unit - want[i]).abs() < 1e-9 * r);
+                assert!(found.iter().any(near), "r = {r}, unit {unit}: {want:?} in {found:?}");
+            }
+            assert!(found.iter().all(|one| one.residual < 1e-11 * unit * r));
+        }
+    }
+}
+
+#[test]
+fn what_deflation_alone_finds_has_no_share() {
+    let found = list(&lorenz(20.0, 1.0));
+    let ways: Vec<_> = found.iter().map(|one| (one.found_by, one.share)).collect();
+    assert_eq!(ways.iter().filter(|way| **way == (FoundBy::Deflation, 0.0)).count(), 2, "{ways:?}");
+    assert_eq!(ways.iter().filter(|way| **way == (FoundBy::Starts, 1.0)).count(), 1, "{ways:?}");
+    assert_eq!(list(&lorenz(20.0, 1.0)), found, "the same bits");
+}
+
+/// A double root at -1 beside a regular one at 2, and a circle of roots beside nothing but the origin: neither is listed again and again.
+#[test]
+fn multiple_roots_and_families_are_not_multiplied() {
+    let fold = "[model.amplitudes]\nmodes = [1]\nsymmetry = \"none\"\n[model.amplitudes.equations]\n\
+        z1 = \"2 + 3*(0.5*(z1+conj(z1))) - (0.5*(z1+conj(z1)))^3 - i*((-i/2)*(z1-conj(z1)))\"";
+    let found = list(&study(fold));
+    let regular = found.iter().filter(|one| (values(one)[0] - 2.0).abs() < 1e-12).count();
+    let double = found.iter().filter(|one| (values(one)[0] + 1.0).abs() < 1e-5).count();
+    assert_eq!((regular, found.len() - double), (1, 1), "{found:?}");
+    let circle = "[model.amplitudes]\nmodes = [1]\nsymmetry = \"none\"\n[model.amplitudes.equations]\nz1 = \"(1 - |z1|^2)*z1\"";
+    let found = list(&study(circle));
+    assert!(found.iter().all(|one| one.found_by == FoundBy::Starts), "{found:?}");
+    assert!(found.iter().any(|one| values(one)[0].hypot(values(one)[1]) < 1e-12));
+}
+
+/// FitzHugh-Nagumo: `x - x^3/3 - y = 0`, `x + a = b y` has one solution. Where y is 1e15, the derivatives of `x^3` are rounding alone, and hundreds
+/// of places seemed to be solutions.
+#[test]
+fn rounding_far_away_is_no_equilibrium() {
+    let text = "[model.amplitudes]\nmodes = [1]\nsymmetry = \"none\"\n[model.amplitudes.equations]\n\
+        z1 = \"X - X^3/3 - Y + i*(0.08*(X + 0.7 - 0.8*Y))\"";
+    let text = text.replace('X', "(0.5*(z1+conj(z1)))").replace('Y', "((-i/2)*(z1-conj(z1)))");
+    for seed in 0..3 {
+        let mut study = study(&text);
+        study.run.seed = seed;
+        let found = list(&study);
+        assert_eq!(found.len(), 1, "{found:?}");
+        let (x, y) = (values(&found[0])[0], values(&found[0])[1]);
+        assert!((x - x * x * x / 3.0 - y).abs() + (x + 0.7 - 0.8 * y).abs() < 1e-12, "{x} {y}");
+    }
+}
