@@ -77,7 +77,7 @@ fn both_sides_of_a_crossing_branch_are_followed() {
     near(point.parameter, 0.0, 1e-9);
     let mut ends = Vec::new();
     for side in switch(&family, point, &settings, &()).unwrap() {
-        for point in side {
+        for point in side.into_iter().flatten() {
             near(point.motion.shape()[0], point.parameter, 1e-9);
             ends.push(point.parameter);
         }
@@ -266,7 +266,7 @@ fn the_relative_equilibria_of_the_full_model_solve_its_two_quadratics() {
 
     let mut branches = switch(&full_model, bend, &settings, &()).unwrap();
     assert_eq!(branches.len(), 1, "left and right are copies");
-    let circular: Vec<Point> = branches.pop().unwrap().collect();
+    let circular: Vec<Point> = branches.pop().unwrap().pop().unwrap().collect();
     assert!(circular.iter().filter(|point| point.parameter < 2.7).count() > 30);
     for point in &circular {
         let motion = point.motion.equilibrium().unwrap();
