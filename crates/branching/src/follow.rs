@@ -153,7 +153,9 @@ impl Work<'_> {
     fn open(&self) -> impl Iterator<Item = Origin> {
         let all =
             self.done.branches.iter().enumerate().flat_map(|(number, branch)| Origin::on(number, branch));
-        all.filter(|origin| self.done.links.iter().all(|link| link.origin != *origin))
+        let steady = self.bodies.plan.computation.stride.steady;
+        let wanted = move |origin: &Origin| !steady || origin.is_steady(&self.done.branches);
+        all.filter(|origin| self.done.links.iter().all(|link| link.origin != *origin)).filter(wanted)
     }
 
     /// The open origin with the shortest period: what begins there is found soonest, and cascades of doublings come last.

@@ -111,6 +111,18 @@ impl Origin {
         }
     }
 
+    /// Whether what begins here are steady motions.
+    pub(super) fn is_steady(self, branches: &[Followed]) -> bool {
+        match self {
+            Self::Special { branch, leg, point } => {
+                let point = &branches[branch].legs[leg].samples[point].point;
+                point.motion.orbit().is_none() && !matches!(point.special, Some(Special::Hopf(_)))
+            }
+            Self::Loop { .. } => false,
+            _ => true,
+        }
+    }
+
     /// The branch on which it lies.
     #[must_use]
     pub const fn branch(self) -> Option<usize> {

@@ -8,7 +8,7 @@ use motiform_models::parameters::index_of;
 use serde::{Deserialize, Serialize};
 
 /// Version of the meaning of a plan of branches; part of the hash. A change that moves a number raises it.
-pub const BRANCH_FORMAT: u32 = 1;
+pub const BRANCH_FORMAT: u32 = 2;
 
 /// The regimes that are steady or repeat: motions that can be followed.
 pub const FOLLOWED: [Regime; 6] = [
@@ -44,7 +44,7 @@ pub struct BranchSettings {
     pub branches: usize,
     /// Values of the parameter at which motions are sampled, swept upwards and downwards; 0 for none.
     pub samples: usize,
-    /// Steps, tolerance and sides.
+    /// Steps, tolerance, sides, and whether orbits are followed.
     pub stride: Stride,
     /// What the start is, if it was taken from an earlier result; otherwise it is simulated.
     pub given: Option<Given>,
@@ -54,8 +54,13 @@ impl BranchSettings {
     /// The defaults: the motion that the start settles on and what begins on its branch, to both sides.
     #[must_use]
     pub const fn over(along: Along) -> Self {
-        let stride =
-            Stride { first_step: None, branch_step: None, tolerance: None, direction: Towards::Both };
+        let stride = Stride {
+            first_step: None,
+            branch_step: None,
+            tolerance: None,
+            direction: Towards::Both,
+            steady: false,
+        };
         Self { along, origin: None, points: 2000, branches: 8, samples: 0, stride, given: None }
     }
 }
@@ -87,7 +92,7 @@ pub struct BranchComputation {
     /// Values of the parameter at which motions are sampled; 0 for none.
     #[serde(default, skip_serializing_if = "is_none")]
     pub samples: usize,
-    /// Steps, tolerance and sides.
+    /// Steps, tolerance, sides, and whether orbits are followed.
     #[serde(default, skip_serializing_if = "Stride::is_default")]
     pub stride: Stride,
     /// What the start is, if it was taken from an earlier result; otherwise it is simulated.

@@ -36,6 +36,8 @@ settings! {
         pub tolerance: Option<f64>,
         /// The sides to which the start is followed: "up" (larger values of the parameter), "down" or "both", if not given.
         pub direction: Option<Towards>,
+        /// Follow steady motions alone (motionless, straight, circular), not the orbits that begin at Hopf points.
+        pub steady: bool,
     }
 }
 
@@ -53,6 +55,7 @@ impl Default for FollowSettings {
             branch_step: None,
             tolerance: None,
             direction: None,
+            steady: false,
         }
     }
 }
@@ -75,6 +78,7 @@ impl FollowSettings {
                 branch_step: self.branch_step,
                 tolerance: self.tolerance,
                 direction: self.direction.unwrap_or_default(),
+                steady: self.steady,
             },
             given: None,
         })
@@ -150,7 +154,7 @@ impl FollowSettings {
         if let Some(value) = table.take("direction") {
             self.direction = Some(Towards::find(&value.text()?).map_err(|error| value.error(error))?);
         }
-        Ok(())
+        table.switch("steady", &mut self.steady)
     }
 
     /// The table that reads back as these settings: what differs from the default.
@@ -170,6 +174,9 @@ impl FollowSettings {
             ("tolerance", self.tolerance),
         ];
         table.extend(numbers.into_iter().filter_map(|(key, number)| Some((key.to_owned(), number?.into()))));
+        if self.steady {
+            table.insert("steady".to_owned(), true.into());
+        }
         if !self.curve.is_empty() {
             let names: Vec<&str> = self.curve.iter().map(|kind| kind.name()).collect();
             table.insert("curve".to_owned(), names.into());

@@ -1,4 +1,4 @@
-//! How a branch is followed from its start: the steps, the tolerance, and the sides.
+//! How branches are followed: the steps, the tolerance, the sides, and whether orbits are among them.
 
 use crate::Error;
 use crate::error::nearest_of;
@@ -57,7 +57,7 @@ impl Towards {
     }
 }
 
-/// Steps, tolerance and sides; what is `None` is left to the numerics.
+/// Steps, tolerance, sides and kinds of motion; what is `None` is left to the numerics.
 ///
 /// # Units    lengths along a branch: 1 is the width of the range, the size of the first shape, or a period
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -74,6 +74,14 @@ pub struct Stride {
     /// The sides to which the start is followed. What begins on its branch is followed to all of its own.
     #[serde(default, skip_serializing_if = "is_both")]
     pub direction: Towards,
+    /// Follow steady motions alone, not the orbits that begin at Hopf points.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub steady: bool,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+const fn is_false(value: &bool) -> bool {
+    !*value
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]

@@ -169,6 +169,7 @@ mod tests {
             branch_step: Some(1.0 / 3.0),
             tolerance: Some(1e-11),
             direction: Some(Towards::Down),
+            steady: true,
         };
         study.return_map = Some(ReturnMapSettings { y: 1.0, x_min: -2.0, x_max: 3.5, centre: true });
         study.figure =

@@ -49,6 +49,9 @@ pub(crate) struct ContinueOptions {
     /// Maximum number of branches; 1 follows the motion alone, and nothing that begins on its branch (default: 8)
     #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) branches: Option<u64>,
+    /// Follow steady motions alone (motionless, straight, circular), not the orbits that begin at Hopf points
+    #[arg(long)]
+    pub(crate) steady: bool,
     /// Maximum number of points of a branch or curve to each side (default: 2000)
     #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) points: Option<u64>,

@@ -95,6 +95,7 @@ fn follow_settings(options: &ContinueOptions, settings: &mut FollowSettings) -> 
     settings.first_step = options.first_step.or(settings.first_step);
     settings.branch_step = options.branch_step.or(settings.branch_step);
     settings.tolerance = options.tolerance.or(settings.tolerance);
+    settings.steady |= options.steady;
     settings.points = options.points.unwrap_or(settings.points);
     settings.samples = options.samples.unwrap_or(settings.samples);
     settings.branches = options.branches.unwrap_or(settings.branches);

@@ -135,7 +135,7 @@ def follow_branches(
     along: tuple[str, float, float],
     starts: tuple[str | None, str | None],
     counts: tuple[int, int],
-    steps: tuple[str, float | None, float | None, float | None],
+    steps: tuple[str, float | None, float | None, float | None, bool],
     progress: _Progress = None,
 ) -> tuple[str, bytes, BaseException | None]: ...
 def read_branches(path: str) -> tuple[str, bytes, BaseException | None]: ...

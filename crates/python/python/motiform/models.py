@@ -258,6 +258,7 @@ class Model:
         branch_step: float | None = None,
         first_step: float | None = None,
         tolerance: float | None = None,
+        steady: bool = False,
         branches: int = 8,
         points: int = 2000,
         initial: Mapping[str, float] | None = None,
@@ -278,7 +279,8 @@ class Model:
         `start` is a point of an earlier result, stable or not, whose parameters replace those of this model: ``"FOLDER:BRANCH:POINT"`` of
         branches, ``"FILE.json:NUMBER"`` of ``motiform equilibria --json``, ``"DATASET:t=TIME"`` or ``"DATASET:ROW"``; a dataset alone starts from
         its last state. `direction` says to which sides the start is followed. `branch_step` (0.02) and `first_step` (0.005) are the longest
-        and the first step, as parts of the range; Newton's method has converged with a step below `tolerance` (1e-9).
+        and the first step, as parts of the range; Newton's method has converged with a step below `tolerance` (1e-9). With `steady` the
+        orbits that begin at Hopf points are not followed.
         """
         study = _with(self._study, initial, {"seed": seed})
         name, low, high = _range("along", along)
@@ -288,7 +290,7 @@ class Model:
                 (name, low, high),
                 (from_, None if start is None else os.fspath(start)),
                 (branches, points),
-                (direction, branch_step, first_step, tolerance),
+                (direction, branch_step, first_step, tolerance, steady),
                 bar.callable(),
             )
         text, table, raised = found
