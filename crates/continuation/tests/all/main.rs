@@ -7,3 +7,4 @@ mod ends;
 mod equilibria;
 mod orbits;
 mod path;
+mod random_texts;
