@@ -177,11 +177,14 @@ impl Problem for Equilibria<'_> {
             return None;
         }
         let mut symmetric = x.to_vec();
-        if body.symmetry().rotations && norm(shape) < GAINED * self.size {
+        let vanishes = norm(shape) < GAINED * self.size;
+        if vanishes && body.symmetry().rotations {
             symmetric[..=self.dim].fill(0.0);
             return Some((Broken::Rotations, symmetric));
         }
-        let found = Classes::within(body, &[shape], GAINED);
+        // a shape that is as good as nothing has the mirror axis of nothing, whatever is left of it
+        let nothing = vec![0.0; self.dim];
+        let found = Classes::within(body, &[if vanishes { &nothing } else { shape }], GAINED);
         found.tidy(body, &mut symmetric[..self.dim]);
         if found.circle || found.folds > self.classes.folds {
             return Some((Broken::Rotations, symmetric));

@@ -35,17 +35,29 @@ impl RelativeEquilibrium {
             // against the guess too: towards a circle the shape shrinks with its residual
             let floor = 1e-14 * norm(&shape).max(norm(guess));
             let still = size >= 0.5 * last && size <= 1e-9 * norm(&shape).max(1e-12);
+            let step = least_squares(&unknowns, &target);
             if size <= floor || still {
+                if step.is_some_and(|step| is_rounding(&shape, &step)) {
+                    shape.fill(0.0);
+                }
                 return Self::describe(body, shape, omega);
             }
             last = size;
-            let step = least_squares(&unknowns, &target)?;
+            let step = step?;
             let turned = step.len() - 1;
             add(&mut shape, 1.0, &step[..turned]);
             omega += step[turned];
         }
         None
     }
+}
+
+/// Least part of a shape that a Newton step from a solution takes away where the shape is what rounding leaves of 0: it has no symmetry then,
+/// but the motion has all of them.
+const ROUNDING: f64 = 0.5;
+
+fn is_rounding(shape: &[f64], step: &[f64]) -> bool {
+    norm(&step[..shape.len()]) >= ROUNDING * norm(shape)
 }
 
 /// The columns of `[Df - omega G, -Gu]` and `-(f - omega Gu)`, each row divided by the largest coefficient of its equation.
