@@ -1,27 +1,17 @@
 //! Special points between two points of a branch.
 
+use super::between::{Step, TIGHT, between};
 use super::certificate::{Certificate, Passing, TestFunction};
-use super::correct::{correct, crossing, normal, product, seen};
+use super::correct::{crossing, seen};
 use super::levels::Level;
-use super::place::{Before, Place, place};
+use super::place::{Before, Place};
 use super::point::Obstruction;
 use super::problem::{Failure, Problem};
 use super::special::Special;
 use motiform_dynamics::Watch;
 
-/// Newton's tolerance at special points.
-const TIGHT: f64 = 1e-11;
-
 /// Most solutions on the way to a special point.
 const TRIES: usize = 60;
-
-/// The step from `old` to `new`, and the place before it.
-pub(super) struct Step<'s, L> {
-    pub(super) old: &'s Place<L>,
-    pub(super) new: &'s Place<L>,
-    pub(super) before: Option<&'s Before>,
-    pub(super) length: f64,
-}
 
 /// What changes on a step.
 pub(super) struct Changes<L> {
@@ -281,25 +271,4 @@ fn solve<P: Problem>(
         }
     }
     Err(Failure::Obstructed(Obstruction::Newton))
-}
-
-/// The solution at the length `s` after the beginning of a step.
-fn between<P: Problem>(
-    problem: &P,
-    &Step { old, new, length, .. }: &Step<'_, P::Local>,
-    s: f64,
-    watch: &dyn Watch,
-) -> Result<Place<P::Local>, Failure> {
-    let weights = problem.weights(&old.x);
-    let row = normal(&old.tangent, &weights);
-    let turned = product(&weights, &old.tangent, &new.tangent);
-    let x = s / length;
-    // Hermite's cubic; both ends and their tangents are known
-    let (h00, h10) = ((1.0 + 2.0 * x) * (1.0 - x) * (1.0 - x), x * (1.0 - x) * (1.0 - x) * length);
-    let (h01, h11) = (x * x * (3.0 - 2.0 * x), x * x * (x - 1.0) * length / turned);
-    let guess = (0..old.x.len())
-        .map(|i| h00 * old.x[i] + h10 * old.tangent[i] + h01 * new.x[i] + h11 * new.tangent[i])
-        .collect();
-    let found = correct(problem, guess, &row, TIGHT, watch)?;
-    place(problem, found, &row, old.arclength + s)
 }

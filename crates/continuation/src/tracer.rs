@@ -1,10 +1,11 @@
 //! Pseudo-arclength continuation with step control, over any equations.
 
+use super::between::Step;
 use super::copies::same_motion;
 use super::correct::{correct, directions, normal, scaled};
 use super::homoclinic::{Algebraic, Periods};
 use super::levels::unstable;
-use super::locate::{Changes, Step, locate};
+use super::locate::{Changes, locate};
 use super::place::{Before, Place, place};
 use super::point::{End, Motion, Obstruction, Point};
 use super::problem::{Failure, Problem};

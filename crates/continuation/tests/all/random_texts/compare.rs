@@ -86,7 +86,12 @@ pub(super) fn compare(seed: u64, text: &Text) -> Tally {
             }
             let head = format!("text {seed} ({}, {} modes) from {p}", text.symmetry, text.modes.len());
             for complaint in &mut tally.complaints {
-                *complaint = format!("{head} {:.6?}: {complaint}; its ends {:?}, mine {:?}", found.0.as_slice(), its.ends, mine.ends);
+                *complaint = format!(
+                    "{head} {:.6?}: {complaint}; its ends {:?}, mine {:?}",
+                    found.0.as_slice(),
+                    its.ends,
+                    mine.ends
+                );
                 eprintln!("{complaint}");
             }
             if !tally.complaints.is_empty() && std::env::var_os("SHOW").is_some() {
@@ -175,7 +180,9 @@ fn program(text: &Text, (u, _): &Found, p: f64) -> Seen {
             let u = DVector::from_row_slice(point.motion.shape());
             let at = text.invariants(&u);
             match point.special {
-                Some(special) => side.events.push(Event { kind: special.name(), p: point.parameter, at: at.clone() }),
+                Some(special) => {
+                    side.events.push(Event { kind: special.name(), p: point.parameter, at: at.clone() })
+                }
                 None => side.passed.push((point.parameter, at)),
             }
         }
@@ -198,7 +205,10 @@ fn program(text: &Text, (u, _): &Found, p: f64) -> Seen {
 
 fn show(seed: u64, text: &Text) {
     let d = text.definition();
-    let mut out = format!("[model.amplitudes]\nmodes = {:?}\nsymmetry = \"{}\"\n[model.amplitudes.parameters]\np = 0.0\n[model.amplitudes.equations]\n", d.modes, text.symmetry);
+    let mut out = format!(
+        "[model.amplitudes]\nmodes = {:?}\nsymmetry = \"{}\"\n[model.amplitudes.parameters]\np = 0.0\n[model.amplitudes.equations]\n",
+        d.modes, text.symmetry
+    );
     for (n, e) in d.modes.iter().zip(&d.equations) {
         out += &format!("z{n} = \"{e}\"\n");
     }

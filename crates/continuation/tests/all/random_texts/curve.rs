@@ -134,7 +134,9 @@ impl<'t> Walk<'t> {
     }
 
     fn growing(&self, x: &DVector<f64>) -> [usize; 2] {
-        self.steady.blocks(x).map(|(block, _)| eigenvalues(&block).iter().filter(|value| value.0 > 0.0).count())
+        self.steady
+            .blocks(x)
+            .map(|(block, _)| eigenvalues(&block).iter().filter(|value| value.0 > 0.0).count())
     }
 
     /// The place at the part `s` of the way from `a` to `b`.
@@ -185,10 +187,16 @@ impl<'t> Walk<'t> {
 
     /// The kind of a special point, and whether the branch ends there because it gains a symmetry; `None` for the eigenvalue that
     /// vanishes where the branch turns back, which is a point already.
-    fn named(&self, a: &Place, b: &Place, (s, at, test): (f64, &Place, usize)) -> Option<(&'static str, bool)> {
+    fn named(
+        &self,
+        a: &Place,
+        b: &Place,
+        (s, at, test): (f64, &Place, usize),
+    ) -> Option<(&'static str, bool)> {
         if test < 2 {
             let values = eigenvalues(&self.steady.blocks(&at.x)[test].0);
-            let nearest = values.iter().min_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).expect("an eigenvalue");
+            let nearest =
+                values.iter().min_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).expect("an eigenvalue");
             if nearest.1.abs() > 1e-5 {
                 return Some(("hopf", false));
             }

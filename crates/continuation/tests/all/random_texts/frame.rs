@@ -30,8 +30,7 @@ pub(super) fn upright(text: &Text, u: &DVector<f64>, room: f64) -> (Frame, DVect
     }
     let mirror = text.mirrors() && is_real(&turned);
     let has = |k: usize| folds == 1 || folds > 1 && text.modes[k].is_multiple_of(folds);
-    let kept: Vec<usize> =
-        (0..2 * count).filter(|&i| has(i / 2) && !(mirror && i % 2 == 1)).collect();
+    let kept: Vec<usize> = (0..2 * count).filter(|&i| has(i / 2) && !(mirror && i % 2 == 1)).collect();
     for i in (0..2 * count).filter(|i| !kept.contains(i)) {
         turned[i] = 0.0;
     }

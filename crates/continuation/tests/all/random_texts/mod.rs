@@ -31,7 +31,10 @@ fn steady_branches_of_random_texts_have_the_points_of_a_brute_force_scan() {
         all += compare(seed, &text(seed));
     }
     eprintln!("{all:?}");
-    assert!(all.points > 5 * TEXTS as usize && all.branches > 2 * TEXTS as usize, "too little is compared: {all:?}");
+    assert!(
+        all.points > 5 * TEXTS as usize && all.branches > 2 * TEXTS as usize,
+        "too little is compared: {all:?}"
+    );
     assert!(all.complaints.is_empty(), "{}", all.complaints.join("\n"));
 }
 

@@ -28,8 +28,10 @@ pub(super) fn compare(text: &Text, branch: &mut Branch<'_>) -> (Tally, Vec<Point
     let Some((shooting, first)) = shooting(text, &points) else { return (tally, points) };
     let mut before = first;
     for pair in ordinary.windows(2) {
-        let its: Vec<Event> =
-            points[pair[0] + 1..pair[1]].iter().filter_map(|point| Some((point.special?.name(), point.parameter))).collect();
+        let its: Vec<Event> = points[pair[0] + 1..pair[1]]
+            .iter()
+            .filter_map(|point| Some((point.special?.name(), point.parameter)))
+            .collect();
         let Some(next) = unknowns(&shooting, &points[pair[1]]) else { break };
         match between(&shooting, &before, &next) {
             Some((mine, false)) => tally.compare_step(&mine, &its),
@@ -184,7 +186,12 @@ impl Tally {
 /// Up to `most` branches that begin at the Hopf bifurcations of a text, and at what is found on them.
 pub(super) fn all(seed: u64, text: &Text, most: usize) -> Tally {
     let family = text.family();
-    let settings = Settings { most_points: 300, longest_time: LIMITS[1], largest_size: LARGEST, ..Settings::over(-1.0, 1.0) };
+    let settings = Settings {
+        most_points: 300,
+        longest_time: LIMITS[1],
+        largest_size: LARGEST,
+        ..Settings::over(-1.0, 1.0)
+    };
     let mut begins = hopf_points(text, seed, &settings);
     let mut all = Tally::default();
     while let Some(point) = begins.pop() {
@@ -192,7 +199,12 @@ pub(super) fn all(seed: u64, text: &Text, most: usize) -> Tally {
         for mut branch in branches {
             let (mut tally, points) = compare(text, &mut branch);
             let name = point.special.map_or("", |special| special.name());
-            let head = format!("text {seed} ({}, {} modes), {name} at {}", text.symmetry, text.modes.len(), point.parameter);
+            let head = format!(
+                "text {seed} ({}, {} modes), {name} at {}",
+                text.symmetry,
+                text.modes.len(),
+                point.parameter
+            );
             for complaint in &mut tally.complaints {
                 *complaint = format!("{head}: {complaint}; ends {:?}", branch.end());
                 eprintln!("{complaint}");
@@ -201,7 +213,12 @@ pub(super) fn all(seed: u64, text: &Text, most: usize) -> Tally {
             if all.branches >= most {
                 return all;
             }
-            let doubled = |point: &Point| matches!(point.special, Some(Special::PeriodDoubling | Special::SymmetryBreaking | Special::Pitchfork { .. }));
+            let doubled = |point: &Point| {
+                matches!(
+                    point.special,
+                    Some(Special::PeriodDoubling | Special::SymmetryBreaking | Special::Pitchfork { .. })
+                )
+            };
             let meets = matches!(branch.end(), Some(End::Meets { .. }));
             let own = points.len() - usize::from(meets);
             begins.splice(0..0, points[..own].iter().filter(|point| doubled(point)).take(1).cloned());

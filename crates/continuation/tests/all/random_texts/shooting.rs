@@ -42,7 +42,12 @@ impl Orbit {
 }
 
 /// The state after `time`, and its derivatives by the state at first.
-pub(super) fn flow(text: &Text, u: &DVector<f64>, time: f64, p: f64) -> (DVector<f64>, DMatrix<f64>, DVector<f64>) {
+pub(super) fn flow(
+    text: &Text,
+    u: &DVector<f64>,
+    time: f64,
+    p: f64,
+) -> (DVector<f64>, DMatrix<f64>, DVector<f64>) {
     let dim = u.len();
     let count = (time / STEP).ceil().max(200.0) as usize;
     let h = time / count as f64;
@@ -148,11 +153,17 @@ impl Shooting<'_> {
     }
 
     /// Those of deviations across the flow and the group.
-    fn multipliers(&self, map: &DMatrix<f64>, rate: &DVector<f64>, spin: &DVector<f64>) -> [Vec<(f64, f64)>; 2] {
+    fn multipliers(
+        &self,
+        map: &DMatrix<f64>,
+        rate: &DVector<f64>,
+        spin: &DVector<f64>,
+    ) -> [Vec<(f64, f64)>; 2] {
         let dim = self.text.dim();
         [true, false].map(|keeps| {
             let places: Vec<usize> = (0..dim).filter(|i| self.frame.kept.contains(i) == keeps).collect();
-            let within = |v: &DVector<f64>| DVector::from_fn(dim, |i, _| if places.contains(&i) { v[i] } else { 0.0 });
+            let within =
+                |v: &DVector<f64>| DVector::from_fn(dim, |i, _| if places.contains(&i) { v[i] } else { 0.0 });
             let basis = complement(&places, &[within(rate), within(spin)]);
             eigenvalues(&(basis.transpose() * map * &basis))
         })
@@ -175,7 +186,10 @@ impl Shooting<'_> {
             let mut best = coarse.min_by(|a, b| at(*a).total_cmp(&at(*b))).expect("an angle");
             let mut room = 0.01;
             while room > 1e-9 {
-                best = [best - room, best, best + room].into_iter().min_by(|a, b| at(*a).total_cmp(&at(*b))).expect("an angle");
+                best = [best - room, best, best + room]
+                    .into_iter()
+                    .min_by(|a, b| at(*a).total_cmp(&at(*b)))
+                    .expect("an angle");
                 room *= 0.5;
             }
             at(best)

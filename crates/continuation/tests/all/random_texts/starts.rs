@@ -15,7 +15,11 @@ pub(super) fn everything(text: &Text, p: f64, starts: usize, random: &mut Random
     for start in 0..starts {
         let size = 2.0 * random.between(0.0, 1.0);
         // some amplitudes are left out of some starts: motions of more symmetry are found too
-        let mask = if start % 2 == 0 { vec![1.0; dim] } else { (0..dim).map(|_| f64::from(u8::from(random.next() > 0.0))).collect() };
+        let mask = if start % 2 == 0 {
+            vec![1.0; dim]
+        } else {
+            (0..dim).map(|_| f64::from(u8::from(random.next() > 0.0))).collect()
+        };
         let guess = DVector::from_fn(dim, |i, _| size * mask[i] * random.next());
         let Some(found) = solve(text, guess, p) else { continue };
         let same = |other: &Found| distance(text, &other.0, &found.0) < 1e-6;

@@ -117,7 +117,9 @@ impl Text {
         let dim = self.dim();
         let (mut rate, mut by_p) = (DVector::zeros(dim), DVector::zeros(dim));
         let mut by_u = DMatrix::zeros(dim, dim);
-        for (k, term) in self.equations.iter().enumerate().flat_map(|(k, all)| all.iter().map(move |t| (k, t))) {
+        for (k, term) in
+            self.equations.iter().enumerate().flat_map(|(k, all)| all.iter().map(move |t| (k, t)))
+        {
             let read: Vec<_> = term.factors.iter().map(|factor| factor.read(u)).collect();
             let product = |left_out: usize| {
                 let rest = read.iter().enumerate().filter(|(i, _)| *i != left_out);
