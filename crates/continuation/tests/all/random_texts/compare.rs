@@ -168,7 +168,7 @@ fn oracle(text: &Text, (u, omega): &Found, p: f64, step: f64) -> Seen {
 fn program(text: &Text, (u, _): &Found, p: f64) -> Seen {
     let family = text.family();
     let body = Family::at(&family, p).expect("a body");
-    let settings = Settings { most_points: 2000, largest_size: LARGEST, ..Settings::over(-1.0, 1.0) };
+    let settings = Settings { most_points: 20_000, largest_size: LARGEST, ..Settings::over(-1.0, 1.0) };
     let mut sides = Vec::new();
     let Some(start) = RelativeEquilibrium::find(body.as_ref(), u.as_slice()) else {
         return Seen { events: Vec::new(), passed: Vec::new(), ends: vec!["no start".to_owned()] };

@@ -153,11 +153,13 @@ pub(super) fn complement(places: &[usize], along: &[DVector<f64>]) -> DMatrix<f6
     DMatrix::from_fn(dim, all.len() - neutral, |i, j| all[neutral + j][i])
 }
 
-/// Eigenvalues `(re, im)`.
+/// Eigenvalues `(re, im)`. (Shifted by the matrix's size: what couples entries of 0 is then small beside them.)
 pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<(f64, f64)> {
     if matrix.is_empty() {
         return Vec::new();
     }
-    let schur = Schur::try_new(matrix.clone(), 1e-15, 10_000).expect("eigenvalues");
-    schur.complex_eigenvalues().iter().map(|value| (value.re, value.im)).collect()
+    let shift = matrix.norm();
+    let moved = matrix + shift * DMatrix::identity(matrix.nrows(), matrix.ncols());
+    let schur = Schur::try_new(moved.clone(), 1e-15, 10_000).unwrap_or_else(|| panic!("eigenvalues {matrix}"));
+    schur.complex_eigenvalues().iter().map(|value| (value.re - shift, value.im)).collect()
 }

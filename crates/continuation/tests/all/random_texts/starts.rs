@@ -21,7 +21,7 @@ pub(super) fn everything(text: &Text, p: f64, starts: usize, random: &mut Random
             (0..dim).map(|_| f64::from(u8::from(random.next() > 0.0))).collect()
         };
         let guess = DVector::from_fn(dim, |i, _| size * mask[i] * random.next());
-        let Some(found) = solve(text, guess, p) else { continue };
+        let Some(found) = solve(text, guess, p).filter(|found| is_alone(text, found, p)) else { continue };
         let same = |other: &Found| distance(text, &other.0, &found.0) < 1e-6;
         if found.0.norm() < LARGEST && !all.iter().any(same) {
             all.push(found);
@@ -38,6 +38,21 @@ pub(super) fn distance(text: &Text, a: &DVector<f64>, b: &DVector<f64>) -> f64 {
 /// The largest difference.
 pub(super) fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// Whether the motion has no neighbours at the same value of the parameter but its own images. (Terms that are missing by chance may leave a
+/// symmetry that the text does not name.)
+fn is_alone(text: &Text, (u, omega): &Found, p: f64) -> bool {
+    let dim = text.dim();
+    let mut all = DMatrix::zeros(dim, dim + 1);
+    let by_u = text.rate(u, p).1;
+    for j in 0..dim {
+        let mut unit = DVector::zeros(dim);
+        unit[j] = 1.0;
+        all.set_column(j, &(by_u.column(j) - *omega * text.spin(&unit)));
+    }
+    all.set_column(dim, &text.spin(u));
+    all.singular_values().min() > 1e-7
 }
 
 /// The shortest steps that solve `f - omega G u = 0` to first order, none longer than 1.

@@ -107,7 +107,8 @@ impl Text {
     pub(super) fn family(&self) -> impl Fn(f64) -> Result<Box<dyn Equivariant>, Error> + Sync + use<> {
         let model: &'static ModelInfo = info(&self.definition()).expect("a model");
         move |p| {
-            let body: Box<dyn Equivariant> = model.build(&[p]).expect("a body");
+            let none = |error: motiform_models::Error| Error::NoBody { value: p, why: error.to_string() };
+            let body: Box<dyn Equivariant> = model.build(&[p]).map_err(none)?;
             Ok(body)
         }
     }
