@@ -153,13 +153,22 @@ pub(super) fn complement(places: &[usize], along: &[DVector<f64>]) -> DMatrix<f6
     DMatrix::from_fn(dim, all.len() - neutral, |i, j| all[neutral + j][i])
 }
 
-/// Eigenvalues `(re, im)`. (Shifted by the matrix's size: what couples entries of 0 is then small beside them.)
+/// Eigenvalues `(re, im)`. (Shifted by the matrix's size: what couples entries of 0 is then small beside them. The method may stall: then the
+/// same matrix in other coordinates is tried.)
 pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<(f64, f64)> {
-    if matrix.is_empty() {
+    let n = matrix.nrows();
+    if n == 0 {
         return Vec::new();
     }
     let shift = matrix.norm();
-    let moved = matrix + shift * DMatrix::identity(matrix.nrows(), matrix.ncols());
-    let schur = Schur::try_new(moved.clone(), 1e-15, 10_000).unwrap_or_else(|| panic!("eigenvalues {matrix}"));
-    schur.complex_eigenvalues().iter().map(|value| (value.re - shift, value.im)).collect()
+    let mut moved = matrix + shift * DMatrix::identity(n, n);
+    for room in [1e-15, 1e-15, 1e-14, 1e-14, 1e-13, 1e-13, 1e-12] {
+        if let Some(schur) = Schur::try_new(moved.clone(), room, 500) {
+            return schur.complex_eigenvalues().iter().map(|value| (value.re - shift, value.im)).collect();
+        }
+        let normal = DVector::from_fn(n, |i, _| 1.0 + (i as f64 * room * 1e15).sin()).normalize();
+        let turn = DMatrix::identity(n, n) - 2.0 * &normal * normal.transpose();
+        moved = (&turn * moved * &turn).transpose();
+    }
+    panic!("no eigenvalues: {matrix:e}")
 }
