@@ -30,6 +30,7 @@ mod curve;
 mod curve_steps;
 mod curve_tracer;
 mod degenerate;
+mod dip;
 mod elimination;
 mod equilibria;
 mod family;

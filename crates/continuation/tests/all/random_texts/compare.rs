@@ -96,6 +96,14 @@ pub(super) fn compare(seed: u64, text: &Text) -> Tally {
             }
             if !tally.complaints.is_empty() && std::env::var_os("SHOW").is_some() {
                 show(seed, text);
+                let list = |seen: &Seen| {
+                    seen.events
+                        .iter()
+                        .map(|e| format!("{} {:.9}", e.kind, e.p))
+                        .collect::<Vec<_>>()
+                        .join(", ")
+                };
+                eprintln!("MINE {}\nITS  {}", list(&oracle(text, &found, p, STEPS[1])), list(&its));
             }
             all += tally;
             known.push(mine);

@@ -159,7 +159,9 @@ impl<'t> Walk<'t> {
             let u = self.steady.state(&at.x);
             if stops {
                 // where a symmetry is gained deviations of both kinds vanish
-                events.retain(|event: &Event| event.kind != kind || (event.p - at.x[at.x.len() - 1]).abs() > 1e-7);
+                events.retain(|event: &Event| {
+                    event.kind != kind || (event.p - at.x[at.x.len() - 1]).abs() > 1e-7
+                });
             }
             events.push(Event { kind, p: at.x[at.x.len() - 1], at: self.steady.text.invariants(&u) });
             if stops {
