@@ -2,7 +2,6 @@
 
 use super::between::{Step, between};
 use super::locate::Test;
-use super::place::Before;
 use super::problem::Problem;
 use motiform_dynamics::Watch;
 
@@ -56,22 +55,28 @@ fn near(points: &[(f64, f64)]) -> Option<f64> {
     (slope < 0.0 && zero < length).then_some(0.5 * (zero + length))
 }
 
-/// Beside the lowest of the values, where the lines on both sides of a gap meet below it; or the middle of the gap behind it, if only one side is known.
+/// Beside the lowest of the values, where the lines on both sides of a gap meet below it. Where only one line is known: the middle of a gap, or a
+/// place before the end, which shows whether the values rise there.
 fn lower(points: &[(f64, f64)]) -> Option<f64> {
-    let lowest = (1..points.len()).min_by(|&a, &b| points[a].1.total_cmp(&points[b].1))?;
-    if lowest == 1 || lowest + 1 == points.len() {
-        return None; // it falls towards an end
-    }
-    let meet = |gap: usize| meeting(points.get(gap - 1..gap + 3)?);
+    let last = points.len() - 1;
+    let lowest = (1..=last).min_by(|&a, &b| points[a].1.total_cmp(&points[b].1))?;
+    let meet = |gap: usize| meeting(points.get(gap.checked_sub(1)?..gap + 3)?);
     let both = [meet(lowest - 1), meet(lowest)];
     let best = both.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1));
-    let value = points[lowest].1;
+    let between = |part: f64, gap: usize| points[gap].0 + part * (points[gap + 1].0 - points[gap].0);
     match best {
-        Some((s, expected)) => (expected < FLAT * value).then_some(s),
-        None if lowest + 2 == points.len() => Some(0.5 * (points[lowest].0 + points[lowest + 1].0)),
+        Some((s, expected)) => (expected < FLAT * points[lowest].1).then_some(s),
+        None if lowest == last => {
+            let end = between(NEAR_END, last - 1);
+            (points[last].0 - end > 1e-3 * points[last].0).then_some(end)
+        }
+        None if lowest + 2 == points.len() => Some(between(0.5, lowest)),
         None => None,
     }
 }
+
+/// Part of the last gap at which a value shows whether the values rise at the end.
+const NEAR_END: f64 = 0.95;
 
 /// Where the line through the first two points meets that through the last two, if that is between them.
 fn meeting(points: &[(f64, f64)]) -> Option<(f64, f64)> {
@@ -104,7 +109,7 @@ mod tests {
 
     #[test]
     fn a_parabola_that_stays_away_from_0_is_left() {
-        let v = |s: f64| 1.0 + (s - 0.5) * (s - 0.5);
+        let v = |s: f64| 1.0 + 0.1 * (s - 0.5) * (s - 0.5);
         assert_eq!(near(&[(-1.0, v(-1.0)), (0.0, v(0.0)), (1.0, v(1.0))]), None);
     }
 }

@@ -221,7 +221,7 @@ impl<'t> Walk<'t> {
         }
         let (_, all) = self.steady.equations(&at.x, &a.x);
         let values = all.singular_values();
-        let crosses = values.min() < 1e-4 * values.max();
+        let crosses = values.min() < 1e-6 * values.max();
         Some((if crosses { "branch-point" } else { "fold" }, false))
     }
 }

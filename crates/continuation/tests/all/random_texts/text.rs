@@ -248,7 +248,9 @@ fn general(random: &mut Random, count: usize, handed: bool) -> Text {
         if with_constants {
             terms.push(Term::new(complex(random, 0.2, handed), &[]));
         }
-        for order in [1, 1, 2, 2, 2, 3] {
+        // without it an amplitude that enters others by its modulus alone would have a phase of its own
+        terms.push(Term::new(complex(random, 0.5, handed), &[Factor::Conjugate(k)]));
+        for order in [1, 2, 2, 2, 3] {
             let factors: Vec<Factor> = (0..order).map(|_| factor(random)).collect();
             let size = [0.7, 0.8, 0.3][order - 1];
             terms.push(Term::new(complex(random, size, handed), &factors));
