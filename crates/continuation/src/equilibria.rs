@@ -1,6 +1,6 @@
 //! The equations of relative equilibria along a parameter.
 
-use super::classes::{Classes, GAINED};
+use super::classes::Classes;
 use super::correct::{correct, normal, scaled};
 use super::family::{Bodies, Neighbours, Sides};
 use super::hopf::first_lyapunov;
@@ -171,20 +171,20 @@ impl Problem for Equilibria<'_> {
         })
     }
 
-    fn gains(&self, x: &[f64], local: &Local) -> Option<(Broken, Vec<f64>)> {
+    fn gains(&self, x: &[f64], local: &Local, same: f64) -> Option<(Broken, Vec<f64>)> {
         let (body, shape) = (local.body.as_ref(), &x[..self.dim]);
         if self.classes.circle {
             return None;
         }
         let mut symmetric = x.to_vec();
-        let vanishes = norm(shape) < GAINED * self.size;
+        let vanishes = norm(shape) < same * self.size;
         if vanishes && body.symmetry().rotations {
             symmetric[..=self.dim].fill(0.0);
             return Some((Broken::Rotations, symmetric));
         }
         // a shape that is as good as nothing has the mirror axis of nothing, whatever is left of it
         let nothing = vec![0.0; self.dim];
-        let found = Classes::within(body, &[if vanishes { &nothing } else { shape }], GAINED);
+        let found = Classes::within(body, &[if vanishes { &nothing } else { shape }], same);
         found.tidy(body, &mut symmetric[..self.dim]);
         if found.circle || found.folds > self.classes.folds {
             return Some((Broken::Rotations, symmetric));

@@ -1,6 +1,7 @@
 //! Pseudo-arclength continuation with step control, over any equations.
 
 use super::between::Step;
+use super::classes::GAINED;
 use super::copies::same_motion;
 use super::correct::{correct, directions, normal, scaled};
 use super::homoclinic::{Algebraic, Periods};
@@ -296,7 +297,7 @@ impl<P: Problem> Tracer<P> {
     /// growth vanishes as the third power of the distance, and round-off places it.)
     fn meets(&self, length: f64, changes: &mut Changes<P::Local>) -> Option<End> {
         let gains = |(place, (at, special)): (usize, &(Place<P::Local>, Special))| {
-            let gained = turns(*special).then(|| self.problem.gains(&at.x, &at.local)).flatten();
+            let gained = turns(*special).then(|| self.problem.gains(&at.x, &at.local, GAINED)).flatten();
             gained.map(|gained| (place, gained))
         };
         let (place, (gains, x)) = changes.found.iter().enumerate().find_map(gains)?;
@@ -304,7 +305,7 @@ impl<P: Problem> Tracer<P> {
         at.x = x;
         changes.found.retain(|(other, _)| {
             let before = at.arclength - other.arclength > 1e-4 * length;
-            before && self.problem.gains(&other.x, &other.local).is_none()
+            before && self.problem.gains(&other.x, &other.local, 10.0 * GAINED).is_none()
         });
         let end = End::Meets { parameter: at.parameter(), gains };
         changes.found.push((at, gains.special()));

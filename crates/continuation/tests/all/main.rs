@@ -8,3 +8,4 @@ mod equilibria;
 mod orbits;
 mod path;
 mod random_texts;
+mod symmetric_rest;

@@ -44,6 +44,18 @@ impl std::ops::AddAssign for Tally {
     }
 }
 
+impl Tally {
+    /// Fails where anything is wrong, or fewer than `least` points were compared.
+    pub(super) fn judge(&self, least: usize) {
+        let Self { branches, points, wrong, missed, renamed, unfinished, complaints } = self;
+        eprintln!(
+            "{branches} branches, {points} points: {wrong} false, {missed} missed, {renamed} renamed; {unfinished} curves differ"
+        );
+        assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+        assert!(*points >= least, "only {points} points are compared");
+    }
+}
+
 /// A branch as the program or the oracle has it.
 struct Seen {
     events: Vec<Event>,
@@ -96,14 +108,6 @@ pub(super) fn compare(seed: u64, text: &Text) -> Tally {
             }
             if !tally.complaints.is_empty() && std::env::var_os("SHOW").is_some() {
                 show(seed, text);
-                let list = |seen: &Seen| {
-                    seen.events
-                        .iter()
-                        .map(|e| format!("{} {:.9}", e.kind, e.p))
-                        .collect::<Vec<_>>()
-                        .join(", ")
-                };
-                eprintln!("MINE {}\nITS  {}", list(&oracle(text, &found, p, STEPS[1])), list(&its));
             }
             all += tally;
             known.push(mine);

@@ -160,7 +160,7 @@ impl<'t> Walk<'t> {
             if stops {
                 // where a symmetry is gained deviations of both kinds vanish
                 events.retain(|event: &Event| {
-                    event.kind != kind || (event.p - at.x[at.x.len() - 1]).abs() > 1e-7
+                    event.kind != kind || (event.p - at.x[at.x.len() - 1]).abs() > 1e-6
                 });
             }
             events.push(Event { kind, p: at.x[at.x.len() - 1], at: self.steady.text.invariants(&u) });

@@ -16,7 +16,11 @@ use compare::{Tally, compare};
 use text::text;
 
 /// Texts that are tried without being asked for more.
-const TEXTS: u64 = 10;
+const TEXTS: u64 = 16;
+
+/// Texts on which the program was wrong: an exactly singular crossing was left unresolved (29); a pitchfork was listed twice where a shape gains five axes (120, 140,
+/// 195); two Hopf bifurcations within one step were missed (146, 166).
+const ONCE_WRONG: [u64; 6] = [29, 120, 140, 146, 166, 195];
 
 fn seeds(usual: std::ops::Range<u64>) -> std::ops::Range<u64> {
     let number = |name: &str| std::env::var(name).ok().and_then(|value| value.parse::<u64>().ok());
@@ -30,21 +34,26 @@ fn steady_branches_of_random_texts_have_the_points_of_a_brute_force_scan() {
     for seed in seeds(0..TEXTS) {
         all += compare(seed, &text(seed));
     }
-    eprintln!("{all:?}");
-    assert!(
-        all.points > 5 * TEXTS as usize && all.branches > 2 * TEXTS as usize,
-        "too little is compared: {all:?}"
-    );
-    assert!(all.complaints.is_empty(), "{}", all.complaints.join("\n"));
+    all.judge(60);
 }
+
+#[test]
+fn texts_on_which_the_program_was_wrong_have_the_points_of_a_brute_force_scan() {
+    let mut all = Tally::default();
+    for seed in ONCE_WRONG {
+        all += compare(seed, &text(seed));
+    }
+    all.judge(60);
+}
+
+/// Branches of orbits for each of the texts that are tried.
+const ORBITS: usize = 1;
 
 #[test]
 fn periodic_branches_of_random_texts_have_the_points_of_a_brute_force_scan() {
     let mut all = Tally::default();
     for seed in seeds(0..TEXTS) {
-        all += orbits::all(seed, &text(seed), 4);
+        all += orbits::all(seed, &text(seed), ORBITS);
     }
-    eprintln!("{all:?}");
-    assert!(all.points > 0 && all.branches > 5, "too little is compared: {all:?}");
-    assert!(all.complaints.is_empty(), "{}", all.complaints.join("\n"));
+    all.judge(1);
 }

@@ -12,7 +12,7 @@ use motiform_continuation::{Branch, End, Family, Point, Settings, Special, switc
 use nalgebra::DVector;
 
 /// Places between two points of the program at which multipliers are computed.
-const PARTS: usize = 4;
+const PARTS: usize = 3;
 
 /// Largest multiplier up to which single shooting is trusted, and the longest time.
 const LIMITS: [f64; 2] = [1e4, 60.0];

@@ -4,8 +4,8 @@ use super::frame::{Frame, complement, eigenvalues};
 use super::text::Text;
 use nalgebra::{DMatrix, DVector};
 
-/// Longest step in time: the error of a period is below 1e-8 where rates are of order 1.
-const STEP: f64 = 0.02;
+/// Longest step in time: the error of a period is below 1e-7 where rates are of order 1.
+const STEP: f64 = 0.04;
 
 /// The equations of periodic motions `Phi_T(u) = R(angle) [M] u`: unknowns `(kept coordinates, T, [angle], p)`.
 pub(super) struct Shooting<'t> {
