@@ -1,6 +1,6 @@
 //! The equations of relative equilibria along a parameter.
 
-use super::classes::{Classes, GAINED};
+use super::classes::Classes;
 use super::correct::{correct, normal, scaled};
 use super::family::{Bodies, Neighbours, Sides};
 use super::hopf::first_lyapunov;
@@ -16,6 +16,10 @@ use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField, Watch, model};
 use nalgebra::DMatrix;
 
+/// The unit of the shape is at least this part of its own size: a branch that begins small keeps the steps of its beginning until it has grown
+/// to four times that.
+const GROWN: f64 = 0.25;
+
 /// Distances at which members of a family with one value of the parameter are looked for, in sizes of the shape, and the part of the range within which it is one value.
 const FAMILY: [f64; 2] = [0.05, 0.1];
 const SAME_PARAMETER: f64 = 1e-7;
@@ -27,7 +31,7 @@ pub(super) struct Equilibria<'f> {
     pub(super) classes: Classes,
     /// Length of the state.
     pub(super) dim: usize,
-    /// Least unit of the shape; that of a larger shape is its own size.
+    /// Least unit of the shape; that of a far larger shape is a part of its own size.
     pub(super) size: f64,
     /// Units of the parameters.
     pub(super) widths: Vec<f64>,
@@ -98,7 +102,7 @@ impl Equations for Equilibria<'_> {
 
     fn weights(&self, x: &[f64]) -> Vec<f64> {
         // a branch that begins small may grow by powers of ten: its steps grow with it
-        let size = self.size.max(norm(&x[..self.dim]));
+        let size = self.size.max(GROWN * norm(&x[..self.dim]));
         let mut weights = vec![1.0 / (size * size); self.dim];
         weights.push(1.0);
         weights.extend(self.widths.iter().map(|width| 1.0 / (width * width)));
@@ -173,17 +177,20 @@ impl Problem for Equilibria<'_> {
         })
     }
 
-    fn gains(&self, x: &[f64], local: &Local) -> Option<(Broken, Vec<f64>)> {
+    fn gains(&self, x: &[f64], local: &Local, same: f64) -> Option<(Broken, Vec<f64>)> {
         let (body, shape) = (local.body.as_ref(), &x[..self.dim]);
         if self.classes.circle {
             return None;
         }
         let mut symmetric = x.to_vec();
-        if body.symmetry().rotations && norm(shape) < GAINED * self.size {
+        let vanishes = norm(shape) < same * self.size;
+        if vanishes && body.symmetry().rotations {
             symmetric[..=self.dim].fill(0.0);
             return Some((Broken::Rotations, symmetric));
         }
-        let found = Classes::within(body, &[shape], GAINED);
+        // a shape that is as good as nothing has the mirror axis of nothing, whatever is left of it
+        let nothing = vec![0.0; self.dim];
+        let found = Classes::within(body, &[if vanishes { &nothing } else { shape }], same);
         found.tidy(body, &mut symmetric[..self.dim]);
         if found.circle || found.folds > self.classes.folds {
             return Some((Broken::Rotations, symmetric));

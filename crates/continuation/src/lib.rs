@@ -19,6 +19,7 @@
 //! Source: pseudo-arclength: Keller (1977), in Applications of Bifurcation Theory; relative orbits: Wulff and Schebesch (2006),
 //! SIAM J. Appl. Dyn. Syst. 5, 235; normal forms: Kuznetsov (2004), Elements of Applied Bifurcation Theory.
 
+mod between;
 mod branch;
 mod certificate;
 mod classes;
@@ -29,6 +30,7 @@ mod curve;
 mod curve_steps;
 mod curve_tracer;
 mod degenerate;
+mod dip;
 mod elimination;
 mod equilibria;
 mod family;

@@ -1,27 +1,18 @@
 //! Special points between two points of a branch.
 
+use super::between::{Step, TIGHT, between};
 use super::certificate::{Certificate, Passing, TestFunction};
-use super::correct::{correct, crossing, normal, product, seen};
+use super::correct::{crossing, seen};
+use super::dip::dip;
 use super::levels::Level;
-use super::place::{Before, Place, place};
+use super::place::Place;
 use super::point::Obstruction;
 use super::problem::{Failure, Problem};
 use super::special::Special;
 use motiform_dynamics::Watch;
 
-/// Newton's tolerance at special points.
-const TIGHT: f64 = 1e-11;
-
 /// Most solutions on the way to a special point.
 const TRIES: usize = 60;
-
-/// The step from `old` to `new`, and the place before it.
-pub(super) struct Step<'s, L> {
-    pub(super) old: &'s Place<L>,
-    pub(super) new: &'s Place<L>,
-    pub(super) before: Option<&'s Before>,
-    pub(super) length: f64,
-}
 
 /// What changes on a step.
 pub(super) struct Changes<L> {
@@ -36,7 +27,7 @@ pub(super) struct Stopped;
 
 /// What vanishes at a special point.
 #[derive(Clone, Copy)]
-enum Test {
+pub(super) enum Test {
     /// `dp/ds`.
     Slope,
     /// The growth of the level of this class and rank. Ranked by size they are continuous along the branch.
@@ -44,11 +35,11 @@ enum Test {
 }
 
 impl Test {
-    fn of<L>(self, place: &Place<L>) -> f64 {
+    pub(super) fn of<L>(self, place: &Place<L>) -> f64 {
         self.value(&place.tangent, &place.levels)
     }
 
-    fn value(self, tangent: &[f64], levels: &[Vec<Level>]) -> f64 {
+    pub(super) fn value(self, tangent: &[f64], levels: &[Vec<Level>]) -> f64 {
         match self {
             Self::Slope => tangent.last().copied().unwrap_or(f64::NAN),
             Self::Level(class, rank) => {
@@ -194,26 +185,29 @@ fn is_known<L>(found: &[(Place<L>, Special)], at: &Place<L>, special: Special, l
     })
 }
 
-/// What changes its sign on the way; the slope first. Where a test seems to change it twice, a solution between decides.
+/// What changes its sign on the way; the slope first. Where a test seems to change it twice, solutions between decide.
 fn brackets<P: Problem>(problem: &P, step: &Step<'_, P::Local>, watch: &dyn Watch) -> Vec<Bracket> {
     let ranks = |(class, (a, b)): (usize, (&Vec<_>, &Vec<_>))| {
         let ranks = if a.len() == b.len() { a.len() } else { 0 };
         (0..ranks).map(move |rank| Test::Level(class, rank)).collect::<Vec<Test>>()
     };
     let levels = step.old.levels.iter().zip(&step.new.levels).enumerate().flat_map(ranks);
+    let noise = problem.noise(&step.old.levels).max(problem.noise(&step.new.levels));
+    let unclear = |test: Test| {
+        matches!(test, Test::Level(..))
+            && [step.old, step.new].iter().all(|place| test.of(place).abs() <= noise)
+    };
     let mut out = Vec::new();
     for test in std::iter::once(Test::Slope).chain(levels) {
         let (low, high) = ((0.0, test.of(step.old)), (step.length, test.of(step.new)));
+        if unclear(test) {
+            continue; // towards a point of more symmetry levels vanish as powers of the distance, and their signs are those of rounding
+        }
         if low.1 * high.1 < 0.0 {
             out.push(Bracket { test, low, high });
-        } else if let Some(s) = step.before.and_then(|before| dip(test, before, low, high))
-            && let Ok(middle) = between(problem, step, s, watch)
-        {
-            let middle = (s, test.of(&middle));
-            if middle.1 * low.1 < 0.0 {
-                out.push(Bracket { test, low, high: middle });
-                out.push(Bracket { test, low: middle, high });
-            }
+        } else if let Some(middle) = dip(problem, step, test, watch) {
+            out.push(Bracket { test, low, high: middle });
+            out.push(Bracket { test, low: middle, high });
         }
     }
     if is_level(problem, step) && out.iter().all(|bracket| matches!(bracket.test, Test::Slope)) {
@@ -230,26 +224,6 @@ fn is_level<P: Problem>(problem: &P, step: &Step<'_, P::Local>) -> bool {
     let slope = step.old.slope().abs().max(step.new.slope().abs());
     let width = problem.weights(&step.old.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
     slope < LEVEL * problem.accuracy() * width
-}
-
-/// Where a test of the same sign at both ends of a step comes so near to 0 that it may change its sign twice: the vertex of the
-/// parabola through its last three values, where that is less than half of the smaller one; or, for a test with a kink (two levels that
-/// change places), beyond the zero that the last step leads to.
-fn dip(test: Test, before: &Before, low: (f64, f64), high: (f64, f64)) -> Option<f64> {
-    let sign = low.1.signum();
-    let [first, a, b] = [test.value(&before.tangent, &before.levels), low.1, high.1].map(|v| sign * v);
-    if b <= 0.0 {
-        return None;
-    }
-    let length = high.0;
-    let slope = (a - first) / before.length;
-    let bend = ((b - a) / length - slope) / (length + before.length);
-    let (start, vertex) = (slope + bend * before.length, -0.5 * slope / bend - 0.5 * before.length);
-    if bend > 0.0 && vertex > 0.0 && vertex < length && a + 0.5 * start * vertex < 0.5 * a.min(b) {
-        return Some(vertex);
-    }
-    let zero = -a / slope;
-    (slope < 0.0 && zero < length).then_some(0.5 * (zero + length))
 }
 
 /// The solution at which the test vanishes, by false position (the Illinois variant): every iterate is a solution of the equations.
@@ -281,25 +255,4 @@ fn solve<P: Problem>(
         }
     }
     Err(Failure::Obstructed(Obstruction::Newton))
-}
-
-/// The solution at the length `s` after the beginning of a step.
-fn between<P: Problem>(
-    problem: &P,
-    &Step { old, new, length, .. }: &Step<'_, P::Local>,
-    s: f64,
-    watch: &dyn Watch,
-) -> Result<Place<P::Local>, Failure> {
-    let weights = problem.weights(&old.x);
-    let row = normal(&old.tangent, &weights);
-    let turned = product(&weights, &old.tangent, &new.tangent);
-    let x = s / length;
-    // Hermite's cubic; both ends and their tangents are known
-    let (h00, h10) = ((1.0 + 2.0 * x) * (1.0 - x) * (1.0 - x), x * (1.0 - x) * (1.0 - x) * length);
-    let (h01, h11) = (x * x * (3.0 - 2.0 * x), x * x * (x - 1.0) * length / turned);
-    let guess = (0..old.x.len())
-        .map(|i| h00 * old.x[i] + h10 * old.tangent[i] + h01 * new.x[i] + h11 * new.tangent[i])
-        .collect();
-    let found = correct(problem, guess, &row, TIGHT, watch)?;
-    place(problem, found, &row, old.arclength + s)
 }

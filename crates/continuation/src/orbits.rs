@@ -296,10 +296,10 @@ impl Problem for Orbits<'_> {
         Some(reduced_rates(local).concat())
     }
 
-    fn gains(&self, x: &[f64], local: &Local) -> Option<(Broken, Vec<f64>)> {
+    fn gains(&self, x: &[f64], local: &Local, same: f64) -> Option<(Broken, Vec<f64>)> {
         let body = local.body.as_ref();
         let nodes: Vec<&[f64]> = (0..self.parts).map(|i| self.node(x, i)).collect();
-        let found = Classes::within(body, &nodes, GAINED);
+        let found = Classes::within(body, &nodes, same);
         if found.axis.is_some() && self.classes.axis.is_none() {
             let mut symmetric = x.to_vec();
             for node in symmetric[..self.parts * self.dim].chunks_exact_mut(self.dim) {
@@ -315,7 +315,7 @@ impl Problem for Orbits<'_> {
         if nodes.iter().map(extent).fold(0.0, f64::max) < EXTENDED * self.size {
             return None; // it shrinks to an equilibrium, which has all symmetries of time
         }
-        let is = |mirrored| align(body, half, first, mirrored).distance < GAINED * self.size;
+        let is = |mirrored| align(body, half, first, mirrored).distance < same * self.size;
         let gained = match (is(false), is(true) && body.symmetry().mirror) {
             (true, _) => Broken::HalfPeriod,
             (_, true) => Broken::MirrorAfterHalf,

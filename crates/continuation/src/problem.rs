@@ -89,9 +89,9 @@ pub(super) trait Problem: Equations {
         None
     }
 
-    /// The symmetry that the motion at `x` has and the branch has not, and the same unknowns with that symmetry of the shapes exact. There the
+    /// The symmetry that the motion at `x` has up to the part `same` of its size and the branch has not, and the same unknowns with that symmetry of the shapes exact. There the
     /// parameter turns back, and the branch goes on with its own images.
-    fn gains(&self, _x: &[f64], _local: &Self::Local) -> Option<(Broken, Vec<f64>)> {
+    fn gains(&self, _x: &[f64], _local: &Self::Local, _same: f64) -> Option<(Broken, Vec<f64>)> {
         None
     }
 

@@ -1,10 +1,12 @@
 //! Pseudo-arclength continuation with step control, over any equations.
 
+use super::between::Step;
+use super::classes::GAINED;
 use super::copies::same_motion;
 use super::correct::{correct, directions, normal, scaled};
 use super::homoclinic::{Algebraic, Periods};
 use super::levels::unstable;
-use super::locate::{Changes, Step, locate};
+use super::locate::{Changes, locate};
 use super::place::{Before, Place, place};
 use super::point::{End, Motion, Obstruction, Point};
 use super::problem::{Failure, Problem};
@@ -308,16 +310,20 @@ impl<P: Problem> Tracer<P> {
     }
 
     /// The end of the branch at the first turning point where the motion gains a symmetry: it is a special point of the motion that has it. What was found beyond belongs to
-    /// images of the branch.
+    /// images of the branch; what was found as near as the symmetry can be told is the same point. (With five axes or more, say, another
+    /// growth vanishes as the third power of the distance, and round-off places it.)
     fn meets(&self, length: f64, changes: &mut Changes<P::Local>) -> Option<End> {
         let gains = |(place, (at, special)): (usize, &(Place<P::Local>, Special))| {
-            let gained = turns(*special).then(|| self.problem.gains(&at.x, &at.local)).flatten();
+            let gained = turns(*special).then(|| self.problem.gains(&at.x, &at.local, GAINED)).flatten();
             gained.map(|gained| (place, gained))
         };
         let (place, (gains, x)) = changes.found.iter().enumerate().find_map(gains)?;
         let (mut at, _) = changes.found.swap_remove(place);
         at.x = x;
-        changes.found.retain(|(other, _)| at.arclength - other.arclength > 1e-4 * length);
+        changes.found.retain(|(other, _)| {
+            let before = at.arclength - other.arclength > 1e-4 * length;
+            before && self.problem.gains(&other.x, &other.local, 10.0 * GAINED).is_none()
+        });
         let end = End::Meets { parameter: at.parameter(), gains };
         changes.found.push((at, gains.special()));
         Some(end)

@@ -27,7 +27,6 @@ impl RelativeEquilibrium {
         VectorField::<f64>::eval(body, 0.0, &shape, &mut rate);
         let mut omega = turning_of_shape(body, &shape, &rate);
         let mut last = f64::INFINITY;
-        let mut moved = 0.0;
         for _ in 0..STEPS {
             let (unknowns, target) = equations(body, &shape, omega);
             let size = norm(&target);
@@ -37,14 +36,14 @@ impl RelativeEquilibrium {
             // against the guess too: towards a circle the shape shrinks with its residual
             let floor = 1e-14 * norm(&shape).max(norm(guess));
             let still = size >= 0.5 * last && size <= 1e-9 * norm(&shape).max(1e-12);
+            let step = least_squares(&unknowns, &target);
             if size <= floor || still {
-                let is_circle = round(body, &mut shape, moved);
+                let is_circle = step.is_some_and(|step| round(body, &mut shape, &step));
                 return Self::describe(body, shape, if is_circle { 0.0 } else { omega });
             }
             last = size;
-            let step = least_squares(&unknowns, &target)?;
+            let step = step?;
             let turned = step.len() - 1;
-            moved = norm(&step[..turned]);
             add(&mut shape, 1.0, &step[..turned]);
             omega += step[turned];
         }
@@ -52,16 +51,18 @@ impl RelativeEquilibrium {
     }
 }
 
-/// Makes a circle of a shape that differs from one by less than the last step of Newton's method: it converged to the circle, and
-/// what is left of other modes is its error. Whether the shape is one.
-fn round<B: Equivariant + ?Sized>(body: &B, shape: &mut [f64], moved: f64) -> bool {
-    if !body.symmetry().rotations {
-        return false;
-    }
-    let circle = mean_over_rotations(body, shape, shape.len() + 1);
+/// Least part of its distance from a circle that a Newton step from a solution moves a shape which is a circle but for its error.
+const ROUNDING: f64 = 0.5;
+
+/// Makes a circle (without rotations: nothing) of a shape that differs from it by no more than Newton's method would move it still: what is
+/// left of other modes is its error, which has no symmetry, but the motion has all. Whether it is one.
+fn round<B: Equivariant + ?Sized>(body: &B, shape: &mut [f64], step: &[f64]) -> bool {
+    let rotations = body.symmetry().rotations;
+    let circle =
+        if rotations { mean_over_rotations(body, shape, shape.len() + 1) } else { vec![0.0; shape.len()] };
     let mut rest = circle.clone();
     add(&mut rest, -1.0, shape);
-    let is_circle = norm(&rest) <= moved;
+    let is_circle = norm(&step[..shape.len()]) >= ROUNDING * norm(&rest);
     if is_circle {
         shape.copy_from_slice(&circle);
     }

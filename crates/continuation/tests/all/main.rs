@@ -7,3 +7,5 @@ mod ends;
 mod equilibria;
 mod orbits;
 mod path;
+mod random_texts;
+mod symmetric_rest;

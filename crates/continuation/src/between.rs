@@ -1,0 +1,76 @@
+//! Solutions between two points of a branch.
+
+use super::correct::{correct, normal, product, scaled};
+use super::place::{Before, Place, place};
+use super::point::Obstruction;
+use super::problem::{Failure, Problem};
+use motiform_dynamics::Watch;
+
+/// Newton's tolerance between points.
+pub(super) const TIGHT: f64 = 1e-11;
+
+/// Part of a step that solutions keep from a place where the equations are singular: what the branch bends on it is below [`TIGHT`].
+const APART: f64 = 1e-4;
+
+/// The step from `old` to `new`, and the place before it.
+pub(super) struct Step<'s, L> {
+    pub(super) old: &'s Place<L>,
+    pub(super) new: &'s Place<L>,
+    pub(super) before: Option<&'s Before>,
+    pub(super) length: f64,
+}
+
+/// The solution at the length `s` after the beginning of a step. Where branches cross the equations are singular, and Newton's method finds
+/// nothing in a neighbourhood that round-off fills: there it is the middle of the solutions on both sides.
+pub(super) fn between<P: Problem>(
+    problem: &P,
+    step: &Step<'_, P::Local>,
+    s: f64,
+    watch: &dyn Watch,
+) -> Result<Place<P::Local>, Failure> {
+    match solution(problem, step, s, watch) {
+        Err(Failure::Obstructed(Obstruction::Newton | Obstruction::Singular)) => {
+            middle(problem, step, s, watch)
+        }
+        found => found,
+    }
+}
+
+/// The middle of the solutions on both sides of `s`.
+fn middle<P: Problem>(
+    problem: &P,
+    step: &Step<'_, P::Local>,
+    s: f64,
+    watch: &dyn Watch,
+) -> Result<Place<P::Local>, Failure> {
+    let side = |sign: f64| solution(problem, step, s + sign * APART * step.length, watch);
+    let (low, high) = (side(-1.0)?, side(1.0)?);
+    let mean = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect::<Vec<f64>>();
+    let broken = || Failure::Obstructed(Obstruction::Singular);
+    let x = mean(&low.x, &high.x);
+    let tangent = scaled(mean(&low.tangent, &high.tangent), &problem.weights(&x)).ok_or_else(broken)?;
+    let local = problem.local(&x, watch)?;
+    let levels = problem.levels(&x, &local).ok_or_else(broken)?;
+    Ok(Place { x, local, tangent, levels, arclength: step.old.arclength + s, certificate: None })
+}
+
+/// What Newton's method finds there.
+fn solution<P: Problem>(
+    problem: &P,
+    &Step { old, new, length, .. }: &Step<'_, P::Local>,
+    s: f64,
+    watch: &dyn Watch,
+) -> Result<Place<P::Local>, Failure> {
+    let weights = problem.weights(&old.x);
+    let row = normal(&old.tangent, &weights);
+    let turned = product(&weights, &old.tangent, &new.tangent);
+    let x = s / length;
+    // Hermite's cubic; both ends and their tangents are known
+    let (h00, h10) = ((1.0 + 2.0 * x) * (1.0 - x) * (1.0 - x), x * (1.0 - x) * (1.0 - x) * length);
+    let (h01, h11) = (x * x * (3.0 - 2.0 * x), x * x * (x - 1.0) * length / turned);
+    let guess = (0..old.x.len())
+        .map(|i| h00 * old.x[i] + h10 * old.tangent[i] + h01 * new.x[i] + h11 * new.tangent[i])
+        .collect();
+    let found = correct(problem, guess, &row, TIGHT, watch)?;
+    place(problem, found, &row, old.arclength + s)
+}
