@@ -123,7 +123,7 @@ impl Tally {
         let near = |a: &Event, b: &Event| (a.p - b.p).abs() < SAME[0] && apart(&a.at, &b.at) < SAME[1];
         let mut rest: Vec<&Event> = its.events.iter().collect();
         let mut missed = Vec::new();
-        for event in mine.events.iter() {
+        for event in &mine.events {
             match rest.iter().position(|other| other.kind == event.kind && near(other, event)) {
                 Some(place) => drop(rest.swap_remove(place)),
                 None => missed.push(event),
@@ -193,7 +193,7 @@ fn program(text: &Text, (u, _): &Found, p: f64) -> Seen {
             let at = text.invariants(&u);
             match point.special {
                 Some(special) => {
-                    side.events.push(Event { kind: special.name(), p: point.parameter, at: at.clone() })
+                    side.events.push(Event { kind: special.name(), p: point.parameter, at: at.clone() });
                 }
                 None => side.passed.push((point.parameter, at)),
             }

@@ -115,6 +115,9 @@ impl Shooting<'_> {
                 return None;
             }
             let (end, by_u, by_p) = flow(self.text, &u, x[n], p);
+            if !by_u.iter().all(|value| value.abs() < 1e9) {
+                return None;
+            }
             let image = self.back(&end, angle);
             let map = DMatrix::from_columns(
                 &by_u.column_iter().map(|column| self.back(&column.into_owned(), angle)).collect::<Vec<_>>(),
