@@ -156,9 +156,14 @@ pub(super) fn complement(places: &[usize], along: &[DVector<f64>]) -> DMatrix<f6
 /// Eigenvalues `(re, im)`. (Shifted by the matrix's size: what couples entries of 0 is then small beside them. The method may stall: then the
 /// same matrix in other coordinates is tried.)
 pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<(f64, f64)> {
+    spectrum(matrix).expect("eigenvalues")
+}
+
+/// The same; `None` where the method stalls in all of them.
+pub(super) fn spectrum(matrix: &DMatrix<f64>) -> Option<Vec<(f64, f64)>> {
     let n = matrix.nrows();
     if n == 0 {
-        return Vec::new();
+        return Some(Vec::new());
     }
     let shift = matrix.norm();
     let mut moved = matrix + shift * DMatrix::identity(n, n);
@@ -169,6 +174,6 @@ pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<(f64, f64)> {
         moved = (&turn * &moved * &turn).transpose();
         schur
     });
-    let values = found.expect("eigenvalues").complex_eigenvalues();
-    values.iter().map(|value| (value.re - shift, value.im)).collect()
+    let values = found?.complex_eigenvalues();
+    Some(values.iter().map(|value| (value.re - shift, value.im)).collect())
 }

@@ -50,12 +50,12 @@ fn texts_on_which_the_program_was_wrong_have_the_points_of_a_brute_force_scan() 
 }
 
 /// Branches of orbits for each of the texts that are tried.
-const ORBITS: usize = 3;
+const ORBITS: usize = 2;
 
 #[test]
 fn periodic_branches_of_random_texts_have_the_points_of_a_brute_force_scan() {
     let mut all = Tally::default();
-    for seed in seeds(0..TEXTS) {
+    for seed in seeds(0..10) {
         all += orbits::all(seed, &text(seed), ORBITS);
     }
     all.judge(1);

@@ -1,6 +1,6 @@
 //! Periodic motions of random texts by single shooting with Runge and Kutta's method of fixed steps.
 
-use super::frame::{Frame, complement, eigenvalues};
+use super::frame::{Frame, complement, spectrum};
 use super::text::Text;
 use nalgebra::{DMatrix, DVector};
 
@@ -148,7 +148,7 @@ impl Shooting<'_> {
                 let mut one = DVector::zeros(last + 1);
                 one[last] = 1.0;
                 let tangent = lu.solve(&one)?.normalize();
-                let multipliers = self.multipliers(&map, &rate, &spin);
+                let multipliers = self.multipliers(&map, &rate, &spin)?;
                 return Some(Orbit { x, tangent, multipliers });
             }
         }
@@ -161,15 +161,16 @@ impl Shooting<'_> {
         map: &DMatrix<f64>,
         rate: &DVector<f64>,
         spin: &DVector<f64>,
-    ) -> [Vec<(f64, f64)>; 2] {
+    ) -> Option<[Vec<(f64, f64)>; 2]> {
         let dim = self.text.dim();
-        [true, false].map(|keeps| {
+        let of = |keeps: bool| {
             let places: Vec<usize> = (0..dim).filter(|i| self.frame.kept.contains(i) == keeps).collect();
             let within =
                 |v: &DVector<f64>| DVector::from_fn(dim, |i, _| if places.contains(&i) { v[i] } else { 0.0 });
             let basis = complement(&places, &[within(rate), within(spin)]);
-            eigenvalues(&(basis.transpose() * map * &basis))
-        })
+            spectrum(&(basis.transpose() * map * &basis))
+        };
+        Some([of(true)?, of(false)?])
     }
 
     /// Whether the orbit is its own image, turned or mirrored, after half of its time.
