@@ -106,9 +106,6 @@ pub(super) fn compare(seed: u64, text: &Text) -> Tally {
                 );
                 eprintln!("{complaint}");
             }
-            if !tally.complaints.is_empty() && std::env::var_os("SHOW").is_some() {
-                show(seed, text);
-            }
             all += tally;
             known.push(mine);
         }
@@ -213,16 +210,4 @@ fn program(text: &Text, (u, _): &Found, p: f64) -> Seen {
         }
     }
     joined(sides)
-}
-
-fn show(seed: u64, text: &Text) {
-    let d = text.definition();
-    let mut out = format!(
-        "[model.amplitudes]\nmodes = {:?}\nsymmetry = \"{}\"\n[model.amplitudes.parameters]\np = 0.0\n[model.amplitudes.equations]\n",
-        d.modes, text.symmetry
-    );
-    for (n, e) in d.modes.iter().zip(&d.equations) {
-        out += &format!("z{n} = \"{e}\"\n");
-    }
-    std::fs::write(format!("/tmp/h/rand-text-{seed}.toml"), out).expect("written");
 }
