@@ -83,7 +83,7 @@ fn meeting(points: &[(f64, f64)]) -> Option<(f64, f64)> {
     let &[(s0, v0), (s1, v1), (s2, v2), (s3, v3)] = points else { return None };
     let (falls, rises) = ((v1 - v0) / (s1 - s0), (v3 - v2) / (s3 - s2));
     let s = (v2 - v1 + falls * s1 - rises * s2) / (falls - rises);
-    (s > s1 && s < s2).then(|| (s, v1 + falls * (s - s1)))
+    (s > s1 && s < s2).then_some((s, v1 + falls * (s - s1)))
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use motiform_continuation::{Branch, Broken, End, Family, Point, Settings};
 use motiform_dynamics::Equivariant;
 use motiform_models::amplitudes::{Definition, ParameterDefinition, info};
 
-/// `z = x + iy`, with the mirror alone: `x' = -(x - a p) ...`, given as text.
+/// One amplitude `z1 = x + iy` with this equation, and the mirror `y -> -y` alone.
 fn family(equation: &str) -> impl Fn(f64) -> Result<Box<dyn Equivariant>, Error> + Sync + use<> {
     let model = info(&Definition {
         modes: vec![1],

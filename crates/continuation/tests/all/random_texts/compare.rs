@@ -106,9 +106,6 @@ pub(super) fn compare(seed: u64, text: &Text) -> Tally {
                 );
                 eprintln!("{complaint}");
             }
-            if !tally.complaints.is_empty() && std::env::var_os("SHOW").is_some() {
-                show(seed, text);
-            }
             all += tally;
             known.push(mine);
         }
@@ -123,7 +120,7 @@ impl Tally {
         let near = |a: &Event, b: &Event| (a.p - b.p).abs() < SAME[0] && apart(&a.at, &b.at) < SAME[1];
         let mut rest: Vec<&Event> = its.events.iter().collect();
         let mut missed = Vec::new();
-        for event in mine.events.iter() {
+        for event in &mine.events {
             match rest.iter().position(|other| other.kind == event.kind && near(other, event)) {
                 Some(place) => drop(rest.swap_remove(place)),
                 None => missed.push(event),
@@ -193,7 +190,7 @@ fn program(text: &Text, (u, _): &Found, p: f64) -> Seen {
             let at = text.invariants(&u);
             match point.special {
                 Some(special) => {
-                    side.events.push(Event { kind: special.name(), p: point.parameter, at: at.clone() })
+                    side.events.push(Event { kind: special.name(), p: point.parameter, at: at.clone() });
                 }
                 None => side.passed.push((point.parameter, at)),
             }
@@ -213,16 +210,4 @@ fn program(text: &Text, (u, _): &Found, p: f64) -> Seen {
         }
     }
     joined(sides)
-}
-
-fn show(seed: u64, text: &Text) {
-    let d = text.definition();
-    let mut out = format!(
-        "[model.amplitudes]\nmodes = {:?}\nsymmetry = \"{}\"\n[model.amplitudes.parameters]\np = 0.0\n[model.amplitudes.equations]\n",
-        d.modes, text.symmetry
-    );
-    for (n, e) in d.modes.iter().zip(&d.equations) {
-        out += &format!("z{n} = \"{e}\"\n");
-    }
-    std::fs::write(format!("/tmp/h/rand-text-{seed}.toml"), out).expect("written");
 }

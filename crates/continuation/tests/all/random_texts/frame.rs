@@ -156,19 +156,24 @@ pub(super) fn complement(places: &[usize], along: &[DVector<f64>]) -> DMatrix<f6
 /// Eigenvalues `(re, im)`. (Shifted by the matrix's size: what couples entries of 0 is then small beside them. The method may stall: then the
 /// same matrix in other coordinates is tried.)
 pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<(f64, f64)> {
+    spectrum(matrix).expect("eigenvalues")
+}
+
+/// The same; `None` where the method stalls in all of them.
+pub(super) fn spectrum(matrix: &DMatrix<f64>) -> Option<Vec<(f64, f64)>> {
     let n = matrix.nrows();
     if n == 0 {
-        return Vec::new();
+        return Some(Vec::new());
     }
     let shift = matrix.norm();
     let mut moved = matrix + shift * DMatrix::identity(n, n);
-    for room in [1e-15, 1e-15, 1e-14, 1e-14, 1e-13, 1e-13, 1e-12] {
-        if let Some(schur) = Schur::try_new(moved.clone(), room, 500) {
-            return schur.complex_eigenvalues().iter().map(|value| (value.re - shift, value.im)).collect();
-        }
+    let found = [1e-15, 1e-15, 1e-14, 1e-14, 1e-13, 1e-13, 1e-12].into_iter().find_map(|room| {
+        let schur = Schur::try_new(moved.clone(), room, 500);
         let normal = DVector::from_fn(n, |i, _| 1.0 + (i as f64 * room * 1e15).sin()).normalize();
         let turn = DMatrix::identity(n, n) - 2.0 * &normal * normal.transpose();
-        moved = (&turn * moved * &turn).transpose();
-    }
-    panic!("no eigenvalues: {matrix:e}")
+        moved = (&turn * &moved * &turn).transpose();
+        schur
+    });
+    let values = found?.complex_eigenvalues();
+    Some(values.iter().map(|value| (value.re - shift, value.im)).collect())
 }

@@ -1,6 +1,6 @@
 //! Periodic motions of random texts by single shooting with Runge and Kutta's method of fixed steps.
 
-use super::frame::{Frame, complement, eigenvalues};
+use super::frame::{Frame, complement, spectrum};
 use super::text::Text;
 use nalgebra::{DMatrix, DVector};
 
@@ -115,6 +115,9 @@ impl Shooting<'_> {
                 return None;
             }
             let (end, by_u, by_p) = flow(self.text, &u, x[n], p);
+            if !by_u.iter().all(|value| value.abs() < 1e9) {
+                return None;
+            }
             let image = self.back(&end, angle);
             let map = DMatrix::from_columns(
                 &by_u.column_iter().map(|column| self.back(&column.into_owned(), angle)).collect::<Vec<_>>(),
@@ -145,7 +148,7 @@ impl Shooting<'_> {
                 let mut one = DVector::zeros(last + 1);
                 one[last] = 1.0;
                 let tangent = lu.solve(&one)?.normalize();
-                let multipliers = self.multipliers(&map, &rate, &spin);
+                let multipliers = self.multipliers(&map, &rate, &spin)?;
                 return Some(Orbit { x, tangent, multipliers });
             }
         }
@@ -158,15 +161,16 @@ impl Shooting<'_> {
         map: &DMatrix<f64>,
         rate: &DVector<f64>,
         spin: &DVector<f64>,
-    ) -> [Vec<(f64, f64)>; 2] {
+    ) -> Option<[Vec<(f64, f64)>; 2]> {
         let dim = self.text.dim();
-        [true, false].map(|keeps| {
+        let of = |keeps: bool| {
             let places: Vec<usize> = (0..dim).filter(|i| self.frame.kept.contains(i) == keeps).collect();
             let within =
                 |v: &DVector<f64>| DVector::from_fn(dim, |i, _| if places.contains(&i) { v[i] } else { 0.0 });
             let basis = complement(&places, &[within(rate), within(spin)]);
-            eigenvalues(&(basis.transpose() * map * &basis))
-        })
+            spectrum(&(basis.transpose() * map * &basis))
+        };
+        Some([of(true)?, of(false)?])
     }
 
     /// Whether the orbit is its own image, turned or mirrored, after half of its time.
