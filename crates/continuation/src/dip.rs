@@ -25,10 +25,11 @@ pub(super) fn dip<P: Problem>(
     let first = test.value(&before.tangent, &before.levels);
     let mut points =
         vec![(-before.length, sign * first), (0.0, sign * ends[0]), (step.length, sign * ends[1])];
+    let noise = if matches!(test, Test::Slope) { 0.0 } else { problem.noise(&step.old.levels) };
     let mut s = near(&points)?;
     for _ in 0..LOOKS {
         let value = sign * test.of(&between(problem, step, s, watch).ok()?);
-        if value < 0.0 {
+        if value < -noise {
             return Some((s, sign * value));
         }
         let place = points.partition_point(|point| point.0 < s);

@@ -1,6 +1,7 @@
 //! Pseudo-arclength continuation with step control, over any equations.
 
 use super::between::Step;
+use super::certificate::TestFunction;
 use super::classes::GAINED;
 use super::copies::same_motion;
 use super::correct::{correct, directions, normal, scaled};
@@ -41,6 +42,15 @@ struct First {
 /// Whether a branch may turn back here: where another one goes on through the point it is no fold.
 fn turns(special: Special) -> bool {
     matches!(special, Special::Fold | Special::BranchPoint)
+}
+
+/// Whether the second of two special points is the first one, found by the slope of the parameter.
+fn is_better<L>(found: &[(Place<L>, Special)], first: usize, other: usize, length: f64) -> bool {
+    let [first, other] = [first, other].map(|place| &found[place].0);
+    let by_slope = |place: &Place<L>| {
+        place.certificate.is_some_and(|certificate| certificate.test == TestFunction::Slope)
+    };
+    by_slope(other) && !by_slope(first) && other.arclength - first.arclength < 1e-2 * length
 }
 
 /// A branch being followed.
@@ -317,7 +327,11 @@ impl<P: Problem> Tracer<P> {
             let gained = turns(*special).then(|| self.problem.gains(&at.x, &at.local, GAINED)).flatten();
             gained.map(|gained| (place, gained))
         };
-        let (place, (gains, x)) = changes.found.iter().enumerate().find_map(gains)?;
+        let mut all = changes.found.iter().enumerate().filter_map(gains);
+        let first = all.next()?;
+        // the parameter is level there to first order, the growth to second: the slope tells the place better
+        let (place, (gains, x)) =
+            all.find(|other| is_better(&changes.found, first.0, other.0, length)).unwrap_or(first);
         let (mut at, _) = changes.found.swap_remove(place);
         at.x = x;
         changes.found.retain(|(other, _)| {

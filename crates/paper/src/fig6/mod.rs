@@ -1,5 +1,6 @@
 //! Fig. 6: the active cell, whose only parameter is its length.
 
+mod atlas;
 mod boundary;
 mod branches;
 mod codimension;
@@ -23,6 +24,7 @@ pub(super) use lengths::{modes_for, study};
 pub(super) use tracks::Track;
 
 use super::context::Context;
+use atlas::Atlas;
 use edges::Edges;
 use exponents::Exponents;
 use lengths::Lengths;
@@ -44,6 +46,7 @@ density is taken; mode *n* of the prior has the standard deviation *n*^{-4}. The
 
 pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     let edges = Edges::find(context)?;
+    let atlas = Atlas::follow(context)?;
     let onsets = Onsets::find(context)?;
     let lengths = Lengths::scan(context)?;
     context.watch.progress(0.5);
@@ -60,12 +63,15 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     claims.push(zigzags.elsewhere(context, &lengths));
     claims.push(priors.claim(&tracks));
     claims.push(scheme::claim_of(context, &tracks)?);
+    claims.extend(atlas.claims(context));
+    let mut figures = pictures::all(context, &lengths, &exponents, &tracks)?;
+    figures.extend(context.drawn(&|| Ok(vec![atlas.figure()?]))?);
     Ok(Section {
         title: "Fig. 6: the active cell".to_owned(),
         about: ABOUT.to_owned(),
         parameters: parameters(context, &lengths),
         tables: vec![priors.table()],
-        figures: pictures::all(context, &lengths, &exponents, &tracks)?,
+        figures,
         claims,
         ..Section::default()
     })

@@ -1,0 +1,149 @@
+//! The atlas of the cell: all steady motions that are connected to the circle, stable or not, over the length.
+
+use super::super::claims::check;
+use super::super::context::Context;
+use super::lengths::study;
+use motiform_branching::draw::{Ordinate, branch_diagram};
+use motiform_branching::{Branches, SpecialEntry, stretches};
+use motiform_lab::draw::sheet;
+use motiform_report::{Claim, ReportFigure};
+use motiform_study::branches::{Along, BranchPlan, BranchSettings};
+use motiform_study::{Error, Stride, Towards};
+use std::sync::Arc;
+
+/// The lengths.
+const RANGE: (f64, f64) = (6.0, 32.0);
+
+/// Modes of the shape.
+const MODES: usize = 21;
+
+/// More branches than there are.
+const MOST: usize = 100;
+
+/// Measured before, by another program: kind, length, digits given.
+const KNOWN: [(&str, f64, f64); 7] = [
+    ("pitchfork", 12.278_498, 1e-6),
+    ("hopf", 12.973_310, 1e-6),
+    ("pitchfork", 14.920_437, 1e-6),
+    ("hopf", 20.833_828, 1e-6),
+    ("fold", 21.889_648, 1e-6),
+    ("pitchfork", 22.415_619, 1e-6),
+    ("hopf", 31.520_732, 1e-6),
+];
+
+/// The branches, and what was planned.
+pub(super) struct Atlas(BranchPlan, Arc<Branches>);
+
+impl Atlas {
+    /// Follows the circle from the length 6, and what begins on its branch.
+    pub(super) fn follow(context: &Context<'_>) -> Result<Self, Error> {
+        let mut study = study(RANGE.0, MODES)?;
+        "Steady motions of the cell".clone_into(&mut study.title);
+        let along = Along { name: "length".to_owned(), from: RANGE.0, to: RANGE.1 };
+        let stride = Stride { steady: true, direction: Towards::Up, ..Stride::default() };
+        let settings = BranchSettings { branches: MOST, stride, ..BranchSettings::over(along) };
+        let plan = BranchPlan::new(&study, &settings)?;
+        let follow = || {
+            let found = motiform_branching::follow(&plan, None, &context.quiet())?;
+            if found.complete { Ok(Arc::new(found)) } else { Err(Error::Interrupted) }
+        };
+        let found = context.kept.once(&format!("branches {}", plan.hash()), follow)?;
+        Ok(Self(plan, found))
+    }
+
+    /// The diagram.
+    pub(super) fn figure(&self) -> Result<ReportFigure, Error> {
+        let drawn = sheet(&branch_diagram(&self.0, &self.1, Ordinate::Speed)?)?;
+        Ok(ReportFigure::new(
+            drawn,
+            "**The atlas of the cell.** Every steady motion that is connected to the circle, stable or not: mean speed over the length. \
+             Motionless shapes lie on the axis.",
+        ))
+    }
+
+    /// What follows from it.
+    pub(super) fn claims(&self, context: &Context<'_>) -> [Claim; 3] {
+        [self.known(context), self.multiples(context), self.stable(context)]
+    }
+
+    /// Special points of all branches, each once, by length.
+    fn special(&self) -> Vec<SpecialEntry> {
+        let mut all: Vec<SpecialEntry> =
+            (0..self.1.branches.len()).flat_map(|number| self.1.special(number)).collect();
+        all.sort_by(|a, b| a.parameter.total_cmp(&b.parameter));
+        all.dedup_by(|a, b| a.kind == b.kind && (a.parameter - b.parameter).abs() < 1e-6);
+        all
+    }
+
+    fn nearest(&self, context: &Context<'_>, kind: &str, length: f64) -> f64 {
+        let off = self.special().into_iter().filter(|entry| entry.kind == kind);
+        context.number(off.map(|entry| (entry.parameter - length).abs()).fold(f64::INFINITY, f64::min))
+    }
+
+    fn known(&self, context: &Context<'_>) -> Claim {
+        let off =
+            KNOWN.map(|(kind, length, digits)| (kind, length, self.nearest(context, kind, length) / digits));
+        check(
+            "Measured before this project, by an independent program: where steady motions of the cell begin, change and end.",
+            off.iter()
+                .map(|(kind, length, off)| format!("{kind} {length}: {:.0e}", off * 1e-6))
+                .collect::<Vec<_>>()
+                .join(", "),
+            &format!(
+                "{HOW}. The distance from the nearest special point of that kind is less than the last digit given"
+            ),
+            off.iter().all(|entry| entry.2 < 1.0),
+        )
+    }
+
+    /// The shape of a cell of length `n L` that consists of `n` equal parts is the shape of the length `L` `n` times, with the same rates.
+    fn multiples(&self, context: &Context<'_>) -> Claim {
+        let mut all = Vec::new();
+        for entry in self.special().into_iter().filter(|entry| entry.parameter < 0.5 * RANGE.1) {
+            for n in 2..=5 {
+                let length = f64::from(n) * entry.parameter;
+                if length < RANGE.1 {
+                    all.push(self.nearest(context, entry.kind, length));
+                }
+            }
+        }
+        let worst = all.iter().copied().fold(0.0, f64::max);
+        check(
+            "A cell of *n* equal parts behaves as one part does: what happens at the length *L* happens at *nL* too.",
+            format!(
+                "for each of {} multiples of special points below 32 there is one of the same kind, {worst:.0e} away at most",
+                all.len()
+            ),
+            &format!(
+                "{HOW}. An exact symmetry of the equation, which nothing in the computation knows; {MODES} modes leave 1e-6"
+            ),
+            all.len() >= 9 && worst < 1e-5,
+        )
+    }
+
+    /// Which motions are stable where, and that steady ones coexist.
+    fn stable(&self, context: &Context<'_>) -> Claim {
+        let found = &self.1;
+        let ranges = found.branches.iter().flat_map(|followed| {
+            let motion = followed.motion().0.map_or("", |motion| motion.name());
+            stretches(found, followed).into_iter().map(move |range| (motion, range))
+        });
+        let mut ranges: Vec<(&str, [f64; 2])> = ranges.collect();
+        ranges.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]));
+        let words = |(motion, [low, high]): &(&str, [f64; 2])| format!("{motion} from {low:.4} to {high:.4}");
+        let moving = |motion: &str| motion == "straight" || motion == "circular";
+        let beside = |(motion, [low, high]): &(&str, [f64; 2])| {
+            moving(motion)
+                && ranges.iter().any(|(other, rest)| !moving(other) && rest[0] < *high && *low < rest[1])
+        };
+        check(
+            "Beyond *W*_1 a cell may move steadily although random starts come to rest: which it does depends on its start.",
+            ranges.iter().map(words).collect::<Vec<_>>().join("; "),
+            &format!("{HOW}; stable: all eigenvalues but those of the symmetry have negative real parts"),
+            context.number(ranges.iter().filter(|range| beside(range)).count() as f64) >= 2.0,
+        )
+    }
+}
+
+const HOW: &str = "the circle is followed from *L* = 6 by pseudo-arclength, through folds and whether or not it is stable; special points are \
+solved for, and every steady motion that begins there is followed too";
