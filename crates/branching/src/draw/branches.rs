@@ -65,7 +65,8 @@ impl Ordinate {
     fn read(self, sample: &Sample) -> Option<f64> {
         let reading = &sample.reading;
         match self {
-            Self::Speed => Some(reading.speed[0]),
+            // the cell has none where its boundary cannot be closed
+            Self::Speed => Some(reading.speed[0]).filter(|speed| speed.is_finite()),
             // where left and right are mirror images, one of them is followed
             Self::TurningRate => reading.turning_rate.map(f64::abs),
             Self::SignedTurningRate => reading.turning_rate,
@@ -109,7 +110,7 @@ pub fn diagram(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Resul
     let spec = info.parameters().iter().find(|spec| spec.name == along.name);
     Ok(BranchDiagram {
         title: plan.title(),
-        caption: caption(plan, found, mirror)?,
+        caption: caption(plan, found, (mirror, ordinate))?,
         x_label: spec.map_or_else(|| along.name.clone(), |spec| spec.symbol.to_owned()),
         y_label: ordinate.label().to_owned(),
         logarithmic: ordinate == Ordinate::Period,
@@ -130,7 +131,11 @@ fn dots(sweeps: &Sweeps, ordinate: Ordinate) -> Vec<BranchDots> {
     dots.into_iter().filter(|dots| !dots.points.is_empty()).collect()
 }
 
-fn caption(plan: &BranchPlan, found: &Branches, mirror: bool) -> Result<Vec<String>, Error> {
+fn caption(
+    plan: &BranchPlan,
+    found: &Branches,
+    (mirror, ordinate): (bool, Ordinate),
+) -> Result<Vec<String>, Error> {
     let c = &plan.computation;
     let fixed = c.start.parameters.0.iter().filter(|entry| entry.0 != c.along.name).cloned().collect();
     let count = match found.branches.len() {
@@ -155,8 +160,28 @@ fn caption(plan: &BranchPlan, found: &Branches, mirror: bool) -> Result<Vec<Stri
     let unfinished = if found.complete { "" } else { " Interrupted: not all of them are followed." };
     Ok(vec![
         words::named(plan.info()?, &Named(fixed), &[&c.along.name]),
-        format!("{count} by pseudo-arclength continuation{once}{left}.{samples}{unfinished}"),
+        format!(
+            "{count} by pseudo-arclength continuation{once}{left}.{}{samples}{unfinished}",
+            gaps(found, ordinate)
+        ),
     ])
+}
+
+/// Why points are left out of a diagram of speeds.
+fn gaps(found: &Branches, ordinate: Ordinate) -> String {
+    let undefined = |sample: &&Sample| sample.reading.speed[0].is_nan();
+    let all = found.branches.iter().flat_map(Followed::samples).filter(undefined);
+    match (ordinate, all.count()) {
+        (Ordinate::Speed, 1) => {
+            " One point without a speed is left out: the boundary of its shape cannot be closed.".to_owned()
+        }
+        (Ordinate::Speed, count @ 2..) => {
+            format!(
+                " {count} points without a speed are left out: the boundary of their shapes cannot be closed."
+            )
+        }
+        _ => String::new(),
+    }
 }
 
 /// The parts of a branch, drawn from the special point where it begins to the connection at which it ends.
