@@ -75,6 +75,7 @@ Examples:
   motiform continue tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.9 --along kappa2=0.3:1.6 --curve hopf,symmetry-breaking \
     --in kappa2,kappa3=0.02:0.3
   motiform continue cell --set length=12.6 --from circular --along length=12:13.5 --json
+  motiform continue cell --set length=6 --along length=6:32 --steady --branches 40
   motiform equilibria my-study.toml --json > equilibria.json
   motiform continue --start equilibria.json:2 --along r=0:30    # the second one listed, stable or not
   motiform continue --start my-study-branches:0:17 --along s=5:15 --direction up --branch-step 0.005

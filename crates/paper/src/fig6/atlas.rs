@@ -58,14 +58,21 @@ impl Atlas {
         Ok(Self { plan, found, end })
     }
 
-    /// The diagram.
-    pub(super) fn figure(&self) -> Result<ReportFigure, Error> {
-        let drawn = sheet(&branch_diagram(&self.plan, &self.found, Ordinate::Speed)?)?;
-        Ok(ReportFigure::new(
-            drawn,
-            "**The atlas of the cell.** Every steady motion that is connected to the circle, stable or not: mean speed over the length. \
-             Motionless shapes lie on the axis.",
-        ))
+    /// The diagrams.
+    pub(super) fn figures(&self) -> Result<Vec<ReportFigure>, Error> {
+        let words = [
+            (
+                Ordinate::Speed,
+                "**The atlas of the cell.** Every steady motion that is connected to the circle, stable or not: mean speed over the \
+                 length. Motionless shapes lie on the axis.",
+            ),
+            (Ordinate::Size, "The same branches: size of the shape, which is 0 for the circle."),
+        ];
+        let figure = |(ordinate, caption)| {
+            let drawn = sheet(&branch_diagram(&self.plan, &self.found, ordinate)?)?;
+            Ok(ReportFigure::new(drawn, caption))
+        };
+        words.into_iter().map(figure).collect()
     }
 
     /// What follows from it; which motions coexist is seen in the whole range alone.
