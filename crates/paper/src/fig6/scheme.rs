@@ -122,11 +122,14 @@ fn difference(a: &[f64], b: &[f64], count: usize) -> f64 {
 /// The four runs with the paper's scheme: whether turns and speeds are ours, and words.
 fn drawn_again(context: &Context<'_>, tracks: &[Track]) -> Result<(bool, String), Error> {
     let prior = CellParameters::default().prior;
-    let runs =
-        context.each(tracks, |track| seen(&onwards(context, track, MODES, true, (SPAN, 0.5))?, prior))?;
+    // over the same time from the same shapes: turns of a motion that does not repeat differ from one part of it to another
+    let runs = context.each(tracks, |track| {
+        let modes = modes_for(track.parameter("length"));
+        let run = seen(&onwards(context, track, MODES, true, (SPAN, 0.5))?, prior)?;
+        Ok((run, seen(&onwards(context, track, modes, false, (SPAN, 0.5))?, prior)?))
+    })?;
     let (mut same, mut words) = (true, Vec::new());
-    for (track, run) in tracks.iter().zip(&runs) {
-        let our = seen(&shapes_of(&track.dataset)?, prior)?;
+    for (track, (run, our)) in tracks.iter().zip(&runs) {
         let length = track.parameter("length");
         if track.turns().is_empty() {
             same &= (run.speed / our.speed - 1.0).abs() < 0.2;
@@ -135,7 +138,12 @@ fn drawn_again(context: &Context<'_>, tracks: &[Track]) -> Result<(bool, String)
             let near = |(a, b): (&f64, &f64)| (a - b).abs() < 6.0;
             same &= run.turns.len() == our.turns.len() && run.turns.iter().zip(&our.turns).all(near);
             let turns: Vec<String> = run.turns.iter().map(|turn| format!("{turn:.0}")).collect();
-            words.push(format!("turns of {} degrees at *L* = {length}", turns.join(" and ")));
+            let ours: Vec<String> = our.turns.iter().map(|turn| format!("{turn:.0}")).collect();
+            words.push(format!(
+                "turns of {} degrees against {} at *L* = {length}",
+                turns.join(" and "),
+                ours.join(" and ")
+            ));
         }
     }
     Ok((same, format!("; Fig. 6 drawn again with it over {SPAN} time units: {}", words.join(", "))))
