@@ -154,7 +154,8 @@ pub(super) fn is_long_enough(runs: &[Growth]) -> bool {
 /// grown by more than the number of returns, error included, it grows like a power of time at most. (The 0-1 test may fail
 /// on a torus: where the number of minima per turn changes, the returns are an exchange of intervals, which wanders.)
 ///
-/// A set that shrinks is no torus: close to a bifurcation the returns approach a periodic orbit as a power of time, along a curve.
+/// A set that shrinks is no torus: close to a bifurcation the returns approach a periodic orbit as a power of time, along a curve. This sees what
+/// changes within a look by more than the distance of its returns; [`super::lasting`] sees less.
 pub(super) fn torus(run: &Lyapunov, witness: &Witness, time: f64) -> Option<Verdict> {
     let Estimate { value, error } = *run.exponents.first().filter(|first| first.has_error())?;
     let (k, dimension) = (witness.zero_one?, witness.dimension?);

@@ -25,7 +25,8 @@ use motiform_dynamics::{Equivariant, Watch};
 /// size if it is stable by its eigenvalues and the orbit comes closer at the rate they say; a shape comes back if Newton's
 /// method finds a stable orbit beside a return that closes to 0.5 % of the motion's diameter; chaos needs a motion, lambda_1 above
 /// three times its 95 % error and growth by more than e^10, both pooled over two consecutive runs and more (1.3 times as much where the
-/// 0-1 test sees order, K < 0.3); a torus needs returns on a curve that early and late ones fill alike.
+/// 0-1 test sees order, K < 0.3); a torus needs returns on a curve that early and late ones fill alike,
+/// in two looks, and whose size has no trend.
 ///
 /// An orbit that begins with an exact symmetry keeps it, and may end where no other orbit does: at an unstable shape. The verdict
 /// then says so ([`super::Attractor::Unstable`]); front ends perturb such starts.

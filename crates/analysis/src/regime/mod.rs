@@ -11,6 +11,7 @@ mod growth;
 mod heteroclinic;
 mod lane_look;
 mod lanes;
+mod lasting;
 mod legs;
 mod look;
 mod motion;

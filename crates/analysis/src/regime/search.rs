@@ -3,6 +3,7 @@
 use super::ask::Ask;
 use super::growth::{Growth, in_motion};
 use super::heteroclinic::cycle;
+use super::lasting::Change;
 use super::look::{Look, RESTS, Rest, Seen};
 use super::recurrence::{Returns, periodic};
 use super::repeats::Repeats;
@@ -312,20 +313,18 @@ impl Search {
         if let Some(verdict) = chaos.filter(|_| !symmetric) {
             return Ok(self.described(verdict, body, look.end - look.start, watch)?.into());
         }
-        if let Some(verdict) = self.on_a_curve(body, &look, (&run, &witness), watch)? {
-            return Ok(verdict.into());
-        }
         self.missing = if symmetric {
             "the orbit keeps an exact symmetry, and neighbouring orbits leave it".to_owned()
-        } else if self.curve.is_seen() {
-            "the returns lie on a closed curve that was not seen twice with the same size".to_owned()
         } else {
             chaos::missing(&self.growth, &witness)
         };
+        if let Some(verdict) = self.on_a_curve(body, &look, (&run, &witness), watch)? {
+            return Ok(verdict.into());
+        }
         self.again(body, watch)
     }
 
-    /// The verdict where the returns lie on a closed curve: a periodic orbit that they shrink onto, or a torus, seen twice.
+    /// The verdict where the returns lie on a closed curve: a periodic orbit that they shrink onto, or a torus, seen twice, that keeps its size.
     fn on_a_curve<B: Equivariant + ?Sized>(
         &mut self,
         body: &B,
@@ -338,15 +337,36 @@ impl Search {
         let inside = (torus.is_some() || witness.shrinks_orderly())
             .then(|| shrinking_onto(body, look, &self.settings, watch))
             .flatten();
-        match (inside, torus) {
-            (Some((orbit, recurrence)), _) => {
-                words::periodic(body, &orbit, &recurrence, &self.settings, self.time, watch).map(Some)
-            }
-            (None, Some(verdict)) if again => {
-                self.described(verdict, body, look.end - look.start, watch).map(Some)
-            }
-            _ => Ok(None),
+        if let Some((orbit, recurrence)) = inside {
+            return words::periodic(body, &orbit, &recurrence, &self.settings, self.time, watch).map(Some);
         }
+        let Some(torus) = torus else { return Ok(None) };
+        match self.lasts(torus, body, (look, again), watch) {
+            Ok(torus) => self.described(torus, body, look.end - look.start, watch).map(Some),
+            Err(missing) => {
+                self.missing = missing;
+                Ok(None)
+            }
+        }
+    }
+
+    /// The verdict on a torus that was seen twice and keeps its size; otherwise what is missing.
+    fn lasts<B: Equivariant + ?Sized>(
+        &mut self,
+        torus: Verdict,
+        body: &B,
+        (look, again): (&Look, bool),
+        watch: &dyn Watch,
+    ) -> std::result::Result<Verdict, String> {
+        if !again {
+            return Err(
+                "the returns lie on a closed curve that was not seen twice with the same size".to_owned()
+            );
+        }
+        self.time += look.end - look.start;
+        let change = Change::along(body, &self.shape, look, &self.settings, watch);
+        let unseen = "the returns lie on a closed curve, and whether it keeps its size was not seen";
+        change.ok_or(unseen.to_owned())?.judges(Verdict { time: self.time, ..torus })
     }
 
     /// Twice as long, or the end of the budget. In a large system, where model time costs most, looks do not grow while an exponent is

@@ -45,11 +45,6 @@ impl Curve {
         let before = std::mem::replace(&mut self.size, size);
         size.zip(before).is_some_and(|(size, before)| (size / before - 1.0).abs() < AS_LARGE)
     }
-
-    /// Whether the last look had one.
-    pub(super) fn is_seen(&self) -> bool {
-        self.size.is_some()
-    }
 }
 
 /// The stable periodic orbit that the returns of a look shrink onto, at least as fast as its multipliers say, and its recurrence. `None` where

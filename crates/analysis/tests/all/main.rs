@@ -10,6 +10,7 @@ mod heteroclinic;
 mod implicit;
 mod isotropy;
 mod lanes;
+mod lasting;
 mod leaving_a_rest;
 mod legs;
 mod lifetime;

@@ -11,6 +11,7 @@ mod files;
 mod fuzz;
 mod given;
 mod hdf5;
+mod lasting;
 mod lifetimes;
 mod naming;
 mod noise;
