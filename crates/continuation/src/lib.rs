@@ -22,6 +22,7 @@
 mod beginning;
 mod between;
 mod branch;
+mod branch_point;
 mod certificate;
 mod classes;
 mod copies;
