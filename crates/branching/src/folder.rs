@@ -1,6 +1,6 @@
 //! The folder of branches: `manifest.json`, `points.parquet`, `samples.parquet` if motions were sampled, `summary.json`, and `branches.json`, from which the work goes on.
 
-use super::follow::Branches;
+use super::result::Branches;
 use super::summary::summary;
 use super::table::{columns as table, sweep_columns};
 use motiform_files::store::mend;

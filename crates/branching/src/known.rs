@@ -1,7 +1,7 @@
 //! Is a motion on a branch that was followed already?
 
 use super::family::Bodies;
-use super::follow::{Followed, Leg, Sample};
+use super::result::{Followed, Leg, Sample};
 use motiform_continuation::{Branch, Motion, Settings, same_motion};
 use motiform_dynamics::Watch;
 

@@ -1,7 +1,7 @@
 //! Where a branch begins.
 
 use super::family::Bodies;
-use super::follow::{Followed, Leg, Sample};
+use super::result::{Followed, Leg, Sample};
 use super::settle::Start;
 use super::single_loop::single_loop;
 use motiform_analysis::{Error as Refused, Isotropy, PeriodicOrbit, RelativeEquilibrium};

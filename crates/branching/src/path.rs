@@ -1,8 +1,8 @@
 //! The path of the body on a point of a branch.
 
 use super::family::Bodies;
-use super::follow::Sample;
 use super::known::moved;
+use super::result::Sample;
 use motiform_continuation::{Motion, OrbitPath, path as of_motion};
 use motiform_dynamics::Watch;
 use motiform_study::{BranchPlan, Error};

@@ -1,8 +1,8 @@
 //! From an orbit that passes one loop of a homoclinic connection and then its mirror image to an orbit along one of them.
 
 use super::family::Bodies;
-use super::follow::{Leg, Sample};
 use super::origin::both;
+use super::result::{Leg, Sample};
 use super::settle::Start;
 use motiform_analysis::periodic::Flow;
 use motiform_analysis::symmetry::align;

@@ -1,7 +1,7 @@
 //! Where a branch is stable.
 
-use super::follow::{Branches, Followed, Leg, Sample};
 use super::origin::Origin;
+use super::result::{Branches, Followed, Leg, Sample};
 
 /// Ranges of the parameter over which a branch is stable, in its order, each from the smaller to the larger value. They end at special
 /// points, or where the branch does.

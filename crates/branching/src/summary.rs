@@ -1,7 +1,7 @@
 //! Branches in a few numbers: what `--json` prints and `summary.json` holds.
 
-use super::follow::{Branches, Followed, Leg, Sample};
 use super::origin::Origin;
+use super::result::{Branches, Followed, Leg, Sample};
 use super::stretches::stretches;
 use motiform_continuation::{Broken, Certificate, End, Special};
 use motiform_study::BranchPlan;

@@ -1,7 +1,7 @@
 //! The points of branches as a table.
 
 use super::family::Bodies;
-use super::follow::{Branches, Sample};
+use super::result::{Branches, Sample};
 use super::sweep::{SweepPoint, Sweeps};
 use motiform_files::columns::{Column, Values};
 use motiform_study::{BranchPlan, Error};

@@ -19,8 +19,10 @@
 //! Source: pseudo-arclength: Keller (1977), in Applications of Bifurcation Theory; relative orbits: Wulff and Schebesch (2006),
 //! SIAM J. Appl. Dyn. Syst. 5, 235; normal forms: Kuznetsov (2004), Elements of Applied Bifurcation Theory.
 
+mod beginning;
 mod between;
 mod branch;
+mod branch_point;
 mod certificate;
 mod classes;
 mod copies;

@@ -1,8 +1,9 @@
 //! Special points between two points of a branch.
 
 use super::between::{Step, TIGHT, between};
+use super::branch_point::branch_point;
 use super::certificate::{Certificate, Passing, TestFunction};
-use super::correct::{crossing, seen};
+use super::correct::{crossing, product, seen};
 use super::dip::dip;
 use super::levels::Level;
 use super::place::Place;
@@ -71,6 +72,7 @@ pub(super) fn locate<P: Problem>(
                     .flatten();
                 let at = crossing.unwrap_or(at);
                 let special = kind(problem, &at, bracket.test);
+                let at = if special == Special::BranchPoint { solved(problem, step, at, watch) } else { at };
                 let certificate = certified(problem, step, bracket.test, &at, watch);
                 let at = Place { certificate, ..at };
                 if !is_known(&changes.found, &at, special, step.length) {
@@ -89,6 +91,42 @@ pub(super) fn locate<P: Problem>(
     changes.found.sort_by(|a, b| a.0.arclength.total_cmp(&b.0.arclength));
     without_folds(&mut changes.found);
     Ok(changes)
+}
+
+/// Part of the step by which the equations of a branch point may move it.
+const MOVED: f64 = 0.1;
+
+/// The place where branches cross, solved for; as it is, where that fails. (For orbits the second derivatives would cost more than they bring.)
+fn solved<P: Problem>(
+    problem: &P,
+    step: &Step<'_, P::Local>,
+    at: Place<P::Local>,
+    watch: &dyn Watch,
+) -> Place<P::Local> {
+    if problem.time().is_some() {
+        return at;
+    }
+    let weights = problem.weights(&at.x);
+    let better = || {
+        let x = branch_point(problem, &at.x, watch)?;
+        let between = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<f64>>();
+        let (moved, chord) = (between(&x, &at.x), between(&step.new.x, &step.old.x));
+        let part = product(&weights, &chord, &moved) / product(&weights, &chord, &chord);
+        let arclength = at.arclength + part * step.length;
+        let local = problem.local(&x, watch).ok()?;
+        let levels = problem.levels(&x, &local)?;
+        let inside = (step.old.arclength..=step.new.arclength).contains(&arclength);
+        let near = product(&weights, &moved, &moved).sqrt() < MOVED * step.length;
+        (inside && near).then(|| Place {
+            x,
+            local,
+            levels,
+            arclength,
+            tangent: at.tangent.clone(),
+            certificate: None,
+        })
+    };
+    better().unwrap_or(at)
 }
 
 /// Part of a step at which a solution beside a special point is looked at.

@@ -1,54 +1,24 @@
 //! The branches that begin or cross at a special point.
 
+use super::beginning::{Begin, follow, nothing};
 use super::branch::Branch;
 use super::classes::Classes;
-use super::correct::{correct, crossing, normal, product, scaled};
+use super::correct::{crossing, product, scaled};
 use super::equilibria::Equilibria;
 use super::family::{Bodies, Family};
 use super::hopf::critical_pair;
 use super::leaving::leaving;
-use super::levels::Level;
 use super::orbits::Orbits;
 use super::point::{Motion, Point};
 use super::problem::{Equations, Problem};
 use super::settings::Settings;
-use super::special::{Broken, Special};
+use super::special::Special;
 use super::tangents::tangents;
 use super::tracer::Tracer;
 use motiform_analysis::linear::{add, norm};
-use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
+use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_dynamics::{Equivariant, Watch};
 use std::f64::consts::TAU;
-
-/// Distances from the special point at which the new branch is looked for, in the units of [`Settings`].
-const DISTANCES: [f64; 7] = [0.005, 0.02, 0.05, 0.1, 0.001, 0.0002, 0.00004];
-
-/// How much nearer the branch is looked at again, and the ratios of the two changes of the parameter where it begins: this one to the power
-/// 1 or 2, within a factor 2.
-const NEARER: f64 = 8.0;
-const RATIOS: std::ops::RangeInclusive<f64> = 0.5 * NEARER..=2.0 * NEARER * NEARER;
-
-/// Levels below this may have either sign next to a special point.
-const UNCLEAR: f64 = 1e-6;
-
-/// Least change of the parameter that tells anything, in tolerances of Newton's method.
-const SEEN: f64 = 100.0;
-
-/// A special point: its unknowns, a direction that a new branch leaves in, and in how many directions deviations grow on that branch at first.
-struct Begin<'b> {
-    origin: &'b [f64],
-    direction: &'b [f64],
-    growing: std::ops::RangeInclusive<usize>,
-}
-
-impl<'b> Begin<'b> {
-    /// Deviations grow in the directions in which they do at the point, and at most in those of the critical levels too.
-    fn at(point: &Point, origin: &'b [f64], direction: &'b [f64]) -> Self {
-        let twice = matches!(point.special, Some(Special::Pitchfork { breaks: Broken::Rotations }));
-        let critical = if twice { 2 } else { 1 };
-        Self { origin, direction, growing: point.unstable..=point.unstable + critical }
-    }
-}
 
 /// Nodes of the orbits that begin at a Hopf bifurcation.
 const NODES: usize = 8;
@@ -94,74 +64,6 @@ pub fn switch<'f>(
             sides.iter().map(new).collect::<Result<_>>().map(|legs| vec![legs])
         }
     }
-}
-
-fn nothing(parameter: f64) -> Error {
-    let why = "Newton's method finds none beside the special point".to_owned();
-    Error::NotOnABranch { what: "new branch", parameter, why }
-}
-
-/// Follows the new branch from a point at which as many deviations grow as the special point lets expect, and up to which the parameter
-/// changes as a branch begins: otherwise there may be another special point on the way, and a nearer one is looked for.
-fn follow<P: Problem>(
-    mut problem: P,
-    &Begin { origin, direction, ref growing }: &Begin<'_>,
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> Result<Tracer<P>> {
-    let mut farthest = f64::INFINITY;
-    let mut doubtful = None;
-    for distance in DISTANCES {
-        if distance > farthest {
-            continue;
-        }
-        match Tracer::beside(problem, (origin, direction, distance), settings, watch) {
-            Ok(tracer)
-                if growing.contains(&tracer.growing())
-                    && is_beginning(&tracer, (origin, direction, distance), settings, watch) =>
-            {
-                return Ok(tracer);
-            }
-            Ok(tracer) => {
-                farthest = distance;
-                problem = tracer.into_problem();
-                doubtful = Some(distance);
-            }
-            Err((back, _)) => problem = back,
-        }
-    }
-    let nothing = || nothing(origin.last().copied().unwrap_or(f64::NAN));
-    let distance = doubtful.ok_or_else(nothing)?;
-    Tracer::beside(problem, (origin, direction, distance), settings, watch).map_err(|_| nothing())
-}
-
-/// Whether nothing happens between the special point and the first point of a new branch: the parameter changes with the distance from the
-/// special point, or with its square, and as many deviations grow nearer to it.
-fn is_beginning<P: Problem>(
-    tracer: &Tracer<P>,
-    (origin, direction, distance): (&[f64], &[f64], f64),
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> bool {
-    let problem = tracer.problem();
-    let row = normal(direction, &problem.weights(origin));
-    let guess = origin.iter().zip(direction).map(|(x, d)| x + distance / NEARER * d).collect();
-    let Ok(near) = correct(problem, guess, &row, settings.tolerance, watch) else { return false };
-    let changed = |x: &[f64]| x.last().copied().unwrap_or(f64::NAN) - origin.last().copied().unwrap_or(0.0);
-    let (closer, far) = (changed(&near.x), changed(tracer.unknowns()));
-    let seen = SEEN * settings.tolerance * settings.width();
-    let begins =
-        if closer.abs() > seen { RATIOS.contains(&(far / closer)) } else { far.abs() <= RATIOS.end() * seen };
-    begins
-        && problem
-            .levels(&near.x, &near.local)
-            .is_some_and(|levels| growing(&levels).contains(&tracer.growing()))
-}
-
-/// How many levels grow: at least, and with those that are too small to tell.
-fn growing(levels: &[Vec<Level>]) -> std::ops::RangeInclusive<usize> {
-    let above = |least: f64| levels.iter().flatten().filter(|level| level.growth > least).count();
-    above(UNCLEAR)..=above(-UNCLEAR)
 }
 
 /// Slopes that differ by less than this may be of one branch.

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+from pathlib import Path
+
 import pytest
 
 import motiform
@@ -32,6 +35,27 @@ def test_a_start_that_is_another_motion_is_refused() -> None:
         body.branches(("kappa2", 1.0, 1.6))
     with pytest.raises(ValueError, match="did you mean kappa2"):
         body.branches(("kapa2", 0.3, 1.6))
+
+
+def test_steady_motions_alone_to_one_side_from_a_point_of_a_folder(tmp_path: Path, binary: Path) -> None:
+    body = motiform.preset("fig1").replace(kappa2=-0.06, gamma=0.05)
+    steady = body.branches(("gamma", -0.1, 0.1), steady=True, branches=20)
+    kinds = {branch.motion for branch in steady}
+    assert {"motionless", "straight", "circular"} <= kinds <= {"motionless", "straight", "circular"}
+    onset = steady.special[steady.special["kind"] == "hopf"]["gamma"].tolist()
+    assert any(abs(value - 0.024) < 1e-9 for value in onset)
+    upwards = body.branches(("gamma", -0.1, 0.1), direction="up", branches=1, branch_step=0.01, first_step=0.002, tolerance=1e-11)
+    assert upwards[0].points["gamma"].min() == 0.05 and len(upwards[0].points) > 20
+    folder = tmp_path / "branches"
+    along = ["--along", "gamma=-0.1:0.1", "--no-figures", "--out", folder]
+    where = ["tensor", "--preset", "fig1", "--set", "kappa2=-0.06", "--set", "gamma=0.05"]
+    subprocess.run([binary, "continue", *where, *along], capture_output=True, check=True)
+    again = body.branches(("gamma", -0.1, 0.1), start=f"{folder}:0:5", branches=1)
+    assert again[0].motion == "circular"
+    with pytest.raises(ValueError, match="direction"):
+        body.branches(("gamma", -0.1, 0.1), direction="sideways")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="branch_step"):
+        body.branches(("gamma", -0.1, 0.1), branch_step=2.0)
 
 
 def test_symmetry_breakings_lie_on_an_arch() -> None:

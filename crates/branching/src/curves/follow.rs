@@ -3,7 +3,8 @@
 use super::crossing::{Target, passes};
 use super::family::PlaneBodies;
 use crate::family::Bodies;
-use crate::follow::{Branches, Sample, follow_kept};
+use crate::follow::follow_kept;
+use crate::result::{Branches, Sample};
 use motiform_continuation::{Curve, CurvePoint, Degenerate, End, Motion, Point, Special};
 use motiform_dynamics::{Part, Watch};
 use motiform_lab::pool::each;

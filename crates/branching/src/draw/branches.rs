@@ -1,7 +1,7 @@
 //! Branches: the bifurcation diagram, and the periods.
 
 use crate::family::Bodies;
-use crate::follow::Leg;
+use crate::result::Leg;
 use crate::sweep::{SweepPoint, Sweeps};
 use crate::{Branches, Followed, Origin, Sample, is_stable};
 use motiform_continuation::{End, Special};

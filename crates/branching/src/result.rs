@@ -1,0 +1,151 @@
+//! What following branches leads to: points, legs, branches and links.
+
+use super::origin::Origin;
+use super::reading::Reading;
+use super::sweep::Sweeps;
+use motiform_analysis::regime::{Course, Form, Regime};
+use motiform_continuation::{End, Motion, Point};
+use serde::{Deserialize, Serialize};
+
+/// A point of a branch with what is read off it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sample {
+    /// The point. The nodes of an orbit are kept where a branch may begin: at special points, first and last ones.
+    pub point: Point,
+    /// The reading.
+    pub reading: Reading,
+}
+
+/// A branch from where it begins to one of its ends.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Leg {
+    /// Its points, the first one where it begins.
+    pub samples: Vec<Sample>,
+    /// Why it ended.
+    pub end: End,
+}
+
+impl Leg {
+    /// Whether the leg ends at this of its points because its motion gains a symmetry there: the point then belongs to the motion of more symmetry.
+    pub(super) fn meets_at(&self, point: usize) -> bool {
+        point + 1 == self.samples.len() && self.meets()
+    }
+
+    /// Whether its motion gains a symmetry at its end.
+    pub(super) const fn meets(&self) -> bool {
+        matches!(self.end, End::Meets { .. })
+    }
+}
+
+/// A branch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Followed {
+    /// What it was followed from.
+    pub origin: Origin,
+    /// One leg, or two with the same first point: towards smaller and towards larger values of the parameter, or to both sides of
+    /// where it crosses another branch.
+    pub legs: Vec<Leg>,
+}
+
+/// What an origin led to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Link {
+    /// The origin.
+    pub origin: Origin,
+    /// The branch that begins there, or lies there: it may have been followed from elsewhere before. `None` if none was found.
+    pub branch: Option<usize>,
+}
+
+/// Branches, as far as they are followed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Branches {
+    /// The branches in the order in which they were found.
+    pub branches: Vec<Followed>,
+    /// What was found at each origin, in the order in which they were asked: one entry for each branch, or one without a branch.
+    pub links: Vec<Link>,
+    /// How many origins were left because there were enough branches.
+    pub left: usize,
+    /// Motions sampled along the parameter, if that was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sweeps: Option<Sweeps>,
+    /// Whether everything was done that was asked for: not interrupted.
+    pub complete: bool,
+}
+
+impl Sample {
+    /// Drops the nodes of its orbit.
+    pub(super) fn forget_nodes(&mut self) {
+        if let Motion::Orbit { nodes, .. } = &mut self.point.motion {
+            nodes.clear();
+        }
+    }
+}
+
+impl Leg {
+    pub(super) const fn none() -> Self {
+        Self { samples: Vec::new(), end: End::Stopped }
+    }
+}
+
+impl Followed {
+    /// Whether it came to all its ends.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.legs.iter().all(|leg| leg.end != End::Stopped)
+    }
+
+    /// Whether it came back to where it began: another leg would be the same one backwards.
+    pub(super) fn is_closed(&self) -> bool {
+        self.legs.last().is_some_and(|leg| leg.end == End::Closed)
+    }
+
+    /// Its points in order: the first leg backwards, then the second.
+    pub fn samples(&self) -> impl Iterator<Item = &Sample> {
+        let (first, rest) = self.legs.split_at(self.legs.len().min(1));
+        let (back, ahead) = if rest.is_empty() { (&[][..], first) } else { (first, rest) };
+        let first = |legs: &[Leg]| legs.first().and_then(|leg| Some(leg.samples.first()?.point.clone()));
+        let shared = usize::from(!back.is_empty() && first(back) == first(ahead));
+        let back = back.iter().flat_map(|leg| leg.samples.iter().rev());
+        back.chain(ahead.iter().flat_map(move |leg| leg.samples.iter().skip(shared)))
+    }
+
+    /// The kind of motion that most of its points have, with the most frequent form.
+    #[must_use]
+    pub fn motion(&self) -> (Option<Regime>, Option<Form>) {
+        let count = |kind: &dyn Fn(&Sample) -> bool| self.samples().filter(|sample| kind(sample)).count();
+        let regime = Regime::ALL.into_iter().max_by_key(|&regime| count(&|s| s.reading.motion == regime));
+        let forms = Form::ALL.into_iter().filter(|form| regime == Some(form.regime()));
+        let form = forms.map(|form| (count(&|s| s.reading.form == Some(form)), form));
+        (regime, form.filter(|entry| entry.0 > 0).max_by_key(|entry| entry.0).map(|entry| entry.1))
+    }
+}
+
+impl Followed {
+    /// The course of its motions, if all that have one have the same.
+    #[must_use]
+    pub fn course(&self) -> Option<Course> {
+        let mut all = self.samples().filter_map(|sample| sample.reading.direction.course);
+        let first = all.next()?;
+        all.all(|course| course == first).then_some(first)
+    }
+}
+
+impl Branches {
+    pub(super) const fn none() -> Self {
+        Self { branches: Vec::new(), links: Vec::new(), left: 0, sweeps: None, complete: false }
+    }
+
+    /// The point with these numbers: branch, leg and point.
+    #[must_use]
+    pub fn at(&self, [branch, leg, point]: [usize; 3]) -> Option<&Sample> {
+        self.branches.get(branch)?.legs.get(leg)?.samples.get(point)
+    }
+
+    /// Without the branch that was interrupted.
+    pub(super) fn whole(mut self) -> Self {
+        self.branches.retain(Followed::is_whole);
+        self.left = 0;
+        self.complete = false;
+        self
+    }
+}
