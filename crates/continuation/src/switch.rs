@@ -32,7 +32,7 @@ const NODES: usize = 8;
 /// the parameter, so the sign of [`Settings::first_step`] means nothing here.
 ///
 /// # Errors
-/// [`Error::NotOnABranch`] if there is no new branch within reach of the point; settings out of range.
+/// [`Error::NotOnABranch`](motiform_analysis::Error::NotOnABranch) if there is no new branch within reach of the point; settings out of range.
 pub fn switch<'f>(
     family: &'f dyn Family,
     point: &Point,
