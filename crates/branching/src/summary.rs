@@ -23,8 +23,8 @@ pub struct SpecialEntry {
     pub first_lyapunov: Option<f64>,
     /// Period of the motion, or of the one that begins (model time).
     pub period: Option<f64>,
-    /// `supercritical` where what begins is stable in the critical directions, or `subcritical`; `transcritical` where one branch of each
-    /// kind begins.
+    /// `supercritical` where what begins is stable in the critical directions, or `subcritical`. Nothing where branches of
+    /// two kinds begin, which may differ.
     pub criticality: Option<&'static str>,
     /// What a pitchfork breaks: the `mirror` symmetry, or `rotations`.
     pub breaks: Option<&'static str>,
@@ -158,24 +158,17 @@ impl Branches {
         })
     }
 
-    /// Whether the branches `there` that begin at a point are stable in the critical direction, as far as all that begin agree.
+    /// Whether the branch that begins at a point is stable in the critical direction.
     fn criticality(
         &self,
         (branch, leg, point): (usize, usize, usize),
         there: &[usize],
         origin: Origin,
     ) -> Option<&'static str> {
-        let of = |&next: &usize| {
-            let next = self.branches.get(next).filter(|next| next.origin == origin)?;
-            let first = next.legs.first()?.samples.first()?.point.parameter;
-            is_supercritical(&self.branches[branch].legs[leg], point, first)
-        };
-        let all: Vec<bool> = there.iter().filter_map(of).collect();
-        match &all[..] {
-            [] => None,
-            [first, rest @ ..] if rest.iter().all(|other| other == first) => Some(critical(*first)),
-            _ => Some("transcritical"),
-        }
+        let [next] = there else { return None };
+        let next = self.branches.get(*next).filter(|next| next.origin == origin)?;
+        let first = next.legs.first()?.samples.first()?.point.parameter;
+        is_supercritical(&self.branches[branch].legs[leg], point, first).map(critical)
     }
 }
 

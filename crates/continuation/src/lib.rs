@@ -34,6 +34,7 @@ mod curve_tracer;
 mod degenerate;
 mod dip;
 mod elimination;
+mod ends;
 mod equilibria;
 mod family;
 mod homoclinic;

@@ -3,7 +3,7 @@
 use super::between::{Step, TIGHT, between};
 use super::branch_point::branch_point;
 use super::certificate::{Certificate, Passing, TestFunction};
-use super::correct::{crossing, product, seen};
+use super::correct::{crossing, product, scaled, seen};
 use super::dip::dip;
 use super::levels::Level;
 use super::place::Place;
@@ -72,7 +72,11 @@ pub(super) fn locate<P: Problem>(
                     .flatten();
                 let at = crossing.unwrap_or(at);
                 let special = kind(problem, &at, bracket.test);
-                let at = if special == Special::BranchPoint { solved(problem, step, at, watch) } else { at };
+                let mut at =
+                    if special == Special::BranchPoint { solved(problem, step, at, watch) } else { at };
+                if special == Special::BranchPoint && !matches!(bracket.test, Test::Slope) {
+                    keep_course(problem, step, &mut at);
+                }
                 let certificate = certified(problem, step, bracket.test, &at, watch);
                 let at = Place { certificate, ..at };
                 if !is_known(&changes.found, &at, special, step.length) {
@@ -91,6 +95,16 @@ pub(super) fn locate<P: Problem>(
     changes.found.sort_by(|a, b| a.0.arclength.total_cmp(&b.0.arclength));
     without_folds(&mut changes.found);
     Ok(changes)
+}
+
+/// Gives a point where branches cross the tangent of this one, which the equations there do not tell from that of the other: the mean of those at
+/// both ends of the step.
+fn keep_course<P: Problem>(problem: &P, step: &Step<'_, P::Local>, at: &mut Place<P::Local>) {
+    let part = (at.arclength - step.old.arclength) / step.length;
+    let mean = step.old.tangent.iter().zip(&step.new.tangent).map(|(a, b)| a + part * (b - a)).collect();
+    if let Some(tangent) = scaled(mean, &problem.weights(&at.x)) {
+        at.tangent = tangent;
+    }
 }
 
 /// Part of the step by which the equations of a branch point may move it.

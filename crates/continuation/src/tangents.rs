@@ -1,8 +1,8 @@
 //! The tangents of two branches that cross.
 
-use super::correct::{crossing, product, scaled};
+use super::correct::{crossing, scaled};
 use super::problem::Problem;
-use motiform_analysis::linear::{add, dot, norm};
+use motiform_analysis::linear::{add, dot};
 
 /// Distance of the second differences, in the units of the unknowns.
 const STEP: f64 = 1e-3;
@@ -17,14 +17,14 @@ const STEP: f64 = 1e-3;
 /// Source: Keller (1977), in: Applications of Bifurcation Theory, the algebraic bifurcation equation.
 pub(super) fn tangents<P: Problem>(problem: &P, x: &[f64]) -> Vec<Vec<f64>> {
     let weights = problem.weights(x);
-    let Some((a, b, psi)) = plane(problem, x, &weights) else { return Vec::new() };
+    let Some(Plane { a, b, psi, here }) = Plane::at(problem, x, &weights) else { return Vec::new() };
     let seen = |v: &[f64]| {
         let at = |side: f64| {
             let mut moved = x.to_vec();
             add(&mut moved, side * STEP, v);
             Some(dot(&psi, &problem.linear(&problem.local(&moved, &()).ok()?).residual))
         };
-        Some((at(1.0)? + at(-1.0)? - 2.0 * at(0.0)?) / (STEP * STEP))
+        Some((at(1.0)? + at(-1.0)? - 2.0 * here) / (STEP * STEP))
     };
     let mixed = |side: f64| {
         let mut v = a.clone();
@@ -54,17 +54,29 @@ fn roots(aa: f64, ab: f64, bb: f64) -> Vec<(f64, f64)> {
     vec![(larger, aa), (bb, larger)]
 }
 
-/// An orthonormal basis of the unseen directions and the left null vector, where there are two of them.
-fn plane<P: Problem>(problem: &P, x: &[f64], weights: &[f64]) -> Option<(Vec<f64>, Vec<f64>, Vec<f64>)> {
-    let local = problem.local(x, &()).ok()?;
-    let linear = problem.linear(&local);
-    let null = crossing(linear, weights);
-    let [a, b] = &null[..] else { return None };
-    debug_assert!(product(weights, a, b).abs() < 1e-6);
-    let svd = linear.matrix.clone().try_svd(true, false, f64::EPSILON, 10_000)?;
-    let (least, _) = svd.singular_values.argmin();
-    let psi: Vec<f64> = svd.u?.column(least).iter().copied().collect();
-    (norm(&psi) > 0.0).then(|| (a.clone(), b.clone(), psi))
+/// The directions that the equations do not see to first order, where there are two.
+struct Plane {
+    /// An orthonormal basis.
+    a: Vec<f64>,
+    b: Vec<f64>,
+    /// The left null vector.
+    psi: Vec<f64>,
+    /// What the equations leave along it.
+    here: f64,
+}
+
+impl Plane {
+    fn at<P: Problem>(problem: &P, x: &[f64], weights: &[f64]) -> Option<Self> {
+        let local = problem.local(x, &()).ok()?;
+        let linear = problem.linear(&local);
+        let null = crossing(linear, weights);
+        let [a, b] = &null[..] else { return None };
+        let svd = linear.matrix.clone().try_svd(true, false, f64::EPSILON, 10_000)?;
+        let (least, _) = svd.singular_values.argmin();
+        let psi: Vec<f64> = svd.u?.column(least).iter().copied().collect();
+        let here = dot(&psi, &linear.residual);
+        Some(Self { a: a.clone(), b: b.clone(), psi, here })
+    }
 }
 
 #[cfg(test)]

@@ -50,7 +50,7 @@ struct Known {
     copies: Copies,
     /// How far it may be from the true one.
     error: f64,
-    /// Whether no other one is beside it.
+    /// Whether it is isolated: no member of a family of equilibria.
     isolated: bool,
 }
 
@@ -163,7 +163,7 @@ fn step<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64) -> Option<
 }
 
 impl RelativeEquilibrium {
-    /// Whether no other one is beside it, as far as its linearisation and its error tell: no eigenvalue is zero within its own error.
+    /// Whether it is isolated, as its linearisation shows: no eigenvalue is zero within its error.
     fn is_isolated(&self, error: f64) -> bool {
         let rates = self.eigenvalues.iter().zip(&self.errors);
         let mut leading = rates.take_while(|(value, error)| value.0 >= -APART * **error);

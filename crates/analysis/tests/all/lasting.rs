@@ -8,7 +8,7 @@ use motiform_dynamics::{Scalar, VectorField};
 use motiform_models::plain;
 use motiform_models::zoo::Hopf;
 
-/// A cycle of radius 1, and beside it an oscillation of amplitude a that turns the golden number of times as fast and changes slowly:
+/// A limit cycle of radius 1 and an independent oscillation whose frequency is the golden ratio and whose amplitude a changes slowly:
 /// `a' = -rate a f(a^2)`.
 struct Slow {
     rate: f64,

@@ -1,0 +1,141 @@
+//! Where and why a branch ends.
+
+use super::certificate::TestFunction;
+use super::classes::GAINED;
+use super::copies::same_motion;
+use super::homoclinic::Algebraic;
+use super::locate::Changes;
+use super::place::Place;
+use super::point::End;
+use super::problem::Problem;
+use super::special::Special;
+use super::tracer::Tracer;
+use motiform_analysis::linear::dot;
+use motiform_dynamics::Watch;
+
+/// Least part of a shape by which a motion differs from the start of a branch.
+const SAME: f64 = 1e-6;
+
+/// Where a branch ends on a step, and why.
+pub(super) type Limit<L> = Option<(Place<L>, End)>;
+
+/// Whether a branch may turn back here: where another one goes on through the point it is no fold.
+fn turns(special: Special) -> bool {
+    matches!(special, Special::Fold | Special::BranchPoint)
+}
+
+/// Whether the second of two special points is the first one, found by the slope of the parameter.
+fn is_better<L>(found: &[(Place<L>, Special)], first: usize, other: usize, length: f64) -> bool {
+    let [first, other] = [first, other].map(|place| &found[place].0);
+    let by_slope = |place: &Place<L>| {
+        place.certificate.is_some_and(|certificate| certificate.test == TestFunction::Slope)
+    };
+    by_slope(other) && !by_slope(first) && other.arclength - first.arclength < 1e-2 * length
+}
+
+impl<P: Problem> Tracer<P> {
+    /// The place on the way to `new` beyond which the branch does not go.
+    pub(super) fn limit(&self, new: &Place<P::Local>, watch: &dyn Watch) -> Result<Limit<P::Local>, End> {
+        let (low, high) = self.settings.range;
+        if !(low..=high).contains(&new.parameter()) {
+            let edge = if new.parameter() < low { low } else { high };
+            if self.place.parameter() == edge {
+                return Err(End::RangeLeft);
+            }
+            return Ok(Some((self.edge(new, edge, watch)?, End::RangeLeft)));
+        }
+        self.closes(new, watch)
+    }
+
+    /// The start, where the branch passes it again in the same direction before `new`.
+    fn closes(&self, new: &Place<P::Local>, watch: &dyn Watch) -> Result<Limit<P::Local>, End> {
+        let (old, first) = (&self.place, &self.first);
+        let sides = [old, new].map(|place| place.parameter() - first.parameter);
+        let along = [old, new].iter().all(|place| place.slope() * first.slope > 0.0);
+        if self.count < 3 || !along || sides[0] * sides[1] > 0.0 || sides[0] == 0.0 {
+            return Ok(None);
+        }
+        let at = self.edge(new, first.parameter, watch)?;
+        let motion = self.problem.motion(&at.x, &at.local, &at.levels);
+        let body = self.problem.body(&at.local);
+        let same = same_motion(body, &first.motion, &motion, &self.settings.flow, SAME);
+        Ok(same.then_some((at, End::Closed)))
+    }
+
+    /// Whether the shape has left every bound.
+    pub(super) fn check(&self, new: &Place<P::Local>) -> Result<(), End> {
+        let size = self.problem.size(&new.x);
+        if size > self.settings.largest_size { Err(End::BlowUp { size }) } else { Ok(()) }
+    }
+
+    /// The reason behind the end of the computation, where the growth of the period says more.
+    pub(super) fn explained(&self, end: End) -> End {
+        if !matches!(end, End::StepUnderflow { .. } | End::PeriodLimit { .. }) {
+            return end;
+        }
+        let saddle = || self.problem.saddle(&self.place.x, &self.place.local);
+        let resonant =
+            || self.periods.algebraic(Algebraic::Resonant)?.through(saddle(), self.problem.is_symmetric());
+        let on_a_circle = || {
+            let found = self.periods.algebraic(Algebraic::SquareRoot)?;
+            let side = (self.place.parameter() - found.parameter).signum();
+            found.at_fold(side, &|p| self.problem.equilibrium(&self.place.x, &self.place.local, p))
+        };
+        resonant().or_else(on_a_circle).map_or(end, |found| End::Homoclinic(Box::new(found)))
+    }
+
+    /// The end of the branch at the first turning point where the motion gains a symmetry: it is a special point of the motion that has it. What was found beyond belongs to
+    /// images of the branch; what was found as near as the symmetry can be told is the same point. (With five axes or more, say, another
+    /// growth vanishes as the third power of the distance, and round-off places it.)
+    pub(super) fn meets(&self, length: f64, changes: &mut Changes<P::Local>) -> Option<End> {
+        let gains = |(place, (at, special)): (usize, &(Place<P::Local>, Special))| {
+            let gained = turns(*special).then(|| self.problem.gains(&at.x, &at.local, GAINED)).flatten();
+            gained.map(|gained| (place, gained))
+        };
+        let mut all = changes.found.iter().enumerate().filter_map(gains);
+        let first = all.next()?;
+        // the parameter is level there to first order, the growth to second: the slope tells the place better
+        let (place, (gains, x)) =
+            all.find(|other| is_better(&changes.found, first.0, other.0, length)).unwrap_or(first);
+        let (mut at, _) = changes.found.swap_remove(place);
+        at.x = x;
+        changes.found.retain(|(other, _)| {
+            let before = at.arclength - other.arclength > 1e-4 * length;
+            before && self.problem.gains(&other.x, &other.local, 10.0 * GAINED).is_none()
+        });
+        let end = End::Meets { parameter: at.parameter(), gains };
+        changes.found.push((at, gains.special()));
+        Some(end)
+    }
+
+    /// Whether the orbits shrink to an equilibrium before `new`. The parameter has an extreme value there, as at a fold.
+    pub(super) fn shrinks(&self, new: &Place<P::Local>, found: &[(Place<P::Local>, Special)]) -> Option<End> {
+        let (before, now) = (self.problem.swing(&self.place.local)?, self.problem.swing(&new.local)?);
+        if dot(&before, &now) >= 0.0 {
+            return None;
+        }
+        let at = found.iter().find(|(_, special)| turns(*special)).map_or(new, |(at, _)| at);
+        let time = self.problem.time()?;
+        Some(End::Shrinks { parameter: at.parameter(), time: at.x[time] })
+    }
+
+    /// Whether the branch of orbits ends at the present place.
+    pub(super) fn ends(&mut self) -> Result<(), End> {
+        let Some(time) = self.problem.time().map(|place| (self.place.x[place], self.place.tangent[place]))
+        else {
+            return Ok(());
+        };
+        let parameter = self.place.parameter();
+        self.periods.push(time, (parameter, self.place.slope()));
+        if let Some(connection) = self.periods.connection() {
+            let saddle = self.problem.saddle(&self.place.x, &self.place.local);
+            if let Some(certain) = connection.through(saddle, self.problem.is_symmetric()) {
+                return Err(End::Homoclinic(Box::new(certain)));
+            }
+        }
+        if time.0 > self.settings.longest_time {
+            return Err(End::PeriodLimit { time: time.0 });
+        }
+        Ok(())
+    }
+}
