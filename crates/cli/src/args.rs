@@ -13,12 +13,12 @@ mod subject;
 
 pub(crate) use cells::{CellsOptions, FitCellsOptions, ObserveOptions};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-pub(crate) use drawing::{DrawingOptions, FilmFormat};
+pub(crate) use drawing::{DrawingOptions, FilmFormat, StyleOptions};
 #[cfg(feature = "explorer")]
 use help::EXPLORE_HELP;
 use help::{
-    CLASSIFY_HELP, CONTINUE_HELP, EQUILIBRIA_HELP, EXAMPLES, LYAPUNOV_HELP, REPRODUCE_HELP, SCAN_HELP,
-    SECTION_HELP, SIMULATE_HELP, VERIFY_HELP,
+    CLASSIFY_HELP, CONTINUE_HELP, EQUILIBRIA_HELP, EXAMPLES, FIGURE_HELP, LYAPUNOV_HELP, REPRODUCE_HELP,
+    SCAN_HELP, SECTION_HELP, SIMULATE_HELP, VERIFY_HELP,
 };
 pub(crate) use lifetimes::LifetimesOptions;
 use motiform_study::Random;
@@ -89,7 +89,8 @@ pub(crate) enum Command {
     /// Check a result: digests of its files, the hash of its plan, and a sample of rows computed again and compared bit by bit
     #[command(after_help = VERIFY_HELP)]
     Verify(VerifyOptions),
-    /// Redraw the figures of datasets and scans, without computing
+    /// Redraw the figures of datasets, scans, branches and curves, without computing
+    #[command(after_help = FIGURE_HELP)]
     Figure(FigureOptions),
     /// Print shell completions
     #[command(
@@ -252,12 +253,18 @@ pub(crate) struct CheckOptions {
 
 #[derive(Args)]
 pub(crate) struct FigureOptions {
-    /// Folders written by `motiform simulate` or `motiform scan`
-    #[arg(value_name = "DATASET", required = true)]
+    /// Folders written by `motiform simulate`, `scan` or `continue`
+    #[arg(value_name = "DIR", required = true)]
     pub(crate) datasets: Vec<PathBuf>,
-    /// Draw figures again that were edited since; the edited ones are kept as NAME.edited.svg
+    /// Draw figures again that were edited since; the edited ones are kept as NAME.edited.svg. With --out: replace earlier figures there
     #[arg(long)]
     pub(crate) force: bool,
+    /// Write the figures into this folder; those of the result stay as they are
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// What a diagram of branches shows against the parameter
+    #[arg(long, value_name = "NAME", value_enum)]
+    pub(crate) observable: Option<Observable>,
     #[command(flatten)]
     pub(crate) drawing: DrawingOptions,
 }

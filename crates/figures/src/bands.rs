@@ -1,6 +1,6 @@
 //! Curves with bands of confidence, on axes of any kind.
 
-use super::axes::{Axes, AxisKind, Scale};
+use super::axes::{AxisKind, Scale};
 use super::clip::clip;
 use super::error::{FigureError, Result, check_finite};
 use super::expected::ExpectedLine;
@@ -10,6 +10,7 @@ use super::geometry::{Point, Rect};
 use super::legend::{BAND, Entry, Mark};
 use super::paint::Paint;
 use super::palette::{CATEGORIES, Colour, GREY};
+use super::room::Room;
 use super::svg::Svg;
 
 const WIDTH: f64 = 540.0;
@@ -66,10 +67,10 @@ pub struct BandFigure {
 }
 
 impl BandFigure {
-    /// Draws the figure.
+    /// Draws the figure for a width.
     ///
     /// # Errors   nothing that has a place on the axes, or a number that is not finite
-    pub fn svg(&self) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<String> {
         let values = self.curves.iter().flat_map(|c| &c.points).flat_map(|p| [p.x, p.y, p.low, p.high]);
         check_finite("value of a curve (x, y, ends of the band in turn)", values)?;
         check_finite("expected line value", self.lines.iter().flat_map(|l| &l.points).flatten().copied())?;
@@ -80,7 +81,10 @@ impl BandFigure {
             title: &self.title,
             caption: &self.caption,
             legend: keys.chain(self.lines.iter().map(ExpectedLine::key)).collect(),
-            axes: Axes::of_kinds(self.scale()?, self.kinds(), &self.x_label, &self.y_label),
+            scale: self.scale()?,
+            kinds: self.kinds(),
+            labels: [&self.x_label, &self.y_label],
+            room,
             grid: true,
             head: 0.0,
         };

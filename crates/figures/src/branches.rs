@@ -1,6 +1,6 @@
 //! Branches of motions against a parameter: a bifurcation diagram.
 
-use super::axes::{Axes, AxisKind, Scale};
+use super::axes::{AxisKind, Scale};
 use super::clip::clip;
 use super::error::{FigureError, Result, check_finite};
 use super::figure::{Csv, figure};
@@ -11,6 +11,7 @@ use super::legend::{Entry, Mark};
 use super::marks::{REGIMES, regime_mark};
 use super::paint::Paint;
 use super::palette::{Colour, GREY, INK};
+use super::room::Room;
 use super::svg::Svg;
 
 const WIDTH: f64 = 600.0;
@@ -75,10 +76,10 @@ pub struct BranchDiagram {
 }
 
 impl BranchDiagram {
-    /// Draws the figure.
+    /// Draws the figure for a width.
     ///
     /// # Errors   no point, a number that is not finite, or a range that does not rise
-    pub fn svg(&self) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<String> {
         let values = self.parts.iter().flat_map(|part| &part.points).flatten();
         let marks = self.marks.iter().flat_map(|mark| &mark.at);
         let dots = self.dots.iter().flat_map(|dots| &dots.points).flatten();
@@ -88,7 +89,10 @@ impl BranchDiagram {
             title: &self.title,
             caption: &self.caption,
             legend: self.legend(),
-            axes: Axes::of_kinds(self.scale()?, self.kinds(), &self.x_label, &self.y_label),
+            scale: self.scale()?,
+            kinds: self.kinds(),
+            labels: [&self.x_label, &self.y_label],
+            room,
             grid: true,
             head: 0.0,
         };

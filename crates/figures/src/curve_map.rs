@@ -1,6 +1,6 @@
 //! Curves of bifurcations in a plane of two parameters, over the regimes if these are known.
 
-use super::axes::{Axes, Scale};
+use super::axes::{AxisKind, Scale};
 use super::beside::beside;
 use super::clip::clip;
 use super::error::{FigureError, Result, check_finite};
@@ -13,6 +13,7 @@ use super::line_style::LineStyle;
 use super::paint::Paint;
 use super::palette::{INK, WHITE};
 use super::phase_diagram::PhaseDiagram;
+use super::room::Room;
 use super::svg::{Anchor, Svg};
 use super::text::Label;
 
@@ -90,10 +91,10 @@ pub struct CurveMap {
 }
 
 impl CurveMap {
-    /// Draws the figure.
+    /// Draws the figure for a width.
     ///
     /// # Errors   a range or a number that is not finite, or what a [`PhaseDiagram`] refuses
-    pub fn svg(&self) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<String> {
         let points = self.curves.iter().flat_map(|curve| &curve.points).flatten();
         check_finite("value of a curve", points.chain(self.marks.iter().flat_map(|mark| &mark.at)).copied())?;
         check_finite("end of a range", self.x.into_iter().chain(self.y))?;
@@ -108,17 +109,20 @@ impl CurveMap {
         let sheet = Framed {
             title: &self.title,
             caption: &self.caption,
-            legend: self.legend()?,
-            axes: Axes::new(scale, Some(&self.x_label), &self.y_label),
+            legend: self.legend(room)?,
+            scale,
+            kinds: [AxisKind::Linear; 2],
+            labels: [&self.x_label, &self.y_label],
+            room,
             grid: self.under.is_none(),
             head: 0.0,
         };
-        sheet.svg(|svg, scale| self.draw(svg, scale))
+        sheet.svg(|svg, scale| self.draw(svg, scale, room))
     }
 
-    fn draw(&self, svg: &mut Svg, scale: &Scale) -> Result<()> {
+    fn draw(&self, svg: &mut Svg, scale: &Scale, room: Room) -> Result<()> {
         if let Some(under) = &self.under {
-            under.draw_under(svg, scale)?;
+            under.draw_under(svg, scale, room)?;
         }
         // pale ones first: nothing hides what bounds a regime
         for bounds in [false, true] {
@@ -139,8 +143,8 @@ impl CurveMap {
         Ok(())
     }
 
-    fn legend(&self) -> Result<Vec<Entry>> {
-        let mut entries = self.under.as_ref().map_or(Ok(Vec::new()), PhaseDiagram::key_under)?;
+    fn legend(&self, room: Room) -> Result<Vec<Entry>> {
+        let mut entries = self.under.as_ref().map_or(Ok(Vec::new()), |under| under.key_under(room))?;
         let mut seen: Vec<&str> = Vec::new();
         for curve in &self.curves {
             if !seen.contains(&curve.label.as_str()) {

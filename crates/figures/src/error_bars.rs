@@ -1,6 +1,6 @@
 //! Measured values with their errors against a parameter.
 
-use super::axes::{Axes, AxisKind, Scale};
+use super::axes::{AxisKind, Scale};
 use super::clip::clip;
 use super::error::{FigureError, Result, check_finite};
 use super::expected::ExpectedLine;
@@ -12,6 +12,7 @@ use super::legend::{Entry, Mark};
 use super::marks::REGIMES;
 use super::paint::Paint;
 use super::palette::{CATEGORIES, Colour, GREY, INK};
+use super::room::Room;
 use super::svg::Svg;
 
 const WIDTH: f64 = 540.0;
@@ -86,17 +87,20 @@ pub struct ErrorBarFigure {
 }
 
 impl ErrorBarFigure {
-    /// Draws the figure.
+    /// Draws the figure for a width.
     ///
     /// # Errors   nothing that has a place on the axes, a number that is not finite, or a negative error
-    pub fn svg(&self) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<String> {
         self.check()?;
         let caption = self.caption();
         let sheet = Framed {
             title: &self.title,
             caption: &caption,
             legend: self.legend(),
-            axes: Axes::of_kinds(self.scale()?, self.kinds(), &self.x_label, &self.y_label),
+            scale: self.scale()?,
+            kinds: self.kinds(),
+            labels: [&self.x_label, &self.y_label],
+            room,
             grid: true,
             head: 0.0,
         };

@@ -1,15 +1,16 @@
 //! Common interface of all static figures.
 
 use super::error::Result;
+use super::room::Room;
 use super::text::Label;
 use std::fmt::Write as _;
 
 /// A static figure: its texts, its drawing, and the plotted numbers.
 pub trait Figure {
-    /// Draws the sheet as self-contained SVG text.
+    /// Draws the sheet for a width, as self-contained SVG text.
     ///
-    /// # Errors   those of the figure's own `svg`
-    fn sheet(&self) -> Result<String>;
+    /// # Errors   those of the figure's own `svg_in`
+    fn sheet(&self, room: Room) -> Result<String>;
 
     /// The plotted data, as a CSV table with a header line: numbers in full precision, labels without markup.
     fn data(&self) -> String;
@@ -17,11 +18,11 @@ pub trait Figure {
     /// The title and the paragraphs of the caption, to be changed before drawing.
     fn words(&mut self) -> (&mut String, &mut Vec<String>);
 
-    /// The sheet with its data.
+    /// The sheet at its own width, with its data.
     ///
     /// # Errors   those of [`Figure::sheet`]
     fn drawn(&self) -> Result<Drawn> {
-        Ok(Drawn { svg: self.sheet()?, data: self.data() })
+        Ok(Drawn { svg: self.sheet(Room::OWN)?, data: self.data() })
     }
 }
 
@@ -72,12 +73,21 @@ fn field(markup: &str) -> String {
     if plain.contains([',', '"', '\n']) { format!("\"{}\"", plain.replace('"', "\"\"")) } else { plain }
 }
 
-/// [`Figure`] for a type with `svg`, `data`, `title` and `caption`.
+/// `svg` and [`Figure`] for a type with `svg_in`, `csv`, `title` and `caption`.
 macro_rules! figure {
     ($type:ty) => {
+        impl $type {
+            /// Draws the figure at its own width.
+            ///
+            /// # Errors   those of `svg_in`
+            pub fn svg(&self) -> $crate::Result<String> {
+                self.svg_in($crate::Room::OWN)
+            }
+        }
+
         impl $crate::figure::Figure for $type {
-            fn sheet(&self) -> $crate::Result<String> {
-                self.svg()
+            fn sheet(&self, room: $crate::Room) -> $crate::Result<String> {
+                self.svg_in(room)
             }
 
             fn data(&self) -> String {

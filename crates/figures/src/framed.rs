@@ -1,13 +1,16 @@
 //! The sheet around a frame: title, legend, axes, caption.
 
-use super::axes::{Axes, BELOW, Scale};
+use super::axes::{Axes, AxisKind, BELOW, Scale};
 use super::block::Block;
+use super::geometry::Rect;
 use super::legend::{Entry, Legend};
+use super::room::Room;
 use super::svg::Svg;
 
 const MARGIN: f64 = 14.0;
 
-/// The elements around the data of a figure with one frame. The position of the frame is chosen here, its size is that of `axes`.
+/// The elements around the data of a figure with one frame. The position of the frame is chosen here, and its
+/// size where the room has a width.
 #[derive(Debug)]
 pub(super) struct Framed<'a> {
     /// Line above the legend.
@@ -16,8 +19,14 @@ pub(super) struct Framed<'a> {
     pub(super) caption: &'a [String],
     /// Marks and words, above the frame.
     pub(super) legend: Vec<Entry>,
-    /// Axes at any place.
-    pub(super) axes: Axes,
+    /// The data ranges, and the own size of the frame.
+    pub(super) scale: Scale,
+    /// How the axes are divided, across and upwards.
+    pub(super) kinds: [AxisKind; 2],
+    /// Labels of the axes, across and upwards.
+    pub(super) labels: [&'a str; 2],
+    /// What the sheet is laid out for.
+    pub(super) room: Room,
     /// Whether grid lines lie behind the data.
     pub(super) grid: bool,
     /// Room right above the frame, in pixels.
@@ -27,23 +36,25 @@ pub(super) struct Framed<'a> {
 impl Framed<'_> {
     /// Draws the sheet; `data` draws between grid and axes.
     pub(super) fn svg<E>(self, data: impl FnOnce(&mut Svg, &Scale) -> Result<(), E>) -> Result<String, E> {
-        // whole pixels: no blurred edges of cells
-        let left = (MARGIN + self.axes.left_margin()).ceil();
-        let mut axes = self.axes.moved_to(left);
+        let axes = self.axes();
+        let left = left_of(&axes);
+        let mut axes = axes.moved_to(left);
         let width = axes.scale.frame.w;
-        let inner = left - MARGIN + width + 16.0;
+        let inner = left - MARGIN + width + RIGHT;
         let (title, caption) = (Block::title(self.title, inner), Block::caption(self.caption, inner));
-        let legend = Legend::flowed(self.legend, width);
+        // a narrow sheet has no room to spare above the numbers of the y axis
+        let (key_left, key_width) = self.room.width().map_or((left, width), |_| (MARGIN, inner));
+        let legend = Legend::flowed(self.legend, key_width);
         let key = MARGIN + title.height() + 4.0;
         axes.scale.frame.y = (key + legend.height() + 4.0 + self.head).ceil();
         let foot = axes.scale.frame.bottom() + BELOW + 8.0;
         let sheet = [
-            inner.max(left - MARGIN + legend.width()) + 2.0 * MARGIN,
+            inner.max(key_left - MARGIN + legend.width()) + 2.0 * MARGIN,
             foot + caption.height() + MARGIN - 6.0,
         ];
         let mut svg = Svg::new(sheet[0].ceil(), sheet[1].ceil());
         title.draw(&mut svg, [MARGIN, MARGIN]);
-        legend.draw(&mut svg, [left, key]);
+        legend.draw(&mut svg, [key_left, key]);
         if self.grid {
             axes.draw_grid(&mut svg);
         }
@@ -52,4 +63,29 @@ impl Framed<'_> {
         caption.draw(&mut svg, [MARGIN, foot]);
         Ok(svg.finish())
     }
+
+    /// The axes, with the frame that the room leaves beside their labels.
+    fn axes(&self) -> Axes {
+        let Rect { w, h, .. } = self.scale.frame;
+        let with = |[w, h]: [f64; 2]| {
+            let scale = Scale { frame: Rect { x: 0.0, y: 0.0, w, h }, ..self.scale };
+            Axes::of_kinds(scale, self.kinds, self.labels[0], self.labels[1])
+        };
+        let own = with([w, h]);
+        if self.room.width().is_none() {
+            return own;
+        }
+        // another height may have other ticks, and labels of another width
+        let fitting = |axes: &Axes| self.room.frame([w, h], left_of(axes) + RIGHT + MARGIN);
+        let first = with(fitting(&own));
+        with(fitting(&first))
+    }
+}
+
+/// Room at the right of the frame, for half of a tick label.
+const RIGHT: f64 = 16.0;
+
+/// Where the frame begins: whole pixels, so that edges of cells are sharp.
+fn left_of(axes: &Axes) -> f64 {
+    (MARGIN + axes.left_margin()).ceil()
 }

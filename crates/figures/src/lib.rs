@@ -42,6 +42,7 @@ mod portable;
 #[cfg(feature = "raster")]
 mod raster;
 mod return_map;
+mod room;
 mod series;
 pub mod sheet;
 mod simplify;
@@ -57,6 +58,8 @@ mod tests;
 mod tests_of_measurements;
 #[cfg(test)]
 mod tests_of_phase_diagrams;
+#[cfg(test)]
+mod tests_of_widths;
 mod text;
 pub mod ticks;
 mod track_panels;
@@ -80,6 +83,7 @@ pub use phase_diagram::{BoundaryLine, Cell, PhaseDiagram};
 pub use place_map::{MapPlace, PlaceMap};
 pub use portable::{DEFAULT_SCALE, RASTER, png};
 pub use return_map::ReturnMapFigure;
+pub use room::Room;
 pub use series::{Curve, Panel, SeriesFigure};
 pub use simplify::simplify;
 pub use space_time::SpaceTimeFigure;

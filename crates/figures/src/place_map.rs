@@ -1,6 +1,6 @@
 //! Places on a phase diagram, with what is uncertain about them.
 
-use super::axes::{Axes, Scale};
+use super::axes::{AxisKind, Scale};
 use super::beside::beside;
 use super::clip::clip;
 use super::error::{FigureError, Result, check_finite};
@@ -13,6 +13,7 @@ use super::line_style::LineStyle;
 use super::paint::Paint;
 use super::palette::{BLACK, INK, WHITE};
 use super::phase_diagram::PhaseDiagram;
+use super::room::Room;
 use super::svg::{Anchor, Svg};
 use super::text::Label;
 
@@ -60,10 +61,10 @@ pub struct PlaceMap {
 }
 
 impl PlaceMap {
-    /// Draws the figure. All places are in sight; regions and clouds are cut off at the frame.
+    /// Draws the figure for a width. All places are in sight; regions and clouds are cut off at the frame.
     ///
     /// # Errors   no place, a number that is not finite, or what a [`PhaseDiagram`] refuses
-    pub fn svg(&self) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<String> {
         let all = || {
             self.places.iter().flat_map(|p| [p.at].into_iter().chain(p.region.clone()).chain(p.cloud.clone()))
         };
@@ -85,13 +86,16 @@ impl PlaceMap {
         let sheet = Framed {
             title: &self.title,
             caption: &self.caption,
-            legend: self.legend()?,
-            axes: Axes::new(scale, Some(&self.x_label), &self.y_label),
+            legend: self.legend(room)?,
+            scale,
+            kinds: [AxisKind::Linear; 2],
+            labels: [&self.x_label, &self.y_label],
+            room,
             grid: false,
             head: 0.0,
         };
         sheet.svg(|svg, scale| {
-            self.under.draw_under(svg, scale)?;
+            self.under.draw_under(svg, scale, room)?;
             self.under.draw_lines(svg, scale);
             self.places.iter().for_each(|place| place.draw(svg, scale));
             let mut taken = Vec::new();
@@ -101,8 +105,8 @@ impl PlaceMap {
         })
     }
 
-    fn legend(&self) -> Result<Vec<Entry>> {
-        let mut entries = self.under.key_under()?;
+    fn legend(&self, room: Room) -> Result<Vec<Entry>> {
+        let mut entries = self.under.key_under(room)?;
         entries.extend(self.under.line_entries());
         entries.push(Entry::new(Mark::Point(Glyph::Diamond, BLACK, false), "the cell"));
         if self.places.iter().any(|place| !place.region.is_empty()) {

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::axes::{Axes, Scale};
+use super::axes::{AxisKind, Scale};
 use super::error::{FigureError, Result, check_finite};
 use super::figure::{Csv, figure};
 use super::framed::Framed;
@@ -10,6 +10,7 @@ use super::geometry::{Point, Range, Rect};
 use super::legend::{Entry, Mark};
 use super::paint::Paint;
 use super::palette::{BLUE, GREY};
+use super::room::Room;
 use super::svg::Svg;
 
 const SIDE: f64 = 420.0;
@@ -44,10 +45,10 @@ impl Default for ReturnMapFigure {
 }
 
 impl ReturnMapFigure {
-    /// Draws the figure.
+    /// Draws the figure for a width.
     ///
     /// # Errors   there is no point, or a number is not finite
-    pub fn svg(&self) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<String> {
         check_finite("return map value", self.points.iter().flatten().copied())?;
         let range = Range::of(self.points.iter().flatten().copied());
         let range = range.ok_or(FigureError::Empty { what: "return map" })?.padded(0.05);
@@ -56,7 +57,10 @@ impl ReturnMapFigure {
             title: &self.title,
             caption: &self.caption,
             legend: self.legend(),
-            axes: Axes::new(Scale { frame, x: range, y: range }, Some(&self.x_label), &self.y_label),
+            scale: Scale { frame, x: range, y: range },
+            kinds: [AxisKind::Linear; 2],
+            labels: [&self.x_label, &self.y_label],
+            room,
             grid: true,
             head: 0.0,
         };

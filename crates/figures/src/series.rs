@@ -8,6 +8,7 @@ use super::geometry::{Point, Range, Rect};
 use super::legend::{Entry, Legend, Mark};
 use super::paint::Paint;
 use super::palette::{Colour, PALE};
+use super::room::Room;
 use super::simplify::simplify;
 use super::svg::Svg;
 
@@ -69,18 +70,21 @@ impl Default for SeriesFigure {
 }
 
 impl SeriesFigure {
-    /// Draws the figure.
+    /// Draws the figure for a width.
     ///
     /// # Errors   no time or panel, a number that is not finite, times that decrease, or a curve of another length
-    pub fn svg(&self) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<String> {
         self.check()?;
-        let rows = self.rows();
-        let margin = rows.iter().map(|row| row.axes.left_margin()).fold(0.0, f64::max);
-        let (left, inner) = (MARGIN + margin, margin + WIDTH + 16.0);
+        let margin = |rows: &[Row]| rows.iter().map(|row| row.axes.left_margin()).fold(0.0, f64::max);
+        let beside = margin(&self.rows([WIDTH, HEIGHT])) + 16.0 + 2.0 * MARGIN;
+        let [width, panel_height] = room.frame([WIDTH, HEIGHT], beside);
+        let rows = self.rows([width, panel_height]);
+        let margin = margin(&rows);
+        let (left, inner) = (MARGIN + margin, margin + width + 16.0);
         let title = Block::title(&self.title, inner);
         let text = Block::caption(self.notes.iter().chain(&self.caption), inner);
         let mut y = MARGIN + title.height() + 4.0;
-        let height: f64 = rows.iter().map(|row| row.legend.height() + HEIGHT + GAP).sum();
+        let height: f64 = rows.iter().map(|row| row.legend.height() + panel_height + GAP).sum();
         let foot = y + height - GAP + BELOW + 8.0;
         let mut svg = Svg::new((inner + 2.0 * MARGIN).ceil(), (foot + text.height() + MARGIN - 6.0).ceil());
         title.draw(&mut svg, [MARGIN, MARGIN]);
@@ -89,25 +93,26 @@ impl SeriesFigure {
             y += row.legend.height();
             (row.axes.scale.frame.x, row.axes.scale.frame.y) = (left, y);
             self.draw_panel(&mut svg, panel, &row.axes, margin);
-            y += HEIGHT + GAP;
+            y += panel_height + GAP;
         }
         text.draw(&mut svg, [MARGIN, foot]);
         Ok(svg.finish())
     }
 
-    fn rows(&self) -> Vec<Row> {
+    /// The panels with frames of a size.
+    fn rows(&self, [w, h]: [f64; 2]) -> Vec<Row> {
         let x = Range::of(self.times.iter().copied()).unwrap_or(Range { min: 0.0, max: 0.0 });
         let x = if x.span() > 0.0 { x } else { x.padded(0.0) };
         let last = self.panels.len().saturating_sub(1);
         let row = |(i, panel): (usize, &Panel)| {
             let values = panel.curves.iter().flat_map(|c| c.values.iter().copied().flatten());
             let y = Range::of(values).unwrap_or(Range { min: 0.0, max: 0.0 }).padded(0.07);
-            let scale = Scale { frame: Rect { x: 0.0, y: 0.0, w: WIDTH, h: HEIGHT }, x, y };
+            let scale = Scale { frame: Rect { x: 0.0, y: 0.0, w, h }, x, y };
             let label = (i == last).then_some(self.time_label.as_str());
             let entry = |c: &Curve| Entry::new(Mark::Line(curve_paint(c)), &c.label);
             let several = panel.curves.len() > 1;
             let entries = if several { panel.curves.iter().map(entry).collect() } else { Vec::new() };
-            Row { axes: Axes::new(scale, label, &panel.label), legend: Legend::flowed(entries, WIDTH) }
+            Row { axes: Axes::new(scale, label, &panel.label), legend: Legend::flowed(entries, w) }
         };
         self.panels.iter().enumerate().map(row).collect()
     }

@@ -8,6 +8,7 @@ use super::figure::{Csv, figure};
 use super::geometry::{Range, Rect};
 use super::heat_map::{Cells, Grid};
 use super::palette::{Colour, signed_colour};
+use super::room::Room;
 use super::svg::Svg;
 
 const WIDTH: f64 = 600.0;
@@ -68,21 +69,21 @@ impl Default for SpaceTimeFigure {
 }
 
 impl SpaceTimeFigure {
-    /// Draws the figure.
+    /// Draws the figure for a width.
     ///
     /// # Errors   no value, a number that is not finite, a range that runs backwards, or not `columns` x `rows` values
-    pub fn svg(&self) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<String> {
         self.check()?;
         let cells = self.cells();
         let limit = cells.largest();
         let limit = if limit > 0.0 { limit } else { 1.0 };
-        let frame = Rect { x: 0.0, y: 0.0, w: WIDTH, h: HEIGHT };
-        let scale = Scale { frame, x: axis(self.times), y: axis(self.places) };
-        let axes = Axes::new(scale, Some(&self.x_label), &self.y_label);
         let range = Range { min: -limit, max: limit };
-        let bar = ColourBar::new(range, bar_colour, &self.value_label, HEIGHT);
+        let bar = |height| ColourBar::new(range, bar_colour, &self.value_label, height);
+        let beside = self.axes([WIDTH, HEIGHT]).left_margin() + GAP + bar(HEIGHT).width() + 2.0 * MARGIN;
+        let [w, h] = room.frame([WIDTH, HEIGHT], beside);
+        let (axes, bar) = (self.axes([w, h]), bar(h));
         let left = MARGIN + axes.left_margin();
-        let inner = left - MARGIN + WIDTH + GAP + bar.width();
+        let inner = left - MARGIN + w + GAP + bar.width();
         let (title, caption) = (Block::title(&self.title, inner), Block::caption(&self.caption, inner));
         let mut axes = axes.moved_to(left);
         axes.scale.frame.y = MARGIN + title.height() + 4.0;
@@ -95,6 +96,12 @@ impl SpaceTimeFigure {
         bar.draw(&mut svg, [frame.right() + GAP, frame.y]);
         caption.draw(&mut svg, [MARGIN, foot]);
         Ok(svg.finish())
+    }
+
+    fn axes(&self, [w, h]: [f64; 2]) -> Axes {
+        let frame = Rect { x: 0.0, y: 0.0, w, h };
+        let scale = Scale { frame, x: axis(self.times), y: axis(self.places) };
+        Axes::new(scale, Some(&self.x_label), &self.y_label)
     }
 
     fn check(&self) -> Result<()> {

@@ -1,6 +1,6 @@
 //! Power spectral density against frequency, both logarithmic.
 
-use super::axes::{Axes, Scale};
+use super::axes::{AxisKind, Scale};
 use super::error::{FigureError, Result, check_finite};
 use super::figure::{Csv, figure};
 use super::framed::Framed;
@@ -8,6 +8,7 @@ use super::geometry::{Point, Range, Rect};
 use super::legend::{Entry, Mark};
 use super::paint::Paint;
 use super::palette::Colour;
+use super::room::Room;
 use super::simplify::{envelope, simplify};
 use super::svg::Svg;
 
@@ -59,16 +60,19 @@ impl Default for SpectrumFigure {
 }
 
 impl SpectrumFigure {
-    /// Draws the figure.
+    /// Draws the figure for a width.
     ///
     /// # Errors   nothing above 0, a number that is not finite, frequencies that decrease, or a curve of another length
-    pub fn svg(&self) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<String> {
         self.check()?;
         let sheet = Framed {
             title: &self.title,
             caption: &self.caption,
             legend: self.legend(),
-            axes: Axes::logarithmic(self.scale()?, &self.x_label, &self.y_label),
+            scale: self.scale()?,
+            kinds: [AxisKind::Logarithmic; 2],
+            labels: [&self.x_label, &self.y_label],
+            room,
             grid: true,
             head: 0.0,
         };

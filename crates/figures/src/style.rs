@@ -1,8 +1,9 @@
-//! Requested title, caption and size of a figure, instead of the defaults.
+//! Requested title, caption, width and look of a figure, instead of the defaults.
 
 use super::error::{FigureError, Result, check_range};
 use super::figure::{Drawn, Figure};
 use super::portable::DEFAULT_SCALE;
+use super::room::Room;
 use std::str::FromStr;
 
 /// Title, caption and width of figures.
@@ -12,24 +13,47 @@ pub struct Style {
     pub title: Option<String>,
     /// Leaves the caption out.
     pub no_caption: bool,
-    /// Width of the sheet; everything on it is scaled.
+    /// Width of the sheet. On paper it is laid out for this width, with text of 8 pt and lines of at least .5 pt; in pixels it is scaled.
     pub width: Option<Width>,
 }
 
 /// A width of a sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Width {
-    /// On paper, in millimetres, 10 to 2000: a PNG has 300 dots per inch.
+    /// On paper, in millimetres, 30 to 2000: a PNG has 300 dots per inch.
     Millimetres(f64),
     /// On a screen, in pixels, 50 to 10000: a PNG has as many.
     Pixels(f64),
+    /// On a slide of 1920 pixels, 960 pt wide: text of 18 pt and more.
+    Slide,
 }
 
-/// Reads `86mm`, `8.6cm`, `3.4in` or `1200px`.
+/// Units of a drawing per point on paper: its text of 12 units has 8 pt.
+const PER_POINT: f64 = 1.5;
+
+/// Units across a slide of 960 pt: text of 12 units has 18 pt.
+const SLIDE: f64 = 640.0;
+
+impl Width {
+    /// What sheets of this width are laid out for.
+    #[must_use]
+    pub fn room(self) -> Room {
+        match self {
+            Self::Millimetres(size) => Room::of(size / 25.4 * 72.0 * PER_POINT),
+            Self::Pixels(_) => Room::OWN,
+            Self::Slide => Room::of(SLIDE),
+        }
+    }
+}
+
+/// Reads `86mm`, `8.6cm`, `3.4in`, `1200px` or `slide`.
 impl FromStr for Width {
     type Err = FigureError;
 
     fn from_str(text: &str) -> Result<Self> {
+        if text == "slide" {
+            return Ok(Self::Slide);
+        }
         let unknown = || FigureError::Width { text: text.to_owned() };
         let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
         let number: f64 = digits.trim().parse().map_err(|_| unknown())?;
@@ -42,7 +66,7 @@ impl FromStr for Width {
                     "in" => 25.4 * number,
                     _ => return Err(unknown()),
                 };
-                check_range("width in mm", millimetres, 10.0, 2000.0).map(|()| Self::Millimetres(millimetres))
+                check_range("width in mm", millimetres, 30.0, 2000.0).map(|()| Self::Millimetres(millimetres))
             }
         }
     }
@@ -60,11 +84,9 @@ impl Style {
         if self.no_caption {
             caption.clear();
         }
-        let drawn = figure.drawn()?;
-        Ok(match self.width {
-            Some(width) => Drawn { svg: resized(&drawn.svg, width), ..drawn },
-            None => drawn,
-        })
+        let room = self.width.map_or(Room::OWN, Width::room);
+        let (svg, data) = (figure.sheet(room)?, figure.data());
+        Ok(Drawn { svg: self.width.map_or_else(|| svg.clone(), |width| resized(&svg, width)), data })
     }
 
     /// Pixels of a PNG per unit of the SVG.
@@ -73,7 +95,7 @@ impl Style {
         match self.width {
             None => DEFAULT_SCALE,
             Some(Width::Millimetres(_)) => 300.0 / 96.0, // a unit is 1/96 inch
-            Some(Width::Pixels(_)) => 1.0,
+            Some(Width::Pixels(_) | Width::Slide) => 1.0,
         }
     }
 }
@@ -88,6 +110,7 @@ fn resized(svg: &str, width: Width) -> String {
         let (size, unit) = match width {
             Width::Millimetres(size) => (size, "mm"),
             Width::Pixels(size) => (size, ""),
+            Width::Slide => (1920.0, ""),
         };
         let height = (size * ratio * 100.0).round() / 100.0;
         Some(format!("{before} width=\"{size}{unit}\" height=\"{height}{unit}\"{rest}"))

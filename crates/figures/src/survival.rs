@@ -1,6 +1,6 @@
 //! Survival curves: the share of events that last longer than a time.
 
-use super::axes::{Axes, AxisKind, Scale};
+use super::axes::{AxisKind, Scale};
 use super::error::{FigureError, Result, check_finite};
 use super::expected::ExpectedLine;
 use super::figure::{Csv, figure};
@@ -9,6 +9,7 @@ use super::geometry::{Point, Rect};
 use super::legend::{BAND, Entry, Mark};
 use super::paint::Paint;
 use super::palette::{CATEGORIES, Colour};
+use super::room::Room;
 use super::svg::Svg;
 
 const WIDTH: f64 = 540.0;
@@ -76,10 +77,10 @@ impl Default for SurvivalFigure {
 const KINDS: [AxisKind; 2] = [AxisKind::Linear, AxisKind::Logarithmic];
 
 impl SurvivalFigure {
-    /// Draws the figure.
+    /// Draws the figure for a width.
     ///
     /// # Errors   no share above 0, a number that is not finite, or times that decrease
-    pub fn svg(&self) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<String> {
         self.check()?;
         let curves = || self.curves.iter().zip(CATEGORIES.into_iter().cycle());
         let keys = curves().map(|(curve, colour)| Entry::new(Mark::Band(colour), &curve.label));
@@ -87,7 +88,10 @@ impl SurvivalFigure {
             title: &self.title,
             caption: &self.caption,
             legend: keys.chain(self.lines.iter().map(ExpectedLine::key)).collect(),
-            axes: Axes::of_kinds(self.scale()?, KINDS, &self.x_label, &self.y_label),
+            scale: self.scale()?,
+            kinds: KINDS,
+            labels: [&self.x_label, &self.y_label],
+            room,
             grid: true,
             head: 0.0,
         };

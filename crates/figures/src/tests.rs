@@ -3,7 +3,7 @@
 use super::palette::BLUE;
 use super::*;
 
-fn wave(count: usize) -> Vec<PathPoint> {
+pub(super) fn wave(count: usize) -> Vec<PathPoint> {
     let point = |i: usize| {
         let t = 0.1 * i as f64;
         PathPoint { t, x: t, y: t.sin() }
@@ -15,7 +15,7 @@ fn ellipse([x, y]: [f64; 2]) -> Vec<[f64; 2]> {
     (0..40).map(|i| (0.157 * f64::from(i)).sin_cos()).map(|(s, c)| [x + 0.8 * c, y + 0.5 * s]).collect()
 }
 
-fn path(points: Vec<PathPoint>) -> PathFigure {
+pub(super) fn path(points: Vec<PathPoint>) -> PathFigure {
     let stamps = points.iter().step_by(20).map(|p| OutlineStamp { t: p.t, points: ellipse([p.x, p.y]) });
     let section = SectionLine {
         from: [0.0, 0.5],
@@ -33,20 +33,20 @@ fn path(points: Vec<PathPoint>) -> PathFigure {
     }
 }
 
-fn series(values: Vec<Option<f64>>) -> SeriesFigure {
+pub(super) fn series(values: Vec<Option<f64>>) -> SeriesFigure {
     let times = (0..values.len()).map(|i| i as f64).collect();
     let curve = Curve { label: "speed".into(), colour: BLUE, values };
     let panel = Panel { label: "speed".into(), curves: vec![curve] };
     SeriesFigure { times, panels: vec![panel.clone(), panel], ..SeriesFigure::default() }
 }
 
-fn field(columns: usize, rows: usize, f: fn(f64, f64) -> f64) -> SpaceTimeFigure {
+pub(super) fn field(columns: usize, rows: usize, f: fn(f64, f64) -> f64) -> SpaceTimeFigure {
     let value = |i: usize| f((i % columns) as f64 / columns as f64, (i / columns) as f64 / rows as f64);
     let values = (0..columns * rows).map(value).collect();
     SpaceTimeFigure { columns, rows, values, ..SpaceTimeFigure::default() }
 }
 
-fn spectrum(power: &[f64]) -> SpectrumFigure {
+pub(super) fn spectrum(power: &[f64]) -> SpectrumFigure {
     let frequencies = (0..power.len()).map(|i| i as f64).collect();
     let curve = SpectrumCurve { label: "*x*".into(), colour: BLUE, power: power.to_vec() };
     SpectrumFigure { frequencies, curves: vec![curve.clone(), curve], ..SpectrumFigure::default() }

@@ -3,13 +3,13 @@
 use super::tests::drawing;
 use super::*;
 
-fn measured(points: &[(f64, f64, f64)]) -> ErrorBarFigure {
+pub(super) fn measured(points: &[(f64, f64, f64)]) -> ErrorBarFigure {
     let points = points.iter().map(|(x, y, error)| Measured { x: *x, y: *y, error: *error }).collect();
     let series = vec![ErrorBarSeries { label: "*λ*_1".into(), points, joined: true }];
     ErrorBarFigure { series, ..ErrorBarFigure::default() }
 }
 
-fn survival(shares: &[f64]) -> SurvivalFigure {
+pub(super) fn survival(shares: &[f64]) -> SurvivalFigure {
     let step = |(i, s): (usize, &f64)| SurvivalStep { t: i as f64, share: *s, low: s - 0.1, high: s + 0.1 };
     let steps = shares.iter().enumerate().map(step).collect();
     let curve = SurvivalCurve { label: "runs".into(), steps, end: shares.len() as f64 };

@@ -8,7 +8,7 @@ fn cell(x: f64, y: f64, shares: &[(&str, f64)]) -> Cell {
 }
 
 /// A grid of one motion, with two of them in the first cell.
-fn diagram(columns: usize, rows: usize) -> PhaseDiagram {
+pub(super) fn diagram(columns: usize, rows: usize) -> PhaseDiagram {
     let (x, y) = ((0..columns).map(|i| i as f64).collect(), (0..rows).map(|i| 0.1 * i as f64).collect());
     let mut diagram = PhaseDiagram { x, y, x_label: "*κ*_2".into(), ..PhaseDiagram::default() };
     let places = diagram.y.iter().flat_map(|y| diagram.x.iter().map(move |x| (*x, *y)));
@@ -17,7 +17,7 @@ fn diagram(columns: usize, rows: usize) -> PhaseDiagram {
     diagram
 }
 
-fn strip(columns: usize) -> PhaseDiagram {
+pub(super) fn strip(columns: usize) -> PhaseDiagram {
     PhaseDiagram { y: Vec::new(), ..diagram(columns, 1) }
 }
 

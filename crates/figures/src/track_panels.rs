@@ -6,6 +6,7 @@ use super::figure::{Csv, figure};
 use super::geometry::{Point, Range, Rect};
 use super::paint::Paint;
 use super::palette::{BLACK, GREY, INK, WHITE, time_colour_in};
+use super::room::Room;
 use super::simplify::simplify;
 use super::svg::{Anchor, Svg};
 use super::text::Label;
@@ -50,17 +51,18 @@ pub struct TrackPanels {
 }
 
 impl TrackPanels {
-    /// Draws the figure.
+    /// Draws the figure for a width.
     ///
     /// # Errors   no panel, a panel without a point, a number that is not finite
-    pub fn svg(&self) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<String> {
         check_finite("coordinate of a track", self.panels.iter().flat_map(TrackPanel::points).flatten())?;
         let boxes: Option<Vec<[Range; 2]>> = self.panels.iter().map(TrackPanel::ranges).collect();
         let boxes = boxes.filter(|boxes| !boxes.is_empty()).ok_or(FigureError::Empty { what: "track" })?;
         let widest = |side: usize| boxes.iter().map(|ranges| ranges[side].span()).fold(0.0, f64::max);
         let size = [widest(0), widest(1)].map(|span| span.max(1e-100));
         let columns = self.columns(size);
-        let wide = ((WIDTH + GAP) / columns as f64 - GAP).min((size[0] / size[1]).max(1.0) * SIDE);
+        let all = room.width().map_or(WIDTH, |width| width - 2.0 * MARGIN);
+        let wide = ((all + GAP) / columns as f64 - GAP).min((size[0] / size[1]).max(1.0) * SIDE);
         let pixels = (wide / size[0]).min(SIDE / size[1]) / 1.12;
         let (w, h) = (wide, (1.12 * size[1] * pixels).max(40.0));
         let rows = self.panels.len().div_ceil(columns);

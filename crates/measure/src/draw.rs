@@ -4,8 +4,8 @@ mod curves;
 mod displacement;
 
 use crate::{Measurement, Result};
-use motiform_figures::{Figure, png};
-use motiform_lab::draw::{FigureFormat, Picture, parameters, undrawable};
+use motiform_figures::Figure;
+use motiform_lab::draw::{FigureFormat, Picture, add, parameters};
 use motiform_statistics::Errors;
 
 /// Draws `msd`, `exponent`, `autocorrelations`, `speed`, `turning`, `spectra` and `first-passage` as SVG and PNG (and PDF if requested and built in), as
@@ -26,15 +26,7 @@ pub fn draw(measurement: &Measurement, format: &FigureFormat) -> Result<Vec<Pict
     let mut pictures = Vec::new();
     for (name, figure) in figures {
         let Some(mut figure) = figure else { continue };
-        let svg = format.style.draw(figure.as_mut()).map_err(undrawable)?.svg;
-        let mut push =
-            |ending: &str, bytes| pictures.push(Picture { name: format!("{name}.{ending}"), bytes });
-        push("png", png(&svg, format.style.png_scale(), &[]).map_err(undrawable)?);
-        #[cfg(feature = "pdf")]
-        if format.pdf {
-            push("pdf", motiform_figures::pdf(&svg).map_err(undrawable)?);
-        }
-        push("svg", svg.into_bytes());
+        add(&mut pictures, name, figure.as_mut(), format)?;
     }
     Ok(pictures)
 }

@@ -25,11 +25,13 @@ pub enum Kind {
     Table,
     /// Outlines in a file for other programs.
     Outlines,
+    /// Figures alone, drawn from another folder.
+    Figures,
 }
 
 impl Kind {
     /// Every kind.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Dataset,
         Self::Scan,
         Self::Branches,
@@ -41,6 +43,7 @@ impl Kind {
         Self::Report,
         Self::Table,
         Self::Outlines,
+        Self::Figures,
     ];
 
     /// Its name in inventories.
@@ -58,6 +61,7 @@ impl Kind {
             Self::Report => "report",
             Self::Table => "table",
             Self::Outlines => "outlines",
+            Self::Figures => "figures",
         }
     }
 
@@ -82,6 +86,7 @@ impl Kind {
             Self::Report => "a reproduction of the paper",
             Self::Table => "a table",
             Self::Outlines => "outlines",
+            Self::Figures => "figures",
         }
     }
 

@@ -5,10 +5,8 @@ use crate::result::Leg;
 use crate::sweep::{SweepPoint, Sweeps};
 use crate::{Branches, Followed, Origin, Sample, is_stable};
 use motiform_continuation::{End, Special};
-use motiform_figures::{
-    BranchDiagram, BranchDots, BranchMark, BranchPart, DEFAULT_SCALE, Figure, Glyph, png,
-};
-use motiform_lab::draw::{Picture, undrawable, words};
+use motiform_figures::{BranchDiagram, BranchDots, BranchMark, BranchPart, Glyph};
+use motiform_lab::draw::{FigureFormat, Picture, add_with_numbers, words};
 use motiform_study::plan::Named;
 use motiform_study::{BranchPlan, Error};
 
@@ -83,17 +81,19 @@ impl Ordinate {
 ///
 /// # Errors
 /// An unknown model, or numbers that no axis can hold.
-pub fn draw_branches(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Result<Vec<Picture>, Error> {
+pub fn draw_branches(
+    plan: &BranchPlan,
+    found: &Branches,
+    ordinate: Ordinate,
+    format: &FigureFormat,
+) -> Result<Vec<Picture>, Error> {
     let mut pictures = Vec::new();
     for (name, ordinate) in [("branches", ordinate), ("period", Ordinate::Period)] {
-        let figure = diagram(plan, found, ordinate)?;
+        let mut figure = diagram(plan, found, ordinate)?;
         if figure.parts.is_empty() {
             continue;
         }
-        let drawn = figure.drawn().map_err(undrawable)?;
-        let image = png(&drawn.svg, DEFAULT_SCALE, &[]).map_err(undrawable)?;
-        let files = [("svg", drawn.svg.into_bytes()), ("png", image), ("csv", drawn.data.into_bytes())];
-        pictures.extend(files.map(|(ending, bytes)| Picture { name: format!("{name}.{ending}"), bytes }));
+        add_with_numbers(&mut pictures, name, &mut figure, format)?;
     }
     Ok(pictures)
 }

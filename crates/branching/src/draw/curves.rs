@@ -2,10 +2,8 @@
 
 use crate::curves::{CurveSample, Curves, FollowedCurve, codimension_2};
 use motiform_continuation::{Degenerate, Special};
-use motiform_figures::{
-    CurveMap, CurveStyle, DEFAULT_SCALE, Figure, LineStyle, MapCurve, MapMark, PhaseDiagram, png,
-};
-use motiform_lab::draw::{Picture, phase_diagram, symbol, undrawable, words};
+use motiform_figures::{CurveMap, CurveStyle, LineStyle, MapCurve, MapMark, PhaseDiagram};
+use motiform_lab::draw::{FigureFormat, Picture, add_with_numbers, phase_diagram, symbol, words};
 use motiform_lab::scan::{CellSummary, ScanFolder, cells};
 use motiform_study::branches::Along;
 use motiform_study::curves::CurveKind;
@@ -21,14 +19,14 @@ pub fn draw_curves(
     plan: &CurvePlan,
     found: &Curves,
     over: Option<&ScanFolder>,
+    format: &FigureFormat,
 ) -> Result<Vec<Picture>, Error> {
     if found.curves.iter().all(|curve| curve.legs.is_empty()) {
         return Ok(Vec::new());
     }
-    let drawn = curve_map(plan, found, over)?.drawn().map_err(undrawable)?;
-    let image = png(&drawn.svg, DEFAULT_SCALE, &[]).map_err(undrawable)?;
-    let files = [("svg", drawn.svg.into_bytes()), ("png", image), ("csv", drawn.data.into_bytes())];
-    Ok(files.map(|(ending, bytes)| Picture { name: format!("curves.{ending}"), bytes }).into())
+    let mut pictures = Vec::new();
+    add_with_numbers(&mut pictures, "curves", &mut curve_map(plan, found, over)?, format)?;
+    Ok(pictures)
 }
 
 /// The map of curves.

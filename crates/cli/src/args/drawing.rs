@@ -1,8 +1,9 @@
-//! Options of figures, shared by `simulate` and `figure`.
+//! Options of figures, shared by the commands that draw.
 
 use super::{number, whole};
 use clap::{Args, ValueEnum};
-use motiform_figures::Width;
+use motiform_figures::{Style, Width};
+use motiform_lab::draw::FigureFormat;
 
 #[derive(Args)]
 pub(crate) struct DrawingOptions {
@@ -24,22 +25,58 @@ pub(crate) struct DrawingOptions {
     /// Draw to this time
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) to: Option<f64>,
+    /// Also write the animation in this format (needs ffmpeg); give it twice for both
+    #[arg(long, value_name = "FORMAT", conflicts_with = "no_animation")]
+    pub(crate) film: Vec<FilmFormat>,
+    #[command(flatten)]
+    pub(crate) style: StyleOptions,
+}
+
+/// Options of every command that draws.
+#[derive(Args)]
+pub(crate) struct StyleOptions {
     /// Title of the figures instead of the default (*letters* between asterisks are italic, _ starts a subscript)
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
     /// Omit the captions
     #[arg(long)]
     pub(crate) no_caption: bool,
-    /// Width of the figures, e.g. 86mm, 3.4in or 1200px (default: as drawn, about 170 mm)
+    /// Width of the figures: 86mm or 3.4in (laid out for it, with text of 8 pt), slide (1920 pixels, with text of 18 pt), or
+    /// 1200px (scaled) (default: as drawn, about 170 mm)
     #[arg(long, value_name = "WIDTH", value_parser = width)]
     pub(crate) width: Option<Width>,
-    /// Also write the animation in this format (needs ffmpeg); give it twice for both
-    #[arg(long, value_name = "FORMAT", conflicts_with = "no_animation")]
-    pub(crate) film: Vec<FilmFormat>,
     /// Also write PDF figures
     #[cfg(feature = "pdf")]
     #[arg(long)]
     pub(crate) pdf: bool,
+}
+
+impl DrawingOptions {
+    /// The first given option that is about the body of a dataset, which no other figure has.
+    pub(crate) fn of_bodies(&self) -> Option<&'static str> {
+        let given = [
+            ("--no-animation", self.no_animation),
+            ("--radius", self.radius.is_some()),
+            ("--scale", self.scale.is_some()),
+            ("--outlines", self.outlines.is_some()),
+            ("--from", self.from.is_some()),
+            ("--to", self.to.is_some()),
+            ("--film", !self.film.is_empty()),
+        ];
+        given.into_iter().find(|(_, given)| *given).map(|(name, _)| name)
+    }
+}
+
+impl StyleOptions {
+    /// How the figures become files.
+    pub(crate) fn format(&self) -> FigureFormat {
+        #[cfg(feature = "pdf")]
+        let pdf = self.pdf;
+        #[cfg(not(feature = "pdf"))]
+        let pdf = false;
+        let style = Style { title: self.title.clone(), no_caption: self.no_caption, width: self.width };
+        FigureFormat { pdf, style }
+    }
 }
 
 /// Video formats.

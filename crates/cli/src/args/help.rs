@@ -168,3 +168,10 @@ The page shows a map of motions over two parameters (click on it), the moving bo
 and Lyapunov exponents, and a slider for every parameter. The server is for this machine only: it listens on \
 127.0.0.1, its address contains a secret, and a page can neither read nor write files. \
 Over ssh: ssh -L 7373:127.0.0.1:7373 HOST. The same page without a server: the folder docs/site of the sources.";
+
+pub(super) const FIGURE_HELP: &str = "\
+Examples:
+  motiform figure tensor-fig5a --scale 2 --to 80 --out again      other outlines, a shorter time
+  motiform figure tensor-fig5a-branches --width 86mm --no-caption --out paper
+                                                                  a figure as wide as a column
+  motiform figure tensor-fig1-scan --width slide --title 'Motions of a domain'";

@@ -1,6 +1,6 @@
 //! Options of `lifetimes`.
 
-use super::{SubjectOptions, number, random, whole};
+use super::{StyleOptions, SubjectOptions, number, random, whole};
 use clap::Args;
 use motiform_study::Random;
 use std::path::PathBuf;
@@ -43,6 +43,8 @@ pub(crate) struct LifetimesOptions {
     /// Replace an existing folder of lifetimes; what motiform did not write stays
     #[arg(long)]
     pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) style: StyleOptions,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,

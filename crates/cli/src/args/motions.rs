@@ -1,7 +1,8 @@
 //! The words of `continue`, `equilibria` and `section`: commands about motions that may be unstable.
 
-use super::{MethodOptions, MotionOptions, SubjectOptions, number, whole};
+use super::{MethodOptions, MotionOptions, StyleOptions, SubjectOptions, number, whole};
 use clap::{Args, ValueEnum};
+use motiform_branching::draw::Ordinate;
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -75,12 +76,26 @@ pub(crate) struct ContinueOptions {
     /// Replace earlier branches or curves; what motiform did not write stays
     #[arg(long)]
     pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) style: StyleOptions,
     /// Leave the figures out
     #[arg(long)]
     pub(crate) no_figures: bool,
     /// Print the summary as one JSON object; writes files only with --out
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+impl Observable {
+    /// The axis of the diagram.
+    pub(crate) fn ordinate(self) -> Ordinate {
+        match self {
+            Self::Speed => Ordinate::Speed,
+            Self::TurningRate => Ordinate::TurningRate,
+            Self::Size => Ordinate::Size,
+            Self::NetRotation => Ordinate::NetRotation,
+        }
+    }
 }
 
 /// What a diagram shows.

@@ -1,6 +1,6 @@
 //! Options of `scan` and `merge`.
 
-use super::{SubjectOptions, assignment, number, random, whole};
+use super::{StyleOptions, SubjectOptions, assignment, number, random, whole};
 use clap::Args;
 use motiform_study::Random;
 use std::path::PathBuf;
@@ -49,6 +49,8 @@ pub(crate) struct ScanOptions {
     /// Replace an existing scan; what motiform did not write stays
     #[arg(long)]
     pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) style: StyleOptions,
     /// Do not draw figures
     #[arg(long)]
     pub(crate) no_figures: bool,

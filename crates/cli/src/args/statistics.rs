@@ -1,6 +1,6 @@
 //! Options of `statistics`.
 
-use super::{MethodOptions, assignment, number, whole};
+use super::{MethodOptions, StyleOptions, assignment, number, whole};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -54,6 +54,8 @@ pub(crate) struct StatisticsOptions {
     /// Go on in a folder of statistics whose computation was ended: finished bodies are not computed again
     #[arg(long, requires = "out", conflicts_with = "force")]
     pub(crate) resume: bool,
+    #[command(flatten)]
+    pub(crate) style: StyleOptions,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,

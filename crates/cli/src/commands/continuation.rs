@@ -1,10 +1,10 @@
 //! `motiform continue`.
 
-use crate::args::{ContinueOptions, Observable};
+use crate::args::ContinueOptions;
 use crate::commands::{curves, subject};
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
-use motiform_branching::draw::{Ordinate, draw_branches};
+use motiform_branching::draw::draw_branches;
 use motiform_branching::starts::StartPoint;
 use motiform_branching::{
     BranchEnd, BranchFolder, Followed, SpecialEntry, default_folder, follow_kept, stated, stretches, summary,
@@ -37,7 +37,8 @@ fn branches(options: &ContinueOptions, plan: BranchPlan) -> anyhow::Result<End> 
     watch.finish();
     let (files, found) = or_abandon(files, found)?;
     let folder = BranchFolder { plan, found };
-    let drawn = || pictures(options.observable, &folder);
+    let ordinate = options.observable.ordinate();
+    let drawn = || draw_branches(&folder.plan, &folder.found, ordinate, &options.style.format());
     let (written, undrawn) = write(options, files, drawn, |pictures, to| folder.write(pictures, to))?;
     print(&if options.json {
         serde_json::to_string(&summary(&folder.plan, &folder.found))?
@@ -166,16 +167,6 @@ pub(super) fn end(undrawn: Option<Error>, complete: bool) -> anyhow::Result<End>
         return Ok(End::Interrupted);
     }
     Ok(End::Done)
-}
-
-fn pictures(observable: Observable, folder: &BranchFolder) -> Result<Vec<Picture>, Error> {
-    let ordinate = match observable {
-        Observable::Speed => Ordinate::Speed,
-        Observable::TurningRate => Ordinate::TurningRate,
-        Observable::Size => Ordinate::Size,
-        Observable::NetRotation => Ordinate::NetRotation,
-    };
-    draw_branches(&folder.plan, &folder.found, ordinate)
 }
 
 fn text(folder: &BranchFolder, written: Option<&str>) -> anyhow::Result<String> {

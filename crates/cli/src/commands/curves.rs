@@ -26,7 +26,7 @@ pub(crate) fn run(options: &ContinueOptions, plan: &CurvePlan) -> anyhow::Result
     watch.finish();
     let (files, found) = or_abandon(files, found)?;
     let folder = CurveFolder { plan: plan.clone(), found };
-    let drawn = || draw_curves(&folder.plan, &folder.found, over.as_ref());
+    let drawn = || draw_curves(&folder.plan, &folder.found, over.as_ref(), &options.style.format());
     let (written, undrawn) = write(options, files, drawn, |pictures, to| folder.write(pictures, to))?;
     if folder.found.complete && folder.found.curves.is_empty() {
         warn(

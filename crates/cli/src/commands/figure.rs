@@ -1,14 +1,13 @@
 //! `motiform figure`, and the drawing that `simulate` shares with it.
 
 use super::film;
-use crate::args::{DrawingOptions, FigureOptions};
+use crate::args::{DrawingOptions, FigureOptions, Observable};
 use crate::output::{End, print, warn};
 use motiform_branching::BranchFolder;
 use motiform_branching::curves::CurveFolder;
-use motiform_branching::draw::{Ordinate, draw_branches, draw_curves};
-use motiform_figures::Style;
-use motiform_files::{Folder, Kind, kind_of, read_dataset_by};
-use motiform_lab::draw::{FigureFormat, Picture, draw, draw_scan};
+use motiform_branching::draw::{draw_branches, draw_curves};
+use motiform_files::{Folder, Kind, Opening, kind_of, read_dataset_by};
+use motiform_lab::draw::{Picture, draw, draw_scan};
 use motiform_lab::long::read_shown;
 use motiform_lab::scan::ScanFolder;
 use motiform_study::study::FigureSettings;
@@ -18,8 +17,16 @@ use std::path::Path;
 pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
     film::check(&options.drawing.film)?;
     let mut end = End::Done;
+    if let (Some(out), true) = (&options.out, options.datasets.len() > 1) {
+        let remedy = "its figures would have the same names: draw one folder at a time";
+        return Err(Error::Setting { key: "--out", value: out.display().to_string(), remedy }.into());
+    }
     for path in &options.datasets {
         let pictures = drawn(path, options)?;
+        if let Some(out) = &options.out {
+            apart(&pictures, out, options.force)?;
+            continue;
+        }
         let folder = Folder::redraw(path)?;
         for picture in &pictures {
             folder.draw(&picture.name, &picture.bytes, options.force)?;
@@ -31,23 +38,52 @@ pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
         if !(kept.is_empty() || options.force) {
             end = End::NotAsAsked;
         }
-        let names: Vec<&str> = pictures.iter().map(|picture| picture.name.as_str()).collect();
-        print(&format!("{}: {}", path.display(), names.join(" ")))?;
+        say(path, &pictures)?;
     }
     Ok(end)
 }
 
+/// Writes pictures into a folder of their own.
+fn apart(pictures: &[Picture], out: &Path, force: bool) -> anyhow::Result<()> {
+    let folder = Folder::open(out, Kind::Figures, Opening::of(false, force), &[])?;
+    for picture in pictures {
+        folder.put(&picture.name, &picture.bytes)?;
+    }
+    folder.complete()?;
+    folder.notes().iter().for_each(|note| warn(note));
+    say(out, pictures)
+}
+
+fn say(folder: &Path, pictures: &[Picture]) -> anyhow::Result<()> {
+    let names: Vec<&str> = pictures.iter().map(|picture| picture.name.as_str()).collect();
+    print(&format!("{}: {}", folder.display(), names.join(" ")))
+}
+
+/// Refuses an option that a kind of figure does not have.
+fn refuse(given: Option<&'static str>, remedy: &'static str) -> Result<(), Error> {
+    given.map_or(Ok(()), |key| Err(Error::Setting { key, value: "given".to_owned(), remedy }))
+}
+
 /// The pictures of a folder, whatever is in it.
 fn drawn(path: &Path, options: &FigureOptions) -> anyhow::Result<Vec<Picture>> {
-    match kind_of(path) {
-        Some(Kind::Scan) => Ok(draw_scan(&ScanFolder::read(path)?, &format(&options.drawing))?),
+    let (kind, format) = (kind_of(path), options.drawing.style.format());
+    if kind != Some(Kind::Branches) {
+        let given = options.observable.map(|_| "--observable");
+        refuse(given, "only diagrams of branches have it: leave it out")?;
+    }
+    if matches!(kind, Some(Kind::Scan | Kind::Branches | Kind::Curves)) {
+        refuse(options.drawing.of_bodies(), "only figures of a body have it: leave it out")?;
+    }
+    match kind {
+        Some(Kind::Scan) => Ok(draw_scan(&ScanFolder::read(path)?, &format)?),
         Some(Kind::Branches) => {
             let BranchFolder { plan, found } = BranchFolder::read(path)?;
-            Ok(draw_branches(&plan, &found, Ordinate::Speed)?)
+            let ordinate = options.observable.unwrap_or(Observable::Speed).ordinate();
+            Ok(draw_branches(&plan, &found, ordinate, &format)?)
         }
         Some(Kind::Curves) => {
             let CurveFolder { plan, found } = CurveFolder::read(path)?;
-            Ok(draw_curves(&plan, &found, None)?)
+            Ok(draw_curves(&plan, &found, None, &format)?)
         }
         _ => {
             let dataset = read_dataset_by(path, &|manifest, path| {
@@ -83,14 +119,5 @@ pub(crate) fn note_stride(stride: u32) {
 
 /// Every picture of a dataset.
 pub(crate) fn pictures(dataset: &Dataset, options: &DrawingOptions) -> Result<Vec<Picture>, Error> {
-    draw(dataset, &format(options))
-}
-
-fn format(options: &DrawingOptions) -> FigureFormat {
-    #[cfg(feature = "pdf")]
-    let pdf = options.pdf;
-    #[cfg(not(feature = "pdf"))]
-    let pdf = false;
-    let style = Style { title: options.title.clone(), no_caption: options.no_caption, width: options.width };
-    FigureFormat { pdf, style }
+    draw(dataset, &options.style.format())
 }

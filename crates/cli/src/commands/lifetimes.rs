@@ -6,7 +6,6 @@ use crate::output::{End, print, warn};
 use crate::progress::Progress;
 use motiform_analysis::LifeLaws;
 use motiform_files::{Folder, Kind, Opening};
-use motiform_lab::draw::FigureFormat;
 use motiform_lab::draw::lifetimes::draw_lifetimes;
 use motiform_lab::lifetimes::{LifeAt, Lifetimes, Lives, follow_lives_kept};
 use motiform_lab::scan::Axis;
@@ -47,7 +46,7 @@ pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
         let mut text = serde_json::to_vec_pretty(&json(&plan, &found)?)?;
         text.push(b'\n');
         files.put(FILE, &text)?;
-        for picture in draw_lifetimes(&plan, &found, &FigureFormat::default())? {
+        for picture in draw_lifetimes(&plan, &found, &options.style.format())? {
             files.put(&picture.name, &picture.bytes)?;
         }
         files.complete()?;

@@ -5,7 +5,6 @@ use crate::commands::subject;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_files::{Folder, Journal, Opening};
-use motiform_lab::draw::FigureFormat;
 use motiform_measure::{Measurement, read, sentences, simulated_kept, summary, write};
 use motiform_statistics::Settings;
 use motiform_study::{Error, Plan, Study};
@@ -39,7 +38,7 @@ pub(crate) fn run(options: &StatisticsOptions) -> anyhow::Result<End> {
     };
     let json = options.json.then(|| summary(&found).to_string());
     if let Some(folder) = &folder {
-        write(&found, &FigureFormat::default(), folder).map_err(plain_error)?;
+        write(&found, &options.style.format(), folder).map_err(plain_error)?;
         folder.notes().iter().for_each(|note| warn(note));
         if !found.complete {
             warn(

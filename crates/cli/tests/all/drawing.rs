@@ -27,6 +27,35 @@ fn figures_take_a_title_and_a_width() {
     assert!(done.stderr.contains("--width") && done.stderr.contains("such as 86mm"), "{}", done.stderr);
 }
 
+/// Branches, curves and scans take the same options, and what an option is not for is refused.
+#[test]
+fn every_figure_takes_the_options_of_style() {
+    let folder = Folder::new();
+    let style = "--width 86mm --title Another --no-caption";
+    let along = "continue tensor --preset fig5a --along kappa2=0.85:0.95 --branches 1 --points 5";
+    folder.run(&format!("{along} --out b")).expect(0);
+    folder.run(&format!("{along} --out styled {style}")).expect(0);
+    folder.run(&format!("scan tensor --preset fig1 --axis kappa2=0.1:0.2:3 --out s {style}")).expect(0);
+    let own = fs::read(folder.path("b/branches.svg")).unwrap();
+    folder.run(&format!("figure b --out drawn --observable size {style}")).expect(0);
+    assert_eq!(fs::read(folder.path("b/branches.svg")).unwrap(), own, "the figures of the result stay");
+    for name in ["styled/branches", "styled/period", "s/_diagram", "drawn/branches", "drawn/period"] {
+        let svg = fs::read_to_string(folder.path(&format!("{name}.svg"))).unwrap();
+        assert!(svg.contains(" width=\"86mm\"") && svg.contains(">Another<"), "{name}");
+        assert!(!svg.contains("all other parameters"), "{name} has a caption");
+    }
+    let size = fs::read_to_string(folder.path("drawn/branches.csv")).unwrap();
+    assert!(size.lines().next().unwrap().contains("size"), "{size}");
+    for (words, key) in
+        [("b --radius 3", "--radius"), ("s --to 5", "--to"), ("s --observable size", "--observable")]
+    {
+        let done = folder.run(&format!("figure {words}")).expect(2);
+        assert!(done.stderr.contains(key) && done.stderr.contains("leave it out"), "{}", done.stderr);
+    }
+    let done = folder.run("figure b s --out both").expect(2);
+    assert!(done.stderr.contains("one folder at a time"), "{}", done.stderr);
+}
+
 /// An ffmpeg that writes what it read: `-i FROM` comes before the last word, the file to be written.
 #[cfg(unix)]
 const FFMPEG: &str = "#!/bin/sh

@@ -7,6 +7,7 @@ use crate::colour_bar::ColourBar;
 use crate::geometry::{Range, Rect};
 use crate::legend::Legend;
 use crate::palette::time_colour;
+use crate::room::Room;
 use crate::svg::Svg;
 
 /// Longest side of the frame, in pixels.
@@ -24,6 +25,8 @@ const MARGIN: f64 = 14.0;
 pub(super) struct Layout {
     width: f64,
     height: f64,
+    /// Width of what stands beside the frame.
+    around: f64,
     title: Block,
     caption: Block,
     axes: Axes,
@@ -31,41 +34,58 @@ pub(super) struct Layout {
     legend: Legend,
     /// Legend in the column at the right of the axes, not below.
     beside: bool,
+    /// Left edge of a legend below.
+    key: f64,
 }
 
-/// Width and height of the frame for data of a width and height.
-fn frame_size(x: Range, y: Range) -> (f64, f64) {
+/// Width and height of the frame for data of a width and height; it is as wide as it can be where the sheet has a width.
+fn frame_size(x: Range, y: Range, wide: f64, room: Room) -> (f64, f64) {
     let aspect = (x.span() / y.span()).clamp(1.0 / ASPECT, ASPECT);
     // equal areas while neither side hits its limit
-    let w = (WIDE * aspect.sqrt() * 0.8).min(WIDE).min(TALL * aspect);
+    let w = room.width().map_or(wide * aspect.sqrt() * 0.8, |_| wide).min(wide).min(TALL * aspect);
     (w, w / aspect)
 }
 
 impl Layout {
     /// Plans the sheet.
-    pub(super) fn of(figure: &PathFigure) -> Self {
+    pub(super) fn of(figure: &PathFigure, room: Room) -> Self {
+        let own = Self::with(figure, WIDE, room);
+        let Some(width) = room.width() else { return own };
+        let fitting = |layout: &Self| room.frame([WIDE, TALL], layout.around.min(width))[0];
+        // labels of a lower frame may need more lines
+        let first = Self::with(figure, fitting(&own), room);
+        Self::with(figure, fitting(&first), room)
+    }
+
+    /// Plans a sheet whose frame is at most `wide`.
+    fn with(figure: &PathFigure, wide: f64, room: Room) -> Self {
         let range =
             |i: usize| Range::of(figure.places().map(|p| p[i])).unwrap_or(Range { min: 0.0, max: 0.0 });
         let (x, y) = with_equal_padding(range(0), range(1));
-        let (w, h) = frame_size(x, y);
+        let (w, h) = frame_size(x, y, wide, room);
         let scale = Scale::equal(Rect { x: 0.0, y: 0.0, w, h }, x, y);
         let axes = Axes::new(scale, Some(&figure.x_label), &figure.y_label);
         let left = MARGIN + axes.left_margin();
         let bar = figure
             .time_range()
             .map(|range| ColourBar::new(range, time_colour, &figure.time_label, h.min(210.0)));
-        let beside = w < TEXT;
-        let mut legend = Legend::flowed(figure.legend(), if beside { 0.0 } else { w });
-        if !beside && legend.width() > w {
+        let text = room.width().map_or(TEXT, |width| (width - 2.0 * MARGIN).min(TEXT));
+        let beside = room.width().is_none() && w < TEXT;
+        let key = room.width().map_or(w, |_| text.max(w));
+        let mut legend = Legend::flowed(figure.legend(), if beside { 0.0 } else { key });
+        if !beside && legend.width() > key {
             legend = Legend::flowed(figure.legend(), 0.0);
         }
         let bar_width = bar.as_ref().map_or(0.0, |bar| bar.width() + 16.0);
         let column = if beside { bar_width.max(legend.width() + 16.0) } else { bar_width };
-        let inner = (left - MARGIN + w + column.max(12.0)).max(TEXT);
+        let around = left + column.max(12.0) + MARGIN;
+        let inner = (around - 2.0 * MARGIN + w).max(text);
         let title = Block::title(&figure.title, inner);
         let caption = Block::caption(&figure.caption, inner);
+        let width = inner + 2.0 * MARGIN;
+        let key_left = room.width().map_or(left, |_| MARGIN);
         let mut layout =
-            Self { width: inner + 2.0 * MARGIN, height: 0.0, title, caption, axes, bar, legend, beside };
+            Self { width, height: 0.0, around, title, caption, axes, bar, legend, beside, key: key_left };
         let top = MARGIN + layout.title.height() + 4.0;
         layout.axes.scale.frame = Rect { x: left, y: top, w, h };
         layout.height = layout.caption_top() + layout.caption.height() + MARGIN - 6.0;
@@ -96,7 +116,7 @@ impl Layout {
             bar.draw(&mut svg, [column, frame.y]);
             below_bar += frame.h.min(210.0) + 14.0;
         }
-        let key = if self.beside { [column, below_bar] } else { [frame.x, frame.bottom() + BELOW] };
+        let key = if self.beside { [column, below_bar] } else { [self.key, frame.bottom() + BELOW] };
         self.legend.draw(&mut svg, key);
         self.caption.draw(&mut svg, [MARGIN, self.caption_top()]);
         svg.finish()

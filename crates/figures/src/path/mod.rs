@@ -6,6 +6,7 @@ mod layout;
 use super::error::{FigureError, Result, check_finite};
 use super::figure::{Csv, figure};
 use super::geometry::Point;
+use super::room::Room;
 
 /// A position at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,12 +83,12 @@ impl Default for PathFigure {
 }
 
 impl PathFigure {
-    /// Draws the figure.
+    /// Draws the figure for a width.
     ///
     /// # Errors   neither path nor outline has a point, or a number is not finite
-    pub fn svg(&self) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<String> {
         self.check()?;
-        Ok(layout::Layout::of(self).draw(self))
+        Ok(layout::Layout::of(self, room).draw(self))
     }
 
     fn points(&self) -> impl Iterator<Item = &PathPoint> {

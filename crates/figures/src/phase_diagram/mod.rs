@@ -6,7 +6,7 @@ mod mosaic;
 mod strip;
 mod tiles;
 
-use super::axes::{Axes, Scale};
+use super::axes::{AxisKind, Scale};
 use super::clip::clip;
 use super::error::{FigureError, Result, check_finite};
 use super::figure::{Csv, figure};
@@ -17,11 +17,14 @@ use super::line_style::LineStyle;
 use super::marks::{REGIMES, RegimeMark};
 use super::paint::Paint;
 use super::palette::{Colour, WHITE};
+use super::room::Room;
 use super::svg::Svg;
 use cells::Cells;
 
 /// Most cells a side that get markers.
 const TILES: usize = 40;
+/// Widest frame of many cells, in pixels.
+const WIDTH: f64 = 500.0;
 
 /// The result at one point.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,15 +76,15 @@ pub struct PhaseDiagram {
 }
 
 impl PhaseDiagram {
-    /// Draws the figure.
+    /// Draws the figure for a width.
     ///
     /// # Errors   no cell or no x, a number that is not finite, centres that do not increase, a cell at no centre or at
     /// that of an earlier one, or shares that do not add up to 1
-    pub fn svg(&self) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<String> {
         check_finite("boundary line value", self.lines.iter().flat_map(|l| &l.points).flatten().copied())?;
         let strip = self.y.len() < 2;
         let cells = Cells::new(&self.x, if strip { &[] } else { &self.y }, &self.cells)?;
-        let look = Look::of(strip, cells.size());
+        let look = Look::of(strip, cells.size(), room);
         let (w, h) = look.frame(cells.size());
         let [x, y] = cells.ranges();
         let scale = Scale { frame: Rect { x: 0.0, y: 0.0, w, h }, x, y };
@@ -90,7 +93,10 @@ impl PhaseDiagram {
             title: &self.title,
             caption: &self.caption,
             legend: self.legend(&cells, look),
-            axes: Axes::new(scale, Some(&self.x_label), y_label),
+            scale,
+            kinds: [AxisKind::Linear; 2],
+            labels: [&self.x_label, y_label],
+            room,
             grid: false,
             head: if strip { strip::HEAD } else { 0.0 },
         };
@@ -98,14 +104,14 @@ impl PhaseDiagram {
     }
 
     /// Draws the cells with their markers into the frame of another figure; what lies outside is cut off.
-    pub(crate) fn draw_under(&self, svg: &mut Svg, scale: &Scale) -> Result<()> {
+    pub(crate) fn draw_under(&self, svg: &mut Svg, scale: &Scale, room: Room) -> Result<()> {
         let cells = Cells::new(&self.x, &self.y, &self.cells)?;
         let [x, y] = cells.ranges();
         let ([left, top], [right, bottom]) = (scale.map([x.min, y.max]), scale.map([x.max, y.min]));
         let own = Scale { frame: Rect { x: left, y: top, w: right - left, h: bottom - top }, x, y };
         let mut drawn = Ok(());
         svg.clipped(scale.frame, |svg| {
-            if Look::of(false, cells.size()) == Look::Tiles {
+            if Look::of(false, cells.size(), room) == Look::Tiles {
                 tiles::draw_grounds(svg, &own, &cells);
                 tiles::draw_markers(svg, &own, &cells);
             } else {
@@ -122,9 +128,9 @@ impl PhaseDiagram {
     }
 
     /// The part of the legend that explains the cells.
-    pub(crate) fn key_under(&self) -> Result<Vec<Entry>> {
+    pub(crate) fn key_under(&self, room: Room) -> Result<Vec<Entry>> {
         let cells = Cells::new(&self.x, &self.y, &self.cells)?;
-        let look = Look::of(false, cells.size());
+        let look = Look::of(false, cells.size(), room);
         Ok(Self::default().legend(&cells, look))
     }
 
@@ -203,10 +209,11 @@ enum Look {
 }
 
 impl Look {
-    fn of(strip: bool, (columns, rows): (usize, usize)) -> Self {
+    fn of(strip: bool, (columns, rows): (usize, usize), room: Room) -> Self {
+        let most = room.most(TILES, WIDTH);
         match strip {
             true => Self::Strip,
-            false if columns <= TILES && rows <= TILES => Self::Tiles,
+            false if columns <= most && rows <= most => Self::Tiles,
             false => Self::Mosaic,
         }
     }
@@ -218,7 +225,7 @@ impl Look {
         if self == Self::Strip {
             return (columns * snapped(520.0 / columns).min(130.0), 150.0);
         }
-        let (w, h) = ((500.0 / columns).min(56.0), (460.0 / rows).min(56.0));
+        let (w, h) = ((WIDTH / columns).min(56.0), (460.0 / rows).min(56.0));
         let (w, h) = (w.min(1.8 * h), h.min(1.4 * w));
         ((columns * snapped(w)).max(280.0), (rows * snapped(h)).max(160.0))
     }

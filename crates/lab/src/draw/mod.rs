@@ -139,13 +139,17 @@ fn figures(body: &Body<'_>) -> Vec<(&'static str, Box<dyn Figure>)> {
     all
 }
 
-fn add(
+/// Adds a figure as SVG and PNG, and as PDF if requested and built in; its numbers as CSV are returned.
+///
+/// # Errors
+/// [`Error::Figure`]: numbers that do not fit on an axis.
+pub fn add(
     pictures: &mut Vec<Picture>,
     name: &str,
     figure: &mut dyn Figure,
     format: &FigureFormat,
-) -> Result<(), Error> {
-    let svg = format.style.draw(figure).map_err(undrawable)?.svg;
+) -> Result<String, Error> {
+    let Drawn { svg, data } = format.style.draw(figure).map_err(undrawable)?;
     let mut push = |ending: &str, bytes| pictures.push(Picture { name: format!("{name}.{ending}"), bytes });
     push("svg", svg.clone().into_bytes());
     push("png", png(&svg, format.style.png_scale(), &[]).map_err(undrawable)?);
@@ -153,5 +157,20 @@ fn add(
     if format.pdf {
         push("pdf", motiform_figures::pdf(&svg).map_err(undrawable)?);
     }
+    Ok(data)
+}
+
+/// [`add`] with the numbers as a file, too.
+///
+/// # Errors
+/// As [`add`].
+pub fn add_with_numbers(
+    pictures: &mut Vec<Picture>,
+    name: &str,
+    figure: &mut dyn Figure,
+    format: &FigureFormat,
+) -> Result<(), Error> {
+    let numbers = add(pictures, name, figure, format)?;
+    pictures.push(Picture { name: format!("{name}.csv"), bytes: numbers.into_bytes() });
     Ok(())
 }

@@ -1,0 +1,59 @@
+//! The width that a sheet is laid out for.
+
+/// The narrowest frame, in units of the drawing.
+const NARROWEST: f64 = 90.0;
+
+/// Height of a frame over its width where less would be cramped.
+const FLATTEST: f64 = 0.62;
+
+/// The width of a sheet in units of its drawing, in which sizes of text and lines are fixed: a narrow sheet has smaller frames, not
+/// smaller letters. Without a width each figure has its own.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Room {
+    width: Option<f64>,
+}
+
+impl Room {
+    /// The own width of each figure.
+    pub const OWN: Self = Self { width: None };
+
+    /// A sheet of this width.
+    #[must_use]
+    pub const fn of(width: f64) -> Self {
+        Self { width: Some(width) }
+    }
+
+    /// The width, if one is asked for.
+    #[must_use]
+    pub const fn width(self) -> Option<f64> {
+        self.width
+    }
+
+    /// Width and height of a frame of an own size, where `beside` units of the sheet are taken by what stands beside it. A narrower
+    /// frame is lower in proportion, but not flatter than .62 of its width unless it is lower anyway.
+    pub(crate) fn frame(self, [w, h]: [f64; 2], beside: f64) -> [f64; 2] {
+        let Some(width) = self.width else { return [w, h] };
+        let wide = (width - beside).floor().max(NARROWEST);
+        [wide, (h * wide / w).max(h.min(FLATTEST * wide)).round()]
+    }
+
+    /// How many of `most` marks have room side by side in a frame whose own width is `w`.
+    pub(crate) fn most(self, most: usize, w: f64) -> usize {
+        self.width.map_or(most, |width| (most as f64 * ((width - 80.0) / w).clamp(0.1, 1.0)) as usize)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_fills_what_is_left_and_keeps_its_shape() {
+        assert_eq!(Room::OWN.frame([600.0, 360.0], 80.0), [600.0, 360.0]);
+        assert_eq!(Room::of(380.0).frame([600.0, 360.0], 80.0), [300.0, 186.0]); // not flatter than .62
+        assert_eq!(Room::of(380.0).frame([420.0, 420.0], 80.0), [300.0, 300.0]);
+        assert_eq!(Room::of(380.0).frame([600.0, 120.0], 80.0), [300.0, 120.0]);
+        assert_eq!(Room::of(1280.0).frame([600.0, 360.0], 80.0), [1200.0, 720.0]);
+        assert_eq!(Room::of(20.0).frame([600.0, 360.0], 80.0)[0], NARROWEST);
+    }
+}
