@@ -1,6 +1,8 @@
 //! The command line: its arguments and their help texts.
 
 mod cells;
+#[cfg(test)]
+mod documented;
 mod drawing;
 #[cfg(test)]
 mod fuzz;
@@ -21,6 +23,7 @@ use help::{
     SCAN_HELP, SECTION_HELP, SIMULATE_HELP, VERIFY_HELP,
 };
 pub(crate) use lifetimes::LifetimesOptions;
+use motiform_models::spelling::ascii;
 use motiform_study::Random;
 pub(crate) use motions::{ContinueOptions, Crossing, EquilibriaOptions, Observable, SectionOptions};
 pub(crate) use scan::{MergeOptions, ScanOptions};
@@ -311,7 +314,7 @@ fn random(text: &str) -> Result<Random, String> {
 
 fn assignment(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, e.g. kappa2=0.9")?;
-    Ok((name.trim().to_owned(), number(value.trim())?))
+    Ok((ascii(name.trim()), number(value.trim())?))
 }
 
 #[cfg(test)]

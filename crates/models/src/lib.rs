@@ -10,6 +10,7 @@ mod model_name;
 pub mod parameters;
 pub mod polar;
 pub mod registry;
+pub mod spelling;
 pub mod tensor;
 pub mod zoo;
 

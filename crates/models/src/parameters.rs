@@ -1,6 +1,7 @@
 //! The registry of parameters: one declaration drives the struct, the study schema, `--help` and the documentation.
 
 use crate::error::{Error, nearest};
+use crate::spelling::canonical;
 
 /// One parameter of a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +63,9 @@ pub fn index_of(specs: &[ParameterSpec], model: &'static str, name: &str) -> Res
     specs.iter().position(|spec| spec.name == name).ok_or_else(|| Error::UnknownParameter {
         name: name.to_owned(),
         model,
-        nearest: nearest(name, specs.iter().map(|spec| spec.name))
+        nearest: Some(canonical(specs, name))
+            .filter(|meant| *meant != name)
+            .or_else(|| nearest(name, specs.iter().map(|spec| spec.name)))
             .and_then(|found| specs.iter().map(|spec| spec.name).find(|&known| known == found)),
         known: specs.iter().map(|spec| spec.name).collect(),
     })

@@ -5,6 +5,7 @@ use crate::{Error, Given, Plan, Stride, Study, Towards};
 use motiform_analysis::Regime;
 use motiform_models::ModelInfo;
 use motiform_models::parameters::index_of;
+use motiform_models::spelling::ascii;
 use serde::{Deserialize, Serialize};
 
 /// Version of the meaning of a plan of branches; part of the hash. A change that moves a number raises it.
@@ -117,7 +118,7 @@ impl Along {
             let (name, range) = text.split_once('=')?;
             let (from, to) = range.split_once(':')?;
             let (from, to): (f64, f64) = (from.trim().parse().ok()?, to.trim().parse().ok()?);
-            let name = name.trim().to_owned();
+            let name = ascii(name.trim());
             (!name.is_empty() && from.is_finite() && to.is_finite()).then_some(Self { name, from, to })
         };
         read().ok_or_else(|| wrong(text.to_owned(), "write NAME=LOW:HIGH, e.g. kappa2=0.3:1.6".to_owned()))

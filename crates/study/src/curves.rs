@@ -6,6 +6,7 @@ use crate::plan::sha256_hex;
 use crate::{Error, Study};
 use motiform_models::ModelInfo;
 use motiform_models::parameters::index_of;
+use motiform_models::spelling::ascii;
 use serde::{Deserialize, Serialize};
 
 /// Version of the meaning of a plan of curves; part of the hash. A change that moves a number raises it.
@@ -91,7 +92,7 @@ impl Plane {
         let side = |text: &str| {
             if !text.contains('=') {
                 let name = text.trim();
-                return (!name.is_empty()).then(|| (name.to_owned(), None));
+                return (!name.is_empty()).then(|| (ascii(name), None));
             }
             let Along { name, from, to } = Along::parse(text).ok()?;
             Some((name, Some((from, to))))

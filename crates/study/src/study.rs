@@ -9,6 +9,7 @@ use crate::scan::Axis;
 pub use crate::study_reader::schema;
 use crate::{Error, presets};
 use motiform_models::registry::Display;
+use motiform_models::spelling::canonical;
 use motiform_models::{ModelInfo, ModelName};
 use serde::Serialize;
 
@@ -195,6 +196,7 @@ impl Study {
     /// An unknown name (with the nearest one).
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), Error> {
         let info = self.info()?;
+        let name = canonical(info.parameters(), name);
         let index = motiform_models::parameters::index_of(info.parameters(), info.name, name)?;
         if self.values()?[index] != value {
             self.untitle();

@@ -13,8 +13,8 @@ pub(crate) struct ScanOptions {
     /// or NAME=v1,v2,v3
     #[arg(long = "axis", value_name = "NAME=LOW:HIGH:COUNT")]
     pub(crate) axes: Vec<String>,
-    /// Set an initial value (repeatable) of the first initial state of every cell; values not given are 0. Without any, and without a
-    /// coordinate on an axis, that one is small and random
+    /// Set an initial value (repeatable) of the first initial state of every cell; values not given are those of the preset's
+    /// start, or 0. Without any, without a preset's start and without a coordinate on an axis, that one is small and random
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     pub(crate) initial: Vec<(String, f64)>,
     /// Initial states per cell (default: 1); if more than one, they have all sizes of --random

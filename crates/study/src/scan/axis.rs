@@ -1,6 +1,7 @@
 //! An axis of a scan: a parameter, or a coordinate of the start, and the values it takes.
 
 use crate::Error;
+use motiform_models::spelling::ascii;
 use motiform_models::{ModelInfo, parameters};
 use serde::{Deserialize, Serialize};
 
@@ -31,7 +32,7 @@ impl Axis {
             return Err(wrong(form.to_owned()));
         }
         let values = if rest.contains(':') { range(rest, form) } else { listed(rest) }.map_err(wrong)?;
-        let axis = Self { name: name.to_owned(), values };
+        let axis = Self { name: ascii(name), values };
         axis.check()?;
         Ok(axis)
     }
