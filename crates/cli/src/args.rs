@@ -19,8 +19,8 @@ pub(crate) use drawing::{DrawingOptions, FilmFormat, StyleOptions};
 #[cfg(feature = "explorer")]
 use help::EXPLORE_HELP;
 use help::{
-    CLASSIFY_HELP, CONTINUE_HELP, EQUILIBRIA_HELP, EXAMPLES, FIGURE_HELP, LYAPUNOV_HELP, REPRODUCE_HELP,
-    SCAN_HELP, SECTION_HELP, SIMULATE_HELP, VERIFY_HELP,
+    CLASSIFY_HELP, CONTINUE_HELP, EQUILIBRIA_HELP, EXAMPLES, FIGURE_HELP, LYAPUNOV_HELP, NEW_HELP,
+    REPRODUCE_HELP, SCAN_HELP, SECTION_HELP, SIMULATE_HELP, VERIFY_HELP,
 };
 pub(crate) use lifetimes::LifetimesOptions;
 use motiform_models::spelling::ascii;
@@ -87,6 +87,11 @@ pub(crate) enum Command {
     #[cfg(feature = "explorer")]
     #[command(after_help = EXPLORE_HELP)]
     Explore(ExploreOptions),
+    /// Write a commented study, or a model of your own, to start from
+    #[command(after_help = NEW_HELP)]
+    New(NewOptions),
+    /// Say what this machine has (vector instructions, ffmpeg, browser, Python), and time it: about ten seconds
+    Doctor(DoctorOptions),
     /// Check a study file and print the resulting plan, without computing
     Check(CheckOptions),
     /// Check a result: digests of its files, the hash of its plan, and a sample of rows computed again and compared bit by bit
@@ -239,6 +244,23 @@ pub(crate) struct ExploreOptions {
     /// Print the address without opening a browser
     #[arg(long)]
     pub(crate) no_open: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct NewOptions {
+    /// The file; one that exists stays as it is
+    #[arg(value_name = "FILE.toml")]
+    pub(crate) file: PathBuf,
+    /// Write equations as text instead of a study of the tensor model
+    #[arg(long)]
+    pub(crate) equations: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct DoctorOptions {
+    /// Print one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Args)]

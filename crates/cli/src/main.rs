@@ -37,6 +37,8 @@ fn main() -> ExitCode {
         Command::Reproduce(options) => commands::reproduce::run(&options),
         #[cfg(feature = "explorer")]
         Command::Explore(options) => commands::explore::run(&options),
+        Command::New(options) => commands::new::run(&options),
+        Command::Doctor(options) => commands::doctor::run(&options),
         Command::Check(options) => commands::check::run(&options),
         Command::Verify(options) => commands::verify::run(&options),
         Command::Figure(options) => commands::figure::run(&options),

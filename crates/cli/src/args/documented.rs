@@ -18,7 +18,8 @@ fn pages() -> Vec<PathBuf> {
 /// The commands of a page: lines of code that begin with the program's name, continued lines joined, comments removed.
 fn commands(text: &str) -> Vec<String> {
     // a variable of the shell stands for a number
-    let joined = text.replace("\\\n", " ").replace("$SLURM_ARRAY_TASK_ID", "1").replace("$SLURM_CPUS_PER_TASK", "1");
+    let joined =
+        text.replace("\\\n", " ").replace("$SLURM_ARRAY_TASK_ID", "1").replace("$SLURM_CPUS_PER_TASK", "1");
     let mut fenced = false;
     let mut found = Vec::new();
     for line in joined.lines() {

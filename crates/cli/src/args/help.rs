@@ -175,3 +175,10 @@ Examples:
   motiform figure tensor-fig5a-branches --width 86mm --no-caption --out paper
                                                                   a figure as wide as a column
   motiform figure tensor-fig1-scan --width slide --title 'Motions of a domain'";
+
+pub(super) const NEW_HELP: &str = "\
+Examples:
+  motiform new mine.toml                    a study: parameters, start, run, map, branch
+  motiform new mine.toml --equations        equations of your own
+
+The file stands in place of a model's name in every command: motiform simulate mine.toml";

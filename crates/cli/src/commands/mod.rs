@@ -5,6 +5,7 @@ pub(crate) mod classify;
 pub(crate) mod completions;
 pub(crate) mod continuation;
 mod curves;
+pub(crate) mod doctor;
 pub(crate) mod equilibria;
 #[cfg(feature = "explorer")]
 pub(crate) mod explore;
@@ -15,6 +16,7 @@ pub(crate) mod lifetimes;
 pub(crate) mod lyapunov;
 pub(crate) mod merge;
 pub(crate) mod models;
+pub(crate) mod new;
 pub(crate) mod observe;
 mod pages;
 pub(crate) mod population;

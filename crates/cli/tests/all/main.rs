@@ -27,6 +27,7 @@ mod kills;
 mod layers;
 mod lifetimes;
 mod motions;
+mod new_files;
 mod observe;
 mod outcomes;
 mod ownership;

@@ -66,8 +66,10 @@ pub(crate) const WRITERS: [Writer; 12] = [
     Writer { words: "figure drawn --width 86mm --no-animation", options: FORCE },
 ];
 
-/// Commands that write nothing.
-const OTHERS: [&str; 10] = [
+/// Commands that write nothing, or, as `new`, only a file that was not there.
+const OTHERS: [&str; 12] = [
+    "new",
+    "doctor",
     "verify",
     "models",
     "classify",

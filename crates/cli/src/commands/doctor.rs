@@ -1,0 +1,115 @@
+//! `motiform doctor`.
+
+use crate::args::DoctorOptions;
+use crate::output::{End, print};
+use crate::progress::Progress;
+use motiform_dynamics::simd::InstructionSet;
+use motiform_lab::samples::{self, Samples};
+use motiform_models::ModelInfo;
+use motiform_study::{Plan, Random, presets};
+use serde_json::json;
+use std::fmt::Write;
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+/// Random starts of the preset that is timed.
+const STARTS: usize = 1024;
+
+/// A program that some commands call.
+struct Helper {
+    name: &'static str,
+    programs: &'static [&'static str],
+    arguments: &'static [&'static str],
+    without: &'static str,
+}
+
+const HELPERS: [Helper; 3] = [
+    Helper {
+        name: "ffmpeg",
+        programs: &["ffmpeg"],
+        arguments: &["-version"],
+        without: "not found: --film is not possible; animations are PNG (Debian: apt-get install ffmpeg)",
+    },
+    Helper {
+        name: "browser",
+        programs: &["xdg-open", "chromium", "firefox", "firefox-esr", "google-chrome"],
+        arguments: &["--version"],
+        without: "not found: `motiform explore` prints an address to open elsewhere on this machine",
+    },
+    Helper {
+        name: "python",
+        programs: &["python3", "python"],
+        arguments: &["-c", "import motiform"],
+        without: "the package motiform is not installed for it: `pip install .` in the clone",
+    },
+];
+
+/// Says what this machine has, and times it.
+pub(crate) fn run(options: &DoctorOptions) -> anyhow::Result<End> {
+    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let Some(rates) = rates(threads)? else { return Ok(End::Interrupted) };
+    let found = HELPERS.map(|helper| (helper.start(), helper));
+    let (lanes, cores) = (lanes(), std::env::consts::ARCH);
+    if options.json {
+        let helpers: serde_json::Map<_, _> =
+            found.iter().map(|(found, helper)| (helper.name.to_owned(), json!(found))).collect();
+        let object = json!({
+            "version": env!("CARGO_PKG_VERSION"), "processor": cores, "lanes": lanes.1, "threads": threads,
+            "programs": helpers, "motions_per_second": { "one_thread": rates[0], "all_threads": rates[1] },
+        });
+        print(&object.to_string())?;
+        return Ok(End::Done);
+    }
+    let mut text = format!("motiform    {}\n", env!("CARGO_PKG_VERSION"));
+    writeln!(text, "processor   {cores}, {}: {} orbits side by side; {threads} threads", lanes.0, lanes.1)?;
+    for (found, helper) in &found {
+        writeln!(text, "{:<11} {}", helper.name, found.unwrap_or(helper.without))?;
+    }
+    write!(
+        text,
+        "speed       {:.0} motions named a second on one thread, {:.0} on all ({STARTS} random starts of preset fig4)",
+        rates[0], rates[1]
+    )?;
+    print(&text)?;
+    Ok(End::Done)
+}
+
+/// The instruction set of lanes, in words, and its number of lanes.
+fn lanes() -> (&'static str, u32) {
+    match InstructionSet::widest() {
+        InstructionSet::Avx512 => ("AVX-512", 8),
+        InstructionSet::Avx2 => ("AVX2", 4),
+        InstructionSet::Neon => ("NEON", 4),
+        InstructionSet::Simd128 => ("SIMD128", 4),
+        InstructionSet::Portable => ("no vector instructions that are used", 1),
+    }
+}
+
+/// Motions named per second on one thread and on all; `None` if it was stopped.
+fn rates(threads: usize) -> anyhow::Result<Option<[f64; 2]>> {
+    let plan = Plan::new(&presets::find(ModelInfo::find("tensor")?, "fig4")?)?;
+    let watch = Progress::new(2.0 * STARTS as f64, "motions");
+    let mut rates = [0.0; 2];
+    for (rate, threads) in rates.iter_mut().zip([1, threads]) {
+        let samples = Samples { count: STARTS, random: Random::basins(plan.info()?), given: false, threads };
+        let began = Instant::now();
+        if samples::classify(&plan, samples, 0.0, &watch)?.is_none() {
+            return Ok(None);
+        }
+        *rate = STARTS as f64 / began.elapsed().as_secs_f64();
+    }
+    watch.finish();
+    Ok(Some(rates))
+}
+
+impl Helper {
+    /// The first of its programs that starts and does what is asked.
+    fn start(&self) -> Option<&'static str> {
+        let works = |program: &&&str| {
+            let mut command = Command::new(program);
+            command.args(self.arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+            command.status().is_ok_and(|status| status.success())
+        };
+        self.programs.iter().find(works).copied()
+    }
+}

@@ -1,0 +1,31 @@
+//! `new` and `doctor`.
+
+use crate::common::Folder;
+use std::fs;
+
+/// What `new` writes is a study that runs; a file that is there stays as it is.
+#[test]
+fn new_files_run_and_replace_nothing() {
+    let folder = Folder::new();
+    for (name, options) in [("study.toml", ""), ("equations.toml", "--equations")] {
+        folder.run(&format!("new {name} {options}")).expect(0);
+        let text = fs::read_to_string(folder.path(name)).expect("a file");
+        folder.run(&format!("check {name}")).expect(0);
+        let verdict = folder.run(&format!("classify {name} --json")).json();
+        assert_eq!(verdict["regime"], "zigzag", "{name}");
+        let again = folder.run(&format!("new {name}")).expect(2);
+        assert!(again.stderr.contains("it exists and stays"), "{}", again.stderr);
+        assert_eq!(fs::read_to_string(folder.path(name)).expect("a file"), text);
+    }
+    let done = folder.run("new study").expect(2);
+    assert!(done.stderr.contains("ends in .toml"), "{}", done.stderr);
+}
+
+#[test]
+fn doctor_says_what_is_there() {
+    let found = Folder::new().run("doctor --json").json();
+    assert!(found["lanes"].as_u64().is_some_and(|lanes| [1, 4, 8].contains(&lanes)), "{found}");
+    assert!(found["motions_per_second"]["one_thread"].as_f64().is_some_and(|rate| rate > 0.0), "{found}");
+    let text = Folder::new().run("doctor").expect(0).stdout;
+    assert!(text.contains("motions named a second") && text.contains("ffmpeg"), "{text}");
+}
