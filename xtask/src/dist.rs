@@ -1,13 +1,14 @@
-//! Files for users without Rust: a wheel for any Linux with CPython 3.10 or later, and a stripped program, with checksums.
+//! Files for users without Rust: a wheel for any Linux with CPython 3.10 or later, a stripped program, and the page without a server, with
+//! checksums.
 
 use crate::python::environment;
-use crate::{cargo_command, root, step};
+use crate::{cargo_command, root, step, web};
 use anyhow::{Context, Result, bail};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Builds both into `target/dist`, and installs the wheel into an environment without cargo on its path, where the README's Python block
+/// Builds all of it into `target/dist`, and installs the wheel into an environment without cargo on its path, where the README's Python block
 /// must run.
 pub(crate) fn run() -> Result<()> {
     let root = root()?.canonicalize()?;
@@ -32,6 +33,7 @@ pub(crate) fn run() -> Result<()> {
     fs::copy(target(&root).join("release/motiform"), &program)
         .context("the program is not where cargo builds")?;
     step("strip", Command::new("strip").arg(&program))?;
+    page(&root, &folder)?;
     step(
         "checksums",
         Command::new("sh").current_dir(&folder).args([
@@ -40,6 +42,16 @@ pub(crate) fn run() -> Result<()> {
         ]),
     )?;
     installs(&root, &folder)
+}
+
+/// The page without a server: as one file, and as the folder for a static host.
+fn page(root: &Path, folder: &Path) -> Result<()> {
+    web::run()?;
+    let file = root.join(web::ONE_FILE);
+    fs::copy(&file, folder.join("motiform.html")).with_context(|| file.display().to_string())?;
+    let mut pack = Command::new("tar");
+    pack.arg("-czf").arg(folder.join("motiform-site.tar.gz")).arg("-C").arg(root.join(web::SITE)).arg(".");
+    step("site", &mut pack)
 }
 
 /// Where cargo builds.

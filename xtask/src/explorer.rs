@@ -13,6 +13,9 @@ const CHROMIUM: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
 const FIREFOX: [&str; 2] = ["firefox-esr", "firefox"];
 
+/// The tests of the page without a server, and of its module.
+const OF_MODULE: [&str; 2] = ["alone.test.mjs", "module.test.mjs"];
+
 /// What is tested in Firefox, too: the page without a server, and swarms. `cargo xtask firefox` runs all files there.
 const IN_FIREFOX: [&str; 2] = ["alone.test.mjs", "swarm.test.mjs"];
 
@@ -30,8 +33,8 @@ pub(crate) fn test_built() -> Result<()> {
     let [chromium, firefox] = [chromium()?, firefox()?];
     npm("page dependencies", &node, &folder, &["ci", "--no-audit", "--no-fund"])?;
     compare(&node, &root, &folder)?;
-    web::compare(&node, &root, &folder)?;
-    let mut files = files(&folder.join("tests"))?;
+    let alone = web::for_tests(&node, &root, &folder)?;
+    let mut files = files(&folder.join("tests"), alone)?;
     Browser::new(&node, chromium, binary(&root)).test(&files)?;
     files.retain(|file| IN_FIREFOX.iter().any(|name| file.ends_with(name)));
     Browser::new(&node, firefox, binary(&root)).test(&files)
@@ -44,7 +47,9 @@ pub(crate) fn test_in_firefox() -> Result<()> {
     let (node, firefox) = (node(&root)?, firefox()?);
     npm("page dependencies", &node, &folder, &["ci", "--no-audit", "--no-fund"])?;
     cargo("program", &["build", "--release", "--workspace"])?;
-    Browser::new(&node, firefox, binary(&root)).test(&files(&folder.join("tests"))?)
+    let alone = web::for_tests(&node, &root, &folder)?;
+    let files = files(&folder.join("tests"), alone)?;
+    Browser::new(&node, firefox, binary(&root)).test(&files)
 }
 
 fn chromium() -> Result<Environment> {
@@ -73,7 +78,7 @@ fn compare(node: &Path, root: &Path, web: &Path) -> Result<()> {
 }
 
 /// Names and bytes of the files of a folder, sorted.
-pub(crate) fn contents(folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>> {
+fn contents(folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     let mut all = Vec::new();
     for path in list(folder)? {
         let bytes = std::fs::read(&path).with_context(|| path.display().to_string())?;
@@ -83,10 +88,11 @@ pub(crate) fn contents(folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     Ok(all)
 }
 
-/// The test files, sorted: Node 20 does not support patterns.
-fn files(folder: &Path) -> Result<Vec<PathBuf>> {
+/// The test files, sorted: Node 20 does not support patterns. Those of the page without a server only where it is there.
+fn files(folder: &Path, alone: bool) -> Result<Vec<PathBuf>> {
     let mut all = list(folder)?;
     all.retain(|path| path.to_string_lossy().ends_with(".test.mjs"));
+    all.retain(|path| alone || !OF_MODULE.iter().any(|name| path.ends_with(name)));
     all.sort();
     Ok(all)
 }

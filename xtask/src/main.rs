@@ -25,9 +25,10 @@ usage: cargo xtask COMMAND
            Firefox
   firefox  all tests of the page in Firefox
   web      the page without a server: the WebAssembly module (needs `rustup target add wasm32-unknown-unknown`), the folder
-           docs/site for any static host, and the page as one file, target/motiform.html
+           docs/site for any static host, and the page as one file, target/motiform.html; none of them is committed
   python   the Python package: builds it into target/python and runs its tests there
-  dist     a wheel and a stripped program with checksums in target/dist; the wheel is installed and tried where no cargo is
+  dist     a wheel, a stripped program and the page without a server, with checksums, in target/dist; the wheel is installed and tried
+           where no cargo is
   faults   [N]: every N-th call that changes the file system fails, or is the last one, in every command that writes (1: every call)
   kills    [N]: every command that writes is killed N times at random moments (1000)
   fuzz     [N]: N damaged inputs of each kind (100000)

@@ -1,22 +1,20 @@
-//! Connections: each is answered once and soon, and only so many wait for an answer.
+//! Connections: each has a thread, is answered once and soon, and only so many wait for an answer.
 
-use axum::Router;
-use axum::body::Body;
-use axum::http::{HeaderValue, StatusCode, header};
-use hyper::body::Incoming;
-use hyper_util::rt::{TokioIo, TokioTimer};
+use crate::server::{Shared, Stop};
+use crate::timed::Timed;
+use crate::{http, routes};
 use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::io::Write as _;
+use std::net::{Shutdown, TcpListener, TcpStream};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
 use std::time::Duration;
-use tokio::net::{TcpListener, TcpStream};
-use tokio::task::AbortHandle;
-use tower_service::Service as _;
 
 /// Maximum number of connections that have not sent their request yet: a further one ends the oldest of them.
 const UNANSWERED: usize = 64;
 
-/// A connection that is no page ends after this time, whether its answer was read or not.
-const ANSWERED_WITHIN: Duration = Duration::from_secs(60);
+/// An answer that is not read within this time is given up.
+const READ_WITHIN: Duration = Duration::from_secs(60);
 
 /// How long others may be silent.
 #[derive(Clone, Copy, Debug)]
@@ -36,83 +34,101 @@ impl Default for Patience {
     }
 }
 
-/// The data of a mutex, even after a panic of another thread: they are consistent at every point.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// Connections without a request so far, the oldest first.
 #[derive(Default)]
-struct Unanswered(Mutex<(u64, VecDeque<(u64, AbortHandle)>)>);
+struct Unanswered(Mutex<VecDeque<Arc<TcpStream>>>);
 
 impl Unanswered {
     /// Enters a connection; where there are too many the oldest one ends.
-    fn enter(&self, spawn: impl FnOnce(u64) -> AbortHandle) {
-        let mut inner = lock(&self.0);
-        inner.0 += 1;
-        let number = inner.0;
-        if inner.1.len() >= UNANSWERED
-            && let Some((_, oldest)) = inner.1.pop_front()
-        {
-            oldest.abort();
-        }
-        inner.1.push_back((number, spawn(number)));
-    }
-
-    fn leave(&self, number: u64) {
-        lock(&self.0).1.retain(|(other, _)| *other != number);
-    }
-}
-
-/// Leaves the list however a connection ends.
-struct Entry {
-    list: Arc<Unanswered>,
-    number: u64,
-}
-
-impl Drop for Entry {
-    fn drop(&mut self) {
-        self.list.leave(self.number);
-    }
-}
-
-/// Accepts connections for as long as it is polled.
-pub(crate) async fn accept(listener: TcpListener, router: Router, patience: Patience) {
-    let unanswered = Arc::new(Unanswered::default());
-    loop {
-        let Ok((stream, _)) = listener.accept().await else {
-            // No file descriptor, for example: others end meanwhile.
-            tokio::time::sleep(Duration::from_millis(50)).await;
-            continue;
-        };
-        // Frames are small and wanted now: without this each waits up to 40 ms for the answer to the one before. Where it is
-        // refused they come late, and that is all.
-        let _ = stream.set_nodelay(true);
-        let (router, list) = (router.clone(), Arc::clone(&unanswered));
-        unanswered.enter(|number| {
-            tokio::spawn(answer(stream, router, patience, Entry { list, number })).abort_handle()
+    fn enter(&self, stream: &Arc<TcpStream>) {
+        self.with(|waiting| {
+            if waiting.len() >= UNANSWERED {
+                waiting.pop_front().as_deref().map(shut);
+            }
+            waiting.push_back(Arc::clone(stream));
         });
     }
+
+    fn leave(&self, stream: &Arc<TcpStream>) {
+        self.with(|waiting| waiting.retain(|other| !Arc::ptr_eq(other, stream)));
+    }
+
+    fn end_all(&self) {
+        self.with(|waiting| waiting.drain(..).for_each(|stream| shut(&stream)));
+    }
+
+    /// The list, even after a panic of another thread: it is consistent at every point.
+    fn with(&self, act: impl FnOnce(&mut VecDeque<Arc<TcpStream>>)) {
+        act(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner));
+    }
+}
+
+/// Ends a connection: whoever reads from it or writes to it hears of it at once.
+pub(crate) fn shut(stream: &TcpStream) {
+    let _ = stream.shutdown(Shutdown::Both); // it may have ended already
+}
+
+/// Accepts connections until the server is stopped; those that are still without a request end with it.
+pub(crate) fn accept(listener: &TcpListener, stop: &Stop, shared: &Arc<Shared>) {
+    let unanswered = Arc::new(Unanswered::default());
+    while !stop.is_set() {
+        if begin(listener, stop, shared, &unanswered).is_err() {
+            // No file descriptor or no thread, for example: others end meanwhile.
+            thread::sleep(Duration::from_millis(50));
+        }
+    }
+    unanswered.end_all();
+}
+
+/// Accepts a connection, and gives it a thread.
+fn begin(
+    listener: &TcpListener,
+    stop: &Stop,
+    shared: &Arc<Shared>,
+    unanswered: &Arc<Unanswered>,
+) -> std::io::Result<()> {
+    let (stream, _) = listener.accept()?;
+    if stop.is_set() {
+        return Ok(()); // this connection only wakes the server
+    }
+    // Frames are small and wanted now: without this each waits up to 40 ms for the answer to the one before. Where it is
+    // refused they come late, and that is all.
+    let _ = stream.set_nodelay(true);
+    let stream = Arc::new(stream);
+    unanswered.enter(&stream);
+    let (shared, list, its) = (Arc::clone(shared), Arc::clone(unanswered), Arc::clone(&stream));
+    let run = move || answer(&its, &shared, &list);
+    let begun = thread::Builder::new().name("connection".to_owned()).spawn(run);
+    if begun.is_err() {
+        unanswered.leave(&stream);
+    }
+    begun.map(drop)
 }
 
 /// Answers one request; a page takes the connection over.
-async fn answer(stream: TcpStream, router: Router, patience: Patience, entry: Entry) {
-    let entry = Mutex::new(Some(entry));
-    let service = hyper::service::service_fn(move |request: hyper::Request<Incoming>| {
-        // The request has come: the connection waits no longer.
-        drop(lock(&entry).take());
-        let answer = router.clone().call(request.map(Body::new));
-        async move {
-            let mut answer = answer.await?;
-            if answer.status() != StatusCode::SWITCHING_PROTOCOLS {
-                answer.headers_mut().insert(header::CONNECTION, HeaderValue::from_static("close"));
+fn answer(stream: &Arc<TcpStream>, shared: &Shared, unanswered: &Unanswered) {
+    let mut timed = Timed::new(stream, shared.patience.head);
+    let heard = http::head(&mut timed);
+    // The request has come, or never will: the connection waits no longer.
+    unanswered.leave(stream);
+    timed.within(READ_WITHIN);
+    let answer = match heard {
+        Ok((request, rest)) if routes::is_live(&request) => match routes::opening(&request, shared) {
+            Ok(opening) => {
+                if timed.write_all(&http::bytes(&opening)).is_ok() {
+                    routes::live(stream, rest, shared);
+                }
+                return shut(stream);
             }
-            Ok::<_, std::convert::Infallible>(answer)
-        }
-    });
-    let mut http = hyper::server::conn::http1::Builder::new();
-    http.timer(TokioTimer::new()).header_read_timeout(patience.head);
-    let connection = http.serve_connection(TokioIo::new(stream), service).with_upgrades();
+            Err(status) => http::empty(status),
+        },
+        Ok((request, _)) => routes::file(&request, shared),
+        Err(Some(status)) => http::empty(status),
+        Err(None) => return shut(stream),
+    };
     // What goes wrong with a connection ends it, and concerns nobody else.
-    let _ = tokio::time::timeout(ANSWERED_WITHIN, connection).await;
+    if timed.write_all(&http::bytes(&answer)).is_ok() {
+        http::linger(&mut timed);
+    }
+    shut(stream);
 }

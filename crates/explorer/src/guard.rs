@@ -1,8 +1,8 @@
 //! Access control: requests need the token, and must come from a page of this server under its own host name.
 
 use crate::Error;
-use axum::http::{HeaderMap, HeaderName, header};
 use std::fmt::Write;
+use tungstenite::http::{HeaderMap, HeaderName, header};
 
 /// The secret part of the address.
 #[derive(Clone, PartialEq, Eq)]

@@ -9,9 +9,14 @@ mod connection;
 mod error;
 mod guard;
 mod handover;
+mod http;
+mod outbox;
 mod page;
+mod pages;
 mod rate;
+mod routes;
 mod server;
+mod timed;
 
 pub use accept::Patience;
 pub use error::Error;

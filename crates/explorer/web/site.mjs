@@ -2,7 +2,6 @@
  * The page without a server, from what `npm run site` and cargo built; `cargo xtask web` calls it.
  *
  *     node site.mjs pack MODULE FOLDER     puts the module into the folder, compressed
- *     node site.mjs same MODULE FOLDER     fails where the folder has another module
  *     node site.mjs file FOLDER FILE       writes the whole folder as one page
  */
 
@@ -37,9 +36,6 @@ export function oneFile(folder) {
 
 const TASKS = {
   pack: (module, folder) => writeFileSync(join(folder, MODULE), gzipSync(readFileSync(module), { level: 9 })),
-  same: (module, folder) => {
-    if (!readFileSync(module).equals(moduleOf(folder))) throw new Error(`${MODULE} is not what the sources give: run \`cargo xtask web\` and commit`);
-  },
   file: (folder, file) => writeFileSync(file, oneFile(folder)),
 };
 

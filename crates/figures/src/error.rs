@@ -124,13 +124,11 @@ pub enum FigureError {
         /// Largest allowed value.
         max: f64,
     },
-    /// The text passed to the rasteriser is not an SVG document.
-    #[cfg(feature = "raster")]
-    #[error("cannot read the svg: {source}; give the text that a figure's `svg` returned")]
+    /// The text passed to the rasteriser is not a figure of this crate.
+    #[error("cannot read the svg: {why}; give the text that a figure's `svg` returned")]
     Svg {
-        /// What the parser found.
-        #[from]
-        source: resvg::usvg::Error,
+        /// What was found.
+        why: String,
     },
     /// The program was built without the rasteriser.
     #[error("this program was built without PNG; use the svg, which contains the same drawing")]

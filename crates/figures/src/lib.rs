@@ -27,6 +27,7 @@ mod glyph;
 mod heat_map;
 mod html;
 mod legend;
+mod letters;
 mod line_style;
 mod log_ticks;
 mod marks;

@@ -167,7 +167,8 @@ Examples:
 The page shows a map of motions over two parameters (click on it), the moving body, its speed, spectrum, return map \
 and Lyapunov exponents, and a slider for every parameter. The server is for this machine only: it listens on \
 127.0.0.1, its address contains a secret, and a page can neither read nor write files. \
-Over ssh: ssh -L 7373:127.0.0.1:7373 HOST. The same page without a server: the folder docs/site of the sources.";
+Over ssh: ssh -L 7373:127.0.0.1:7373 HOST. The same page without a server, for any static host and as one \
+file: motiform.html of a release, or `cargo xtask web` in the sources.";
 
 pub(super) const FIGURE_HELP: &str = "\
 Examples:

@@ -22,7 +22,7 @@ pub(crate) fn run(options: &ExploreOptions) -> anyhow::Result<End> {
     if !options.no_open && handover.is_none() {
         warn("no browser could be opened: open the address above");
     }
-    server.run()?;
+    server.run();
     drop(handover); // the file stays while its browser may still read it
     Ok(End::Done)
 }

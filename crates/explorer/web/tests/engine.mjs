@@ -1,10 +1,10 @@
-/** The committed module, run in Node as a worker of the page runs it: `src/alone/engine.ts` does the same. */
+/** The module that `cargo xtask web` built, run in Node as a worker of the page runs it: `src/alone/engine.ts` does the same. */
 
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { moduleOf } from "../site.mjs";
 
-/** The committed page without a server. */
+/** The page without a server. */
 export const SITE = join(dirname(fileURLToPath(import.meta.url)), "../../../../docs/site");
 
 const code = new WebAssembly.Module(moduleOf(SITE));

@@ -1,10 +1,9 @@
 //! Strokes, fills and letters on a pixmap.
 
 use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
-use ttf_parser::OutlineBuilder;
 
-use crate::fonts;
 use crate::geometry::Point;
+use crate::letters::Letters;
 use crate::palette::{Colour, INK};
 use crate::text::Label;
 
@@ -45,19 +44,13 @@ pub(super) fn write_turned(pixmap: &mut Pixmap, label: &Label, place: Transform,
 
 /// The outlines of a label, its baseline starting at the origin.
 fn letters(label: &Label, size: f64) -> Option<Path> {
-    let mut pen = Letters { builder: PathBuilder::new(), at: [0.0; 2], scale: 1.0 };
+    let (mut letters, mut drop) = (Letters::default(), 0.0);
     for run in label.runs() {
-        let Some(font) = run.face.font() else { continue };
-        pen.scale = (size * run.script.scale() / f64::from(font.units_per_em())) as f32;
-        pen.at[1] = (size * run.script.drop()) as f32;
-        for character in run.text.chars() {
-            if let Some(glyph) = font.glyph_index(character) {
-                font.outline_glyph(glyph, &mut pen); // one without an outline, such as the space, leaves a blank of its width
-            }
-            pen.at[0] += (size * run.script.scale() * fonts::advance(run.face, character)) as f32;
-        }
+        letters.lower(size * (run.script.drop() - drop));
+        drop = run.script.drop();
+        letters.set(run.face, &run.text, size * run.script.scale());
     }
-    pen.builder.finish()
+    letters.finish()
 }
 
 fn fill_path(pixmap: &mut Pixmap, path: &Path, colour: Colour, opacity: f32) {
@@ -83,44 +76,4 @@ fn path_of(points: &[Point], closed: bool) -> Option<Path> {
         builder.close();
     }
     builder.finish()
-}
-
-/// Collects glyph outlines (y up) as one path (y down).
-struct Letters {
-    builder: PathBuilder,
-    at: [f32; 2],
-    /// Pixels for a unit of the font.
-    scale: f32,
-}
-
-impl Letters {
-    fn place(&self, x: f32, y: f32) -> (f32, f32) {
-        (self.at[0] + self.scale * x, self.at[1] - self.scale * y)
-    }
-}
-
-impl OutlineBuilder for Letters {
-    fn move_to(&mut self, x: f32, y: f32) {
-        let (x, y) = self.place(x, y);
-        self.builder.move_to(x, y);
-    }
-
-    fn line_to(&mut self, x: f32, y: f32) {
-        let (x, y) = self.place(x, y);
-        self.builder.line_to(x, y);
-    }
-
-    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        let ((cx, cy), (x, y)) = (self.place(cx, cy), self.place(x, y));
-        self.builder.quad_to(cx, cy, x, y);
-    }
-
-    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
-        let ((ax, ay), (bx, by), (x, y)) = (self.place(ax, ay), self.place(bx, by), self.place(x, y));
-        self.builder.cubic_to(ax, ay, bx, by, x, y);
-    }
-
-    fn close(&mut self) {
-        self.builder.close();
-    }
 }

@@ -29,7 +29,7 @@ impl Running {
     pub(crate) fn start(options: &Options) -> Self {
         let server = Server::bind(options).unwrap();
         let (address, handle) = (server.address(), server.handle());
-        let thread = std::thread::spawn(move || server.run().unwrap());
+        let thread = std::thread::spawn(move || server.run());
         Self { address, handle, thread: Some(thread) }
     }
 

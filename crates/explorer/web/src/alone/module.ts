@@ -32,6 +32,6 @@ async function compressed(): Promise<ReadableStream<BufferSource>> {
     const sandboxed = "in a sandboxed frame its host must allow it (Access-Control-Allow-Origin: *), or the page must be the one file motiform.html";
     throw window.origin === "null" ? new Error(`${BESIDE} cannot be read: ${sandboxed}`) : error;
   });
-  if (!answer.ok || !answer.body) throw new Error(`${BESIDE}: ${answer.status}`);
+  if (!answer.ok || !answer.body) throw new Error(`${BESIDE}: ${answer.status}; put the whole folder that "cargo xtask web" writes on the host`);
   return answer.body as ReadableStream<BufferSource>;
 }
