@@ -96,7 +96,7 @@ def equilibrium(verdict, run):
     regime, moving, rate = verdict["regime"], moves(run), turning_rate(run)
     turning = moving and abs(rate) * run["t"] > 1e-2
     seen = "circular" if turning else "straight" if moving else "motionless"
-    if regime == "circular" and not moving and verdict["speed"]["max"] == 0:
+    if regime == "spinning" and not moving:
         return "undecided", "turns on the spot"
     if seen != regime:
         return "contradicted", f"{seen} (speed {high(run, 'speed'):.3g}, turning rate {rate:.3g})"

@@ -77,7 +77,8 @@ impl SteadyMotion {
         match (self.moves(), self.turns()) {
             (false, false) => Regime::Motionless,
             (true, false) => Regime::Straight,
-            (_, true) => Regime::Circular,
+            (true, true) => Regime::Circular,
+            (false, true) => Regime::Spinning,
         }
     }
 

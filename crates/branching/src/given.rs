@@ -58,7 +58,7 @@ fn with_steady(error: Error, asked: Option<Regime>) -> Error {
     match error {
         Error::Start { found, why, problem } if asked.is_none() => {
             let problem = format!(
-                "{problem}; or ask for the steady motion close to the state: motionless, straight or circular"
+                "{problem}; or ask for the steady motion close to the state: motionless, straight, circular or spinning"
             );
             Error::Start { found, why, problem }
         }

@@ -4,7 +4,9 @@
 
 use super::geometry::Point;
 use super::glyph::Glyph;
-use super::palette::{BLACK, BLUE, Colour, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, WHITE, YELLOW};
+use super::palette::{
+    BLACK, BLUE, Colour, DEEP_PURPLE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, WHITE, YELLOW,
+};
 use super::svg::Svg;
 
 /// The appearance of a regime.
@@ -21,11 +23,12 @@ pub struct RegimeMark {
 }
 
 /// All regimes, in the order of legends and stacked bars; the last one represents all other names.
-pub const REGIMES: [RegimeMark; 10] = [
+pub const REGIMES: [RegimeMark; 11] = [
     RegimeMark { area: Colour(205, 205, 205), ..mark("motionless", Glyph::Ring, Colour(90, 90, 90)) },
     mark("straight", Glyph::Triangle, BLUE),
     mark("pulsating-straight", Glyph::DownTriangle, YELLOW),
     mark("circular", Glyph::Disc, ORANGE),
+    mark("spinning", Glyph::Plus, DEEP_PURPLE),
     mark("rectangular", Glyph::Square, SKY),
     mark("quasi-periodic", Glyph::Diamond, PURPLE),
     mark("zigzag", Glyph::Zigzag, GREEN),

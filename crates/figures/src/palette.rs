@@ -49,6 +49,9 @@ pub const SKY: Colour = Colour(86, 180, 233);
 /// Okabe-Ito yellow: for areas, too pale for lines.
 pub const YELLOW: Colour = Colour(240, 228, 66);
 
+/// Between black and purple, for areas: at least 95 from each colour above and from white in sRGB, for every kind of colour blindness.
+pub const DEEP_PURPLE: Colour = Colour(80, 20, 100);
+
 /// The order in which curves take their colours.
 pub const CATEGORIES: [Colour; 6] = [BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY];
 

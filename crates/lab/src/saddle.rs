@@ -7,12 +7,8 @@ use motiform_analysis::{
 };
 use motiform_dynamics::Outcome;
 use motiform_dynamics::{StopOnly, Watch};
-use motiform_study::initial::random_shape;
-use motiform_study::{Error, Plan};
+use motiform_study::{Error, Plan, Random};
 use serde::Serialize;
-
-/// Size of the random starts.
-const RANDOM: f64 = 0.01;
 
 /// The fraction of a first look that is excluded before an escape: there the orbit is escaping and no longer chaotic.
 const WAY_OUT: f64 = 0.25;
@@ -69,7 +65,7 @@ pub fn saddle(
         max_steps: c.max_steps,
     };
     let one = |sample: usize| {
-        let start = random_shape(model.as_ref(), RANDOM, c.seed, sample as u64 + 1);
+        let start = Random::SMALL.shape(info, model.as_ref(), c.seed, sample as u64 + 1);
         let found = lyapunov(model.as_ref(), &start, &settings, &StopOnly(watch))?;
         Ok((!matches!(found.outcome, Outcome::Interrupted { .. })).then_some(found))
     };

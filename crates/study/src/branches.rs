@@ -12,10 +12,11 @@ use serde::{Deserialize, Serialize};
 pub const BRANCH_FORMAT: u32 = 2;
 
 /// The regimes that are steady or repeat: motions that can be followed.
-pub const FOLLOWED: [Regime; 6] = [
+pub const FOLLOWED: [Regime; 7] = [
     Regime::Motionless,
     Regime::Straight,
     Regime::Circular,
+    Regime::Spinning,
     Regime::Zigzag,
     Regime::QuasiPeriodic,
     Regime::PulsatingStraight,

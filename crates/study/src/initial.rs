@@ -39,7 +39,8 @@ pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
     Ok(Named(entries))
 }
 
-/// A random shape in the model's representation: each coordinate uniform in `-size..size`, from this seed and stream.
+/// A guess for Newton's method in the model's representation: each coordinate uniform in `-size..size`, from this seed and stream. (Starts of
+/// orbits are those of [`Random`].)
 pub fn random_shape(model: &dyn Model, size: f64, seed: u64, stream: u64) -> Vec<f64> {
     let mut random = Uniform::new(seed, stream);
     let coordinates: Vec<f64> = model.coordinates().iter().map(|_| size * random.draw()).collect();

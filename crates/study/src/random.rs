@@ -13,8 +13,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Random {
-    /// Each coordinate uniform in `-size..size`, independently. Small states start near the circle and follow its unstable
-    /// directions: all orbits may follow the same one.
+    /// Coordinate i uniform in `-size w_i..size w_i`, independently, with the model's weights `w_i` ([`ModelInfo::weight`]: 1 for the tensor
+    /// model and equations given as text, 1/n^2 for mode n of the cell, whose speed would otherwise be that of modes that die at once).
+    /// Small states start near the circle and follow its unstable directions: all orbits may follow the same one.
     Within(f64),
     /// Sizes that sample basins: the norm r of the coordinates is log-uniform, `ln r` uniform in `ln min..ln max`, and the direction is
     /// isotropic: coordinates `r w_i g_i / |w g|` with normal `g_i` and the model's weights `w_i` (the same for both coordinates of
@@ -99,7 +100,9 @@ impl Random {
     pub fn coordinates(&self, info: &ModelInfo, count: usize, seed: u64, stream: u64) -> Vec<f64> {
         let mut random = Uniform::new(seed, stream);
         match *self {
-            Self::Within(size) => (0..count).map(|_| size * random.draw()).collect(),
+            Self::Within(size) => {
+                (0..count).map(|place| size * (info.weight)(place) * random.draw()).collect()
+            }
             Self::Sizes { min, max } => {
                 let size = min * libm::exp(0.5 * (1.0 + random.draw()) * libm::log(max / min));
                 let direction: Vec<f64> =

@@ -20,8 +20,10 @@ pub enum Regime {
     Straight,
     /// A shape that repeats and is mirror symmetric at every moment: constant heading, changing speed.
     PulsatingStraight,
-    /// A fixed shape that turns at a constant rate.
+    /// A fixed shape that moves and turns at a constant rate: the body goes round a circle.
     Circular,
+    /// A fixed shape that turns at a constant rate and does not move: the body stays in its place.
+    Spinning,
     /// A heteroclinic cycle between motionless shapes: rests, and turns in between.
     Rectangular,
     /// A shape that repeats up to a rotation, with a net rotation per period (a 2-torus in the plane); or a torus of
@@ -39,11 +41,12 @@ pub enum Regime {
 
 impl Regime {
     /// All of them, in the order of legends.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Motionless,
         Self::Straight,
         Self::PulsatingStraight,
         Self::Circular,
+        Self::Spinning,
         Self::Rectangular,
         Self::QuasiPeriodic,
         Self::Zigzag,
@@ -60,6 +63,7 @@ impl Regime {
             Self::Straight => "straight",
             Self::PulsatingStraight => "pulsating-straight",
             Self::Circular => "circular",
+            Self::Spinning => "spinning",
             Self::Rectangular => "rectangular",
             Self::QuasiPeriodic => "quasi-periodic",
             Self::Zigzag => "zigzag",
@@ -78,7 +82,10 @@ impl Regime {
             Self::PulsatingStraight => {
                 "A shape that repeats and stays mirror symmetric: the heading is constant, the speed changes."
             }
-            Self::Circular => "A fixed shape that turns at a constant rate.",
+            Self::Circular => {
+                "A fixed shape that moves and turns at a constant rate: the body goes round a circle."
+            }
+            Self::Spinning => "A fixed shape that turns in its place at a constant rate.",
             Self::Rectangular => {
                 "Straight runs, rests, and turns in between: a cycle between motionless shapes."
             }

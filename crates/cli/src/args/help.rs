@@ -58,7 +58,8 @@ Examples:
   motiform classify tensor --preset fig4 --set kappa2=0.2 --set kappa3=0.1 --seed 7
 
 Regimes, by the dynamics of the shape with rotations divided out:
-  motionless, straight, circular   a fixed shape (at rest, moving, turning), stable by its eigenvalues
+  motionless, straight, circular   a fixed shape (at rest, moving, moving and turning), stable by its eigenvalues
+  spinning                         a fixed shape that turns in its place
   pulsating-straight               a periodic shape that is always mirror symmetric: constant heading, changing speed
   zigzag, quasi-periodic           a shape that returns after a period, without or with a net rotation
   rectangular                      rests near motionless shapes, along an attracting heteroclinic cycle

@@ -15,7 +15,8 @@ pub(crate) struct ContinueOptions {
     /// The parameter to vary, with its range; the start lies inside
     #[arg(long, value_name = "NAME=LOW:HIGH")]
     pub(crate) along: Option<String>,
-    /// The motion that the start must settle on: motionless, straight, circular, zigzag, quasi-periodic or pulsating-straight
+    /// The motion that the start must settle on: motionless, straight, circular, spinning, zigzag, quasi-periodic or
+    /// pulsating-straight
     /// (default: the motion that the simulation settles on)
     #[arg(long, value_name = "MOTION")]
     pub(crate) from: Option<String>,

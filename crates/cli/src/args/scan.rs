@@ -20,8 +20,8 @@ pub(crate) struct ScanOptions {
     /// Initial states per cell (default: 1); if more than one, they have all sizes of --random
     #[arg(long, value_name = "M", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) samples: Option<u64>,
-    /// Random initial states: SIZE is each coordinate within +-SIZE (default for one state: 0.01), MIN:MAX is all directions and
-    /// log-uniform sizes (default for several: 0.01 to 1 times the model's typical size)
+    /// Random initial states: SIZE is each coordinate within +-SIZE (mode n of the cell: SIZE/n^2; default for one state: 0.01),
+    /// MIN:MAX is all directions and log-uniform sizes (default for several: 0.01 to 1 times the model's typical size)
     #[arg(long, value_name = "SIZE|MIN:MAX", value_parser = random, allow_hyphen_values = true)]
     pub(crate) random: Option<Random>,
     /// Seed of the random initial states

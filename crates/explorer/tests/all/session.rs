@@ -132,6 +132,7 @@ fn the_map_says_what_classify_says() {
         "straight",
         "pulsating-straight",
         "circular",
+        "spinning",
         "rectangular",
         "quasi-periodic",
         "zigzag",

@@ -72,7 +72,7 @@ fn rightwards(dataset: &Dataset) -> Claim {
             libm::atan2(y, x).to_degrees()
         ),
         "the displacement over the recording, more to the right than sideways by a factor of 2; any direction is a \
-         solution, and the start, nearly mirror symmetric about the x axis, chooses one",
+         solution, and the start chooses one",
         x > 0.0 && y.abs() < 0.5 * x,
     )
 }

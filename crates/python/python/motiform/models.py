@@ -273,7 +273,7 @@ class Model:
         >>> found.plot("turning_rate")
 
         `along` is a parameter with its range, which holds the start. `from_` names the motion that the start must settle on
-        (motionless, straight, circular, zigzag, quasi-periodic, pulsating-straight). At most so many `branches` are followed,
+        (motionless, straight, circular, spinning, zigzag, quasi-periodic, pulsating-straight). At most so many `branches` are followed,
         each over at most so many `points` to a side.
 
         `start` is a point of an earlier result, stable or not, whose parameters replace those of this model: ``"FOLDER:BRANCH:POINT"`` of

@@ -83,7 +83,7 @@ class Verdict:
     """The regime of a motion, with the evidence. Numbers that are not defined for the motion are ``None``, or empty."""
 
     regime: str
-    """motionless, straight, pulsating-straight, circular, rectangular, quasi-periodic, zigzag, chaotic, blow-up or
+    """motionless, straight, pulsating-straight, circular, spinning, rectangular, quasi-periodic, zigzag, chaotic, blow-up or
     undetermined."""
     attractor: str
     """equilibrium, unstable (an equilibrium that only a start of exact symmetry does not leave), periodic, torus, heteroclinic, chaotic, escape or unknown."""
@@ -235,7 +235,7 @@ class Equilibrium:
     """A steady motion: a shape that is constant up to a steady rotation."""
 
     kind: str
-    """motionless, straight or circular."""
+    """motionless, straight, circular or spinning."""
     shape: dict[str, float]
     """Its coordinates; all its rotations are equilibria too."""
     speed: float

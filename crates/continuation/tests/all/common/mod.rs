@@ -61,6 +61,7 @@ pub(crate) fn letter(regime: Regime) -> char {
         Regime::Straight => 's',
         Regime::PulsatingStraight => 'p',
         Regime::Circular => 'c',
+        Regime::Spinning => 'o',
         Regime::Rectangular => 'R',
         Regime::QuasiPeriodic => 'q',
         Regime::Zigzag => 'z',
