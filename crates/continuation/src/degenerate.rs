@@ -136,7 +136,8 @@ impl Sign {
             }
             Self::Lyapunov => {
                 let frequency = seen.reading.angle.max(0.0).sqrt();
-                first_lyapunov(seen.body, seen.shape, frequency).unwrap_or(f64::NAN)
+                let found = first_lyapunov(seen.body, seen.shape, frequency).coefficient();
+                found.map_or(f64::NAN, |found| found.value)
             }
             Self::Angle(value) => seen.reading.angle - value,
             Self::Real => others()[0].1,

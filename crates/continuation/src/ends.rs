@@ -5,6 +5,7 @@ use super::classes::GAINED;
 use super::copies::same_motion;
 use super::homoclinic::Algebraic;
 use super::locate::Changes;
+use super::normal_form::Order;
 use super::place::Place;
 use super::point::End;
 use super::problem::Problem;
@@ -104,6 +105,10 @@ impl<P: Problem> Tracer<P> {
             before && self.problem.gains(&other.x, &other.local, 10.0 * GAINED).is_none()
         });
         let end = End::Meets { parameter: at.parameter(), gains };
+        // it is a point of the motion with more symmetry, and this motion has the time of those that begin there
+        if let Some(certificate) = &mut at.certificate {
+            certificate.normal_form = Some(self.problem.normal_form(&at.x, Order::Third, false));
+        }
         changes.found.push((at, gains.special()));
         Some(end)
     }

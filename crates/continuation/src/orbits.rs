@@ -3,6 +3,8 @@
 use super::classes::{Classes, GAINED};
 use super::family::{Bodies, Neighbours};
 use super::levels::Level;
+use super::normal_form::{NormalForm, Order};
+use super::normal_forms::of_orbit;
 use super::point::Motion;
 use super::problem::{Equations, Failure, Linear, Problem};
 use super::reduced_maps::reduced_maps;
@@ -66,7 +68,7 @@ impl Orbits<'_> {
         &x[i * self.dim..(i + 1) * self.dim]
     }
 
-    fn span(&self, x: &[f64]) -> f64 {
+    pub(super) fn span(&self, x: &[f64]) -> f64 {
         x[self.parts * self.dim] / self.parts as f64
     }
 
@@ -278,6 +280,10 @@ impl Problem for Orbits<'_> {
 
     fn coarsen(&mut self) {
         self.parts /= 2;
+    }
+
+    fn normal_form(&self, x: &[f64], order: Order, doubled: bool) -> NormalForm {
+        of_orbit(self, x, order, doubled)
     }
 
     fn body<'l>(&self, local: &'l Local) -> &'l dyn Equivariant {

@@ -1,6 +1,7 @@
 //! The equations of a branch, as its tracer sees them.
 
 use super::levels::Level;
+use super::normal_form::{NormalForm, Order};
 use super::point::{Motion, Obstruction};
 use super::special::{Broken, Special};
 use motiform_analysis::{Error, RelativeEquilibrium};
@@ -105,6 +106,9 @@ pub(super) trait Problem: Equations {
     fn saddle(&self, _x: &[f64], _local: &Self::Local) -> Option<RelativeEquilibrium> {
         None
     }
+
+    /// The leading coefficient of the normal form at a special point; `doubled` where that of orbits of twice the time is meant.
+    fn normal_form(&self, x: &[f64], order: Order, doubled: bool) -> NormalForm;
 
     /// Whether all shapes of the motions have a symmetry.
     fn is_symmetric(&self) -> bool {

@@ -83,7 +83,7 @@ const NUMBERS: [Number; 6] = [
         "first_lyapunov",
         "first Lyapunov coefficient of a Hopf bifurcation: below 0 supercritical",
         |s| match s.special {
-            Special::Hopf(hopf) => hopf.first_lyapunov.unwrap_or(f64::NAN),
+            Special::Hopf(hopf) => hopf.first_lyapunov.coefficient().map_or(f64::NAN, |found| found.value),
             _ => f64::NAN,
         },
     ),

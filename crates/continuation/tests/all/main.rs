@@ -5,6 +5,7 @@ mod common;
 mod curves;
 mod ends;
 mod equilibria;
+mod normal_forms;
 mod orbits;
 mod path;
 mod random_texts;
