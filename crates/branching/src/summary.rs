@@ -3,7 +3,7 @@
 use super::origin::Origin;
 use super::result::{Branches, Followed, Leg, Sample};
 use super::stretches::stretches;
-use motiform_continuation::{Broken, Certificate, Coefficient, End, NormalForm, Point, Special};
+use motiform_continuation::{Broken, Certificate, Coefficient, Connection, End, NormalForm, Point, Special};
 use motiform_study::BranchPlan;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -31,6 +31,8 @@ pub struct SpecialEntry {
     pub undecided: Option<String>,
     /// What a pitchfork breaks: the `mirror` symmetry, or `rotations`.
     pub breaks: Option<&'static str>,
+    /// What the orbit approaches, at the end `homoclinic`.
+    pub connection: Option<Connection>,
     /// The branch that begins or lies there, from 0.
     pub branch: Option<usize>,
     /// The other branches that do, where a shape loses its rotations in more than one way.
@@ -60,6 +62,7 @@ impl SpecialEntry {
             object.insert("residual".to_owned(), certificate.residual.into());
             object.insert("transversality".to_owned(), certificate.transversality.into());
         }
+        self.connection.iter().for_each(|connection| put_connection(&mut object, connection));
         object.extend(self.branch.map(|branch| ("branch".to_owned(), branch.into())));
         if !self.others.is_empty() {
             object.insert("others".to_owned(), json!(self.others));
@@ -153,6 +156,7 @@ impl Branches {
             },
             criticality,
             undecided,
+            connection: None,
             breaks: match special {
                 Special::Pitchfork { breaks: Broken::Mirror } => Some("mirror"),
                 Special::Pitchfork { breaks: Broken::Rotations } => Some("rotations"),
@@ -232,6 +236,30 @@ fn is_supercritical(leg: &Leg, point: usize, first: f64) -> Option<bool> {
     Some(same.point.unstable > other.point.unstable)
 }
 
+/// The evidence for a connection: its kind, the law of the time, and the saddle with its eigenvalues.
+fn put_connection(object: &mut Map<String, Value>, connection: &Connection) {
+    let mut put = |key: &str, value: Value| object.insert(key.to_owned(), value);
+    put("connection", connection.kind().name().into());
+    put("law", json!(connection.law));
+    put("remaining", connection.remaining.into());
+    if let Some(quantity) = connection.quantity() {
+        put("saddle_quantity", quantity.into());
+    }
+    if let Some([grows, decays]) = connection.sides() {
+        put("leading_growing", json!(grows));
+        put("leading_decaying", json!(decays));
+    }
+    if let Some(saddle) = &connection.saddle {
+        let found = json!({
+            "eigenvalues": saddle.eigenvalues,
+            "turning_rate": saddle.turning_rate,
+            "speed": saddle.speed(),
+            "shape": saddle.shape,
+        });
+        put("saddle", found);
+    }
+}
+
 /// The end of a leg, where it is a place of its own.
 fn end(leg: &Leg) -> Option<SpecialEntry> {
     let End::Homoclinic(connection) = &leg.end else { return None };
@@ -244,6 +272,7 @@ fn end(leg: &Leg) -> Option<SpecialEntry> {
         period: None,
         criticality: None,
         undecided: None,
+        connection: Some(connection.as_ref().clone()),
         breaks: None,
         branch: None,
         others: Vec::new(),

@@ -65,7 +65,7 @@ impl<'f> Equilibria<'f> {
 }
 
 /// The columns of `Df - omega G`.
-fn linearisation(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> {
+pub(super) fn linearisation(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> {
     let mut matrix = jacobian(body, shape);
     let dim = shape.len();
     let (mut unit, mut spin) = (vec![0.0; dim], vec![0.0; dim]);

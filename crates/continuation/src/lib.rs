@@ -45,6 +45,7 @@ mod locate;
 mod normal_form;
 mod normal_forms;
 mod orbits;
+mod oscillating;
 mod path;
 mod place;
 mod point;
@@ -58,6 +59,7 @@ mod steps;
 mod switch;
 mod tangents;
 mod tracer;
+mod vanishing;
 mod variation;
 mod whole_curve;
 

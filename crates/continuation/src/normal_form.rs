@@ -1,7 +1,7 @@
 //! The leading coefficients of normal forms, with their errors, where a real eigenvalue passes 0 or a multiplier +1.
 
 use super::special::Special;
-use motiform_analysis::linear::{add, apply, dot, norm, solve};
+use motiform_analysis::linear::{add, apply, dot, solve};
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
@@ -118,7 +118,7 @@ pub(super) struct System<'s> {
     /// The size of a deviation.
     pub(super) size: &'s dyn Fn(&[f64]) -> Option<Size>,
     /// `<p, q>`, from a left and a right null vector, multiplied by the time over which `F` is a return map.
-    pub(super) pairing: &'s dyn Fn(&[f64], &[f64]) -> f64,
+    pub(super) pairing: &'s dyn Fn(&[f64], &[f64]) -> Size,
     /// Whether all critical directions are images of each other under the symmetry.
     pub(super) alike: bool,
     /// The unit of the unknowns' differences.
@@ -136,8 +136,11 @@ const CRITICAL: f64 = 1e-3;
 /// A row below this part of the next larger one is 0.
 const ZERO: f64 = 1e-9;
 
-/// Least cosine between a left and a right null vector.
+/// Least pairing of several left and right null vectors, as a part of the largest.
 const NILPOTENT: f64 = 1e-7;
+
+/// Largest error of a pairing, as a part of it.
+const UNCERTAIN: f64 = 0.1;
 
 /// Terms of second order that vanish are below this part of what the third order has to be compared with.
 const VANISHES: f64 = 1e-4;
@@ -160,8 +163,8 @@ struct Reduced<'s> {
     system: &'s System<'s>,
     v: Vec<f64>,
     psi: Vec<f64>,
-    /// Error of `v`'s size, as a part of it.
-    uncertain: f64,
+    /// Errors of `v`'s size and of `<psi, v>`, as parts of them.
+    uncertain: [f64; 2],
     /// The parts of `DF` that are not 0.
     seen: Vec<Part>,
     /// `DF` here and after steps of `+-2^j`.
@@ -179,7 +182,7 @@ fn reduced<'s>(system: &'s System<'s>) -> Result<Reduced<'s>, Undetermined> {
     let mut v = unseen[0].right.clone();
     let (size, error) = (system.size)(&v).ok_or(Undetermined::Obstructed)?;
     v.iter_mut().for_each(|v| *v /= size);
-    let psi = dual(system, &unseen, &v)?;
+    let (psi, uncertain) = dual(system, &unseen, &v)?;
     let step = STEP * system.unit;
     let mut sides = Vec::new();
     for j in 0..=system.doublings {
@@ -196,27 +199,26 @@ fn reduced<'s>(system: &'s System<'s>) -> Result<Reduced<'s>, Undetermined> {
             _ => return Err(Undetermined::Obstructed),
         }
     }
-    Ok(Reduced { system, v, psi, uncertain: error / size, seen, here, sides, step })
+    Ok(Reduced { system, v, psi, uncertain: [error / size, uncertain], seen, here, sides, step })
 }
 
-/// The left null vector that sees `v` as 1 and no other critical direction.
-fn dual(system: &System<'_>, unseen: &[Part], v: &[f64]) -> Result<Vec<f64>, Undetermined> {
-    let columns: Vec<Vec<f64>> = unseen
-        .iter()
-        .map(|left| unseen.iter().map(|right| (system.pairing)(&left.left, &right.right)).collect())
-        .collect();
+/// The left null vector that sees `v` as 1 and no other critical direction, and the error of that 1.
+fn dual(system: &System<'_>, unseen: &[Part], v: &[f64]) -> Result<(Vec<f64>, f64), Undetermined> {
+    let pair = |left: &Part, right: &Part| (system.pairing)(&left.left, &right.right).0;
+    let columns: Vec<Vec<f64>> =
+        unseen.iter().map(|left| unseen.iter().map(|right| pair(left, right)).collect()).collect();
     let mut first = vec![0.0; unseen.len()];
     first[0] = 1.0;
     let parts = solve(&columns, &first, NILPOTENT).ok_or(Undetermined::Nilpotent)?;
     let mut psi = vec![0.0; v.len()];
     unseen.iter().zip(&parts).for_each(|(part, factor)| add(&mut psi, *factor, &part.left));
-    let whole = (system.pairing)(&psi, v);
-    let cosine = columns[0][0].abs() / (norm(&unseen[0].left) * norm(&unseen[0].right));
-    if unseen.len() == 1 && cosine < NILPOTENT || !(whole.is_finite() && whole != 0.0) {
+    let (whole, error) = (system.pairing)(&psi, v);
+    let uncertain = (error / whole).abs();
+    if uncertain.is_nan() || uncertain > UNCERTAIN {
         return Err(Undetermined::Nilpotent);
     }
     psi.iter_mut().for_each(|p| *p /= whole);
-    Ok(psi)
+    Ok((psi, uncertain))
 }
 
 /// A part `size left right^T` of a matrix.
@@ -334,7 +336,8 @@ impl Reduced<'_> {
         if order == Order::Third && even * unit > VANISHES * (value.abs() + error) * unit * unit {
             return Err(Undetermined::Quadratic);
         }
-        Ok(Coefficient { value, error: error + power * self.uncertain * value.abs() })
+        let [size, pairing] = self.uncertain;
+        Ok(Coefficient { value, error: error + (power * size + pairing) * value.abs() })
     }
 }
 

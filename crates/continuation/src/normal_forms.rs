@@ -17,6 +17,9 @@ const ROUND_OFF: f64 = 1e-9;
 const DOUBLINGS: usize = 4;
 const AT_REST: (f64, usize) = (0.05, 12);
 
+/// Error of the pairing of null vectors, as a part of their lengths: what their location leaves.
+const PAIRED: f64 = 1e-9;
+
 /// Places along an orbit at which the size of a deviation is read.
 const PLACES: usize = 64;
 
@@ -33,7 +36,7 @@ pub(super) fn of_equilibrium(problem: &Equilibria<'_>, x: &[f64], order: Order) 
             rows: dim,
             x,
             size: &|v| Some((norm(&v[..dim]), 0.0)),
-            pairing: &|p, q| dot(&p[..dim], &q[..dim]),
+            pairing: &|p, q| (dot(&p[..dim], &q[..dim]), PAIRED * norm(&p[..dim]) * norm(&q[..dim])),
             alike,
             unit,
             doublings,
@@ -48,10 +51,13 @@ pub(super) fn of_orbit(problem: &Orbits<'_>, x: &[f64], order: Order, doubled: b
         let (dim, parts, rows) = (free.dim, free.parts, free.parts * free.dim);
         let unknowns = free.unknowns() - free.bodies.count();
         let time = x[rows];
-        // it is the same at every node
         let through = |p: &[f64], q: &[f64]| {
             let node = |i: usize| i * dim..(i + 1) * dim;
-            (0..parts).map(|i| dot(&p[node(i)], &q[node((i + 1) % parts)])).sum::<f64>() / parts as f64
+            let all: Vec<f64> = (0..parts).map(|i| dot(&p[node(i)], &q[node((i + 1) % parts)])).collect();
+            // it is the same at every node
+            let mean = all.iter().sum::<f64>() / parts as f64;
+            let off = all.iter().map(|value| (value - mean).abs()).fold(0.0, f64::max);
+            (time * mean, time * (off + f64::EPSILON * norm(p) * norm(q)))
         };
         leading(
             &System {
@@ -59,7 +65,7 @@ pub(super) fn of_orbit(problem: &Orbits<'_>, x: &[f64], order: Order, doubled: b
                 rows,
                 x: &x,
                 size: &|v| size_along(&free, &x, v),
-                pairing: &|p, q| time * through(p, q),
+                pairing: &through,
                 alike: false,
                 unit: free.size,
                 doublings: DOUBLINGS,

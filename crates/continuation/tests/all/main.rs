@@ -1,7 +1,9 @@
 //! All integration tests of this crate, in one program: what is generic is compiled once.
 
 mod classics;
+mod codimension_2;
 mod common;
+mod connections;
 mod curves;
 mod ends;
 mod equilibria;
