@@ -31,7 +31,7 @@ mod verify;
 
 pub use folder::{BranchFolder, default_folder};
 pub use follow::{Keep, follow, follow_kept};
-pub use motiform_continuation::{End as BranchEnd, stated};
+pub use motiform_continuation::{Coefficient, End as BranchEnd, stated};
 pub use origin::Origin;
 pub use path::path;
 pub use reading::Reading;

@@ -3,7 +3,7 @@
 use super::origin::Origin;
 use super::result::{Branches, Followed, Leg, Sample};
 use super::stretches::stretches;
-use motiform_continuation::{Broken, Certificate, End, Special};
+use motiform_continuation::{Broken, Certificate, Coefficient, Connection, End, NormalForm, Point, Special};
 use motiform_study::BranchPlan;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -19,15 +19,20 @@ pub struct SpecialEntry {
     pub error: Option<f64>,
     /// What shows that it is what it says, where it was solved for.
     pub certificate: Option<Certificate>,
-    /// The first Lyapunov coefficient of a Hopf bifurcation, for a critical vector of length 1.
-    pub first_lyapunov: Option<f64>,
+    /// The leading coefficient of the normal form with its name: `l1` of a Hopf bifurcation, for a critical vector of length 1; `quadratic` of a fold and
+    /// where branches cross; `cubic` where a symmetry is broken or the period doubled.
+    pub coefficient: Option<(&'static str, Coefficient)>,
     /// Period of the motion, or of the one that begins (model time).
     pub period: Option<f64>,
-    /// `supercritical` where what begins is stable in the critical directions, or `subcritical`. Nothing where branches of
-    /// two kinds begin, which may differ.
+    /// `supercritical` where what begins is stable in the critical directions, or `subcritical`: from the sign of the coefficient. `undecided` where that
+    /// is smaller than its error or not known.
     pub criticality: Option<&'static str>,
+    /// Why it is undecided.
+    pub undecided: Option<String>,
     /// What a pitchfork breaks: the `mirror` symmetry, or `rotations`.
     pub breaks: Option<&'static str>,
+    /// What the orbit approaches, at the end `homoclinic`.
+    pub connection: Option<Connection>,
     /// The branch that begins or lies there, from 0.
     pub branch: Option<usize>,
     /// The other branches that do, where a shape loses its rotations in more than one way.
@@ -43,12 +48,21 @@ impl SpecialEntry {
         let words = [("criticality", self.criticality), ("breaks", self.breaks)];
         object.extend(self.period.map(|period| ("period".to_owned(), period.into())));
         object.extend(words.into_iter().filter_map(|(key, word)| Some((key.to_owned(), word?.into()))));
-        object.extend(self.first_lyapunov.map(|value| ("first_lyapunov".to_owned(), value.into())));
+        object.extend(self.undecided.as_ref().map(|why| ("undecided".to_owned(), why.as_str().into())));
+        if let Some((name, coefficient)) = self.coefficient {
+            object.insert("normal_form".to_owned(), name.into());
+            if name == "l1" {
+                object.insert("first_lyapunov".to_owned(), coefficient.value.into());
+            }
+            object.insert("coefficient".to_owned(), coefficient.value.into());
+            object.insert("coefficient_error".to_owned(), coefficient.error.into());
+        }
         if let Some(certificate) = self.certificate {
             object.insert("test".to_owned(), json!(certificate.test));
             object.insert("residual".to_owned(), certificate.residual.into());
             object.insert("transversality".to_owned(), certificate.transversality.into());
         }
+        self.connection.iter().for_each(|connection| put_connection(&mut object, connection));
         object.extend(self.branch.map(|branch| ("branch".to_owned(), branch.into())));
         if !self.others.is_empty() {
             object.insert("others".to_owned(), json!(self.others));
@@ -128,26 +142,21 @@ impl Branches {
             if ends { Origin::Meets { branch, leg } } else { Origin::Special { branch, leg, point } };
         let there = self.links.iter().filter(|link| link.origin == origin).filter_map(|link| link.branch);
         let there: Vec<usize> = there.collect();
-        let criticality = match special {
-            Special::Hopf(hopf) => hopf.is_supercritical().map(critical),
-            Special::BranchPoint => None,
-            _ if ends => None,
-            _ => self.criticality((branch, leg, point), &there, origin),
-        };
+        let next = || self.criticality((branch, leg, point), &there, origin);
+        let (criticality, undecided) = judged(&sample.point, next);
         Some(SpecialEntry {
             kind: special.name(),
             parameter: sample.point.parameter,
             error: sample.point.certificate.map(|certificate| certificate.error),
             certificate: sample.point.certificate,
-            first_lyapunov: match special {
-                Special::Hopf(hopf) => hopf.first_lyapunov,
-                _ => None,
-            },
+            coefficient: coefficient(&sample.point),
             period: match special {
                 Special::Hopf(hopf) => Some(hopf.period()),
                 _ => sample.reading.period,
             },
             criticality,
+            undecided,
+            connection: None,
             breaks: match special {
                 Special::Pitchfork { breaks: Broken::Mirror } => Some("mirror"),
                 Special::Pitchfork { breaks: Broken::Rotations } => Some("rotations"),
@@ -172,6 +181,41 @@ impl Branches {
     }
 }
 
+/// What is known of the normal form at a special point, with the coefficient's name.
+fn normal_form(point: &Point) -> Option<(&'static str, NormalForm)> {
+    let leading = point.certificate.and_then(|certificate| certificate.normal_form);
+    match point.special? {
+        Special::Hopf(hopf) => Some(("l1", hopf.first_lyapunov)),
+        Special::Fold | Special::BranchPoint => leading.map(|form| ("quadratic", form)),
+        _ => leading.map(|form| ("cubic", form)),
+    }
+}
+
+fn coefficient(point: &Point) -> Option<(&'static str, Coefficient)> {
+    let (name, form) = normal_form(point)?;
+    Some((name, form.coefficient()?))
+}
+
+/// The criticality by the sign of the coefficient, or `undecided` and why. Where there is no coefficient the one branch that begins may say it, by the side
+/// to which it goes.
+fn judged(point: &Point, next: impl Fn() -> Option<&'static str>) -> (Option<&'static str>, Option<String>) {
+    if matches!(
+        point.special,
+        None | Some(Special::Fold | Special::BranchPoint | Special::Continuum | Special::Unresolved { .. })
+    ) {
+        return (None, None);
+    }
+    let known = match normal_form(point).map(|form| form.1) {
+        Some(NormalForm::Coefficient(found)) => match found.is_negative() {
+            Some(is_negative) => Ok(critical(is_negative)),
+            None => Err("the coefficient is smaller than its error".to_owned()),
+        },
+        Some(NormalForm::Undetermined(why)) => next().ok_or_else(|| why.to_string()),
+        None => next().ok_or_else(|| "no coefficient is computed for it".to_owned()),
+    };
+    known.map_or_else(|why| (Some("undecided"), Some(why)), |word| (Some(word), None))
+}
+
 const fn critical(is_supercritical: bool) -> &'static str {
     if is_supercritical { "supercritical" } else { "subcritical" }
 }
@@ -192,6 +236,30 @@ fn is_supercritical(leg: &Leg, point: usize, first: f64) -> Option<bool> {
     Some(same.point.unstable > other.point.unstable)
 }
 
+/// The evidence for a connection: its kind, the law of the time, and the saddle with its eigenvalues.
+fn put_connection(object: &mut Map<String, Value>, connection: &Connection) {
+    let mut put = |key: &str, value: Value| object.insert(key.to_owned(), value);
+    put("connection", connection.kind().name().into());
+    put("law", json!(connection.law));
+    put("remaining", connection.remaining.into());
+    if let Some(quantity) = connection.quantity() {
+        put("saddle_quantity", quantity.into());
+    }
+    if let Some([grows, decays]) = connection.sides() {
+        put("leading_growing", json!(grows));
+        put("leading_decaying", json!(decays));
+    }
+    if let Some(saddle) = &connection.saddle {
+        let found = json!({
+            "eigenvalues": saddle.eigenvalues,
+            "turning_rate": saddle.turning_rate,
+            "speed": saddle.speed(),
+            "shape": saddle.shape,
+        });
+        put("saddle", found);
+    }
+}
+
 /// The end of a leg, where it is a place of its own.
 fn end(leg: &Leg) -> Option<SpecialEntry> {
     let End::Homoclinic(connection) = &leg.end else { return None };
@@ -200,9 +268,11 @@ fn end(leg: &Leg) -> Option<SpecialEntry> {
         parameter: connection.parameter,
         error: Some(connection.error),
         certificate: None,
-        first_lyapunov: None,
+        coefficient: None,
         period: None,
         criticality: None,
+        undecided: None,
+        connection: Some(connection.as_ref().clone()),
         breaks: None,
         branch: None,
         others: Vec::new(),

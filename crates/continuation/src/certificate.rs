@@ -1,5 +1,6 @@
 //! What shows that a special point is one.
 
+use super::normal_form::NormalForm;
 use serde::{Deserialize, Serialize};
 
 /// What vanishes at a special point.
@@ -25,6 +26,10 @@ pub struct Certificate {
     pub transversality: f64,
     /// How far the parameter may be away: from the residual, from the errors of the test function and of Newton's method.
     pub error: f64,
+    /// The leading coefficient of the normal form, where the point is one at which it says what begins. (That of a Hopf bifurcation is in
+    /// [`super::Hopf`].)
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal_form: Option<NormalForm>,
 }
 
 /// Values at a place along a branch: of a test function, and the slope `dp/ds`.
@@ -46,7 +51,7 @@ impl Certificate {
         let (transversality, bend) = (by(beside.value - at.value), by(beside.slope - at.slope));
         let off = (at.value.abs() + noise) / transversality.abs();
         let error = off * (at.slope.abs() + 0.5 * bend.abs() * off) + solved;
-        Self { test, residual: at.value, transversality, error }
+        Self { test, residual: at.value, transversality, error, normal_form: None }
     }
 }
 

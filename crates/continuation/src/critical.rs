@@ -136,6 +136,21 @@ impl Critical {
         (x * y > 0.0).then(|| Reading { value, angle: 0.5 * (x + y) / (x * y).sqrt(), members })
     }
 
+    /// A number that changes its sign with every eigenvalue but the critical ones that keeps the motion's symmetry and passes 0, and is smooth:
+    /// the product of `lambda / |(lambda, omega)|` over real ones, `|lambda|^2 / (|lambda|^2 + omega^2)` over pairs.
+    pub(super) fn poles(&self, levels: &[Vec<Level>], reading: &Reading) -> f64 {
+        let own = |rank: usize| self.class == 0 && reading.members.contains(&rank);
+        let square = reading.angle.abs();
+        let part = |level: &Level| {
+            let size = level.growth * level.growth + level.angle * level.angle;
+            let part = size / (size + square);
+            // each of a pair counts as the root
+            if self.is_real(level) { part.sqrt() * level.growth.signum() } else { part.sqrt() }
+        };
+        let kept = levels.first().into_iter().flatten().enumerate();
+        kept.filter(|(rank, _)| !own(*rank)).map(|(_, level)| part(level)).product()
+    }
+
     /// The levels that are not critical: how many real ones and how many others grow, and the growth of those closest to 0; NaN where
     /// there are none. A circle at rest has each level in all directions: its copies in other classes are critical too.
     pub(super) fn others(&self, levels: &[Vec<Level>], reading: &Reading) -> [(usize, f64); 2] {

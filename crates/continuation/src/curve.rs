@@ -32,6 +32,12 @@ pub struct CurvePoint {
     pub special: Special,
     /// What else happens, if the point was solved for as one of codimension two.
     pub degenerate: Option<Degenerate>,
+    /// What is left of the condition that holds along the curve: the product of the two eigenvalues closest to 0 (of multipliers, less the critical one), or
+    /// the mean growth of the critical pair.
+    pub residual: f64,
+    /// The slope of the condition across the curve, by the length in the units of [`Settings`]: where it is not 0 the condition passes 0 there, and
+    /// the point is `residual / transversality` away from where it does.
+    pub transversality: f64,
 }
 
 /// A curve of special points over two parameters: an iterator over its points, those of codimension two in their place among the
@@ -201,7 +207,9 @@ fn advance<P: Problem>(
         Err(end) => return Some(end),
     };
     for event in &stretch.degenerate {
-        queue.push_back(point(tracer, event.spot.as_ref().unwrap_or(&tracer.spot), Some(event.kind)));
+        let mut found = point(tracer, event.spot.as_ref().unwrap_or(&tracer.spot), Some(event.kind));
+        found.parameters = event.at.unwrap_or(found.parameters);
+        queue.push_back(found);
     }
     if !matches!(stretch.end, Some(End::Degenerate { .. })) {
         queue.push_back(point(tracer, &tracer.spot, None));
@@ -233,5 +241,7 @@ fn point<P: Problem>(
         unstable: real.0 + pairs.0,
         special,
         degenerate,
+        residual: spot.reading.value,
+        transversality: spot.steep,
     }
 }

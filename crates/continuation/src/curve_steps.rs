@@ -31,8 +31,11 @@ pub(super) struct Stretch<L> {
 pub(super) struct Event<L> {
     s: f64,
     pub(super) spot: Option<Spot<L>>,
-    sign: Sign,
+    /// What changes its sign; `None` where the orbits shrink to an equilibrium.
+    sign: Option<Sign>,
     pub(super) kind: Degenerate,
+    /// The parameters, where they are extrapolated.
+    pub(super) at: Option<[f64; 2]>,
 }
 
 impl<P: Problem> CurveTracer<P> {
@@ -76,10 +79,17 @@ impl<P: Problem> CurveTracer<P> {
         }
         self.check(&new)?;
         let mut degenerate = self.degenerate(&new, length, watch)?;
-        if let Some(last) = degenerate.iter().position(|event| event.sign.ends(&self.critical)) {
+        if let Some((kind, at)) = self.shrinks(&new) {
+            // beyond it the curve goes on with the same orbits, half a period later: the parameters turn back there
+            degenerate.retain(|event| !matches!(event.sign, Some(Sign::Turn)));
+            degenerate.push(Event { s: length, spot: None, sign: None, kind, at: Some(at) });
+        }
+        let ends = |event: &Event<P::Local>| event.sign.is_none_or(|sign| sign.ends(&self.critical));
+        if let Some(last) = degenerate.iter().position(ends) {
             degenerate.truncate(last + 1);
             end = Some(End::Degenerate { kind: degenerate[last].kind });
         }
+        self.note_size(&new);
         let old = std::mem::replace(&mut self.spot, new);
         self.before = Some((old.x, length));
         Ok(Stretch { degenerate, end })
@@ -155,15 +165,26 @@ impl<P: Problem> CurveTracer<P> {
             let (low, high) = (value(&self.spot), value(new));
             let counts = (count(&self.spot), count(new));
             let changes = low * high < 0.0 && (counts.0.is_none() || counts.0 != counts.1);
-            if !changes {
+            let known = |spot: &Spot<P::Local>| sign.is_known(&self.seen(spot));
+            if !(changes && known(&self.spot) && known(new)) {
                 continue;
             }
+            let holds = |spot: &Spot<P::Local>| {
+                sign.holds(&self.seen(spot), [&self.seen(&self.spot), &self.seen(new)])
+            };
             match self.zero(((0.0, low), (length, high)), &value, watch) {
+                Ok((spot, _)) if !holds(&spot) => {}
                 Ok((spot, s)) if value(&spot).abs() < 1e-3 * low.abs().max(high.abs()) => {
-                    out.push(Event { s, spot: Some(spot), sign, kind });
+                    out.push(Event { s, spot: Some(spot), sign: Some(sign), kind, at: None });
                 }
                 Err(Failure::Stopped) => return Err(End::Stopped),
-                _ => out.push(Event { s: length, spot: None, sign, kind: Degenerate::Unresolved }),
+                _ => out.push(Event {
+                    s: length,
+                    spot: None,
+                    sign: Some(sign),
+                    kind: Degenerate::Unresolved,
+                    at: None,
+                }),
             }
         }
         out.sort_by(|a, b| a.s.total_cmp(&b.s));

@@ -37,7 +37,7 @@ pub(super) struct Spot<L> {
     pub(super) reading: Reading,
     pub(super) frame: Frame,
     /// Slope of the condition across the curve.
-    steep: f64,
+    pub(super) steep: f64,
     pub(super) arclength: f64,
 }
 
@@ -74,6 +74,8 @@ pub(super) struct CurveTracer<P: Problem> {
     /// The place before, and the length of the step from there.
     pub(super) before: Option<(Vec<f64>, f64)>,
     pub(super) step: f64,
+    /// Sizes of the orbits at the last places, with the parameters.
+    pub(super) sizes: Vec<(f64, [f64; 2])>,
 }
 
 impl<P: Problem> CurveTracer<P> {
@@ -92,7 +94,8 @@ impl<P: Problem> CurveTracer<P> {
         let step = settings.first_step.abs().min(settings.largest_step);
         let spot = Spot { x, local, levels, reading, frame, steep: 1.0, arclength: 0.0 };
         let settings = *settings;
-        let mut tracer = Self { problem, settings, ranges, critical, special, spot, before: None, step };
+        let (before, sizes) = (None, Vec::new());
+        let mut tracer = Self { problem, settings, ranges, critical, special, spot, before, step, sizes };
         tracer.spot = tracer.polished(watch)?;
         let [p, q] = last_two(&tracer.spot.frame.along);
         let side = if q.abs() > 1e-6 * p.abs() { q } else { p };

@@ -3,6 +3,7 @@
 use super::critical::{Condition, Critical, Reading};
 use super::hopf::first_lyapunov;
 use super::levels::Level;
+use super::normal_form::Coefficient;
 use super::special::Special;
 use motiform_dynamics::Equivariant;
 
@@ -76,7 +77,8 @@ impl Degenerate {
 pub(super) enum Sign {
     /// The direction of the parameters, against the one at the beginning of the step.
     Turn,
-    /// The first Lyapunov coefficient.
+    /// The first Lyapunov coefficient, multiplied by what makes it finite where another eigenvalue vanishes: at a zero-Hopf point it has a pole, and changes its sign
+    /// without being 0.
     Lyapunov,
     /// `omega^2`, or the cosine of the angle, less this.
     Angle(f64),
@@ -94,6 +96,13 @@ pub(super) struct Seen<'s> {
     pub(super) reading: &'s Reading,
     /// Direction of the parameters, and the one at the beginning of the step.
     pub(super) directions: [[f64; 2]; 2],
+}
+
+/// A coefficient that vanishes is smaller than this part of those around it.
+const VANISHES: f64 = 1e-3;
+
+fn first_lyapunov_of(seen: &Seen<'_>) -> Option<Coefficient> {
+    first_lyapunov(seen.body, seen.shape, seen.reading.angle.max(0.0).sqrt()).coefficient()
 }
 
 impl Sign {
@@ -134,14 +143,27 @@ impl Sign {
                 let [a, b] = seen.directions;
                 a[0] * b[0] + a[1] * b[1]
             }
-            Self::Lyapunov => {
-                let frequency = seen.reading.angle.max(0.0).sqrt();
-                first_lyapunov(seen.body, seen.shape, frequency).unwrap_or(f64::NAN)
-            }
+            Self::Lyapunov => first_lyapunov_of(seen)
+                .map_or(f64::NAN, |found| found.value * critical.poles(seen.levels, seen.reading)),
             Self::Angle(value) => seen.reading.angle - value,
             Self::Real => others()[0].1,
             Self::Pair => others()[1].1,
         }
+    }
+
+    /// Whether the sign of the value is known: a coefficient may be smaller than its error.
+    pub(super) fn is_known(self, seen: &Seen<'_>) -> bool {
+        !matches!(self, Self::Lyapunov)
+            || first_lyapunov_of(seen).is_some_and(|found| found.is_negative().is_some())
+    }
+
+    /// Whether the point where the value vanishes is what it stands for: the coefficient itself must vanish, not what it is multiplied with.
+    pub(super) fn holds(self, at: &Seen<'_>, ends: [&Seen<'_>; 2]) -> bool {
+        if !matches!(self, Self::Lyapunov) {
+            return true;
+        }
+        let size = |seen| first_lyapunov_of(seen).map_or(f64::NAN, |found| found.value.abs());
+        size(at) < VANISHES * size(ends[0]).max(size(ends[1]))
     }
 
     /// How many levels grow, for the signs of levels: it must change too.

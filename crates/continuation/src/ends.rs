@@ -3,8 +3,9 @@
 use super::certificate::TestFunction;
 use super::classes::GAINED;
 use super::copies::same_motion;
-use super::homoclinic::Algebraic;
+use super::homoclinic::{Algebraic, Connection};
 use super::locate::Changes;
+use super::normal_form::Order;
 use super::place::Place;
 use super::point::End;
 use super::problem::Problem;
@@ -74,14 +75,22 @@ impl<P: Problem> Tracer<P> {
             return end;
         }
         let saddle = || self.problem.saddle(&self.place.x, &self.place.local);
-        let resonant =
-            || self.periods.algebraic(Algebraic::Resonant)?.through(saddle(), self.problem.is_symmetric());
+        let resonant = || self.periods.algebraic(Algebraic::Resonant)?.through(saddle());
         let on_a_circle = || {
             let found = self.periods.algebraic(Algebraic::SquareRoot)?;
             let side = (self.place.parameter() - found.parameter).signum();
             found.at_fold(side, &|p| self.problem.equilibrium(&self.place.x, &self.place.local, p))
         };
-        resonant().or_else(on_a_circle).map_or(end, |found| End::Homoclinic(Box::new(found)))
+        self.oscillates()
+            .or_else(resonant)
+            .or_else(on_a_circle)
+            .map_or(end, |found| End::Homoclinic(Box::new(found)))
+    }
+
+    /// The connection with a saddle-focus to which the parameter oscillates.
+    fn oscillates(&self) -> Option<Connection> {
+        let saddle = self.problem.saddle(&self.place.x, &self.place.local)?;
+        self.periods.oscillating(&saddle.rates)?.through(Some(saddle))
     }
 
     /// The end of the branch at the first turning point where the motion gains a symmetry: it is a special point of the motion that has it. What was found beyond belongs to
@@ -104,6 +113,10 @@ impl<P: Problem> Tracer<P> {
             before && self.problem.gains(&other.x, &other.local, 10.0 * GAINED).is_none()
         });
         let end = End::Meets { parameter: at.parameter(), gains };
+        // it is a point of the motion with more symmetry, and this motion has the time of those that begin there
+        if let Some(certificate) = &mut at.certificate {
+            certificate.normal_form = Some(self.problem.normal_form(&at.x, Order::Third, false));
+        }
         changes.found.push((at, gains.special()));
         Some(end)
     }
@@ -129,9 +142,14 @@ impl<P: Problem> Tracer<P> {
         self.periods.push(time, (parameter, self.place.slope()));
         if let Some(connection) = self.periods.connection() {
             let saddle = self.problem.saddle(&self.place.x, &self.place.local);
-            if let Some(certain) = connection.through(saddle, self.problem.is_symmetric()) {
+            if let Some(certain) = connection.through(saddle) {
                 return Err(End::Homoclinic(Box::new(certain)));
             }
+        }
+        if self.periods.has_converged()
+            && let Some(certain) = self.oscillates()
+        {
+            return Err(End::Homoclinic(Box::new(certain)));
         }
         if time.0 > self.settings.longest_time {
             return Err(End::PeriodLimit { time: time.0 });

@@ -5,6 +5,8 @@ use super::correct::{correct, normal, scaled};
 use super::family::{Bodies, Neighbours, Sides};
 use super::hopf::first_lyapunov;
 use super::levels::Level;
+use super::normal_form::{NormalForm, Order};
+use super::normal_forms::of_equilibrium;
 use super::point::Motion;
 use super::problem::{Equations, Failure, Linear, Problem};
 use super::special::{Broken, Hopf, Special};
@@ -63,7 +65,7 @@ impl<'f> Equilibria<'f> {
 }
 
 /// The columns of `Df - omega G`.
-fn linearisation(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> {
+pub(super) fn linearisation(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> {
     let mut matrix = jacobian(body, shape);
     let dim = shape.len();
     let (mut unit, mut spin) = (vec![0.0; dim], vec![0.0; dim]);
@@ -199,6 +201,10 @@ impl Problem for Equilibria<'_> {
         (found.axis.is_some() && self.classes.axis.is_none()).then_some((Broken::Mirror, symmetric))
     }
 
+    fn normal_form(&self, x: &[f64], order: Order, _doubled: bool) -> NormalForm {
+        of_equilibrium(self, x, order)
+    }
+
     fn body<'l>(&self, local: &'l Local) -> &'l dyn Equivariant {
         local.body.as_ref()
     }
@@ -246,17 +252,16 @@ impl Equilibria<'_> {
         Linear { residual, matrix: all }
     }
 
+    /// The equations of all motions nearby, whatever their symmetry.
+    pub(super) fn free(&self, x: &[f64]) -> Option<Self> {
+        let classes = Classes::of(self.bodies.at(x).ok()?.as_ref(), &[]);
+        let widths = self.widths.clone();
+        Some(Self { bodies: self.bodies, classes, dim: self.dim, size: self.size, widths })
+    }
+
     /// Whether motions in the direction `vector` exist for the same parameter, at two distances: beside a pitchfork the parameter changes as the square of the distance.
     fn is_one_of_a_family(&self, x: &[f64], vector: &[f64]) -> bool {
-        let Ok(body) = self.bodies.at(x) else { return false };
-        let classes = Classes::of(body.as_ref(), &[]);
-        let free = Self {
-            bodies: self.bodies,
-            classes,
-            dim: self.dim,
-            size: self.size,
-            widths: self.widths.clone(),
-        };
+        let Some(free) = self.free(x) else { return false };
         let weights = free.weights(x);
         let mut direction = vector.to_vec();
         direction.resize(x.len(), 0.0);

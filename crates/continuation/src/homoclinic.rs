@@ -19,6 +19,16 @@ pub enum PeriodLaw {
         /// The amplitude.
         amplitude: f64,
     },
+    /// `p = p0 + amplitude exp(-rate T) cos(frequency T + phase)` to leading order: the saddle's leading eigenvalues are the complex pair
+    /// `+-rate +- i frequency`, slower than the leading eigenvalue of the other side (Shilnikov). Folds follow one another after `pi / frequency`.
+    ///
+    /// Source: Glendinning and Sparrow (1984), J. Stat. Phys. 35, 645.
+    Oscillating {
+        /// The rate (inverse model time).
+        rate: f64,
+        /// The frequency (rad per model time).
+        frequency: f64,
+    },
     /// `T = amplitude / sqrt|p - p0|` to leading order: two equilibria meet on the orbit (a saddle-node on a circle).
     SquareRoot {
         /// The amplitude.
@@ -41,6 +51,19 @@ pub enum ConnectionKind {
     SaddleNode,
 }
 
+impl ConnectionKind {
+    /// Its name in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Saddle => "saddle",
+            Self::SaddleFocus => "saddle-focus",
+            Self::Resonant => "resonant",
+            Self::SaddleNode => "saddle-node",
+        }
+    }
+}
+
 /// Where a branch of periodic orbits ends because their period grows without bound.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Connection {
@@ -55,10 +78,9 @@ pub struct Connection {
     pub law: PeriodLaw,
     /// The relative equilibrium that the orbit passes closest by, at the last point.
     pub saddle: Option<RelativeEquilibrium>,
-    /// Whether all shapes of the orbit have a symmetry. Deviations that break it, whose eigenvalues are among those of the saddle, then do not
-    /// matter.
+    /// The eigenvalues `(re, im)` of the saddle in the directions that keep the symmetry of the orbit's shapes; empty where these are not told from the others.
     #[serde(default)]
-    pub symmetric: bool,
+    pub rates: Vec<(f64, f64)>,
 }
 
 impl Connection {
@@ -68,6 +90,7 @@ impl Connection {
         match self.law {
             PeriodLaw::Resonant { .. } => ConnectionKind::Resonant,
             PeriodLaw::SquareRoot { .. } => ConnectionKind::SaddleNode,
+            PeriodLaw::Oscillating { .. } => ConnectionKind::SaddleFocus,
             PeriodLaw::Logarithmic { .. } => match self.sides() {
                 Some([(_, 0.0), (_, 0.0)]) | None => ConnectionKind::Saddle,
                 Some(_) => ConnectionKind::SaddleFocus,
@@ -75,23 +98,19 @@ impl Connection {
         }
     }
 
-    /// The slowest eigenvalues `(re, |im|)` of the saddle that grow and that decay.
-    fn sides(&self) -> Option<[(f64, f64); 2]> {
-        let values = &self.saddle.as_ref().filter(|_| !self.symmetric)?.eigenvalues;
-        let slowest = |sign: f64| {
-            let side = values.iter().filter(|value| sign * value.0 > 0.0);
-            let least = side.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
-            Some((least.0, least.1.abs()))
-        };
-        Some([slowest(1.0)?, slowest(-1.0)?])
+    /// The slowest eigenvalues `(re, |im|)` of the saddle that grow and that decay, in the directions that keep the symmetry of the orbit's shapes.
+    #[must_use]
+    pub fn sides(&self) -> Option<[(f64, f64); 2]> {
+        leading_sides(&self.rates)
     }
 
-    /// The saddle quantity: the sum of the real parts of the slowest growing and decaying eigenvalues; `None` for orbits with symmetric shapes.
+    /// The saddle quantity: the sum of the real parts of the slowest growing and decaying eigenvalues; `None` where they are not known, and at a saddle-node.
     /// Where the leading eigenvalues are real and their sum is negative, one stable orbit meets the connection; where it is positive, the orbit
     /// is unstable. Source: Kuznetsov, Elements of Applied Bifurcation Theory, section 6.2.
     #[must_use]
     pub fn quantity(&self) -> Option<f64> {
-        self.sides().map(|[grows, decays]| grows.0 + decays.0)
+        let [grows, decays] = self.sides().filter(|_| self.kind() != ConnectionKind::SaddleNode)?;
+        Some(grows.0 + decays.0)
     }
 
     /// The saddle's leading eigenvalue: the one whose real part is closest to 0. The fitted rate of a logarithmic law is its modulus.
@@ -104,13 +123,14 @@ impl Connection {
     /// The connection through this saddle, the relative equilibrium that the orbit passes closest by. `None` unless deviations from it grow in some
     /// directions and decay in others, and one of their rates is that of the law (a resonant law has two rates of one size): otherwise the
     /// period grows for another reason, as in a canard explosion, and the branch goes on.
-    pub(super) fn through(self, saddle: Option<RelativeEquilibrium>, symmetric: bool) -> Option<Self> {
-        let saddle = saddle?;
-        let rates = |sign: f64| {
-            let sized = saddle.eigenvalues.iter().map(|value| sign * value.0);
+    pub(super) fn through(self, saddle: Option<Saddle>) -> Option<Self> {
+        let Saddle { found, rates } = saddle?;
+        let all = if rates.is_empty() { &found.eigenvalues } else { &rates };
+        let side = |sign: f64| {
+            let sized = all.iter().map(|value| sign * value.0);
             sized.filter(|rate| *rate > 0.0).collect::<Vec<f64>>()
         };
-        let (grow, decay) = (rates(1.0), rates(-1.0));
+        let (grow, decay) = (side(1.0), side(-1.0));
         if grow.is_empty() || decay.is_empty() {
             return None;
         }
@@ -124,9 +144,10 @@ impl Connection {
                 let pairs = grow.iter().flat_map(|a| decay.iter().map(|b| apart(*a, *b)));
                 (pairs.fold(f64::INFINITY, f64::min), self.error)
             }
+            PeriodLaw::Oscillating { .. } => (0.0, self.error), // the rate is that of the saddle: see `oscillating`
             PeriodLaw::SquareRoot { .. } => return None, // there is no saddle on this side: see `at_fold`
         };
-        (apart < RATES).then_some(Self { saddle: Some(saddle), error, symmetric, ..self })
+        (apart < RATES).then_some(Self { saddle: Some(found), rates, error, ..self })
     }
 
     /// A saddle-node on a circle at the square-root law: beyond it, at the distances d and 4 d, `equilibrium` finds one whose slowest real
@@ -179,18 +200,43 @@ impl std::fmt::Display for Connection {
         }?;
         match self.law {
             PeriodLaw::Logarithmic { rate } => write!(f, ": its time grows as -ln|p - p0| / {rate:.6}"),
+            PeriodLaw::Oscillating { rate, frequency } => {
+                write!(
+                    f,
+                    ": the parameter oscillates as exp(-{rate:.6} T) cos({frequency:.6} T) with its time T"
+                )
+            }
             PeriodLaw::Resonant { amplitude } => write!(f, ": its time grows as {amplitude:.6} / |p - p0|"),
             PeriodLaw::SquareRoot { amplitude } => {
                 write!(f, ": its time grows as {amplitude:.6} / sqrt|p - p0|")
             }
         }?;
         match self.quantity() {
-            Some(quantity) if matches!(self.law, PeriodLaw::Logarithmic { .. }) => {
+            Some(quantity)
+                if matches!(self.law, PeriodLaw::Logarithmic { .. } | PeriodLaw::Oscillating { .. }) =>
+            {
                 write!(f, "; saddle quantity {quantity:.4}")
             }
             _ => Ok(()),
         }
     }
+}
+
+/// The relative equilibrium that an orbit passes closest by, and its eigenvalues in the directions that keep the symmetry of the orbit's shapes (none
+/// where these are not told from the others).
+pub(super) struct Saddle {
+    pub(super) found: RelativeEquilibrium,
+    pub(super) rates: Vec<(f64, f64)>,
+}
+
+/// The slowest eigenvalues `(re, |im|)` that grow and that decay.
+pub(super) fn leading_sides(rates: &[(f64, f64)]) -> Option<[(f64, f64); 2]> {
+    let slowest = |sign: f64| {
+        let side = rates.iter().filter(|value| sign * value.0 > 0.0);
+        let least = side.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+        Some((least.0, least.1.abs()))
+    };
+    Some([slowest(1.0)?, slowest(-1.0)?])
 }
 
 /// A value with its error, to the decimals that the error leaves.
@@ -215,7 +261,7 @@ pub(super) enum Algebraic {
 #[derive(Debug, Default)]
 pub(super) struct Periods {
     /// `(T, p, dp/dT)`, of the last points over which the time grew.
-    points: Vec<(f64, f64, f64)>,
+    pub(super) points: Vec<(f64, f64, f64)>,
 }
 
 /// The law must hold over as many points.
@@ -234,7 +280,7 @@ const WINDOW: f64 = 0.85;
 const LONG_WINDOW: f64 = 0.5;
 
 /// The connection is reached where this much of the parameter remains.
-const NEAR: f64 = 1e-7;
+pub(super) const NEAR: f64 = 1e-7;
 
 /// Fits that the best one is compared with.
 const COMPARED: usize = 11;
@@ -272,7 +318,7 @@ impl Periods {
             error: AGREE * remaining.abs() + f64::EPSILON * parameter.abs(),
             law: PeriodLaw::Logarithmic { rate },
             saddle: None,
-            symmetric: false,
+            rates: Vec::new(),
         })
     }
 
@@ -321,7 +367,7 @@ impl Periods {
             Algebraic::SquareRoot => PeriodLaw::SquareRoot { amplitude: fit[1].abs().sqrt() },
         };
         let connection =
-            Connection { parameter: fit[0], remaining, error: 0.0, law, saddle: None, symmetric: false };
+            Connection { parameter: fit[0], remaining, error: 0.0, law, saddle: None, rates: Vec::new() };
         (leads && worst < 1e-3).then_some((connection, worst))
     }
 }

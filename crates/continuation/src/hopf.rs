@@ -1,7 +1,8 @@
 //! The kind of a Hopf bifurcation: its first Lyapunov coefficient, for relative equilibria too.
 
+use super::normal_form::{Coefficient, NormalForm, Undetermined, extrapolated};
 use motiform_analysis::equilibrium::neutral_direction;
-use motiform_analysis::linear::{add, complement, dot};
+use motiform_analysis::linear::{add, complement, dot, eigenvalues};
 use motiform_dynamics::{Dual, Equivariant, VectorField};
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -130,31 +131,79 @@ fn matrix(slice: &Slice<'_>) -> DMatrix<Complex<f64>> {
     out
 }
 
+/// Steps of the differences: the first one in units of the shape's size, and how often it is doubled.
+const STEPS: (f64, i32) = (2e-3, 5);
+
+/// The same for a body at rest, whose size is no unit: over a wide range.
+const STEPS_AT_REST: (f64, i32) = (1e-4, 12);
+
+/// Eigenvalues that differ by less than this part are the same.
+const SAME: f64 = 1e-7;
+
 /// The first Lyapunov coefficient of the reduced motion at a Hopf bifurcation, for a critical vector of length 1:
 /// `l1 = Re( <p, C(q,q,q*)> - 2 <p, B(q, A^-1 B(q,q*))> + <p, B(q*, (2 i omega - A)^-1 B(q,q))> ) / (2 omega)`.
 ///
+/// Its error is the difference of two results from steps of different size. Where two pairs have the same frequency (a rotating and a standing
+/// oscillation of a symmetric shape) one coefficient says nothing.
+///
 /// Source: Kuznetsov (2004), Elements of Applied Bifurcation Theory, eq. (5.62).
 ///
-/// # Checked by  tests/all/continuation.rs: the normal form (exact), the reduced model's formula
-pub(super) fn first_lyapunov(body: &dyn Equivariant, shape: &[f64], frequency: f64) -> Option<f64> {
+/// # Checked by  tests/all/normal_forms.rs: normal forms (exact), the van der Pol and the Lorenz equations, the reduced model's formula
+pub(super) fn first_lyapunov(body: &dyn Equivariant, shape: &[f64], frequency: f64) -> NormalForm {
     let slice = slice(body, shape);
     let a = matrix(&slice);
-    let dim = a.nrows();
-    let imaginary = Complex::new(0.0, frequency);
-    let q = null_vector(&a, imaginary)?;
-    let p = null_vector(&a.transpose(), -imaginary)?;
-    let p = &p / p.dotc(&q).conj(); // <p, q> = 1
+    if copies(&a, frequency) > 1 {
+        return NormalForm::Undetermined(Undetermined::Directions);
+    }
     let size = shape.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     // Newton's method leaves a body at rest at round-off: that is no size.
-    let h = 3e-3 * if size > ROUND_OFF { size } else { 1.0 };
+    let (first, count) = if size > ROUND_OFF { (STEPS.0 * size, STEPS.1) } else { STEPS_AT_REST };
+    let all: Option<Vec<f64>> = critical(&a, frequency).and_then(|pair| {
+        (0..count).map(|j| coefficient(&slice, &a, &pair, first * 2.0_f64.powi(j))).collect()
+    });
+    let Coefficient { value, error } = extrapolated(&all.unwrap_or_default());
+    if value.is_finite() && error.is_finite() {
+        NormalForm::Coefficient(Coefficient { value, error })
+    } else {
+        NormalForm::Undetermined(Undetermined::Obstructed)
+    }
+}
+
+/// How many eigenvalues are the critical one.
+fn copies(a: &DMatrix<Complex<f64>>, frequency: f64) -> usize {
+    let columns: Vec<Vec<f64>> =
+        a.column_iter().map(|column| column.iter().map(|z| z.re).collect()).collect();
+    let values = eigenvalues(&columns).unwrap_or_default();
+    let same = |value: &&(f64, f64)| libm::hypot(value.0, value.1 - frequency) < SAME * frequency;
+    values.iter().filter(same).count()
+}
+
+/// The critical pair: its frequency, `q` and `p` with `<p, q> = 1`.
+struct Pair {
+    frequency: f64,
+    q: Vector,
+    p: Vector,
+}
+
+fn critical(a: &DMatrix<Complex<f64>>, frequency: f64) -> Option<Pair> {
+    let imaginary = Complex::new(0.0, frequency);
+    let q = null_vector(a, imaginary)?;
+    let p = null_vector(&a.transpose(), -imaginary)?;
+    let p = &p / p.dotc(&q).conj();
+    Some(Pair { frequency, q, p })
+}
+
+/// The coefficient from steps of this length.
+fn coefficient(slice: &Slice<'_>, a: &DMatrix<Complex<f64>>, pair: &Pair, h: f64) -> Option<f64> {
+    let Pair { frequency, q, p } = pair;
+    let dim = a.nrows();
     let conjugate = q.map(|z| z.conj());
-    let mean = a.clone().lu().solve(&slice.bilinear(&q, &conjugate, h))?;
-    let twice = DMatrix::identity(dim, dim) * (imaginary * 2.0) - &a;
-    let second = twice.lu().solve(&slice.bilinear(&q, &q, h))?;
-    let sum = p.dotc(&slice.trilinear(&q, h)) - p.dotc(&slice.bilinear(&q, &mean, h)) * 2.0
+    let mean = a.clone().lu().solve(&slice.bilinear(q, &conjugate, h))?;
+    let twice = DMatrix::identity(dim, dim) * Complex::new(0.0, 2.0 * frequency) - a;
+    let second = twice.lu().solve(&slice.bilinear(q, q, h))?;
+    let sum = p.dotc(&slice.trilinear(q, h)) - p.dotc(&slice.bilinear(q, &mean, h)) * 2.0
         + p.dotc(&slice.bilinear(&conjugate, &second, h));
-    let coefficient = sum.re / (2.0 * frequency);
-    coefficient.is_finite().then_some(coefficient)
+    Some(sum.re / (2.0 * frequency))
 }
 
 /// The vector of length 1 that `A - value` takes to 0, by inverse iteration.

@@ -6,6 +6,7 @@ use super::certificate::{Certificate, Passing, TestFunction};
 use super::correct::{crossing, product, scaled, seen};
 use super::dip::dip;
 use super::levels::Level;
+use super::normal_form::{NormalForm, asked};
 use super::place::Place;
 use super::point::Obstruction;
 use super::problem::{Failure, Problem};
@@ -77,7 +78,9 @@ pub(super) fn locate<P: Problem>(
                 if special == Special::BranchPoint && !matches!(bracket.test, Test::Slope) {
                     keep_course(problem, step, &mut at);
                 }
-                let certificate = certified(problem, step, bracket.test, &at, watch);
+                let certificate = certified(problem, step, bracket.test, &at, watch).map(|certificate| {
+                    Certificate { normal_form: normal_form(problem, &at.x, special), ..certificate }
+                });
                 let at = Place { certificate, ..at };
                 if !is_known(&changes.found, &at, special, step.length) {
                     changes.found.push((at, special));
@@ -165,6 +168,11 @@ fn certified<P: Problem>(
     };
     let width = problem.weights(&at.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
     Some(Certificate::of(kind, passing(at), passing(&near), noise, problem.accuracy().max(TIGHT) * width))
+}
+
+/// The leading coefficient of the normal form at a special point.
+fn normal_form<P: Problem>(problem: &P, x: &[f64], special: Special) -> Option<NormalForm> {
+    asked(special).map(|(order, doubled)| problem.normal_form(x, order, doubled))
 }
 
 /// At a fold a level vanishes as well: each fold of a step takes the nearest vanishing level that seems to be a branch point. (Where a branch is

@@ -1,14 +1,19 @@
 //! The equations of relative periodic orbits along a parameter.
 
 use super::classes::{Classes, GAINED};
+use super::equilibria::linearisation;
 use super::family::{Bodies, Neighbours};
+use super::homoclinic::Saddle;
 use super::levels::Level;
+use super::normal_form::{NormalForm, Order};
+use super::normal_forms::of_orbit;
 use super::point::Motion;
 use super::problem::{Equations, Failure, Linear, Problem};
 use super::reduced_maps::reduced_maps;
 use super::shooting::{Segment, segment, shape_after};
 use super::special::{Broken, Special};
-use motiform_analysis::linear::{add, dot, norm};
+use motiform_analysis::equilibrium::neutral_direction;
+use motiform_analysis::linear::{add, apply, dot, eigenvalues, norm, restrict};
 use motiform_analysis::periodic::{Flow, back};
 use motiform_analysis::symmetry::{align, wrap};
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, logarithms_of_product};
@@ -66,12 +71,26 @@ impl Orbits<'_> {
         &x[i * self.dim..(i + 1) * self.dim]
     }
 
-    fn span(&self, x: &[f64]) -> f64 {
+    pub(super) fn span(&self, x: &[f64]) -> f64 {
         x[self.parts * self.dim] / self.parts as f64
     }
 
     pub(super) fn angle(&self, x: &[f64]) -> f64 {
         if self.turns { x[self.parts * self.dim + 1] } else { 0.0 }
+    }
+
+    /// The eigenvalues of a relative equilibrium in the directions that keep the mirror axis of the orbit's shapes; none where the shapes have rotations.
+    fn kept_rates(&self, body: &dyn Equivariant, at: &RelativeEquilibrium) -> Vec<(f64, f64)> {
+        if self.classes.folds > 1 || self.classes.circle {
+            return Vec::new();
+        }
+        if self.classes.axis.is_none() {
+            return at.eigenvalues.clone();
+        }
+        let matrix = linearisation(body, &at.shape, at.turning_rate);
+        let classes = self.classes.without(&neutral_direction(body, &at.shape));
+        let even = classes.first().map(|basis| restrict(basis, |v| apply(&matrix, v)));
+        even.and_then(|columns| eigenvalues(&columns)).unwrap_or_default()
     }
 
     /// The node where the reduced shape changes most slowly.
@@ -280,6 +299,10 @@ impl Problem for Orbits<'_> {
         self.parts /= 2;
     }
 
+    fn normal_form(&self, x: &[f64], order: Order, doubled: bool) -> NormalForm {
+        of_orbit(self, x, order, doubled)
+    }
+
     fn body<'l>(&self, local: &'l Local) -> &'l dyn Equivariant {
         local.body.as_ref()
     }
@@ -324,12 +347,11 @@ impl Problem for Orbits<'_> {
         Some((gained, x.to_vec()))
     }
 
-    fn saddle(&self, x: &[f64], local: &Local) -> Option<RelativeEquilibrium> {
-        RelativeEquilibrium::find(local.body.as_ref(), self.node(x, self.slowest(local)?))
-    }
-
-    fn is_symmetric(&self) -> bool {
-        self.classes.axis.is_some() || self.classes.folds > 1 || self.classes.circle
+    fn saddle(&self, x: &[f64], local: &Local) -> Option<Saddle> {
+        let body = local.body.as_ref();
+        let found = RelativeEquilibrium::find(body, self.node(x, self.slowest(local)?))?;
+        let rates = self.kept_rates(body, &found);
+        Some(Saddle { found, rates })
     }
 
     fn equilibrium(&self, x: &[f64], local: &Local, parameter: f64) -> Option<RelativeEquilibrium> {

@@ -1,6 +1,8 @@
 //! The equations of a branch, as its tracer sees them.
 
+use super::homoclinic::Saddle;
 use super::levels::Level;
+use super::normal_form::{NormalForm, Order};
 use super::point::{Motion, Obstruction};
 use super::special::{Broken, Special};
 use motiform_analysis::{Error, RelativeEquilibrium};
@@ -102,14 +104,12 @@ pub(super) trait Problem: Equations {
     }
 
     /// The relative equilibrium that an orbit passes closest by.
-    fn saddle(&self, _x: &[f64], _local: &Self::Local) -> Option<RelativeEquilibrium> {
+    fn saddle(&self, _x: &[f64], _local: &Self::Local) -> Option<Saddle> {
         None
     }
 
-    /// Whether all shapes of the motions have a symmetry.
-    fn is_symmetric(&self) -> bool {
-        false
-    }
+    /// The leading coefficient of the normal form at a special point; `doubled` where that of orbits of twice the time is meant.
+    fn normal_form(&self, x: &[f64], order: Order, doubled: bool) -> NormalForm;
 
     /// The relative equilibrium at another value of the parameter, near the place where an orbit is slowest.
     fn equilibrium(&self, _x: &[f64], _local: &Self::Local, _parameter: f64) -> Option<RelativeEquilibrium> {

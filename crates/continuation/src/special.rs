@@ -1,5 +1,6 @@
 //! Where a branch changes.
 
+use super::normal_form::NormalForm;
 use serde::{Deserialize, Deserializer, Serialize, de};
 
 /// A name of the list below. (Not spelled out in the field: serde would take it for text borrowed from its input.)
@@ -76,10 +77,10 @@ pub struct Hopf {
     /// Imaginary part of the critical eigenvalues (rad per model time).
     pub frequency: f64,
     /// The first Lyapunov coefficient, for a critical vector of length 1: below 0 the orbits that begin are stable (supercritical),
-    /// above 0 unstable (subcritical). `None` where it could not be computed.
+    /// above 0 unstable (subcritical).
     ///
     /// Source: Kuznetsov (2004), eq. (5.62).
-    pub first_lyapunov: Option<f64>,
+    pub first_lyapunov: NormalForm,
 }
 
 impl Hopf {
@@ -89,10 +90,10 @@ impl Hopf {
         std::f64::consts::TAU / self.frequency
     }
 
-    /// Whether the orbits that begin are stable within the directions that are critical.
+    /// Whether the orbits that begin are stable within the directions that are critical; `None` where the coefficient's error does not say so.
     #[must_use]
     pub fn is_supercritical(&self) -> Option<bool> {
-        self.first_lyapunov.map(|coefficient| coefficient < 0.0)
+        self.first_lyapunov.coefficient()?.is_negative()
     }
 }
 

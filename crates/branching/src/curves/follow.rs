@@ -25,6 +25,10 @@ pub struct CurveSample {
     pub special: Special,
     /// What else happens, at a point of codimension two.
     pub degenerate: Option<Degenerate>,
+    /// What is left of the condition that holds along the curve.
+    pub residual: f64,
+    /// The slope of the condition across the curve.
+    pub transversality: f64,
     /// Number of growing directions, the critical ones left out.
     pub unstable: usize,
     /// Period of the motion; at a Hopf bifurcation, of the oscillation that begins (model time).
@@ -230,6 +234,8 @@ fn sample(plane: &PlaneBodies<'_>, point: &CurvePoint) -> Result<CurveSample, Er
         arclength: point.arclength,
         special: point.special,
         degenerate: point.degenerate,
+        residual: point.residual,
+        transversality: point.transversality,
         unstable: point.unstable,
         period: period(&point.motion, point.special),
         critical: critical(&point.motion, point.special),

@@ -69,7 +69,7 @@ fn places(plan: &CurvePlan, rows: &Rows<'_>) -> Vec<Column> {
 /// Name, meaning, and how it is read; NaN where it has no meaning.
 type Number = (&'static str, &'static str, fn(&CurveSample) -> f64);
 
-const NUMBERS: [Number; 6] = [
+const NUMBERS: [Number; 9] = [
     (
         "period",
         "period of the reduced motion, at a Hopf bifurcation of the one that begins (model time)",
@@ -83,9 +83,19 @@ const NUMBERS: [Number; 6] = [
         "first_lyapunov",
         "first Lyapunov coefficient of a Hopf bifurcation: below 0 supercritical",
         |s| match s.special {
-            Special::Hopf(hopf) => hopf.first_lyapunov.unwrap_or(f64::NAN),
+            Special::Hopf(hopf) => hopf.first_lyapunov.coefficient().map_or(f64::NAN, |found| found.value),
             _ => f64::NAN,
         },
+    ),
+    ("first_lyapunov_error", "its error", |s| match s.special {
+        Special::Hopf(hopf) => hopf.first_lyapunov.coefficient().map_or(f64::NAN, |found| found.error),
+        _ => f64::NAN,
+    }),
+    ("residual", "what is left of the condition that holds along the curve", |s| s.residual),
+    (
+        "transversality",
+        "slope of the condition across the curve: residual / transversality is the distance from where it holds",
+        |s| s.transversality,
     ),
     ("angle", "angle of the critical multipliers of a torus (rad)", |s| match s.special {
         Special::Torus { angle } => angle,

@@ -7,7 +7,8 @@ use crate::progress::Progress;
 use motiform_branching::draw::draw_branches;
 use motiform_branching::starts::StartPoint;
 use motiform_branching::{
-    BranchEnd, BranchFolder, Followed, SpecialEntry, default_folder, follow_kept, stated, stretches, summary,
+    BranchEnd, BranchFolder, Coefficient, Followed, SpecialEntry, default_folder, follow_kept, stated,
+    stretches, summary,
 };
 use motiform_files::{Folder, Journal, Opening};
 use motiform_lab::draw::Picture;
@@ -226,6 +227,14 @@ fn nine(x: f64) -> String {
     if text.trim_start_matches(['-', '0', '.']).is_empty() { "0.000000000".to_owned() } else { text }
 }
 
+/// A coefficient with its error, where that shows in six digits.
+fn six(found: Coefficient) -> String {
+    let least = 1e-6 * found.value.abs();
+    let text = stated(found.value, found.error.max(least));
+    let value = text.split_once(" +- ").filter(|_| found.error < least).map(|parts| parts.0.to_owned());
+    value.unwrap_or(text)
+}
+
 /// An error below this one is not shown: all nine decimals are right.
 const SHOWN: f64 = 5e-10;
 
@@ -236,14 +245,18 @@ fn line(special: &SpecialEntry) -> String {
     };
     let mut line = format!("{:<17} {value}", special.kind);
     let period = special.period.map(|period| format!("period {period:.6}"));
-    let words = special.criticality.map(str::to_owned);
+    let words = special.criticality.map(|word| match &special.undecided {
+        Some(why) => format!("{word} ({why})"),
+        None => word.to_owned(),
+    });
+    let coefficient = special.coefficient.map(|(name, found)| format!("{name} {}", six(found)));
     let breaks = special.breaks.map(|what| format!("breaks the {what}"));
     let others: String = special.others.iter().map(|other| format!(" and {other}")).collect();
     let next = special.branch.map(|branch| {
         let word = if special.others.is_empty() { "branch" } else { "branches" };
         format!("to {word} {branch}{others}")
     });
-    for part in [period, words, breaks, next].into_iter().flatten() {
+    for part in [period, words, coefficient, breaks, next].into_iter().flatten() {
         line += "  ";
         line += &part;
     }

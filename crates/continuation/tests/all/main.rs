@@ -1,10 +1,13 @@
 //! All integration tests of this crate, in one program: what is generic is compiled once.
 
 mod classics;
+mod codimension_2;
 mod common;
+mod connections;
 mod curves;
 mod ends;
 mod equilibria;
+mod normal_forms;
 mod orbits;
 mod path;
 mod random_texts;

@@ -78,7 +78,7 @@ fn full_model(kappa2: f64) -> Body {
 }
 
 /// The zigzag at kappa2 = 0.9, from a simulation.
-fn zigzag() -> PeriodicOrbit {
+pub(crate) fn zigzag() -> PeriodicOrbit {
     let body = full(0.9, 0.1);
     let flow = Settings::over(0.0, 1.0).flow;
     let after = |start: &[f64], time: f64| {

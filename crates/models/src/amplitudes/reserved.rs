@@ -28,7 +28,7 @@ const SCAN: [&str; 18] = [
 ];
 
 /// Columns of branches, of sweeps beneath them, and of curves of special points.
-const BRANCHES: [&str; 22] = [
+const BRANCHES: [&str; 25] = [
     "branch",
     "point",
     "motion",
@@ -48,6 +48,9 @@ const BRANCHES: [&str; 22] = [
     "critical_re",
     "critical_im",
     "first_lyapunov",
+    "first_lyapunov_error",
+    "residual",
+    "transversality",
     "angle",
     "arclength",
     "parameter",

@@ -33,7 +33,8 @@ class Branch:
     stable: tuple[tuple[float, float], ...]
     """Ranges of the parameter over which it is stable."""
     special: pd.DataFrame
-    """Special points: ``kind``, the parameter, ``period``, ``criticality``, and the ``branch`` that begins there."""
+    """Special points: ``kind``, the parameter and its ``error``, ``period``, ``criticality`` (``undecided`` with its reason), the leading
+    ``coefficient`` of the ``normal_form`` (``l1``, ``quadratic`` or ``cubic``) with ``coefficient_error``, and the ``branch`` that begins there."""
     ends: tuple[str, ...]
     """Why it ended, in words: one end, or both."""
     origin: Mapping[str, Any]

@@ -24,7 +24,7 @@ class Curve:
     """What is critical along it: hopf, fold, pitchfork, symmetry-breaking, period-doubling, torus."""
     points: pd.DataFrame
     """A row per point: both parameters, ``codimension_2``, ``unstable``, ``period``, the critical eigenvalue or multiplier,
-    ``first_lyapunov``, the state."""
+    ``first_lyapunov`` and its error, what certifies it (``residual``, ``transversality``), the state."""
     codimension_2: pd.DataFrame
     """Points of codimension two: ``kind`` and both parameters."""
     not_found: tuple[str, ...]

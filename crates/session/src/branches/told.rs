@@ -63,7 +63,7 @@ fn special(branch: usize, followed: &Followed, entry: &SpecialEntry) -> Option<S
         kind: entry.kind,
         parameter: short(entry.parameter, DIGITS.1),
         period: entry.period.map(|period| short(period, DIGITS.1)),
-        criticality: entry.criticality,
+        criticality: entry.criticality.filter(|word| *word != "undecided"),
         breaks: entry.breaks,
         leads: entry.branch,
     })

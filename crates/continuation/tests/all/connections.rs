@@ -1,0 +1,161 @@
+//! Where branches of orbits end at connections: saddles, saddle-foci, saddle-nodes on a circle.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use crate::common::near;
+use motiform_analysis::periodic::PeriodicGuess;
+use motiform_analysis::{PeriodicOrbit, Result};
+use motiform_continuation::{
+    Branch, Connection, ConnectionKind, End, Family, PeriodLaw, Point, Settings, Special,
+};
+use motiform_dynamics::{Equivariant, Request, Scalar, VectorField, drive::drive};
+use motiform_models::tensor::{Tensor, TensorParameters};
+
+type Body = Result<Box<dyn Equivariant>>;
+
+/// The points of a branch of orbits and the connection at its end.
+fn connection(
+    family: &dyn Family,
+    p: f64,
+    guess: &PeriodicGuess<'_>,
+    settings: &Settings,
+) -> (Vec<Point>, Connection) {
+    let body = family.at(p).expect("a body");
+    let start = PeriodicOrbit::find(body.as_ref(), guess, &settings.flow, &()).expect("an orbit");
+    let mut branch = Branch::of_orbits(family, p, &start, settings, &()).expect("it lies on a branch");
+    let points = branch.by_ref().collect();
+    let Some(End::Homoclinic(connection)) = branch.end() else { unreachable!("{:?}", branch.end()) };
+    (points, connection.as_ref().clone())
+}
+
+/// Where the flow comes to after a time.
+fn settled(body: &dyn Equivariant, start: &[f64], time: f64) -> Vec<f64> {
+    let flow = Settings::over(0.0, 1.0).flow;
+    let mut orbit = flow.method.shape_orbit(body, flow.control, 0.0, start).expect("a method");
+    drive(orbit.as_mut(), &Request::until(time, start.len()), &mut ()).expect("it is sound");
+    orbit.state().to_vec()
+}
+
+/// A pendulum driven by a torque, `theta'' = torque - damping theta' - sin theta`, with `(x, y) = (cos theta, sin theta)` held on the circle by
+/// attraction.
+///
+/// At torque 1 saddle and node meet. With strong damping the whirling motion ends there; with weak damping before it, on the loop of a saddle, at
+/// `torque = 4 damping / pi` to first order. Source: Strogatz (1994), Nonlinear Dynamics and Chaos, section 8.5.
+struct Pendulum {
+    torque: f64,
+    damping: f64,
+}
+motiform_models::plain!(Pendulum, 3);
+impl<T: Scalar> VectorField<T> for Pendulum {
+    fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+        let (x, y, rate) = (u[0], u[1], u[2]);
+        let off = x.constant(1.0) - x * x - y * y;
+        du[0] = off * x - y * rate;
+        du[1] = off * y + x * rate;
+        du[2] = x.constant(self.torque) - rate * self.damping - y;
+    }
+}
+
+fn whirling(damping: f64, from: f64, settings: &Settings) -> Connection {
+    let family = move |torque: f64| -> Body { Ok(Box::new(Pendulum { torque, damping })) };
+    let shape = settled(&Pendulum { torque: from, damping }, &[1.0, 0.0, from / damping], 60.0);
+    let time = std::f64::consts::TAU * damping / from;
+    let guess = PeriodicGuess { shape: &shape, time, angle: 0.0, mirrored: false };
+    connection(&family, from, &guess, settings).1
+}
+
+#[test]
+fn a_damped_pendulum_stops_whirling_at_a_saddle_node_on_a_circle() {
+    for settings in [Settings::over(6.0, 0.5), Settings { largest_step: 0.05, ..Settings::over(6.0, 0.2) }] {
+        let settings = Settings { longest_time: 2000.0, ..settings };
+        let found = whirling(2.0, 5.0, &settings);
+        assert_eq!(found.kind(), ConnectionKind::SaddleNode, "{found}");
+        assert!((found.parameter - 1.0).abs() <= found.error && found.error < 1e-5, "{found}");
+        assert!(found.quantity().is_none());
+    }
+}
+
+#[test]
+fn a_weakly_damped_pendulum_stops_whirling_on_the_loop_of_its_saddle() {
+    let damping = 0.1;
+    let found = whirling(damping, 1.2, &Settings::over(1.5, 0.02));
+    assert_eq!(found.kind(), ConnectionKind::Saddle, "{found}");
+    near(found.parameter, 4.0 * damping / std::f64::consts::PI, 0.02 * found.parameter);
+    // sin theta = torque, cos theta < 0: rate^2 + damping rate = |cos theta|
+    let cosine = (1.0 - found.parameter * found.parameter).sqrt();
+    let root = (0.25 * damping * damping + cosine).sqrt();
+    let [grows, decays] = found.sides().unwrap();
+    near(grows.0, root - 0.5 * damping, 1e-5);
+    near(decays.0, -root - 0.5 * damping, 1e-5);
+    near(found.quantity().unwrap(), -damping, 1e-8);
+}
+
+/// The folds of a branch, in its order.
+fn folds(points: &[Point]) -> Vec<f64> {
+    points.iter().filter(|point| point.special == Some(Special::Fold)).map(|point| point.parameter).collect()
+}
+
+/// The saddle-focus at the end: its pair leads, the folds come closer as it says, and their limit (Aitken) is the end.
+fn is_shilnikov(points: &[Point], found: &Connection, expected: f64) {
+    assert_eq!(found.kind(), ConnectionKind::SaddleFocus, "{found}");
+    let PeriodLaw::Oscillating { rate, frequency } = found.law else { unreachable!("{found}") };
+    let folds = folds(points);
+    let [.., a, b, c] = folds[..] else { unreachable!("{folds:?}") };
+    let ratio = (c - b) / (b - a);
+    near(ratio, -(-rate * std::f64::consts::PI / frequency).exp(), 0.03 * ratio.abs());
+    let limit = c - (c - b) * (c - b) / ((c - b) - (b - a));
+    near(found.parameter, limit, 1e-2 * (c - b).abs() + found.error);
+    near(found.parameter, expected, found.error.max(1e-3 * expected.abs()));
+    assert!(found.error < 1e-6, "{found}");
+    let [grows, decays] = found.sides().unwrap();
+    assert!((grows.1 > 0.0) != (decays.1 > 0.0), "one side is a focus");
+    near(found.quantity().unwrap(), grows.0 + decays.0, 0.0);
+}
+
+/// `x' = -y - z`, `y' = x + a y`, `z' = b x - c z + x z` with a = 0.38, b = 0.3: a homoclinic orbit of the origin at c = 4.82.
+/// Source: Gaspard, Kapral and Nicolis (1984), J. Stat. Phys. 35, 697.
+struct Rossler(f64);
+motiform_models::plain!(Rossler, 3);
+impl<T: Scalar> VectorField<T> for Rossler {
+    fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+        let (x, y, z) = (u[0], u[1], u[2]);
+        du[0] = -(y + z);
+        du[1] = x + y * 0.38;
+        du[2] = x * 0.3 - z * self.0 + x * z;
+    }
+}
+
+#[test]
+fn a_branch_of_rosslers_equations_ends_at_its_saddle_focus() {
+    let family = |c: f64| -> Body { Ok(Box::new(Rossler(c))) };
+    // of four turns, stable between two period doublings
+    let shape = settled(&Rossler(2.6), &[1.0, 1.0, 0.1], 4000.0);
+    let guess = PeriodicGuess { shape: &shape, time: 23.0, angle: 0.0, mirrored: false };
+    let (points, found) = connection(&family, 2.6, &guess, &Settings::over(1.0, 8.0));
+    is_shilnikov(&points, &found, 4.82);
+}
+
+/// A rotating motion of the tensor model: folds that converge on -0.018038352 in steps of 10.05 of the period.
+#[test]
+fn a_rotating_motion_of_the_tensor_model_ends_at_a_saddle_focus() {
+    let family = |kappa3: f64| -> Body {
+        let base = TensorParameters {
+            b3: 1.0,
+            d3: 1.0,
+            a1: 0.8,
+            a3: 0.5,
+            b1: 0.6,
+            b2: 0.7,
+            ..TensorParameters::full(0.3, kappa3)
+        };
+        Ok(Box::new(Tensor::new(&TensorParameters { d1: 0.3, d2: 0.9, d6: 0.4, gamma: 0.3, ..base })))
+    };
+    let shape = [-0.482_516, 0.003_306, 0.032_383, -0.063_425, 0.026_391, 0.039_035];
+    let guess = PeriodicGuess { shape: &shape, time: 12.630_755, angle: -1.552_724, mirrored: false };
+    for largest_step in [0.02, 0.03] {
+        let settings = Settings { largest_step, ..Settings::over(0.5, -0.8) };
+        let (points, found) = connection(&family, 0.109_683_548_9, &guess, &settings);
+        is_shilnikov(&points, &found, -0.018_038_352);
+        near(found.parameter, -0.018_038_351_53, 1e-9 + found.error);
+    }
+}
