@@ -5,8 +5,8 @@ use crate::record::{Measurement, Recorder, measured, title};
 use motiform_dynamics::Model;
 use motiform_files::read_dataset;
 use motiform_statistics::{Settings, Track};
-use motiform_study::table::Table;
 use motiform_study::plan::Computation;
+use motiform_study::table::Table;
 use motiform_study::{Dataset, Error};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -78,7 +78,10 @@ fn check(folder: &Path, dataset: &Dataset, first: Option<&Dataset>) -> Result<()
 /// Why these are runs of different bodies, whose mean is that of no body: another model, parameter or noise.
 fn other_body(first: &Computation, c: &Computation) -> Option<String> {
     if first.model != c.model {
-        return Some(format!("it is of model {}, the first folder of {}: give one model", c.model, first.model));
+        return Some(format!(
+            "it is of model {}, the first folder of {}: give one model",
+            c.model, first.model
+        ));
     }
     let remedy = "give one set of parameters, and measure others by themselves";
     let pairs = first.parameters.0.iter().zip(&c.parameters.0);

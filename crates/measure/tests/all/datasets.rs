@@ -65,7 +65,9 @@ fn folders_that_do_not_fit_are_refused() {
     let silent = dataset(folder.path(), "silent", &text.replace("noise = 0.2", ""));
     assert!(read(&[one.clone(), seed], 0.0, &Settings::default()).is_ok());
     assert!(told(&[&one, &kappa]).contains("its kappa3 is 2.5, that of the first folder 2: give one set"));
-    assert!(told(&[&one, &noise]).contains("its noise is") && told(&[&one, &silent]).contains("noise is none"));
+    assert!(
+        told(&[&one, &noise]).contains("its noise is") && told(&[&one, &silent]).contains("noise is none")
+    );
     assert!(told(&[]).contains("at least one track"));
     assert!(told(&[&folder.path().to_owned()]).contains("give a folder written by `motiform simulate`"));
     let late = read(&[one], 99.0, &Settings::default()).unwrap_err().to_string();
