@@ -5,6 +5,7 @@ use crate::record::{Measurement, Recorder, measured, title};
 use motiform_dynamics::Model;
 use motiform_files::read_dataset;
 use motiform_statistics::{Settings, Track};
+use motiform_study::plan::Computation;
 use motiform_study::table::Table;
 use motiform_study::{Dataset, Error};
 use serde_json::json;
@@ -13,11 +14,11 @@ use std::path::{Path, PathBuf};
 /// A row of another time than the grid's, in sampling intervals.
 const OFF_GRID: f64 = 1e-6;
 
-/// Statistics of the bodies in dataset folders, one each, of one model and one sampling interval; what was recorded before `transient` is left
-/// out. Runs that ended early count as far as they go; lengths may differ.
+/// Statistics of the bodies in dataset folders, one each, of one model with one set of parameters and one noise, at one sampling interval; what
+/// was recorded before `transient` is left out. Seeds, starts, methods and lengths may differ. Runs that ended early count as far as they go.
 ///
 /// # Errors
-/// Folders that are no datasets, of different models or intervals, or with rows that are not evenly spaced.
+/// Folders that are no datasets, of different models, parameters, noise or intervals, or with rows that are not evenly spaced.
 ///
 /// # Checked by  tests/all/datasets.rs
 pub fn read(folders: &[PathBuf], transient: f64, settings: &Settings) -> Result<Measurement> {
@@ -48,16 +49,13 @@ pub fn read(folders: &[PathBuf], transient: f64, settings: &Settings) -> Result<
     Ok(Measurement { title, plan, source, seeds: Vec::new(), notes, complete: true, statistics })
 }
 
-/// The same model and interval as the first one, and evenly spaced rows.
+/// The same body and interval as the first one, and evenly spaced rows.
 fn check(folder: &Path, dataset: &Dataset, first: Option<&Dataset>) -> Result<()> {
     let c = &dataset.manifest.plan.computation;
     let refuse = |reason: String| Err(Error::unreadable(folder, reason).into());
     if let Some(first) = first.map(|first| &first.manifest.plan.computation) {
-        if first.model != c.model {
-            return refuse(format!(
-                "it is of model {}, the first folder of {}: give one model",
-                c.model, first.model
-            ));
+        if let Some(reason) = other_body(first, c) {
+            return refuse(reason);
         }
         if (first.dt_out / c.dt_out - 1.0).abs() > OFF_GRID {
             return refuse(format!(
@@ -75,6 +73,26 @@ fn check(folder: &Path, dataset: &Dataset, first: Option<&Dataset>) -> Result<()
         Some(row) => refuse(format!("its rows are not {} apart after t = {}", c.dt_out, times[row])),
         None => Ok(()),
     }
+}
+
+/// Why these are runs of different bodies, whose mean is that of no body: another model, parameter or noise.
+fn other_body(first: &Computation, c: &Computation) -> Option<String> {
+    if first.model != c.model {
+        return Some(format!(
+            "it is of model {}, the first folder of {}: give one model",
+            c.model, first.model
+        ));
+    }
+    let remedy = "give one set of parameters, and measure others by themselves";
+    let pairs = first.parameters.0.iter().zip(&c.parameters.0);
+    let mut others = pairs.filter(|((_, one), (_, other))| one.to_bits() != other.to_bits() && one != other);
+    if let Some(((name, expected), (_, got))) = others.next() {
+        return Some(format!("its {name} is {got}, that of the first folder {expected}: {remedy}"));
+    }
+    let shown = |c: &Computation| c.noise.map_or("none".to_owned(), |noise| noise.to_string());
+    let strength = |c: &Computation| c.noise.map(|noise| [noise.velocity, noise.shape]);
+    (strength(first) != strength(c))
+        .then(|| format!("its noise is {}, that of the first folder {}: {remedy}", shown(c), shown(first)))
 }
 
 /// The track in a table of a motion, from the time `from` on.

@@ -1,7 +1,7 @@
 //! The summary: one JSON object, and sentences.
 
 use crate::Measurement;
-use motiform_statistics::{Answer, Errors, MeanTime, Measured, Side, four_digits};
+use motiform_statistics::{Answer, Diffusion, Errors, MeanTime, Measured, Oscillation, Side, four_digits};
 use serde_json::{Value, json};
 
 /// Everything that is not a curve, as one JSON object. A number that is not known is `{"reason": ...}`.
@@ -12,7 +12,7 @@ pub fn summary(measurement: &Measurement) -> Value {
         .autocorrelations
         .iter()
         .map(|entry| {
-            let value = json!({ "correlation_time": entry.time, "variance": entry.variance });
+            let value = json!({ "correlation_time": entry.time, "oscillation": entry.oscillation, "variance": entry.variance });
             (entry.quantity.name().to_owned(), value)
         })
         .collect();
@@ -32,7 +32,7 @@ pub fn summary(measurement: &Measurement) -> Value {
         "mean_speed": found.mean_speed,
         "rms_speed": found.rms_speed,
         "persistent_walk": found.walk,
-        "late_diffusion": found.late_diffusion,
+        "diffusion": found.diffusion,
         "exponents": { "shortest_lag": found.exponents[0], "last_octave": found.exponents[1] },
         "autocorrelations": times,
         "turning_angles": turning,
@@ -71,13 +71,18 @@ pub fn sentences(measurement: &Measurement) -> Vec<(&'static str, String)> {
             ),
         ),
         ("diffusion", format!("coefficient {} (persistent random walk)", answer(&found.walk.diffusion))),
-        ("", format!("coefficient {} (late slope)", answer(&found.late_diffusion))),
+    ];
+    all.extend(diffusion(&found.diffusion));
+    all.extend([
         ("exponent", format!("{} at the shortest lag", answer(&found.exponents[0]))),
         ("", format!("{} over the last octave of lags", answer(&found.exponents[1]))),
-    ];
+    ]);
     for (place, entry) in found.autocorrelations.iter().enumerate() {
-        let label = if place == 0 { "correlation" } else { "" };
-        all.push((label, format!("time of {}: {}", entry.quantity.name(), answer(&entry.time))));
+        let (label, name) = (if place == 0 { "correlation" } else { "" }, entry.quantity.name());
+        all.push((label, format!("time of {name}: {}", answer(&entry.time))));
+        all.extend(
+            entry.oscillation.iter().map(|found| ("", format!("{name} oscillates: {}", oscillation(found)))),
+        );
     }
     for (place, passage) in found.passages.iter().enumerate() {
         let label = if place == 0 { "leaves" } else { "" };
@@ -99,6 +104,35 @@ pub fn sentences(measurement: &Measurement) -> Vec<(&'static str, String)> {
     all.push(("stays", side("at or above", &residence.above)));
     all.push(("", side("below", &residence.below)));
     all
+}
+
+/// Half widths of a 95 % interval that are three standard errors.
+const CHANCE: f64 = 1.5;
+
+fn diffusion(found: &Diffusion) -> Vec<(&'static str, String)> {
+    let mut all = vec![
+        ("", format!("coefficient {} (velocities: Green-Kubo)", answer(&found.green_kubo))),
+        ("", format!("coefficient {} (displacements: slope)", answer(&found.displacements))),
+    ];
+    all.extend(found.difference.iter().map(|difference| {
+        let agree = difference.value.abs() <= CHANCE * difference.half_width();
+        let meaning =
+            if agree { "they agree" } else { "sampled coarsely, or motion that is not in the velocity" };
+        ("", format!("velocities less displacements {}: {meaning}", value(difference)))
+    }));
+    all
+}
+
+fn oscillation(found: &Oscillation) -> String {
+    match (&found.frequency, &found.decay) {
+        (Answer::Unknown { reason }, _) => reason.clone(),
+        (frequency, decay) => format!(
+            "{} cycles per time, decays in {} (damped cosine; deviation {:.0} %)",
+            answer(frequency),
+            answer(decay),
+            100.0 * found.deviation
+        ),
+    }
 }
 
 fn over(errors: Errors) -> String {

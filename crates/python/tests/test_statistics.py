@@ -19,6 +19,7 @@ def test_noise_on_a_straight_body_is_a_persistent_walk() -> None:
     low, high = found.diffusion.lower, found.diffusion.upper
     assert low < found.diffusion.value < high
     assert found.late_diffusion.lower < high and low < found.late_diffusion.upper  # two estimators of one number
+    assert found.green_kubo.lower < found.late_diffusion.value < found.green_kubo.upper
     assert float(found.walk_speed) == pytest.approx(1.0, rel=0.2)  # |v| = sqrt(gamma) without noise
     assert set(found.correlation_times) == {"velocity", "heading", "speed", "s", "u"} - _steady(found)
     speeds = found.distributions.query("quantity == 'speed'")

@@ -1,13 +1,13 @@
 //! Autocorrelations of velocity, heading, speed and modes of the shape, with their correlation times.
 
 use crate::jackknife::{Sums, leave_out};
-use crate::{Answer, Measured, Quantity, Result, Tracks, four_digits};
+use crate::lag_window::Integral;
+use crate::oscillation::oscillation;
+use crate::plateau::{Curves, Estimate, too_coarse};
+use crate::{Answer, Measured, Oscillation, Quantity, Result, Tracks};
 
 /// Most lags.
 const LONGEST: usize = 1 << 14;
-
-/// The sum for the correlation time ends at this many times the integral of the squared correlation: 8 decay times of an exponential.
-const WINDOW: f64 = 16.0;
 
 /// An autocorrelation against lag.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,107 +22,135 @@ pub struct Autocorrelation {
     pub variance: Measured,
     /// Integral correlation time, the integral of rho.
     pub time: Answer,
+    /// Frequency and decay, where rho oscillates.
+    pub oscillation: Option<Oscillation>,
+}
+
+/// Lagged products of a quantity over groups of units.
+pub(crate) struct Products {
+    /// Of each lag.
+    sums: Vec<Sums>,
+    groups: usize,
+    dt: f64,
+    /// Time of all units together.
+    total: f64,
+    is_number: bool,
 }
 
 /// C(tau) = <q(t) . q(t + tau)> over units and times, for numbers of the deviation from the mean over all of them; rho = C/C(0).
 ///
-/// Correlation time: the integral of rho by the trapezoidal rule up to the shortest lag W with W >= 16 int_0^W rho^2 dt. For an exponential that is 8
-/// decay times, and an oscillating rho, whose own integral may be small, is followed as long. Not reached: no such W within the lags.
-///
-/// Source: Sokal (1997), in Functional Integration, NATO ASI 361 (self-consistent window).
+/// Correlation time: `int_0^inf rho dtau` under a smooth lag window of length W, at least 10 int |rho|, lengthened until longer windows give the same; the change
+/// from W to 2 W is in the interval as far as it is more than chance. The sum over samples is that of an exponential at any dt, and of order dt^4 for others.
+/// For an oscillating rho it is the small rest of what cancels; then frequency and decay are given beside it. Unknown where rho does not decay within the lags,
+/// where samples are too coarse, and where it is within its error of 0 (it is a spectrum at frequency 0, so never below).
 ///
 /// # Errors    none for samples that [`Tracks`] accepts
 /// # Checked by  tests/all/correlation.rs: Ornstein-Uhlenbeck, chiral active Brownian, circle, direct sums; tests/all/coverage.rs
 pub fn autocorrelation(tracks: &Tracks, quantity: &Quantity) -> Result<Autocorrelation> {
-    let longest = tracks.longest_lag().min(LONGEST);
-    let mean = if quantity.is_number() { mean(tracks, quantity) } else { 0.0 };
-    let mut sums = vec![Sums::new(tracks.groups()); longest + 1];
-    for starts in tracks.starts() {
-        let mut series = quantity.of(starts.track);
-        if mean != 0.0 {
-            series.components.iter_mut().flatten().for_each(|x| *x -= mean);
-        }
-        let (products, pairs) = if starts.is_whole() {
-            series.lagged(longest.min(starts.track.position.len() - 1))?
-        } else {
-            series.lagged_from(starts.range, longest)
-        };
-        for ((sums, product), pairs) in sums.iter_mut().zip(products).zip(pairs) {
-            sums.add(starts.group, product, pairs);
-        }
+    let products = Products::of(tracks, quantity)?;
+    let variance = products.sums[0].measured();
+    let quantity = quantity.clone();
+    let steady = variance.value.is_nan() || variance.value <= 1e-24 * typical(tracks, &quantity);
+    if steady {
+        let time = Answer::unknown("it does not vary");
+        let variance = Measured { value: 0.0, interval: None };
+        let (lags, correlation, oscillation) = (Vec::new(), Vec::new(), None);
+        return Ok(Autocorrelation { quantity, lags, correlation, variance, time, oscillation });
     }
-    Ok(normalised(tracks, quantity, &sums))
+    let curves = products.curves();
+    let lags = (0..products.sums.len()).map(|lag| lag as f64 * tracks.dt()).collect();
+    let correlation = (0..products.sums.len()).map(|lag| products.ratio(lag)).collect();
+    let window = curves.window();
+    let last = window.as_ref().map_or(curves.longest(), |window| *window);
+    let time = match window {
+        Ok(window) => products.time(&curves, window),
+        Err(reason) => Answer::Unknown { reason },
+    };
+    let oscillation = oscillation(&curves, last);
+    Ok(Autocorrelation { quantity, lags, correlation, variance, time, oscillation })
+}
+
+impl Products {
+    pub(crate) fn of(tracks: &Tracks, quantity: &Quantity) -> Result<Self> {
+        let longest = tracks.longest_lag().min(LONGEST);
+        let is_number = quantity.is_number();
+        let mean = if is_number { mean(tracks, quantity) } else { 0.0 };
+        let mut sums = vec![Sums::new(tracks.groups()); longest + 1];
+        for starts in tracks.starts() {
+            let mut series = quantity.of(starts.track);
+            series.less(mean);
+            let (products, pairs) = if starts.is_whole() {
+                series.lagged(longest.min(starts.track.position.len() - 1))?
+            } else {
+                series.lagged_from(starts.range, longest)
+            };
+            for ((sums, product), pairs) in sums.iter_mut().zip(products).zip(pairs) {
+                sums.add(starts.group, product, pairs);
+            }
+        }
+        let total = tracks.dt() * sums[0].count();
+        Ok(Self { sums, groups: tracks.groups(), dt: tracks.dt(), total, is_number })
+    }
+
+    /// C of all groups and without each, up to the longest lag that all of them have.
+    pub(crate) fn curves(&self) -> Curves {
+        let curve = |left| self.sums.iter().map(|sums| sums.mean(left)).collect::<Vec<f64>>();
+        let mut values = vec![curve(None)];
+        values.extend((0..self.groups).map(|group| curve(Some(group))));
+        let defined = |curve: &Vec<f64>| curve.iter().take_while(|c| c.is_finite()).count();
+        let common = values.iter().map(defined).min().unwrap_or(0).max(2);
+        values.iter_mut().for_each(|curve| curve.resize(common, f64::NAN));
+        Curves { dt: self.dt, values }
+    }
+
+    /// rho at a lag.
+    fn ratio(&self, lag: usize) -> Measured {
+        leave_out(self.groups, |left| self.sums[lag].mean(left) / self.sums[0].mean(left), false)
+    }
+
+    /// The integral of rho under a window.
+    fn time(&self, curves: &Curves, window: usize) -> Answer {
+        let (all, coarser) = (curves.integrals(window), curves.coarser(window));
+        if let Some(reason) = too_coarse(&all[0], &coarser[0], self.dt) {
+            return Answer::Unknown { reason };
+        }
+        let times = |integrals: Vec<Integral>, length: usize| -> Vec<f64> {
+            let pairs = integrals.into_iter().zip(&curves.values);
+            pairs.map(|(found, curve)| self.unbiased(length) * found.value / curve[0]).collect()
+        };
+        let longer = (2 * window).min(curves.longest());
+        let estimate = Estimate {
+            values: times(all, window),
+            longer: times(curves.integrals(longer), longer),
+            coarser: Some(times(coarser, window)),
+        };
+        estimate.answer()
+    }
+
+    /// The mean of a number is that of the samples, so each C lacks the variance of the mean, 2 T C(0)/(time of all): over a window of length W that is
+    /// the part 1.5 W/(time of all) of T.
+    fn unbiased(&self, window: usize) -> f64 {
+        let part = 1.5 * window as f64 * self.dt / self.total;
+        if self.is_number { 1.0 / (1.0 - part.min(0.5)) } else { 1.0 }
+    }
 }
 
 /// The mean of a number over all samples.
 fn mean(tracks: &Tracks, quantity: &Quantity) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for track in tracks.units() {
-        for component in quantity.of(track).components {
-            sum += component.iter().sum::<f64>();
-            count += component.len() as f64;
-        }
+        let series = quantity.of(track);
+        count += series.count();
+        sum += series.components.iter().flatten().sum::<f64>();
     }
     sum / count
-}
-
-fn normalised(tracks: &Tracks, quantity: &Quantity, sums: &[Sums]) -> Autocorrelation {
-    let groups = tracks.groups();
-    let variance = sums[0].measured();
-    let lags: Vec<f64> = (0..sums.len()).map(|lag| lag as f64 * tracks.dt()).collect();
-    let quantity = quantity.clone();
-    let steady = variance.value.is_nan() || variance.value <= 1e-24 * typical(tracks, &quantity);
-    if steady {
-        let time = Answer::unknown("it does not vary");
-        let variance = Measured { value: 0.0, interval: None };
-        return Autocorrelation { quantity, lags: Vec::new(), correlation: Vec::new(), variance, time };
-    }
-    let without: Vec<Vec<f64>> = (0..groups).map(|group| ratios(sums, Some(group))).collect();
-    let all = ratios(sums, None);
-    let at = |lag: usize| leave_out(groups, |left| left.map_or(all[lag], |group| without[group][lag]), false);
-    let correlation = (0..sums.len()).map(at).collect();
-    let time = match window(&all) {
-        Some(last) => Answer::Known(leave_out(
-            groups,
-            |left| tracks.dt() * integral(left.map_or(&all, |group| &without[group]), last),
-            false,
-        )),
-        None => Answer::unknown(format!(
-            "not reached: the correlation does not decay within the longest lag {}; record longer",
-            four_digits(lags[lags.len() - 1])
-        )),
-    };
-    Autocorrelation { quantity, lags, correlation, variance, time }
 }
 
 /// The mean square of a quantity: below 1e-24 of it, fluctuations are round-off.
 fn typical(tracks: &Tracks, quantity: &Quantity) -> f64 {
     let squares = tracks.units().iter().map(|track| {
-        let sizes = quantity.of(track).components;
-        sizes.iter().flatten().map(|x| x * x).sum::<f64>() / sizes[0].len() as f64
+        let series = quantity.of(track);
+        series.components.iter().flatten().map(|x| x * x).sum::<f64>() / series.count().max(1.0)
     });
     squares.fold(0.0, f64::max)
-}
-
-/// C(lag)/C(0).
-fn ratios(sums: &[Sums], left_out: Option<usize>) -> Vec<f64> {
-    let first = sums[0].mean(left_out);
-    sums.iter().map(|sum| sum.mean(left_out) / first).collect()
-}
-
-/// The last lag of the sum; `None` if the correlation has not decayed within the lags.
-fn window(correlation: &[f64]) -> Option<usize> {
-    let mut squares = 0.5;
-    for (lag, rho) in correlation.iter().enumerate().skip(1) {
-        squares += rho * rho;
-        if lag as f64 >= WINDOW * squares {
-            return Some(lag);
-        }
-    }
-    None
-}
-
-/// Trapezoidal sum in units of the lag.
-fn integral(correlation: &[f64], last: usize) -> f64 {
-    correlation[1..last].iter().sum::<f64>() + 0.5 * (correlation[0] + correlation[last])
 }

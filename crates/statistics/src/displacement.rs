@@ -42,22 +42,28 @@ pub struct DisplacementPoint {
 #[must_use]
 pub fn mean_square(tracks: &Tracks) -> MeanSquare {
     let lags = spaced(tracks.longest_lag());
-    let groups = tracks.groups();
-    let mut sums = vec![Sums::new(groups); lags.len()];
+    MeanSquare { dt: tracks.dt(), sums: square_sums(tracks, &lags), groups: tracks.groups(), lags }
+}
+
+/// Sums of squared displacements at each lag, by groups.
+pub(crate) fn square_sums(tracks: &Tracks, lags: &[usize]) -> Vec<Sums> {
+    let mut sums = vec![Sums::new(tracks.groups()); lags.len()];
     for starts in tracks.starts() {
-        for (sums, &lag) in sums.iter_mut().zip(&lags) {
+        for (sums, &lag) in sums.iter_mut().zip(lags) {
             let (mut sum, mut count) = (0.0, 0.0);
             for (a, b) in starts.pairs(&starts.track.position, lag) {
                 let [x, y] = [b[0] - a[0], b[1] - a[1]];
-                sum += x * x + y * y;
-                count += 1.0;
+                let square = x * x + y * y;
+                let there = f64::from(u8::from(!square.is_nan()));
+                sum += if there > 0.0 { square } else { 0.0 };
+                count += there;
             }
             if count > 0.0 {
                 sums.add(starts.group, sum, count);
             }
         }
     }
-    MeanSquare { dt: tracks.dt(), lags, sums, groups }
+    sums
 }
 
 /// 1, 2, 3, ... and from there on logarithmically, up to `longest`.
@@ -109,10 +115,11 @@ impl MeanSquare {
         self.groups
     }
 
-    /// The value at a place with its interval.
+    /// The value at a place with its interval, on its logarithm (squares of late displacements are skew) where it is above 0.
     #[must_use]
     pub fn measured(&self, place: usize) -> Measured {
-        self.sums[place].measured()
+        let skew = leave_out(self.groups, |left_out| self.value(place, left_out), true);
+        if skew.interval.is_some() { skew } else { self.sums[place].measured() }
     }
 
     /// d ln MSD / d ln lag between lags some places away on both sides; `None` where nothing moved.

@@ -5,15 +5,21 @@
 //! over bodies, or over blocks of the tracks where there are few bodies ([`Tracks`]). What cannot be computed is an [`Answer`] with the reason.
 
 mod answer;
+mod consistency;
 mod correlate;
 mod correlation;
+mod damped;
+mod diffusion;
 mod displacement;
 mod distribution;
 mod error;
+mod exponent;
 mod jackknife;
-mod late;
+mod lag_window;
+mod oscillation;
 mod passage;
 mod persistence;
+mod plateau;
 mod power;
 mod quantiles;
 mod residence;
@@ -24,13 +30,16 @@ mod turning;
 mod windows;
 
 pub use answer::{Answer, Measured, four_digits, with_error};
+pub use consistency::Seen;
 pub use correlate::lagged_sums;
 pub use correlation::{Autocorrelation, autocorrelation};
+pub use diffusion::{Diffusion, diffusion};
 pub use displacement::{DisplacementPoint, MeanSquare, mean_square};
 pub use distribution::{Bin, Histogram, histogram};
 pub use error::{Error, Result};
+pub use exponent::local_exponent;
 pub use jackknife::jackknife;
-pub use late::{late_diffusion, local_exponent};
+pub use oscillation::Oscillation;
 pub use passage::{Passage, first_passages, radii};
 pub use persistence::{Walk, furth, persistent_walk};
 pub use power::{PowerSpectrum, power_spectrum};

@@ -44,8 +44,8 @@ pub fn radii(curve: &MeanSquare) -> Vec<f64> {
 /// Times until a body is first farther than r from where it was, for each radius r (increasing), from 64 starting times along each unit.
 ///
 /// Between two samples the path is taken as straight. A body that is rough between samples (diffusion) is seen to leave too late: for
-/// Brownian motion as if the disc were larger by 0.583 sqrt(2 D dt) (Chernoff and Petkau 1976). Starting times near the end of a unit are
-/// watched for less long, which [`mean_time`] accounts for.
+/// Brownian motion as if the disc were larger by 0.583 sqrt(2 D dt) (Chernoff and Petkau 1976). Starting times near the end of a unit
+/// or before a gap are watched for less long, which [`mean_time`] accounts for.
 ///
 /// # Checked by  tests/all/passage.rs: Brownian motion, r^2/(4 D); straight and circular motion
 #[must_use]
@@ -56,8 +56,14 @@ pub fn first_passages(tracks: &Tracks, radii: &[f64]) -> Vec<Passage> {
         let starts = STARTS.min(path.len() / 2);
         for k in 0..starts {
             let start = k * (path.len() - 1) / starts;
+            let watched = path[start..].iter().take_while(|p| !p[0].is_nan() && !p[1].is_nan()).count();
+            if watched < 2 {
+                continue;
+            }
             let group = tracks.group(unit);
-            for (durations, (steps, ended)) in found.iter_mut().zip(leave(&path[start..], radii)) {
+            for (durations, (steps, ended)) in
+                found.iter_mut().zip(leave(&path[start..start + watched], radii))
+            {
                 durations.push(Duration { time: steps * tracks.dt(), ended, group });
             }
         }

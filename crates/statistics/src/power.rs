@@ -1,8 +1,9 @@
 //! Power spectra over bodies, with confidence bands.
 
 use crate::quantiles::chi_square_quantile;
-use crate::{Quantity, Result, Tracks};
+use crate::{Quantity, Result, Series, Tracks};
 use motiform_analysis::welch;
+use std::ops::Range;
 
 /// Segments per track: at least so many half-overlapping ones where there are few bodies, and where there are many.
 const SEGMENTS: (usize, usize) = (16, 2);
@@ -38,13 +39,17 @@ pub struct PowerSpectrum {
 /// # Errors    none for samples that [`Tracks`] accepts
 /// # Checked by  tests/all/power.rs: white noise and Ornstein-Uhlenbeck within their bands
 pub fn power_spectrum(tracks: &Tracks, quantity: &Quantity) -> Result<Option<PowerSpectrum>> {
-    let Some(length) = segment(tracks) else { return Ok(None) };
+    let all: Vec<Series> = tracks.bodies().iter().map(|track| quantity.of(track)).collect();
+    let runs: Vec<(&Series, Range<usize>)> =
+        all.iter().flat_map(|series| series.runs().into_iter().map(move |run| (series, run))).collect();
+    let Some(length) = segment(&runs.iter().map(|(_, run)| run.len()).collect::<Vec<_>>()) else {
+        return Ok(None);
+    };
     let (mut power, mut segments) = (vec![0.0; length / 2 + 1], 0);
-    let long = tracks.bodies().iter().filter(|track| track.position.len() >= length);
-    for track in long {
+    for (series, run) in runs.into_iter().filter(|(_, run)| run.len() >= length) {
         let mut counted = 0;
-        for component in quantity.of(track).components {
-            let spectrum = welch(&component, tracks.dt(), length)?;
+        for component in &series.components {
+            let spectrum = welch(&component[run.clone()], tracks.dt(), length)?;
             counted = spectrum.segments;
             for (sum, value) in power.iter_mut().zip(spectrum.power) {
                 *sum += value * counted as f64;
@@ -60,13 +65,12 @@ pub fn power_spectrum(tracks: &Tracks, quantity: &Quantity) -> Result<Option<Pow
     Ok(Some(PowerSpectrum { quantity: quantity.clone(), frequencies, power, band, segments, length }))
 }
 
-/// The largest power of 2 that leaves enough segments.
-fn segment(tracks: &Tracks) -> Option<usize> {
-    let lengths = || tracks.bodies().iter().map(|track| track.position.len());
+/// The largest power of 2 that leaves enough segments of stretches of these lengths.
+fn segment(lengths: &[usize]) -> Option<usize> {
     let segments = |size: usize| -> usize {
-        lengths().filter(|&n| n >= size).map(|n| (n - size) / (size - size / 2) + 1).sum()
+        lengths.iter().filter(|&&n| n >= size).map(|n| (n - size) / (size - size / 2) + 1).sum()
     };
-    let longest = lengths().max()?;
+    let longest = *lengths.iter().max()?;
     let each = |size: usize| longest >= size && (longest - size) / (size - size / 2) + 1 >= SEGMENTS.1;
     (3..40).map(|k| 1_usize << k).filter(|&size| segments(size) >= SEGMENTS.0 && each(size)).max()
 }

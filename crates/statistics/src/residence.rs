@@ -28,7 +28,7 @@ pub struct Residence {
 
 /// Times for which the size of a quantity stays above and below a threshold (its median, if none is given).
 ///
-/// A stay begins with a crossing of the threshold, located by linear interpolation, so the first one of a unit is left out; the last one is censored
+/// A stay begins with a crossing of the threshold, located by linear interpolation, so the first one of a unit (and after a gap) is left out; the last one is censored
 /// ([`mean_time`]). Under noise, stays shorter than the time between samples are not seen, and the mean time depends on that time.
 ///
 /// # Checked by  tests/all/passage.rs: a sine, whose stays are known
@@ -43,7 +43,7 @@ pub fn residence(tracks: &Tracks, quantity: &Quantity, threshold: Option<f64>) -
             if is_above { above.push(duration) } else { below.push(duration) }
         }
     }
-    let all = || sizes.iter().flatten();
+    let all = || sizes.iter().flatten().filter(|x| !x.is_nan());
     let share = all().filter(|&&x| x >= threshold).count() as f64 / all().count() as f64;
     let side = |share, durations: &[Duration]| Side { share, time: mean_time(durations, tracks.groups()) };
     let quantity = quantity.name().to_owned();
@@ -51,13 +51,17 @@ pub fn residence(tracks: &Tracks, quantity: &Quantity, threshold: Option<f64>) -
 }
 
 fn median(sizes: &[Vec<f64>]) -> f64 {
-    let mut all: Vec<f64> = sizes.iter().flatten().copied().collect();
+    let mut all: Vec<f64> = sizes.iter().flatten().copied().filter(|x| !x.is_nan()).collect();
     all.sort_by(f64::total_cmp);
     all[all.len() / 2]
 }
 
-/// Stays after the first crossing: the side, the length in samples, and whether its end was seen.
+/// Stays after the first crossing of each stretch without gaps: the side, the length in samples, and whether its end was seen.
 fn stays(series: &[f64], threshold: f64) -> Vec<(bool, f64, bool)> {
+    series.split(|x| x.is_nan()).flat_map(|stretch| stays_within(stretch, threshold)).collect()
+}
+
+fn stays_within(series: &[f64], threshold: f64) -> Vec<(bool, f64, bool)> {
     let mut found = Vec::new();
     let mut since: Option<f64> = None;
     for (place, pair) in series.windows(2).enumerate() {

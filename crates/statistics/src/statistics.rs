@@ -2,9 +2,10 @@
 
 use crate::jackknife::Sums;
 use crate::{
-    Answer, Autocorrelation, Errors, Histogram, MeanSquare, Measured, Passage, PowerSpectrum, Quantity,
-    Residence, Result, Tracks, Turning, Walk, autocorrelation, first_passages, histogram, late_diffusion,
-    local_exponent, mean_square, persistent_walk, power_spectrum, radii, residence, turning_angles,
+    Answer, Autocorrelation, Diffusion, Errors, Histogram, MeanSquare, Measured, Passage, PowerSpectrum,
+    Quantity, Residence, Result, Seen, Track, Tracks, Turning, Walk, autocorrelation, diffusion,
+    first_passages, histogram, local_exponent, mean_square, persistent_walk, power_spectrum, radii,
+    residence, turning_angles,
 };
 
 /// Bins of the speed.
@@ -38,8 +39,8 @@ pub struct Statistics {
     pub displacement: MeanSquare,
     /// The fit of a persistent random walk.
     pub walk: Walk,
-    /// Diffusion coefficient from the late slope.
-    pub late_diffusion: Answer,
+    /// Diffusion coefficient without a model of the motion.
+    pub diffusion: Diffusion,
     /// Exponents of the mean-square displacement at the shortest lag and over the last octave.
     pub exponents: [Answer; 2],
     /// Autocorrelations of velocity, heading, speed and the modes.
@@ -76,15 +77,19 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
         .collect::<Result<Vec<_>>>()?;
     let lengths = || tracks.bodies().iter().map(|track| track.position.len());
     let [mean_speed, square] = [1, 2].map(|power| moment(tracks, power));
+    let rms_speed = square.map(|x| x.max(0.0).sqrt());
+    let diffusion = diffusion(tracks)?;
+    let seen =
+        Seen { speed: &rms_speed, diffusion: &diffusion.displacements, time: &autocorrelations[0].time };
     Ok(Statistics {
         bodies: tracks.bodies().len(),
         dt: tracks.dt(),
         samples: [lengths().min().unwrap_or(0), lengths().max().unwrap_or(0)],
         errors: tracks.errors(),
         mean_speed,
-        rms_speed: square.map(|x| x.max(0.0).sqrt()),
-        walk: persistent_walk(&displacement),
-        late_diffusion: late_diffusion(&displacement),
+        rms_speed,
+        walk: persistent_walk(&displacement).held_against(&seen),
+        diffusion,
         exponents: [true, false].map(|first| local_exponent(&displacement, first)),
         speeds: speeds(tracks),
         turning: turning_angles(tracks),
@@ -113,18 +118,23 @@ fn discs(settings: &Settings, displacement: &MeanSquare) -> Result<Vec<f64>> {
 fn moment(tracks: &Tracks, power: i32) -> Measured {
     let mut sums = Sums::new(tracks.groups());
     for (unit, track) in tracks.units().iter().enumerate() {
-        let speeds = Quantity::Speed.size(track);
+        let speeds: Vec<f64> = present(track).collect();
         let sum = speeds.iter().map(|speed| if power == 1 { *speed } else { speed * speed }).sum();
         sums.add(tracks.group(unit), sum, speeds.len() as f64);
     }
     sums.measured()
 }
 
+/// The speeds that are there.
+fn present(track: &Track) -> impl Iterator<Item = f64> {
+    Quantity::Speed.size(track).into_iter().filter(|speed| !speed.is_nan())
+}
+
 /// The distribution of the speed between its extremes.
 fn speeds(tracks: &Tracks) -> Option<Histogram> {
     let of = |(unit, track)| {
         let group = tracks.group(unit);
-        Quantity::Speed.size(track).into_iter().map(move |speed| (group, speed))
+        present(track).map(move |speed| (group, speed))
     };
     let samples: Vec<(usize, f64)> = tracks.units().iter().enumerate().flat_map(of).collect();
     let ends = samples.iter().fold((f64::MAX, 0.0_f64), |(low, high), s| (low.min(s.1), high.max(s.1)));

@@ -5,7 +5,7 @@ use crate::{Answer, Measured, four_digits};
 use serde::Serialize;
 
 /// Share of the durations that must be at risk up to the limit of the restricted mean, and their least number.
-const AT_RISK: (f64, f64) = (0.01, 5.0);
+const AT_RISK: (f64, f64) = (0.001, 5.0);
 
 /// A duration.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,8 +39,8 @@ pub struct MeanTime {
 ///
 /// restricted mean = int_0^L S dt;   mean = restricted mean + S(L)/k.
 ///
-/// L is the longest time at which 1 % of the durations and at least 5 are still watched; k is the rate of ends after the median
-/// (ends over time watched): an exponential tail, as escapes by diffusion have. If every end was seen, the mean is the plain mean. `None` without durations.
+/// L is the longest time at which 0.1 % of the durations and at least 5 are still watched; k is the rate of ends (ends over time watched) from where S falls to
+/// sqrt(S(L)), the second half of the fall on a logarithmic scale: an exponential tail, as escapes by diffusion have. If every end was seen, the mean is the plain mean. `None` without durations.
 ///
 /// Source: Kaplan and Meier (1958), J. Am. Stat. Assoc. 53, 457; Brown, Hollander, Korwar (1974), exponential completion of the tail.
 ///
@@ -79,7 +79,7 @@ struct Area {
     restricted: f64,
     /// S at the limit.
     share: f64,
-    /// Rate of ends after the median.
+    /// Rate of ends from where S falls to sqrt(S(limit)).
     rate: f64,
 }
 
@@ -89,25 +89,36 @@ impl Area {
     }
 }
 
-/// The curve up to `limit`, without one group if asked; ends come before losses at the same time.
+/// The curve up to `limit`, without one group if asked.
 fn curve(sorted: &[Duration], limit: f64, left_out: Option<usize>) -> Area {
+    let (steps, last) = steps(sorted, limit, left_out);
+    let restricted = steps.iter().map(|step| step.share * step.time).sum::<f64>() + last.share * last.time;
+    let late = || steps.iter().chain(std::iter::once(&last)).filter(|step| step.share <= last.share.sqrt());
+    let rate =
+        late().map(|step| step.ends).sum::<f64>() / late().map(|step| step.at_risk * step.time).sum::<f64>();
+    Area { restricted, share: last.share, rate }
+}
+
+/// What is between two durations: the share that lasts, how long, how many are watched, and ends at its end.
+#[derive(Clone, Copy)]
+struct Step {
+    share: f64,
+    time: f64,
+    at_risk: f64,
+    ends: f64,
+}
+
+/// The steps of the curve up to `limit`, and what is left to it; ends come before losses at the same time.
+fn steps(sorted: &[Duration], limit: f64, left_out: Option<usize>) -> (Vec<Step>, Step) {
     let kept = || sorted.iter().filter(|duration| Some(duration.group) != left_out);
-    let mut at_risk = kept().count() as f64;
-    let (mut area, mut share, mut before) = (0.0, 1.0, 0.0);
-    let (mut ends, mut watched) = (0.0, 0.0);
-    for duration in kept() {
-        let time = duration.time.min(limit);
-        area += share * (time - before);
-        watched += if share <= 0.5 { at_risk * (time - before) } else { 0.0 };
-        before = time;
-        if duration.time > limit {
-            break;
-        }
-        if duration.ended {
-            ends += if share <= 0.5 { 1.0 } else { 0.0 };
-            share *= (at_risk - 1.0) / at_risk;
-        }
+    let (mut at_risk, mut share, mut before) = (kept().count() as f64, 1.0, 0.0);
+    let mut steps = Vec::new();
+    for duration in kept().take_while(|duration| duration.time <= limit) {
+        let ends = f64::from(u8::from(duration.ended));
+        steps.push(Step { share, time: duration.time - before, at_risk, ends });
+        share *= (at_risk - ends) / at_risk;
         at_risk -= 1.0;
+        before = duration.time;
     }
-    Area { restricted: area + share * (limit - before).max(0.0), share, rate: ends / watched }
+    (steps, Step { share, time: (limit - before).max(0.0), at_risk, ends: 0.0 })
 }

@@ -84,8 +84,58 @@ pub enum Quantity {
 pub struct Series {
     /// One or two components.
     pub components: Vec<Vec<f64>>,
-    /// Where it is defined; everywhere if `None`. Undefined samples are 0.
+    /// Where it is defined (there, and for a heading not at rest); everywhere if `None`. Undefined samples are 0.
     pub defined: Option<Vec<bool>>,
+}
+
+impl Series {
+    /// Samples that are not a number are not defined.
+    fn new(mut components: Vec<Vec<f64>>) -> Self {
+        let samples = components.first().map_or(0, Vec::len);
+        let defined: Vec<bool> =
+            (0..samples).map(|at| components.iter().all(|series| !series[at].is_nan())).collect();
+        if defined.iter().all(|&there| there) {
+            return Self { components, defined: None };
+        }
+        for series in &mut components {
+            series.iter_mut().zip(&defined).filter(|(_, there)| !**there).for_each(|(x, _)| *x = 0.0);
+        }
+        Self { components, defined: Some(defined) }
+    }
+
+    /// The ranges without a gap.
+    pub(crate) fn runs(&self) -> Vec<std::ops::Range<usize>> {
+        let samples = self.components.first().map_or(0, Vec::len);
+        let there = |at: usize| self.defined.as_ref().is_none_or(|defined| defined[at]);
+        let mut runs = Vec::new();
+        let mut begin = None;
+        for at in 0..=samples {
+            match (begin, at < samples && there(at)) {
+                (None, true) => begin = Some(at),
+                (Some(from), false) => {
+                    runs.push(from..at);
+                    begin = None;
+                }
+                _ => {}
+            }
+        }
+        runs
+    }
+
+    /// Subtracts a number where it is defined.
+    pub(crate) fn less(&mut self, mean: f64) {
+        let defined = self.defined.as_deref();
+        for component in &mut self.components {
+            let there = |at: usize| defined.is_none_or(|defined| defined[at]);
+            component.iter_mut().enumerate().filter(|(at, _)| there(*at)).for_each(|(_, x)| *x -= mean);
+        }
+    }
+
+    /// Defined samples.
+    pub(crate) fn count(&self) -> f64 {
+        let all = self.components.first().map_or(0, Vec::len);
+        self.defined.as_ref().map_or(all, |defined| defined.iter().filter(|there| **there).count()) as f64
+    }
 }
 
 impl Quantity {
@@ -109,26 +159,23 @@ impl Quantity {
     /// Its series along a track.
     #[must_use]
     pub fn of(&self, track: &Track) -> Series {
-        let vector = |pairs: &[[f64; 2]]| Series {
-            components: (0..2).map(|k| pairs.iter().map(|pair| pair[k]).collect()).collect(),
-            defined: None,
+        let vector = |pairs: &[[f64; 2]]| {
+            Series::new((0..2).map(|k| pairs.iter().map(|pair| pair[k]).collect()).collect())
         };
         match self {
             Self::Velocity => vector(&track.velocity),
-            Self::Speed => Series { components: vec![self.size(track)], defined: None },
+            Self::Speed => Series::new(vec![self.size(track)]),
             Self::Mode(number, _) => vector(&track.modes[*number]),
             Self::Heading => {
                 let sizes = Self::Speed.size(track);
-                let defined: Vec<bool> = sizes.iter().map(|&size| size > 0.0).collect();
-                let unit = |(v, s): (&[f64; 2], &f64)| if *s > 0.0 { v.map(|x| x / s) } else { [0.0; 2] };
-                let headings: Vec<_> = track.velocity.iter().zip(&sizes).map(unit).collect();
-                let all = defined.iter().all(|&there| there);
-                Series { defined: (!all).then_some(defined), ..vector(&headings) }
+                let unit =
+                    |(v, s): (&[f64; 2], &f64)| if *s > 0.0 { v.map(|x| x / s) } else { [f64::NAN; 2] };
+                vector(&track.velocity.iter().zip(&sizes).map(unit).collect::<Vec<_>>())
             }
         }
     }
 
-    /// Its size along a track: the speed, or the amplitude of a mode.
+    /// Its size along a track: the speed, or the amplitude of a mode; NaN where it is missing.
     #[must_use]
     pub fn size(&self, track: &Track) -> Vec<f64> {
         let pairs = match self {
@@ -144,7 +191,28 @@ impl Tracks {
     ///
     /// # Errors   no body, `dt` not positive, series of different lengths, fewer than 16 samples, a sample that is not finite
     pub fn new(dt: f64, names: Vec<String>, bodies: Vec<Track>) -> Result<Self> {
-        check_all(dt, &names, &bodies)?;
+        check_all(dt, &names, &bodies, false)?;
+        Self::in_units(dt, names, bodies)
+    }
+
+    /// The same of tracks with gaps, such as those of cells: what is missing is NaN, in each series by itself ([`Track::without`] marks whole samples). A
+    /// displacement, a pair of a correlation or a turn counts where its samples are there; a duration that meets a gap is one that was not watched to its end;
+    /// spectra use stretches without gaps.
+    ///
+    /// # Errors   as [`Tracks::new`]; fewer than 16 positions of a body that are there
+    /// # Checked by  tests/all/gaps.rs: exact processes with samples left out, direct sums
+    pub fn with_gaps(dt: f64, names: Vec<String>, bodies: Vec<Track>) -> Result<Self> {
+        check_all(dt, &names, &bodies, true)?;
+        for (body, track) in bodies.iter().enumerate() {
+            let samples = track.position.iter().filter(|pair| !pair[0].is_nan() && !pair[1].is_nan()).count();
+            if samples < LEAST {
+                return Err(Error::TooShort { body, samples, least: LEAST });
+            }
+        }
+        Self::in_units(dt, names, bodies)
+    }
+
+    fn in_units(dt: f64, names: Vec<String>, bodies: Vec<Track>) -> Result<Self> {
         let (blocks, errors) = units(&bodies)?;
         Ok(Self { dt, names, bodies, blocks, pieces: None, errors })
     }
@@ -159,7 +227,7 @@ impl Tracks {
         if bodies.is_empty() || bodies.len() >= BODIES {
             return Self::new(dt, names, bodies);
         }
-        check_all(dt, &names, &bodies)?;
+        check_all(dt, &names, &bodies, false)?;
         let pieces = STARTS.div_ceil(bodies.len());
         let length = |track: &Track| track.position.len() / pieces;
         let cut = |track: &Track| {
@@ -243,17 +311,17 @@ impl Tracks {
     }
 }
 
-fn check_all(dt: f64, names: &[String], bodies: &[Track]) -> Result<()> {
+fn check_all(dt: f64, names: &[String], bodies: &[Track], gaps: bool) -> Result<()> {
     if !(dt > 0.0 && dt.is_finite()) {
         return Err(Error::Interval { dt });
     }
     if bodies.is_empty() {
         return Err(Error::NoBody);
     }
-    bodies.iter().enumerate().try_for_each(|(body, track)| check(body, track, names))
+    bodies.iter().enumerate().try_for_each(|(body, track)| check(body, track, names, gaps))
 }
 
-fn check(body: usize, track: &Track, names: &[String]) -> Result<()> {
+fn check(body: usize, track: &Track, names: &[String], gaps: bool) -> Result<()> {
     let samples = track.position.len();
     if samples < LEAST {
         return Err(Error::TooShort { body, samples, least: LEAST });
@@ -269,7 +337,7 @@ fn check(body: usize, track: &Track, names: &[String]) -> Result<()> {
             return Err(Error::Lengths { body, what, got: series.len(), expected: samples });
         }
         let bad = series.iter().enumerate().find_map(|(i, pair)| {
-            pair.iter().find(|x| x.is_nan() || x.abs() > LARGEST).map(|&value| (i, value))
+            pair.iter().find(|x| (x.is_nan() && !gaps) || x.abs() > LARGEST).map(|&value| (i, value))
         });
         if let Some((sample, value)) = bad {
             return Err(Error::NotFinite { body, what, sample, value });
@@ -300,6 +368,20 @@ fn units(bodies: &[Track]) -> Result<(Option<Vec<Track>>, Errors)> {
 }
 
 impl Track {
+    /// The track without the samples that are marked as missing: they become NaN in all series ([`Tracks::with_gaps`]).
+    #[must_use]
+    pub fn without(mut self, missing: &[bool]) -> Self {
+        let all = [&mut self.position, &mut self.velocity].into_iter().chain(&mut self.modes);
+        for series in all {
+            series
+                .iter_mut()
+                .zip(missing)
+                .filter(|(_, gone)| **gone)
+                .for_each(|(pair, _)| *pair = [f64::NAN; 2]);
+        }
+        self
+    }
+
     fn part(&self, from: usize, length: usize) -> Self {
         let cut = |series: &[[f64; 2]]| series[from..from + length].to_vec();
         Self {

@@ -36,6 +36,7 @@ fn at_lag(tracks: &Tracks, lag: usize) -> Turning {
     for (unit, track) in tracks.units().iter().enumerate() {
         for window in track.position.windows(2 * lag + 1).step_by((lag / 2).max(1)) {
             match angle([window[0], window[lag], window[2 * lag]]) {
+                Some(angle) if angle.is_nan() => {} // one of them is missing
                 Some(angle) => samples.push((tracks.group(unit), angle)),
                 None => at_rest += 1,
             }

@@ -78,8 +78,10 @@ Examples:
 What is measured, each with its 95 % interval (docs/statistics.md has the formulas):
   speed          its mean, root mean square and distribution
   persistence    time P and speed S of a persistent random walk, from mean-square displacements
-  diffusion      coefficient D, of that walk (S^2 P/2), and from the late slope alone
-  correlation    integral correlation times of velocity, heading, speed, modes of the shape
+  diffusion      coefficient D, of that walk (S^2 P/2); without a model of the motion from
+                 velocities (Green and Kubo) and from displacements, and their difference
+  correlation    integral correlation times of velocity, heading, speed, modes of the shape;
+                 frequency and decay of those that oscillate
   leaves         mean first-passage times out of discs
   stays          residence times above and below a threshold
 'unknown' comes with a reason: too short a track has no diffusion coefficient.

@@ -7,7 +7,7 @@ use motiform_figures::{
     BandCurve, BandFigure, BandPoint, ErrorBarFigure, ErrorBarSeries, ExpectedLine, Figure, Interval,
     LineStyle, Measured as Point,
 };
-use motiform_statistics::{Measured, furth};
+use motiform_statistics::{Measured, four_digits, furth};
 
 /// Points of a line.
 const POINTS: usize = 200;
@@ -89,15 +89,7 @@ fn lines(measurement: &Measurement, points: &[BandPoint]) -> Vec<ExpectedLine> {
         let (label, end) = ("ballistic: ⟨|***v***|^2⟩*τ*^2", (BEYOND * time).clamp(first, last));
         lines.push(line(label.to_owned(), LineStyle::Dashed, (first, end), &|t| speed * speed * t * t));
     }
-    let (diffusion, start) = match (walk.diffusion.known(), measurement.statistics.late_diffusion.known()) {
-        (Some(fit), _) => (fit.value, time / BEYOND),
-        (None, Some(late)) => (late.value, last / 30.0),
-        (None, None) => return lines,
-    };
-    let start = start.clamp(first, last);
-    lines.push(line("diffusive: 4*Dτ*".to_owned(), LineStyle::Dotted, (start, last), &|t| {
-        4.0 * diffusion * t
-    }));
+    lines.extend(diffusive(measurement, (first, last)));
     if let Some(persistence) = walk.persistence.known() {
         let ends = points.iter().filter(|p| p.y > 0.0).map(|p| p.y);
         let (low, high) = ends.fold((f64::MAX, f64::MIN), |(low, high), y| (low.min(y), high.max(y)));
@@ -107,6 +99,24 @@ fn lines(measurement: &Measurement, points: &[BandPoint]) -> Vec<ExpectedLine> {
         lines.push(ExpectedLine { label, style: LineStyle::DashDotted, points });
     }
     lines
+}
+
+/// How far the line goes below the lags it was fitted to, as a factor.
+const BEFORE: f64 = 8.0;
+
+/// The straight line of the late displacements, with its intercept: that is what passes through the points.
+fn diffusive(measurement: &Measurement, (first, last): (f64, f64)) -> Option<ExpectedLine> {
+    let found = &measurement.statistics.diffusion;
+    let ([intercept, slope], [lag, _]) = (found.line?, found.lags?);
+    found.displacements.known()?;
+    let points = logarithmic(((lag / BEFORE).clamp(first, last), last));
+    let points = points.into_iter().map(|t| [t, intercept + slope * t]).filter(|point| point[1] > 0.0);
+    let label = format!(
+        "diffusive: 4*D*(*τ* {} {})",
+        if intercept < 0.0 { "−" } else { "+" },
+        four_digits((intercept / slope).abs())
+    );
+    Some(ExpectedLine { label, style: LineStyle::Dotted, points: points.collect() })
 }
 
 fn logarithmic((from, to): (f64, f64)) -> Vec<f64> {
@@ -154,7 +164,7 @@ pub(super) fn passages(measurement: &Measurement) -> Result<Option<Box<dyn Figur
     if speed > 0.0 {
         line("straight: *r*/⟨|***v***|⟩", LineStyle::Dashed, &|r| r / speed);
     }
-    if let Some(diffusion) = found.walk.diffusion.known().or(found.late_diffusion.known()) {
+    if let Some(diffusion) = found.walk.diffusion.known().or(found.diffusion.displacements.known()) {
         line("diffusive: *r*^2/4*D*", LineStyle::Dotted, &|r| r * r / (4.0 * diffusion.value));
     }
     let interval = |(x, m): &(f64, Measured)| m.interval.map(|[low, high]| Interval { x: *x, low, high });

@@ -57,6 +57,17 @@ fn folders_that_do_not_fit_are_refused() {
     };
     assert!(told(&[&one, &other]).contains("record with one dt_out"));
     assert!(told(&[&one, &cell]).contains("give one model"));
+    // other numbers in the equations are other bodies; another seed is not
+    let text = tensor("t_end = 100\ndt_out = 0.1\nseed = 7");
+    let seed = dataset(folder.path(), "seed", &text);
+    let kappa = dataset(folder.path(), "kappa", &text.replace("kappa3 = 2", "kappa3 = 2.5"));
+    let noise = dataset(folder.path(), "noise", &text.replace("noise = 0.2", "noise = 0.1"));
+    let silent = dataset(folder.path(), "silent", &text.replace("noise = 0.2", ""));
+    assert!(read(&[one.clone(), seed], 0.0, &Settings::default()).is_ok());
+    assert!(told(&[&one, &kappa]).contains("its kappa3 is 2.5, that of the first folder 2: give one set"));
+    assert!(
+        told(&[&one, &noise]).contains("its noise is") && told(&[&one, &silent]).contains("noise is none")
+    );
     assert!(told(&[]).contains("at least one track"));
     assert!(told(&[&folder.path().to_owned()]).contains("give a folder written by `motiform simulate`"));
     let late = read(&[one], 99.0, &Settings::default()).unwrap_err().to_string();

@@ -1,4 +1,10 @@
 //! All integration tests of this crate, in one program: what is generic is compiled once.
 
 mod bodies;
+#[path = "../../../statistics/tests/all/common.rs"]
+#[allow(dead_code, reason = "processes of the tests of crate statistics")]
+mod common;
+mod coverage;
 mod datasets;
+mod invariance;
+mod motions;

@@ -65,9 +65,11 @@ class Statistics:
     diffusion: Measured
     """Its diffusion coefficient."""
     late_diffusion: Measured
-    """Diffusion coefficient from the late slope of the mean-square displacement, whatever the motion."""
+    """Diffusion coefficient from the slope of the mean-square displacement, whatever the motion."""
+    green_kubo: Measured
+    """Diffusion coefficient from the correlation of the velocity."""
     correlation_times: Mapping[str, Measured]
-    """Integral correlation times by quantity."""
+    """Integral correlation times by quantity; of one that oscillates, ``summary["autocorrelations"]`` has frequency and decay."""
     msd: pd.DataFrame
     """``lag``, ``msd``, ``lower``, ``upper``, ``exponent`` with its interval, ``fit``, ``windows``."""
     autocorrelations: pd.DataFrame
@@ -150,7 +152,8 @@ def statistics_from(text: str, tables: Sequence[tuple[str, bytes]]) -> Statistic
         _measured(walk["persistence"]),
         _measured(walk["speed"]),
         _measured(walk["diffusion"]),
-        _measured(raw["late_diffusion"]),
+        _measured(raw["diffusion"]["displacements"]),
+        _measured(raw["diffusion"]["green_kubo"]),
         times,
         frames["msd"],
         frames["autocorrelations"],

@@ -269,10 +269,11 @@ def _plot_walk(found: Statistics, ax: Axes) -> None:
     if found.walk_speed.known:
         early = lag[lag <= 4.0 * (found.persistence.value if found.persistence.known else np.inf)]
         ax.plot(early, (found.walk_speed.value * early) ** 2, color="0.13", lw=1.0, ls="--", label="ballistic")
-    known = [d for d in (found.diffusion, found.late_diffusion) if d.known]
-    if known:
-        late = lag[lag >= (found.persistence.value / 4.0 if found.persistence.known else lag.max() / 30.0)]
-        ax.plot(late, 4.0 * known[0].value * late, color="0.13", lw=1.0, ls=":", label="diffusive")
+    line = found.summary["diffusion"]["line"]
+    if found.late_diffusion.known and line:
+        rising = lag[lag >= found.summary["diffusion"]["lags"][0] / 4.0]
+        values = line[0] + line[1] * rising
+        ax.plot(rising[values > 0], values[values > 0], color="0.13", lw=1.0, ls=":", label="diffusive")
 
 
 _CURVES: dict[str, Any] = {

@@ -4,7 +4,7 @@
 
 use crate::common::{active_brownian, holds, known, many, ornstein_uhlenbeck};
 use motiform_statistics::{
-    Quantity, Tracks, autocorrelation, histogram, late_diffusion, mean_square, persistent_walk,
+    Quantity, Tracks, autocorrelation, diffusion, histogram, mean_square, persistent_walk,
 };
 
 const SETS: u64 = 200;
@@ -35,7 +35,7 @@ fn over_bodies() {
             holds(curve.measured(20), crate::common::active_msd((d_r, 0.0, 0.0), curve.lag(20))),
             holds(known(&walk.persistence), 1.0 / d_r),
             holds(known(&walk.diffusion), 0.5 / d_r),
-            late_diffusion(&curve).known().is_none_or(|late| holds(late, 0.5 / d_r)),
+            diffusion(tracks).unwrap().displacements.known().is_none_or(|late| holds(late, 0.5 / d_r)),
             holds(known(&time), 1.0 / d_r),
         ]
     });

@@ -1,10 +1,10 @@
-//! Mean-square displacements with closed forms, the fit of a persistent random walk, exponents, late diffusion.
+//! Mean-square displacements with closed forms, the fit of a persistent random walk, exponents.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use crate::common::{active_brownian, active_msd, agrees, along, known, many, ornstein_uhlenbeck};
 use motiform_statistics::{
-    MeanSquare, Tracks, furth, lagged_sums, late_diffusion, local_exponent, mean_square, persistent_walk,
+    MeanSquare, Tracks, furth, lagged_sums, local_exponent, mean_square, persistent_walk,
 };
 
 /// Every lag within five standard errors of the closed form.
@@ -27,7 +27,6 @@ fn an_ornstein_uhlenbeck_velocity_is_a_persistent_random_walk() {
     assert!(agrees(known(&walk.persistence), 1.0 / g, 2.0), "{walk:?}");
     assert!(agrees(known(&walk.speed), s * 2.0_f64.sqrt(), 2.0), "{walk:?}");
     assert!(agrees(known(&walk.diffusion), s * s / g, 2.0), "{walk:?}");
-    assert!(agrees(known(&late_diffusion(&curve)), s * s / g, 2.0));
     // 60 bodies for 200 persistence times: a few per cent
     assert!(known(&walk.diffusion).half_width() < 0.1 * s * s / g);
     let [first, last] = [true, false].map(|first| known(&local_exponent(&curve, first)));
@@ -42,8 +41,6 @@ fn active_brownian_particles_have_their_closed_forms() {
         let curve = mean_square(&tracks);
         follows(&curve, |t| active_msd(case, t));
         let (d_r, omega, d) = case;
-        let exact = d_r / (2.0 * (d_r * d_r + omega * omega)) + d;
-        assert!(agrees(known(&late_diffusion(&curve)), exact, 2.0), "{case:?}");
         let walk = persistent_walk(&curve);
         if omega == 0.0 && d == 0.0 {
             assert!(agrees(known(&walk.persistence), 1.0 / d_r, 2.0) && agrees(known(&walk.speed), 1.0, 2.0));
@@ -68,7 +65,6 @@ fn a_circle_and_a_line_are_exact() {
         let exact = 2.0 * radius * radius * (1.0 - (omega * circle.lag(place)).cos());
         assert!((circle.measured(place).value - exact).abs() < 1e-12);
     }
-    assert!(late_diffusion(&circle).reason().is_some());
     let line = |t: f64| ([speed * t, 0.0], [speed, 0.0]);
     let line = mean_square(&Tracks::new(dt, vec![], vec![along(dt, 4000, line)]).unwrap());
     for place in 0..line.len() {
@@ -78,7 +74,7 @@ fn a_circle_and_a_line_are_exact() {
     }
     // diffusion is not reached, and that is the answer
     let walk = persistent_walk(&line);
-    for answer in [&walk.persistence, &walk.diffusion, &late_diffusion(&line)] {
+    for answer in [&walk.persistence, &walk.diffusion] {
         assert!(answer.reason().unwrap().starts_with("not reached"), "{answer:?}");
     }
     assert!((known(&walk.speed).value - speed).abs() < 0.01 * speed);
@@ -104,7 +100,7 @@ fn a_walk_without_ballistic_part_has_a_diffusion_coefficient_only() {
     let curve = mean_square(&many(1.0, 50, brownian, 4));
     let walk = persistent_walk(&curve);
     assert!(walk.persistence.reason().unwrap().starts_with("not resolved"), "{walk:?}");
-    assert!(agrees(known(&walk.diffusion), d, 2.0) && agrees(known(&late_diffusion(&curve)), d, 2.0));
+    assert!(agrees(known(&walk.diffusion), d, 2.0));
 }
 
 #[test]
@@ -113,7 +109,7 @@ fn a_body_at_rest_has_no_walk() {
     let curve = mean_square(&Tracks::new(0.1, vec![], vec![along(0.1, 400, rest)]).unwrap());
     let walk = persistent_walk(&curve);
     assert!(walk.diffusion.reason().unwrap().contains("nothing moved") && curve.exponent(3).is_none());
-    assert!(late_diffusion(&curve).reason().is_some() && local_exponent(&curve, true).reason().is_some());
+    assert!(local_exponent(&curve, true).reason().is_some());
 }
 
 /// The sum of squares minus twice the lagged products, by Fourier transforms (Kneller 1995): a second formulation.

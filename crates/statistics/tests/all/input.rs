@@ -76,7 +76,12 @@ fn results_hold_no_nan() {
         for point in found.displacement.points() {
             assert!(point.value.value.is_finite() && point.exponent.is_none_or(|e| e.value.is_finite()));
         }
-        let walk = [&found.walk.persistence, &found.walk.speed, &found.walk.diffusion, &found.late_diffusion];
+        let walk = [
+            &found.walk.persistence,
+            &found.walk.speed,
+            &found.walk.diffusion,
+            &found.diffusion.displacements,
+        ];
         for answer in walk.into_iter().chain(&found.exponents) {
             assert!(answer.known().is_none_or(|m| m.value.is_finite()), "{answer:?}");
         }

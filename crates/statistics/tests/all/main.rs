@@ -3,9 +3,12 @@
 mod common;
 mod correlation;
 mod coverage;
+mod diffusion;
 mod displacement;
 mod distributions;
+mod gaps;
 mod input;
+mod oscillation;
 mod passage;
 mod power;
 mod quantiles;

@@ -1,0 +1,59 @@
+//! A persistent random walk held against what is known without it.
+
+use crate::{Answer, Measured, Walk, four_digits};
+
+/// Difference of two values, in their half widths together, from which on they are not one number.
+const APART: f64 = 1.25;
+
+/// A relative difference that is none: what the fit's own accuracy is.
+const ROUND: f64 = 0.003;
+
+/// What a persistent random walk must agree with.
+#[derive(Debug, Clone, Copy)]
+pub struct Seen<'a> {
+    /// Root-mean-square speed: S.
+    pub speed: &'a Measured,
+    /// Diffusion coefficient: D.
+    pub diffusion: &'a Answer,
+    /// Correlation time of the velocity: P.
+    pub time: &'a Answer,
+}
+
+impl Walk {
+    /// The walk, or no numbers where S is not the root-mean-square speed, D not the diffusion coefficient or P not the correlation time of the velocity.
+    ///
+    /// A curve may be near the form with other numbers than those of the motion: translational noise raises its start, which the fit takes for speed; a motion that
+    /// turns is slow to diffuse.
+    ///
+    /// # Checked by  tests/all/diffusion.rs: active Brownian motion with translational noise
+    #[must_use]
+    pub fn held_against(self, seen: &Seen<'_>) -> Self {
+        let known = |answer: &Answer| answer.known();
+        let pairs = [
+            ("speed", known(&self.speed), Some(*seen.speed), "root-mean-square speed"),
+            (
+                "diffusion coefficient",
+                known(&self.diffusion),
+                known(seen.diffusion),
+                "slope of the displacements",
+            ),
+            (
+                "persistence time",
+                known(&self.persistence),
+                known(seen.time),
+                "correlation time of the velocity",
+            ),
+        ];
+        let apart = pairs.into_iter().find_map(|(name, walk, other, what)| {
+            let (walk, other) = (walk?, other?);
+            let half = libm::hypot(walk.half_width(), other.half_width());
+            ((walk.value - other.value).abs() > APART * half + ROUND * other.value)
+                .then(|| (name, four_digits(walk.value), what, four_digits(other.value)))
+        });
+        let Some((name, value, what, other)) = apart else { return self };
+        let reason = format!(
+            "a persistent random walk does not describe the motion (its {name} {value} is not the {what} {other})"
+        );
+        Self { curve: self.curve, deviation: self.deviation, ..Self::unknown(&reason) }
+    }
+}

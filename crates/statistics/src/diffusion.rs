@@ -1,0 +1,122 @@
+//! The diffusion coefficient, from velocities and from displacements.
+
+use crate::correlation::Products;
+use crate::displacement::square_sums;
+use crate::jackknife::Sums;
+use crate::lag_window::Integral;
+use crate::plateau::{Estimate, difference, too_coarse};
+use crate::{Answer, Measured, Quantity, Result, Tracks};
+use serde::Serialize;
+
+/// Most lags of the line.
+const LAGS: usize = 16;
+
+/// The diffusion coefficient, without a model of the motion.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Diffusion {
+    /// From velocities: half of the integral of their correlation (Green and Kubo).
+    pub green_kubo: Answer,
+    /// From displacements: a quarter of the slope of their mean square.
+    pub displacements: Answer,
+    /// The first less the second; `None` without both.
+    pub difference: Option<Measured>,
+    /// The lags of the line, and of the end of the window of the correlation (model time).
+    pub lags: Option<[f64; 2]>,
+    /// Intercept and slope of the line, for drawing.
+    pub line: Option<[f64; 2]>,
+}
+
+/// The diffusion coefficient by two ways over one window of lags, of any motion that diffuses in the end (persistent, turning, oscillating):
+///
+/// D = 1/2 int_0^inf <v(t) . v(t + tau)> dtau   (Green and Kubo, windowed as the correlation time),
+/// D = 1/4 slope of MSD(tau)                    (least squares over lags from W/2 to W).
+///
+/// W is the window of the correlation of the velocity ([`crate::autocorrelation`]): the shortest lags at which the displacements are a straight line, where they are also
+/// known best. For positions that are the integral of the velocities both weigh the correlation alike, so chance hardly enters their difference: it tells of
+/// samples too coarse for the velocity, and of motion that is not in the velocity (noise on positions).
+///
+/// # Errors    none for samples that [`Tracks`] accepts
+/// # Source    Green (1954), J. Chem. Phys. 22, 398; Kubo (1957), J. Phys. Soc. Jpn. 12, 570; Michalet and Berglund (2012), Phys. Rev. E 85, 061916
+///   (why the shortest lags that are diffusive are the best)
+/// # Checked by  tests/all/diffusion.rs: Ornstein-Uhlenbeck, active Brownian (chiral and not), circle, line; coverage in crate measure
+pub fn diffusion(tracks: &Tracks) -> Result<Diffusion> {
+    let curves = Products::of(tracks, &Quantity::Velocity)?.curves();
+    if curves.values[0][0] <= 0.0 {
+        return Ok(Diffusion::unknown("nothing moved"));
+    }
+    let window = match curves.window() {
+        Ok(window) => window,
+        Err(reason) => return Ok(Diffusion::unknown(reason)),
+    };
+    let longer = (2 * window).min(curves.longest());
+    let halves =
+        |integrals: Vec<Integral>| integrals.iter().map(|found| 0.5 * found.value).collect::<Vec<_>>();
+    let (all, coarser) = (curves.integrals(window), curves.coarser(window));
+    let coarse = too_coarse(&all[0], &coarser[0], tracks.dt());
+    let velocities = Estimate {
+        values: halves(all),
+        longer: halves(curves.integrals(longer)),
+        coarser: Some(halves(coarser)),
+    };
+    let line = Line::of(tracks, window);
+    let displacements =
+        Estimate { values: line.quarters(), longer: Line::of(tracks, longer).quarters(), coarser: None };
+    let green_kubo = coarse.map_or_else(|| velocities.answer(), |reason| Answer::Unknown { reason });
+    let both = green_kubo.known().is_some();
+    Ok(Diffusion {
+        green_kubo,
+        difference: both.then(|| difference(&velocities.values, &displacements.values)),
+        displacements: displacements.answer(),
+        lags: Some([line.lag(0), line.lag(line.lags.len() - 1)]),
+        line: Some(line.fit(None)),
+    })
+}
+
+impl Diffusion {
+    fn unknown(reason: impl Into<String>) -> Self {
+        let unknown = Answer::unknown(reason);
+        Self { green_kubo: unknown.clone(), displacements: unknown, difference: None, lags: None, line: None }
+    }
+}
+
+/// Mean-square displacements at evenly spaced lags of the second half of a window.
+struct Line {
+    dt: f64,
+    groups: usize,
+    lags: Vec<usize>,
+    sums: Vec<Sums>,
+}
+
+impl Line {
+    fn of(tracks: &Tracks, window: usize) -> Self {
+        let (from, to) = ((window / 2).max(1), window.max(2));
+        let steps = (to - from).min(LAGS);
+        let lags: Vec<usize> = (0..=steps).map(|k| from + (to - from) * k / steps).collect();
+        Self { dt: tracks.dt(), groups: tracks.groups(), sums: square_sums(tracks, &lags), lags }
+    }
+
+    fn lag(&self, place: usize) -> f64 {
+        self.lags[place] as f64 * self.dt
+    }
+
+    /// Intercept and slope of the least-squares line, without a group if asked.
+    fn fit(&self, left_out: Option<usize>) -> [f64; 2] {
+        let count = self.lags.len() as f64;
+        let points: Vec<[f64; 2]> =
+            (0..self.lags.len()).map(|place| [self.lag(place), self.sums[place].mean(left_out)]).collect();
+        let [x, y] = [0, 1].map(|k| points.iter().map(|point| point[k]).sum::<f64>() / count);
+        let (mut products, mut squares) = (0.0, 0.0);
+        for [lag, value] in points {
+            products += (lag - x) * (value - y);
+            squares += (lag - x) * (lag - x);
+        }
+        let slope = products / squares;
+        [y - slope * x, slope]
+    }
+
+    /// A quarter of the slope, of all groups and without each.
+    fn quarters(&self) -> Vec<f64> {
+        let all = std::iter::once(None).chain((0..self.groups).map(Some));
+        all.map(|left_out| 0.25 * self.fit(left_out)[1]).collect()
+    }
+}

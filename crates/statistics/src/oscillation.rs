@@ -1,0 +1,103 @@
+//! An oscillating correlation as what it is: a frequency and a decay.
+
+use crate::damped::{Damped, deviation, fit};
+use crate::jackknife::jackknife_ratio;
+use crate::plateau::Curves;
+use crate::{Answer, Measured, four_digits};
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// Largest deviation of a damped cosine from the correlation, as a part of it (root mean squares).
+const MISFIT: f64 = 0.1;
+
+/// A correlation oscillates where it goes down to this value, by more than its error.
+const NEGATIVE: f64 = -0.1;
+
+/// Shortest period in samples: with fewer, a slower one cannot be told from a faster one.
+const SHORTEST: f64 = 5.0;
+
+/// A damped oscillation of a correlation.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Oscillation {
+    /// Cycles per model time.
+    pub frequency: Answer,
+    /// Time in which the amplitude falls to 1/e.
+    pub decay: Answer,
+    /// Deviation of the damped cosine from the correlation, as a part of it (root mean squares), less what is chance.
+    pub deviation: f64,
+}
+
+/// The damped cosine `e^{-lambda tau} (a cos omega tau + b sin omega tau)` that is nearest to rho(tau) over lags up to `last`, by least squares;
+/// `None` where rho does not oscillate: it does not go below -0.1, or forgets within a radian (omega < lambda).
+///
+/// Intervals: by leaving out groups and fitting again, on logarithms. Unknown are both where the damped cosine deviates by more than 10 %, and the decay where the amplitude
+/// does not fall to 1/e within these lags.
+///
+/// # Checked by  tests/all/oscillation.rs: chiral active Brownian motion, circle, exponential; coverage in crate measure
+pub(crate) fn oscillation(curves: &Curves, last: usize) -> Option<Oscillation> {
+    let ratios = |curve: &Vec<f64>| curve[..=last].iter().map(|c| c / curve[0]).collect::<Vec<f64>>();
+    let all = ratios(&curves.values[0]);
+    let lowest = lowest(&all)?;
+    if all[lowest] + curves.ratio(lowest).half_width() > NEGATIVE {
+        return None;
+    }
+    let best = fit(&all, &starts(lowest))?;
+    if best.omega < best.lambda {
+        return None;
+    }
+    let squares: f64 = all.iter().map(|rho| rho * rho).sum();
+    let errors: f64 = (1..=last).map(|lag| 0.25 * curves.ratio(lag).half_width().powi(2)).sum();
+    let deviation = (deviation(&all, &best).powi(2) - errors / squares).max(0.0).sqrt();
+    let refuse = |reason: String| Oscillation {
+        frequency: Answer::unknown(&reason),
+        decay: Answer::unknown(reason),
+        deviation,
+    };
+    if deviation > MISFIT {
+        let percent = 100.0 * deviation;
+        return Some(refuse(format!("not as one damped cosine (deviation {percent:.0} %)")));
+    }
+    if best.omega * SHORTEST > TAU {
+        return Some(refuse(
+            "sampled too coarsely: a period has fewer than 5 samples; record more often".into(),
+        ));
+    }
+    let without: Vec<Option<Damped>> =
+        curves.values[1..].iter().map(|curve| fit(&ratios(curve), &[best])).collect();
+    let measured = |of: &dyn Fn(&Damped) -> f64| -> Measured {
+        let values: Vec<f64> = without.iter().map(|found| found.as_ref().map_or(f64::NAN, of)).collect();
+        jackknife_ratio(of(&best), &values)
+    };
+    let decay = if best.lambda * last as f64 > 1.0 {
+        Answer::Known(measured(&|found| curves.dt / found.lambda))
+    } else {
+        let lags = four_digits(last as f64 * curves.dt);
+        Answer::unknown(format!(
+            "not reached: the oscillation goes on at the longest lag {lags}; record longer"
+        ))
+    };
+    Some(Oscillation {
+        frequency: Answer::Known(measured(&|found| found.omega / (TAU * curves.dt))),
+        decay,
+        deviation,
+    })
+}
+
+/// The lag of the lowest value.
+fn lowest(values: &[f64]) -> Option<usize> {
+    (1..values.len()).min_by(|a, b| values[*a].total_cmp(&values[*b]))
+}
+
+/// Half a period is about the lag of the minimum.
+fn starts(lowest: usize) -> Vec<Damped> {
+    let omega = 0.5 * TAU / lowest as f64;
+    let of = |faster: f64| {
+        [0.05, 0.3, 1.0].map(|damping| Damped {
+            lambda: damping * omega,
+            omega: faster * omega,
+            a: 1.0,
+            b: 0.0,
+        })
+    };
+    [0.7, 1.0, 1.4].into_iter().flat_map(of).collect()
+}

@@ -1,0 +1,81 @@
+//! Diffusion by two ways, and a persistent random walk held against them.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use crate::common::{active_brownian, agrees, along, holds, known, many, ornstein_uhlenbeck};
+use motiform_statistics::{
+    Quantity, Seen, Settings, Tracks, autocorrelation, diffusion, mean_square, persistent_walk, statistics,
+};
+
+#[test]
+fn both_ways_give_the_exact_coefficient() {
+    // rotational diffusion, rate of turning; D = v^2 d_r/(2 (d_r^2 + omega^2))
+    for (d_r, omega, dt) in [(0.5, 0.0, 0.25), (0.1, 0.3, 0.5), (0.05, 0.3, 0.5)] {
+        let tracks = many(dt, 40, |normal| active_brownian((d_r, omega, 0.0), dt, 1600, normal), 11);
+        let found = diffusion(&tracks).unwrap();
+        let exact = 0.5 * d_r / (d_r * d_r + omega * omega);
+        assert!(agrees(known(&found.green_kubo), exact, 1.5), "{found:?}");
+        assert!(agrees(known(&found.displacements), exact, 1.5), "{found:?}");
+        let difference = found.difference.unwrap();
+        // chance enters both alike: they differ by less than each is uncertain, as far as ends of tracks do not count
+        let chance = difference.half_width() / known(&found.green_kubo).half_width();
+        assert!(agrees(difference, 0.0, 2.0) && chance < 0.7, "{chance}: {found:?}");
+    }
+}
+
+/// The trapezoidal sum would be a third too large.
+#[test]
+fn a_velocity_that_is_forgotten_between_samples_is_said_to_be() {
+    let (g, s) = (4.0, 1.0);
+    let tracks = |dt| many(dt, 40, |normal| ornstein_uhlenbeck(g, s, dt, 1000, normal), 12);
+    let fine = diffusion(&tracks(0.2)).unwrap();
+    assert!(agrees(known(&fine.green_kubo), s * s / g, 1.5), "{fine:?}"); // the trapezoidal rule: 5 % more
+    let coarse = diffusion(&tracks(0.5)).unwrap();
+    assert!(coarse.green_kubo.reason().unwrap().starts_with("sampled too coarsely"), "{coarse:?}");
+    assert!(holds(known(&coarse.displacements), s * s / g), "{coarse:?}"); // positions need no velocity
+}
+
+#[test]
+fn noise_on_the_positions_is_the_difference() {
+    let (d_r, d) = (0.5, 0.2);
+    let tracks = many(0.25, 40, |normal| active_brownian((d_r, 0.0, d), 0.25, 800, normal), 13);
+    let found = diffusion(&tracks).unwrap();
+    assert!(agrees(known(&found.green_kubo), 0.5 / d_r, 1.5), "{found:?}");
+    assert!(agrees(known(&found.displacements), 0.5 / d_r + d, 1.5), "{found:?}");
+    let difference = found.difference.unwrap();
+    assert!(agrees(difference, -d, 2.0) && difference.upper() < 0.0, "{difference:?}");
+}
+
+#[test]
+fn motion_that_never_forgets_does_not_diffuse() {
+    let turn = |t: f64| ([t.cos(), t.sin()], [-t.sin(), t.cos()]);
+    let line = |t: f64| ([t, 0.0], [1.0, 0.0]);
+    for tracks in [along(0.1, 4000, turn), along(0.1, 4000, line)] {
+        let found = diffusion(&Tracks::new(0.1, vec![], vec![tracks]).unwrap()).unwrap();
+        for answer in [&found.green_kubo, &found.displacements] {
+            assert!(answer.reason().unwrap().starts_with("not reached"), "{answer:?}");
+        }
+    }
+    let rest = along(0.1, 400, |_| ([1.0, 2.0], [0.0, 0.0]));
+    let found = diffusion(&Tracks::new(0.1, vec![], vec![rest]).unwrap()).unwrap();
+    assert_eq!(found.displacements.reason(), Some("nothing moved"));
+}
+
+/// Translational noise raises the start of the displacements, which a persistent random walk takes for speed.
+#[test]
+fn a_walk_with_another_speed_than_the_body_is_none() {
+    let dt = 1.0;
+    let walk = |d| {
+        let tracks = many(dt, 24, |normal| active_brownian((0.5, 0.0, d), dt, 100, normal), 14);
+        let time = autocorrelation(&tracks, &Quantity::Velocity).unwrap().time;
+        let found = statistics(&tracks, &Settings::default()).unwrap();
+        let seen = Seen { speed: &found.rms_speed, diffusion: &found.diffusion.displacements, time: &time };
+        let walk = persistent_walk(&mean_square(&tracks));
+        assert!(walk.speed.known().is_some(), "{walk:?}"); // the form alone does not tell
+        assert_eq!(walk.clone().held_against(&seen), found.walk);
+        found.walk
+    };
+    assert!(agrees(known(&walk(0.0).persistence), 2.0, 1.5));
+    let reason = walk(0.08).speed.reason().unwrap().to_owned();
+    assert!(reason.contains("is not the root-mean-square speed 1"), "{reason}");
+}
