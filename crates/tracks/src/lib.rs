@@ -29,6 +29,7 @@
 mod after;
 mod detect;
 mod error;
+mod form;
 mod format;
 mod formats;
 mod gather;
@@ -51,6 +52,7 @@ mod write;
 
 pub use detect::detect;
 pub use error::{Error, Result};
+pub use form::{Form, form};
 pub use format::Format;
 pub use geometry::{area, centroid, perimeter};
 pub use given::{Given, given};

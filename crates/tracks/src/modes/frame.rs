@@ -5,6 +5,7 @@ use super::fit::{RadiusFit, fit_radius};
 use super::flag::Flag;
 use super::star::fold;
 use super::tangent::{TangentModes, tangent_modes};
+use crate::form::{Form, form};
 use crate::geometry::{area, centroid, distinct, edges, perimeter};
 use serde::Serialize;
 
@@ -47,6 +48,8 @@ pub struct FrameModes {
     pub centroid: [f64; 2],
     /// Length of the polygon.
     pub perimeter: f64,
+    /// Aspect ratio, solidity and circularity; `None` where nothing is enclosed.
+    pub form: Option<Form>,
     /// Centre and modes of the radius; `None` where it is not single valued, and where there is no fit.
     pub radius: Option<RadiusFit>,
     /// Modes of the tangent angle; `None` where the outline does not turn once.
@@ -60,6 +63,13 @@ impl FrameModes {
     #[must_use]
     pub fn is_left_out(&self) -> bool {
         self.flags.iter().any(Flag::leaves_out)
+    }
+
+    /// Whether place and form of the polygon are observations, whatever its radius: it encloses an area, and only modes would ask for more vertices.
+    #[must_use]
+    pub fn is_seen(&self) -> bool {
+        let hides = |flag: &Flag| flag.leaves_out() && !matches!(flag, Flag::TooFewVertices { .. });
+        self.form.is_some() && !self.flags.iter().any(hides)
     }
 }
 
@@ -75,23 +85,27 @@ pub fn outline_modes(points: &[[f64; 2]], options: &ModeOptions) -> FrameModes {
         area: area(&points).abs(),
         centroid: centroid(&points),
         perimeter: perimeter(&points),
+        form: form(&points),
         radius: None,
         tangent: None,
         flags: Vec::new(),
     };
-    if points.len() < least {
+    let few = points.len() < least;
+    if few {
         modes.flags.push(Flag::TooFewVertices { vertices: points.len(), least });
-        return modes;
     }
     // a polygon along a line encloses only round-off
     if modes.area.is_nan() || modes.area <= 1e-9 * modes.perimeter * modes.perimeter {
-        modes.flags.push(Flag::NoArea);
+        modes.flags.extend((!few).then_some(Flag::NoArea));
         return modes;
     }
     match crossing(&points) {
         Crossing::None => {}
         Crossing::At(edges) => modes.flags.push(Flag::SelfCrossing { edges }),
         Crossing::Unknown => modes.flags.push(Flag::CrossingUnknown { vertices: points.len() }),
+    }
+    if few {
+        return modes;
     }
     modes.tangent = tangent_modes(&points, highest);
     match fit_radius(&points, highest) {

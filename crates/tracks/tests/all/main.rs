@@ -3,6 +3,7 @@
 mod common;
 mod damaged;
 mod fits;
+mod form;
 mod formats;
 mod fuzz;
 mod given;
