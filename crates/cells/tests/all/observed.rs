@@ -73,7 +73,7 @@ fn a_full_circle_in_each_period_is_no_rotation() {
     for net in [0.4, -0.4] {
         let rosette = looping(net).motion;
         assert_eq!(rosette.regime, Some(Regime::QuasiPeriodic), "{}", rosette.why);
-        assert!(rosette.why.contains(&format!("turned by {:.1}", net)), "{}", rosette.why);
+        assert!(rosette.why.contains(&format!("turned by {net:.1}")), "{}", rosette.why);
     }
 }
 
