@@ -16,6 +16,7 @@ pub use statistics::{AtLag, Memory, MotionStatistics};
 use crate::CellTrack;
 use measures::Measures;
 use motiform_analysis::regime::Regime;
+use motiform_analysis::symmetry::wrap;
 use motiform_statistics::{Walk, four_digits, with_error};
 use repeats::Repeats;
 use serde::Serialize;
@@ -205,14 +206,23 @@ fn repeating(repeats: &Repeats) -> (Option<Regime>, String) {
         return (None, why);
     }
     let seen = format!("repeats {periods:.1} times with a period of {period} (likeness {likeness:.2})");
-    let clear = rotation.abs() > CLEAR * rotation_error && rotation.abs() > NO_TURN;
-    if clear {
-        let why = format!("{seen}, turned by {turn} rad each time");
-        return (Some(Regime::QuasiPeriodic), why);
+    // full circles of the heading are no rotation of the motion
+    let net = wrap(*rotation);
+    let circles = ((rotation - net) / std::f64::consts::TAU).round() as i64;
+    let left = with_error(net, *rotation_error);
+    let clear = net.abs() > CLEAR * rotation_error;
+    match (*rotation_error < 0.5 * NO_TURN && net.abs() < NO_TURN, circles) {
+        _ if clear && net.abs() > NO_TURN => {
+            (Some(Regime::QuasiPeriodic), format!("{seen}, turned by {left} rad each time"))
+        }
+        (true, 0) => (Some(Regime::Zigzag), format!("{seen} without net rotation: {turn} rad each time")),
+        (true, _) if !clear => {
+            let why = format!(
+                "{seen}; the heading turns through {} full circles each time and is {left} rad off then: a circle that drifts",
+                circles.abs()
+            );
+            (Some(Regime::Circular), why)
+        }
+        _ => (None, format!("{seen}; whether it turns a little each time is not clear: {turn} rad")),
     }
-    if *rotation_error < 0.5 * NO_TURN && rotation.abs() < NO_TURN {
-        let why = format!("{seen} without net rotation: {turn} rad each time");
-        return (Some(Regime::Zigzag), why);
-    }
-    (None, format!("{seen}; whether it turns a little each time is not clear: {turn} rad"))
 }

@@ -17,63 +17,71 @@ use motiform_study::{Error, Plan};
 /// Input that only the numerics can reject.
 pub fn classify(plan: &Plan, budget: f64, watch: &dyn Watch) -> Result<Option<Verdict>, Error> {
     let (model, shape) = start(plan)?;
-    let settings = settings(plan, budget)?;
-    let watch = StopOnly(watch);
-    let Some((verdict, shape)) = settle(model.as_ref(), &shape, &settings, &watch)? else { return Ok(None) };
-    let Some(Finer { body, shape, parameter, value }) = finer(plan, model.as_ref(), &shape)? else {
-        return Ok(Some(verdict));
-    };
-    Ok(Some(verdict.resolved_by(
-        body.as_ref(),
-        &shape,
-        (parameter, value),
-        &settings.tighter(FINER),
-        &watch,
-    )?))
+    let body =
+        Body { info: plan.info()?, values: plan.computation.parameters.values(), model: model.as_ref() };
+    body.classify(&shape, &settings(plan, budget)?, watch)
 }
 
-/// The tolerance is tighter by this factor then: steps of order 4 are 1.8 times as many.
+/// The tolerance of the second look at a motion is tighter by this factor: steps of order 4 are 1.8 times as many.
 const FINER: f64 = 0.1;
 
-/// As [`classify`], without another number of modes.
-pub(crate) fn classify_as_it_is(
-    plan: &Plan,
-    budget: f64,
-    watch: &dyn Watch,
-) -> Result<Option<Verdict>, Error> {
-    let (model, shape) = start(plan)?;
-    Ok(motiform_analysis::classify(model.as_ref(), &shape, &settings(plan, budget)?, &StopOnly(watch))?)
+/// A model with what another one with more modes is built from.
+pub(crate) struct Body<'m> {
+    pub(crate) info: &'static ModelInfo,
+    /// All parameters, in registry order.
+    pub(crate) values: Vec<f64>,
+    pub(crate) model: &'m dyn Model,
 }
 
-/// The body of a plan with more modes, and a shape in its representation.
+impl Body<'_> {
+    /// The verdict on the motion that starts from `shape`, its resolution included: the same for every command that names a motion.
+    pub(crate) fn classify(
+        &self,
+        shape: &[f64],
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> Result<Option<Verdict>, Error> {
+        let watch = StopOnly(watch);
+        let Some((verdict, shape)) = settle(self.model, shape, settings, &watch)? else {
+            return Ok(None);
+        };
+        let Some(Finer { body, shape, parameter, value }) = self.finer(&shape)? else {
+            return Ok(Some(verdict));
+        };
+        let finer = settings.tighter(FINER);
+        Ok(Some(verdict.resolved_by(body.as_ref(), &shape, (parameter, value), &finer, &watch)?))
+    }
+
+    /// With half as many modes again; `None` for a model without a parameter for their number, or at its largest value.
+    fn finer(&self, shape: &[f64]) -> Result<Option<Finer>, Error> {
+        let (info, model) = (self.info, self.model);
+        let Some(parameter) = info.resolution else { return Ok(None) };
+        let mut values = self.values.clone();
+        let place = motiform_models::parameters::index_of(info.parameters(), info.name, parameter)?;
+        let (_, most) = info.parameters()[place].allowed;
+        let value = (1.5 * values[place]).ceil();
+        if value > most {
+            return Ok(None);
+        }
+        values[place] = value;
+        let body = info.build(&values)?;
+        let mut known = vec![0.0; model.coordinates().len()];
+        model.decode(shape, &mut known);
+        let of = |name: &str| model.coordinates().iter().position(|coordinate| coordinate.name == name);
+        let coordinates: Vec<f64> =
+            body.coordinates().iter().map(|one| of(one.name).map_or(0.0, |place| known[place])).collect();
+        let mut shape = vec![0.0; body.dim()];
+        body.encode(&coordinates, &mut shape);
+        Ok(Some(Finer { body, shape, parameter, value }))
+    }
+}
+
+/// A body with more modes, and a shape in its representation.
 struct Finer {
     body: Box<dyn Model>,
     shape: Vec<f64>,
     parameter: &'static str,
     value: f64,
-}
-
-/// With half as many modes again; `None` for a model without a parameter for their number, or at its largest value.
-fn finer(plan: &Plan, model: &dyn Model, shape: &[f64]) -> Result<Option<Finer>, Error> {
-    let info = plan.info()?;
-    let Some(parameter) = info.resolution else { return Ok(None) };
-    let mut values = plan.computation.parameters.values();
-    let place = motiform_models::parameters::index_of(info.parameters(), info.name, parameter)?;
-    let (_, most) = info.parameters()[place].allowed;
-    let value = (1.5 * values[place]).ceil();
-    if value > most {
-        return Ok(None);
-    }
-    values[place] = value;
-    let body = info.build(&values)?;
-    let mut known = vec![0.0; model.coordinates().len()];
-    model.decode(shape, &mut known);
-    let of = |name: &str| model.coordinates().iter().position(|coordinate| coordinate.name == name);
-    let coordinates: Vec<f64> =
-        body.coordinates().iter().map(|one| of(one.name).map_or(0.0, |place| known[place])).collect();
-    let mut shape = vec![0.0; body.dim()];
-    body.encode(&coordinates, &mut shape);
-    Ok(Some(Finer { body, shape, parameter, value }))
 }
 
 /// The classifier's settings for a plan.

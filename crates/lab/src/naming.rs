@@ -2,9 +2,9 @@
 
 use crate::analyse;
 use motiform_analysis::regime::{Regime, Verdict};
-use motiform_analysis::{RelativeEquilibrium, SteadyMotion};
+use motiform_analysis::{Lyapunov, RelativeEquilibrium, SteadyMotion};
 use motiform_dynamics::escape::norm;
-use motiform_dynamics::{Outcome, Watch};
+use motiform_dynamics::{Model, Outcome, Watch};
 use motiform_study::{Error, Manifest, Plan};
 
 /// A shape nearer to a steady motion than this part of its size is on it.
@@ -24,7 +24,7 @@ const LOOKS: f64 = 2.0;
 pub fn name(manifest: &Manifest, watch: &dyn Watch) -> Result<Option<Verdict>, Error> {
     let Some(plan) = from_its_end(manifest).filter(|_| !watch.stopped()) else { return Ok(None) };
     let budget = LOOKS * plan.info()?.look;
-    let verdict = analyse::classify_as_it_is(&plan, budget, watch)?;
+    let verdict = analyse::classify(&plan, budget, watch)?;
     Ok(verdict.filter(|verdict| verdict.regime != Regime::Undetermined))
 }
 
@@ -36,12 +36,23 @@ pub fn name(manifest: &Manifest, watch: &dyn Watch) -> Result<Option<Verdict>, E
 pub fn unstable(manifest: &Manifest) -> Result<Option<(Regime, f64)>, Error> {
     let Some(plan) = from_its_end(manifest) else { return Ok(None) };
     let (model, shape) = analyse::start(&plan)?;
-    let model = model.as_ref();
-    let on = |found: &RelativeEquilibrium| {
-        found.distance(model, &shape) <= ON * norm(&shape) && found.is_unstable()
-    };
-    let found = RelativeEquilibrium::find(model, &shape).filter(on);
-    Ok(found.map(|found| (SteadyMotion::of(model, &found).regime(), found.growth())))
+    Ok(unstable_at(model.as_ref(), &shape))
+}
+
+/// As [`unstable`], of a run whose exponents were computed: they are those of the steady motion, not of what a typical start does.
+///
+/// # Errors
+/// An unknown model.
+pub fn unstable_under(plan: &Plan, run: &Lyapunov) -> Result<Option<(Regime, f64)>, Error> {
+    let complete = matches!(run.outcome, Outcome::Completed { .. });
+    Ok(if complete { unstable_at(analyse::model(plan)?.as_ref(), &run.shape) } else { None })
+}
+
+fn unstable_at(model: &dyn Model, shape: &[f64]) -> Option<(Regime, f64)> {
+    let on =
+        |found: &RelativeEquilibrium| found.distance(model, shape) <= ON * norm(shape) && found.is_unstable();
+    let found = RelativeEquilibrium::find(model, shape).filter(on);
+    found.map(|found| (SteadyMotion::of(model, &found).regime(), found.growth()))
 }
 
 /// The plan of a run with its end as the start; `None` for a run that did not complete, or is under noise.

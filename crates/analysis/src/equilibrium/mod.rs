@@ -4,6 +4,7 @@ mod balance;
 mod deflation;
 mod newton;
 mod saddle;
+mod silent;
 mod spectrum;
 mod uncertainty;
 

@@ -25,7 +25,8 @@ impl RelativeEquilibrium {
     /// Directions that keep all of the shape's own symmetry (a larger or smaller body of the same kind) carry no orbit
     /// from saddle to saddle and do not count. Where the shape has a mirror axis, orbits leave in one class (even or
     /// odd) and arrive in the other; `lambda_-` is then the leading rate of that other class. `None` unless exactly one
-    /// direction grows, or one complex pair (the departure oscillates).
+    /// direction grows, or one complex pair (the departure oscillates). Modes whose phase nothing fixes have no part in it: neither the
+    /// symmetry of the shape nor the directions are theirs.
     ///
     /// Source: Krupa, Melbourne (1995), Ergod. Theory Dyn. Syst. 15, 121; for 1:2 modes Armbruster, Guckenheimer, Holmes
     /// (1988), Physica D 29, 257.
@@ -58,8 +59,12 @@ impl RelativeEquilibrium {
     /// a mirror axis.
     fn classes<B: Equivariant + ?Sized>(&self, body: &B) -> Vec<Vec<Vec<f64>>> {
         let dim = self.shape.len();
-        let neutral = neutral_direction(body, &self.shape);
-        let isotropy = Isotropy::of(body, &self.shape, 1e-6);
+        let silent = self.silent(body);
+        let heard = |x: &mut Vec<f64>| x.iter_mut().zip(&silent).filter(|x| *x.1).for_each(|x| *x.0 = 0.0);
+        let mut shape = self.shape.clone();
+        heard(&mut shape);
+        let neutral = neutral_direction(body, &shape);
+        let isotropy = Isotropy::of(body, &shape, 1e-6);
         let folds = isotropy.folds;
         let mean = |x: &[f64]| {
             let mut sum = vec![0.0; dim];
@@ -81,7 +86,8 @@ impl RelativeEquilibrium {
             }
             out
         };
-        let all = complement(&[], dim);
+        let mut all = complement(&[], dim);
+        all.iter_mut().for_each(heard);
         let span = |part: &dyn Fn(&[f64]) -> Vec<f64>| {
             let images: Vec<Vec<f64>> = all.iter().map(|x| part(x)).filter(|x| norm(x) > 1e-6).collect();
             basis(&images.iter().map(Vec::as_slice).collect::<Vec<_>>(), 1e-6)

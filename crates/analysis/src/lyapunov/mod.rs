@@ -5,6 +5,7 @@ mod frame;
 mod lanes;
 mod renormalisation;
 
+use crate::equilibrium::RelativeEquilibrium;
 use crate::linear::{basis, norm};
 use crate::series_mean::{FEWEST_INDEPENDENT, independent_samples, mean_over};
 use crate::symmetry::reduced_speed;
@@ -235,11 +236,22 @@ pub(crate) fn first_state(start: &[f64], count: usize) -> Vec<f64> {
     state
 }
 
-/// How many independent neutral directions the flow has at a shape: `f(u)` and the rotation `Gu`.
+/// A run ends at a stable equilibrium where it is nearer to it than this part of its size.
+const ARRIVED: f64 = 1e-3;
+
+/// How many independent neutral directions the flow has at the end of a run: `f(u)` and the rotation `Gu`. Where the run comes to rest at a
+/// stable equilibrium the first is none, however far it still is from it: the flow decays.
 fn neutral_directions<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> usize {
     let (mut rate, mut spin) = (shape.to_vec(), shape.to_vec());
     VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
     body.spin(shape, &mut spin);
+    if reduced_speed(body, shape, &rate) <= ARRIVED * norm(&rate).max(norm(shape)) {
+        let steady = RelativeEquilibrium::find(body, shape);
+        let near = |found: &RelativeEquilibrium| found.distance(body, shape) <= ARRIVED * norm(shape);
+        if let Some(found) = steady.filter(|found| found.is_stable() && near(found)) {
+            return found.neutral;
+        }
+    }
     let size = norm(shape);
     let moving = [&rate[..], &spin[..]].into_iter().filter(|x| norm(x) > 1e-9 * size).collect::<Vec<_>>();
     basis(&moving, 1e-6).len()

@@ -1,6 +1,7 @@
 //! The search for a verdict: the questions of [`super::classify()`] in their order, independent of how the orbits are computed.
 
 use super::ask::Ask;
+use super::family::steady_within_family;
 use super::growth::{Growth, in_motion};
 use super::heteroclinic::cycle;
 use super::lasting::Change;
@@ -183,6 +184,9 @@ impl Search {
             "no equilibrium was found where the orbit rests".clone_into(&mut self.missing);
             return self.recurs(body, look, watch);
         };
+        let decided = found.is_stable() || found.is_unstable();
+        let family = if decided { None } else { steady_within_family(body, &found) };
+        let found = family.unwrap_or(found);
         let size = norm(&found.shape).max(self.largest);
         let before = found.distance(body, &self.shape);
         let reached = (self.settings.hovering() * size).max(100.0 * self.settings.atol());

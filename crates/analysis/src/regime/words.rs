@@ -55,7 +55,9 @@ fn at_equilibrium<B: Equivariant + ?Sized>(
     let values = found.eigenvalues.iter().zip(&found.errors);
     let mut exponents: Vec<Estimate> =
         values.map(|(value, &error)| Estimate { value: value.0, error }).collect();
-    exponents.extend(std::iter::repeat_n(Estimate { value: 0.0, error: 0.0 }, found.neutral));
+    // what is missing are the neutral directions: of the rotations, and of a family that the equilibrium lies in
+    let neutral = body.dim().saturating_sub(exponents.len());
+    exponents.extend(std::iter::repeat_n(Estimate { value: 0.0, error: 0.0 }, neutral));
     exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
     verdict.exponents = exponents;
     let drift = if steady.moves() { found.velocity } else { [0.0; 2] };
@@ -72,9 +74,15 @@ pub(super) fn equilibrium<B: Equivariant + ?Sized>(
 ) -> Verdict {
     let steady = SteadyMotion::of(body, found);
     let growth = found.growth();
+    let family = found.eigenvalues.len() + found.neutral < body.dim();
     let why = format!(
-        "{}, reached to {distance:.0e}; stable: its leading eigenvalue is {growth:.2e}",
-        what(&steady)
+        "{}, reached to {distance:.0e}; stable{}: its leading eigenvalue is {growth:.2e}",
+        what(&steady),
+        if family {
+            " across a family of such shapes (a phase that nothing fixes, or another symmetry)"
+        } else {
+            ""
+        }
     );
     let mut verdict = at_equilibrium(body, (found, &steady), Attractor::Equilibrium, why, time);
     let stability = -growth / found.growth_error().max(f64::MIN_POSITIVE);

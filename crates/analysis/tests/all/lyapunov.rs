@@ -190,6 +190,16 @@ fn short_averages_have_no_error() {
     assert!(seen.exponents[0].has_error() && seen.without_error().is_none());
 }
 
+/// A short run that still approaches a stable circular motion has the zero of the rotations alone: its flow decays like everything else. The slowest
+/// rate is .164, so it ends at e^-10 of its size from the motion.
+#[test]
+fn a_run_that_settles_has_no_neutral_direction_along_its_flow() {
+    for (transient, span) in [(30.0, 30.0), (40.0, 25.0), (200.0, 200.0)] {
+        let seen = run(&full(0.5, 0.5), &Random(1).state(6, 0.3), &settings(6, transient, span));
+        assert_eq!(seen.neutral, 1, "after {transient}: {:?}", seen.exponents);
+    }
+}
+
 /// Chaos has two zeros: along the flow, and along the rotations.
 #[test]
 fn both_neutral_directions_of_a_chaotic_body_vanish_within_their_errors() {

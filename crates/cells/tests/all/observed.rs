@@ -41,6 +41,55 @@ fn a_motion_that_repeats_without_turning_is_a_zigzag() {
     assert_eq!(zigzag.motion.regime, Some(Regime::Zigzag), "{}", zigzag.motion.why);
 }
 
+/// A body whose heading turns through `TAU + net` in each of 16 periods: its velocity is `(1 + 0.6 cos w t) (cos h, sin h)`, w = 0.2, at the heading
+/// `h = (w + net / period) t`, and its ellipse lies along it. Positions are exact integrals, by the midpoint rule in a thousand parts a frame.
+fn looping(net: f64) -> Observation {
+    let (w, dt, parts) = (0.2, 0.5, 1000);
+    let rate = w * (1.0 + net / std::f64::consts::TAU);
+    let mut centre = [0.0; 2];
+    let mut frames = Vec::new();
+    for frame in 0..1000_i32 {
+        let t = dt * f64::from(frame);
+        let heading = rate * t;
+        let z2 = [0.2 * libm::cos(2.0 * heading), -0.2 * libm::sin(2.0 * heading)];
+        let body = Synthetic { centre, r0: 2.0, z: vec![z2, [0.0, 0.0]] };
+        frames.push(Outline { frame: i64::from(frame), t, points: body.vertices(48, 0.0), missing: 0 });
+        for part in 0..parts {
+            let h = dt / f64::from(parts);
+            let t = t + h * (f64::from(part) + 0.5);
+            let step = h * (1.0 + 0.6 * libm::cos(w * t));
+            centre = [centre[0] + step * libm::cos(rate * t), centre[1] + step * libm::sin(rate * t)];
+        }
+    }
+    observe(&Sample::of_tracks(one(frames), &ModeOptions::default()).cells[0])
+}
+
+/// A full circle of the heading is no rotation: with it the motion is a circle that drifts (a trochoid), with a little more a rosette.
+#[test]
+fn a_full_circle_in_each_period_is_no_rotation() {
+    let trochoid = looping(0.0).motion;
+    assert_eq!(trochoid.regime, Some(Regime::Circular), "{}", trochoid.why);
+    assert!(trochoid.why.contains("1 full circles"), "{}", trochoid.why);
+    for net in [0.4, -0.4] {
+        let rosette = looping(net).motion;
+        assert_eq!(rosette.regime, Some(Regime::QuasiPeriodic), "{}", rosette.why);
+        assert!(rosette.why.contains(&format!("turned by {net:.1}")), "{}", rosette.why);
+    }
+}
+
+/// One cell with these outlines.
+fn one(frames: Vec<Outline>) -> Tracks {
+    Tracks {
+        cells: vec![Cell { name: "one".to_owned(), frames }],
+        length_unit: "um".to_owned(),
+        time_unit: "s".to_owned(),
+        y_down: None,
+        image: None,
+        files: Vec::new(),
+        notes: Vec::new(),
+    }
+}
+
 /// A path is straight, but the long axis turns: no motion of these bodies does that.
 #[test]
 fn a_straight_path_with_a_shape_that_turns_is_no_straight_motion() {
@@ -50,16 +99,7 @@ fn a_straight_path_with_a_shape_that_turns_is_no_straight_motion() {
         let body = Synthetic { centre: [0.5 * t, 0.0], r0: 2.0, z: vec![z2, [0.0, 0.0]] };
         Outline { frame: i64::from(frame), t, points: body.vertices(48, 0.0), missing: 0 }
     });
-    let tracks = Tracks {
-        cells: vec![Cell { name: "one".to_owned(), frames: frames.collect() }],
-        length_unit: "um".to_owned(),
-        time_unit: "s".to_owned(),
-        y_down: None,
-        image: None,
-        files: Vec::new(),
-        notes: Vec::new(),
-    };
-    let found = observe(&Sample::of_tracks(tracks, &ModeOptions::default()).cells[0]);
+    let found = observe(&Sample::of_tracks(one(frames.collect()), &ModeOptions::default()).cells[0]);
     assert_eq!(found.motion.regime, None, "{}", found.motion.why);
     assert!(found.motion.why.contains("the shape changes by 10.0 % of the radius"), "{}", found.motion.why);
 }

@@ -6,9 +6,9 @@ use crate::output::{End, estimate, print};
 use crate::progress::Progress;
 use motiform_analysis::{Estimate, Lyapunov};
 use motiform_dynamics::Outcome;
-use motiform_lab::analyse;
 use motiform_lab::saddle::{Saddle, saddle as find_saddle};
 use motiform_lab::samples::{self, Escapes, Exponents, Samples, Starts};
+use motiform_lab::{analyse, naming};
 use motiform_study::{Error, Plan};
 use serde_json::json;
 use std::fmt::Write;
@@ -64,6 +64,9 @@ fn json(plan: &Plan, found: &Lyapunov) -> anyhow::Result<String> {
     if let Some(why) = found.without_error() {
         object["without_error"] = why.into();
     }
+    if let Some((motion, growth)) = naming::unstable_under(plan, found)? {
+        object["unstable"] = json!({ "motion": motion, "growth": growth });
+    }
     Ok(serde_json::to_string(&object)?)
 }
 
@@ -105,6 +108,13 @@ fn summary(plan: &Plan, found: &Lyapunov) -> anyhow::Result<String> {
             text,
             "dimension  {} (Kaplan-Yorke; of all shapes, rotated copies included)",
             estimate(&dimension, 0, 4)
+        )?;
+    }
+    if let Some((motion, growth)) = naming::unstable_under(plan, found)? {
+        writeln!(
+            text,
+            "unstable   the run stays on {motion} motion, growth rate {growth:.2e}: its start has an exact symmetry, and these are the \
+             exponents of that motion; a typical start leaves it"
         )?;
     }
     let digits = if found.time < 10.0 { 4 } else { 0 };

@@ -36,6 +36,50 @@ fn times_and_steps_without_end() {
     assert!(folder.names().is_empty(), "{:?}", folder.names());
 }
 
+/// Sizes that no memory holds, and lengths that no number of modes resolves.
+#[test]
+fn bodies_without_bounds() {
+    let folder = Folder::new();
+    for command in ["simulate", "classify", "lyapunov", "equilibria"] {
+        refused(&folder, &format!("{command} cell --set modes=1e9"), &["modes = 1000000000", "1 to 128"]);
+        refused(&folder, &format!("{command} cell --set length=1e6"), &["length = 1000000", "0.01 to 200"]);
+        refused(&folder, &format!("{command} cell --set length=200"), &["modes = 21", "at least 96"]);
+    }
+    refused(&folder, "scan cell --axis modes=100,1000", &["modes = 1000"]);
+    refused(&folder, "scan cell --axis length=10:1e6:3", &["length = 500005"]);
+    let text = |modes: &str| format!("[model.amplitudes]\nmodes = [{modes}]\n[model.amplitudes.equations]\n");
+    let seventeen: Vec<String> = (1..=17).map(|n| n.to_string()).collect();
+    folder.write("many.toml", &text(&seventeen.join(", ")));
+    refused(&folder, "classify many.toml", &["modes has 17 entries", "1 to 16"]);
+    folder.write("high.toml", &text("1, 1000000"));
+    refused(&folder, "classify high.toml", &["mode 1000000", "1 to 64"]);
+    assert_eq!(folder.names(), ["high.toml", "many.toml"]);
+}
+
+/// The largest text model, 32 unknowns: a velocity of size sqrt(.3) that drives a cascade of damped modes. Its exponents are exact.
+#[test]
+fn sixteen_modes_are_classified() {
+    let folder = Folder::new();
+    let modes: Vec<String> = (1..=16).map(|n| n.to_string()).collect();
+    let mut text = format!(
+        "[model.amplitudes]\nmodes = [{}]\n[model.amplitudes.equations]\nz1 = \"(0.3 - |z1|^2)*z1\"\n",
+        modes.join(", ")
+    );
+    for mode in 2..=16 {
+        let rate = 0.1 * f64::from(mode);
+        text += &format!("z{mode} = \"-{rate:.1}*z{mode} + 0.2*z1*z{}\"\n", mode - 1);
+    }
+    folder.write("sixteen.toml", &text);
+    let json = folder.run("classify sixteen.toml --json").expect(0).json();
+    assert_eq!(json["regime"], "straight", "{json}");
+    assert!((json["speed"]["mean"].as_f64().unwrap() - 0.3_f64.sqrt()).abs() < 1e-9, "{json}");
+    let exponents = json["exponents"].as_array().unwrap();
+    let leading: Vec<f64> = exponents.iter().take(4).map(|one| one["value"].as_f64().unwrap()).collect();
+    for (found, exact) in leading.iter().zip([0.0, -0.2, -0.2, -0.3]) {
+        assert!((found - exact).abs() < 1e-9, "{json}");
+    }
+}
+
 #[test]
 fn devices_pipes_and_folders_are_no_files() {
     let folder = Folder::new();

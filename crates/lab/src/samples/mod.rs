@@ -4,7 +4,7 @@ mod escapes;
 mod population;
 mod shares;
 
-use crate::analyse;
+use crate::analyse::{self, Body};
 pub use escapes::{EscapeLimits, Escapes};
 use motiform_analysis::regime::{Course, Settings, Verdict, classifies_in_lanes};
 use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings};
@@ -53,11 +53,11 @@ pub fn classify(
     let settings = analyse::settings(plan, budget)?;
     let population = Population::new(plan, samples, watch)?;
     let kernel = Kernel::of(population.model.as_ref()).filter(|_| classifies_in_lanes(&settings));
+    let (info, values) = (plan.info()?, plan.computation.parameters.values());
+    let body = Body { info, values, model: population.model.as_ref() };
     population.run(|asked| match kernel {
         Some(kernel) => classify_in_lanes(plan, kernel, &settings, asked),
-        None => asked.one_by_one(|start| {
-            Ok(motiform_analysis::classify(population.model.as_ref(), start, &settings, &StopOnly(watch))?)
-        }),
+        None => asked.one_by_one(|start| body.classify(start, &settings, watch)),
     })
 }
 

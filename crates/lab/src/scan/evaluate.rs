@@ -1,9 +1,9 @@
 //! The computation of one row.
 
 use super::{ScanPlan, lanes};
-use crate::analyse::settings_of;
-use motiform_analysis::regime::{Verdict, classify};
-use motiform_dynamics::{StopOnly, Watch};
+use crate::analyse::{Body, settings_of};
+use motiform_analysis::regime::Verdict;
+use motiform_dynamics::Watch;
 use motiform_study::Error;
 
 /// Receives verdicts, each with its cell and initial state.
@@ -51,7 +51,7 @@ fn one_by_one<E: Evaluate + ?Sized>(
     }
 }
 
-/// Classifies the motion of each row.
+/// Classifies the motion of each row, with its resolution: the verdict is that of `motiform classify` for the same start.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Classify;
 
@@ -68,7 +68,8 @@ impl Evaluate for Classify {
         let start = plan.start(cell, sample, model.as_ref())?;
         let bounds = (c.escape_norm, c.max_steps);
         let settings = settings_of(plan.info()?, plan.method()?, c.control, bounds, c.budget);
-        Ok(classify(model.as_ref(), &start, &settings, &StopOnly(stop))?)
+        let body = Body { info: plan.info()?, values: plan.parameters_of(cell)?, model: model.as_ref() };
+        body.classify(&start, &settings, stop)
     }
 
     /// In the lanes of vector registers, if there are such kernels for the model and the method.

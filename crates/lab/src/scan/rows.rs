@@ -6,7 +6,7 @@ use motiform_files::columns::{Column, Values, to_csv};
 use motiform_study::Error;
 
 /// The numbers of a row, in file order: name and meaning.
-pub const NUMBERS: [(&str, &str); 14] = [
+pub const NUMBERS: [(&str, &str); 15] = [
     (
         "margin",
         "how clear the decision is: its number's distance from the limit, in units of its own uncertainty",
@@ -24,6 +24,10 @@ pub const NUMBERS: [(&str, &str); 14] = [
     ("lambda_1_error", "half width of its 95 % confidence interval"),
     ("escape_time", "the blow-up time t* (model time)"),
     ("time", "model time that the decision took"),
+    (
+        "resolution",
+        "largest relative change of speed, turning rate and period with half as many modes more, where the model has a number of modes",
+    ),
 ];
 
 /// One initial state of one cell.
@@ -66,6 +70,7 @@ impl Row {
             lambda.map(|exponent| exponent.error).filter(|error| error.is_finite()),
             v.escape_time,
             Some(v.time),
+            v.resolution.as_ref().map(|resolution| resolution.change),
         ];
         // One undefined number: the sign and payload of a NaN mean nothing.
         let numbers = numbers.map(|number| number.filter(|value| !value.is_nan()).unwrap_or(f64::NAN));

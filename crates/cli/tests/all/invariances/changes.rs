@@ -5,6 +5,9 @@ use super::subjects::{Subject, System};
 use super::texts::Text;
 use crate::common::Folder;
 
+/// A mode more, whose phase nothing fixes.
+pub(crate) const FREE_PHASE: &str = "a free phase";
+
 /// The changed requests of a subject that starts on its motion.
 pub(crate) fn changes(folder: &Folder, subject: &Subject, settled: &Request) -> Vec<(&'static str, Request)> {
     let mut all: Vec<(&'static str, Request)> = Vec::new();
@@ -109,7 +112,7 @@ fn named(request: &Request, length: f64) -> Vec<(String, f64)> {
     request.initial.iter().map(convert).collect()
 }
 
-/// The same equations as text, in other units, and with silent modes.
+/// The same equations as text, in other units, with silent modes, and with a free phase.
 fn own(folder: &Folder, settled: &Request, text: &Text) -> Vec<(&'static str, Request)> {
     let mut all = Vec::new();
     for (name, time, length) in [("time.toml", 3.7, 1.0), ("length.toml", 1.0, 2.3)] {
@@ -124,6 +127,10 @@ fn own(folder: &Folder, settled: &Request, text: &Text) -> Vec<(&'static str, Re
     let mut initial = named(settled, 1.0);
     initial.extend([("z17_re", 0.01), ("z17_im", 0.02)].map(|(name, x)| (name.to_owned(), x)));
     all.push(("silent modes", Request { model, initial, set: Vec::new(), ..settled.clone() }));
+    let model = write(folder, "free.toml", &text.with_free_phase().study(1.0, 1.0));
+    let mut initial = named(settled, 1.0);
+    initial.extend([("z19_re", 0.4), ("z19_im", 0.3)].map(|(name, x)| (name.to_owned(), x)));
+    all.push((FREE_PHASE, Request { model, initial, set: Vec::new(), ..settled.clone() }));
     all
 }
 

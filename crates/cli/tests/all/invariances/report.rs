@@ -24,9 +24,9 @@ pub(crate) fn report(cases: &[Case]) -> String {
     for ((change, kind), [same, undecided, wrong]) in counts {
         let _ = writeln!(text, "| {change} | {kind} | {same} | {undecided} | {wrong} |");
     }
-    let _ = writeln!(text, "Motions among them: {}.\n", names(cases));
     let total: usize = all.iter().sum();
     let _ = writeln!(text, "| all | | {} | {} | {} |\n", all[0], all[1], all[2]);
+    let _ = writeln!(text, "Motions among them: {}.\n", names(cases));
     let share = 100.0 * all[1] as f64 / total.max(1) as f64;
     let differ: Vec<&Case> = cases.iter().filter(|case| case.judged != Judged::Same).collect();
     let end = if differ.is_empty() { "All are the same." } else { "Not the same:\n" };

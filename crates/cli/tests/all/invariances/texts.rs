@@ -137,6 +137,17 @@ impl Text {
         Self { equations, handed: self.handed }
     }
 
+    /// With a mode more that acts on nothing, of constant size `sqrt(.3)` and with a phase that nothing fixes: every motion is one of a family.
+    pub(crate) fn with_free_phase(&self) -> Self {
+        let mut equations = self.equations.clone();
+        let term = |factor: f64, order: i32, word: &str| {
+            let word = word.to_owned();
+            Term { factor, imaginary: 0.0, order, word }
+        };
+        equations.push((19, vec![term(0.3, 1, "z19"), term(-1.0, 3, "|z19|^2*z19")]));
+        Self { equations, handed: self.handed }
+    }
+
     /// The study file, with a unit of time and of amplitudes.
     pub(crate) fn study(&self, time: f64, length: f64) -> String {
         let modes: Vec<String> = self.equations.iter().map(|(n, _)| n.to_string()).collect();
