@@ -105,7 +105,7 @@ impl Products {
 
     /// rho at a lag.
     fn ratio(&self, lag: usize) -> Measured {
-        leave_out(self.groups, |left| self.sums[lag].mean(left) / self.sums[0].mean(left), false)
+        leave_out(self.groups, &|left| self.sums[lag].mean(left) / self.sums[0].mean(left), false)
     }
 
     /// The integral of rho under a window.

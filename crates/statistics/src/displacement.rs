@@ -118,7 +118,7 @@ impl MeanSquare {
     /// The value at a place with its interval, on its logarithm (squares of late displacements are skew) where it is above 0.
     #[must_use]
     pub fn measured(&self, place: usize) -> Measured {
-        let skew = leave_out(self.groups, |left_out| self.value(place, left_out), true);
+        let skew = leave_out(self.groups, &|left_out| self.value(place, left_out), true);
         if skew.interval.is_some() { skew } else { self.sums[place].measured() }
     }
 
@@ -130,7 +130,7 @@ impl MeanSquare {
             return None;
         }
         let slope = |left_out| self.slope(from, to, left_out);
-        slope(None).is_finite().then(|| leave_out(self.groups, slope, false))
+        slope(None).is_finite().then(|| leave_out(self.groups, &slope, false))
     }
 
     /// The slope between two places on logarithmic axes.

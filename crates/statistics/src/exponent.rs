@@ -14,7 +14,7 @@ pub fn local_exponent(curve: &MeanSquare, first: bool) -> Answer {
     if from == to || !slope(None).is_finite() {
         return Answer::unknown("nothing moved, or there is only one lag");
     }
-    Answer::Known(leave_out(curve.groups(), slope, false))
+    Answer::Known(leave_out(curve.groups(), &slope, false))
 }
 
 /// The place whose lag is nearest to a part of the longest one.

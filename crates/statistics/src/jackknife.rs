@@ -75,12 +75,12 @@ impl Sums {
     }
 
     pub(crate) fn measured(&self) -> Measured {
-        leave_out(self.groups.len(), |left_out| self.mean(left_out), false)
+        leave_out(self.groups.len(), &|left_out| self.mean(left_out), false)
     }
 }
 
 /// A function of sums with its interval; `positive` values on their logarithm.
-pub(crate) fn leave_out(groups: usize, value: impl Fn(Option<usize>) -> f64, positive: bool) -> Measured {
+pub(crate) fn leave_out(groups: usize, value: &dyn Fn(Option<usize>) -> f64, positive: bool) -> Measured {
     let without: Vec<f64> = (0..groups).map(|group| value(Some(group))).collect();
     if positive { jackknife_ratio(value(None), &without) } else { jackknife(value(None), &without) }
 }

@@ -3,7 +3,7 @@
 use crate::damped::{Damped, deviation, fit};
 use crate::jackknife::jackknife_ratio;
 use crate::plateau::Curves;
-use crate::{Answer, Measured, four_digits};
+use crate::{Answer, four_digits};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 const MISFIT: f64 = 0.1;
 
 /// A correlation oscillates where it goes down to this value, by more than its error.
-const NEGATIVE: f64 = -0.1;
+const NEGATIVE: f64 = -0.05;
 
 /// Shortest period in samples: with fewer, a slower one cannot be told from a faster one.
 const SHORTEST: f64 = 5.0;
@@ -23,20 +23,21 @@ pub struct Oscillation {
     pub frequency: Answer,
     /// Time in which the amplitude falls to 1/e.
     pub decay: Answer,
+    /// Frequency, and rate of decay, of the damped cosine that is nearest, whether or not it describes the correlation.
+    pub nearest: [f64; 2],
     /// Deviation of the damped cosine from the correlation, as a part of it (root mean squares), less what is chance.
     pub deviation: f64,
 }
 
 /// The damped cosine `e^{-lambda tau} (a cos omega tau + b sin omega tau)` that is nearest to rho(tau) over lags up to `last`, by least squares;
-/// `None` where rho does not oscillate: it does not go below -0.1, or forgets within a radian (omega < lambda).
+/// `None` where rho does not oscillate: it does not go below -0.05 by more than its error, or forgets within a radian (omega < lambda).
 ///
 /// Intervals: by leaving out groups and fitting again, on logarithms. Unknown are both where the damped cosine deviates by more than 10 %, and the decay where the amplitude
 /// does not fall to 1/e within these lags.
 ///
 /// # Checked by  tests/all/oscillation.rs: chiral active Brownian motion, circle, exponential; coverage in crate measure
 pub(crate) fn oscillation(curves: &Curves, last: usize) -> Option<Oscillation> {
-    let ratios = |curve: &Vec<f64>| curve[..=last].iter().map(|c| c / curve[0]).collect::<Vec<f64>>();
-    let all = ratios(&curves.values[0]);
+    let all = ratios(&curves.values[0], last);
     let lowest = lowest(&all)?;
     if all[lowest] + curves.ratio(lowest).half_width() > NEGATIVE {
         return None;
@@ -48,39 +49,43 @@ pub(crate) fn oscillation(curves: &Curves, last: usize) -> Option<Oscillation> {
     let squares: f64 = all.iter().map(|rho| rho * rho).sum();
     let errors: f64 = (1..=last).map(|lag| 0.25 * curves.ratio(lag).half_width().powi(2)).sum();
     let deviation = (deviation(&all, &best).powi(2) - errors / squares).max(0.0).sqrt();
-    let refuse = |reason: String| Oscillation {
-        frequency: Answer::unknown(&reason),
-        decay: Answer::unknown(reason),
-        deviation,
+    let [frequency, decay] = match refusal(&best, deviation) {
+        Some(reason) => [Answer::unknown(&reason), Answer::unknown(reason)],
+        None => measured(curves, last, &best),
     };
+    let nearest = [best.omega / (TAU * curves.dt), best.lambda / curves.dt];
+    Some(Oscillation { frequency, decay, nearest, deviation })
+}
+
+/// rho of a curve up to a lag.
+fn ratios(curve: &[f64], last: usize) -> Vec<f64> {
+    curve[..=last].iter().map(|c| c / curve[0]).collect()
+}
+
+/// Why the nearest damped cosine is not what the correlation is, if it is not.
+fn refusal(best: &Damped, deviation: f64) -> Option<String> {
     if deviation > MISFIT {
-        let percent = 100.0 * deviation;
-        return Some(refuse(format!("not as one damped cosine (deviation {percent:.0} %)")));
+        return Some(format!("not as one damped cosine (deviation {:.0} %)", 100.0 * deviation));
     }
-    if best.omega * SHORTEST > TAU {
-        return Some(refuse(
-            "sampled too coarsely: a period has fewer than 5 samples; record more often".into(),
-        ));
-    }
+    let coarse = "sampled too coarsely: a period has fewer than 5 samples; record more often";
+    (best.omega * SHORTEST > TAU).then(|| coarse.to_owned())
+}
+
+/// Frequency and decay with their intervals.
+fn measured(curves: &Curves, last: usize, best: &Damped) -> [Answer; 2] {
     let without: Vec<Option<Damped>> =
-        curves.values[1..].iter().map(|curve| fit(&ratios(curve), &[best])).collect();
-    let measured = |of: &dyn Fn(&Damped) -> f64| -> Measured {
-        let values: Vec<f64> = without.iter().map(|found| found.as_ref().map_or(f64::NAN, of)).collect();
-        jackknife_ratio(of(&best), &values)
+        curves.values[1..].iter().map(|curve| fit(&ratios(curve, last), &[*best])).collect();
+    let of = |value: &dyn Fn(&Damped) -> f64| {
+        let values: Vec<f64> = without.iter().map(|found| found.as_ref().map_or(f64::NAN, value)).collect();
+        Answer::Known(jackknife_ratio(value(best), &values))
     };
-    let decay = if best.lambda * last as f64 > 1.0 {
-        Answer::Known(measured(&|found| curves.dt / found.lambda))
-    } else {
-        let lags = four_digits(last as f64 * curves.dt);
-        Answer::unknown(format!(
-            "not reached: the oscillation goes on at the longest lag {lags}; record longer"
-        ))
-    };
-    Some(Oscillation {
-        frequency: Answer::Known(measured(&|found| found.omega / (TAU * curves.dt))),
-        decay,
-        deviation,
-    })
+    let frequency = of(&|found| found.omega / (TAU * curves.dt));
+    if best.lambda * last as f64 > 1.0 {
+        return [frequency, of(&|found| curves.dt / found.lambda)];
+    }
+    let lags = four_digits(last as f64 * curves.dt);
+    let reason = format!("not reached: the oscillation goes on at the longest lag {lags}; record longer");
+    [frequency, Answer::unknown(reason)]
 }
 
 /// The lag of the lowest value.

@@ -17,10 +17,10 @@ const ALIKE: f64 = 1.5;
 const CHANCE: f64 = 1.0;
 
 /// Largest part of an integral that may be the correction of the trapezoidal rule.
-const CORRECTED: f64 = 0.2;
+const CORRECTED: f64 = 0.15;
 
 /// Largest part by which every other sample may give another integral.
-const CHANGED: f64 = 0.3;
+const CHANGED: f64 = 0.2;
 
 /// Half the width of an interval of a logarithm from which on a value is not resolved: a factor of e on both sides.
 const UNRESOLVED: f64 = 1.0;

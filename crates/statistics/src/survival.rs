@@ -60,7 +60,7 @@ pub fn mean_time(durations: &[Duration], groups: usize) -> Option<MeanTime> {
     let all = curve(&sorted, limit, None);
     let without: Vec<Area> = (0..groups).map(|group| curve(&sorted, limit, Some(group))).collect();
     let measured =
-        |of: fn(&Area) -> f64| leave_out(groups, |left| of(left.map_or(&all, |g| &without[g])), false);
+        |of: fn(&Area) -> f64| leave_out(groups, &|left| of(left.map_or(&all, |g| &without[g])), false);
     let mean = if all.share > 0.5 {
         let percent = 100.0 * all.share;
         Answer::unknown(format!(

@@ -65,8 +65,18 @@ pub(crate) fn depends_on_sampling(name: &str) -> bool {
 fn truths(motion: &Motion, pool: &[Vec<Track>], step: usize) -> BTreeMap<String, f64> {
     let pooled: Vec<Track> = pool.iter().flatten().cloned().collect();
     let values = |step| -> BTreeMap<String, f64> {
-        let all = printed(&measured(motion, &pooled, step)).into_iter();
-        all.filter_map(|(name, answer)| Some((name, answer.known()?.value))).collect()
+        let found = measured(motion, &pooled, step);
+        let all = printed(&found).into_iter();
+        let mut all: BTreeMap<String, f64> =
+            all.filter_map(|(name, answer)| Some((name, answer.known()?.value))).collect();
+        for entry in &found.autocorrelations {
+            let Some([frequency, rate]) = entry.oscillation.as_ref().map(|found| found.nearest) else {
+                continue;
+            };
+            all.insert(format!("frequency of {}", entry.quantity.name()), frequency);
+            all.insert(format!("decay of {}", entry.quantity.name()), 1.0 / rate);
+        }
+        all
     };
     let mut all = values(1);
     all.extend(values(step).into_iter().filter(|(name, _)| depends_on_sampling(name)));
@@ -181,7 +191,7 @@ fn table() {
 fn a_sample() {
     let cheap: Vec<Motion> =
         Motion::all().into_iter().filter(|motion| matches!(motion.source, Source::Active(..))).collect();
-    let (table, failed) = coverage(&cheap, 40);
+    let (table, failed) = coverage(&cheap, 20);
     println!("{table}");
     assert!(failed.is_empty(), "{failed:#?}");
 }
