@@ -13,12 +13,13 @@ pub use relatives::{
 };
 pub use statistics::{AtLag, Memory, MotionStatistics};
 
-use crate::CellTrack;
+use crate::{CellTrack, Numbers, numbers};
 use measures::Measures;
 use motiform_analysis::regime::Regime;
 use motiform_statistics::{Walk, four_digits, with_error};
 use repeats::Repeats;
 use serde::Serialize;
+use std::f64::consts::TAU;
 
 /// Fewest frames that count.
 const LEAST_FRAMES: usize = 40;
@@ -58,7 +59,9 @@ pub struct Observation {
     /// The verdict.
     #[serde(flatten)]
     pub motion: Motion,
-    /// The numbers behind it; `None` for records that are too short for them.
+    /// Numbers without a model of the shape: speed, path, displacement, persistence, form. They are there for every record.
+    pub numbers: Numbers,
+    /// The numbers behind the verdict; `None` for records that are too short for them.
     pub measures: Option<Measures>,
     /// The repetition of shape and motion; `None` where there is none.
     pub repeats: Option<Repeats>,
@@ -76,6 +79,7 @@ pub fn observe(cell: &CellTrack) -> Observation {
         cell: cell.name.clone(),
         frames,
         motion: Motion { regime: None, why, confidence: None },
+        numbers: numbers(cell),
         measures: None,
         repeats: None,
         statistics: None,
@@ -104,8 +108,9 @@ pub fn observe(cell: &CellTrack) -> Observation {
         statistics.walk = Walk::unknown("the heading turns steadily: this is no persistent random walk");
     }
     let relatives = Some(Relatives::of(&measures));
+    let numbers = numbers(cell);
     let cell = cell.name.clone();
-    Observation { cell, frames, motion, measures: Some(measures), repeats, statistics, relatives }
+    Observation { cell, frames, motion, numbers, measures: Some(measures), repeats, statistics, relatives }
 }
 
 /// The verdict, if enough resampled records agree with it.
@@ -161,7 +166,7 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
         );
         return (Some(Regime::Straight), why);
     }
-    let turns = m.turning.abs() * m.duration / std::f64::consts::TAU;
+    let turns = m.turning.abs() * m.duration / TAU;
     let clear_turn = m.turning.abs() > CLEAR * m.turning_error;
     if steady_speed && clear_turn && m.turning_scatter < STEADY && m.shape_scatter < STEADY {
         if turns < LEAST_TURNS {
@@ -184,6 +189,13 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
 }
 
 fn rest(m: &Measures) -> (Option<Regime>, String) {
+    if m.wandering >= CLEAR {
+        let why = format!(
+            "displacements from frame to frame are within {CLEAR} of their errors, but over the record the cell wanders, {:.0} errors from its mean place: it moves, or the stage drifts",
+            m.wandering
+        );
+        return (None, why);
+    }
     if m.shape_change < CLEAR {
         let why = format!(
             "displacements of {} are within {CLEAR} of their errors, {}, and so are changes of shape",
@@ -205,7 +217,21 @@ fn repeating(repeats: &Repeats) -> (Option<Regime>, String) {
         return (None, why);
     }
     let seen = format!("repeats {periods:.1} times with a period of {period} (likeness {likeness:.2})");
-    let clear = rotation.abs() > CLEAR * rotation_error && rotation.abs() > NO_TURN;
+    // a rotation by full turns is none
+    let whole = (rotation / TAU).round();
+    let rest = rotation - TAU * whole;
+    if whole != 0.0 && (rest.abs() <= CLEAR * rotation_error || rest.abs() <= NO_TURN) {
+        let why = format!(
+            "{seen}, turned by {turn} rad each time: by {} within errors. A circle whose place drifts (stage, flow) does the same",
+            if whole.abs() == 1.0 {
+                "one full turn".to_owned()
+            } else {
+                format!("{} full turns", whole.abs())
+            }
+        );
+        return (None, why);
+    }
+    let clear = rest.abs() > CLEAR * rotation_error && rest.abs() > NO_TURN;
     if clear {
         let why = format!("{seen}, turned by {turn} rad each time");
         return (Some(Regime::QuasiPeriodic), why);

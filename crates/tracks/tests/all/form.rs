@@ -59,7 +59,8 @@ fn the_aspect_ratio_of_a_coarse_polygon_is_exact() {
 /// A plus of five squares: area 5, hull 7, perimeter 12. Its moments are isotropic.
 #[test]
 fn a_cross_is_not_convex() {
-    let corners = [[1, 0], [2, 0], [2, 1], [3, 1], [3, 2], [2, 2], [2, 3], [1, 3], [1, 2], [0, 2], [0, 1], [1, 1]];
+    let corners =
+        [[1, 0], [2, 0], [2, 1], [3, 1], [3, 2], [2, 2], [2, 3], [1, 3], [1, 2], [0, 2], [0, 1], [1, 1]];
     let found = of(&corners.map(|corner| corner.map(f64::from)));
     assert!((found.solidity - 5.0 / 7.0).abs() < 1e-14 && (found.aspect_ratio - 1.0).abs() < 1e-14);
     assert!((found.circularity - 4.0 * PI * 5.0 / 144.0).abs() < 1e-14);
