@@ -18,8 +18,7 @@ pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
         }
     };
     let why = capital(&literal(&fitted.why()));
-    let regime =
-        fitted.regime.as_ref().and_then(|found| found.regime).map_or("undecided", |regime| regime.name());
+    let regime = fitted.motion_name();
     let about = format!(
         "Motion of the fitted equations, without their noise: {regime}. {why}.\n\nThe equations are the study file {name}.toml in the folder of this page: every command of motiform takes it as a model."
     );
@@ -38,6 +37,13 @@ fn parameters(fitted: &Fitted, units: &Units) -> Vec<(String, String)> {
     let (symmetry, p) = (fitted.symmetry().name(), plain(fitted.handedness.p_value));
     vec![
         ("symmetry".to_owned(), format!("{symmetry}, p = {p}")),
+        (
+            "imaginary parts excluded".to_owned(),
+            format!(
+                "above {:.0} % of the largest coefficient of their equation",
+                100.0 * fitted.handedness.excluded
+            ),
+        ),
         ("frames with a likelihood".to_owned(), model.frames.to_string()),
         ("log-likelihood".to_owned(), plain(model.log_likelihood)),
         ("factor of the stated errors".to_owned(), estimate(&noise.s)),
@@ -56,15 +62,21 @@ fn parameters(fitted: &Fitted, units: &Units) -> Vec<(String, String)> {
 
 fn coefficients(fitted: &Fitted) -> Table {
     let between = fitted.between.as_ref();
+    let sound = fitted.model().converged();
     let row = |(place, c): (usize, &Coefficient)| {
         let (name, factor) = paper(&c.term, c.imaginary);
         let part = if c.imaginary { "imaginary part of " } else { "" };
-        let [low, high] = c.estimate.interval;
+        let over = fitted.over_sets(&c.name).filter(|_| !c.imaginary);
+        let [low, high] = over.map_or(c.estimate.interval, |over| over.interval);
         let mut row = vec![
             Cell::text(format!("{part}{}", typeset(&c.name))),
-            Cell::number(with_error(c.estimate.value, c.estimate.error)),
-            Cell::number(plain(c.estimate.robust)),
-            Cell::number(format!("{} to {}", plain(low), plain(high))),
+            Cell::number(if sound {
+                with_error(c.estimate.value, c.estimate.error)
+            } else {
+                plain(c.estimate.value)
+            }),
+            Cell::number(if sound { plain(c.estimate.robust) } else { "not converged".to_owned() }),
+            Cell::number(if sound { format!("{} to {}", plain(low), plain(high)) } else { String::new() }),
             Cell::text(literal(&format!("{name} = {}", plain(c.estimate.value / factor)))),
         ];
         if let Some(between) = between {
@@ -77,10 +89,28 @@ fn coefficients(fitted: &Fitted) -> Table {
     if between.is_some() {
         head.insert(3, "error between cells");
     }
+    let mut rows: Vec<Vec<Cell>> = fitted.model().coefficients.iter().enumerate().map(row).collect();
+    for one in fitted.in_other_sets() {
+        let [low, high] = one.interval.map(plain);
+        let mut row = vec![
+            Cell::text(format!("{} (other sets)", typeset(&one.name))),
+            Cell::number(format!("{}, mean over sets", plain(one.value))),
+            Cell::number(""),
+            Cell::number(format!("{low} to {high}")),
+            Cell::text(format!(
+                "not in the file: in {:.0} % of the weight of all tied sets",
+                100.0 * one.weight
+            )),
+        ];
+        if between.is_some() {
+            row.insert(3, Cell::number(""));
+        }
+        rows.push(row);
+    }
     Table {
-        caption: "Coefficients in the units of the data; a term stands in the equation of the amplitude before the colon.".to_owned(),
+        caption: "Coefficients in the units of the data; a term stands in the equation of the amplitude before the colon. Intervals are those over all sets of terms that the data do not tell apart; the errors are those of the best set alone.".to_owned(),
         head: head.into_iter().map(str::to_owned).collect(),
-        rows: fitted.model().coefficients.iter().enumerate().map(row).collect(),
+        rows,
     }
 }
 

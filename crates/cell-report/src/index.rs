@@ -1,8 +1,8 @@
 //! The page of the data set: all cells in a table, the population, all places.
 
-use crate::numbers::{estimate, plain};
+use crate::numbers::estimate;
 use crate::place::{self, PLANES, map};
-use crate::{Case, Maps, fitted, page_name, population, words};
+use crate::{Case, Maps, fitted, free, page_name, population, words};
 use motiform_analysis::regime::Regime;
 use motiform_cells::Units;
 use motiform_cells::{Agreement, CellFit, Fitted, Sample};
@@ -58,6 +58,9 @@ fn one_law(fit: &CellFit, maps: &Maps, units: &Units) -> Result<Vec<Section>, Er
 
 /// The motion of the fitted equations, or the observed one.
 pub(crate) fn verdict(case: &Case<'_>) -> &'static str {
+    if let Some(fitted) = fitted_of(case).filter(|fitted| fitted.is_walk()) {
+        return fitted.motion_name();
+    }
     fitted_regime(case).or(case.observation.motion.regime).map_or("undecided", |regime| regime.name())
 }
 
@@ -73,16 +76,18 @@ fn table(cases: &[Case<'_>], names: &[String], units: &Units) -> Table {
     let fits = cases.iter().any(|case| case.fit.is_some());
     let name = |regime: Option<Regime>| Cell::text(regime.map_or("undecided", |regime| regime.name()));
     let row = |(case, file): (&Case<'_>, &String)| {
-        let speed = case.observation.measures.as_ref().map_or_else(String::new, |m| plain(m.speed));
+        let free = |key: &str| Cell::number(free::value(&case.observation.numbers, key));
         let mut row = vec![
             Cell::link(literal(&case.cell.name), page_name(file)),
             Cell::number(case.cell.frames().to_string()),
-            Cell::number(plain(case.cell.radius)),
-            Cell::number(speed),
+            free("speed"),
+            free("persistence"),
+            free("area"),
+            free("aspect_ratio"),
             name(case.observation.motion.regime),
         ];
         if fits {
-            row.push(name(fitted_regime(case)));
+            row.push(Cell::text(fitted_of(case).map_or("undecided", Fitted::motion_name)));
             row.push(Cell::text(fitted_of(case).map_or("", |fitted| fitted.symmetry().name())));
             row.push(Cell::text(fitted_of(case).map_or_else(String::new, place_words)));
             row.push(Cell::text(agreement(case)));
@@ -92,8 +97,10 @@ fn table(cases: &[Case<'_>], names: &[String], units: &Units) -> Table {
     let mut head = vec![
         "cell".to_owned(),
         "frames that count".to_owned(),
-        format!("mean radius ({})", units.length),
         format!("speed ({})", units.speed()),
+        format!("persistence ({})", units.time),
+        format!("area ({}^2)", units.length),
+        "aspect ratio".to_owned(),
         "observed motion".to_owned(),
     ];
     if fits {

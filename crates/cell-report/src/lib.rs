@@ -7,6 +7,7 @@
 mod checks;
 mod comparison;
 mod fitted;
+mod free;
 mod index;
 mod maps;
 mod motion;
@@ -73,7 +74,7 @@ pub fn pages(
     (threads, watch): (usize, &dyn Watch),
     write: &Sink<'_>,
 ) -> Result<bool, Error> {
-    let units = Units::of(sample);
+    let units = Units::of(sample).typeset();
     let names = motiform_cells::file_names(cases.iter().map(|case| case.cell.name.as_str()));
     let outlines: HashMap<&str, &Cell> =
         sample.tracks.cells.iter().map(|cell| (cell.name.as_str(), cell)).collect();
@@ -121,8 +122,9 @@ fn cell(
     maps: &Maps,
     units: &Units,
 ) -> Result<Report, Error> {
-    let mut sections = vec![summary::section(case), motion::section(case, units)?];
+    let mut sections = vec![summary::section(case), free::section(case, units)?];
     sections.extend(outlines::section(case, drawn, units)?);
+    sections.push(motion::section(case, units)?);
     if let Some(fit) = case.fit {
         sections.push(fitted::section(fit, name, units));
         if let Ok(fitted) = &fit.fitted {

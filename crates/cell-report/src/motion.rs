@@ -132,7 +132,7 @@ pub(crate) fn figures(statistics: &MotionStatistics, units: &Units) -> Result<Ve
     Ok(all)
 }
 
-fn points(curve: &[AtLag]) -> Vec<BandPoint> {
+pub(crate) fn points(curve: &[AtLag]) -> Vec<BandPoint> {
     let point = |at: &AtLag| {
         let [low, high] = at.value.interval.unwrap_or([at.value.value; 2]);
         BandPoint { x: at.lag, y: at.value.value, low, high }

@@ -12,6 +12,7 @@ use motiform_report::{ReportFigure, Section};
 use motiform_statistics::four_digits;
 use motiform_study::Error;
 use motiform_tracks::Cell;
+use motiform_tracks::modes::FrameModes;
 use motiform_tracks::synthetic::Synthetic;
 
 /// Pictures of the film strip.
@@ -31,7 +32,7 @@ pub(crate) fn section(
 ) -> Result<Option<Section>, Error> {
     let cell = case.cell;
     if cell.track.0.len() < 2 {
-        return Ok(None);
+        return polygons(case, drawn, units);
     }
     let strip = TrackPanels {
         unit: units.length.clone(),
@@ -66,6 +67,28 @@ pub(crate) fn section(
         ),
     ];
     Ok(Some(Section { title: "Outlines".to_owned(), about: String::new(), figures, ..Section::default() }))
+}
+
+/// The film strip of a cell without modes: its polygons as they were read, with the path of the centroid. Nothing where none is seen.
+fn polygons(case: &Case<'_>, drawn: Option<&Cell>, units: &Units) -> Result<Option<Section>, Error> {
+    let seen: Vec<&FrameModes> = case.cell.modes.frames.iter().filter(|frame| frame.is_seen()).collect();
+    let panel = |k: usize| {
+        let frame = seen[k];
+        let read = drawn?.frames.iter().find(|outline| outline.frame == frame.frame)?;
+        Some(TrackPanel {
+            name: format!("*t* = {} {}", four_digits(frame.t), units.time),
+            path: vec![seen[..=k].iter().map(|frame| up(frame.centroid, units)).collect()],
+            outlines: vec![read.points.iter().map(|p| up(*p, units)).collect()],
+        })
+    };
+    let panels: Vec<TrackPanel> = chosen(seen.len(), STRIP).filter_map(panel).collect();
+    if panels.is_empty() {
+        return Ok(None);
+    }
+    let strip = TrackPanels { unit: units.length.clone(), columns: STRIP, panels, ..TrackPanels::default() };
+    let words = "The outline at up to eight times, as it was read, with the path of the centroid before. There are no modes of the radius.";
+    let figures = vec![ReportFigure::new(sheet(&strip)?, words)];
+    Ok(Some(Section { title: "Outlines".to_owned(), figures, ..Section::default() }))
 }
 
 /// The outline of a frame.

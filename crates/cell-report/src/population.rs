@@ -1,12 +1,12 @@
 //! The population: names and numbers over cells.
 
-use crate::numbers::plain;
+use crate::numbers::{plain, with_error};
 use crate::terms::typeset;
 use crate::{Case, motion};
 use motiform_cells::Units;
 use motiform_cells::{
-    CellFit, FittedPopulation, NameShare, Observation, ObservedPopulation, OverCells, fitted_population,
-    observed_population, population_statistics,
+    CellFit, FittedPopulation, NameShare, Observation, OverCells, PopulationNumbers, fitted_population,
+    observed_population, population_numbers, population_statistics,
 };
 use motiform_report::{Cell, Section, Table};
 use motiform_study::Error;
@@ -20,7 +20,16 @@ pub(crate) fn section(cases: &[Case<'_>], units: &Units) -> Result<Option<Sectio
     let fits: Vec<CellFit> = cases.iter().filter_map(|case| case.fit.cloned()).collect();
     let mut about = "Intervals are those of resampling whole cells, which needs 8 of them.".to_owned();
     let observed = observed_population(&found);
-    let mut tables = vec![names(&observed.regimes, "observed motion"), numbers(&observed, units)];
+    let free = population_numbers(&found);
+    if let Some(field) = free.field.as_ref().filter(|field| field.drifts()) {
+        let [x, y] = [0, 1].map(|k| with_error(field.velocity[k], field.velocity_error[k]));
+        about += &format!(
+            " The cells drift together, by ({x}, {y}) {} (p = {:.1e}): the stage, a flow, or a direction that all of them prefer. Velocities of single cells contain it.",
+            units.speed(),
+            field.p_value
+        );
+    }
+    let mut tables = vec![names(&observed.regimes, "observed motion"), numbers(&free, units)];
     if fits.len() > 1 {
         let fitted = fitted_population(&fits);
         tables.push(names(&fitted.regimes, "motion of the fit"));
@@ -62,14 +71,13 @@ fn names(shares: &[NameShare], head: &str) -> Table {
     }
 }
 
-fn numbers(found: &ObservedPopulation, units: &Units) -> Table {
-    let all = [
-        (format!("speed ({})", units.speed()), &found.speed),
-        (format!("turning rate (rad/{})", units.time), &found.turning),
-        ("directness".to_owned(), &found.directness),
-    ];
-    let rows = all.into_iter().filter_map(|(name, over)| Some(row(name, over.as_ref()?)));
-    table("Numbers of the observed motion over cells.", rows.collect())
+fn numbers(found: &PopulationNumbers, units: &Units) -> Table {
+    let rows = found.numbers.iter().map(|one| {
+        let unit = one.dimension.unit(units);
+        let name = if unit.is_empty() { one.name.to_owned() } else { format!("{} ({unit})", one.name) };
+        row(name, &one.over)
+    });
+    table("Numbers over the cells that have them.", rows.collect())
 }
 
 fn coefficients(found: &FittedPopulation) -> Table {

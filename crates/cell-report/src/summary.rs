@@ -2,6 +2,7 @@
 
 use crate::Case;
 use crate::index::{agreement, fitted_of, fitted_regime, place_words};
+use motiform_cells::Fitted;
 use motiform_report::Section;
 
 pub(crate) fn section(case: &Case<'_>) -> Section {
@@ -11,7 +12,8 @@ pub(crate) fn section(case: &Case<'_>) -> Section {
     };
     let mut parameters = vec![("observed motion".to_owned(), name(observed))];
     if let Some(fit) = case.fit {
-        parameters.push(("motion of the fit".to_owned(), name(fitted_regime(case))));
+        let motion = fitted_of(case).map_or("undecided", Fitted::motion_name);
+        parameters.push(("motion of the fit".to_owned(), motion.to_owned()));
         let place = fitted_of(case).map_or_else(|| "none".to_owned(), place_words);
         parameters.push(("place".to_owned(), place));
         parameters.push(("simulated cells".to_owned(), agreement(case)));
@@ -28,6 +30,9 @@ fn sentence(case: &Case<'_>) -> String {
         return "Observed only: no equations were fitted to this cell.".to_owned();
     };
     match (observed, fitted_regime(case)) {
+        _ if fitted_of(case).is_some_and(Fitted::is_walk) => {
+            "The fitted equations rest without their noise, and the cell moves: noise carries its displacement, a persistent random walk. Speed, persistence and diffusion are below.".to_owned()
+        }
         _ if fit.fitted.is_err() => "No equations were fitted to this cell; the reason is below.".to_owned(),
         (Some(a), Some(b)) if a == b => {
             format!(

@@ -13,6 +13,37 @@ const WORDS: &[(&str, &str)] = &[
         "Frames whose outline is an observation of the shape: not clipped at the border, not self-crossing, not repeated, without a jump of the area, star-shaped about the centre. The flags of all others are listed.",
     ),
     (
+        "rms speed",
+        "Root mean square of the displacements from frame to frame over the sampling interval, with the part of the errors of the places, 4 sigma^2, subtracted.",
+    ),
+    (
+        "path",
+        "Sum of the displacements of the centroid from each frame that is seen to the next; straight across gaps.",
+    ),
+    (
+        "directionality",
+        "Net displacement over path. It falls with the length of the record: compare records of equal length.",
+    ),
+    (
+        "turning cosine",
+        "Mean cosine of the angle between displacements in a row: 1 straight on, 0 without memory, below 0 back. Errors of the places lower it.",
+    ),
+    (
+        "persistence",
+        "Persistence time P of the persistent random walk of highest likelihood through the places, with their errors as a third number (Kalman filter, whatever the gaps); its interval is that of the profile of the likelihood. Without an interval where innovations are not white: the cell is no such walk.",
+    ),
+    ("diffusion", "D = S^2 P/2 of the same walk: at late times the mean-square displacement is 4 D *t*."),
+    (
+        "place error",
+        "Standard deviation of the error of a coordinate of the centroid, from the same fit: what does not last from one frame to the next.",
+    ),
+    ("aspect ratio", "Longer over shorter axis of the ellipse with the same second moments of the area."),
+    ("solidity", "Area over that of the convex hull."),
+    (
+        "circularity",
+        "4π area/perimeter^2: 1 for a circle. Outlines along the edges of pixels have longer perimeters: a disc of pixels 0.62.",
+    ),
+    (
         "stretch without gaps",
         "The longest run of frames that count at the sampling interval. The observed motion, its numbers and its name are those of this part of the record; the rest is not seen by them.",
     ),
@@ -99,7 +130,7 @@ const WORDS: &[(&str, &str)] = &[
     ),
     (
         "symmetry",
-        "Mirror symmetric: all coefficients are real. p is the p-value of a likelihood-ratio test of real against complex coefficients. Handed: p below 0.0001, so that one mirror-symmetric cell in ten thousand is called handed by chance. Mirror symmetric: p above 0.01, and the data determine the imaginary parts. Otherwise undecided.",
+        "Mirror symmetric: all coefficients are real. p is the p-value of a likelihood-ratio test of real against complex coefficients. Handed: p below 0.0001, so that one mirror-symmetric cell in ten thousand is called handed by chance. Mirror symmetric: p above 0.01, and the 95 % intervals of all imaginary parts exclude 10 % of the largest coefficient of their equation, in natural units; a large p alone is no evidence of symmetry. Otherwise not decidable.",
     ),
     (
         "error between cells",

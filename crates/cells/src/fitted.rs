@@ -5,8 +5,9 @@ use crate::stages::Stages;
 use crate::{Checks, Error, FitOptions, Result};
 use motiform_dynamics::Watch;
 use motiform_inference::{
-    BetweenCells, Drift, Fit, Handedness, Identifiability, Placement, Plane, Selection, Settings, Stretch,
-    Symmetry, Track, Warning, drift, fit, handedness, identifiability, place_among, select, warnings,
+    Averaged, BetweenCells, Drift, Fit, HANDED_RATE, Handedness, Identifiability, Placement, Plane,
+    Selection, Settings, Stretch, Symmetry, Track, Warning, averaged, drift, fit, handedness,
+    identifiability, place_among, refit_with, select, stage_velocity, warnings,
 };
 use motiform_models::amplitudes::info;
 use motiform_study::Study;
@@ -17,6 +18,9 @@ use serde::{Deserialize, Serialize};
 const SAMPLES: f64 = 20.0;
 /// Natural times that the explorer shows in a second.
 const PER_SECOND: f64 = 3.0;
+
+/// The name of motions that noise carries.
+pub const PERSISTENT_WALK: &str = "persistent-random-walk";
 
 /// The fit of a cell, and what it means.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -43,6 +47,9 @@ pub struct Fitted {
     pub regime: Option<FittedRegime>,
     /// Places on the planes of Fig. 4 and Fig. 1.
     pub places: [Placement; 2],
+    /// The coefficients over all sets of terms that the data do not tell apart, with intervals that hold the choice of terms; none of a handed model.
+    #[serde(default)]
+    pub averaged: Vec<Averaged>,
     /// Of several cells together: errors of the model's coefficients from the differences between cells.
     pub between: Option<BetweenCells>,
 }
@@ -65,6 +72,39 @@ impl Fitted {
         if self.doubts.is_empty() { self.handedness.symmetry } else { Symmetry::Undecided }
     }
 
+    /// The motion in a word: that of the equations, [`PERSISTENT_WALK`] where these rest without their noise and the cell moves, or `undecided`.
+    #[must_use]
+    pub fn motion_name(&self) -> &'static str {
+        if self.is_walk() {
+            return PERSISTENT_WALK;
+        }
+        self.regime.as_ref().and_then(|found| found.regime).map_or("undecided", |regime| regime.name())
+    }
+
+    /// Whether noise carries all of the displacement: the models that the data allow rest without it, while the speed exceeds its errors of observation.
+    #[must_use]
+    pub fn is_walk(&self) -> bool {
+        self.doubts.is_empty() && self.regime.as_ref().is_some_and(FittedRegime::is_carried)
+    }
+
+    /// What acts on the velocity of such a walk, in words: whether its shape takes part.
+    #[must_use]
+    pub fn walk_in_words(&self) -> String {
+        let pulled = self.model().coefficients.iter().filter(|c| c.term.equation == 0);
+        let shape: Vec<&str> = pulled
+            .filter(|c| c.name.contains("z2") || c.name.contains("z3"))
+            .map(|c| c.name.as_str())
+            .collect();
+        let acts = if shape.is_empty() {
+            "the shape does not act on the velocity (passive shape)".to_owned()
+        } else {
+            format!("the shape acts on the velocity (polar shape: {})", shape.join(", "))
+        };
+        format!(
+            "without their noise the equations rest: noise carries 100 % of the displacement, a persistent random walk; {acts}"
+        )
+    }
+
     /// Whether the cell is handed.
     #[must_use]
     pub fn is_handed(&self) -> bool {
@@ -75,6 +115,18 @@ impl Fitted {
     #[must_use]
     pub fn is_identifiable(&self) -> bool {
         self.known.identifiable
+    }
+
+    /// A coefficient over all tied sets.
+    #[must_use]
+    pub fn over_sets(&self, name: &str) -> Option<&Averaged> {
+        self.averaged.iter().find(|one| one.name == name)
+    }
+
+    /// Coefficients that are not in the best set, but in one that is as good.
+    pub fn in_other_sets(&self) -> impl Iterator<Item = &Averaged> {
+        let best = &self.selection.fit;
+        self.averaged.iter().filter(|one| best.coefficient(&one.name).is_none())
     }
 
     /// Takes name and places back, for a reason that was found after the fit.
@@ -154,6 +206,13 @@ pub(crate) fn fitted(
             handedness.p_value
         ));
     }
+    // no stage that is kept: few cells are handed
+    if handed
+        && let Some(p) = without_stage(tracks, &whole, &selection, watch)?
+        && p >= HANDED_RATE
+    {
+        doubts.push(format!("it is handed, or the stage drifts: without the velocity that does not turn with the cell, a mirror-symmetric one has such a likelihood ratio with p = {p:.1e}"));
+    }
     let unclear = |found: Stretch| found.is_possible(tracks.len()) && !found.is_clear(tracks.len());
     if handed && tracks.iter().filter_map(Stretch::of).any(unclear) {
         doubts.push("it is handed, or the images are stretched: the cell keeps to a few directions, which does not tell one from the other".to_owned());
@@ -171,9 +230,14 @@ pub(crate) fn fitted(
         );
     }
     let mut reasons = doubts.clone();
+    if regime.as_ref().is_some_and(FittedRegime::is_carried) {
+        reasons.push("noise carries the displacement: without it the equations rest, and the paper's planes are about motion without noise".to_owned());
+    }
     if handed {
         reasons.push("the cell is handed, and the paper's planes are not".to_owned());
     }
+    let averaged =
+        if handed || !whole.converged() { Vec::new() } else { averaged(&whole, &selection.subsets) };
     let places = [Plane::Full, Plane::Reduced].map(|plane| match reasons.is_empty() {
         true => place_among(&whole, &selection, plane),
         false => Placement::Refused { reasons: reasons.clone() },
@@ -190,8 +254,23 @@ pub(crate) fn fitted(
         doubts,
         regime,
         places,
+        averaged,
         between: None,
     })))
+}
+
+/// The p-value of the test of handedness without the velocity of the stage, where that can be told from the motion of every cell; `None` elsewhere.
+fn without_stage(
+    tracks: &[Track],
+    whole: &Fit,
+    selection: &Selection,
+    watch: &dyn Watch,
+) -> Result<Option<f64>> {
+    let still: Option<Vec<Track>> =
+        tracks.iter().map(|track| Some(track.without_velocity(stage_velocity(track)?))).collect();
+    let (Some(still), Some(set)) = (still, selection.subsets.ties.first()) else { return Ok(None) };
+    let real = refit_with(&still, whole, &set.kept, watch)?;
+    Ok(Some(handedness(&still, &real, watch)?.p_value))
 }
 
 /// The plane about the cell: kappa2 with kappa3 or gamma, as in the paper's diagrams, each from 0 to twice its value; that of the model where it has none of

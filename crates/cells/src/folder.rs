@@ -3,15 +3,16 @@
 use crate::provenance::study_file;
 use crate::{
     CellFit, FitOptions, Observation, Result, Sample, coefficient_columns, file_names, fits_json,
-    mode_columns, observations_json,
+    mode_columns, number_columns, observations_json,
 };
 use motiform_files::Staged;
-use motiform_files::columns::{Column, encode};
+use motiform_files::columns::{Column, encode, to_csv};
 use motiform_study::Error;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 pub(crate) const SUMMARY: &str = "summary.json";
+const NUMBERS: &str = "numbers.csv";
 pub(crate) const MODES: &str = "modes.parquet";
 
 /// The files of fits, by name; `target` is what errors name.
@@ -24,7 +25,10 @@ pub(crate) fn result_files(
     let mut files = common(sample, &fits_json(sample, fits), target)?;
     files.push(("coefficients.parquet".to_owned(), table(&coefficient_columns(fits), target)?));
     for (fit, name) in fits.iter().zip(file_names(fits.iter().map(|fit| fit.name.as_str()))) {
-        let Ok(fitted) = &fit.fitted else { continue };
+        // a search that did not converge is no model
+        let Some(fitted) = fit.fitted.as_ref().ok().filter(|fitted| fitted.model().converged()) else {
+            continue;
+        };
         files.push((format!("{name}.toml"), study_file(sample, fit, fitted, options)?.into_bytes()));
     }
     Ok(files)
@@ -42,6 +46,7 @@ pub fn write_observations(
     for (name, bytes) in &common(sample, &observations_json(sample, found), staged.target())? {
         staged.write(name, bytes)?;
     }
+    staged.write(NUMBERS, &to_csv(&number_columns(found)))?;
     Ok(staged.commit()?)
 }
 

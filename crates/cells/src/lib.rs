@@ -12,6 +12,7 @@ mod fit;
 mod fitted;
 mod folder;
 mod names;
+mod numbers;
 mod observe;
 mod outlines;
 mod packed;
@@ -33,9 +34,13 @@ pub use checks::Checks;
 pub use error::{Error, Result};
 pub use fit::{CellFit, FitOptions, TOGETHER, fit_cell, fit_cells, fit_together};
 pub(crate) use fit::{fit_in_stages, fit_or_reason};
-pub use fitted::Fitted;
+pub use fitted::{Fitted, PERSISTENT_WALK};
 pub use folder::write_observations;
 pub use names::file_names;
+pub use numbers::{
+    Dimension, FieldOfView, FormNumber, Forms, Numbers, PopulationNumber, PopulationNumbers, Row, Steps,
+    number_columns, numbers, population_numbers,
+};
 pub use observe::{
     AtLag, Finding, Memory, Motion, MotionStatistics, Observation, ObservedChaos, ObservedLegs,
     ObservedRests, ObservedSpectrum, Relatives, Rotation, SpectralPeak, observe, population_statistics,

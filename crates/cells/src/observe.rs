@@ -13,13 +13,14 @@ pub use relatives::{
 };
 pub use statistics::{AtLag, Memory, MotionStatistics};
 
-use crate::CellTrack;
+use crate::{CellTrack, Numbers, numbers};
 use measures::Measures;
 use motiform_analysis::regime::Regime;
 use motiform_analysis::symmetry::wrap;
 use motiform_statistics::{Walk, four_digits, with_error};
 use repeats::Repeats;
 use serde::Serialize;
+use std::f64::consts::TAU;
 
 /// Fewest frames that count.
 const LEAST_FRAMES: usize = 40;
@@ -59,7 +60,9 @@ pub struct Observation {
     /// The verdict.
     #[serde(flatten)]
     pub motion: Motion,
-    /// The numbers behind it; `None` for records that are too short for them.
+    /// Numbers without a model of the shape: speed, path, displacement, persistence, form. They are there for every record.
+    pub numbers: Numbers,
+    /// The numbers behind the verdict; `None` for records that are too short for them.
     pub measures: Option<Measures>,
     /// The repetition of shape and motion; `None` where there is none.
     pub repeats: Option<Repeats>,
@@ -77,6 +80,7 @@ pub fn observe(cell: &CellTrack) -> Observation {
         cell: cell.name.clone(),
         frames,
         motion: Motion { regime: None, why, confidence: None },
+        numbers: numbers(cell),
         measures: None,
         repeats: None,
         statistics: None,
@@ -105,8 +109,9 @@ pub fn observe(cell: &CellTrack) -> Observation {
         statistics.walk = Walk::unknown("the heading turns steadily: this is no persistent random walk");
     }
     let relatives = Some(Relatives::of(&measures));
+    let numbers = numbers(cell);
     let cell = cell.name.clone();
-    Observation { cell, frames, motion, measures: Some(measures), repeats, statistics, relatives }
+    Observation { cell, frames, motion, numbers, measures: Some(measures), repeats, statistics, relatives }
 }
 
 /// The verdict, if enough resampled records agree with it.
@@ -162,7 +167,7 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
         );
         return (Some(Regime::Straight), why);
     }
-    let turns = m.turning.abs() * m.duration / std::f64::consts::TAU;
+    let turns = m.turning.abs() * m.duration / TAU;
     let clear_turn = m.turning.abs() > CLEAR * m.turning_error;
     if steady_speed && clear_turn && m.turning_scatter < STEADY && m.shape_scatter < STEADY {
         if turns < LEAST_TURNS {
@@ -185,6 +190,13 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
 }
 
 fn rest(m: &Measures) -> (Option<Regime>, String) {
+    if m.wandering >= CLEAR {
+        let why = format!(
+            "displacements from frame to frame are within {CLEAR} of their errors, but over the record the cell wanders, {:.0} errors from its mean place: it moves, or the stage drifts",
+            m.wandering
+        );
+        return (None, why);
+    }
     if m.shape_change < CLEAR {
         let why = format!(
             "displacements of {} are within {CLEAR} of their errors, {}, and so are changes of shape",

@@ -153,10 +153,7 @@ fn intervals(values: &[f64]) -> [Option<[f64; 2]>; 2] {
 /// # Checked by  `tests/all/population.rs`: coverage of the intervals, shares
 #[must_use]
 pub fn fitted_population(fits: &[CellFit]) -> FittedPopulation {
-    let name = |fit: &CellFit| {
-        let regime = fit.fitted.as_ref().ok().and_then(|fitted| fitted.regime.as_ref()?.regime);
-        regime.map_or(UNDECIDED, |regime| regime.name())
-    };
+    let name = |fit: &CellFit| fit.fitted.as_ref().map_or(UNDECIDED, |fitted| fitted.motion_name());
     let counts = |fitted: &&Fitted| fitted.whole.converged() && fitted.whole.is_bounded();
     let usable: Vec<&Fitted> =
         fits.iter().filter_map(|fit| fit.fitted.as_deref().ok()).filter(counts).collect();

@@ -35,6 +35,9 @@ pub struct FittedRegime {
     /// Where the motion of each model begins: a state of the cell, as coordinates of the model in natural units.
     #[serde(default)]
     pub start: Vec<f64>,
+    /// See [`FittedRegime::is_carried`].
+    #[serde(default)]
+    pub carried: bool,
 }
 
 impl FittedRegime {
@@ -42,6 +45,12 @@ impl FittedRegime {
     #[must_use]
     pub fn blows_up(&self) -> bool {
         self.best == Regime::BlowUp
+    }
+
+    /// Whether the models rest without their noise, although the cell moves: then the displacement is that of the noise, and the motion is no rest.
+    #[must_use]
+    pub fn is_carried(&self) -> bool {
+        self.carried
     }
 }
 
@@ -79,7 +88,11 @@ pub fn regime_of(
     let share = if draws == 0 { 0.0 } else { most as f64 / draws as f64 };
     let named =
         share >= LEAST_SHARE && first == best && !matches!(first, Regime::Undetermined | Regime::BlowUp);
-    Ok(FittedRegime { regime: named.then_some(first), best, share, counts, draws, start })
+    // the speed of a cell that rests is within its errors, and its equations are not identifiable
+    let moves = selection.fit.scales.signal.first().is_some_and(|signal| *signal >= 1.0);
+    let carried = named && first == Regime::Motionless && moves;
+    let regime = (named && !carried).then_some(first);
+    Ok(FittedRegime { regime, best, share, counts, draws, start, carried })
 }
 
 /// The models of the sets that the data do not tell apart, with their shares of the weight.

@@ -2,9 +2,9 @@
 
 use crate::{
     CellFit, CellTrack, Comparison, Fitted, FittedRegime, Observation, Prediction, Sample, Statistic,
-    fitted_population, observed_population, population_statistics,
+    fitted_population, observed_population, population_numbers, population_statistics,
 };
-use motiform_inference::{Coefficient, Estimate, Knowledge, Place, Placement};
+use motiform_inference::{Coefficient, Estimate, Knowledge, Place, Placement, Symmetry};
 use serde_json::{Map, Value, json};
 
 /// Sets of terms that are listed at most, the best first; `ties` counts all of them.
@@ -37,6 +37,7 @@ pub fn observations_json(sample: &Sample, observations: &[Observation]) -> Value
     let mut object = whole(sample, observations.iter().map(cell));
     if observations.len() > 1 {
         object["population"] = json!(observed_population(observations));
+        object["population"]["numbers"] = json!(population_numbers(observations));
         if let Some((cells, statistics)) = population_statistics(observations) {
             object["population"]["statistics"] = json!(statistics);
             object["population"]["statistics"]["cells"] = json!(cells);
@@ -103,10 +104,7 @@ fn simulated(prediction: &Prediction) -> Value {
 
 fn add(object: &mut Value, fitted: &Fitted) {
     let model = fitted.model();
-    object["regime"] = match fitted.regime.as_ref().and_then(|found| found.regime) {
-        Some(regime) => json!(regime),
-        None => "undecided".into(),
-    };
+    object["regime"] = fitted.motion_name().into();
     if let Some(found) = &fitted.regime {
         object["share"] = json!(found.share);
         let counts: Map<String, Value> =
@@ -117,7 +115,12 @@ fn add(object: &mut Value, fitted: &Fitted) {
     object["identifiable"] = fitted.is_identifiable().into();
     object["unidentified"] = json!(unidentified(fitted));
     object["determined"] = json!(fitted.known_of_all.equations.iter().map(|of| &of.text).collect::<Vec<_>>());
-    object["handed"] = fitted.is_handed().into();
+    object["handed"] = match fitted.symmetry() {
+        Symmetry::Handed => true.into(),
+        Symmetry::Mirror => false.into(),
+        Symmetry::Undecided => "not decidable".into(),
+    };
+    object["handed_excluded"] = json!(fitted.handedness.excluded);
     object["symmetry"] = json!(fitted.symmetry());
     object["handed_p_value"] = json!(fitted.handedness.p_value);
     let noise = &model.noise;
@@ -128,6 +131,11 @@ fn add(object: &mut Value, fitted: &Fitted) {
         "coefficients": model.coefficients.iter().map(name).collect::<Vec<_>>(),
         "matrix": model.covariance_of_coefficients(),
     });
+    object["converged"] = fitted.model().converged().into();
+    let over_sets = fitted.averaged.iter().map(|one| {
+        json!({ "term": one.name, "value": one.value, "lower": one.interval[0], "upper": one.interval[1], "weight": one.weight })
+    });
+    object["averaged"] = over_sets.collect();
     let sets = fitted.selection.subsets.ties.iter().take(MOST_SETS);
     object["sets"] = sets.map(|set| json!({ "terms": set.names, "excess": set.excess })).collect();
     let innovations: Map<String, Value> = (fitted.checks.innovations.iter())
@@ -154,6 +162,14 @@ impl Fitted {
                 format!("the data do not determine the equations: {}", self.known.reasons.join("; "))
             }
             None => format!("the fit is doubtful: {}", self.doubts.join("; ")),
+            Some(found) if self.is_walk() => {
+                format!(
+                    "{}; motions of {} models that the data allow: {}",
+                    self.walk_in_words(),
+                    found.draws,
+                    counts(found)
+                )
+            }
             Some(found) if found.blows_up() => format!(
                 "the fitted equations blow up without noise, and a cell that was tracked did not: too few frames, or terms are missing; motions of {} models: {}",
                 found.draws,
@@ -192,6 +208,10 @@ fn coefficients(fitted: &Fitted) -> Value {
     let coefficients = fitted.model().coefficients.iter().enumerate();
     for (place, Coefficient { name, imaginary, estimate, .. }) in coefficients {
         let mut value = number(estimate);
+        if !fitted.model().converged() {
+            // where the search ended is no maximum, and has no errors
+            value = json!({ "value": estimate.value });
+        }
         if let Some(weak) = fitted.checks.weak(place) {
             value["weak_form"] = json!(weak);
         }

@@ -29,6 +29,24 @@ pub fn mode_columns(cells: &[CellTrack]) -> Vec<Column> {
         Column::new("y", "centre of the modes", number(&|_, frame| Some(frame.radius.as_ref()?.centre[1]))),
         Column::new("r0", "mean radius", number(&|_, frame| Some(frame.radius.as_ref()?.r0))),
         Column::new("area", "area of the outline", number(&|_, frame| Some(frame.area))),
+        Column::new("perimeter", "length of the outline", number(&|_, frame| Some(frame.perimeter))),
+        Column::new(
+            "aspect_ratio",
+            "longer over shorter axis",
+            number(&|_, frame| Some(frame.form?.aspect_ratio)),
+        ),
+        Column::new(
+            "solidity",
+            "area over that of the convex hull",
+            number(&|_, frame| Some(frame.form?.solidity)),
+        ),
+        Column::new(
+            "circularity",
+            "4 pi area/perimeter^2",
+            number(&|_, frame| Some(frame.form?.circularity)),
+        ),
+        Column::new("centroid_x", "centroid of the area", number(&|_, frame| Some(frame.centroid[0]))),
+        Column::new("centroid_y", "centroid of the area", number(&|_, frame| Some(frame.centroid[1]))),
         Column::new("sigma", "noise of a vertex", number(&|_, frame| Some(frame.radius.as_ref()?.sigma))),
     ];
     for n in 2..=5_usize {
@@ -51,6 +69,9 @@ pub fn mode_columns(cells: &[CellTrack]) -> Vec<Column> {
             rows.iter().map(|row| i64::from(row.1.is_left_out() || row.1.radius.is_none())).collect(),
         )
     }));
+    columns.push(Column::new("seen", "1 where place and form of the outline count", {
+        Values::Whole(rows.iter().map(|row| i64::from(row.1.is_seen())).collect())
+    }));
     columns.push(Column::new("flags", "what is wrong with the frame", text(&|_, frame| flags(frame))));
     columns
 }
@@ -63,11 +84,19 @@ pub fn coefficient_columns(fits: &[CellFit]) -> Vec<Column> {
         .filter_map(|fit| Some((fit, fit.fitted.as_ref().ok()?)))
         .flat_map(|(fit, fitted)| {
             let coefficients = fitted.model().coefficients.iter().enumerate();
-            coefficients.map(move |(place, coefficient)| (fit, coefficient, fitted.checks.weak(place)))
+            // where a search ended that did not converge is no maximum: it has no errors
+            let sound = fitted.model().converged();
+            coefficients.map(move |(place, coefficient)| (fit, coefficient, fitted.checks.weak(place), sound))
         })
         .collect();
     let number = |read: &dyn Fn(&motiform_inference::Estimate) -> f64| {
         Values::Number(rows.iter().map(|row| read(&row.1.estimate)).collect())
+    };
+    let error = |read: &dyn Fn(&motiform_inference::Estimate) -> f64| {
+        let of = |row: &(_, &motiform_inference::Coefficient, _, bool)| {
+            if row.3 { read(&row.1.estimate) } else { f64::NAN }
+        };
+        Values::Number(rows.iter().map(of).collect())
     };
     vec![
         Column::new(
@@ -83,15 +112,15 @@ pub fn coefficient_columns(fits: &[CellFit]) -> Vec<Column> {
         Column::new(
             "error",
             "standard error from the expected information",
-            number(&|estimate| estimate.error),
+            error(&|estimate| estimate.error),
         ),
         Column::new(
             "robust_error",
             "standard error from the scatter of the scores",
-            number(&|estimate| estimate.robust),
+            error(&|estimate| estimate.robust),
         ),
-        Column::new("low", "lower end of the 95 % interval", number(&|estimate| estimate.interval[0])),
-        Column::new("high", "upper end of the 95 % interval", number(&|estimate| estimate.interval[1])),
+        Column::new("low", "lower end of the 95 % interval", error(&|estimate| estimate.interval[0])),
+        Column::new("high", "upper end of the 95 % interval", error(&|estimate| estimate.interval[1])),
         Column::new(
             "weak_form",
             "the coefficient by the weak form, a check of sign and order of magnitude",

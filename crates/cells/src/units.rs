@@ -25,6 +25,13 @@ impl Units {
         }
     }
 
+    /// The same for pages: `um` as `µm`.
+    #[must_use]
+    pub fn typeset(self) -> Self {
+        let length = if self.length == "um" { "µm".to_owned() } else { self.length };
+        Self { length, ..self }
+    }
+
     /// Unit of speeds.
     #[must_use]
     pub fn speed(&self) -> String {

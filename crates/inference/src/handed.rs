@@ -12,15 +12,18 @@ pub const HANDED_RATE: f64 = 1e-4;
 /// Rate at which the test may be left undecided by chance: from here to [`HANDED_RATE`] neither is said.
 pub const DOUBTED_RATE: f64 = 0.01;
 
+/// Size of an imaginary part, relative to the largest coefficient of its equation (natural units), that the intervals of a mirror-symmetric cell exclude.
+pub const SEEN: f64 = 0.1;
+
 /// The answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Symmetry {
-    /// Real coefficients are enough, and imaginary parts would have been seen.
+    /// Real coefficients are enough, and the 95 % interval of every imaginary part excludes the size [`SEEN`]: it would have been seen.
     Mirror,
     /// Real coefficients are rejected.
     Handed,
-    /// Real coefficients are enough, but the motion does not fix the imaginary parts either; or the likelihood ratio is between [`HANDED_RATE`] and
+    /// Real coefficients are enough, but imaginary parts of the size [`SEEN`] are within their intervals: not decidable; or the likelihood ratio is between [`HANDED_RATE`] and
     /// [`DOUBTED_RATE`].
     Undecided,
 }
@@ -40,7 +43,7 @@ impl Symmetry {
         match self {
             Self::Mirror => "mirror symmetric",
             Self::Handed => "handed",
-            Self::Undecided => "undecided",
+            Self::Undecided => "not decidable",
         }
     }
 }
@@ -56,6 +59,9 @@ pub struct Handedness {
     pub degrees: usize,
     /// Probability of such a ratio in a mirror-symmetric cell (chi-square).
     pub p_value: f64,
+    /// Imaginary parts above this are excluded: the largest end of a 95 % interval of one, relative to the largest coefficient of its equation, natural units.
+    #[serde(default)]
+    pub excluded: f64,
     /// Difference of Schwarz's criterion, `degrees ln(n N) - ratio` with n = 6 numbers a frame (8 with z4): below 0 it prefers the handed model.
     pub bic: f64,
     /// Imaginary parts more than three standard errors from 0, the most certain first.
@@ -67,7 +73,8 @@ pub struct Handedness {
 /// Compares a mirror-symmetric fit with the handed model of the same terms, by likelihood ratio.
 ///
 /// Give the fit of selected terms ([`crate::select`]): with fewer imaginary parts the test sees smaller ones. A cell is called handed where the
-/// ratio is exceeded in less than [`HANDED_RATE`] of mirror-symmetric cells, mirror symmetric where it is not exceeded in [`DOUBTED_RATE`] of them.
+/// ratio is exceeded in less than [`HANDED_RATE`] of mirror-symmetric cells, mirror symmetric where it is exceeded in [`DOUBTED_RATE`] of them and more, and the intervals of all imaginary
+/// parts exclude the size [`SEEN`]: a large p-value alone is no evidence of symmetry.
 ///
 /// # Errors    of the input; [`Error::Setting`] if `fit` is handed itself
 /// # Checked by  `tests/all/handed.rs`: rate of false alarms, a handed cell
@@ -104,11 +111,26 @@ fn compare(fit: &Fit, handed: Fit, degrees: usize) -> Handedness {
     let mut parts: Vec<Coefficient> =
         handed.coefficients.iter().filter(|c| c.imaginary && certainty(c) > 3.0).cloned().collect();
     parts.sort_by(|a, b| certainty(b).total_cmp(&certainty(a)));
+    let excluded = excluded(&handed);
     let symmetry = match identifiability(&handed).identifiable && fit.converged() {
         _ if p_value < HANDED_RATE && handed.converged() && fit.converged() => Symmetry::Handed,
-        true if p_value >= DOUBTED_RATE => Symmetry::Mirror,
+        true if p_value >= DOUBTED_RATE && excluded < SEEN => Symmetry::Mirror,
         _ => Symmetry::Undecided,
     };
     let bic = degrees as f64 * libm::log(numbers) - ratio;
-    Handedness { symmetry, ratio, degrees, p_value, bic, parts, fit: handed }
+    Handedness { symmetry, ratio, degrees, p_value, excluded, bic, parts, fit: handed }
+}
+
+/// The largest end of an interval of an imaginary part, relative to the largest coefficient of its equation, in natural units; infinite where an equation has none.
+fn excluded(handed: &Fit) -> f64 {
+    let natural = |c: &Coefficient| handed.scales.coefficient(&c.term).abs();
+    let largest = |equation: usize| {
+        let own = handed.coefficients.iter().filter(|c| c.term.equation == equation);
+        own.map(|c| c.estimate.value.abs() / natural(c)).fold(0.0, f64::max)
+    };
+    let end = |c: &Coefficient| {
+        let error = c.estimate.error.max(c.estimate.robust);
+        (c.estimate.value.abs() + 1.96 * error) / natural(c) / largest(c.term.equation)
+    };
+    handed.coefficients.iter().filter(|c| c.imaginary).map(end).fold(0.0, f64::max)
 }

@@ -225,11 +225,11 @@ fn sentence(combinations: &[Combination]) -> String {
                 weak[..shown].join("; ")
             )
         }
-        (0, _) => "not identifiable: no combination is fixed".to_owned(),
+        (0, _) => "no combination of coefficients is fixed".to_owned(),
         (fixed, unknown) if unknown < fixed => {
             let are = if unknown == 1 { "is" } else { "are" };
-            format!("not identifiable: {unknown} of {all} combinations {are} free: {}", free.join("; "))
+            format!("{unknown} of {all} combinations of coefficients {are} free: {}", free.join("; "))
         }
-        _ => format!("not identifiable: of {all} combinations only these are fixed: {}", fixed.join("; ")),
+        _ => format!("of {all} combinations of coefficients only these are fixed: {}", fixed.join("; ")),
     }
 }

@@ -22,6 +22,7 @@ mod observation;
 mod place;
 mod scales;
 mod subsets;
+mod walk;
 mod warnings;
 mod weak;
 
@@ -33,7 +34,7 @@ pub use fit::{
     Coefficient, Ending, Estimate, Fit, Likelihood, Natural, Noise, Parameters, Settings, fit, fit_from,
     likelihood,
 };
-pub use handed::{DOUBTED_RATE, HANDED_RATE, Handedness, Symmetry, handedness};
+pub use handed::{DOUBTED_RATE, HANDED_RATE, Handedness, SEEN, Symmetry, handedness};
 pub use identifiability::{
     Combination, EquationKnowledge, FIXED, FREE, Identifiability, Knowledge, identifiability,
 };
@@ -42,8 +43,10 @@ pub use names::paper;
 pub use observation::{LEAST_FRAMES, Observation, Track};
 pub use place::{Coordinate, Place, Placement, Plane, coordinates, place, place_among};
 pub use scales::Scales;
-pub use subsets::{Selection, Subset, Subsets, TIE, refit_with, select, subsets};
+pub use subsets::{Averaged, Selection, Subset, Subsets, TIE, averaged, refit_with, select, subsets};
+pub use walk::{Bounded, Fix, PersistentWalk, persistent_walk, walk_likelihood};
 pub use warnings::{
-    COARSE, Channel, Drift, DriftPoint, Stretch, Warning, drift, fastest_rate, warnings, whiteness,
+    COARSE, Channel, Drift, DriftPoint, Stretch, Warning, drift, fastest_rate, stage_velocity, warnings,
+    whiteness,
 };
 pub use weak::{Weak, weak};

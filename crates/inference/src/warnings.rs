@@ -1,11 +1,14 @@
 //! What makes a fit doubtful.
 
 mod drift;
+mod stage;
 mod stretch;
 mod whiteness;
 
 pub use drift::{Drift, DriftPoint, drift};
+pub use stage::stage_velocity;
 pub use stretch::Stretch;
+pub(crate) use whiteness::ljung_box;
 pub use whiteness::{Channel, whiteness};
 
 use crate::field::{Field, Values};

@@ -1,7 +1,7 @@
 //! What is looked for after reading: frames that stand for 'none', cells filed twice, areas that no cell has.
 
 use crate::geometry::area;
-use crate::{Cell, Note};
+use crate::{Cell, Note, Outline};
 use std::collections::{BTreeMap, HashMap};
 
 /// A frame is far where its distance to the next exceeds this many times the span of all others.
@@ -13,11 +13,15 @@ const OTHERS: usize = 5;
 /// Areas of cells, in square micrometres: bacteria to oocytes, with room.
 const AREAS: [f64; 2] = [0.1, 1e6];
 
-/// Takes frames out whose number stands for 'none': negative ones, and a last one (999, 65535, ...) far from all others.
+/// Negative frames that are no sentinels: so many at least, as far apart as frames before a stimulus are.
+const BEFORE: usize = 2;
+
+/// Takes frames out whose number stands for 'none': negative ones, and a last one (999, 65535, ...) far from all others. Two negative frames and more that lead
+/// up to the others, as before a stimulus at frame 0, are frames.
 pub(crate) fn sentinels(cell: &mut Cell, notes: &mut Vec<Note>) {
     let mut out: Vec<i64> = Vec::new();
     let negative = cell.frames.iter().filter(|outline| outline.frame < 0).count();
-    if negative < cell.frames.len() {
+    if negative < cell.frames.len() && !leads_up(&cell.frames, negative) {
         out.extend(cell.frames.drain(..negative).map(|outline| outline.frame));
     }
     if let [first, .., before, last] = cell.frames.as_slice()
@@ -31,6 +35,16 @@ pub(crate) fn sentinels(cell: &mut Cell, notes: &mut Vec<Note>) {
     if !out.is_empty() {
         notes.push(Note::SentinelFrames { cell: cell.name.clone(), frames: out });
     }
+}
+
+/// Whether the negative frames are a record that goes on at 0: no step among them and to the next one is above three times the smallest step of all.
+fn leads_up(frames: &[Outline], negative: usize) -> bool {
+    let steps = |frames: &[Outline]| {
+        frames.windows(2).map(|pair| pair[1].frame - pair[0].frame).collect::<Vec<i64>>()
+    };
+    let least = steps(frames).into_iter().min().unwrap_or(1);
+    negative >= BEFORE
+        && steps(&frames[..(negative + 1).min(frames.len())]).iter().all(|&step| step <= 3 * least)
 }
 
 /// Pairs of cells with the same outlines in the same frames, whatever their first vertex and sense.
@@ -64,6 +78,18 @@ pub(crate) fn digest(points: &[[f64; 2]]) -> u64 {
         mix(mix((x + 0.0).to_bits()).wrapping_add(mix((y + 0.0).to_bits().rotate_left(17))))
     };
     points.iter().map(one).fold(0, u64::wrapping_add)
+}
+
+/// Median areas above this are said once for all cells (um^2): large tissue cells have them, amoebae with a wrong scale too.
+const LARGE: f64 = 1000.0;
+
+/// The median area of all cells, where it is that of large cells only.
+pub(crate) fn large(cells: &[Cell], unit: &str) -> Option<Note> {
+    let mut areas: Vec<f64> =
+        cells.iter().flat_map(|cell| &cell.frames).map(|outline| area(&outline.points).abs()).collect();
+    areas.sort_by(f64::total_cmp);
+    let area = *areas.get(areas.len() / 2)?;
+    (unit == "um" && area > LARGE && area <= AREAS[1]).then_some(Note::LargeArea { area })
 }
 
 /// Cells whose median area is not that of a cell, in micrometres.

@@ -1,6 +1,6 @@
 //! The format of a file, from its content.
 
-use crate::input::{Input, shorten};
+use crate::input::{Input, shorten, text as text_of};
 use crate::{Error, Format, Options, Result, header};
 use std::path::Path;
 
@@ -25,7 +25,7 @@ pub fn detect(path: &Path, options: &Options) -> Result<Format> {
         [0x89, b'P', b'N', b'G', ..] => return Err(unknown(&image("PNG"))),
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => return Err(unknown("text in UTF-16: save it as UTF-8")),
         bytes if bytes.contains(&0) => return Err(unknown("binary data")),
-        bytes => String::from_utf8_lossy(bytes),
+        bytes => text_of(bytes),
     };
     let text = text.trim_start_matches('\u{feff}').trim_start();
     if text.is_empty() {

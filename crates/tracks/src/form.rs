@@ -67,7 +67,7 @@ fn second_moments(points: &[[f64; 2]]) -> [f64; 3] {
 /// The convex hull, anticlockwise.
 fn hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut sorted = points.to_vec();
-    sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    sorted.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let mut lower = chain(sorted.iter());
     let mut upper = chain(sorted.iter().rev());
     lower.pop();

@@ -7,6 +7,7 @@ use std::path::Path;
 /// The usual names, compared without case and punctuation.
 const CELL: &[&str] = &["cell", "cellid", "celllabel", "track", "trackid", "particle", "label", "id"];
 const FRAME: &[&str] = &["frame", "frameid", "framenumber", "timepoint", "slice"];
+const TIME: &[&str] = &["time", "t", "positiont", "post", "timestamp", "elapsed"];
 const ORDER: &[&str] = &["i", "vertex", "vertexid", "node", "nodeid", "point", "pointid", "index"];
 const X: &[&str] = &["x", "nodex", "xcoord", "xpx", "coordx", "posx", "positionx", "vertx", "vertexx"];
 const Y: &[&str] = &["y", "nodey", "ycoord", "ypx", "coordy", "posy", "positiony", "verty", "vertexy"];
@@ -17,6 +18,7 @@ const TEXT: &[&str] = &["wkt", "geometry", "polygon", "geom"];
 pub(crate) struct Header {
     pub(crate) cell: Option<usize>,
     pub(crate) frame: Option<usize>,
+    pub(crate) time: Option<usize>,
     pub(crate) i: Option<usize>,
     pub(crate) x: Option<usize>,
     pub(crate) y: Option<usize>,
@@ -31,6 +33,7 @@ impl Header {
         Ok(Self {
             cell: find("cell", &columns.cell, CELL)?,
             frame: find("frame", &columns.frame, FRAME)?,
+            time: column(names, "time", &None, TIME, file).ok().flatten(),
             i: find("i", &columns.i, ORDER)?,
             x: find("x", &columns.x, X)?,
             y: find("y", &columns.y, Y)?,
@@ -84,9 +87,19 @@ pub(crate) fn needed(
     })
 }
 
-/// Letters and digits in lower case: `Node X (px)` is `nodexpx`.
+/// Letters and digits in lower case, without a unit in brackets: `Node X (px)` is `nodex`.
 fn plain(name: &str) -> String {
+    let name = name.split(['[', '(']).next().filter(|before| !before.trim().is_empty()).unwrap_or(name);
     name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
+
+/// The unit in brackets behind a name, if it is one that is known here: `x [um]`, `t (min)`.
+pub(crate) fn unit_of(name: &str) -> Option<String> {
+    let (_, rest) = name.split_once(['[', '('])?;
+    let unit = crate::scale::unit(rest.trim_end().trim_end_matches([']', ')']));
+    ["um", "nm", "mm", crate::PIXEL, "s", "ms", "min", "h", crate::FRAME]
+        .contains(&unit.as_str())
+        .then_some(unit)
 }
 
 /// The separator of a table: the one of tab, semicolon and comma that occurs most often in the header.

@@ -2,6 +2,7 @@
 
 use crate::{Error, Limits, Place, Result};
 use flate2::read::MultiGzDecoder;
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
@@ -47,7 +48,7 @@ impl Input {
         Ok(bytes)
     }
 
-    /// The next line into `line`, without its end; `false` at the end of the file. Invalid UTF-8 is replaced.
+    /// The next line into `line`, without its end; `false` at the end of the file. What is not UTF-8 is read as Latin-1.
     pub(crate) fn line(&mut self, line: &mut String) -> Result<bool> {
         let mut bytes = Vec::new();
         let piece = self.limits.piece;
@@ -62,7 +63,7 @@ impl Input {
             return Err(self.limit("bytes", self.limits.file, "file"));
         }
         line.clear();
-        line.push_str(String::from_utf8_lossy(&bytes).trim_end_matches(['\n', '\r']));
+        line.push_str(text(&bytes).trim_end_matches(['\n', '\r']));
         if self.lines == 1 && line.starts_with('\u{feff}') {
             line.remove(0);
         }
@@ -82,6 +83,22 @@ impl Input {
     fn limit(&self, what: &'static str, limit: u64, key: &'static str) -> Error {
         Error::Limit { place: self.here(), what, limit, key }
     }
+}
+
+/// UTF-8, or else Latin-1, in which every byte is a character: older programs write `µ` and names with accents so.
+pub(crate) fn text(bytes: &[u8]) -> Cow<'_, str> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Cow::Borrowed(text),
+        Err(_) => Cow::Owned(bytes.iter().copied().map(char::from).collect()),
+    }
+}
+
+/// [`number`], also with a decimal comma: for columns that no comma separates.
+pub(crate) fn decimal(text: &str, what: &str, place: &Place) -> Result<f64> {
+    if text.contains(',') && !text.contains('.') && text.matches(',').count() == 1 {
+        return number(&text.replace(',', "."), what, place);
+    }
+    number(text, what, place)
 }
 
 /// A number of a text, or an error that names it.

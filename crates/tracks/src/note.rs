@@ -17,6 +17,10 @@ pub enum Note {
     ScaleOne { file: String, what: String },
     /// Areas that no cell has: the unit may be wrong.
     ImplausibleArea { cell: String, area: f64, unit: String },
+    /// A pixel that no microscope of cells has.
+    UnusualPixel { file: String, size: f64 },
+    /// The median area of all cells is that of large cells only: for others the scale is wrong.
+    LargeArea { area: f64 },
     /// Times are not multiples of one interval: frames are numbered in order.
     UnevenTimes { cell: String },
     /// A cell divides: it ends, and each daughter is a cell of its own.
@@ -81,6 +85,16 @@ impl fmt::Display for Note {
                     "{file}: {what}: the file says 1, which often stands for unknown, and is taken as unknown"
                 )
             }
+            Self::UnusualPixel { file, size } => {
+                write!(
+                    f,
+                    "{file}: a pixel of {size} um: cameras on microscopes have 0.02 to 5 um; check the pixel size"
+                )
+            }
+            Self::LargeArea { area } => write!(
+                f,
+                "the median area of the cells is {area:.0} um^2: bacteria have 1 to 10, amoebae and leukocytes 50 to 500, spread tissue cells 500 to 5000; check the pixel size"
+            ),
             Self::ImplausibleArea { cell, area, unit } => {
                 write!(
                     f,

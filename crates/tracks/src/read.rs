@@ -1,6 +1,6 @@
 //! Files -> tracks.
 
-use crate::after::{filed_twice, implausible, sentinels};
+use crate::after::{filed_twice, implausible, large, sentinels};
 use crate::formats::{self, Found};
 use crate::scale::{apply, scales};
 use crate::{Cell, Error, Format, Image, Note, Options, Result, Tracks, detect};
@@ -41,6 +41,7 @@ pub fn read<P: AsRef<Path>>(paths: &[P], options: &Options) -> Result<Tracks> {
         sentinels(cell, notes);
         notes.extend(implausible(cell, &tracks.length_unit));
     }
+    tracks.notes.extend(large(&tracks.cells, &tracks.length_unit));
     tracks.notes.extend(filed_twice(&tracks.cells));
     once(&mut tracks.notes);
     Ok(tracks)

@@ -6,6 +6,9 @@ use std::path::Path;
 /// Relative difference up to which a file and an option agree: files round.
 const AGREE: f64 = 1e-3;
 
+/// Lengths of pixels of cameras on microscopes, from 200 times to 2 times (um).
+const PIXELS: [f64; 2] = [0.02, 5.0];
+
 /// What a file says about one unit.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Said {
@@ -69,6 +72,9 @@ pub(crate) fn scales(said: &Scale, options: &Options, file: &Path) -> Result<([U
         },
     )?;
     notes.extend((length.unit == PIXEL).then(|| Note::UnknownScale { file: name() }));
+    let size = said.length.step.or(options.pixel_size).filter(|size| *size != 1.0 && !said.length.applied);
+    let unusual = |size: &f64| length.unit == "um" && !(PIXELS[0]..=PIXELS[1]).contains(size);
+    notes.extend(size.filter(unusual).map(|size| Note::UnusualPixel { file: name(), size }));
     notes.extend((time.unit == FRAME).then(|| Note::UnknownInterval { file: name() }));
     Ok(([length, time], notes))
 }
@@ -104,7 +110,9 @@ fn answer(said: &Said, question: &Question<'_>) -> Result<Use> {
         return Ok(Use { factor, unit });
     }
     if let Some(option) = question.option {
-        let agrees = said.step.is_some_and(|step| (step / option - 1.0).abs() < AGREE);
+        // values in units already have a step of 1, if they say none
+        let step = said.step.or(said.applied.then_some(1.0));
+        let agrees = step.is_some_and(|step| (step / option - 1.0).abs() < AGREE);
         if !agrees || unit != unit_of(question) {
             return Err(Error::Disagree {
                 file: question.file.to_owned(),

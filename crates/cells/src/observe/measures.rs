@@ -29,6 +29,8 @@ pub struct Measures {
     pub displacement: f64,
     /// See `displacement`.
     pub displacement_error: f64,
+    /// Root mean square distance from the mean place, in units of its errors.
+    pub wandering: f64,
     /// Mean speed, by displacements over a step.
     pub speed: f64,
     /// Scatter of the speed, relative to its mean, corrected for errors.
@@ -103,6 +105,7 @@ impl Measures {
             step: time,
             displacement: (square - noise).max(0.0).sqrt(),
             displacement_error: noise.sqrt(),
+            wandering: wandering(&frames),
             speed: mean_size / time,
             speed_scatter: size_variance.sqrt() / mean_size.max(f64::MIN_POSITIVE),
             turning,
@@ -205,6 +208,16 @@ fn shape_wobble(frames: &[Observation]) -> f64 {
         scatter(&values) * scatter(&values) - noise
     };
     (2..6).map(part).sum::<f64>().max(0.0).sqrt()
+}
+
+/// Root mean square distance from the mean place, in units of its errors.
+fn wandering(frames: &[Observation]) -> f64 {
+    let part = |at: usize| {
+        let values: Vec<f64> = frames.iter().map(|frame| frame.y[at]).collect();
+        (scatter(&values) * scatter(&values), mean(frames.iter().map(|frame| frame.covariance[at][at])))
+    };
+    let (x, y) = (part(0), part(1));
+    ((x.0 + y.0) / (x.1 + y.1).max(f64::MIN_POSITIVE)).sqrt()
 }
 
 /// Size of the mean shape.

@@ -3,8 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use super::bodies::{RADIUS, cell_of, preset};
+use super::recordings::{Seen, Shape, Walker, tracks};
 use motiform_analysis::regime::Regime;
-use motiform_cells::{CellTrack, FitOptions, Sample, fit_cell, fit_together, observe};
+use motiform_cells::{CellTrack, FitOptions, PERSISTENT_WALK, Sample, fit_cell, fit_together, observe};
 use motiform_inference::{Placement, Symmetry};
 use motiform_tracks::centroid;
 use motiform_tracks::modes::ModeOptions;
@@ -122,10 +123,52 @@ fn outlines_of_pixels_that_are_not_square_are_doubted() {
     };
     let [square, other] = [1.0, 0.8].map(fitted);
     assert_eq!(square.regime.as_ref().and_then(|found| found.regime), Some(Regime::Circular));
-    assert_eq!(square.symmetry(), Symmetry::Mirror);
+    assert_ne!(square.symmetry(), Symmetry::Handed);
     let why = other.why();
     assert!(why.contains("pixels are not square") && why.contains("elongated at"), "{why}");
     assert_eq!((other.symmetry(), other.is_handed()), (Symmetry::Undecided, false));
     assert!(other.regime.is_none());
     assert!(other.places.iter().all(|place| matches!(place, Placement::Refused { .. })));
+}
+
+/// A circling cell on a stage that drifts by some per cent of its speed: the likelihood calls it handed, and it is not said.
+#[test]
+fn a_circling_cell_on_a_drifting_stage_is_not_handed() {
+    let mut called = 0;
+    for drift in [0.0, 0.02, 0.05] {
+        let mut study = preset("fig4", 0.01, (0.5, 400));
+        study.set("kappa2", 0.5).unwrap();
+        study.set("kappa3", 0.5).unwrap();
+        let tracks = cell_of(&study, 0.6, 0.01).tracks;
+        let mean = super::recordings::mean_speed(&tracks);
+        let sample = Sample::of_tracks(tracks.drifting([drift * mean, 0.0]), &ModeOptions::default());
+        let options = FitOptions { drift: false, simulations: 0, draws: 4, ..FitOptions::default() };
+        let fitted = fit_cell(&sample.cells[0], &options, &()).unwrap().fitted.unwrap();
+        let raw = &fitted.handedness;
+        println!("drift {drift}: {:?}, p = {:.1e}, {:?}", raw.symmetry, raw.p_value, fitted.doubts);
+        called += usize::from(raw.symmetry == Symmetry::Handed);
+        assert!(!fitted.is_handed() && fitted.symmetry() == Symmetry::Undecided, "{drift}");
+    }
+    assert!(called > 0, "the drift is too small for this test");
+}
+
+/// Walkers whose shape fluctuates by itself: noise carries them, and they are no cells that rest.
+#[test]
+fn a_random_walker_is_not_motionless() {
+    let mut named = 0;
+    for (seed, shape) in [(0, Shape::Passive), (1, Shape::Passive), (2, Shape::Passive), (3, Shape::Polar)] {
+        let walker = Walker { speed: 0.8, persistence: 6.0, shape, frames: 300, noise: 0.005 };
+        let sample = Sample::of_tracks(tracks(vec![walker.outlines(40 + seed)]), &ModeOptions::default());
+        let options = FitOptions { drift: false, simulations: 0, draws: 10, ..FitOptions::default() };
+        let fitted = fit_cell(&sample.cells[0], &options, &()).unwrap().fitted.unwrap();
+        println!("{}: {}", fitted.motion_name(), fitted.why());
+        assert!(fitted.regime.as_ref().is_none_or(|found| found.regime != Some(Regime::Motionless)));
+        if fitted.motion_name() == PERSISTENT_WALK {
+            named += 1;
+            assert!(fitted.why().contains("noise carries 100 % of the displacement"), "{}", fitted.why());
+            assert!(fitted.places.iter().all(|place| matches!(place, Placement::Refused { .. })));
+        }
+        assert_ne!(observe(&sample.cells[0]).motion.regime, Some(Regime::Motionless));
+    }
+    assert!(named > 0, "none is named");
 }

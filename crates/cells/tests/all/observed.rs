@@ -116,3 +116,40 @@ fn what_the_record_does_not_decide_is_undecided() {
         assert_eq!(found.motion.regime, None, "{:?}: {}", found.motion.regime, found.motion.why);
     }
 }
+
+/// A trochoid, a circle whose place drifts: its heading turns by a full turn each time, which is no rotation of a quasi-periodic motion.
+#[test]
+fn a_trochoid_is_not_quasi_periodic() {
+    for (speed, drift) in [(1.0, 0.5), (1.0, 0.7)] {
+        let frames = (0..500).map(|frame| {
+            let (t, angle) = (f64::from(frame), 0.15 * f64::from(frame));
+            let radius = speed / 0.15;
+            let centre =
+                [radius * libm::sin(angle) + 0.8 * drift * t, 0.6 * drift * t - radius * libm::cos(angle)];
+            // elongated along the motion of the circle
+            let z2 = [0.2 * libm::cos(2.0 * angle), -0.2 * libm::sin(2.0 * angle)];
+            let body = Synthetic { centre, r0: 2.0, z: vec![z2, [0.0, 0.0]] };
+            Outline { frame: i64::from(frame), t, points: body.vertices(48, 0.0), missing: 0 }
+        });
+        let found = observe(
+            &Sample::of_tracks(super::recordings::tracks(vec![frames.collect()]), &ModeOptions::default())
+                .cells[0],
+        );
+        println!("{:?}: {}", found.motion.regime, found.motion.why);
+        assert_eq!(found.motion.regime, None, "{}", found.motion.why);
+        assert!(found.motion.why.contains("one full turn"), "{}", found.motion.why);
+    }
+}
+
+/// A walker whose steps are within its errors wanders all the same.
+#[test]
+fn a_slow_walker_does_not_rest() {
+    use super::recordings::{Shape, Walker, tracks};
+    let walker = Walker { speed: 0.004, persistence: 50.0, shape: Shape::Round, frames: 400, noise: 0.02 };
+    let found =
+        observe(&Sample::of_tracks(tracks(vec![walker.outlines(2)]), &ModeOptions::default()).cells[0]);
+    assert_eq!(found.motion.regime, None, "{}", found.motion.why);
+    let rest = Walker { speed: 1e-6, ..walker };
+    let found = observe(&Sample::of_tracks(tracks(vec![rest.outlines(2)]), &ModeOptions::default()).cells[0]);
+    assert_eq!(found.motion.regime, Some(Regime::Motionless), "{}", found.motion.why);
+}

@@ -132,7 +132,7 @@ fn show(
 }
 
 fn regime(fitted: &Fitted) -> &'static str {
-    fitted.regime.as_ref().and_then(|found| found.regime).map_or("undecided", |regime| regime.name())
+    fitted.motion_name()
 }
 
 fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
@@ -146,8 +146,8 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
     let handedness = &fitted.handedness;
     let symmetry = match fitted.symmetry() {
         Symmetry::Handed => "handed: real coefficients are rejected",
-        Symmetry::Mirror => "mirror symmetric: imaginary parts would have been seen",
-        Symmetry::Undecided => "not decided whether it is handed",
+        Symmetry::Mirror => "mirror symmetric",
+        Symmetry::Undecided => "not decidable whether it is handed",
     };
     let p_value = handedness.p_value;
     let p = match p_value {
@@ -155,20 +155,41 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
         p if p < 0.01 => format!("{p:.1e}"),
         p => format!("{p:.2}"),
     };
-    writeln!(text, "symmetry       {symmetry}, p {}{p}", if p_value == 0.0 { "" } else { "= " })?;
+    let equals = if p_value == 0.0 { "" } else { "= " };
+    let excluded = 100.0 * handedness.excluded;
+    writeln!(
+        text,
+        "symmetry       {symmetry}, p {equals}{p}; imaginary parts above {excluded:.0} % of the largest coefficient of their equation are excluded"
+    )?;
     let model = fitted.model();
     for (place, coefficient) in model.coefficients.iter().enumerate() {
         let part = if coefficient.imaginary { "imaginary part of " } else { "" };
         let estimate = &coefficient.estimate;
-        let value = with_error(estimate.value, estimate.error);
+        // where a search ended that did not converge is no maximum, and has no errors
+        let value = match model.converged() {
+            true => with_error(estimate.value, estimate.error),
+            false => format!("{} (not converged)", four_digits(estimate.value)),
+        };
         write!(text, "  {:<20} {value:<22}", format!("{part}{}", coefficient.name))?;
         if let Some(error) = fitted.between.as_ref().and_then(|between| between.errors.get(place)) {
             write!(text, " ({} between cells)", four_digits(*error))?;
+        }
+        if let Some(one) = fitted.over_sets(&coefficient.name).filter(|_| !coefficient.imaginary) {
+            write!(text, " 95 %: {} to {}", four_digits(one.interval[0]), four_digits(one.interval[1]))?;
         }
         if let Some(weak) = fitted.checks.weak(place) {
             write!(text, " weak form {}", four_digits(weak))?;
         }
         text.push('\n');
+    }
+    for one in fitted.in_other_sets() {
+        let [value, low, high] = [one.value, one.interval[0], one.interval[1]].map(four_digits);
+        writeln!(
+            text,
+            "  {:<20} not in the best set; over all tied sets {value}, 95 %: {low} to {high}, in {:.0} % of their weight",
+            one.name,
+            100.0 * one.weight
+        )?;
     }
     text += &sets(fitted)?;
     let noise = &model.noise;

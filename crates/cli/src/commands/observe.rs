@@ -7,11 +7,11 @@ use crate::output::{End, print, warn};
 use crate::progress::Progress;
 use motiform_cells::{
     CellTrack, Observation, OutlineFile, Sample, Units, observations_json, observe, observed_population,
-    write_observations,
+    population_numbers, write_observations,
 };
 use motiform_dynamics::Watch;
 use motiform_files::{Kind, Staged};
-use motiform_statistics::{Answer, four_digits, with_error};
+use motiform_statistics::{Answer, four_digits};
 use motiform_tracks::modes::ModeOptions;
 use motiform_tracks::{Columns, Note, Options};
 use std::fmt::Write;
@@ -80,7 +80,7 @@ fn text(sample: &Sample, found: &[Observation], files: &[PathBuf]) -> anyhow::Re
         write!(text, "\n{}", sentences(one, cell, &units)?)?;
     }
     if found.len() > 1 {
-        write!(text, "\n{}", observed(&observed_population(found), &units)?)?;
+        write!(text, "\n{}", observed(&observed_population(found), &population_numbers(found), &units)?)?;
     }
     for path in files {
         write!(text, "\nwritten        {}", path.display())?;
@@ -101,14 +101,31 @@ fn sentences(found: &Observation, cell: Option<&CellTrack>, units: &Units) -> an
             let stretch = format!("{} frames, t = {from} to {to} {}", measures.frames, units.time);
             writeln!(text, "seen           the longest stretch without gaps: {stretch}")?;
         }
-        let (speed, scatter) = (four_digits(measures.speed), 100.0 * measures.speed_scatter);
-        writeln!(text, "speed          {speed} {}, scatter {scatter:.0} %", units.speed())?;
-        let turning = with_error(measures.turning, measures.turning_error);
-        writeln!(text, "turning rate   {turning} rad/{}", units.time)?;
     }
-    if let Some(statistics) = &found.statistics {
-        writeln!(text, "persistence    {}", answer(&statistics.walk.persistence, &units.time))?;
-        writeln!(text, "diffusion      {}", answer(&statistics.walk.diffusion, &units.diffusion()))?;
+    text += &numbers(found, units)?;
+    Ok(text)
+}
+
+/// The numbers without a model, and why some are missing.
+fn numbers(found: &Observation, units: &Units) -> anyhow::Result<String> {
+    let mut text = String::new();
+    let mut missing: Vec<(String, Vec<&str>)> = Vec::new();
+    for row in found.numbers.rows() {
+        if let Answer::Unknown { reason } = row.value {
+            match missing.iter_mut().find(|(same, _)| *same == reason) {
+                Some((_, names)) => names.push(row.name),
+                None => missing.push((reason, vec![row.name])),
+            }
+            continue;
+        }
+        let value = answer(&row.value, &row.dimension.unit(units));
+        writeln!(text, "{:<15}{}", row.name, value.trim_end())?;
+    }
+    for (reason, names) in missing {
+        writeln!(text, "not given      {}: {reason}", names.join(", "))?;
+    }
+    if found.numbers.walk.as_ref().is_some_and(|walk| !walk.describes()) {
+        text += "               a persistent random walk does not describe the path: persistence, diffusion and place error are those of the nearest one, without intervals\n";
     }
     Ok(text)
 }

@@ -1,24 +1,36 @@
 //! Populations of cells, as text.
 
-use motiform_cells::{FittedPopulation, NameShare, ObservedPopulation, OverCells, Units};
-use motiform_statistics::four_digits;
+use motiform_cells::{FittedPopulation, NameShare, ObservedPopulation, OverCells, PopulationNumbers, Units};
+use motiform_statistics::{four_digits, with_error};
 use std::fmt::{Result, Write};
 
 /// Shares of names and numbers of observed cells.
 pub(crate) fn observed(
     population: &ObservedPopulation,
+    numbers: &PopulationNumbers,
     units: &Units,
 ) -> std::result::Result<String, std::fmt::Error> {
     let mut text = format!("population     {} cells\n", population.cells);
     shares(&mut text, &population.regimes)?;
-    let numbers = [
-        ("speed", &population.speed, units.speed()),
-        ("turning rate", &population.turning, format!("rad/{}", units.time)),
-        ("directness", &population.directness, String::new()),
-    ];
-    for (name, number, unit) in numbers {
-        if let Some(over) = number {
-            line(&mut text, name, over, &unit)?;
+    for number in &numbers.numbers {
+        line(&mut text, number.name, &number.over, &number.dimension.unit(units))?;
+    }
+    if let Some(field) = &numbers.field {
+        let [x, y] = [0, 1].map(|k| with_error(field.velocity[k], field.velocity_error[k]));
+        let drifts = if field.drifts() {
+            ": the cells drift together (stage, flow, or a common direction)"
+        } else {
+            ""
+        };
+        writeln!(
+            text,
+            "  {:<16} ({x}, {y}) {}, p = {:.1e}{drifts}",
+            "common velocity",
+            units.speed(),
+            field.p_value
+        )?;
+        if let Some(jitter) = field.jitter {
+            writeln!(text, "  {:<16} {} {}", "common jitter", four_digits(jitter), units.length)?;
         }
     }
     Ok(text)

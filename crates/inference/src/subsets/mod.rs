@@ -7,12 +7,14 @@
 //! Each equation's sets are searched with the other equations at their best sets, in turn until nothing changes; then the good sets of all
 //! equations are combined and scored jointly. Sets within [`TIE`] of the best are all kept: the data do not tell them apart.
 
+mod average;
 mod conditional;
 mod search;
 
 use crate::filter::Theta;
 use crate::fit::refit;
 use crate::{Fit, Library, Result, Settings, Track, observation};
+pub use average::{Averaged, averaged};
 pub(crate) use conditional::Conditional;
 use motiform_dynamics::Watch;
 use search::{Choice, search};

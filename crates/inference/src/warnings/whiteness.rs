@@ -33,6 +33,19 @@ fn test(fit: &Fit, channel: usize) -> Channel {
     let series: Vec<Vec<f64>> =
         fit.innovations.iter().map(|stretch| stretch.iter().map(|e| e[channel]).collect()).collect();
     let n: usize = series.iter().map(Vec::len).sum();
+    let squares: f64 = series.iter().flatten().map(|e| e * e).sum();
+    let (autocorrelation, p_value) = ljung_box(&series);
+    Channel {
+        name: NAMES[channel].to_owned(),
+        variance: squares / (n as f64).max(1.0),
+        autocorrelation,
+        p_value,
+    }
+}
+
+/// Autocorrelation at 1, 2, .. of series of mean 0, up to 10 lags and a quarter of their samples, and the probability of as large ones in white noise.
+pub(crate) fn ljung_box(series: &[Vec<f64>]) -> (Vec<f64>, f64) {
+    let n: usize = series.iter().map(Vec::len).sum();
     let lagged = |lag: usize| -> f64 {
         let of = |s: &Vec<f64>| s.iter().zip(s.get(lag..).unwrap_or(&[])).map(|(a, b)| a * b).sum::<f64>();
         series.iter().map(of).sum()
@@ -44,10 +57,5 @@ fn test(fit: &Fit, channel: usize) -> Channel {
     let size = n as f64;
     let weighted = autocorrelation.iter().enumerate().map(|(k, rho)| rho * rho / (size - k as f64 - 1.0));
     let q = size * (size + 2.0) * weighted.sum::<f64>();
-    Channel {
-        name: NAMES[channel].to_owned(),
-        variance: squares / size.max(1.0),
-        autocorrelation,
-        p_value: chi_square_tail(q, lags),
-    }
+    (autocorrelation, chi_square_tail(q, lags))
 }

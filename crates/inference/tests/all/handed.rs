@@ -4,7 +4,7 @@
 
 use crate::common::{Equations, Experiment, circle, full, quasi_periodic, vertex_noise};
 use motiform_dynamics::Complex;
-use motiform_inference::{Handedness, Settings, Symmetry, fit, handedness, identifiability, select};
+use motiform_inference::{Handedness, SEEN, Settings, Symmetry, fit, handedness, identifiability, select};
 
 fn look(experiment: &Experiment) -> Handedness {
     let tracks = [experiment.track()];
@@ -38,7 +38,7 @@ fn false_alarms() {
         assert_ne!(found.symmetry, Symmetry::Handed, "p {}", found.p_value);
         assert_eq!(
             found.symmetry == Symmetry::Mirror,
-            !found.is_doubted() && identifiability(&found.fit).identifiable
+            !found.is_doubted() && identifiability(&found.fit).identifiable && found.excluded < SEEN
         );
         p_values.push(found.p_value);
     }
@@ -54,6 +54,25 @@ fn turning_is_not_handedness() {
     let found = handedness(tracks, whole, &()).unwrap();
     println!("{:?} ratio {:.1} of {}, p {:.3}", found.symmetry, found.ratio, found.degrees, found.p_value);
     assert_eq!(found.symmetry, Symmetry::Undecided);
+}
+
+/// Symmetry is said where it could have been refuted: of long chaotic records, whose imaginary parts are known to a few per cent, and not of short ones. What is excluded
+/// falls as the record grows.
+#[test]
+fn symmetry_needs_power() {
+    let excluded = |frames: usize| {
+        let mut experiment = Experiment::new(full(0.5, 0.1), 0.01, 77);
+        experiment.frames = frames;
+        let found = look(&experiment);
+        println!(
+            "{frames} frames: {:?}, excluded {:.3}, p {:.2}",
+            found.symmetry, found.excluded, found.p_value
+        );
+        assert!(found.symmetry != Symmetry::Mirror || found.excluded < SEEN);
+        found.excluded
+    };
+    let [short, long] = [150, 1500].map(excluded);
+    assert!(long < 0.6 * short && long < 2.0 * SEEN, "{short} {long}");
 }
 
 /// A mirror-symmetric motion: its equations, radius, process noise, sampling and frames.

@@ -1,5 +1,6 @@
 //! All integration tests of this crate, in one program: what is generic is compiled once.
 
+mod average;
 mod common;
 mod converge;
 mod definition;
@@ -11,8 +12,10 @@ mod identifiability;
 mod library;
 mod order_five;
 mod place;
+mod stage;
 mod stretch;
 mod subsets;
 mod together;
+mod walk;
 mod warnings;
 mod weak;

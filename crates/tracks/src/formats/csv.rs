@@ -1,9 +1,11 @@
 //! Long tables as CSV: one vertex per row.
 
+use super::times::Times;
 use super::{Found, stem};
 use crate::gather::{Gather, Key};
-use crate::header::{Header, names, needed, separator};
-use crate::input::{Input, number, whole};
+use crate::header::{Header, names, needed, separator, unit_of};
+use crate::input::{Input, decimal, number, whole};
+use crate::scale::{Said, Scale};
 use crate::split::split;
 use crate::{Error, Options, Place, Result};
 use std::borrow::Cow;
@@ -13,37 +15,91 @@ pub(super) const REMEDY: &str =
     "name the column of the cell: --column cell=HEADER, in Python columns={'cell': HEADER}";
 
 /// Rows `cell, frame, i, x, y` in any order; without a cell there is one, without i the order of the rows is that of the vertices.
+///
+/// A column of times stands for that of frames, or gives their times; frames that are not whole numbers are times too. Units in the header (`x [um]`) are those of
+/// the values. Where no comma separates columns it may be the decimal one.
 pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
     let file = input.place.path().to_owned();
     let mut first = String::new();
     input.line(&mut first)?;
-    let names = names(&first);
-    let header = Header::find(&names, &options.columns, &file)?;
-    let at = |at, wanted| needed(at, wanted, &names, &file);
-    let [frame, x, y] = [at(header.frame, "frame")?, at(header.x, "x")?, at(header.y, "y")?];
-    let separator = separator(&first);
+    let table = Table::new(&first, options, &input.place)?;
     let alone = stem(&file);
     let mut gather = Gather::new(options.limits);
+    let mut times = Times::new(table.frame.is_some() && options.columns.frame.is_some());
     let mut line = String::new();
     while input.line(&mut line)? {
         if line.trim().is_empty() {
             continue;
         }
         let place = input.here();
-        let mut fields = Vec::with_capacity(names.len());
-        split(&line, separator, &mut fields);
-        if fields.len() != names.len() {
-            return Err(width(&place, fields.len(), names.len(), separator));
+        let mut fields = Vec::with_capacity(table.width);
+        split(&line, table.separator, &mut fields);
+        if fields.len() != table.width {
+            return Err(width(&place, fields.len(), table.width, table.separator));
         }
         let cell: Cow<'_, str> =
-            header.cell.map_or(Cow::Borrowed(alone.as_str()), |at| Cow::Borrowed(fields[at].trim()));
-        let i = header.i.map(|at| whole(&fields[at], "i", &place)).transpose()?;
-        let point = [number(&fields[x], "x", &place)?, number(&fields[y], "y", &place)?];
-        let frame = whole(&fields[frame], "frame", &place)?;
+            table.header.cell.map_or(Cow::Borrowed(alone.as_str()), |at| Cow::Borrowed(fields[at].trim()));
+        let i = table.header.i.map(|at| whole(&fields[at], "i", &place)).transpose()?;
+        let value = |at: usize, what: &str| table.number(&fields[at], what, &place);
+        let point = [value(table.x, "x")?, value(table.y, "y")?];
+        let frame = table.frame.map(|at| value(at, "frame")).transpose()?;
+        let time = table.time.map(|at| value(at, "time")).transpose()?;
+        let frame = times.frame(frame, time, &place)?;
         gather.row(Key { cell: &cell, frame }, i, point, &place)?;
     }
-    let (cells, notes) = gather.finish(&input.place, REMEDY)?;
-    Ok(Found { cells, notes, ..Found::default() })
+    let finished = gather.finish(&input.place, REMEDY);
+    let (mut cells, mut notes) = finished.map_err(|error| times.in_words(error))?;
+    let said = table.time(times.interval());
+    let timed = times.apply(&mut cells, &mut notes, said.unit.is_some())?;
+    let time = if timed { said } else { Said::default() };
+    let scale = Scale { length: table.said([table.x, table.y]), time };
+    Ok(Found { cells, notes, scale, image: None })
+}
+
+/// The columns of a table.
+struct Table {
+    names: Vec<String>,
+    header: Header,
+    separator: u8,
+    width: usize,
+    frame: Option<usize>,
+    time: Option<usize>,
+    x: usize,
+    y: usize,
+}
+
+impl Table {
+    fn new(first: &str, options: &Options, place: &Place) -> Result<Self> {
+        let (names, file) = (names(first), place.path());
+        let header = Header::find(&names, &options.columns, file)?;
+        let x = needed(header.x, "x", &names, file)?;
+        let y = needed(header.y, "y", &names, file)?;
+        let frame = match header.time {
+            Some(_) => header.frame,
+            None => Some(needed(header.frame, "frame", &names, file)?),
+        };
+        // an interval that is given goes before the times of a table with frames
+        let time = header.time.filter(|_| frame.is_none() || options.interval.is_none());
+        Ok(Self { header, separator: separator(first), width: names.len(), frame, time, x, y, names })
+    }
+
+    fn number(&self, text: &str, what: &str, place: &Place) -> Result<f64> {
+        if self.separator == b',' { number(text, what, place) } else { decimal(text, what, place) }
+    }
+
+    /// What the header says of the unit of these columns, if it says the same of all.
+    fn said(&self, columns: [usize; 2]) -> Said {
+        let [a, b] = columns.map(|at| unit_of(&self.names[at]));
+        match a {
+            Some(unit) if b.as_ref() == Some(&unit) => Said { step: None, unit: Some(unit), applied: true },
+            _ => Said::default(),
+        }
+    }
+
+    /// What the table says of times: their interval where they stand for frames, and their unit, which is that of the options where the header has none.
+    fn time(&self, step: Option<f64>) -> Said {
+        Said { step, unit: self.time.and_then(|at| unit_of(&self.names[at])), applied: self.time.is_some() }
+    }
 }
 
 fn width(place: &Place, got: usize, expected: usize, separator: u8) -> Error {

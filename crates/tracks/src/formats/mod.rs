@@ -10,6 +10,7 @@ mod rings;
 mod roi;
 mod roi_archive;
 mod roi_name;
+mod times;
 mod trackmate;
 mod wkt;
 

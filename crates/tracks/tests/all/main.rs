@@ -8,6 +8,7 @@ mod formats;
 mod fuzz;
 mod given;
 mod imagej;
+mod inputs;
 mod pulls;
 mod quality;
 mod round_trip;

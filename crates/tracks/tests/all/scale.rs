@@ -91,7 +91,11 @@ fn a_scale_of_one_stands_for_unknown() {
 #[test]
 fn areas_that_no_cell_has_are_said() {
     let tracks = read_with(csv(3), &options(Some(1000.0), None)).unwrap();
-    assert!(notes(&tracks).contains("check the scale"));
+    assert!(notes(&tracks).contains("check the scale") && notes(&tracks).contains("a pixel of 1000 um"));
+    // a disc of 8 pixels: 200 pixels, that of an amoeba at 0.5 um and not at 3 um
+    let said = |size: f64| notes(&read_with(csv(3), &options(Some(size), None)).unwrap());
+    assert!(!said(0.5).contains("median area") && !said(0.5).contains("a pixel of"));
+    assert!(said(3.0).contains("the median area of the cells is 1") && !said(3.0).contains("a pixel of"));
 }
 
 #[test]

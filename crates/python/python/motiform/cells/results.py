@@ -51,6 +51,9 @@ class Observation:
     """The evidence, or what is missing."""
     confidence: float
     """Share of resampled records that give the same motion; NaN without a name."""
+    numbers: Mapping[str, Any]
+    """Numbers without a model, of every record: ``steps`` (speed, path, turning), ``displacement``, ``walk`` (persistence, diffusion,
+    errors), ``forms`` (area, aspect ratio)."""
     measures: Mapping[str, Any] | None
     """The numbers behind it; ``None`` for records that are too short."""
     repeats: Mapping[str, Any] | None
@@ -156,7 +159,8 @@ class CellFit:
     unidentified: tuple[str, ...]
     """Combinations of coefficients that the data leave free."""
     handed: bool
-    """Whether coefficients that are mirror symmetric are rejected."""
+    """Whether coefficients that are mirror symmetric are rejected; ``summary["handed"]`` is ``"not decidable"`` where a handed cell could
+    not have been told."""
     handed_p_value: float
     """The p-value of this test; NaN without a fit."""
     coefficients: pd.DataFrame
@@ -219,7 +223,7 @@ def _curve(points: Sequence[Mapping[str, float]]) -> pd.DataFrame:
 
 def observation_of(raw: Mapping[str, Any], units: tuple[str, str]) -> Observation:
     """The observation of the native module's JSON."""
-    names = ("cell", "frames", "regime", "why", "measures", "repeats", "statistics")
+    names = ("cell", "frames", "regime", "why", "numbers", "measures", "repeats", "statistics")
     return Observation(**{name: raw[name] for name in names}, confidence=_number(raw["confidence"]), units=units)
 
 
@@ -238,7 +242,7 @@ def fit_of(
         identifiable=raw["identifiable"],
         determined=tuple(raw.get("determined", ())),
         unidentified=tuple(raw.get("unidentified", ())),
-        handed=raw.get("handed", False),
+        handed=raw.get("handed") is True,
         handed_p_value=_number(raw.get("handed_p_value")),
         coefficients=coefficients,
         noise=None if noise is None else Noise(**{name: _value(entry) for name, entry in noise.items()}),

@@ -1,0 +1,80 @@
+//! Numbers of a cell without any model of its shape: path, speed, turning, displacement, persistence, form. From centroids and polygons with gaps.
+//!
+//! Definitions: docs/cells.md, section 'Numbers without a model'.
+
+mod displacement;
+mod field;
+mod forms;
+mod places;
+mod population;
+mod rows;
+mod steps;
+
+pub use field::FieldOfView;
+pub use forms::{FormNumber, Forms};
+pub use population::{PopulationNumber, PopulationNumbers, population_numbers};
+pub use rows::{Dimension, Row, number_columns};
+pub use steps::Steps;
+
+use crate::{AtLag, CellTrack};
+use motiform_analysis::series_mean;
+use motiform_inference::{PersistentWalk, persistent_walk};
+use motiform_statistics::Measured;
+use places::Places;
+use serde::Serialize;
+
+/// Numbers of one cell; none is missing for want of frames but those that need two or three of them.
+///
+/// # Units   of the data
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Numbers {
+    /// Frames whose outline is seen: place and form count, whether or not the radius is single valued.
+    pub seen: usize,
+    /// Times of the first and last of them; `None` without any.
+    pub span: Option<[f64; 2]>,
+    /// Pieces of the record between which the place or the area steps: no displacement is taken across.
+    pub pieces: usize,
+    /// Displacements from frame to frame; `None` where no two frames of a piece are seen.
+    pub steps: Option<Steps>,
+    /// Mean-square displacement; errors of the places are in it (4 sigma^2).
+    pub displacement: Vec<AtLag>,
+    /// The persistent random walk of highest likelihood; `None` with fewer than twelve displacements.
+    pub walk: Option<PersistentWalk>,
+    /// Area, perimeter, and form.
+    pub forms: Forms,
+    #[serde(skip)]
+    places: Places,
+}
+
+/// Numbers of a cell from the centroids and polygons of all frames that are seen.
+///
+/// # Checked by  tests/all/numbers.rs: walkers of known speed, persistence and diffusion; ellipses and rods; gaps, stage jumps, errors
+#[must_use]
+pub fn numbers(cell: &CellTrack) -> Numbers {
+    let places = Places::of(&cell.modes);
+    let walk = persistent_walk(&places.pieces);
+    let error = walk.as_ref().filter(|walk| walk.describes()).map(|walk| walk.error.value);
+    let seen = places.pieces.iter().map(Vec::len).sum();
+    let (first, last) = (places.pieces.first(), places.pieces.last());
+    let ends = first.and_then(|piece| piece.first()).zip(last.and_then(|piece| piece.last()));
+    Numbers {
+        seen,
+        span: ends.map(|(first, last)| [first.t, last.t]),
+        pieces: places.pieces.len(),
+        steps: Steps::of(&places, error),
+        displacement: displacement::of_cell(&places),
+        walk,
+        forms: Forms::of(&cell.modes),
+        places,
+    }
+}
+
+/// Mean of a series in time, with its interval where the series is long enough to show one ([`series_mean`]); `None` of nothing.
+fn averaged(samples: &[f64]) -> Option<Measured> {
+    if samples.is_empty() {
+        return None;
+    }
+    let value = samples.iter().sum::<f64>() / samples.len() as f64;
+    let error = series_mean(samples).ok().map(|found| found.error).filter(|error| error.is_finite());
+    Some(Measured { value, interval: error.map(|error| [value - error, value + error]) })
+}

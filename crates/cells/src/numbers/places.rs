@@ -1,0 +1,47 @@
+//! Centroids of the frames that are seen, in pieces between stage jumps.
+
+use motiform_inference::Fix;
+use motiform_tracks::modes::{CellModes, Flag, FrameModes};
+
+/// The places of a cell.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Places {
+    /// Sampling interval: the median of the times between frames; 0 with fewer than two.
+    pub(super) interval: f64,
+    /// Pieces, none of them empty.
+    pub(super) pieces: Vec<Vec<Fix>>,
+}
+
+impl Places {
+    pub(super) fn of(modes: &CellModes) -> Self {
+        let mut pieces: Vec<Vec<Fix>> = Vec::new();
+        let mut new = true;
+        for frame in &modes.frames {
+            new |= frame
+                .flags
+                .iter()
+                .any(|flag| matches!(flag, Flag::PositionStep { .. } | Flag::AreaStep { .. }));
+            if !frame.is_seen() {
+                continue;
+            }
+            let fix = Fix { t: frame.t, at: frame.centroid };
+            match pieces.last_mut().filter(|_| !new) {
+                Some(piece) => piece.push(fix),
+                None => pieces.push(vec![fix]),
+            }
+            new = false;
+        }
+        Self { interval: interval(&modes.frames), pieces }
+    }
+
+    /// How many intervals lie between two times, rounded.
+    pub(super) fn lag(&self, from: f64, to: f64) -> f64 {
+        ((to - from) / self.interval).round()
+    }
+}
+
+fn interval(frames: &[FrameModes]) -> f64 {
+    let mut gaps: Vec<f64> = frames.windows(2).map(|pair| pair[1].t - pair[0].t).collect();
+    gaps.sort_unstable_by(f64::total_cmp);
+    gaps.get(gaps.len() / 2).copied().unwrap_or(0.0)
+}

@@ -1,0 +1,94 @@
+//! Displacements from frame to frame: speed, path, directionality, turning.
+
+use super::averaged;
+use super::places::Places;
+use motiform_inference::Fix;
+use motiform_statistics::Measured;
+use serde::Serialize;
+
+/// Turning angles are counted in so many equal parts of the full turn.
+const PARTS: usize = 12;
+
+/// Numbers of the displacements.
+///
+/// # Units   of the data; angles in rad
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Steps {
+    /// Displacements over one sampling interval.
+    pub count: usize,
+    /// Their mean length per time: the speed as it is seen at this sampling. Errors of the places raise it, turns between frames lower it.
+    pub speed: Option<Measured>,
+    /// Root mean square of the same, with the part of the errors, 4 sigma^2, subtracted; `None` where no walk says how large these are.
+    pub rms_speed: Option<Measured>,
+    /// Length of the path, straight across gaps; of all pieces.
+    pub path: f64,
+    /// Net displacement, the sum over pieces.
+    pub net: f64,
+    /// Net displacement over path, between 0 and 1; it falls with the length of the record. `None` where nothing moved.
+    pub directionality: Option<f64>,
+    /// Mean cosine of the angle between displacements in a row: 1 straight on, 0 no memory, below 0 back (errors of the places do that).
+    pub turning_cosine: Option<Measured>,
+    /// Mean turning rate of the displacements (rad per time), anticlockwise in the coordinates of the data.
+    pub turning_rate: Option<Measured>,
+    /// Turning angles counted in twelve equal parts from -pi to pi.
+    pub turning_angles: Vec<usize>,
+}
+
+impl Steps {
+    /// `error`: standard deviation of a coordinate's error, if it is known. `None` without a displacement.
+    pub(super) fn of(places: &Places, error: Option<f64>) -> Option<Self> {
+        let pairs = || places.pieces.iter().flat_map(|piece| piece.windows(2));
+        let whole = |pair: &&[Fix]| places.lag(pair[0].t, pair[1].t) == 1.0;
+        pairs().next()?;
+        let path: f64 = pairs().map(|pair| length(step(&pair[0], &pair[1]))).sum();
+        let ends = places.pieces.iter().filter_map(|piece| Some(length(step(piece.first()?, piece.last()?))));
+        let net = ends.sum();
+        let rate = |pair: &[Fix]| length(step(&pair[0], &pair[1])) / (pair[1].t - pair[0].t);
+        let rates: Vec<f64> = pairs().filter(whole).map(rate).collect();
+        let squares = error.map(|error| {
+            let noise = 4.0 * error * error / (places.interval * places.interval);
+            rates.iter().map(|rate| rate * rate - noise).collect::<Vec<f64>>()
+        });
+        let root = |mean: Measured| mean.map(|square| square.max(0.0).sqrt());
+        let angles = angles(places);
+        let cosines: Vec<f64> = angles.iter().map(|angle| libm::cos(*angle)).collect();
+        let turning: Vec<f64> = angles.iter().map(|angle| angle / places.interval).collect();
+        let mut counts = vec![0; PARTS];
+        for angle in &angles {
+            let part = (angle / std::f64::consts::TAU + 0.5) * PARTS as f64;
+            counts[(part as usize).min(PARTS - 1)] += 1;
+        }
+        Some(Self {
+            count: rates.len(),
+            speed: averaged(&rates),
+            rms_speed: squares.and_then(|squares| averaged(&squares)).map(root),
+            path,
+            net,
+            directionality: (path > 0.0).then(|| net / path),
+            turning_cosine: averaged(&cosines),
+            turning_rate: averaged(&turning),
+            turning_angles: counts,
+        })
+    }
+}
+
+fn step(from: &Fix, to: &Fix) -> [f64; 2] {
+    [to.at[0] - from.at[0], to.at[1] - from.at[1]]
+}
+
+fn length(step: [f64; 2]) -> f64 {
+    libm::hypot(step[0], step[1])
+}
+
+/// Angles between displacements in a row, each over one interval; displacements of length 0 have none.
+fn angles(places: &Places) -> Vec<f64> {
+    let one = |a: &Fix, b: &Fix| places.lag(a.t, b.t) == 1.0 && a.at != b.at;
+    let triples = places.pieces.iter().flat_map(|piece| piece.windows(3));
+    let turns = triples.filter(|three| one(&three[0], &three[1]) && one(&three[1], &three[2]));
+    turns
+        .map(|three| {
+            let (a, b) = (step(&three[0], &three[1]), step(&three[1], &three[2]));
+            libm::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])
+        })
+        .collect()
+}

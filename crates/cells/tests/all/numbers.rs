@@ -1,0 +1,190 @@
+//! Numbers without a model, for records of every kind.
+
+use super::recordings::{Seen, Shape, Walker, tracks};
+use motiform_cells::{Numbers, Observation, Sample, numbers, observe, population_numbers};
+use motiform_statistics::{Measured, furth};
+use motiform_tracks::Tracks;
+use motiform_tracks::modes::ModeOptions;
+
+const WALK: Walker = Walker { speed: 0.6, persistence: 5.0, shape: Shape::Passive, frames: 300, noise: 0.01 };
+
+fn of(tracks: Tracks) -> Numbers {
+    numbers(&Sample::of_tracks(tracks, &ModeOptions::default()).cells[0])
+}
+
+fn known(numbers: &Numbers, key: &str) -> Measured {
+    let row = numbers.rows().into_iter().find(|row| row.key == key).expect("a row of this name");
+    row.value.known().unwrap_or_else(|| panic!("{key}: {:?}", row.value))
+}
+
+/// Forty walkers with a tenth of the frames missing: intervals of persistence and diffusion hold the truth, and the displacement is Fuerth's.
+#[test]
+fn walkers_have_their_persistence_and_diffusion() {
+    let (speed, persistence) = (WALK.speed, WALK.persistence);
+    let truth = [("persistence", persistence), ("diffusion", 0.5 * speed * speed * persistence)];
+    let runs = 40;
+    let (mut held, mut mean) = ([0; 2], [0.0; 2]);
+    for seed in 0..runs {
+        let found = of(tracks(vec![WALK.outlines(seed)]).with_gaps(0.1, seed));
+        assert!(found.walk.as_ref().is_some_and(motiform_inference::PersistentWalk::describes));
+        for (k, (key, value)) in truth.into_iter().enumerate() {
+            let one = known(&found, key);
+            let [low, high] = one.interval.expect("resolved");
+            held[k] += i32::from(low < value && value < high);
+            mean[k] += one.value / value / f64::from(u32::try_from(runs).expect("small"));
+        }
+    }
+    println!("held {held:?} of {runs}, mean of value/truth {mean:?}");
+    // 95 % of 40 are 38 -+ 1.4; values scatter by about 15 and 25 %, their means by 3 and 4 %
+    assert!(held.iter().all(|&count| count >= 34), "{held:?}");
+    assert!(mean.iter().all(|mean| (mean - 1.0).abs() < 0.15), "{mean:?}");
+}
+
+/// The mean-square displacement of many cells is that of the walk, and its intervals over cells hold it.
+#[test]
+fn displacements_over_cells_are_those_of_the_walk() {
+    let cells = (0..16).map(|seed| WALK.outlines(100 + seed)).collect();
+    let sample = Sample::of_tracks(tracks(cells).with_gaps(0.3, 5), &ModeOptions::default());
+    let found: Vec<Observation> = sample.cells.iter().map(observe).collect();
+    let population = population_numbers(&found);
+    assert_eq!(population.displacement_cells, 16);
+    let points = population.displacement.iter().filter(|at| at.lag <= 40.0);
+    let inside = points.map(|at| {
+        let exact = furth(WALK.speed * WALK.speed, WALK.persistence, at.lag);
+        let [low, high] = at.value.interval.expect("16 cells");
+        // the error of a centroid of 48 vertices is 0.003: 4 sigma^2 is below the interval
+        u32::from(low < exact && exact < high)
+    });
+    let inside: Vec<u32> = inside.collect();
+    // lags share their data: all of them are in or out together
+    assert!(inside.iter().sum::<u32>() as usize * 10 >= 7 * inside.len(), "{:?}", population.displacement);
+    let speed = population.numbers.iter().find(|number| number.key == "speed").expect("all have one");
+    assert_eq!(speed.over.cells, 16);
+}
+
+/// Rods have no modes of the radius, and every number all the same.
+#[test]
+fn rods_have_numbers() {
+    let walker = Walker { shape: Shape::Rod, noise: 0.001, ..WALK };
+    let found = of(tracks(vec![walker.outlines(3)]));
+    assert_eq!(found.seen, 300);
+    let rows = found.rows();
+    assert!(rows.iter().all(|row| row.value.known().is_some()), "{rows:?}");
+    // 7 + pi/4 and 14 + pi, with caps of twelve edges
+    assert!((known(&found, "area").value / (7.0 + std::f64::consts::FRAC_PI_4) - 1.0).abs() < 5e-3);
+    assert!((known(&found, "perimeter").value / (14.0 + std::f64::consts::PI) - 1.0).abs() < 5e-3);
+    assert!(known(&found, "aspect_ratio").value > 6.0 && known(&found, "solidity").value > 0.98);
+}
+
+/// A stage jump cuts the path, and changes no other number.
+#[test]
+fn a_stage_jump_changes_nothing() {
+    let still = of(tracks(vec![WALK.outlines(4)]));
+    let jumped = of(tracks(vec![WALK.outlines(4)]).jumping(120, [60.0, 0.0]));
+    assert_eq!((still.pieces, jumped.pieces), (1, 2));
+    let of = |numbers: &Numbers, key: &str| known(numbers, key).value;
+    for key in ["speed", "area", "aspect_ratio"] {
+        assert!((of(&jumped, key) / of(&still, key) - 1.0).abs() < 0.05, "{key}");
+    }
+    // one memory of a velocity is lost: a small part of an error of 20 %
+    for key in ["persistence", "diffusion"] {
+        assert!((of(&jumped, key) / of(&still, key) - 1.0).abs() < 0.15, "{key}");
+    }
+    assert!((of(&jumped, "path") / of(&still, "path") - 1.0).abs() < 0.02);
+}
+
+/// Errors of the places are told from motion: the persistence is that of the walk, and the error is reported.
+#[test]
+fn errors_of_the_places_are_told_from_motion() {
+    let found = of(tracks(vec![Walker { frames: 600, ..WALK }.outlines(6)]).jittering(0.3, 2));
+    let [low, high] = known(&found, "position_error").interval.expect("resolved");
+    assert!(low < 0.3 && 0.3 < high && high < 1.2 * low, "{low} {high}");
+    let [low, high] = known(&found, "persistence").interval.expect("resolved");
+    assert!(low < WALK.persistence && WALK.persistence < high, "{low} {high}");
+    let (raw, own) = (known(&found, "speed").value, known(&found, "rms_speed").value);
+    // of a walk the rms displacement of a frame is that of Fuerth's formula
+    let exact = furth(WALK.speed * WALK.speed, WALK.persistence, 1.0).sqrt();
+    assert!((own / exact - 1.0).abs() < 0.1 && raw > own, "{own} {exact} {raw}");
+}
+
+/// Records of any length have what they can have: one frame its form, two a speed; and nothing is made up.
+#[test]
+fn short_records_have_what_they_show() {
+    for (frames, speed, walk) in
+        [(0, false, false), (1, false, false), (2, true, false), (12, true, false), (13, true, true)]
+    {
+        let found = of(tracks(vec![Walker { frames, ..WALK }.outlines(7)]));
+        let has = |key: &str| found.rows().iter().any(|row| row.key == key && row.value.known().is_some());
+        assert_eq!((has("area"), has("speed"), found.walk.is_some()), (frames > 0, speed, walk), "{frames}");
+        let rows = found.rows();
+        let reasons = rows.iter().filter_map(|row| row.value.reason());
+        reasons.for_each(|reason| assert!(!reason.is_empty()));
+    }
+}
+
+/// Every name, unit and value is the same after a change of units.
+#[test]
+fn units_change_units_alone() {
+    let one = of(tracks(vec![WALK.outlines(8)]));
+    let mut scaled = tracks(vec![WALK.outlines(8)]);
+    for outline in &mut scaled.cells[0].frames {
+        outline.t *= 60.0;
+        outline.points.iter_mut().flatten().for_each(|x| *x *= 0.5);
+    }
+    let other = of(scaled);
+    for (key, factor) in [
+        ("speed", 0.5 / 60.0),
+        ("persistence", 60.0),
+        ("diffusion", 0.25 / 60.0),
+        ("area", 0.25),
+        ("solidity", 1.0),
+        ("path", 0.5),
+    ] {
+        let ratio = known(&other, key).value / known(&one, key).value;
+        assert!((ratio / factor - 1.0).abs() < 1e-5, "{key}: {ratio}");
+    }
+}
+
+/// Twelve walkers: what they have in common is found where the stage drifts or the images jitter, and nothing where they do not.
+#[test]
+fn a_field_of_view_that_moves_is_found() {
+    let cells = || tracks((0..12).map(|seed| Walker { frames: 150, ..WALK }.outlines(300 + seed)).collect());
+    let field = |tracks: Tracks| {
+        let sample = Sample::of_tracks(tracks, &ModeOptions::default());
+        let found: Vec<Observation> = sample.cells.iter().map(observe).collect();
+        population_numbers(&found).field.expect("twelve cells")
+    };
+    let still = field(cells());
+    assert!(!still.drifts() && still.jitter.expect("common frames") < 0.05, "{still:?}");
+    let drift = [0.15, -0.1];
+    let moved = field(cells().drifting(drift).jittering(0.2, 8));
+    assert!(moved.drifts(), "{moved:?}");
+    for k in 0..2 {
+        // jitter of two frames of 150 moves the mean by 0.002; the walkers are the same
+        assert!((moved.velocity[k] - still.velocity[k] - drift[k]).abs() < 0.01, "{moved:?}");
+    }
+    // 2 x 148 products: the standard deviation of the jitter is known to some 6 %
+    assert!((moved.jitter.expect("common frames") / 0.2 - 1.0).abs() < 0.2, "{moved:?}");
+    let few = tracks(vec![WALK.outlines(1), WALK.outlines(2)]);
+    let sample = Sample::of_tracks(few, &ModeOptions::default());
+    assert!(population_numbers(&sample.cells.iter().map(observe).collect::<Vec<_>>()).field.is_none());
+}
+
+/// Without a drift p-values of the common velocity are uniform: 100 fields of six walkers.
+#[test]
+fn p_values_of_a_common_velocity_are_uniform() {
+    let p_value = |field: u64| {
+        let walker = Walker { frames: 12, ..WALK };
+        let cells = (0..6).map(|k| walker.outlines(1000 + 6 * field + k)).collect();
+        let sample = Sample::of_tracks(tracks(cells), &ModeOptions::default());
+        let found: Vec<Observation> = sample.cells.iter().map(observe).collect();
+        population_numbers(&found).field.expect("six cells").p_value
+    };
+    let p: Vec<f64> = (0..100).map(p_value).collect();
+    for (level, fewest, most) in [(0.2, 8, 33), (0.5, 34, 66), (0.05, 0, 13)] {
+        let below = p.iter().filter(|p| **p < level).count();
+        println!("{below} of 100 below {level}");
+        // three standard deviations of a binomial number
+        assert!((fewest..=most).contains(&below), "{below} below {level}");
+    }
+}

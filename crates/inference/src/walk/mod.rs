@@ -1,0 +1,110 @@
+//! The persistent random walk with errors of the positions: the first null of every law of motion.
+
+mod filter;
+mod table;
+
+use crate::warnings::ljung_box;
+use serde::Serialize;
+use table::{Known, Table};
+
+/// Fewest steps between places: three numbers and their intervals are estimated from two coordinates of each.
+const LEAST_STEPS: usize = 12;
+/// Significance below which innovations are not white, and the walk does not describe the places.
+const COLOURED: f64 = 1e-3;
+
+/// A place at a time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fix {
+    /// Time, increasing.
+    pub t: f64,
+    /// The place.
+    pub at: [f64; 2],
+}
+
+/// A value with the ends of its 95 % interval; `None`: the places set no bound on this side.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Bounded {
+    /// The value of highest likelihood.
+    pub value: f64,
+    /// The lower end.
+    pub low: Option<f64>,
+    /// The upper end.
+    pub high: Option<f64>,
+}
+
+/// A persistent random walk as the places show it.
+///
+/// # Units   of the places and times
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PersistentWalk {
+    /// Persistence time P: the velocity forgets its direction like exp(-t/P).
+    pub persistence: Bounded,
+    /// Root mean square speed S of the walk itself.
+    pub speed: Bounded,
+    /// Diffusion coefficient D = S^2 P/2.
+    pub diffusion: Bounded,
+    /// Standard deviation of the error of a coordinate.
+    pub error: Bounded,
+    /// Log-likelihood of the places after the first of each piece.
+    pub log_likelihood: f64,
+    /// Steps between places.
+    pub steps: usize,
+    /// Probability of autocorrelations of the innovations as large as these, if the walk describes the places (Ljung and Box).
+    pub p_value: f64,
+}
+
+impl PersistentWalk {
+    /// Whether the walk describes the places: its innovations are white.
+    #[must_use]
+    pub fn describes(&self) -> bool {
+        self.p_value >= COLOURED
+    }
+}
+
+/// The persistent random walk of highest likelihood through these pieces of a record, whatever their gaps.
+///
+/// dr = v dt,   dv = -v/P dt + sqrt(S^2/P) dW (each coordinate),   places = r + e, e normal and independent
+///
+/// so that <|r(t) - r(0)|^2> = 2 S^2 P (t - P (1 - e^{-t/P})) + 4 sigma^2. The process is linear: a Kalman filter with the exact transition gives the exact
+/// likelihood at any spacing of the times. It depends on a scale that is known in closed form, on P, and on the ratio of error and motion; these two are looked
+/// for on grids that narrow, and intervals are those of the profile of the likelihood on the last grid (1.92 below its maximum, more of short records).
+///
+/// `None` with fewer than 12 steps, or where nothing moves at all.
+///
+/// Source: Fuerth (1920), Z. Phys. 2, 244; Kalman (1960), J. Basic Eng. 82, 35; profile: Venzon and Moolgavkar (1988), Appl. Stat. 37, 87.
+///
+/// # Units   of the places and times
+/// # Not     for motion that turns steadily or repeats: [`PersistentWalk::describes`] says so
+/// # Checked by  tests/all/walk.rs: likelihood against the multivariate normal density; coverage with gaps and errors; limits of P
+#[must_use]
+pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
+    let steps: usize = pieces.iter().map(|piece| piece.len().saturating_sub(1)).sum();
+    let moves = pieces.iter().any(|piece| piece.windows(2).any(|pair| pair[0].at != pair[1].at));
+    if steps < LEAST_STEPS || !moves {
+        return None;
+    }
+    let table = Table::of(pieces)?;
+    let best = table.best();
+    let [persistence, speed, diffusion, error] =
+        [Known::Persistence, Known::Speed, Known::Diffusion, Known::Error].map(|known| table.bounded(known));
+    let innovations = filter::innovations(pieces, best);
+    Some(PersistentWalk {
+        persistence,
+        speed: Bounded { high: speed.high.filter(|_| persistence.low.is_some()), ..speed },
+        diffusion: Bounded { high: diffusion.high.filter(|_| persistence.high.is_some()), ..diffusion },
+        error,
+        log_likelihood: table.highest(),
+        steps,
+        p_value: ljung_box(&innovations).1,
+    })
+}
+
+/// Log-likelihood of these places, after the first of each piece, under a walk of given numbers.
+///
+/// # Units   `persistence`: time; `speed`: length/time; `error`: length
+/// # Checked by  tests/all/walk.rs: the multivariate normal density of the places
+#[must_use]
+pub fn walk_likelihood(pieces: &[Vec<Fix>], persistence: f64, speed: f64, error: f64) -> f64 {
+    let variance = 0.5 * speed * speed;
+    filter::sums(pieces, persistence, error * error / variance).log_likelihood(variance)
+}

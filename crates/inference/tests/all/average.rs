@@ -1,0 +1,57 @@
+//! Coefficients over tied sets.
+
+use crate::common::{Experiment, full, vertex_noise};
+use motiform_inference::{Settings, Subset, Subsets, averaged, fit, subsets};
+
+/// kappa3 = 0.1 in zigzags of 250 frames, whose best set may lack a term (or kappa3 itself): intervals over all tied sets hold it as often as those of the best set, or more.
+#[test]
+fn intervals_over_tied_sets_hold_the_truth() {
+    let (mut alone, mut over, runs) = (0, 0, 10);
+    for seed in 0..runs {
+        let mut experiment = Experiment {
+            errors: vertex_noise(1.2),
+            interval: 0.5,
+            ..Experiment::new(full(0.9, 0.1), 0.01, 300 + seed)
+        };
+        experiment.frames = 250;
+        let whole = fit(&[experiment.track()], &Settings::default(), &()).expect("it converges");
+        let sets = subsets(&whole);
+        let best = Subsets { ties: sets.ties[..1].to_vec(), ..sets.clone() };
+        let holds = |sets: &Subsets| {
+            let all = averaged(&whole, sets);
+            let found = all.iter().find(|one| one.name == "z3: z3");
+            println!("{seed}: {} sets, {found:?}", sets.ties.len());
+            // a set without the term says 0
+            u32::from(found.is_some_and(|one| one.interval[0] < -0.1 && -0.1 < one.interval[1]))
+        };
+        alone += holds(&best);
+        over += holds(&sets);
+    }
+    println!("held by the best set {alone}, by all tied sets {over} of {runs}");
+    assert!(over >= alone && over >= 8, "{alone} {over}");
+}
+
+/// Of one set the interval is 1.96 of its errors; of two that differ by a term the weight of the term is that of its set, and 0 is in the interval.
+#[test]
+fn mixtures_are_those_of_their_sets() {
+    let experiment = Experiment { frames: 150, ..Experiment::new(full(0.5, 0.1), 0.02, 4) };
+    let whole = fit(&[experiment.track()], &Settings::default(), &()).expect("it converges");
+    let all: Vec<usize> = (0..whole.coefficients.len()).collect();
+    let set = |kept: &[usize], excess: f64| Subset { kept: kept.to_vec(), names: Vec::new(), excess };
+    let sets = |ties: Vec<Subset>| Subsets { penalty: 0.0, ties, complete: true };
+    for (one, own) in averaged(&whole, &sets(vec![set(&all, 0.0)])).iter().zip(&whole.coefficients) {
+        let [low, high] = own.estimate.interval;
+        assert!(
+            (one.interval[0] - low).abs() < 1e-3 * (high - low)
+                && (one.interval[1] - high).abs() < 1e-3 * (high - low)
+        );
+        assert!((one.value - own.estimate.value).abs() < 1e-9 * own.estimate.error && one.weight == 1.0);
+    }
+    let without: Vec<usize> = all[1..].to_vec();
+    let both = averaged(&whole, &sets(vec![set(&all, 0.0), set(&without, 2.0)]));
+    let share = 1.0 / (1.0 + libm::exp(-1.0));
+    assert!(
+        (both[0].weight - share).abs() < 1e-12 && both[0].interval[0] <= 0.0 && 0.0 <= both[0].interval[1]
+    );
+    assert!((both[0].value - share * whole.coefficients[0].estimate.value).abs() < 1e-9);
+}

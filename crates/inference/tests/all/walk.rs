@@ -1,0 +1,166 @@
+//! Persistent random walks: the likelihood against its definition, and intervals of walks with gaps and errors.
+
+use motiform_dynamics::Normal;
+use motiform_inference::{Fix, PersistentWalk, persistent_walk, walk_likelihood};
+use nalgebra::{DMatrix, DVector};
+use std::f64::consts::TAU;
+
+/// A walk of persistence time P and speed S at times `k dt`, by the exact transition in steps of `dt`; each place is seen with an error, and with the probability
+/// `seen`.
+fn walk([persistence, speed, error]: [f64; 3], (dt, frames): (f64, u32), seen: f64, seed: u64) -> Vec<Fix> {
+    let mut normal = Normal::new(seed, 0);
+    let a = libm::exp(-dt / persistence);
+    let variance = 0.5 * speed * speed;
+    let q = |part: f64| variance * part;
+    let h = dt / persistence;
+    let xx = q(persistence * persistence * (2.0 * h - 3.0 + 4.0 * a - a * a));
+    let (xv, vv) = (q(persistence * (1.0 - a) * (1.0 - a)), q(1.0 - a * a));
+    let (mut x, mut v) = ([0.0; 2], [variance.sqrt() * normal.next(), variance.sqrt() * normal.next()]);
+    let mut fixes = Vec::new();
+    for frame in 0..frames {
+        if normal.uniform() < seen {
+            let at = [x[0] + error * normal.next(), x[1] + error * normal.next()];
+            fixes.push(Fix { t: dt * f64::from(frame), at });
+        }
+        for k in 0..2 {
+            let (one, two) = (normal.next(), normal.next());
+            let root = xx.max(0.0).sqrt();
+            x[k] += persistence * (1.0 - a) * v[k] + root * one;
+            v[k] = a * v[k] + xv / root * one + (vv - xv * xv / xx).max(0.0).sqrt() * two;
+        }
+    }
+    fixes
+}
+
+fn found(fixes: &[Fix]) -> PersistentWalk {
+    persistent_walk(&[fixes.to_vec()]).expect("it moves")
+}
+
+/// The density of the places relative to the first one, from the covariance of a walk: `(M(s) + M(t) - M(|s - t|))/2` and the errors.
+#[test]
+fn the_likelihood_is_that_of_a_normal_vector() {
+    let fixes = walk([2.0, 1.5, 0.3], (0.5, 12), 0.7, 3);
+    for [p, speed, error] in [[2.0, 1.5, 0.3], [0.1, 1.0, 0.0], [50.0, 2.0, 1.0]] {
+        let square = |t: f64| {
+            let x: f64 = t / p;
+            speed
+                * speed
+                * p
+                * p
+                * if x < 1e-2 {
+                    x * x * (0.5 - x / 6.0 + x * x / 24.0 - x * x * x / 120.0)
+                } else {
+                    x + libm::expm1(-x)
+                }
+        };
+        let n = fixes.len() - 1;
+        let at = |k: usize| fixes[k + 1].t - fixes[0].t;
+        let covariance = DMatrix::from_fn(n, n, |i, j| {
+            let motion = 0.5 * (square(at(i)) + square(at(j)) - square((at(i) - at(j)).abs()));
+            motion + error * error * if i == j { 2.0 } else { 1.0 }
+        });
+        let root = covariance.cholesky().expect("positive definite");
+        let determinant = 2.0 * root.l().diagonal().iter().map(|x| libm::log(*x)).sum::<f64>();
+        let exact: f64 = (0..2)
+            .map(|c| {
+                let y = DVector::from_fn(n, |k, _| fixes[k + 1].at[c] - fixes[0].at[c]);
+                -0.5 * (y.dot(&root.solve(&y)) + determinant + n as f64 * libm::log(TAU))
+            })
+            .sum();
+        let own = walk_likelihood(&[fixes.clone()], p, speed, error);
+        assert!((own - exact).abs() < 1e-7 * exact.abs().max(1.0), "{p}: {own} {exact}");
+    }
+}
+
+/// How many of these walks have each true value in its interval, and how many are described.
+fn held(truth: [f64; 3], (dt, frames): (f64, u32), seen: f64, runs: u64) -> ([u64; 4], u64) {
+    let values = [truth[0], truth[1], 0.5 * truth[1] * truth[1] * truth[0], truth[2]];
+    let (mut held, mut described) = ([0; 4], 0);
+    for seed in 0..runs {
+        let one = found(&walk(truth, (dt, frames), seen, 100 + seed));
+        let all = [one.persistence, one.speed, one.diffusion, one.error];
+        for (count, (bounded, value)) in held.iter_mut().zip(all.iter().zip(values)) {
+            let inside =
+                bounded.low.is_none_or(|low| low <= value) && bounded.high.is_none_or(|high| value <= high);
+            *count += u64::from(inside);
+        }
+        described += u64::from(one.describes());
+    }
+    println!("{truth:?}, {frames} frames of {dt}: held {held:?}, described {described} of {runs}");
+    (held, described)
+}
+
+/// 95 % intervals of walks of 50 persistence times, a fifth of the frames missing, errors half as large as a step; of short records; of small errors; sampled finely and coarsely.
+#[test]
+fn intervals_hold_the_truth() {
+    let runs = 150;
+    for (truth, sampling, seen) in [
+        ([4.0, 1.2, 0.4], (0.7, 280), 0.8),
+        ([4.0, 1.2, 0.4], (0.7, 40), 0.8),
+        ([4.0, 1.2, 0.05], (1.0, 200), 1.0),
+        ([20.0, 1.0, 0.02], (0.4, 1000), 1.0),
+        ([0.5, 1.0, 0.2], (1.0, 300), 0.9),
+    ] {
+        let (held, described) = held(truth, sampling, seen, runs);
+        // 95 % of 150 are 142.5 -+ 2.7; ends that are open hold every value
+        assert!(held.iter().all(|&count| count >= 134), "{held:?}");
+        assert!(described >= 147, "{described}");
+    }
+}
+
+/// Steps without memory set no lower bound to P, and D all the same; a path that keeps its velocity sets no upper one.
+#[test]
+fn what_the_places_do_not_bound_is_open() {
+    let free = found(&walk([0.01, 10.0, 0.0], (1.0, 400), 1.0, 5)); // D = 0.5
+    assert!(free.persistence.low.is_none() && free.speed.high.is_none(), "{free:?}");
+    let (low, high) = (free.diffusion.low.expect("bounded"), free.diffusion.high.expect("bounded"));
+    assert!(low < 0.5 && 0.5 < high && high < 1.6 * low, "{free:?}");
+    let kept = found(&walk([1e4, 1.0, 0.1], (1.0, 100), 1.0, 6));
+    assert!(kept.persistence.high.is_none() && kept.diffusion.high.is_none(), "{kept:?}");
+    let error = kept.error;
+    assert!(error.low.expect("bounded") < 0.1 && 0.1 < error.high.expect("bounded"), "{kept:?}");
+}
+
+/// A walk that rests, but for errors: its error is known, and the motion is below it.
+#[test]
+fn errors_alone_are_errors() {
+    let mut normal = Normal::new(8, 0);
+    let fixes: Vec<Fix> =
+        (0..300).map(|k| Fix { t: f64::from(k), at: [0.2 * normal.next(), 0.2 * normal.next()] }).collect();
+    let one = found(&fixes);
+    assert!((one.error.value - 0.2).abs() < 0.02, "{one:?}");
+    assert!(one.speed.value < 0.02, "{one:?}"); // steps of 0.28 are those of errors
+}
+
+#[test]
+fn units_change_units_alone_and_pieces_are_not_joined() {
+    let fixes = walk([3.0, 1.0, 0.2], (1.0, 200), 0.9, 9);
+    let scaled: Vec<Fix> =
+        fixes.iter().map(|fix| Fix { t: 60.0 * fix.t, at: fix.at.map(|x| 0.25 * x) }).collect();
+    let (one, other) = (found(&fixes), found(&scaled));
+    let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-6;
+    assert!(close(one.persistence.value, other.persistence.value / 60.0));
+    assert!(close(one.diffusion.value, other.diffusion.value * 60.0 / 0.0625));
+    assert!(close(one.error.value, other.error.value / 0.25));
+    // a stage that jumps between two pieces changes nothing
+    let (first, second) = fixes.split_at(90);
+    let moved: Vec<Fix> =
+        second.iter().map(|fix| Fix { t: fix.t, at: [fix.at[0] + 500.0, fix.at[1]] }).collect();
+    let apart = persistent_walk(&[first.to_vec(), moved]);
+    assert_eq!(apart.map(|w| w.steps), persistent_walk(&[first.to_vec(), second.to_vec()]).map(|w| w.steps));
+}
+
+/// Steady circles are no random walk, and it is said.
+#[test]
+fn a_circle_is_not_described() {
+    let fixes: Vec<Fix> = (0..300)
+        .map(|k| Fix {
+            t: f64::from(k),
+            at: [5.0 * libm::cos(0.2 * f64::from(k)), 5.0 * libm::sin(0.2 * f64::from(k))],
+        })
+        .collect();
+    assert!(!found(&fixes).describes());
+    assert!(persistent_walk(&[fixes[..12].to_vec()]).is_none(), "eleven steps");
+    let rest = vec![Fix { t: 0.0, at: [1.0, 1.0] }; 9];
+    assert!(persistent_walk(&[rest]).is_none());
+}

@@ -1,0 +1,140 @@
+//! Frames of a table from its columns of frames and times.
+
+use crate::numbering::{median_difference, numbers};
+use crate::{Cell, Error, Note, Place, Result};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Frames and times of the rows of a table.
+///
+/// While rows are read a frame is known by a key that is in the order of its value. At the end values that are whole numbers of a column of frames are the frames; others are
+/// times, and frames are counted in their intervals.
+pub(super) struct Times {
+    /// Whether the column of frames was named by an option: then its values are frames.
+    named: bool,
+    /// The values of frames, or times where there are none.
+    values: BTreeMap<i64, f64>,
+    /// The time of each frame, where there are both.
+    times: BTreeMap<i64, f64>,
+    /// Whether there is a column of frames.
+    framed: bool,
+    /// The first frame that is no whole number.
+    fraction: Option<(Place, f64)>,
+    /// The key of the row before: rows of a frame follow one another.
+    last: Option<i64>,
+}
+
+impl Times {
+    pub(super) fn new(named: bool) -> Self {
+        Self {
+            named,
+            values: BTreeMap::new(),
+            times: BTreeMap::new(),
+            framed: true,
+            fraction: None,
+            last: None,
+        }
+    }
+
+    /// The key of a row.
+    ///
+    /// # Errors
+    /// Values that are not finite, and fractions in a column of frames that was named as such.
+    pub(super) fn frame(&mut self, frame: Option<f64>, time: Option<f64>, place: &Place) -> Result<i64> {
+        self.framed = frame.is_some();
+        let (value, what) = match frame {
+            Some(frame) => (frame, "frame"),
+            None => (time.unwrap_or(f64::NAN), "time"),
+        };
+        let sound = value.is_finite() && value.abs() < 9.0e15 && !(self.named && value != value.trunc());
+        if !sound {
+            let expected = if self.named { "a whole number" } else { "a number" };
+            return Err(Error::structure(place, format!("{what} is {value}"), expected));
+        }
+        if frame.is_some() && value != value.trunc() && self.fraction.is_none() {
+            self.fraction = Some((place.clone(), value));
+        }
+        let key = key(value);
+        if self.last != Some(key) {
+            self.values.insert(key, value);
+            self.last = Some(key);
+        }
+        if let (Some(_), Some(time)) = (frame, time.filter(|time| time.is_finite())) {
+            self.times.entry(key).or_insert(time);
+        }
+        Ok(key)
+    }
+
+    /// The interval of the times where these stand for frames.
+    pub(super) fn interval(&self) -> Option<f64> {
+        let values: Vec<f64> = self.values.values().copied().collect();
+        median_difference(&values).filter(|_| !self.framed)
+    }
+
+    /// The same error with the frame instead of its key.
+    pub(super) fn in_words(&self, error: Error) -> Error {
+        match error {
+            Error::MixedCells { file, name, conflicts, frames, first, remedy } => {
+                let first = self.values.get(&first).map_or(first, |value| value.round() as i64);
+                Error::MixedCells { file, name, conflicts, frames, first, remedy }
+            }
+            other => other,
+        }
+    }
+
+    /// Gives every outline its frame and, where times are known, its time; whether times are. `as_times`: whole values without a column of frames are times, not counts.
+    ///
+    /// # Errors
+    /// Frames that are no whole numbers, and are not evenly spaced either.
+    pub(super) fn apply(self, cells: &mut [Cell], notes: &mut [Note], as_times: bool) -> Result<bool> {
+        if let Some((place, value)) = self.fraction.as_ref().filter(|_| !self.even()) {
+            let expected = "a whole number (or at least three evenly spaced ones)";
+            return Err(Error::structure(place, format!("frame is {value}"), expected));
+        }
+        let whole = self.values.values().all(|value| *value == value.trunc());
+        let count = whole && (self.framed || self.interval() == Some(1.0));
+        let timed = if self.framed { !self.times.is_empty() } else { as_times || !count };
+        let counted = (!count).then(|| self.counted());
+        let frame = |key: &i64| match &counted {
+            Some(counted) => counted.get(key).copied().unwrap_or(*key),
+            None => self.values.get(key).map_or(*key, |value| *value as i64),
+        };
+        for outline in cells.iter_mut().flat_map(|cell| &mut cell.frames) {
+            let key = outline.frame;
+            let value = self.values.get(&key).copied().unwrap_or(0.0);
+            outline.t = self.times.get(&key).copied().unwrap_or(value);
+            outline.frame = frame(&key);
+        }
+        for note in notes {
+            if let Note::SameFrameTwice { frames, .. }
+            | Note::ConflictingFrames { frames, .. }
+            | Note::MissingVertices { frames, .. } = note
+            {
+                frames.iter_mut().for_each(|key| *key = frame(key));
+            }
+        }
+        Ok(timed)
+    }
+
+    /// Whether there are three values and more, in steps of one interval.
+    fn even(&self) -> bool {
+        let values: Vec<f64> = self.values.values().copied().collect();
+        values.len() > 2 && numbers(&values, median_difference(&values)).is_some()
+    }
+
+    /// Frames counted in the median interval of all times; in order where they are no multiples of it.
+    fn counted(&self) -> BTreeMap<i64, i64> {
+        let values: Vec<f64> = self.values.values().copied().collect();
+        let in_order = || (0..).take(values.len()).collect();
+        let found: Vec<i64> = numbers(&values, median_difference(&values)).unwrap_or_else(in_order);
+        // two values that are counted as one frame would be one outline
+        let apart = found.iter().collect::<BTreeSet<_>>().len() == found.len();
+        let found = if apart { found } else { in_order() };
+        self.values.keys().copied().zip(found).collect()
+    }
+}
+
+/// A whole number in the order of the value.
+fn key(value: f64) -> i64 {
+    let bits = (value + 0.0).to_bits().cast_signed();
+    if bits < 0 { -(bits & i64::MAX) } else { bits }
+}

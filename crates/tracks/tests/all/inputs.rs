@@ -1,0 +1,120 @@
+//! Tables as other programs and other countries write them.
+
+use super::common::{outlines, read, read_with, refusal};
+use motiform_tracks::{Options, Tracks};
+
+/// The same outlines as a table: header, separator, how a number is written, and what stands for the frame.
+fn table(
+    header: &str,
+    separator: char,
+    number: impl Fn(f64) -> String,
+    frame: impl Fn(usize) -> String,
+) -> String {
+    let mut text = format!("{header}\n");
+    for (k, points) in outlines(6).iter().enumerate() {
+        for [x, y] in points {
+            text += &format!("a{separator}{}{separator}{}{separator}{}\n", frame(k), number(*x), number(*y));
+        }
+    }
+    text
+}
+
+fn plain() -> Tracks {
+    read(table("cell,frame,x,y", ',', |x| x.to_string(), |k| k.to_string())).expect("a plain table")
+}
+
+fn times(tracks: &Tracks) -> Vec<f64> {
+    tracks.cells[0].frames.iter().map(|outline| outline.t).collect()
+}
+
+fn frames(tracks: &Tracks) -> Vec<i64> {
+    tracks.cells[0].frames.iter().map(|outline| outline.frame).collect()
+}
+
+#[test]
+fn semicolons_and_decimal_commas() {
+    let comma = |x: f64| x.to_string().replace('.', ",");
+    for (separator, header) in [(';', "cell;frame;x;y"), ('\t', "cell\tframe\tx\ty")] {
+        let found = read(table(header, separator, comma, |k| k.to_string())).expect("European");
+        assert_eq!(found.cells, plain().cells);
+    }
+    // where commas separate, a decimal one is refused: it cannot be told from a column
+    assert!(refusal(table("cell,frame,x,y", ',', comma, |k| k.to_string())).contains("decimal commas?"));
+}
+
+#[test]
+fn units_in_the_header_are_those_of_the_values() {
+    for header in ["cell,frame,x [um],y [um]", "cell,frame,X (µm),Y (µm)"] {
+        let found = read(table(header, ',', |x| x.to_string(), |k| k.to_string())).expect("units");
+        assert_eq!((found.length_unit.as_str(), &found.cells), ("um", &plain().cells), "{header}");
+    }
+    let pixels =
+        read(table("cell,frame,x [px],y [px]", ',', |x| x.to_string(), |k| k.to_string())).expect("pixels");
+    assert_eq!(pixels.length_unit, "pixel");
+    // a table in um is read with a pixel of 1; another one contradicts it
+    let um = table("cell,frame,x [um],y [um]", ',', |x| x.to_string(), |k| k.to_string());
+    let with = |size| read_with(&um, &Options { pixel_size: Some(size), ..Options::default() });
+    assert_eq!(with(1.0).expect("the same").cells, plain().cells);
+    assert!(with(0.2).expect_err("another").to_string().contains("already in um"));
+}
+
+#[test]
+fn a_column_of_times_stands_for_frames() {
+    let seconds = |k: usize| format!("{}", 2.5 * k as f64 - 5.0);
+    let found = read(table("cell,time [s],x,y", ',', |x| x.to_string(), seconds)).expect("times");
+    assert_eq!((found.time_unit.as_str(), times(&found)), ("s", vec![-5.0, -2.5, 0.0, 2.5, 5.0, 7.5]));
+    assert_eq!(frames(&found), [-2, -1, 0, 1, 2, 3], "frames before a stimulus at 0 are kept");
+    // a gap in time is a gap of frames
+    let gap = |k: usize| format!("{}", 10 * if k < 3 { k } else { k + 2 });
+    let found = read(table("cell,t (min),x,y", ',', |x| x.to_string(), gap)).expect("a gap");
+    assert_eq!((found.time_unit.as_str(), frames(&found)), ("min", vec![0, 1, 2, 5, 6, 7]));
+    // an interval that the times do not have is refused
+    let options = Options { interval: Some(3.0), ..Options::default() };
+    let wrong = read_with(table("cell,time [s],x,y", ',', |x| x.to_string(), seconds), &options);
+    assert!(wrong.expect_err("contradiction").to_string().contains("frame interval"));
+    // whole numbers in steps of one and without a unit are counts
+    let counts = read(table("cell,t,x,y", ',', |x| x.to_string(), |k| k.to_string())).expect("counts");
+    assert_eq!((counts.time_unit.as_str(), &counts.cells), ("frame", &plain().cells));
+}
+
+#[test]
+fn fractional_frames_are_times_in_frames() {
+    let found = read(table("cell,frame,x,y", ',', |x| x.to_string(), |k| format!("{}", 0.5 * k as f64)))
+        .expect("halves");
+    assert_eq!(frames(&found), [0, 1, 2, 3, 4, 5]);
+    assert_eq!((found.time_unit.as_str(), times(&found)[5]), ("frame", 2.5));
+    let options = Options { interval: Some(4.0), ..Options::default() };
+    let found = read_with(
+        table("cell,frame,x,y", ',', |x| x.to_string(), |k| format!("{}", 0.5 * k as f64)),
+        &options,
+    );
+    assert_eq!(times(&found.expect("halves"))[5], 10.0);
+    assert!(
+        refusal(table("cell,frame,x,y", ',', |x| x.to_string(), |_| "x".to_owned()))
+            .contains("frame is \"x\"")
+    );
+}
+
+#[test]
+fn negative_frames_before_a_stimulus_are_frames_and_a_single_one_is_none() {
+    let from = |first: i64| {
+        read(table("cell,frame,x,y", ',', |x| x.to_string(), |k| (first + k as i64).to_string()))
+            .expect("frames")
+    };
+    assert_eq!(frames(&from(-3)), [-3, -2, -1, 0, 1, 2]);
+    assert_eq!(frames(&from(-1)), [0, 1, 2, 3, 4], "-1 alone stands for none");
+    let far =
+        read(table("cell,frame,x,y", ',', |x| x.to_string(), |k| [-999, -998, 0, 1, 2, 3][k].to_string()))
+            .expect("frames");
+    assert_eq!(frames(&far), [0, 1, 2, 3]);
+}
+
+#[test]
+fn names_in_latin_1_are_read() {
+    let text = table("cell,frame,x [µm],y [µm]", ',', |x| x.to_string(), |k| k.to_string())
+        .replace("\na,", "\nZürich,");
+    let latin: Vec<u8> = text.chars().map(|c| u8::try_from(u32::from(c)).expect("Latin-1")).collect();
+    let found = read(latin).expect("Latin-1");
+    assert_eq!((found.cells[0].name.as_str(), found.length_unit.as_str()), ("Zürich", "um"));
+    assert_eq!(found.cells[0].frames, plain().cells[0].frames);
+}
