@@ -3,7 +3,9 @@
 use super::origin::Origin;
 use super::result::{Branches, Followed, Leg, Sample};
 use super::stretches::stretches;
-use motiform_continuation::{Broken, Certificate, Coefficient, Connection, End, NormalForm, Point, Special};
+use motiform_continuation::{
+    Broken, Certificate, Coefficient, Connection, End, NormalForm, PeriodLaw, Point, Special,
+};
 use motiform_study::BranchPlan;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -240,7 +242,19 @@ fn is_supercritical(leg: &Leg, point: usize, first: f64) -> Option<bool> {
 fn put_connection(object: &mut Map<String, Value>, connection: &Connection) {
     let mut put = |key: &str, value: Value| object.insert(key.to_owned(), value);
     put("connection", connection.kind().name().into());
-    put("law", json!(connection.law));
+    let (law, numbers): (&str, &[(&str, f64)]) = match connection.law {
+        PeriodLaw::Logarithmic { rate } => ("logarithmic", &[("rate", rate)]),
+        PeriodLaw::Oscillating { rate, frequency } => {
+            ("oscillating", &[("rate", rate), ("frequency", frequency)])
+        }
+        PeriodLaw::Resonant { amplitude } => ("resonant", &[("amplitude", amplitude)]),
+        PeriodLaw::SquareRoot { amplitude } => ("square-root", &[("amplitude", amplitude)]),
+        _ => ("", &[]),
+    };
+    put("law", law.into());
+    numbers.iter().for_each(|(name, number)| {
+        put(name, (*number).into());
+    });
     put("remaining", connection.remaining.into());
     if let Some(quantity) = connection.quantity() {
         put("saddle_quantity", quantity.into());

@@ -127,13 +127,13 @@ fn ends(context: &Context<'_>, found: &Branches) -> Claim {
 fn kinds(context: &Context<'_>, found: &Branches) -> Claim {
     let words = |kind: &str| {
         let one = |entry: SpecialEntry| {
-            format!("{:.6} ({})", entry.parameter, entry.criticality.unwrap_or("not followed"))
+            format!("{:.6} ({})", entry.parameter, entry.criticality.unwrap_or("undecided"))
         };
         special(found, kind).map(one).collect::<Vec<_>>().join(", ")
     };
-    let followed =
-        |kind: &str| special(found, kind).filter(|entry| entry.criticality.is_some()).collect::<Vec<_>>();
-    let (breaks, doubles) = (followed("symmetry-breaking"), followed("period-doubling"));
+    let decided = |entry: &SpecialEntry| entry.criticality.is_some_and(|word| word != "undecided");
+    let known = |kind: &str| special(found, kind).filter(decided).collect::<Vec<_>>();
+    let (breaks, doubles) = (known("symmetry-breaking"), known("period-doubling"));
     let mut begins = breaks.iter().chain(&doubles);
     let mut hopf = special(found, "hopf");
     check(
@@ -146,7 +146,7 @@ fn kinds(context: &Context<'_>, found: &Branches) -> Claim {
             words("hopf")
         ),
         &format!(
-            "{HOW}. Supercritical: what begins is stable where the motion itself is not (Hopf: by the first Lyapunov coefficient)"
+            "{HOW}. Supercritical: what begins is stable where the motion itself is not, by the sign of the normal form's coefficient"
         ),
         context.number(special(found, "symmetry-breaking").count() as f64) == 2.0
             && !breaks.is_empty()

@@ -16,6 +16,9 @@ const TIGHT: f64 = 1e-11;
 /// The condition is solved for until a step across the curve is shorter than this: the error left is about its square.
 const ACROSS: f64 = 1e-9;
 
+/// Motions on the way are solved for to this part of the step that led to them.
+const FINER: f64 = 1e-5;
+
 /// Steps that the condition is solved in.
 const TRIES: usize = 12;
 
@@ -127,7 +130,7 @@ impl<P: Problem> CurveTracer<P> {
         let slope = |direction: &[f64], other: &[f64]| {
             let at = |length: f64| {
                 let guess = x.iter().zip(direction).map(|(x, d)| x + length * d).collect();
-                self.probe(guess, x, (other, direction), watch).map(|probe| probe.reading.value)
+                self.probe(guess, x, (other, direction), TIGHT, watch).map(|probe| probe.reading.value)
             };
             Ok::<f64, Failure>((at(PROBE)? - at(-PROBE)?) / (2.0 * PROBE))
         };
@@ -143,12 +146,13 @@ impl<P: Problem> CurveTracer<P> {
         guess: Vec<f64>,
         centre: &[f64],
         (normal_to, along): (&[f64], &[f64]),
+        tolerance: f64,
         watch: &dyn Watch,
     ) -> Result<Probe<P::Local>, Failure> {
         let weights = self.problem.weights(centre);
         let row = normal(normal_to, &weights);
         let section = Section { equations: &self.problem, row, centre: centre.to_vec() };
-        let found = correct(&section, guess, &normal(along, &weights), TIGHT, watch)?;
+        let found = correct(&section, guess, &normal(along, &weights), tolerance, watch)?;
         let (x, Cut { inner: local, .. }) = (found.x, found.local);
         let levels = self.problem.levels(&x, &local).ok_or_else(singular)?;
         let reading = self.critical.read(&levels, self.spot.reading.angle).ok_or_else(singular)?;
@@ -165,24 +169,27 @@ impl<P: Problem> CurveTracer<P> {
         watch: &dyn Watch,
     ) -> Result<(Probe<P::Local>, f64, f64), Failure> {
         let directions = (frame.along.as_slice(), frame.across.as_slice());
-        let mut probe = self.probe(centre.to_vec(), centre, directions, watch)?;
+        let mut probe = self.probe(centre.to_vec(), centre, directions, TIGHT, watch)?;
         let (mut off, mut last) = (0.0, f64::INFINITY);
         for count in 0..TRIES {
             let change = (-probe.reading.value / steep).clamp(-0.1, 0.1);
             if !change.is_finite() {
                 break;
             }
-            let guess = probe.x.iter().zip(&frame.across).map(|(x, d)| x + change * d).collect();
-            let next = self.probe(guess, centre, directions, watch)?;
+            let guess: Vec<f64> = probe.x.iter().zip(&frame.across).map(|(x, d)| x + change * d).collect();
+            let stalled = count > 3 && change.abs() < 1000.0 * ACROSS && change.abs() > 0.5 * last;
+            if change.abs() < ACROSS || stalled {
+                // so short a step leaves nothing that another solution would show
+                let x = if stalled { probe.x } else { guess };
+                return Ok((Probe { x, ..probe }, steep, off));
+            }
+            let tolerance = TIGHT.max(FINER * change.abs());
+            let next = self.probe(guess, centre, directions, tolerance, watch)?;
             let secant = (next.reading.value - probe.reading.value) / change;
             if change.abs() > 1e-8 && secant.is_finite() && secant != 0.0 {
                 steep = secant;
             }
             (probe, off) = (next, off + change);
-            let stalled = count > 3 && change.abs() < 1000.0 * ACROSS && change.abs() > 0.5 * last;
-            if change.abs() < ACROSS || stalled {
-                return Ok((probe, steep, off));
-            }
             last = change.abs();
         }
         Err(Failure::Obstructed(Obstruction::Newton))

@@ -62,11 +62,11 @@ impl Degenerate {
             }
             (Special::Torus { .. }, _) => {
                 let orders = (1..=4).map(|order| Self::Resonance { order });
-                orders.chain([Self::DoublyCritical]).collect()
+                orders.chain([Self::ZeroHopf, Self::DoubleHopf, Self::DoublyCritical]).collect()
             }
             (Special::Fold, false) => vec![Self::Cusp, Self::BogdanovTakens, Self::ZeroHopf],
             (_, false) => vec![Self::BogdanovTakens, Self::ZeroHopf],
-            (Special::Fold, true) => vec![Self::Cusp, Self::DoublyCritical],
+            (Special::Fold, true) => vec![Self::Cusp, Self::Bautin, Self::DoublyCritical],
             (_, true) => vec![Self::DoublyCritical],
         }
     }

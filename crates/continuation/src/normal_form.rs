@@ -240,15 +240,34 @@ fn parts(matrix: &DMatrix<f64>) -> Result<(Vec<Part>, Vec<Part>), Undetermined> 
         left: u.column(k).iter().zip(&scales).map(|(value, scale)| value * scale).collect(),
         right: rows.row(k).iter().copied().collect(),
     };
-    let mut all: Vec<Part> = svd.singular_values.iter().enumerate().map(part).collect();
-    all.sort_by(|a, b| a.size.total_cmp(&b.size));
+    let mut seen: Vec<Part> = svd.singular_values.iter().enumerate().map(part).collect();
+    let mut unseen: Vec<Part> = Vec::new();
+    for _ in 0..DIRECTIONS.min(seen.len()) {
+        unseen.push(smallest(&mut seen));
+    }
     // a row that is not 0 has the size 1
-    let next = |count: usize| all.get(count).map_or(1.0, |next| next.size);
-    let gap = |count: usize| next(count) / all[count - 1].size;
-    let widest = (1..=DIRECTIONS.min(all.len())).max_by(|&a, &b| gap(a).total_cmp(&gap(b)));
+    let beyond = if seen.is_empty() {
+        1.0
+    } else {
+        seen.iter().fold(f64::INFINITY, |least, part| least.min(part.size))
+    };
+    let next = |count: usize| unseen.get(count).map_or(beyond, |next| next.size);
+    let gap = |count: usize| next(count) / unseen[count - 1].size;
+    let widest = (1..=unseen.len()).max_by(|&a, &b| gap(a).total_cmp(&gap(b)));
     let count = widest.filter(|&count| gap(count) * CRITICAL > 1.0).ok_or(Undetermined::NotCritical)?;
-    let seen = all.split_off(count);
-    Ok((all, seen))
+    seen.extend(unseen.drain(count..));
+    Ok((unseen, seen))
+}
+
+/// Takes out the smallest part.
+fn smallest(all: &mut Vec<Part>) -> Part {
+    let mut place = 0;
+    for (k, part) in all.iter().enumerate() {
+        if part.size < all[place].size {
+            place = k;
+        }
+    }
+    all.swap_remove(place)
 }
 
 /// One over the sizes of a matrix's rows. A row that is 0 but for rounding has the next one's.

@@ -10,7 +10,7 @@ use super::normal_forms::of_orbit;
 use super::point::Motion;
 use super::problem::{Equations, Failure, Linear, Problem};
 use super::reduced_maps::reduced_maps;
-use super::shooting::{Segment, segment, shape_after};
+use super::shooting::{Segment, segments, shape_after};
 use super::special::{Broken, Special};
 use motiform_analysis::equilibrium::neutral_direction;
 use motiform_analysis::linear::{add, apply, dot, eigenvalues, norm, restrict};
@@ -178,8 +178,7 @@ impl Equations for Orbits<'_> {
         let neighbours = Neighbours::of(self.bodies, x)?;
         let span = self.span(x);
         let nodes = || (0..self.parts).map(|i| self.node(x, i));
-        let segments: Result<Vec<Segment>, Failure> =
-            nodes().map(|node| segment(&neighbours, node, span, &self.flow, watch)).collect();
+        let segments = segments(&neighbours, nodes(), span, &self.flow, watch)?;
         let body = neighbours.body;
         let mut out = vec![0.0; self.dim];
         let mut along = |write: &dyn Fn(&[f64], &mut [f64])| -> Vec<Vec<f64>> {
@@ -192,7 +191,7 @@ impl Equations for Orbits<'_> {
         let rates = along(&|u, du| VectorField::<f64>::eval(body.as_ref(), 0.0, u, du));
         let spins = along(&|u, du| body.spin(u, du));
         let linear = Linear { residual: Vec::new(), matrix: DMatrix::zeros(0, 0) };
-        let mut local = Local { body, linear, segments: segments?, rates, spins };
+        let mut local = Local { body, linear, segments, rates, spins };
         local.linear = self.fill(x, &local);
         Ok(local)
     }

@@ -8,7 +8,7 @@ use motiform_analysis::implicit_flow;
 use motiform_analysis::periodic::Flow;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::Method;
-use motiform_dynamics::{Equivariant, Outcome, Request, Semilinear, VectorField, Watch};
+use motiform_dynamics::{Equivariant, Integration, Outcome, Request, Semilinear, VectorField, Watch};
 
 /// What the flow over one part of an orbit gives.
 pub(super) struct Segment {
@@ -38,16 +38,47 @@ pub(super) fn segment(
     let mut state = Vec::new();
     variation.start(start, &mut state);
     let end = run(&variation, &state, span, dim, flow, watch)?;
+    Ok(read(neighbours, &end, dim))
+}
+
+/// The flow from each of the nodes, each over `span`, with all its derivatives. The integration goes on from one to the next with the step that it has: at
+/// the start of a vector that is 0 the first step would be far too short, and a dozen steps be spent on making it longer.
+pub(super) fn segments<'x>(
+    neighbours: &Neighbours,
+    nodes: impl Iterator<Item = &'x [f64]>,
+    span: f64,
+    flow: &Flow,
+    watch: &dyn Watch,
+) -> Result<Vec<Segment>, Failure> {
+    if matches!(flow.method, Method::Exponential(_)) {
+        return nodes.map(|node| stiff_segment(neighbours, node, span, watch)).collect();
+    }
+    let variation = Variation::new(neighbours);
+    let (mut state, mut going) = (Vec::new(), None);
+    let mut out = Vec::new();
+    for (count, node) in nodes.enumerate() {
+        variation.start(node, &mut state);
+        let mut orbit = match going.take() {
+            None => begun(&variation, &state, flow)?,
+            Some(orbit) => orbit,
+        };
+        if count > 0 {
+            orbit.restart(&state);
+        }
+        arrive(orbit.as_mut(), (count + 1) as f64 * span, (state.len(), node.len()), flow, watch)?;
+        out.push(read(neighbours, orbit.state(), node.len()));
+        going = Some(orbit);
+    }
+    Ok(out)
+}
+
+/// What the end of a variation says.
+fn read(neighbours: &Neighbours, end: &[f64], dim: usize) -> Segment {
     let (shape, vectors) = end.split_at(dim);
     let (tangents, by_parameter) = vectors.split_at(dim * dim);
     let mut slope = vec![0.0; dim];
     VectorField::<f64>::eval(neighbours.body.as_ref(), 0.0, shape, &mut slope);
-    Ok(Segment {
-        end: shape.to_vec(),
-        slope,
-        tangents: tangents.to_vec(),
-        by_parameter: by_parameter.to_vec(),
-    })
+    Segment { end: shape.to_vec(), slope, tangents: tangents.to_vec(), by_parameter: by_parameter.to_vec() }
 }
 
 /// The same by the implicit method, whose steps do not shorten with the stiff parts of vectors.
@@ -101,12 +132,30 @@ fn run<F: Semilinear<f64> + ?Sized>(
     flow: &Flow,
     watch: &dyn Watch,
 ) -> Result<Vec<f64>, Failure> {
-    let mut orbit = flow
-        .method
-        .shape_orbit(field, flow.control, 0.0, start)
+    let mut orbit = begun(field, start, flow)?;
+    arrive(orbit.as_mut(), span, (start.len(), watched), flow, watch)?;
+    Ok(orbit.state().to_vec())
+}
+
+fn begun<'b, F: Semilinear<f64> + ?Sized>(
+    field: &'b F,
+    start: &[f64],
+    flow: &Flow,
+) -> Result<Box<dyn Integration + 'b>, Failure> {
+    let orbit = flow.method.shape_orbit(field, flow.control, 0.0, start);
+    orbit.map_err(|error| Failure::from(motiform_analysis::Error::from(error)))
+}
+
+/// Goes on until the time `end`; of the `dim` entries the first `watched` may not grow without bound.
+fn arrive(
+    orbit: &mut (dyn Integration + '_),
+    end: f64,
+    (dim, watched): (usize, usize),
+    flow: &Flow,
+    watch: &dyn Watch,
+) -> Result<(), Failure> {
+    let request = Request { max_steps: flow.max_steps, watched, watch, ..Request::until(end, dim) };
+    let outcome = drive(orbit, &request, &mut ())
         .map_err(|error| Failure::from(motiform_analysis::Error::from(error)))?;
-    let request = Request { max_steps: flow.max_steps, watched, watch, ..Request::until(span, field.dim()) };
-    let outcome = drive(orbit.as_mut(), &request, &mut ())
-        .map_err(|error| Failure::from(motiform_analysis::Error::from(error)))?;
-    if outcome.is_complete() { Ok(orbit.state().to_vec()) } else { Err(failure(outcome)) }
+    if outcome.is_complete() { Ok(()) } else { Err(failure(outcome)) }
 }
