@@ -220,7 +220,7 @@ fn repeating(repeats: &Repeats) -> (Option<Regime>, String) {
     let seen = format!("repeats {periods:.1} times with a period of {period} (likeness {likeness:.2})");
     // full circles of the heading are no rotation of the motion
     let net = wrap(*rotation);
-    let circles = ((rotation - net) / std::f64::consts::TAU).round() as i64;
+    let circles = ((rotation - net) / TAU).round() as i64;
     let left = with_error(net, *rotation_error);
     let clear = net.abs() > CLEAR * rotation_error;
     match (*rotation_error < 0.5 * NO_TURN && net.abs() < NO_TURN, circles) {
@@ -230,8 +230,11 @@ fn repeating(repeats: &Repeats) -> (Option<Regime>, String) {
         (true, 0) => (Some(Regime::Zigzag), format!("{seen} without net rotation: {turn} rad each time")),
         (true, _) if !clear => {
             let why = format!(
-                "{seen}; the heading turns through {} full circles each time and is {left} rad off then: a circle that drifts",
-                circles.abs()
+                "{seen}; the heading turns through {} each time and is {left} rad off then: a circle that drifts",
+                match circles.abs() {
+                    1 => "one full circle".to_owned(),
+                    more => format!("{more} full circles"),
+                }
             );
             (Some(Regime::Circular), why)
         }
