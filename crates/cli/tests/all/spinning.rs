@@ -44,18 +44,3 @@ fn spinning_is_the_name_in_every_command() {
     let scan = folder.run(scan).expect(0).json().to_string();
     assert!(scan.contains("\"spinning\":3"), "{scan}");
 }
-
-/// The registry, from which the page, Python and the figures are built, has a name, a meaning and a mark of its own for each.
-#[test]
-fn the_registry_has_it_once() {
-    let registry = Folder::new().run("models --json").expect(0).json();
-    let regimes = registry["regimes"].as_array().unwrap();
-    let of = |key: &str| -> Vec<String> { regimes.iter().map(|one| one[key].to_string()).collect() };
-    assert_eq!(of("name").iter().filter(|name| *name == "\"spinning\"").count(), 1);
-    for key in ["name", "meaning", "glyph", "colour"] {
-        let mut all = of(key);
-        all.sort();
-        all.dedup();
-        assert_eq!(all.len(), regimes.len(), "{key}: {all:?}");
-    }
-}

@@ -114,3 +114,17 @@ fn the_end_of_a_long_transient_is_shown() {
     assert!((times[0] - (outcome.t_last() - 20.0)).abs() < 1e-6, "{} {outcome}", times[0]);
     assert!(times[times.len() - 1] - times[0] > 19.0);
 }
+
+/// The registry, from which the page, Python and the figures are built, has a name, a meaning and a mark of its own for each motion.
+#[test]
+fn every_motion_has_a_name_a_meaning_and_a_mark_of_its_own() {
+    let registry = motiform_lab::registry::registry().unwrap();
+    let regimes = registry["regimes"].as_array().unwrap();
+    assert_eq!(regimes.len(), 11);
+    for key in ["name", "meaning", "glyph", "colour"] {
+        let all: std::collections::BTreeSet<String> =
+            regimes.iter().map(|one| one[key].to_string()).collect();
+        assert_eq!(all.len(), regimes.len(), "{key}: {all:?}");
+    }
+    assert!(regimes.iter().any(|one| one["name"] == "spinning"));
+}
