@@ -23,7 +23,7 @@ const QUEUE: End = (1008, "too many messages are waiting");
 const TOO_LONG: End = (1009, "a message was too long");
 const NO_MESSAGE: End = (1009, "a message was too long, or does not belong to this protocol");
 const NO_THREADS: End = (1011, "the system provides no threads");
-const NO_PLACE: End = (1013, "too many pages are open: close one");
+pub(crate) const NO_PLACE: End = (1013, "too many pages are open: close one");
 
 /// Bytes of a message that is read to its end, although it may be too long to be taken: what stays unread makes the operating system
 /// reset the connection, and the page never sees the reason.
@@ -84,10 +84,10 @@ pub(crate) fn serve(stream: &TcpStream, rest: Vec<u8>, outbox: &Arc<Outbox>, gue
     });
 }
 
-/// Tells a page that there is no place for it.
-pub(crate) fn refuse(stream: &TcpStream) {
+/// Tells a page why there is no place for it.
+pub(crate) fn refuse(stream: &TcpStream, why: End) {
     let outbox = Outbox::default();
-    outbox.close(NO_PLACE);
+    outbox.close(why);
     write(stream, &outbox, Patience { silence: GOODBYE, ..Patience::default() });
     goodbye(&mut reader(stream, Vec::new(), GOODBYE), &outbox);
 }

@@ -26,11 +26,11 @@ pub(crate) fn head(stream: &mut Timed<'_>) -> Result<(Request, Vec<u8>), Option<
             Ok(read) if read > 0 => bytes.extend_from_slice(&part[..read]),
             _ => return Err(None),
         }
+        if bytes.len() > LONGEST_HEAD {
+            return Err(Some(StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE));
+        }
         match Request::try_parse(&bytes) {
             Ok(Some((length, request))) => return Ok((request, bytes.split_off(length))),
-            Ok(None) if bytes.len() > LONGEST_HEAD => {
-                return Err(Some(StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE));
-            }
             Ok(None) => {}
             Err(Error::Protocol(ProtocolError::WrongHttpMethod)) => {
                 return Err(Some(StatusCode::METHOD_NOT_ALLOWED));

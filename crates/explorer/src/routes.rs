@@ -91,9 +91,10 @@ pub(crate) fn opening(request: &Request, shared: &Shared) -> Result<Answer, Stat
 
 /// Serves a page whose WebSocket is open, if there is a place for it; `rest` was read together with its request.
 pub(crate) fn live(stream: &Arc<TcpStream>, rest: Vec<u8>, shared: &Shared) {
-    let Some(place) = shared.pages.enter(stream) else {
+    let place = match shared.pages.enter(stream) {
+        Ok(place) => place,
         // A refused upgrade looks to a page as if there were no server: it is told by a code instead.
-        return connection::refuse(stream);
+        Err(why) => return connection::refuse(stream, why),
     };
     let (greeting, catalogue) = (shared.greeting.clone(), shared.catalogue.clone());
     connection::serve(stream, rest, place.outbox(), Guest { greeting, catalogue, patience: shared.patience });

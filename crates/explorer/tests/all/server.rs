@@ -73,6 +73,30 @@ fn nobody_else_gets_anything() {
 }
 
 #[test]
+fn other_methods_and_long_heads_are_refused() {
+    let server = Running::anywhere();
+    let (token, host) = (server.token().to_owned(), server.host().to_owned());
+    let answer = |request: &str| {
+        let mut stream = TcpStream::connect(&host).unwrap();
+        stream.write_all(request.as_bytes()).unwrap();
+        let mut text = String::new();
+        stream.read_to_string(&mut text).unwrap();
+        text.split(' ').nth(1).unwrap().to_owned()
+    };
+    let head = |length: usize| {
+        let begin = format!("GET /{token}/icon.svg HTTP/1.1\r\nHost: {host}\r\nCookie: ");
+        let end = "\r\n\r\n";
+        format!("{begin}{}{end}", "x".repeat(length - begin.len() - end.len()))
+    };
+    assert_eq!((answer(&head(16 * 1024)), answer(&head(16 * 1024 + 1))), ("200".into(), "431".into()));
+    assert_eq!(
+        answer(&format!("POST /{token}/ HTTP/1.1\r\nHost: {host}\r\nContent-Length: 3\r\n\r\nabc")),
+        "405"
+    );
+    assert_eq!(answer("nonsense\r\n\r\n"), "400");
+}
+
+#[test]
 fn a_socket_is_opened_from_our_page_alone() {
     let server = Running::anywhere();
     let with = |name: &'static str, value: Option<&str>| {

@@ -3,6 +3,8 @@
 mod element;
 mod painter;
 mod shapes;
+#[cfg(test)]
+mod tests;
 
 use tiny_skia::Pixmap;
 
