@@ -1,6 +1,8 @@
 //! How often the intervals that `motiform statistics` prints hold the true value. The table of docs/statistics.md (some minutes):
 //!
 //!     cargo test --release -p motiform-measure --test all coverage::table -- --ignored --nocapture
+//!
+//! `MOTIONS=chaos,circles` before it: these columns only.
 
 use crate::motions::{Motion, Source, measured};
 use motiform_statistics::{Answer, Measured, Statistics, Track};
@@ -181,7 +183,10 @@ fn coverage(motions: &[Motion], sets: usize) -> (String, Vec<String>) {
 #[test]
 #[ignore = "some minutes"]
 fn table() {
-    let (table, failed) = coverage(&Motion::all(), SETS);
+    let asked = std::env::var("MOTIONS").unwrap_or_default();
+    let mut motions = Motion::all().to_vec();
+    motions.retain(|motion| asked.is_empty() || asked.split(',').any(|name| name == motion.name));
+    let (table, failed) = coverage(&motions, SETS);
     println!("{table}");
     assert!(failed.is_empty(), "{failed:#?}");
 }
