@@ -81,11 +81,13 @@ pub(crate) fn remembering(tracks: &Tracks, quantity: &Quantity, memory: usize) -
     let correlation = (0..products.sums.len()).map(|lag| products.ratio(lag)).collect();
     let window = curves.window(memory);
     let last = window.as_ref().map_or(curves.longest(), |window| *window);
-    let time = match window {
-        Ok(window) => products.time(&curves, window),
-        Err(reason) => Answer::Unknown { reason },
+    let coarse = too_coarse(&curves.integral(last), &curves.coarser(last)[0], tracks.dt());
+    let time = match (window, &coarse) {
+        (Err(reason), _) => Answer::Unknown { reason },
+        (Ok(_), Some(reason)) => Answer::unknown(reason),
+        (Ok(window), None) => products.time(&curves, window),
     };
-    let oscillation = oscillation(&curves, last);
+    let oscillation = oscillation(&curves, last, coarse);
     Ok(Autocorrelation { quantity, lags, correlation, variance, time, oscillation })
 }
 
@@ -135,19 +137,15 @@ impl Products {
 
     /// The integral of rho under a window.
     fn time(&self, curves: &Curves, window: usize) -> Answer {
-        let (all, coarser) = (curves.integrals(window), curves.coarser(window));
-        if let Some(reason) = too_coarse(&all[0], &coarser[0], self.dt) {
-            return Answer::Unknown { reason };
-        }
         let times = |integrals: Vec<Integral>, length: usize| -> Vec<f64> {
             let pairs = integrals.into_iter().zip(&curves.values);
             pairs.map(|(found, curve)| self.unbiased(length) * found.value / curve[0]).collect()
         };
         let longer = (2 * window).min(curves.longest());
         let estimate = Estimate {
-            values: times(all, window),
+            values: times(curves.integrals(window), window),
             longer: times(curves.integrals(longer), longer),
-            coarser: Some(times(coarser, window)),
+            coarser: Some(times(curves.coarser(window), window)),
         };
         estimate.answer()
     }

@@ -32,10 +32,10 @@ pub struct Oscillation {
 /// `None` where rho does not oscillate: it does not go below -0.05 by more than its error, or forgets within a radian (omega < lambda).
 ///
 /// Intervals: by leaving out groups and fitting again, on logarithms. Unknown are both where the damped cosine deviates by more than 10 %, and the decay where the amplitude
-/// does not fall to 1/e within these lags.
+/// does not fall to 1/e within these lags. Both are unknown for the reason `coarse`, if given: what is forgotten between samples is not seen, and without it the rest is another one.
 ///
 /// # Checked by  tests/all/oscillation.rs: chiral active Brownian motion, circle, exponential; coverage in crate measure
-pub(crate) fn oscillation(curves: &Curves, last: usize) -> Option<Oscillation> {
+pub(crate) fn oscillation(curves: &Curves, last: usize, coarse: Option<String>) -> Option<Oscillation> {
     let all = ratios(&curves.values[0], last);
     let lowest = lowest(&all)?;
     if all[lowest] + curves.ratio(lowest).half_width() > NEGATIVE {
@@ -48,7 +48,7 @@ pub(crate) fn oscillation(curves: &Curves, last: usize) -> Option<Oscillation> {
     let squares: f64 = all.iter().map(|rho| rho * rho).sum();
     let errors: f64 = (1..=last).map(|lag| 0.25 * curves.ratio(lag).half_width().powi(2)).sum();
     let deviation = (deviation(&all, &best).powi(2) - errors / squares).max(0.0).sqrt();
-    let [frequency, decay] = match refusal(&best, deviation) {
+    let [frequency, decay] = match coarse.or_else(|| refusal(&best, deviation)) {
         Some(reason) => [Answer::unknown(&reason), Answer::unknown(reason)],
         None => measured(curves, last, &best),
     };

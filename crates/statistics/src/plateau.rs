@@ -45,7 +45,12 @@ impl Curves {
         self.values.iter().map(|curve| integral(curve, length, self.dt)).collect()
     }
 
-    /// The same from every other sample.
+    /// The integral of all groups.
+    pub(crate) fn integral(&self, length: usize) -> Integral {
+        integral(&self.values[0], length, self.dt)
+    }
+
+    /// The integrals from every other sample.
     pub(crate) fn coarser(&self, length: usize) -> Vec<Integral> {
         let every_other = |curve: &Vec<f64>| curve.iter().step_by(2).copied().collect::<Vec<f64>>();
         self.values
