@@ -39,7 +39,7 @@ pub(crate) struct Products {
 
 /// C(tau) = <q(t) . q(t + tau)> over units and times, for numbers of the deviation from the mean over all of them; rho = C/C(0).
 ///
-/// Correlation time: `int_0^inf rho dtau` under a smooth lag window of length W, at least 10 int |rho|, lengthened until longer windows give the same; the change
+/// Correlation time: `int_0^inf rho dtau` under a smooth lag window of length W, at least 10 int |rho|, and half of what the slowest quantity of the body needs, lengthened until longer windows give the same; the change
 /// from W to 2 W is in the interval as far as it is more than chance. The sum over samples is that of an exponential at any dt, and of order dt^4 for others.
 /// For an oscillating rho it is the small rest of what cancels; then frequency and decay are given beside it. Unknown where rho does not decay within the lags,
 /// where samples are too coarse, and where it is within its error of 0 (it is a spectrum at frequency 0, so never below).
@@ -47,11 +47,30 @@ pub(crate) struct Products {
 /// # Errors    none for samples that [`Tracks`] accepts
 /// # Checked by  tests/all/correlation.rs: Ornstein-Uhlenbeck, chiral active Brownian, circle, direct sums; tests/all/coverage.rs
 pub fn autocorrelation(tracks: &Tracks, quantity: &Quantity) -> Result<Autocorrelation> {
+    remembering(tracks, quantity, memory(tracks)?)
+}
+
+/// Half of the longest of the shortest windows of all quantities that are forgotten within the lags, in samples: they are of one body, whose slow
+/// changes are in all of them, be it by a small part that each alone hardly shows (speed and shape of a chaotic body, and how far it goes).
+///
+/// # Errors    none for samples that [`Tracks`] accepts
+pub(crate) fn memory(tracks: &Tracks) -> Result<usize> {
+    let mut longest = 0;
+    for quantity in tracks.quantities() {
+        let products = Products::of(tracks, &quantity)?;
+        if !products.steady(tracks, &quantity) {
+            longest = longest.max(products.curves().least().unwrap_or(0));
+        }
+    }
+    Ok(longest / 2)
+}
+
+/// [`autocorrelation`], its window at least so many samples.
+pub(crate) fn remembering(tracks: &Tracks, quantity: &Quantity, memory: usize) -> Result<Autocorrelation> {
     let products = Products::of(tracks, quantity)?;
     let variance = products.sums[0].measured();
     let quantity = quantity.clone();
-    let steady = variance.value.is_nan() || variance.value <= 1e-24 * typical(tracks, &quantity);
-    if steady {
+    if products.steady(tracks, &quantity) {
         let time = Answer::unknown("it does not vary");
         let variance = Measured { value: 0.0, interval: None };
         let (lags, correlation, oscillation) = (Vec::new(), Vec::new(), None);
@@ -60,13 +79,15 @@ pub fn autocorrelation(tracks: &Tracks, quantity: &Quantity) -> Result<Autocorre
     let curves = products.curves();
     let lags = (0..products.sums.len()).map(|lag| lag as f64 * tracks.dt()).collect();
     let correlation = (0..products.sums.len()).map(|lag| products.ratio(lag)).collect();
-    let window = curves.window();
+    let window = curves.window(memory);
     let last = window.as_ref().map_or(curves.longest(), |window| *window);
-    let time = match window {
-        Ok(window) => products.time(&curves, window),
-        Err(reason) => Answer::Unknown { reason },
+    let coarse = too_coarse(&curves.integral(last), &curves.coarser(last)[0], tracks.dt());
+    let time = match (window, &coarse) {
+        (Err(reason), _) => Answer::Unknown { reason },
+        (Ok(_), Some(reason)) => Answer::unknown(reason),
+        (Ok(window), None) => products.time(&curves, window),
     };
-    let oscillation = oscillation(&curves, last);
+    let oscillation = oscillation(&curves, last, coarse);
     Ok(Autocorrelation { quantity, lags, correlation, variance, time, oscillation })
 }
 
@@ -92,6 +113,12 @@ impl Products {
         Ok(Self { sums, groups: tracks.groups(), dt: tracks.dt(), total, is_number })
     }
 
+    /// Whether it does not vary, but for round-off.
+    fn steady(&self, tracks: &Tracks, quantity: &Quantity) -> bool {
+        let variance = self.sums[0].mean(None);
+        variance.is_nan() || variance <= 1e-24 * typical(tracks, quantity)
+    }
+
     /// C of all groups and without each, up to the longest lag that all of them have.
     pub(crate) fn curves(&self) -> Curves {
         let curve = |left| self.sums.iter().map(|sums| sums.mean(left)).collect::<Vec<f64>>();
@@ -110,19 +137,15 @@ impl Products {
 
     /// The integral of rho under a window.
     fn time(&self, curves: &Curves, window: usize) -> Answer {
-        let (all, coarser) = (curves.integrals(window), curves.coarser(window));
-        if let Some(reason) = too_coarse(&all[0], &coarser[0], self.dt) {
-            return Answer::Unknown { reason };
-        }
         let times = |integrals: Vec<Integral>, length: usize| -> Vec<f64> {
             let pairs = integrals.into_iter().zip(&curves.values);
             pairs.map(|(found, curve)| self.unbiased(length) * found.value / curve[0]).collect()
         };
         let longer = (2 * window).min(curves.longest());
         let estimate = Estimate {
-            values: times(all, window),
+            values: times(curves.integrals(window), window),
             longer: times(curves.integrals(longer), longer),
-            coarser: Some(times(coarser, window)),
+            coarser: Some(times(curves.coarser(window), window)),
         };
         estimate.answer()
     }

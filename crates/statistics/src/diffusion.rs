@@ -1,6 +1,6 @@
 //! The diffusion coefficient, from velocities and from displacements.
 
-use crate::correlation::Products;
+use crate::correlation::{Products, memory};
 use crate::displacement::square_sums;
 use crate::jackknife::Sums;
 use crate::lag_window::Integral;
@@ -40,11 +40,16 @@ pub struct Diffusion {
 ///   (why the shortest lags that are diffusive are the best)
 /// # Checked by  tests/all/diffusion.rs: Ornstein-Uhlenbeck, active Brownian (chiral and not), circle, line; coverage in crate measure
 pub fn diffusion(tracks: &Tracks) -> Result<Diffusion> {
+    remembering(tracks, memory(tracks)?)
+}
+
+/// [`diffusion`], its window at least so many samples.
+pub(crate) fn remembering(tracks: &Tracks, memory: usize) -> Result<Diffusion> {
     let curves = Products::of(tracks, &Quantity::Velocity)?.curves();
     if curves.values[0][0] <= 0.0 {
         return Ok(Diffusion::unknown("nothing moved"));
     }
-    let window = match curves.window() {
+    let window = match curves.window(memory) {
         Ok(window) => window,
         Err(reason) => return Ok(Diffusion::unknown(reason)),
     };

@@ -1,8 +1,7 @@
 //! An oscillating correlation as what it is: a frequency and a decay.
 
 use crate::damped::{Damped, deviation, fit};
-use crate::jackknife::jackknife_ratio;
-use crate::plateau::Curves;
+use crate::plateau::{Curves, Estimate};
 use crate::{Answer, four_digits};
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -33,10 +32,10 @@ pub struct Oscillation {
 /// `None` where rho does not oscillate: it does not go below -0.05 by more than its error, or forgets within a radian (omega < lambda).
 ///
 /// Intervals: by leaving out groups and fitting again, on logarithms. Unknown are both where the damped cosine deviates by more than 10 %, and the decay where the amplitude
-/// does not fall to 1/e within these lags.
+/// does not fall to 1/e within these lags. Both are unknown for the reason `coarse`, if given: what is forgotten between samples is not seen, and without it the rest is another one.
 ///
 /// # Checked by  tests/all/oscillation.rs: chiral active Brownian motion, circle, exponential; coverage in crate measure
-pub(crate) fn oscillation(curves: &Curves, last: usize) -> Option<Oscillation> {
+pub(crate) fn oscillation(curves: &Curves, last: usize, coarse: Option<String>) -> Option<Oscillation> {
     let all = ratios(&curves.values[0], last);
     let lowest = lowest(&all)?;
     if all[lowest] + curves.ratio(lowest).half_width() > NEGATIVE {
@@ -49,7 +48,7 @@ pub(crate) fn oscillation(curves: &Curves, last: usize) -> Option<Oscillation> {
     let squares: f64 = all.iter().map(|rho| rho * rho).sum();
     let errors: f64 = (1..=last).map(|lag| 0.25 * curves.ratio(lag).half_width().powi(2)).sum();
     let deviation = (deviation(&all, &best).powi(2) - errors / squares).max(0.0).sqrt();
-    let [frequency, decay] = match refusal(&best, deviation) {
+    let [frequency, decay] = match coarse.or_else(|| refusal(&best, deviation)) {
         Some(reason) => [Answer::unknown(&reason), Answer::unknown(reason)],
         None => measured(curves, last, &best),
     };
@@ -71,13 +70,16 @@ fn refusal(best: &Damped, deviation: f64) -> Option<String> {
     (best.omega * SHORTEST > TAU).then(|| coarse.to_owned())
 }
 
-/// Frequency and decay with their intervals.
+/// Frequency and decay with their intervals: what every other sample changes is in them as far as it is more than chance (as in [`Estimate`]).
 fn measured(curves: &Curves, last: usize, best: &Damped) -> [Answer; 2] {
-    let without: Vec<Option<Damped>> =
-        curves.values[1..].iter().map(|curve| fit(&ratios(curve, last), &[*best])).collect();
+    let fine = fits(curves, last, best, 1);
+    let coarse = fits(curves, last, best, 2);
     let of = |value: &dyn Fn(&Damped) -> f64| {
-        let values: Vec<f64> = without.iter().map(|found| found.as_ref().map_or(f64::NAN, value)).collect();
-        Answer::Known(jackknife_ratio(value(best), &values))
+        let values = |found: &[Option<Damped>]| -> Vec<f64> {
+            found.iter().map(|found| found.as_ref().map_or(f64::NAN, value)).collect()
+        };
+        let (values, longer) = (values(&fine), values(&coarse));
+        Estimate { values, longer, coarser: None }.answer()
     };
     let frequency = of(&|found| found.omega / (TAU * curves.dt));
     if best.lambda * last as f64 > 1.0 {
@@ -86,6 +88,18 @@ fn measured(curves: &Curves, last: usize, best: &Damped) -> [Answer; 2] {
     let lags = four_digits(last as f64 * curves.dt);
     let reason = format!("not reached: the oscillation goes on at the longest lag {lags}; record longer");
     [frequency, Answer::unknown(reason)]
+}
+
+/// The nearest damped cosine of all groups and without each, from every `step`-th sample; per sample of the first one.
+fn fits(curves: &Curves, last: usize, best: &Damped, step: usize) -> Vec<Option<Damped>> {
+    let times = step as f64;
+    let start = Damped { lambda: times * best.lambda, omega: times * best.omega, ..*best };
+    let of = |curve: &Vec<f64>| {
+        let every: Vec<f64> = ratios(curve, last).into_iter().step_by(step).collect();
+        let found = fit(&every, &[start])?;
+        Some(Damped { lambda: found.lambda / times, omega: found.omega / times, ..found })
+    };
+    curves.values.iter().map(of).collect()
 }
 
 /// The lag of the lowest value.

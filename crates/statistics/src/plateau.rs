@@ -45,7 +45,12 @@ impl Curves {
         self.values.iter().map(|curve| integral(curve, length, self.dt)).collect()
     }
 
-    /// The same from every other sample.
+    /// The integral of all groups.
+    pub(crate) fn integral(&self, length: usize) -> Integral {
+        integral(&self.values[0], length, self.dt)
+    }
+
+    /// The integrals from every other sample.
     pub(crate) fn coarser(&self, length: usize) -> Vec<Integral> {
         let every_other = |curve: &Vec<f64>| curve.iter().step_by(2).copied().collect::<Vec<f64>>();
         self.values
@@ -62,7 +67,7 @@ impl Curves {
     }
 
     /// The shortest window W with W >= 10 int_0^W |rho|; what |rho| has by chance alone does not count. `None` if there is none within the lags.
-    fn least(&self) -> Option<usize> {
+    pub(crate) fn least(&self) -> Option<usize> {
         let mut sum = 0.5;
         for lag in 1..=self.longest() {
             let rho = self.ratio(lag);
@@ -75,14 +80,14 @@ impl Curves {
         None
     }
 
-    /// The window: the shortest one from [`Curves::least`] on whose integral agrees with those of all longer ones.
+    /// The window: the shortest one from [`Curves::least`] and `memory` on whose integral agrees with those of all longer ones.
     ///
     /// Its length follows the decay of |rho|, which is known well, and not the noise of the integral. A slow part of small size, which hardly adds to |rho|,
     /// shows as a change of the integral with the length of the window: then the window becomes longer until nothing changes beyond 1.5 half widths.
     ///
     /// Source: Sokal (1997), in Functional Integration, NATO ASI 361 (self-consistent window); Lepski (1991), Theory Probab. Appl. 35, 454 (comparison
     /// with all longer ones).
-    pub(crate) fn window(&self) -> Result<usize, String> {
+    pub(crate) fn window(&self, memory: usize) -> Result<usize, String> {
         let longest = self.longest();
         let not_decayed = || {
             let longest = four_digits(longest as f64 * self.dt);
@@ -90,7 +95,7 @@ impl Curves {
                 "not reached: the correlation does not decay within the longest lag {longest}; record longer"
             )
         };
-        let least = self.least().ok_or_else(not_decayed)?;
+        let least = self.least().ok_or_else(not_decayed)?.max(memory).min(longest);
         let lengths = lengths(least, longest);
         let values: Vec<Vec<f64>> = lengths
             .iter()
@@ -130,13 +135,13 @@ pub(crate) fn difference(one: &[f64], other: &[f64]) -> Measured {
     jackknife(differences[0], &differences[1..])
 }
 
-/// The positive value of an integral with what its window and its sampling leave out, each of all groups and without each.
+/// A positive value with what its window and its sampling leave out, each of all groups and without each.
 pub(crate) struct Estimate {
     /// The values.
     pub(crate) values: Vec<f64>,
-    /// Over twice the window, where the window may lack something.
+    /// The same over twice the window, or from every other sample: a change is a bias.
     pub(crate) longer: Vec<f64>,
-    /// From every other sample, where the sampling may matter.
+    /// From every other sample, where the change is many times the error.
     pub(crate) coarser: Option<Vec<f64>>,
 }
 
@@ -145,7 +150,7 @@ impl Estimate {
     ///
     /// half^2 = jackknife^2 + t^2 max(0, c^2 - se(c)^2) + max(0, d^2 - se(d)^2),   t about 2,
     ///
-    /// c the change to twice the window, d that to twice the sampling interval (which is 15 times the error where the correlation is smooth or has a cusp at lag 0).
+    /// c the change to `longer`, d that to `coarser`, twice the sampling interval (which is 15 times the error where the correlation is smooth or has a cusp at lag 0).
     /// Unknown where a value is not above 0: then it is within its error of 0.
     pub(crate) fn answer(&self) -> Answer {
         let logarithms = |values: &[f64]| values.iter().map(|&x| libm::log(x)).collect::<Vec<f64>>();

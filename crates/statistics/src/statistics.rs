@@ -1,11 +1,12 @@
 //! All statistics of a set of tracks.
 
+use crate::correlation::{self, memory};
+use crate::diffusion;
 use crate::jackknife::Sums;
 use crate::{
     Answer, Autocorrelation, Diffusion, Errors, Histogram, MeanSquare, Measured, Passage, PowerSpectrum,
-    Quantity, Residence, Result, Seen, Track, Tracks, Turning, Walk, autocorrelation, diffusion,
-    first_passages, histogram, local_exponent, mean_square, persistent_walk, power_spectrum, radii,
-    residence, turning_angles,
+    Quantity, Residence, Result, Seen, Track, Tracks, Turning, Walk, first_passages, histogram,
+    local_exponent, mean_square, persistent_walk, power_spectrum, radii, residence, turning_angles,
 };
 
 /// Bins of the speed.
@@ -68,8 +69,11 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
     let displacement = mean_square(tracks);
     let radii = discs(settings, &displacement)?;
     let quantities = tracks.quantities();
-    let autocorrelations =
-        quantities.iter().map(|quantity| autocorrelation(tracks, quantity)).collect::<Result<Vec<_>>>()?;
+    let memory = memory(tracks)?;
+    let autocorrelations = quantities
+        .iter()
+        .map(|quantity| correlation::remembering(tracks, quantity, memory))
+        .collect::<Result<Vec<_>>>()?;
     let varying = autocorrelations.iter().filter(|found| !found.lags.is_empty()).map(|found| &found.quantity);
     let spectra = varying
         .filter(|quantity| !matches!(quantity, Quantity::Heading)) // it may have gaps
@@ -78,7 +82,7 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
     let lengths = || tracks.bodies().iter().map(|track| track.position.len());
     let [mean_speed, square] = [1, 2].map(|power| moment(tracks, power));
     let rms_speed = square.map(|x| x.max(0.0).sqrt());
-    let diffusion = diffusion(tracks)?;
+    let diffusion = diffusion::remembering(tracks, memory)?;
     let seen =
         Seen { speed: &rms_speed, diffusion: &diffusion.displacements, time: &autocorrelations[0].time };
     Ok(Statistics {

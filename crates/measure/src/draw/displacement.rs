@@ -101,7 +101,7 @@ fn lines(measurement: &Measurement, points: &[BandPoint]) -> Vec<ExpectedLine> {
     lines
 }
 
-/// How far the line goes below the lags it was fitted to, as a factor.
+/// How far the line goes below the lags it was fitted to, as a factor, while its intercept is less than half of it.
 const BEFORE: f64 = 8.0;
 
 /// The straight line of the late displacements, with its intercept: that is what passes through the points.
@@ -110,7 +110,7 @@ fn diffusive(measurement: &Measurement, (first, last): (f64, f64)) -> Option<Exp
     let ([intercept, slope], [lag, _]) = (found.line?, found.lags?);
     found.displacements.known()?;
     let points = logarithmic(((lag / BEFORE).clamp(first, last), last));
-    let points = points.into_iter().map(|t| [t, intercept + slope * t]).filter(|point| point[1] > 0.0);
+    let points = points.into_iter().map(|t| [t, intercept + slope * t]).filter(|[t, y]| *y > 0.5 * slope * t);
     let label = format!(
         "diffusive: 4*D*(*τ* {} {})",
         if intercept < 0.0 { "−" } else { "+" },

@@ -80,7 +80,7 @@ impl Motion {
             ),
             active("chiral", Source::Active(0.1, 0.3, 0.0), 0.5, 600, [2.0, 5.0]),
             active("active Brownian", Source::Active(0.5, 0.0, 0.0), 0.25, 400, [1.0, 4.0]),
-            active("active Brownian, noise", Source::Active(0.5, 0.0, 0.05), 0.25, 400, [1.0, 4.0]),
+            active("noisy active Brownian", Source::Active(0.5, 0.0, 0.05), 0.25, 400, [1.0, 4.0]),
         ]
     }
 
