@@ -10,7 +10,7 @@ use motiform_dynamics::Watch;
 pub(super) const TIGHT: f64 = 1e-11;
 
 /// Part of a step that solutions keep from a place where the equations are singular: what the branch bends on it is below [`TIGHT`].
-const APART: f64 = 1e-4;
+pub(super) const APART: f64 = 1e-4;
 
 /// The step from `old` to `new`, and the place before it.
 pub(super) struct Step<'s, L> {

@@ -17,6 +17,9 @@ use motiform_dynamics::Watch;
 /// Least part of a shape by which a motion differs from the start of a branch.
 const SAME: f64 = 1e-6;
 
+/// A growth that is nowhere larger than this, in its errors, between a point where it seems to pass 0 and a point of more symmetry, where it vanishes, is not told from 0.
+const CLEAR: f64 = 100.0;
+
 /// Where a branch ends on a step, and why.
 pub(super) type Limit<L> = Option<(Place<L>, End)>;
 
@@ -109,8 +112,14 @@ impl<P: Problem> Tracer<P> {
         let (mut at, _) = changes.found.swap_remove(place);
         at.x = x;
         changes.found.retain(|(other, _)| {
-            let before = at.arclength - other.arclength > 1e-4 * length;
-            before && self.problem.gains(&other.x, &other.local, 10.0 * GAINED).is_none()
+            let apart = at.arclength - other.arclength;
+            let flat = other.certificate.is_some_and(|shown| {
+                shown.test == TestFunction::Growth
+                    && shown.transversality.abs() * apart <= CLEAR * self.problem.noise(&other.levels)
+            });
+            apart > 1e-4 * length
+                && !flat
+                && self.problem.gains(&other.x, &other.local, 10.0 * GAINED).is_none()
         });
         let end = End::Meets { parameter: at.parameter(), gains };
         // it is a point of the motion with more symmetry, and this motion has the time of those that begin there

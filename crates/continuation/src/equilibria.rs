@@ -81,8 +81,8 @@ pub(super) fn linearisation(body: &dyn Equivariant, shape: &[f64], omega: f64) -
 /// Error of solutions.
 const SOLVED: f64 = 1e-11;
 
-/// Error of eigenvalues, as part of their size.
-const ROUNDING: f64 = 1e-14;
+/// Error of eigenvalues, as part of their size: that of the solutions, as rates change by their own size over a shape's.
+const UNSURE: f64 = SOLVED;
 
 impl Equations for Equilibria<'_> {
     type Local = Local;
@@ -138,7 +138,7 @@ impl Problem for Equilibria<'_> {
         let mut sizes: Vec<f64> =
             levels.iter().flatten().map(|level| level.growth.hypot(level.angle)).collect();
         sizes.sort_by(f64::total_cmp);
-        ROUNDING * sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
+        UNSURE * sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
     }
 
     fn classify(&self, x: &[f64], critical: Level, class: usize) -> Special {

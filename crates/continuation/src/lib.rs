@@ -21,6 +21,7 @@
 
 mod beginning;
 mod between;
+mod brackets;
 mod branch;
 mod branch_point;
 mod certificate;
@@ -54,6 +55,7 @@ mod reduced_maps;
 mod section;
 mod settings;
 mod shooting;
+mod smooth;
 mod special;
 mod steps;
 mod switch;

@@ -1,11 +1,10 @@
 //! Special points between two points of a branch.
 
-use super::between::{Step, TIGHT, between};
+use super::between::{APART, Step, TIGHT, between};
+use super::brackets::{BESIDE, Bracket, Test, brackets};
 use super::branch_point::branch_point;
 use super::certificate::{Certificate, Passing, TestFunction};
 use super::correct::{crossing, product, scaled, seen};
-use super::dip::dip;
-use super::levels::Level;
 use super::normal_form::{NormalForm, asked};
 use super::place::Place;
 use super::point::Obstruction;
@@ -27,77 +26,69 @@ pub(super) struct Changes<L> {
 /// The watch stopped the computation.
 pub(super) struct Stopped;
 
-/// What vanishes at a special point.
-#[derive(Clone, Copy)]
-pub(super) enum Test {
-    /// `dp/ds`.
-    Slope,
-    /// The growth of the level of this class and rank. Ranked by size they are continuous along the branch.
-    Level(usize, usize),
-}
+/// How often what lies between special points is looked at.
+const ROUNDS: usize = 6;
 
-impl Test {
-    pub(super) fn of<L>(self, place: &Place<L>) -> f64 {
-        self.value(&place.tangent, &place.levels)
-    }
-
-    pub(super) fn value(self, tangent: &[f64], levels: &[Vec<Level>]) -> f64 {
-        match self {
-            Self::Slope => tangent.last().copied().unwrap_or(f64::NAN),
-            Self::Level(class, rank) => {
-                levels.get(class).and_then(|levels| levels.get(rank)).map_or(f64::NAN, |level| level.growth)
-            }
-        }
-    }
-}
-
-/// A test changes its sign between two lengths, with these values.
-struct Bracket {
-    test: Test,
-    low: (f64, f64),
-    high: (f64, f64),
-}
-
-/// The special points on a step.
+/// The special points on a step: until as many deviations grow before each of them as beyond the one before.
 pub(super) fn locate<P: Problem>(
     problem: &P,
     step: &Step<'_, P::Local>,
     watch: &dyn Watch,
 ) -> Result<Changes<P::Local>, Stopped> {
     let mut changes = Changes { found: Vec::new(), missed: Vec::new() };
-    for bracket in brackets(problem, step, watch) {
-        match solve(problem, step, &bracket, watch) {
-            Ok(at) => {
-                let crossing = nearly_crosses(problem, &at, bracket.test)
-                    .then(|| at_crossing(problem, step, &at, watch))
-                    .flatten();
-                let at = crossing.unwrap_or(at);
-                let special = kind(problem, &at, bracket.test);
-                let mut at =
-                    if special == Special::BranchPoint { solved(problem, step, at, watch) } else { at };
-                if special == Special::BranchPoint && !matches!(bracket.test, Test::Slope) {
-                    keep_course(problem, step, &mut at);
-                }
-                let certificate = certified(problem, step, bracket.test, &at, watch).map(|certificate| {
-                    Certificate { normal_form: normal_form(problem, &at.x, special), ..certificate }
-                });
-                let at = Place { certificate, ..at };
-                if !is_known(&changes.found, &at, special, step.length) {
-                    changes.found.push((at, special));
-                }
-            }
-            Err(Failure::Stopped) => return Err(Stopped),
-            Err(Failure::Obstructed(_)) => {
-                let seen = kind(problem, step.new, bracket.test).name();
-                if !changes.missed.contains(&seen) {
-                    changes.missed.push(seen); // both of a complex pair are one change
-                }
-            }
+    for round in 0..ROUNDS {
+        let known: Vec<f64> = changes.found.iter().map(|(at, _)| at.arclength - step.old.arclength).collect();
+        if round > 0 && known.is_empty() {
+            break;
+        }
+        for bracket in brackets(problem, step, &known, watch) {
+            add(problem, step, &bracket, &mut changes, watch)?;
+        }
+        changes.found.sort_by(|a, b| a.0.arclength.total_cmp(&b.0.arclength));
+        if changes.found.len() == known.len() || !changes.missed.is_empty() {
+            break;
         }
     }
-    changes.found.sort_by(|a, b| a.0.arclength.total_cmp(&b.0.arclength));
     without_folds(&mut changes.found);
     Ok(changes)
+}
+
+/// The special point at which a test changes its sign, unless it is known.
+fn add<P: Problem>(
+    problem: &P,
+    step: &Step<'_, P::Local>,
+    bracket: &Bracket,
+    changes: &mut Changes<P::Local>,
+    watch: &dyn Watch,
+) -> Result<(), Stopped> {
+    let at = match solve(problem, step, bracket, watch) {
+        Ok(at) => at,
+        Err(Failure::Stopped) => return Err(Stopped),
+        Err(Failure::Obstructed(_)) => {
+            let seen = kind(problem, step.new, bracket.test).name();
+            if !changes.missed.contains(&seen) {
+                changes.missed.push(seen); // both of a complex pair are one change
+            }
+            return Ok(());
+        }
+    };
+    let crossing =
+        nearly_crosses(problem, &at, bracket.test).then(|| at_crossing(problem, step, &at, watch)).flatten();
+    let at = crossing.unwrap_or(at);
+    let special = kind(problem, &at, bracket.test);
+    let mut at = if special == Special::BranchPoint { solved(problem, step, at, watch) } else { at };
+    if special == Special::BranchPoint && !matches!(bracket.test, Test::Slope) {
+        keep_course(problem, step, &mut at);
+    }
+    let certificate = certified(problem, step, bracket.test, &at, watch).map(|certificate| Certificate {
+        normal_form: normal_form(problem, &at.x, special),
+        ..certificate
+    });
+    let at = Place { certificate, ..at };
+    if !is_known(&changes.found, &at, special, step.length) {
+        changes.found.push((at, special));
+    }
+    Ok(())
 }
 
 /// Gives a point where branches cross the tangent of this one, which the equations there do not tell from that of the other: the mean of those at
@@ -145,9 +136,6 @@ fn solved<P: Problem>(
     };
     better().unwrap_or(at)
 }
-
-/// Part of a step at which a solution beside a special point is looked at.
-const BESIDE: f64 = 1e-3;
 
 /// What shows that a test vanishes at a place.
 fn certified<P: Problem>(
@@ -245,45 +233,22 @@ fn is_known<L>(found: &[(Place<L>, Special)], at: &Place<L>, special: Special, l
     })
 }
 
-/// What changes its sign on the way; the slope first. Where a test seems to change it twice, solutions between decide.
-fn brackets<P: Problem>(problem: &P, step: &Step<'_, P::Local>, watch: &dyn Watch) -> Vec<Bracket> {
-    let ranks = |(class, (a, b)): (usize, (&Vec<_>, &Vec<_>))| {
-        let ranks = if a.len() == b.len() { a.len() } else { 0 };
-        (0..ranks).map(move |rank| Test::Level(class, rank)).collect::<Vec<Test>>()
-    };
-    let levels = step.old.levels.iter().zip(&step.new.levels).enumerate().flat_map(ranks);
-    let noise = problem.noise(&step.old.levels).max(problem.noise(&step.new.levels));
-    let unclear = |test: Test| {
-        matches!(test, Test::Level(..))
-            && [step.old, step.new].iter().all(|place| test.of(place).abs() <= noise)
-    };
-    let mut out = Vec::new();
-    for test in std::iter::once(Test::Slope).chain(levels) {
-        let (low, high) = ((0.0, test.of(step.old)), (step.length, test.of(step.new)));
-        if unclear(test) {
-            continue; // towards a point of more symmetry levels vanish as powers of the distance, and their signs are those of rounding
-        }
-        if low.1 * high.1 < 0.0 {
-            out.push(Bracket { test, low, high });
-        } else if let Some(middle) = dip(problem, step, test, watch) {
-            out.push(Bracket { test, low, high: middle });
-            out.push(Bracket { test, low: middle, high });
-        }
-    }
-    if is_level(problem, step) && out.iter().all(|bracket| matches!(bracket.test, Test::Slope)) {
-        out.clear(); // where a branch turns back a level vanishes as well
-    }
-    out
-}
+/// Least part of the values at both ends of a bracket that is not 0.
+const VANISHING: f64 = 0.1;
 
-/// Slopes below so many times the accuracy of the solutions may be noise: towards a connection the parameter converges and the branch goes on.
-const LEVEL: f64 = 10.0;
-
-/// Whether the parameter hardly changes over a step.
-fn is_level<P: Problem>(problem: &P, step: &Step<'_, P::Local>) -> bool {
-    let slope = step.old.slope().abs().max(step.new.slope().abs());
-    let width = problem.weights(&step.old.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
-    slope < LEVEL * problem.accuracy() * width
+/// Whether a test is small on both sides of `s`. Over a gap between two branches it changes its sign without passing 0. (Next to a crossing the slope is that of
+/// round-off: then the sides tell.)
+fn vanishes_beside<P: Problem>(
+    problem: &P,
+    step: &Step<'_, P::Local>,
+    (test, s, scale): (Test, f64, f64),
+    watch: &dyn Watch,
+) -> bool {
+    let small = |side: f64| {
+        let at = between(problem, step, s + side * APART * step.length, watch);
+        at.is_ok_and(|at| test.of(&at).abs() <= VANISHING * scale)
+    };
+    small(-1.0) && small(1.0)
 }
 
 /// The solution at which the test vanishes, by false position (the Illinois variant): every iterate is a solution of the equations.
@@ -300,8 +265,13 @@ fn solve<P: Problem>(
         let s = if count % 12 == 0 { 0.5 * (low.0 + high.0) } else { false_position };
         let at = between(problem, step, s, watch)?;
         let value = test.of(&at);
-        if value.abs() <= 1e-12 * scale || (s - last).abs() <= 1e-10 * step.length {
+        if value.abs() <= 1e-12 * scale {
             return Ok(at);
+        }
+        if (s - last).abs() <= 1e-10 * step.length {
+            let vanishes =
+                value.abs() <= VANISHING * scale || vanishes_beside(problem, step, (test, s, scale), watch);
+            return if vanishes { Ok(at) } else { Err(Failure::Obstructed(Obstruction::Newton)) };
         }
         last = s;
         if value * low.1 > 0.0 {

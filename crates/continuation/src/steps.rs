@@ -11,6 +11,18 @@ use motiform_dynamics::Watch;
 /// the step.
 const CORRECTION: f64 = 1e-3;
 
+/// A step is given up where the first correction is longer than this part of it: what is found there may belong to another branch that comes near.
+const ASTRAY: f64 = 0.1;
+
+/// Part of the size of levels below which a real one says that another branch may be near.
+const NEAR: f64 = 0.1;
+
+/// Solutions that differ by more than this, in tolerances of Newton's method, are of different branches.
+const SAME: f64 = 30.0;
+
+/// Steps as short as this, in shortest ones, are taken as they are.
+const FINE: f64 = 100.0;
+
 /// A step that fails is tried again with this part of its length. No power of 1.5 times a power of it is 1, so that growing and
 /// shrinking steps do not come back to the same place.
 const SHORTER: f64 = 0.35;
@@ -47,11 +59,62 @@ impl<P: Problem> Tracer<P> {
         let guess = self.guess(length, &weights);
         let found = correct(&self.problem, guess, &row, self.settings.tolerance, watch)?;
         let first = found.first;
+        if first > ASTRAY * length {
+            return Err(Failure::Obstructed(Obstruction::Newton));
+        }
         let new = place(&self.problem, found, &row, old.arclength + length)?;
         if product(&weights, &old.tangent, &new.tangent) < STRAIGHT {
             return Err(Failure::Obstructed(Obstruction::Newton));
         }
+        if self.is_near_crossing(&new)
+            && length > FINE * self.settings.smallest_step
+            && !self.leads_back(&new, length, watch)
+        {
+            return Err(Failure::Obstructed(Obstruction::Newton));
+        }
         Ok((new, first))
+    }
+
+    /// Whether a real level of deviations that keep the symmetry is so small that another branch may be near. (Of equilibria: long orbits are not known well enough for
+    /// the step back.)
+    fn is_near_crossing(&self, new: &Place<P::Local>) -> bool {
+        if self.problem.time().is_some() {
+            return false;
+        }
+        let near = |place: &Place<P::Local>| {
+            let Some(levels) = place.levels.first() else { return false };
+            let mut sizes: Vec<f64> =
+                levels.iter().map(|level| libm::hypot(level.growth, level.angle)).collect();
+            sizes.sort_by(f64::total_cmp);
+            let typical = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+            levels.iter().any(|level| level.angle == 0.0 && level.growth.abs() < NEAR * typical)
+        };
+        near(&self.place) || near(new)
+    }
+
+    /// Whether the step back from `new` finds the present place. Where branches cross at a small angle, a step may lead from one to the other, whose directions
+    /// are the same to within the correction of a step; the step back then stays on the other one.
+    fn leads_back(&self, new: &Place<P::Local>, length: f64, watch: &dyn Watch) -> bool {
+        let old = &self.place;
+        let weights = self.problem.weights(&old.x);
+        let row = normal(&new.tangent, &weights);
+        let turned = product(&weights, &old.tangent, &new.tangent);
+        let mut guess: Vec<f64> = new
+            .x
+            .iter()
+            .zip(new.tangent.iter().zip(&old.tangent))
+            .map(|(x, (t, before))| x - length * t + 0.5 * length * (t - before / turned))
+            .collect();
+        let apart = |x: &[f64]| old.x.iter().zip(x).map(|(a, b)| a - b).collect::<Vec<f64>>();
+        let along = product(&weights, &new.tangent, &apart(&guess));
+        guess.iter_mut().zip(&new.tangent).for_each(|(x, t)| *x += along * t);
+        match correct(&self.problem, guess, &row, self.settings.tolerance, watch) {
+            Ok(found) => {
+                let off = apart(&found.x);
+                product(&weights, &off, &off).sqrt() <= SAME * self.settings.tolerance
+            }
+            Err(_) => true,
+        }
     }
 
     /// The place expected after `length`: the tangent turns on as it did on the last step. (A cubic through the last two places would

@@ -16,9 +16,6 @@ use std::collections::VecDeque;
 /// Newton's method has converged with a step shorter than this, if nothing else is asked for.
 pub(super) const TOLERANCE: f64 = 1e-9;
 
-/// Steps are halved so often where a change cannot be located.
-const HALVINGS: usize = 4;
-
 /// Where a step leads, its length, and what changes on it.
 type Examined<L> = (Place<L>, f64, Changes<L>);
 
@@ -36,8 +33,6 @@ pub(super) struct Tracer<P: Problem> {
     pub(super) place: Place<P::Local>,
     pub(super) before: Option<Before>,
     pub(super) step: f64,
-    /// How often in a row steps were halved because a change could not be located.
-    halvings: usize,
     pub(super) first: First,
     queue: VecDeque<Point>,
     pub(super) count: usize,
@@ -91,7 +86,6 @@ impl<P: Problem> Tracer<P> {
         let motion = problem.motion(&place.x, &place.local, &place.levels);
         let mut tracer = Self {
             first: First { parameter: place.parameter(), slope: place.slope(), motion },
-            halvings: 0,
             problem,
             settings: *settings,
             place,
@@ -187,7 +181,8 @@ impl<P: Problem> Tracer<P> {
         last.map_or_else(|| self.ends(), Err)
     }
 
-    /// What changes on the way to `new`. Where a change cannot be located, shorter steps are tried.
+    /// What changes on the way to `new`. Where a change cannot be located, shorter steps are tried: a step over a gap between two branches seems to
+    /// be one of a branch, while shorter ones fail before it or turn with the branch.
     fn examine(
         &mut self,
         mut new: Place<P::Local>,
@@ -200,15 +195,13 @@ impl<P: Problem> Tracer<P> {
             locate(&tracer.problem, &step, watch).map_err(|_| End::Stopped)
         };
         let mut found = changes(self, &new, length)?;
-        let mut halved = false;
-        while !found.missed.is_empty() && self.halvings < HALVINGS {
-            self.halvings += 1;
-            let Ok((nearer, _)) = self.attempt(0.5 * length, watch) else { break };
-            (new, length, halved, *last) = (nearer, 0.5 * length, true, None);
-            found = changes(self, &new, length)?;
-        }
-        if !halved {
-            self.halvings = 0;
+        let mut shorter = 0.5 * length;
+        while !found.missed.is_empty() && shorter > self.settings.smallest_step {
+            if let Ok((nearer, _)) = self.attempt(shorter, watch) {
+                (new, length, *last) = (nearer, shorter, None);
+                found = changes(self, &new, length)?;
+            }
+            shorter *= 0.5;
         }
         Ok((new, length, found))
     }

@@ -219,9 +219,10 @@ impl<'t> Walk<'t> {
             let turns = slope(s - 0.05) * slope(s + 0.05) < 0.0;
             return (!turns).then_some(("branch-point", false));
         }
-        let (_, all) = self.steady.equations(&at.x, &a.x);
-        let values = all.singular_values();
-        let crosses = values.min() < 1e-6 * values.max();
+        // the least part of the equations vanishes in proportion to the distance from a crossing, and does not near a fold
+        let least = |at: &Place| self.steady.equations(&at.x, &a.x).1.singular_values().min();
+        let beside = self.at(a, b, s + 0.5).map_or(f64::NAN, |beside| least(&beside));
+        let crosses = least(at) < 0.2 * beside;
         Some((if crosses { "branch-point" } else { "fold" }, false))
     }
 }

@@ -4,8 +4,7 @@
 //! from random states, walks along their curves in small steps of one length, and halves the steps on which the number of
 //! growing deviations changes. `MOTIFORM_RANDOM_TEXTS=200` asks for so many texts, `MOTIFORM_RANDOM_FIRST=100` for those from that number on.
 //!
-//! Of the first 160 texts the program disagrees on six ([`STILL_WRONG`]), of 300 on some twenty: on some of them two branches come so near that a step of the
-//! default length leads from one to the other, and `largest_step: 0.001` mends it.
+//! Of the first 320 texts the program disagrees on one ([`STILL_WRONG`]).
 
 mod compare;
 mod curve;
@@ -21,12 +20,13 @@ use text::text;
 /// Texts that are tried without being asked for more.
 const TEXTS: u64 = 40;
 
-/// Texts among the first 160 on which the program is wrong.
-const STILL_WRONG: [u64; 6] = [17, 58, 67, 97, 123, 147];
+/// Texts among the first 320 on which the program is wrong: two branches whose difference is some 1e-5 cross twice, and steps lead from one to the other.
+const STILL_WRONG: [u64; 1] = [123];
 
 /// Texts on which the program was wrong: an exactly singular crossing was left unresolved (29); a pitchfork was listed twice where a shape gains five axes (120, 140,
-/// 195); two Hopf bifurcations within one step were missed (146, 166); a crossing at a small angle was 4e-5 off (158).
-const ONCE_WRONG: [u64; 7] = [29, 120, 140, 146, 158, 166, 195];
+/// 195) or beside the end of a branch (295); two Hopf bifurcations within one step were missed (146, 166), or three that change places (296); a crossing at a small angle was
+/// 4e-5 off (158); steps led over a gap to another branch (17, 58, 147); two steady changes (97), or a steady one and a Hopf bifurcation (67), within one step were missed.
+const ONCE_WRONG: [u64; 14] = [17, 29, 58, 67, 97, 120, 140, 146, 147, 158, 166, 195, 295, 296];
 
 fn seeds(usual: std::ops::Range<u64>) -> std::ops::Range<u64> {
     let number = |name: &str| std::env::var(name).ok().and_then(|value| value.parse::<u64>().ok());

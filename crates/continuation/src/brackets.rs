@@ -1,0 +1,196 @@
+//! Where tests change their signs on a step.
+
+use super::between::{Step, between};
+use super::dip::{Look, dip};
+use super::levels::Level;
+use super::place::Place;
+use super::problem::Problem;
+use super::smooth::{Number, Smooth};
+use motiform_dynamics::Watch;
+
+/// What vanishes at a special point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Test {
+    /// `dp/ds`.
+    Slope,
+    /// The growth of the level of this class and rank. Ranked by size they are continuous along the branch.
+    Level(usize, usize),
+}
+
+impl Test {
+    pub(super) fn of<L>(self, place: &Place<L>) -> f64 {
+        match self {
+            Self::Slope => place.slope(),
+            Self::Level(class, rank) => place
+                .levels
+                .get(class)
+                .and_then(|levels| levels.get(rank))
+                .map_or(f64::NAN, |level| level.growth),
+        }
+    }
+}
+
+/// A test changes its sign between two lengths, with these values.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bracket {
+    pub(super) test: Test,
+    pub(super) low: (f64, f64),
+    pub(super) high: (f64, f64),
+}
+
+/// Part of the step that stretches keep from special points.
+pub(super) const BESIDE: f64 = 1e-3;
+
+/// What changes its sign between special points that are known, at these lengths: as many deviations must grow before each of them as beyond the one
+/// before, and the slope must have the same sign. The slope comes first. Where a test seems to change its sign twice, solutions between decide.
+pub(super) fn brackets<P: Problem>(
+    problem: &P,
+    step: &Step<'_, P::Local>,
+    known: &[f64],
+    watch: &dyn Watch,
+) -> Vec<Bracket> {
+    let beside = |s: f64| Some((s, between(problem, step, s, watch).ok()?));
+    let apart = BESIDE * step.length;
+    let sides: Vec<_> = known.iter().map(|s| (beside(s - apart), beside(s + apart))).collect();
+    let mut out = Vec::new();
+    let mut low = Some((0.0, step.old));
+    for place in 0..=sides.len() {
+        let high = match sides.get(place) {
+            Some((before, _)) => before.as_ref().map(|(s, place)| (*s, place)),
+            None => Some((step.length, step.new)),
+        };
+        if let (Some(low), Some(high)) = (low, high)
+            && low.0 < high.0
+        {
+            Stretch { problem, step, low, high, is_whole: known.is_empty(), watch }.add(&mut out);
+        }
+        low = sides.get(place).and_then(|(_, beyond)| beyond.as_ref().map(|(s, place)| (*s, place)));
+    }
+    out.sort_by_key(|bracket| !matches!(bracket.test, Test::Slope));
+    out
+}
+
+/// A level that lies beyond 0 by no more than this part of its values at both ends touches 0: so it does where branches cross at which it is an even
+/// function of the length.
+const TOUCHES: f64 = 1e-5;
+
+/// Part of a step.
+struct Stretch<'s, P: Problem> {
+    problem: &'s P,
+    step: &'s Step<'s, P::Local>,
+    low: (f64, &'s Place<P::Local>),
+    high: (f64, &'s Place<P::Local>),
+    is_whole: bool,
+    watch: &'s dyn Watch,
+}
+
+impl<P: Problem> Stretch<'_, P> {
+    /// What changes its sign on it.
+    fn add(&self, out: &mut Vec<Bracket>) {
+        let before = out.len();
+        for class in 0..self.low.1.levels.len() {
+            self.add_class(class, out);
+        }
+        if out.len() == before && is_level(self.problem, self.step) {
+            return; // where a branch turns back a level vanishes as well
+        }
+        match self.bracket(Test::Slope) {
+            Some(bracket) => out.push(bracket),
+            None => self.twice(&|slope, _| number(slope), &[Test::Slope], out),
+        }
+    }
+
+    fn bracket(&self, test: Test) -> Option<Bracket> {
+        let [low, high] = [self.low, self.high].map(|(s, place)| (s, test.of(place)));
+        (low.1 * high.1 < 0.0).then_some(Bracket { test, low, high })
+    }
+
+    fn add_class(&self, class: usize, out: &mut Vec<Bracket>) {
+        let [count, other] =
+            [self.low, self.high].map(|(_, place)| place.levels.get(class).map_or(0, Vec::len));
+        if count != other {
+            return;
+        }
+        let tests: Vec<Test> = (0..count).map(|rank| Test::Level(class, rank)).collect();
+        let noise = self.noise();
+        // towards a point of more symmetry levels vanish as powers of the distance, and their signs are those of rounding
+        let clear = |bracket: &Bracket| {
+            let sizes = [bracket.low.1.abs(), bracket.high.1.abs()];
+            if self.is_whole { sizes[0].max(sizes[1]) > noise } else { sizes[0].min(sizes[1]) > noise }
+        };
+        let before = out.len();
+        out.extend(tests.iter().filter_map(|&test| self.bracket(test)).filter(clear));
+        let orbits = self.problem.time().is_some();
+        for smooth in Smooth::all(orbits) {
+            if out.len() > before {
+                return;
+            }
+            let of = |levels: &Vec<Level>| smooth.value(levels, orbits);
+            self.twice(&|_, levels| levels.get(class).map_or((1.0, f64::NAN), of), &tests, out);
+        }
+    }
+
+    /// The error of levels; the slope has none that is known.
+    fn noise(&self) -> f64 {
+        self.problem.noise(&self.low.1.levels).max(self.problem.noise(&self.high.1.levels))
+    }
+
+    /// Tests that have the same signs at both ends and others between: where `value`, which vanishes with them, seems to change its sign twice.
+    fn twice(&self, value: &Value<'_>, tests: &[Test], out: &mut Vec<Bracket>) {
+        let of = |place: &Place<P::Local>| value(place.slope(), &place.levels);
+        let unit = of(self.low.1);
+        let relative = |number: Number| number.0 * unit.0 * libm::exp(number.1 - unit.1);
+        let noise = self.noise();
+        let mut found = Vec::new();
+        let mut look = |s: f64| {
+            let place = between(self.problem, self.step, s, self.watch).ok()?;
+            for &test in tests {
+                let [low, high] = [self.low, self.high].map(|(s, place)| (s, test.of(place)));
+                let middle = (s, test.of(&place));
+                let least = if test == Test::Slope {
+                    0.0
+                } else {
+                    noise.max(TOUCHES * low.1.abs().min(high.1.abs()))
+                };
+                let sure = middle.1.abs() > least && low.1.abs() > noise;
+                if sure && low.1 * high.1 > 0.0 && middle.1 * low.1 < 0.0 {
+                    found.push(Bracket { test, low, high: middle });
+                    found.push(Bracket { test, low: middle, high });
+                }
+            }
+            Some(if found.is_empty() { Look::Value(relative(of(&place))) } else { Look::Beyond })
+        };
+        let middle = 0.5 * (self.low.0 + self.high.0);
+        let before = self.step.before.filter(|_| self.low.0 == 0.0).map(|before| {
+            let slope = before.tangent.last().copied().unwrap_or(f64::NAN);
+            (-before.length, relative(value(slope, &before.levels)))
+        });
+        // beyond a special point the function has the other sign, and says nothing about its course here
+        let third = before.filter(|third| third.1 > 0.0).or_else(|| match look(middle) {
+            Some(Look::Value(value)) => Some((middle, value)),
+            _ => None,
+        });
+        if let Some(third) = third {
+            let ends = [(self.low.0, 1.0), (self.high.0, relative(of(self.high.1)))];
+            dip(ends, third, &mut look);
+        }
+        out.append(&mut found);
+    }
+}
+
+/// A function of the slope and of the levels.
+type Value<'v> = dyn Fn(f64, &[Vec<Level>]) -> Number + 'v;
+
+fn number(value: f64) -> Number {
+    (value.signum(), value.abs().ln())
+}
+
+/// Slopes below so many times the accuracy of the solutions may be noise: towards a connection the parameter converges and the branch goes on.
+const LEVEL: f64 = 10.0;
+
+/// Whether the parameter hardly changes over a step.
+fn is_level<P: Problem>(problem: &P, step: &Step<'_, P::Local>) -> bool {
+    let slope = step.old.slope().abs().max(step.new.slope().abs());
+    let width = problem.weights(&step.old.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
+    slope < LEVEL * problem.accuracy() * width
+}
