@@ -80,10 +80,8 @@ fn add<P: Problem>(
     if special == Special::BranchPoint && !matches!(bracket.test, Test::Slope) {
         keep_course(problem, step, &mut at);
     }
-    let certificate = certified(problem, step, bracket.test, &at, watch).map(|certificate| Certificate {
-        normal_form: normal_form(problem, &at.x, special),
-        ..certificate
-    });
+    let certificate = certified(problem, step, bracket.test, &at, watch)
+        .map(|certificate| Certificate { normal_form: normal_form(problem, &at.x, special), ..certificate });
     let at = Place { certificate, ..at };
     if !is_known(&changes.found, &at, special, step.length) {
         changes.found.push((at, special));
