@@ -18,9 +18,6 @@ const DISTANCES: [f64; 7] = [0.005, 0.02, 0.05, 0.1, 0.001, 0.0002, 0.00004];
 const NEARER: f64 = 8.0;
 const RATIOS: std::ops::RangeInclusive<f64> = 0.5 * NEARER..=2.0 * NEARER * NEARER;
 
-/// Levels below this may have either sign next to a special point.
-const UNCLEAR: f64 = 1e-6;
-
 /// Least change of the parameter that tells anything, in tolerances of Newton's method.
 const SEEN: f64 = 100.0;
 
@@ -100,11 +97,11 @@ fn is_beginning<P: Problem>(
     begins
         && problem
             .levels(&near.x, &near.local)
-            .is_some_and(|levels| growing(&levels).contains(&tracer.growing()))
+            .is_some_and(|levels| growing(&levels, problem.noise(&levels)).contains(&tracer.growing()))
 }
 
-/// How many levels grow: at least, and with those that are too small to tell.
-fn growing(levels: &[Vec<Level>]) -> std::ops::RangeInclusive<usize> {
+/// How many levels grow: at least, and with those that are 0 within the error `noise`.
+fn growing(levels: &[Vec<Level>], noise: f64) -> std::ops::RangeInclusive<usize> {
     let above = |least: f64| levels.iter().flatten().filter(|level| level.growth > least).count();
-    above(UNCLEAR)..=above(-UNCLEAR)
+    above(noise)..=above(-noise)
 }
