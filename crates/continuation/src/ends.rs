@@ -93,7 +93,9 @@ impl<P: Problem> Tracer<P> {
     /// The connection with a saddle-focus to which the parameter oscillates.
     fn oscillates(&self) -> Option<Connection> {
         let saddle = self.problem.saddle(&self.place.x, &self.place.local)?;
-        self.periods.oscillating(&saddle.rates)?.through(Some(saddle))
+        let found = self.periods.oscillating(&saddle.rates)?.through(Some(saddle))?;
+        // all solutions that are fitted may be off by the same
+        Some(Connection { error: found.error + self.problem.accuracy() * self.settings.width(), ..found })
     }
 
     /// The end of the branch at the first turning point where the motion gains a symmetry: it is a special point of the motion that has it. What was found beyond belongs to

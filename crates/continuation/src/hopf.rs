@@ -137,36 +137,56 @@ const STEPS: (f64, i32) = (2e-3, 5);
 /// The same for a body at rest, whose size is no unit: over a wide range.
 const STEPS_AT_REST: (f64, i32) = (1e-4, 12);
 
+/// Error of shapes, as a part of their size.
+const SOLVED: f64 = 1e-11;
+
 /// Eigenvalues that differ by less than this part are the same.
 const SAME: f64 = 1e-7;
 
 /// The first Lyapunov coefficient of the reduced motion at a Hopf bifurcation, for a critical vector of length 1:
 /// `l1 = Re( <p, C(q,q,q*)> - 2 <p, B(q, A^-1 B(q,q*))> + <p, B(q*, (2 i omega - A)^-1 B(q,q))> ) / (2 omega)`.
 ///
-/// Its error is the difference of two results from steps of different size. Where two pairs have the same frequency (a rotating and a standing
+/// Its error is the difference of two results from steps of different size, and of those for two shapes that differ by the error of a solution: near a double
+/// eigenvalue 0 the latter is the larger one. Where two pairs have the same frequency (a rotating and a standing
 /// oscillation of a symmetric shape) one coefficient says nothing.
 ///
 /// Source: Kuznetsov (2004), Elements of Applied Bifurcation Theory, eq. (5.62).
 ///
 /// # Checked by  tests/all/normal_forms.rs: normal forms (exact), the van der Pol and the Lorenz equations, the reduced model's formula
 pub(super) fn first_lyapunov(body: &dyn Equivariant, shape: &[f64], frequency: f64) -> NormalForm {
+    let size = shape.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    // Newton's method leaves a body at rest at round-off: that is no size.
+    let size = if size > ROUND_OFF { size } else { 0.0 };
+    let found = at_shape(body, shape, size, frequency);
+    if size == 0.0 {
+        return found.into();
+    }
+    let moved: Vec<f64> =
+        shape.iter().enumerate().map(|(i, x)| x + SOLVED * size * [1.0, -1.0][i % 2]).collect();
+    let beside = at_shape(body, &moved, size, frequency);
+    let both = found.and_then(|here| Ok((here, beside?)));
+    both.map(|(here, beside)| Coefficient { error: here.error + (here.value - beside.value).abs(), ..here })
+        .into()
+}
+
+/// The same at one shape, with the error of the differences only.
+fn at_shape(
+    body: &dyn Equivariant,
+    shape: &[f64],
+    size: f64,
+    frequency: f64,
+) -> Result<Coefficient, Undetermined> {
     let slice = slice(body, shape);
     let a = matrix(&slice);
     if copies(&a, frequency) > 1 {
-        return NormalForm::Undetermined(Undetermined::Directions);
+        return Err(Undetermined::Directions);
     }
-    let size = shape.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    // Newton's method leaves a body at rest at round-off: that is no size.
-    let (first, count) = if size > ROUND_OFF { (STEPS.0 * size, STEPS.1) } else { STEPS_AT_REST };
+    let (first, count) = if size > 0.0 { (STEPS.0 * size, STEPS.1) } else { STEPS_AT_REST };
     let all: Option<Vec<f64>> = critical(&a, frequency).and_then(|pair| {
         (0..count).map(|j| coefficient(&slice, &a, &pair, first * 2.0_f64.powi(j))).collect()
     });
-    let Coefficient { value, error } = extrapolated(&all.unwrap_or_default());
-    if value.is_finite() && error.is_finite() {
-        NormalForm::Coefficient(Coefficient { value, error })
-    } else {
-        NormalForm::Undetermined(Undetermined::Obstructed)
-    }
+    let found = extrapolated(&all.unwrap_or_default());
+    if found.value.is_finite() && found.error.is_finite() { Ok(found) } else { Err(Undetermined::Obstructed) }
 }
 
 /// How many eigenvalues are the critical one.

@@ -46,9 +46,9 @@ impl<P: Problem> CurveTracer<P> {
 
     fn at_size_zero(&self) -> [f64; 2] {
         let unit = self.sizes.iter().fold(f64::MIN_POSITIVE, |most, one| most.max(one.0));
-        let powers = 0..self.sizes.len();
-        let power = |k: usize| self.sizes.iter().map(|one| (one.0 / unit).powi(2 * k as i32)).collect();
-        let columns: Vec<Vec<f64>> = powers.map(power).collect();
+        let squares: Vec<f64> = self.sizes.iter().map(|one| (one.0 / unit) * (one.0 / unit)).collect();
+        let power = |k: usize| squares.iter().map(|square| (0..k).map(|_| square).product()).collect();
+        let columns: Vec<Vec<f64>> = (0..squares.len()).map(power).collect();
         [0, 1].map(|side| {
             let values: Vec<f64> = self.sizes.iter().map(|one| one.1[side]).collect();
             let last = values.last().copied().unwrap_or(f64::NAN);

@@ -68,6 +68,44 @@ fn the_list_of_the_zigzag_does_not_depend_on_steps_and_tolerance() {
     }
 }
 
+/// What begins at the special points of the zigzag and of circular motion: by the coefficient of the normal form, as published; and the saddle that the
+/// zigzag ends at.
+#[test]
+fn coefficients_and_saddles_are_stated_with_their_errors() {
+    let folder = Folder::new();
+    let json = follow(
+        &folder,
+        "tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.95 --from zigzag --along kappa2=0.5:1.5 --branches 4",
+    );
+    let all = entries(&json);
+    let number = |entry: &Value, key: &str| entry[key].as_f64().unwrap_or_else(|| panic!("{key} of {entry}"));
+    for (kind, name, word, sign) in
+        [("symmetry-breaking", "cubic", "supercritical", -1.0), ("hopf", "l1", "subcritical", 1.0)]
+    {
+        let found: Vec<&&Value> = all.iter().filter(|entry| entry["kind"] == kind).collect();
+        assert!(!found.is_empty(), "{kind}");
+        for entry in found {
+            assert_eq!(
+                (&entry["normal_form"], &entry["criticality"]),
+                (&name.into(), &word.into()),
+                "{entry}"
+            );
+            let value = number(entry, "coefficient");
+            assert!(sign * value > 0.0 && number(entry, "coefficient_error") < 0.01 * value.abs(), "{entry}");
+        }
+    }
+    let end = all.iter().find(|entry| entry["kind"] == "homoclinic").expect("the end of the zigzag");
+    assert_eq!((&end["connection"], &end["law"]), (&"saddle".into(), &"logarithmic".into()));
+    let real = |key: &str| end[key][0].as_f64().expect("a rate");
+    let (grows, decays) = (real("leading_growing"), real("leading_decaying"));
+    assert!(grows > 0.0 && decays < 0.0);
+    assert!((number(end, "saddle_quantity") - grows - decays).abs() < 1e-12, "{end}");
+    let slower = grows.min(-decays);
+    assert!((number(end, "rate") / slower - 1.0).abs() < 0.01, "{end}");
+    let eigenvalues = end["saddle"]["eigenvalues"].as_array().expect("eigenvalues");
+    assert!([grows, decays].iter().all(|rate| eigenvalues.iter().any(|value| value[0] == *rate)), "{end}");
+}
+
 /// In x' = x(1-r^2) - y(mu-x), y' = y(1-r^2) + x(mu-x) two equilibria appear on the circle at mu = 1, where x = 1 stops turning: the
 /// period is 2 pi / sqrt(mu^2 - 1).
 #[test]
@@ -84,7 +122,7 @@ fn a_saddle_node_on_a_circle_is_named_where_it_is() {
     let json = follow(&folder, "circle.toml --along mu=0.5:2");
     let found = entries(&json);
     let [only] = &found[..] else { panic!("{found:?}") };
-    assert_eq!(only["kind"], "homoclinic");
+    assert_eq!((&only["kind"], &only["connection"]), (&"homoclinic".into(), &"saddle-node".into()));
     let (value, error) = (only["mu"].as_f64().unwrap(), only["error"].as_f64().unwrap());
     assert!((value - 1.0).abs() <= error && error < 1e-5, "{only}");
     let branch = &json["branches"][0];

@@ -41,7 +41,19 @@ fn the_zigzag_branch_has_its_symmetry_breakings() {
     assert_eq!(range, found, "stable between them");
     assert_eq!(
         keys(&branch["special"][0]),
-        ["kind", "kappa2", "error", "period", "test", "residual", "transversality"]
+        [
+            "kind",
+            "kappa2",
+            "error",
+            "period",
+            "criticality",
+            "normal_form",
+            "coefficient",
+            "coefficient_error",
+            "test",
+            "residual",
+            "transversality"
+        ]
     );
     assert!((branch["special"][0]["period"].as_f64().unwrap() - 36.2047).abs() < 1e-4);
     assert!(branch["end"].is_string() && branch["ends"].as_array().unwrap().len() == 2);
