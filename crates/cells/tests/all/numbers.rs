@@ -14,7 +14,7 @@ fn of(tracks: Tracks) -> Numbers {
 
 fn known(numbers: &Numbers, key: &str) -> Measured {
     let row = numbers.rows().into_iter().find(|row| row.key == key).expect("a row of this name");
-    row.value.known().unwrap_or_else(|| panic!("{key}: {:?}", row.value))
+    row.value.known().expect(key)
 }
 
 /// Forty walkers with a tenth of the frames missing: intervals of persistence and diffusion hold the truth, and the displacement is Fuerth's.
