@@ -39,7 +39,7 @@ impl FieldOfView {
 /// The common motion; `None` with fewer than five cells of two places.
 ///
 /// With the mean velocity v_c of each of n cells, m their mean and C their covariance: T^2 = n m^T C^-1 m, and p = (1 + T^2/(n - 1))^(-(n - 2)/2), exact for normal v_c.
-/// Jitter: a frame that is displaced by e moves all cells by e, and back in the next one: the covariance of the mean displacements of neighbouring intervals, without the part that each cell by
+/// Jitter: a frame that is displaced by e moves all cells by e, and back in the next one: the covariance of the mean displacements of neighbouring intervals, without their means and without the part that each cell by
 /// itself has, is -<e^2>.
 ///
 /// Source: Hotelling (1931), Ann. Math. Stat. 2, 360.
@@ -88,7 +88,9 @@ fn jitter(cells: &[&Places]) -> Option<f64> {
     let mut by_time: BTreeMap<u64, Vec<Pair>> = BTreeMap::new();
     for places in cells {
         let next = |a: &Fix, b: &Fix| places.lag(a.t, b.t) == 1.0;
-        let step = |a: &Fix, b: &Fix| [b.at[0] - a.at[0], b.at[1] - a.at[1]];
+        let Some(mean) = mean_velocity(places) else { continue };
+        // without its mean velocity: what cells have in common throughout is a drift
+        let step = |a: &Fix, b: &Fix| [0, 1].map(|k| b.at[k] - a.at[k] - mean[k] * (b.t - a.t));
         for three in places.pieces.iter().flat_map(|piece| piece.windows(3)) {
             if next(&three[0], &three[1]) && next(&three[1], &three[2]) {
                 let pair = [step(&three[0], &three[1]), step(&three[1], &three[2])];

@@ -14,7 +14,7 @@ fn of(tracks: Tracks) -> Numbers {
 
 fn known(numbers: &Numbers, key: &str) -> Measured {
     let row = numbers.rows().into_iter().find(|row| row.key == key).expect("a row of this name");
-    row.value.known().unwrap_or_else(|| panic!("{key}: {:?}", row.value))
+    row.value.known().expect(key)
 }
 
 /// Forty walkers with a tenth of the frames missing: intervals of persistence and diffusion hold the truth, and the displacement is Fuerth's.
@@ -163,8 +163,8 @@ fn a_field_of_view_that_moves_is_found() {
         // jitter of two frames of 150 moves the mean by 0.002; the walkers are the same
         assert!((moved.velocity[k] - still.velocity[k] - drift[k]).abs() < 0.01, "{moved:?}");
     }
-    // 2 x 148 products: the standard deviation of the jitter is known to some 6 %
-    assert!((moved.jitter.expect("common frames") / 0.2 - 1.0).abs() < 0.2, "{moved:?}");
+    // 2 x 148 products: the jitter itself scatters by 6 %, and what the walkers have in common by chance adds as much
+    assert!((moved.jitter.expect("common frames") / 0.2 - 1.0).abs() < 0.3, "{moved:?}");
     let few = tracks(vec![WALK.outlines(1), WALK.outlines(2)]);
     let sample = Sample::of_tracks(few, &ModeOptions::default());
     assert!(population_numbers(&sample.cells.iter().map(observe).collect::<Vec<_>>()).field.is_none());

@@ -45,7 +45,7 @@ impl Times {
             Some(frame) => (frame, "frame"),
             None => (time.unwrap_or(f64::NAN), "time"),
         };
-        let sound = value.is_finite() && value.abs() < 9.0e15 && !(self.named && value != value.trunc());
+        let sound = value.is_finite() && value.abs() < 9.0e15 && (!self.named || value == value.trunc());
         if !sound {
             let expected = if self.named { "a whole number" } else { "a number" };
             return Err(Error::structure(place, format!("{what} is {value}"), expected));

@@ -98,8 +98,13 @@ fn fractional_frames_are_times_in_frames() {
 #[test]
 fn negative_frames_before_a_stimulus_are_frames_and_a_single_one_is_none() {
     let from = |first: i64| {
-        read(table("cell,frame,x,y", ',', |x| x.to_string(), |k| (first + k as i64).to_string()))
-            .expect("frames")
+        read(table(
+            "cell,frame,x,y",
+            ',',
+            |x| x.to_string(),
+            |k| (first + i64::try_from(k).expect("few")).to_string(),
+        ))
+        .expect("frames")
     };
     assert_eq!(frames(&from(-3)), [-3, -2, -1, 0, 1, 2]);
     assert_eq!(frames(&from(-1)), [0, 1, 2, 3, 4], "-1 alone stands for none");
