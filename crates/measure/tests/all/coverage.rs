@@ -133,10 +133,10 @@ impl Tally {
         }
     }
 
-    /// Three standard deviations of a binomial variable below 95 %.
+    /// 3.5 standard deviations of a binomial variable below 95 %: of 500 cells of the table a tenth of one is by chance.
     fn fails(&self) -> bool {
         let (n, p) = (self.known as f64, 0.95);
-        n >= 20.0 && (self.held as f64) < n * p - 3.0 * (n * p * (1.0 - p)).sqrt()
+        n >= 20.0 && (self.held as f64) < n * p - 3.5 * (n * p * (1.0 - p)).sqrt()
     }
 }
 
