@@ -95,12 +95,12 @@ fn sentences(found: &Observation, cell: Option<&CellTrack>, units: &Units) -> an
         writeln!(text, "confidence     {:.0} % of resampled records", 100.0 * confidence)?;
     }
     text += &quality(cell, found.frames)?;
-    if let Some(measures) = &found.measures {
-        if measures.frames < found.frames {
-            let [from, to] = measures.span.map(four_digits);
-            let stretch = format!("{} frames, t = {from} to {to} {}", measures.frames, units.time);
-            writeln!(text, "seen           the longest stretch without gaps: {stretch}")?;
-        }
+    if let Some(measures) = &found.measures
+        && measures.frames < found.frames
+    {
+        let [from, to] = measures.span.map(four_digits);
+        let stretch = format!("{} frames, t = {from} to {to} {}", measures.frames, units.time);
+        writeln!(text, "seen           the longest stretch without gaps: {stretch}")?;
     }
     text += &numbers(found, units)?;
     Ok(text)

@@ -19,11 +19,14 @@ const FOLLOWED: f64 = 0.8;
 /// errors or turns too far between frames to be followed, and where the cell keeps a direction.
 ///
 /// # Units   length/time of the track
+/// Direction of the long axis (unit modulus) and velocity between two frames.
+type Row = (Complex<f64>, Complex<f64>);
+
 /// # Checked by  `tests/all/stage.rs`: circles with and without a drift
 #[must_use]
 pub fn stage_velocity(track: &Track) -> Option<[f64; 2]> {
     let axes = axes(&track.0)?;
-    let mut rows: Vec<(Complex<f64>, Complex<f64>)> = Vec::new();
+    let mut rows: Vec<Row> = Vec::new();
     for (pair, axis) in track.0.windows(2).zip(axes.windows(2)) {
         let time = pair[1].t - pair[0].t;
         let [x, y] = [0, 1].map(|k| (pair[1].y[k] - pair[0].y[k]) / time);
@@ -31,14 +34,14 @@ pub fn stage_velocity(track: &Track) -> Option<[f64; 2]> {
         rows.push((Complex::new(cos, sin), Complex::new(x, y)));
     }
     let count = rows.len() as f64;
-    let mean = |of: &dyn Fn(&(Complex<f64>, Complex<f64>)) -> Complex<f64>| {
+    let mean = |of: fn(&Row) -> Complex<f64>| {
         rows.iter().map(of).fold(Complex::new(0.0, 0.0), |sum, one| sum + one).scale(1.0 / count)
     };
-    let (axis, velocity) = (mean(&|row| row.0), mean(&|row| row.1));
+    let (axis, velocity) = (mean(|row| row.0), mean(|row| row.1));
     if axis.norm_sqr().sqrt() > MOST_ORDER {
         return None;
     }
-    let covariance = mean(&|row| row.1 * row.0.conj()) + -(velocity * axis.conj());
+    let covariance = mean(|row| row.1 * row.0.conj()) + -(velocity * axis.conj());
     let a = covariance.scale(1.0 / (1.0 - axis.norm_sqr()));
     let u = velocity + -(a * axis);
     Some([u.re, u.im])

@@ -67,7 +67,7 @@ fn the_likelihood_is_that_of_a_normal_vector() {
                 -0.5 * (y.dot(&root.solve(&y)) + determinant + n as f64 * libm::log(TAU))
             })
             .sum();
-        let own = walk_likelihood(&[fixes.clone()], p, speed, error);
+        let own = walk_likelihood(std::slice::from_ref(&fixes), p, speed, error);
         assert!((own - exact).abs() < 1e-7 * exact.abs().max(1.0), "{p}: {own} {exact}");
     }
 }
