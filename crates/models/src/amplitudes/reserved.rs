@@ -49,6 +49,7 @@ const BRANCHES: [&str; 25] = [
     "critical_im",
     "first_lyapunov",
     "first_lyapunov_error",
+    "resolution",
     "residual",
     "transversality",
     "angle",
