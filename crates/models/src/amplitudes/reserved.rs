@@ -6,7 +6,7 @@ use super::parser::RESERVED;
 const TRAJECTORY: [&str; 5] = ["t", "x", "y", "heading", "turning_rate"];
 
 /// Columns of scans.
-const SCAN: [&str; 18] = [
+const SCAN: [&str; 19] = [
     "cell",
     "sample",
     "regime",
@@ -14,6 +14,7 @@ const SCAN: [&str; 18] = [
     "course",
     "why",
     "margin",
+    "resolution",
     "speed_mean",
     "speed_min",
     "speed_max",
@@ -49,7 +50,6 @@ const BRANCHES: [&str; 25] = [
     "critical_im",
     "first_lyapunov",
     "first_lyapunov_error",
-    "resolution",
     "residual",
     "transversality",
     "angle",
