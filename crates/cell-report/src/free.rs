@@ -31,9 +31,6 @@ pub(crate) fn section(case: &Case<'_>, units: &Units) -> Result<Section, Error> 
             numbers.pieces
         );
     }
-    if numbers.walk.as_ref().is_some_and(|walk| !walk.describes()) {
-        about += " A persistent random walk does not describe the path: persistence, diffusion and the error of a place are those of the nearest one, without intervals.";
-    }
     Ok(Section {
         title: "Numbers without a model".to_owned(),
         about,

@@ -124,7 +124,7 @@ fn a_fitted_cell_has_its_motion_place_and_simulations_and_what_is_missing_is_sai
     assert_eq!(names, expected);
     check(&files);
     let page = |k: usize| std::str::from_utf8(&files[k].1).unwrap();
-    assert!(page(0).contains("2 µm") || page(0).contains("mean radius (µm)"));
+    assert!(page(0).contains("speed (µm/s)") && page(0).contains("aspect ratio"));
     for words in [
         "Cell a*_1: chaotic",
         "plane of Fig. 4",

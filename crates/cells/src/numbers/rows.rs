@@ -125,7 +125,7 @@ impl Numbers {
         }
     }
 
-    /// A number of the walk. Where the walk does not describe the path the value has no interval; where the record sets no bound to one side there is none.
+    /// A number of the walk. There is none where no walk describes the path, and where the record sets no bound to one side.
     fn of_walk(&self, number: impl Fn(&PersistentWalk) -> Bounded, name: &str) -> Answer {
         let Some(walk) = &self.walk else {
             return Answer::unknown(match self.seen {
@@ -133,11 +133,13 @@ impl Numbers {
                 _ => TOO_FEW.to_owned(),
             });
         };
+        if !walk.describes() {
+            return Answer::unknown("no persistent random walk describes the path");
+        }
         let Bounded { value, low, high } = number(walk);
         match (low, high) {
             (Some(low), Some(high)) => {
-                let interval = walk.describes().then_some([low.min(value), high.max(value)]);
-                Answer::Known(Measured { value, interval })
+                Answer::Known(Measured { value, interval: Some([low.min(value), high.max(value)]) })
             }
             (None, Some(high)) => Answer::unknown(format!(
                 "below {}: the frames do not resolve a shorter {name}",

@@ -124,9 +124,6 @@ fn numbers(found: &Observation, units: &Units) -> anyhow::Result<String> {
     for (reason, names) in missing {
         writeln!(text, "not given      {}: {reason}", names.join(", "))?;
     }
-    if found.numbers.walk.as_ref().is_some_and(|walk| !walk.describes()) {
-        text += "               a persistent random walk does not describe the path: persistence, diffusion and place error are those of the nearest one, without intervals\n";
-    }
     Ok(text)
 }
 
