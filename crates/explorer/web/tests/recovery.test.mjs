@@ -99,7 +99,12 @@ test("why a connection was closed is said", async () => {
   const { page, wire, leave } = await visit(it, { hash: LIGHT });
   await page.routeWebSocket(/live$/, (ours) => {
     const server = ours.connectToServer();
-    ours.onMessage((message) => server.send(message.includes('"kick"') ? "x".repeat(40_000) : message));
+    let ends = false; // nothing follows the message at which the server closes
+    ours.onMessage((message) => {
+      if (ends) return;
+      ends = message.includes('"kick"');
+      server.send(ends ? "x".repeat(40_000) : message);
+    });
   });
   await page.reload();
   await page.waitForFunction(() => window.motiform?.position());
