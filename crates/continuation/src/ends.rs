@@ -3,9 +3,10 @@
 use super::certificate::TestFunction;
 use super::classes::GAINED;
 use super::copies::same_motion;
-use super::homoclinic::{Algebraic, Connection};
+use super::homoclinic::Connection;
 use super::locate::Changes;
 use super::normal_form::Order;
+use super::periods::Algebraic;
 use super::place::Place;
 use super::point::End;
 use super::problem::Problem;

@@ -1,6 +1,7 @@
 //! The kind of a Hopf bifurcation: its first Lyapunov coefficient, for relative equilibria too.
 
-use super::normal_form::{Coefficient, NormalForm, Undetermined, extrapolated};
+use super::normal_form::{Coefficient, NormalForm, Undetermined};
+use super::reduction::extrapolated;
 use motiform_analysis::equilibrium::neutral_direction;
 use motiform_analysis::linear::{add, complement, dot, eigenvalues};
 use motiform_dynamics::{Dual, Equivariant, VectorField};

@@ -3,9 +3,10 @@
 use super::classes::Classes;
 use super::equilibria::Equilibria;
 use super::family::Neighbours;
-use super::normal_form::{NormalForm, Order, Size, System, Undetermined, leading};
+use super::normal_form::{NormalForm, Order, Undetermined};
 use super::orbits::Orbits;
 use super::problem::Equations;
+use super::reduction::{Size, System, leading};
 use super::shooting::segment;
 use motiform_analysis::linear::{add, apply, basis, dot, norm};
 use motiform_dynamics::{Equivariant, VectorField};
@@ -14,8 +15,8 @@ use motiform_dynamics::{Equivariant, VectorField};
 const ROUND_OFF: f64 = 1e-9;
 
 /// The step is doubled so often; at rest it begins far smaller, and is doubled more often.
-const DOUBLINGS: usize = 4;
-const AT_REST: (f64, usize) = (0.05, 12);
+const DOUBLINGS: usize = 7;
+const AT_REST: (f64, usize) = (0.05, 15);
 
 /// Error of the pairing of null vectors, as a part of their lengths: what their location leaves.
 const PAIRED: f64 = 1e-9;

@@ -2,9 +2,9 @@
 
 use super::between::Step;
 use super::correct::{correct, directions, normal, scaled};
-use super::homoclinic::Periods;
 use super::levels::unstable;
 use super::locate::{Changes, locate};
+use super::periods::Periods;
 use super::place::{Before, Place, place};
 use super::point::{End, Motion, Obstruction, Point};
 use super::problem::{Failure, Problem};

@@ -63,7 +63,7 @@ impl Unanswered {
     }
 }
 
-/// Ends a connection: whoever reads from it or writes to it hears of it at once.
+/// Ends a connection: reads and writes of other threads fail at once.
 pub(crate) fn shut(stream: &TcpStream) {
     let _ = stream.shutdown(Shutdown::Both); // it may have ended already
 }

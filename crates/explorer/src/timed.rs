@@ -16,7 +16,7 @@ impl<'s> Timed<'s> {
         Self { stream, end: Instant::now() + time }
     }
 
-    /// Sets the time anew, from now on.
+    /// Allows so much time from now on.
     pub(crate) fn within(&mut self, time: Duration) {
         self.end = Instant::now() + time;
     }

@@ -14,7 +14,7 @@ pub struct Room {
 }
 
 impl Room {
-    /// The own width of each figure.
+    /// The default width of each figure.
     pub const OWN: Self = Self { width: None };
 
     /// A sheet of this width.
@@ -29,15 +29,15 @@ impl Room {
         self.width
     }
 
-    /// Width and height of a frame of an own size, where `beside` units of the sheet are taken by what stands beside it. A narrower
-    /// frame is lower in proportion, but not flatter than .62 of its width unless it is lower anyway.
+    /// Width and height of a frame whose default size is `[w, h]`; labels and margins beside it take `beside` units of the sheet. A narrower frame
+    /// keeps the aspect ratio, but its height is at least .62 of its width, or `h` where that is less.
     pub(crate) fn frame(self, [w, h]: [f64; 2], beside: f64) -> [f64; 2] {
         let Some(width) = self.width else { return [w, h] };
         let wide = (width - beside).floor().max(NARROWEST);
         [wide, (h * wide / w).max(h.min(FLATTEST * wide)).round()]
     }
 
-    /// How many of `most` marks have room side by side in a frame whose own width is `w`.
+    /// How many of `most` marks have room side by side in a frame whose default width is `w`.
     pub(crate) fn most(self, most: usize, w: f64) -> usize {
         self.width.map_or(most, |width| (most as f64 * ((width - 80.0) / w).clamp(0.1, 1.0)) as usize)
     }

@@ -86,7 +86,10 @@ impl Style {
         }
         let room = self.width.map_or(Room::OWN, Width::room);
         let (svg, data) = (figure.sheet(room)?, figure.data());
-        Ok(Drawn { svg: self.width.map_or_else(|| svg.clone(), |width| resized(&svg, width)), data })
+        Ok(match self.width {
+            Some(width) => Drawn { svg: resized(&svg, width), data },
+            None => Drawn { svg, data },
+        })
     }
 
     /// Pixels of a PNG per unit of the SVG.

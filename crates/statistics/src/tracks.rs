@@ -1,6 +1,6 @@
 //! The samples: tracks of bodies, and the units over which errors are taken.
 
-use crate::{Error, Result};
+use crate::{Error, Quantity, Result};
 use serde::Serialize;
 
 /// From this number of bodies on, errors are those over bodies.
@@ -64,126 +64,6 @@ pub struct Tracks {
     /// Blocks of starting times of each body, where windows may end beyond.
     pieces: Option<usize>,
     errors: Errors,
-}
-
-/// A quantity along a track.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Quantity {
-    /// The velocity, a vector.
-    Velocity,
-    /// Its direction, a unit vector; none at rest.
-    Heading,
-    /// Its size, a number.
-    Speed,
-    /// A mode of the shape, a vector; its number and name.
-    Mode(usize, String),
-}
-
-/// A quantity of one track.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Series {
-    /// One or two components.
-    pub components: Vec<Vec<f64>>,
-    /// Where it is defined (there, and for a heading not at rest); everywhere if `None`. Undefined samples are 0.
-    pub defined: Option<Vec<bool>>,
-}
-
-impl Series {
-    /// Samples that are not a number are not defined.
-    fn new(mut components: Vec<Vec<f64>>) -> Self {
-        let samples = components.first().map_or(0, Vec::len);
-        let defined: Vec<bool> =
-            (0..samples).map(|at| components.iter().all(|series| !series[at].is_nan())).collect();
-        if defined.iter().all(|&there| there) {
-            return Self { components, defined: None };
-        }
-        for series in &mut components {
-            series.iter_mut().zip(&defined).filter(|(_, there)| !**there).for_each(|(x, _)| *x = 0.0);
-        }
-        Self { components, defined: Some(defined) }
-    }
-
-    /// The ranges without a gap.
-    pub(crate) fn runs(&self) -> Vec<std::ops::Range<usize>> {
-        let samples = self.components.first().map_or(0, Vec::len);
-        let there = |at: usize| self.defined.as_ref().is_none_or(|defined| defined[at]);
-        let mut runs = Vec::new();
-        let mut begin = None;
-        for at in 0..=samples {
-            match (begin, at < samples && there(at)) {
-                (None, true) => begin = Some(at),
-                (Some(from), false) => {
-                    runs.push(from..at);
-                    begin = None;
-                }
-                _ => {}
-            }
-        }
-        runs
-    }
-
-    /// Subtracts a number where it is defined.
-    pub(crate) fn less(&mut self, mean: f64) {
-        let defined = self.defined.as_deref();
-        for component in &mut self.components {
-            let there = |at: usize| defined.is_none_or(|defined| defined[at]);
-            component.iter_mut().enumerate().filter(|(at, _)| there(*at)).for_each(|(_, x)| *x -= mean);
-        }
-    }
-
-    /// Defined samples.
-    pub(crate) fn count(&self) -> f64 {
-        let all = self.components.first().map_or(0, Vec::len);
-        self.defined.as_ref().map_or(all, |defined| defined.iter().filter(|there| **there).count()) as f64
-    }
-}
-
-impl Quantity {
-    /// Its name in tables.
-    #[must_use]
-    pub fn name(&self) -> &str {
-        match self {
-            Self::Velocity => "velocity",
-            Self::Heading => "heading",
-            Self::Speed => "speed",
-            Self::Mode(_, name) => name,
-        }
-    }
-
-    /// Whether it is a number, whose mean is subtracted from its fluctuations; a vector has the mean 0 by isotropy.
-    #[must_use]
-    pub fn is_number(&self) -> bool {
-        matches!(self, Self::Speed)
-    }
-
-    /// Its series along a track.
-    #[must_use]
-    pub fn of(&self, track: &Track) -> Series {
-        let vector = |pairs: &[[f64; 2]]| {
-            Series::new((0..2).map(|k| pairs.iter().map(|pair| pair[k]).collect()).collect())
-        };
-        match self {
-            Self::Velocity => vector(&track.velocity),
-            Self::Speed => Series::new(vec![self.size(track)]),
-            Self::Mode(number, _) => vector(&track.modes[*number]),
-            Self::Heading => {
-                let sizes = Self::Speed.size(track);
-                let unit =
-                    |(v, s): (&[f64; 2], &f64)| if *s > 0.0 { v.map(|x| x / s) } else { [f64::NAN; 2] };
-                vector(&track.velocity.iter().zip(&sizes).map(unit).collect::<Vec<_>>())
-            }
-        }
-    }
-
-    /// Its size along a track: the speed, or the amplitude of a mode; NaN where it is missing.
-    #[must_use]
-    pub fn size(&self, track: &Track) -> Vec<f64> {
-        let pairs = match self {
-            Self::Mode(number, _) => &track.modes[*number],
-            _ => &track.velocity,
-        };
-        pairs.iter().map(|[a, b]| libm::hypot(*a, *b)).collect()
-    }
 }
 
 impl Tracks {

@@ -10,7 +10,7 @@ use motiform_study::presets::find_any;
 use motiform_study::{Plan, Study};
 use motiform_tracks::modes::ModeOptions;
 use motiform_tracks::synthetic::Synthetic;
-use motiform_tracks::{Cell, Options, Outline, Tracks, write_csv};
+use motiform_tracks::{Options, Outline, write_csv};
 
 /// Undeformed radius of a body whose largest deformation is of order 1.
 pub(crate) const RADIUS: f64 = 2.0;
@@ -66,16 +66,7 @@ pub(crate) fn cell(study: &Study, vertex_noise: f64) -> Sample {
 
 /// The same with another radius.
 pub(crate) fn cell_of(study: &Study, radius: f64, vertex_noise: f64) -> Sample {
-    let cells = vec![Cell { name: "one".to_owned(), frames: outlines(study, radius, vertex_noise) }];
-    let tracks = Tracks {
-        cells,
-        length_unit: "um".to_owned(),
-        time_unit: "s".to_owned(),
-        y_down: None,
-        image: None,
-        files: Vec::new(),
-        notes: Vec::new(),
-    };
+    let tracks = crate::recordings::tracks(vec![outlines(study, radius, vertex_noise)]);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("cells.csv");
     write_csv(&tracks, &path).unwrap();

@@ -3,12 +3,13 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use super::bodies::{cell, preset, sampled};
+use super::recordings::tracks;
 use motiform_analysis::regime::Regime;
 use motiform_cells::{Observation, Sample, observe};
 use motiform_study::Study;
+use motiform_tracks::Outline;
 use motiform_tracks::modes::ModeOptions;
 use motiform_tracks::synthetic::Synthetic;
-use motiform_tracks::{Cell, Outline, Tracks};
 
 fn observed(study: &Study) -> Observation {
     observe(&cell(study, 0.01).cells[0])
@@ -62,7 +63,7 @@ fn looping(net: f64) -> Observation {
             centre = [centre[0] + step * libm::cos(heading), centre[1] + step * libm::sin(heading)];
         }
     }
-    observe(&Sample::of_tracks(one(frames), &ModeOptions::default()).cells[0])
+    observe(&Sample::of_tracks(tracks(vec![frames]), &ModeOptions::default()).cells[0])
 }
 
 /// A full circle of the heading is no rotation: with it the motion is a circle that drifts (a trochoid), with a little more a rosette.
@@ -80,19 +81,6 @@ fn a_full_circle_in_each_period_is_no_rotation() {
     }
 }
 
-/// One cell with these outlines.
-fn one(frames: Vec<Outline>) -> Tracks {
-    Tracks {
-        cells: vec![Cell { name: "one".to_owned(), frames }],
-        length_unit: "um".to_owned(),
-        time_unit: "s".to_owned(),
-        y_down: None,
-        image: None,
-        files: Vec::new(),
-        notes: Vec::new(),
-    }
-}
-
 /// A path is straight, but the long axis turns: no motion of these bodies does that.
 #[test]
 fn a_straight_path_with_a_shape_that_turns_is_no_straight_motion() {
@@ -102,7 +90,7 @@ fn a_straight_path_with_a_shape_that_turns_is_no_straight_motion() {
         let body = Synthetic { centre: [0.5 * t, 0.0], r0: 2.0, z: vec![z2, [0.0, 0.0]] };
         Outline { frame: i64::from(frame), t, points: body.vertices(48, 0.0), missing: 0 }
     });
-    let found = observe(&Sample::of_tracks(one(frames.collect()), &ModeOptions::default()).cells[0]);
+    let found = observe(&Sample::of_tracks(tracks(vec![frames.collect()]), &ModeOptions::default()).cells[0]);
     assert_eq!(found.motion.regime, None, "{}", found.motion.why);
     assert!(found.motion.why.contains("the shape changes by 10.0 % of the radius"), "{}", found.motion.why);
 }
@@ -134,10 +122,8 @@ fn a_trochoid_is_not_quasi_periodic() {
             let body = Synthetic { centre, r0: 2.0, z: vec![z2, [0.0, 0.0]] };
             Outline { frame: i64::from(frame), t, points: body.vertices(48, 0.0), missing: 0 }
         });
-        let found = observe(
-            &Sample::of_tracks(super::recordings::tracks(vec![frames.collect()]), &ModeOptions::default())
-                .cells[0],
-        );
+        let found =
+            observe(&Sample::of_tracks(tracks(vec![frames.collect()]), &ModeOptions::default()).cells[0]);
         assert!(matches!(found.motion.regime, None | Some(Regime::Circular)), "{}", found.motion.why);
         assert!(found.motion.why.contains("one full circle"), "{}", found.motion.why);
     }
@@ -146,7 +132,7 @@ fn a_trochoid_is_not_quasi_periodic() {
 /// A walker whose steps are within its errors wanders all the same.
 #[test]
 fn a_slow_walker_does_not_rest() {
-    use super::recordings::{Shape, Walker, tracks};
+    use super::recordings::{Shape, Walker};
     let walker = Walker { speed: 0.004, persistence: 50.0, shape: Shape::Round, frames: 400, noise: 0.02 };
     let found =
         observe(&Sample::of_tracks(tracks(vec![walker.outlines(2)]), &ModeOptions::default()).cells[0]);

@@ -67,7 +67,7 @@ fn a_chaotic_cell_is_found_chaotic_at_its_place() {
 fn says_where_it_comes_from(text: &str, study: &Study, fit: &CellFit) {
     let table: toml::Table = text.parse().unwrap();
     let own = table["fit"].as_table().unwrap();
-    assert_eq!(own["cells"].as_array().unwrap()[0].as_str(), Some("one"));
+    assert_eq!(own["cells"].as_array().unwrap()[0].as_str(), Some("1"));
     assert_eq!(own["frames"].as_integer(), i64::try_from(fit.frames).ok());
     assert_eq!(own["sha256_of_frames"].as_array().unwrap()[0].as_str().unwrap().len(), 64);
     let names: Vec<&str> =
@@ -107,7 +107,7 @@ fn a_cell_with_a_square_mode() {
     let prediction = fit.prediction.unwrap();
     assert_eq!(prediction.comparisons.len(), 11);
     assert_eq!(prediction.count(Agreement::Differs), 0, "{:?}", prediction.comparisons);
-    assert!(found.study("one", 2.0).unwrap().model.definition().unwrap().modes.len() == 4);
+    assert!(found.study("1", 2.0).unwrap().model.definition().unwrap().modes.len() == 4);
 }
 
 #[test]

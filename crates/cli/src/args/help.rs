@@ -183,4 +183,4 @@ Examples:
   motiform new mine.toml                    a study: parameters, start, run, map, branch
   motiform new mine.toml --equations        equations of your own
 
-The file stands in place of a model's name in every command: motiform simulate mine.toml";
+Every command that takes the name of a model takes the file, too: motiform simulate mine.toml";

@@ -17,7 +17,7 @@ type Body = Result<Box<dyn Equivariant>>;
 
 /// `z' = (p + 2i) z + |z|^2 z - |z|^4 z`: an unstable circle `|z|^2 = (1 - sqrt(1 + 4p))/2` begins at the Hopf bifurcation `p = 0`,
 /// and turns into the stable one at `p = -1/4`.
-struct Bent(f64);
+pub(crate) struct Bent(pub(crate) f64);
 motiform_models::plain!(Bent, 2);
 impl<T: Scalar> VectorField<T> for Bent {
     fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {

@@ -29,7 +29,7 @@ fn end(server: Running) -> Duration {
 
 /// A page that never answers the close, one that never reads, and a connection that never asks: none of them is waited for.
 #[test]
-fn whoever_does_not_listen() {
+fn a_client_that_does_not_listen() {
     let server = Running::anywhere();
     let mut silent = server.page();
     let mut deaf = server.page();

@@ -13,15 +13,15 @@ const MOST_ORDER: f64 = 1.0 / 3.0;
 /// Largest angle of the axis between two frames (rad): beyond, its turns are not followed.
 const FOLLOWED: f64 = 0.8;
 
+/// Direction of the long axis (unit modulus) and velocity between two frames.
+type Row = (Complex<f64>, Complex<f64>);
+
 /// The constant velocity u in v = u + a exp(i theta), theta the direction of the long axis of z2, followed from frame to frame; least squares.
 ///
 /// Laws that keep their form under rotations have u = 0: what does not turn with the cell is the stage, or a flow. `None` with fewer than 60 frames, where the axis is not clear of its
 /// errors or turns too far between frames to be followed, and where the cell keeps a direction.
 ///
 /// # Units   length/time of the track
-/// Direction of the long axis (unit modulus) and velocity between two frames.
-type Row = (Complex<f64>, Complex<f64>);
-
 /// # Checked by  `tests/all/stage.rs`: circles with and without a drift
 #[must_use]
 pub fn stage_velocity(track: &Track) -> Option<[f64; 2]> {

@@ -1,0 +1,72 @@
+//! Options of the commands about files and the machine.
+
+use super::{DrawingOptions, Observable};
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct NewOptions {
+    /// The file; one that exists stays as it is
+    #[arg(value_name = "FILE.toml")]
+    pub(crate) file: PathBuf,
+    /// Write equations as text instead of a study of the tensor model
+    #[arg(long)]
+    pub(crate) equations: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct DoctorOptions {
+    /// Print one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct CheckOptions {
+    /// The study file
+    #[arg(value_name = "STUDY.toml", required_unless_present = "schema")]
+    pub(crate) study: Option<PathBuf>,
+    /// Print the plan as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Print the JSON schema of study files
+    #[arg(long)]
+    pub(crate) schema: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct FigureOptions {
+    /// Folders written by `motiform simulate`, `scan` or `continue`
+    #[arg(value_name = "DIR", required = true)]
+    pub(crate) datasets: Vec<PathBuf>,
+    /// Draw figures again that were edited since; the edited ones are kept as NAME.edited.svg. With --out: replace earlier figures there
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Write the figures into this folder; those of the result stay as they are
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// What a diagram of branches shows against the parameter
+    #[arg(long, value_name = "NAME", value_enum)]
+    pub(crate) observable: Option<Observable>,
+    #[command(flatten)]
+    pub(crate) drawing: DrawingOptions,
+}
+
+#[derive(Args)]
+pub(crate) struct VerifyOptions {
+    /// A folder that motiform wrote
+    #[arg(value_name = "DIR")]
+    pub(crate) folder: PathBuf,
+    /// Compute all rows of a dataset or scan again, not only a sample
+    #[arg(long)]
+    pub(crate) all: bool,
+    /// Print the findings as one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct CompletionsOptions {
+    /// The shell
+    pub(crate) shell: clap_complete::Shell,
+}

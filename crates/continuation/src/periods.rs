@@ -1,0 +1,137 @@
+//! How the period of an orbit grows towards a connection.
+
+use super::homoclinic::{Connection, PeriodLaw};
+use motiform_analysis::linear::solve;
+
+/// Laws by which the distance to a connection falls as a power of the time: `|p - p0| ~ 1/T^k`.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Algebraic {
+    /// [`PeriodLaw::Resonant`].
+    Resonant = 1,
+    /// [`PeriodLaw::SquareRoot`].
+    SquareRoot = 2,
+}
+
+/// Times along a branch of orbits, with the slope of the parameter.
+#[derive(Debug, Default)]
+pub(super) struct Periods {
+    /// `(T, p, dp/dT)`, of the last points over which the time grew.
+    pub(super) points: Vec<(f64, f64, f64)>,
+}
+
+/// The law must hold over as many points.
+const POINTS: usize = 6;
+
+/// Rates over the two halves of the points agree up to this part: what remains of the parameter is then known to more than one digit.
+const AGREE: f64 = 0.05;
+
+/// The rate is fitted over the times above this part of the last one.
+const WINDOW: f64 = 0.85;
+
+/// The same in long steps.
+const LONG_WINDOW: f64 = 0.5;
+
+/// The connection is reached where this much of the parameter remains.
+pub(super) const NEAR: f64 = 1e-7;
+
+/// Fits that the best one is compared with.
+const COMPARED: usize = 11;
+
+/// The algebraic laws are tried where the time has grown by this factor.
+const GROWN: f64 = 2.0;
+
+impl Periods {
+    /// A point of the branch: the time with its derivative along the branch, and the same of the parameter.
+    pub(super) fn push(&mut self, time: (f64, f64), parameter: (f64, f64)) {
+        let grows = self.points.last().is_none_or(|last| time.0 > last.0 && time.1 > 0.0);
+        if !grows {
+            self.points.clear();
+        }
+        self.points.push((time.0, parameter.0, parameter.1 / time.1));
+    }
+
+    /// The connection ahead, where the logarithmic law holds and little remains.
+    pub(super) fn connection(&self) -> Option<Connection> {
+        let time = self.points.last()?.0;
+        // in long steps the times above the window are few: the law is tested over as many points, but not from far away
+        let from = self.points.iter().position(|point| point.0 > WINDOW * time)?;
+        let from = from.min(self.points.len().checked_sub(POINTS)?);
+        let last = &self.points[from..];
+        if last[0].0 < LONG_WINDOW * time {
+            return None;
+        }
+        let &(_, parameter, slope) = last.last()?;
+        // p - p0 = c exp(-rate T): ln|dp/dT| is linear in T
+        let rate = exponent(last)?;
+        let remaining = slope / rate;
+        (remaining.abs() < NEAR * (1.0 + parameter.abs())).then(|| Connection {
+            parameter: parameter + remaining,
+            remaining: remaining.abs(),
+            error: AGREE * remaining.abs() + f64::EPSILON * parameter.abs(),
+            law: PeriodLaw::Logarithmic { rate },
+            saddle: None,
+            rates: Vec::new(),
+        })
+    }
+
+    /// The connection ahead by one of the algebraic laws, for a branch whose flow cannot be resolved any further, or whose time has become very
+    /// long: there the distance falls so slowly that a branch never comes near. Of the fits to the last half of the times the one that its
+    /// points lie on best: the very last points carry the most round-off.
+    pub(super) fn algebraic(&self, law: Algebraic) -> Option<Connection> {
+        let longest = self.points.last()?.0;
+        let late = (0..self.points.len()).filter(|&i| self.points[i].0 > 0.5 * longest);
+        let mut fits: Vec<(Connection, f64)> = late.filter_map(|last| self.fit(law, last)).collect();
+        fits.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let (best, others) = fits.split_first()?;
+        let away = |other: &(Connection, f64)| (other.0.parameter - best.0.parameter).abs();
+        // Neighbouring fits have errors in common: of those that are nearly as good, the farthest one counts three times.
+        let error = match &others[..others.len().min(COMPARED)] {
+            [] => best.0.remaining,
+            compared => 3.0 * compared.iter().map(away).fold(0.0, f64::max),
+        };
+        Some(Connection { error: error.max(f64::EPSILON * best.0.parameter.abs()), ..best.0.clone() })
+    }
+
+    /// `p = p0 + A/T^k + B/T^(k+1) + C/T^(k+2)` through the point number `last` and one well before it, with their slopes, and how far the
+    /// points between them are from it, as a part of what remains. The first term must be the largest one.
+    fn fit(&self, law: Algebraic, last: usize) -> Option<(Connection, f64)> {
+        let power = law as i32;
+        let (time, parameter, _) = self.points[last];
+        let first = self.points.iter().position(|point| point.0 > time / 1.6)?;
+        if last < first + POINTS || self.points.first()?.0 > time / GROWN {
+            return None;
+        }
+        let ends = [self.points[first], self.points[last]];
+        let column = |power: i32| {
+            let value = |t: f64| [t.powi(-power), -f64::from(power) * t.powi(-power)]; // and t times the slope
+            ends.map(|(t, _, _)| value(t)).concat()
+        };
+        let powers = [0, power, power + 1, power + 2];
+        let fit = solve(&powers.map(column), &ends.map(|(t, p, q)| [p, q * t]).concat(), 1e-14)?;
+        let at = |t: f64| fit[0] + (fit[1] + (fit[2] + fit[3] / t) / t) / t.powi(power);
+        let remaining = (fit[0] - parameter).abs();
+        let off = |&(t, p, _): &(f64, f64, f64)| (at(t) - p).abs() / remaining;
+        let worst = self.points[first..last].iter().map(off).fold(0.0, f64::max);
+        let term = (fit[1] / time.powi(power)).abs();
+        let leads = term > 0.7 * remaining && term < 1.3 * remaining;
+        let law = match law {
+            Algebraic::Resonant => PeriodLaw::Resonant { amplitude: fit[1].abs() },
+            Algebraic::SquareRoot => PeriodLaw::SquareRoot { amplitude: fit[1].abs().sqrt() },
+        };
+        let connection =
+            Connection { parameter: fit[0], remaining, error: 0.0, law, saddle: None, rates: Vec::new() };
+        (leads && worst < 1e-3).then_some((connection, worst))
+    }
+}
+
+/// `-d ln|dp/dT| / dT` over all points, where it is positive and about the same over both halves of them.
+fn exponent(points: &[(f64, f64, f64)]) -> Option<f64> {
+    let between = |pair: &[(f64, f64, f64)]| {
+        let [(t0, _, s0), (t1, _, s1)] = [pair[0], pair[1]];
+        if s0 * s1 > 0.0 { libm::log(s0 / s1) / (t1 - t0) } else { f64::NAN }
+    };
+    let (first, middle, last) = (points.first()?, points.get(points.len() / 2)?, points.last()?);
+    let (early, late) = (between(&[*first, *middle]), between(&[*middle, *last]));
+    let mean = between(&[*first, *last]);
+    (mean > 0.0 && (early - late).abs() < AGREE * mean).then_some(mean)
+}
