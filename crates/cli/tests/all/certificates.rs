@@ -75,7 +75,8 @@ fn coefficients_do_not_depend_on_the_start_and_the_tolerance() {
     let folder = Folder::new();
     let run = "tensor --preset fig5a --along kappa2=0.9:1.2 --branches 2";
     let coefficients = |options: &str| -> Vec<(f64, f64)> {
-        let all = entries(&follow(&folder, &format!("{run} {options}")));
+        let json = follow(&folder, &format!("{run} {options}"));
+        let all = entries(&json);
         let cubic = all.iter().filter(|entry| entry["normal_form"] == "cubic");
         let of = |entry: &&Value| {
             assert_eq!(entry["criticality"], "supercritical", "{options}: {entry}");
