@@ -103,7 +103,7 @@ fn records_of_two_cells_or_two_units_are_neither_named_nor_fitted() {
         assert!(reason.contains(why), "{reason}");
         let all: Vec<&CellTrack> = sample.cells.iter().collect();
         let reason = fit_together(&all, &FitOptions::default(), &()).unwrap().fitted.unwrap_err();
-        assert!(reason.contains("cell one: ") && reason.contains(why), "{reason}");
+        assert!(reason.contains("cell 1: ") && reason.contains(why), "{reason}");
     }
 }
 

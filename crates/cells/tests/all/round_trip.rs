@@ -58,9 +58,9 @@ fn a_chaotic_cell_is_found_chaotic_at_its_place() {
     work.write(&sample, std::slice::from_ref(&fit), true).unwrap();
     let path = work.path();
     assert_eq!(motiform_files::kind_of(path), Some(motiform_files::Kind::Fits));
-    let back = Study::read(&path.join("cell-one.toml")).unwrap();
+    let back = Study::read(&path.join("cell-1.toml")).unwrap();
     assert!(back.model.definition().is_some() && back.run.noise > 0.0);
-    says_where_it_comes_from(&fs::read_to_string(path.join("cell-one.toml")).unwrap(), &back, &fit);
+    says_where_it_comes_from(&fs::read_to_string(path.join("cell-1.toml")).unwrap(), &back, &fit);
 }
 
 /// The covariance is that of the parameters of the file: `b1/4*z1^2` has a coefficient with a quarter of the error of `b1`.
