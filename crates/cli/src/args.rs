@@ -30,7 +30,7 @@ pub(crate) use motions::{ContinueOptions, Crossing, EquilibriaOptions, Observabl
 pub(crate) use scan::{MergeOptions, ScanOptions};
 pub(crate) use statistics::StatisticsOptions;
 use std::path::PathBuf;
-pub(crate) use subject::{MethodOptions, SamplesOptions, SubjectOptions};
+pub(crate) use subject::{MethodOptions, ParameterOptions, SamplesOptions, SubjectOptions};
 pub(crate) use tools::{
     CheckOptions, CompletionsOptions, DoctorOptions, FigureOptions, NewOptions, VerifyOptions,
 };
@@ -274,6 +274,12 @@ fn random(text: &str) -> Result<Random, String> {
 fn assignment(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, e.g. kappa2=0.9")?;
     Ok((ascii(name.trim()), number(value.trim())?))
+}
+
+fn tie(text: &str) -> Result<(String, String), String> {
+    let (name, formula) =
+        text.split_once('=').ok_or("write NAME=EXPRESSION, e.g. b3=d3 or kappa3=2*kappa2")?;
+    Ok((ascii(name.trim()), ascii(formula.trim())))
 }
 
 #[cfg(test)]

@@ -1,15 +1,15 @@
 //! A progress bar with rate and remaining time for work that takes longer than two seconds, and Ctrl-C.
 
+use crate::interrupt::interrupted;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use motiform_dynamics::Watch;
 use std::io::Write;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Nothing is drawn before this: short runs show no progress bar.
 const QUIET: Duration = Duration::from_secs(2);
-
-static STOPPED: AtomicBool = AtomicBool::new(false);
 
 /// Shows progress on a terminal and handles Ctrl-C.
 pub(crate) struct Progress {
@@ -17,17 +17,13 @@ pub(crate) struct Progress {
     started: Instant,
     /// The total work.
     total: f64,
+    /// Whether Ctrl-C was pressed.
+    stopped: Arc<AtomicBool>,
 }
 
 impl Progress {
     /// A watch over `total` of `unit` (model time, cells). The first Ctrl-C stops the run, the second ends the program.
     pub(crate) fn new(total: f64, unit: &'static str) -> Self {
-        // Fails only if a handler is set already: then the first one still works.
-        let _ = ctrlc::set_handler(|| {
-            if STOPPED.swap(true, Ordering::Relaxed) {
-                std::process::exit(130);
-            }
-        });
         let bar = ProgressBar::with_draw_target(Some(total.ceil() as u64), ProgressDrawTarget::hidden());
         let template = "{bar:32} {percent:>3}%  {rate}  {eta} left";
         let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
@@ -41,7 +37,7 @@ impl Progress {
             };
         };
         bar.set_style(style.with_key("rate", rate));
-        Self { bar, started: Instant::now(), total }
+        Self { bar, started: Instant::now(), total, stopped: interrupted() }
     }
 
     /// Removes the bar.
@@ -71,6 +67,6 @@ impl Watch for Progress {
     }
 
     fn stopped(&self) -> bool {
-        STOPPED.load(Ordering::Relaxed)
+        self.stopped.load(Ordering::Relaxed)
     }
 }

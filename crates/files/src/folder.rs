@@ -3,7 +3,6 @@
 use super::Fields;
 use super::parquet_table;
 use super::table_file::{self, write_table};
-use motiform_dynamics::Model;
 use motiform_store::{Staged, mend};
 use motiform_study::Error;
 use motiform_study::dataset::{Dataset, Manifest};
@@ -118,7 +117,7 @@ pub fn read_dataset_by(
     })?;
     let mut manifest: Manifest =
         serde_json::from_str(&text).map_err(|error| Error::unreadable(&path, error))?;
-    let model = model_of(&manifest).map_err(|error| Error::unreadable(&path, error))?;
+    let model = manifest.plan.body().map_err(|error| Error::unreadable(&path, error))?;
     let path = table_path(folder, "trajectory")
         .ok_or_else(|| Error::unreadable(folder, "it has no trajectory.parquet or trajectory.csv"))?;
     let trajectory = read(&mut manifest, &path)?;
@@ -147,11 +146,6 @@ pub fn read_table_file(path: &Path) -> Result<(Table, Option<Manifest>), Error> 
         }
         _ => Ok((table_file::read(path)?, None)),
     }
-}
-
-fn model_of(manifest: &Manifest) -> Result<Box<dyn Model>, Error> {
-    let plan = &manifest.plan;
-    Ok(plan.info()?.build(&plan.computation.parameters.values())?)
 }
 
 /// Rejects a table without one of the columns `names`.

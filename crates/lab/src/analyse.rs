@@ -167,7 +167,7 @@ pub(crate) fn lyapunov_settings(
 /// The model of a plan without noise: analyses refer to the flow.
 pub(crate) fn model(plan: &Plan) -> Result<Box<dyn Model>, Error> {
     check_no_noise(plan.computation.noise.map_or(0.0, |noise| noise.largest()))?;
-    Ok(plan.info()?.build(&plan.computation.parameters.values())?)
+    plan.body()
 }
 
 /// The model of a plan, and its initial shape.

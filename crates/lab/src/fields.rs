@@ -81,8 +81,7 @@ struct Making {
 impl Making {
     /// Those of a trajectory of so many rows; `None` without rows, and for models without a field.
     fn new(manifest: &Manifest, rows: usize) -> Result<Option<Self>, Error> {
-        let values = manifest.plan.computation.parameters.values();
-        let model = manifest.plan.info()?.build(&values)?;
+        let model = manifest.plan.body()?;
         let Some(radius) = model.radius().filter(|_| rows > 0) else { return Ok(None) };
         let stride = rows.div_ceil(TIMES);
         let length = std::f64::consts::TAU * radius;

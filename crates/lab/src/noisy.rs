@@ -17,7 +17,7 @@ use motiform_study::{Error, Plan};
 /// # Errors
 /// An unknown model.
 pub fn has_noisy_lanes(plan: &Plan) -> Result<bool, Error> {
-    let model = plan.info()?.build(&plan.computation.parameters.values())?;
+    let model = plan.body()?;
     Ok(plan.computation.noise.is_some() && setting(plan, model.as_ref()).is_some())
 }
 
@@ -38,7 +38,7 @@ fn setting(plan: &Plan, model: &dyn Model) -> Option<(Kernel, [f64; 2])> {
 /// # Checked by  tests/all/noisy_lanes.rs: against single runs, for both models, threads, escapes
 pub fn noisy_tracks(plans: &[Plan], threads: usize, watch: &dyn Watch) -> Result<Option<Vec<Track>>, Error> {
     let Some(first) = plans.first() else { return Ok(Some(Vec::new())) };
-    let model = first.info()?.build(&first.computation.parameters.values())?;
+    let model = first.body()?;
     let model = model.as_ref();
     let (Some(noise), Some((kernel, tolerances))) = (first.computation.noise, setting(first, model)) else {
         return spread(plans.len(), threads, watch, |jobs| jobs.each(|job| track(&plans[job], model, watch)));

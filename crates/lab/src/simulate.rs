@@ -32,7 +32,7 @@ pub fn simulate(plan: &Plan, watch: &dyn Watch) -> Result<Dataset, Error> {
 /// # Errors
 /// An unknown model.
 pub fn columns(plan: &Plan) -> Result<Table, Error> {
-    Ok(readings::columns(plan.info()?.build(&plan.computation.parameters.values())?.as_ref()))
+    Ok(readings::columns(plan.body()?.as_ref()))
 }
 
 /// Runs a plan whose trajectory goes to `rows` as it is computed: nothing of it is kept here.
@@ -40,8 +40,7 @@ pub fn columns(plan: &Plan) -> Result<Table, Error> {
 /// # Errors
 /// As [`simulate`], and what `rows` cannot take: the run then ends.
 pub fn simulate_into(plan: &Plan, rows: &mut dyn Rows, watch: &dyn Watch) -> Result<Run, Error> {
-    let info = plan.info()?;
-    let model = info.build(&plan.computation.parameters.values())?;
+    let model = plan.body()?;
     let body = InPlane(model.as_ref());
     let run = Simulation { plan, computation: &plan.computation, model: model.as_ref(), body: &body, watch };
     run.all(rows)

@@ -128,7 +128,7 @@ fn one_by_one(plans: &[Plan], kept: &Kept<'_>, threads: usize, watch: &dyn Watch
         }
         let dataset = simulate(plan, &StopOnly(watch))?;
         let outcome = dataset.manifest.outcome.outcome;
-        let model = plan.info()?.build(&plan.computation.parameters.values())?;
+        let model = plan.body()?;
         let track = crate::datasets::track(&dataset.trajectory, model.as_ref(), 0.0);
         let part = (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / plans.len() as f64;
         watch.progress(part);
@@ -148,7 +148,7 @@ fn in_lanes(plans: &[Plan], kept: &Kept<'_>, threads: usize, watch: &dyn Watch) 
     let c = &plans[0].computation;
     let rows = (c.t_end / c.dt_out * (1.0 + 1e-12)).floor() as usize;
     let times: Vec<f64> = (0..=rows).map(|k| c.transient + k as f64 * c.dt_out).collect();
-    let model = plans[0].info()?.build(&c.parameters.values()).map_err(Error::from)?;
+    let model = plans[0].body()?;
     let mut found = Vec::with_capacity(plans.len());
     for (number, chunk) in plans.chunks(TOGETHER).enumerate() {
         let at = |body: usize| body.min(plans.len()) as f64 / plans.len() as f64;

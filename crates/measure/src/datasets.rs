@@ -29,7 +29,7 @@ pub fn read(folders: &[PathBuf], transient: f64, settings: &Settings) -> Result<
         let dataset = read_dataset(folder)?;
         check(folder, &dataset, first.as_ref())?;
         let plan = &dataset.manifest.plan;
-        let model = plan.info()?.build(&plan.computation.parameters.values()).map_err(Error::from)?;
+        let model = plan.body()?;
         tracks.push(track(&dataset.trajectory, model.as_ref(), transient));
         if !dataset.manifest.outcome.is_complete() {
             notes.push(format!(

@@ -93,8 +93,7 @@ pub(crate) fn title(plan: &Plan) -> String {
 
 /// The statistics of tracks of a plan's model.
 pub(crate) fn measured(plan: &Plan, tracks: Vec<Track>, settings: &Settings) -> Result<Statistics> {
-    let model =
-        plan.info()?.build(&plan.computation.parameters.values()).map_err(motiform_study::Error::from)?;
+    let model = plan.body()?;
     let tracks = Tracks::new(plan.computation.dt_out, mode_names(model.as_ref()), tracks)?;
     Ok(statistics(&tracks, settings)?)
 }

@@ -65,8 +65,7 @@ impl Run {
             return Ok(model.as_ref());
         }
         let plan = &self.manifest.plan;
-        let model = plan.info().map_err(python)?.build(&plan.computation.parameters.values());
-        let model = model.map_err(|error| python(error.into()))?;
+        let model = plan.body().map_err(python)?;
         Ok(self.model.get_or_init(|| model).as_ref())
     }
 

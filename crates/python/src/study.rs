@@ -8,6 +8,7 @@ use motiform_study::{Error, Random, presets};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyType};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// A model with its parameters, an initial state and run settings; immutable, only copied with changes.
@@ -42,6 +43,15 @@ impl Study {
         motiform_study::Study::parse(text, name, name).map(Self).map_err(python)
     }
 
+    /// A copy in which each of these parameters follows from others.
+    fn tied(&self, ties: BTreeMap<String, String>) -> PyResult<Self> {
+        let mut study = self.0.clone();
+        for (name, formula) in ties {
+            study.tie(&name, &formula).map_err(of_keywords)?;
+        }
+        Ok(Self(study))
+    }
+
     /// A copy with other parameters, initial values and run settings.
     #[pyo3(signature = (parameters=None, initial=None, run=None))]
     fn with_(
@@ -65,9 +75,7 @@ impl Study {
             set(&mut study, name.cast::<PyString>()?.to_str()?, &value)?;
         }
         if parameters.is_some() {
-            let values = study.values().map_err(python)?;
-            let built = study.info().map_err(python)?.build(&values); // refuses what is out of range
-            built.map_err(|error| python(error.into()))?;
+            study.body().map_err(python)?; // refuses what is out of range
         }
         Ok(Self(study))
     }

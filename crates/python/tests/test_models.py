@@ -31,6 +31,17 @@ def test_copies_are_changed_and_originals_are_not() -> None:
     assert isinstance(body, motiform.Tensor) and isinstance(motiform.preset("fig6a"), motiform.Cell)
 
 
+def test_parameters_follow_from_others() -> None:
+    body = motiform.preset("fig4").replace(d3=0.05, kappa2=0.2).tie(b3="d3", kappa3="2*kappa2")
+    assert (body.b3, body.kappa3) == (0.05, 0.4)
+    assert body.replace(d3=-1.0).b3 == -1.0
+    assert 'b3 = "d3"' in body.to_toml()
+    with pytest.raises(ValueError, match="leave out the tie"):
+        body.replace(b3=0.7)
+    with pytest.raises(ValueError, match="did you mean d3"):
+        body.tie(b3="d33")
+
+
 @pytest.mark.parametrize("name", list(motiform.PRESETS))
 def test_models_travel(name: str, tmp_path: Path) -> None:
     body = motiform.preset(name).replace(seed=7)

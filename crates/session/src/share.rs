@@ -221,7 +221,7 @@ mod tests {
         let edited = catalogue.subject("edited", None).unwrap().study;
         let state = [0.3, -0.2, 0.1, 0.05, 0.02, -0.03];
         let rates = |study: &Study| {
-            let model = study.info().unwrap().build(&study.values().unwrap()).unwrap();
+            let model = study.body().unwrap();
             let mut rates = [0.0; 6];
             motiform_dynamics::VectorField::<f64>::eval(model.as_ref(), 0.0, &state, &mut rates);
             rates

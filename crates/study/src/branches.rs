@@ -1,7 +1,7 @@
 //! Branches as data: which motion is followed, along which parameter, how far.
 
 use crate::plan::{Computation, check, check_no_noise, sha256_hex};
-use crate::{Error, Given, Plan, Stride, Study, Towards};
+use crate::{Error, Given, Plan, Stride, Study, Ties, Towards};
 use motiform_analysis::Regime;
 use motiform_models::ModelInfo;
 use motiform_models::parameters::index_of;
@@ -100,6 +100,9 @@ pub struct BranchComputation {
     /// What the start is, if it was taken from an earlier result; otherwise it is simulated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub given: Option<Given>,
+    /// Parameters that follow from others.
+    #[serde(default, skip_serializing_if = "Ties::is_empty")]
+    pub ties: Ties,
     /// The start: model, parameters, initial state, method.
     pub start: Computation,
 }
@@ -197,6 +200,7 @@ impl BranchPlan {
         let info = study.info()?;
         let value = start.parameters.get(&along.name).unwrap_or(f64::NAN);
         along.check(info, value)?;
+        study.ties.check_free([along.name.as_str()])?;
         stride.check(value, (along.from, along.to))?;
         check_known(origin, given)?;
         check("points", points as f64, (2..=1_000_000).contains(&points), "give from 2 to 1000000")?;
@@ -209,8 +213,19 @@ impl BranchPlan {
             "give from 2 to 100000 values of the parameter, or 0 for none",
         )?;
         let format = BRANCH_FORMAT;
-        let computation =
-            BranchComputation { format, along, origin, points, branches, samples, stride, given, start };
+        let ties = study.ties.clone();
+        let computation = BranchComputation {
+            format,
+            along,
+            origin,
+            points,
+            branches,
+            samples,
+            stride,
+            given,
+            ties,
+            start,
+        };
         Ok(Self { name: plan.name, title: plan.title, computation })
     }
 
@@ -250,7 +265,16 @@ impl BranchPlan {
     #[must_use]
     pub fn parameters_at(&self, value: f64) -> Vec<f64> {
         let c = &self.computation;
-        let entries = c.start.parameters.0.iter();
-        entries.map(|(name, fixed)| if *name == c.along.name { value } else { *fixed }).collect()
+        c.parameters_with(|name| (name == c.along.name).then_some(value))
+    }
+}
+
+impl BranchComputation {
+    /// The parameters, in registry order: of those that vary the given values, of tied ones those that follow.
+    pub(crate) fn parameters_with(&self, varied: impl Fn(&str) -> Option<f64>) -> Vec<f64> {
+        let entries = self.start.parameters.0.iter();
+        let mut values: Vec<f64> = entries.map(|(name, fixed)| varied(name).unwrap_or(*fixed)).collect();
+        self.ties.apply(self.start.model.info().map_or(&[], ModelInfo::parameters), &mut values);
+        values
     }
 }

@@ -160,6 +160,7 @@ impl CurvePlan {
         for (name, _) in &plane.0 {
             index_of(info.parameters(), info.name, name)?;
         }
+        study.ties.check_free(plane.0.iter().map(|(name, _)| name.as_str()))?;
         let along = &branches.computation.along;
         let varied = plane.0.iter().filter(|side| side.0 == along.name).count();
         if varied != 1 {
@@ -228,13 +229,11 @@ impl CurvePlan {
     #[must_use]
     pub fn parameters_at(&self, values: [f64; 2]) -> Vec<f64> {
         let [across, upwards] = &self.computation.plane;
-        let entries = self.computation.branches.start.parameters.0.iter();
-        let value = |(name, fixed): &(String, f64)| match name {
-            name if *name == across.name => values[0],
-            name if *name == upwards.name => values[1],
-            _ => *fixed,
-        };
-        entries.map(value).collect()
+        self.computation.branches.parameters_with(|name| match name {
+            name if name == across.name => Some(values[0]),
+            name if name == upwards.name => Some(values[1]),
+            _ => None,
+        })
     }
 }
 

@@ -35,6 +35,16 @@ pub enum Error {
     /// A result on disk is not written, replaced or continued.
     #[error(transparent)]
     Store(#[from] motiform_store::Error),
+    /// A parameter cannot follow from others like this.
+    #[error("tie {name} = {formula}: {problem}")]
+    Tie {
+        /// The tied parameter.
+        name: String,
+        /// The expression given.
+        formula: String,
+        /// The problem and its remedy.
+        problem: String,
+    },
     /// The models rejected a name or a value.
     #[error(transparent)]
     Models(#[from] motiform_models::Error),

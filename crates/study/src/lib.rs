@@ -28,6 +28,7 @@ pub mod study;
 mod study_reader;
 mod study_toml;
 pub mod table;
+mod ties;
 pub mod titles;
 mod toml_reader;
 
@@ -43,3 +44,4 @@ pub use random::Random;
 pub use scan::ScanPlan;
 pub use stride::{Stride, Towards};
 pub use study::Study;
+pub use ties::Ties;

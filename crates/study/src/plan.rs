@@ -162,6 +162,14 @@ impl Plan {
         Ok(self.computation.model.info()?)
     }
 
+    /// The body that it describes: its model at its parameters.
+    ///
+    /// # Errors
+    /// An unknown model, or parameters that it refuses.
+    pub fn body(&self) -> Result<Box<dyn Model>, Error> {
+        Ok(self.info()?.build(&self.computation.parameters.values())?)
+    }
+
     /// Its stepper.
     ///
     /// # Errors

@@ -7,7 +7,8 @@ use crate::random::Random;
 pub use crate::run_settings::RunSettings;
 use crate::scan::Axis;
 pub use crate::study_reader::schema;
-use crate::{Error, presets};
+use crate::{Error, Ties, presets};
+use motiform_dynamics::Model;
 use motiform_models::registry::Display;
 use motiform_models::spelling::canonical;
 use motiform_models::{ModelInfo, ModelName};
@@ -28,6 +29,8 @@ pub struct Study {
     pub free: Vec<String>,
     /// Parameters that are given, in registry order.
     pub parameters: Vec<(String, f64)>,
+    /// Parameters that follow from others.
+    pub ties: Ties,
     /// Initial values that are given, in the order of the coordinates; the others are 0, or random if none is given.
     pub initial: Vec<(String, f64)>,
     /// The distribution of random starts; by default one start is small ([`Random::SMALL`]), and several sample basins
@@ -149,6 +152,7 @@ impl Study {
             about: String::new(),
             free: Vec::new(),
             parameters: Vec::new(),
+            ties: Ties::default(),
             initial: Vec::new(),
             random: None,
             perturb: Self::PERTURB,
@@ -186,19 +190,66 @@ impl Study {
     /// An unknown model.
     pub fn values(&self) -> Result<Vec<f64>, Error> {
         let given = |name: &str| self.parameters.iter().find(|(known, _)| known == name).map(|entry| entry.1);
-        let specs = self.info()?.parameters().iter();
-        Ok(specs.map(|spec| given(spec.name).unwrap_or(spec.default)).collect())
+        let specs = self.info()?.parameters();
+        let mut values: Vec<_> = specs.iter().map(|spec| given(spec.name).unwrap_or(spec.default)).collect();
+        self.ties.apply(specs, &mut values);
+        Ok(values)
+    }
+
+    /// The body that it describes: its model at its parameters.
+    ///
+    /// # Errors
+    /// An unknown model, or parameters that it refuses.
+    pub fn body(&self) -> Result<Box<dyn Model>, Error> {
+        Ok(self.info()?.build(&self.values()?)?)
+    }
+
+    /// Ties a parameter to an expression of others ([`Ties`]), replacing a value.
+    ///
+    /// # Errors
+    /// An unknown name (with the nearest one); [`Error::Tie`].
+    pub fn tie(&mut self, name: &str, formula: &str) -> Result<(), Error> {
+        let (info, before) = (self.info()?, self.values()?);
+        let name = canonical(info.parameters(), name);
+        self.ties.tie(info, name, formula)?;
+        self.parameters.retain(|(given, _)| given != name);
+        if self.values()? != before {
+            self.untitle();
+        }
+        Ok(())
+    }
+
+    /// Sets several parameters; a tied one may be among them, with the value that it has anyway.
+    ///
+    /// # Errors
+    /// Those of [`Study::set`].
+    pub fn set_all<'n>(&mut self, values: impl IntoIterator<Item = (&'n str, f64)>) -> Result<(), Error> {
+        let mut tied = Vec::new();
+        for (name, value) in values {
+            match self.ties.get(name) {
+                Some(_) => tied.push((name, value)),
+                None => self.set(name, value)?,
+            }
+        }
+        tied.into_iter().try_for_each(|(name, value)| self.set(name, value))
     }
 
     /// Sets a parameter, replacing an earlier value. Title and sentence of a preset, which refer to another value, are removed.
     ///
     /// # Errors
-    /// An unknown name (with the nearest one).
+    /// An unknown name (with the nearest one); another value for a tied parameter.
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), Error> {
         let info = self.info()?;
         let name = canonical(info.parameters(), name);
         let index = motiform_models::parameters::index_of(info.parameters(), info.name, name)?;
-        if self.values()?[index] != value {
+        let now = self.values()?[index];
+        if let Some(formula) = self.ties.get(name) {
+            let problem =
+                format!("{name} cannot be {value} as well: set what it is tied to, or leave out the tie");
+            let refused = Error::Tie { name: name.to_owned(), formula: formula.to_owned(), problem };
+            return if now == value { Ok(()) } else { Err(refused) };
+        }
+        if now != value {
             self.untitle();
         }
         let order: Vec<_> = info.parameters().iter().map(|spec| spec.name).collect();

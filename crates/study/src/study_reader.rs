@@ -21,6 +21,9 @@ impl Study {
         let mut top = Source { file, text }.parse()?;
         let mut study = read_model(&mut top, file)?;
         name.clone_into(&mut study.name);
+        if let Some(table) = top.table("ties")? {
+            read_ties(&mut study, table)?;
+        }
         if let Some(free) = top.take("free") {
             study.free = read_free(&study, &free)?;
         }
@@ -104,6 +107,15 @@ fn read_model(top: &mut Table<'_>, file: &str) -> Result<Study, Error> {
         study.set(&name, number).map_err(|error| value.name_error(error))?;
     }
     Ok(study)
+}
+
+/// `[ties]`: `b3 = "d3"`.
+fn read_ties(study: &mut Study, mut table: Table<'_>) -> Result<(), Error> {
+    for (name, value) in table.drain() {
+        let formula = value.text()?;
+        study.tie(&name, &formula).map_err(|error| value.name_error(error))?;
+    }
+    Ok(())
 }
 
 /// Equations, or the values of a preset's parameters.
@@ -262,6 +274,11 @@ pub fn schema() -> serde_json::Value {
             "preset": { "type": "string", "description": "the preset to start from" },
             "free": { "type": "array", "items": { "type": "string" }, "description": "parameters to vary" },
             "model": { "type": "object", "additionalProperties": false, "properties": models },
+            "ties": {
+                "type": "object",
+                "additionalProperties": { "type": "string" },
+                "description": "parameters that follow from others: b3 = \"d3\", kappa3 = \"2*kappa2\"",
+            },
             "initial": initial,
             "run": RunSettings::schema(),
             "scan": ScanSettings::schema(),

@@ -56,7 +56,9 @@ impl Study {
         if self.perturb.to_bits() != Self::PERTURB.to_bits() {
             initial.insert("perturb".to_owned(), self.perturb.into());
         }
+        let ties = self.ties.iter().map(|(name, formula)| (name.to_owned(), formula.into())).collect();
         let tables = [
+            ("ties", ties),
             ("initial", initial),
             ("run", changed("run", &self.run, &bare.run)?),
             ("scan", with_texts(changed("scan", &self.scan, &bare.scan)?, "axes", &self.scan.axes)),
@@ -136,6 +138,7 @@ mod tests {
         let mut study = Study::parse("preset = \"fig5b\"\n[model.tensor]", "text", "all").unwrap();
         study.title = "quotes \" and \\ and \n lines".to_owned();
         study.set("kappa2", 0.1 + 0.2).unwrap();
+        study.tie("b3", "2*d3 + 0.1").unwrap();
         study.set_initial("v1", 1e-300).unwrap();
         study.random = Some(Random::Sizes { min: 0.1 + 0.2, max: 1.0 });
         study.run = RunSettings {

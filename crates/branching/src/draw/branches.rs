@@ -159,7 +159,7 @@ fn caption(
     };
     let unfinished = if found.complete { "" } else { " Interrupted: not all of them are followed." };
     Ok(vec![
-        words::named(plan.info()?, &Named(fixed), &[&c.along.name]),
+        words::named(plan.info()?, &Named(fixed), &[&c.along.name], &c.ties),
         format!(
             "{count} by pseudo-arclength continuation{once}{left}.{}{samples}{unfinished}",
             gaps(found, ordinate)

@@ -131,6 +131,9 @@ pub fn check_scan(plan: &CurvePlan, scan: &ScanPlan) -> Result<(), Error> {
             sides.join(" and ")
         ));
     }
+    if c.ties != plan.computation.branches.ties {
+        return refuse("it has other ties between parameters: give a scan with the same ones".to_owned());
+    }
     let other = c.parameters.0.iter().find(|(name, value)| start.parameters.get(name) != Some(*value));
     match other {
         Some((name, value)) => refuse(format!(
@@ -157,7 +160,12 @@ fn caption(
     let unfinished = if found.complete { "" } else { " Interrupted: not all of them are followed." };
     let at = format!("{}\u{a0}=\u{a0}{}", symbol(info, name), words::number(plan.fixed_value()));
     let mut all = vec![
-        words::named(info, &Named(fixed), &c.plane.each_ref().map(|side| side.name.as_str())),
+        words::named(
+            info,
+            &Named(fixed),
+            &c.plane.each_ref().map(|side| side.name.as_str()),
+            &c.branches.ties,
+        ),
         format!(
             "{} by pseudo-arclength continuation, through the special points of {} at {at}.{unfinished}",
             motiform_study::titles::capital(&number(curves, "curve", "curves")),

@@ -94,9 +94,7 @@ impl StartPoint {
         if self.model.as_ref().is_some_and(|model| !is_same(model, &study.model)) {
             return Err(Error::StartPoint { text: self.text.clone(), problem: self.other_model(study) });
         }
-        for (name, value) in &self.parameters.0 {
-            study.set(name, *value)?;
-        }
+        study.set_all(self.parameters.0.iter().map(|(name, value)| (name.as_str(), *value)))?;
         self.put_state(study)
     }
 

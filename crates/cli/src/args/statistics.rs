@@ -1,6 +1,6 @@
 //! Options of `statistics`.
 
-use super::{MethodOptions, StyleOptions, assignment, number, whole};
+use super::{MethodOptions, ParameterOptions, StyleOptions, number, whole};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -12,9 +12,8 @@ pub(crate) struct StatisticsOptions {
     /// Start from a preset of the model, e.g. fig5a
     #[arg(long, value_name = "NAME")]
     pub(crate) preset: Option<String>,
-    /// Set a parameter (repeatable)
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
-    pub(crate) set: Vec<(String, f64)>,
+    #[command(flatten)]
+    pub(crate) parameters: ParameterOptions,
     #[command(flatten)]
     pub(crate) method: MethodOptions,
     /// Number of bodies to simulate (default: 100): body k has the seed --seed + k, so another random start and other noise

@@ -1,6 +1,6 @@
 //! Options that several commands share: the subject of the computation, and the method.
 
-use super::{assignment, number, random, whole};
+use super::{assignment, number, random, tie, whole};
 use clap::Args;
 use motiform_study::Random;
 
@@ -13,9 +13,19 @@ pub(crate) struct SubjectOptions {
     /// Start from a preset, e.g. fig5a
     #[arg(long, value_name = "NAME")]
     pub(crate) preset: Option<String>,
+    #[command(flatten)]
+    pub(crate) parameters: ParameterOptions,
+}
+
+/// Values of parameters.
+#[derive(Args, Clone, Default)]
+pub(crate) struct ParameterOptions {
     /// Set a parameter (repeatable); the axes of a scan take precedence
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, f64)>,
+    /// Let a parameter follow from others (repeatable), also where those are varied: b3=d3, kappa3=2*kappa2
+    #[arg(long = "tie", value_name = "NAME=EXPRESSION", value_parser = tie, allow_hyphen_values = true)]
+    pub(crate) ties: Vec<(String, String)>,
 }
 
 /// Several initial states instead of one.

@@ -63,16 +63,14 @@ fn study(options: &ContinueOptions) -> Result<(Study, Option<Given>), Error> {
     Ok((study, given))
 }
 
-/// The model with the parameters and the start of an earlier result, if one is given; --set has the last word.
+/// The model with the parameters and the start of an earlier result, if one is given; --set and --tie have the last word.
 fn subject(options: &ContinueOptions) -> Result<(Study, Option<Given>), Error> {
     let Some(text) = &options.start else { return Ok((subject::study(&options.subject)?, None)) };
     let start = StartPoint::read(text)?;
     let named = options.subject.subject.is_some() || options.subject.preset.is_some();
     let mut study = if named { subject::study(&options.subject)? } else { start.study()? };
     start.put(&mut study)?;
-    for (name, value) in &options.subject.set {
-        study.set(name, *value)?;
-    }
+    subject::put(&options.subject.parameters, &mut study)?;
     study.follow.from = None; // the motion of another start
     Ok((study, Some(start.given)))
 }

@@ -1,6 +1,7 @@
 //! `motiform explore`.
 
 use crate::args::ExploreOptions;
+use crate::interrupt::on_interrupt;
 use crate::output::{End, print, warn};
 use motiform_cells::{RecordedFrame, recorded};
 use motiform_explorer::{Handover, Options, Server, StudyFile, TrackedCell};
@@ -16,8 +17,7 @@ pub(crate) fn run(options: &ExploreOptions) -> anyhow::Result<End> {
     let address = server.address();
     print(&format!("the explorer is running at\n  {address}\non this machine only; Ctrl-C stops it"))?;
     let handle = server.handle();
-    // Fails only if a handler is set already: then the first Ctrl-C ends the program, and nothing is lost.
-    let _ = ctrlc::set_handler(move || handle.stop());
+    on_interrupt(move || handle.stop());
     let handover = if options.no_open { None } else { open(&address) };
     if !options.no_open && handover.is_none() {
         warn("no browser could be opened: open the address above");

@@ -64,7 +64,8 @@ fn recorded(options: &StatisticsOptions) -> anyhow::Result<Measurement> {
     let given = [
         ("--bodies", options.bodies.is_some()),
         ("--preset", options.preset.is_some()),
-        ("--set", !options.set.is_empty()),
+        ("--set", !options.parameters.set.is_empty()),
+        ("--tie", !options.parameters.ties.is_empty()),
         ("--t-end", options.t_end.is_some()),
         ("--dt-out", options.dt_out.is_some()),
         ("--noise", options.noise.is_some() || options.noise_velocity.is_some()),
@@ -112,7 +113,8 @@ fn study(options: &StatisticsOptions) -> Result<Study, Error> {
         return Err(Error::Setting { key: "subject", value: list.join(" "), remedy });
     };
     let subject = options.subjects.first().map(|path| path.to_string_lossy().into_owned());
-    let subject = SubjectOptions { subject, preset: options.preset.clone(), set: options.set.clone() };
+    let (preset, parameters) = (options.preset.clone(), options.parameters.clone());
+    let subject = SubjectOptions { subject, preset, parameters };
     let mut study = subject::study(&subject)?;
     subject::apply(&options.method, &mut study)?;
     let run = &mut study.run;

@@ -1,6 +1,6 @@
 //! The subject of a command: a file or a model, a preset, then the options.
 
-use crate::args::{MethodOptions, MotionOptions, SamplesOptions, SubjectOptions};
+use crate::args::{MethodOptions, MotionOptions, ParameterOptions, SamplesOptions, SubjectOptions};
 use crate::output::warn;
 use motiform_lab::samples::Samples;
 use motiform_models::ModelInfo;
@@ -64,9 +64,9 @@ pub(crate) fn apply(options: &MethodOptions, study: &mut Study) -> Result<(), Er
 
 /// The study of a model's name or a study file, or of a preset of any model, with parameters.
 pub(crate) fn study(options: &SubjectOptions) -> Result<Study, Error> {
-    let SubjectOptions { subject, preset, set } = options;
+    let SubjectOptions { subject, preset, parameters } = options;
     let Some(subject) = subject else {
-        return with(of_preset(preset.as_deref().unwrap_or_default())?, set);
+        return with(of_preset(preset.as_deref().unwrap_or_default())?, parameters);
     };
     let path = Path::new(subject);
     let study = if path.extension().is_some_and(|extension| extension == "toml") {
@@ -80,10 +80,10 @@ pub(crate) fn study(options: &SubjectOptions) -> Result<Study, Error> {
         Study::read(path)?
     } else {
         if let (NAME, Some(name)) = (subject.as_str(), preset) {
-            return with(presets::find_any(name, NAME)?, set);
+            return with(presets::find_any(name, NAME)?, parameters);
         }
         if let (Some(named), None) = (find_preset(subject), preset) {
-            return with(presets::find_any(named.name, named.model)?, set);
+            return with(presets::find_any(named.name, named.model)?, parameters);
         }
         let info = ModelInfo::find(subject)?;
         match preset {
@@ -91,7 +91,7 @@ pub(crate) fn study(options: &SubjectOptions) -> Result<Study, Error> {
             None => Study::of_model(info),
         }
     };
-    with(study, set)
+    with(study, parameters)
 }
 
 /// The study of a preset, whatever its model.
@@ -112,9 +112,15 @@ fn find_preset(name: &str) -> Option<&'static Preset> {
 }
 
 /// The study with these parameters.
-fn with(mut study: Study, set: &[(String, f64)]) -> Result<Study, Error> {
-    for (name, value) in set {
-        study.set(name, *value)?;
-    }
+fn with(mut study: Study, parameters: &ParameterOptions) -> Result<Study, Error> {
+    put(parameters, &mut study)?;
     Ok(study)
+}
+
+/// Gives a study these parameters.
+pub(crate) fn put(parameters: &ParameterOptions, study: &mut Study) -> Result<(), Error> {
+    for (name, formula) in &parameters.ties {
+        study.tie(name, formula)?;
+    }
+    study.set_all(parameters.set.iter().map(|(name, value)| (name.as_str(), *value)))
 }

@@ -38,4 +38,5 @@ mod starts;
 mod startup;
 mod statistics;
 mod steady;
+mod ties;
 mod verify;

@@ -28,7 +28,7 @@ impl<'d> Body<'d> {
     pub(super) fn new(dataset: &'d Dataset) -> Result<Self, Error> {
         let plan = &dataset.manifest.plan;
         let info = plan.info()?;
-        let model = info.build(&plan.computation.parameters.values())?;
+        let model = plan.body()?;
         let rows = window(&dataset.trajectory, plan.figure.from, plan.figure.to);
         let mut body = Self { dataset, info, model, rows, radius: 1.0, scale: 1.0 };
         body.radius = match body.model.radius() {

@@ -124,7 +124,7 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary]) -> Vec<Stri
     };
     let method = format!("Computed by {}, {}.", words::stepper(&c.stepper), words::control(c.control));
     let varied: Vec<&str> = c.axes.iter().map(|axis| axis.name.as_str()).collect();
-    vec![words::named(info, &c.parameters, &varied), format!("{computed}, {states}. {method}")]
+    vec![words::named(info, &c.parameters, &varied, &c.ties), format!("{computed}, {states}. {method}")]
 }
 
 /// Notation of a parameter in figures, or of a coordinate of the start.
@@ -146,6 +146,9 @@ fn reduced(plan: &ScanPlan) -> Option<Reduced> {
     let c = &plan.computation;
     if c.model.as_str() != TensorParameters::MODEL || c.axes.len() != 2 {
         return None;
+    }
+    if !c.ties.is_empty() {
+        return None; // its lines are those of constant couplings
     }
     let mut parameters = TensorParameters::default();
     for (name, value) in &c.parameters.0 {

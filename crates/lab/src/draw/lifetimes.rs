@@ -81,7 +81,7 @@ fn caption(plan: &ScanPlan, found: &Lifetimes, info: &ModelInfo) -> Vec<String> 
     let c = &plan.computation;
     let events: usize = found.values.iter().map(|at| at.life.events).sum();
     vec![
-        words::named(info, &c.parameters, &[]),
+        words::named(info, &c.parameters, &[], &c.ties),
         format!(
             "{} starts for each value, {}, seed {}, each followed to {} model time; {events} lives ended. Bars: exact 95 % limits of an \
              exponential law with censoring; a bar without an upper end: no life ended.",

@@ -7,7 +7,7 @@ use motiform_figures::palette::CATEGORIES;
 use motiform_figures::{
     ErrorBarFigure, ErrorBarSeries, Measured, ReturnMapFigure, SpectrumCurve, SpectrumFigure,
 };
-use motiform_study::{Error, Plan};
+use motiform_study::{Error, Plan, Ties};
 
 /// Power spectra; `None` if there are none yet.
 ///
@@ -86,5 +86,5 @@ pub fn exponents(plan: &Plan, history: &[(f64, Vec<Estimate>)]) -> Result<Option
 }
 
 fn parameters(plan: &Plan) -> Result<String, Error> {
-    Ok(words::named(plan.info()?, &plan.computation.parameters, &[]))
+    Ok(words::named(plan.info()?, &plan.computation.parameters, &[], &Ties::default()))
 }

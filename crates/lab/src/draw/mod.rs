@@ -16,7 +16,7 @@ use body::Body;
 pub use body::radius_for;
 pub use diagram::{boundary_lines, draw_scan, exponents, phase_diagram, symbol};
 use motiform_figures::{Drawn, Figure, FigureError, Style, png};
-use motiform_study::{Dataset, Error, Plan};
+use motiform_study::{Dataset, Error, Plan, Ties};
 
 /// The error of a figure, as an error of a study.
 #[must_use]
@@ -30,7 +30,7 @@ pub fn undrawable(error: FigureError) -> Error {
 /// # Errors
 /// An unknown model.
 pub fn parameters(plan: &Plan) -> Result<String, Error> {
-    Ok(words::named(plan.info()?, &plan.computation.parameters, &[]))
+    Ok(words::named(plan.info()?, &plan.computation.parameters, &[], &Ties::default()))
 }
 
 /// Draws a figure, with its data.

@@ -3,6 +3,7 @@
 use super::body::Body;
 use motiform_dynamics::Outcome;
 use motiform_models::ModelInfo;
+use motiform_study::Ties;
 use motiform_study::plan::{Control, Named, NoiseSettings};
 use motiform_study::titles::capital;
 pub use motiform_study::titles::number;
@@ -12,18 +13,20 @@ const SPACE: char = '\u{a0}';
 
 /// `Tensor model: γ = 1, κ_2 = 0.9, ...; all others 0.`
 pub(super) fn parameters(body: &Body<'_>) -> String {
-    named(body.info, &body.dataset.manifest.plan.computation.parameters, &[])
+    named(body.info, &body.dataset.manifest.plan.computation.parameters, &[], &Ties::default())
 }
 
-/// The values of a model that are not 0, as a sentence; `varied` are those that the figure shows.
+/// The values of a model that are not 0, and the expressions of those that follow from others, as a sentence; `varied` are those that the
+/// figure shows.
 #[must_use]
-pub fn named(info: &ModelInfo, values: &Named, varied: &[&str]) -> String {
+pub fn named(info: &ModelInfo, values: &Named, varied: &[&str], ties: &Ties) -> String {
     let specs = info.parameters();
+    let value = |name| values.get(name).filter(|&value| value != 0.0).map(number);
     let set: Vec<String> = specs
         .iter()
         .filter(|spec| !varied.contains(&spec.name))
-        .filter_map(|spec| Some((spec, values.get(spec.name).filter(|&value| value != 0.0)?)))
-        .map(|(spec, value)| format!("{}{SPACE}={SPACE}{}", spec.symbol, number(value)))
+        .filter_map(|spec| Some((spec, ties.symbols(specs, spec.name).or_else(|| value(spec.name))?)))
+        .map(|(spec, value)| format!("{}{SPACE}={SPACE}{value}", spec.symbol))
         .collect();
     let given = set.len() + specs.iter().filter(|spec| varied.contains(&spec.name)).count();
     let others = if given < specs.len() { format!("; all other parameters{SPACE}0") } else { String::new() };

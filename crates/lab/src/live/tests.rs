@@ -16,7 +16,7 @@ fn study(model: &str, preset: &str) -> Study {
 }
 
 fn built(plan: &Plan) -> (Box<dyn Model>, Vec<f64>) {
-    let model = plan.info().unwrap().build(&plan.computation.parameters.values()).unwrap();
+    let model = plan.body().unwrap();
     let values = plan.computation.initial.values();
     let mut state = values.clone();
     model.encode(&values[..model.dim()], &mut state[..values.len() - 2]);

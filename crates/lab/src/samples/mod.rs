@@ -64,7 +64,7 @@ pub fn classify(
 fn classify_in_lanes(plan: &Plan, kernel: Kernel, settings: &Settings, asked: &Asked<'_, '_, '_, Verdict>) {
     let mut next = || {
         let (key, start) = asked.next()?;
-        let body = plan.info().ok()?.build(&plan.computation.parameters.values()).ok()?;
+        let body = plan.body().ok()?;
         Some(Row { key, body, start })
     };
     let mut done = |key, found: motiform_analysis::Result<Option<Verdict>>| {

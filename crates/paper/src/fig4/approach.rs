@@ -27,7 +27,7 @@ pub(super) fn follow(context: &Context<'_>, start: &Study) -> Result<Approach, E
     (study.run.rtol, study.run.atol, study.run.escape_norm) = (1e-13, Some(1e-16), bound);
     let plan = Plan::new(&study)?;
     let c = &plan.computation;
-    let model = plan.info()?.build(&c.parameters.values())?;
+    let model = plan.body()?;
     let mut shape = vec![0.0; model.dim()];
     model.encode(&c.initial.values()[..model.dim()], &mut shape);
     let mut orbit = plan.method()?.shape_orbit(model.as_ref(), c.control.into(), 0.0, &shape)?;

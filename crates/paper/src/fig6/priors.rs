@@ -190,7 +190,7 @@ fn recorded(context: &Context<'_>, length: f64) -> Result<Shapes, Error> {
 pub(super) fn shapes_of(dataset: &Dataset) -> Result<Shapes, Error> {
     let c = &dataset.manifest.plan.computation;
     let length = c.parameters.get("length").unwrap_or(f64::NAN);
-    let model = dataset.manifest.plan.info()?.build(&c.parameters.values())?;
+    let model = dataset.manifest.plan.body()?;
     let columns: Vec<&[f64]> =
         model.coordinates().iter().filter_map(|one| dataset.trajectory.get(one.name)).collect();
     let shape = |row: usize| {
@@ -208,7 +208,7 @@ pub(super) fn seen(shapes: &Shapes, prior: f64) -> Result<Seen, Error> {
     let modes = shapes.shapes.first().map_or(1, Vec::len) / 2;
     let mut study = study(shapes.length, modes)?;
     study.set("prior", prior)?;
-    let model = study.info()?.build(&study.values()?)?;
+    let model = study.body()?;
     let velocity = |shape: &Vec<f64>| {
         model.obstacle(shape).is_none().then(|| Shape::<f64>::velocity(model.as_ref(), shape))
     };

@@ -84,7 +84,7 @@ fn onwards(
     }
     let plan = Plan::new(&study)?;
     let c = &plan.computation;
-    let (model, start) = (plan.info()?.build(&c.parameters.values())?, last(track, modes)?);
+    let (model, start) = (plan.body()?, last(track, modes)?);
     let mut orbit = plan.method()?.shape_orbit(model.as_ref(), c.control.into(), 0.0, &start)?;
     let watch = &context.quiet();
     let request = Request { sample_every: Some(every), watch, ..Request::until(time, start.len()) };

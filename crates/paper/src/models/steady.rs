@@ -46,7 +46,7 @@ impl Steady {
         let mut found: Option<(RelativeEquilibrium, Self)> = None;
         for study in studies {
             let plan = Plan::new(study)?;
-            let model = plan.info()?.build(&plan.computation.parameters.values())?;
+            let model = plan.body()?;
             let mut guess = vec![0.0; model.dim()];
             match &found {
                 Some((before, _)) => guess.clone_from(&before.shape),

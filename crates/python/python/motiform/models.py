@@ -109,6 +109,10 @@ class Model:
         settings = {name: changes.pop(name) for name in list(changes) if name in _SETTINGS}
         return self._of(self._study.with_(changes, dict(initial or {}), settings))
 
+    def tie(self, **expressions: str) -> Self:
+        """A copy in which parameters follow from others: ``body.tie(b3="d3", kappa3="2*kappa2")``, also in scans over them."""
+        return self._of(self._study.tied(expressions))
+
     def to_toml(self) -> str:
         """A study file for the command line: ``motiform simulate FILE.toml`` computes the same bits."""
         return self._study.to_toml()

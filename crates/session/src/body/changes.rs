@@ -23,10 +23,8 @@ impl Setting {
     /// The body with these parameters.
     pub(super) fn with(&self, parameters: &BTreeMap<String, f64>, seen: &Seen<'_>) -> Result<Self, Error> {
         let mut study = self.study().clone();
-        for (name, value) in parameters {
-            study.set(name, *value)?;
-        }
-        let model = study.info()?.build(&study.values()?)?;
+        study.set_all(parameters.iter().map(|(name, value)| (name.as_str(), *value)))?;
+        let model = study.body()?;
         let state = if model.dim() == self.model().dim() {
             seen.state.to_vec()
         } else {
@@ -87,10 +85,9 @@ impl Setting {
     pub(super) fn placed(&self, spot: &Spot, seen: &Seen<'_>) -> Result<Self, Error> {
         let mut study = self.study().clone();
         let values = spot.plan.parameters_at(spot.sample.point.parameter);
-        for ((name, _), value) in spot.plan.computation.start.parameters.0.iter().zip(values) {
-            study.set(name, value)?;
-        }
-        let model = study.info()?.build(&study.values()?)?;
+        let names = spot.plan.computation.start.parameters.0.iter().map(|(name, _)| name.as_str());
+        study.set_all(names.zip(values))?;
+        let model = study.body()?;
         let position = seen.state.last_chunk().copied().unwrap_or_default();
         let mut state = state_of(model.as_ref(), &spot.sample.reading.state, position)?;
         if spot.sample.point.unstable > 0 {

@@ -160,7 +160,7 @@ pub(crate) fn perform(errand: &Errand<'_>, back: &(dyn Fn(&str) + Sync)) -> bool
 /// Moves a body on until there are as many returns as were asked for, or it takes too long; `None` if nobody waits any more.
 fn ahead(job: &Job, watch: &dyn Watch) -> Result<Option<ReturnsTold>, Error> {
     let plan = &job.plan;
-    let model = plan.info()?.build(&plan.computation.parameters.values())?;
+    let model = plan.body()?;
     let body = InPlane(model.as_ref());
     let kept = LIMITS.2 / (2 * job.state.len() + 8);
     let mut record = Record::new(model.as_ref(), plan.computation.control.absolute_tolerance(), kept);

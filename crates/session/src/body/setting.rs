@@ -57,16 +57,14 @@ impl Setting {
     pub(crate) fn begin(begin: &Begin, revision: u32, catalogue: &Catalogue) -> Result<Self, Error> {
         let origin = catalogue.subject(&begin.model, begin.preset.as_deref())?;
         let mut study = origin.study.clone();
-        for (name, value) in &begin.parameters {
-            study.set(name, *value)?;
-        }
+        study.set_all(begin.parameters.iter().map(|(name, value)| (name.as_str(), *value)))?;
         study.run.seed = begin.seed;
         if let Some(noise) = begin.noise.filter(|noise| *noise != study.run.noise) {
             check_noise(noise, study.run.noise)?;
             (study.run.noise, study.run.noise_velocity) = (noise, None);
         }
         let plan = Plan::new(&study)?;
-        let model = plan.info()?.build(&plan.computation.parameters.values())?;
+        let model = plan.body()?;
         let state = match &begin.state {
             Some(coordinates) => state_of(model.as_ref(), coordinates, begin.position.unwrap_or_default())?,
             None => settled(&plan, model.as_ref(), SETTLING)?,
@@ -85,7 +83,7 @@ impl Setting {
         t: f64,
         state: Vec<f64>,
     ) -> Result<Self, Error> {
-        let model = study.info()?.build(&study.values()?)?;
+        let model = study.body()?;
         within(t, &state, model.dim())?;
         let mut now = at(&study, model.as_ref(), &state);
         let plan = Plan::new(&now)?;

@@ -6,7 +6,7 @@ use crate::plan::{
     stepper,
 };
 use crate::random::Random;
-use crate::{Error, Perturbation, Study};
+use crate::{Error, Perturbation, Study, Ties};
 use motiform_dynamics::steppers::Method;
 use motiform_models::{ModelInfo, ModelName, parameters};
 use serde::{Deserialize, Serialize};
@@ -39,8 +39,11 @@ pub struct ScanComputation {
     pub format: u32,
     /// The model.
     pub model: ModelName,
-    /// The parameters that no axis varies, in registry order.
+    /// The parameters that no axis varies and that are not tied, in registry order.
     pub parameters: Named,
+    /// Parameters that follow from others.
+    #[serde(default, skip_serializing_if = "Ties::is_empty")]
+    pub ties: Ties,
     /// One or two axes, each a parameter or a coordinate of the start; the first runs fastest.
     pub axes: Vec<Axis>,
     /// Initial states per cell.
@@ -80,8 +83,10 @@ impl ScanPlan {
         check_no_noise(run.largest_noise())?;
         check_axes(study)?;
         let free = |name: &str| scan.axes.iter().any(|axis| axis.name == name);
+        study.ties.check_free(scan.axes.iter().map(|axis| axis.name.as_str()))?;
+        let varies = |name: &str| free(name) || study.ties.get(name).is_some();
         let names = info.parameters().iter().map(|spec| spec.name.to_owned());
-        let fixed = names.zip(study.values()?).filter(|(name, _)| !free(name)).collect();
+        let fixed = names.zip(study.values()?).filter(|(name, _)| !varies(name)).collect();
         // Nothing that a row tells depends on the position, and the axes give what they vary.
         let stays = |(name, _): &&(String, f64)| !["x", "y"].contains(&name.as_str()) && !free(name);
         let mut initial: Vec<_> = study.initial.iter().filter(stays).cloned().collect();
@@ -90,6 +95,7 @@ impl ScanPlan {
             format: SCAN_FORMAT,
             model: ModelName::from(info),
             parameters: Named(fixed),
+            ties: study.ties.clone(),
             axes: scan.axes.clone(),
             samples: usize::try_from(scan.samples).unwrap_or(usize::MAX),
             seed: run.seed,
@@ -194,7 +200,10 @@ impl ScanPlan {
         let value = |spec: &parameters::ParameterSpec| {
             free(spec.name).or_else(|| self.computation.parameters.get(spec.name)).unwrap_or(spec.default)
         };
-        Ok(self.info()?.parameters().iter().map(value).collect())
+        let specs = self.info()?.parameters();
+        let mut values: Vec<f64> = specs.iter().map(value).collect();
+        self.computation.ties.apply(specs, &mut values);
+        Ok(values)
     }
 
     /// The registry entry of its model.
