@@ -1,6 +1,6 @@
 //! Whether a folder is as it was written.
 
-use crate::survey::{Survey, is_ours};
+use crate::survey::Survey;
 use crate::{Error, Inventory};
 use std::path::Path;
 
@@ -28,18 +28,12 @@ impl Audit {
         crate::mend(folder)?;
         let inventory =
             Inventory::read(folder)?.ok_or_else(|| Error::NotVerified { path: folder.to_owned() })?;
-        let foreign = Survey::names(folder, &inventory).map_err(Error::unwritable(folder))?;
-        let (mut unchanged, mut changed, mut missing) = (Vec::new(), Vec::new(), Vec::new());
-        for (name, digests) in &inventory.files {
-            let path = folder.join(name);
-            match path.symlink_metadata() {
-                Err(_) => missing.push(name.clone()),
-                Ok(_) if is_ours(&path, digests).map_err(Error::unwritable(&path))? => {
-                    unchanged.push(name.clone());
-                }
-                Ok(_) => changed.push(name.clone()),
-            }
-        }
+        let survey = Survey::of(folder, &inventory).map_err(Error::unwritable(folder))?;
+        let foreign = survey.outside_results(folder);
+        let (there, missing): (Vec<String>, Vec<String>) =
+            inventory.files.keys().cloned().partition(|name| folder.join(name).symlink_metadata().is_ok());
+        let differs = |name: &String| survey.changed.contains(name) || survey.edited.contains(name);
+        let (changed, unchanged) = there.into_iter().partition(differs);
         Ok(Self { inventory, unchanged, changed, missing, foreign })
     }
 }

@@ -5,8 +5,8 @@
 //! (as SQLite does: <https://sqlite.org/atomiccommit.html>, sections 3.7 and 3.8).
 
 use std::fs::{self, File};
-use std::io::{Result, Write};
-use std::path::Path;
+use std::io::{ErrorKind, Result, Write};
+use std::path::{Path, PathBuf};
 
 /// Writes a file and waits until it is on disk.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
@@ -57,6 +57,18 @@ pub fn rename_new(from: &Path, to: &Path) -> Result<()> {
     sync_folder(to.parent().unwrap_or(Path::new(".")))
 }
 
+/// Renames to the first name that nothing has, of those that `name` makes of "", "-2", "-3" and so on; that name.
+pub fn rename_to_free(from: &Path, name: impl Fn(&str) -> PathBuf) -> Result<PathBuf> {
+    let counts = std::iter::once(String::new()).chain((2_u64..).map(|number| format!("-{number}")));
+    for to in counts.map(|count| name(&count)) {
+        match rename_new(from, &to) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            renamed => return renamed.map(|()| to),
+        }
+    }
+    Err(ErrorKind::AlreadyExists.into())
+}
+
 #[cfg(target_os = "linux")]
 fn rename_without_replacing(from: &Path, to: &Path) -> Result<()> {
     use rustix::fs::{CWD, RenameFlags, renameat_with};
@@ -74,7 +86,7 @@ fn rename_without_replacing(from: &Path, to: &Path) -> Result<()> {
 
 fn rename_if_absent(from: &Path, to: &Path) -> Result<()> {
     if to.symlink_metadata().is_ok() {
-        return Err(std::io::ErrorKind::AlreadyExists.into());
+        return Err(ErrorKind::AlreadyExists.into());
     }
     fs::rename(from, to)
 }

@@ -11,6 +11,7 @@
 mod audit;
 mod digest;
 pub mod disk;
+mod draft;
 mod earlier;
 mod error;
 mod folder;

@@ -4,7 +4,7 @@
 //! inventory is locked while its process lives. A folder without this inventory is somebody else's, whatever its name.
 
 use crate::replace::retire;
-use crate::{Error, INVENTORY, Inventory, Kind, disk};
+use crate::{Error, INVENTORY, Inventory, Kind};
 use std::collections::hash_map::RandomState;
 use std::fs::{self, File};
 use std::hash::{BuildHasher, Hasher};
@@ -192,11 +192,6 @@ fn has_at_most_its_inventory(path: &Path, whole: bool) -> bool {
     let mut names = fs::read_dir(path).into_iter().flatten().flatten();
     let is_empty = |entry: &fs::DirEntry| entry.metadata().is_ok_and(|it| it.is_file() && it.len() == 0);
     names.all(|entry| entry.file_name() == INVENTORY && (whole || is_empty(&entry)))
-}
-
-/// Renames; what has the new name already stays.
-pub(crate) fn move_to(from: &Path, to: &Path) -> Result<()> {
-    disk::rename_new(from, to)
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 //! writer goes on ([`crate::mend()`]).
 
 use crate::inventory::file_line;
-use crate::place::{Place, move_to, name_of, on_its_way_out};
+use crate::place::{Place, name_of, on_its_way_out};
 use crate::survey::{Survey, is_ours, is_partial, remove_partials};
 use crate::{Error, INVENTORY, Inventory, disk, is_figure};
 use serde_json::{Value, json};
@@ -84,15 +84,9 @@ pub(crate) fn is_taken(folder: &Path, name: &str) -> bool {
 /// Renames a file so that its name is free; the new name.
 pub(crate) fn set_aside(folder: &Path, name: &str) -> IoResult<String> {
     let (start, end) = name.rsplit_once('.').unwrap_or((name, ""));
-    for number in 1.. {
-        let count = if number == 1 { String::new() } else { format!("-{number}") };
-        let aside = format!("{start}.edited{count}.{end}");
-        match move_to(&folder.join(name), &folder.join(&aside)) {
-            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
-            moved => return moved.map(|()| aside),
-        }
-    }
-    Err(std::io::ErrorKind::AlreadyExists.into())
+    let aside = |count: &str| format!("{start}.edited{count}.{end}");
+    let free = disk::rename_to_free(&folder.join(name), |count| folder.join(aside(count)))?;
+    Ok(free.strip_prefix(folder).unwrap_or(&free).display().to_string())
 }
 
 /// Appends a line, after others, to the inventory of a folder.
@@ -138,7 +132,7 @@ pub(crate) fn forward(place: &Place, target: &Path, shown: &Path) -> Result<(), 
             return Err(Error::Taken { path: shown.join(name) });
         }
         make_folders(target, name).map_err(failed)?;
-        move_to(&result.join(name), &target.join(name)).map_err(failed)?;
+        disk::rename_new(&result.join(name), &target.join(name)).map_err(failed)?;
     }
     disk::sync_folder(&replaced).map_err(failed)?;
     disk::rename(&result.join(INVENTORY), &target.join(INVENTORY)).map_err(failed)
@@ -185,7 +179,7 @@ fn take_away(old: &Path, target: &Path, inventory: &Inventory) -> IoResult<()> {
         if is_partial(&name, inventory) {
             fs::remove_file(entry.path())?;
         } else if name != INVENTORY && old.parent() != target.parent() {
-            let _ = move_to(&entry.path(), &target.join(entry.file_name())); // otherwise it stays with the old one
+            let _ = disk::rename_new(&entry.path(), &target.join(entry.file_name())); // otherwise it stays with the old one
         }
     }
     if fs::read_dir(old)?.count() > 1 {
@@ -203,14 +197,8 @@ fn take_away(old: &Path, target: &Path, inventory: &Inventory) -> IoResult<()> {
 /// `run` -> `run.replaced`, or with a number.
 fn name_visibly(old: &Path, target: &Path) -> IoResult<()> {
     append(old, &json!({ "replaced_by": name_of(target) }))?;
-    for number in 1.. {
-        let count = if number == 1 { String::new() } else { format!("-{number}") };
-        match move_to(old, &target.with_file_name(format!("{}.replaced{count}", name_of(target)))) {
-            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
-            moved => return moved,
-        }
-    }
-    Ok(())
+    let visible = |count: &str| target.with_file_name(format!("{}.replaced{count}", name_of(target)));
+    disk::rename_to_free(old, visible).map(drop)
 }
 
 /// Whether a folder beside `target` is a result that it replaced.

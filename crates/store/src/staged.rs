@@ -1,6 +1,7 @@
 //! Results that are there whole or not at all.
 
-use crate::place::{Place, name_of, sweep};
+use crate::draft::Draft;
+use crate::place::name_of;
 use crate::replace::{replace, replaced, retire};
 use crate::survey::{Survey, kept};
 use crate::target::Target;
@@ -11,15 +12,9 @@ use std::path::{Path, PathBuf};
 /// A folder that is written beside its place and renamed when it is complete. Dropped without [`Staged::commit`], it leaves nothing behind.
 #[derive(Debug)]
 pub struct Staged {
-    target: Target,
-    kind: Kind,
-    place: Place,
-    /// The lock of the result that is replaced.
-    held: Option<File>,
+    draft: Draft,
     /// Whether it replaces a folder with nothing in it.
     onto_empty: bool,
-    notes: Vec<String>,
-    committed: bool,
 }
 
 impl Staged {
@@ -30,40 +25,37 @@ impl Staged {
     /// not replaced; [`Error::NamedAsFile`]; [`Error::Busy`]; [`Error::Unwritable`].
     pub fn new(target: &Path, kind: Kind, force: bool) -> Result<Self, Error> {
         let target = Target::folder(target)?;
-        let prepared = prepare(&target, kind, force);
-        let (place, held, notes) = prepared.inspect_err(|_| target.undo())?;
-        let onto_empty = held.is_none() && target.exists();
-        Ok(Self { target, kind, place, held, onto_empty, notes, committed: false })
+        mend(&target.path)?;
+        let onto_empty = kind == Kind::Report && is_empty(&target.path);
+        let draft = Draft::new(target, kind, |target, notes| {
+            let is_free = onto_empty || !target.exists();
+            (!is_free).then(|| admit(target, kind, force, notes)).transpose()
+        })?;
+        Ok(Self { draft, onto_empty })
     }
 
     /// What was found in the place: leftovers of killed runs, and files that stay.
     #[must_use]
     pub fn notes(&self) -> &[String] {
-        &self.notes
+        &self.draft.notes
     }
 
     /// Where to write.
     #[must_use]
     pub fn path(&self) -> PathBuf {
-        self.place.result()
+        self.draft.place.result()
     }
 
     /// Where it will be, as given.
     #[must_use]
     pub fn target(&self) -> &Path {
-        &self.target.shown
+        &self.draft.target.shown
     }
 
     /// The same failure with the final name of the output.
     #[must_use]
     pub fn shown(&self, error: Error) -> Error {
-        match error {
-            Error::WriteFailed { path, reason } => match path.strip_prefix(self.path()) {
-                Ok(name) => Error::WriteFailed { path: self.target.shown.join(name), reason },
-                Err(_) => Error::WriteFailed { path, reason },
-            },
-            other => other,
-        }
+        self.draft.shown(error, |name| self.target().join(name))
     }
 
     /// Writes a file inside the folder.
@@ -72,7 +64,7 @@ impl Staged {
     /// [`Error::WriteFailed`] with the final name of the file.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Error> {
         disk::write(&self.path().join(name), bytes)
-            .map_err(|error| Error::write_failed(&self.target.shown.join(name), error))
+            .map_err(|error| Error::write_failed(&self.target().join(name), error))
     }
 
     /// Writes the inventory and gives the folder its name. Returns the name, and what stayed in its place, in sentences.
@@ -85,57 +77,31 @@ impl Staged {
     }
 
     /// Gives the folder its name; its place, its lock, and what stayed there, in sentences.
-    pub(crate) fn finish(mut self, complete: bool) -> Result<(Target, File, Vec<String>), Error> {
-        let failed = |error: std::io::Error| Error::write_failed(&self.target.shown, error);
-        let new = self.path();
-        let mut inventory = Inventory { complete, ..Inventory::new(self.kind) };
+    pub(crate) fn finish(self, complete: bool) -> Result<(Target, File, Vec<String>), Error> {
+        let Self { mut draft, onto_empty } = self;
+        let failed = |error| draft.failed(error);
+        let new = draft.place.result();
+        let mut inventory = Inventory { complete, ..Inventory::new(draft.kind) };
         list(&new, &mut inventory).map_err(failed)?;
         disk::write(&new.join(INVENTORY), inventory.text().as_bytes()).map_err(failed)?;
         disk::sync_folder(&new).map_err(failed)?;
-        let own = lock::lock(&new, &self.target.shown)?;
+        let own = lock::lock(&new, &draft.target.shown)?;
         let mut notes = Vec::new();
-        if self.held.is_some() {
-            notes = replace(&self.place, &self.target.path, &self.target.shown)?;
+        if draft.held.is_some() {
+            notes = replace(&draft.place, &draft.target.path, &draft.target.shown)?;
         } else {
-            if self.onto_empty {
-                let _ = fs::remove_dir(&self.target.path); // it fails where something is inside by now
+            if onto_empty {
+                let _ = fs::remove_dir(&draft.target.path); // it fails where something is inside by now
             }
-            disk::rename_new(&new, &self.target.path).map_err(|error| match error.kind() {
-                std::io::ErrorKind::AlreadyExists => Error::Exists { path: self.target.shown.clone() },
-                _ => failed(error),
-            })?;
+            draft.appear(&new)?;
         }
-        self.committed = true;
-        self.place.remove();
+        draft.done();
+        let target = draft.target.clone();
         if complete {
-            replaced(&self.target.path).iter().for_each(|old| drop(retire(old, &self.target.path)));
+            replaced(&target.path).iter().for_each(|old| drop(retire(old, &target.path)));
         }
-        Ok((self.target.clone(), own, notes))
+        Ok((target, own, notes))
     }
-}
-
-impl Drop for Staged {
-    fn drop(&mut self) {
-        if !self.committed {
-            self.held = None;
-            // What was replaced by then, and is not ours, may be in the place: the next run goes on or takes it out.
-            if Inventory::read(&self.place.old()).is_ok_and(|old| old.is_none()) {
-                self.place.remove();
-                self.target.undo();
-            }
-        }
-    }
-}
-
-type Prepared = (Place, Option<File>, Vec<String>);
-
-fn prepare(target: &Target, kind: Kind, force: bool) -> Result<Prepared, Error> {
-    mend(&target.path)?;
-    let mut notes = sweep(&target.path);
-    let empty = kind == Kind::Report && is_empty(&target.path);
-    let held = if target.exists() && !empty { Some(admit(target, kind, force, &mut notes)?) } else { None };
-    let place = Place::make(&target.path, kind).map_err(Error::unwritable(&target.shown))?;
-    Ok((place, held, notes))
 }
 
 /// Whether there is a folder with nothing in it.

@@ -32,9 +32,14 @@ impl Survey {
     pub(crate) fn names(folder: &Path, inventory: &Inventory) -> Result<Vec<String>> {
         let mut survey = Self::default();
         survey.walk(folder, "", inventory, &|_, _| Ok(true))?;
-        survey.foreign.retain(|name| !(name.ends_with('/') && folder.join(name).join(INVENTORY).is_file()));
         survey.foreign.sort();
-        Ok(survey.foreign)
+        Ok(survey.outside_results(folder))
+    }
+
+    /// What is not listed here, nor in the inventory of a result inside this one.
+    pub(crate) fn outside_results(&self, folder: &Path) -> Vec<String> {
+        let is_result = |name: &str| name.ends_with('/') && folder.join(name).join(INVENTORY).is_file();
+        self.foreign.iter().filter(|name| !is_result(name)).cloned().collect()
     }
 
     fn walk(

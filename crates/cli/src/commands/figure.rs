@@ -28,9 +28,7 @@ pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
             continue;
         }
         let folder = Folder::redraw(path)?;
-        for picture in &pictures {
-            folder.draw(&picture.name, &picture.bytes, options.force)?;
-        }
+        let written = write(&folder, &pictures, options.force)?;
         folder.settle()?;
         let kept = folder.notes();
         let remedy = if options.force { "" } else { "; --force draws those of motiform again" };
@@ -38,7 +36,7 @@ pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
         if !(kept.is_empty() || options.force) {
             end = End::NotAsAsked;
         }
-        say(path, &pictures)?;
+        say(path, &written)?;
     }
     Ok(end)
 }
@@ -46,17 +44,26 @@ pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
 /// Writes pictures into a folder of their own.
 fn apart(pictures: &[Picture], out: &Path, force: bool) -> anyhow::Result<()> {
     let folder = Folder::open(out, Kind::Figures, Opening::of(false, force), &[])?;
-    for picture in pictures {
-        folder.put(&picture.name, &picture.bytes)?;
-    }
+    let written = write(&folder, pictures, false)?;
     folder.complete()?;
     folder.notes().iter().for_each(|note| warn(note));
-    say(out, pictures)
+    say(out, &written)
 }
 
-fn say(folder: &Path, pictures: &[Picture]) -> anyhow::Result<()> {
-    let names: Vec<&str> = pictures.iter().map(|picture| picture.name.as_str()).collect();
-    print(&format!("{}: {}", folder.display(), names.join(" ")))
+/// Writes pictures; the names of those that are written.
+fn write<'p>(folder: &Folder, pictures: &'p [Picture], force: bool) -> Result<Vec<&'p str>, Error> {
+    let mut written = Vec::new();
+    for picture in pictures {
+        if folder.draw(&picture.name, &picture.bytes, force)? {
+            written.push(picture.name.as_str());
+        }
+    }
+    Ok(written)
+}
+
+fn say(folder: &Path, written: &[&str]) -> anyhow::Result<()> {
+    let names = if written.is_empty() { "no figure is written".to_owned() } else { written.join(" ") };
+    print(&format!("{}: {names}", folder.display()))
 }
 
 /// Refuses an option that a kind of figure does not have.

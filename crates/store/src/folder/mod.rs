@@ -6,6 +6,7 @@ mod opening;
 pub use opening::Opening;
 
 use crate::inventory::file_line;
+use crate::place::name_of;
 use crate::replace::{is_taken, make_folders, set_aside};
 use crate::survey::is_ours;
 use crate::target::Target;
@@ -100,20 +101,16 @@ impl Folder {
     /// # Errors
     /// [`Error::Changed`], [`Error::Taken`], [`Error::WriteFailed`].
     pub fn put(&self, name: &str, bytes: &[u8]) -> Result<(), Error> {
-        self.write(name, bytes, false)
+        self.draw(name, bytes, false).map(drop)
     }
 
-    /// Writes a figure as [`Folder::put`]; with `force` it replaces one of ours that was edited, which is kept under another name.
+    /// Writes a figure as [`Folder::put`]; with `force` it replaces one of ours that was edited, which is kept under another name. Whether it is written.
     ///
     /// # Errors
     /// Those of [`Folder::put`].
-    pub fn draw(&self, name: &str, bytes: &[u8], force: bool) -> Result<(), Error> {
-        self.write(name, bytes, force)
-    }
-
-    fn write(&self, name: &str, bytes: &[u8], force: bool) -> Result<(), Error> {
+    pub fn draw(&self, name: &str, bytes: &[u8], force: bool) -> Result<bool, Error> {
         if !self.gives_way(name, force)? {
-            return Ok(());
+            return Ok(false);
         }
         let failed = |error: std::io::Error| Error::write_failed(&self.shown.join(name), error);
         let partial = {
@@ -128,7 +125,7 @@ impl Folder {
             self.list(name, &sha256_hex(bytes))?;
             disk::rename(&partial, &self.path.join(name))
         };
-        write().inspect_err(|_| drop(fs::remove_file(&partial))).map_err(failed)
+        write().inspect_err(|_| drop(fs::remove_file(&partial))).map_err(failed).map(|()| true)
     }
 
     /// Whether a name is free for a file of ours, or becomes free; `false` where a figure stays.
@@ -176,22 +173,14 @@ impl Folder {
     /// [`Error::WriteFailed`].
     pub fn keep_aside(&self, name: &str) -> Result<String, Error> {
         let end = name.rsplit('/').next().unwrap_or(name);
-        for count in 1.. {
-            let aside =
-                if count == 1 { format!("_damaged-{end}") } else { format!("_damaged-{count}-{end}") };
-            match disk::rename_new(&self.path.join(name), &self.path.join(&aside)) {
-                Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
-                Err(error) => return Err(Error::write_failed(&self.shown.join(name), error)),
-                Ok(()) => {
-                    let path = self.shown.join(name).display().to_string();
-                    self.state()
-                        .notes
-                        .push(format!("{path} is not as motiform wrote it: it is kept as {aside}"));
-                    return Ok(aside);
-                }
-            }
-        }
-        Ok(name.to_owned())
+        let aside = |count: &str| self.path.join(format!("_damaged{count}-{end}"));
+        let shown = self.shown.join(name);
+        let free = disk::rename_to_free(&self.path.join(name), aside)
+            .map_err(|error| Error::write_failed(&shown, error))?;
+        let aside = name_of(&free);
+        let note = format!("{} is not as motiform wrote it: it is kept as {aside}", shown.display());
+        self.state().notes.push(note);
+        Ok(aside)
     }
 
     /// Removes a file, or with `/` at the end of its name a folder of them, as far as they are ours and unchanged.

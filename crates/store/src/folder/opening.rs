@@ -94,22 +94,7 @@ impl Folder {
             return Self::begin(shown, target.path, lock, Vec::new());
         }
         let lock = File::open(&target.path).map_err(Error::unwritable(shown))?;
-        let state = State {
-            inventory: Inventory::default(),
-            log: None,
-            announced: false,
-            files: 0,
-            notes: Vec::new(),
-            locks: Vec::new(),
-        };
-        Ok(Self {
-            shown: shown.to_owned(),
-            path: target.path,
-            new: None,
-            start: start(),
-            state: Mutex::new(state),
-            _lock: lock,
-        })
+        Ok(Self::with(shown, target.path, lock, Inventory::default(), None))
     }
 
     /// Gives a folder of an earlier version its inventory: it lists `names`, which the caller knows to be ours and unchanged.
@@ -135,11 +120,24 @@ impl Folder {
         let inventory = Inventory::read(&path)?.unwrap_or_default();
         remove_partials(&path, &inventory).map_err(&unwritable)?;
         let log = File::options().append(true).open(path.join(INVENTORY)).map_err(&unwritable)?;
-        let start = start();
-        let mut state =
-            State { inventory, log: Some(log), announced: false, files: 0, notes, locks: Vec::new() };
-        state.announce(&start).map_err(|error| Error::write_failed(shown, error))?;
-        Ok(Self { shown: shown.to_owned(), path, new: None, start, state: Mutex::new(state), _lock: lock })
+        let folder = Self::with(shown, path, lock, inventory, Some(log));
+        folder.state().notes = notes;
+        folder.state().announce(&folder.start).map_err(|error| Error::write_failed(shown, error))?;
+        Ok(folder)
+    }
+
+    /// A folder whose inventory is known; files are listed in `log`, if there is one.
+    fn with(shown: &Path, path: PathBuf, lock: File, inventory: Inventory, log: Option<File>) -> Self {
+        let state =
+            State { inventory, log, announced: false, files: 0, notes: Vec::new(), locks: Vec::new() };
+        Self {
+            shown: shown.to_owned(),
+            path,
+            new: None,
+            start: start(),
+            state: Mutex::new(state),
+            _lock: lock,
+        }
     }
 }
 

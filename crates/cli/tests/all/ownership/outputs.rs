@@ -75,6 +75,8 @@ fn figures_of_others_stay() {
         fs::write(z.join(&figure), MINE).unwrap();
         let done = folder.run("figure z").expect(1);
         assert!(done.stderr.contains("was edited"), "{}", done.stderr);
+        let name = figure.display().to_string();
+        assert!(!done.stdout.split_whitespace().any(|word| word == name), "{}", done.stdout);
         assert_eq!(fs::read_to_string(z.join(&figure)).unwrap(), MINE);
         folder.run("figure z --force").expect(0);
         let aside = figure.with_extension("edited.svg");
