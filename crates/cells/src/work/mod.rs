@@ -80,14 +80,14 @@ impl FitWork {
         self.files.notes()
     }
 
-    /// The summary, if all cells were done when the folder was opened and the results are there; with `pages` only if these have been drawn.
+    /// The summary of a complete result; with `pages` only if these have been drawn.
     #[must_use]
     pub fn finished(&self, pages: bool) -> Option<Value> {
-        let bytes = self.files.read(crate::folder::SUMMARY)?;
-        let kept =
-            self.files.names().iter().any(|name| name.starts_with(CELLS) && self.files.read(name).is_some());
-        let complete = !kept || (self.left() == 0 && !pages);
-        if complete { serde_json::from_slice(&bytes).ok() } else { None }
+        let kept = || self.files.names().iter().any(|name| name.starts_with(CELLS));
+        if !self.files.is_complete() || (pages && kept()) {
+            return None;
+        }
+        serde_json::from_slice(&self.files.read(crate::folder::SUMMARY)?).ok()
     }
 
     /// Leaves the folder as it is, where nothing is left to do.
