@@ -78,7 +78,8 @@ fn row(asked: &Asked<'_>, path: &Path) -> Result<Named, Error> {
     let (mut best, mut rows): (Option<(f64, Named)>, usize) = (None, 0);
     let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
     read_groups(path, &mut |group: Table| {
-        if let [first, .., last] = group.get("t").unwrap_or_default() {
+        let times = group.get("t").unwrap_or_default();
+        if let (Some(first), Some(last)) = (times.first(), times.last()) {
             (from, to) = (from.min(*first), to.max(*last));
         }
         let found = wanted.place(&group, rows);
