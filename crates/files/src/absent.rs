@@ -61,7 +61,11 @@ impl Writer {
     }
 }
 
-pub(crate) fn groups(path: &Path, _take: &mut dyn FnMut(Table) -> Result<(), Error>) -> Result<(), Error> {
+pub(crate) fn groups(
+    path: &Path,
+    _wanted: Option<&[String]>,
+    _take: &mut dyn FnMut(Table) -> Result<(), Error>,
+) -> Result<(), Error> {
     Err(Error::unreadable(path, Absent))
 }
 

@@ -1,5 +1,6 @@
 //! Tables as CSV: a header line, shortest round-trip numbers, an empty field where a value is undefined.
 
+use crate::table_file::places;
 use motiform_study::Error;
 use motiform_study::table::Table;
 use std::fs::File;
@@ -61,22 +62,28 @@ fn write_rows(table: &Table, rows: Range<usize>, out: &mut impl Write) -> std::i
 }
 
 /// Gives `take` the rows of a table, some at a time; without rows, one empty group. `take` ends it by an error.
-pub(crate) fn groups(path: &Path, take: &mut dyn FnMut(Table) -> Result<(), Error>) -> Result<(), Error> {
+pub(crate) fn groups(
+    path: &Path,
+    wanted: Option<&[String]>,
+    take: &mut dyn FnMut(Table) -> Result<(), Error>,
+) -> Result<(), Error> {
     let unreadable = |error: csv::Error| Error::unreadable(path, error);
     let mut reader = csv::Reader::from_path(path).map_err(unreadable)?;
-    let mut empty = Table::default();
-    reader.headers().map_err(unreadable)?.iter().for_each(|name| empty.push(name, "", Vec::new()));
+    let mut all = Table::default();
+    reader.headers().map_err(unreadable)?.iter().for_each(|name| all.push(name, "", Vec::new()));
+    let places = places(&all, wanted).map_err(|problem| Error::unreadable(path, problem))?;
+    let empty = Table { columns: places.iter().map(|&place| all.columns[place].clone()).collect() };
     let mut table = empty.clone();
     let mut given = false;
     for (row, record) in reader.records().enumerate() {
         let record = record.map_err(unreadable)?;
-        for (column, field) in table.columns.iter_mut().zip(&record) {
-            let value = if field.is_empty() { Ok(f64::NAN) } else { field.parse() };
-            let value = value.map_err(|_| {
+        for (column, field) in
+            table.columns.iter_mut().zip(places.iter().filter_map(|&place| record.get(place)))
+        {
+            column.values.push(number(field).ok_or_else(|| {
                 let problem = format!("row {}, column {}: {field:?} is not a number", row + 2, column.name);
                 Error::unreadable(path, problem)
-            })?;
-            column.values.push(value);
+            })?);
         }
         if table.rows() == ROWS {
             take(std::mem::replace(&mut table, empty.clone()))?;
@@ -84,6 +91,11 @@ pub(crate) fn groups(path: &Path, take: &mut dyn FnMut(Table) -> Result<(), Erro
         }
     }
     if table.rows() > 0 || !given { take(table) } else { Ok(()) }
+}
+
+/// The number in a field: NaN where it is empty.
+fn number(field: &str) -> Option<f64> {
+    if field.is_empty() { Some(f64::NAN) } else { field.parse().ok() }
 }
 
 #[cfg(test)]
@@ -100,7 +112,7 @@ mod tests {
         let mut writer = Writer::new(&table, file.path()).expect("a file");
         writer.rows(&table, 0..4).and_then(|()| writer.finish()).expect("written");
         let mut read = None;
-        groups(file.path(), &mut |rows| {
+        groups(file.path(), None, &mut |rows| {
             read = Some(rows);
             Ok(())
         })

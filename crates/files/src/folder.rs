@@ -118,8 +118,7 @@ pub fn read_dataset_by(
     let mut manifest: Manifest =
         serde_json::from_str(&text).map_err(|error| Error::unreadable(&path, error))?;
     let model = manifest.plan.body().map_err(|error| Error::unreadable(&path, error))?;
-    let path = table_path(folder, "trajectory")
-        .ok_or_else(|| Error::unreadable(folder, "it has no trajectory.parquet or trajectory.csv"))?;
+    let path = trajectory_path(folder)?;
     let trajectory = read(&mut manifest, &path)?;
     let observables = model.observables().iter().map(|observable| observable.name);
     let coordinates = model.coordinates().iter().map(|coordinate| coordinate.name);
@@ -161,4 +160,13 @@ fn require(table: &Table, path: &Path, names: impl IntoIterator<Item = &'static 
 pub fn table_path(folder: &Path, name: &str) -> Option<PathBuf> {
     let files = [Format::Parquet, Format::Csv].map(|format| folder.join(format.file(name)));
     files.into_iter().find(|path| path.is_file())
+}
+
+/// The file of the trajectory in a folder.
+///
+/// # Errors
+/// [`Error::Unreadable`] where there is none.
+pub fn trajectory_path(folder: &Path) -> Result<PathBuf, Error> {
+    table_path(folder, "trajectory")
+        .ok_or_else(|| Error::unreadable(folder, "it has no trajectory.parquet or trajectory.csv"))
 }

@@ -29,11 +29,12 @@ pub use absent::{Absent, read_fields, write_fields};
 pub use csv_table::table_to_csv;
 pub use fields::Fields;
 pub use folder::{
-    Format, read_dataset, read_dataset_by, read_table_file, table_path, write_dataset, write_rest,
+    Format, read_dataset, read_dataset_by, read_table_file, table_path, trajectory_path, write_dataset,
+    write_rest,
 };
 #[cfg(feature = "formats")]
 pub use hdf5::{read_fields, write_fields};
 pub use journal::{Journal, WORK, end_of_work};
 #[cfg(feature = "formats")]
 pub use parquet_input::decoding;
-pub use table_file::{GROUP_ROWS, TableWriter, read_groups, write_table};
+pub use table_file::{GROUP_ROWS, TableWriter, read_columns, read_groups, write_table};

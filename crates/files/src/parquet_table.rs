@@ -2,6 +2,7 @@
 
 use super::parquet_input::{self, wrong};
 use super::parquet_output::{Field, Groups, Values};
+use super::table_file::places;
 use motiform_study::Error;
 use motiform_study::table::{Column, Table};
 use parquet::column::reader::ColumnReader;
@@ -44,19 +45,22 @@ impl Writer {
 /// Gives `take` the groups of rows of a table, one after the other; without rows, one empty group. `take` ends it by an error.
 pub(crate) fn groups(
     path: &Path,
+    wanted: Option<&[String]>,
     take: &mut dyn FnMut(Table) -> std::result::Result<(), Error>,
 ) -> std::result::Result<(), Error> {
     let mut refused = None;
     let read = parquet_input::read(path, |reader| {
-        let empty = columns(reader.metadata().file_metadata());
+        let all = columns(reader.metadata().file_metadata());
+        let places = places(&all, wanted).map_err(|problem| wrong(&problem))?;
+        let empty = Table { columns: places.iter().map(|&place| all.columns[place].clone()).collect() };
         if reader.num_row_groups() == 0 {
             refused = take(empty.clone()).err();
         }
         for group in 0..reader.num_row_groups() {
             let group = reader.get_row_group(group)?;
             let mut table = empty.clone();
-            for (index, column) in table.columns.iter_mut().enumerate() {
-                let ColumnReader::DoubleColumnReader(mut input) = group.get_column_reader(index)? else {
+            for (&place, column) in places.iter().zip(&mut table.columns) {
+                let ColumnReader::DoubleColumnReader(mut input) = group.get_column_reader(place)? else {
                     return Err(wrong(&format!("column {} does not hold numbers", column.name)));
                 };
                 let (values, levels) = parquet_input::column(&mut input, group.metadata().num_rows(), true)?;

@@ -128,11 +128,36 @@ pub fn write_table(table: &Table, manifest: &Manifest, format: Format, path: &Pa
 /// # Errors
 /// [`Error::Unreadable`], and what `take` refuses.
 pub fn read_groups(path: &Path, take: &mut dyn FnMut(Table) -> Result<(), Error>) -> Result<(), Error> {
+    read_columns(path, None, take)
+}
+
+/// As [`read_groups`], with these columns alone, in the order of the file; of Parquet no other one is read. `None`: all.
+///
+/// # Errors
+/// As [`read_groups`]; [`Error::Unreadable`] for a column that is not there.
+pub fn read_columns(
+    path: &Path,
+    columns: Option<&[String]>,
+    take: &mut dyn FnMut(Table) -> Result<(), Error>,
+) -> Result<(), Error> {
     match Format::of_path(path) {
-        Some(Format::Csv) => csv_table::groups(path, take),
-        Some(Format::Parquet) => parquet_table::groups(path, take),
+        Some(Format::Csv) => csv_table::groups(path, columns, take),
+        Some(Format::Parquet) => parquet_table::groups(path, columns, take),
         None => Err(Error::unreadable(path, "it is not a table: give a .parquet or .csv file")),
     }
+}
+
+/// The places of the columns that are wanted.
+///
+/// # Errors
+/// One is not there, in a sentence.
+pub(crate) fn places(all: &Table, wanted: Option<&[String]>) -> Result<Vec<usize>, String> {
+    let names: Vec<&str> = all.columns.iter().map(|column| column.name.as_str()).collect();
+    let Some(wanted) = wanted else { return Ok((0..names.len()).collect()) };
+    if let Some(missing) = wanted.iter().find(|name| !names.contains(&name.as_str())) {
+        return Err(format!("it has no column {missing}: it has {}", names.join(", ")));
+    }
+    Ok((0..names.len()).filter(|&place| wanted.iter().any(|name| name == names[place])).collect())
 }
 
 /// A whole table.
@@ -214,6 +239,30 @@ mod tests {
                 assert!(std::fs::read(at("whole")).unwrap() == std::fs::read(at("rows")).unwrap(), "{rows}");
                 assert!(same_bits(&read(&at("rows")).unwrap(), &whole), "{rows}");
             }
+        }
+    }
+
+    /// One column is as in the whole table; a name that is not there is refused.
+    #[test]
+    fn columns_are_read_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let whole = table(1500);
+        for format in [Format::Parquet, Format::Csv] {
+            let path = folder.path().join(format.file("table"));
+            write_table(&whole, &manifest(), format, &path).unwrap();
+            let mut read = Table::default();
+            let mut take = |group: Table| {
+                read = group;
+                Ok(())
+            };
+            read_columns(&path, Some(&["x".to_owned()]), &mut take).unwrap();
+            let refused = read_columns(&path, Some(&["z".to_owned()]), &mut |_| Ok(()));
+            assert!(refused.unwrap_err().to_string().contains("no column z: it has t, x"));
+            assert_eq!(read.columns.len(), 1);
+            let bits = |table: &Table| -> Vec<u64> {
+                table.get("x").unwrap().iter().map(|value| value.to_bits()).collect()
+            };
+            assert_eq!(bits(&read), bits(&whole));
         }
     }
 }

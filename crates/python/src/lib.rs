@@ -7,6 +7,7 @@
 mod analyse;
 mod branches;
 mod cells;
+mod chunks;
 mod curves;
 mod ensemble;
 mod errors;
@@ -34,6 +35,8 @@ mod _motiform {
     use super::branches::{follow_branches, read_branches};
     #[pymodule_export]
     use super::cells::Sample;
+    #[pymodule_export]
+    use super::chunks::Chunks;
     #[pymodule_export]
     use super::curves::{follow, read_curves};
     #[pymodule_export]

@@ -4,7 +4,7 @@ use super::Repeated;
 use super::rows::{Compared, difference, groups};
 use crate::simulate::{columns, simulate_into};
 use motiform_dynamics::{Outcome, Watch};
-use motiform_files::{read_dataset_by, read_groups, table_path};
+use motiform_files::{read_dataset_by, read_groups, trajectory_path};
 use motiform_study::table::Table;
 use motiform_study::{Dataset, Error};
 use std::path::Path;
@@ -25,8 +25,7 @@ pub fn verify_dataset(folder: &Path, all: bool, watch: &dyn Watch) -> Result<Opt
         let reason = "it was changed: its plan does not give its hash";
         return Err(Error::unreadable(&folder.join("manifest.json"), reason));
     }
-    let path = table_path(folder, "trajectory")
-        .ok_or_else(|| Error::unreadable(folder, "it has no trajectory.parquet or trajectory.csv"))?;
+    let path = trajectory_path(folder)?;
     let enough = AtomicBool::new(false);
     let c = &plan.computation;
     let part = if all { c.t_end } else { (ROWS as f64 * c.dt_out).min(c.t_end) };

@@ -21,7 +21,7 @@ from .errors import EndedEarly, Incomplete, Interrupted, WorkersLost
 from .fields import Field, Orbit
 from .measurements import Measured, Statistics, statistics
 from .models import Model, preset, study
-from .reading import read
+from .reading import chunks, read
 from .results import Accuracy, Crossings, Equilibrium, Estimate, Exponents, Motions, Outcome, Share, Spread, Verdict
 from .scans import merge, scan
 from .trajectory import Trajectory
@@ -63,6 +63,7 @@ __all__ = [
     "WorkersLost",
     "__version__",
     "cells",
+    "chunks",
     "ensemble",
     "merge",
     "preset",

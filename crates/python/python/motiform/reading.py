@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import warnings
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from .branches import Branches, branches_of
 from .curves import Curves, curves_of
 from .errors import Incomplete
 from .scans import read_scan
-from .trajectory import Trajectory, _frame, crossing_frame
+from .trajectory import Floats, Trajectory, _frame, crossing_frame
 
 
 def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | Branches | Curves | xr.Dataset | pd.DataFrame | dict[str, Any]:
@@ -33,7 +34,7 @@ def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | Bra
     ``.json`` (manifests, ``--json``)       ``dict``
     ======================================  ===============================================
 
-    `why`: keep the evidence of a scan's rows.
+    `why`: keep the evidence of a scan's rows. A run that does not fit into memory is read by :func:`chunks`.
     """
     path = Path(path)
     if not path.exists():
@@ -53,13 +54,33 @@ def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | Bra
         if run is not None:
             return Trajectory(run)
         assert table is not None
-        return crossing_frame(*table) if "rising" in table[0] else _frame(*table)
+        return _table(*table)
     if path.suffix == ".h5":
         return _fields(path)
     if path.suffix == ".json":
         loaded: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         return loaded
     raise ValueError(f"{path} contains no data of motiform: give a folder, or a .parquet, .csv, .h5 or .json file")
+
+
+def chunks(path: str | os.PathLike[str], *, columns: Iterable[str] | None = None) -> Iterator[pd.DataFrame]:
+    """The rows of a table that may be larger than memory, in frames of at most 262,144 rows, one after the other.
+
+    `path` is a folder of ``motiform simulate``, of which the trajectory is read, or a table (``.parquet``, ``.csv``). `columns`: these, in this
+    order; of Parquet nothing else is read. The index counts on from frame to frame. Two frames are in memory at a time.
+    """
+    wanted = None if columns is None else list(columns)
+    groups = _motiform.Chunks(os.fspath(path), wanted)
+    first = 0
+    while (group := groups.next()) is not None:
+        frame = _table(*group)
+        frame.index = pd.RangeIndex(first, first + len(frame))
+        first += len(frame)
+        yield frame if wanted is None else frame[wanted]
+
+
+def _table(names: list[str], meanings: list[str], block: Floats) -> pd.DataFrame:
+    return crossing_frame(names, meanings, block) if "rising" in names else _frame(names, meanings, block)
 
 
 def _part(path: Path) -> pd.DataFrame:
