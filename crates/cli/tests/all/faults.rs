@@ -21,7 +21,7 @@ fn shim() -> &'static PathBuf {
         let library = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("fault_shim.so");
         let source = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/all/faults/shim.c");
         let mut cc = Command::new("cc");
-        cc.args(["-O1", "-shared", "-fPIC", "-o"]).arg(&library).arg(source).arg("-ldl");
+        cc.args(["-O1", "-shared", "-fPIC", "-o"]).arg(&library).arg(source).args(["-ldl", "-lpthread"]);
         assert!(cc.status().unwrap().success());
         library
     })
@@ -32,10 +32,15 @@ pub(crate) fn every() -> usize {
     std::env::var("MOTIFORM_FAULTS").ok().and_then(|text| text.parse().ok()).unwrap_or(23)
 }
 
-/// Runs the program with a fault at one call; whether it struck.
-pub(crate) fn struck(folder: &Folder, words: &str, kind: &str, at: usize) -> (Done, bool) {
+/// The program in the shim, with a fault of this kind at a call (see faults/shim.c).
+pub(crate) fn faulty(folder: &Folder, words: &str, kind: &str, at: usize) -> Command {
     let mut command = folder.command(words);
     command.env("LD_PRELOAD", shim()).env("FAULT_KIND", kind).env("FAULT_AT", at.to_string());
+    command
+}
+
+/// Runs a program in the shim; whether the fault struck.
+pub(crate) fn struck(mut command: Command) -> (Done, bool) {
     let done = Done::from(command.output().unwrap());
     let struck = done.stderr.contains("FAULT");
     (done, struck)
@@ -48,7 +53,7 @@ fn each_call(words: &str, kind: &str, prepare: impl Fn(&Folder), check: impl Fn(
     for at in (1 + (words.len() + kind.len()) % step..).step_by(step) {
         let folder = Folder::new();
         prepare(&folder);
-        let (done, struck) = struck(&folder, words, kind, at);
+        let (done, struck) = struck(faulty(&folder, words, kind, at));
         if !struck {
             done.expect(0);
             println!("{words}: up to {} calls, {kind}", at - 1);

@@ -1,43 +1,9 @@
-//! Failing calls, and kills at random moments.
+//! Kills at random moments.
 
 use super::{Tree, WRITERS, Writer, is_kept, litter, tree};
 use crate::common::Folder;
-use crate::faults::{every, struck};
 use crate::kills::{Random, kill, kills};
 use std::time::{Duration, Instant};
-
-/// Every n-th call that changes the file system fails, or is the last one: what is of others is there at once, and the next run works.
-#[test]
-fn things_of_others_survive_faults() {
-    let every = every();
-    for (number, writer) in WRITERS.iter().enumerate() {
-        if writer.command() == "reproduce" && every > 1 {
-            continue; // three seconds for each call
-        }
-        let option = if writer.options.contains(&"--force") { "--force" } else { "" };
-        let words = format!("{} --out z {option}", writer.words);
-        for kind in ["error", "kill"] {
-            for at in (1 + number % every..).step_by(every) {
-                let folder = writer.place();
-                writer.run(&folder, "--out z");
-                let clean = tree(&folder.path("z"));
-                let mine = litter(&folder.path("z"));
-                let (done, struck) = struck(&folder, &words, kind, at);
-                is_kept(&folder.path("z"), &mine, &format!("{kind} at {at} of {words}"));
-                if !struck {
-                    break;
-                }
-                assert!(!done.stderr.contains("panicked"), "{}", done.stderr);
-                let again = folder.run(&words);
-                assert!(matches!(again.code, Some(0 | 1)), "{kind} at {at} of {words}: {}", again.stderr);
-                let words = format!("{kind} at {at} of {words}, then again");
-                is_kept(&folder.path("z"), &mine, &words);
-                is_tidy(&folder, &words);
-                is_whole(&folder, &clean, &mine, &words);
-            }
-        }
-    }
-}
 
 /// Only what was made and not yet locked may stay, for a minute.
 pub(super) fn is_tidy(folder: &Folder, words: &str) {

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 #![cfg(target_os = "linux")]
 
+mod faulty;
 mod few_files;
 mod interrupted;
 mod options;
