@@ -176,8 +176,8 @@ fn is_left(path: &Path, target: &Path, end: &str) -> bool {
             end == NEW && has_at_most_its_inventory(path, true)
         }
         Ok(Some(marker)) => marker.staging_for == Some(name_of(target)),
-        // killed before the inventory was whole, or after it was removed
-        Ok(None) | Err(Error::Inventory { .. }) => end == NEW && has_at_most_its_inventory(path, false),
+        // killed before the inventory was whole, or after it was removed: nothing of anybody is in it
+        Ok(None) | Err(Error::Inventory { .. }) => has_at_most_its_inventory(path, false),
         Err(_) => false,
     };
     let free = || match File::open(path.join(INVENTORY)) {
@@ -227,6 +227,18 @@ mod tests {
         drop(living);
         assert_eq!(sweep(&target).len(), 1);
         assert!(!path.exists());
+    }
+
+    /// A kill between the removal of its inventory and its own leaves an empty folder.
+    #[test]
+    fn a_place_that_was_almost_removed_goes() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("run");
+        let place = Place::make(&target, Kind::Dataset).unwrap();
+        fs::remove_dir(place.result()).unwrap();
+        fs::remove_file(place.path.join(INVENTORY)).unwrap();
+        assert_eq!(sweep(&target).len(), 1);
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 
     #[test]
