@@ -10,6 +10,7 @@ use crate::faults::{every, faulty, struck};
 use std::collections::hash_map::DefaultHasher;
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{Hash, Hasher};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::Command;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -26,6 +27,19 @@ struct Case<'w> {
     mine: Tree,
     /// States that were tried.
     seen: Mutex<BTreeSet<u64>>,
+    failed: &'w Failed,
+}
+
+/// What went wrong: one failure does not end the others.
+#[derive(Default)]
+struct Failed(Mutex<Vec<String>>);
+
+impl Failed {
+    fn unless(&self, what: &str, check: impl FnOnce()) {
+        if catch_unwind(AssertUnwindSafe(check)).is_err() {
+            self.0.lock().unwrap().push(what.to_owned());
+        }
+    }
 }
 
 /// What a case came to.
@@ -42,25 +56,39 @@ fn things_of_others_survive_faults() {
     // Those that take seconds come first, and in a push `reproduce` not at all.
     let writers: Vec<&Writer> =
         WRITERS.iter().rev().filter(|writer| writer.command() != "reproduce" || every() == 1).collect();
+    let failed = Failed::default();
     in_parallel(writers.len(), |number, cpu| {
-        let writer = writers[number];
-        let whole = writer.place();
-        writer.run(&whole, "--out z");
-        let clean = tree(&whole.path("z"));
-        let fresh = Case::new(writer, "", writer.place(), Tree::new(), &clean);
-        let half_done = fresh.try_all(number, cpu);
-        let again = if writer.options.contains(&"--force") { "--force" } else { "" };
-        let mine = litter(&whole.path("z"));
-        Case::new(writer, again, whole, mine, &clean).try_all(number, cpu);
-        if let Some(half_done) = half_done.filter(|_| writer.options == BOTH) {
-            let mine = litter(&half_done.path("z"));
-            Case::new(writer, "--resume", half_done, mine, &clean).try_all(number, cpu);
-        }
+        failed.unless(writers[number].words, || faults_of(writers[number], number, cpu, &failed));
     });
+    let failed = failed.0.into_inner().unwrap();
+    assert!(failed.is_empty(), "{} failures, after {failed:#?}", failed.len());
+}
+
+/// Into nothing, over a result with things of others in it, and on with work that is half done.
+fn faults_of(writer: &Writer, number: usize, cpu: usize, failed: &Failed) {
+    let whole = writer.place();
+    writer.run(&whole, "--out z");
+    let clean = tree(&whole.path("z"));
+    let fresh = Case::new(writer, "", writer.place(), Tree::new(), &clean, failed);
+    let half_done = fresh.try_all(number, cpu);
+    let again = if writer.options.contains(&"--force") { "--force" } else { "" };
+    let mine = litter(&whole.path("z"));
+    Case::new(writer, again, whole, mine, &clean, failed).try_all(number, cpu);
+    if let Some(half_done) = half_done.filter(|_| writer.options == BOTH) {
+        let mine = litter(&half_done.path("z"));
+        Case::new(writer, "--resume", half_done, mine, &clean, failed).try_all(number, cpu);
+    }
 }
 
 impl<'w> Case<'w> {
-    fn new(writer: &Writer, option: &'static str, before: Folder, mine: Tree, clean: &'w Tree) -> Self {
+    fn new(
+        writer: &Writer,
+        option: &'static str,
+        before: Folder,
+        mine: Tree,
+        clean: &'w Tree,
+        failed: &'w Failed,
+    ) -> Self {
         let then: &[&'static str] =
             match (writer.options == BOTH, writer.options.contains(&"--force"), option) {
                 (true, _, "--resume") => &["--resume"],
@@ -68,7 +96,7 @@ impl<'w> Case<'w> {
                 (_, true, _) => &["--force"],
                 _ => &[""],
             };
-        Self { words: writer.words, option, then, before, clean, mine, seen: Mutex::default() }
+        Self { words: writer.words, option, then, before, clean, mine, seen: Mutex::default(), failed }
     }
 
     fn words(&self) -> String {
@@ -81,7 +109,8 @@ impl<'w> Case<'w> {
         let states = self.states(first, step, cpu);
         let mut count = Count { calls: *states.keys().last().unwrap_or(&0), ..Count::default() };
         for (at, state) in &states {
-            self.goes_on(state, &format!("a kill before call {at} of {}", self.words()), &mut count);
+            let after = format!("a kill before call {at} of {}", self.words());
+            self.failed.unless(&after, || self.goes_on(state, &after, &mut count));
         }
         for at in (first..).step_by(step) {
             let folder = copy(&self.before);
@@ -92,8 +121,11 @@ impl<'w> Case<'w> {
                 break;
             }
             count.calls = count.calls.max(at);
-            assert!(!done.stderr.contains("panicked"), "{}", done.stderr);
-            self.goes_on(&folder, &format!("an error of call {at} of {}", self.words()), &mut count);
+            let after = format!("an error of call {at} of {}", self.words());
+            self.failed.unless(&after, || {
+                assert!(!done.stderr.contains("panicked"), "{}", done.stderr);
+                self.goes_on(&folder, &after, &mut count);
+            });
         }
         println!("{}: {} calls, {} faults, {} states", self.words(), count.calls, count.faults, count.states);
         let of_work = |state: &&Folder| state.path("z/_inventory.jsonl").is_file();
