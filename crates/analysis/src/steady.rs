@@ -3,7 +3,7 @@
 use crate::equilibrium::RelativeEquilibrium;
 use crate::isotropy::Isotropy;
 use crate::linear::{add, norm};
-use crate::regime::Regime;
+use crate::regime::{Direction, Regime};
 use crate::{Estimate, equilibrium::Uncertainty};
 use motiform_dynamics::{Equivariant, model};
 
@@ -89,6 +89,19 @@ impl SteadyMotion {
         let resolved = SEEN * self.growth.abs() / (CLEAR * self.turning_rate.error);
         let turning = if self.turns() || !self.asymmetric { f64::MAX } else { resolved };
         sure(self.speed).min(sure(self.turning_rate)).min(turning)
+    }
+
+    /// The speed of the motion (model length per model time): 0 at rest.
+    #[must_use]
+    pub fn pace(&self) -> f64 {
+        if self.moves() { self.speed.value } else { 0.0 }
+    }
+
+    /// Its direction at this equilibrium, as far as the symmetry of the body distinguishes directions.
+    #[must_use]
+    pub fn direction<B: Equivariant + ?Sized>(&self, body: &B, found: &RelativeEquilibrium) -> Direction {
+        let drift = if self.moves() { found.velocity } else { [0.0; 2] };
+        Direction::of(body, self.turns().then_some(found.turning_rate), drift)
     }
 
     /// The turning rate of the motion (rad per model time): 0 for straight motion; `None` at rest, where nothing has a heading.

@@ -47,18 +47,15 @@ impl Reading {
 }
 
 fn still(model: &dyn Model, found: &RelativeEquilibrium) -> Reading {
-    let speed = found.speed();
     let steady = SteadyMotion::of(model, found);
-    let drift = if steady.moves() { found.velocity } else { [0.0; 2] };
-    let turning = steady.turns().then_some(found.turning_rate);
     Reading {
         motion: steady.regime(),
         form: None,
-        direction: Direction::of(model, turning, drift),
+        direction: steady.direction(model, found),
         period: None,
         turning_rate: steady.turning(),
         net_rotation: None,
-        speed: [speed; 3],
+        speed: [steady.pace(); 3],
         size: norm(&found.shape),
         leading: found.eigenvalues.first().copied(),
         state: vec![0.0; model.coordinates().len()],

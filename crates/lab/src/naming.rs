@@ -7,9 +7,6 @@ use motiform_dynamics::escape::norm;
 use motiform_dynamics::{Model, Outcome, Watch};
 use motiform_study::{Error, Manifest, Plan};
 
-/// A shape nearer to a steady motion than this part of its size is on it.
-const ON: f64 = 1e-6;
-
 /// Maximum model time, in looks of the model: a motion that has settled is identified within the first.
 const LOOKS: f64 = 2.0;
 
@@ -35,8 +32,9 @@ pub fn name(manifest: &Manifest, watch: &dyn Watch) -> Result<Option<Verdict>, E
 /// Input that only the numerics can reject.
 pub fn unstable(manifest: &Manifest) -> Result<Option<(Regime, f64)>, Error> {
     let Some(plan) = from_its_end(manifest) else { return Ok(None) };
+    let first = analyse::start(&manifest.plan)?.1;
     let (model, shape) = analyse::start(&plan)?;
-    Ok(unstable_at(model.as_ref(), &shape))
+    Ok(unstable_at(model.as_ref(), &shape, norm(&first)))
 }
 
 /// As [`unstable`], of a run whose exponents were computed: they are those of the steady motion, not of what a typical start does.
@@ -44,15 +42,16 @@ pub fn unstable(manifest: &Manifest) -> Result<Option<(Regime, f64)>, Error> {
 /// # Errors
 /// An unknown model.
 pub fn unstable_under(plan: &Plan, run: &Lyapunov) -> Result<Option<(Regime, f64)>, Error> {
-    let complete = matches!(run.outcome, Outcome::Completed { .. });
-    Ok(if complete { unstable_at(analyse::model(plan)?.as_ref(), &run.shape) } else { None })
+    if !matches!(run.outcome, Outcome::Completed { .. }) {
+        return Ok(None);
+    }
+    let (model, first) = analyse::start(plan)?;
+    Ok(unstable_at(model.as_ref(), &run.shape, norm(&first)))
 }
 
-fn unstable_at(model: &dyn Model, shape: &[f64]) -> Option<(Regime, f64)> {
-    let on =
-        |found: &RelativeEquilibrium| found.distance(model, shape) <= ON * norm(shape) && found.is_unstable();
-    let found = RelativeEquilibrium::find(model, shape).filter(on);
-    found.map(|found| (SteadyMotion::of(model, &found).regime(), found.growth()))
+fn unstable_at(model: &dyn Model, shape: &[f64], size: f64) -> Option<(Regime, f64)> {
+    let found = RelativeEquilibrium::reached(model, shape, size).filter(RelativeEquilibrium::is_unstable)?;
+    Some((SteadyMotion::of(model, &found).regime(), found.growth()))
 }
 
 /// The plan of a run with its end as the start; `None` for a run that did not complete, or is under noise.

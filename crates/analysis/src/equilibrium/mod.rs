@@ -2,7 +2,9 @@
 
 mod balance;
 mod deflation;
+mod family;
 mod newton;
+mod reached;
 mod saddle;
 mod silent;
 mod spectrum;
@@ -15,6 +17,7 @@ pub use deflation::Deflation;
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField, model};
 use nalgebra::DMatrix;
+pub use reached::REACHED;
 pub use saddle::Saddle;
 use serde::{Deserialize, Serialize};
 pub use spectrum::rounding;

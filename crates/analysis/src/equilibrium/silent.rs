@@ -19,9 +19,8 @@ impl RelativeEquilibrium {
     /// # Checked by  cli: tests/all/free_phases.rs
     pub(super) fn silent<B: Equivariant + ?Sized>(&self, body: &B) -> Vec<bool> {
         let dim = self.shape.len();
-        let zero = |(value, error): (&(f64, f64), &f64)| libm::hypot(value.0, value.1) <= *error;
         let mut silent = vec![false; dim];
-        if !body.symmetry().rotations || !self.eigenvalues.iter().zip(&self.errors).any(zero) {
+        if !body.symmetry().rotations || self.vanishing_count() == 0 {
             return silent;
         }
         let matrix = linearisation(body, &self.shape, self.turning_rate);

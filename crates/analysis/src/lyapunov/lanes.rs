@@ -161,8 +161,8 @@ impl<L: Bundle, B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: 
                 return None;
             }
             let member = self.first.take().or_else(|| (self.next)())?;
-            let mut in_lane =
-                InLane { renormalisation: Renormalisation::new(&member.settings, N), member, lost: false };
+            let renormalisation = Renormalisation::new(&member.settings, &member.start);
+            let mut in_lane = InLane { renormalisation, member, lost: false };
             let Some(Stretch { stop, limit }) = in_lane.renormalisation.begin(0.0) else {
                 self.alone(&in_lane);
                 continue;

@@ -4,19 +4,20 @@ mod dimension;
 mod frame;
 mod lanes;
 mod renormalisation;
+mod separation;
 
-use crate::equilibrium::RelativeEquilibrium;
-use crate::linear::{basis, norm};
+use crate::equilibrium::{RelativeEquilibrium, along_group_and_flow};
+use crate::linear::norm;
 use crate::series_mean::{FEWEST_INDEPENDENT, independent_samples, mean_over};
 use crate::symmetry::reduced_speed;
 use crate::{Estimate, Result};
 pub use lanes::{TangentMember, lyapunov_in_lanes, runs_in_lanes};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::Method;
-use motiform_dynamics::{
-    Equivariant, Mask, Outcome, Request, StepControl, StopOnly, Tangent, VectorField, Watch,
-};
+use motiform_dynamics::{Equivariant, Mask, Outcome, Request, StepControl, StopOnly, Tangent, Watch};
 use renormalisation::{Renormalisation, Stretch};
+pub use separation::separates;
+pub(crate) use separation::{GROWN, SECULAR};
 
 /// How to compute exponents.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +44,8 @@ pub struct Lyapunov {
     /// The exponents, largest first (inverse model time), each with its 95 % error; empty unless the run completed. The error is
     /// infinite where the run is too short for one ([`Lyapunov::without_error`] says why).
     pub exponents: Vec<Estimate>,
-    /// How many exponents must be zero: the flow's own direction, and the rotations'.
+    /// How many exponents must be zero on the motion that the run ended on: the flow's own direction, the rotations', and those along a family
+    /// of steady motions.
     pub neutral: usize,
     /// Growth rates over the intervals of the run: end times, and for each interval one rate per vector.
     pub history: Vec<(f64, Vec<f64>)>,
@@ -183,7 +185,7 @@ pub fn lyapunov_followed<B: Equivariant + ?Sized>(
     follow: &mut dyn FnMut(SoFar<'_>),
 ) -> Result<Lyapunov> {
     let tangent = Tangent::new(body, settings.count);
-    let mut renormalisation = Renormalisation::new(settings, start.len());
+    let mut renormalisation = Renormalisation::new(settings, start);
     let state = first_state(start, settings.count);
     let mut lengths = vec![0.0; settings.count];
     let mut orbit = settings.method.shape_orbit(&tangent, settings.control, 0.0, &state)?;
@@ -236,25 +238,13 @@ pub(crate) fn first_state(start: &[f64], count: usize) -> Vec<f64> {
     state
 }
 
-/// A run ends at a stable equilibrium where it is nearer to it than this part of its size.
-const ARRIVED: f64 = 1e-3;
-
-/// How many independent neutral directions the flow has at the end of a run: `f(u)` and the rotation `Gu`. Where the run comes to rest at a
-/// stable equilibrium the first is none, however far it still is from it: the flow decays.
-fn neutral_directions<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> usize {
-    let (mut rate, mut spin) = (shape.to_vec(), shape.to_vec());
-    VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
-    body.spin(shape, &mut spin);
-    if reduced_speed(body, shape, &rate) <= ARRIVED * norm(&rate).max(norm(shape)) {
-        let steady = RelativeEquilibrium::find(body, shape);
-        let near = |found: &RelativeEquilibrium| found.distance(body, shape) <= ARRIVED * norm(shape);
-        if let Some(found) = steady.filter(|found| found.is_stable() && near(found)) {
-            return found.neutral;
-        }
+/// How many neutral directions the motion has that a run ended on, from the shape at its end and the size of its first one: that of the
+/// rotations, that of the flow unless the body is at a steady motion, and those of a family of steady motions.
+fn neutral_directions<B: Equivariant + ?Sized>(body: &B, shape: &[f64], size: f64) -> usize {
+    match RelativeEquilibrium::reached(body, shape, size) {
+        Some(found) => found.neutral + found.family_dimension(body),
+        None => along_group_and_flow(body, shape).len(),
     }
-    let size = norm(shape);
-    let moving = [&rate[..], &spin[..]].into_iter().filter(|x| norm(x) > 1e-9 * size).collect::<Vec<_>>();
-    basis(&moving, 1e-6).len()
 }
 
 /// An average over less than so many of the motion's fastest times has no error, however smooth it is.

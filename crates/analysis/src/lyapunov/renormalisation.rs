@@ -2,6 +2,7 @@
 
 use super::{Lyapunov, LyapunovSettings, SoFar, means, neutral_directions, pace};
 use crate::Result;
+use crate::linear::norm;
 use motiform_dynamics::{Equivariant, Outcome, StepControl, VectorField};
 
 /// Vectors are made orthonormal when they have separated by this factor (natural logarithm).
@@ -32,6 +33,8 @@ pub(crate) struct Stretch {
 pub(crate) struct Renormalisation {
     settings: LyapunovSettings,
     dim: usize,
+    /// Size of the shape at the start.
+    size: f64,
     /// Usual length of a stretch: chosen while the flow settles, then kept.
     interval: f64,
     averaging: bool,
@@ -50,11 +53,12 @@ pub(crate) struct Renormalisation {
 }
 
 impl Renormalisation {
-    /// Nothing done so far, for a shape of length `dim`.
-    pub(crate) fn new(settings: &LyapunovSettings, dim: usize) -> Self {
+    /// Nothing done so far, for a run from this shape.
+    pub(crate) fn new(settings: &LyapunovSettings, start: &[f64]) -> Self {
         Self {
             settings: *settings,
-            dim,
+            dim: start.len(),
+            size: norm(start),
             interval: 1.0,
             averaging: false,
             given_up: false,
@@ -172,7 +176,7 @@ impl Renormalisation {
         };
         Ok(Lyapunov {
             exponents,
-            neutral: neutral_directions(body, shape),
+            neutral: neutral_directions(body, shape, self.size),
             time,
             transient: self.settings.transient,
             reduced_speeds: self.reduced_speeds,

@@ -5,20 +5,9 @@ use super::look::Look;
 use super::returns;
 use super::settings::Settings;
 use super::verdict::{Attractor, Regime, Verdict};
-use crate::lyapunov::{Lyapunov, LyapunovSettings, lyapunov};
+use crate::lyapunov::{GROWN, Lyapunov, LyapunovSettings, SECULAR, lyapunov, separates};
 use crate::{Estimate, Result, escape_limits};
 use motiform_dynamics::{Equivariant, Watch};
-
-/// Growth by less than this (natural logarithm) over all runs may be a power of time.
-const GROWN: f64 = 10.0;
-
-/// And so may growth by less than this in each run. Every run begins with a new tangent vector and is averaged from a fifth of its span on:
-/// from there to its end time grows by a factor of 6, and a vector along neutral or slowly decaying directions as its first or second
-/// power.
-const SECULAR: f64 = 2.0 * 1.791_759_469_228_055;
-
-/// Chaos needs a pooled exponent above this many of its 95 % errors.
-const ERRORS: f64 = 3.0;
 
 /// K of the 0-1 test below this speaks for order.
 const ORDER: f64 = 0.3;
@@ -104,8 +93,7 @@ pub(super) fn chaotic(
     };
     let asked = if witness.sees_order() { DOUBT } else { 1.0 };
     let Estimate { value, error } = all.estimate;
-    let least = GROWN.max(SECULAR * all.runs as f64);
-    let grows = value > asked * ERRORS * error && value * all.time >= asked * least;
+    let grows = separates(all.estimate, all.time, all.runs, asked);
     // the last run alone, with its own tangent vector, says the same
     let lasts = last.value > last.error && last.value * run.time > SECULAR;
     if all.runs < 2 || !grows || !lasts {

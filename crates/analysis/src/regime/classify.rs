@@ -44,7 +44,7 @@ pub fn classify<B: Equivariant + ?Sized>(
     Ok(settle(body, start, settings, watch)?.map(|(verdict, _)| verdict))
 }
 
-/// As [`classify()`], with the shape that the orbit had when it was decided: one on the motion, or close to it.
+/// As [`classify()`], with the shape that the orbit had when it was decided: one on the motion, or close to it; of a cycle that of a rest.
 ///
 /// # Errors
 /// As [`classify()`].

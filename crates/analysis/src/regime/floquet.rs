@@ -6,6 +6,7 @@
 
 use super::settings::Settings;
 use crate::Estimate;
+use crate::equilibrium::along_group_and_flow;
 use crate::leading::leading_exponents;
 use crate::multiple_shooting::all_exponents;
 use crate::periodic::{PeriodicOrbit, is_whole};
@@ -25,7 +26,7 @@ pub(super) fn exponents<B: Equivariant + ?Sized>(
     watch: &dyn Watch,
 ) -> Vec<Estimate> {
     let (accuracy, time) = (settings.accuracy(), orbit.time);
-    let neutral = if body.symmetry().rotations { 2 } else { 1 };
+    let neutral = along_group_and_flow(body, &orbit.shape).len();
     let mut all = vec![Estimate { value: 0.0, error: accuracy / time }; neutral];
     // what is missing are the neutral directions of a family that the orbit lies in
     let family = body.dim().saturating_sub(neutral + orbit.multipliers.len());

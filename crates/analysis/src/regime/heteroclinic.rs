@@ -11,6 +11,8 @@ use motiform_dynamics::Equivariant;
 pub(super) struct Cycle {
     /// Rates at the saddle of the last rest.
     pub(super) saddle: Saddle,
+    /// The shape there.
+    pub(super) shape: Vec<f64>,
     /// Durations of the rests.
     pub(super) rests: Vec<f64>,
     /// Closest approach to a saddle, against the size of the shape.
@@ -43,8 +45,9 @@ pub(super) fn cycle<B: Equivariant + ?Sized>(body: &B, rests: &[Rest]) -> Option
         found.get_or_insert(saddle);
     }
     let saddle = found?;
+    let shape = latest.last()?.shape.clone();
     let durations = long.iter().filter(|rest| rest.whole).map(|rest| rest.duration()).collect();
-    Some(Cycle { saddle, rests: durations, closest })
+    Some(Cycle { saddle, shape, rests: durations, closest })
 }
 
 /// The motionless saddle beside `shape` that a cycle could attract by, with the distance to it (against its size).

@@ -9,6 +9,9 @@ use motiform_dynamics::drive::drive;
 use motiform_dynamics::model::velocity;
 use motiform_dynamics::{Equivariant, Request, Sink, Watch};
 
+/// Speeds below this part of the size of the shape are round-off, where the velocity is an unknown.
+const STILL: f64 = 1e-12;
+
 /// Samples of a path, equally spaced in time; the path starts at the origin.
 #[derive(Clone, Debug)]
 pub(super) struct Path {
@@ -85,7 +88,7 @@ impl Path {
 
     /// Whether the body ever moves.
     pub(super) fn moves(&self) -> bool {
-        self.speeds().iter().any(|&speed| speed > self.resolution.max(1e-12))
+        self.speeds().iter().any(|&speed| speed > self.resolution.max(STILL * self.largest))
     }
 
     /// Mean over time, by the trapezoidal rule, and extremes of the speed. (Of a smooth speed over a whole period the rule is exact to

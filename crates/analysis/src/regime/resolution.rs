@@ -17,7 +17,7 @@ pub struct Resolution {
     pub parameter: String,
     /// Its other value.
     pub value: f64,
-    /// The largest relative change of speed, turning rate and period.
+    /// The largest relative change of speed, turning rate and period; of a cycle that of the rates at its saddle.
     pub change: f64,
 }
 
@@ -26,8 +26,8 @@ const LOOKS: f64 = 4.0;
 
 impl Verdict {
     /// This verdict with its resolution: what Newton's method finds from `shape` on this motion, given in the representation of `finer`, a
-    /// model of the same body in which `parameter` has this value. Undetermined where it is another motion there, or none. Motions that are
-    /// neither steady nor periodic are left as they are.
+    /// model of the same body in which `parameter` has this value. Undetermined where it is another motion there, or none. Chaos and tori
+    /// are left as they are: they would have to be run again.
     ///
     /// # Errors
     /// What the numerics refuse.
@@ -43,6 +43,7 @@ impl Verdict {
             (Attractor::Equilibrium, _) => RelativeEquilibrium::find(finer, shape)
                 .map(|found| words::equilibrium(finer, &found, 0.0, 0.0)),
             (Attractor::Periodic, Some(period)) => orbit(finer, shape, (period, self.form), settings, watch)?,
+            (Attractor::Heteroclinic, _) => return Ok(self.at_saddle(finer, shape, (parameter, value))),
             _ => return Ok(self),
         };
         let same = |other: &Self| other.attractor == self.attractor && other.regime == self.regime;
@@ -60,16 +61,31 @@ impl Verdict {
                 let change = self.change(&other);
                 self.resolution = Some(Resolution { parameter: parameter.to_owned(), value, change });
             }
-            Some(other) => {
-                self.why = format!(
-                    "{}; but with {parameter} = {value} it is {}: not resolved",
-                    self.why, other.regime
-                );
-                (self.regime, self.attractor) = (Regime::Undetermined, Attractor::Unknown);
-                (self.form, self.margin) = (None, None);
-            }
+            Some(other) => return Ok(self.unresolved((parameter, value), &format!("it is {}", other.regime))),
         }
         Ok(self)
+    }
+
+    /// The verdict on a cycle with its resolution: the rates at the saddle beside `shape` in the finer model. Undetermined where a cycle does not
+    /// attract by them.
+    fn at_saddle<B: Equivariant + ?Sized>(mut self, finer: &B, shape: &[f64], changed: (&str, f64)) -> Self {
+        let found = RelativeEquilibrium::find(finer, shape);
+        let (Some(own), Some(found)) = (self.saddle, found) else { return self };
+        let Some(other) = found.saddle(finer).filter(|other| other.out + other.inward < -other.error) else {
+            return self.unresolved(changed, "the rests are at no saddle by which a cycle attracts");
+        };
+        let off = |x: f64, y: f64| (x - y).abs() / x.abs().max(y.abs());
+        let change = off(own.out, other.out).max(off(own.inward, other.inward));
+        self.resolution = Some(Resolution { parameter: changed.0.to_owned(), value: changed.1, change });
+        self
+    }
+
+    /// Undetermined, for what is found in the finer model.
+    fn unresolved(mut self, (parameter, value): (&str, f64), what: &str) -> Self {
+        self.why = format!("{}; but with {parameter} = {value} {what}: not resolved", self.why);
+        (self.regime, self.attractor) = (Regime::Undetermined, Attractor::Unknown);
+        (self.form, self.margin) = (None, None);
+        self
     }
 
     /// The largest relative difference of the numbers of two verdicts on one motion.

@@ -1,20 +1,20 @@
 //! The search for a verdict: the questions of [`super::classify()`] in their order, independent of how the orbits are computed.
 
+mod on_curve;
+
 use super::ask::Ask;
-use super::family::steady_within_family;
 use super::growth::{Growth, in_motion};
 use super::heteroclinic::cycle;
-use super::lasting::Change;
 use super::look::{Look, RESTS, Rest, Seen};
 use super::recurrence::{Returns, periodic};
 use super::repeats::Repeats;
-use super::settings::{CLOSE, EXACT, NEARLY, Settings, ended};
-use super::shrinking::{Curve, shrinking_onto};
+use super::settings::{EXACT, NEARLY, Settings, ended};
+use super::shrinking::Curve;
 use super::stay::Stay;
 use super::steady_turns::SteadyTurns;
 use super::verdict::{Attractor, Regime, Verdict};
 use super::{chaos, words};
-use crate::equilibrium::RelativeEquilibrium;
+use crate::equilibrium::{REACHED, RelativeEquilibrium};
 use crate::isotropy::Isotropy;
 use crate::linear::norm;
 use crate::periodic::is_small;
@@ -101,7 +101,7 @@ impl Search {
         (search, ask)
     }
 
-    /// The shape that the orbit had when it was last seen.
+    /// The shape that the orbit had when it was last seen; of a cycle that of its last rest.
     pub(super) fn into_shape(self) -> Vec<f64> {
         self.shape
     }
@@ -121,10 +121,8 @@ impl Search {
         }
         self.sought = seen.last_speed;
         let largest = self.largest.max(seen.sizes.1);
-        self.arrived = RelativeEquilibrium::find(body, shape).filter(|found| {
-            let size = norm(&found.shape).max(largest);
-            found.is_stable() && found.distance(body, shape) <= CLOSE * size
-        });
+        self.arrived =
+            RelativeEquilibrium::reached(body, shape, largest).filter(RelativeEquilibrium::is_stable);
         self.arrived.is_some()
     }
 
@@ -185,8 +183,8 @@ impl Search {
             return self.recurs(body, look, watch);
         };
         let decided = found.is_stable() || found.is_unstable();
-        let family = if decided { None } else { steady_within_family(body, &found) };
-        let found = family.unwrap_or(found);
+        let family = if decided { None } else { found.across_family(body) };
+        let found = family.filter(RelativeEquilibrium::is_stable).unwrap_or(found);
         let size = norm(&found.shape).max(self.largest);
         let before = found.distance(body, &self.shape);
         let reached = (self.settings.hovering() * size).max(100.0 * self.settings.atol());
@@ -202,7 +200,7 @@ impl Search {
                 self.stays(body, look, &found, watch)
             };
         }
-        if before > CLOSE * size {
+        if before > REACHED * size {
             "the orbit was still on its way to an equilibrium".clone_into(&mut self.missing);
             return self.recurs(body, look, watch);
         }
@@ -236,9 +234,9 @@ impl Search {
             rest.end = look.end;
         }
         if let Some(cycle) = cycle(body, &self.rests) {
-            return Ok(
-                words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, watch)?.into()
-            );
+            let verdict = words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, watch)?;
+            self.shape = cycle.shape;
+            return Ok(verdict.into());
         }
         self.again(body, watch)
     }
@@ -261,9 +259,9 @@ impl Search {
         let earlier = self.rests.len();
         self.remember(&mut look);
         if let Some(cycle) = cycle(body, &self.rests) {
-            return Ok(
-                words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, watch)?.into()
-            );
+            let verdict = words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, watch)?;
+            self.shape = cycle.shape;
+            return Ok(verdict.into());
         }
         match periodic(body, &look, &self.rests[earlier..], &self.settings, watch) {
             Returns::Stable(found, recurrence) => {
@@ -326,51 +324,6 @@ impl Search {
             return Ok(verdict.into());
         }
         self.again(body, watch)
-    }
-
-    /// The verdict where the returns lie on a closed curve: a periodic orbit that they shrink onto, or a torus, seen twice, that keeps its size.
-    fn on_a_curve<B: Equivariant + ?Sized>(
-        &mut self,
-        body: &B,
-        look: &Look,
-        (run, witness): (&Lyapunov, &chaos::Witness),
-        watch: &dyn Watch,
-    ) -> Result<Option<Verdict>> {
-        let torus = chaos::torus(run, witness, self.time);
-        let again = self.curve.is_seen_again(look, torus.is_some());
-        let inside = (torus.is_some() || witness.shrinks_orderly())
-            .then(|| shrinking_onto(body, look, &self.settings, watch))
-            .flatten();
-        if let Some((orbit, recurrence)) = inside {
-            return words::periodic(body, &orbit, &recurrence, &self.settings, self.time, watch).map(Some);
-        }
-        let Some(torus) = torus else { return Ok(None) };
-        match self.lasts(torus, body, (look, again), watch) {
-            Ok(torus) => self.described(torus, body, look.end - look.start, watch).map(Some),
-            Err(missing) => {
-                self.missing = missing;
-                Ok(None)
-            }
-        }
-    }
-
-    /// The verdict on a torus that was seen twice and keeps its size; otherwise what is missing.
-    fn lasts<B: Equivariant + ?Sized>(
-        &mut self,
-        torus: Verdict,
-        body: &B,
-        (look, again): (&Look, bool),
-        watch: &dyn Watch,
-    ) -> std::result::Result<Verdict, String> {
-        if !again {
-            return Err(
-                "the returns lie on a closed curve that was not seen twice with the same size".to_owned()
-            );
-        }
-        self.time += look.end - look.start;
-        let change = Change::along(body, &self.shape, look, &self.settings, watch);
-        let unseen = "the returns lie on a closed curve, and whether it keeps its size was not seen";
-        change.ok_or(unseen.to_owned())?.judges(Verdict { time: self.time, ..torus })
     }
 
     /// Twice as long, or the end of the budget. In a large system, where model time costs most, looks do not grow while an exponent is

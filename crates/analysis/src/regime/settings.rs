@@ -77,8 +77,5 @@ pub(super) fn ended(outcome: &Outcome) -> Option<Outcome> {
 /// Looks of a large system whose exponent is nearly decided last for so many first looks at most.
 pub(super) const NEARLY: f64 = 8.0;
 
-/// An equilibrium this near (against the size of the shape) may be where the orbit goes.
-pub(super) const CLOSE: f64 = 1e-3;
-
 /// A shape that differs from its image by less than this part of its size has the symmetry exactly.
 pub(super) const EXACT: f64 = 1e-12;

@@ -1,5 +1,6 @@
 //! From the kind of reduced orbit to the motion, with its numbers in words.
 
+use super::course::Direction;
 use super::form::Form;
 use super::heteroclinic::Cycle;
 use super::motion::Path;
@@ -60,8 +61,7 @@ fn at_equilibrium<B: Equivariant + ?Sized>(
     exponents.extend(std::iter::repeat_n(Estimate { value: 0.0, error: 0.0 }, neutral));
     exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
     verdict.exponents = exponents;
-    let drift = if steady.moves() { found.velocity } else { [0.0; 2] };
-    verdict.directed(body, steady.turns().then_some(found.turning_rate), drift);
+    Direction { course: verdict.course, heading: verdict.heading } = steady.direction(body, found);
     verdict
 }
 

@@ -4,7 +4,8 @@
 
 use crate::common;
 
-use common::{Random, cell, full, near};
+use common::{Random, cell, full, near, reduced};
+use motiform_analysis::lyapunov::separates;
 use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings, lyapunov, lyapunov_followed, series_mean};
 use motiform_dynamics::steppers::{DOP853, Method};
 use motiform_dynamics::{Equivariant, Orbit, Outcome, Request, StepControl, drive::drive};
@@ -198,6 +199,54 @@ fn a_run_that_settles_has_no_neutral_direction_along_its_flow() {
         let seen = run(&full(0.5, 0.5), &Random(1).state(6, 0.3), &settings(6, transient, span));
         assert_eq!(seen.neutral, 1, "after {transient}: {:?}", seen.exponents);
     }
+}
+
+/// A run is counted by the motion that it ends on: a circle has no neutral direction, an ellipse at rest and straight motion that of the
+/// rotations alone, however small the velocity has become, and whether they are stable or the start has their symmetry. Growth rates of the
+/// circle: -kappa2 and gamma.
+#[test]
+fn neutral_directions_are_those_of_the_motion_that_a_run_ends_on() {
+    let general = Random(1).state(6, 0.01);
+    for (kappa2, gamma, start, neutral) in [
+        (0.1, -0.05, general.clone(), 0),
+        (-0.2, -0.4, general.clone(), 1),
+        (0.18, 0.1, general.clone(), 1),
+        (0.02, 0.05, general.clone(), 1),
+        (-0.1, -0.04, vec![0.0, 0.0, 0.0, 0.0, 0.1, 0.0], 0),
+        (-0.1, -0.04, vec![0.0, 0.0, 0.1, 0.0, 0.0, 0.0], 1),
+        (-0.14, 0.05, general, 2),
+    ] {
+        for (transient, span) in [(300.0, 300.0), (600.0, 2000.0)] {
+            let seen = run(&reduced(kappa2, gamma), &start, &settings(6, transient, span));
+            assert_eq!(seen.neutral, neutral, "{kappa2} {gamma} {transient}: {:?}", seen.exponents);
+            let zeros = seen.exponents.iter().filter(|one| one.covers(0.0)).count();
+            assert_eq!(zeros, neutral, "{kappa2} {gamma} {transient}: {:?}", seen.exponents);
+        }
+    }
+    for (length, neutral) in [(6.0, 0), (9.0, 1), (16.0, 1)] {
+        let body = cell(length, 12);
+        let methods = common::settings("cell");
+        let settings = LyapunovSettings {
+            method: methods.method,
+            control: methods.control,
+            ..settings(2, 2000.0, 500.0)
+        };
+        let seen = run(&body, &Random(2).state(24, 0.01), &settings);
+        assert_eq!(seen.neutral, neutral, "{length}: {:?}", seen.exponents);
+    }
+}
+
+/// The rule for a positive exponent on both sides of each of its limits: three errors, and a growth by e^10 in all and by e^3.58 in each run.
+#[test]
+fn a_positive_exponent_needs_three_errors_and_growth_beyond_powers_of_time() {
+    let one = |value, error| Estimate { value, error };
+    assert!(separates(one(0.031, 0.01), 1e4, 1, 1.0) && !separates(one(0.029, 0.01), 1e4, 1, 1.0));
+    assert!(separates(one(0.01, 1e-4), 1010.0, 1, 1.0) && !separates(one(0.01, 1e-4), 990.0, 1, 1.0));
+    assert!(separates(one(0.01, 1e-4), 3600.0, 10, 1.0) && !separates(one(0.01, 1e-4), 3550.0, 10, 1.0));
+    assert!(!separates(one(0.031, 0.01), 1e4, 1, 1.3) && !separates(one(f64::NAN, 0.01), 1e4, 1, 1.0));
+    let chaos = run(&full(0.5, 0.1), &Random(1).state(6, 0.01), &settings(1, 300.0, 2000.0));
+    let order = run(&full(0.9, 0.1), &Random(1).state(6, 0.01), &settings(1, 3000.0, 2000.0));
+    assert!(chaos.separates() && !order.separates(), "{:?} {:?}", chaos.exponents, order.exponents);
 }
 
 /// Chaos has two zeros: along the flow, and along the rotations.

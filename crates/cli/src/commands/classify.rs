@@ -120,9 +120,13 @@ fn summary(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
         writeln!(text, "margin         {margin} times the uncertainty of the decisive quantity ({sure})")?;
     }
     if let Some(Resolution { parameter, value, change }) = &verdict.resolution {
+        let what = match verdict.saddle {
+            Some(_) => "the rates at the saddle",
+            None => "speed, turning rate and period",
+        };
         writeln!(
             text,
-            "resolution     with {parameter} = {value}, speed, turning rate and period change by at most {change:.0e} of themselves"
+            "resolution     with {parameter} = {value}, {what} change by at most {change:.0e} of themselves"
         )?;
     }
     if let Some(form) = verdict.form {

@@ -2,6 +2,7 @@
 
 use crate::analyse::settings_of;
 use crate::pool::Jobs;
+use motiform_analysis::equilibrium::REACHED;
 use motiform_analysis::regime::{Attractor, Settings};
 use motiform_analysis::symmetry::reduced_speed;
 use motiform_analysis::{RelativeEquilibrium, classify};
@@ -16,11 +17,7 @@ use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-/// An orbit this close to a stable steady motion, relative to its size, has been captured: its basin is larger, but for the closest
-/// neighbourhood of a subcritical bifurcation, where it shrinks like the square root of the distance.
-const NEAR: f64 = 1e-3;
-
-/// A steady motion is sought where the shape changes by less than this share of its size per model time.
+/// A steady motion is sought, which takes time, only where the shape changes by less than this share of its size per model time.
 const SLOW: f64 = 1e-2;
 
 /// Looks for which the motion at the end may be examined: a transient that lasts for longer is not taken for a regular motion.
@@ -50,7 +47,7 @@ pub(super) struct Followed {
 
 /// The time in which this rate (inverse model time) brings an orbit from far away to where its capture is noticed.
 pub(super) fn way(rate: f64) -> f64 {
-    -libm::log(NEAR) / rate
+    -libm::log(REACHED) / rate
 }
 
 /// Follows the orbits of a plan.
@@ -215,13 +212,11 @@ impl<'p> Follower<'p> {
     fn captured(&self, model: &dyn Model, shape: &[f64]) -> Option<f64> {
         let mut rate = vec![0.0; shape.len()];
         VectorField::<f64>::eval(model, 0.0, shape, &mut rate);
-        let size = |shape: &[f64]| norm(shape).max(0.1 * self.size);
-        if reduced_speed(model, shape, &rate) > SLOW * size(shape) {
+        let size = norm(shape).max(0.1 * self.size);
+        if reduced_speed(model, shape, &rate) > SLOW * size {
             return None;
         }
-        let steady = RelativeEquilibrium::find(model, shape)?;
-        let stable = steady.is_stable();
-        let near = steady.distance(model, shape) < NEAR * size(&steady.shape);
-        (stable && near).then(|| -steady.growth())
+        let steady = RelativeEquilibrium::reached(model, shape, 0.1 * self.size)?;
+        steady.is_stable().then(|| -steady.growth())
     }
 }

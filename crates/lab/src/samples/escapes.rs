@@ -90,16 +90,14 @@ impl Escapes {
         Ok(stays.and_then(|stays| Self::new(&gone, &stays, left_out, until, look)))
     }
 
-    /// The results for orbits whose exponents were computed: those that blew up, and those whose largest exponent exceeds
-    /// twice its error.
+    /// The results for orbits whose exponents were computed: those that blew up, and those along which neighbouring orbits separate
+    /// exponentially.
     ///
     /// # Errors
     /// An unknown model.
     pub fn of_orbits(plan: &Plan, orbits: &[Lyapunov]) -> Result<Option<Self>, Error> {
-        let chaotic = |orbit: &&Lyapunov| {
-            let parts = orbit.exponents.first().is_some_and(|first| first.value > 2.0 * first.error);
-            parts || matches!(orbit.outcome, Outcome::Escaped { .. })
-        };
+        let chaotic =
+            |orbit: &&Lyapunov| orbit.separates() || matches!(orbit.outcome, Outcome::Escaped { .. });
         let look = plan.info()?.look;
         let all = orbits.iter().filter(chaotic).filter_map(|orbit| stay(&orbit.outcome));
         // What leaves within the first look was never near chaos.
@@ -269,6 +267,26 @@ mod tests {
             words.starts_with("none of 2 starts blows up within 1200") && !words.contains("transient"),
             "{words}"
         );
+    }
+
+    /// An exponent of two and a half errors is no chaos, and neither is a growth by e^8: no orbit is watched for its escape.
+    #[test]
+    fn orbits_count_as_chaotic_by_the_rule_of_the_classifier() {
+        let plan =
+            Plan::new(&motiform_study::Study::parse("preset = \"fig5b\"", "text", "test").unwrap()).unwrap();
+        let orbit = |value, error, time| Lyapunov {
+            exponents: vec![motiform_analysis::Estimate { value, error }],
+            neutral: 2,
+            history: Vec::new(),
+            reduced_speeds: Vec::new(),
+            time,
+            transient: 100.0,
+            outcome: Outcome::Completed { t: 100.0 + time },
+            shape: Vec::new(),
+        };
+        let followed = |all: &[Lyapunov]| Escapes::of_orbits(&plan, all).unwrap().map(|found| found.followed);
+        assert_eq!(followed(&[orbit(0.05, 0.02, 1e4), orbit(0.008, 1e-4, 1000.0)]), None);
+        assert_eq!(followed(&[orbit(0.07, 0.02, 1e4), orbit(0.012, 1e-4, 1000.0)]), Some(2));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 
 use super::super::context::Context;
 use super::lengths::study;
-use motiform_analysis::RelativeEquilibrium;
+use motiform_analysis::{Isotropy, RelativeEquilibrium, SteadyMotion};
 use motiform_dynamics::Model as _;
 use motiform_models::cell::{Cell, CellParameters};
 use motiform_study::Error;
@@ -89,10 +89,16 @@ impl Branch {
 
     /// Follows the branch while it is stable and of the same kind (number of folds, at rest or not).
     pub(crate) fn stable_until(&self, end: f64) -> Result<Option<f64>, Error> {
-        let (folds, moves) = (folds(&self.shape.shape), self.shape.speed() > 1e-9);
-        self.edge(end, |_, found| {
-            found.growth() < 0.0 && self::folds(&found.shape) == folds && (found.speed() > 1e-9) == moves
-        })
+        let kind = |cell: &Cell, found: &RelativeEquilibrium| {
+            (folds(cell, found), SteadyMotion::of(cell, found).moves())
+        };
+        let own = kind(&self.cell()?, &self.shape);
+        self.edge(end, |cell, found| found.is_stable() && kind(cell, found) == own)
+    }
+
+    /// The order of the rotations that leave its shape unchanged.
+    pub(crate) fn folds(&self) -> Result<usize, Error> {
+        Ok(folds(&self.cell()?, &self.shape))
     }
 }
 
@@ -101,10 +107,9 @@ fn cell(length: f64, modes: usize) -> Result<Cell, Error> {
     Ok(Cell::new(&CellParameters { length, modes: modes as f64, ..CellParameters::default() })?)
 }
 
-/// The order of the rotations that leave a shape of the cell unchanged: every mode that is there is a multiple of it.
-pub(crate) fn folds(shape: &[f64]) -> usize {
-    let size = shape.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let absent = |n: usize| libm::hypot(shape[2 * n - 2], shape[2 * n - 1]) < 1e-6 * size;
-    let fits = |m: &usize| (1..=shape.len() / 2).all(|n| n.is_multiple_of(*m) || absent(n));
-    (1..=8).rev().find(fits).unwrap_or(1)
+/// Shapes that differ by less than this part of their size are the same.
+const SAME: f64 = 1e-6;
+
+fn folds(cell: &Cell, found: &RelativeEquilibrium) -> usize {
+    Isotropy::of(cell, &found.shape, SAME).folds
 }

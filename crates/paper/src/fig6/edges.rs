@@ -1,7 +1,7 @@
 //! The range of each motion, from the eigenvalues of the corresponding shapes.
 
 use super::super::context::Context;
-use super::branches::{Branch, folds};
+use super::branches::Branch;
 use motiform_models::cell::{CellField, CellParameters};
 use motiform_study::Error;
 
@@ -104,7 +104,7 @@ impl Edges {
             second_circular: (second.stable_until(20.0)?, second.stable_until(25.0)?),
             three_fold: (three_fold.stable_until(20.0)?, three_fold.stable_until(32.0)?),
             four_fold: four_fold.stable_until(27.0)?,
-            folds: [two_fold, three_fold, four_fold].map(|branch| folds(&branch.shape.shape)),
+            folds: [two_fold.folds()?, three_fold.folds()?, four_fold.folds()?],
         })
     }
 }

@@ -108,7 +108,7 @@ fn two_fold(context: &Context<'_>, edges: &Edges, lengths: &Lengths) -> Claim {
             "a motionless two-fold shape, stable from *L* = {from:.3} to {to:.3}; motionless at {} between",
             places(count)
         ),
-        "Leading eigenvalue of the shape followed in length; number of folds from its modes; runs from random starts.",
+        "Leading eigenvalue of the shape followed in length; number of folds from its rotations; runs from random starts.",
         all && count > 0 && edges.folds[0] == 2,
     );
     context.resting_on(count, "lengths", found)

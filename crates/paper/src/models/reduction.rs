@@ -48,7 +48,7 @@ pub(super) fn exact(context: &Context<'_>) -> Claim {
 /// The lengths between which the cycle of the whole model exists and attracts.
 fn whole(context: &Context<'_>) -> Result<[f64; 2], Error> {
     let whole = Branch::settled(context, 16.0, 12)?;
-    let end = whole.edge(12.0, |_, found| found.growth() < 0.0)?;
+    let end = whole.edge(12.0, |_, found| found.is_stable())?;
     let mut inside = Branch::settled(context, 16.0, 12)?;
     for length in [15.6, 15.2, 14.8, 14.4, 14.0] {
         if let Some(next) = inside.at(length)? {
