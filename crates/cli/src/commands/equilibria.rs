@@ -47,17 +47,27 @@ fn table(found: &[Equilibrium]) -> anyhow::Result<String> {
         });
         writeln!(
             text,
-            "{name:<width$} {:>12.8} {:>13.8} {:>9} {:>8}  {}",
+            "{name:<width$} {:>12.8} {:>13.8} {:>9} {:>8}  {}{}",
             one.speed,
             one.turning_rate,
             one.unstable,
             share(one),
-            values.collect::<Vec<_>>().join(", ")
+            values.collect::<Vec<_>>().join(", "),
+            family(one)
         )?;
     }
     let count = found.len();
     write!(text, "{count} found; nothing proves that these are all, more --starts may find more")?;
     Ok(text)
+}
+
+/// Whether the row stands for a family.
+fn family(one: &Equilibrium) -> String {
+    match one.family {
+        0 => String::new(),
+        1 => "  (a one-parameter family)".to_owned(),
+        count => format!("  (a family of {count} parameters)"),
+    }
 }
 
 /// The share of the random starts, or the other way that led to it.

@@ -39,4 +39,5 @@ mod startup;
 mod statistics;
 mod steady;
 mod ties;
+mod undeclared;
 mod verify;

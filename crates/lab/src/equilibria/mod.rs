@@ -1,5 +1,6 @@
 //! The steady motions of a plan: shapes that are constant up to a steady rotation.
 
+mod families;
 mod search;
 
 use crate::analyse;
@@ -35,6 +36,15 @@ pub struct Equilibrium {
     pub share: f64,
     /// What led to it first.
     pub found_by: FoundBy,
+    /// Dimension of the family of equilibria that it stands for (rotated copies not counted); 0 where it is alone. So many eigenvalues are 0.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub family: usize,
+}
+
+/// For serde, which gives a reference.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
+const fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 /// What led to an equilibrium first.
@@ -50,7 +60,7 @@ pub enum FoundBy {
 }
 
 /// The equilibria that Newton's method finds from the circle and from `starts` random shapes of several sizes, and those that deflation
-/// finds beside them, the most stable first; mirror images count as different. The list may be incomplete.
+/// finds beside them, the most stable first; mirror images count as different, and a family counts once. The list may be incomplete.
 ///
 /// Deflated searches start from sizes about those at which terms of the equations balance (from a tenth of the smallest to ten times the
 /// largest), half of them from shapes with symmetries of the model, and end when so many of them in turn found nothing:
@@ -86,23 +96,22 @@ fn patience(starts: usize, dim: usize) -> usize {
 }
 
 fn describe(model: &dyn Model, found: Found, starts: usize) -> Equilibrium {
-    let Found { equilibrium: found, by, hits } = found;
+    let Found { equilibrium: found, by, hits, family } = found;
     let mut values = vec![0.0; model.coordinates().len()];
     model.decode(&found.shape, &mut values);
     let names = model.coordinates().iter().map(|coordinate| coordinate.name.to_owned());
     let steady = SteadyMotion::of(model, &found);
-    let turning = steady.turns().then_some(found.turning_rate);
-    let drift = if steady.moves() { found.velocity } else { [0.0; 2] };
     Equilibrium {
         motion: steady.regime(),
-        direction: Direction::of(model, turning, drift),
+        direction: steady.direction(model, &found),
         shape: Named(names.zip(values).collect()),
-        speed: if steady.moves() { steady.speed.value } else { 0.0 },
-        turning_rate: turning.unwrap_or(0.0),
+        speed: steady.pace(),
+        turning_rate: steady.turning().unwrap_or(0.0),
         unstable: found.growing(),
         residual: found.residual,
         share: hits as f64 / starts as f64,
         found_by: by,
+        family,
         eigenvalues: found.eigenvalues,
     }
 }

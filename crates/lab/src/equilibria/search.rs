@@ -1,6 +1,7 @@
 //! Where equilibria are looked for: random starts, and deflation from sizes that follow from the equations.
 
 use super::FoundBy;
+use super::families::Families;
 use motiform_analysis::RelativeEquilibrium;
 use motiform_analysis::equilibrium::{Deflation, balances};
 use motiform_dynamics::escape::norm;
@@ -39,6 +40,8 @@ pub(super) struct Found {
     pub(super) equilibrium: RelativeEquilibrium,
     pub(super) by: FoundBy,
     pub(super) hits: usize,
+    /// Dimension of the family that it stands for; 0 where it is alone.
+    pub(super) family: usize,
 }
 
 /// A search for equilibria. Everything in it follows from the seed.
@@ -47,12 +50,14 @@ pub(super) struct Search<'m> {
     model: &'m dyn Model,
     seed: u64,
     known: Deflation,
+    families: Families,
     found: Vec<Found>,
 }
 
 impl<'m> Search<'m> {
     pub(super) fn new(info: &'static ModelInfo, model: &'m dyn Model, seed: u64) -> Self {
-        Self { info, model, seed, known: Deflation::default(), found: Vec::new() }
+        let (known, families) = (Deflation::default(), Families::default());
+        Self { info, model, seed, known, families, found: Vec::new() }
     }
 
     /// What was found, the most stable first.
@@ -73,8 +78,8 @@ impl<'m> Search<'m> {
             };
             if let Some(new) = RelativeEquilibrium::find(self.model, &guess) {
                 let hit = usize::from(start > 0);
-                match self.found.iter_mut().find(|known| known.equilibrium.is_same(self.model, &new)) {
-                    Some(known) => known.hits += hit,
+                match self.place_of(&new) {
+                    Some(place) => self.found[place].hits += hit,
                     None => self.add(new, FoundBy::Starts, hit),
                 }
             }
@@ -113,9 +118,19 @@ impl<'m> Search<'m> {
         }
     }
 
+    /// The place in the list of an equilibrium that is known, or of the family that it belongs to.
+    fn place_of(&mut self, new: &RelativeEquilibrium) -> Option<usize> {
+        let known = self.found.iter().position(|known| known.equilibrium.is_same(self.model, new));
+        known.or_else(|| self.families.place_of(self.model, new))
+    }
+
     fn add(&mut self, equilibrium: RelativeEquilibrium, by: FoundBy, hits: usize) {
         self.known.add(self.model, &equilibrium);
-        self.found.push(Found { equilibrium, by, hits });
+        let family = equilibrium.family_dimension(self.model);
+        if family > 0 {
+            self.families.begin(self.found.len(), &equilibrium);
+        }
+        self.found.push(Found { equilibrium, by, hits, family });
     }
 
     /// Adds the mirror images of all from this place on.
@@ -125,7 +140,7 @@ impl<'m> Search<'m> {
             let mut image = self.found[place].equilibrium.shape.clone();
             self.model.mirror(&mut image);
             let Some(new) = RelativeEquilibrium::find(self.model, &image) else { continue };
-            if !self.found.iter().any(|known| known.equilibrium.is_same(self.model, &new)) {
+            if self.place_of(&new).is_none() {
                 self.add(new, FoundBy::Mirror, 0);
             }
         }

@@ -251,6 +251,8 @@ class Equilibrium:
     """Fraction of the random starts from which Newton's method converged to this equilibrium."""
     found_by: str
     """What led to it first: starts (the circle or a random start), deflation, or mirror (the mirror image of another)."""
+    family: int = 0
+    """Dimension of the family of equilibria that it stands for (rotated copies not counted); 0 where it is alone."""
     course: str | None = None
     """Sense of rotation, or direction to the field, where the model tells them apart."""
     heading: float | None = None
