@@ -8,7 +8,10 @@ use crate::common::Folder;
 pub(crate) fn compare(folder: &Folder, settled: &Request, base: &Answer) -> Vec<(&'static str, Judged)> {
     let mut all = vec![("simulate", simulate(folder, settled, base))];
     match base.0["attractor"].as_str() {
-        Some("equilibrium") => all.push(("equilibria", equilibria(folder, settled, base))),
+        Some("equilibrium") => {
+            all.push(("equilibria", equilibria(folder, settled, base)));
+            all.push(("lyapunov", lyapunov(folder, settled, base)));
+        }
         Some("periodic") if base.0["exponents"].as_array().is_some_and(|list| !list.is_empty()) => {
             all.push(("lyapunov", lyapunov(folder, settled, base)));
         }
@@ -53,12 +56,16 @@ fn equilibria(folder: &Folder, settled: &Request, base: &Answer) -> Judged {
     }
 }
 
-/// The exponents of a long run are those of the multipliers, within their errors.
+/// The exponents of a long run are those of eigenvalues or multipliers, within their errors, and as many of them must be zero.
 fn lyapunov(folder: &Folder, settled: &Request, base: &Answer) -> Judged {
     let mut exact = base.exponents();
+    let neutral = exact.iter().filter(|one| one.0 == 0.0).count();
     exact.truncate(4);
     let run = settled.ask(folder, "lyapunov", &format!("--count {}", exact.len()));
     let measured = run.exponents();
+    if !measured.is_empty() && run.0["neutral"] != neutral {
+        return Judged::Contradiction(format!("{neutral} and {} neutral directions", run.0["neutral"]));
+    }
     for (k, (&(x, error), &(y, other))) in exact.iter().zip(&measured).enumerate() {
         if (x - y).abs() > 3.0 * (error + other) + 1e-9 {
             return Judged::Contradiction(format!("lambda_{} {x} +- {error} and {y} +- {other}", k + 1));

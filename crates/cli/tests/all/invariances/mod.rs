@@ -22,6 +22,9 @@ use subjects::{Subject, subjects};
 /// Subjects in every push. All of them with `MOTIFORM_INVARIANCES=1`, those whose name begins with its value otherwise.
 const SAMPLE: usize = 6;
 
+/// Motions that are asked for at a time. (The threads wait for the program.)
+const WORKERS: usize = 8;
+
 /// One comparison.
 pub(crate) struct Case {
     pub(crate) subject: String,
@@ -109,7 +112,7 @@ fn answers_do_not_depend_on_what_cannot_matter() {
         cases
     };
     let cases: Vec<Case> = std::thread::scope(|scope| {
-        let threads: Vec<_> = (0..2).map(|_| scope.spawn(work)).collect();
+        let threads: Vec<_> = (0..WORKERS).map(|_| scope.spawn(work)).collect();
         threads.into_iter().flat_map(|thread| thread.join().expect("no comparison panics")).collect()
     });
     let text = report(&cases);
