@@ -1,13 +1,10 @@
 //! Solutions between two points of a branch.
 
-use super::correct::{correct, normal, product, scaled};
+use super::correct::{TIGHT, correct, normal, product, scaled};
 use super::place::{Before, Place, place};
 use super::point::Obstruction;
 use super::problem::{Failure, Problem};
 use motiform_dynamics::Watch;
-
-/// Newton's tolerance between points.
-pub(super) const TIGHT: f64 = 1e-11;
 
 /// Part of a step that solutions keep from a place where the equations are singular: what the branch bends on it is below [`TIGHT`].
 pub(super) const APART: f64 = 1e-4;

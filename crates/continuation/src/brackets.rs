@@ -2,8 +2,8 @@
 
 use super::between::{Step, between};
 use super::dip::{Look, dip};
-use super::levels::Level;
-use super::place::Place;
+use super::levels::{CLEAR, Level};
+use super::place::{Before, Place};
 use super::problem::Problem;
 use super::smooth::{Number, Smooth};
 use motiform_dynamics::Watch;
@@ -19,13 +19,19 @@ pub(super) enum Test {
 
 impl Test {
     pub(super) fn of<L>(self, place: &Place<L>) -> f64 {
+        self.read(place.slope(), &place.levels)
+    }
+
+    fn before(self, before: &Before) -> f64 {
+        self.read(before.tangent.last().copied().unwrap_or(f64::NAN), &before.levels)
+    }
+
+    fn read(self, slope: f64, levels: &[Vec<Level>]) -> f64 {
         match self {
-            Self::Slope => place.slope(),
-            Self::Level(class, rank) => place
-                .levels
-                .get(class)
-                .and_then(|levels| levels.get(rank))
-                .map_or(f64::NAN, |level| level.growth),
+            Self::Slope => slope,
+            Self::Level(class, rank) => {
+                levels.get(class).and_then(|levels| levels.get(rank)).map_or(f64::NAN, |level| level.growth)
+            }
         }
     }
 }
@@ -48,11 +54,11 @@ pub(super) fn brackets<P: Problem>(
     step: &Step<'_, P::Local>,
     known: &[f64],
     watch: &dyn Watch,
-) -> Vec<Bracket> {
+) -> Seen {
     let beside = |s: f64| Some((s, between(problem, step, s, watch).ok()?));
     let apart = BESIDE * step.length;
     let sides: Vec<_> = known.iter().map(|s| (beside(s - apart), beside(s + apart))).collect();
-    let mut out = Vec::new();
+    let mut out = Seen::default();
     let mut low = Some((0.0, step.old));
     for place in 0..=sides.len() {
         let high = match sides.get(place) {
@@ -66,8 +72,16 @@ pub(super) fn brackets<P: Problem>(
         }
         low = sides.get(place).and_then(|(_, beyond)| beyond.as_ref().map(|(s, place)| (*s, place)));
     }
-    out.sort_by_key(|bracket| !matches!(bracket.test, Test::Slope));
+    out.brackets.sort_by_key(|bracket| !matches!(bracket.test, Test::Slope));
     out
+}
+
+/// What seems to change its sign.
+#[derive(Debug, Default)]
+pub(super) struct Seen {
+    pub(super) brackets: Vec<Bracket>,
+    /// Whether a level has another sign at the end of the step, where it is smaller than its error: a step that ends elsewhere tells.
+    pub(super) is_unsure: bool,
 }
 
 /// A level that lies beyond 0 by no more than this part of its values at both ends touches 0: so it does where branches cross at which it is an even
@@ -86,11 +100,12 @@ struct Stretch<'s, P: Problem> {
 
 impl<P: Problem> Stretch<'_, P> {
     /// What changes its sign on it.
-    fn add(&self, out: &mut Vec<Bracket>) {
-        let before = out.len();
+    fn add(&self, out: &mut Seen) {
+        let before = out.brackets.len();
         for class in 0..self.low.1.levels.len() {
             self.add_class(class, out);
         }
+        let out = &mut out.brackets;
         if out.len() == before && is_level(self.problem, self.step) {
             return; // where a branch turns back a level vanishes as well
         }
@@ -105,7 +120,7 @@ impl<P: Problem> Stretch<'_, P> {
         (low.1 * high.1 < 0.0).then_some(Bracket { test, low, high })
     }
 
-    fn add_class(&self, class: usize, out: &mut Vec<Bracket>) {
+    fn add_class(&self, class: usize, seen: &mut Seen) {
         let [count, other] =
             [self.low, self.high].map(|(_, place)| place.levels.get(class).map_or(0, Vec::len));
         if count != other {
@@ -113,13 +128,17 @@ impl<P: Problem> Stretch<'_, P> {
         }
         let tests: Vec<Test> = (0..count).map(|rank| Test::Level(class, rank)).collect();
         let noise = self.noise();
-        // towards a point of more symmetry levels vanish as powers of the distance, and their signs are those of rounding
-        let clear = |bracket: &Bracket| {
-            let sizes = [bracket.low.1.abs(), bracket.high.1.abs()];
-            if self.is_whole { sizes[0].max(sizes[1]) > noise } else { sizes[0].min(sizes[1]) > noise }
-        };
+        let out = &mut seen.brackets;
         let before = out.len();
-        out.extend(tests.iter().filter_map(|&test| self.bracket(test)).filter(clear));
+        for bracket in tests.iter().filter_map(|&test| self.bracket(test)) {
+            // towards a point of more symmetry levels vanish as powers of the distance, and their signs are those of rounding
+            match [bracket.low.1.abs() > noise, bracket.high.1.abs() > noise] {
+                [true, true] => out.push(bracket),
+                [false, true] if self.is_whole => out.push(bracket),
+                [true, false] if self.is_whole => seen.is_unsure = true,
+                _ => {}
+            }
+        }
         let orbits = self.problem.time().is_some();
         for smooth in Smooth::all(orbits) {
             if out.len() > before {
@@ -130,9 +149,9 @@ impl<P: Problem> Stretch<'_, P> {
         }
     }
 
-    /// The error of levels; the slope has none that is known.
+    /// A level below this has no sign; the error of the slope is not known.
     fn noise(&self) -> f64 {
-        self.problem.noise(&self.low.1.levels).max(self.problem.noise(&self.high.1.levels))
+        CLEAR * self.problem.noise(&self.low.1.levels).max(self.problem.noise(&self.high.1.levels))
     }
 
     /// Tests that have the same signs at both ends and others between: where `value`, which vanishes with them, seems to change its sign twice.
@@ -165,16 +184,46 @@ impl<P: Problem> Stretch<'_, P> {
             let slope = before.tangent.last().copied().unwrap_or(f64::NAN);
             (-before.length, relative(value(slope, &before.levels)))
         });
-        // beyond a special point the function has the other sign, and says nothing about its course here
-        let third = before.filter(|third| third.1 > 0.0).or_else(|| match look(middle) {
-            Some(Look::Value(value)) => Some((middle, value)),
-            _ => None,
+        // beyond a special point the function has the other sign, and says nothing about its course here; near an end of the step the vertex of a
+        // parabola from one step to the next may lie outside
+        let near = self.near_end(tests);
+        let third = before.filter(|third| third.1 > 0.0 && near.is_none()).or_else(|| {
+            let s = near.unwrap_or(middle);
+            match look(s) {
+                Some(Look::Value(value)) => Some((s, value)),
+                _ => None,
+            }
         });
         if let Some(third) = third {
             let ends = [(self.low.0, 1.0), (self.high.0, relative(of(self.high.1)))];
             dip(ends, third, &mut look);
         }
         out.append(&mut found);
+    }
+}
+
+/// A test that falls below this part of its value over a step may change its sign twice before the end; it is looked at this part of the way.
+const FALLS: f64 = 0.5;
+const LATE: f64 = 0.9;
+
+impl<P: Problem> Stretch<'_, P> {
+    /// A place near an end at which a test may be beyond a sign change, and back at the end: where it would vanish if it went on as on the step before,
+    /// or late on a step over which it falls.
+    fn near_end(&self, tests: &[Test]) -> Option<f64> {
+        let length = self.high.0 - self.low.0;
+        let early = |&test: &Test| {
+            let before = self.step.before.filter(|_| self.low.0 == 0.0)?;
+            let (was, low, high) = (test.before(before), test.of(self.low.1), test.of(self.high.1));
+            let s = before.length * low / (was - low);
+            (was * low > 0.0 && low * high > 0.0 && s > 0.0 && s < length).then_some(s)
+        };
+        let falls = |test: &Test| {
+            let (low, high) = (test.of(self.low.1), test.of(self.high.1));
+            low * high > 0.0 && high.abs() < FALLS * low.abs()
+        };
+        let first = tests.iter().filter_map(early).fold(f64::INFINITY, f64::min);
+        let late = tests.iter().any(falls).then_some(self.low.0 + LATE * length);
+        if first.is_finite() { Some(first) } else { late }
     }
 }
 

@@ -8,6 +8,9 @@ use motiform_dynamics::Watch;
 /// Steps that Newton's method may take.
 const STEPS: usize = 10;
 
+/// Newton's tolerance where special points are looked for, and so the error of equilibria there, in the units of the unknowns.
+pub(super) const TIGHT: f64 = 1e-11;
+
 /// A solution, and how it was reached.
 pub(super) struct Corrected<L> {
     /// The unknowns.

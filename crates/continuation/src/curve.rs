@@ -226,7 +226,8 @@ fn point<P: Problem>(
         Special::Hopf(_) => {
             let body = tracer.problem.body(&spot.local);
             let frequency = spot.reading.angle.max(0.0).sqrt();
-            let first_lyapunov = first_lyapunov(body, &spot.x[..body.dim()], frequency);
+            let solved = tracer.problem.solved(&spot.x);
+            let first_lyapunov = first_lyapunov(body, &spot.x[..body.dim()], frequency, solved);
             Special::Hopf(Hopf { frequency, first_lyapunov })
         }
         Special::Torus { .. } => Special::Torus { angle: libm::acos(spot.reading.angle.clamp(-1.0, 1.0)) },

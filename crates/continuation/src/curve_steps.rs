@@ -29,13 +29,13 @@ pub(super) struct Stretch<L> {
 
 /// A point of codimension two, the length `s` after the beginning of its step; without a place where it was not located.
 pub(super) struct Event<L> {
-    s: f64,
+    pub(super) s: f64,
     pub(super) spot: Option<Spot<L>>,
-    /// What changes its sign; `None` where the orbits shrink to an equilibrium.
-    sign: Option<Sign>,
     pub(super) kind: Degenerate,
     /// The parameters, where they are extrapolated.
     pub(super) at: Option<[f64; 2]>,
+    /// Whether the curve ends there.
+    pub(super) ends: bool,
 }
 
 impl<P: Problem> CurveTracer<P> {
@@ -81,11 +81,15 @@ impl<P: Problem> CurveTracer<P> {
         let mut degenerate = self.degenerate(&new, length, watch)?;
         if let Some((kind, at)) = self.shrinks(&new) {
             // beyond it the curve goes on with the same orbits, half a period later: the parameters turn back there
-            degenerate.retain(|event| !matches!(event.sign, Some(Sign::Turn)));
-            degenerate.push(Event { s: length, spot: None, sign: None, kind, at: Some(at) });
+            degenerate.retain(|event| event.kind != Degenerate::Cusp);
+            degenerate.push(Event { s: length, spot: None, kind, at: Some(at), ends: true });
         }
-        let ends = |event: &Event<P::Local>| event.sign.is_none_or(|sign| sign.ends(&self.critical));
-        if let Some(last) = degenerate.iter().position(ends) {
+        if let Some(symmetric) = self.symmetric(&new, length, watch)? {
+            degenerate.retain(|event| !symmetric.explains(event, length));
+            degenerate.push(symmetric);
+            degenerate.sort_by(|a, b| a.s.total_cmp(&b.s));
+        }
+        if let Some(last) = degenerate.iter().position(|event| event.ends) {
             degenerate.truncate(last + 1);
             end = Some(End::Degenerate { kind: degenerate[last].kind });
         }
@@ -175,15 +179,15 @@ impl<P: Problem> CurveTracer<P> {
             match self.zero(((0.0, low), (length, high)), &value, watch) {
                 Ok((spot, _)) if !holds(&spot) => {}
                 Ok((spot, s)) if value(&spot).abs() < 1e-3 * low.abs().max(high.abs()) => {
-                    out.push(Event { s, spot: Some(spot), sign: Some(sign), kind, at: None });
+                    out.push(Event { s, spot: Some(spot), kind, at: None, ends: sign.ends(&self.critical) });
                 }
                 Err(Failure::Stopped) => return Err(End::Stopped),
                 _ => out.push(Event {
                     s: length,
                     spot: None,
-                    sign: Some(sign),
                     kind: Degenerate::Unresolved,
                     at: None,
+                    ends: sign.ends(&self.critical),
                 }),
             }
         }
@@ -196,6 +200,7 @@ impl<P: Problem> CurveTracer<P> {
         Seen {
             body,
             shape: &spot.x[..body.dim()],
+            solved: self.problem.solved(&spot.x),
             levels: &spot.levels,
             reading: &spot.reading,
             directions: [last_two(&self.spot.frame.along), last_two(&spot.frame.along)],

@@ -1,6 +1,6 @@
 //! Continuation of special points over two parameters, over any equations.
 
-use super::correct::{correct, normal, product, scaled};
+use super::correct::{TIGHT, correct, normal, product, scaled};
 use super::critical::{Critical, Reading};
 use super::levels::Level;
 use super::point::Obstruction;
@@ -9,9 +9,6 @@ use super::section::{Cut, Frame, Section};
 use super::settings::Settings;
 use super::special::Special;
 use motiform_dynamics::Watch;
-
-/// Newton's tolerance.
-const TIGHT: f64 = 1e-11;
 
 /// The condition is solved for until a step across the curve is shorter than this: the error left is about its square.
 const ACROSS: f64 = 1e-9;

@@ -30,6 +30,9 @@ pub enum Degenerate {
     },
     /// Two different kinds of critical multipliers at once.
     DoublyCritical,
+    /// The motion gains a symmetry: a part of its shape vanishes, and every eigenvalue that belongs to the symmetry is critical at once. Where the parameters turn
+    /// back, the curve goes on with images of itself, and ends.
+    GainsSymmetry,
     /// One of them, seen between two points of the curve and not located.
     Unresolved,
 }
@@ -49,6 +52,7 @@ impl Degenerate {
             Self::Resonance { order: 3 } => "resonance-1:3",
             Self::Resonance { .. } => "resonance-1:4",
             Self::DoublyCritical => "doubly-critical",
+            Self::GainsSymmetry => "gains-symmetry",
             Self::Unresolved => "unresolved",
         }
     }
@@ -92,6 +96,8 @@ pub(super) enum Sign {
 pub(super) struct Seen<'s> {
     pub(super) body: &'s dyn Equivariant,
     pub(super) shape: &'s [f64],
+    /// The error of the shape.
+    pub(super) solved: f64,
     pub(super) levels: &'s [Vec<Level>],
     pub(super) reading: &'s Reading,
     /// Direction of the parameters, and the one at the beginning of the step.
@@ -102,7 +108,7 @@ pub(super) struct Seen<'s> {
 const VANISHES: f64 = 1e-3;
 
 fn first_lyapunov_of(seen: &Seen<'_>) -> Option<Coefficient> {
-    first_lyapunov(seen.body, seen.shape, seen.reading.angle.max(0.0).sqrt()).coefficient()
+    first_lyapunov(seen.body, seen.shape, seen.reading.angle.max(0.0).sqrt(), seen.solved).coefficient()
 }
 
 impl Sign {

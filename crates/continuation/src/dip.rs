@@ -29,8 +29,8 @@ pub(super) fn dip(
         return None;
     }
     for count in 0..LOOKS {
-        let (s, part) = lowest(&mut points, (from.0, to.0))?;
-        if count > 0 && part > FLAT {
+        let (s, is_flat) = lowest(&mut points, (from.0, to.0))?;
+        if count > 0 && is_flat {
             return None;
         }
         match look(s)? {
@@ -41,8 +41,9 @@ pub(super) fn dip(
     None
 }
 
-/// The vertex of the parabola through the lowest value and its neighbours, where that is inside and new, and its value as part of the lowest one.
-fn lowest(points: &mut [(f64, f64)], (from, to): (f64, f64)) -> Option<(f64, f64)> {
+/// The vertex of the parabola through the lowest value and its neighbours, where that is inside and new, and whether the parabola falls no further there. (A lowest
+/// value below 0 is that of a sign change within rounding.)
+fn lowest(points: &mut [(f64, f64)], (from, to): (f64, f64)) -> Option<(f64, bool)> {
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     let inside = |i: &usize| (from..=to).contains(&points[*i].0);
     let place = (0..points.len()).filter(inside).min_by(|&a, &b| points[a].1.total_cmp(&points[b].1))?;
@@ -53,7 +54,9 @@ fn lowest(points: &mut [(f64, f64)], (from, to): (f64, f64)) -> Option<(f64, f64
     let vertex = 0.5 * (a + b) - 0.5 * left / bend;
     let value = x + left * (vertex - a) + bend * (vertex - a) * (vertex - b);
     let new = points.iter().all(|point| (point.0 - vertex).abs() > APART * (to - from));
-    (bend > 0.0 && vertex > from && vertex < to && new).then_some((vertex, value / points[place].1))
+    let lowest = points[place].1;
+    let is_flat = value > if lowest > 0.0 { FLAT * lowest } else { lowest };
+    (bend > 0.0 && vertex > from && vertex < to && new).then_some((vertex, is_flat))
 }
 
 #[cfg(test)]

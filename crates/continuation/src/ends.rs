@@ -1,9 +1,10 @@
 //! Where and why a branch ends.
 
 use super::certificate::TestFunction;
-use super::classes::GAINED;
+use super::classes::{self, GAINED};
 use super::copies::same_motion;
 use super::homoclinic::Connection;
+use super::levels::CLEAR;
 use super::locate::Changes;
 use super::normal_form::Order;
 use super::periods::Algebraic;
@@ -17,9 +18,6 @@ use motiform_dynamics::Watch;
 
 /// Least part of a shape by which a motion differs from the start of a branch.
 const SAME: f64 = 1e-6;
-
-/// A growth that is nowhere larger than this, in its errors, between a point where it seems to pass 0 and a point of more symmetry, where it vanishes, is not told from 0.
-const CLEAR: f64 = 100.0;
 
 /// Where a branch ends on a step, and why.
 pub(super) type Limit<L> = Option<(Place<L>, End)>;
@@ -99,13 +97,14 @@ impl<P: Problem> Tracer<P> {
         Some(Connection { error: found.error + self.problem.accuracy() * self.settings.width(), ..found })
     }
 
-    /// The end of the branch at the first turning point where the motion gains a symmetry: it is a special point of the motion that has it. What was found beyond belongs to
+    /// The end of the branch at the first special point where the motion gains a symmetry: it is a special point of the motion that has it. What was found beyond belongs to
     /// images of the branch; what was found as near as the symmetry can be told is the same point. (With five axes or more, say, another
     /// growth vanishes as the third power of the distance, and round-off places it.)
     pub(super) fn meets(&self, length: f64, changes: &mut Changes<P::Local>) -> Option<End> {
         let gains = |(place, (at, special)): (usize, &(Place<P::Local>, Special))| {
-            let gained = turns(*special).then(|| self.problem.gains(&at.x, &at.local, GAINED)).flatten();
-            gained.map(|gained| (place, gained))
+            // where the parameter does not turn back the place is found by itself, and as well as any other
+            let same = if turns(*special) { GAINED } else { classes::SAME };
+            self.problem.gains(&at.x, &at.local, same).map(|gained| (place, gained))
         };
         let mut all = changes.found.iter().enumerate().filter_map(gains);
         let first = all.next()?;

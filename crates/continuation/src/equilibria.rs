@@ -1,7 +1,7 @@
 //! The equations of relative equilibria along a parameter.
 
 use super::classes::Classes;
-use super::correct::{correct, normal, scaled};
+use super::correct::{TIGHT, correct, normal, scaled};
 use super::family::{Bodies, Neighbours, Sides};
 use super::hopf::first_lyapunov;
 use super::levels::Level;
@@ -12,7 +12,7 @@ use super::problem::{Equations, Failure, Linear, Problem};
 use super::special::{Broken, Hopf, Special};
 use super::tracer::TOLERANCE;
 use motiform_analysis::RelativeEquilibrium;
-use motiform_analysis::equilibrium::{neutral_direction, rounding};
+use motiform_analysis::equilibrium::{modes, neutral_direction, rounding};
 use motiform_analysis::linear::{add, apply, eigenvalues, norm, restrict};
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField, Watch, model};
@@ -78,12 +78,6 @@ pub(super) fn linearisation(body: &dyn Equivariant, shape: &[f64], omega: f64) -
     matrix
 }
 
-/// Error of solutions.
-const SOLVED: f64 = 1e-11;
-
-/// Error of eigenvalues, as part of their size: that of the solutions, as rates change by their own size over a shape's.
-const UNSURE: f64 = SOLVED;
-
 impl Equations for Equilibria<'_> {
     type Local = Local;
 
@@ -130,22 +124,23 @@ impl Problem for Equilibria<'_> {
     }
 
     fn accuracy(&self) -> f64 {
-        SOLVED
+        TIGHT
     }
 
     fn noise(&self, levels: &[Vec<Level>]) -> f64 {
-        // fast modes have no part in the slow ones: the error is that of the slow half
+        // that of the solutions, as rates change by their own size over a shape's; fast modes have no part in the slow ones: of the slow half
         let mut sizes: Vec<f64> =
             levels.iter().flatten().map(|level| level.growth.hypot(level.angle)).collect();
         sizes.sort_by(f64::total_cmp);
-        UNSURE * sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
+        TIGHT * sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
     }
 
     fn classify(&self, x: &[f64], critical: Level, class: usize) -> Special {
         let Ok(local) = self.local(x, &()) else { return Special::BranchPoint };
         if critical.angle != 0.0 {
             let frequency = critical.angle.abs();
-            let first_lyapunov = first_lyapunov(local.body.as_ref(), &x[..self.dim], frequency);
+            let first_lyapunov =
+                first_lyapunov(local.body.as_ref(), &x[..self.dim], frequency, self.solved(x));
             return Special::Hopf(Hopf { frequency, first_lyapunov });
         }
         let body = local.body.as_ref();
@@ -203,6 +198,10 @@ impl Problem for Equilibria<'_> {
 
     fn normal_form(&self, x: &[f64], order: Order, _doubled: bool) -> NormalForm {
         of_equilibrium(self, x, order)
+    }
+
+    fn modes(&self, local: &Local) -> Vec<Vec<bool>> {
+        modes(local.body.as_ref(), self.dim)
     }
 
     fn body<'l>(&self, local: &'l Local) -> &'l dyn Equivariant {

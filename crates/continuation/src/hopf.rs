@@ -138,23 +138,25 @@ const STEPS: (f64, i32) = (2e-3, 5);
 /// The same for a body at rest, whose size is no unit: over a wide range.
 const STEPS_AT_REST: (f64, i32) = (1e-4, 12);
 
-/// Error of shapes, as a part of their size.
-const SOLVED: f64 = 1e-11;
-
 /// Eigenvalues that differ by less than this part are the same.
 const SAME: f64 = 1e-7;
 
 /// The first Lyapunov coefficient of the reduced motion at a Hopf bifurcation, for a critical vector of length 1:
 /// `l1 = Re( <p, C(q,q,q*)> - 2 <p, B(q, A^-1 B(q,q*))> + <p, B(q*, (2 i omega - A)^-1 B(q,q))> ) / (2 omega)`.
 ///
-/// Its error is the difference of two results from steps of different size, and of those for two shapes that differ by the error of a solution: near a double
-/// eigenvalue 0 the latter is the larger one. Where two pairs have the same frequency (a rotating and a standing
+/// Its error is the difference of two results from steps of different size, and of those for two shapes that differ by `solved`, the error of the solution: near a double
+/// eigenvalue 0, and where a part of the shape vanishes, the latter is the larger one. Where two pairs have the same frequency (a rotating and a standing
 /// oscillation of a symmetric shape) one coefficient says nothing.
 ///
 /// Source: Kuznetsov (2004), Elements of Applied Bifurcation Theory, eq. (5.62).
 ///
 /// # Checked by  tests/all/normal_forms.rs: normal forms (exact), the van der Pol and the Lorenz equations, the reduced model's formula
-pub(super) fn first_lyapunov(body: &dyn Equivariant, shape: &[f64], frequency: f64) -> NormalForm {
+pub(super) fn first_lyapunov(
+    body: &dyn Equivariant,
+    shape: &[f64],
+    frequency: f64,
+    solved: f64,
+) -> NormalForm {
     let size = shape.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     // Newton's method leaves a body at rest at round-off: that is no size.
     let size = if size > ROUND_OFF { size } else { 0.0 };
@@ -162,8 +164,7 @@ pub(super) fn first_lyapunov(body: &dyn Equivariant, shape: &[f64], frequency: f
     if size == 0.0 {
         return found.into();
     }
-    let moved: Vec<f64> =
-        shape.iter().enumerate().map(|(i, x)| x + SOLVED * size * [1.0, -1.0][i % 2]).collect();
+    let moved: Vec<f64> = shape.iter().enumerate().map(|(i, x)| x + solved * [1.0, -1.0][i % 2]).collect();
     let beside = at_shape(body, &moved, size, frequency);
     let both = found.and_then(|here| Ok((here, beside?)));
     both.map(|(here, beside)| Coefficient { error: here.error + (here.value - beside.value).abs(), ..here })

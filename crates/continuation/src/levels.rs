@@ -16,6 +16,9 @@ impl Level {
     }
 }
 
+/// A growth of fewer errors than this has no sign: errors are estimates.
+pub(super) const CLEAR: f64 = 100.0;
+
 /// How many levels grow.
 pub(super) fn unstable(levels: &[Vec<Level>]) -> usize {
     levels.iter().flatten().filter(|level| level.growth > 0.0).count()

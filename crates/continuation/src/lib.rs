@@ -31,6 +31,7 @@ mod correct;
 mod critical;
 mod curve;
 mod curve_steps;
+mod curve_symmetry;
 mod curve_tracer;
 mod degenerate;
 mod dip;

@@ -63,6 +63,16 @@ pub(super) trait Problem: Equations {
     /// The error of solutions, in the units of [`Equations::weights`]: what the equations themselves are exact to, not what Newton's method leaves.
     fn accuracy(&self) -> f64;
 
+    /// The same for the shapes in the model's units.
+    fn solved(&self, x: &[f64]) -> f64 {
+        self.accuracy() / self.weights(x).first().map_or(f64::NAN, |weight| weight.sqrt())
+    }
+
+    /// Sets of unknowns that rotations mix, as masks of a shape; none for orbits.
+    fn modes(&self, _local: &Self::Local) -> Vec<Vec<bool>> {
+        Vec::new()
+    }
+
     /// The error of the levels that are closest to 0.
     fn noise(&self, levels: &[Vec<Level>]) -> f64;
 

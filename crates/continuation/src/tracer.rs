@@ -1,8 +1,9 @@
 //! Pseudo-arclength continuation with step control, over any equations.
 
 use super::between::Step;
+use super::certificate::TestFunction;
 use super::correct::{correct, directions, normal, scaled};
-use super::levels::unstable;
+use super::levels::{CLEAR, unstable};
 use super::locate::{Changes, locate};
 use super::periods::Periods;
 use super::place::{Before, Place, place};
@@ -15,6 +16,9 @@ use std::collections::VecDeque;
 
 /// Newton's method has converged with a step shorter than this, if nothing else is asked for.
 pub(super) const TOLERANCE: f64 = 1e-9;
+
+/// Copies of the critical level, which symmetry makes equal to it, differ from it by less than its residual.
+const RESIDUALS: f64 = 3.0;
 
 /// Where a step leads, its length, and what changes on it.
 type Examined<L> = (Place<L>, f64, Changes<L>);
@@ -181,8 +185,8 @@ impl<P: Problem> Tracer<P> {
         last.map_or_else(|| self.ends(), Err)
     }
 
-    /// What changes on the way to `new`. Where a change cannot be located, shorter steps are tried: a step over a gap between two branches seems to
-    /// be one of a branch, while shorter ones fail before it or turn with the branch.
+    /// What changes on the way to `new`. Where a change cannot be located, or the sign of a level at the end is not known, shorter steps are tried: a step over a gap
+    /// between two branches seems to be one of a branch, while shorter ones fail before it or turn with the branch.
     fn examine(
         &mut self,
         mut new: Place<P::Local>,
@@ -196,7 +200,10 @@ impl<P: Problem> Tracer<P> {
         };
         let mut found = changes(self, &new, length)?;
         let mut shorter = 0.5 * length;
-        while !found.missed.is_empty() && shorter > self.settings.smallest_step {
+        let is_open = |found: &Changes<P::Local>, last: &Option<End>| {
+            !found.missed.is_empty() || found.is_unsure && last.is_none()
+        };
+        while is_open(&found, last) && shorter > self.settings.smallest_step {
             if let Ok((nearer, _)) = self.attempt(shorter, watch) {
                 (new, length, *last) = (nearer, shorter, None);
                 found = changes(self, &new, length)?;
@@ -244,13 +251,24 @@ impl<P: Problem> Tracer<P> {
         self.before = None;
     }
 
+    /// How many levels grow at a special point, those left out that are as close to 0 as the critical one was brought, or not told from 0.
+    fn beside_critical(&self, place: &Place<P::Local>) -> usize {
+        let least = place.levels.first().into_iter().flatten().map(|level| level.growth.abs());
+        let residual = match place.certificate {
+            Some(shown) if shown.test == TestFunction::Growth => shown.residual.abs(),
+            _ => least.fold(f64::INFINITY, f64::min),
+        };
+        let critical = (CLEAR * self.problem.noise(&place.levels)).max(RESIDUALS * residual);
+        place.levels.iter().flatten().filter(|level| level.growth > critical).count()
+    }
+
     fn point(&self, place: &Place<P::Local>, special: Option<Special>) -> Point {
-        let grown = place.levels.iter().flatten().filter(|level| level.growth > 1e-7).count();
+        let located = special.is_some_and(|special| !matches!(special, Special::Unresolved { .. }));
         Point {
             parameter: place.parameter(),
             arclength: place.arclength,
             motion: self.problem.motion(&place.x, &place.local, &place.levels),
-            unstable: if special.is_some() { grown } else { unstable(&place.levels) },
+            unstable: if located { self.beside_critical(place) } else { unstable(&place.levels) },
             slope: place.slope(),
             special,
             certificate: special.and(place.certificate),

@@ -19,6 +19,7 @@ use motiform_dynamics::{Equivariant, VectorField, model};
 use nalgebra::DMatrix;
 pub use reached::REACHED;
 pub use saddle::Saddle;
+pub use silent::modes;
 use serde::{Deserialize, Serialize};
 pub use spectrum::rounding;
 pub use uncertainty::Uncertainty;

@@ -57,8 +57,9 @@ impl RelativeEquilibrium {
     }
 }
 
-/// The sets of unknowns that rotations mix, each as a mask.
-fn modes<B: Equivariant + ?Sized>(body: &B, dim: usize) -> Vec<Vec<bool>> {
+/// The sets of unknowns that rotations mix, each as a mask; without rotations every unknown is one.
+#[must_use]
+pub fn modes<B: Equivariant + ?Sized>(body: &B, dim: usize) -> Vec<Vec<bool>> {
     let mut label: Vec<usize> = (0..dim).collect();
     let (mut unit, mut spin) = (vec![0.0; dim], vec![0.0; dim]);
     for j in 0..dim {

@@ -128,13 +128,34 @@ fn beside_the_origin_of_the_reduced_model_there_are_no_bautin_points() {
         let sine = (1.0 - circular.cos_psi * circular.cos_psi).sqrt();
         let guess = [circular.speed, 0.0, circular.r2 * circular.cos_psi, circular.r2 * sine, 0.0, 0.0];
         let hopf = first(&along, 0.1, &guess, &settings.reversed(), "hopf");
-        let (found, _) = both(&plane, &hopf, -0.06, &settings, (-0.22, 0.01));
-        let away = found.iter().filter(|point| point.degenerate == Some(Degenerate::Bautin));
-        assert_eq!(
-            away.count(),
-            0,
-            "{:?}",
-            found.iter().map(|p| (p.degenerate, p.parameters)).collect::<Vec<_>>()
-        );
+        let (found, ends) = both(&plane, &hopf, -0.06, &settings, (-0.22, 0.01));
+        ends_at_the_origin(&found, &ends);
+    }
+}
+
+/// The only point of codimension two is the origin, where the shape becomes a circle.
+fn ends_at_the_origin(found: &[CurvePoint], ends: &[End]) {
+    let all: Vec<_> = found.iter().map(|p| (p.degenerate, p.parameters)).collect();
+    assert!(matches!(all[..], [(Some(Degenerate::GainsSymmetry), _)]), "{all:?}");
+    found[0].parameters.iter().for_each(|value| near(*value, 0.0, 1e-7));
+    let ended = ends.iter().filter(|end| **end == End::Degenerate { kind: Degenerate::GainsSymmetry });
+    assert_eq!(ended.count(), 1, "{ends:?}");
+}
+
+/// The line of drift pitchfork passes the origin, where all eigenvalues vanish and nothing was located, and goes on.
+#[test]
+fn the_pitchfork_line_of_the_reduced_model_passes_the_circle() {
+    let plane = |[gamma, kappa2]: [f64; 2]| -> Body { Ok(Box::new(reduced(kappa2, gamma))) };
+    let [kappa2, _] = Reduced::PAPER.straight_to_circular(0.03);
+    let along = |gamma: f64| plane([gamma, kappa2]);
+    for largest_step in [0.02, 0.05] {
+        let settings = Settings { largest_step, ..Settings::over(-0.02, 0.3) };
+        let start = Settings::over(0.005, 0.3);
+        let point = first(&along, 0.01, &[0.1, 0.0, 0.01, 0.0, 0.0, 0.0], &start, "pitchfork");
+        let (found, ends) = both(&plane, &point, kappa2, &settings, (-0.1, 0.22));
+        let all: Vec<_> = found.iter().map(|p| (p.degenerate, p.parameters)).collect();
+        assert!(matches!(all[..], [(Some(Degenerate::GainsSymmetry), _)]), "{all:?}");
+        found[0].parameters.iter().for_each(|value| near(*value, 0.0, 1e-7));
+        assert_eq!(ends, [End::RangeLeft, End::RangeLeft]);
     }
 }

@@ -7,8 +7,9 @@ use crate::common;
 use common::near;
 use motiform_analysis::periodic::PeriodicGuess;
 use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
-use motiform_continuation::{Branch, End, Family, Point, Settings, Special, switch};
+use motiform_continuation::{Branch, Broken, End, Family, Point, Settings, Special, switch};
 use motiform_dynamics::{Equivariant, Scalar, Semilinear, Shape, Symmetry, System, VectorField};
+use motiform_models::tensor::{Tensor, TensorParameters};
 use motiform_models::zoo;
 
 type Body = Result<Box<dyn Equivariant>>;
@@ -225,5 +226,37 @@ fn zigzags_begin_at_an_odd_oscillation_of_straight_motion() {
         near(orbit.period(), std::f64::consts::PI, 1e-9);
         near(orbit.shape[2].powi(2) + orbit.shape[3].powi(2), point.parameter, 1e-9);
         near(orbit.multipliers[0].0, (-std::f64::consts::PI * point.parameter).exp(), 1e-8);
+    }
+}
+
+/// With gamma = kappa2 four eigenvalues of a pure third mode vanish at once, at kappa3 = -18/35. The branch of straight motion passes this shape; a growth rate
+/// passes 0 there, with a pair of frequency 1e-5 beside it, which is no Hopf bifurcation.
+#[test]
+fn where_a_branch_passes_a_shape_of_more_symmetry_there_is_no_hopf_bifurcation() {
+    let family = |kappa3: f64| -> Body {
+        Ok(Box::new(Tensor::new(&TensorParameters {
+            gamma: 0.3,
+            kappa2: 0.3,
+            kappa3,
+            a1: 0.8,
+            a3: 0.5,
+            b1: 0.6,
+            b2: 0.7,
+            b3: 1.0,
+            d1: 0.3,
+            d2: 0.9,
+            d3: 1.0,
+            d6: 0.4,
+            ..TensorParameters::default()
+        })))
+    };
+    for largest_step in [0.005, 0.02, 0.06] {
+        let settings = Settings { largest_step, ..Settings::over(-0.8, 0.5) }.reversed();
+        let (points, end) = branch(&family, -0.34, &[0.1, 0.0, 0.05, 0.0, 0.15, 0.0], &settings);
+        assert!(points[0].motion.equilibrium().unwrap().speed() > 0.05, "it is straight motion");
+        let found = specials(&points);
+        let [(at, Special::Pitchfork { breaks: Broken::Rotations })] = found[..] else { panic!("{found:?}") };
+        near(at, -18.0 / 35.0, 1e-8);
+        assert!(matches!(end, End::Meets { gains: Broken::Rotations, .. }), "{end:?}");
     }
 }

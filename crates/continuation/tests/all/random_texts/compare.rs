@@ -188,12 +188,10 @@ fn program(text: &Text, (u, _): &Found, p: f64) -> Seen {
         for point in branch.by_ref() {
             let u = DVector::from_row_slice(point.motion.shape());
             let at = text.invariants(&u);
-            match point.special {
-                Some(special) => {
-                    side.events.push(Event { kind: special.name(), p: point.parameter, at: at.clone() });
-                }
-                None => side.passed.push((point.parameter, at)),
+            if let Some(special) = point.special {
+                side.events.push(Event { kind: special.name(), p: point.parameter, at: at.clone() });
             }
+            side.passed.push((point.parameter, at));
         }
         side.end = match branch.end() {
             Some(End::RangeLeft) => "range",

@@ -46,6 +46,9 @@ pub(super) struct Walk<'t> {
 /// Part of a step within which a special point is located: nearer to where branches cross round-off decides.
 const SHORTEST: f64 = 1e-6;
 
+/// Part of a step away from a crossing at which the equations are regular.
+const BESIDE: f64 = 1e-3;
+
 impl<'t> Walk<'t> {
     /// From the state `u` turning at `omega`, with its symmetry.
     pub(super) fn new(text: &'t Text, u: &DVector<f64>, step: f64) -> (Self, DVector<f64>) {
@@ -145,6 +148,14 @@ impl<'t> Walk<'t> {
         self.solve(&guess, &a.x, &(&b.x - &a.x).normalize())
     }
 
+    /// The same; where branches cross and the equations are singular, the middle of the places on both sides.
+    fn at_crossing(&self, a: &Place, b: &Place, s: f64) -> Option<Place> {
+        self.at(a, b, s).or_else(|| {
+            let (low, high) = (self.at(a, b, s - BESIDE)?, self.at(a, b, s + BESIDE)?);
+            Some(Place { x: 0.5 * (&low.x + &high.x), ..low })
+        })
+    }
+
     /// The special points between two places, and whether the curve ends at the last one.
     fn between(&self, a: &Place, b: &Place) -> (Vec<Event>, bool) {
         let mut all: Vec<(f64, usize)> = Vec::new();
@@ -154,7 +165,7 @@ impl<'t> Walk<'t> {
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut events = Vec::new();
         for (s, test) in all {
-            let Some(at) = self.at(a, b, s) else { continue };
+            let Some(at) = self.at_crossing(a, b, s) else { continue };
             let Some((kind, stops)) = self.named(a, b, (s, &at, test)) else { continue };
             let u = self.steady.state(&at.x);
             if stops {

@@ -4,7 +4,7 @@
 //! from random states, walks along their curves in small steps of one length, and halves the steps on which the number of
 //! growing deviations changes. `MOTIFORM_RANDOM_TEXTS=200` asks for so many texts, `MOTIFORM_RANDOM_FIRST=100` for those from that number on.
 //!
-//! Of the first 320 texts the program disagrees on one ([`STILL_WRONG`]).
+//! Of the first 480 texts the program disagrees on two ([`DIFFERENT`]).
 
 mod compare;
 mod curve;
@@ -20,13 +20,19 @@ use text::text;
 /// Texts that are tried without being asked for more.
 const TEXTS: u64 = 40;
 
-/// Texts among the first 320 on which the program is wrong: two branches whose difference is some 1e-5 cross twice, and steps lead from one to the other.
-const STILL_WRONG: [u64; 1] = [123];
+/// Texts among the first 480 on which the two disagree: two branches whose difference is some 1e-5 cross twice, and the program's steps lead from one to the other
+/// (123); an eigenvalue that vanishes at p = 0.746161, as its values beside it show, is no point of the oracle (388).
+const DIFFERENT: [u64; 2] = [123, 388];
 
 /// Texts on which the program was wrong: an exactly singular crossing was left unresolved (29); a pitchfork was listed twice where a shape gains five axes (120, 140,
 /// 195) or beside the end of a branch (295); two Hopf bifurcations within one step were missed (146, 166), or three that change places (296); a crossing at a small angle was
-/// 4e-5 off (158); steps led over a gap to another branch (17, 58, 147); two steady changes (97), or a steady one and a Hopf bifurcation (67), within one step were missed.
-const ONCE_WRONG: [u64; 14] = [17, 29, 58, 67, 97, 120, 140, 146, 147, 158, 166, 195, 295, 296];
+/// 4e-5 off (158); steps led over a gap to another branch (17, 58, 147); two steady changes (97), or a steady one and a Hopf bifurcation (67), within one step were missed, also
+/// at its end (440); where a branch passes a shape of more symmetry it ended at no other of its points (335); signs within rounding beside such a shape were a pitchfork (420).
+const ONCE_WRONG: [u64; 17] =
+    [17, 29, 58, 67, 97, 120, 140, 146, 147, 158, 166, 195, 295, 296, 335, 420, 440];
+
+/// The same for branches of orbits: where a Hopf bifurcation breaks rotations of a shape the orbit was followed over a multiple of its period.
+const ONCE_WRONG_ORBITS: [u64; 1] = [31];
 
 fn seeds(usual: std::ops::Range<u64>) -> std::ops::Range<u64> {
     let number = |name: &str| std::env::var(name).ok().and_then(|value| value.parse::<u64>().ok());
@@ -38,7 +44,7 @@ fn seeds(usual: std::ops::Range<u64>) -> std::ops::Range<u64> {
 fn steady_branches_of_random_texts_have_the_points_of_a_brute_force_scan() {
     let mut all = Tally::default();
     let asked = std::env::var_os("MOTIFORM_RANDOM_TEXTS").is_some();
-    for seed in seeds(0..TEXTS).filter(|seed| asked || !STILL_WRONG.contains(seed)) {
+    for seed in seeds(0..TEXTS).filter(|seed| asked || !DIFFERENT.contains(seed)) {
         all += compare(seed, &text(seed));
     }
     all.judge(60);
@@ -63,4 +69,13 @@ fn periodic_branches_of_random_texts_have_the_points_of_a_brute_force_scan() {
         all += orbits::all(seed, &text(seed), ORBITS);
     }
     all.judge(1);
+}
+
+#[test]
+fn orbits_on_which_the_program_was_wrong_have_the_points_of_a_brute_force_scan() {
+    let mut all = Tally::default();
+    for seed in ONCE_WRONG_ORBITS {
+        all += orbits::all(seed, &text(seed), ORBITS);
+    }
+    all.judge(0);
 }
