@@ -1,7 +1,7 @@
 //! The format of a file, from its content.
 
 use crate::input::{Input, shorten, text as text_of};
-use crate::{Error, Format, Options, Result, header};
+use crate::{Error, Format, Options, Result, header, masks};
 use std::path::Path;
 
 /// Bytes that are looked at.
@@ -12,6 +12,9 @@ const HEAD: u64 = 1 << 16;
 /// # Errors
 /// [`Error::UnknownFormat`] with what the content looks like, [`Error::Ambiguous`] where it fits several formats.
 pub fn detect(path: &Path, options: &Options) -> Result<Format> {
+    if path.is_dir() {
+        return Ok(Format::Masks);
+    }
     let head = Input::head(path, options.limits, HEAD)?;
     let unknown = |found: &str| Error::UnknownFormat { file: path.to_owned(), found: found.to_owned() };
     let text = match head.as_slice() {
@@ -19,10 +22,7 @@ pub fn detect(path: &Path, options: &Options) -> Result<Format> {
         [b'P', b'K', 3, 4, ..] | [b'P', b'K', 5, 6, ..] => return Ok(Format::RoiZip),
         [b'P', b'A', b'R', b'1', ..] => return Ok(Format::Parquet),
         [b'I', b'o', b'u', b't', ..] => return Ok(Format::Roi),
-        [b'I', b'I', 42, 0, ..] | [b'M', b'M', 0, 42, ..] => {
-            return Err(unknown(&image("TIFF")));
-        }
-        [0x89, b'P', b'N', b'G', ..] => return Err(unknown(&image("PNG"))),
+        image if masks::is_image(image) => return Ok(Format::Masks),
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => return Err(unknown("text in UTF-16: save it as UTF-8")),
         bytes if bytes.contains(&0) => return Err(unknown("binary data")),
         bytes => text_of(bytes),
@@ -44,12 +44,6 @@ pub fn detect(path: &Path, options: &Options) -> Result<Format> {
         [] => Err(unknown(&looks(text))),
         _ => Err(Error::Ambiguous { file: path.to_owned(), candidates }),
     }
-}
-
-fn image(kind: &str) -> String {
-    format!(
-        "a {kind} image: Python's motiform.cells.read_masks takes label masks, and write(\"cells.csv\") makes a table of their outlines"
-    )
 }
 
 /// The text formats that the first lines fit.

@@ -26,11 +26,13 @@ pub enum Format {
     RoiZip,
     /// Lines or a CSV column of `POLYGON ((x y, ...))`.
     Wkt,
+    /// Label masks: TIFF or PNG images, or a folder of them.
+    Masks,
 }
 
 impl Format {
     /// All formats.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Csv,
         Self::Parquet,
         Self::TrackMate,
@@ -40,6 +42,7 @@ impl Format {
         Self::Roi,
         Self::RoiZip,
         Self::Wkt,
+        Self::Masks,
     ];
 
     /// Its name in options.
@@ -55,6 +58,7 @@ impl Format {
             Self::Roi => "roi",
             Self::RoiZip => "roi-zip",
             Self::Wkt => "wkt",
+            Self::Masks => "masks",
         }
     }
 
@@ -67,7 +71,10 @@ impl Format {
     /// Whether the y axis of this format points down, as in images. The others do not say.
     #[must_use]
     pub fn is_of_images(self) -> bool {
-        matches!(self, Self::TrackMate | Self::QuimpTable | Self::QuimpNodes | Self::Roi | Self::RoiZip)
+        matches!(
+            self,
+            Self::TrackMate | Self::QuimpTable | Self::QuimpNodes | Self::Roi | Self::RoiZip | Self::Masks
+        )
     }
 }
 

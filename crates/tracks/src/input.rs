@@ -27,7 +27,7 @@ impl Input {
         let metadata = path.metadata().map_err(io(path))?;
         if !metadata.is_file() {
             let found = if metadata.is_dir() {
-                "a folder: give its files; Python's motiform.cells.read_masks takes folders of label masks"
+                "a folder, which only holds label masks (--format masks)"
             } else {
                 "not a file"
             };

@@ -27,6 +27,7 @@
 //! ```
 
 mod after;
+mod cracks;
 mod detect;
 mod error;
 mod form;
@@ -37,6 +38,7 @@ mod geometry;
 mod given;
 mod header;
 mod input;
+mod masks;
 pub mod modes;
 mod note;
 mod numbering;

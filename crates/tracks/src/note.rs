@@ -27,6 +27,10 @@ pub enum Note {
     Split { track: String, frame: i64, into: usize },
     /// Cells merge: they end, and what follows is a cell of its own.
     Merge { track: String, frame: i64, from: usize },
+    /// A cell of label masks becomes others, as the table of tracks says.
+    Becomes { cell: String, into: Vec<String> },
+    /// A cell of label masks has several parts; the largest is kept.
+    SeveralParts { cell: String, frames: usize },
     /// Detections without an outline, left out.
     WithoutOutline { file: String, count: usize },
     /// Detections that belong to no track, left out.
@@ -53,6 +57,8 @@ impl Note {
     pub fn cells(&self) -> Vec<&str> {
         match self {
             Self::ImplausibleArea { cell, .. }
+            | Self::Becomes { cell, .. }
+            | Self::SeveralParts { cell, .. }
             | Self::UnevenTimes { cell }
             | Self::SameFrameTwice { cell, .. }
             | Self::ConflictingFrames { cell, .. }
@@ -112,6 +118,10 @@ impl fmt::Display for Note {
             }
             Self::Merge { track, frame, from } => {
                 write!(f, "{from} branches of track {track} merge in frame {frame}: cut into cells")
+            }
+            Self::Becomes { cell, into } => write!(f, "cell {cell} becomes {}", into.join(", ")),
+            Self::SeveralParts { cell, frames } => {
+                write!(f, "cell {cell}: several parts in {frames} frames; the largest is kept")
             }
             Self::WithoutOutline { file, count } => {
                 write!(f, "{file}: {count} detections without an outline, left out")

@@ -127,7 +127,7 @@ fn join(tracks: &mut Tracks, whence: &[Source]) -> Result<()> {
     }
     let mut gone = vec![false; tracks.cells.len()];
     for same in places.into_values().filter(|same| same.len() > 1) {
-        if same.iter().all(|&at| whence[at].format == Format::Roi) {
+        if same.iter().all(|&at| matches!(whence[at].format, Format::Roi | Format::Masks)) {
             let mut frames = Vec::new();
             for &at in &same {
                 frames.append(&mut tracks.cells[at].frames);
@@ -170,6 +170,6 @@ fn once(notes: &mut Vec<Note>) {
 }
 
 fn mixed(name: &str, file: &Path, first: i64, frames: usize) -> Error {
-    let remedy = "name the files FRAME-CELL.roi";
+    let remedy = "name the files FRAME-CELL.roi, images of labels NAME-FRAME";
     Error::MixedCells { file: file.to_owned(), name: name.to_owned(), conflicts: 1, frames, first, remedy }
 }

@@ -1,5 +1,6 @@
 //! Outlines of known modes, for tests and round trips.
 
+use crate::cracks::follow;
 use crate::modes::{radius, radius_slope};
 
 /// An outline to be made: `R(theta) = R0 + sum_{n=2} 2 Re(z_n e^{i n theta})` about a centre.
@@ -73,7 +74,7 @@ pub fn pixelated(points: &[[f64; 2]], pixel: f64) -> Vec<[f64; 2]> {
     };
     let corner = |[x, y]: [i64; 2]| [(first[0] + x as f64) * pixel, (first[1] + y as f64) * pixel];
     let start = (0..width * height).map(|at| [at % width, at / width]).find(|&[x, y]| full(x, y));
-    start.map_or_else(Vec::new, |start| follow(start, full).into_iter().map(corner).collect())
+    start.map_or_else(Vec::new, |start| follow(start, true, full).into_iter().map(corner).collect())
 }
 
 /// Even-odd rule.
@@ -82,27 +83,4 @@ fn inside(points: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
         (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
     };
     crate::geometry::edges(points).filter(|edge| crosses(*edge)).count() % 2 == 1
-}
-
-/// Corners of pixels around the full ones, anticlockwise in (x, y), from the corner of least y and x on. Full pixels lie to the left.
-fn follow(start: [i64; 2], full: impl Fn(i64, i64) -> bool) -> Vec<[i64; 2]> {
-    const STEPS: [[i64; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
-    // the pixels ahead, to the left and right of an edge that leaves a corner in each direction
-    const LEFT: [[i64; 2]; 4] = [[0, 0], [-1, 0], [-1, -1], [0, -1]];
-    let (mut at, mut direction, mut path) = (start, 0_usize, Vec::new());
-    loop {
-        path.push(at);
-        at = [at[0] + STEPS[direction][0], at[1] + STEPS[direction][1]];
-        let ahead = |direction: usize| full(at[0] + LEFT[direction][0], at[1] + LEFT[direction][1]);
-        let right = |direction: usize| ahead((direction + 3) % 4);
-        // turn right where the pixel to the right ahead is full (diagonal pixels belong together), go on where the left one is, else turn left
-        direction = match (right(direction), ahead(direction)) {
-            (true, _) => (direction + 3) % 4,
-            (false, true) => direction,
-            (false, false) => (direction + 1) % 4,
-        };
-        if at == start && direction == 0 {
-            return path;
-        }
-    }
 }

@@ -16,7 +16,7 @@ mod wkt;
 
 use crate::input::Input;
 use crate::scale::Scale;
-use crate::{Cell, Format, Image, Note, Options, Result};
+use crate::{Cell, Format, Image, Note, Options, Result, masks};
 use std::path::Path;
 
 /// What a file holds.
@@ -42,6 +42,7 @@ pub(crate) fn read(path: &Path, format: Format, options: &Options) -> Result<Fou
         Format::Roi => roi_archive::read_one(input()?, options),
         Format::RoiZip => roi_archive::read(path, options),
         Format::Wkt => wkt::read(input()?, options),
+        Format::Masks => masks::read(path, options),
     }
 }
 

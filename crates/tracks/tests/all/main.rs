@@ -9,6 +9,7 @@ mod fuzz;
 mod given;
 mod imagej;
 mod inputs;
+mod masks;
 mod pulls;
 mod quality;
 mod round_trip;
