@@ -1,7 +1,7 @@
 //! Outlines clipped at the border of the images.
 
 use super::flag::{Flag, Side};
-use super::straight::run;
+use super::straight::{Edge, run};
 use crate::geometry::{area, centroid};
 use crate::{Outline, Tracks};
 use std::f64::consts::PI;
@@ -26,14 +26,16 @@ const SIDES: [(Side, usize, f64); 4] =
 /// Lines that outlines are clipped at.
 pub(super) struct Borders {
     lines: Vec<Line>,
+    /// The lines of the greatest coordinates of all outlines, on all four sides.
+    edges: Vec<Edge>,
 }
 
 struct Line {
     side: Side,
     axis: usize,
     sign: f64,
-    /// Greatest signed coordinate of all outlines.
-    extreme: f64,
+    /// Line of the greatest signed coordinate of all outlines.
+    edge: Edge,
     /// Outlines that reach this signed coordinate are clipped; `None`: those with a straight run at the extreme.
     level: Option<f64>,
 }
@@ -47,38 +49,48 @@ impl Borders {
     ///    of 1 % (evenly spread ones: 20 %), while from frame to frame extremes move by more than half the band (median), and the centroids of the outlines in the band
     ///    scatter by more than its width. A cell that moves does not stop at one line by itself; where it turns back, or rests, its centroid stays with its extreme.
     pub(super) fn find(tracks: &Tracks) -> Self {
-        Self { lines: SIDES.iter().filter_map(|&side| line(tracks, side)).collect() }
+        let edges: Vec<Edge> = SIDES.iter().map(|&(_, axis, sign)| edge(tracks, axis, sign)).collect();
+        let lines = SIDES.iter().zip(&edges).filter_map(|(&side, &edge)| line(tracks, side, edge, &edges));
+        Self { lines: lines.collect(), edges }
     }
 
     /// The borders that this outline is clipped at.
     pub(super) fn flags(&self, points: &[[f64; 2]]) -> Vec<Flag> {
-        self.lines.iter().filter_map(|line| line.flag(points)).collect()
+        self.lines.iter().filter_map(|line| line.flag(points, &self.edges)).collect()
     }
 }
 
 impl Line {
-    fn flag(&self, points: &[[f64; 2]]) -> Option<Flag> {
+    fn flag(&self, points: &[[f64; 2]], edges: &[Edge]) -> Option<Flag> {
         let own = reach(points, self.axis, self.sign)?;
-        let found = run(points, self.axis, self.sign, self.extreme);
+        let found = run(points, self.edge, edges);
         let clipped = self.level.map_or(found.1, |level| own >= level || found.1);
         clipped.then_some(Flag::Clipped { side: self.side, at: self.sign * own, run: found.0 })
     }
 }
 
-fn line(tracks: &Tracks, (side, axis, sign): (Side, usize, f64)) -> Option<Line> {
-    let all = || tracks.cells.iter().flat_map(|cell| &cell.frames).filter(|outline| outline.points.len() > 2);
-    let extreme = all().filter_map(|o| reach(&o.points, axis, sign)).fold(f64::NEG_INFINITY, f64::max);
-    let level = |level| Some(Line { side, axis, sign, extreme, level });
+/// Outlines that enclose something.
+fn outlines(tracks: &Tracks) -> impl Iterator<Item = &Outline> {
+    tracks.cells.iter().flat_map(|cell| &cell.frames).filter(|outline| outline.points.len() > 2)
+}
+
+fn edge(tracks: &Tracks, axis: usize, sign: f64) -> Edge {
+    let reaches = outlines(tracks).filter_map(|outline| reach(&outline.points, axis, sign));
+    Edge::of_axis(axis, sign, reaches.fold(f64::NEG_INFINITY, f64::max))
+}
+
+fn line(tracks: &Tracks, (side, axis, sign): (Side, usize, f64), edge: Edge, edges: &[Edge]) -> Option<Line> {
+    let level = |level| Some(Line { side, axis, sign, edge, level });
     if let Some(image) = tracks.image {
         // coordinates count from the corner or from the middle of the first pixel: an outline of its edge lies at 0 or -1/2
         let [near, far] = [0.25, image.size[axis] / image.pixel - 0.75];
         return level(Some(if sign > 0.0 { far * image.pixel } else { -near * image.pixel }));
     }
-    if let Some(found) = coincidence(tracks, axis, sign, extreme) {
+    if let Some(found) = coincidence(tracks, axis, sign, edge.level) {
         return level(Some(found));
     }
-    let straight = |outline: &&Outline| run(&outline.points, axis, sign, extreme).1;
-    if all().filter(straight).count() >= FRAMES { level(None) } else { None }
+    let straight = |outline: &&Outline| run(&outline.points, edge, edges).1;
+    if outlines(tracks).filter(straight).count() >= FRAMES { level(None) } else { None }
 }
 
 /// The lower end of the band in which extremes coincide.

@@ -1,4 +1,4 @@
-//! Records that are not those of one cell in one unit: positions and areas that step.
+//! Positions and areas that step: jumps of the stage, and records that are not those of one cell in one unit.
 
 use super::flag::Flag;
 use super::frame::FrameModes;
@@ -17,6 +17,9 @@ const STEP: f64 = 4.0;
 /// Share of frames elsewhere from which on the record is that of two cells.
 const MIXED: f64 = 0.2;
 
+/// Multiple of the 90 % quantile of all changes of shape between frames, from which on a shape does not go on.
+const CHANGED: f64 = 2.0;
+
 /// Frames on each side whose median areas are compared, and the fewest of them.
 const LEVEL: usize = 8;
 const LEAST_LEVEL: usize = 5;
@@ -24,11 +27,12 @@ const LEAST_LEVEL: usize = 5;
 /// Frames at another place for at most 3 frames, and displacements after which the cell stays at the other place.
 ///
 /// Elsewhere: 1.5 mean radii and more from the place before, and back within half of that distance. A displacement without a return is a step if it
-/// also exceeds 4 times the 90 % quantile of all displacements, for each frame that passed.
+/// also exceeds 4 times the 90 % quantile of all displacements, for each frame that passed: of the stage, where the shape goes on ([`Going`]), or to another cell.
 pub(super) fn displacements(modes: &mut [FrameModes]) {
     let seen: Vec<usize> = (0..modes.len()).filter(|&k| modes[k].area > 0.0).collect();
     let steps: Vec<f64> = seen.windows(2).map(|pair| pace(&modes[pair[0]], &modes[pair[1]])).collect();
     let usual = quantile(steps, 0.9);
+    let going = Going::of(modes, &seen);
     let mut k = 1;
     while k < seen.len() {
         let (before, here) = (&modes[seen[k - 1]], &modes[seen[k]]);
@@ -46,11 +50,44 @@ pub(super) fn displacements(modes: &mut [FrameModes]) {
             k += frames + 1;
         } else {
             if pace(before, here) > STEP * usual {
-                modes[seen[k]].flags.push(Flag::PositionStep { distance: far });
+                let flag = match going.on(before, here) {
+                    true => Flag::StageJump { distance: far },
+                    false => Flag::PositionStep { distance: far },
+                };
+                modes[seen[k]].flags.push(flag);
             }
             k += 1;
         }
     }
+}
+
+/// How much the shape changes between frames that follow each other: of area, z2 and z3.
+struct Going {
+    usual: [f64; 3],
+}
+
+impl Going {
+    fn of(modes: &[FrameModes], seen: &[usize]) -> Self {
+        let pairs = || seen.windows(2).map(|pair| changes(&modes[pair[0]], &modes[pair[1]]));
+        Self { usual: [0, 1, 2].map(|k| quantile(pairs().filter_map(|found| found[k]).collect(), 0.9)) }
+    }
+
+    /// Whether the shape of `here` is that of `before`, as far as it changes between other frames. Where there are no modes, nothing tells one cell from another.
+    fn on(&self, before: &FrameModes, here: &FrameModes) -> bool {
+        let found = changes(before, here);
+        found.iter().zip(self.usual).all(|(change, usual)| change.is_some_and(|x| x <= CHANGED * usual))
+    }
+}
+
+/// |ln| of the ratio of the areas, and the changes of z2 and z3.
+fn changes(a: &FrameModes, b: &FrameModes) -> [Option<f64>; 3] {
+    let area = (a.area > 0.0 && b.area > 0.0).then(|| libm::log(b.area / a.area).abs());
+    let mode = |n: usize| {
+        let [a, b] = [a, b].map(|frame| Some(frame.radius.as_ref()?.z.get(n)?));
+        let (a, b) = (a?, b?);
+        Some(libm::hypot(b[0] - a[0], b[1] - a[1]))
+    };
+    [area, mode(0), mode(1)]
 }
 
 /// Areas that change from one frame to the next and stay: the medians of up to 8 frames before and after (5 at least) differ by more than the

@@ -50,6 +50,8 @@ pub enum Flag {
     PositionJump { distance: f64 },
     /// The outline is at another place than all before it, this far away, and stays there: another cell.
     PositionStep { distance: f64 },
+    /// The outline is at another place than all before it, this far away, with the shape that it had: the stage has moved.
+    StageJump { distance: f64 },
     /// A straight run of vertices at the border of the images: part of the cell is not seen.
     Clipped { side: Side, at: f64, run: f64 },
     /// Frames are missing before this one.
@@ -73,9 +75,16 @@ impl Flag {
             Self::AreaStep { .. } => "area step",
             Self::PositionJump { .. } => "position jump",
             Self::PositionStep { .. } => "position step",
+            Self::StageJump { .. } => "stage jump",
             Self::Clipped { .. } => "clipped",
             Self::Gap { .. } => "gap",
         }
+    }
+
+    /// Whether no displacement can be taken to this frame from those before: stage, unit or cell is another one.
+    #[must_use]
+    pub fn parts(&self) -> bool {
+        matches!(self, Self::AreaStep { .. } | Self::PositionStep { .. } | Self::StageJump { .. })
     }
 
     /// Whether the frame is no observation of the shape: its modes, if there are any, must not be used.
@@ -92,6 +101,7 @@ impl Flag {
                 | Self::Gap { .. }
                 | Self::AreaStep { .. }
                 | Self::PositionStep { .. }
+                | Self::StageJump { .. }
         )
     }
 }
@@ -120,6 +130,9 @@ impl fmt::Display for Flag {
             }
             Self::PositionJump { distance } => write!(f, "{name}: {distance:.3} from the frames around it"),
             Self::PositionStep { distance } => write!(f, "{name}: {distance:.3} from the frame before"),
+            Self::StageJump { distance } => {
+                write!(f, "{name}: {distance:.3} from the frame before, the shape goes on")
+            }
             Self::Clipped { side, at, run } => write!(f, "{name}: {run:.3} along {side:?} = {at:.3}"),
             Self::Gap { missing } => {
                 write!(f, "{name}: {missing} frame{} missing before it", if *missing == 1 { "" } else { "s" })

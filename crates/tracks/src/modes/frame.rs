@@ -65,6 +65,12 @@ impl FrameModes {
         self.flags.iter().any(Flag::leaves_out)
     }
 
+    /// Whether it has modes of the radius that count.
+    #[must_use]
+    pub fn counts(&self) -> bool {
+        self.radius.is_some() && !self.is_left_out()
+    }
+
     /// Whether place and form of the polygon are observations, whatever its radius: it encloses an area, and only modes would ask for more vertices.
     #[must_use]
     pub fn is_seen(&self) -> bool {

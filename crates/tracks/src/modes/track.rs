@@ -33,7 +33,7 @@ impl CellModes {
 
     /// Frames with modes of the radius that count.
     pub fn used(&self) -> impl Iterator<Item = &FrameModes> {
-        self.frames.iter().filter(|frame| frame.radius.is_some() && !frame.is_left_out())
+        self.frames.iter().filter(|frame| frame.counts())
     }
 }
 

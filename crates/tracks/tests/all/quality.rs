@@ -89,9 +89,48 @@ fn two_cells_under_one_name_are_noticed() {
     for order in [&(|k: i64| k % 2 == 1) as &dyn Fn(i64) -> bool, &|k: i64| (k * k + k / 3) % 5_i64 < 2] {
         assert!(reason(mixed(order)).is_some_and(|why| why.contains("two cells have one name")));
     }
-    let later = mixed(&|k| k >= 25);
-    assert_eq!(flags(&tracks(later.clone())), [(25, "position step")]);
-    assert!(reason(later).is_some_and(|why| why.contains("from frame 25 on")));
+    // another cell has another shape
+    let mut later = mixed(&|k| k >= 25);
+    later[25..].iter_mut().for_each(|(_, points)| *points = squeezed(points));
+    assert!(flags(&tracks(later.clone())).contains(&(25, "position step")));
+    assert!(reason(later).is_some_and(|why| why.contains("frame 25")));
+}
+
+/// Longer by 8 % along x, and shorter by as much along y.
+fn squeezed(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    points.iter().map(|[x, y]| [1.08 * x, y / 1.08]).collect()
+}
+
+/// The stage jumps: the outline is at another place from there on, and its shape goes on. The record is that of one cell.
+#[test]
+fn a_stage_that_jumps_ends_no_cell() {
+    let mut frames = wandering(60);
+    frames[25..].iter_mut().for_each(|(_, points)| *points = shifted(points));
+    assert_eq!(flags(&tracks(frames.clone())), [(25, "stage jump")]);
+    assert_eq!(reason(frames), None);
+}
+
+/// A cell with two flat flanks that glides: along an axis, where its flanks lie at the extreme of all outlines, and at an angle.
+#[test]
+fn flat_flanks_along_an_axis_are_not_clipped() {
+    let frame = |k: i64, angle: f64| {
+        let place = 0.4 * k as f64;
+        let flank = |side: f64| (0..=20).map(move |j| [side * 0.6 * (f64::from(j) - 10.0), -side * 5.0]);
+        let cap = |side: f64| {
+            (1..12).map(move |j| {
+                let (sin, cos) = (std::f64::consts::PI * f64::from(j) / 12.0).sin_cos();
+                [side * (6.0 + 5.0 * sin), -side * 5.0 * cos]
+            })
+        };
+        let body = flank(1.0).chain(cap(1.0)).chain(flank(-1.0)).chain(cap(-1.0));
+        let (sin, cos) = angle.sin_cos();
+        let moved = body.map(|[x, y]| [x + place, y]);
+        moved.map(|[x, y]| [cos * x - sin * y, sin * x + cos * y]).collect::<Vec<_>>()
+    };
+    for angle in [0.0, 0.5, std::f64::consts::FRAC_PI_2] {
+        let frames = (0..40).map(|k| (k, frame(k, angle))).collect();
+        assert_eq!(flags(&tracks(frames)), [], "{angle}");
+    }
 }
 
 /// Pixels up to frame 24, micrometres from there on: no frame of either part is an outlier.
