@@ -2,6 +2,7 @@
 
 use crate::jackknife::{Sums, leave_out};
 use crate::{Measured, Tracks};
+use std::ops::Range;
 
 /// Lags per decade.
 const PER_DECADE: f64 = 16.0;
@@ -45,19 +46,53 @@ pub fn mean_square(tracks: &Tracks) -> MeanSquare {
     MeanSquare { dt: tracks.dt(), sums: square_sums(tracks, &lags), groups: tracks.groups(), lags }
 }
 
+/// A path on an even grid: NaN where no place is known.
+#[derive(Clone, Copy)]
+#[allow(missing_debug_implementations, reason = "a function has no text")]
+pub struct PathPiece<'p> {
+    /// Places.
+    pub position: &'p [[f64; 2]],
+    /// The group that windows beginning at each place are in.
+    pub group: &'p dyn Fn(usize) -> usize,
+}
+
+/// [`mean_square`] of pieces of paths with gaps, in groups of windows that the caller makes: no displacement is taken from one piece to another.
+///
+/// Lags: about 16 per decade, up to half of the longest piece, and one interval at least.
+///
+/// # Checked by  tests/all/gaps.rs: that of the same tracks
+#[must_use]
+pub fn mean_square_of_paths(dt: f64, pieces: &[PathPiece<'_>], groups: usize) -> MeanSquare {
+    let longest = pieces.iter().map(|piece| piece.position.len()).max().unwrap_or(0);
+    let lags = spaced((longest / 2).max(usize::from(longest > 1)));
+    let mut sums = vec![Sums::new(groups); lags.len()];
+    for PathPiece { position, group } in pieces {
+        for (sums, &lag) in sums.iter_mut().zip(&lags) {
+            for start in 0..position.len().saturating_sub(lag) {
+                let [sum, count] = squares(position, start..start + 1, lag);
+                sums.add(group(start), sum, count);
+            }
+        }
+    }
+    MeanSquare { dt, lags, sums, groups }
+}
+
+/// Sum and number of the squared displacements over a lag that begin in a range and are known.
+fn squares(position: &[[f64; 2]], range: Range<usize>, lag: usize) -> [f64; 2] {
+    let later = position.get(range.start + lag..).unwrap_or_default();
+    position[range].iter().zip(later).fold([0.0; 2], |[sum, count], (a, b)| {
+        let [x, y] = [b[0] - a[0], b[1] - a[1]];
+        let square = x * x + y * y;
+        if square.is_nan() { [sum, count] } else { [sum + square, count + 1.0] }
+    })
+}
+
 /// Sums of squared displacements at each lag, by groups.
 pub(crate) fn square_sums(tracks: &Tracks, lags: &[usize]) -> Vec<Sums> {
     let mut sums = vec![Sums::new(tracks.groups()); lags.len()];
     for starts in tracks.starts() {
         for (sums, &lag) in sums.iter_mut().zip(lags) {
-            let (mut sum, mut count) = (0.0, 0.0);
-            for (a, b) in starts.pairs(&starts.track.position, lag) {
-                let [x, y] = [b[0] - a[0], b[1] - a[1]];
-                let square = x * x + y * y;
-                let there = f64::from(u8::from(!square.is_nan()));
-                sum += if there > 0.0 { square } else { 0.0 };
-                count += there;
-            }
+            let [sum, count] = squares(&starts.track.position, starts.range.clone(), lag);
             if count > 0.0 {
                 sums.add(starts.group, sum, count);
             }
@@ -113,6 +148,12 @@ impl MeanSquare {
     /// Number of groups that can be left out.
     pub(crate) fn groups(&self) -> usize {
         self.groups
+    }
+
+    /// Whether a displacement over the lag of a place is known, and whether in every group.
+    #[must_use]
+    pub fn is_known(&self, place: usize) -> [bool; 2] {
+        [self.sums[place].count() > 0.0, self.sums[place].is_everywhere()]
     }
 
     /// The value at a place with its interval, on its logarithm (squares of late displacements are skew) where it is above 0.

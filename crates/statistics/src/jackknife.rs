@@ -67,6 +67,11 @@ impl Sums {
         self.groups.iter().map(|group| group[1]).sum()
     }
 
+    /// Whether every group has a term.
+    pub(crate) fn is_everywhere(&self) -> bool {
+        self.groups.iter().all(|group| group[1] > 0.0)
+    }
+
     /// The mean, without group `left_out` if one is given.
     pub(crate) fn mean(&self, left_out: Option<usize>) -> f64 {
         let kept = self.groups.iter().enumerate().filter(|(number, _)| Some(*number) != left_out);

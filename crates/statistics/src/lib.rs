@@ -35,7 +35,7 @@ pub use consistency::Seen;
 pub use correlate::lagged_sums;
 pub use correlation::{Autocorrelation, autocorrelation};
 pub use diffusion::{Diffusion, diffusion};
-pub use displacement::{DisplacementPoint, MeanSquare, mean_square};
+pub use displacement::{DisplacementPoint, MeanSquare, PathPiece, mean_square, mean_square_of_paths};
 pub use distribution::{Bin, Histogram, histogram};
 pub use error::{Error, Result};
 pub use exponent::local_exponent;

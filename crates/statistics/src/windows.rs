@@ -14,16 +14,6 @@ pub(crate) struct Starts<'t> {
 }
 
 impl Starts<'_> {
-    /// Pairs of samples `lag` apart.
-    pub(crate) fn pairs<'s>(
-        &self,
-        series: &'s [[f64; 2]],
-        lag: usize,
-    ) -> impl Iterator<Item = (&'s [f64; 2], &'s [f64; 2])> {
-        let later = series.get(self.range.start + lag..).unwrap_or_default();
-        series[self.range.clone()].iter().zip(later)
-    }
-
     /// Whether windows begin everywhere and end within.
     pub(crate) fn is_whole(&self) -> bool {
         self.range == (0..self.track.position.len())

@@ -5,7 +5,8 @@
 use crate::common::{agrees, holds, known, ornstein_uhlenbeck};
 use motiform_dynamics::Normal;
 use motiform_statistics::{
-    Quantity, Settings, Track, Tracks, autocorrelation, diffusion, furth, mean_square, statistics,
+    PathPiece, Quantity, Settings, Track, Tracks, autocorrelation, diffusion, furth, mean_square,
+    mean_square_of_paths, statistics,
 };
 
 /// Every sample is lost with this probability, and so is one stretch of 40.
@@ -50,6 +51,24 @@ fn pairs_that_are_there_are_averaged() {
         assert!((curve.measured(place).value / (square / count) - 1.0).abs() < 1e-12);
         let rho = product / count / velocity.variance.value;
         assert!((velocity.correlation[lag].value - rho).abs() < 1e-9, "{lag}");
+    }
+}
+
+/// Pieces of paths in the groups of the tracks have the curve of the tracks.
+#[test]
+fn paths_in_pieces_have_the_curve_of_their_tracks() {
+    let tracks = tracks(0.3, 9, 31);
+    let curve = mean_square(&tracks);
+    let groups: Vec<_> = (0..9).map(|body: usize| move |_: usize| body).collect();
+    let bodies = tracks.bodies().iter().zip(&groups);
+    let pieces: Vec<PathPiece<'_>> =
+        bodies.map(|(track, group)| PathPiece { position: &track.position, group }).collect();
+    let other = mean_square_of_paths(0.5, &pieces, 9);
+    assert_eq!(curve.len(), other.len());
+    for place in 0..curve.len() {
+        let (a, b) = (curve.measured(place), other.measured(place));
+        assert!((a.value / b.value - 1.0).abs() < 1e-12 && a.interval.is_some(), "{a:?} {b:?}");
+        assert!((a.upper() / b.upper() - 1.0).abs() < 1e-9, "{a:?} {b:?}");
     }
 }
 
