@@ -2,7 +2,7 @@
 
 use crate::motion::capital;
 use crate::numbers::{estimate, plain, with_error};
-use crate::terms::typeset;
+use crate::terms::{typeset, unit};
 use motiform_cells::Units;
 use motiform_cells::{CellFit, Fitted};
 use motiform_figures::literal;
@@ -22,7 +22,7 @@ pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
     let about = format!(
         "Motion of the fitted equations, without their noise: {regime}. {why}.\n\nThe equations are the study file {name}.toml in the folder of this page: every command of motiform takes it as a model."
     );
-    let mut tables = vec![coefficients(fitted)];
+    let mut tables = vec![coefficients(fitted, units)];
     tables.extend(sets(fitted));
     tables.extend(motions(fitted));
     tables.extend(bifurcations(fit));
@@ -55,12 +55,29 @@ fn parameters(fitted: &Fitted, units: &Units) -> Vec<(String, String)> {
             "noise of the shape".to_owned(),
             format!("{} {}/√{}", estimate(&noise.eta_shape), units.length, units.time),
         ),
+        ("noise of the centre, beside the contour's".to_owned(), centre(fitted, units)),
+        ("velocity of the stage, subtracted".to_owned(), stage(fitted, units)),
         ("sets of terms that are as good".to_owned(), fitted.selection.subsets.ties.len().to_string()),
         ("natural time".to_owned(), format!("{} {}", plain(model.scales.time), units.time)),
     ]
 }
 
-fn coefficients(fitted: &Fitted) -> Table {
+/// The noise that all outlines of a frame may have together, as the fit of one cell sees it.
+fn centre(fitted: &Fitted, units: &Units) -> String {
+    let noise = &fitted.model().noise;
+    match noise.is_of_centre() {
+        true => format!("{} {}", estimate(&noise.centre), units.length),
+        false => "none is seen".to_owned(),
+    }
+}
+
+fn stage(fitted: &Fitted, units: &Units) -> String {
+    let one = |v: &[f64; 2]| format!("({}, {}) {}", plain(v[0]), plain(v[1]), units.speed());
+    let all: Vec<String> = fitted.stage.iter().map(one).collect();
+    if all.is_empty() { "none".to_owned() } else { all.join("; ") }
+}
+
+fn coefficients(fitted: &Fitted, units: &Units) -> Table {
     let between = fitted.between.as_ref();
     let sound = fitted.model().converged();
     let row = |(place, c): (usize, &Coefficient)| {
@@ -75,19 +92,20 @@ fn coefficients(fitted: &Fitted) -> Table {
             } else {
                 plain(c.estimate.value)
             }),
+            Cell::text(unit(&c.term, units)),
             Cell::number(if sound { plain(c.estimate.robust) } else { "not converged".to_owned() }),
             Cell::number(if sound { format!("{} to {}", plain(low), plain(high)) } else { String::new() }),
             Cell::text(literal(&format!("{name} = {}", plain(c.estimate.value / factor)))),
         ];
         if let Some(between) = between {
-            row.insert(3, Cell::number(between.errors.get(place).map_or_else(String::new, |e| plain(*e))));
+            row.insert(4, Cell::number(between.errors.get(place).map_or_else(String::new, |e| plain(*e))));
         }
         row
     };
     let mut head =
-        vec!["term", "coefficient", "robust error", "95 % interval", "parameter of the study file"];
+        vec!["term", "coefficient", "unit", "robust error", "95 % interval", "parameter of the study file"];
     if between.is_some() {
-        head.insert(3, "error between cells");
+        head.insert(4, "error between cells");
     }
     let mut rows: Vec<Vec<Cell>> = fitted.model().coefficients.iter().enumerate().map(row).collect();
     for one in fitted.in_other_sets() {
@@ -95,6 +113,9 @@ fn coefficients(fitted: &Fitted) -> Table {
         let mut row = vec![
             Cell::text(format!("{} (other sets)", typeset(&one.name))),
             Cell::number(format!("{}, mean over sets", plain(one.value))),
+            Cell::text(
+                fitted.whole.coefficient(&one.name).map_or_else(String::new, |c| unit(&c.term, units)),
+            ),
             Cell::number(""),
             Cell::number(format!("{low} to {high}")),
             Cell::text(format!(
@@ -103,7 +124,7 @@ fn coefficients(fitted: &Fitted) -> Table {
             )),
         ];
         if between.is_some() {
-            row.insert(3, Cell::number(""));
+            row.insert(4, Cell::number(""));
         }
         rows.push(row);
     }

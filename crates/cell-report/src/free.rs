@@ -1,4 +1,4 @@
-//! Numbers without a model: a table, and speed, area and aspect ratio over time.
+//! Numbers without a model: a table and the displacements; speed, area and aspect ratio over time, for beside the film strip.
 
 use crate::Case;
 use crate::motion::points;
@@ -10,17 +10,12 @@ use motiform_lab::draw::sheet;
 use motiform_report::{Cell, ReportFigure, Section, Table};
 use motiform_statistics::Answer;
 use motiform_study::Error;
-use motiform_tracks::modes::FrameModes;
+use motiform_tracks::modes::{Flag, FrameModes};
 
 pub(crate) fn section(case: &Case<'_>, units: &Units) -> Result<Section, Error> {
     let numbers = &case.observation.numbers;
-    let mut figures = Vec::new();
     let seen = numbers.seen;
-    if seen > 1 {
-        let words = "Speed from each frame to the next, area and aspect ratio over time. Grey: frames that are missing, or whose outline does not count.";
-        figures.push(ReportFigure::new(sheet(&series(&case.cell.modes.frames, units))?, words));
-    }
-    figures.extend(displacement(numbers, units)?);
+    let figures = displacement(numbers, units)?.into_iter().collect();
     let frames = case.cell.modes.frames.len();
     let mut about = format!(
         "From the centroids and polygons of the {seen} of {frames} frames whose outline is seen, whatever its radius. In brackets 95 % intervals."
@@ -38,6 +33,15 @@ pub(crate) fn section(case: &Case<'_>, units: &Units) -> Result<Section, Error> 
         figures,
         ..Section::default()
     })
+}
+
+/// Speed, area and aspect ratio over time; nothing where fewer than two frames are seen.
+pub(crate) fn over_time(case: &Case<'_>, units: &Units) -> Result<Option<ReportFigure>, Error> {
+    if case.observation.numbers.seen < 2 {
+        return Ok(None);
+    }
+    let words = "Speed from each frame to the next, area and aspect ratio over time. Grey: frames that are missing, or whose outline does not count; there is no speed across a jump of the stage.";
+    Ok(Some(ReportFigure::new(sheet(&series(&case.cell.modes.frames, units))?, words)))
 }
 
 fn table(numbers: &Numbers, units: &Units) -> Table {
@@ -69,6 +73,7 @@ fn series(frames: &[FrameModes], units: &Units) -> SeriesFigure {
     for (k, frame) in frames.iter().enumerate() {
         let seen = frame.is_seen();
         let next = frames.get(k + 1).filter(|next| seen && next.is_seen() && next.t - frame.t < 1.5 * usual);
+        let next = next.filter(|next| !next.flags.iter().any(Flag::parts));
         let speed = next.map(|next| {
             let [x, y] = [0, 1].map(|c| next.centroid[c] - frame.centroid[c]);
             libm::hypot(x, y) / (next.t - frame.t)

@@ -27,6 +27,7 @@ pub(crate) fn report(
     if let Some(fit) = together {
         sections.extend(one_law(fit, maps, units)?);
     }
+    sections.extend(field(sample, units));
     sections.extend(population::section(cases, units)?);
     sections.extend(places(cases, maps)?);
     sections.extend(notes(sample));
@@ -153,6 +154,21 @@ fn places(cases: &[Case<'_>], maps: &Maps) -> Result<Option<Section>, Error> {
     }
     let section = Section { title: "Places".to_owned(), figures, ..Section::default() };
     Ok((!section.figures.is_empty()).then_some(section))
+}
+
+/// What stage and camera add to all cells.
+fn field(sample: &Sample, units: &Units) -> Option<Section> {
+    let found = sample.field.in_words(units).into_iter();
+    let table = Table {
+        caption: "What the outlines of all cells have in common, found in all of them together.".to_owned(),
+        head: ["motion of the images", "found"].map(str::to_owned).to_vec(),
+        rows: found.map(|(name, words)| vec![Cell::text(name), Cell::text(literal(&words))]).collect(),
+    };
+    (!table.rows.is_empty()).then(|| Section {
+        title: "Field of view".to_owned(),
+        tables: vec![table],
+        ..Section::default()
+    })
 }
 
 /// What was noticed while reading the files.

@@ -43,10 +43,10 @@ pub struct Case<'c> {
 }
 
 impl<'c> Case<'c> {
-    /// Amplitudes of the model that is fitted: 3, or 4 with z4.
+    /// Amplitudes that are drawn: 3, or 4 of a model with z4.
     fn modes(&self) -> usize {
         let fitted = self.fit.and_then(|fit| fit.fitted.as_ref().ok());
-        fitted.map_or(3, |fitted| fitted.model().library.modes)
+        fitted.map_or(3, |fitted| fitted.model().library.modes.max(3))
     }
 
     /// Cells simulated by the fit.

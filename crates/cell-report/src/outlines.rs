@@ -1,6 +1,6 @@
 //! The outlines: a film strip, the path, and the modes of the shape over time.
 
-use crate::Case;
+use crate::{Case, free};
 use motiform_cells::Units;
 use motiform_cells::{CellTrack, Record};
 use motiform_figures::geometry::Point;
@@ -46,7 +46,7 @@ pub(crate) fn section(
         panels: vec![observed(case, units)],
         ..TrackPanels::default()
     };
-    let figures = vec![
+    let mut figures = vec![
         ReportFigure::new(
             sheet(&strip)?,
             "The outline at eight times, as it was read, with the path of the centre before, from the ring on.",
@@ -66,6 +66,9 @@ pub(crate) fn section(
             ),
         ),
     ];
+    if let Some(series) = free::over_time(case, units)? {
+        figures.insert(1, series);
+    }
     Ok(Some(Section { title: "Outlines".to_owned(), about: String::new(), figures, ..Section::default() }))
 }
 
@@ -87,7 +90,8 @@ fn polygons(case: &Case<'_>, drawn: Option<&Cell>, units: &Units) -> Result<Opti
     }
     let strip = TrackPanels { unit: units.length.clone(), columns: STRIP, panels, ..TrackPanels::default() };
     let words = "The outline at up to eight times, as it was read, with the path of the centroid before. There are no modes of the radius.";
-    let figures = vec![ReportFigure::new(sheet(&strip)?, words)];
+    let mut figures = vec![ReportFigure::new(sheet(&strip)?, words)];
+    figures.extend(free::over_time(case, units)?);
     Ok(Some(Section { title: "Outlines".to_owned(), figures, ..Section::default() }))
 }
 

@@ -1,6 +1,6 @@
 //! The population: names and numbers over cells.
 
-use crate::numbers::{plain, with_error};
+use crate::numbers::plain;
 use crate::terms::typeset;
 use crate::{Case, motion};
 use motiform_cells::Units;
@@ -21,14 +21,6 @@ pub(crate) fn section(cases: &[Case<'_>], units: &Units) -> Result<Option<Sectio
     let mut about = "Intervals are those of resampling whole cells, which needs 8 of them.".to_owned();
     let observed = observed_population(&found);
     let free = population_numbers(&found);
-    if let Some(field) = free.field.as_ref().filter(|field| field.drifts()) {
-        let [x, y] = [0, 1].map(|k| with_error(field.velocity[k], field.velocity_error[k]));
-        about += &format!(
-            " The cells drift together, by ({x}, {y}) {} (p = {:.1e}): the stage, a flow, or a direction that all of them prefer. Velocities of single cells contain it.",
-            units.speed(),
-            field.p_value
-        );
-    }
     let mut tables = vec![names(&observed.regimes, "observed motion"), numbers(&free, units)];
     if fits.len() > 1 {
         let fitted = fitted_population(&fits);
@@ -82,7 +74,11 @@ fn numbers(found: &PopulationNumbers, units: &Units) -> Table {
 
 fn coefficients(found: &FittedPopulation) -> Table {
     let rows = found.coefficients.iter().map(|one| row(typeset(&one.term), &one.over));
-    table("Coefficients over cells, from the fits with all terms.", rows.collect())
+    let caption = format!(
+        "Coefficients over the cells whose fit is {}, from the fits with all terms. Cells with other motions have other laws, and are in no mean.",
+        found.law.unwrap_or("named")
+    );
+    table(&caption, rows.collect())
 }
 
 fn table(caption: &str, rows: Vec<Vec<Cell>>) -> Table {

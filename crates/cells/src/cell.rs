@@ -1,8 +1,8 @@
 //! Cells as further steps use them: the frames that count, with their errors, and what was left out.
 
-use crate::Result;
-use motiform_inference::{MOST_MODES, Observation, Track};
-use motiform_tracks::modes::{CellModes, ModeOptions, modes};
+use crate::{Correction, FieldOfView, Result};
+use motiform_inference::{LEAST_FRAMES, MOST_MODES, Observation, Track};
+use motiform_tracks::modes::{CellModes, Flag, FrameModes, ModeOptions, modes};
 use motiform_tracks::{Options, Tracks, read};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -14,6 +14,8 @@ pub struct Sample {
     pub tracks: Tracks,
     /// Their modes, cell by cell.
     pub cells: Vec<CellTrack>,
+    /// What they have in common: drift, jumps and jitter of the stage.
+    pub field: FieldOfView,
 }
 
 /// One cell.
@@ -25,6 +27,12 @@ pub struct CellTrack {
     pub modes: CellModes,
     /// The frames that count: centre, z2, z3, z4 and their covariance. Models of three modes are fitted to the first three of these alone.
     pub track: Track,
+    /// Frames of the track, by their place in it, at which a piece begins: the stage jumps there, and no displacement counts.
+    pub breaks: Vec<usize>,
+    /// Whether the jumps were subtracted from the outlines: then the path goes on across them.
+    pub bridged: bool,
+    /// Whether all cells drift together, and that was not subtracted.
+    pub drifts: bool,
     /// Mean radius R0 over these frames; 0 without any.
     pub radius: f64,
 }
@@ -41,8 +49,19 @@ impl Sample {
     /// Computes the modes of outlines that were read or given.
     #[must_use]
     pub fn of_tracks(tracks: Tracks, modes_options: &ModeOptions) -> Self {
-        let cells = modes(&tracks, modes_options).into_iter().map(CellTrack::new).collect();
-        Self { tracks, cells }
+        let modes = modes(&tracks, modes_options);
+        let field = FieldOfView::of(&tracks, &modes);
+        Self { cells: with_field(modes, &field), tracks, field }
+    }
+
+    /// The same cells without these motions of the stage, as they were found in all cells together.
+    #[must_use]
+    pub fn corrected(mut self, wanted: &[Correction], modes_options: &ModeOptions) -> Self {
+        if !wanted.is_empty() {
+            self.field.correct(&mut self.tracks, wanted);
+            self.cells = with_field(modes(&self.tracks, modes_options), &self.field);
+        }
+        self
     }
 
     /// Mean radius of a cell, or of all cells where none has this name (fits of several cells together).
@@ -78,10 +97,18 @@ impl Sample {
 impl CellTrack {
     /// The frames of a cell that count. The noise of a vertex is pooled over the cell: that of a frame is uncertain by itself.
     #[must_use]
-    pub fn new(modes: CellModes) -> Self {
-        let mut frames = Vec::new();
+    fn new(modes: CellModes, field: &FieldOfView) -> Self {
+        let (mut frames, mut breaks, mut parted) = (Vec::new(), Vec::new(), false);
         let mut sum = 0.0;
-        for frame in modes.used() {
+        let jumps = |frame: &FrameModes| field.jumps.iter().any(|jump| jump.frame == frame.frame);
+        for frame in &modes.frames {
+            parted |= frame.flags.iter().any(Flag::parts) || jumps(frame);
+            if !frame.counts() {
+                continue;
+            }
+            if std::mem::take(&mut parted) && !frames.is_empty() {
+                breaks.push(frames.len());
+            }
             let Some(fit) = &frame.radius else { continue };
             let mut covariance = fit.observed_covariance(modes.sigma.unwrap_or(fit.sigma), MOST_MODES);
             covariance.iter_mut().flatten().for_each(|x| *x *= fit.inflation.max(1.0));
@@ -91,7 +118,34 @@ impl CellTrack {
             sum += fit.r0;
         }
         let radius = if frames.is_empty() { 0.0 } else { sum / frames.len() as f64 };
-        Self { name: modes.name.clone(), modes, track: Track(frames), radius }
+        let bridged = field.is_corrected(Correction::Jumps);
+        Self {
+            name: modes.name.clone(),
+            modes,
+            track: Track(frames),
+            breaks,
+            bridged,
+            drifts: field.drifts(),
+            radius,
+        }
+    }
+
+    /// The pieces of the track between jumps of the stage that are long enough for a fit.
+    #[must_use]
+    pub fn pieces(&self) -> Vec<Track> {
+        let ends = self.breaks.iter().copied().chain([self.track.0.len()]);
+        let starts = std::iter::once(0).chain(self.breaks.iter().copied());
+        let pieces = starts.zip(ends).map(|(from, to)| Track(self.track.0[from..to].to_vec()));
+        pieces.filter(|piece| piece.0.len() >= LEAST_FRAMES).collect()
+    }
+
+    /// The track where its jumps were subtracted, or else its longest piece: where displacements count.
+    #[must_use]
+    pub fn path(&self) -> Track {
+        if self.bridged || self.breaks.is_empty() {
+            return self.track.clone();
+        }
+        self.pieces().into_iter().max_by_key(|piece| piece.0.len()).unwrap_or(Track(Vec::new()))
     }
 
     /// How many frames have each flag, by its name.
@@ -116,4 +170,21 @@ impl CellTrack {
         let used: Vec<i64> = self.modes.used().map(|frame| frame.frame).collect();
         self.modes.frames.iter().map(|frame| frame.frame).filter(|frame| !used.contains(frame)).collect()
     }
+}
+
+/// Cells with what their field of view says: frames at which the stage jumps have its flag, whatever the cell shows by itself.
+fn with_field(mut all: Vec<CellModes>, field: &FieldOfView) -> Vec<CellTrack> {
+    if !field.is_corrected(Correction::Jumps) {
+        for jump in &field.jumps {
+            let frames = all.iter_mut().flat_map(|cell| &mut cell.frames);
+            for frame in frames.filter(|frame| frame.frame == jump.frame) {
+                frame
+                    .flags
+                    .retain(|flag| !matches!(flag, Flag::PositionStep { .. } | Flag::StageJump { .. }));
+                let [x, y] = jump.displacement;
+                frame.flags.push(Flag::StageJump { distance: (x * x + y * y).sqrt() });
+            }
+        }
+    }
+    all.into_iter().map(|modes| CellTrack::new(modes, field)).collect()
 }

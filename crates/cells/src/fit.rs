@@ -6,7 +6,7 @@ use crate::{
     CellTrack, Companions, Error, Fitted, NearBifurcation, Prediction, Result, near_bifurcations, predict,
 };
 use motiform_dynamics::{StopOnly, Watch};
-use motiform_inference::{LEAST_FRAMES, Library, Settings, Track, between_cells};
+use motiform_inference::{LEAST_FRAMES, Library, Settings, Track, between_cells, with_stage};
 use motiform_lab::pool;
 use serde::{Deserialize, Serialize};
 
@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 pub struct FitOptions {
     /// Highest order of the terms: 3 or 5.
     pub order: u32,
-    /// Amplitudes of the model: 3, or 4 with z4.
+    /// Amplitudes of the model: 2, 3, or 4 with z4. Of 3 the third is left out of cells whose z3 does not exceed its errors.
     #[serde(default = "three")]
     pub modes: usize,
     /// Models drawn from the estimate.
@@ -31,6 +31,9 @@ pub struct FitOptions {
     /// One fit of all cells instead of one of each.
     #[serde(default)]
     pub together: bool,
+    /// Whether a velocity of the stage that a cell shows is fitted and subtracted.
+    #[serde(default)]
+    pub stage: bool,
 }
 
 /// What folders of fits had that do not say.
@@ -59,6 +62,7 @@ impl Default for FitOptions {
             bifurcations: false,
             drift: true,
             together: false,
+            stage: false,
         }
     }
 }
@@ -134,31 +138,59 @@ fn refused(name: &str, frames: usize, why: String) -> CellFit {
 /// # Errors
 /// Settings that cannot be used; [`motiform_study::Error::Interrupted`].
 pub fn fit_cell(cell: &CellTrack, options: &FitOptions, watch: &dyn Watch) -> Result<CellFit> {
-    let settings = Settings { library: options.library()?, ..Settings::default() };
-    let mut fitted = if let Some(reason) = cell.modes.inconsistent() {
-        Err(reason)
-    } else if cell.frames() < LEAST_FRAMES {
-        Err(format!("{} frames count, and a fit needs at least {LEAST_FRAMES}", cell.frames()))
-    } else {
-        fitted(std::slice::from_ref(&cell.track), (&settings, options), &Stages::default(), watch)?
+    let library = options.library()?;
+    let pieces = cell.pieces();
+    if let Some(reason) = cell.modes.inconsistent() {
+        return Ok(without_fit(cell, &reason));
+    }
+    if pieces.is_empty() {
+        let long = if cell.breaks.is_empty() { "" } else { " between jumps of the stage" };
+        let why = format!("{} frames count, and a fit needs at least {LEAST_FRAMES}{long}", cell.frames());
+        return Ok(without_fit(cell, &why));
+    }
+    let settings = Settings { library: library.seen(&pieces), ..Settings::default() };
+    let (mut fitted, path) = match on_stage(&pieces, cell.path(), (&settings, options), watch) {
+        Err(Error::Inference(error)) => return Ok(without_fit(cell, &error)),
+        found => found?,
     };
+    if fitted.is_handed() && cell.drifts {
+        fitted.doubt("it is handed, or carried by the drift that all cells of the field of view have; --correct drift subtracts it");
+    }
     let companions = Companions { count: options.simulations, seed: options.seed };
-    let prediction = match &fitted {
-        Ok(fitted) if options.simulations > 0 => predict(cell, fitted.model(), companions, watch),
-        _ => None,
-    };
+    let prediction =
+        (options.simulations > 0).then(|| predict(&path, fitted.model(), companions, watch)).flatten();
     if watch.stopped() {
         return Err(motiform_study::Error::Interrupted.into());
     }
-    if let (Ok(fitted), Some(reason)) = (&mut fitted, prediction.as_ref().and_then(Prediction::contradiction))
-    {
+    if let Some(reason) = prediction.as_ref().and_then(Prediction::contradiction) {
         fitted.doubt(&reason);
     }
-    let bifurcations = match &fitted {
-        Ok(fitted) if options.bifurcations => near_bifurcations(fitted, watch)?,
-        _ => Vec::new(),
-    };
-    Ok(CellFit { name: cell.name.clone(), frames: cell.frames(), fitted, prediction, bifurcations })
+    let bifurcations = if options.bifurcations { near_bifurcations(&fitted, watch)? } else { Vec::new() };
+    Ok(CellFit {
+        name: cell.name.clone(),
+        frames: cell.frames(),
+        fitted: Ok(fitted),
+        prediction,
+        bifurcations,
+    })
+}
+
+/// The fit of the pieces of a record, and the path that it describes: with [`FitOptions::stage`] both without the velocity of the stage, where there is one.
+fn on_stage(
+    pieces: &[Track],
+    path: Track,
+    (settings, options): (&Settings, &FitOptions),
+    watch: &dyn Watch,
+) -> Result<(Box<Fitted>, Track)> {
+    let found = fitted(pieces, (settings, options), &Stages::default(), watch)?;
+    if !(options.stage && found.shows_stage()) {
+        return Ok((found, path));
+    }
+    let still = with_stage(pieces, &found.selection.fit, watch)?;
+    let mut again = fitted(&still.tracks, (settings, options), &Stages::default(), watch)?;
+    again.stage = still.velocities;
+    let longest = still.tracks.into_iter().max_by_key(|piece| piece.0.len());
+    Ok((again, longest.unwrap_or(path)))
 }
 
 /// Name of the fit of several cells together.
@@ -179,20 +211,29 @@ pub(crate) fn fit_in_stages(
     stages: &Stages<'_>,
     watch: &dyn Watch,
 ) -> Result<CellFit> {
-    let settings = Settings { library: options.library()?, ..Settings::default() };
+    let library = options.library()?;
     if let Some((cell, reason)) = cells.iter().find_map(|cell| Some((cell, cell.modes.inconsistent()?))) {
         return Ok(refused(TOGETHER, 0, format!("cell {}: {reason}", cell.name)));
     }
     let long = cells.iter().filter(|cell| cell.frames() >= LEAST_FRAMES);
-    let tracks: Vec<Track> = long.map(|cell| cell.track.clone()).collect();
-    let mut fitted = if tracks.len() < 2 {
-        Err(format!("{} cells have {LEAST_FRAMES} frames or more; give two at least", tracks.len()))
-    } else {
-        fitted(&tracks, (&settings, options), stages, watch)?
-    };
-    if let Ok(fitted) = &mut fitted {
-        fitted.between = Some(between_cells(&tracks, fitted.model())?);
-    }
+    let tracks: Vec<Track> =
+        long.map(|cell| cell.path()).filter(|path| path.0.len() >= LEAST_FRAMES).collect();
     let frames = tracks.iter().map(|track| track.0.len()).sum();
-    Ok(CellFit { name: TOGETHER.to_owned(), frames, fitted, prediction: None, bifurcations: Vec::new() })
+    if tracks.len() < 2 {
+        let why = format!("{} cells have {LEAST_FRAMES} frames or more; give two at least", tracks.len());
+        return Ok(refused(TOGETHER, frames, why));
+    }
+    let settings = Settings { library: library.seen(&tracks), ..Settings::default() };
+    let mut fitted = match fitted(&tracks, (&settings, options), stages, watch) {
+        Err(Error::Inference(error)) => return Ok(refused(TOGETHER, frames, error.to_string())),
+        found => found?,
+    };
+    fitted.between = Some(between_cells(&tracks, fitted.model())?);
+    Ok(CellFit {
+        name: TOGETHER.to_owned(),
+        frames,
+        fitted: Ok(fitted),
+        prediction: None,
+        bifurcations: Vec::new(),
+    })
 }

@@ -1,6 +1,6 @@
 //! Tracked cells: outlines in, and out come the observed motion, the fitted equations, their regime and their place.
 //!
-//! [`Sample::read`] turns files into cells with modes and quality ([`motiform_tracks`]). [`observe()`] says how a cell moves, from its samples
+//! [`Sample::read`] turns files into cells with modes and quality ([`motiform_tracks`]); [`FieldOfView`] says what stage and camera add to all of them. [`observe()`] says how a cell moves, from its samples
 //! alone. [`fit_cell`] fits a model ([`motiform_inference`]), asks what the data determine, names the motion of the models that the data
 //! allow, and places them on the paper's planes. What cannot be decided is a value with its reasons, never a name.
 
@@ -8,6 +8,7 @@ mod bifurcations;
 mod cell;
 mod checks;
 mod error;
+mod field;
 mod fit;
 mod fitted;
 mod folder;
@@ -32,14 +33,15 @@ pub use bifurcations::{NearBifurcation, near_bifurcations};
 pub use cell::{CellTrack, Sample};
 pub use checks::Checks;
 pub use error::{Error, Result};
+pub use field::{CommonDrift, Correction, FieldOfView, Jitter, StageJump};
 pub use fit::{CellFit, FitOptions, TOGETHER, fit_cell, fit_cells, fit_together};
 pub(crate) use fit::{fit_in_stages, fit_or_reason};
 pub use fitted::{Fitted, PERSISTENT_WALK};
 pub use folder::write_observations;
 pub use names::file_names;
 pub use numbers::{
-    Dimension, FieldOfView, FormNumber, Forms, Numbers, PopulationNumber, PopulationNumbers, Row, Steps,
-    number_columns, numbers, population_numbers,
+    Dimension, FormNumber, Forms, Numbers, PopulationNumber, PopulationNumbers, Row, Steps, number_columns,
+    numbers, population_numbers,
 };
 pub use observe::{
     AtLag, Finding, Memory, Motion, MotionStatistics, Observation, ObservedChaos, ObservedLegs,

@@ -92,7 +92,7 @@ pub fn observe(cell: &CellTrack) -> Observation {
     if frames < LEAST_FRAMES {
         return bare(format!("{frames} frames count; at least {LEAST_FRAMES} are needed to name a motion"));
     }
-    let Some(measures) = Measures::of(&cell.track) else {
+    let Some(measures) = Measures::of(&cell.path()) else {
         let all = cell.modes.frames.len();
         return bare(format!(
             "the {frames} frames that count, of {all}, are not equally spaced for long enough: gaps and frames left out leave no stretch of {LEAST_FRAMES}"

@@ -4,6 +4,7 @@ use crate::{CellFit, Fitted, Observation};
 use motiform_analysis::Share;
 use motiform_dynamics::Normal;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// Resamples of the cells.
 const RESAMPLES: usize = 2000;
@@ -63,7 +64,9 @@ pub struct FittedPopulation {
     pub cells: usize,
     /// Names and their shares, the most frequent first.
     pub regimes: Vec<NameShare>,
-    /// Cells whose coefficients count: fits with all terms that converged and leave no coefficient unbounded.
+    /// The motion of the cells whose coefficients count: the most frequent name of a fit that converged with bounded coefficients; cells with other motions, or none, have other laws. `None` where no cell has a name.
+    pub law: Option<&'static str>,
+    /// Cells whose coefficients count: fits with all terms that converged and leave no coefficient unbounded, of this motion and of one set of modes.
     pub fitted: usize,
     /// Coefficients over these cells.
     pub coefficients: Vec<PopulationCoefficient>,
@@ -148,6 +151,14 @@ fn intervals(values: &[f64]) -> [Option<[f64; 2]>; 2] {
     })
 }
 
+/// The most frequent of these, the first in order of equally frequent ones.
+fn most_frequent<T: Ord>(all: impl Iterator<Item = T>) -> Option<T> {
+    let mut counts: BTreeMap<T, usize> = BTreeMap::new();
+    all.for_each(|one| *counts.entry(one).or_default() += 1);
+    let most = counts.values().copied().max()?;
+    counts.into_iter().find(|(_, count)| *count == most).map(|(one, _)| one)
+}
+
 /// What fitted cells have in common.
 ///
 /// # Checked by  `tests/all/population.rs`: coverage of the intervals, shares
@@ -155,8 +166,10 @@ fn intervals(values: &[f64]) -> [Option<[f64; 2]>; 2] {
 pub fn fitted_population(fits: &[CellFit]) -> FittedPopulation {
     let name = |fit: &CellFit| fit.fitted.as_ref().map_or(UNDECIDED, |fitted| fitted.motion_name());
     let counts = |fitted: &&Fitted| fitted.whole.converged() && fitted.whole.is_bounded();
-    let usable: Vec<&Fitted> =
-        fits.iter().filter_map(|fit| fit.fitted.as_deref().ok()).filter(counts).collect();
+    let sound = || fits.iter().filter_map(|fit| fit.fitted.as_deref().ok()).filter(counts);
+    let law = |fitted: &Fitted| (fitted.motion_name(), fitted.whole.library.modes);
+    let frequent = most_frequent(sound().map(law).filter(|(name, _)| *name != UNDECIDED));
+    let usable: Vec<&Fitted> = sound().filter(|fitted| Some(law(fitted)) == frequent).collect();
     let terms = usable.first().map(|fitted| fitted.whole.library.names()).unwrap_or_default();
     let coefficient = |term: String| {
         let values: Vec<f64> =
@@ -171,6 +184,7 @@ pub fn fitted_population(fits: &[CellFit]) -> FittedPopulation {
     FittedPopulation {
         cells: fits.len(),
         regimes: shares(fits.iter().map(name)),
+        law: frequent.map(|(name, _)| name),
         fitted: usable.len(),
         coefficients: terms.into_iter().filter_map(coefficient).collect(),
         noise: velocity.zip(shape).map(|(velocity, shape)| [velocity, shape]),

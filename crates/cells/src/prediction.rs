@@ -13,9 +13,8 @@ pub use envelope::{Agreement, Envelope};
 pub use record::Record;
 pub use statistics::{Axis, Kind, Statistic};
 
-use crate::CellTrack;
 use motiform_dynamics::Watch;
-use motiform_inference::{Fit, draws};
+use motiform_inference::{Fit, Track, draws};
 use serde::{Deserialize, Serialize};
 
 /// Simulated cells that are kept for drawing.
@@ -101,20 +100,20 @@ impl Prediction {
     }
 }
 
-/// Simulates cells by a fit and compares them with the observed one; `None` if the watch stopped the work, or where there are too few frames.
+/// Simulates cells by a fit and compares them with the track of the observed one; `None` if the watch stopped the work, or where there are too few frames.
 ///
 /// # Checked by  tests/all/prediction.rs: p-values of the true model are uniform; wrong models are found
 #[must_use]
-pub fn predict(cell: &CellTrack, fit: &Fit, companions: Companions, watch: &dyn Watch) -> Option<Prediction> {
-    let observed = Record::of(&cell.track, fit.library.modes)?;
-    let asked = statistics::Asked::of(&observed, &cell.track);
+pub fn predict(track: &Track, fit: &Fit, companions: Companions, watch: &dyn Watch) -> Option<Prediction> {
+    let observed = Record::of(track, fit.library.modes)?;
+    let asked = statistics::Asked::of(&observed, track);
     let mut found = Vec::new();
     let (mut shown, mut lost) = (Vec::new(), 0);
     for (number, drawn) in draws(fit, companions.count, companions.seed).into_iter().enumerate() {
         if watch.stopped() {
             return None;
         }
-        let seen = (&cell.track, &observed);
+        let seen = (track, &observed);
         match simulated::simulated(fit, &drawn, seen, (companions.seed, number as u64 + 1)) {
             Some(record) => {
                 found.push(asked.all(&record));

@@ -52,6 +52,7 @@ fn whole(sample: &Sample, cells: impl Iterator<Item = Value>) -> Value {
         "cells": cells.collect::<Vec<_>>(),
         "units": { "length": tracks.length_unit, "time": tracks.time_unit, "y_down": tracks.y_down },
         "notes": sample.notes(),
+        "field": sample.field,
     })
 }
 
@@ -124,7 +125,9 @@ fn add(object: &mut Value, fitted: &Fitted) {
     object["symmetry"] = json!(fitted.symmetry());
     object["handed_p_value"] = json!(fitted.handedness.p_value);
     let noise = &model.noise;
-    object["noise"] = json!({ "measurement_factor": number(&noise.s), "eta_v": number(&noise.eta_v), "eta_shape": number(&noise.eta_shape) });
+    object["noise"] = json!({ "measurement_factor": number(&noise.s), "eta_v": number(&noise.eta_v), "eta_shape": number(&noise.eta_shape), "centre": number(&noise.centre) });
+    object["stage"] = json!(fitted.stage);
+    object["handed_beside_stage"] = json!(fitted.beside_stage);
     object["coefficients"] = coefficients(fitted);
     let name = |c: &Coefficient| format!("{}{}", if c.imaginary { "i " } else { "" }, c.name);
     object["covariance"] = json!({

@@ -1,7 +1,7 @@
 //! Whether left and right are different motions: real coefficients against complex ones.
 
 use crate::chi_square::chi_square_tail;
-use crate::filter::Theta;
+use crate::filter::{NO_CENTRE_NOISE, Theta};
 use crate::fit::refit;
 use crate::{Coefficient, Error, Fit, Result, Settings, Track, identifiability, observation};
 use motiform_dynamics::Watch;
@@ -96,7 +96,7 @@ pub fn handedness(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Hand
     if !fit.converged() {
         return Ok(compare(fit, near, degrees)); // decides nothing, and a second search would not either
     }
-    let logs = [0.0, libm::log(0.4), libm::log(0.4)];
+    let logs = [0.0, libm::log(0.4), libm::log(0.4), NO_CENTRE_NOISE];
     let zero = Theta { coefficients: vec![0.0; 2 * degrees], logs };
     let far = refit(tracks, &settings, &fit.scales, &zero, watch)?;
     let handed = if far.log_likelihood > near.log_likelihood { far } else { near };

@@ -5,6 +5,7 @@
 //! is fixed where its standard error is below [`FIXED`], free where it is above [`FREE`].
 
 use crate::Fit;
+use crate::filter::NOISES;
 use crate::names::paper;
 use nalgebra::{DMatrix, SymmetricEigen};
 use serde::{Deserialize, Serialize};
@@ -105,7 +106,7 @@ pub fn identifiability(fit: &Fit) -> Identifiability {
         .filter(|of| of.count(Knowledge::Free) > 0)
         .map(|of| format!("equation of z{}: {}", of.equation + 1, of.text))
         .collect();
-    let (numbers, parameters) = (fit.observed() * fit.frames, fit.coefficients.len() + 3);
+    let (numbers, parameters) = (fit.observed() * fit.frames, fit.coefficients.len() + NOISES);
     if numbers < LEAST_NUMBERS * parameters {
         reasons.push(format!(
             "{numbers} observed numbers are too few for {parameters} parameters: track at least {} frames",

@@ -1,7 +1,7 @@
 //! From observed tracks of shape modes to amplitude equations.
 //!
 //! [`fit()`] finds the coefficients of all rotation-covariant terms and the noise by maximum likelihood through an extended Kalman filter;
-//! [`select`] the terms that the data ask for; [`identifiability()`] what the motion fixes; [`handedness`] whether left and right differ;
+//! [`stage_velocities`] whether the stage drifts beside it; [`select`] the terms that the data ask for; [`identifiability()`] what the motion fixes; [`handedness`] whether left and right differ;
 //! [`warnings()`] and [`drift()`] what makes the fit doubtful; [`weak()`] is a cheap witness; [`place()`] and [`place_among`] say where the model lies
 //! on the paper's planes; [`Fit::definition`] makes it a model. Knows no file. Method and measurements: docs/inference.md.
 
@@ -21,6 +21,7 @@ mod names;
 mod observation;
 mod place;
 mod scales;
+mod stage;
 mod subsets;
 mod walk;
 mod warnings;
@@ -43,10 +44,10 @@ pub use names::paper;
 pub use observation::{LEAST_FRAMES, Observation, Track};
 pub use place::{Coordinate, Place, Placement, Plane, coordinates, place, place_among};
 pub use scales::Scales;
+pub use stage::{StageVelocity, WithStage, handed_beside_stage, stage_velocities, with_stage};
 pub use subsets::{Averaged, Selection, Subset, Subsets, TIE, averaged, refit_with, select, subsets};
 pub use walk::{Bounded, Fix, PersistentWalk, persistent_walk, walk_likelihood};
 pub use warnings::{
-    COARSE, Channel, Drift, DriftPoint, Stretch, Warning, drift, fastest_rate, stage_velocity, warnings,
-    whiteness,
+    COARSE, Channel, Drift, DriftPoint, Stretch, Warning, drift, fastest_rate, warnings, whiteness,
 };
 pub use weak::{Weak, weak};

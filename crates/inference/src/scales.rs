@@ -15,6 +15,8 @@ pub struct Scales {
     pub amplitudes: Vec<f64>,
     /// Mean square of speed (from frame to frame), `z2`, `z3` .., errors subtracted, over that of their errors: below 1 nothing is seen.
     pub signal: Vec<f64>,
+    /// Mean variance of a coordinate of the centre, as the covariances state it (length^2).
+    pub centre: f64,
 }
 
 /// Sums of squares over frames.
@@ -59,6 +61,9 @@ impl Scales {
     #[must_use]
     pub fn of(tracks: &[Track], modes: usize) -> Self {
         let shapes = modes - 1;
+        let centres = tracks.iter().flat_map(|track| &track.0).map(|frame| 0.5 * variance(frame, 0));
+        let centre =
+            centres.sum::<f64>() / tracks.iter().map(|track| track.0.len()).sum::<usize>().max(1) as f64;
         let (mut speed, mut size) = (Squares::default(), vec![Squares::default(); shapes]);
         let mut rate = vec![0.0; shapes];
         let mut duration = 0.0_f64;
@@ -87,7 +92,7 @@ impl Scales {
         let time = 1.0 / (rates / shapes as f64).sqrt().clamp(5.0 / duration, (2.0 / dt).max(5.0 / duration));
         let of = || std::iter::once(&speed).chain(&size);
         let amplitudes = of().map(|of| of.mean().sqrt()).collect();
-        Self { time, amplitudes, signal: of().map(Squares::signal).collect() }
+        Self { time, amplitudes, signal: of().map(Squares::signal).collect(), centre }
     }
 
     /// What a coefficient in natural units is multiplied by to be one in the units of the data: `A_n / (T prod A_m^degree)`.
@@ -105,9 +110,9 @@ impl Scales {
         [self.amplitudes[0], (l2 * l3).sqrt()].map(|size| size / self.time.sqrt())
     }
 
-    /// The modes whose geometric mean is the unit of the process noise of all modes.
+    /// The modes whose geometric mean is the unit of the process noise of all modes: z2 and z3, or z2 alone.
     fn reference(&self) -> [f64; 2] {
-        [self.amplitudes[1], self.amplitudes[2]]
+        [self.amplitudes[1], self.amplitudes[2.min(self.amplitudes.len() - 1)]]
     }
 
     /// Variances of the process noise of each mode in natural units, for amplitudes 1: in the units of the data all modes of the shape have the same noise.
@@ -118,9 +123,15 @@ impl Scales {
         self.amplitudes.iter().enumerate().map(of).collect()
     }
 
+    /// Unit of lengths of the path: that of the speed times that of time.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.amplitudes[0] * self.time
+    }
+
     /// Unit of each observed number.
     fn units(&self) -> Vec<f64> {
-        let of = |(n, l): (usize, &f64)| [if n == 0 { l * self.time } else { *l }; 2];
+        let of = |(n, l): (usize, &f64)| [if n == 0 { self.length() } else { *l }; 2];
         self.amplitudes.iter().enumerate().flat_map(of).collect()
     }
 

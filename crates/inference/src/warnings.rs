@@ -1,12 +1,10 @@
 //! What makes a fit doubtful.
 
 mod drift;
-mod stage;
 mod stretch;
 mod whiteness;
 
 pub use drift::{Drift, DriftPoint, drift};
-pub use stage::stage_velocity;
 pub use stretch::Stretch;
 pub(crate) use whiteness::ljung_box;
 pub use whiteness::{Channel, whiteness};
@@ -14,7 +12,7 @@ pub use whiteness::{Channel, whiteness};
 use crate::field::{Field, Values};
 use crate::filter::Frame;
 use crate::identifiability::unbounded;
-use crate::{Fit, Result, Track, observation};
+use crate::{Fit, Result, StageVelocity, Track, observation, stage_velocities};
 use motiform_dynamics::Complex;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
@@ -25,6 +23,8 @@ pub const COARSE: f64 = 2.0;
 const WHITE: f64 = 1e-3;
 /// Ratio of robust to expected standard errors that is worth a warning.
 const ERRORS_DIFFER: f64 = 1.5;
+/// Significance of a velocity that does not turn with the cell.
+const CARRIED: f64 = 1e-3;
 /// Frames whose rates are computed.
 const RATES: usize = 60;
 
@@ -63,6 +63,15 @@ pub enum Warning {
         share: f64,
         /// Its direction, in degrees from the x axis.
         degrees: f64,
+        /// Its significance.
+        p_value: f64,
+    },
+    /// The cell has a velocity that does not turn with it: the stage drifts, or a flow carries the cell.
+    Carried {
+        /// The velocity of highest likelihood, to first order (length/time).
+        velocity: [f64; 2],
+        /// Its standard errors.
+        errors: [f64; 2],
         /// Its significance.
         p_value: f64,
     },
@@ -105,6 +114,10 @@ impl std::fmt::Display for Warning {
                 "outlines are elongated at {:.0} degrees from the x axis whatever the heading, by {:.0} % of their root mean square elongation (p = {p_value:.1e}): pixels are not square, or a direction of the surroundings acts on the shape",
                 degrees.round() + 0.0, // no minus before 0
                 100.0 * share
+            ),
+            Self::Carried { velocity: [x, y], errors: [dx, dy], p_value } => write!(
+                f,
+                "a velocity of ({x:.2e} +- {dx:.0e}, {y:.2e} +- {dy:.0e}) does not turn with the cell (p = {p_value:.1e}): the stage drifts, or a flow carries it; `--correct drift` subtracts it"
             ),
             Self::ErrorsDiffer { ratio } => {
                 write!(
@@ -150,6 +163,7 @@ pub fn warnings(tracks: &[Track], fit: &Fit, drift: Option<&Drift>) -> Result<Ve
         all.push(Warning::Drifting { names });
     }
     all.extend(stretched(tracks));
+    all.extend(carried(tracks, fit)?);
     all.extend(errors_differ(fit));
     Ok(all)
 }
@@ -159,6 +173,21 @@ fn stretched(tracks: &[Track]) -> Option<Warning> {
     let found = tracks.iter().filter_map(Stretch::of).filter(|found| found.is_clear(tracks.len()));
     let Stretch { share, degrees, p_value, .. } = found.min_by(|a, b| a.p_value.total_cmp(&b.p_value))?;
     Some(Warning::Stretched { share, degrees, p_value })
+}
+
+/// The clearest velocity of a stage, if there is one.
+fn carried(tracks: &[Track], fit: &Fit) -> Result<Option<Warning>> {
+    if !fit.converged() {
+        return Ok(None);
+    }
+    let found = stage_velocities(tracks, fit)?.into_iter().flatten();
+    let clearest = found.min_by(|a, b| a.p_value.total_cmp(&b.p_value));
+    let clear = clearest.filter(|found| found.p_value * (tracks.len() as f64) < CARRIED);
+    Ok(clear.map(|StageVelocity { velocity, errors, p_value }| Warning::Carried {
+        velocity,
+        errors,
+        p_value,
+    }))
 }
 
 fn errors_differ(fit: &Fit) -> Option<Warning> {
@@ -175,6 +204,7 @@ fn errors_differ(fit: &Fit) -> Option<Warning> {
 #[must_use]
 pub fn fastest_rate(tracks: &[Track], fit: &Fit) -> f64 {
     match fit.library.modes {
+        2 => fastest::<4>(tracks, fit),
         4 => fastest::<8>(tracks, fit),
         _ => fastest::<6>(tracks, fit),
     }

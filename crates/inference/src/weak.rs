@@ -46,6 +46,7 @@ pub fn weak(tracks: &[Track], library: &Library) -> Result<Weak> {
     let field = Field::new(library);
     let mut sums: Vec<Normal> = (0..library.modes).map(|n| Normal::new(library.of_equation(n))).collect();
     let add = match library.modes {
+        2 => add_track::<4>,
         4 => add_track::<8>,
         _ => add_track::<6>,
     };

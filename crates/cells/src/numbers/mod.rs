@@ -3,14 +3,12 @@
 //! Definitions: docs/cells.md, section 'Numbers without a model'.
 
 mod displacement;
-mod field;
 mod forms;
 mod places;
 mod population;
 mod rows;
 mod steps;
 
-pub use field::FieldOfView;
 pub use forms::{FormNumber, Forms};
 pub use population::{PopulationNumber, PopulationNumbers, population_numbers};
 pub use rows::{Dimension, Row, number_columns};

@@ -17,10 +17,7 @@ impl Places {
         let mut pieces: Vec<Vec<Fix>> = Vec::new();
         let mut new = true;
         for frame in &modes.frames {
-            new |= frame
-                .flags
-                .iter()
-                .any(|flag| matches!(flag, Flag::PositionStep { .. } | Flag::AreaStep { .. }));
+            new |= frame.flags.iter().any(Flag::parts);
             if !frame.is_seen() {
                 continue;
             }

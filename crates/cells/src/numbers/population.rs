@@ -1,7 +1,6 @@
 //! Numbers over cells.
 
 use super::displacement;
-use super::field::{FieldOfView, field_of_view};
 use super::places::Places;
 use super::rows::Dimension;
 use crate::{AtLag, Observation, OverCells, over_cells};
@@ -32,8 +31,6 @@ pub struct PopulationNumbers {
     pub displacement: Vec<AtLag>,
     /// Cells in it.
     pub displacement_cells: usize,
-    /// What these cells do together; `None` with fewer than five.
-    pub field: Option<FieldOfView>,
 }
 
 /// Numbers over these cells.
@@ -56,7 +53,6 @@ pub fn population_numbers(found: &[Observation]) -> PopulationNumbers {
         numbers: (0..count).filter_map(number).collect(),
         displacement: displacement::of_cells(&places),
         displacement_cells: places.len(),
-        field: field_of_view(&places),
     }
 }
 

@@ -17,7 +17,7 @@ pub struct Record {
 
 impl Record {
     /// The frames of a track at the nearest multiples of its sampling interval; `None` for fewer than 40 frames. Of two frames at one multiple the first
-    /// is kept. `modes`: 3, or 4 with z4, if it is known.
+    /// is kept. `modes`: those of the model, as far as they are known.
     #[must_use]
     pub fn of(track: &Track, modes: usize) -> Option<Self> {
         let dt = track.interval();
@@ -34,7 +34,7 @@ impl Record {
         Some(Self { dt, frames })
     }
 
-    /// Number of amplitudes: 3, or 4 with z4.
+    /// Number of amplitudes: 2 to 4.
     pub(super) fn modes(&self) -> usize {
         self.frames.iter().flatten().next().map_or(0, |y| y.len() / 2)
     }

@@ -31,7 +31,7 @@ pub(super) fn simulated(
     let control = StepControl::Fixed { step };
     let body = InPlane(model.as_ref());
     let orbit = Orbit::new(&body, &RK4, control, 0.0, &state).ok()?;
-    let [_, eta_v, eta_shape] = fit.natural.logs.map(libm::exp);
+    let [_, eta_v, eta_shape, _] = fit.natural.logs.map(libm::exp);
     let mut noise = Noise::on(model.as_ref(), eta_v, eta_shape, step);
     for (own, variance) in noise.amplitudes.chunks_exact_mut(2).zip(fit.scales.noise_of_modes()) {
         own.iter_mut().for_each(|amplitude| *amplitude *= variance.sqrt());
@@ -78,7 +78,7 @@ fn start(
     let coordinates = coordinates([&y, &end], later.t - first.t, units.0);
     let mut state = vec![0.0; model.dim()];
     model.encode(&coordinates, &mut state);
-    state.extend([y[0] / units.length(), y[1] / units.length()]);
+    state.extend([y[0] / units.0.length(), y[1] / units.0.length()]);
     Some(state)
 }
 
@@ -86,10 +86,6 @@ fn start(
 struct Units<'f>(&'f Scales);
 
 impl Units<'_> {
-    fn length(&self) -> f64 {
-        self.0.amplitudes[0] * self.0.time
-    }
-
     /// What a frame without errors shows of a state.
     fn observed(&self, model: &dyn Model, state: &[f64]) -> Vec<f64> {
         let (shape, position) = state.split_at(model.dim());
@@ -97,16 +93,17 @@ impl Units<'_> {
         model.decode(shape, &mut seen);
         seen[..2].copy_from_slice(&position[..2]);
         for (i, value) in seen.iter_mut().enumerate() {
-            *value *= if i < 2 { self.length() } else { self.0.amplitudes[i / 2] };
+            *value *= if i < 2 { self.0.length() } else { self.0.amplitudes[i / 2] };
         }
         seen
     }
 }
 
-/// The errors of the frames: lower triangles of their covariances, and the factor.
+/// The errors of the frames: lower triangles of their covariances, the factor, and the noise of the centre beside them.
 struct Errors {
     roots: Vec<Option<Vec<Vec<f64>>>>,
     factor: f64,
+    centre: f64,
 }
 
 impl Errors {
@@ -120,7 +117,7 @@ impl Errors {
                 *root = frame.covariance_root(own);
             }
         }
-        Self { roots, factor: fit.noise.s.value }
+        Self { roots, factor: fit.noise.s.value, centre: fit.noise.centre.value }
     }
 
     fn add(&self, place: usize, mut y: Vec<f64>, normal: &mut Normal) -> Vec<f64> {
@@ -128,6 +125,9 @@ impl Errors {
         let deviates: Vec<f64> = y.iter().map(|_| normal.next()).collect();
         for (value, row) in y.iter_mut().zip(root) {
             *value += self.factor * row.iter().zip(&deviates).map(|(l, z)| l * z).sum::<f64>();
+        }
+        if self.centre > 0.0 {
+            y[..2].iter_mut().for_each(|value| *value += self.centre * normal.next());
         }
         y
     }

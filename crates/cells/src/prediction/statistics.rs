@@ -37,7 +37,7 @@ pub enum Kind {
     Velocity,
     /// Autocorrelation of z2.
     SecondMode,
-    /// Autocorrelation of z3.
+    /// Autocorrelation of z3, of models with z3.
     ThirdMode,
     /// Autocorrelation of z4, of models with z4.
     FourthMode,
@@ -49,7 +49,7 @@ pub enum Kind {
     Turning,
     /// Quantiles of |z2| (length).
     SecondSize,
-    /// Quantiles of |z3| (length).
+    /// Quantiles of |z3| (length), of models with z3.
     ThirdSize,
     /// Quantiles of |z4| (length), of models with z4.
     FourthSize,
@@ -138,13 +138,15 @@ impl Asked {
             self.over_lags(Kind::Displacement, |lag| square(record, lag)),
             self.over_lags(Kind::Velocity, |lag| correlation(&moves.0, lag)),
             self.over_lags(Kind::SecondMode, |lag| correlation(&mode(2), lag)),
-            self.over_lags(Kind::ThirdMode, |lag| correlation(&mode(4), lag)),
             self.alignment(&moves, &mode(2)),
             quantiles(Kind::Speed, speeds),
             quantiles(Kind::Turning, moves.turns(self.step)),
             quantiles(Kind::SecondSize, shape(2)),
-            quantiles(Kind::ThirdSize, shape(4)),
         ];
+        if record.modes() > 2 {
+            all.push(self.over_lags(Kind::ThirdMode, |lag| correlation(&mode(4), lag)));
+            all.push(quantiles(Kind::ThirdSize, shape(4)));
+        }
         if record.modes() > 3 {
             all.push(self.over_lags(Kind::FourthMode, |lag| correlation(&mode(6), lag)));
             all.push(quantiles(Kind::FourthSize, shape(6)));

@@ -11,7 +11,7 @@ use std::path::Path;
 /// What is computed in a folder.
 pub(crate) const MANIFEST: &str = "_fit.json";
 /// Raised when the numbers of a fit, or what is stored of it, change.
-const FORMAT: u32 = 5;
+const FORMAT: u32 = 6;
 
 /// One cell of the input.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -127,7 +127,7 @@ impl Manifest {
     }
 }
 
-/// SHA-256 of what a fit is made from.
+/// SHA-256 of what a fit is made from: frames, and the beginnings of pieces.
 pub(crate) fn digest(cell: &CellTrack, modes: usize) -> String {
     let own = 2 * modes;
     let mut bytes = Vec::with_capacity(cell.frames() * 43 * 8);
@@ -136,5 +136,6 @@ pub(crate) fn digest(cell: &CellTrack, modes: usize) -> String {
         let numbers = std::iter::once(&frame.t).chain(frame.y.iter().take(own)).chain(covariance);
         numbers.for_each(|x| bytes.extend_from_slice(&x.to_le_bytes()));
     }
+    cell.breaks.iter().for_each(|&place| bytes.extend_from_slice(&(place as u64).to_le_bytes()));
     sha256_hex(&bytes)
 }

@@ -4,6 +4,7 @@ mod bifurcations;
 mod bodies;
 mod doubts;
 mod every_format;
+mod field;
 mod format_writers;
 mod numbers;
 mod observed;

@@ -24,13 +24,13 @@ fn the_fit_of_a_cell_moves_like_the_cell_and_that_of_another_does_not() {
     let (chaotic, chaotic_fit) = fitted("fig5b", 0.02);
     let (zigzag, zigzag_fit) = fitted("fig5a", 0.02);
     for (cell, fit) in [(&chaotic, &chaotic_fit), (&zigzag, &zigzag_fit)] {
-        let found = predict(cell, fit, COMPANIONS, &()).unwrap();
+        let found = predict(&cell.track, fit, COMPANIONS, &()).unwrap();
         assert_eq!((found.cells, found.lost, found.comparisons.len()), (99, 0, 9));
         assert!(found.count(Agreement::Differs) <= 1, "{:?}", verdicts(&found)); // one of a hundred differs by chance
         assert!(found.count(Agreement::Agrees) >= 7, "{:?}", verdicts(&found));
     }
     for (cell, fit) in [(&chaotic, &zigzag_fit), (&zigzag, &chaotic_fit)] {
-        let found = predict(cell, fit, COMPANIONS, &()).unwrap();
+        let found = predict(&cell.track, fit, COMPANIONS, &()).unwrap();
         assert!(found.is_unstable() || found.count(Agreement::Differs) >= 3, "{:?}", verdicts(&found));
     }
 }
@@ -47,7 +47,7 @@ fn simulated_cells_have_the_noise_of_the_observed_one_in_each_mode() {
         let fit = fit_cell(&cell, &options, &()).unwrap().fitted.unwrap();
         let scales = &fit.model().scales;
         assert!(scales.amplitudes[1] > 2.0 * scales.amplitudes[2], "{:?}", scales.amplitudes);
-        let found = predict(&cell, fit.model(), COMPANIONS, &()).unwrap();
+        let found = predict(&cell.track, fit.model(), COMPANIONS, &()).unwrap();
         assert!(found.count(Agreement::Differs) == 0, "{:?}", verdicts(&found));
         assert!(found.count(Agreement::Agrees) >= 7, "{:?}", verdicts(&found));
     }
@@ -62,15 +62,15 @@ fn the_same_seed_gives_the_same_cells_and_the_watch_stops_the_work() {
         }
     }
     let (cell, fit) = fitted("fig5b", 0.02);
-    let few = |seed| predict(&cell, &fit, Companions { count: 5, seed }, &()).unwrap().shown;
+    let few = |seed| predict(&cell.track, &fit, Companions { count: 5, seed }, &()).unwrap().shown;
     assert_eq!(few(3), few(3));
     assert_ne!(few(3), few(4));
     // at the frames of the cell, gaps included, and from where it starts
     let mut gappy = cell;
     gappy.track.0.remove(10);
-    let shown = predict(&gappy, &fit, Companions { count: 1, seed: 3 }, &()).unwrap().shown;
+    let shown = predict(&gappy.track, &fit, Companions { count: 1, seed: 3 }, &()).unwrap().shown;
     assert!(shown[0].frames[10].is_none() && shown[0].frames.len() == gappy.track.0.len() + 1);
     let start = shown[0].frames[0].as_ref().unwrap();
     assert!((0..6).all(|k| (start[k] - gappy.track.0[0].y[k]).abs() < 0.1), "{start:?}");
-    assert!(predict(&gappy, &fit, COMPANIONS, &Stop).is_none());
+    assert!(predict(&gappy.track, &fit, COMPANIONS, &Stop).is_none());
 }

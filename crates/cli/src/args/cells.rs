@@ -2,6 +2,7 @@
 
 use super::number;
 use clap::Args;
+use motiform_cells::Correction;
 use motiform_tracks::Format;
 use std::path::PathBuf;
 
@@ -29,6 +30,10 @@ pub(crate) struct CellsOptions {
     /// A column of the table by its header (repeatable): cell, frame, i, x, y or wkt, e.g. --column frame=t
     #[arg(long = "column", value_name = "NAME=HEADER", value_parser = column)]
     pub(crate) columns: Vec<(String, String)>,
+    /// Subtract motions of the stage, found in all cells together: drift, jumps, jitter (separated by commas). `fit` also subtracts a
+    /// drift that one cell alone shows
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub(crate) correct: Vec<Correction>,
     /// Only these cells (repeatable)
     #[arg(long, value_name = "NAME")]
     pub(crate) cell: Vec<String>,
@@ -73,8 +78,9 @@ pub(crate) struct FitCellsOptions {
     /// Highest order of the terms: 3 (22 terms, those of the paper), 4 or 5 (91 terms)
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(3..=5))]
     pub(crate) order: u32,
-    /// Amplitudes of the model: 3 (velocity, z2, z3), or 4 with z4, the square mode of the outline (45 terms of order 3)
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(3..=4))]
+    /// Amplitudes of the model: 3 (velocity, z2, z3; without z3 where it does not exceed its errors), 2, or 4 with z4, the
+    /// square mode of the outline (45 terms of order 3)
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(2..=4))]
     pub(crate) modes: u32,
     /// Models drawn from the estimate, whose motions decide the name
     #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u32).range(1..=100_000))]

@@ -7,8 +7,8 @@ use crate::commands::population::fitted;
 use crate::output::{End, print, warn};
 use crate::progress::Progress;
 use motiform_cells::{
-    Agreement, CellFit, CellTrack, FitOptions, FitWork, Fitted, Observation, Prediction, Sample, Units,
-    fit_cells, fit_together, fits_json, fitted_population, observe,
+    Agreement, CellFit, CellTrack, Correction, FitOptions, FitWork, Fitted, Observation, Prediction, Sample,
+    Units, fit_cells, fit_together, fits_json, fitted_population, observe,
 };
 use motiform_files::Opening;
 use motiform_inference::{Place, Placement, Symmetry};
@@ -73,6 +73,7 @@ fn settings(options: &FitCellsOptions) -> FitOptions {
         simulations: options.simulations as usize,
         bifurcations: options.bifurcations,
         together: options.together,
+        stage: options.cells.correct.contains(&Correction::Drift),
         ..FitOptions::default()
     }
 }
@@ -200,6 +201,20 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
         text,
         "noise          velocity {velocity} {length}/{time}^1.5, shape {shape} {length}/{time}^0.5"
     )?;
+    if noise.is_of_centre() {
+        let centre = with_error(noise.centre.value, noise.centre.error);
+        writeln!(
+            text,
+            "centre         {centre} {length} in each coordinate, beside the errors of the contour: outlines move as a whole"
+        )?;
+    }
+    for [x, y] in &fitted.stage {
+        let [x, y] = [*x, *y].map(four_digits);
+        writeln!(
+            text,
+            "stage          a velocity of ({x}, {y}) {length}/{time} that does not turn with the cell is subtracted"
+        )?;
+    }
     if fitted.known_of_all.equations.iter().any(|of| of.fixed() < of.combinations.len()) {
         for equation in &fitted.known_of_all.equations {
             writeln!(text, "equation of z{}  {} (of all terms)", equation.equation + 1, equation.text)?;

@@ -160,10 +160,15 @@ pub(crate) fn quality(cell: Option<&CellTrack>, frames: usize) -> anyhow::Result
     Ok(text)
 }
 
-/// The first lines: how much was read, and in which units.
+/// The first lines: how much was read, in which units, and what the field of view adds.
 pub(crate) fn head(sample: &Sample) -> String {
     let tracks = &sample.tracks;
-    format!("{}; lengths in {}, times in {}\n", tracks.size(), tracks.length_unit, tracks.time_unit)
+    let mut text =
+        format!("{}; lengths in {}, times in {}\n", tracks.size(), tracks.length_unit, tracks.time_unit);
+    for (name, words) in sample.field.in_words(&Units::of(sample)) {
+        text += &format!("{name:<15}{words}\n");
+    }
+    text
 }
 
 /// The cells of the files; notes about them are warnings.
@@ -177,8 +182,9 @@ pub(crate) fn read(options: &CellsOptions) -> anyhow::Result<Sample> {
         columns: Columns::named(&options.columns),
         ..Options::default()
     };
-    let sample = Sample::read(&options.files, &settings, &ModeOptions::default()).map_err(plain_error)?;
-    let sample = chosen(sample, options)?;
+    let modes = ModeOptions::default();
+    let sample = Sample::read(&options.files, &settings, &modes).map_err(plain_error)?;
+    let sample = chosen(sample.corrected(&options.correct, &modes), options)?;
     notes(&sample);
     Ok(sample)
 }

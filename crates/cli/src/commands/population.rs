@@ -1,7 +1,7 @@
 //! Populations of cells, as text.
 
 use motiform_cells::{FittedPopulation, NameShare, ObservedPopulation, OverCells, PopulationNumbers, Units};
-use motiform_statistics::{four_digits, with_error};
+use motiform_statistics::four_digits;
 use std::fmt::{Result, Write};
 
 /// Shares of names and numbers of observed cells.
@@ -15,24 +15,6 @@ pub(crate) fn observed(
     for number in &numbers.numbers {
         line(&mut text, number.name, &number.over, &number.dimension.unit(units))?;
     }
-    if let Some(field) = &numbers.field {
-        let [x, y] = [0, 1].map(|k| with_error(field.velocity[k], field.velocity_error[k]));
-        let drifts = if field.drifts() {
-            ": the cells drift together (stage, flow, or a common direction)"
-        } else {
-            ""
-        };
-        writeln!(
-            text,
-            "  {:<16} ({x}, {y}) {}, p = {:.1e}{drifts}",
-            "common velocity",
-            units.speed(),
-            field.p_value
-        )?;
-        if let Some(jitter) = field.jitter {
-            writeln!(text, "  {:<16} {} {}", "common jitter", four_digits(jitter), units.length)?;
-        }
-    }
     Ok(text)
 }
 
@@ -44,10 +26,15 @@ pub(crate) fn fitted(
     let mut text = format!("population     {} cells\n", population.cells);
     shares(&mut text, &population.regimes)?;
     if population.fitted == 0 {
-        text += "               no fit with all terms converged with bounded coefficients\n";
+        text += "               no coefficients: no fit with all terms that converged with bounded coefficients has a motion\n";
         return Ok(text);
     }
-    writeln!(text, "               coefficients of fits with all terms, over {} cells:", population.fitted)?;
+    let law = population.law.unwrap_or_default();
+    writeln!(
+        text,
+        "               coefficients of fits with all terms, over {} cells ({law}):",
+        population.fitted
+    )?;
     for coefficient in &population.coefficients {
         line(&mut text, &coefficient.term, &coefficient.over, "")?;
     }

@@ -33,6 +33,23 @@ impl<const SHAPE: usize> Seen<SHAPE> {
     }
 }
 
+/// What errors of observation are beside the stated covariances.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ErrorsOfFrames {
+    /// `s^2`, which multiplies them.
+    pub(crate) s2: f64,
+    /// Variance of each coordinate of the centre that is added.
+    pub(crate) centre: f64,
+}
+
+impl ErrorsOfFrames {
+    #[inline(always)]
+    fn between<const SHAPE: usize>(self, frame: &Seen<SHAPE>, i: usize, j: usize) -> f64 {
+        let own = if i == j && i < 2 { self.centre } else { 0.0 };
+        self.s2 * frame.covariance[i][j] + own
+    }
+}
+
 /// A stage of a Runge-Kutta step: the covariance and the field there.
 #[derive(Clone, Debug)]
 pub(crate) struct Stage<const SHAPE: usize, const STATE: usize> {
@@ -76,18 +93,18 @@ pub(crate) struct Law<'a, const SHAPE: usize, const STATE: usize> {
 
 /// Where the filter begins: the first frame, and a velocity from the first two with generous errors.
 ///
-/// The covariance of the observed entries is `s^2 R`: its derivative by `ln s` is twice that.
+/// The covariance of the observed entries is `s^2 R`, that of the centre with its own noise.
 pub(crate) fn start<const SHAPE: usize, const STATE: usize>(
     first: &Seen<SHAPE>,
     second: &Seen<SHAPE>,
-    s2: f64,
+    noise: ErrorsOfFrames,
 ) -> State<STATE> {
     let dt = second.t - first.t;
     let mut state = State { m: [0.0; STATE], p: [[0.0; STATE]; STATE] };
     for i in 0..SHAPE {
         state.m[seen(i)] = first.y[i];
         for j in 0..SHAPE {
-            state.p[seen(i)][seen(j)] = s2 * first.covariance[i][j];
+            state.p[seen(i)][seen(j)] = noise.between(first, i, j);
         }
     }
     for i in 0..2 {
@@ -241,8 +258,10 @@ pub(crate) struct Correction<const SHAPE: usize, const STATE: usize> {
     pub(crate) weighted: [f64; SHAPE],
     /// `K`.
     pub(crate) gain: [[f64; SHAPE]; STATE],
-    /// `s^2 R`.
+    /// `N`: `s^2 R` with the centre's own noise.
     pub(crate) noise: [[f64; SHAPE]; SHAPE],
+    /// Variance of the centre's own noise.
+    pub(crate) centre: f64,
     /// `-(nu^T S^-1 nu + ln det S + N ln 2 pi)/2`.
     pub(crate) value: f64,
 }
@@ -251,13 +270,14 @@ pub(crate) struct Correction<const SHAPE: usize, const STATE: usize> {
 pub(crate) fn correct<const SHAPE: usize, const STATE: usize>(
     state: &mut State<STATE>,
     frame: &Seen<SHAPE>,
-    s2: f64,
+    noise: ErrorsOfFrames,
 ) -> Option<Correction<SHAPE, STATE>> {
-    let noise = frame.covariance.map(|row| row.map(|x| s2 * x));
-    let mut s = noise;
+    let mut errors = [[0.0; SHAPE]; SHAPE];
+    let mut s = errors;
     for i in 0..SHAPE {
         for j in 0..SHAPE {
-            s[i][j] += state.p[seen(i)][seen(j)];
+            errors[i][j] = noise.between(frame, i, j);
+            s[i][j] = errors[i][j] + state.p[seen(i)][seen(j)];
         }
     }
     let l = cholesky(&s)?;
@@ -270,7 +290,8 @@ pub(crate) fn correct<const SHAPE: usize, const STATE: usize>(
     let squares: f64 = standardised.iter().map(|e| e * e).sum();
     let determinant: f64 = (0..SHAPE).map(|i| 2.0 * libm::log(l[i][i])).sum();
     let value = -0.5 * (squares + determinant + SHAPE as f64 * libm::log(std::f64::consts::TAU));
-    let correction = Correction { whiten, standardised, weighted, gain, noise, value };
+    let correction =
+        Correction { whiten, standardised, weighted, gain, noise: errors, centre: noise.centre, value };
     correction.apply(state, &nu);
     Some(correction)
 }

@@ -3,19 +3,21 @@
 use super::base::{Correction, Stage, State};
 use super::correct::{self, marks_of};
 use super::evaluate::Want;
-use super::problem::Problem;
+use super::problem::{NOISES, Problem};
 use super::seen;
 use super::sums::Sums;
 use super::tangent::{self, Forcing, Scratch, Tangent, depth, forcing_of};
 use motiform_dynamics::Bundle;
 
-/// Blocks of coefficients, then those of `ln s`, `ln eta_v` and `ln eta_shape`.
+/// Blocks of coefficients, then those of the noise ([`super::Theta`]).
 pub(crate) struct Blocks<B, const SHAPE: usize, const STATE: usize> {
     tangents: Vec<Tangent<B, STATE>>,
     /// Derivatives of the process noise, for each block.
     q: Vec<[B; STATE]>,
     /// Derivative of `ln s^2`, for each block.
     s: Vec<B>,
+    /// Derivative of the variance of the centre's own noise, for each block.
+    centre: Vec<B>,
     /// Forcing of each stage and block.
     forcing: Vec<f64>,
     /// Rows of the equations that the coefficients of each block are in.
@@ -30,25 +32,29 @@ impl<B: Bundle, const SHAPE: usize, const STATE: usize> Blocks<B, SHAPE, STATE> 
     const FORCING: usize = forcing_of(SHAPE);
 
     #[inline(always)]
-    pub(crate) fn new(problem: &Problem, wanted: bool, q: &[f64; STATE]) -> Self {
+    pub(crate) fn new(problem: &Problem, wanted: bool, q: &[f64; STATE], by_centre: f64) -> Self {
         let coefficients = if wanted { problem.parts.len() } else { 0 };
         let first_noise = coefficients.div_ceil(B::LANES);
-        let noise = if wanted { 3_usize.div_ceil(B::LANES) } else { 0 };
+        let noise = if wanted { NOISES.div_ceil(B::LANES) } else { 0 };
         let (blocks, zero) = (first_noise + noise, B::splat(0.0));
         let mut made = Self {
             tangents: vec![Tangent::zero(); blocks],
             q: vec![[zero; STATE]; blocks],
             s: vec![zero; blocks],
+            centre: vec![zero; blocks],
             forcing: vec![0.0; 4 * blocks * Self::FORCING * B::LANES],
             rows: (0..blocks).map(|block| rows(problem, block * B::LANES, B::LANES)).collect(),
             scratch: Scratch::new(),
             coefficients,
             first_noise,
         };
-        for parameter in 0..if wanted { 3 } else { 0 } {
+        for parameter in 0..if wanted { NOISES } else { 0 } {
             let (block, lane) = (first_noise + parameter / B::LANES, parameter % B::LANES);
             if parameter == 0 {
                 made.s[block] = made.s[block].with_lane(lane, 2.0);
+            }
+            if parameter == 3 {
+                made.centre[block] = made.centre[block].with_lane(lane, by_centre);
             }
             for i in 2..STATE {
                 if (parameter == 1 && i < 4) || (parameter == 2 && i >= 4) {
@@ -64,15 +70,19 @@ impl<B: Bundle, const SHAPE: usize, const STATE: usize> Blocks<B, SHAPE, STATE> 
         self.tangents.len()
     }
 
-    /// Derivatives at the first frame: the covariance of what is observed is proportional to `s^2`.
+    /// Derivatives at the first frame: the covariance of what is observed is `s^2 R`, and that of the centre's own noise.
     #[inline(always)]
-    pub(crate) fn start(&mut self, state: &State<STATE>) {
+    pub(crate) fn start(&mut self, state: &State<STATE>, centre: f64) {
         for block in 0..self.len() {
             self.tangents[block] = Tangent::zero();
             for i in (0..SHAPE).map(seen) {
                 for j in (0..SHAPE).map(seen) {
                     self.tangents[block].p[i][j] = self.s[block] * B::splat(state.p[i][j]);
                 }
+            }
+            let own = self.centre[block] - self.s[block] * B::splat(centre);
+            for i in 0..2 {
+                self.tangents[block].p[i][i] += own;
             }
         }
     }
@@ -150,10 +160,11 @@ impl<B: Bundle, const SHAPE: usize, const STATE: usize> Blocks<B, SHAPE, STATE> 
     pub(crate) fn correct(&mut self, correction: &Correction<SHAPE, STATE>, want: Want, sums: &mut Sums<B>) {
         for block in 0..self.len() {
             let tangent = &mut self.tangents[block];
+            let errors = correct::Errors { s: self.s[block], centre: self.centre[block] };
             let found = if want == Want::Exact || block >= self.first_noise {
-                correct::correct::<B, SHAPE, STATE, true>(tangent, correction, self.s[block])
+                correct::correct::<B, SHAPE, STATE, true>(tangent, correction, errors)
             } else {
-                correct::correct::<B, SHAPE, STATE, false>(tangent, correction, self.s[block])
+                correct::correct::<B, SHAPE, STATE, false>(tangent, correction, errors)
             };
             sums.note(block, &found);
         }
@@ -162,8 +173,8 @@ impl<B: Bundle, const SHAPE: usize, const STATE: usize> Blocks<B, SHAPE, STATE> 
     /// Where each parameter is among the padded ones.
     pub(crate) fn places(&self) -> Vec<usize> {
         let noise = self.first_noise * B::LANES;
-        let three = if self.len() == 0 { 0 } else { 3 };
-        (0..self.coefficients).chain(noise..noise + three).collect()
+        let noises = if self.len() == 0 { 0 } else { NOISES };
+        (0..self.coefficients).chain(noise..noise + noises).collect()
     }
 
     /// A vector over the padded parameters without the padding.

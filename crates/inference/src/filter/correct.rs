@@ -1,10 +1,11 @@
 //! Derivatives of a frame's likelihood and of the state after it, by a block of parameters.
 //!
 //! ```text
-//! dnu = -H dm,   dS = H dP H^T + d(s^2) R,   e = L^-1 dnu,   G = L^-1 dS L^-T,   w = S^-1 nu
+//! dN = d(s^2) R + dc diag(1, 1, 0, ..)
+//! dnu = -H dm,   dS = H dP H^T + dN,   e = L^-1 dnu,   G = L^-1 dS L^-T,   w = S^-1 nu
 //! dl  = -w^T dnu + w^T dS w/2 - tr G/2
-//! dm <- (I - K H)(dm + dP H^T w) - K d(s^2) R w
-//! dP <- (I - K H) dP (I - K H)^T + K d(s^2) R K^T       (the gain is the best one, so its change has no first-order effect)
+//! dm <- (I - K H)(dm + dP H^T w) - K dN w
+//! dP <- (I - K H) dP (I - K H)^T + K dN K^T       (the gain is the best one, so its change has no first-order effect)
 //! expected information of two parameters: e . e' + tr(G G')/2
 //! ```
 
@@ -36,6 +37,15 @@ impl<B: Bundle, const SHAPE: usize> Marks<B, SHAPE> {
     }
 }
 
+/// Derivatives of the errors of observation by a block of parameters.
+#[derive(Clone, Copy)]
+pub(crate) struct Errors<B> {
+    /// Of `ln s^2`.
+    pub(crate) s: B,
+    /// Of the variance `c` of the centre's own noise.
+    pub(crate) centre: B,
+}
+
 type Square<B, const SHAPE: usize> = [[B; SHAPE]; SHAPE];
 
 /// `dS`.
@@ -43,14 +53,18 @@ type Square<B, const SHAPE: usize> = [[B; SHAPE]; SHAPE];
 fn innovation_covariance<B: Bundle, const SHAPE: usize, const STATE: usize>(
     tangent: &Tangent<B, STATE>,
     correction: &Correction<SHAPE, STATE>,
-    s: B,
+    errors: Errors<B>,
 ) -> Square<B, SHAPE> {
     let mut ds = [[B::splat(0.0); SHAPE]; SHAPE];
     for i in 0..SHAPE {
         for j in 0..SHAPE {
-            ds[i][j] = tangent.between(seen(i), seen(j)) + s * B::splat(correction.noise[i][j]);
+            ds[i][j] = tangent.between(seen(i), seen(j)) + errors.s * B::splat(correction.noise[i][j]);
         }
     }
+    // the noise holds c, which s does not multiply
+    let own = errors.centre - errors.s * B::splat(correction.centre);
+    ds[0][0] += own;
+    ds[1][1] += own;
     ds
 }
 
@@ -99,7 +113,7 @@ fn marks<B: Bundle, const SHAPE: usize, const STATE: usize>(
 fn mean<B: Bundle, const SHAPE: usize, const STATE: usize, const FULL: bool>(
     tangent: &mut Tangent<B, STATE>,
     correction: &Correction<SHAPE, STATE>,
-    s: B,
+    errors: Errors<B>,
 ) {
     let w = &correction.weighted;
     let mut moved = tangent.m;
@@ -114,8 +128,11 @@ fn mean<B: Bundle, const SHAPE: usize, const STATE: usize, const FULL: bool>(
         for k in 0..SHAPE {
             by_w += correction.noise[j][k] * w[k];
         }
-        shown[j] = s * B::splat(by_w);
+        shown[j] = errors.s * B::splat(by_w);
     }
+    let own = errors.centre - errors.s * B::splat(correction.centre);
+    shown[0] += own * B::splat(w[0]);
+    shown[1] += own * B::splat(w[1]);
     for j in 0..SHAPE {
         shown[j] += moved[seen(j)];
     }
@@ -129,7 +146,7 @@ fn mean<B: Bundle, const SHAPE: usize, const STATE: usize, const FULL: bool>(
 
 /// The derivatives of the covariance after a frame.
 ///
-/// With `X = dP H^T` and `D = H dP H^T + d(s^2) R`:  dP - K X^T - X K^T + K D K^T = dP - Y K^T - K X^T,  Y = X - K D.
+/// With `X = dP H^T` and `D = H dP H^T + dN`:  dP - K X^T - X K^T + K D K^T = dP - Y K^T - K X^T,  Y = X - K D.
 #[inline(always)]
 fn covariance<B: Bundle, const SHAPE: usize, const STATE: usize>(
     tangent: &mut Tangent<B, STATE>,
@@ -173,21 +190,21 @@ fn marks_of_mean<B: Bundle, const SHAPE: usize, const STATE: usize>(
     found
 }
 
-/// Takes a frame in; `s` is the derivative of `ln s^2` by each parameter. Without `FULL` the covariances are taken as fixed.
+/// Takes a frame in. Without `FULL` the covariances are taken as fixed.
 #[inline(always)]
 pub(crate) fn correct<B: Bundle, const SHAPE: usize, const STATE: usize, const FULL: bool>(
     tangent: &mut Tangent<B, STATE>,
     correction: &Correction<SHAPE, STATE>,
-    s: B,
+    errors: Errors<B>,
 ) -> Marks<B, SHAPE> {
-    B::apart(Correct::<B, SHAPE, STATE, FULL> { tangent, correction, s })
+    B::apart(Correct::<B, SHAPE, STATE, FULL> { tangent, correction, errors })
 }
 
 /// See [`correct`]: a function of its own, compiled once.
 struct Correct<'c, B, const SHAPE: usize, const STATE: usize, const FULL: bool> {
     tangent: &'c mut Tangent<B, STATE>,
     correction: &'c Correction<SHAPE, STATE>,
-    s: B,
+    errors: Errors<B>,
 }
 
 impl<B: Bundle, const SHAPE: usize, const STATE: usize, const FULL: bool> Kernel
@@ -197,15 +214,15 @@ impl<B: Bundle, const SHAPE: usize, const STATE: usize, const FULL: bool> Kernel
 
     #[inline(always)]
     fn run(self) -> Marks<B, SHAPE> {
-        let Self { tangent, correction, s } = self;
+        let Self { tangent, correction, errors } = self;
         if !FULL {
             let found = marks_of_mean(tangent, correction);
-            mean::<B, SHAPE, STATE, FULL>(tangent, correction, s);
+            mean::<B, SHAPE, STATE, FULL>(tangent, correction, errors);
             return found;
         }
-        let ds = innovation_covariance(tangent, correction, s);
+        let ds = innovation_covariance(tangent, correction, errors);
         let found = marks(tangent, correction, &ds);
-        mean::<B, SHAPE, STATE, FULL>(tangent, correction, s);
+        mean::<B, SHAPE, STATE, FULL>(tangent, correction, errors);
         covariance(tangent, correction, &ds);
         found
     }

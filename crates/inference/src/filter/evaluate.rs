@@ -1,7 +1,7 @@
 //! The likelihood of all frames, and what it says about the parameters.
 
 use super::LONGEST_STEP;
-use super::base::{self, Correction, Law, Seen, Stage, State};
+use super::base::{self, Correction, ErrorsOfFrames, Law, Seen, Stage, State};
 use super::blocks::Blocks;
 use super::problem::{Frame, Problem, Theta};
 use super::sums::Sums;
@@ -43,6 +43,7 @@ pub(crate) struct Evaluation {
 pub(crate) fn evaluate(problem: &Problem, theta: &Theta, want: Want, keep: bool) -> Evaluation {
     let work = Work { problem, theta, want, keep };
     match problem.modes() {
+        2 => run_lanes(Kernel::<4, 6>(work)),
         4 => run_lanes(Kernel::<8, 10>(work)),
         _ => run_lanes(Kernel::<6, 8>(work)),
     }
@@ -78,8 +79,7 @@ impl<const SHAPE: usize, const STATE: usize> LaneKernel for Kernel<'_, SHAPE, ST
 struct Run<'a, B, const SHAPE: usize, const STATE: usize> {
     work: &'a Work<'a>,
     law: Law<'a, SHAPE, STATE>,
-    /// `s^2`.
-    s2: f64,
+    noise: ErrorsOfFrames,
     stages: [Stage<SHAPE, STATE>; 4],
     blocks: Blocks<B, SHAPE, STATE>,
     sums: Sums<B>,
@@ -115,11 +115,12 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
         let second = work.want == Want::Exact;
         let stage = Stage::new(&problem.field);
         let law = Law { field: &problem.field, c, q: problem.process(work.theta), second };
-        let blocks = Blocks::new(problem, wanted, &law.q);
+        let [centre, by_centre] = problem.own_noise(work.theta);
+        let blocks = Blocks::new(problem, wanted, &law.q, by_centre);
         Self {
             work,
             law,
-            s2: libm::exp(2.0 * work.theta.logs[0]),
+            noise: ErrorsOfFrames { s2: libm::exp(2.0 * work.theta.logs[0]), centre },
             stages: [stage.clone(), stage.clone(), stage.clone(), stage],
             sums: Sums::new::<SHAPE>(blocks.counts(work.want)),
             blocks,
@@ -135,8 +136,8 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
     #[inline(always)]
     fn stretch(&mut self, frames: &[Frame]) -> bool {
         let [first, second] = [0, 1].map(|i| Seen::of(&frames[i]));
-        let mut state = base::start::<SHAPE, STATE>(&first, &second, self.s2);
-        self.blocks.start(&state);
+        let mut state = base::start::<SHAPE, STATE>(&first, &second, self.noise);
+        self.blocks.start(&state, self.noise.centre);
         self.innovations.push(Vec::new());
         self.scores.push(Vec::new());
         for pair in 0..frames.len() - 1 {
@@ -162,7 +163,7 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
                     self.vaguest = (state.p[i][i], frames[pair + 1].t);
                 }
             }
-            let Some(correction) = base::correct(&mut state, &Seen::of(&frames[pair + 1]), self.s2) else {
+            let Some(correction) = base::correct(&mut state, &Seen::of(&frames[pair + 1]), self.noise) else {
                 return false;
             };
             self.take(&correction);

@@ -4,6 +4,12 @@ use super::{LONGEST_GAP, LONGEST_STRIDE};
 use crate::field::{Field, Part};
 use motiform_dynamics::Complex;
 
+/// Parameters of the noise: see [`Theta::logs`].
+pub(crate) const NOISES: usize = 4;
+
+/// The least logarithm of the centre's own noise: there it is 0.
+pub(crate) const NO_CENTRE_NOISE: f64 = -std::f64::consts::LN_10;
+
 /// A frame in natural units: what is observed of the modes that are fitted.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
@@ -24,6 +30,8 @@ pub(crate) struct Problem {
     pub(crate) stretches: Vec<Vec<Frame>>,
     /// Variances of the process noise of `z1, z2, ..` for amplitudes 1, in natural units.
     pub(crate) noise: Vec<f64>,
+    /// Mean variance of a coordinate of the centre, as stated, in natural units: the unit of the centre's own noise.
+    pub(crate) centre: f64,
 }
 
 /// Values of the parameters.
@@ -31,8 +39,8 @@ pub(crate) struct Problem {
 pub(crate) struct Theta {
     /// In the order of [`Problem::parts`], natural units.
     pub(crate) coefficients: Vec<f64>,
-    /// Logarithms of `s`, `eta_v`, `eta_shape`.
-    pub(crate) logs: [f64; 3],
+    /// Logarithms of `s`, `eta_v`, `eta_shape`, and `l` of the centre's own noise ([`Problem::own_noise`]).
+    pub(crate) logs: [f64; NOISES],
 }
 
 impl Theta {
@@ -47,7 +55,7 @@ impl Theta {
 impl Problem {
     /// Number of parameters.
     pub(crate) fn len(&self) -> usize {
-        self.parts.len() + 3
+        self.parts.len() + NOISES
     }
 
     /// Number of frames that have a likelihood: all but the first of each stretch.
@@ -79,12 +87,26 @@ impl Problem {
 
     /// Variances of the process noise, per natural time, of the entries of the state.
     pub(crate) fn process<const STATE: usize>(&self, theta: &Theta) -> [f64; STATE] {
-        let [_, v, shape] = theta.logs.map(|log| libm::exp(2.0 * log));
+        let [_, v, shape, _] = theta.logs.map(|log| libm::exp(2.0 * log));
         std::array::from_fn(|i| match i {
             0 | 1 => 0.0,
             2 | 3 => self.noise[0] * v,
             _ => self.noise[i / 2 - 1] * shape,
         })
+    }
+
+    /// Variance of a coordinate's error that all outlines of a frame may have beside that of the contour, and its derivative by `l`:
+    ///
+    /// `c (exp(2 l) - exp(2 l0))` with the stated variance `c` and the least `l0`, where it is 0: cells without such noise are fitted as if it were not there.
+    pub(crate) fn own_noise(&self, theta: &Theta) -> [f64; 2] {
+        let square = libm::exp(2.0 * theta.logs[3]);
+        let least = libm::exp(2.0 * NO_CENTRE_NOISE);
+        [self.centre * (square - least).max(0.0), 2.0 * self.centre * square]
+    }
+
+    /// The `l` of a standard deviation of the centre's own noise, in natural units.
+    pub(crate) fn log_of_own_noise(&self, deviation: f64) -> f64 {
+        0.5 * libm::log(deviation * deviation / self.centre + libm::exp(2.0 * NO_CENTRE_NOISE))
     }
 
     /// The longest gap that the filter goes on through, where frames usually follow each other after `usual`.

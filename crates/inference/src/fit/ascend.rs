@@ -15,7 +15,7 @@
 
 use super::optimise::{Ending, Point, held, moved, objective};
 use super::trust::Model;
-use crate::filter::{Evaluation, Problem, Theta, Want};
+use crate::filter::{Evaluation, NOISES, Problem, Theta, Want};
 use motiform_dynamics::Watch;
 use nalgebra::{DMatrix, DVector};
 
@@ -88,7 +88,7 @@ struct Climb<'a> {
 fn difference(to: &Theta, from: &Theta) -> DVector<f64> {
     let coefficients = to.coefficients.iter().zip(&from.coefficients).map(|(b, a)| b - a);
     let logs = to.logs.iter().zip(&from.logs).map(|(b, a)| b - a);
-    DVector::from_iterator(from.coefficients.len() + 3, coefficients.chain(logs))
+    DVector::from_iterator(from.coefficients.len() + NOISES, coefficients.chain(logs))
 }
 
 impl Climb<'_> {

@@ -1,7 +1,7 @@
 //! The likelihood at given values, in the units of the data.
 
 use super::{Settings, setup};
-use crate::filter::{Problem, Theta, Want, evaluate};
+use crate::filter::{NOISES, Problem, Theta, Want, evaluate};
 use crate::{Error, Result, Scales, Track};
 use serde::{Deserialize, Serialize};
 
@@ -16,9 +16,12 @@ pub struct Parameters {
     pub eta_v: f64,
     /// Process noise of the shape, above 0 (unit of the modes / sqrt(time)).
     pub eta_shape: f64,
+    /// Standard deviation of each coordinate of the centre beside the error of its contour, 0 or more (length): a jitter of the images.
+    pub centre: f64,
 }
 
-/// The log-likelihood with its derivatives by the coefficients, `ln s`, `ln eta_v`, `ln eta_shape`.
+/// The log-likelihood with its derivatives by the coefficients, `ln s`, `ln eta_v`, `ln eta_shape`, and `l = ln sqrt(centre^2/c + 0.01)`, c the mean of the stated variances
+/// of a coordinate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Likelihood {
     /// Log-likelihood of all frames but the first of each stretch; `None` where the filter diverges.
@@ -50,9 +53,13 @@ pub(super) fn natural(
     if let Some(&(key, value)) = positive.iter().find(|(_, value)| !(*value > 0.0 && value.is_finite())) {
         return Err(Error::Setting { key, value, remedy: "give a number above 0" });
     }
+    if !(at.centre >= 0.0 && at.centre.is_finite()) {
+        return Err(Error::Setting { key: "centre", value: at.centre, remedy: "give 0 or more" });
+    }
+    let [s, eta_v, eta_shape] = [at.s, at.eta_v / noise[0], at.eta_shape / noise[1]].map(libm::log);
     Ok(Theta {
         coefficients: at.coefficients.iter().zip(units).map(|(c, unit)| c / unit).collect(),
-        logs: [at.s, at.eta_v / noise[0], at.eta_shape / noise[1]].map(libm::log),
+        logs: [s, eta_v, eta_shape, problem.log_of_own_noise(at.centre / scales.length())],
     })
 }
 
@@ -72,7 +79,7 @@ pub fn likelihood(tracks: &[Track], settings: &Settings, at: &Parameters) -> Res
     let theta = natural(&problem, settings, &scales, at)?;
     let found = evaluate(&problem, &theta, Want::Exact, false);
     let mut units = units(&problem, settings, &scales);
-    units.extend([1.0; 3]);
+    units.extend([1.0; NOISES]);
     let n = units.len();
     let frames = problem.frames() as f64;
     Ok(Likelihood {

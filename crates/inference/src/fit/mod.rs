@@ -12,7 +12,7 @@ pub use likelihood::{Likelihood, Parameters, likelihood};
 pub use optimise::Ending;
 pub use result::{Coefficient, Estimate, Fit, Natural, Noise};
 
-use crate::filter::{Problem, Theta};
+use crate::filter::{NO_CENTRE_NOISE, Problem, Theta};
 use crate::{Error, Library, Result, Scales, Track};
 use ascend::polish;
 use motiform_dynamics::Watch;
@@ -26,7 +26,7 @@ const LONG: usize = 400;
 /// What is fitted, and how.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// The terms, of three or four modes.
+    /// The terms, of two to four modes.
     pub library: Library,
     /// Whether coefficients are complex: the motion and its mirror image may differ.
     pub handed: bool,
@@ -106,7 +106,7 @@ fn finished(
 
 fn zero(problem: &Problem, noise: f64) -> Theta {
     let log = libm::log(noise);
-    Theta { coefficients: vec![0.0; problem.parts.len()], logs: [0.0, log, log] }
+    Theta { coefficients: vec![0.0; problem.parts.len()], logs: [0.0, log, log, NO_CENTRE_NOISE] }
 }
 
 fn starts(tracks: &[Track], settings: &Settings, scales: &Scales) -> Vec<f64> {

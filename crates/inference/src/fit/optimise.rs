@@ -1,12 +1,12 @@
 //! First steps: Fisher scoring with the damping of Levenberg and Marquardt, covariances taken as fixed.
 
-use crate::filter::{Evaluation, Problem, Theta, Want, evaluate};
+use crate::filter::{Evaluation, NO_CENTRE_NOISE, NOISES, Problem, Theta, Want, evaluate};
 use motiform_dynamics::Watch;
 use nalgebra::{Cholesky, DVector};
 use serde::{Deserialize, Serialize};
 
-/// Bounds of `ln s`, `ln eta_v` and `ln eta_shape` in natural units.
-const BOUNDS: [[f64; 2]; 3] = [[-4.6, 4.6], [-9.2, 2.3], [-9.2, 2.3]];
+/// Bounds of `ln s`, `ln eta_v` and `ln eta_shape` in natural units, and of the logarithm of the centre's own noise.
+const BOUNDS: [[f64; 2]; NOISES] = [[-4.6, 4.6], [-9.2, 2.3], [-9.2, 2.3], [NO_CENTRE_NOISE, 20.0]];
 /// Standard deviation of a prior about 0 for coefficients in natural units, where they are of order 1. Without it a search runs away along
 /// combinations that the motion does not fix; a combination with a standard error of 0.4 is moved by 0.2 %.
 pub(crate) const PRIOR: f64 = 10.0;
@@ -63,8 +63,8 @@ fn step(at: &Evaluation, held: &[bool], damping: f64) -> Option<(Vec<f64>, f64)>
 
 pub(super) fn held(theta: &Theta, gradient: &DVector<f64>) -> Vec<bool> {
     let n = theta.coefficients.len();
-    let mut held = vec![false; n + 3];
-    for i in 0..3 {
+    let mut held = vec![false; n + NOISES];
+    for i in 0..NOISES {
         let (value, push) = (theta.logs[i], gradient[n + i]);
         held[n + i] = (value <= BOUNDS[i][0] && push < 0.0) || (value >= BOUNDS[i][1] && push > 0.0);
     }
@@ -72,7 +72,7 @@ pub(super) fn held(theta: &Theta, gradient: &DVector<f64>) -> Vec<bool> {
 }
 
 /// The noise parameters at a bound.
-pub(crate) fn at_bounds(theta: &Theta) -> [bool; 3] {
+pub(crate) fn at_bounds(theta: &Theta) -> [bool; NOISES] {
     std::array::from_fn(|i| theta.logs[i] <= BOUNDS[i][0] || theta.logs[i] >= BOUNDS[i][1])
 }
 

@@ -2,7 +2,7 @@
 
 use super::optimise::{Ending, Point, at_bounds, prior};
 use super::{Settings, covariance, likelihood};
-use crate::filter::{Problem, Theta};
+use crate::filter::{NOISES, Problem, Theta};
 use crate::{Library, Scales, Term};
 use nalgebra::DMatrix;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -53,8 +53,10 @@ pub struct Noise {
     pub eta_v: Estimate,
     /// Process noise of the shape.
     pub eta_shape: Estimate,
+    /// Standard deviation of each coordinate of the centre beside the error of its contour, such as a jitter of the images (length); 0 where none is seen.
+    pub centre: Estimate,
     /// Whether each is at a bound of the search: then only the bound is known.
-    pub at_bound: [bool; 3],
+    pub at_bound: [bool; NOISES],
 }
 
 /// The estimates in natural units: what further computations start from.
@@ -62,8 +64,8 @@ pub struct Noise {
 pub struct Natural {
     /// Coefficients.
     pub coefficients: Vec<f64>,
-    /// Logarithms of `s`, `eta_v`, `eta_shape`.
-    pub logs: [f64; 3],
+    /// Logarithms of `s`, `eta_v`, `eta_shape`, and of the centre's own noise in tenths of the stated error and above.
+    pub logs: [f64; NOISES],
     /// Expected information of all parameters.
     pub information: Vec<Vec<f64>>,
     /// Its inverse.
@@ -149,7 +151,16 @@ impl Fit {
             s: noise.s.value,
             eta_v: noise.eta_v.value,
             eta_shape: noise.eta_shape.value,
+            centre: noise.centre.value,
         }
+    }
+}
+
+impl Noise {
+    /// Whether the centre has a noise of its own: above two of its errors.
+    #[must_use]
+    pub fn is_of_centre(&self) -> bool {
+        self.centre.value > 2.0 * self.centre.error
     }
 }
 
@@ -175,7 +186,7 @@ pub(super) fn make(problem: &Problem, settings: &Settings, scales: &Scales, poin
         library: settings.library.clone(),
         handed: settings.handed,
         coefficients: coefficients(problem, settings, &natural, &units),
-        noise: noise(&natural, scales, at_bounds(theta)),
+        noise: noise(problem, point, &natural, scales),
         log_likelihood: kept.value + prior(theta) + problem.frames() as f64 * scales.log_density(),
         frames: problem.frames(),
         ending: point.ending.clone(),
@@ -204,7 +215,7 @@ fn coefficients(
     (0..units.len()).map(one).collect()
 }
 
-fn noise(natural: &Natural, scales: &Scales, at_bound: [bool; 3]) -> Noise {
+fn noise(problem: &Problem, point: &Point, natural: &Natural, scales: &Scales) -> Noise {
     let first = natural.coefficients.len();
     let units = [1.0, scales.noise()[0], scales.noise()[1]];
     let [s, eta_v, eta_shape] = std::array::from_fn(|i| {
@@ -214,7 +225,15 @@ fn noise(natural: &Natural, scales: &Scales, at_bound: [bool; 3]) -> Noise {
         let interval = [-NORMAL_95, NORMAL_95].map(|x| value * libm::exp(x * error));
         Estimate { value, error: value * error, robust: value * size(&natural.robust), interval }
     });
-    Noise { s, eta_v, eta_shape, at_bound }
+    let [variance, by_log] = problem.own_noise(&point.theta);
+    let size = |covariance: &[Vec<f64>]| covariance[first + 3][first + 3].max(0.0).sqrt();
+    // sigma = sqrt(c): its error is that of the logarithm times dc/dl / (2 sigma)
+    let value = variance.sqrt() * scales.length();
+    let slope = if variance > 0.0 { 0.5 * by_log / variance } else { 0.0 };
+    let [error, robust] = [&natural.covariance, &natural.robust].map(|of| value * slope * size(of));
+    let interval = [-NORMAL_95, NORMAL_95].map(|x| (value + x * error).max(0.0));
+    let centre = Estimate { value, error, robust, interval };
+    Noise { s, eta_v, eta_shape, centre, at_bound: at_bounds(&point.theta) }
 }
 
 #[cfg(test)]

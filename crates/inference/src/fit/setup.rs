@@ -3,13 +3,14 @@
 use super::Settings;
 use crate::field::Field;
 use crate::filter::Problem;
+use crate::library::LEAST_MODES;
 use crate::{Error, Library, MOST_MODES, Result, Scales, Track, observation};
 
 /// Checks that the filter can take a library.
 pub(crate) fn check_library(library: &Library) -> Result<()> {
-    if !(3..=MOST_MODES).contains(&library.modes) {
+    if !(LEAST_MODES..=MOST_MODES).contains(&library.modes) {
         let value = library.modes as f64;
-        return Err(Error::Setting { key: "modes", value, remedy: "give 3 or 4" });
+        return Err(Error::Setting { key: "modes", value, remedy: "give 2, 3 or 4" });
     }
     if library.terms.is_empty() {
         return Err(Error::Setting { key: "terms", value: 0.0, remedy: "give at least one term" });
@@ -27,7 +28,7 @@ pub(super) fn check(tracks: &[Track], settings: &Settings) -> Result<Scales> {
     }
 }
 
-/// Refuses z4 where it is not seen. z2 and z3 belong to every model: [`crate::identifiability()`] says so of them.
+/// Refuses z4 where it is not seen. Of z2 and z3 [`crate::identifiability()`] says so; where z3 is not seen, [`Library::seen`] leaves it out.
 pub(super) fn check_seen(scales: &Scales) -> Result<()> {
     match scales.signal.get(3) {
         Some(&signal) if signal < 1.0 => Err(Error::NotSeen { mode: "z4", signal }),
@@ -52,5 +53,6 @@ pub(crate) fn problem(tracks: &[Track], settings: &Settings, scales: &Scales) ->
         terms: library.terms.len(),
         stretches: tracks.iter().flat_map(|track| Problem::cut(scales.frames(track))).collect(),
         noise: scales.noise_of_modes(),
+        centre: scales.centre / (scales.length() * scales.length()),
     }
 }

@@ -2,9 +2,11 @@
 
 mod enumerate;
 
-use crate::{Error, Result};
+use crate::{Error, Result, Scales, Track};
 use serde::{Deserialize, Serialize};
 
+/// Fewest amplitudes of a library: `z1` and `z2`.
+pub(crate) const LEAST_MODES: usize = 2;
 /// Most amplitudes of a library: `z1` to `z4`.
 pub const MOST_MODES: usize = 4;
 
@@ -78,7 +80,7 @@ impl Term {
 /// The terms of all equations, sorted by equation and order.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Library {
-    /// Number of amplitudes: 3 or 4.
+    /// Number of amplitudes: 2 to 4.
     pub modes: usize,
     /// The terms.
     pub terms: Vec<Term>,
@@ -87,13 +89,13 @@ pub struct Library {
 impl Library {
     /// All rotation-covariant monomials of `z1 .. z_modes` of order 1 to `order`.
     ///
-    /// Three modes: 8 + 7 + 7 terms to order 3 (the tensor model's), 32 + 30 + 29 to order 5. Four modes: 12, 12, 11, 10 to order 3.
+    /// Two modes: 4 + 4 terms to order 3. Three modes: 8 + 7 + 7 terms to order 3 (the tensor model's), 32 + 30 + 29 to order 5. Four modes: 12, 12, 11, 10 to order 3.
     ///
     /// # Errors
-    /// [`Error::Setting`] unless `modes` is 3 or 4 and `order` 1 to 5.
+    /// [`Error::Setting`] unless `modes` is 2 to 4 and `order` 1 to 5.
     pub fn new(modes: usize, order: u32) -> Result<Self> {
-        if !(3..=MOST_MODES).contains(&modes) {
-            return Err(Error::Setting { key: "modes", value: modes as f64, remedy: "give 3 or 4" });
+        if !(LEAST_MODES..=MOST_MODES).contains(&modes) {
+            return Err(Error::Setting { key: "modes", value: modes as f64, remedy: "give 2, 3 or 4" });
         }
         if !(1..=5).contains(&order) {
             return Err(Error::Setting { key: "order", value: f64::from(order), remedy: "give 1 to 5" });
@@ -105,6 +107,20 @@ impl Library {
     #[must_use]
     pub fn tensor() -> Self {
         Self { modes: 3, terms: enumerate::covariant(3, 3) }
+    }
+
+    /// The terms that these tracks can have anything to say of: of three amplitudes those without z3, where that does not exceed its errors of observation.
+    ///
+    /// A mode that is not seen fixes none of its coefficients, and would leave a motion that z1 and z2 make without a name.
+    #[must_use]
+    pub fn seen(self, tracks: &[Track]) -> Self {
+        let known = self.modes == 3 && crate::observation::check(tracks, 3).is_ok();
+        let unseen = known && Scales::of(tracks, 3).signal[2] < 1.0;
+        if !unseen {
+            return self;
+        }
+        let terms = self.terms.into_iter().filter(|term| term.equation < 2 && term.degree(2) == 0);
+        Self { modes: 2, terms: terms.collect() }
     }
 
     /// Those of its terms that have these names ([`Term::name`]).

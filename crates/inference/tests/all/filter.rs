@@ -6,29 +6,46 @@ use crate::common::{Experiment, diagonal, four, full};
 use motiform_inference::{Library, Observation, Parameters, Scales, Settings, Track, likelihood};
 use nalgebra::DMatrix;
 
+/// The centre's own noise, that of the contour being 0.004.
+const CENTRE: f64 = 0.006;
+
 #[test]
 fn gradient_by_differences() {
-    for (equations, modes, handed) in
-        [(full(0.5, 0.1), 3, false), (full(0.5, 0.1), 3, true), (four(), 4, false), (four(), 4, true)]
-    {
+    let three = || full(0.5, 0.1);
+    for (equations, modes, handed) in [
+        (three(), 2, false),
+        (three(), 2, true),
+        (three(), 3, false),
+        (three(), 3, true),
+        (four(), 4, false),
+        (four(), 4, true),
+    ] {
         let mut track = Experiment { frames: 40, ..Experiment::new(equations, 0.05, 11) }.track();
         track.0.remove(20);
         track.0.drain(28..31);
         let library = Library::new(modes, 3).unwrap();
         let settings = Settings { library, handed, ..Settings::default() };
         let n = settings.library.terms.len() * if handed { 2 } else { 1 };
-        let coefficients = (0..n).map(|i| 0.3 * libm::sin(i as f64 + 1.0)).collect();
-        let at = Parameters { coefficients, s: 1.3, eta_v: 0.08, eta_shape: 0.06 };
+        // of two modes smaller ones: no step is then divided on one side of a difference alone
+        let size = if modes == 2 { 0.1 } else { 0.3 };
+        let coefficients = (0..n).map(|i| size * libm::sin(i as f64 + 1.0)).collect();
+        let at = Parameters { coefficients, s: 1.3, eta_v: 0.08, eta_shape: 0.06, centre: CENTRE };
         let value = |at: &Parameters| likelihood(&[track.clone()], &settings, at).unwrap();
         let exact = value(&at);
-        for i in 0..n + 3 {
+        for i in 0..n + 4 {
             let moved = |by: f64| {
                 let mut at = at.clone();
                 match i.checked_sub(n) {
                     None => at.coefficients[i] += by,
                     Some(0) => at.s *= libm::exp(by),
                     Some(1) => at.eta_v *= libm::exp(by),
-                    Some(_) => at.eta_shape *= libm::exp(by),
+                    Some(2) => at.eta_shape *= libm::exp(by),
+                    // l = ln sqrt(centre^2/c + 0.01)
+                    Some(_) => {
+                        let c = Scales::of(std::slice::from_ref(&track), modes).centre;
+                        let square = (CENTRE * CENTRE / c + 0.01) * libm::exp(2.0 * by) - 0.01;
+                        at.centre = (c * square).sqrt();
+                    }
                 }
                 value(&at).value.unwrap()
             };
@@ -84,7 +101,7 @@ fn linear_equations_exactly() {
         covariance: diagonal(&errors),
     };
     let track = Track(times.iter().map(frame).collect());
-    for modes in [3, 4] {
+    for modes in [2, 3, 4] {
         let (found, expected) = linear(&track, &times, &errors[..2 * modes]);
         println!("{modes} {found} {expected}");
         assert!((found - expected).abs() < 1e-5 * expected.abs().max(1.0), "{modes} {found} {expected}");
@@ -99,7 +116,8 @@ fn linear(track: &Track, times: &[f64], errors: &[f64]) -> (f64, f64) {
     let settings = Settings { library, ..Settings::default() };
     let (k, s, eta) = ([0.7, 1.1, 0.4, 0.9], 1.3, [0.5, 0.4]);
     let coefficients = k[..modes].iter().map(|k| -k).collect();
-    let at = Parameters { coefficients, s, eta_v: eta[0], eta_shape: eta[1] };
+    let centre = 0.07;
+    let at = Parameters { coefficients, s, eta_v: eta[0], eta_shape: eta[1], centre };
     let found = likelihood(std::slice::from_ref(track), &settings, &at).unwrap().value.unwrap();
     let scales = Scales::of(std::slice::from_ref(track), modes);
     let n = times.len() - 1;
@@ -107,7 +125,8 @@ fn linear(track: &Track, times: &[f64], errors: &[f64]) -> (f64, f64) {
     for i in 0..errors.len() {
         let rate = k[i / 2];
         let (first, second) = (&track.0[0], &track.0[1]);
-        let noise = s * s * errors[i] * errors[i];
+        let jitter = if i < 2 { centre * centre } else { 0.0 };
+        let noise = s * s * errors[i] * errors[i] + jitter;
         // the start: docs of the filter, natural units
         let (speed, dt) = (scales.amplitudes[0], (second.t - first.t) / scales.time);
         let v = (second.y[i] - first.y[i]) / (second.t - first.t);

@@ -16,6 +16,7 @@ mod stage;
 mod stretch;
 mod subsets;
 mod together;
+mod two_modes;
 mod walk;
 mod warnings;
 mod weak;

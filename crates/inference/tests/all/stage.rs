@@ -1,45 +1,81 @@
-//! The velocity of the stage beside a cell that turns.
+//! The velocity of a stage beside the motion of a cell.
 
-use crate::common::diagonal;
-use motiform_dynamics::Normal;
-use motiform_inference::{Observation, Track, stage_velocity};
+use crate::common::{Equations, Experiment, FULL, full};
+use motiform_dynamics::Complex;
+use motiform_inference::{
+    Fit, HANDED_RATE, Library, Settings, Symmetry, Track, fit, handed_beside_stage, handedness,
+    stage_velocities, with_stage,
+};
 
-/// Circles of speed 1 and turning rate 0.2, the axis along the motion, on a stage that drifts; errors of places and shape.
-fn circles(drift: [f64; 2], error: f64, frames: u32) -> Track {
-    let mut random = Normal::new(4, 0);
-    let frame = |k: u32| {
-        let t = 0.5 * f64::from(k);
-        let (sin, cos) = libm::sincos(0.2 * t);
-        let mut y = vec![5.0 * sin + drift[0] * t, -5.0 * cos + drift[1] * t];
-        let (double_sin, double_cos) = libm::sincos(0.4 * t);
-        y.extend([0.3 * double_cos, -0.3 * double_sin, 0.0, 0.0]);
-        y.iter_mut().for_each(|x| *x += error * random.next());
-        Observation { t, y, covariance: diagonal(&[error.max(1e-6); 6]) }
-    };
-    Track((0..frames).map(frame).collect())
+fn fitted(track: &Track) -> Fit {
+    let settings =
+        Settings { library: Library::tensor().select(&FULL).expect("terms"), ..Settings::default() };
+    fit(std::slice::from_ref(track), &settings, &()).expect("a fit")
 }
 
+fn cell(equations: Equations, frames: usize, seed: u64) -> Track {
+    Experiment { frames, ..Experiment::new(equations, 0.02, seed) }.track()
+}
+
+/// A velocity of 2 % of the speed is found within its errors, whatever the motion, and subtracting it gives the coefficients of the still stage.
 #[test]
-fn a_drift_beside_a_circle_is_found() {
-    // chords of a circle have the direction of its middle: exact without errors, over any part of the record
-    for frames in [100, 237, 400] {
-        let [x, y] = stage_velocity(&circles([0.02, -0.05], 0.0, frames)).expect("it turns");
-        assert!((x - 0.02).abs() < 1e-9 && (y + 0.05).abs() < 1e-9, "{frames}: {x} {y}");
+fn a_velocity_that_was_added_is_found() {
+    for (kappa3, seed) in [(0.1, 3), (0.3, 5)] {
+        let still = cell(full(0.5, kappa3), 400, seed);
+        let before = fitted(&still);
+        let added = [0.03, -0.02];
+        let carried = still.without_velocity(added.map(|v: f64| -v));
+        let there = with_stage(std::slice::from_ref(&carried), &fitted(&carried), &()).expect("a fit");
+        let at_rest = with_stage(std::slice::from_ref(&still), &before, &()).expect("a fit");
+        let errors = stage_velocities(std::slice::from_ref(&still), &before).expect("a track")[0]
+            .expect("told")
+            .errors;
+        for k in 0..2 {
+            let difference = there.velocities[0][k] - at_rest.velocities[0][k] - added[k];
+            // the same record: only the ends of two searches differ
+            assert!(difference.abs() < 0.2 * errors[k], "{:?} {errors:?}", there.velocities);
+            assert!(at_rest.velocities[0][k].abs() < 4.0 * errors[k], "{:?} {errors:?}", at_rest.velocities);
+        }
+        for (a, b) in there.fit.coefficients.iter().zip(&at_rest.fit.coefficients) {
+            assert!((a.estimate.value - b.estimate.value).abs() < 0.2 * b.estimate.error, "{}", a.name);
+        }
     }
-    let [x, y] = stage_velocity(&circles([0.02, -0.05], 0.01, 400)).expect("it turns");
-    // errors of both ends alone: sqrt(2) 0.01 in 200, and those of the axis
-    assert!((x - 0.02).abs() < 2e-3 && (y + 0.05).abs() < 2e-3, "{x} {y}");
-    let still = circles([0.02, -0.05], 0.0, 400).without_velocity([0.02, -0.05]);
-    let [x, y] = stage_velocity(&still).expect("it turns");
-    assert!(x.abs() < 1e-9 && y.abs() < 1e-9);
 }
 
+/// Cells on a stage that rests: p-values are uniform.
 #[test]
-fn a_cell_that_keeps_its_direction_does_not_tell() {
-    let straight = circles([0.0, 0.0], 0.0, 400).0.into_iter().map(|mut frame| {
-        frame.y[..4].copy_from_slice(&[frame.t, 0.0, 0.3, 0.0]);
-        frame
-    });
-    assert_eq!(stage_velocity(&Track(straight.collect())), None);
-    assert_eq!(stage_velocity(&circles([0.0, 0.0], 0.0, 40)), None);
+fn p_values_without_a_velocity_are_uniform() {
+    let p_value = |seed: u64| {
+        let track = cell(full(0.5, 0.1), 200, 700 + seed);
+        let found = fitted(&track);
+        stage_velocities(&[track], &found).expect("a track")[0].expect("told").p_value
+    };
+    let p: Vec<f64> = (0..40).map(p_value).collect();
+    let below = |level: f64| p.iter().filter(|p| **p < level).count();
+    println!("{} below 0.05, {} below 0.5 of 40", below(0.05), below(0.5));
+    // means 2 and 20, three standard deviations
+    assert!(below(0.05) <= 6 && (10..=30).contains(&below(0.5)), "{p:?}");
+}
+
+/// A circle on a stage that drifts by 4 % of its speed is called handed by its likelihood, and not beside a velocity of the stage; a cell that is handed stays so.
+#[test]
+fn a_drift_is_no_handedness() {
+    let circle = Experiment { frames: 600, ..Experiment::new(full(0.5, 0.3), 0.005, 9) }.track();
+    let track = circle.without_velocity([-0.04, 0.0]);
+    let real = fitted(&track);
+    let tracks = [track];
+    let found = handedness(&tracks, &real, &()).expect("a fit");
+    let p = handed_beside_stage(&tracks, &real, &found.fit, &()).expect("fits");
+    println!("circle: {:.1e}, beside a stage {p:.1e}", found.p_value);
+    assert!(found.p_value < HANDED_RATE && p > HANDED_RATE, "{:.1e} {p:.1e}", found.p_value);
+    let mut handed = full(0.5, 0.1);
+    handed[3].1 = Complex::new(-0.5, 0.1);
+    let track = cell(handed, 600, 9).without_velocity([-0.02, 0.0]);
+    let real = fitted(&track);
+    let tracks = [track];
+    let found = handedness(&tracks, &real, &()).expect("a fit");
+    let p = handed_beside_stage(&tracks, &real, &found.fit, &()).expect("fits");
+    println!("handed: {:.1e}, beside a stage {p:.1e}", found.p_value);
+    assert_eq!(found.symmetry, Symmetry::Handed);
+    assert!(p < HANDED_RATE, "{p:.1e}");
 }

@@ -1,0 +1,86 @@
+//! Jumps of the stage.
+
+use super::grid::Grid;
+use motiform_tracks::modes::{CellModes, Flag};
+use serde::Serialize;
+
+/// Multiple of the usual common displacement of a frame, and of its error, that a jump exceeds.
+const CLEAR: f64 = 8.0;
+
+/// A displacement that all outlines have from one frame on.
+///
+/// # Units   of the data
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StageJump {
+    /// The first frame after it.
+    pub frame: i64,
+    /// The displacement.
+    pub displacement: [f64; 2],
+    /// Its standard error in each coordinate; `None` of one cell alone.
+    pub error: Option<f64>,
+    /// Cells that show it.
+    pub cells: usize,
+}
+
+/// The jumps, in the order of their frames.
+///
+/// Of two cells and more that are seen on both sides: their mean displacement differs from the median over all frames by more than 8 times the usual difference (1.4826 times
+/// the median one), and what exceeds the displacements before and after, with its scatter over cells, by more than 8 times its error. Of one cell alone: where
+/// its outline is at another place and its shape goes on ([`Flag::StageJump`]).
+pub(super) fn find(grid: &Grid, cells: &[CellModes]) -> Vec<StageJump> {
+    let means: Vec<Option<[f64; 2]>> = (0..grid.times.len()).map(|k| mean_displacement(grid, k)).collect();
+    let middle = [0, 1].map(|i| median(means.iter().flatten().map(|d| d[i]).collect()).unwrap_or(0.0));
+    let off = |d: &[f64; 2]| libm::hypot(d[0] - middle[0], d[1] - middle[1]);
+    let usual = 1.4826 * median(means.iter().flatten().map(off).collect()).unwrap_or(0.0);
+    let stands_out = |k: usize| means.get(k).copied().flatten().is_some_and(|d| off(&d) > CLEAR * usual);
+    (1..grid.times.len())
+        .filter_map(|k| {
+            let found = excess(grid, k, &stands_out)?;
+            let length = libm::hypot(found.displacement[0], found.displacement[1]);
+            let clear = match found.error {
+                Some(error) => stands_out(k) && length > CLEAR * error,
+                None => is_flagged(cells, found.frame),
+            };
+            clear.then_some(found)
+        })
+        .collect()
+}
+
+/// What the displacements to this frame exceed those before and after by, over the cells that are seen.
+fn excess(grid: &Grid, k: usize, stands_out: &dyn Fn(usize) -> bool) -> Option<StageJump> {
+    let found: Vec<[f64; 2]> = (0..grid.cells())
+        .filter_map(|cell| {
+            let here = grid.displacement(cell, k)?;
+            let beside =
+                [k - 1, k + 1].map(|j| (!stands_out(j)).then(|| grid.displacement(cell, j)).flatten());
+            let known: Vec<[f64; 2]> = beside.into_iter().flatten().collect();
+            let mean = |i: usize| known.iter().map(|d| d[i]).sum::<f64>() / known.len().max(1) as f64;
+            Some([0, 1].map(|i| here[i] - mean(i)))
+        })
+        .collect();
+    let n = found.len() as f64;
+    if found.is_empty() {
+        return None;
+    }
+    let mean = [0, 1].map(|i| found.iter().map(|d| d[i]).sum::<f64>() / n);
+    let squares: f64 =
+        found.iter().map(|d| (0..2).map(|i| (d[i] - mean[i]) * (d[i] - mean[i])).sum::<f64>()).sum();
+    let error = (found.len() > 1).then(|| (0.5 * squares / (n * (n - 1.0))).sqrt());
+    Some(StageJump { frame: grid.frame(k), displacement: mean, error, cells: found.len() })
+}
+
+fn mean_displacement(grid: &Grid, k: usize) -> Option<[f64; 2]> {
+    let all: Vec<[f64; 2]> = (0..grid.cells()).filter_map(|cell| grid.displacement(cell, k)).collect();
+    let mean = |i: usize| all.iter().map(|d| d[i]).sum::<f64>() / all.len() as f64;
+    (!all.is_empty()).then(|| [mean(0), mean(1)])
+}
+
+fn is_flagged(cells: &[CellModes], frame: i64) -> bool {
+    let jumps = |flag: &Flag| matches!(flag, Flag::StageJump { .. });
+    cells.iter().flat_map(|cell| &cell.frames).any(|one| one.frame == frame && one.flags.iter().any(jumps))
+}
+
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_unstable_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}

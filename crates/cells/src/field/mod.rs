@@ -1,0 +1,93 @@
+//! The field of view as an instrument: what the stage and the camera add to all cells, found in all of them together.
+//!
+//! Jumps of the stage are found first and left out of what follows, then a jitter of whole frames, then a drift. What is found can be subtracted from the outlines
+//! ([`Correction`]). All cells that are read together are taken as one field of view. Definitions: docs/cells.md, section 'The field of view'.
+
+mod correction;
+mod drift;
+mod grid;
+mod jitter;
+mod jumps;
+mod pixels;
+mod words;
+
+pub use correction::Correction;
+pub use drift::CommonDrift;
+pub use jitter::Jitter;
+pub use jumps::StageJump;
+
+use grid::Grid;
+use motiform_tracks::Tracks;
+use motiform_tracks::modes::CellModes;
+use serde::Serialize;
+
+/// What cells of a field of view have in common.
+///
+/// # Units   of the data
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct FieldOfView {
+    /// Cells whose place is seen in two frames and more.
+    pub cells: usize,
+    /// Jumps of the stage.
+    pub jumps: Vec<StageJump>,
+    /// Displacements of whole frames; `None` with fewer than three cells in the same frames.
+    pub jitter: Option<Jitter>,
+    /// A velocity that all cells have; `None` with fewer than five cells.
+    pub drift: Option<CommonDrift>,
+    /// Side of the pixels whose edges or middles the outlines follow; `None` for smooth outlines.
+    pub pixel: Option<f64>,
+    /// What was subtracted from the outlines. The numbers above are those before.
+    pub corrected: Vec<Correction>,
+}
+
+impl FieldOfView {
+    /// What these cells do together.
+    ///
+    /// # Checked by  tests/all/field.rs: walkers and rods on a stage of known drift, jumps, jitter and pixels, and without
+    #[must_use]
+    pub fn of(tracks: &Tracks, cells: &[CellModes]) -> Self {
+        let pixel = pixels::pitch(tracks);
+        let Some(mut grid) = Grid::of(cells) else { return Self { pixel, ..Self::default() } };
+        let jumps = jumps::find(&grid, cells);
+        grid.subtract_jumps(&jumps);
+        let (jitter, drift) = (Jitter::of(&grid), CommonDrift::of(&grid));
+        Self { cells: grid.cells(), jumps, jitter, drift, pixel, corrected: Vec::new() }
+    }
+
+    /// Whether a drift is seen that was not subtracted.
+    #[must_use]
+    pub fn drifts(&self) -> bool {
+        !self.is_corrected(Correction::Drift) && self.drift.is_some_and(|drift| drift.is_seen())
+    }
+
+    /// Whether this was subtracted from the outlines.
+    #[must_use]
+    pub fn is_corrected(&self, what: Correction) -> bool {
+        self.corrected.contains(&what)
+    }
+
+    /// Displacement of the stage in a frame, of what is to be corrected.
+    fn displacement(&self, (frame, t): (i64, f64), wanted: &[Correction]) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        let mut add = |by: [f64; 2]| sum = [0, 1].map(|k| sum[k] + by[k]);
+        for one in wanted {
+            match one {
+                Correction::Jumps => {
+                    self.jumps
+                        .iter()
+                        .filter(|jump| jump.frame <= frame)
+                        .for_each(|jump| add(jump.displacement));
+                }
+                Correction::Jitter => {
+                    add(self.jitter.as_ref().map_or([0.0; 2], |jitter| jitter.displacement(frame)))
+                }
+                Correction::Drift => {
+                    if let Some(drift) = self.drift.filter(CommonDrift::is_seen) {
+                        add(drift.velocity.map(|v| v * (t - drift.since)));
+                    }
+                }
+            }
+        }
+        sum
+    }
+}

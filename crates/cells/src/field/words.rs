@@ -1,0 +1,67 @@
+//! The field of view in words.
+
+use super::{Correction, FieldOfView};
+use crate::Units;
+use motiform_statistics::{four_digits, with_error};
+
+/// Jumps that are listed.
+const MOST_JUMPS: usize = 4;
+
+impl FieldOfView {
+    /// What was found, name by name: the same on pages and in text.
+    #[must_use]
+    pub fn in_words(&self, units: &Units) -> Vec<(&'static str, String)> {
+        let mut rows = Vec::new();
+        if let Some(drift) = self.drift {
+            let [x, y] = [0, 1].map(|k| with_error(drift.velocity[k], drift.velocity_error[k]));
+            let verdict = match (drift.is_seen(), self.is_corrected(Correction::Drift)) {
+                (false, _) => "none is seen",
+                (true, true) => "subtracted",
+                (true, false) => {
+                    "the cells drift together (stage, flow, or a common direction); --correct drift subtracts it"
+                }
+            };
+            rows.push((
+                "drift",
+                format!("({x}, {y}) {}, p = {:.1e}: {verdict}", units.speed(), drift.p_value),
+            ));
+        }
+        if !self.jumps.is_empty() {
+            rows.push(("stage jumps", self.jumps_in_words(units)));
+        }
+        if let Some(jitter) = &self.jitter {
+            let verdict = match (jitter.is_seen(), self.is_corrected(Correction::Jitter)) {
+                (false, _) => "none is seen".to_owned(),
+                (true, true) => {
+                    format!("{:.0} % of its variance subtracted", 100.0 * jitter.recovered.min(1.0))
+                }
+                (true, false) => {
+                    "outlines of a frame move together; --correct jitter subtracts it".to_owned()
+                }
+            };
+            let size = four_digits(jitter.deviation);
+            rows.push(("jitter", format!("{size} {}, p = {:.3}: {verdict}", units.length, jitter.p_value)));
+        }
+        if let Some(pixel) = self.pixel {
+            let words = format!("outlines follow pixels of {} {}", four_digits(pixel), units.length);
+            rows.push(("pixels", words));
+        }
+        rows
+    }
+
+    fn jumps_in_words(&self, units: &Units) -> String {
+        let one = |jump: &super::StageJump| {
+            let [x, y] = jump.displacement.map(four_digits);
+            format!("({x}, {y}) {} at frame {}", units.length, jump.frame)
+        };
+        let mut words = self.jumps.iter().take(MOST_JUMPS).map(one).collect::<Vec<_>>().join(", ");
+        if let Some(more) = self.jumps.len().checked_sub(MOST_JUMPS).filter(|more| *more > 0) {
+            words += &format!(" and {more} more");
+        }
+        let verdict = match self.is_corrected(Correction::Jumps) {
+            true => "subtracted; fits use the pieces between them",
+            false => "names and fits use the pieces between them; --correct jumps subtracts them",
+        };
+        format!("{words}: {verdict}")
+    }
+}

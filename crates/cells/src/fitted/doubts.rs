@@ -1,0 +1,44 @@
+//! What leaves a fit without motion, place and symmetry.
+
+use motiform_inference::{HANDED_RATE, Handedness, Stretch, Symmetry, Track, Warning};
+
+/// Significance below which innovations that are not white leave a cell without motion and place.
+const COLOURED: f64 = 1e-6;
+
+/// Serious warnings, and what speaks against the test of handedness; `beside_stage`: its p-value beside a velocity of the stage.
+pub(super) fn doubts(
+    tracks: &[Track],
+    warnings: &[Warning],
+    handedness: &Handedness,
+    beside_stage: Option<f64>,
+) -> Vec<String> {
+    let mut doubts: Vec<String> = warnings.iter().filter(|w| serious(w)).map(ToString::to_string).collect();
+    let handed = handedness.symmetry == Symmetry::Handed;
+    if handedness.is_doubted() && !handed {
+        doubts.push(format!(
+            "whether the cell is handed is not decided: a mirror-symmetric one has such a likelihood ratio with p = {:.1e}",
+            handedness.p_value
+        ));
+    }
+    if let Some(p) = beside_stage.filter(|p| *p >= HANDED_RATE) {
+        doubts.push(format!("it is handed, or the stage drifts: beside a velocity that does not turn with the cell, a mirror-symmetric one has such a likelihood ratio with p = {p:.1e}"));
+    }
+    let unclear = |found: Stretch| found.is_possible(tracks.len()) && !found.is_clear(tracks.len());
+    if handed && tracks.iter().filter_map(Stretch::of).any(unclear) {
+        doubts.push("it is handed, or the images are stretched: the cell keeps to a few directions, which does not tell one from the other".to_owned());
+    }
+    doubts
+}
+
+/// Whether there is no motion and no place with this warning.
+fn serious(warning: &Warning) -> bool {
+    match warning {
+        Warning::Unbounded { .. }
+        | Warning::NotConverged { .. }
+        | Warning::CoarseSampling { .. }
+        | Warning::Carried { .. }
+        | Warning::Stretched { .. } => true,
+        Warning::Coloured { channels } => channels.iter().any(|channel| channel.p_value < COLOURED),
+        _ => false,
+    }
+}

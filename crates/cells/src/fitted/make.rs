@@ -1,0 +1,95 @@
+//! From tracks to a fit with everything that follows from it, stage by stage.
+
+use super::Fitted;
+use super::doubts::doubts;
+use crate::regime::{FittedRegime, regime_of};
+use crate::stages::Stages;
+use crate::{Checks, FitOptions, Result};
+use motiform_dynamics::Watch;
+use motiform_inference::{
+    Fit, Placement, Plane, Selection, Settings, Symmetry, Track, averaged, drift, fit, handed_beside_stage,
+    handedness, identifiability, place_among, select, warnings,
+};
+
+/// Fits these tracks, stage by stage.
+///
+/// # Errors
+/// [`crate::Error::Inference`]: why there is no fit; [`motiform_study::Error::Interrupted`]; stages that cannot be written.
+pub(crate) fn fitted(
+    tracks: &[Track],
+    (settings, options): (&Settings, &FitOptions),
+    stages: &Stages<'_>,
+    watch: &dyn Watch,
+) -> Result<Box<Fitted>> {
+    let whole = stages.get("whole", watch, |watch| Ok(fit(tracks, settings, watch)?))?;
+    let selection = stages.get("selection", watch, |watch| Ok(select(tracks, &whole, watch)?))?;
+    let handedness =
+        stages.get("handedness", watch, |watch| Ok(handedness(tracks, &selection.fit, watch)?))?;
+    let handed = handedness.symmetry == Symmetry::Handed;
+    let model = if handed { &handedness.fit } else { &selection.fit };
+    let known = identifiability(model);
+    let known_of_all = identifiability(&whole);
+    let drift = stages.get("drift", watch, |watch| match options.drift && selection.fit.converged() {
+        true => Ok(Some(drift(tracks, &selection.fit, watch)?)),
+        false => Ok(None),
+    })?;
+    let checks = Checks::of(tracks, model);
+    let warnings = warnings(tracks, model, drift.as_ref())?;
+    // no stage that is kept: few cells are handed
+    let beside_stage = match handed {
+        true => Some(handed_beside_stage(tracks, &selection.fit, &handedness.fit, watch)?),
+        false => None,
+    };
+    let mut doubts = doubts(tracks, &warnings, &handedness, beside_stage);
+    let regime = stages.get("regime", watch, |watch| {
+        if !known.identifiable || !doubts.is_empty() {
+            return Ok(None);
+        }
+        let described = Selection { subsets: selection.subsets.clone(), fit: model.clone() };
+        regime_of(tracks, &whole, &described, (options.draws, options.seed), watch).map(Some)
+    })?;
+    if regime.as_ref().is_some_and(FittedRegime::blows_up) {
+        doubts.push(
+            "the fitted equations blow up without noise, and a cell that was tracked did not".to_owned(),
+        );
+    }
+    let averaged =
+        if handed || !whole.converged() { Vec::new() } else { averaged(&whole, &selection.subsets) };
+    let places = places((&whole, &selection), unplaced(&doubts, regime.as_ref(), handed));
+    Ok(Box::new(Fitted {
+        whole,
+        selection,
+        handedness,
+        known,
+        known_of_all,
+        drift,
+        checks,
+        warnings,
+        doubts,
+        regime,
+        places,
+        averaged,
+        stage: Vec::new(),
+        beside_stage,
+        between: None,
+    }))
+}
+
+/// Why the cell has no place; empty where it may have one.
+fn unplaced(doubts: &[String], regime: Option<&FittedRegime>, handed: bool) -> Vec<String> {
+    let mut reasons = doubts.to_vec();
+    if regime.is_some_and(FittedRegime::is_carried) {
+        reasons.push("noise carries the displacement: without it the equations rest, and the paper's planes are about motion without noise".to_owned());
+    }
+    if handed {
+        reasons.push("the cell is handed, and the paper's planes are not".to_owned());
+    }
+    reasons
+}
+
+fn places((whole, selection): (&Fit, &Selection), reasons: Vec<String>) -> [Placement; 2] {
+    [Plane::Full, Plane::Reduced].map(|plane| match reasons.is_empty() {
+        true => place_among(whole, selection, plane),
+        false => Placement::Refused { reasons: reasons.clone() },
+    })
+}

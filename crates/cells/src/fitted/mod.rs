@@ -1,0 +1,149 @@
+//! A fit, and what follows from it: what the data determine, the motion, the places.
+
+mod doubts;
+mod make;
+mod study;
+
+pub(crate) use make::fitted;
+
+use crate::Checks;
+use crate::regime::FittedRegime;
+use motiform_inference::{
+    Averaged, BetweenCells, Drift, Fit, HANDED_RATE, Handedness, Identifiability, Placement, Selection,
+    Symmetry, Warning,
+};
+use serde::{Deserialize, Serialize};
+
+/// The name of motions that noise carries.
+pub const PERSISTENT_WALK: &str = "persistent-random-walk";
+
+/// The fit of a cell, and what it means.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Fitted {
+    /// All terms of the library, real coefficients.
+    pub whole: Fit,
+    /// The terms that the data ask for.
+    pub selection: Selection,
+    /// Real against complex coefficients.
+    pub handedness: Handedness,
+    /// What the motion determines, among the selected terms.
+    pub known: Identifiability,
+    /// What the motion determines, among all terms.
+    pub known_of_all: Identifiability,
+    /// The same terms at other sampling intervals.
+    pub drift: Option<Drift>,
+    /// Another estimate of the model's coefficients, and what the model leaves unexplained.
+    pub checks: Checks,
+    /// What makes the fit doubtful.
+    pub warnings: Vec<Warning>,
+    /// Why there is neither motion nor place nor a symmetry: serious warnings, handedness that is not decided, blow-up, simulated cells that are unlike the observed one.
+    pub doubts: Vec<String>,
+    /// The motion; `None` where the coefficients are not determined.
+    pub regime: Option<FittedRegime>,
+    /// Places on the planes of Fig. 4 and Fig. 1.
+    pub places: [Placement; 2],
+    /// The coefficients over all sets of terms that the data do not tell apart, with intervals that hold the choice of terms; none of a handed model.
+    #[serde(default)]
+    pub averaged: Vec<Averaged>,
+    /// Velocities of the stage that were subtracted before the fit, one for each piece of the record; none without `--correct drift`, or where none is seen.
+    #[serde(default)]
+    pub stage: Vec<[f64; 2]>,
+    /// Of a cell that its likelihood calls handed: the p-value of the same test beside a velocity of the stage.
+    #[serde(default)]
+    pub beside_stage: Option<f64>,
+    /// Of several cells together: errors of the model's coefficients from the differences between cells.
+    pub between: Option<BetweenCells>,
+}
+
+impl Fitted {
+    /// The model that describes the cell: handed if real coefficients are rejected.
+    #[must_use]
+    pub fn model(&self) -> &Fit {
+        if self.rejects_real() { &self.handedness.fit } else { &self.selection.fit }
+    }
+
+    /// Whether real coefficients are rejected: the model then has complex ones.
+    fn rejects_real(&self) -> bool {
+        self.handedness.symmetry == Symmetry::Handed
+    }
+
+    /// The symmetry of the cell: not decided where the fit is doubtful.
+    #[must_use]
+    pub fn symmetry(&self) -> Symmetry {
+        if self.doubts.is_empty() { self.handedness.symmetry } else { Symmetry::Undecided }
+    }
+
+    /// The motion in a word: that of the equations, [`PERSISTENT_WALK`] where these rest without their noise and the cell moves, or `undecided`.
+    #[must_use]
+    pub fn motion_name(&self) -> &'static str {
+        if self.is_walk() {
+            return PERSISTENT_WALK;
+        }
+        self.regime.as_ref().and_then(|found| found.regime).map_or("undecided", |regime| regime.name())
+    }
+
+    /// Whether noise carries all of the displacement: the models that the data allow rest without it, while the speed exceeds its errors of observation.
+    #[must_use]
+    pub fn is_walk(&self) -> bool {
+        self.doubts.is_empty() && self.regime.as_ref().is_some_and(FittedRegime::is_carried)
+    }
+
+    /// What acts on the velocity of such a walk, in words: whether its shape takes part.
+    #[must_use]
+    pub fn walk_in_words(&self) -> String {
+        let pulled = self.model().coefficients.iter().filter(|c| c.term.equation == 0);
+        let shape: Vec<&str> = pulled
+            .filter(|c| c.name.contains("z2") || c.name.contains("z3"))
+            .map(|c| c.name.as_str())
+            .collect();
+        let acts = if shape.is_empty() {
+            "the shape does not act on the velocity (passive shape)".to_owned()
+        } else {
+            format!("the shape acts on the velocity (polar shape: {})", shape.join(", "))
+        };
+        format!(
+            "without their noise the equations rest: noise carries 100 % of the displacement, a persistent random walk; {acts}"
+        )
+    }
+
+    /// Whether the cell is handed.
+    #[must_use]
+    pub fn is_handed(&self) -> bool {
+        self.symmetry() == Symmetry::Handed
+    }
+
+    /// Whether the data determine the coefficients of the model.
+    #[must_use]
+    pub fn is_identifiable(&self) -> bool {
+        self.known.identifiable
+    }
+
+    /// A coefficient over all tied sets.
+    #[must_use]
+    pub fn over_sets(&self, name: &str) -> Option<&Averaged> {
+        self.averaged.iter().find(|one| one.name == name)
+    }
+
+    /// Coefficients that are not in the best set, but in one that is as good.
+    pub fn in_other_sets(&self) -> impl Iterator<Item = &Averaged> {
+        let best = &self.selection.fit;
+        self.averaged.iter().filter(|one| best.coefficient(&one.name).is_none())
+    }
+
+    /// Whether the stage drifts, or may be what makes the cell handed.
+    pub(crate) fn shows_stage(&self) -> bool {
+        let carried = |warning: &Warning| matches!(warning, Warning::Carried { .. });
+        self.warnings.iter().any(carried) || self.beside_stage.is_some_and(|p| p >= HANDED_RATE)
+    }
+
+    /// Takes name and places back, for a reason that was found after the fit.
+    pub(crate) fn doubt(&mut self, reason: &str) {
+        self.doubts.push(reason.to_owned());
+        if let Some(found) = &mut self.regime {
+            found.regime = None;
+        }
+        for place in &mut self.places {
+            *place = Placement::Refused { reasons: self.doubts.clone() };
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! The field of view: stages and images that move by known amounts, and what becomes of names and fits.
+
+use super::bodies::{outlines, preset};
+use super::recordings::{Seen, Shape, Walker, tracks};
+use motiform_analysis::regime::Regime;
+use motiform_cells::{CellTrack, Correction, FieldOfView, FitOptions, Sample, fit_cell, observe};
+use motiform_inference::Symmetry;
+use motiform_tracks::modes::ModeOptions;
+use motiform_tracks::synthetic::pixelated;
+use motiform_tracks::{Outline, Tracks};
+
+const WALK: Walker = Walker { speed: 0.6, persistence: 5.0, shape: Shape::Passive, frames: 150, noise: 0.01 };
+
+fn walkers(cells: u64) -> Tracks {
+    tracks((0..cells).map(|seed| WALK.outlines(300 + seed)).collect())
+}
+
+fn sample(tracks: Tracks) -> Sample {
+    Sample::of_tracks(tracks, &ModeOptions::default())
+}
+
+fn field(tracks: Tracks) -> FieldOfView {
+    sample(tracks).field
+}
+
+/// A cell of the full model: 400 frames of a preset, radius 2, noise of the vertices 1 %.
+fn body(name: &str, set: &[(&str, f64)], (radius, noise): (f64, f64), frames: usize) -> Vec<Outline> {
+    let mut study = preset(name, noise, (0.5, frames));
+    set.iter().for_each(|(name, value)| study.set(name, *value).expect("a parameter"));
+    let mut outlines = outlines(&study, radius, 0.01);
+    outlines.iter_mut().for_each(|outline| outline.t *= 0.5);
+    outlines
+}
+
+fn fit(cell: &CellTrack, stage: bool) -> motiform_cells::CellFit {
+    let options = FitOptions { drift: false, simulations: 0, stage, ..FitOptions::default() };
+    fit_cell(cell, &options, &()).expect("settings")
+}
+
+/// Twelve walkers: what they have in common is found where the stage drifts, jumps or the images jitter, and nothing where they do not.
+#[test]
+fn a_field_of_view_that_moves_is_found() {
+    let still = field(walkers(12));
+    assert!(!still.drifts() && still.jumps.is_empty() && still.pixel.is_none(), "{still:?}");
+    assert!(!still.jitter.as_ref().expect("common frames").is_seen(), "{still:?}");
+    let drift = [0.15, -0.1];
+    let moved = field(walkers(12).drifting(drift).jittering(0.2, 8).jumping(80, [2.0, 1.0]));
+    let (before, after) = (still.drift.expect("twelve cells"), moved.drift.expect("twelve cells"));
+    assert!(moved.drifts());
+    let [jump] = moved.jumps[..] else { panic!("{:?}", moved.jumps) };
+    assert!(jump.frame == 80 && jump.cells == 12, "{jump:?}");
+    for k in 0..2 {
+        // jitter of two frames moves the mean by 0.002, and the jump is off by its error in 150 frames; the walkers are the same
+        assert!((after.velocity[k] - before.velocity[k] - drift[k]).abs() < 0.01, "{after:?}");
+        // jitter of four frames, of which two count by half, is in the jump
+        assert!((jump.displacement[k] - [2.0, 1.0][k]).abs() < 4.0 * 0.2 * 1.6, "{jump:?}");
+    }
+    let jitter = moved.jitter.expect("common frames");
+    // 2 x 146 numbers with correlations: the jitter itself scatters by 6 %
+    assert!(jitter.is_seen() && (jitter.deviation / 0.2 - 1.0).abs() < 0.25, "{jitter:?}");
+    assert!(field(walkers(2)).drift.is_none());
+}
+
+/// What is subtracted leaves the paths of a still stage: the drift to its error, a jump to its error, of the jitter most.
+#[test]
+fn corrections_leave_what_a_still_stage_shows() {
+    let still = sample(walkers(12));
+    let distance = |moved: Tracks, wanted: &[Correction]| {
+        let found = sample(moved).corrected(wanted, &ModeOptions::default());
+        let path = |sample: &Sample| -> Vec<[f64; 2]> {
+            sample
+                .cells
+                .iter()
+                .flat_map(|cell| cell.modes.frames.iter().map(|frame| frame.centroid))
+                .collect()
+        };
+        let differences: Vec<f64> = path(&found)
+            .iter()
+            .zip(path(&still))
+            .map(|(a, b)| (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]))
+            .collect();
+        (0.5 * differences.iter().sum::<f64>() / differences.len() as f64).sqrt()
+    };
+    let jitter = distance(walkers(12).jittering(0.1, 8), &[Correction::Jitter]);
+    let without = distance(walkers(12).jittering(0.1, 8), &[]);
+    assert!(jitter < 0.6 * without, "{jitter} of {without}");
+    let jump = distance(walkers(12).jumping(80, [3.0, 1.0]), &[Correction::Jumps]);
+    // half of the frames by the error of the jump: the scatter of accelerations over root 12
+    assert!(jump < 0.1, "{jump}");
+    let found =
+        sample(walkers(12).jumping(80, [3.0, 1.0])).corrected(&[Correction::Jumps], &ModeOptions::default());
+    assert!(found.cells.iter().all(|cell| cell.bridged && cell.breaks == [80]));
+    assert!(observe(&found.cells[0]).numbers.pieces == 1);
+    // a drift that is not there is not subtracted
+    assert_eq!(distance(walkers(12), &[Correction::Drift]), 0.0);
+}
+
+/// Without jitter the test says so in 1 % of 60 fields of six walkers, and the p-values are uniform.
+#[test]
+fn p_values_of_a_jitter_are_uniform() {
+    let p_value = |number: u64| {
+        let walker = Walker { frames: 60, ..WALK };
+        let cells = (0..6).map(|k| walker.outlines(2000 + 6 * number + k)).collect();
+        field(tracks(cells)).jitter.expect("six cells").p_value
+    };
+    let p: Vec<f64> = (0..60).map(p_value).collect();
+    let below = |level: f64| p.iter().filter(|p| **p < level).count();
+    println!("{} of 60 below 0.01, {} below 0.1, {} below 0.5", below(0.01), below(0.1), below(0.5));
+    // means 0.6, 6 and 30, three standard deviations
+    assert!(below(0.01) <= 3 && below(0.1) <= 13 && (18..=42).contains(&below(0.5)), "{p:?}");
+}
+
+/// Without a drift p-values of the common velocity are uniform: 100 fields of six walkers.
+#[test]
+fn p_values_of_a_common_velocity_are_uniform() {
+    let p_value = |number: u64| {
+        let walker = Walker { frames: 12, ..WALK };
+        let cells = (0..6).map(|k| walker.outlines(1000 + 6 * number + k)).collect();
+        field(tracks(cells)).drift.expect("six cells").p_value
+    };
+    let p: Vec<f64> = (0..100).map(p_value).collect();
+    for (level, fewest, most) in [(0.2, 8, 33), (0.5, 34, 66), (0.05, 0, 13)] {
+        let below = p.iter().filter(|p| **p < level).count();
+        println!("{below} of 100 below {level}");
+        // three standard deviations of a binomial number
+        assert!((fewest..=most).contains(&below), "{below} below {level}");
+    }
+}
+
+/// The side of the pixels that outlines follow is found, and rounded digits of smooth outlines are none.
+#[test]
+fn pixels_are_found() {
+    let mut seen = walkers(1);
+    let points = seen.cells[0].frames.iter_mut();
+    points.for_each(|outline| outline.points = pixelated(&outline.points, 0.25));
+    assert!((field(seen).pixel.expect("pixels") - 0.25).abs() < 1e-9);
+    let mut rounded = walkers(1);
+    let points = rounded.cells[0].frames.iter_mut().flat_map(|outline| &mut outline.points);
+    points.flatten().for_each(|x| *x = (*x * 1000.0).round() / 1000.0);
+    assert_eq!(field(rounded).pixel, None);
+}
+
+/// One cell on a stage that jumps, which it shows by itself: the fit of its pieces is that of the still stage within its errors, and so is the name.
+#[test]
+fn a_stage_jump_ends_no_cell() {
+    let circle = || tracks(vec![body("fig4", &[("kappa2", 0.5), ("kappa3", 0.5)], (0.6, 0.01), 400)]);
+    let (still, jumped) = (sample(circle()), sample(circle().jumping(170, [9.0, -4.0])));
+    assert_eq!(jumped.cells[0].breaks, [170]);
+    assert_eq!(jumped.field.jumps.len(), 1);
+    for sample in [&still, &jumped] {
+        assert_eq!(observe(&sample.cells[0]).motion.regime, Some(Regime::Circular));
+    }
+    let fits = [&still, &jumped].map(|sample| fit(&sample.cells[0], false).fitted.expect("a fit"));
+    assert_eq!(fits[0].motion_name(), fits[1].motion_name());
+    for (a, b) in fits[0].whole.coefficients.iter().zip(&fits[1].whole.coefficients) {
+        let (a, b) = (a.estimate, b.estimate);
+        assert!((a.value - b.value).abs() < 1.0 * b.error, "{a:?} {b:?}");
+    }
+    let bridged = jumped.corrected(&[Correction::Jumps], &ModeOptions::default());
+    assert_eq!(observe(&bridged.cells[0]).measures.expect("long").frames, 400);
+}
+
+/// A circle on a stage that drifts by 2 % of its speed: never handed; with the drift subtracted it is a circle again, with the coefficients of the still stage.
+#[test]
+fn a_drift_is_no_handedness() {
+    let circle = || tracks(vec![body("fig4", &[("kappa2", 0.5), ("kappa3", 0.3)], (2.0, 0.01), 600)]);
+    let drifting = sample(circle().drifting([0.02, 0.0]));
+    let seen = fit(&drifting.cells[0], false).fitted.expect("a fit");
+    assert!(!seen.is_handed() && seen.symmetry() != Symmetry::Handed, "{:?}", seen.doubts);
+    let corrected = fit(&drifting.cells[0], true).fitted.expect("a fit");
+    let still = fit(&sample(circle()).cells[0], false).fitted.expect("a fit");
+    let [[x, y]] = corrected.stage[..] else { panic!("{:?}", seen.doubts) };
+    assert!((x - 0.02).abs() < 5e-3 && y.abs() < 5e-3, "{x} {y}");
+    assert!(!corrected.is_handed());
+    assert_eq!(corrected.motion_name(), still.motion_name());
+}
+
+/// A jitter of 0.5 % of R0 of a chaotic cell: the centre has a noise of its own in the fit, of the right size, and the name stays.
+#[test]
+fn a_jitter_leaves_a_chaotic_cell_its_name() {
+    let chaotic = || tracks(vec![body("fig5b", &[], (2.0, 0.01), 600)]);
+    let still = fit(&sample(chaotic()).cells[0], false).fitted.expect("a fit");
+    let moved = fit(&sample(chaotic().jittering(0.01, 5)).cells[0], false).fitted.expect("a fit");
+    let centre = moved.model().noise.centre;
+    println!("{} and {}: {centre:?}, {:?}", still.motion_name(), moved.motion_name(), moved.doubts);
+    assert!((centre.value - 0.01).abs() < 4.0 * centre.error && centre.error < 0.002, "{centre:?}");
+    assert_eq!((still.motion_name(), moved.motion_name()), ("chaotic", "chaotic"));
+}
