@@ -12,14 +12,9 @@ const CENTRE: f64 = 0.006;
 #[test]
 fn gradient_by_differences() {
     let three = || full(0.5, 0.1);
-    for (equations, modes, handed) in [
-        (three(), 2, false),
-        (three(), 2, true),
-        (three(), 3, false),
-        (three(), 3, true),
-        (four(), 4, false),
-        (four(), 4, true),
-    ] {
+    for (equations, modes, handed) in
+        [(three(), 2, false), (three(), 3, false), (three(), 3, true), (four(), 4, false), (four(), 4, true)]
+    {
         let mut track = Experiment { frames: 40, ..Experiment::new(equations, 0.05, 11) }.track();
         track.0.remove(20);
         track.0.drain(28..31);

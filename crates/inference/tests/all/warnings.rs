@@ -90,5 +90,5 @@ fn bad_input() {
     );
     let library = Library { modes: 5, ..Library::tensor() };
     let refused = fit(&[], &Settings { library, ..Settings::default() }, &()).unwrap_err().to_string();
-    assert_eq!(refused, "modes = 5: give 3 or 4");
+    assert_eq!(refused, "modes = 5: give 2, 3 or 4");
 }

@@ -73,8 +73,10 @@ pub(super) fn run(points: &[[f64; 2]], border: Edge, borders: &[Edge]) -> (f64, 
 
 /// Whether another side of the outline is as flat: then it is so by itself, and not because a part is not seen.
 fn is_flat_elsewhere(points: &[[f64; 2]], (run, depth): (f64, f64), border: Edge, borders: &[Edge]) -> bool {
-    let reached: Vec<&Edge> =
-        borders.iter().filter(|edge| points.iter().any(|point| edge.is_near(point, depth))).collect();
+    // a cell in a corner of the images is clipped at two sides; no cell is as wide as the images
+    let beside = |edge: &&Edge| dot(edge.normal, border.normal) > -SAME_SIDE;
+    let near = |edge: &&Edge| points.iter().any(|point| edge.is_near(point, depth));
+    let reached: Vec<&Edge> = borders.iter().filter(beside).filter(near).collect();
     (0..DIRECTIONS).any(|k| {
         let (sin, cos) = libm::sincos(2.0 * PI * k as f64 / DIRECTIONS as f64);
         // from the border on, so that a turn of the images changes nothing

@@ -244,9 +244,8 @@ fn what_is_no_mask_is_named() {
     let place = packed.windows(2).position(|tag| tag == [3, 1]).expect("the tag of the compression");
     packed[place + 8] = 7;
     assert!(refusal("a.tif", packed).contains("compression 7"));
-    assert!(
-        refusal("b.tif", tiff(&[labels(0)], true, Packing::Lzw, false)[..900].to_vec()).contains("b.tif")
-    );
+    let whole = tiff(&[labels(0)], true, Packing::Lzw, false);
+    assert!(refusal("b.tif", whole[..whole.len() / 2].to_vec()).contains("b.tif"));
     assert!(refusal("c.tif", b"II\x2a\0\x08\0\0\0\0\0\0\0\0\0".to_vec()).contains("no width"));
     let empty = files.path("empty");
     std::fs::create_dir(&empty).expect("a folder");

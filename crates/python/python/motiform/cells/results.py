@@ -134,6 +134,8 @@ class Noise:
     """Noise of the velocity."""
     eta_shape: Value
     """Noise of the shape."""
+    centre: Value
+    """Error of each coordinate of the centre beside that of the contour, such as a jitter of the images; 0 where none is seen."""
 
 
 @dataclass(frozen=True)
