@@ -21,8 +21,8 @@ fn gradient_by_differences() {
         let library = Library::new(modes, 3).unwrap();
         let settings = Settings { library, handed, ..Settings::default() };
         let n = settings.library.terms.len() * if handed { 2 } else { 1 };
-        // of two modes smaller ones: no step is then divided on one side of a difference alone
-        let size = if modes == 2 { 0.1 } else { 0.3 };
+        // so small that no step is divided on one side of a difference alone
+        let size = 0.1;
         let coefficients = (0..n).map(|i| size * libm::sin(i as f64 + 1.0)).collect();
         let at = Parameters { coefficients, s: 1.3, eta_v: 0.08, eta_shape: 0.06, centre: CENTRE };
         let value = |at: &Parameters| likelihood(&[track.clone()], &settings, at).unwrap();
