@@ -3,11 +3,15 @@
 use super::{RelativeEquilibrium, linearisation, matrix_of};
 use crate::graded::{EPS, spread};
 use crate::linear::add;
+use crate::lyapunov::SplitMix;
 use motiform_dynamics::{Equivariant, VectorField};
 use nalgebra::DMatrix;
 
 /// Rounding of a sum of products, in units of the roundoff of its terms.
 const ROUNDINGS: f64 = 2.0;
+
+/// Changes of the shape that are tried.
+const TRIES: u64 = 4;
 
 /// Bounds, to first order, of the errors that the residual and rounding leave in a relative equilibrium.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +67,8 @@ impl Uncertainty {
         }
     }
 
-    /// Bounds of the errors of `Df - omega G`: rounding against the largest entry of each row, and what the error of the shape changes.
+    /// Bounds of the errors of `Df - omega G`: rounding against the largest entry of each row, and twice what some changes by the error of the shape
+    /// make of it, with random signs: with signs of its own a change may be one along a family, which changes nothing.
     pub(super) fn of_linearisation<B: Equivariant + ?Sized>(
         &self,
         body: &B,
@@ -71,13 +76,15 @@ impl Uncertainty {
         matrix: &DMatrix<f64>,
     ) -> DMatrix<f64> {
         let (shape, omega) = found;
-        let mut beside = shape.to_vec();
+        let mut errors = DMatrix::zeros(matrix.nrows(), matrix.ncols());
         let known = self.shape.iter().all(|x| x.is_finite());
-        if known {
-            add(&mut beside, 1.0, &self.shape);
+        for seed in if known { 0..TRIES } else { 0..0 } {
+            let mut random = SplitMix(200 + seed);
+            let moved = shape.iter().zip(&self.shape).map(|(x, bound)| x + bound * random.next().signum());
+            let moved = matrix_of(&linearisation(body, &moved.collect::<Vec<_>>(), omega));
+            errors
+                .zip_apply(&(moved - matrix), |error: &mut f64, moved| *error = error.max(2.0 * moved.abs()));
         }
-        let moved = matrix_of(&linearisation(body, &beside, omega));
-        let mut errors = (moved - matrix).abs();
         for (mut row, values) in errors.row_iter_mut().zip(matrix.row_iter()) {
             row.add_scalar_mut(2.0 * ROUNDINGS * EPS * values.amax());
         }

@@ -28,7 +28,7 @@ const RECORDED: [(&str, &str); 15] = [
     ("classify tensor --preset fig5b --samples 8", "38c74b21bf9588b9"),
     ("classify cell --set length=29.2", "184ad9801008ec61"),
     ("lyapunov tensor --preset fig5b --t-end 300", "5c73329ab624b31c"),
-    ("lyapunov tensor --preset fig5b --t-end 300 --samples 9", "1e94a04e7346f0be"),
+    ("lyapunov tensor --preset fig5b --t-end 300 --samples 9", "c206c76add686dce"),
     ("lyapunov cell --set length=21.75 --transient 200 --t-end 200", "d3d2570f233ef44f"),
 ];
 
