@@ -80,7 +80,7 @@ pub(crate) fn mean_over(samples: &[f64], durations: &[f64]) -> Result<Estimate> 
     if !(value.is_finite() && off.iter().map(|x| x * x).sum::<f64>().is_finite()) {
         return Err(checks::overflow(samples));
     }
-    let cosines = cosines(independent(&off));
+    let cosines = cosines(independent(&off, FEWEST_INDEPENDENT));
     let error = cosines.map_or(f64::INFINITY, |count| {
         QUANTILES[count - COSINES.0] * (2.0 / count as f64 * slowest(&off, durations, total, count)).sqrt()
             / total
@@ -91,7 +91,8 @@ pub(crate) fn mean_over(samples: &[f64], durations: &[f64]) -> Result<Estimate> 
 /// How many independent samples a mean over these durations is worth: n over the integrated correlation time.
 pub(crate) fn independent_samples(samples: &[f64], durations: &[f64]) -> f64 {
     let value = mean(samples, durations, samples[0]);
-    independent(&samples.iter().zip(durations).map(|(x, d)| (x - value) * d).collect::<Vec<_>>())
+    let off: Vec<f64> = samples.iter().zip(durations).map(|(x, d)| (x - value) * d).collect();
+    independent(&off, 0.0)
 }
 
 /// Fewest independent samples that have an error.
@@ -106,8 +107,9 @@ fn cosines(independent: f64) -> Option<usize> {
 
 /// `n / tau` for fluctuations around a mean; tau is at least 1, and 1 for none at all.
 ///
-/// tau = -1 + 2 sum over m of (rho_2m + rho_2m+1), as long as the pairs are positive, none larger than the one before.
-fn independent(off: &[f64]) -> f64 {
+/// tau = -1 + 2 sum over m of (rho_2m + rho_2m+1), as long as the pairs are positive, none larger than the one before. The sum only grows: where
+/// fewer than `least` are left it ends, and the number is a bound. (A transient would otherwise take all its n^2 / 2 products.)
+fn independent(off: &[f64], least: f64) -> f64 {
     let n = off.len();
     let lagged = |lag: usize| -> f64 { off.iter().zip(&off[lag..]).map(|(a, b)| a * b).sum() };
     let variance = lagged(0);
@@ -122,6 +124,9 @@ fn independent(off: &[f64]) -> f64 {
         }
         last = pair.min(last);
         sum += 2.0 * last;
+        if n as f64 * variance < least * sum {
+            break;
+        }
     }
     n as f64 / (sum / variance).max(1.0)
 }

@@ -19,8 +19,8 @@ use motiform_dynamics::{Equivariant, VectorField, model};
 use nalgebra::DMatrix;
 pub use reached::REACHED;
 pub use saddle::Saddle;
-pub use silent::modes;
 use serde::{Deserialize, Serialize};
+pub use silent::modes;
 pub use spectrum::rounding;
 pub use uncertainty::Uncertainty;
 

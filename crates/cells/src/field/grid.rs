@@ -61,7 +61,8 @@ impl Grid {
 
     /// The number of the frame at a place.
     pub(super) fn frame(&self, place: usize) -> i64 {
-        self.first + self.step * place as i64
+        let place = i64::try_from(place).unwrap_or(i64::MAX); // places are indices of a list in memory
+        self.first.saturating_add(self.step.saturating_mul(place))
     }
 
     pub(super) fn cells(&self) -> usize {

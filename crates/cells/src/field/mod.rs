@@ -79,7 +79,7 @@ impl FieldOfView {
                         .for_each(|jump| add(jump.displacement));
                 }
                 Correction::Jitter => {
-                    add(self.jitter.as_ref().map_or([0.0; 2], |jitter| jitter.displacement(frame)))
+                    add(self.jitter.as_ref().map_or([0.0; 2], |jitter| jitter.displacement(frame)));
                 }
                 Correction::Drift => {
                     if let Some(drift) = self.drift.filter(CommonDrift::is_seen) {

@@ -55,7 +55,7 @@ pub(crate) fn fitted(
     }
     let averaged =
         if handed || !whole.converged() { Vec::new() } else { averaged(&whole, &selection.subsets) };
-    let places = places((&whole, &selection), unplaced(&doubts, regime.as_ref(), handed));
+    let places = places((&whole, &selection), &unplaced(&doubts, regime.as_ref(), handed));
     Ok(Box::new(Fitted {
         whole,
         selection,
@@ -87,9 +87,9 @@ fn unplaced(doubts: &[String], regime: Option<&FittedRegime>, handed: bool) -> V
     reasons
 }
 
-fn places((whole, selection): (&Fit, &Selection), reasons: Vec<String>) -> [Placement; 2] {
+fn places((whole, selection): (&Fit, &Selection), reasons: &[String]) -> [Placement; 2] {
     [Plane::Full, Plane::Reduced].map(|plane| match reasons.is_empty() {
         true => place_among(whole, selection, plane),
-        false => Placement::Refused { reasons: reasons.clone() },
+        false => Placement::Refused { reasons: reasons.to_vec() },
     })
 }

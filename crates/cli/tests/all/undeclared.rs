@@ -1,6 +1,8 @@
 //! Equations whose symmetry is not stated have the same motions: `symmetry = "none"` and a start of exact symmetry change what is looked for, and no
 //! name.
 
+#![allow(clippy::panic, reason = "a test may fail")]
+
 use crate::common::Folder;
 use serde_json::Value;
 

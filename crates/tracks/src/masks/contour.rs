@@ -53,7 +53,7 @@ fn parts(labels: &Labels, label: u32, [left, right, top, bottom]: Span) -> Vec<V
             let [x, y] = [usize::try_from(x), usize::try_from(y)];
             matches!((x, y), (Ok(x), Ok(y)) if x < width && y < height && part[y * width + x] == own)
         };
-        let corners = follow(at.map(|value| value as i64), false, full);
+        let corners = follow(at.map(|value| i64::try_from(value).unwrap_or(i64::MAX)), false, full);
         let next = corners.iter().cycle().skip(1);
         let middle = |(a, b): (&[i64; 2], &[i64; 2])| {
             [left as f64 + 0.5 * (a[0] + b[0]) as f64, top as f64 + 0.5 * (a[1] + b[1]) as f64]

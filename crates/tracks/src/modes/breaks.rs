@@ -83,7 +83,7 @@ impl Going {
 fn changes(a: &FrameModes, b: &FrameModes) -> [Option<f64>; 3] {
     let area = (a.area > 0.0 && b.area > 0.0).then(|| libm::log(b.area / a.area).abs());
     let mode = |n: usize| {
-        let [a, b] = [a, b].map(|frame| Some(frame.radius.as_ref()?.z.get(n)?));
+        let [a, b] = [a, b].map(|frame| frame.radius.as_ref()?.z.get(n));
         let (a, b) = (a?, b?);
         Some(libm::hypot(b[0] - a[0], b[1] - a[1]))
     };

@@ -172,7 +172,7 @@ fn images_of_every_kind_have_the_same_outlines() {
     for (k, image) in images.iter().enumerate() {
         std::fs::write(
             folder.join(format!("mask{:03}.tif", 2 * k)),
-            tiff(&[image.clone()], false, Packing::Deflate, false),
+            tiff(std::slice::from_ref(image), false, Packing::Deflate, false),
         )
         .expect("a file");
     }
