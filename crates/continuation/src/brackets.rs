@@ -2,7 +2,7 @@
 
 use super::between::{Step, between};
 use super::dip::{Look, dip};
-use super::levels::{CLEAR, Level};
+use super::levels::Level;
 use super::place::{Before, Place};
 use super::problem::Problem;
 use super::smooth::{Number, Smooth};
@@ -54,11 +54,11 @@ pub(super) fn brackets<P: Problem>(
     step: &Step<'_, P::Local>,
     known: &[f64],
     watch: &dyn Watch,
-) -> Seen {
+) -> Vec<Bracket> {
     let beside = |s: f64| Some((s, between(problem, step, s, watch).ok()?));
     let apart = BESIDE * step.length;
     let sides: Vec<_> = known.iter().map(|s| (beside(s - apart), beside(s + apart))).collect();
-    let mut out = Seen::default();
+    let mut out = Vec::new();
     let mut low = Some((0.0, step.old));
     for place in 0..=sides.len() {
         let high = match sides.get(place) {
@@ -72,16 +72,8 @@ pub(super) fn brackets<P: Problem>(
         }
         low = sides.get(place).and_then(|(_, beyond)| beyond.as_ref().map(|(s, place)| (*s, place)));
     }
-    out.brackets.sort_by_key(|bracket| !matches!(bracket.test, Test::Slope));
+    out.sort_by_key(|bracket| !matches!(bracket.test, Test::Slope));
     out
-}
-
-/// What seems to change its sign.
-#[derive(Debug, Default)]
-pub(super) struct Seen {
-    pub(super) brackets: Vec<Bracket>,
-    /// Whether a level has another sign at the end of the step, where it is smaller than its error: a step that ends elsewhere tells.
-    pub(super) is_unsure: bool,
 }
 
 /// A level that lies beyond 0 by no more than this part of its values at both ends touches 0: so it does where branches cross at which it is an even
@@ -100,12 +92,11 @@ struct Stretch<'s, P: Problem> {
 
 impl<P: Problem> Stretch<'_, P> {
     /// What changes its sign on it.
-    fn add(&self, out: &mut Seen) {
-        let before = out.brackets.len();
+    fn add(&self, out: &mut Vec<Bracket>) {
+        let before = out.len();
         for class in 0..self.low.1.levels.len() {
             self.add_class(class, out);
         }
-        let out = &mut out.brackets;
         if out.len() == before && is_level(self.problem, self.step) {
             return; // where a branch turns back a level vanishes as well
         }
@@ -120,7 +111,7 @@ impl<P: Problem> Stretch<'_, P> {
         (low.1 * high.1 < 0.0).then_some(Bracket { test, low, high })
     }
 
-    fn add_class(&self, class: usize, seen: &mut Seen) {
+    fn add_class(&self, class: usize, out: &mut Vec<Bracket>) {
         let [count, other] =
             [self.low, self.high].map(|(_, place)| place.levels.get(class).map_or(0, Vec::len));
         if count != other {
@@ -128,17 +119,13 @@ impl<P: Problem> Stretch<'_, P> {
         }
         let tests: Vec<Test> = (0..count).map(|rank| Test::Level(class, rank)).collect();
         let noise = self.noise();
-        let out = &mut seen.brackets;
+        // towards a point of more symmetry levels vanish as powers of the distance, and their signs are those of rounding
+        let clear = |bracket: &Bracket| {
+            let sizes = [bracket.low.1.abs(), bracket.high.1.abs()];
+            if self.is_whole { sizes[0].max(sizes[1]) > noise } else { sizes[0].min(sizes[1]) > noise }
+        };
         let before = out.len();
-        for bracket in tests.iter().filter_map(|&test| self.bracket(test)) {
-            // towards a point of more symmetry levels vanish as powers of the distance, and their signs are those of rounding
-            match [bracket.low.1.abs() > noise, bracket.high.1.abs() > noise] {
-                [true, true] => out.push(bracket),
-                [false, true] if self.is_whole => out.push(bracket),
-                [true, false] if self.is_whole => seen.is_unsure = true,
-                _ => {}
-            }
-        }
+        out.extend(tests.iter().filter_map(|&test| self.bracket(test)).filter(clear));
         let orbits = self.problem.time().is_some();
         for smooth in Smooth::all(orbits) {
             if out.len() > before {
@@ -149,9 +136,9 @@ impl<P: Problem> Stretch<'_, P> {
         }
     }
 
-    /// A level below this has no sign; the error of the slope is not known.
+    /// The error of levels; the slope has none that is known.
     fn noise(&self) -> f64 {
-        CLEAR * self.problem.noise(&self.low.1.levels).max(self.problem.noise(&self.high.1.levels))
+        self.problem.noise(&self.low.1.levels).max(self.problem.noise(&self.high.1.levels))
     }
 
     /// Tests that have the same signs at both ends and others between: where `value`, which vanishes with them, seems to change its sign twice.

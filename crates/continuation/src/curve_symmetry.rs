@@ -1,6 +1,7 @@
 //! Where a curve of special points passes a motion of more symmetry.
 
 use super::classes::GAINED;
+use super::critical::Condition;
 use super::curve_steps::Event;
 use super::curve_tracer::{CurveTracer, Spot, last_two};
 use super::degenerate::Degenerate;
@@ -49,12 +50,14 @@ impl<P: Problem> CurveTracer<P> {
             let gained = self.problem.local(&middle, watch);
             if gained.is_ok_and(|local| self.problem.gains(&middle, &local, GAINED).is_some()) {
                 let [a, b] = [&self.spot, new].map(|spot| last_two(&spot.frame.along));
+                // beyond it the curve consists of images of what it was; frequencies that vanish there are rounding beyond
+                let images = a[0] * b[0] + a[1] * b[1] < 0.0;
                 return Ok(Some(Event {
                     s: 0.5 * (low.0 + high.0),
                     spot: None,
                     kind: Degenerate::GainsSymmetry,
                     at: Some(last_two(&middle)),
-                    ends: a[0] * b[0] + a[1] * b[1] < 0.0, // beyond it the curve consists of images of what it was
+                    ends: images || self.critical.condition == Condition::Pair,
                 }));
             }
         }

@@ -31,7 +31,7 @@ pub enum Degenerate {
     /// Two different kinds of critical multipliers at once.
     DoublyCritical,
     /// The motion gains a symmetry: a part of its shape vanishes, and every eigenvalue that belongs to the symmetry is critical at once. Where the parameters turn
-    /// back, the curve goes on with images of itself, and ends.
+    /// back, the curve goes on with images of itself, and ends; so does one of pairs.
     GainsSymmetry,
     /// One of them, seen between two points of the curve and not located.
     Unresolved,

@@ -16,7 +16,7 @@ impl Level {
     }
 }
 
-/// A growth of fewer errors than this has no sign: errors are estimates.
+/// A growth of fewer errors than this is not told from 0 where it should vanish: at special points.
 pub(super) const CLEAR: f64 = 100.0;
 
 /// How many levels grow.

@@ -21,8 +21,6 @@ pub(super) struct Changes<L> {
     pub(super) found: Vec<(Place<L>, Special)>,
     /// The names of the changes that were seen but not located.
     pub(super) missed: Vec<&'static str>,
-    /// Whether a level at the end of the step is too small for a sign that would be another one.
-    pub(super) is_unsure: bool,
 }
 
 /// The watch stopped the computation.
@@ -37,15 +35,13 @@ pub(super) fn locate<P: Problem>(
     step: &Step<'_, P::Local>,
     watch: &dyn Watch,
 ) -> Result<Changes<P::Local>, Stopped> {
-    let mut changes = Changes { found: Vec::new(), missed: Vec::new(), is_unsure: false };
+    let mut changes = Changes { found: Vec::new(), missed: Vec::new() };
     for round in 0..ROUNDS {
         let known: Vec<f64> = changes.found.iter().map(|(at, _)| at.arclength - step.old.arclength).collect();
         if round > 0 && known.is_empty() {
             break;
         }
-        let seen = brackets(problem, step, &known, watch);
-        changes.is_unsure |= seen.is_unsure;
-        for bracket in seen.brackets {
+        for bracket in brackets(problem, step, &known, watch) {
             add(problem, step, &bracket, &mut changes, watch)?;
         }
         changes.found.sort_by(|a, b| a.0.arclength.total_cmp(&b.0.arclength));

@@ -185,8 +185,8 @@ impl<P: Problem> Tracer<P> {
         last.map_or_else(|| self.ends(), Err)
     }
 
-    /// What changes on the way to `new`. Where a change cannot be located, or the sign of a level at the end is not known, shorter steps are tried: a step over a gap
-    /// between two branches seems to be one of a branch, while shorter ones fail before it or turn with the branch.
+    /// What changes on the way to `new`. Where a change cannot be located, shorter steps are tried: a step over a gap between two branches seems to
+    /// be one of a branch, while shorter ones fail before it or turn with the branch.
     fn examine(
         &mut self,
         mut new: Place<P::Local>,
@@ -200,10 +200,7 @@ impl<P: Problem> Tracer<P> {
         };
         let mut found = changes(self, &new, length)?;
         let mut shorter = 0.5 * length;
-        let is_open = |found: &Changes<P::Local>, last: &Option<End>| {
-            !found.missed.is_empty() || found.is_unsure && last.is_none()
-        };
-        while is_open(&found, last) && shorter > self.settings.smallest_step {
+        while !found.missed.is_empty() && shorter > self.settings.smallest_step {
             if let Ok((nearer, _)) = self.attempt(shorter, watch) {
                 (new, length, *last) = (nearer, shorter, None);
                 found = changes(self, &new, length)?;

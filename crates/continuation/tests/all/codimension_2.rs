@@ -159,3 +159,25 @@ fn the_pitchfork_line_of_the_reduced_model_passes_the_circle() {
         assert_eq!(ends, [End::RangeLeft, End::RangeLeft]);
     }
 }
+
+/// Towards the origin the frequency and the speed of straight motion vanish, and with them what the coefficient is made of.
+#[test]
+fn the_hopf_line_of_straight_motion_has_one_bautin_point_up_to_the_origin() {
+    let plane = |[gamma, kappa2]: [f64; 2]| -> Body { Ok(Box::new(reduced(kappa2, gamma))) };
+    let s = -0.03;
+    let [kappa2, gamma] = Reduced::PAPER.straight_hopf(s);
+    let along = |gamma: f64| plane([gamma, kappa2]);
+    let guess = [(gamma - 2.0 * s).sqrt(), 0.0, s, 0.0, 0.0, 0.0];
+    let start = Settings::over(gamma - 0.004, gamma + 0.004);
+    let point = first(&along, gamma - 0.001, &guess, &start, "hopf");
+    for range in [(-0.1, 0.1), (-0.07, 0.05), (-0.2, 0.01)] {
+        let mut found = Vec::new();
+        for settings in [Settings::over(-0.16, 0.12), Settings::over(-0.16, 0.12).reversed()] {
+            let curve = Curve::of(&plane, &point, kappa2, &settings, range, &()).unwrap();
+            found.extend(curve.filter_map(|point| Some((point.degenerate?, point.parameters))));
+        }
+        found.retain(|one| one.0 == Degenerate::Bautin);
+        assert!(matches!(found[..], [(Degenerate::Bautin, _)]), "{range:?}: {found:?}");
+        near(found[0].1[1], -0.066_873_7, 1e-6);
+    }
+}
