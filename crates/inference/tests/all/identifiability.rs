@@ -73,7 +73,7 @@ fn a_chaotic_motion_fixes_everything() {
 fn short_or_noisy_is_not_identifiable() {
     let short = look(full(0.5, 0.1), (0.02, 30));
     assert!(!short.identifiable);
-    assert!(short.reasons.iter().any(|reason| reason.contains("are too few for 25 parameters")));
+    assert!(short.reasons.iter().any(|reason| reason.contains("are too few for 26 parameters")));
     let mut noisy = Experiment::new(full(0.9, 0.1), 0.02, 7);
     noisy.frames = 150;
     noisy.errors = noisy.errors.map(|error| 60.0 * error);

@@ -125,6 +125,17 @@ fn what_a_fit_says_of_itself_is_passed_over() {
 }
 
 #[test]
+fn ties_are_texts_of_parameters() {
+    let mut expected = parse("[model.tensor]\nd3 = 0.5\n").unwrap();
+    expected.tie("b3", "2*d3").unwrap();
+    assert_eq!(parse("[model.tensor]\nd3 = 0.5\n[ties]\nb3 = \"2*d3\"\n").unwrap(), expected);
+    for wrong in ["b3 = 2", "b33 = \"d3\"", "b3 = \"d33\"", "b3 = \"b3\""] {
+        let problem = parse(&format!("[model.tensor]\n[ties]\n{wrong}\n")).unwrap_err().to_string();
+        assert!(problem.contains("study.toml:3:"), "{wrong}: {problem}");
+    }
+}
+
+#[test]
 fn a_model_alone_is_a_study() {
     let mut expected = Study::of_model(tensor());
     "study".clone_into(&mut expected.name);
@@ -137,8 +148,8 @@ fn schema_keys(info: &ModelInfo) -> Vec<(String, Value)> {
     let schema = study::schema();
     let mut keys = Vec::new();
     for (name, value) in schema["properties"].as_object().unwrap() {
-        if name == "fit" {
-            continue; // whatever fits say of themselves: see `what_a_fit_says_of_itself_is_passed_over`
+        if ["fit", "ties"].contains(&name.as_str()) {
+            continue; // whatever fits say of themselves, and parameters of any model: see the tests of each
         }
         let tables = match name.as_str() {
             "model" => vec![(format!("model.{}", info.name), &value["properties"][info.name])],
