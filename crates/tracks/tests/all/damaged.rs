@@ -28,7 +28,7 @@ fn unknown_content_says_what_it_looks_like() {
         ("hello world\n", "hello world"),
         ("1 2 3\n", "formats are csv"),
         ("#p2 - QuimP parameter file\n1\n", ".snQP"),
-        ("II*\0", "TIFF"),
+        ("II*\0", "the end of the file"), // an image without its tags
     ] {
         let error = refusal(content);
         assert!(error.contains(part), "{content:?}: {error}");
