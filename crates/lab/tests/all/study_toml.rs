@@ -226,7 +226,8 @@ fn keys_that_the_reader_knows(info: &ModelInfo) -> BTreeSet<String> {
     }
     let initial = listed(&complaint(&format!("[{model}]\n[initial]\nzzz = 1\n")));
     known.extend(initial.iter().chain([&"random".to_owned()]).map(|key| format!("initial.{key}")));
-    let tables = ["model", "initial", "run", "scan", "continue", "return_map", "figure", "display", "fit"];
+    let tables =
+        ["model", "ties", "initial", "run", "scan", "continue", "return_map", "figure", "display", "fit"];
     let top = listed(&complaint(&format!("zzz = 1\n[{model}]\n")));
     known.extend(top.into_iter().filter(|key| !tables.contains(&key.as_str())));
     known

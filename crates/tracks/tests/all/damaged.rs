@@ -42,8 +42,9 @@ fn unknown_content_says_what_it_looks_like() {
     );
     let error = motiform_tracks::read(&["/nonexistent"], &Options::default()).unwrap_err().to_string();
     assert!(error.contains("/nonexistent"), "{error}");
-    let error = motiform_tracks::read(&[std::env::temp_dir()], &Options::default()).unwrap_err().to_string();
-    assert!(error.contains("a folder"), "{error}");
+    let folder = tempfile::tempdir().unwrap();
+    let error = motiform_tracks::read(&[folder.path()], &Options::default()).unwrap_err().to_string();
+    assert!(error.contains("the folder has no image"), "{error}");
 }
 
 #[test]
