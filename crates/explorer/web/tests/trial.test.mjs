@@ -133,10 +133,12 @@ test("the cells about the body are the first of the map", upon(it, { hash: "pres
   const { kappa2, kappa3 } = wire.last.get("begun").parameters;
   const [i, j] = [(kappa2 - map.x.first) / map.x.step, (kappa3 - map.y.first) / map.y.step].map(Math.round);
   const about = ([column, row]) => Math.abs(column - i) <= 1 && Math.abs(row - j) <= 1;
-  const places = () => new Set(wire.cells.filter(about).map(String));
   // Some take longer than others. Most of the nine are of the finest level, which makes up three quarters of the map and comes last elsewhere.
-  await until(() => places().size >= 5, "cells about the body");
-  const before = new Set(wire.cells.map(String)).size;
+  const places = (cells) => new Set(cells.filter(about).map(String)).size;
+  await until(() => places(wire.cells) >= 5, "cells about the body");
+  // In the order of arrival: a whole map may take less time than a look at it.
+  const fifth = wire.cells.findIndex((_, last) => places(wire.cells.slice(0, last + 1)) >= 5);
+  const before = new Set(wire.cells.slice(0, fifth).map(String)).size;
   assert.ok(before < (map.x.count * map.y.count) / 2, `${before} of ${map.x.count * map.y.count} cells came before`);
 }));
 
