@@ -25,6 +25,8 @@ const WHITE: f64 = 1e-3;
 const ERRORS_DIFFER: f64 = 1.5;
 /// Significance of a velocity that does not turn with the cell.
 const CARRIED: f64 = 1e-3;
+/// Its least size, as a part of the root mean square of the speed: a record without noise shows the errors of the filter (zigzag of Fig. 5(a): 3e-4).
+const LEAST_CARRIED: f64 = 0.005;
 /// Frames whose rates are computed.
 const RATES: usize = 60;
 
@@ -182,7 +184,12 @@ fn carried(tracks: &[Track], fit: &Fit) -> Result<Option<Warning>> {
     }
     let found = stage_velocities(tracks, fit)?.into_iter().flatten();
     let clearest = found.min_by(|a, b| a.p_value.total_cmp(&b.p_value));
-    let clear = clearest.filter(|found| found.p_value * (tracks.len() as f64) < CARRIED);
+    let least = LEAST_CARRIED * fit.scales.amplitudes[0];
+    let is_clear = |found: &StageVelocity| {
+        let size = libm::hypot(found.velocity[0], found.velocity[1]);
+        found.p_value * (tracks.len() as f64) < CARRIED && size > least
+    };
+    let clear = clearest.filter(is_clear);
     Ok(clear.map(|StageVelocity { velocity, errors, p_value }| Warning::Carried {
         velocity,
         errors,

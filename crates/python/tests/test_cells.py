@@ -330,7 +330,7 @@ def test_settings_of_fits_are_checked() -> None:
     cells = motiform.cells.from_arrays({"one": simulated("fig5b")[:60]})
     with pytest.raises(ValueError, match="order = 7"):
         cells.fit(order=7, progress=False)
-    with pytest.raises(ValueError, match="modes = 5: give 3 or 4"):
+    with pytest.raises(ValueError, match="modes = 5: give 2, 3 or 4"):
         cells.fit(modes=5, progress=False)
     with pytest.raises(RuntimeError, match="stop"):
         cells.fit(progress=_stop)
