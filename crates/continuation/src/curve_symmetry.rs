@@ -20,8 +20,8 @@ const BESIDE: f64 = 1e-2;
 type At = (f64, Vec<f64>);
 
 impl<L> Event<L> {
-    /// Whether another point of codimension two is this one, where a symmetry is gained: there all that belongs to the symmetry vanishes, so that
-    /// signs beside it are those of rounding. So is what was seen on the step and not located.
+    /// Whether a sign change of the same step is due to the symmetry gained here. Near this point everything that belongs to the symmetry vanishes, and signs are
+    /// those of rounding; a sign change that could not be located is taken for one of these.
     pub(super) fn explains(&self, other: &Self, length: f64) -> bool {
         other.kind == Degenerate::Unresolved || (other.s - self.s).abs() < BESIDE * length
     }

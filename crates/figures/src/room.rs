@@ -29,7 +29,7 @@ impl Room {
         self.width
     }
 
-    /// Width and height of a frame whose default size is `[w, h]`; labels and margins beside it take `beside` units of the sheet. A narrower frame
+    /// Width and height of a frame whose default size is `[w, h]`, where labels and margins take `beside` units of the width. A narrower frame
     /// keeps the aspect ratio, but its height is at least .62 of its width, or `h` where that is less.
     pub(crate) fn frame(self, [w, h]: [f64; 2], beside: f64) -> [f64; 2] {
         let Some(width) = self.width else { return [w, h] };

@@ -230,7 +230,7 @@ fn zigzags_begin_at_an_odd_oscillation_of_straight_motion() {
 }
 
 /// With gamma = kappa2 four eigenvalues of a pure third mode vanish at once, at kappa3 = -18/35. The branch of straight motion passes this shape; a growth rate
-/// passes 0 there, with a pair of frequency 1e-5 beside it, which is no Hopf bifurcation.
+/// passes 0 there. A pair of eigenvalues has a frequency of 1e-5, which is rounding: there is no Hopf bifurcation.
 #[test]
 fn where_a_branch_passes_a_shape_of_more_symmetry_there_is_no_hopf_bifurcation() {
     let family = |kappa3: f64| -> Body {

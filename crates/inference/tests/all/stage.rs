@@ -3,8 +3,8 @@
 use crate::common::{Equations, Experiment, FULL, full};
 use motiform_dynamics::Complex;
 use motiform_inference::{
-    Fit, HANDED_RATE, Library, Settings, Symmetry, Track, fit, handed_beside_stage, handedness,
-    stage_velocities, with_stage,
+    Fit, HANDED_RATE, Library, Settings, Symmetry, Track, Warning, fit, handed_beside_stage, handedness,
+    stage_velocities, warnings, with_stage,
 };
 
 fn fitted(track: &Track) -> Fit {
@@ -39,6 +39,22 @@ fn a_velocity_that_was_added_is_found() {
         for (a, b) in there.fit.coefficients.iter().zip(&at_rest.fit.coefficients) {
             assert!((a.estimate.value - b.estimate.value).abs() < 0.2 * b.estimate.error, "{}", a.name);
         }
+    }
+}
+
+/// A warning asks for half a percent of the speed: with next to no noise the errors of the filter are significant as well.
+#[test]
+fn a_velocity_is_named_from_half_a_percent_of_the_speed_on() {
+    let still = Experiment { frames: 600, ..Experiment::new(full(0.5, 0.3), 0.001, 9) }.track();
+    let speed = fitted(&still).scales.amplitudes[0];
+    for (part, is_named) in [(0.004, false), (0.006, true), (0.02, true)] {
+        let tracks = [still.without_velocity([-part * speed, 0.0])];
+        let found = fitted(&tracks[0]);
+        let seen = stage_velocities(&tracks, &found).expect("a track")[0].expect("told");
+        assert!(seen.p_value < 1e-6 && (seen.velocity[0] / speed - part).abs() < 5e-4, "{part}: {seen:?}");
+        let named = warnings(&tracks, &found, None).expect("warnings");
+        let is_carried = named.iter().any(|warning| matches!(warning, Warning::Carried { .. }));
+        assert_eq!(is_carried, is_named, "{part}: {named:?}");
     }
 }
 

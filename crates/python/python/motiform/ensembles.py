@@ -12,13 +12,14 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _motiform
+from .calls import Random, with_given
 from .progress import Bar, Progress
 from .results import Outcome, outcome_of
 from .trajectory import Floats
 
 if TYPE_CHECKING:
     from .fields import Field
-    from .models import Model, Random
+    from .models import Model
 
 
 @dataclass(frozen=True)
@@ -100,7 +101,6 @@ def ensemble(
     Members are matched one to one: starts and parameters have the same length, or length one.
     """
     from .fields import Field
-    from .models import _with
 
     given = {
         "random": random, "seed": seed, "stepper": stepper, "rtol": rtol, "atol": atol, "step": step, "max_steps": max_steps,
@@ -112,7 +112,7 @@ def ensemble(
     varied = {name: np.atleast_1d(np.asarray(values, dtype=np.float64)) for name, values in (parameters or {}).items()}
     if isinstance(body, Field):
         return body._ensemble(times, starts, varied, given, threads, progress)
-    study = _with(body._study, None, given)
+    study = with_given(body._study, None, given)
     table = _parameters(body, varied)
     places = _starts(body, study, starts, len(table))
     table, places = _matched(table, places)

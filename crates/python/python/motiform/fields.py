@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _motiform
 from .addresses import address_of
-from .models import OnEnd, _ended_early, _raised, _real
+from .calls import OnEnd, ended_early, raised_with, real
 from .progress import Bar, Progress
 from .results import Accuracy, Crossings, Exponents, Outcome, exponents_of, outcome_of
 from .trajectory import Floats, crossing_frame
@@ -148,10 +148,10 @@ class Field:
         outcome = _outcome(end)
         orbit = Orbit(rows[:, 0], rows[:, 1:], tuple(self.coordinates), outcome)
         if raised is not None:
-            raise _raised(raised, orbit)
+            raise raised_with(raised, orbit)
         if not outcome.complete:
             asked = escape_norm is not None or max_steps is not None
-            _ended_early(outcome.text, on_end or ("ignore" if asked else "warn"))
+            ended_early(outcome.text, on_end or ("ignore" if asked else "warn"))
         return orbit
 
     def section(
@@ -176,7 +176,7 @@ class Field:
             table, end = self._native.section(self._start(initial), surface, run, bar.callable())
         outcome = _outcome(end)
         if not outcome.complete:
-            _ended_early(outcome.text, on_end)
+            ended_early(outcome.text, on_end)
         return Crossings(crossing_frame(*table), outcome)
 
     def lyapunov(
@@ -205,12 +205,12 @@ class Field:
             text = self._native.lyapunov(self._start(initial), count, times, run, bar.callable())
         raw = json.loads(text)
         if not raw["complete"]:
-            _ended_early(raw["ended"], on_end)
+            ended_early(raw["ended"], on_end)
         return exponents_of(raw)
 
     def __call__(self, t: float, u: npt.ArrayLike) -> Floats:
         """The rates at `u`: (coordinates,), or (coordinates, m) for m states at once, as for ``scipy.integrate.solve_ivp``."""
-        states = _real(u)
+        states = real(u)
         if states.ndim not in (1, 2):
             raise ValueError(f"u has {states.ndim} dimensions: give (coordinates,) or (coordinates, m)")
         rows = np.ascontiguousarray(states[np.newaxis] if states.ndim == 1 else states.T)

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import json
 import os
-import warnings
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _motiform
-from ._registry import MODELS, ModelInfo, info_of
 from .branches import Branches, branches_of
+from .calls import OnEnd, Random, ended_early, raised_with, range_of, real, span, with_given
 from .curves import Curves, curves_of
-from .errors import EndedEarly, Interrupted
+from .described import Described
 from .measurements import Statistics, Threshold, asked, statistics_from
 from .progress import Bar, Progress
 from .results import (
@@ -32,90 +31,12 @@ from .results import (
 )
 from .trajectory import Floats, Trajectory, crossing_frame
 
-if TYPE_CHECKING:
-    from typing_extensions import Self
 
-OnEnd = Literal["warn", "ignore", "raise"]
-M = TypeVar("M", bound="Model")
-
-Random = float | str | tuple[float, float]
-"""Random initial states: a size (each coordinate within +-size), or the smallest and the largest norm (log-uniform, all directions)."""
-
-
-class Model:
+class Model(Described):
     """A model with its parameters. Immutable: :meth:`replace` returns a modified copy.
 
     Use :class:`Tensor`, :class:`Cell`, :class:`Amplitudes` (equations as text), :func:`preset` or :func:`study`.
     """
-
-    _study: _motiform.Study
-
-    @classmethod
-    def _of(cls: type[M], study: _motiform.Study) -> M:
-        model = cls.__new__(cls)
-        model._study = study
-        return model
-
-    @property
-    def info(self) -> ModelInfo:
-        """The entry of the registry: equations, source, parameters with meanings and ranges."""
-        return MODELS.get(self._study.model) or info_of(json.loads(self._study.info()))
-
-    @property
-    def title(self) -> str:
-        """The title of a preset or a study file."""
-        return self._study.title
-
-    @property
-    def about(self) -> str:
-        """For a preset: what it shows."""
-        return self._study.about
-
-    @property
-    def free(self) -> list[str]:
-        """The parameters that span the paper's diagram, if the preset represents one."""
-        return self._study.free
-
-    @property
-    def parameters(self) -> dict[str, float]:
-        """All parameters, in the order of the registry."""
-        return dict(self._study.parameters())
-
-    @property
-    def initial(self) -> dict[str, float]:
-        """The given initial values; if there are none, the initial state is random."""
-        return dict(self._study.initial())
-
-    @property
-    def run(self) -> dict[str, Any]:
-        """The run settings: ``t_end``, ``transient``, ``stepper``, ``rtol``, ``seed``, ..."""
-        settings: dict[str, Any] = json.loads(self._study.run())
-        return settings
-
-    @property
-    def coordinates(self) -> list[str]:
-        """Names of the shape's coordinates."""
-        return [name for name, _ in self._study.coordinates()]
-
-    def __getattr__(self, name: str) -> float:
-        if not name.startswith("_"):
-            for known, value in self._study.parameters():
-                if known == name:
-                    return value
-        raise AttributeError(f"{type(self).__name__} has no attribute or parameter {name!r}")
-
-    def replace(self, *, initial: Mapping[str, float] | None = None, **changes: Any) -> Self:
-        """A copy with other parameters, run settings (``t_end``, ``rtol``, ``seed``, ...) or initial values."""
-        settings = {name: changes.pop(name) for name in list(changes) if name in _SETTINGS}
-        return self._of(self._study.with_(changes, dict(initial or {}), settings))
-
-    def tie(self, **expressions: str) -> Self:
-        """A copy in which parameters follow from others: ``body.tie(b3="d3", kappa3="2*kappa2")``, also in scans over them."""
-        return self._of(self._study.tied(expressions))
-
-    def to_toml(self) -> str:
-        """A study file for the command line: ``motiform simulate FILE.toml`` computes the same bits."""
-        return self._study.to_toml()
 
     def simulate(
         self,
@@ -172,15 +93,15 @@ class Model:
             "noise_velocity": noise_velocity, "stepper": stepper, "rtol": rtol, "atol": atol, "step": step, "max_steps": max_steps,
             "escape_norm": escape_norm,
         }  # fmt: skip
-        study = _with(self._study, initial, given)
-        with Bar(progress, lambda: _span(study), "model time") as bar:
+        study = with_given(self._study, initial, given)
+        with Bar(progress, lambda: span(study), "model time") as bar:
             run, raised = _motiform.simulate(study, bar.callable())
         trajectory = Trajectory(run)
         if raised is not None:
-            raise _raised(raised, trajectory)
+            raise raised_with(raised, trajectory)
         if not run.complete:
             asked = escape_norm is not None or max_steps is not None
-            _ended_early(run.ended, on_end or ("ignore" if asked else "warn"))
+            ended_early(run.ended, on_end or ("ignore" if asked else "warn"))
         return trajectory
 
     def classify(
@@ -198,7 +119,7 @@ class Model:
         The flow preserves exact symmetries, so coordinates that `initial` leaves at zero get random values within `perturb` times its
         largest value (1e-6 if not given; 0 keeps the exact start).
         """
-        study = _with(self._study, initial, {"random": random, "perturb": perturb, "seed": seed})
+        study = with_given(self._study, initial, {"random": random, "perturb": perturb, "seed": seed})
         with Bar(progress, budget or self.info.budget, "model time") as bar:
             return verdict_of(json.loads(_motiform.classify(study, budget, bar.callable())))
 
@@ -218,7 +139,7 @@ class Model:
         The initial states are random (after the one in `initial`, if given): without `random` they have all directions and
         log-uniform sizes from a hundredth of the model's typical size to the full size.
         """
-        study = _with(self._study, initial, {"random": random, "seed": seed})
+        study = with_given(self._study, initial, {"random": random, "seed": seed})
         with Bar(progress, 100.0, "%") as bar:
             count = threads or os.cpu_count() or 1
             return motions_of(json.loads(_motiform.motions(study, samples, budget, count, bar.callable())))
@@ -236,18 +157,18 @@ class Model:
         progress: Progress = None,
     ) -> Exponents:
         """The `count` largest Lyapunov exponents (by default at most 6), with errors, averaged over `t_end`."""
-        study = _with(self._study, initial, {"random": random, "seed": seed})
+        study = with_given(self._study, initial, {"random": random, "seed": seed})
         count = min(6, len(study.coordinates())) if count is None else count
         with Bar(progress, 100.0, "%") as bar:
             raw = json.loads(_motiform.lyapunov(study, count, transient, t_end, bar.callable()))
         if not raw["complete"]:
-            _ended_early(raw["ended"], on_end)
+            ended_early(raw["ended"], on_end)
         return exponents_of(raw)
 
     def equilibria(self, *, starts: int = 200, seed: int | None = None, progress: Progress = None) -> list[Equilibrium]:
         """The steady motions (at rest, straight, circular) that Newton's method finds from the circle and from random
         shapes, and deflation beside them, the most stable first. The list may be incomplete; more `starts` may find more."""
-        study = _with(self._study, None, {"seed": seed})
+        study = with_given(self._study, None, {"seed": seed})
         with Bar(progress, starts, "starts") as bar:
             raw = json.loads(_motiform.equilibria(study, starts, bar.callable()))
         return [equilibrium_of(entry) for entry in raw]
@@ -286,8 +207,8 @@ class Model:
         and the first step, as parts of the range; Newton's method has converged with a step below `tolerance` (1e-9). With `steady` the
         orbits that begin at Hopf points are not followed.
         """
-        study = _with(self._study, initial, {"seed": seed})
-        name, low, high = _range("along", along)
+        study = with_given(self._study, initial, {"seed": seed})
+        name, low, high = range_of("along", along)
         with Bar(progress, branches, "branches") as bar:
             found = _motiform.follow_branches(
                 study,
@@ -300,7 +221,7 @@ class Model:
         text, table, raised = found
         result = branches_of(text, table)
         if raised is not None:
-            raise _raised(raised, result)
+            raise raised_with(raised, result)
         return result
 
     def statistics(
@@ -337,13 +258,13 @@ class Model:
             "t_end": t_end, "transient": transient, "dt_out": dt_out, "random": random, "seed": seed,
             "noise": noise, "noise_velocity": noise_velocity,
         }  # fmt: skip
-        study = _with(self._study, initial, given)
+        study = with_given(self._study, initial, given)
         counts = (bodies, threads or os.cpu_count() or 1)
         with Bar(progress, bodies, "bodies") as bar:
             text, tables, raised = _motiform.statistics(study, counts, asked(radii, threshold), bar.callable())
         result = statistics_from(text, tables)
         if raised is not None:
-            raise _raised(raised, result)
+            raise raised_with(raised, result)
         return result
 
     def curves(
@@ -370,9 +291,9 @@ class Model:
         `kinds`: hopf, fold, pitchfork, symmetry-breaking, period-doubling, torus. `along` and `across` are parameters with their
         ranges; the branches are followed as by :meth:`branches` along the first one.
         """
-        study = _with(self._study, initial, {"seed": seed})
+        study = with_given(self._study, initial, {"seed": seed})
         names = [kinds] if isinstance(kinds, str) else list(kinds)
-        sides = (_range("along", along), _range("across", across))
+        sides = (range_of("along", along), range_of("across", across))
         with Bar(progress, 1, "of branches and curves") as bar:
             found = _motiform.follow_curves(
                 study, names, (sides[0], sides[1]), from_, (branches, points), bar.callable()
@@ -380,7 +301,7 @@ class Model:
         text, table, raised = found
         result = curves_of(text, table)
         if raised is not None:
-            raise _raised(raised, result)
+            raise raised_with(raised, result)
         return result
 
     def section(
@@ -397,12 +318,12 @@ class Model:
         progress: Progress = None,
     ) -> Crossings:
         """The crossings of the orbit with ``coordinate = value``, located to round-off."""
-        study = _with(self._study, initial, {"t_end": t_end, "transient": transient, "seed": seed})
-        with Bar(progress, lambda: _span(study), "model time") as bar:
+        study = with_given(self._study, initial, {"t_end": t_end, "transient": transient, "seed": seed})
+        with Bar(progress, lambda: span(study), "model time") as bar:
             found = _motiform.section(study, coordinate, value, direction, bar.callable())
         table, (raw, complete, ended) = found
         if not complete:
-            _ended_early(ended, on_end)
+            ended_early(ended, on_end)
         return Crossings(crossing_frame(*table), outcome_of(json.loads(raw), complete, ended))
 
     def __call__(self, t: float, u: npt.ArrayLike) -> Floats:
@@ -411,7 +332,7 @@ class Model:
         `u` contains the coordinates (:attr:`coordinates`), optionally followed by ``x``, ``y``: (entries,), or (entries, m) for m
         states at once. The result has the same shape. `t` is ignored.
         """
-        states = _real(u)
+        states = real(u)
         if states.ndim not in (1, 2):
             raise ValueError(f"u has {states.ndim} dimensions: give (entries,) or (entries, m)")
         rows = np.ascontiguousarray(states[np.newaxis] if states.ndim == 1 else states.T)
@@ -423,72 +344,6 @@ class Model:
         if flow is None:
             flow = self.__dict__["_made_flow"] = _motiform.Flow(self._study)
         return flow
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {"_study": self._study}
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Model) and self._study == other._study
-
-    def __hash__(self) -> int:
-        return hash(self.to_toml())
-
-    def __repr__(self) -> str:
-        # Equations given as text have no defaults to leave out.
-        values = self.parameters.items() if type(self).__name__ == "Amplitudes" else self._study.given()
-        return f"{type(self).__name__}({', '.join(f'{name}={value:g}' for name, value in values)})"
-
-
-_SETTINGS = frozenset({
-    "t_end", "transient", "dt_out", "random", "seed", "noise", "noise_velocity", "stepper", "rtol", "atol", "step", "max_steps",
-    "escape_norm",
-})  # fmt: skip
-
-
-def _range(key: str, value: Any) -> tuple[str, float, float]:
-    """A parameter with its range."""
-    try:
-        name, low, high = value
-        if not isinstance(name, str) or isinstance(value, str):
-            raise TypeError
-        return name, float(low), float(high)
-    except (TypeError, ValueError):
-        raise TypeError(f"{key} = {value!r}: give a parameter with its range, ('kappa2', 0.3, 1.6)") from None
-
-
-def _with(study: _motiform.Study, initial: Mapping[str, float] | None, given: dict[str, Any]) -> _motiform.Study:
-    run = {name: value for name, value in given.items() if value is not None}
-    if not run and initial is None:
-        return study
-    return study.with_(None, None if initial is None else dict(initial), run)
-
-
-def _span(study: _motiform.Study) -> float:
-    """The model time of a run."""
-    run = json.loads(study.run())
-    return float(run["transient"] + run["t_end"])
-
-
-def _real(values: npt.ArrayLike) -> Floats:
-    """An array of doubles; values that are not real numbers are rejected, not converted."""
-    array = np.asarray(values)
-    if array.dtype.kind not in "fiub":
-        raise TypeError(f"u must hold real numbers, not {array.dtype}")
-    return array.astype(np.float64, copy=False)
-
-
-def _ended_early(how: str, on_end: OnEnd) -> None:
-    if on_end == "raise":
-        raise RuntimeError(f"the run {how}")
-    if on_end == "warn":
-        warnings.warn(f"the run {how}; see the result's outcome", EndedEarly, stacklevel=3)
-    elif on_end != "ignore":
-        raise ValueError(f"on_end = {on_end!r}: give 'warn', 'ignore' or 'raise'")
-
-
-def _raised(raised: BaseException, result: object) -> BaseException:
-    """The exception that stopped a call; after Ctrl-C it carries the result so far."""
-    return Interrupted(result) if isinstance(raised, KeyboardInterrupt) else raised
 
 
 def preset(name: str) -> Model:

@@ -16,9 +16,10 @@ import xarray as xr
 
 from . import _motiform
 from ._registry import ATTRACTORS, COURSES, NUMBERS, REGIMES, VERSION, info_of
+from .calls import Random
 from .errors import Incomplete, Interrupted
 from .executors import gather
-from .models import Model, Random
+from .models import Model
 from .progress import Bar, Progress
 from .trajectory import _unit
 

@@ -21,8 +21,8 @@ use text::text;
 const TEXTS: u64 = 40;
 
 /// Texts among the first 480 on which the two disagree: two branches whose difference is some 1e-5 cross twice, and the program's steps lead from one to the other
-/// (123); an eigenvalue that vanishes at p = 0.746161, as its values beside it show, is no point of the oracle (388);
-/// beside a shape of more symmetry signs within rounding are a pitchfork of the program (420).
+/// (123); the oracle misses an eigenvalue that changes its sign at p = 0.746161 (388); near a shape of more symmetry the program takes
+/// signs within rounding for a pitchfork (420).
 const DIFFERENT: [u64; 3] = [123, 388, 420];
 
 /// Texts on which the program was wrong: an exactly singular crossing was left unresolved (29); a pitchfork was listed twice where a shape gains five axes (120, 140,

@@ -14,8 +14,8 @@ import numpy as np
 import pandas as pd
 
 from .. import _motiform
+from ..calls import raised_with
 from ..equations import Amplitudes
-from ..models import _raised
 from ..progress import Bar, Progress
 from ..trajectory import Floats
 from .results import CellFit, Found, Observation, Place, fit_of, observation_of
@@ -110,7 +110,7 @@ class Cells(Sequence["Cell"]):
         cells = {one["cell"]: observation_of(one, self._units) for one in raw["cells"]}
         found = Found(cells, raw.get("population", {}))
         if raised is not None:
-            raise _raised(raised, found)
+            raise raised_with(raised, found)
         return found
 
     def _fit(
@@ -125,7 +125,7 @@ class Cells(Sequence["Cell"]):
             own = rows[rows["cell"] == one["cell"]].drop(columns="cell").reset_index(drop=True)
             found[one["cell"]] = fit_of(one, own, bodies.get(one["cell"]), self._units)
         if raised is not None:
-            raise _raised(raised, found)
+            raise raised_with(raised, found)
         return found
 
     def _modes(self) -> pd.DataFrame:

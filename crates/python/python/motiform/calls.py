@@ -1,0 +1,68 @@
+"""What all calls have in common: settings that are given, runs that end early, interruptions."""
+
+from __future__ import annotations
+
+import json
+import warnings
+from collections.abc import Mapping
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _motiform
+from .errors import EndedEarly, Interrupted
+from .trajectory import Floats
+
+OnEnd = Literal["warn", "ignore", "raise"]
+
+Random = float | str | tuple[float, float]
+"""Random initial states: a size (each coordinate within +-size), or the smallest and the largest norm (log-uniform, all directions)."""
+
+
+def range_of(key: str, value: Any) -> tuple[str, float, float]:
+    """A parameter with its range."""
+    try:
+        name, low, high = value
+        if not isinstance(name, str) or isinstance(value, str):
+            raise TypeError
+        return name, float(low), float(high)
+    except (TypeError, ValueError):
+        raise TypeError(f"{key} = {value!r}: give a parameter with its range, ('kappa2', 0.3, 1.6)") from None
+
+
+def with_given(study: _motiform.Study, initial: Mapping[str, float] | None, given: dict[str, Any]) -> _motiform.Study:
+    """The study with these initial values and settings; `None` leaves one as it is."""
+    run = {name: value for name, value in given.items() if value is not None}
+    if not run and initial is None:
+        return study
+    return study.with_(None, None if initial is None else dict(initial), run)
+
+
+def span(study: _motiform.Study) -> float:
+    """The model time of a run."""
+    run = json.loads(study.run())
+    return float(run["transient"] + run["t_end"])
+
+
+def real(values: npt.ArrayLike) -> Floats:
+    """An array of doubles; values that are not real numbers are rejected, not converted."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiub":
+        raise TypeError(f"u must hold real numbers, not {array.dtype}")
+    return array.astype(np.float64, copy=False)
+
+
+def ended_early(how: str, on_end: OnEnd) -> None:
+    """Does what was asked for a run that ended early."""
+    if on_end == "raise":
+        raise RuntimeError(f"the run {how}")
+    if on_end == "warn":
+        warnings.warn(f"the run {how}; see the result's outcome", EndedEarly, stacklevel=3)
+    elif on_end != "ignore":
+        raise ValueError(f"on_end = {on_end!r}: give 'warn', 'ignore' or 'raise'")
+
+
+def raised_with(raised: BaseException, result: object) -> BaseException:
+    """The exception that stopped a call; after Ctrl-C it carries the result so far."""
+    return Interrupted(result) if isinstance(raised, KeyboardInterrupt) else raised
