@@ -1,7 +1,7 @@
 //! The population: names and numbers over cells.
 
 use crate::numbers::plain;
-use crate::terms::typeset;
+use crate::terms::{typeset, unit};
 use crate::{Case, motion};
 use motiform_cells::Units;
 use motiform_cells::{
@@ -25,12 +25,15 @@ pub(crate) fn section(cases: &[Case<'_>], units: &Units) -> Result<Option<Sectio
     if fits.len() > 1 {
         let fitted = fitted_population(&fits);
         tables.push(names(&fitted.regimes, "motion of the fit"));
-        tables.push(coefficients(&fitted));
+        if fitted.fitted > 1 {
+            tables.push(coefficients(&fitted, &fits, units));
+        }
     }
     let mut figures = Vec::new();
     if let Some((count, statistics)) = population_statistics(&found) {
         about += &format!(
-            " Displacements and correlations are over {count} cells with enough frames at one sampling interval; with fewer than 8 their intervals are over blocks of the records."
+            " Displacements and correlations are over {count} cell{} with enough frames at one sampling interval; with fewer than 8 their intervals are over blocks of the records.",
+            if count == 1 { "" } else { "s" }
         );
         tables.push(motion::walk(&statistics, units));
         figures = motion::figures(&statistics, units)?;
@@ -72,8 +75,13 @@ fn numbers(found: &PopulationNumbers, units: &Units) -> Table {
     table("Numbers over the cells that have them.", rows.collect())
 }
 
-fn coefficients(found: &FittedPopulation) -> Table {
-    let rows = found.coefficients.iter().map(|one| row(typeset(&one.term), &one.over));
+fn coefficients(found: &FittedPopulation, fits: &[CellFit], units: &Units) -> Table {
+    let whole = || fits.iter().filter_map(|fit| Some(&fit.fitted.as_ref().ok()?.whole));
+    let named = |term: &str| {
+        let unit = whole().find_map(|fit| Some(unit(&fit.coefficient(term)?.term, units)));
+        format!("{} ({})", typeset(term), unit.unwrap_or_default())
+    };
+    let rows = found.coefficients.iter().map(|one| row(named(&one.term), &one.over));
     let caption = format!(
         "Coefficients over the cells whose fit is {}, from the fits with all terms. Cells with other motions have other laws, and are in no mean.",
         found.law.unwrap_or("named")

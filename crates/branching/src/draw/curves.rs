@@ -10,6 +10,9 @@ use motiform_study::curves::CurveKind;
 use motiform_study::plan::Named;
 use motiform_study::{CurvePlan, Error, ScanPlan};
 
+/// Distance up to which marks are at one place, as a part of the ranges: less than a pixel.
+const SAME_PLACE: f64 = 1e-3;
+
 /// Draws `curves`: as SVG and PNG, with its numbers as CSV. Without any curve there is no picture.
 ///
 /// # Errors
@@ -47,7 +50,7 @@ pub fn curve_map(plan: &CurvePlan, found: &Curves, over: Option<&ScanFolder>) ->
         y,
         under: under.map(|found| found.1),
         curves: in_order.flat_map(stretches).collect(),
-        marks: found.curves.iter().flat_map(codimension_2).map(mark).collect(),
+        marks: together(found.curves.iter().flat_map(codimension_2).map(mark), [x, y]),
     })
 }
 
@@ -94,9 +97,27 @@ fn mark((kind, sample): (Degenerate, &CurveSample)) -> MapMark {
         Degenerate::DoubleHopf => "double Hopf".to_owned(),
         Degenerate::Resonance { order } => format!("1:{order} resonance"),
         Degenerate::DoublyCritical => "doubly critical".to_owned(),
-        _ => "not located".to_owned(),
+        Degenerate::GainsSymmetry => "gains a symmetry".to_owned(),
+        Degenerate::Unresolved => "not located".to_owned(),
+        other => other.name().to_owned(),
     };
     MapMark { label, at: sample.parameters }
+}
+
+/// Marks at one place, as where curves meet, are one mark with the names of all.
+fn together(marks: impl Iterator<Item = MapMark>, ranges: [[f64; 2]; 2]) -> Vec<MapMark> {
+    let is_near = |a: [f64; 2], b: [f64; 2]| {
+        (0..2).all(|k| (a[k] - b[k]).abs() <= SAME_PLACE * (ranges[k][1] - ranges[k][0]))
+    };
+    let mut all: Vec<MapMark> = Vec::new();
+    for mark in marks {
+        match all.iter_mut().find(|known| is_near(known.at, mark.at)) {
+            Some(known) if known.label.split(", ").any(|label| label == mark.label) => {}
+            Some(known) => known.label += &format!(", {}", mark.label),
+            None => all.push(mark),
+        }
+    }
+    all
 }
 
 /// The number of initial states of each cell of a scan, and its regimes, with its axes in the order of the plane.

@@ -2,7 +2,7 @@
 
 use crate::args::CheckOptions;
 use crate::output::{End, plain, print};
-use motiform_study::{Plan, ScanPlan, Study, study};
+use motiform_study::{Plan, ScanPlan, Study, Ties, study};
 use std::fmt::Write;
 
 pub(crate) fn run(options: &CheckOptions) -> anyhow::Result<End> {
@@ -14,8 +14,8 @@ pub(crate) fn run(options: &CheckOptions) -> anyhow::Result<End> {
     let plan = Plan::new(&study)?;
     let scan = if study.scan.axes.is_empty() { None } else { Some(ScanPlan::new(&study)?) };
     let text = match (options.json, &scan) {
-        (false, None) => summary(&plan)?,
-        (false, Some(scan)) => format!("{}\n{}", summary(&plan)?, of_scan(scan)),
+        (false, None) => summary(&plan, &study.ties)?,
+        (false, Some(scan)) => format!("{}\n{}", summary(&plan, &study.ties)?, of_scan(scan)),
         (true, None) => serde_json::to_string_pretty(&plan)?,
         (true, Some(scan)) => {
             let mut json = serde_json::to_value(&plan)?;
@@ -27,7 +27,7 @@ pub(crate) fn run(options: &CheckOptions) -> anyhow::Result<End> {
     Ok(End::Done)
 }
 
-fn summary(plan: &Plan) -> anyhow::Result<String> {
+fn summary(plan: &Plan, ties: &Ties) -> anyhow::Result<String> {
     let c = &plan.computation;
     let mut text = format!("{}: {}\nmodel       {}\n", plan.name, plain(&plan.title()), c.model);
     let set: Vec<String> = c
@@ -38,6 +38,10 @@ fn summary(plan: &Plan) -> anyhow::Result<String> {
         .map(|(name, value)| format!("{name}={value}"))
         .collect();
     writeln!(text, "parameters  {} (others 0)", set.join(" "))?;
+    if !ties.is_empty() {
+        let all: Vec<String> = ties.iter().map(|(name, formula)| format!("{name} = {formula}")).collect();
+        writeln!(text, "ties        {}", all.join(", "))?;
+    }
     let start: Vec<String> = c.initial.0.iter().map(|(name, value)| format!("{name}={value}")).collect();
     writeln!(text, "start       {}", start.join(" "))?;
     writeln!(text, "time        transient {}, recorded {}, every {}", c.transient, c.t_end, c.dt_out)?;
@@ -54,9 +58,10 @@ fn of_scan(plan: &ScanPlan) -> String {
     let axes: Vec<String> = c.axes.iter().map(ToString::to_string).collect();
     let (cells, parts) = (plan.cells(), plan.parts());
     format!(
-        "scan        {}: {cells} cells with {} initial states each, in {parts} parts\nscan plan   {}",
+        "scan        {}: {cells} cells with {} initial state{} each, in {parts} parts\nscan plan   {}",
         axes.join(" x "),
         c.samples,
+        if c.samples == 1 { "" } else { "s" },
         plan.hash()
     )
 }

@@ -10,7 +10,7 @@ pub(crate) fn observed(
     numbers: &PopulationNumbers,
     units: &Units,
 ) -> std::result::Result<String, std::fmt::Error> {
-    let mut text = format!("population     {} cells\n", population.cells);
+    let mut text = format!("population     {}\n", cells(population.cells));
     shares(&mut text, &population.regimes)?;
     for number in &numbers.numbers {
         line(&mut text, number.name, &number.over, &number.dimension.unit(units))?;
@@ -23,17 +23,17 @@ pub(crate) fn fitted(
     population: &FittedPopulation,
     units: &Units,
 ) -> std::result::Result<String, std::fmt::Error> {
-    let mut text = format!("population     {} cells\n", population.cells);
+    let mut text = format!("population     {}\n", cells(population.cells));
     shares(&mut text, &population.regimes)?;
-    if population.fitted == 0 {
-        text += "               no coefficients: no fit with all terms that converged with bounded coefficients has a motion\n";
+    if population.fitted < 2 {
+        text += "               no means of coefficients: they need two cells of one motion whose fits with all terms converged with bounded coefficients\n";
         return Ok(text);
     }
     let law = population.law.unwrap_or_default();
     writeln!(
         text,
-        "               coefficients of fits with all terms, over {} cells ({law}):",
-        population.fitted
+        "               coefficients of fits with all terms, over {} ({law}):",
+        cells(population.fitted)
     )?;
     for coefficient in &population.coefficients {
         line(&mut text, &coefficient.term, &coefficient.over, "")?;
@@ -49,7 +49,7 @@ pub(crate) fn fitted(
 fn shares(text: &mut String, names: &[NameShare]) -> Result {
     for NameShare { name, share } in names {
         let [value, low, high] = [share.value, share.lower, share.upper].map(|part| 100.0 * part);
-        writeln!(text, "  {name:<16} {value:>5.1} % ({low:.1} to {high:.1}), {} cells", share.count)?;
+        writeln!(text, "  {name:<16} {value:>5.1} % ({low:.1} to {high:.1}), {}", cells(share.count))?;
     }
     Ok(())
 }
@@ -64,6 +64,11 @@ fn line(text: &mut String, name: &str, over: &OverCells, unit: &str) -> Result {
         text,
         "{}",
         format!("  {name:<16} mean {mean}, median {median} {unit}").trim_end().to_owned()
-            + &format!(" ({} cell{})", over.cells, if over.cells == 1 { "" } else { "s" })
+            + &format!(" ({})", cells(over.cells))
     )
+}
+
+/// `1 cell`, `2 cells`.
+fn cells(count: usize) -> String {
+    format!("{count} cell{}", if count == 1 { "" } else { "s" })
 }

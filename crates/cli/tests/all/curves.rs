@@ -89,6 +89,20 @@ fn the_hopf_curve_of_circular_motion_has_a_bautin_point() {
     assert!(1.6 < kappa2 && kappa2 < 1.7, "{kappa2}");
 }
 
+/// The four curves of Fig. 1 meet at the origin: the figure has one mark there, with the names of what happens.
+#[test]
+fn curves_that_meet_have_one_mark() {
+    let folder = Folder::new();
+    let words = "continue tensor --preset fig1 --set kappa2=-0.06 --set gamma=0.05 --along gamma=-0.16:0.12 \
+                 --curve hopf,pitchfork --in gamma,kappa2=-0.1:0.1 --out run";
+    folder.run(words).expect(0);
+    let svg = std::fs::read_to_string(folder.path("run/curves.svg")).unwrap();
+    assert!(!svg.contains("not located"));
+    let table = std::fs::read_to_string(folder.path("run/curves.csv")).unwrap();
+    let at_origin = |line: &&str| line.contains("gains a symmetry") && line.contains("Bogdanov-Takens");
+    assert_eq!(table.lines().filter(at_origin).count(), 1, "{table}");
+}
+
 #[test]
 fn curves_that_cannot_be_followed_are_refused() {
     let folder = Folder::new();

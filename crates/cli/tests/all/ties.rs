@@ -29,6 +29,8 @@ fn a_tied_parameter_has_the_value_of_its_expression() {
         "study.toml",
         "preset = \"fig4\"\n[model.tensor]\na2 = 0.2\nd3 = 0.05\nkappa2 = 0.6\n[ties]\nb3 = \"d3\"\nkappa3 = \"0.5*kappa2\"\n",
     );
+    let shown = folder.run("check study.toml").expect(0);
+    assert!(shown.stdout.contains("ties        b3 = d3, kappa3 = 0.5*kappa2"), "{}", shown.stdout);
     let read = verdict(&folder, "study.toml");
     assert_eq!(
         (&read["parameters"], &read["regime"], &read["speed"]),

@@ -11,7 +11,7 @@ use motiform_dynamics::steppers::Method;
 use motiform_models::{ModelInfo, ModelName, parameters};
 use serde::{Deserialize, Serialize};
 
-/// Version of a scan's numbers; part of the hash. Raised whenever a plan's meaning or a row's bits change (tests/all/scan.rs notices), so that no
+/// Version of a scan's numbers; part of the hash. Raised whenever a plan's meaning or a row's bits change (tests/all/scan/bits.rs notices), so that no
 /// folder ever contains rows of two programs that compute differently.
 pub const SCAN_FORMAT: u32 = 9;
 
