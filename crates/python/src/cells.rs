@@ -9,7 +9,7 @@ use motiform_cells::{
 };
 use motiform_files::columns::to_csv;
 use motiform_tracks::modes::ModeOptions;
-use motiform_tracks::{Cell, Columns, Given, Image, Options, Outline, Tracks, given};
+use motiform_tracks::{Cell, Columns, Given, Options, Outline, Tracks, given};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
@@ -17,14 +17,14 @@ use pyo3::types::PyBytes;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Outlines of one cell from Python: number of the frame, if it has one, time, vertices.
-type Outlines<'py> = Vec<(Option<i64>, f64, PyReadonlyArray2<'py, f64>)>;
-/// The same, to Python.
+/// Outlines of one cell from Python: time, vertices.
+type Outlines<'py> = Vec<(f64, PyReadonlyArray2<'py, f64>)>;
+/// Outlines to Python: number of the frame, time, vertices.
 type Drawn<'py> = Vec<(i64, f64, Bound<'py, PyArray2<f64>>)>;
 /// Scale and interval, units, format, headers of columns.
 type Asked = (Option<f64>, Option<f64>, (String, String), Option<String>, Vec<(String, String)>);
-/// Units, whether y points down, and the size of the images in x and y with the length of a pixel.
-type About = ((String, String), Option<bool>, Option<([f64; 2], f64)>);
+/// Units, and whether y points down.
+type About = ((String, String), Option<bool>);
 /// The fits as JSON, their coefficients as CSV, the models by the names of the cells, and what a signal or the callable raised.
 type Fits<'py> = (String, Bound<'py, PyBytes>, Vec<(String, Study)>, Option<PyErr>);
 
@@ -49,11 +49,9 @@ impl Sample {
     /// Outlines in memory.
     #[staticmethod]
     fn given(py: Python<'_>, cells: Vec<(String, Outlines<'_>)>, about: About) -> PyResult<Self> {
-        let numbered = cells.iter().flat_map(|cell| &cell.1).all(|outline| outline.0.is_some());
         let cells = cells.into_iter().map(cell).collect::<PyResult<Vec<Cell>>>()?;
-        let ((length_unit, time_unit), y_down, image) = about;
-        let image = image.map(|(size, pixel)| Image { size, pixel });
-        let about = Given { length_unit, time_unit, y_down, image, numbered };
+        let ((length_unit, time_unit), y_down) = about;
+        let about = Given { length_unit, time_unit, y_down };
         let tracks = py.detach(|| given(cells, about)).map_err(of_tracks)?;
         let modes = || motiform_cells::Sample::of_tracks(tracks, &ModeOptions::default());
         Ok(Self(py.detach(modes)))
@@ -166,7 +164,7 @@ impl Sample {
 }
 
 fn cell((name, outlines): (String, Outlines<'_>)) -> PyResult<Cell> {
-    let outline = |(frame, t, points): (Option<i64>, f64, PyReadonlyArray2<'_, f64>)| {
+    let outline = |(t, points): (f64, PyReadonlyArray2<'_, f64>)| {
         let shape = points.shape();
         if shape[1] != 2 {
             let found =
@@ -174,7 +172,7 @@ fn cell((name, outlines): (String, Outlines<'_>)) -> PyResult<Cell> {
             return Err(PyValueError::new_err(found));
         }
         let points = points.as_array().rows().into_iter().map(|row| [row[0], row[1]]).collect();
-        Ok(Outline { frame: frame.unwrap_or(0), t, points, missing: 0 })
+        Ok(Outline { frame: 0, t, points, missing: 0 }) // counted from the times
     };
     let frames = outlines.into_iter().map(outline).collect::<PyResult<Vec<Outline>>>()?;
     Ok(Cell { name, frames })

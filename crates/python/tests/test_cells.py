@@ -232,7 +232,6 @@ def disc(size: int, centre: tuple[float, float], r: float) -> npt.NDArray[np.boo
 
 @pytest.mark.parametrize("kind", ["tif", "png"])
 def test_label_masks(kind: str, tmp_path: Path) -> None:
-    pytest.importorskip("skimage")
     writer = pytest.importorskip("tifffile" if kind == "tif" else "imageio.v3").imwrite
     for frame in range(4):
         image = np.zeros((64, 64), np.uint16 if kind == "tif" else np.uint8)
@@ -250,21 +249,13 @@ def test_label_masks(kind: str, tmp_path: Path) -> None:
     assert three.notes == ("cell 3: several parts in 4 frames; the largest is kept", "cell 3 becomes 8")
     assert cells["8"].flags["clipped"] == 4
     files = [tmp_path / f"mask{frame:03}.{kind}" for frame in (5, 6)]
-    assert motiform.cells.read_masks(files)["3"].modes["frame"].values.tolist() == [0, 1]
+    assert motiform.cells.read_masks(files)["3"].modes["frame"].values.tolist() == [5, 6]
     (tmp_path / "res_track.txt").write_text("3 5 8\n")
     with pytest.raises(ValueError, match="line 1"):
         motiform.cells.read_masks(tmp_path)
 
 
-def test_masks_without_the_extra_name_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "mask000.tif").write_bytes(b"")
-    monkeypatch.setitem(sys.modules, "tifffile", None)
-    with pytest.raises(ImportError, match=r"motiform\[cells\]"):
-        motiform.cells.read_masks(tmp_path)
-
-
 def test_masks_in_one_file_and_what_is_no_mask(tmp_path: Path) -> None:
-    pytest.importorskip("skimage")
     tifffile = pytest.importorskip("tifffile")
     stack = np.zeros((3, 40, 40), np.uint32)
     stack[:, disc(40, (20.0, 20.0), 8.0)] = 4_000_000_000  # any number is a label

@@ -4,7 +4,7 @@ use crate::after::{filed_twice, implausible, sentinels};
 use crate::numbering::{median_difference, numbers};
 use crate::read::sound;
 use crate::resolve::{Resolved, resolve};
-use crate::{Cell, Image, Note, Result, Tracks};
+use crate::{Cell, Note, Result, Tracks};
 use std::path::Path;
 
 /// What is known about outlines in memory.
@@ -16,23 +16,17 @@ pub struct Given {
     pub time_unit: String,
     /// Whether y points down.
     pub y_down: Option<bool>,
-    /// The images, in the unit of length.
-    pub image: Option<Image>,
-    /// Whether frames have their numbers; otherwise they are counted from the times, in intervals.
-    pub numbered: bool,
 }
 
 /// Tracks from outlines in memory, with the notes and checks of files: vertices that are not finite are counted and left out, a repeated last
-/// vertex is dropped, frames are sorted. No frame of a cell may occur twice.
+/// vertex is dropped. Frames are counted from the times, in intervals. No frame of a cell may occur twice.
 ///
 /// # Errors
 /// [`NoOutlines`](crate::Error::NoOutlines), where no outline has an area.
 pub fn given(mut cells: Vec<Cell>, about: Given) -> Result<Tracks> {
     let mut notes = Vec::new();
     for cell in &mut cells {
-        if !about.numbered {
-            notes.extend(number(cell));
-        }
+        notes.extend(number(cell));
         let mut lost = Vec::new();
         for outline in &mut cell.frames {
             let points = (0..).zip(std::mem::take(&mut outline.points)).collect();
@@ -41,7 +35,6 @@ pub fn given(mut cells: Vec<Cell>, about: Given) -> Result<Tracks> {
                 lost.extend((missing > 0).then_some(outline.frame));
             }
         }
-        cell.frames.sort_by_key(|outline| outline.frame);
         notes.extend(
             (!lost.is_empty()).then(|| Note::MissingVertices { cell: cell.name.clone(), frames: lost }),
         );
@@ -52,8 +45,8 @@ pub fn given(mut cells: Vec<Cell>, about: Given) -> Result<Tracks> {
         notes.extend(implausible(cell, &about.length_unit));
     }
     notes.extend(filed_twice(&cells));
-    let Given { length_unit, time_unit, y_down, image, .. } = about;
-    Ok(Tracks { cells, files: Vec::new(), length_unit, time_unit, y_down, image, notes })
+    let Given { length_unit, time_unit, y_down } = about;
+    Ok(Tracks { cells, files: Vec::new(), length_unit, time_unit, y_down, image: None, notes })
 }
 
 /// Numbers of frames from their times; in order where these are not multiples of one interval.

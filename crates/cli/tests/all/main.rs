@@ -21,6 +21,7 @@ mod faults;
 mod fits;
 mod free_phases;
 mod fuzz;
+mod golden;
 mod interruption;
 mod invariances;
 mod journals;

@@ -12,15 +12,19 @@ const code = new WebAssembly.Module(moduleOf(SITE));
 /** One instance: `notes` has everything that it said since they were taken. */
 class Instance {
   notes = [];
+  /** Called with each part of an errand's result, as it comes. */
+  onBack = () => {};
 
   constructor() {
     const read = (start, length) => new Uint8Array(this.exports.memory.buffer, start, length);
-    const say = (is) => (start, length) => this.notes.push({ is, text: new TextDecoder().decode(read(start, length)) });
+    const text = (start, length) => new TextDecoder().decode(read(start, length));
+    const say = (is) => (start, length) => this.notes.push({ is, text: text(start, length) });
+    const back = (start, length) => this.onBack(text(start, length));
     const binary = (start, length) => this.notes.push({ is: "binary", bytes: read(start, length).slice().buffer });
     const fault = (start, length) => {
-      throw new Error(new TextDecoder().decode(read(start, length)));
+      throw new Error(text(start, length));
     };
-    const worker = { now: () => performance.now(), text: say("text"), post: say("post"), back: say("back"), fault, binary };
+    const worker = { now: () => performance.now(), text: say("text"), post: say("post"), back, fault, binary };
     this.exports = new WebAssembly.Instance(code, { worker }).exports;
   }
 
@@ -64,16 +68,44 @@ export class Engine {
   /** Does errands until an answer of this type is there; gives it. */
   next(is) {
     for (;;) {
-      const at = this.answers.findIndex((answer) => answer.is === is);
-      if (at >= 0) return this.answers.splice(0, at + 1).at(-1);
+      const answer = this.#answered(is);
+      if (answer) return answer;
       const errand = this.#errands.shift();
       if (!errand) throw new Error(`no ${is}`);
       const [to, order] = errand.split("\n", 2);
       if (!errand.endsWith("\n")) {
-        for (const { is: kind, text } of this.#helper.call("assist", errand)) if (kind === "back") this.#sort(this.#session.call("report", text));
+        const parts = [];
+        this.#helper.onBack = (part) => parts.push(part);
+        this.#helper.call("assist", errand);
+        for (const part of parts) this.#sort(this.#session.call("report", part));
       }
       this.#sort(this.#session.call("report", `${to}\n${order}\n`));
     }
+  }
+
+  /** As `next`, but what the errand would do after the answer is left undone, as where a worker is ended. Nothing can be asked afterwards. */
+  first(is) {
+    const ended = {};
+    for (const errand of this.#errands.splice(0)) {
+      let answer;
+      this.#helper.onBack = (part) => {
+        this.#sort(this.#session.call("report", part));
+        answer = this.#answered(is);
+        if (answer) throw ended;
+      };
+      try {
+        this.#helper.call("assist", errand);
+      } catch (error) {
+        if (error !== ended) throw error;
+        return answer;
+      }
+    }
+    throw new Error(`no ${is}`);
+  }
+
+  #answered(is) {
+    const at = this.answers.findIndex((answer) => answer.is === is);
+    return at >= 0 ? this.answers.splice(0, at + 1).at(-1) : undefined;
   }
 
   #sort(notes) {

@@ -3,9 +3,8 @@
 use motiform_tracks::synthetic::Synthetic;
 use motiform_tracks::{Cell, Error, Given, Note, Outline, given};
 
-fn about(numbered: bool) -> Given {
-    let (length_unit, time_unit) = ("um".to_owned(), "s".to_owned());
-    Given { length_unit, time_unit, y_down: None, image: None, numbered }
+fn about() -> Given {
+    Given { length_unit: "um".to_owned(), time_unit: "s".to_owned(), y_down: None }
 }
 
 fn cell(times: &[f64]) -> Cell {
@@ -22,10 +21,10 @@ fn frames(cell: &Cell) -> Vec<i64> {
 
 #[test]
 fn frames_are_counted_in_intervals() {
-    let tracks = given(vec![cell(&[1.0, 0.0, 0.5, 2.5])], about(false)).unwrap();
+    let tracks = given(vec![cell(&[1.0, 0.0, 0.5, 2.5])], about()).unwrap();
     assert_eq!(frames(&tracks.cells[0]), [0, 1, 2, 5]);
     assert!(tracks.notes.is_empty());
-    let uneven = given(vec![cell(&[0.0, 1.0, 2.3, 3.0])], about(false)).unwrap();
+    let uneven = given(vec![cell(&[0.0, 1.0, 2.3, 3.0])], about()).unwrap();
     assert_eq!(frames(&uneven.cells[0]), [0, 1, 2, 3]);
     assert_eq!(uneven.notes, [Note::UnevenTimes { cell: "a".to_owned() }]);
 }
@@ -33,20 +32,17 @@ fn frames_are_counted_in_intervals() {
 #[test]
 fn outlines_are_closed_once_and_without_lost_vertices() {
     let mut one = cell(&[0.0, 1.0]);
-    for (frame, outline) in (3..).zip(&mut one.frames) {
-        outline.frame = frame;
-    }
     let first = one.frames[0].points[0];
     one.frames[0].points.push(first);
     one.frames[1].points[7][1] = f64::NAN;
-    let tracks = given(vec![one], about(true)).unwrap();
+    let tracks = given(vec![one], about()).unwrap();
     let found: Vec<_> =
         tracks.cells[0].frames.iter().map(|outline| (outline.points.len(), outline.missing)).collect();
     assert_eq!(found, [(40, 0), (39, 1)]);
-    assert_eq!(tracks.notes, [Note::MissingVertices { cell: "a".to_owned(), frames: vec![4] }]);
+    assert_eq!(tracks.notes, [Note::MissingVertices { cell: "a".to_owned(), frames: vec![1] }]);
 }
 
 #[test]
 fn nothing_is_refused() {
-    assert!(matches!(given(Vec::new(), about(true)), Err(Error::NoOutlines { .. })));
+    assert!(matches!(given(Vec::new(), about()), Err(Error::NoOutlines { .. })));
 }

@@ -4,6 +4,7 @@
 //! modes, a rotation, a reflection, units, silent modes, equations as text, another command). The names must be the same, and the
 //! numbers within their stated errors. Every push runs a sample; `cargo xtask invariances` runs all and writes docs/invariances.md.
 
+mod atlas;
 mod branches;
 mod changes;
 mod commands;

@@ -12,8 +12,7 @@
 Formats, definitions and limits: docs/cells.md and docs/inference.md.
 """
 
-from .masks import read_masks
-from .reading import Outlines, from_arrays, read
+from .reading import Outlines, from_arrays, read, read_masks
 from .results import CellFit, Found, Noise, Observation, Place, Value
 from .sample import Cell, Cells
 

@@ -40,8 +40,8 @@ def read(
     pixel_size
         Length of a pixel in `length_unit`. If neither the file nor this says it, lengths are in pixels.
     format
-        ``csv``, ``parquet``, ``trackmate``, ``quimp-csv``, ``quimp-snqp``, ``amoepy``, ``roi``, ``roi-zip`` or ``wkt``, where the
-        content fits several formats.
+        ``csv``, ``parquet``, ``trackmate``, ``quimp-csv``, ``quimp-snqp``, ``amoepy``, ``roi``, ``roi-zip``, ``masks`` or ``wkt``,
+        where the content fits several formats.
     columns
         Headers of the columns of a table, where they are not the usual ones: ``{"frame": "t", "x": "pos_x"}`` for ``cell``,
         ``frame``, ``i``, ``x``, ``y`` and ``wkt``.
@@ -60,6 +60,24 @@ def read(
     return Cells(_motiform.Sample.read([os.fspath(one) for one in paths], asked))
 
 
+def read_masks(
+    path: Path | Sequence[Path],
+    *,
+    interval: float | None = None,
+    pixel_size: float | None = None,
+    time_unit: str = "s",
+    length_unit: str = "um",
+) -> Cells:
+    """Reads label masks (TIFF or PNG): a folder, an image, a stack of images in one TIFF, or several images.
+
+    The pixels of a cell have its number, the same in all frames; 0 is the background. Numbers at the end of the names are the
+    frames (``mask007.tif``). In a folder, ``res_track.txt`` or ``man_track.txt`` of the Cell Tracking Challenge says which cells
+    come from which. The outline of a cell is the contour at half level around its largest part; y points down.
+    """
+    units = {"time_unit": time_unit, "length_unit": length_unit}
+    return read(path, interval=interval, pixel_size=pixel_size, format="masks", **units)
+
+
 def from_arrays(
     outlines: Outlines, *, length_unit: str = "pixel", time_unit: str = "frame", y_down: bool | None = None
 ) -> Cells:
@@ -71,10 +89,10 @@ def from_arrays(
     if not isinstance(outlines, Mapping):
         raise TypeError(f"outlines must be {{name: [(t, outline), ...]}}, not {type(outlines).__name__}")
     cells = [(str(name), _frames(str(name), frames)) for name, frames in outlines.items()]
-    return Cells(_motiform.Sample.given(cells, ((length_unit, time_unit), y_down, None)))
+    return Cells(_motiform.Sample.given(cells, ((length_unit, time_unit), y_down)))
 
 
-def _frames(name: str, frames: Iterable[tuple[float, Any]]) -> list[tuple[int | None, float, Floats]]:
+def _frames(name: str, frames: Iterable[tuple[float, Any]]) -> list[tuple[float, Floats]]:
     found: dict[float, Floats] = {}
     for entry in frames:
         try:
@@ -87,7 +105,7 @@ def _frames(name: str, frames: Iterable[tuple[float, Any]]) -> list[tuple[int | 
         if time in found:
             raise ValueError(f"cell {name}: there are several outlines at the time {t}")
         found[time] = _vertices(name, time, outline)
-    return [(None, time, points) for time, points in found.items()]
+    return list(found.items())
 
 
 def _vertices(name: str, t: float, outline: Any) -> Floats:

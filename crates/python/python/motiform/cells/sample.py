@@ -32,10 +32,7 @@ class Cells(Sequence["Cell"]):
     >>> cells[0], cells["12"], cells.names, len(cells)
     """
 
-    def __init__(
-        self, native: _motiform.Sample, notes: Sequence[str] = (), of_cells: Mapping[str, Sequence[str]] | None = None
-    ) -> None:
-        of_cells = of_cells or {}
+    def __init__(self, native: _motiform.Sample) -> None:
         raw = json.loads(native.summary())
         self._native = native
         self.length_unit: str = raw["units"]["length"]
@@ -44,10 +41,10 @@ class Cells(Sequence["Cell"]):
         """Unit of times; ``frame`` where the interval is unknown."""
         self.y_down: bool | None = raw["y_down"]
         """Whether y points down, as in images; ``None`` where nobody says so."""
-        self.notes: tuple[str, ...] = (*notes, *(note for own in of_cells.values() for note in own), *raw["notes"])
+        self.notes: tuple[str, ...] = tuple(raw["notes"])
         """What was noticed about the data."""
         self._units = (self.length_unit, self.time_unit)
-        self._cells = [Cell(self, entry, of_cells.get(entry["name"], ())) for entry in raw["cells"]]
+        self._cells = [Cell(self, entry) for entry in raw["cells"]]
         self._table: pd.DataFrame | None = None
 
     @property
@@ -162,7 +159,7 @@ class Cells(Sequence["Cell"]):
 class Cell:
     """One tracked cell. (:class:`motiform.Cell` is the active cell, a model.)"""
 
-    def __init__(self, cells: Cells, raw: Mapping[str, Any], notes: Sequence[str]) -> None:
+    def __init__(self, cells: Cells, raw: Mapping[str, Any]) -> None:
         self._cells = cells
         self.name: str = raw["name"]
         """Its name in the file."""
@@ -176,7 +173,7 @@ class Cell:
         """How many frames have each flag of quality."""
         self.left_out: list[int] = raw["left_out"]
         """Numbers of the frames that do not count."""
-        self.notes: tuple[str, ...] = (*notes, *raw["notes"])
+        self.notes: tuple[str, ...] = tuple(raw["notes"])
         """What was noticed about this cell."""
         self._last: CellFit | None = None
 
