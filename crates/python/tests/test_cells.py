@@ -269,11 +269,11 @@ def test_masks_in_one_file_and_what_is_no_mask(tmp_path: Path) -> None:
     tifffile.imwrite(tmp_path / "small.tif", stack[0, :30])
     (tmp_path / "folder").mkdir()
     for files, message in (
-        (["empty.tif"], "there is no cell"),
-        (["grey.tif"], "whole numbers"),
-        (["rgb.tif"], "one number per pixel"),
-        (["stack.tif", "stack.tif"], "one number per pixel"),
-        (["empty.tif", "small.tif"], "different sizes"),
+        (["empty.tif"], "no outline"),
+        (["grey.tif"], "whole number"),
+        (["rgb.tif"], "one whole number for each pixel"),
+        (["stack.tif", "stack.tif"], "given twice"),
+        (["stack.tif", "small.tif"], "frame"),
         (["folder"], "no image"),
         ([], "at least one"),
     ):
