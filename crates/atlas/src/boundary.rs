@@ -57,7 +57,9 @@ impl Edge {
     fn pair(self, labels: &[Vec<Regime>]) -> Pair {
         let mut pair = self.cells.map(|cell| labels[cell].clone());
         let key = |label: &Vec<Regime>| label.iter().map(|regime| rank(*regime)).collect::<Vec<_>>();
-        pair.sort_by_key(key);
+        if key(&pair[1]) < key(&pair[0]) {
+            pair.swap(0, 1);
+        }
         pair
     }
 }
@@ -97,8 +99,7 @@ pub(crate) fn pieces(grid: &Grid, labels: &[Vec<Regime>], edges: &[Edge]) -> Vec
         piece.sort_unstable();
         all.push((pair, piece));
     }
-    all.sort_by_key(|(_, piece)| (std::cmp::Reverse(piece.len()), piece[0]));
-    all
+    descending(all, |(_, piece)| piece.len())
 }
 
 /// The motions that one side has and the other has not, in the order of legends.
@@ -187,9 +188,8 @@ pub fn boundaries(plan: &AtlasPlan, grid: &Grid, lines: &[Line]) -> Vec<Boundary
             None => all.push((pair, vec![name])),
         }
     }
-    let mut all: Vec<Boundary> = all.into_iter().map(|(between, names)| summed(between, &names)).collect();
-    all.sort_by_key(|boundary| std::cmp::Reverse(boundary.edges)); // stable
-    all
+    let all = all.into_iter().map(|(between, names)| summed(between, &names)).collect();
+    descending(all, |boundary: &Boundary| boundary.edges)
 }
 
 fn summed(between: Pair, names: &[Option<&str>]) -> Boundary {
@@ -200,10 +200,20 @@ fn summed(between: Pair, names: &[Option<&str>]) -> Boundary {
             None => kinds.push(((*name).to_owned(), 1)),
         }
     }
-    kinds.sort_by_key(|kind| std::cmp::Reverse(kind.1)); // stable
+    let kinds = descending(kinds, |kind| kind.1);
     let unnamed = names.iter().filter(|name| name.is_none()).count();
     let why = (unnamed > 0).then(|| why(&differing(&between)));
     Boundary { between, edges: names.len(), kinds, unnamed, why }
+}
+
+/// The items, the largest first, equal ones in their order. Lists of tens of items: a sort of the library is 20 kB of code for each type.
+pub(crate) fn descending<T>(items: Vec<T>, size: impl Fn(&T) -> usize) -> Vec<T> {
+    let mut all: Vec<T> = Vec::new();
+    for item in items {
+        let place = all.iter().position(|other| size(other) < size(&item)).unwrap_or(all.len());
+        all.insert(place, item);
+    }
+    all
 }
 
 /// Why a part of a boundary has no name.

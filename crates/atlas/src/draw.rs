@@ -70,12 +70,13 @@ fn caption(folder: &AtlasFolder) -> Result<Vec<String>, Error> {
     Ok(vec![
         words::named(plan.info()?, &c.parameters, &varied, &c.ties),
         format!(
-            "Motions of {} initial states each in {} of {} cells, the others between cells with the same motions ({}, seed {}). Stability limits: {curves} curves by pseudo-arclength continuation.",
+            "Motions of {} initial {} each ({}, seed {}) in {} of {} cells; the others lie between cells with the same motions. Stability limits: {curves} curves by pseudo-arclength continuation.",
             c.samples,
-            grid.computed(),
-            grid.places.len(),
+            if c.samples == 1 { "state" } else { "states" },
             c.random.words(),
             c.seed,
+            grid.computed(),
+            grid.places.len(),
         ),
     ])
 }

@@ -147,3 +147,8 @@ fn read<T: for<'d> Deserialize<'d>>(path: &Path) -> Result<T, Error> {
     })?;
     serde_json::from_str(&text).map_err(|error| Error::unreadable(path, error))
 }
+
+/// What was kept as JSON; `None` where it is something else.
+pub(crate) fn parsed<T: for<'d> Deserialize<'d>>(bytes: &[u8]) -> Option<T> {
+    serde_json::from_str(std::str::from_utf8(bytes).ok()?).ok()
+}

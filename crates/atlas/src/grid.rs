@@ -48,12 +48,10 @@ impl Place {
     /// The motions by name, sorted, without those that are undetermined if others are known.
     #[must_use]
     pub fn label(&self) -> Vec<Regime> {
-        let mut all: Vec<Regime> = self.motions.iter().map(|found| found.regime).collect();
-        all.sort_by_key(|regime| rank(*regime));
-        if all.len() > 1 {
-            all.retain(|regime| *regime != Regime::Undetermined);
-        }
-        all
+        let known = self.motions.iter().any(|found| found.regime != Regime::Undetermined);
+        let counts =
+            |regime: &Regime| self.motion(*regime).is_some() && !(known && *regime == Regime::Undetermined);
+        Regime::ALL.into_iter().filter(counts).collect()
     }
 
     /// The motion of this name.
@@ -97,10 +95,8 @@ impl Grid {
                 let having = around.iter().filter(|near| own[**near].contains(regime)).count();
                 *regime != Regime::Undetermined && 8 * having >= 6 * around.len().max(8)
             };
-            let mut all = label.clone();
-            all.extend(Regime::ALL.into_iter().filter(|regime| !label.contains(regime) && missed(regime)));
-            all.sort_by_key(|regime| rank(*regime));
-            all
+            let all = Regime::ALL.into_iter();
+            all.filter(|regime| label.contains(regime) || missed(regime)).collect()
         };
         own.iter().enumerate().map(filled).collect()
     }

@@ -16,9 +16,6 @@ pub(crate) const ATLAS_FORMAT: u32 = 1;
 /// Values of an axis whose number is not given: of models that are classified in the lanes of vector registers, and of others.
 const VALUES: [usize; 2] = [65, 17];
 
-/// Initial states of each cell, if not given.
-const SAMPLES: u64 = 3;
-
 /// How much is followed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AtlasSettings {
@@ -82,9 +79,6 @@ impl AtlasPlan {
             return Err(Error::Axis { text, problem });
         };
         study.scan.axes = [first, second].map(|axis| even(axis, VALUES[usize::from(stiff)])).to_vec();
-        if study.scan.samples < 2 {
-            study.scan.samples = SAMPLES;
-        }
         check("lines", settings.lines as f64, settings.lines <= 1000, "give at most 1000 lines")?;
         for axis in study.scan.axes.clone() {
             study.set(&axis.name, middle(&axis))?;

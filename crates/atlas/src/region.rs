@@ -1,7 +1,8 @@
 //! Connected parts of the plane with the same motions.
 
 use crate::AtlasPlan;
-use crate::grid::{Grid, rank};
+use crate::boundary::descending;
+use crate::grid::Grid;
 use motiform_analysis::Regime;
 
 /// A region.
@@ -37,9 +38,7 @@ pub fn regions(plan: &AtlasPlan, grid: &Grid) -> Vec<Region> {
             at: [values[0], values[1]],
         });
     }
-    let key = |region: &Region| region.motions.iter().map(|motion| rank(*motion)).collect::<Vec<_>>();
-    all.sort_by(|a, b| b.cells.cmp(&a.cells).then_with(|| key(a).cmp(&key(b))));
-    all
+    descending(all, |region| region.cells)
 }
 
 /// The cells that are connected with one by cells of the same motions; none if it was seen.

@@ -1,6 +1,7 @@
 //! The motions of all cells: a coarse grid first, then finer ones where neighbours differ.
 
 use crate::AtlasPlan;
+use crate::folder::parsed;
 use crate::grid::{Found, Grid, NUMBERS, Place};
 use motiform_dynamics::{Part, Watch};
 use motiform_files::Journal;
@@ -114,7 +115,7 @@ impl Work<'_> {
 
 /// What was kept of these cells.
 fn read(bytes: &[u8], cells: &[usize]) -> Option<Vec<(usize, Place)>> {
-    let places: Vec<(usize, Place)> = serde_json::from_slice(bytes).ok()?;
+    let places: Vec<(usize, Place)> = parsed(bytes)?;
     places.iter().map(|entry| entry.0).eq(cells.iter().copied()).then_some(places)
 }
 

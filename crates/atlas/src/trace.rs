@@ -1,6 +1,7 @@
 //! What bounds the regions: lines across the boundaries that have no name yet, the longest first.
 
 use crate::boundary::{Atlas, Edge, Pair, differing, edges, pieces};
+use crate::folder::parsed;
 use crate::grid::Grid;
 use crate::line::{Course, Line, Task, course, read_line};
 use crate::plan::AtlasPlan;
@@ -47,7 +48,7 @@ pub fn trace(
             break;
         }
         let item = format!("lines-{round}.json");
-        let kept = journal.finished(&item).and_then(|bytes| serde_json::from_slice::<Vec<Line>>(&bytes).ok());
+        let kept = journal.finished(&item).and_then(|bytes| parsed::<Vec<Line>>(&bytes));
         let fits = |lines: &Vec<Line>| {
             lines
                 .iter()
@@ -124,22 +125,24 @@ impl Work<'_> {
             let [x, y] = edge.centre(self.grid);
             (x - mean[0]).hypot(y - mean[1])
         };
-        let mut by_distance = piece.to_vec();
-        by_distance.sort_by(|a, b| off(a).total_cmp(&off(b))); // stable
         let motions = differing(pair);
-        let followed = FOLLOWED.into_iter().filter(|regime| motions.contains(regime));
-        let tried =
-            |task: &Task| self.lines.iter().any(|line| line.start == task.start && line.side == task.side);
-        followed
-            .flat_map(|motion| {
-                by_distance.iter().flat_map(move |edge| edge.cells.map(|cell| (motion, *edge, cell)))
-            })
-            .find_map(|(motion, edge, cell)| {
-                let place = &self.grid.places[cell];
-                let sample = place.motion(motion).filter(|_| place.like.is_none())?.sample;
-                let task = Task { start: (cell, sample), side: edge.side, motion };
-                (!tried(&task)).then_some(task)
-            })
+        let of = |motion: Regime| {
+            let tasks = piece.iter().flat_map(|edge| {
+                edge.cells.into_iter().filter_map(move |cell| {
+                    let place = &self.grid.places[cell];
+                    let sample = place.motion(motion).filter(|_| place.like.is_none())?.sample;
+                    Some((off(edge), Task { start: (cell, sample), side: edge.side, motion }))
+                })
+            });
+            tasks.filter(|(_, task)| !self.tried(*task)).min_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        let mut followed = FOLLOWED.into_iter().filter(|regime| motions.contains(regime));
+        followed.find_map(of).map(|found| found.1)
+    }
+
+    /// Whether the line was followed before.
+    fn tried(&self, task: Task) -> bool {
+        self.lines.iter().any(|line| line.start == task.start && line.side == task.side)
     }
 
     /// Follows lines: the branches of all at the same time, then curve by curve.

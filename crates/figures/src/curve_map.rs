@@ -140,10 +140,10 @@ impl CurveMap {
         }
         // pale ones first: nothing hides what bounds a regime
         for bounds in [false, true] {
-            self.curves
-                .iter()
-                .filter(|curve| curve.bounds == bounds)
-                .for_each(|curve| curve.draw(svg, scale));
+            let curves = || self.curves.iter().filter(move |curve| curve.bounds == bounds);
+            // all grounds first: none hides a curve beside it
+            curves().filter(|curve| curve.bounds).for_each(|curve| curve.draw_ground(svg, scale));
+            curves().for_each(|curve| curve.draw(svg, scale));
         }
         let inside = |at: Point| {
             let ([x, y], frame) = (scale.map(at), scale.frame);
@@ -219,15 +219,21 @@ figure!(CurveMap);
 const PALE: f64 = 0.4;
 
 impl MapCurve {
-    fn draw(&self, svg: &mut Svg, scale: &Scale) {
+    fn pieces(&self, scale: &Scale) -> Vec<Vec<Point>> {
         let points: Vec<Point> = self.points.iter().map(|point| scale.map(*point)).collect();
-        for piece in clip(&points, scale.frame) {
-            if self.bounds {
-                svg.polyline(&piece, false, &Paint::stroke(WHITE, 3.6).opacity(0.85));
-            }
-            let paint = self.style.paint();
-            svg.polyline(&piece, false, &if self.bounds { paint } else { paint.opacity(PALE) });
-        }
+        clip(&points, scale.frame)
+    }
+
+    /// The white ground of the line.
+    fn draw_ground(&self, svg: &mut Svg, scale: &Scale) {
+        let ground = Paint::stroke(WHITE, 3.6).opacity(0.85);
+        self.pieces(scale).iter().for_each(|piece| svg.polyline(piece, false, &ground));
+    }
+
+    fn draw(&self, svg: &mut Svg, scale: &Scale) {
+        let paint = self.style.paint();
+        let paint = if self.bounds { paint } else { paint.opacity(PALE) };
+        self.pieces(scale).iter().for_each(|piece| svg.polyline(piece, false, &paint));
     }
 }
 

@@ -106,7 +106,7 @@ Examples:
   motiform atlas fig4                                               the paper's Fig. 4
   motiform atlas tensor --preset fig4 --axis kappa2=0.1:1.6 --axis kappa3=0.1:1.0 --width 86mm
   motiform atlas fig1 --axis kappa2=-0.22:0.22 --axis gamma=-0.16:0.12
-  motiform atlas cell --axis length=12:13.5:13 --axis gamma4=-0.1:0.1:9
+  motiform atlas cell --axis length=12:12.8:5 --axis g1=-0.05:0.05:5 --samples 1
   motiform atlas my-equations.toml --axis a=0:1 --axis b=-1:1 --samples 8 --resume
   motiform figure tensor-fig4-atlas --width 86mm --out paper        its figure, one column wide
 

@@ -74,12 +74,19 @@ fn study(options: &AtlasOptions) -> Result<Study, Error> {
     if !options.axes.is_empty() {
         study.scan.axes = options.axes.iter().map(|text| axis(text)).collect::<Result<_, _>>()?;
     }
-    study.scan.samples = options.samples.unwrap_or(study.scan.samples);
+    study.scan.samples = match (options.samples, study.scan.samples) {
+        (Some(given), _) => given,
+        (None, 1) => SAMPLES,
+        (None, own) => own,
+    };
     study.scan.budget = options.budget.unwrap_or(study.scan.budget);
     study.random = options.random.or(study.random);
     study.run.seed = options.seed.unwrap_or(study.run.seed);
     Ok(study.perturbed()?.0)
 }
+
+/// Initial states of each cell, if neither the command nor the study says how many.
+const SAMPLES: u64 = 3;
 
 /// An axis, with its ends alone where their number is not given.
 fn axis(text: &str) -> Result<Axis, Error> {
