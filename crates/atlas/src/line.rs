@@ -105,12 +105,22 @@ pub(crate) fn read_line(
     };
     line.branches = found.branches.len();
     line.ends = ends(&plan, &found);
+    let mut doublings: Vec<f64> = Vec::new();
     for (kind, start, motion) in limits(&found) {
         let Some(sample) = found.at(start) else { continue };
         let mut at = [plan.fixed_value(); 2];
         at[plan.varied()] = sample.point.parameter;
         if !bounds(at, motion) {
             continue;
+        }
+        // the doublings of a cascade accumulate: beside the boundary the first one stands for all
+        let period = sample.reading.period.unwrap_or(0.0);
+        let doubled = doublings.iter().any(|first| LATER * first <= period);
+        if kind == CurveKind::PeriodDoubling && doubled {
+            continue;
+        }
+        if kind == CurveKind::PeriodDoubling {
+            doublings.push(period);
         }
         let is_known = known
             .iter()
@@ -128,6 +138,9 @@ pub(crate) fn read_line(
     }
     Ok(Some(line))
 }
+
+/// A doubling of an orbit whose period is so many times longer than that of another one on the line is a later one of its cascade.
+const LATER: f64 = 1.5;
 
 /// The special points at which a motion gains or loses its stability, with that motion.
 fn limits(found: &Branches) -> Vec<(CurveKind, [usize; 3], Regime)> {

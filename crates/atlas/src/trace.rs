@@ -22,8 +22,8 @@ const VAIN: usize = 3;
 /// A curve is followed where it begins within so many cells of a boundary without a name.
 const CLOSE: f64 = 2.5;
 
-/// A shorter piece of a boundary is left: few initial states make boundaries of single cells.
-const SHORTEST: usize = 2;
+/// A shorter piece of a boundary is left, such as one around a single cell, which has four edges: few initial states and windows in chaos make such cells.
+const SHORTEST: usize = 5;
 
 /// Follows lines across the boundaries of a grid; `None` if the watch stopped it: what is finished is in the journal.
 ///
