@@ -8,7 +8,7 @@ use common::{Folder, names, read_json};
 use serde_json::Value;
 
 /// The paper's Fig. 4, coarsely.
-const FIG4: &str = "atlas tensor --preset fig4 --axis kappa2=0.7:1.5:33 --axis kappa3=0.08:0.56:13 --samples 2 --lines 6 --threads 2";
+const FIG4: &str = "atlas tensor --preset fig4 --axis kappa2=0.7:1.5:33 --axis kappa3=0.08:0.32:25 --samples 2 --lines 3 --threads 2";
 
 /// The points of the curves of a kind in `atlas.csv`, stretch by stretch.
 fn curve(folder: &Folder, file: &str, kind: &str) -> Vec<Vec<[f64; 2]>> {
