@@ -10,9 +10,9 @@ import sys
 from pathlib import Path
 
 PROBLEMS = Path(__file__).parent / "problems"
-ZIGZAG = ("tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.9 --from zigzag --along kappa2=0.3:1.6 --branches 1 "
+ZIGZAG = ("tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.9 --motion zigzag --along kappa2=0.3:1.6 --branches 1 "
           "--branch-step 0.0035 --points 150")
-CELL = "cell --set length=9 --from straight --along length=6:13 --branches 1 --points 100"
+CELL = "cell --set length=9 --motion straight --along length=6:13 --branches 1 --points 100"
 CURVES = {"bautin": "mu,a=0.5:2", "fhn": "I=0:2,e=0.07:0.2"}
 
 

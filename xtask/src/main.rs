@@ -50,21 +50,6 @@ const STEPS: &[(&str, &[&str])] = &[
     ("documentation", &["doc", "--release", "--workspace", "--no-deps", "--document-private-items"]),
     ("build of the tests", &["test", "--release", "--workspace", "--no-run"]),
     ("tests", TESTS),
-    // Of the library that makes PDF, half is built for this test alone: without optimisation it is built in a third of the time.
-    (
-        "PDF",
-        &[
-            "test",
-            "--config",
-            "profile.dev.debug=false",
-            "-p",
-            "motiform-figures",
-            "--features",
-            "pdf",
-            "--lib",
-            "pdf",
-        ],
-    ),
 ];
 
 const TESTS: &[&str] = &["test", "--release", "--workspace", "--no-fail-fast"];

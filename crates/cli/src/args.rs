@@ -1,5 +1,6 @@
 //! The command line: its arguments and their help texts.
 
+mod atlas;
 mod cells;
 #[cfg(test)]
 mod documented;
@@ -9,24 +10,29 @@ mod fuzz;
 mod help;
 mod lifetimes;
 mod motions;
+mod renamed;
 mod scan;
 mod statistics;
 mod subject;
 mod tools;
+#[cfg(test)]
+mod vocabulary;
 
+pub(crate) use atlas::AtlasOptions;
 pub(crate) use cells::{CellsOptions, FitCellsOptions, ObserveOptions};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 pub(crate) use drawing::{DrawingOptions, FilmFormat, StyleOptions};
 #[cfg(feature = "explorer")]
 use help::EXPLORE_HELP;
 use help::{
-    CLASSIFY_HELP, CONTINUE_HELP, EQUILIBRIA_HELP, EXAMPLES, FIGURE_HELP, LYAPUNOV_HELP, NEW_HELP,
-    REPRODUCE_HELP, SCAN_HELP, SECTION_HELP, SIMULATE_HELP, VERIFY_HELP,
+    ATLAS_HELP, CLASSIFY_HELP, CONTINUE_HELP, EQUILIBRIA_HELP, EXAMPLES, FIGURE_HELP, LYAPUNOV_HELP,
+    NEW_HELP, REPRODUCE_HELP, SCAN_HELP, SECTION_HELP, SIMULATE_HELP, VERIFY_HELP,
 };
 pub(crate) use lifetimes::LifetimesOptions;
 use motiform_models::spelling::ascii;
 use motiform_study::Random;
 pub(crate) use motions::{ContinueOptions, Crossing, EquilibriaOptions, Observable, SectionOptions};
+pub(crate) use renamed::old_names;
 pub(crate) use scan::{MergeOptions, ScanOptions};
 pub(crate) use statistics::StatisticsOptions;
 use std::path::PathBuf;
@@ -66,6 +72,9 @@ pub(crate) enum Command {
     /// Follow a motion along a parameter, stable or not: where it is born, changes and ends
     #[command(after_help = CONTINUE_HELP)]
     Continue(Box<ContinueOptions>),
+    /// Map a plane of two parameters: which motions happen where, and by which bifurcation each begins or ends
+    #[command(after_help = ATLAS_HELP)]
+    Atlas(Box<AtlasOptions>),
     /// Find the steady motions at one point, stable or not: at rest, straight, circular
     #[command(after_help = EQUILIBRIA_HELP)]
     Equilibria(Box<EquilibriaOptions>),
@@ -145,7 +154,7 @@ pub(crate) struct SimulateOptions {
     #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) max_steps: Option<u64>,
     /// Output folder (default: MODEL-PRESET in the current folder), or a single table if it ends in .parquet or .csv
-    #[arg(long, value_name = "DIR|FILE")]
+    #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Replace an existing dataset; what motiform did not write stays
     #[arg(long)]

@@ -11,7 +11,7 @@ mod remedy;
 #[cfg(unix)]
 mod standard_output;
 
-use args::{Arguments, Command};
+use args::{Arguments, Command, old_names};
 use clap::Parser;
 use std::process::ExitCode;
 
@@ -21,6 +21,7 @@ fn main() -> ExitCode {
         return output::report(&error);
     }
     let arguments = Arguments::parse();
+    old_names(&std::env::args_os().collect::<Vec<_>>()).iter().for_each(|said| output::warn(said));
     let done = match arguments.command {
         Command::Models(options) => commands::models::run(&options),
         Command::Simulate(options) => commands::simulate::run(&options),
@@ -29,6 +30,7 @@ fn main() -> ExitCode {
         Command::Classify(options) => commands::classify::run(&options),
         Command::Lyapunov(options) => commands::lyapunov::run(&options),
         Command::Continue(options) => commands::continuation::run(&options),
+        Command::Atlas(options) => commands::atlas::run(&options),
         Command::Equilibria(options) => commands::equilibria::run(&options),
         Command::Section(options) => commands::section::run(&options),
         Command::Lifetimes(options) => commands::lifetimes::run(&options),

@@ -39,7 +39,8 @@ pub enum PeriodLaw {
 }
 
 /// What an orbit approaches where its period grows without bound.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum ConnectionKind {
     /// The leading eigenvalues of the saddle are real, growing and decaying ones of different size.

@@ -65,6 +65,15 @@ pub struct MapMark {
     pub at: Point,
 }
 
+/// A place where a motion ends in a connection.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapEnd {
+    /// What it is, as the legend says (markup).
+    pub label: String,
+    /// Where it is, in units of the axes.
+    pub at: Point,
+}
+
 /// Curves of bifurcations in a plane of two parameters, with their points of codimension two.
 ///
 /// # Units   those of the labels; texts are markup (see [`super::Label`])
@@ -84,8 +93,12 @@ pub struct CurveMap {
     pub y: [f64; 2],
     /// The regimes beneath; of this diagram only the cells are drawn.
     pub under: Option<PhaseDiagram>,
+    /// Whether wide regions have their names in them.
+    pub named: bool,
     /// The curves.
     pub curves: Vec<MapCurve>,
+    /// Ends of motions.
+    pub ends: Vec<MapEnd>,
     /// The points of codimension two.
     pub marks: Vec<MapMark>,
 }
@@ -96,7 +109,8 @@ impl CurveMap {
     /// # Errors   a range or a number that is not finite, or what a [`PhaseDiagram`] refuses
     pub fn svg_in(&self, room: Room) -> Result<String> {
         let points = self.curves.iter().flat_map(|curve| &curve.points).flatten();
-        check_finite("value of a curve", points.chain(self.marks.iter().flat_map(|mark| &mark.at)).copied())?;
+        let places = self.marks.iter().map(|mark| mark.at).chain(self.ends.iter().map(|end| end.at));
+        check_finite("value of a curve", points.copied().chain(places.flatten()))?;
         check_finite("end of a range", self.x.into_iter().chain(self.y))?;
         let beneath = self.under.as_ref().map(PhaseDiagram::ranges).transpose()?;
         let range = |own: [f64; 2], side: usize| {
@@ -122,29 +136,36 @@ impl CurveMap {
 
     fn draw(&self, svg: &mut Svg, scale: &Scale, room: Room) -> Result<()> {
         if let Some(under) = &self.under {
-            under.draw_under(svg, scale, room)?;
+            under.draw_under(svg, scale, room, self.named)?;
         }
         // pale ones first: nothing hides what bounds a regime
         for bounds in [false, true] {
-            self.curves
-                .iter()
-                .filter(|curve| curve.bounds == bounds)
-                .for_each(|curve| curve.draw(svg, scale));
+            let curves = || self.curves.iter().filter(move |curve| curve.bounds == bounds);
+            // all grounds first: none hides a curve beside it
+            curves().filter(|curve| curve.bounds).for_each(|curve| curve.draw_ground(svg, scale));
+            curves().for_each(|curve| curve.draw(svg, scale));
         }
-        let inside = |mark: &&MapMark| {
-            let [x, y] = scale.map(mark.at);
-            let frame = scale.frame;
+        let inside = |at: Point| {
+            let ([x, y], frame) = (scale.map(at), scale.frame);
             (frame.x..=frame.right()).contains(&x) && (frame.y..=frame.bottom()).contains(&y)
         };
-        let mut taken: Vec<Rect> = Vec::new();
-        for mark in self.marks.iter().filter(inside) {
+        let mut taken: Vec<Rect> = match &self.under {
+            Some(under) if self.named => under.draw_names(svg, scale)?,
+            _ => Vec::new(),
+        };
+        for end in self.ends.iter().filter(|end| inside(end.at)) {
+            svg.circle(scale.map(end.at), 5.0, &Paint::fill(WHITE).opacity(0.85));
+            Glyph::Cross.draw(svg, scale.map(end.at), 3.6, INK);
+        }
+        for mark in self.marks.iter().filter(|mark| inside(mark.at)) {
             mark.draw(svg, scale, &mut taken);
         }
         Ok(())
     }
 
     fn legend(&self, room: Room) -> Result<Vec<Entry>> {
-        let mut entries = self.under.as_ref().map_or(Ok(Vec::new()), |under| under.key_under(room))?;
+        let mut entries =
+            self.under.as_ref().map_or(Ok(Vec::new()), |under| under.key_under(room, self.named))?;
         let mut seen: Vec<&str> = Vec::new();
         for curve in &self.curves {
             if !seen.contains(&curve.label.as_str()) {
@@ -155,6 +176,12 @@ impl CurveMap {
         if self.curves.iter().any(|curve| !curve.bounds) {
             let pale = LineStyle::Solid.paint().opacity(PALE);
             entries.push(Entry::new(Mark::Line(pale), "pale: of a motion unstable on both sides"));
+        }
+        for end in &self.ends {
+            if !seen.contains(&end.label.as_str()) {
+                seen.push(&end.label);
+                entries.push(Entry::new(Mark::Point(Glyph::Cross, INK, false), &end.label));
+            }
         }
         if !self.marks.is_empty() {
             entries.push(Entry::new(Mark::Point(Glyph::Ring, INK, false), "point of codimension two"));
@@ -173,8 +200,9 @@ impl CurveMap {
                 csv.row(&[&number.to_string(), &curve.label, bounds], [Some(*x), Some(*y), None]);
             }
         }
-        for MapMark { label, at: [x, y] } in &self.marks {
-            csv.row(&["", label, ""], [Some(*x), Some(*y), None]);
+        let ends = self.ends.iter().map(|end| (&end.label, end.at));
+        for (label, [x, y]) in self.marks.iter().map(|mark| (&mark.label, mark.at)).chain(ends) {
+            csv.row(&["", label, ""], [Some(x), Some(y), None]);
         }
         for cell in self.under.iter().flat_map(|under| &under.cells) {
             for (regime, share) in &cell.shares {
@@ -191,15 +219,21 @@ figure!(CurveMap);
 const PALE: f64 = 0.4;
 
 impl MapCurve {
-    fn draw(&self, svg: &mut Svg, scale: &Scale) {
+    fn pieces(&self, scale: &Scale) -> Vec<Vec<Point>> {
         let points: Vec<Point> = self.points.iter().map(|point| scale.map(*point)).collect();
-        for piece in clip(&points, scale.frame) {
-            if self.bounds {
-                svg.polyline(&piece, false, &Paint::stroke(WHITE, 3.6).opacity(0.85));
-            }
-            let paint = self.style.paint();
-            svg.polyline(&piece, false, &if self.bounds { paint } else { paint.opacity(PALE) });
-        }
+        clip(&points, scale.frame)
+    }
+
+    /// The white ground of the line.
+    fn draw_ground(&self, svg: &mut Svg, scale: &Scale) {
+        let ground = Paint::stroke(WHITE, 3.6).opacity(0.85);
+        self.pieces(scale).iter().for_each(|piece| svg.polyline(piece, false, &ground));
+    }
+
+    fn draw(&self, svg: &mut Svg, scale: &Scale) {
+        let paint = self.style.paint();
+        let paint = if self.bounds { paint } else { paint.opacity(PALE) };
+        self.pieces(scale).iter().for_each(|piece| svg.polyline(piece, false, &paint));
     }
 }
 

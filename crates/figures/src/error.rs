@@ -140,12 +140,6 @@ pub enum FigureError {
         #[from]
         source: png::EncodingError,
     },
-    /// The PDF writer failed.
-    #[error("cannot write the pdf: {why}; use the svg, which contains the same drawing")]
-    Pdf {
-        /// What the writer found.
-        why: String,
-    },
 }
 
 /// Result of a drawing function.

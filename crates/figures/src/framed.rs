@@ -33,9 +33,32 @@ pub(super) struct Framed<'a> {
     pub(super) head: f64,
 }
 
+/// A sheet whose data are to be drawn.
+struct Begun {
+    svg: Svg,
+    axes: Axes,
+    caption: Block,
+    foot: f64,
+}
+
+impl Begun {
+    fn finish(mut self) -> String {
+        self.axes.draw(&mut self.svg);
+        self.caption.draw(&mut self.svg, [MARGIN, self.foot]);
+        self.svg.finish()
+    }
+}
+
 impl Framed<'_> {
     /// Draws the sheet; `data` draws between grid and axes.
     pub(super) fn svg<E>(self, data: impl FnOnce(&mut Svg, &Scale) -> Result<(), E>) -> Result<String, E> {
+        let mut begun = self.begin();
+        data(&mut begun.svg, &begun.axes.scale)?;
+        Ok(begun.finish())
+    }
+
+    /// The sheet up to its data: what is the same code for all figures.
+    fn begin(self) -> Begun {
         let axes = self.axes();
         let left = left_of(&axes);
         let mut axes = axes.moved_to(left);
@@ -58,10 +81,7 @@ impl Framed<'_> {
         if self.grid {
             axes.draw_grid(&mut svg);
         }
-        data(&mut svg, &axes.scale)?;
-        axes.draw(&mut svg);
-        caption.draw(&mut svg, [MARGIN, foot]);
-        Ok(svg.finish())
+        Begun { svg, axes, caption, foot }
     }
 
     /// The axes, with the frame that the room leaves beside their labels.

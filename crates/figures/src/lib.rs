@@ -2,7 +2,7 @@
 //!
 //! Thirteen figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`], [`SpaceTimeFigure`], [`SpectrumFigure`],
 //! [`PhaseDiagram`], [`BranchDiagram`], [`CurveMap`], [`BandFigure`], [`ErrorBarFigure`], [`SurvivalFigure`], [`PlaceMap`], [`TrackPanels`]) return self-contained SVG text (fonts and pictures are
-//! inside); [`png()`] (feature `raster`) and `pdf` (feature `pdf`) convert that text to files; [`Animation`] returns an animated
+//! inside); [`png()`] and [`pdf()`] (feature `raster`) convert that text to files; [`Animation`] returns an animated
 //! PNG. The same data give the same bytes: numbers are rounded to 0.01 pixel and no system font is used. All texts are
 //! markup, see [`Label`]; every regime has its [`RegimeMark`].
 
@@ -34,7 +34,7 @@ mod marks;
 pub mod paint;
 pub mod palette;
 mod path;
-#[cfg(feature = "pdf")]
+#[cfg(feature = "raster")]
 mod pdf;
 mod phase_diagram;
 mod picture;
@@ -68,7 +68,7 @@ mod track_panels;
 pub use animation::{Animation, Camera, Frame};
 pub use bands::{BandCurve, BandFigure, BandPoint};
 pub use branches::{BranchDiagram, BranchDots, BranchMark, BranchPart};
-pub use curve_map::{CurveMap, CurveStyle, MapCurve, MapMark};
+pub use curve_map::{CurveMap, CurveStyle, MapCurve, MapEnd, MapMark};
 pub use embedded::{embedded, font_rules};
 pub use error::{FigureError, Result};
 pub use error_bars::{ErrorBarFigure, ErrorBarSeries, Interval, Measured};
@@ -78,11 +78,9 @@ pub use glyph::Glyph;
 pub use line_style::LineStyle;
 pub use marks::{REGIMES, RegimeMark, regime_mark};
 pub use path::{OutlineStamp, PathFigure, PathPoint, SectionLine};
-#[cfg(feature = "pdf")]
-pub use pdf::pdf;
 pub use phase_diagram::{BoundaryLine, Cell, PhaseDiagram};
 pub use place_map::{MapPlace, PlaceMap};
-pub use portable::{DEFAULT_SCALE, RASTER, png};
+pub use portable::{DEFAULT_SCALE, RASTER, pdf, png};
 pub use return_map::ReturnMapFigure;
 pub use room::Room;
 pub use series::{Curve, Panel, SeriesFigure};

@@ -95,7 +95,7 @@ impl PlaceMap {
             head: 0.0,
         };
         sheet.svg(|svg, scale| {
-            self.under.draw_under(svg, scale, room)?;
+            self.under.draw_under(svg, scale, room, false)?;
             self.under.draw_lines(svg, scale);
             self.places.iter().for_each(|place| place.draw(svg, scale));
             let mut taken = Vec::new();
@@ -106,7 +106,7 @@ impl PlaceMap {
     }
 
     fn legend(&self, room: Room) -> Result<Vec<Entry>> {
-        let mut entries = self.under.key_under(room)?;
+        let mut entries = self.under.key_under(room, false)?;
         entries.extend(self.under.line_entries());
         entries.push(Entry::new(Mark::Point(Glyph::Diamond, BLACK, false), "the cell"));
         if self.places.iter().any(|place| !place.region.is_empty()) {

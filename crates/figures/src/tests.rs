@@ -219,13 +219,3 @@ fn films_decode_frame_by_frame() {
         }
     }
 }
-
-#[cfg(feature = "pdf")]
-#[test]
-fn pdf_is_one() {
-    for svg in [path(wave(100)).svg(), field(9, 9, |t, s| t - s).svg()] {
-        let bytes = pdf(&svg.expect("a figure")).expect("a pdf");
-        assert!(bytes.starts_with(b"%PDF-"));
-    }
-    assert!(pdf("no svg").is_err());
-}

@@ -8,7 +8,7 @@ use motiform_figures::Figure;
 use motiform_lab::draw::{FigureFormat, Picture, add, parameters};
 use motiform_statistics::Errors;
 
-/// Draws `msd`, `exponent`, `autocorrelations`, `speed`, `turning`, `spectra` and `first-passage` as SVG and PNG (and PDF if requested and built in), as
+/// Draws `msd`, `exponent`, `autocorrelations`, `speed`, `turning`, `spectra` and `first-passage` as SVG and PNG (and PDF if requested), as
 /// far as there is something to draw.
 ///
 /// # Errors

@@ -11,6 +11,8 @@ pub enum Kind {
     Branches,
     /// Curves of special points.
     Curves,
+    /// The motions of a plane and what bounds them.
+    Atlas,
     /// Mean lives of transient chaos.
     Lifetimes,
     /// Statistics of many bodies.
@@ -31,11 +33,12 @@ pub enum Kind {
 
 impl Kind {
     /// Every kind.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Dataset,
         Self::Scan,
         Self::Branches,
         Self::Curves,
+        Self::Atlas,
         Self::Lifetimes,
         Self::Statistics,
         Self::Observations,
@@ -54,6 +57,7 @@ impl Kind {
             Self::Scan => "scan",
             Self::Branches => "branches",
             Self::Curves => "curves",
+            Self::Atlas => "atlas",
             Self::Lifetimes => "lifetimes",
             Self::Statistics => "statistics",
             Self::Observations => "observations",
@@ -79,6 +83,7 @@ impl Kind {
             Self::Scan => "a scan",
             Self::Branches => "branches",
             Self::Curves => "curves",
+            Self::Atlas => "atlas",
             Self::Lifetimes => "lifetimes",
             Self::Statistics => "statistics",
             Self::Observations => "observations of cells",
@@ -95,7 +100,13 @@ impl Kind {
     pub fn resumes(self) -> bool {
         matches!(
             self,
-            Self::Scan | Self::Branches | Self::Curves | Self::Lifetimes | Self::Statistics | Self::Fits
+            Self::Scan
+                | Self::Branches
+                | Self::Curves
+                | Self::Atlas
+                | Self::Lifetimes
+                | Self::Statistics
+                | Self::Fits
         )
     }
 }

@@ -122,7 +122,7 @@ pub fn follow_curves_kept(
         if done.begun(*start) || done.passes(plan, *kind, *start) {
             continue;
         }
-        match curve(plan, &done.branches, (*kind, *start), watch) {
+        match follow_curve(plan, &done.branches, (*kind, *start), watch) {
             Ok(followed) => {
                 done.curves.push(followed);
                 keep(&done)?;
@@ -155,8 +155,11 @@ fn starts(plan: &CurvePlan, found: &Branches) -> Vec<(CurveKind, [usize; 3])> {
     all
 }
 
-/// The curve through a special point, to both sides at once.
-fn curve(
+/// The curve through a special point of a branch, to both sides at once.
+///
+/// # Errors
+/// [`Error::Interrupted`]; an unknown model. Where the curve cannot be followed, it says why.
+pub fn follow_curve(
     plan: &CurvePlan,
     found: &Branches,
     (kind, start): (CurveKind, [usize; 3]),
@@ -275,14 +278,9 @@ impl Curves {
 
     /// Whether a curve passes through this special point.
     fn passes(&self, plan: &CurvePlan, kind: CurveKind, start: [usize; 3]) -> bool {
-        let Some(sample) = self.branches.at(start) else { return false };
-        let period = sample.point.special.and_then(|special| period(&sample.point.motion, special));
-        let at = PlaneBodies::oriented(plan, [sample.point.parameter, plan.fixed_value()]);
-        let target = target(plan, at, period);
-        let curves = self.curves.iter().filter(|curve| curve.kind == kind);
-        curves
-            .flat_map(|curve| &curve.legs)
-            .any(|leg| leg.samples.windows(2).any(|pair| passes(pair, &target)))
+        let sample = self.branches.at(start);
+        let mut curves = self.curves.iter().filter(|curve| curve.kind == kind);
+        sample.is_some_and(|sample| curves.any(|curve| curve.passes(plan, sample)))
     }
 }
 
@@ -296,6 +294,15 @@ impl Curves {
 }
 
 impl FollowedCurve {
+    /// Whether it passes through a special point of a branch of this plan. The curve may have been begun on a branch of another one over the same plane.
+    #[must_use]
+    pub fn passes(&self, plan: &CurvePlan, sample: &Sample) -> bool {
+        let period = sample.point.special.and_then(|special| period(&sample.point.motion, special));
+        let at = PlaneBodies::oriented(plan, [sample.point.parameter, plan.fixed_value()]);
+        let target = target(plan, at, period);
+        self.legs.iter().any(|leg| leg.samples.windows(2).any(|pair| passes(pair, &target)))
+    }
+
     /// Its points from one end to the other, the start once.
     pub fn samples(&self) -> impl Iterator<Item = &CurveSample> {
         let (back, on) = match &self.legs[..] {

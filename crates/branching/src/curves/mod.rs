@@ -13,6 +13,8 @@ mod summary;
 mod table;
 
 pub use folder::{CurveFolder, default_curve_folder};
-pub use follow::{CurveLeg, CurveSample, Curves, FollowedCurve, follow_curves, follow_curves_kept};
+pub use follow::{
+    CurveLeg, CurveSample, Curves, FollowedCurve, follow_curve, follow_curves, follow_curves_kept,
+};
 pub use summary::{codimension_2, curve_ends, curve_summary, not_found};
 pub use table::curve_columns;

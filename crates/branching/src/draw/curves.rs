@@ -49,8 +49,10 @@ pub fn curve_map(plan: &CurvePlan, found: &Curves, over: Option<&ScanFolder>) ->
         x,
         y,
         under: under.map(|found| found.1),
-        curves: in_order.flat_map(stretches).collect(),
-        marks: together(found.curves.iter().flat_map(codimension_2).map(mark), [x, y]),
+        named: false,
+        curves: in_order.flat_map(curve_stretches).collect(),
+        ends: Vec::new(),
+        marks: marks_together(found.curves.iter().flat_map(codimension_2).map(curve_mark), [x, y]),
     })
 }
 
@@ -58,8 +60,9 @@ fn of_kind(found: &Curves, kind: CurveKind) -> impl Iterator<Item = &FollowedCur
     found.curves.iter().filter(move |curve| curve.kind == kind)
 }
 
-/// The stretches of a curve over which line style and stability stay the same.
-fn stretches(curve: &FollowedCurve) -> Vec<MapCurve> {
+/// The stretches of a curve over which line style and stability stay the same, as a map of curves has them.
+#[must_use]
+pub fn curve_stretches(curve: &FollowedCurve) -> Vec<MapCurve> {
     let samples: Vec<&CurveSample> = curve.samples().collect();
     let mut all: Vec<MapCurve> = Vec::new();
     for pair in samples.windows(2) {
@@ -88,7 +91,9 @@ fn line(kind: CurveKind, sample: &CurveSample) -> (&'static str, CurveStyle) {
     }
 }
 
-fn mark((kind, sample): (Degenerate, &CurveSample)) -> MapMark {
+/// The mark of a point of codimension two.
+#[must_use]
+pub fn curve_mark((kind, sample): (Degenerate, &CurveSample)) -> MapMark {
     let label = match kind {
         Degenerate::Cusp => "cusp".to_owned(),
         Degenerate::Bautin => "Bautin".to_owned(),
@@ -105,7 +110,8 @@ fn mark((kind, sample): (Degenerate, &CurveSample)) -> MapMark {
 }
 
 /// Marks at one place, as where curves meet, are one mark with the names of all.
-fn together(marks: impl Iterator<Item = MapMark>, ranges: [[f64; 2]; 2]) -> Vec<MapMark> {
+#[must_use]
+pub fn marks_together(marks: impl Iterator<Item = MapMark>, ranges: [[f64; 2]; 2]) -> Vec<MapMark> {
     let is_near = |a: [f64; 2], b: [f64; 2]| {
         (0..2).all(|k| (a[k] - b[k]).abs() <= SAME_PLACE * (ranges[k][1] - ranges[k][0]))
     };

@@ -4,4 +4,4 @@ mod branches;
 mod curves;
 
 pub use branches::{Ordinate, diagram as branch_diagram, draw_branches};
-pub use curves::{check_scan, curve_map, draw_curves};
+pub use curves::{check_scan, curve_map, curve_mark, curve_stretches, draw_curves, marks_together};

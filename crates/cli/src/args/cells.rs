@@ -25,7 +25,7 @@ pub(crate) struct CellsOptions {
     #[arg(long, value_name = "UNIT", default_value = "um")]
     pub(crate) length_unit: String,
     /// The format, where the content does not decide it: csv, parquet, trackmate, quimp-csv, quimp-snqp, amoepy, roi, roi-zip or wkt
-    #[arg(long, value_name = "FORMAT", value_parser = |text: &str| text.parse::<Format>().map_err(|error| error.to_string()))]
+    #[arg(long = "input-format", alias = "format", value_name = "FORMAT", value_parser = |text: &str| text.parse::<Format>().map_err(|error| error.to_string()))]
     pub(crate) format: Option<Format>,
     /// A column of the table by its header (repeatable): cell, frame, i, x, y or wkt, e.g. --column frame=t
     #[arg(long = "column", value_name = "NAME=HEADER", value_parser = column)]
@@ -43,7 +43,7 @@ pub(crate) struct CellsOptions {
     /// Do not draw pages (report.html and a page per cell) in this folder
     #[arg(long, requires = "out")]
     pub(crate) no_report: bool,
-    /// Replace an existing folder of results (or the file of --outlines); what motiform did not write stays
+    /// Replace an existing folder of results (or the file of --write-outlines); what motiform did not write stays
     #[arg(long)]
     pub(crate) force: bool,
     /// Print one JSON object
@@ -67,7 +67,7 @@ pub(crate) struct ObserveOptions {
     pub(crate) cells: CellsOptions,
     /// Also write the outlines, for other programs: a table (.csv with cell, frame, i, x, y), or, one cell in um and s, the text
     /// of AmoePy (.txt)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long = "write-outlines", alias = "outlines", value_name = "FILE")]
     pub(crate) outlines: Option<PathBuf>,
 }
 
@@ -111,7 +111,7 @@ Examples:
   motiform observe cells.xml
   motiform observe outlines.csv --pixel-size 0.2 --interval 5 --out observed
   motiform observe roi.zip --interval 6 --time-unit min --json
-  motiform observe cells.xml --outlines cells.csv    the outlines as a table
+  motiform observe cells.xml --write-outlines cells.csv    the outlines as a table
 
 A motion is named where the record leaves no other: straight, circular, zigzag, quasi-periodic
 or motionless. Otherwise it is 'undecided', with what is missing. Frames that are no observation

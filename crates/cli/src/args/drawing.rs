@@ -46,7 +46,6 @@ pub(crate) struct StyleOptions {
     #[arg(long, value_name = "WIDTH", value_parser = width)]
     pub(crate) width: Option<Width>,
     /// Also write PDF figures
-    #[cfg(feature = "pdf")]
     #[arg(long)]
     pub(crate) pdf: bool,
 }
@@ -70,12 +69,8 @@ impl DrawingOptions {
 impl StyleOptions {
     /// How the figures become files.
     pub(crate) fn format(&self) -> FigureFormat {
-        #[cfg(feature = "pdf")]
-        let pdf = self.pdf;
-        #[cfg(not(feature = "pdf"))]
-        let pdf = false;
         let style = Style { title: self.title.clone(), no_caption: self.no_caption, width: self.width };
-        FigureFormat { pdf, style }
+        FigureFormat { pdf: self.pdf, style }
     }
 }
 

@@ -7,7 +7,7 @@ mod mutate;
 use mutate::{each, in_turn};
 
 /// Together they have most of the options.
-const LINES: [&str; 20] = [
+const LINES: [&str; 21] = [
     "models tensor --json",
     "simulate tensor --preset fig5a --set kappa2=0.5 --initial v1=0.1 --t-end 100 --transient 5 --dt-out 0.1 --out run.csv --force",
     "simulate cell --seed 7 --rtol 1e-9 --atol 1e-12 --stepper krogstad4 --max-steps 100 --noise 1e-3 --format csv --no-figures",
@@ -15,13 +15,14 @@ const LINES: [&str; 20] = [
     "merge a b c --out d --force",
     "classify tensor --set gamma=0.5 --budget 100 --samples 8 --random 0.01:1 --perturb 0 --json",
     "lyapunov tensor --preset fig5b --count 3 --transient 10 --t-end 100 --saddle 4",
-    "continue tensor --preset fig5a --along kappa2=0.3:1.6 --branches 3 --points 50 --from straight --out b",
+    "continue tensor --preset fig5a --along kappa2=0.3:1.6 --branches 3 --points 50 --motion straight --out b",
     "continue tensor --preset fig5a --curve hopf --in kappa2,gamma=0:1 --out curves",
+    "atlas tensor --preset fig4 --axis kappa2=0.1:1.6 --axis kappa3=0.1:1:9 --samples 2 --lines 3 --branches 2 --steady --out a",
     "equilibria cell --set length=14 --starts 50 --json",
-    "section tensor --preset fig5a --at s12=0 --direction rising --t-end 100",
-    "lifetimes tensor --preset fig5b --along kappa2=0.4:0.5:3 --samples 20 --until 1000 --out lives --threads 2",
+    "section tensor --preset fig5a --at s12=0 --crossings rising --t-end 100",
+    "lifetimes tensor --preset fig5b --axis kappa2=0.4:0.5:3 --samples 20 --until 1000 --out lives --threads 2",
     "statistics tensor --preset fig5b --bodies 16 --t-end 100 --noise 0.05 --threshold 2 --out st",
-    "observe cells.csv --pixel-size 0.5 --interval 2 --cell a --outlines again.csv --no-report --json",
+    "observe cells.csv --pixel-size 0.5 --interval 2 --cell a --write-outlines again.csv --no-report --json",
     "fit cells.csv --order 3 --modes 3 --draws 10 --seed 1 --together --threads 2 --resume --out f",
     "reproduce fig2 fig4 --quick --out R --threads 4 --json",
     "check study.toml --json",

@@ -6,6 +6,7 @@ Start here:
   motiform explore                              explore the models in a browser
   motiform continue tensor --preset fig5a --along kappa2=0.3:1.6
                                                 where its motion begins and ends
+  motiform atlas fig4                           a plane of two parameters: its motions and their boundaries
   motiform models tensor                        its equations, parameters and presets
 
 Exit codes: 0 success; 1 finished, but some result is not as requested (a run escaped, a motion is undecided); \
@@ -71,11 +72,11 @@ The transient of a preset is ignored: the motion is integrated for longer and lo
 
 pub(super) const CONTINUE_HELP: &str = "\
 Examples:
-  motiform continue tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.9 --from zigzag --along kappa2=0.3:1.6
+  motiform continue tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.9 --motion zigzag --along kappa2=0.3:1.6
   motiform continue tensor --preset fig4 --set kappa3=0.3 --set kappa2=1.5 --along kappa2=0.3:3 --branches 3
   motiform continue tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.9 --along kappa2=0.3:1.6 --curve hopf,symmetry-breaking \
     --in kappa2,kappa3=0.02:0.3
-  motiform continue cell --set length=12.6 --from circular --along length=12:13.5 --json
+  motiform continue cell --set length=12.6 --motion circular --along length=12:13.5 --json
   motiform continue cell --set length=6 --along length=6:32 --steady --branches 40
   motiform equilibria my-study.toml --json > equilibria.json
   motiform continue --start equilibria.json:2 --along r=0:30    # the second one listed, stable or not
@@ -85,7 +86,7 @@ The start is simulated until its motion is named, as `motiform classify` does. T
 pseudo-arclength, through folds and whether or not it is stable. What begins at its special points is followed too, and so on, \
 each branch once, mirror images not twice. With --start a point of an earlier result is the start, with its parameters: \
 a point of a branch (branch and point as in points.parquet) or an equilibrium is polished by Newton's method and not simulated, so that it may be \
-unstable; a state of a dataset is simulated on, but --from motionless, straight or circular takes the steady motion close to it. Special points:
+unstable; a state of a dataset is simulated on, but --motion motionless, straight or circular takes the steady motion close to it. Special points:
   fold                branch turns back               hopf                a shape begins to pulsate
   pitchfork           a symmetry of a steady shape breaks (drift pitchfork: straight motion begins to turn)
   symmetry-breaking   left and right of a zigzag differ: it begins to rotate
@@ -99,6 +100,28 @@ The output folder holds
   branches, period     the diagram and the periods against the parameter, as .svg, .png and .csv
   manifest.json        plan, hash, version; branches.json: from where --resume goes on
 Ctrl-C keeps what was followed. The numbers do not depend on interruptions.";
+
+pub(super) const ATLAS_HELP: &str = "\
+Examples:
+  motiform atlas fig4                                               the paper's Fig. 4
+  motiform atlas tensor --preset fig4 --axis kappa2=0.1:1.6 --axis kappa3=0.1:1.0 --width 86mm
+  motiform atlas fig1 --axis kappa2=-0.22:0.22 --axis gamma=-0.16:0.12
+  motiform atlas cell --axis length=12:12.8:5 --axis g1=-0.05:0.05:5 --samples 1
+  motiform atlas my-equations.toml --axis a=0:1 --axis b=-1:1 --samples 8 --resume
+  motiform figure tensor-fig4-atlas --width 86mm --out paper        its figure, one column wide
+
+One command in place of three: a scan that is finer where neighbours differ, branches along lines across the boundaries (`motiform continue`), and curves \
+of bifurcations through the plane (`motiform continue --curve`). Each boundary gets the name of the bifurcation on it. Where none is found, the atlas \
+says why: chaotic motion and blow-up are no branches and are found by sampling alone. Cells are those of a scan with the same axes, \
+samples and seed. More --samples find coexisting motions with small basins, more --lines name more of the boundaries.
+
+The output folder contains
+  report.html          the map, its regions, its boundaries with their bifurcations, special points, what was followed
+  atlas                the map, as .svg, .png and .csv
+  cells.parquet        a row per cell and motion; curves.parquet: a row per point of a curve
+  summary.json         what --json prints
+  manifest.json        plan, hash, version; atlas.json: from where `motiform figure` draws
+Ctrl-C and kills keep finished cells and lines: --resume goes on, and the numbers are the same. Exit code 1: some cells are undetermined.";
 
 pub(super) const EQUILIBRIA_HELP: &str = "\
 Examples:
@@ -115,7 +138,7 @@ unstable: number of growing directions; 0 is stable. Mirror images are listed ap
 pub(super) const SECTION_HELP: &str = "\
 Examples:
   motiform section tensor --preset fig5a --at v2=0
-  motiform section tensor --preset fig5b --at s12=0 --direction either --t-end 2000 > crossings.csv
+  motiform section tensor --preset fig5b --at s12=0 --crossings either --t-end 2000 > crossings.csv
   motiform section tensor --preset fig5a --at y=1 --json
 
 Crossings are located to round-off. A table (CSV) goes to standard output; each crossing has the time t, the place x, y, all coordinates of the shape, and rising (1 or 0).";

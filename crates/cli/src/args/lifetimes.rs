@@ -10,7 +10,7 @@ pub(crate) struct LifetimesOptions {
     #[command(flatten)]
     pub(crate) subject: SubjectOptions,
     /// The parameter and its values: NAME=LOW:HIGH:COUNT, both ends included, or NAME=v1,v2,v3
-    #[arg(long, value_name = "NAME=LOW:HIGH:COUNT", required = true)]
+    #[arg(long = "axis", alias = "along", value_name = "NAME=LOW:HIGH:COUNT", required = true)]
     pub(crate) along: String,
     /// Random initial states for each value
     #[arg(long, value_name = "M", value_parser = whole, allow_hyphen_values = true, default_value_t = 64)]
@@ -52,8 +52,8 @@ pub(crate) struct LifetimesOptions {
 
 pub(super) const LIFETIMES_HELP: &str = "\
 Examples:
-  motiform lifetimes tensor --preset fig4 --set kappa3=0.1 --along kappa2=0.36:0.46:6 --until 2e5
-  motiform lifetimes tensor --preset fig4 --set kappa3=0.1 --along kappa2=1.1995,1.2002,1.2003,1.2004,1.2006,1.2008 \
+  motiform lifetimes tensor --preset fig4 --set kappa3=0.1 --axis kappa2=0.36:0.46:6 --until 2e5
+  motiform lifetimes tensor --preset fig4 --set kappa3=0.1 --axis kappa2=1.1995,1.2002,1.2003,1.2004,1.2006,1.2008 \
     --samples 128 --random 0.01 --until 4e4 --out crisis
 
 Chaos that is transient ends in one of two ways: the body blows up, or it is captured by a stable steady motion. For each value the

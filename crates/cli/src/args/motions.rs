@@ -18,7 +18,7 @@ pub(crate) struct ContinueOptions {
     /// The motion that the start must settle on: motionless, straight, circular, spinning, zigzag, quasi-periodic or
     /// pulsating-straight
     /// (default: the motion that the simulation settles on)
-    #[arg(long, value_name = "MOTION")]
+    #[arg(long = "motion", alias = "from", value_name = "MOTION")]
     pub(crate) from: Option<String>,
     /// Start from a point of an earlier result, stable or not, with its parameters; --set changes them. FOLDER:BRANCH:POINT of
     /// `continue`, FILE.json:NUMBER of `equilibria --json`, DATASET[:t=TIME|:ROW] of `simulate`. Without POINT, a dataset
@@ -59,7 +59,7 @@ pub(crate) struct ContinueOptions {
     pub(crate) points: Option<u64>,
     /// Also simulate at N values of the parameter, swept upwards and downwards, each run from the end of the one before:
     /// grey beneath the branches
-    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
+    #[arg(long = "sweep", alias = "samples", value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) samples: Option<u64>,
     /// What the diagram shows against the parameter
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Observable::Speed)]
@@ -129,7 +129,7 @@ pub(crate) struct SectionOptions {
     #[arg(long, value_name = "NAME=VALUE", value_parser = super::assignment, allow_hyphen_values = true)]
     pub(crate) at: (String, f64),
     /// Which crossings count
-    #[arg(long, value_enum, default_value_t = Crossing::Rising)]
+    #[arg(long = "crossings", alias = "direction", value_enum, default_value_t = Crossing::Rising)]
     pub(crate) direction: Crossing,
     /// Model time to record
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]

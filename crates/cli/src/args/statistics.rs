@@ -35,7 +35,7 @@ pub(crate) struct StatisticsOptions {
     #[arg(long, value_name = "ETA", value_parser = number, allow_hyphen_values = true)]
     pub(crate) noise_velocity: Option<f64>,
     /// Radius of a disc for first-passage times (repeatable; default: six, from the displacements)
-    #[arg(long, value_name = "R", value_parser = number, allow_hyphen_values = true)]
+    #[arg(long = "disc", alias = "radius", value_name = "R", value_parser = number, allow_hyphen_values = true)]
     pub(crate) radius: Vec<f64>,
     /// Residence times of this quantity above and below a threshold: speed, or the size of a mode (s, u; mode1, ...); without VALUE: its
     /// median (default: speed)
@@ -71,7 +71,7 @@ pub(super) const STATISTICS_HELP: &str = "\
 Examples:
   motiform statistics tensor --preset fig5a --noise 0.01 --t-end 2000 --transient 100 --out noisy
   motiform statistics tensor --preset fig5b --bodies 200 --t-end 4000 --out chaos
-  motiform statistics my-study.toml --bodies 50 --radius 5 --threshold speed=0.3 --json
+  motiform statistics my-study.toml --bodies 50 --disc 5 --threshold speed=0.3 --json
   motiform statistics run1 run2 run3 --transient 50
 
 What is measured, each with its 95 % interval (docs/statistics.md has the formulas):

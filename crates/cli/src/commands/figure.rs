@@ -3,6 +3,7 @@
 use super::film;
 use crate::args::{DrawingOptions, FigureOptions, Observable};
 use crate::output::{End, print, warn};
+use motiform_atlas::{AtlasFolder, draw_atlas};
 use motiform_branching::BranchFolder;
 use motiform_branching::curves::CurveFolder;
 use motiform_branching::draw::{draw_branches, draw_curves};
@@ -78,7 +79,7 @@ fn drawn(path: &Path, options: &FigureOptions) -> anyhow::Result<Vec<Picture>> {
         let given = options.observable.map(|_| "--observable");
         refuse(given, "only diagrams of branches have it: leave it out")?;
     }
-    if matches!(kind, Some(Kind::Scan | Kind::Branches | Kind::Curves)) {
+    if matches!(kind, Some(Kind::Scan | Kind::Branches | Kind::Curves | Kind::Atlas)) {
         refuse(options.drawing.of_bodies(), "only figures of a body have it: leave it out")?;
     }
     match kind {
@@ -92,6 +93,7 @@ fn drawn(path: &Path, options: &FigureOptions) -> anyhow::Result<Vec<Picture>> {
             let CurveFolder { plan, found } = CurveFolder::read(path)?;
             Ok(draw_curves(&plan, &found, None, &format)?)
         }
+        Some(Kind::Atlas) => Ok(draw_atlas(&AtlasFolder::read(path)?, &format)?),
         _ => {
             let dataset = read_dataset_by(path, &|manifest, path| {
                 apply(&options.drawing, &mut manifest.plan.figure);

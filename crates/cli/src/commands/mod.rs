@@ -1,5 +1,6 @@
 //! One file per command.
 
+pub(crate) mod atlas;
 pub(crate) mod check;
 pub(crate) mod classify;
 pub(crate) mod completions;

@@ -56,14 +56,15 @@ fn planar(folder: &Folder, name: &str, parameters: &str, [x, y]: [&str; 2]) {
 fn the_branches_of_the_cell_have_no_false_points() {
     let folder = Folder::new();
     let quiet =
-        follow(&folder, "cell --set length=12.6 --from circular --along length=12.5:12.7 --branches 1");
+        follow(&folder, "cell --set length=12.6 --motion circular --along length=12.5:12.7 --branches 1");
     assert_eq!(special(&quiet, "length"), []);
     assert_eq!(quiet["branches"][0]["stable"], serde_json::json!([[12.5, 12.7]]));
     let circular =
-        follow(&folder, "cell --set length=12.6 --from circular --along length=12:13.5 --branches 1");
+        follow(&folder, "cell --set length=12.6 --motion circular --along length=12:13.5 --branches 1");
     let list = expected(&[("hopf", 12.973_310), ("pitchfork", 12.278_498)]);
     assert!(same(&special(&circular, "length"), &list, 1e-6), "{circular}");
-    let straight = follow(&folder, "cell --set length=9 --from straight --along length=6:12.5 --branches 3");
+    let straight =
+        follow(&folder, "cell --set length=9 --motion straight --along length=6:12.5 --branches 3");
     let list = expected(&[("pitchfork", std::f64::consts::TAU), ("pitchfork", 12.278_498)]);
     let first = serde_json::json!({ "branches": [straight["branches"][0]] });
     let found = special(&first, "length");

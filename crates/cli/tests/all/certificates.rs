@@ -34,7 +34,7 @@ fn errors_of_special_points_cover_exact_values() {
     holds(&entries(&reduced), "gamma", "hopf", 0.024);
     holds(&entries(&reduced), "gamma", "pitchfork", 0.0);
     let cell =
-        follow(&folder, "cell --set length=12.6 --from circular --along length=12.2:12.9 --branches 3");
+        follow(&folder, "cell --set length=12.6 --motion circular --along length=12.2:12.9 --branches 3");
     holds(&entries(&cell), "length", "pitchfork", 4.0 * std::f64::consts::PI);
 }
 
@@ -44,7 +44,7 @@ fn errors_of_special_points_cover_exact_values() {
 fn the_list_of_the_zigzag_does_not_depend_on_steps_and_tolerance() {
     let folder = Folder::new();
     let list = |options: &str| -> Vec<(String, f64, f64)> {
-        let run = "tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.95 --from zigzag --along kappa2=0.5:1.5 --branches 1";
+        let run = "tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.95 --motion zigzag --along kappa2=0.5:1.5 --branches 1";
         let json = follow(&folder, &format!("{run} {options}"));
         let number = |value: &Value| value.as_f64().expect("a number");
         let one = |entry: &&Value| {
@@ -102,7 +102,7 @@ fn coefficients_and_saddles_are_stated_with_their_errors() {
     let folder = Folder::new();
     let json = follow(
         &folder,
-        "tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.95 --from zigzag --along kappa2=0.5:1.5 --branches 4",
+        "tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.95 --motion zigzag --along kappa2=0.5:1.5 --branches 4",
     );
     let all = entries(&json);
     let number = |entry: &Value, key: &str| entry[key].as_f64().unwrap_or_else(|| panic!("{key} of {entry}"));
@@ -164,7 +164,7 @@ fn a_saddle_node_on_a_circle_is_named_where_it_is() {
 #[test]
 fn orbits_of_the_cell_grow_as_the_normal_form_says() {
     let folder = Folder::new();
-    let arguments = "continue cell --set length=12.955 --from circular --along length=12.955:12.98 --points 45 --no-figures --out here";
+    let arguments = "continue cell --set length=12.955 --motion circular --along length=12.955:12.98 --points 45 --no-figures --out here";
     folder.run(arguments).expect(0);
     let json = read_json(&folder.path("here/branches.json"));
     let samples = |branch: usize| -> Vec<Value> {

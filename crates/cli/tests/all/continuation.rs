@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 /// The full model at kappa3 = 0.1, from the zigzag that a simulation settles on.
 pub(crate) const ZIGZAG: &str =
-    "continue tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.9 --from zigzag --along";
+    "continue tensor --preset fig4 --set kappa3=0.1 --set kappa2=0.9 --motion zigzag --along";
 
 /// The parameters of the special points of a kind, over all branches.
 fn places(json: &Value, kind: &str) -> Vec<f64> {
@@ -201,8 +201,8 @@ fn what_cannot_be_followed_is_refused_with_the_reason() {
         (format!("{fig4} --along kappa2=1:1.6"), "the start, kappa2 = 0.9, is outside"),
         (format!("{fig4} --along kappa2=1.6:0.3"), "the range must rise"),
         (format!("{fig4} --along kappa2"), "write NAME=LOW:HIGH"),
-        (format!("{fig4} --along kappa2=0.3:1.6 --from zigzig"), "did you mean zigzag"),
-        (format!("{fig4} --along kappa2=0.3:1.6 --from circular"), "settles on zigzag motion"),
+        (format!("{fig4} --along kappa2=0.3:1.6 --motion zigzig"), "did you mean zigzag"),
+        (format!("{fig4} --along kappa2=0.3:1.6 --motion circular"), "settles on zigzag motion"),
         (format!("{fig4} --along kappa2=0.3:1.6 --set kappa2=0.5"), "settles on chaotic motion"),
         (
             "continue tensor --preset fig1 --set kappa2=-0.1 --set gamma=-0.04 --along gamma=-0.1:0"

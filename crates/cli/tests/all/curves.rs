@@ -1,4 +1,4 @@
-//! `motiform continue --curve` and `--samples`, and the table `[continue]` of a study.
+//! `motiform continue --curve` and `--sweep`, and the table `[continue]` of a study.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -79,7 +79,7 @@ fn an_arch_through_two_special_points_is_followed_once() {
 #[test]
 fn the_hopf_curve_of_circular_motion_has_a_bautin_point() {
     let folder = Folder::new();
-    let words = "continue tensor --preset fig4 --set kappa3=0.1 --set kappa2=1.4 --from circular --along kappa2=1:1.6 --branches 1 \
+    let words = "continue tensor --preset fig4 --set kappa3=0.1 --set kappa2=1.4 --motion circular --along kappa2=1:1.6 --branches 1 \
          --curve hopf --in kappa2=1:2,kappa3=0.02:0.2 --json";
     let json = folder.run(words).expect(0).json();
     let found = json["curves"][0]["codimension_2"].as_array().unwrap();
@@ -122,7 +122,7 @@ fn curves_that_cannot_be_followed_are_refused() {
         ("--curve hopf --in kappa2,gamma", "give its range, gamma=LOW:HIGH"),
         ("--curve hopf --in kappa2,kappa3=0.2:1", "the start, kappa3 = 0.1, is outside"),
         ("--curve hopf --in kappa2=0.5:1.6,kappa3=0.02:1", "must hold that of the branches"),
-        ("--samples 1", "from 2 to 100000"),
+        ("--sweep 1", "from 2 to 100000"),
     ];
     for (words, expected) in cases {
         let error = folder.run(&format!("{fig4} {words}")).expect_error(2).stderr;
@@ -159,7 +159,7 @@ fn interrupted_curves_go_on_to_the_same_points() {
 #[test]
 fn samples_lie_on_the_stable_branch() {
     let folder = Folder::new();
-    folder.run(&format!("{ZIGZAG} kappa2=0.88:0.92 --branches 1 --samples 3 --out run")).expect(0);
+    folder.run(&format!("{ZIGZAG} kappa2=0.88:0.92 --branches 1 --sweep 3 --out run")).expect(0);
     let branch = rows(&folder, "run/branches.csv", (1, "zigzag"), 4);
     let speed = branch.iter().find(|row| row[0] == 0.9).unwrap()[1];
     for direction in ["up", "down"] {

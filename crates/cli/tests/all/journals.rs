@@ -91,7 +91,7 @@ fn branches() {
 /// What is sampled along the parameter is kept every second.
 #[test]
 fn sweeps() {
-    let command = "continue tensor --preset fig5a --along kappa2=0.7:1.6 --branches 1 --points 5 --samples 160 --no-figures";
+    let command = "continue tensor --preset fig5a --along kappa2=0.7:1.6 --branches 1 --points 5 --sweep 160 --no-figures";
     let sampled = |folder: &Path| {
         let entries = std::fs::read_dir(folder.join("_work")).into_iter().flatten().flatten();
         entries.filter_map(|entry| Some(entry.metadata().ok()?.len() as usize)).sum()
@@ -106,10 +106,17 @@ fn curves() {
     is_kept(command, "--resume", &size("curves.json"), 4);
 }
 
+/// Cells are kept group by group, lines two by two.
+#[test]
+fn atlases() {
+    let command = "atlas tensor --preset fig4 --axis kappa2=0.8:1.5:33 --axis kappa3=0.2:0.6:17 --samples 2 --lines 4 --branches 2 --threads 2";
+    is_kept(command, "--resume", &items, 3);
+}
+
 /// Orbits are kept every five seconds.
 #[test]
 fn orbits() {
-    let command = "lifetimes tensor --preset fig4 --set kappa3=0.1 --along kappa2=0.36:0.46:6 --until 2e4 --samples 150 --threads 2";
+    let command = "lifetimes tensor --preset fig4 --set kappa3=0.1 --axis kappa2=0.36:0.46:6 --until 2e4 --samples 150 --threads 2";
     is_kept(command, "--resume", &size("orbits.json"), 1);
 }
 

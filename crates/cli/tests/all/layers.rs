@@ -6,7 +6,7 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::process::Command;
 
 /// Each crate, and the crates below it that it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &[&str]); 26] = [
+const LAYERS: [(&str, &[&str]); 27] = [
     ("motiform-store", &[]),
     ("motiform-dynamics", &[]),
     ("motiform-models", &["motiform-dynamics"]),
@@ -88,6 +88,21 @@ const LAYERS: [(&str, &[&str]); 26] = [
         ],
     ),
     (
+        "motiform-atlas",
+        &[
+            "motiform-analysis",
+            "motiform-branching",
+            "motiform-continuation",
+            "motiform-dynamics",
+            "motiform-figures",
+            "motiform-files",
+            "motiform-lab",
+            "motiform-models",
+            "motiform-report",
+            "motiform-study",
+        ],
+    ),
+    (
         "motiform-chapter",
         &[
             "motiform-analysis",
@@ -135,6 +150,7 @@ const LAYERS: [(&str, &[&str]); 26] = [
         "motiform",
         &[
             "motiform-analysis",
+            "motiform-atlas",
             "motiform-branching",
             "motiform-cell-report",
             "motiform-cells",

@@ -10,7 +10,7 @@ use std::process::Stdio;
 use std::time::Duration;
 
 const SHORT: &str =
-    "lifetimes tensor --preset fig4 --set kappa3=0.1 --along kappa2=0.1,0.2 --samples 6 --until 400";
+    "lifetimes tensor --preset fig4 --set kappa3=0.1 --axis kappa2=0.1,0.2 --samples 6 --until 400";
 
 #[test]
 fn a_short_run_has_too_few_events_and_says_so() {
@@ -40,11 +40,11 @@ fn bad_input_names_the_remedy() {
     let folder = Folder::new();
     for (words, told) in [
         ("lifetimes tensor --preset fig4", "--along"),
-        ("lifetimes tensor --preset fig4 --along kappa9=0.1:0.2:3", "kappa9"),
-        ("lifetimes tensor --preset fig4 --along kappa2=0.1:0.2", "NAME=LOW:HIGH:COUNT"),
-        ("lifetimes tensor --preset fig4 --along kappa2=0.1 --until 0", "give a model time above 0"),
-        ("lifetimes tensor --preset fig4 --along kappa2=0.1 --transient -1", "give a model time above 0"),
-        ("lifetimes tensor --preset fig4 --along kappa2=0.1 --samples 0", "give at least 1"),
+        ("lifetimes tensor --preset fig4 --axis kappa9=0.1:0.2:3", "kappa9"),
+        ("lifetimes tensor --preset fig4 --axis kappa2=0.1:0.2", "NAME=LOW:HIGH:COUNT"),
+        ("lifetimes tensor --preset fig4 --axis kappa2=0.1 --until 0", "give a model time above 0"),
+        ("lifetimes tensor --preset fig4 --axis kappa2=0.1 --transient -1", "give a model time above 0"),
+        ("lifetimes tensor --preset fig4 --axis kappa2=0.1 --samples 0", "give at least 1"),
     ] {
         let done = folder.run(words).expect(2);
         assert!(done.stderr.contains(told), "{words}: {}", done.stderr);
@@ -54,7 +54,7 @@ fn bad_input_names_the_remedy() {
 #[test]
 fn an_interrupted_run_goes_on_to_the_same_numbers() {
     let folder = Folder::new();
-    let words = "lifetimes tensor --preset fig4 --set kappa3=0.1 --along kappa2=0.1,0.2,0.3 --samples 64 --until 2e4 --threads 1";
+    let words = "lifetimes tensor --preset fig4 --set kappa3=0.1 --axis kappa2=0.1,0.2,0.3 --samples 64 --until 2e4 --threads 1";
     let whole = folder.run(&format!("{words} --out whole"));
     let mut command = folder.command(&format!("{words} --out parts"));
     let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();

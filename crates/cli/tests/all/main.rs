@@ -33,6 +33,7 @@ mod new_files;
 mod observe;
 mod outcomes;
 mod ownership;
+mod planes;
 mod scan;
 mod spinning;
 mod starts;

@@ -21,13 +21,13 @@ fn outlines_are_written_for_other_programs() {
     let folder = Folder::new();
     folder.write("cells.csv", &table(&["a", "b"]));
     let words = "observe cells.csv --pixel-size 0.5 --interval 2";
-    let text = folder.run(&format!("{words} --outlines again.csv")).expect(1).stdout;
+    let text = folder.run(&format!("{words} --write-outlines again.csv")).expect(1).stdout;
     assert!(text.contains("written        again.csv"), "{text}");
     let half = folder.run("observe cells.csv --pixel-size 0.5 --interval 2 --json").expect(1).json();
     let again = folder.run("observe again.csv --pixel-size 1 --interval 2 --json").expect(1).json();
     assert_eq!(half["cells"], again["cells"]);
 
-    folder.run(&format!("{words} --cell b --outlines b.txt")).expect(1);
+    folder.run(&format!("{words} --cell b --write-outlines b.txt")).expect(1);
     let b = folder.run("observe b.txt --json").expect(1).json();
     assert_eq!(b["cells"][0]["measures"], half["cells"][1]["measures"]);
 }
@@ -38,20 +38,20 @@ fn files_that_cannot_be_written_are_named() {
     folder.write("cells.csv", &table(&["a", "b"]));
     folder.write("there.csv", "x");
     for (words, problem) in [
-        ("--outlines cells.xml", "end the name in one of these"),
-        ("--outlines there.csv", "--force"),
-        ("--outlines both.txt --pixel-size 1 --interval 1", "there are 2: choose one"),
-        ("--outlines a.txt --cell a", "give pixel size and interval"),
+        ("--write-outlines cells.xml", "end the name in one of these"),
+        ("--write-outlines there.csv", "--force"),
+        ("--write-outlines both.txt --pixel-size 1 --interval 1", "there are 2: choose one"),
+        ("--write-outlines a.txt --cell a", "give pixel size and interval"),
     ] {
         let done = folder.run(&format!("observe cells.csv {words}")).expect(2);
         let error = done.stderr.lines().last().unwrap_or_default(); // after warnings about units
         assert!(error.starts_with("error: ") && error.contains(problem), "{words}: {error}");
         assert_eq!(done.stdout, "");
     }
-    let refused = folder.run("observe cells.csv --outlines there.csv --force").expect(2);
+    let refused = folder.run("observe cells.csv --write-outlines there.csv --force").expect(2);
     assert!(refused.stderr.contains("it is not replaced"), "{}", refused.stderr);
     for force in ["", "--force"] {
-        folder.run(&format!("observe cells.csv --outlines new.csv {force}")).expect(1);
+        folder.run(&format!("observe cells.csv --write-outlines new.csv {force}")).expect(1);
     }
     assert_eq!(folder.names(), [".new.csv.inventory", "cells.csv", "new.csv", "there.csv"]);
 }
@@ -67,8 +67,8 @@ fn a_failed_write_is_not_an_undecided_cell() {
         ("", "--json > /dev/full"),
         ("ulimit -f 0;", "--out seen"),
         ("ulimit -f 1;", "--out seen"),
-        ("ulimit -f 0;", "--outlines again.csv"),
-        ("ulimit -f 1;", "--outlines again.csv"),
+        ("ulimit -f 0;", "--write-outlines again.csv"),
+        ("ulimit -f 1;", "--write-outlines again.csv"),
     ] {
         let done = folder.bash(&format!("trap '' XFSZ; {limit} exec $motiform {words} {line}")).expect(2);
         let error = done.stderr.lines().last().unwrap_or_default();

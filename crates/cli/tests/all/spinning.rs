@@ -37,7 +37,7 @@ fn spinning_is_the_name_in_every_command() {
     assert!(motions.contains(&"spinning") && !motions.contains(&"circular"), "{listed}");
     let run = folder.run("simulate spin.toml --out run").expect(0);
     assert!(run.stdout.contains("at the end spinning"), "{}", run.stdout);
-    let words = "continue spin.toml --from spinning --along omega=0.5:0.9 --points 5 --branches 1 --json";
+    let words = "continue spin.toml --motion spinning --along omega=0.5:0.9 --points 5 --branches 1 --json";
     let branch = folder.run(words).expect(0).json();
     assert_eq!(branch["branches"][0]["motion"], "spinning", "{branch}");
     let scan = "scan spin.toml --axis omega=0.5:0.9:3 --out map --json";

@@ -138,7 +138,7 @@ fn states_of_datasets_are_starts() {
         let found = special(&folder, &format!("--start {point} --along r=0:30 --branches 1"));
         assert!(is_whole(&found), "{point}: {found:?}");
     }
-    let unstable = special(&folder, "--start run --set r=28 --from straight --along r=0:30 --branches 1");
+    let unstable = special(&folder, "--start run --set r=28 --motion straight --along r=0:30 --branches 1");
     assert!(is_whole(&unstable), "{unstable:?}");
     let chaotic = folder.run("continue --start run --set r=28 --along r=0:30").expect(2);
     assert!(chaotic.stderr.contains("ask for the steady motion close to the state"), "{}", chaotic.stderr);
@@ -174,7 +174,7 @@ fn starts_that_are_none_are_refused_with_what_to_do() {
             "--start equilibria.json:2 --set r=1.5 --along r=0:30",
             "there is no steady motion close to the given one",
         ),
-        ("--start equilibria.json:2 --from straight --along r=0:30", "from = straight"),
+        ("--start equilibria.json:2 --motion straight --along r=0:30", "from = straight"),
         ("--start equilibria.json:2 --along r=0:28 --direction up", "direction = up"),
         ("--start equilibria.json:2 --along r=0:30 --direction left", "give up, down or both"),
         ("--start equilibria.json:2 --along r=0:30 --branch-step 2", "branch_step = 2"),

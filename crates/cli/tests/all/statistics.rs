@@ -62,7 +62,7 @@ fn bad_input_names_the_remedy() {
         ("statistics tensor --initial v1=0.1", "leave out the initial values, or give noise"),
         ("statistics tensor --threshold speed=fast", "is not a number"),
         ("statistics tensor --bodies 8 --t-end 10 --threshold heading", "choose one of speed, s, u"),
-        ("statistics tensor --bodies 8 --t-end 10 --radius -1", "give a radius above 0"),
+        ("statistics tensor --bodies 8 --t-end 10 --disc -1", "give a radius above 0"),
         ("statistics tensor --bodies 8 --t-end 10 --dt-out 1", "record longer, or more often"),
     ] {
         let done = folder.run(words).expect(2);

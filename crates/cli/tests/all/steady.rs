@@ -31,7 +31,7 @@ fn a_section_lists_crossings() {
     let words = "section tensor --preset fig5a --at s12=0.1 --t-end 300";
     let table = folder.run(words).expect(0).stdout;
     assert!(table.starts_with("t,x,y,v1,v2,s11,s12,u111,u222,rising\n"), "{table}");
-    let json = folder.run(&format!("{words} --json --direction either")).expect(0).json();
+    let json = folder.run(&format!("{words} --json --crossings either")).expect(0).json();
     let crossings = json["crossings"].as_array().unwrap();
     assert!(crossings.len() > table.lines().count(), "both directions");
     assert!(crossings.iter().all(|one| (one["s12"].as_f64().unwrap() - 0.1).abs() < 1e-12));

@@ -40,7 +40,6 @@ fn save(folder: &Path, name: &str, svg: &str) -> Outcome {
         folder.join(format!("{name}.png")),
         png(svg, DEFAULT_SCALE, &[("Software", "motiform")])?,
     )?;
-    #[cfg(feature = "pdf")]
     std::fs::write(folder.join(format!("{name}.pdf")), motiform_figures::pdf(svg)?)?;
     println!("{name}: svg {} kB, files written in {:.0?}", svg.len() / 1000, start.elapsed());
     Ok(())

@@ -3,6 +3,7 @@
 mod cells;
 mod labels;
 mod mosaic;
+mod names;
 mod strip;
 mod tiles;
 
@@ -103,23 +104,31 @@ impl PhaseDiagram {
         sheet.svg(|svg, scale| self.draw(svg, scale, &cells, look))
     }
 
-    /// Draws the cells with their markers into the frame of another figure; what lies outside is cut off.
-    pub(crate) fn draw_under(&self, svg: &mut Svg, scale: &Scale, room: Room) -> Result<()> {
+    /// Draws the cells into the frame of another figure, with their markers unless they have names ([`Self::draw_names`]); what lies outside is cut off.
+    pub(crate) fn draw_under(&self, svg: &mut Svg, scale: &Scale, room: Room, named: bool) -> Result<()> {
         let cells = Cells::new(&self.x, &self.y, &self.cells)?;
         let [x, y] = cells.ranges();
         let ([left, top], [right, bottom]) = (scale.map([x.min, y.max]), scale.map([x.max, y.min]));
         let own = Scale { frame: Rect { x: left, y: top, w: right - left, h: bottom - top }, x, y };
         let mut drawn = Ok(());
         svg.clipped(scale.frame, |svg| {
-            if Look::of(false, cells.size(), room) == Look::Tiles {
+            if !named && Look::of(false, cells.size(), room) == Look::Tiles {
                 tiles::draw_grounds(svg, &own, &cells);
                 tiles::draw_markers(svg, &own, &cells);
             } else {
                 drawn = mosaic::png(&own, &cells).map(|image| svg.image(own.frame, &image));
+            }
+            if !named && Look::of(false, cells.size(), room) == Look::Mosaic {
                 labels::draw(svg, &own, &cells);
             }
         });
         drawn
+    }
+
+    /// Writes the names of wide regions into the frame of another figure; the places that they take.
+    pub(crate) fn draw_names(&self, svg: &mut Svg, scale: &Scale) -> Result<Vec<Rect>> {
+        let cells = Cells::new(&self.x, &self.y, &self.cells)?;
+        Ok(names::draw(svg, scale, &cells))
     }
 
     /// What the cells cover, across and upwards.
@@ -128,9 +137,9 @@ impl PhaseDiagram {
     }
 
     /// The part of the legend that explains the cells.
-    pub(crate) fn key_under(&self, room: Room) -> Result<Vec<Entry>> {
+    pub(crate) fn key_under(&self, room: Room, named: bool) -> Result<Vec<Entry>> {
         let cells = Cells::new(&self.x, &self.y, &self.cells)?;
-        let look = Look::of(false, cells.size(), room);
+        let look = if named { Look::Mosaic } else { Look::of(false, cells.size(), room) };
         Ok(Self::default().legend(&cells, look))
     }
 

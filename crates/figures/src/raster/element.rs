@@ -9,19 +9,19 @@ use crate::error::{FigureError, Result};
 const VERSION: XmlVersion = Implicit1_0;
 
 /// A piece of a document.
-pub(super) enum Piece {
+pub(crate) enum Piece {
     Open(Element),
     Text(String),
     Close(String),
 }
 
 /// An element with its attributes.
-pub(super) struct Element {
-    pub(super) name: String,
+pub(crate) struct Element {
+    pub(crate) name: String,
     attributes: Vec<(String, String)>,
 }
 
-pub(super) fn refused(why: impl Into<String>) -> FigureError {
+pub(crate) fn refused(why: impl Into<String>) -> FigureError {
     FigureError::Svg { why: why.into() }
 }
 
@@ -36,22 +36,22 @@ impl Element {
     }
 
     /// The value of an attribute.
-    pub(super) fn get(&self, name: &str) -> Option<&str> {
+    pub(crate) fn get(&self, name: &str) -> Option<&str> {
         self.attributes.iter().find(|(other, _)| other == name).map(|(_, value)| value.as_str())
     }
 
     /// The value of an attribute that must be there.
-    pub(super) fn need(&self, name: &str) -> Result<&str> {
+    pub(crate) fn need(&self, name: &str) -> Result<&str> {
         self.get(name).ok_or_else(|| refused(format!("<{}> without {name}", self.name)))
     }
 
     /// The number of an attribute, if it is there.
-    pub(super) fn number(&self, name: &str) -> Result<Option<f32>> {
+    pub(crate) fn number(&self, name: &str) -> Result<Option<f32>> {
         self.get(name).map(number).transpose()
     }
 
     /// The numbers of attributes that must be there.
-    pub(super) fn numbers<const N: usize>(&self, names: [&str; N]) -> Result<[f32; N]> {
+    pub(crate) fn numbers<const N: usize>(&self, names: [&str; N]) -> Result<[f32; N]> {
         let mut all = [0.0; N];
         for (value, name) in all.iter_mut().zip(names) {
             *value = number(self.need(name)?)?;
@@ -61,13 +61,13 @@ impl Element {
 }
 
 /// A finite number.
-pub(super) fn number(text: &str) -> Result<f32> {
+pub(crate) fn number(text: &str) -> Result<f32> {
     let number = text.parse().ok().filter(|number: &f32| number.is_finite());
     number.ok_or_else(|| refused(format!("{text:?} is not a number")))
 }
 
 /// Gives the pieces of a document to `take`, in their order.
-pub(super) fn pieces(svg: &str, mut take: impl FnMut(Piece) -> Result<()>) -> Result<()> {
+pub(crate) fn pieces(svg: &str, mut take: impl FnMut(Piece) -> Result<()>) -> Result<()> {
     let mut reader = Reader::from_str(svg);
     let (mut open, mut any) = (0_usize, false);
     loop {

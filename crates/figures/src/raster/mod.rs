@@ -1,8 +1,9 @@
 //! SVG to PNG: the drawings of this crate, with its own fonts. The same bits on every machine.
 
-mod element;
-mod painter;
-mod shapes;
+pub(crate) mod element;
+pub(crate) mod painter;
+mod pixels;
+pub(crate) mod shapes;
 #[cfg(test)]
 mod tests;
 
@@ -33,5 +34,5 @@ pub(crate) fn png(svg: &str, scale: f64, texts: &[(&str, &str)]) -> Result<Vec<u
 /// Draws an SVG into memory.
 pub(crate) fn pixmap(svg: &str, scale: f64) -> Result<Pixmap> {
     check_range("scale", scale, 0.1, 16.0)?;
-    painter::paint(svg, scale)
+    Ok(painter::paint(svg, |sheet| pixels::Pixels::new(sheet, scale))?.pixmap)
 }

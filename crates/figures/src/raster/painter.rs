@@ -1,28 +1,75 @@
-//! A document onto pixels.
+//! A document, element by element, onto a canvas.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use std::collections::HashMap;
-use tiny_skia::{Color, FillRule, FilterQuality, Mask, Paint, Path, PathBuilder, Pattern, Pixmap, Rect};
-use tiny_skia::{SpreadMode, Transform};
+use tiny_skia::{Color, Path, PathBuilder, Rect, Transform};
 
 use super::element::{Element, Piece, number, pieces, refused};
-use super::shapes::{colour, path, rect, stroke};
-use crate::error::{FigureError, Result};
+use super::shapes::{Pen, colour, path, pen, rect};
+use crate::error::Result;
 use crate::fonts::Face;
-use crate::letters::Letters;
 
-/// Most pixels of an image: 100 million.
-const MOST_PIXELS: f64 = 1e8;
+/// What a document is drawn on: pixels, or the page of a file.
+pub(crate) trait Canvas {
+    /// Fills a path.
+    fn fill(&mut self, path: &Path, colour: Color);
 
-/// The pixels of an SVG as this crate writes it.
+    /// Draws a path as a line.
+    fn stroke(&mut self, path: &Path, pen: &Pen, colour: Color);
+
+    /// A picture stretched over a rectangle, its pixels as sharp boxes.
+    fn image(&mut self, png: &[u8], place: Rect) -> Result<()>;
+
+    /// From now on only what is in a rectangle is seen, too.
+    fn clip(&mut self, rect: Rect) -> Result<()>;
+
+    /// Undoes the last clip.
+    fn unclip(&mut self);
+
+    /// A line of text.
+    fn write(&mut self, line: &Line);
+}
+
+/// The size of a document in units of SVG (1/96 inch), and the part of the plane that it shows.
+pub(crate) struct Sheet {
+    pub(crate) sides: [f64; 2],
+    pub(crate) shown: [f64; 2],
+}
+
+/// A line of text.
+pub(crate) struct Line {
+    /// Where its anchor stands, and how it is turned.
+    pub(crate) place: Transform,
+    /// The share of its width that is before its place.
+    pub(crate) before: f32,
+    /// Its colour.
+    pub(crate) colour: Color,
+    /// Its letters.
+    pub(crate) runs: Vec<Run>,
+    size: f32,
+    open: bool,
+}
+
+/// Letters of a line that are set alike.
+pub(crate) struct Run {
+    pub(crate) face: Face,
+    pub(crate) size: f32,
+    /// How far the baseline lies below that of the run before.
+    pub(crate) lower: f64,
+    pub(crate) text: String,
+}
+
+/// Draws an SVG, as this crate writes it, on the canvas that `begin` gives for its size.
 ///
-/// # Errors   no such document, or too many pixels
-pub(super) fn paint(svg: &str, scale: f64) -> Result<Pixmap> {
-    let mut painter: Option<Painter> = None;
+/// # Errors   no such document, and those of the canvas
+pub(crate) fn paint<C: Canvas>(svg: &str, begin: impl Fn(&Sheet) -> Result<C>) -> Result<C> {
+    let mut painter: Option<Painter<C>> = None;
     pieces(svg, |piece| match (&mut painter, piece) {
         (None, Piece::Open(root)) if root.name == "svg" => {
-            painter = Some(Painter::new(&root, scale)?);
+            let sides = [length(root.need("width")?)?, length(root.need("height")?)?];
+            let canvas = begin(&Sheet { sides, shown: seen(root.need("viewBox")?)? })?;
+            painter = Some(Painter { canvas, clips: HashMap::new(), defines: None, line: None });
             Ok(())
         }
         (None, Piece::Open(root)) => Err(refused(format!("<{}> where <svg> should be", root.name))),
@@ -37,54 +84,18 @@ pub(super) fn paint(svg: &str, scale: f64) -> Result<Pixmap> {
         }
         _ => Ok(()),
     })?;
-    painter.map(|painter| painter.pixmap).ok_or_else(|| refused("there is no <svg>"))
+    painter.map(|painter| painter.canvas).ok_or_else(|| refused("there is no <svg>"))
 }
 
-struct Painter {
-    pixmap: Pixmap,
-    transform: Transform,
+struct Painter<C> {
+    canvas: C,
     clips: HashMap<String, Rect>,
     /// The clip that is being defined.
     defines: Option<String>,
-    /// What is seen within the open groups.
-    masks: Vec<Mask>,
     line: Option<Line>,
 }
 
-/// A line of text on its way.
-struct Line {
-    letters: Letters,
-    place: Transform,
-    /// The share of its width that is before its place.
-    before: f32,
-    size: f32,
-    colour: Color,
-    /// Face and size of the open run.
-    run: Option<(Face, f32)>,
-}
-
-fn solid(colour: Color) -> Paint<'static> {
-    let mut paint = Paint::default();
-    paint.set_color(colour);
-    paint
-}
-
-impl Painter {
-    fn new(root: &Element, scale: f64) -> Result<Self> {
-        let sides = [length(root.need("width")?)?, length(root.need("height")?)?];
-        let shown = seen(root.need("viewBox")?)?;
-        let size = sides.map(|side| (side * scale).ceil());
-        let value = size[0] * size[1];
-        let pixels = FigureError::OutOfRange { what: "number of pixels", value, min: 1.0, max: MOST_PIXELS };
-        let fits = (1.0..=MOST_PIXELS).contains(&value);
-        let pixmap = Pixmap::new(size[0] as u32, size[1] as u32).filter(|_| fits);
-        let mut pixmap = pixmap.ok_or(pixels)?;
-        pixmap.fill(Color::WHITE); // the sheet may end inside the last row and column
-        let scale = (scale * (sides[0] / shown[0]).min(sides[1] / shown[1])) as f32;
-        let transform = Transform::from_scale(scale, scale);
-        Ok(Self { pixmap, transform, clips: HashMap::new(), defines: None, masks: Vec::new(), line: None })
-    }
-
+impl<C: Canvas> Painter<C> {
     fn open(&mut self, element: &Element) -> Result<()> {
         match element.name.as_str() {
             "rect" => self.rect(element)?,
@@ -111,19 +122,19 @@ impl Painter {
     }
 
     fn text(&mut self, text: &str) {
-        if let Some(line) = &mut self.line
-            && let Some((face, size)) = line.run
+        if let Some(line) = self.line.as_mut().filter(|line| line.open)
+            && let Some(run) = line.runs.last_mut()
         {
-            line.letters.set(face, text, f64::from(size));
+            run.text += text;
         }
     }
 
     fn close(&mut self, name: &str) {
         match name {
             "clipPath" => self.defines = None,
-            "g" => drop(self.masks.pop()),
-            "tspan" => self.line.iter_mut().for_each(|line| line.run = None),
-            "text" => self.write(),
+            "g" => self.canvas.unclip(),
+            "tspan" => self.line.iter_mut().for_each(|line| line.open = false),
+            "text" => self.line.take().iter().for_each(|line| self.canvas.write(line)),
             _ => {}
         }
     }
@@ -138,60 +149,27 @@ impl Painter {
     }
 
     fn shape(&mut self, element: &Element, path: &Path) -> Result<()> {
-        let mask = self.masks.last();
         if let Some(colour) = colour(element, "fill")? {
-            self.pixmap.fill_path(path, &solid(colour), FillRule::Winding, self.transform, mask);
+            self.canvas.fill(path, colour);
         }
         if let Some(colour) = colour(element, "stroke")? {
-            self.pixmap.stroke_path(path, &solid(colour), &stroke(element)?, self.transform, mask);
+            self.canvas.stroke(path, &pen(element)?, colour);
         }
         Ok(())
     }
 
-    /// A picture stretched over its rectangle, its pixels as sharp boxes.
     fn image(&mut self, element: &Element) -> Result<()> {
         let data = element.need("href")?.strip_prefix("data:image/png;base64,");
         let data = data.and_then(|data| STANDARD.decode(data).ok());
-        let picture = data.and_then(|data| Pixmap::decode_png(&data).ok());
-        let picture = picture.ok_or_else(|| refused("an image that is not a PNG"))?;
-        let Some(place) = rect(element)? else { return Ok(()) };
-        let (w, h) = (place.width() / picture.width() as f32, place.height() / picture.height() as f32);
-        let stretched = Transform::from_row(w, 0.0, 0.0, h, place.x(), place.y());
-        let shader = Pattern::new(picture.as_ref(), SpreadMode::Pad, FilterQuality::Nearest, 1.0, stretched);
-        let paint = Paint { shader, ..Paint::default() };
-        self.pixmap.fill_rect(place, &paint, self.transform, self.masks.last());
-        Ok(())
+        let png = data.ok_or_else(|| refused("an image that is not a PNG"))?;
+        rect(element)?.map_or(Ok(()), |place| self.canvas.image(&png, place))
     }
 
     /// Begins a group of which only what is in its clip is seen.
     fn group(&mut self, element: &Element) -> Result<()> {
         let name = element.need("clip-path")?.strip_prefix("url(#").and_then(|name| name.strip_suffix(')'));
         let clip = name.and_then(|name| self.clips.get(name));
-        let clip = PathBuilder::from_rect(*clip.ok_or_else(|| refused("a group with an unknown clip"))?);
-        let mask = match self.masks.last() {
-            Some(outer) => {
-                let mut mask = outer.clone();
-                mask.intersect_path(&clip, FillRule::Winding, true, self.transform);
-                mask
-            }
-            None => {
-                let mask = Mask::new(self.pixmap.width(), self.pixmap.height());
-                let mut mask = mask.ok_or_else(|| refused("a sheet without pixels"))?;
-                mask.fill_path(&clip, FillRule::Winding, true, self.transform);
-                mask
-            }
-        };
-        self.masks.push(mask);
-        Ok(())
-    }
-
-    /// Writes the line that has ended.
-    fn write(&mut self) {
-        let Some(Line { letters, place, before, colour, .. }) = self.line.take() else { return };
-        let place = self.transform.pre_concat(place).pre_translate(-before * letters.width(), 0.0);
-        if let Some(path) = letters.finish() {
-            self.pixmap.fill_path(&path, &solid(colour), FillRule::Winding, place, self.masks.last());
-        }
+        self.canvas.clip(*clip.ok_or_else(|| refused("a group with an unknown clip"))?)
     }
 }
 
@@ -211,14 +189,16 @@ impl Line {
         };
         let [size] = element.numbers(["font-size"])?;
         let colour = colour(element, "fill")?.unwrap_or(Color::BLACK);
-        Ok(Self { letters: Letters::default(), place, before, size, colour, run: None })
+        Ok(Self { place, before, colour, runs: Vec::new(), size, open: false })
     }
 
     /// Begins a run of equal letters.
     fn run(&mut self, element: &Element) -> Result<()> {
         let face = if element.get("font-style") == Some("italic") { Face::Italic } else { Face::Regular };
-        self.letters.lower(f64::from(element.number("dy")?.unwrap_or(0.0)));
-        self.run = Some((face, element.number("font-size")?.unwrap_or(self.size)));
+        let lower = f64::from(element.number("dy")?.unwrap_or(0.0));
+        let size = element.number("font-size")?.unwrap_or(self.size);
+        self.runs.push(Run { face, size, lower, text: String::new() });
+        self.open = true;
         Ok(())
     }
 }

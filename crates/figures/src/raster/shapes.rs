@@ -1,6 +1,6 @@
 //! Shapes, colours and lines of an element.
 
-use tiny_skia::{Color, LineCap, LineJoin, Path, PathBuilder, Rect, Stroke, StrokeDash};
+use tiny_skia::{Color, Path, PathBuilder, Rect};
 
 use super::element::{Element, number, refused};
 use crate::error::Result;
@@ -55,15 +55,22 @@ pub(super) fn colour(element: &Element, name: &str) -> Result<Option<Color>> {
     Ok(Some(colour))
 }
 
+/// How a line is drawn; its corners are round.
+pub(crate) struct Pen {
+    pub(crate) width: f32,
+    /// Whether its ends are round, too.
+    pub(crate) round: bool,
+    /// Lengths of dashes and gaps in turn; empty for an unbroken line.
+    pub(crate) dash: Vec<f32>,
+}
+
 /// How the line of an element is drawn.
-pub(super) fn stroke(element: &Element) -> Result<Stroke> {
+pub(super) fn pen(element: &Element) -> Result<Pen> {
     let dash = element.get("stroke-dasharray").map(|text| text.split(' ').map(number).collect());
     let dash: Option<Vec<f32>> = dash.transpose()?;
-    Ok(Stroke {
+    Ok(Pen {
         width: element.number("stroke-width")?.unwrap_or(1.0),
-        line_cap: if element.get("stroke-linecap") == Some("round") { LineCap::Round } else { LineCap::Butt },
-        line_join: LineJoin::Round,
-        dash: dash.and_then(|dash| StrokeDash::new(dash, 0.0)),
-        ..Stroke::default()
+        round: element.get("stroke-linecap") == Some("round"),
+        dash: dash.unwrap_or_default(),
     })
 }

@@ -16,7 +16,7 @@ use motiform_study::{Error, ScanPlan};
 const POINTS: usize = 600;
 
 /// Draws the figures of a scan: `_diagram`, and with one axis `_exponent` if exponents are known (as SVG and PNG, and
-/// PDF if requested and built in). Because of the underscore, readers of all parts as one table ignore them. A scan
+/// PDF if requested). Because of the underscore, readers of all parts as one table ignore them. A scan
 /// without any computed cell gives no pictures.
 ///
 /// # Errors

@@ -10,7 +10,7 @@ use motiform_study::{Error, ScanPlan};
 /// Points of a fitted law.
 const POINTS: usize = 400;
 
-/// Draws `mean-life` (as SVG and PNG, and PDF if requested and built in); nothing if no value was watched.
+/// Draws `mean-life` (as SVG and PNG, and PDF if requested); nothing if no value was watched.
 ///
 /// # Errors
 /// An unknown model, or numbers that do not fit on an axis.

@@ -53,14 +53,14 @@ pub struct Picture {
 /// How figures become files.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct FigureFormat {
-    /// Also PDF, if that is built in.
+    /// Also PDF.
     pub pdf: bool,
     /// Title, caption and size instead of the defaults.
     pub style: Style,
 }
 
 /// Draws every figure of a dataset: `path`, `series`, and if the model or the plan has them `return-map`, `phi` and
-/// `spectrum` (as SVG and PNG, and PDF if requested and built in), and the animation `motion.png`.
+/// `spectrum` (as SVG and PNG, and PDF if requested), and the animation `motion.png`.
 ///
 /// A dataset whose shown window has fewer than two rows gives no pictures.
 ///
@@ -139,7 +139,7 @@ fn figures(body: &Body<'_>) -> Vec<(&'static str, Box<dyn Figure>)> {
     all
 }
 
-/// Adds a figure as SVG and PNG, and as PDF if requested and built in; its numbers as CSV are returned.
+/// Adds a figure as SVG and PNG, and as PDF if requested; its numbers as CSV are returned.
 ///
 /// # Errors
 /// [`Error::Figure`]: numbers that do not fit on an axis.
@@ -153,7 +153,6 @@ pub fn add(
     let mut push = |ending: &str, bytes| pictures.push(Picture { name: format!("{name}.{ending}"), bytes });
     push("svg", svg.clone().into_bytes());
     push("png", png(&svg, format.style.png_scale(), &[]).map_err(undrawable)?);
-    #[cfg(feature = "pdf")]
     if format.pdf {
         push("pdf", motiform_figures::pdf(&svg).map_err(undrawable)?);
     }

@@ -28,4 +28,4 @@ pub use rows::{NUMBERS, Row, rows_to_csv};
 pub use run::Scan;
 pub use summary::{CellSummary, Motion, Totals, cells, for_each_part};
 pub use table::ScanTable;
-pub use work::{Ended, Store, compute, rows_of};
+pub use work::{Ended, Store, compute, rows_at, rows_of};

@@ -3,9 +3,9 @@
 use super::evaluate::Evaluate;
 use super::queue::Queue;
 use super::{Row, ScanPlan};
-use crate::pool::held;
+use crate::pool::{held, spread};
 use motiform_analysis::regime::Verdict;
-use motiform_dynamics::Watch;
+use motiform_dynamics::{StopOnly, Watch};
 use motiform_study::Error;
 use std::cell::RefCell;
 use std::ops::Range;
@@ -116,6 +116,29 @@ pub fn rows_of(
     evaluate.evaluate_all(plan, &mut next, &mut done, watch);
     let whole = !watch.stopped() && rows.len() == given.into_inner();
     rows.into_iter().collect::<Option<Vec<_>>>().filter(|_| whole)
+}
+
+/// The rows of some cells (rising numbers), cell by cell, on `threads` threads; `None` if the watch stopped it. The same rows as those of the whole scan.
+///
+/// # Errors
+/// None of its own: what the numerics reject is in the rows.
+pub fn rows_at(
+    plan: &ScanPlan,
+    cells: &[usize],
+    threads: usize,
+    evaluate: &dyn Evaluate,
+    watch: &dyn Watch,
+) -> Result<Option<Vec<Row>>, Error> {
+    let samples = plan.computation.samples;
+    spread(cells.len() * samples, threads, watch, |jobs| {
+        let mut next = || jobs.next().map(|job| (cells[job / samples], job % samples));
+        let mut done = |(cell, sample): (usize, usize), verdict| {
+            if let Ok(place) = cells.binary_search(&cell) {
+                jobs.done(place * samples + sample, Ok(Row::of_evaluation(cell, sample, verdict)));
+            }
+        };
+        evaluate.evaluate_all(plan, &mut next, &mut done, &StopOnly(watch));
+    })
 }
 
 /// What the threads share.

@@ -36,7 +36,7 @@ const SUBJECTS: [Subject; 5] = [
     },
     Subject {
         name: "orbits of the tensor model",
-        words: "tensor --preset fig4 --set kappa3=0.1 --from zigzag --branches 1",
+        words: "tensor --preset fig4 --set kappa3=0.1 --motion zigzag --branches 1",
         along: "kappa2",
         window: [0.7, 1.36],
         beyond: [0.15, 0.3],

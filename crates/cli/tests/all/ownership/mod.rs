@@ -27,7 +27,7 @@ const BOTH: &[&str] = &["", "--force", "--resume"];
 const FORCE: &[&str] = &["", "--force"];
 
 /// Short runs of every command that writes a folder; the first word is the command.
-pub(crate) const WRITERS: [Writer; 12] = [
+pub(crate) const WRITERS: [Writer; 13] = [
     Writer {
         words: "simulate tensor --preset fig5a --t-end 5 --dt-out 1 --transient 0 --no-animation",
         options: FORCE,
@@ -51,7 +51,11 @@ pub(crate) const WRITERS: [Writer; 12] = [
         options: BOTH,
     },
     Writer {
-        words: "lifetimes tensor --preset fig5b --along kappa2=0.4:0.5:3 --samples 2 --until 50",
+        words: "atlas tensor --preset fig1 --axis kappa2=0.02:0.06:5 --axis gamma=0.02:0.1:5 --samples 2 --budget 300 --lines 1 --branches 2 --threads 1",
+        options: BOTH,
+    },
+    Writer {
+        words: "lifetimes tensor --preset fig5b --axis kappa2=0.4:0.5:3 --samples 2 --until 50",
         options: BOTH,
     },
     Writer {

@@ -47,7 +47,7 @@ fn inputs_stay() {
     folder.run(&format!("{} --out data", WRITERS[0].words)).expect(0);
     let before = tree(&folder.path("."));
     for words in [
-        "observe cells.csv --outlines cells.csv --force",
+        "observe cells.csv --write-outlines cells.csv --force",
         "observe cells.csv --out cells.csv --force",
         "fit cells.csv --out cells.csv --force --draws 1",
         "simulate study.toml --t-end 5 --out study.toml --force",

@@ -1,0 +1,217 @@
+//! The plan of an atlas: exactly the numbers that its cells and lines depend on.
+
+use motiform_analysis::Regime;
+use motiform_dynamics::steppers::Method;
+use motiform_models::ModelInfo;
+use motiform_study::branches::{Along, BRANCH_FORMAT, BranchComputation, BranchSettings};
+use motiform_study::curves::{CURVE_FORMAT, CurveComputation, CurveKind};
+use motiform_study::plan::{Computation, Named, check, sha256_hex};
+use motiform_study::scan::{Axis, ScanComputation};
+use motiform_study::{BranchPlan, CurvePlan, Error, ScanPlan, Stride, Study};
+use serde::{Deserialize, Serialize};
+
+/// Version of the meaning of a plan; part of the hash.
+pub(crate) const ATLAS_FORMAT: u32 = 1;
+
+/// Values of an axis whose number is not given: of models that are classified in the lanes of vector registers, and of others.
+const VALUES: [usize; 2] = [65, 17];
+
+/// How much is followed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AtlasSettings {
+    /// Most lines across boundaries.
+    pub lines: usize,
+    /// Most branches on a line.
+    pub branches: usize,
+    /// Whether steady motions alone are followed. `None`: for stiff models, whose orbits take long.
+    pub steady: Option<bool>,
+}
+
+impl Default for AtlasSettings {
+    fn default() -> Self {
+        Self { lines: 24, branches: 4, steady: None }
+    }
+}
+
+/// What will be computed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AtlasPlan {
+    /// Short name of the study.
+    pub name: String,
+    /// Title of the figures.
+    pub title: String,
+    /// What is computed: the hash covers this.
+    pub computation: AtlasComputation,
+}
+
+/// Everything that the numbers depend on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AtlasComputation {
+    /// [`ATLAS_FORMAT`].
+    pub format: u32,
+    /// The finest grid.
+    pub scan: ScanComputation,
+    /// Most lines.
+    pub lines: usize,
+    /// Most branches on a line.
+    pub branches: usize,
+    /// How branches are followed.
+    pub stride: Stride,
+    /// A start in the plane: lines have its method, and their own parameters and initial states.
+    pub start: Computation,
+}
+
+impl AtlasPlan {
+    /// Makes a study explicit whose scan has two axes, and checks every number. Without axes the plane is that of the study's display.
+    ///
+    /// # Errors
+    /// [`Error`] naming the key, the value and the remedy.
+    pub fn new(study: &Study, settings: &AtlasSettings) -> Result<Self, Error> {
+        let mut study = study.clone();
+        let method = motiform_study::plan::stepper(&study.run.stepper)?;
+        let stiff = matches!(method, Method::Exponential(_));
+        let axes =
+            if study.scan.axes.is_empty() { study.display.plane.clone() } else { study.scan.axes.clone() };
+        let [first, second] = &axes[..] else {
+            let text = axes.first().map_or_else(String::new, |axis| axis.name.clone());
+            let problem =
+                "an atlas has two parameters: give two axes, NAME=LOW:HIGH or NAME=LOW:HIGH:COUNT".to_owned();
+            return Err(Error::Axis { text, problem });
+        };
+        study.scan.axes = [first, second].map(|axis| even(axis, VALUES[usize::from(stiff)])).to_vec();
+        check("lines", settings.lines as f64, settings.lines <= 1000, "give at most 1000 lines")?;
+        for axis in study.scan.axes.clone() {
+            study.set(&axis.name, middle(&axis))?;
+        }
+        let steady = settings.steady.unwrap_or(stiff);
+        let stride = Stride { steady, ..Stride::default() };
+        let mut start = None;
+        for axis in &study.scan.axes {
+            let settings =
+                BranchSettings { branches: settings.branches, stride, ..BranchSettings::over(along(axis)) };
+            start = Some(BranchPlan::new(&study, &settings)?.computation.start);
+        }
+        let ScanPlan { name, title, computation: scan } = ScanPlan::new(&study)?;
+        let Some(start) = start else { return Err(Error::NoAxis { free: String::new() }) };
+        let computation = AtlasComputation {
+            format: ATLAS_FORMAT,
+            scan,
+            lines: settings.lines,
+            branches: settings.branches,
+            stride,
+            start,
+        };
+        Ok(Self { name, title, computation })
+    }
+
+    /// SHA-256 of the computation as compact JSON, in hexadecimal: equal hashes mean equal numbers.
+    #[must_use]
+    pub fn hash(&self) -> String {
+        sha256_hex(&serde_json::to_vec(&self.computation).unwrap_or_default())
+    }
+
+    /// The registry entry of its model.
+    ///
+    /// # Errors
+    /// An unknown model.
+    pub fn info(&self) -> Result<&'static ModelInfo, Error> {
+        Ok(self.computation.scan.model.info()?)
+    }
+
+    /// The scan of its finest grid: a cell of the atlas has the rows of this scan.
+    #[must_use]
+    pub fn scan(&self) -> ScanPlan {
+        ScanPlan {
+            name: self.name.clone(),
+            title: self.title.clone(),
+            computation: self.computation.scan.clone(),
+        }
+    }
+
+    /// The plane, across and upwards.
+    #[must_use]
+    pub fn plane(&self) -> [Along; 2] {
+        [0, 1].map(|side| along(&self.computation.scan.axes[side]))
+    }
+
+    /// The branches along a side of the plane that begin with the motion of an initial state of a cell, and the curves through their special points.
+    ///
+    /// # Errors
+    /// Parameters that the model refuses.
+    pub fn line(
+        &self,
+        scan: &ScanPlan,
+        (cell, sample): (usize, usize),
+        side: usize,
+    ) -> Result<CurvePlan, Error> {
+        let c = &self.computation;
+        let info = self.info()?;
+        let model = scan.model_of(cell)?;
+        let mut state = vec![0.0; model.coordinates().len()];
+        model.decode(&scan.start(cell, sample, model.as_ref())?, &mut state);
+        let names = info.parameters().iter().map(|spec| spec.name.to_owned());
+        let parameters = Named(names.zip(scan.parameters_of(cell)?).collect());
+        let coordinates = model.coordinates().iter().map(|one| one.name.to_owned()).zip(state);
+        let place = ["x", "y"].map(|name| (name.to_owned(), 0.0));
+        let start =
+            Computation { parameters, initial: Named(coordinates.chain(place).collect()), ..c.start.clone() };
+        let branches = BranchComputation {
+            format: BRANCH_FORMAT,
+            along: window(&c.scan.axes[side], scan.axis_values(cell)[side]),
+            origin: None::<Regime>,
+            points: POINTS,
+            branches: c.branches,
+            samples: 0,
+            stride: c.stride,
+            given: None,
+            ties: c.scan.ties.clone(),
+            start,
+        };
+        let computation = CurveComputation {
+            format: CURVE_FORMAT,
+            kinds: CurveKind::ALL.to_vec(),
+            plane: self.plane(),
+            branches,
+        };
+        Ok(CurvePlan { name: self.name.clone(), title: String::new(), computation })
+    }
+}
+
+/// Most points of a branch or curve to each side.
+const POINTS: usize = 400;
+
+/// How far a line goes to both sides of its start, as a part of the range: the boundary that it is for is next to it.
+const REACH: f64 = 0.15;
+
+fn middle(axis: &Axis) -> f64 {
+    let Along { from, to, .. } = along(axis);
+    0.5 * from + 0.5 * to
+}
+
+/// The part of an axis around a value.
+fn window(axis: &Axis, value: f64) -> Along {
+    let Along { name, from, to } = along(axis);
+    let width = REACH * (to - from);
+    Along { name, from: from.max(value - width), to: to.min(value + width) }
+}
+
+/// The range of an axis.
+fn along(axis: &Axis) -> Along {
+    let (from, to) = axis
+        .values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)));
+    Along { name: axis.name.clone(), from, to }
+}
+
+/// The axis with evenly spaced, rising values; one that has its two ends alone gets `count` of them.
+fn even(axis: &Axis, count: usize) -> Axis {
+    let Along { name, from, to } = along(axis);
+    let count = if axis.values.len() == 2 { count } else { axis.values.len() };
+    let last = count.saturating_sub(1).max(1);
+    let value = |place: usize| {
+        let part = place as f64 / last as f64;
+        if place == last { to } else { from * (1.0 - part) + to * part }
+    };
+    Axis { name, values: (0..count).map(value).collect() }
+}

@@ -1,0 +1,146 @@
+//! `motiform atlas`.
+
+use crate::args::AtlasOptions;
+use crate::commands::subject;
+use crate::output::{End, plain, print, warn};
+use crate::progress::Progress;
+use motiform_analysis::Regime;
+use motiform_atlas::{
+    AtlasFolder, AtlasPlan, AtlasSettings, Boundary, Grid, Line, atlas_summary, boundaries,
+    default_atlas_folder, regions, survey, trace,
+};
+use motiform_files::{Folder, Opening};
+use motiform_lab::scan::Axis;
+use motiform_study::branches::Along;
+use motiform_study::{Error, Study};
+use std::fmt::Write;
+use std::path::PathBuf;
+
+pub(crate) fn run(options: &AtlasOptions) -> anyhow::Result<End> {
+    let plan = AtlasPlan::new(&study(options)?, &settings(options))?;
+    let out = options.out.clone().unwrap_or_else(|| PathBuf::from(default_atlas_folder(&plan)));
+    let files = AtlasFolder::open(&out, &plan, Opening::of(options.resume, options.force))?;
+    files.notes().iter().for_each(|note| warn(note));
+    let Some((grid, lines)) = compute(options, &plan, &files)? else {
+        files.settle()?;
+        warn(
+            "interrupted: finished cells and lines are kept; the same `motiform atlas` with --resume goes on",
+        );
+        return Ok(End::Interrupted);
+    };
+    let atlas = AtlasFolder { plan, grid, lines };
+    let format = options.style.format();
+    atlas.write(&files, (!options.no_figures).then_some(&format))?;
+    files.notes().iter().for_each(|note| warn(note));
+    print(&if options.json {
+        serde_json::to_string(&atlas_summary(&atlas))?
+    } else {
+        text(&atlas, &files.shown().display().to_string())?
+    })?;
+    let undetermined = |place: &motiform_atlas::Place| place.motion(Regime::Undetermined).is_some();
+    Ok(if atlas.grid.places.iter().any(undetermined) { End::NotAsAsked } else { End::Done })
+}
+
+/// Cells, then lines, each with its progress; `None` if Ctrl-C was pressed.
+fn compute(
+    options: &AtlasOptions,
+    plan: &AtlasPlan,
+    files: &Folder,
+) -> Result<Option<(Grid, Vec<Line>)>, Error> {
+    let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let threads = options.threads.map_or_else(all, usize::from);
+    let watch = Progress::new(100.0, "% of the cells");
+    let grid = survey(plan, threads, files, &watch);
+    watch.finish();
+    let Some(grid) = grid? else { return Ok(None) };
+    let watch = Progress::new(100.0, "% of the boundaries");
+    let lines = trace(plan, &grid, threads, files, &watch);
+    watch.finish();
+    Ok(lines?.map(|lines| (grid, lines)))
+}
+
+fn settings(options: &AtlasOptions) -> AtlasSettings {
+    AtlasSettings {
+        lines: usize::from(options.lines),
+        branches: usize::try_from(options.branches).unwrap_or(usize::MAX),
+        steady: options.steady.then_some(true),
+    }
+}
+
+/// The study that the options describe.
+fn study(options: &AtlasOptions) -> Result<Study, Error> {
+    let mut study = subject::study(&options.subject)?;
+    subject::note_noise(&mut study);
+    if !options.axes.is_empty() {
+        study.scan.axes = options.axes.iter().map(|text| axis(text)).collect::<Result<_, _>>()?;
+    }
+    study.scan.samples = match (options.samples, study.scan.samples) {
+        (Some(given), _) => given,
+        (None, 1) => SAMPLES,
+        (None, own) => own,
+    };
+    study.scan.budget = options.budget.unwrap_or(study.scan.budget);
+    study.random = options.random.or(study.random);
+    study.run.seed = options.seed.unwrap_or(study.run.seed);
+    Ok(study.perturbed()?.0)
+}
+
+/// Initial states of each cell, if neither the command nor the study says how many.
+const SAMPLES: u64 = 3;
+
+/// An axis, with its ends alone where their number is not given.
+fn axis(text: &str) -> Result<Axis, Error> {
+    if text.matches(':').count() != 1 {
+        return Axis::parse(text);
+    }
+    let Along { name, from, to } = Along::parse(text)?;
+    Ok(Axis { name, values: vec![from, to] })
+}
+
+fn text(atlas: &AtlasFolder, written: &str) -> anyhow::Result<String> {
+    let AtlasFolder { plan, grid, lines } = atlas;
+    let mut text = format!("{}\n", plain(&plan.title));
+    for side in plan.plane() {
+        writeln!(text, "axis       {side}")?;
+    }
+    let samples = plan.computation.scan.samples;
+    writeln!(
+        text,
+        "cells      {} computed of {}, {samples} initial states each",
+        grid.computed(),
+        grid.places.len()
+    )?;
+    for region in regions(plan, grid).iter().filter(|region| region.cells >= LISTED) {
+        let (names, [x, y]) = (names(&region.motions), region.at);
+        writeln!(text, "region     {names:<32} {:5.1} %, around {x:.4}, {y:.4}", 100.0 * region.share)?;
+    }
+    let curves: usize = lines.iter().map(|line| line.curves.len()).sum();
+    writeln!(text, "followed   {} lines, {curves} curves", lines.len())?;
+    for found in boundaries(plan, grid, lines).iter().filter(|found| found.edges >= LISTED) {
+        boundary(&mut text, found)?;
+    }
+    write!(text, "written    {written}")?;
+    Ok(text)
+}
+
+/// Regions and boundaries of fewer cells are not listed.
+const LISTED: usize = 3;
+
+fn names(motions: &[Regime]) -> String {
+    motions.iter().map(|motion| motion.name()).collect::<Vec<_>>().join(" + ")
+}
+
+fn boundary(text: &mut String, found: &Boundary) -> std::fmt::Result {
+    let part = |edges: usize| format!("{:.0} %", 100.0 * edges as f64 / found.edges as f64);
+    let mut kinds: Vec<String> =
+        found.kinds.iter().map(|(kind, edges)| format!("{kind} {}", part(*edges))).collect();
+    if found.unnamed > 0 {
+        kinds.push(format!("not named {}", part(found.unnamed)));
+    }
+    let between = found.between.each_ref().map(|side| names(side)).join(" | ");
+    writeln!(text, "boundary   {between:<40} {}", kinds.join(", "))?;
+    if let Some(why) = found.why {
+        writeln!(text, "           {why}")?;
+    }
+    Ok(())
+}
