@@ -130,6 +130,8 @@ def periodic(verdict, run):
     for name in ("half", "third", "quarter"):
         if name == "half" and abs(math.remainder(2 * period.get("half_turn", period["turn"] / 2) - period["turn"], math.tau)) > 1e-3:
             continue  # a shape that is nearly its own mirror image, turned to the other side in the second half
+        if name == "half" and abs(period["turn"]) < TURNED and abs(math.remainder(period.get("half_turn", 0.0), math.tau)) > 1e-3:
+            continue  # turned by half a turn: forth and back is one period
         if period[name] < CLOSES * diameter:
             if period["whole"] > 1e-5 * diameter:
                 return "undecided", f"near a saddle: after a {name} of the period it is as close as after all of it"

@@ -200,7 +200,8 @@ impl PeriodicOrbit {
         None
     }
 
-    /// Period of the reduced motion: the time after which the body is back without a mirror.
+    /// The time after which the shape is back without a mirror, turned by [`PeriodicOrbit::net_rotation`]. (The period of a motion also depends on its form:
+    /// see [`crate::regime`].)
     #[must_use]
     pub fn period(&self) -> f64 {
         if self.mirrored { 2.0 * self.time } else { self.time }

@@ -25,6 +25,8 @@ pub struct SteadyMotion {
     pub speed: Estimate,
     /// Turning rate of the shape (rad per model time) with its error; exactly 0 by symmetry.
     pub turning_rate: Estimate,
+    /// The rotations and mirrors that leave the shape as it is, within its error; all rotations where nothing of it is above its error.
+    pub symmetry: Isotropy,
     /// Whether the shape has no mirror axis although the equations have the mirror, beyond its error.
     asymmetric: bool,
     /// The leading growth rate: what an unseen turning rate is small against.
@@ -54,9 +56,16 @@ impl SteadyMotion {
             speed: if rests { none } else { speed(body, found, &uncertainty) },
             // a clear turning rate of a shape that seems to have an axis: the rate decides
             turning_rate: if straight && !turns { none } else { turning },
+            symmetry: Isotropy { circle, folds: if circle { 1 } else { isotropy.folds }, ..isotropy },
             asymmetric: body.symmetry().mirror && !straight,
             growth: found.growth(),
         }
+    }
+
+    /// Whether the shape has a mirror axis, within its error.
+    #[must_use]
+    pub fn has_axis(&self) -> bool {
+        self.symmetry.circle || self.symmetry.mirror.is_some()
     }
 
     /// Whether the centre of mass moves.

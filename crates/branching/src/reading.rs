@@ -15,7 +15,7 @@ pub struct Reading {
     pub motion: Regime,
     /// Its symmetry, if it repeats.
     pub form: Option<Form>,
-    /// Period of the reduced motion (model time).
+    /// The time after which the body is as it was, but for the net rotation (model time).
     pub period: Option<f64>,
     /// Its direction, as far as the symmetry of the model distinguishes directions.
     #[serde(default)]
@@ -73,9 +73,9 @@ fn periodic(
         motion: seen.form.regime(),
         form: Some(seen.form),
         direction: seen.direction,
-        period: Some(orbit.period()),
+        period: Some(seen.period),
         turning_rate: seen.turning_rate,
-        net_rotation: Some(orbit.net_rotation()),
+        net_rotation: Some(seen.net_rotation),
         speed: seen.speed.map_or([0.0; 3], |speed| [speed.mean, speed.min, speed.max]),
         size: seen.size,
         leading: orbit.multipliers.first().copied(),

@@ -1,7 +1,7 @@
 //! The motion that a start settles on, as Newton's method has it.
 
 use super::family::Bodies;
-use motiform_analysis::regime::{Form, settle as settled};
+use motiform_analysis::regime::settle as settled;
 use motiform_analysis::{Attractor, PeriodicOrbit, RelativeEquilibrium, Verdict};
 use motiform_continuation::Settings;
 use motiform_dynamics::{Equivariant, StopOnly, Watch};
@@ -69,10 +69,8 @@ fn polish(
     settings: &Settings,
     watch: &dyn Watch,
 ) -> Option<Start> {
-    let Some(period) = verdict.period else {
+    if verdict.period.is_none() {
         return RelativeEquilibrium::find(body, shape).map(Start::Equilibrium);
-    };
-    let mirrored = verdict.form == Some(Form::MirrorZigzag);
-    let time = if mirrored { 0.5 * period } else { period };
-    PeriodicOrbit::near(body, shape, (time, mirrored), &settings.flow, &StopOnly(watch)).map(Start::Orbit)
+    }
+    verdict.orbit(body, shape, &settings.flow, &StopOnly(watch)).map(Start::Orbit)
 }

@@ -81,7 +81,9 @@ fn motions(rows: &Rows<'_>) -> Vec<Column> {
 type Number = (&'static str, &'static str, fn(&Sample) -> f64);
 
 const NUMBERS: [Number; 11] = [
-    ("period", "period of the reduced motion (model time)", |s| s.reading.period.unwrap_or(f64::NAN)),
+    ("period", "time after which the body is as it was, but for the net rotation (model time)", |s| {
+        s.reading.period.unwrap_or(f64::NAN)
+    }),
     ("turning_rate", "mean turning rate of the heading (rad per model time)", |s| {
         s.reading.turning_rate.unwrap_or(f64::NAN)
     }),

@@ -18,6 +18,16 @@ pub struct Saddle {
     pub error: f64,
 }
 
+impl Saddle {
+    /// Whether a cycle through this saddle attracts: `lambda_+ + lambda_- < 0`, beyond the error of the sum.
+    ///
+    /// Source: Krupa and Melbourne (1995), Ergod. Th. Dynam. Sys. 15, 121.
+    #[must_use]
+    pub fn attracts(&self) -> bool {
+        self.out > 0.0 && self.out + self.inward < -self.error
+    }
+}
+
 impl RelativeEquilibrium {
     /// The rates that decide about a cycle through this saddle: the fastest growth `lambda_+` and the leading rate
     /// `lambda_-` of the directions along which orbits arrive.

@@ -18,7 +18,7 @@ pub enum Form {
     PulsatingAtRest,
     /// Mirror symmetric at every moment, no net rotation: the body moves along a straight line at a changing speed.
     PulsatingStraight,
-    /// Mirror symmetric at every moment, turned by half a turn per period: back and forth on a line, without net displacement.
+    /// Along a straight line without net displacement: in general the shape is turned by half a turn after half the period.
     BackAndForth,
     /// Half a period later the motion is its own mirror image: left and right turns are alike.
     MirrorZigzag,
@@ -72,9 +72,7 @@ impl Form {
             Self::PulsatingStraight => {
                 "the shape is mirror symmetric at every moment and repeats: constant heading, changing speed"
             }
-            Self::BackAndForth => {
-                "the shape is mirror symmetric at every moment and repeats after half a turn: back and forth on a line"
-            }
+            Self::BackAndForth => "the body goes back and forth on a line: after a period it is where it was",
             Self::MirrorZigzag => {
                 "half a period later the motion is its own mirror image, so it has no net rotation"
             }
@@ -120,9 +118,11 @@ impl Form {
         let same_line = libm::sin(orbit.net_rotation()).abs() < no_turn;
         let straight =
             symmetry.mirror.is_some() || !orbit.mirrored && same_line && path.keeps_to_a_line(no_turn);
+        // a line that is turned into itself, or a path along it that closes
+        let returns = turns || path.displacement(no_turn) == [0.0; 2];
         match (straight, orbit.mirrored, turns) {
-            (true, _, false) => Self::PulsatingStraight,
-            (true, _, true) => Self::BackAndForth,
+            (true, _, _) if returns => Self::BackAndForth,
+            (true, _, _) => Self::PulsatingStraight,
             (false, true, _) => Self::MirrorZigzag,
             (false, false, false) if !group.rotations && path.windings() != 0 => Self::DriftingCircular,
             (false, false, false) => Self::AsymmetricZigzag,

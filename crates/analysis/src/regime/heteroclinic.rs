@@ -58,7 +58,7 @@ pub(super) fn attracting_saddle<B: Equivariant + ?Sized>(body: &B, shape: &[f64]
     let size = norm(&equilibrium.shape);
     let distance = equilibrium.distance(body, shape) / size.max(f64::MIN_POSITIVE);
     let saddle = equilibrium.saddle(body)?;
-    let attracts = distance < CLOSE && saddle.out + saddle.inward < -saddle.error;
+    let attracts = distance < CLOSE && saddle.attracts();
     let rests = |steady: SteadyMotion| !steady.moves() && !steady.turns();
     (attracts && rests(SteadyMotion::of(body, &equilibrium))).then_some((saddle, distance))
 }

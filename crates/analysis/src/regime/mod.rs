@@ -15,6 +15,7 @@ mod lasting;
 mod legs;
 mod look;
 mod motion;
+mod period;
 mod recurrence;
 mod repeating;
 mod repeats;

@@ -3,6 +3,7 @@
 use super::course::Direction;
 use super::form::Form;
 use super::motion::Path;
+use super::period::Period;
 use super::recurrence::SYMMETRIC;
 use super::settings::Settings;
 use super::verdict::{Regime, Spread};
@@ -16,6 +17,10 @@ use motiform_dynamics::{Equivariant, Watch};
 pub struct Repeating {
     /// The kind of the motion.
     pub form: Form,
+    /// The time after which the body is as it was, up to the net rotation (model time).
+    pub period: f64,
+    /// The net rotation over it (rad, in -pi..pi).
+    pub net_rotation: f64,
     /// Speed of the centre of mass (model length per model time).
     pub speed: Option<Spread>,
     /// Mean turning rate of the heading (rad per model time), exactly 0 where a symmetry makes it so; `None` where the body stops on
@@ -52,13 +57,16 @@ pub fn repeating<B: Equivariant + ?Sized>(
     let symmetry = symmetry(body, nodes);
     let no_turn = NO_TURN.max(settings.accuracy());
     let form = Form::of(&symmetry, orbit, &path, no_turn, body.symmetry());
+    let period = Period::of(form, &symmetry, orbit, no_turn);
     let straight = orbit.mirrored || form.regime() == Regime::PulsatingStraight;
     let turning_rate = if straight { Some(0.0) } else { path.turning_rate() };
     let turning = turning_rate.filter(|_| form.regime() != Regime::Zigzag && !straight);
-    // of a mirrored orbit half a period was followed, whose displacement is not that of the whole
-    let drift = if orbit.mirrored { [0.0; 2] } else { path.displacement(no_turn) };
+    // where half a period was followed, its displacement is not that of the whole
+    let drift = if period.time > orbit.time { [0.0; 2] } else { path.displacement(no_turn) };
     let direction = Direction::of(body, turning, drift);
-    Ok(Repeating { form, speed: path.speed(), turning_rate, direction, size: path.largest })
+    let (period, net_rotation) = (period.time, period.rotation);
+    let (speed, size) = (path.speed(), path.largest);
+    Ok(Repeating { form, period, net_rotation, speed, turning_rate, direction, size })
 }
 
 /// The symmetry that every node has.

@@ -1,11 +1,11 @@
 //! How far an answer moves in a finer model: the resolution of a verdict.
 
 use super::classify::classify;
-use super::form::Form;
 use super::settings::Settings;
 use super::verdict::{Attractor, Regime, Verdict};
-use super::{recurrence::Recurrence, words};
-use crate::equilibrium::RelativeEquilibrium;
+use super::{chaos, recurrence::Recurrence, words};
+use crate::Estimate;
+use crate::equilibrium::{RelativeEquilibrium, Saddle};
 use crate::periodic::PeriodicOrbit;
 use motiform_dynamics::{Equivariant, Watch};
 use serde::{Deserialize, Serialize};
@@ -17,17 +17,27 @@ pub struct Resolution {
     pub parameter: String,
     /// Its other value.
     pub value: f64,
-    /// The largest relative change of speed, turning rate and period; of a cycle that of the rates at its saddle.
+    /// The largest relative change of speed, turning rate and period; of a cycle that of the rates at its saddle; of chaos that of speed and largest
+    /// exponent, averages over a time.
     pub change: f64,
+    /// Of chaos and tori the largest exponent there, averaged over a shorter time (inverse model time).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub exponent: Option<Estimate>,
 }
 
 /// Looks at the motion in the finer model where Newton's method does not find it.
 const LOOKS: f64 = 4.0;
 
+/// Looks over which an exponent is averaged in the finer model.
+const RUN: f64 = 4.0;
+
+/// Exponents that differ by more than this many times the sum of their errors are not those of one motion: as for runs that are pooled ([`super::growth`]).
+const APART: f64 = 2.0;
+
 impl Verdict {
     /// This verdict with its resolution: what Newton's method finds from `shape` on this motion, given in the representation of `finer`, a
-    /// model of the same body in which `parameter` has this value. Undetermined where it is another motion there, or none. Chaos and tori
-    /// are left as they are: they would have to be run again.
+    /// model of the same body in which `parameter` has this value. Undetermined where it is another motion there, or none. Chaos and tori are run on there for
+    /// a while ([`Verdict::averaged`]).
     ///
     /// # Errors
     /// What the numerics refuse.
@@ -42,8 +52,11 @@ impl Verdict {
         let found = match (self.attractor, self.period) {
             (Attractor::Equilibrium, _) => RelativeEquilibrium::find(finer, shape)
                 .map(|found| words::equilibrium(finer, &found, 0.0, 0.0)),
-            (Attractor::Periodic, Some(period)) => orbit(finer, shape, (period, self.form), settings, watch)?,
+            (Attractor::Periodic, Some(_)) => self.repeats(finer, shape, settings, watch)?,
             (Attractor::Heteroclinic, _) => return Ok(self.at_saddle(finer, shape, (parameter, value))),
+            (Attractor::Chaotic | Attractor::Torus, _) => {
+                return self.averaged(finer, shape, (parameter, value), settings, watch);
+            }
             _ => return Ok(self),
         };
         let same = |other: &Self| other.attractor == self.attractor && other.regime == self.regime;
@@ -59,7 +72,8 @@ impl Verdict {
             None => {}
             Some(other) if same(&other) => {
                 let change = self.change(&other);
-                self.resolution = Some(Resolution { parameter: parameter.to_owned(), value, change });
+                self.resolution =
+                    Some(Resolution { parameter: parameter.to_owned(), value, change, exponent: None });
             }
             Some(other) => return Ok(self.unresolved((parameter, value), &format!("it is {}", other.regime))),
         }
@@ -71,13 +85,44 @@ impl Verdict {
     fn at_saddle<B: Equivariant + ?Sized>(mut self, finer: &B, shape: &[f64], changed: (&str, f64)) -> Self {
         let found = RelativeEquilibrium::find(finer, shape);
         let (Some(own), Some(found)) = (self.saddle, found) else { return self };
-        let Some(other) = found.saddle(finer).filter(|other| other.out + other.inward < -other.error) else {
+        let Some(other) = found.saddle(finer).filter(Saddle::attracts) else {
             return self.unresolved(changed, "the rests are at no saddle by which a cycle attracts");
         };
         let off = |x: f64, y: f64| (x - y).abs() / x.abs().max(y.abs());
         let change = off(own.out, other.out).max(off(own.inward, other.inward));
-        self.resolution = Some(Resolution { parameter: changed.0.to_owned(), value: changed.1, change });
+        self.resolution =
+            Some(Resolution { parameter: changed.0.to_owned(), value: changed.1, change, exponent: None });
         self
+    }
+
+    /// The verdict on chaos or a torus with its resolution: the largest exponent of a run in the finer model. Undetermined where the two differ by more than
+    /// twice the sum of their errors; without a resolution where the run has no exponent.
+    fn averaged<B: Equivariant + ?Sized>(
+        mut self,
+        finer: &B,
+        shape: &[f64],
+        (parameter, value): (&str, f64),
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> crate::Result<Self> {
+        let run = chaos::exponent(finer, shape, RUN * settings.first_look, settings, watch)?;
+        let (own, found) = (self.exponents.first().copied(), run.exponents.first().copied());
+        let (Some(own), Some(found)) = (own, found) else { return Ok(self) };
+        if !run.outcome.is_complete() || !found.has_error() {
+            return Ok(self);
+        }
+        let off = found.value - own.value;
+        if off.abs() > APART * (found.error + own.error) {
+            let what = format!("lambda_1 = {:.4} +- {:.4}", found.value, found.error);
+            return Ok(self.unresolved((parameter, value), &what));
+        }
+        let mut other = self.clone();
+        words::along(&mut other, finer, &run.shape, settings.first_look, settings, watch)?;
+        let growth = if self.regime == Regime::Chaotic { (off / own.value).abs() } else { 0.0 };
+        let change = self.change(&other).max(growth);
+        self.resolution =
+            Some(Resolution { parameter: parameter.to_owned(), value, change, exponent: Some(found) });
+        Ok(self)
     }
 
     /// Undetermined, for what is found in the finer model.
@@ -91,31 +136,30 @@ impl Verdict {
     /// The largest relative difference of the numbers of two verdicts on one motion.
     fn change(&self, other: &Self) -> f64 {
         let speed = |verdict: &Self| verdict.speed.map(|speed| speed.mean);
-        let pairs = [
-            (speed(self), speed(other)),
-            (self.turning_rate, other.turning_rate),
-            (self.period, other.period),
-        ];
+        // a body that does not repeat turns to either side: its mean turning rate is what is left of larger numbers
+        let repeats = self.period.is_some() || self.attractor == Attractor::Equilibrium;
+        let turning = |verdict: &Self| verdict.turning_rate.filter(|_| repeats);
+        let pairs =
+            [(speed(self), speed(other)), (turning(self), turning(other)), (self.period, other.period)];
         let change = |(x, y): (Option<f64>, Option<f64>)| {
             let (x, y) = (x?.abs(), y?.abs());
             (x.max(y) > 0.0).then(|| (x - y).abs() / x.max(y))
         };
         pairs.into_iter().filter_map(change).fold(0.0, f64::max)
     }
-}
 
-/// The verdict on the periodic orbit that Newton's method finds from `shape`, if it is stable.
-fn orbit<B: Equivariant + ?Sized>(
-    body: &B,
-    shape: &[f64],
-    (period, form): (f64, Option<Form>),
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> crate::Result<Option<Verdict>> {
-    let mirrored = form == Some(Form::MirrorZigzag);
-    let time = if mirrored { 0.5 * period } else { period };
-    let found = PeriodicOrbit::near(body, shape, (time, mirrored), &settings.flow(), watch);
-    let Some(found) = found.filter(PeriodicOrbit::is_stable) else { return Ok(None) };
-    let recurrence = Recurrence { returns: 1, mirrored, time, angle: found.angle };
-    words::periodic(body, &found, &recurrence, settings, 0.0, watch).map(Some)
+    /// The verdict on the periodic orbit that Newton's method finds from `shape`, if it is stable.
+    fn repeats<B: Equivariant + ?Sized>(
+        &self,
+        body: &B,
+        shape: &[f64],
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> crate::Result<Option<Self>> {
+        let found = self.orbit(body, shape, &settings.flow(), watch);
+        let Some(found) = found.filter(PeriodicOrbit::is_stable) else { return Ok(None) };
+        let PeriodicOrbit { time, angle, mirrored, .. } = found;
+        let recurrence = Recurrence { returns: 1, mirrored, time, angle };
+        words::periodic(body, &found, &recurrence, settings, 0.0, watch).map(Some)
+    }
 }

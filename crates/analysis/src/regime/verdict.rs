@@ -219,7 +219,8 @@ pub struct Verdict {
     /// Its 95 % error, where it is an average over a part of the motion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turning_error: Option<f64>,
-    /// Period of the reduced motion (model time).
+    /// Period (model time): after it the body is as it was, but for the net rotation. Two returns of the shape where it comes back mirrored, or turned
+    /// by half a turn on a line.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub period: Option<f64>,
     /// Net rotation of the body per period (rad, in -pi..pi).

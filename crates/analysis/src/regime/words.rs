@@ -4,6 +4,7 @@ use super::course::Direction;
 use super::form::Form;
 use super::heteroclinic::Cycle;
 use super::motion::Path;
+use super::period::Period;
 use super::recurrence::{Recurrence, symmetry_of};
 use super::settings::Settings;
 use super::verdict::{Attractor, Regime, Spread, Verdict};
@@ -145,10 +146,10 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     watch: &dyn Watch,
 ) -> Result<Verdict> {
     let path = Path::follow(body, &orbit.shape, orbit.period(), SAMPLES, settings, watch)?;
-    let rotation = orbit.net_rotation();
     let no_turn = NO_TURN.max(settings.accuracy());
     let symmetry = symmetry_of(body, orbit, settings, watch)?;
     let form = Form::of(&symmetry, orbit, &path, no_turn, body.symmetry());
+    let Period { time: period, rotation } = Period::of(form, &symmetry, orbit, no_turn);
     let what = match form.regime() {
         Regime::QuasiPeriodic => format!("{}; turned by {rotation:.6} rad each period", form.meaning()),
         _ => form.meaning().to_owned(),
@@ -158,8 +159,7 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
         more => format!("{more} returns"),
     };
     let why = format!(
-        "{what}; period {:.6}, largest multiplier {:.3e}: stable; it closes after {returns} to its section",
-        orbit.period(),
+        "{what}; period {period:.6}, largest multiplier {:.3e}: stable; it closes after {returns} to its section",
         orbit.growth()
     );
     let mut verdict = Verdict::new(form.regime(), Attractor::Periodic, why, time);
@@ -171,17 +171,19 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
         rotation.abs() / no_turn
     };
     verdict.margin = Some(stability.min(if turning < 1.0 { 1.0 / turning.max(1e-3) } else { turning }));
-    verdict.period = Some(orbit.period());
+    verdict.period = Some(period);
     verdict.net_rotation = Some(rotation);
     verdict.speed = path.speed();
     verdict.exponents = super::floquet::exponents(body, orbit, settings, watch);
     if path.moves() {
-        verdict.drift = Some(path.drift());
+        // on a line the way back undoes the way forth
+        let undone = period > orbit.period();
+        verdict.drift = Some(if undone { 0.0 } else { path.drift() });
         let straight = form.regime() == Regime::PulsatingStraight;
         // exactly 0 where the second half of the period mirrors the first, and where the heading keeps to a mirror axis
         verdict.turning_rate = if orbit.mirrored || straight { Some(0.0) } else { path.turning_rate() };
         let turning = verdict.turning_rate.filter(|_| form.regime() != Regime::Zigzag && !straight);
-        verdict.directed(body, turning, path.displacement(no_turn));
+        verdict.directed(body, turning, if undone { [0.0; 2] } else { path.displacement(no_turn) });
         if !straight {
             super::legs::describe(&mut verdict, &path, rotation);
         }

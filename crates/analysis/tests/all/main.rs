@@ -1,5 +1,6 @@
 //! All integration tests of this crate, in one program: what is generic is compiled once.
 
+mod back_and_forth;
 mod bodies;
 mod classification_of_the_cell;
 mod common;

@@ -119,14 +119,18 @@ fn summary(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
         let margin = if margin < 1e4 { format!("{margin:.1}") } else { format!("{margin:.0e}") };
         writeln!(text, "margin         {margin} times the uncertainty of the decisive quantity ({sure})")?;
     }
-    if let Some(Resolution { parameter, value, change }) = &verdict.resolution {
-        let what = match verdict.saddle {
-            Some(_) => "the rates at the saddle",
-            None => "speed, turning rate and period",
+    if let Some(Resolution { parameter, value, change, exponent }) = &verdict.resolution {
+        let there =
+            exponent.map(|there| format!("lambda_1 is {:.4} +- {:.4} and ", there.value, there.error));
+        let what = match (verdict.saddle, exponent) {
+            (Some(_), _) => "the rates at the saddle",
+            (_, Some(_)) => "mean speed and exponent",
+            _ => "speed, turning rate and period",
         };
         writeln!(
             text,
-            "resolution     with {parameter} = {value}, {what} change by at most {change:.0e} of themselves"
+            "resolution     with {parameter} = {value}, {}{what} change by at most {change:.0e} of themselves",
+            there.unwrap_or_default()
         )?;
     }
     if let Some(form) = verdict.form {

@@ -15,7 +15,7 @@ pub const NUMBERS: [(&str, &str); 15] = [
     ("speed_min", "smallest |v| (model length per model time)"),
     ("speed_max", "largest |v| (model length per model time)"),
     ("turning_rate", "mean turning rate of the heading (rad per model time)"),
-    ("period", "period of the reduced motion (model time)"),
+    ("period", "time after which the body is as it was, but for the net rotation (model time)"),
     ("net_rotation", "net rotation of the body per period (rad, in -pi..pi)"),
     ("drift", "distance travelled per period (model length)"),
     ("heading", "direction of the displacement (rad from the x-axis), where rotations are no symmetry"),
@@ -26,7 +26,7 @@ pub const NUMBERS: [(&str, &str); 15] = [
     ("time", "model time that the decision took"),
     (
         "resolution",
-        "largest relative change of speed, turning rate and period with half as many modes more, where the model has a number of modes",
+        "largest relative change of speed, turning rate and period (of chaos: speed and largest exponent) with half as many modes more, where the model has a number of modes",
     ),
 ];
 

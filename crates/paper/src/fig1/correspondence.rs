@@ -117,6 +117,7 @@ fn heteroclinic_cycle(context: &Context<'_>) -> Result<Claim, Error> {
     let verdict = context.classify(&study)?;
     let exact = Reduced::PAPER.saddle_rates(-0.1, -0.04).unwrap_or([f64::NAN; 2]);
     let rates: Vec<f64> = verdict.saddle.map(|saddle| vec![saddle.out, saddle.inward]).unwrap_or_default();
+    let attracts = verdict.saddle.is_some_and(|saddle| saddle.attracts());
     let near = rates.len() == 2 && rates.iter().zip(exact).all(|(rate, exact)| (rate - exact).abs() < 1e-9);
     let said: Vec<String> = rates.iter().map(|rate| format!("{rate:.9}")).collect();
     let finds = format!(
@@ -127,6 +128,6 @@ fn heteroclinic_cycle(context: &Context<'_>) -> Result<Claim, Error> {
     );
     let how = "*κ*_2 = -0.1, *γ* = -0.04: eigenvalues of the equilibrium that Newton's method finds at a rest, against \
                *γ* ± 2 *a*_1 |*z*_2| to 10^{-9}; their sum is negative, so the cycle attracts";
-    let holds = verdict.attractor == Attractor::Heteroclinic && near && rates.iter().sum::<f64>() < 0.0;
+    let holds = verdict.attractor == Attractor::Heteroclinic && near && attracts;
     Ok(claim(&[170], "Rectangular motion ↔ heteroclinic cycle.", finds, how, holds))
 }

@@ -3,7 +3,7 @@
 
 use super::super::context::Context;
 use super::lengths::study;
-use motiform_analysis::{Isotropy, RelativeEquilibrium, SteadyMotion};
+use motiform_analysis::{RelativeEquilibrium, SteadyMotion};
 use motiform_dynamics::Model as _;
 use motiform_models::cell::{Cell, CellParameters};
 use motiform_study::Error;
@@ -90,7 +90,8 @@ impl Branch {
     /// Follows the branch while it is stable and of the same kind (number of folds, at rest or not).
     pub(crate) fn stable_until(&self, end: f64) -> Result<Option<f64>, Error> {
         let kind = |cell: &Cell, found: &RelativeEquilibrium| {
-            (folds(cell, found), SteadyMotion::of(cell, found).moves())
+            let steady = SteadyMotion::of(cell, found);
+            (steady.symmetry.folds, steady.moves())
         };
         let own = kind(&self.cell()?, &self.shape);
         self.edge(end, |cell, found| found.is_stable() && kind(cell, found) == own)
@@ -98,18 +99,11 @@ impl Branch {
 
     /// The order of the rotations that leave its shape unchanged.
     pub(crate) fn folds(&self) -> Result<usize, Error> {
-        Ok(folds(&self.cell()?, &self.shape))
+        Ok(SteadyMotion::of(&self.cell()?, &self.shape).symmetry.folds)
     }
 }
 
 /// The cell of a length.
 fn cell(length: f64, modes: usize) -> Result<Cell, Error> {
     Ok(Cell::new(&CellParameters { length, modes: modes as f64, ..CellParameters::default() })?)
-}
-
-/// Shapes that differ by less than this part of their size are the same.
-const SAME: f64 = 1e-6;
-
-fn folds(cell: &Cell, found: &RelativeEquilibrium) -> usize {
-    Isotropy::of(cell, &found.shape, SAME).folds
 }

@@ -83,9 +83,7 @@ impl Edges {
         let at_twelve = near(straight, 12.0)?;
         let saddle = near(two_fold, 14.0)?;
         let attracts = |branch: &Branch| {
-            branch.edge(12.0, |cell, found| {
-                found.saddle(cell).is_some_and(|rates| rates.out + rates.inward < 0.0)
-            })
+            branch.edge(12.0, |cell, found| found.saddle(cell).is_some_and(|saddle| saddle.attracts()))
         };
         Ok(Self {
             fastest: fastest(),

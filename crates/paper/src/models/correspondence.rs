@@ -4,12 +4,10 @@ use super::super::claims::claim;
 use super::super::context::Context;
 use super::super::fig6;
 use super::steady::Steady;
+use motiform_analysis::equilibrium::Saddle;
 use motiform_analysis::{Regime, Verdict};
 use motiform_report::Claim;
 use motiform_study::{Error, Study};
-
-/// Numbers below this are zero: shapes are known to about 1e-10.
-const ZERO: f64 = 1e-7;
 
 /// A term: what the paper says, where it is looked for, and what makes it so.
 struct Term {
@@ -26,11 +24,11 @@ struct Term {
 const TERMS: [Term; 5] = [
     Term {
         says: "The motionless circle is the trivial solution.",
-        how: "Settled state at rest; the norm of the shape vanishes; all eigenvalues negative.",
+        how: "Settled state at rest; nothing of the shape is above its error; all eigenvalues negative.",
         tensor: &[(0.1, -0.05)],
         cell: &[6.0],
-        holds: |s| s.size < ZERO && s.growth < 0.0,
-        finds: |s| format!("size {:.0e}, leading eigenvalue {:.3}", s.size, s.growth),
+        holds: |s| s.motion.regime() == Regime::Motionless && s.motion.symmetry.circle && s.is_stable(),
+        finds: |s| format!("size {:.0e}, leading eigenvalue {:.3}", s.size, s.growth.value),
     },
     Term {
         says: "The deformed motionless domain is the pure mode.",
@@ -38,20 +36,25 @@ const TERMS: [Term; 5] = [
         tensor: &[(-0.02, -0.15)],
         cell: &[16.0],
         holds: |s| {
-            s.size > ZERO && s.speed < ZERO && s.turning.abs() < ZERO && s.asymmetry < ZERO && s.growth < 0.0
+            let motion = &s.motion;
+            let deformed = motion.has_axis() && !motion.symmetry.circle;
+            motion.regime() == Regime::Motionless && deformed && s.is_stable()
         },
-        finds: |s| format!("size {:.3}, speed {:.0e}, mirror defect {:.0e}", s.size, s.speed, s.asymmetry),
+        finds: |s| {
+            let speed = s.motion.speed.value;
+            format!("size {:.3}, speed {speed:.0e}, mirror defect {:.0e}", s.size, s.asymmetry)
+        },
     },
     Term {
         says: "The straight motion is the standing wave.",
         how: "A shape that is its own mirror image, moves and does not turn; stable.",
         tensor: &[(0.18, 0.1)],
         cell: &[9.0],
-        holds: |s| s.speed > ZERO && s.turning.abs() < ZERO && s.asymmetry < ZERO && s.growth < 0.0,
+        holds: |s| s.motion.regime() == Regime::Straight && s.motion.has_axis() && s.is_stable(),
         finds: |s| {
             format!(
                 "speed {:.2e}, turning rate {:.0e}, mirror defect {:.0e}",
-                s.speed, s.turning, s.asymmetry
+                s.motion.speed.value, s.motion.turning_rate.value, s.asymmetry
             )
         },
     },
@@ -60,17 +63,22 @@ const TERMS: [Term; 5] = [
         how: "A shape that differs from its mirror image and turns at a constant rate; stable.",
         tensor: &[(0.02, 0.1)],
         cell: &[12.6],
-        holds: |s| s.speed > ZERO && s.turning.abs() > ZERO && s.asymmetry > 1e-3 && s.growth < 0.0,
-        finds: |s| format!("turning rate {:.3}, mirror defect {:.3}", s.turning.abs(), s.asymmetry),
+        holds: |s| s.motion.regime() == Regime::Circular && !s.motion.has_axis() && s.is_stable(),
+        finds: |s| {
+            let turning = s.motion.turning_rate.value.abs();
+            format!("turning rate {turning:.3}, mirror defect {:.3}", s.asymmetry)
+        },
     },
     Term {
         says: "The rectangular motion is the heteroclinic cycle.",
         how: "The pure mode, followed into the region of the rectangular motion: one growing direction, and *λ*_+ + *λ*_− < 0.",
         tensor: &[(-0.1, -0.3), (-0.1, -0.04)],
         cell: &[16.0, 15.6, 15.2, 14.8, 14.4, 14.0, 13.7, 13.4, 13.2],
-        holds: |s| s.speed < ZERO && s.saddle.is_some_and(|(out, inward)| out > 0.0 && out + inward < 0.0),
+        holds: |s| {
+            s.motion.regime() == Regime::Motionless && s.saddle.is_some_and(|saddle| saddle.attracts())
+        },
         finds: |s| {
-            s.saddle.map_or("no saddle".to_owned(), |(out, inward)| {
+            s.saddle.map_or("no saddle".to_owned(), |Saddle { out, inward, .. }| {
                 format!("*λ*_+ = {out:.4}, *λ*_− = {inward:.4}")
             })
         },

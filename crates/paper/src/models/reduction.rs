@@ -55,8 +55,8 @@ fn whole(context: &Context<'_>) -> Result<[f64; 2], Error> {
             inside = next;
         }
     }
-    let start = inside
-        .edge(12.0, |cell, found| found.saddle(cell).is_some_and(|rates| rates.out + rates.inward < 0.0))?;
+    let start =
+        inside.edge(12.0, |cell, found| found.saddle(cell).is_some_and(|saddle| saddle.attracts()))?;
     Ok([start, end].map(|edge| edge.unwrap_or(f64::NAN)))
 }
 

@@ -1,38 +1,48 @@
 //! A steady shape of either model, with the properties that name it.
 
 use super::super::context::Context;
-use motiform_analysis::RelativeEquilibrium;
+use motiform_analysis::equilibrium::Saddle;
 use motiform_analysis::symmetry::align;
+use motiform_analysis::{Estimate, RelativeEquilibrium, SteadyMotion};
+use motiform_dynamics::Model;
 use motiform_study::{Error, Plan, Study};
 
 /// What is known of a steady shape.
 #[derive(Clone)]
 pub(super) struct Steady {
+    /// Whether it moves and turns, and its symmetry.
+    pub(super) motion: SteadyMotion,
     /// Size of the deformation (norm of the state).
     pub(super) size: f64,
-    pub(super) speed: f64,
-    pub(super) turning: f64,
     /// How far the shape is from its mirror image, against its size.
     pub(super) asymmetry: f64,
     /// Leading eigenvalue.
-    pub(super) growth: f64,
-    /// `lambda_+` and `lambda_-`, for a saddle.
-    pub(super) saddle: Option<(f64, f64)>,
+    pub(super) growth: Estimate,
+    /// The rates of a saddle.
+    pub(super) saddle: Option<Saddle>,
 }
 
 impl Steady {
     /// As [`Steady::followed`], on the way to the claims.
     pub(super) fn along(context: &Context<'_>, name: &str, studies: &[Study]) -> Result<Option<Self>, Error> {
         let found = context.kept.once(&format!("steady: {name}"), || Self::followed(context, studies))?;
-        let change = |s: Self| Self {
-            size: context.number(s.size),
-            speed: context.number(s.speed),
-            turning: context.number(s.turning),
-            asymmetry: context.number(s.asymmetry),
-            growth: context.number(s.growth),
-            saddle: s.saddle.map(|(out, inward)| (context.number(out), context.number(inward))),
+        let change = |s: Self| {
+            let mut motion = s.motion;
+            motion.speed = context.estimate(motion.speed);
+            motion.turning_rate = context.estimate(motion.turning_rate);
+            let saddle = |rates: Saddle| Saddle {
+                out: context.number(rates.out),
+                inward: context.number(rates.inward),
+                ..rates
+            };
+            Self { motion, growth: context.estimate(s.growth), saddle: s.saddle.map(saddle), ..s }
         };
         Ok(found.map(change))
+    }
+
+    /// Whether every deviation decays, beyond the error of the leading eigenvalue.
+    pub(super) fn is_stable(&self) -> bool {
+        self.growth.value < -self.growth.error
     }
 
     /// The shape that a random start settles on at the first study, followed through the others by Newton's method.
@@ -53,18 +63,22 @@ impl Steady {
                 None => model.encode(&last, &mut guess),
             }
             let Some(shape) = RelativeEquilibrium::find(model.as_ref(), &guess) else { return Ok(None) };
-            let size = shape.shape.iter().map(|x| x * x).sum::<f64>().sqrt();
-            let mirror = align(model.as_ref(), &shape.shape, &shape.shape, true).distance;
-            let steady = Self {
-                size,
-                speed: shape.speed(),
-                turning: shape.turning_rate,
-                asymmetry: if size > 1e-8 { mirror / size } else { 0.0 },
-                growth: shape.growth(),
-                saddle: shape.saddle(model.as_ref()).map(|rates| (rates.out, rates.inward)),
-            };
+            let steady = Self::at(model.as_ref(), &shape);
             found = Some((shape, steady));
         }
         Ok(found.map(|entry| entry.1))
+    }
+
+    fn at(model: &dyn Model, found: &RelativeEquilibrium) -> Self {
+        let motion = SteadyMotion::of(model, found);
+        let size = found.shape.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let mirror = align(model, &found.shape, &found.shape, true).distance;
+        Self {
+            motion,
+            size,
+            asymmetry: if motion.symmetry.circle { 0.0 } else { mirror / size },
+            growth: Estimate { value: found.growth(), error: found.growth_error() },
+            saddle: found.saddle(model),
+        }
     }
 }

@@ -109,7 +109,7 @@ class Verdict:
     turning_error: float | None = None
     """Its half width of the 95 % confidence interval, where it is an average over a part of the motion."""
     period: float | None = None
-    """Period of the reduced motion (model time)."""
+    """Time after which the body is as it was, but for the net rotation (model time)."""
     net_rotation: float | None = None
     """Net rotation per period (rad, -pi to pi)."""
     drift: float | None = None
