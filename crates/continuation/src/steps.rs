@@ -1,6 +1,6 @@
 //! Steps along a branch.
 
-use super::correct::{correct, normal, product};
+use super::correct::{TIGHT, correct, normal, product};
 use super::place::{Before, Place, place};
 use super::point::{End, Obstruction};
 use super::problem::{Failure, Problem};
@@ -62,17 +62,31 @@ impl<P: Problem> Tracer<P> {
         if first > ASTRAY * length {
             return Err(Failure::Obstructed(Obstruction::Newton));
         }
-        let new = place(&self.problem, found, &row, old.arclength + length)?;
+        let mut new = place(&self.problem, found, &row, old.arclength + length)?;
+        self.keep_unclear_signs(&mut new);
         if product(&weights, &old.tangent, &new.tangent) < STRAIGHT {
             return Err(Failure::Obstructed(Obstruction::Newton));
         }
         if self.is_near_crossing(&new)
             && length > FINE * self.settings.smallest_step
-            && !self.leads_back(&new, length, watch)
+            && !self.leads_back(&new, watch)
         {
             return Err(Failure::Obstructed(Obstruction::Newton));
         }
         Ok((new, first))
+    }
+
+    /// Gives growths within their error the signs that they have at the present place: they change where they are clear again. (Towards a motion of more symmetry growths vanish as
+    /// powers of the distance, and have the same signs beyond.)
+    fn keep_unclear_signs(&self, new: &mut Place<P::Local>) {
+        // levels are those of the last but one solution of Newton's method
+        let noise = self.problem.noise(&new.levels) * (self.settings.tolerance / TIGHT).max(1.0);
+        for (levels, old) in new.levels.iter_mut().zip(&self.place.levels) {
+            if levels.len() == old.len() {
+                let unclear = levels.iter_mut().zip(old).filter(|(level, _)| level.growth.abs() <= noise);
+                unclear.for_each(|(level, old)| level.growth = level.growth.abs().copysign(old.growth));
+            }
+        }
     }
 
     /// Whether a real level of deviations that keep the symmetry is so small that another branch may be near. (Of equilibria: long orbits are not known well enough for
@@ -92,20 +106,15 @@ impl<P: Problem> Tracer<P> {
         near(&self.place) || near(new)
     }
 
-    /// Whether the step back from `new` finds the present place. Where branches cross at a small angle, a step may lead from one to the other, whose directions
-    /// are the same to within the correction of a step; the step back then stays on the other one.
-    fn leads_back(&self, new: &Place<P::Local>, length: f64, watch: &dyn Watch) -> bool {
+    /// Whether the step back from `new` along its own tangent finds the present place. Where branches cross at a small angle, a step may lead from one to the other, whose
+    /// directions are the same to within the correction of a step; the step back then stays on the other one. (With the bend of the step the guess would know the present place,
+    /// and where the branches are closer than that bend, find it from either.)
+    fn leads_back(&self, new: &Place<P::Local>, watch: &dyn Watch) -> bool {
         let old = &self.place;
         let weights = self.problem.weights(&old.x);
         let row = normal(&new.tangent, &weights);
-        let turned = product(&weights, &old.tangent, &new.tangent);
-        let mut guess: Vec<f64> = new
-            .x
-            .iter()
-            .zip(new.tangent.iter().zip(&old.tangent))
-            .map(|(x, (t, before))| x - length * t + 0.5 * length * (t - before / turned))
-            .collect();
         let apart = |x: &[f64]| old.x.iter().zip(x).map(|(a, b)| a - b).collect::<Vec<f64>>();
+        let mut guess = new.x.clone();
         let along = product(&weights, &new.tangent, &apart(&guess));
         guess.iter_mut().zip(&new.tangent).for_each(|(x, t)| *x += along * t);
         match correct(&self.problem, guess, &row, self.settings.tolerance, watch) {
@@ -162,6 +171,7 @@ impl<P: Problem> Tracer<P> {
         }
         let moved: Vec<f64> = new.x.iter().zip(&old.x).map(|(a, b)| a - b).collect();
         new.arclength = old.arclength + product(&weights, &old.tangent, &moved);
+        self.keep_unclear_signs(&mut new);
         Ok(new)
     }
 }
