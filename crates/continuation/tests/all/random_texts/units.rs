@@ -24,7 +24,8 @@ impl Text {
     pub(super) fn in_units(&self, larger: Larger) -> Self {
         let mut out = self.clone();
         for term in out.equations.iter_mut().flatten() {
-            let factor = larger.rate * larger.length.powi(1 - term.factors.len() as i32);
+            let first = larger.rate * larger.length;
+            let factor = term.factors.iter().fold(first, |factor, _| factor / larger.length);
             term.constant *= factor;
             term.slope *= factor / larger.parameter;
         }
@@ -82,7 +83,7 @@ fn read(point: &motiform_continuation::Point, larger: Larger) -> Option<Found> {
     let special = point.special?;
     let period = match special {
         Special::Hopf(hopf) => hopf.period(),
-        _ => point.motion.orbit().map_or(0.0, |orbit| orbit.period()),
+        _ => point.motion.orbit().map_or(0.0, motiform_analysis::PeriodicOrbit::period),
     };
     Some(Found {
         name: special.name(),
