@@ -9,6 +9,7 @@ use super::problem::Failure;
 use super::settings::Settings;
 use super::shooting::shape_after;
 use super::tracer::Tracer;
+use super::units::Units;
 use motiform_analysis::linear::norm;
 use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_dynamics::{Equivariant, Watch};
@@ -167,15 +168,17 @@ pub(super) fn shoot_nodes<'f>(
     settings: &Settings,
 ) -> (Orbits<'f>, Vec<f64>) {
     let shapes: Vec<&[f64]> = nodes.iter().map(Vec::as_slice).collect();
+    let units = Units::of(body);
     let problem = Orbits {
         bodies,
-        flow: settings.flow,
+        flow: units.flow(settings.flow),
         classes: Classes::of(body, &shapes),
         dim: body.dim(),
         parts: nodes.len(),
         mirrored: orbit.mirrored,
         turns: body.symmetry().rotations && !orbit.mirrored,
         size: nodes.iter().map(|node| norm(node)).fold(0.0, f64::max),
+        length: units.length,
         widths: widths.to_vec(),
     };
     let mut x = nodes.concat();

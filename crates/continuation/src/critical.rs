@@ -24,6 +24,8 @@ pub(super) struct Critical {
     pub(super) class: usize,
     /// Whether the levels are those of multipliers.
     pub(super) orbits: bool,
+    /// The unit of levels.
+    pub(super) rate: f64,
 }
 
 /// The condition at one place.
@@ -39,7 +41,11 @@ pub(super) struct Reading {
 
 impl Critical {
     /// What is critical at a special point.
-    pub(super) fn of(special: Special, levels: &[Vec<Level>], orbits: bool) -> Option<(Self, Reading)> {
+    pub(super) fn of(
+        special: Special,
+        levels: &[Vec<Level>],
+        (orbits, rate): (bool, f64),
+    ) -> Option<(Self, Reading)> {
         let (condition, angle) = match special {
             Special::Fold | Special::Pitchfork { .. } | Special::BranchPoint => (Condition::Steady, 0.0),
             Special::PeriodDoubling | Special::SymmetryBreaking => (Condition::Flip, 0.0),
@@ -48,10 +54,11 @@ impl Critical {
             Special::Continuum | Special::Unresolved { .. } => return None,
         };
         let read = |class| {
-            let critical = Self { condition, class, orbits };
+            let critical = Self { condition, class, orbits, rate };
             critical.read(levels, angle).map(|reading| (critical, reading))
         };
-        let off = |reading: &Reading| reading.value.abs() + (reading.angle - angle).abs();
+        let off =
+            |reading: &Reading| reading.value.abs() / rate + (reading.angle - angle).abs() / (rate * rate);
         let all = (0..levels.len()).filter_map(read);
         all.min_by(|a, b| off(&a.1).total_cmp(&off(&b.1)))
     }
@@ -120,8 +127,9 @@ impl Critical {
             }
         }
         let off = |reading: &Reading| {
-            let turned = reading.angle - angle;
-            reading.value * reading.value + turned.abs() * (1.0 + turned.abs())
+            let (value, turned) =
+                (reading.value / self.rate, (reading.angle - angle).abs() / (self.rate * self.rate));
+            value * value + turned * (1.0 + turned)
         };
         all.into_iter().min_by(|a, b| off(a).total_cmp(&off(b)))
     }

@@ -223,12 +223,12 @@ fn point<P: Problem>(
     degenerate: Option<Degenerate>,
 ) -> CurvePoint {
     let special = match tracer.special {
-        Special::Hopf(_) => {
+        Special::Hopf(Hopf { part, .. }) => {
             let body = tracer.problem.body(&spot.local);
             let frequency = spot.reading.angle.max(0.0).sqrt();
             let solved = tracer.problem.solved(&spot.x);
             let first_lyapunov = first_lyapunov(body, &spot.x[..body.dim()], frequency, solved);
-            Special::Hopf(Hopf { frequency, first_lyapunov })
+            Special::Hopf(Hopf { frequency, part, first_lyapunov })
         }
         Special::Torus { .. } => Special::Torus { angle: libm::acos(spot.reading.angle.clamp(-1.0, 1.0)) },
         other => other,

@@ -89,7 +89,8 @@ impl<P: Problem> CurveTracer<P> {
     ) -> Result<Self, Failure> {
         let local = problem.local(&x, watch)?;
         let levels = problem.levels(&x, &local).ok_or_else(singular)?;
-        let (critical, reading) = Critical::of(special, &levels, orbits).ok_or_else(singular)?;
+        let (critical, reading) =
+            Critical::of(special, &levels, (orbits, problem.rate())).ok_or_else(singular)?;
         let frame = Frame::any(problem.linear(&local), &problem.weights(&x)).ok_or_else(singular)?;
         let step = settings.first_step.abs().min(settings.largest_step);
         let spot = Spot { x, local, levels, reading, frame, steep: 1.0, arclength: 0.0 };

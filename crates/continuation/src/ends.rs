@@ -13,6 +13,7 @@ use super::point::End;
 use super::problem::Problem;
 use super::special::Special;
 use super::tracer::Tracer;
+use super::units::prefix;
 use motiform_analysis::linear::dot;
 use motiform_dynamics::Watch;
 
@@ -150,14 +151,15 @@ impl<P: Problem> Tracer<P> {
             return Ok(());
         };
         let parameter = self.place.parameter();
+        let unit = prefix(self.settings.width());
         self.periods.push(time, (parameter, self.place.slope()));
-        if let Some(connection) = self.periods.connection() {
+        if let Some(connection) = self.periods.connection(unit) {
             let saddle = self.problem.saddle(&self.place.x, &self.place.local);
             if let Some(certain) = connection.through(saddle) {
                 return Err(End::Homoclinic(Box::new(certain)));
             }
         }
-        if self.periods.has_converged()
+        if self.periods.has_converged(unit)
             && let Some(certain) = self.oscillates()
         {
             return Err(End::Homoclinic(Box::new(certain)));

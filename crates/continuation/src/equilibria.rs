@@ -7,10 +7,12 @@ use super::hopf::first_lyapunov;
 use super::levels::Level;
 use super::normal_form::{NormalForm, Order};
 use super::normal_forms::of_equilibrium;
+use super::oscillation::Oscillation;
 use super::point::Motion;
 use super::problem::{Equations, Failure, Linear, Problem};
 use super::special::{Broken, Hopf, Special};
 use super::tracer::TOLERANCE;
+use super::units::Units;
 use motiform_analysis::RelativeEquilibrium;
 use motiform_analysis::equilibrium::{modes, neutral_direction, rounding};
 use motiform_analysis::linear::{add, apply, eigenvalues, norm, restrict};
@@ -35,6 +37,8 @@ pub(super) struct Equilibria<'f> {
     pub(super) dim: usize,
     /// Least unit of the shape; that of a far larger shape is a part of its own size.
     pub(super) size: f64,
+    /// Those of the equations.
+    pub(super) units: Units,
     /// Units of the parameters.
     pub(super) widths: Vec<f64>,
 }
@@ -58,9 +62,9 @@ impl<'f> Equilibria<'f> {
     ) -> Result<Self, motiform_analysis::Error> {
         let body = bodies.at(parameters)?;
         let classes = Classes::of(body.as_ref(), &[shape]);
-        let size = norm(shape);
-        let size = if size > 1e-6 { size } else { 1.0 };
-        Ok(Self { bodies, classes, dim: shape.len(), size, widths: widths.to_vec() })
+        let units = Units::of(body.as_ref());
+        let size = units.size(norm(shape));
+        Ok(Self { bodies, classes, dim: shape.len(), size, units, widths: widths.to_vec() })
     }
 }
 
@@ -83,7 +87,7 @@ impl Equations for Equilibria<'_> {
 
     fn local(&self, x: &[f64], _watch: &dyn Watch) -> Result<Local, Failure> {
         let (shape, omega) = (&x[..self.dim], x[self.dim]);
-        let Neighbours { body, sides } = Neighbours::of(self.bodies, x)?;
+        let Neighbours { body, sides, .. } = Neighbours::of(self.bodies, x, &self.widths, self.units.length)?;
         let matrix = linearisation(body.as_ref(), shape, omega);
         let neutral = neutral_direction(body.as_ref(), shape);
         let linear = Linear { residual: Vec::new(), matrix: DMatrix::zeros(0, 0) };
@@ -100,7 +104,7 @@ impl Equations for Equilibria<'_> {
         // a branch that begins small may grow by powers of ten: its steps grow with it
         let size = self.size.max(GROWN * norm(&x[..self.dim]));
         let mut weights = vec![1.0 / (size * size); self.dim];
-        weights.push(1.0);
+        weights.push(1.0 / (self.units.rate * self.units.rate));
         weights.extend(self.widths.iter().map(|width| 1.0 / (width * width)));
         weights
     }
@@ -138,10 +142,10 @@ impl Problem for Equilibria<'_> {
     fn classify(&self, x: &[f64], critical: Level, class: usize) -> Special {
         let Ok(local) = self.local(x, &()) else { return Special::BranchPoint };
         if critical.angle != 0.0 {
-            let frequency = critical.angle.abs();
-            let first_lyapunov =
-                first_lyapunov(local.body.as_ref(), &x[..self.dim], frequency, self.solved(x));
-            return Special::Hopf(Hopf { frequency, first_lyapunov });
+            let (body, shape, frequency) = (local.body.as_ref(), &x[..self.dim], critical.angle.abs());
+            let part = Oscillation::of(body, shape, frequency).map_or(1.0, |found| found.period_part());
+            let first_lyapunov = first_lyapunov(body, shape, frequency, self.solved(x));
+            return Special::Hopf(Hopf { frequency, part, first_lyapunov });
         }
         let body = local.body.as_ref();
         let vector = self.critical_vector(&local, class);
@@ -165,7 +169,7 @@ impl Problem for Equilibria<'_> {
         Motion::Equilibrium(RelativeEquilibrium {
             velocity: model::velocity(local.body.as_ref(), &shape),
             turning_rate: if neutral == 0 { 0.0 } else { x[self.dim] },
-            residual: norm(&local.linear.residual),
+            residual: norm(&local.linear.residual) * self.units.length * self.units.rate,
             errors: vec![rounding(self.dim, scale); eigenvalues.len()],
             eigenvalues,
             neutral,
@@ -211,6 +215,10 @@ impl Problem for Equilibria<'_> {
     fn size(&self, x: &[f64]) -> f64 {
         norm(&x[..self.dim])
     }
+
+    fn rate(&self) -> f64 {
+        self.units.rate
+    }
 }
 
 /// `f(shape)`.
@@ -221,7 +229,7 @@ fn rate(body: &dyn Equivariant, shape: &[f64]) -> Vec<f64> {
 }
 
 impl Equilibria<'_> {
-    /// The equations. What breaks the symmetry of the shape is left to itself, `du = 0`: where such a deviation is critical the equations
+    /// The equations, in their units. What breaks the symmetry of the shape is left to itself, `du = 0`: where such a deviation is critical the equations
     /// of the motion itself stay regular.
     fn fill(&self, shape: &[f64], omega: f64, sides: &[Sides], local: &Local) -> Linear {
         let (dim, body) = (self.dim, local.body.as_ref());
@@ -231,11 +239,13 @@ impl Equilibria<'_> {
         add(&mut residual, -omega, &spin);
         residual.push(0.0);
         let mut all = DMatrix::zeros(dim + 1, dim + 1 + sides.len());
+        let (Units { length, rate: pace }, unit) = (self.units, self.units.length * self.units.rate);
+        residual.iter_mut().for_each(|value| *value /= unit);
         let mut put = |column: usize, values: &[f64]| {
-            values.iter().enumerate().for_each(|(i, value)| all[(i, column)] = *value);
+            values.iter().enumerate().for_each(|(i, value)| all[(i, column)] = *value / unit);
         };
         for j in 0..dim {
-            put(j, &self.classes.kept(body, &local.matrix, j, -1.0));
+            put(j, &self.classes.kept(body, &local.matrix, j, -pace));
         }
         put(dim, &spin.iter().map(|g| -g).collect::<Vec<f64>>());
         for (j, Sides { above, below, width }) in sides.iter().enumerate() {
@@ -245,8 +255,8 @@ impl Equilibria<'_> {
             put(dim + 1 + j, &slope);
         }
         match local.neutral.first() {
-            Some(direction) => direction.iter().enumerate().for_each(|(j, g)| all[(dim, j)] = *g),
-            None => all[(dim, dim)] = 1.0,
+            Some(direction) => direction.iter().enumerate().for_each(|(j, g)| all[(dim, j)] = *g / length),
+            None => all[(dim, dim)] = 1.0 / pace,
         }
         Linear { residual, matrix: all }
     }
@@ -255,7 +265,7 @@ impl Equilibria<'_> {
     pub(super) fn free(&self, x: &[f64]) -> Option<Self> {
         let classes = Classes::of(self.bodies.at(x).ok()?.as_ref(), &[]);
         let widths = self.widths.clone();
-        Some(Self { bodies: self.bodies, classes, dim: self.dim, size: self.size, widths })
+        Some(Self { bodies: self.bodies, classes, dim: self.dim, size: self.size, units: self.units, widths })
     }
 
     /// Whether motions in the direction `vector` exist for the same parameter, at two distances: beside a pitchfork the parameter changes as the square of the distance.

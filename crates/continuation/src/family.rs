@@ -1,6 +1,7 @@
 //! Bodies that depend on one parameter or two.
 
 use super::problem::Failure;
+use super::units::prefix;
 use motiform_analysis::{Error, Result};
 use motiform_dynamics::Equivariant;
 
@@ -81,6 +82,8 @@ pub(super) struct Neighbours {
     pub(super) body: Box<dyn Equivariant>,
     /// Those on both sides, for each parameter.
     pub(super) sides: Vec<Sides>,
+    /// The unit of shapes.
+    pub(super) length: f64,
 }
 
 /// Two neighbours of a body along one parameter.
@@ -94,14 +97,19 @@ pub(super) struct Sides {
 }
 
 impl Neighbours {
-    /// The body whose parameters are the last of `x`, with neighbours so close that the central difference has about ten digits: more
+    /// The body whose parameters are the last of `x`, varied over these widths, for shapes of this unit, with neighbours so close that the central difference has about ten digits: more
     /// than a Newton step needs, whose residual is exact. At the end of what the model allows the difference is one-sided.
-    pub(super) fn of(bodies: Bodies<'_>, x: &[f64]) -> std::result::Result<Self, Failure> {
+    pub(super) fn of(
+        bodies: Bodies<'_>,
+        x: &[f64],
+        widths: &[f64],
+        length: f64,
+    ) -> std::result::Result<Self, Failure> {
         let parameters = &x[x.len() - bodies.count()..];
         let body = bodies.at(parameters)?;
         let mut sides = Vec::new();
-        for (i, &parameter) in parameters.iter().enumerate() {
-            let step = 1e-5 * (1.0 + parameter.abs());
+        for (i, (&parameter, &width)) in parameters.iter().zip(widths).enumerate() {
+            let step = 1e-5 * (prefix(width) + parameter.abs());
             let at = |value: f64| {
                 let mut moved = parameters.to_vec();
                 moved[i] = value;
@@ -111,6 +119,6 @@ impl Neighbours {
             let (low, below) = at(parameter - step).or_else(|_: Error| at(parameter))?;
             sides.push(Sides { above, below, width: high - low });
         }
-        Ok(Self { body, sides })
+        Ok(Self { body, sides, length })
     }
 }

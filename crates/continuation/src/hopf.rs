@@ -2,6 +2,7 @@
 
 use super::normal_form::{Coefficient, NormalForm, Undetermined};
 use super::reduction::extrapolated;
+use super::units::Units;
 use motiform_analysis::equilibrium::neutral_direction;
 use motiform_analysis::linear::{add, complement, dot, eigenvalues};
 use motiform_dynamics::{Dual, Equivariant, VectorField};
@@ -10,7 +11,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 type Number = Dual<f64, 1>;
 type Vector = DVector<Complex<f64>>;
 
-/// Shapes below this are 0.
+/// Shapes below this part of the unit of the equations are 0.
 const ROUND_OFF: f64 = 1e-9;
 
 /// The reduced field on the slice normal to the group orbit through a shape `u`:
@@ -135,7 +136,7 @@ fn matrix(slice: &Slice<'_>) -> DMatrix<Complex<f64>> {
 /// Steps of the differences: the first one in units of the shape's size, and how often it is doubled.
 const STEPS: (f64, i32) = (2e-3, 5);
 
-/// The same for a body at rest, whose size is no unit: over a wide range.
+/// The same for a body at rest, in units of the equations: over a wide range.
 const STEPS_AT_REST: (f64, i32) = (1e-4, 12);
 
 /// Eigenvalues that differ by less than this part are the same.
@@ -159,7 +160,7 @@ pub(super) fn first_lyapunov(
 ) -> NormalForm {
     let size = shape.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     // Newton's method leaves a body at rest at round-off: that is no size.
-    let size = if size > ROUND_OFF { size } else { 0.0 };
+    let size = if size > ROUND_OFF * Units::of(body).length { size } else { 0.0 };
     let found = at_shape(body, shape, size, frequency);
     if size == 0.0 {
         return found.into();
@@ -183,9 +184,10 @@ fn at_shape(
     if copies(&a, frequency) > 1 {
         return Err(Undetermined::Directions);
     }
-    let (first, count) = if size > 0.0 { (STEPS.0 * size, STEPS.1) } else { STEPS_AT_REST };
+    let (unit, (first, count)) =
+        if size > 0.0 { (size, STEPS) } else { (Units::of(body).length, STEPS_AT_REST) };
     let all: Option<Vec<f64>> = critical(&a, frequency).and_then(|pair| {
-        (0..count).map(|j| coefficient(&slice, &a, &pair, first * 2.0_f64.powi(j))).collect()
+        (0..count).map(|j| coefficient(&slice, &a, &pair, unit * first * 2.0_f64.powi(j))).collect()
     });
     let found = extrapolated(&all.unwrap_or_default());
     if found.value.is_finite() && found.error.is_finite() { Ok(found) } else { Err(Undetermined::Obstructed) }

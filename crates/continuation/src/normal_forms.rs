@@ -11,10 +11,10 @@ use super::shooting::segment;
 use motiform_analysis::linear::{add, apply, basis, dot, norm};
 use motiform_dynamics::{Equivariant, VectorField};
 
-/// Shapes below this are 0, which is no unit.
+/// Shapes below this part of the unit of the equations are 0, which is no unit.
 const ROUND_OFF: f64 = 1e-9;
 
-/// The step is doubled so often; at rest it begins far smaller, and is doubled more often.
+/// The step is doubled so often; at rest it begins far smaller, as a part of the unit of the equations, and is doubled more often.
 const DOUBLINGS: usize = 7;
 const AT_REST: (f64, usize) = (0.05, 15);
 
@@ -30,10 +30,14 @@ pub(super) fn of_equilibrium(problem: &Equilibria<'_>, x: &[f64], order: Order) 
     let (dim, shape) = (free.dim, &x[..free.dim]);
     let alike = free.bodies.at(x).is_ok_and(|body| Classes::of(body.as_ref(), &[shape]).circle);
     let size = norm(shape);
-    let (unit, doublings) = if size > ROUND_OFF { (size, DOUBLINGS) } else { AT_REST };
+    let (length, scale) = (free.units.length, free.units.length * free.units.rate);
+    let at_rest = (AT_REST.0 * length, AT_REST.1);
+    let (unit, doublings) = if size > ROUND_OFF * length { (size, DOUBLINGS) } else { at_rest };
     leading(
         &System {
-            matrix: &|x| Some(free.local(x, &()).ok()?.linear.matrix.columns(0, dim + 1).into_owned()),
+            matrix: &|x| {
+                Some(free.local(x, &()).ok()?.linear.matrix.columns(0, dim + 1).into_owned() * scale)
+            },
             rows: dim,
             x,
             size: &|v| Some((norm(&v[..dim]), 0.0)),
@@ -91,6 +95,7 @@ fn free<'f>(problem: &Orbits<'f>, x: &[f64], doubled: bool) -> Option<(Orbits<'f
         mirrored,
         turns: body.symmetry().rotations && !mirrored,
         size: (0..parts).map(|i| norm(problem.node(x, i))).fold(0.0, f64::max),
+        length: problem.length,
         widths: problem.widths.clone(),
     };
     if !doubled {
@@ -116,7 +121,7 @@ fn free<'f>(problem: &Orbits<'f>, x: &[f64], doubled: bool) -> Option<(Orbits<'f
 /// The root mean square over the period of a deviation `v` of the unknowns, normal to the flow and the group, and its error: the difference from the mean
 /// over half of the places. (The rule of trapezoids: of a periodic function it converges faster than any power.)
 fn size_along(orbits: &Orbits<'_>, x: &[f64], v: &[f64]) -> Option<Size> {
-    let neighbours = Neighbours::of(orbits.bodies, x).ok()?;
+    let neighbours = Neighbours::of(orbits.bodies, x, &orbits.widths, orbits.length).ok()?;
     let (parts, rows) = (orbits.parts, orbits.parts * orbits.dim);
     let each = PLACES.div_ceil(parts).next_multiple_of(2);
     let (span, stretch) = (orbits.span(x) / each as f64, v[rows] / (parts * each) as f64);

@@ -48,6 +48,8 @@ pub(super) struct Orbits<'f> {
     /// Whether the angle is an unknown.
     pub(super) turns: bool,
     pub(super) size: f64,
+    /// The unit of shapes that the equations have.
+    pub(super) length: f64,
     pub(super) widths: Vec<f64>,
 }
 
@@ -175,7 +177,7 @@ impl Equations for Orbits<'_> {
     type Local = Local;
 
     fn local(&self, x: &[f64], watch: &dyn Watch) -> Result<Local, Failure> {
-        let neighbours = Neighbours::of(self.bodies, x)?;
+        let neighbours = Neighbours::of(self.bodies, x, &self.widths, self.length)?;
         let span = self.span(x);
         let nodes = || (0..self.parts).map(|i| self.node(x, i));
         let segments = segments(&neighbours, nodes(), span, &self.flow, watch)?;

@@ -44,15 +44,15 @@ impl Periods {
         })
     }
 
-    /// Whether the parameter hardly changes any more over the last times.
-    pub(super) fn has_converged(&self) -> bool {
+    /// Whether the parameter, with this unit, hardly changes any more over the last times.
+    pub(super) fn has_converged(&self, unit: f64) -> bool {
         let Some(&(end, parameter, _)) = self.points.last() else { return false };
         let late = self.points.iter().rev().take_while(|point| point.0 > 0.7 * end);
         let (mut count, mut most) = (0, 0.0_f64);
         for point in late {
             (count, most) = (count + 1, most.max((point.1 - parameter).abs()));
         }
-        count >= POINTS && most < NEAR * (1.0 + parameter.abs())
+        count >= POINTS && most < NEAR * (unit + parameter.abs())
     }
 
     /// `p0`, and the root mean square of what the fit leaves at the time `end`, from the points of the half turns before it.

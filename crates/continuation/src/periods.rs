@@ -31,7 +31,7 @@ const WINDOW: f64 = 0.85;
 /// The same in long steps.
 const LONG_WINDOW: f64 = 0.5;
 
-/// The connection is reached where this much of the parameter remains.
+/// The connection is reached where this part of the parameter, or of its unit, remains.
 pub(super) const NEAR: f64 = 1e-7;
 
 /// Fits that the best one is compared with.
@@ -50,8 +50,8 @@ impl Periods {
         self.points.push((time.0, parameter.0, parameter.1 / time.1));
     }
 
-    /// The connection ahead, where the logarithmic law holds and little remains.
-    pub(super) fn connection(&self) -> Option<Connection> {
+    /// The connection ahead, where the logarithmic law holds and little remains of a parameter with this unit.
+    pub(super) fn connection(&self, unit: f64) -> Option<Connection> {
         let time = self.points.last()?.0;
         // in long steps the times above the window are few: the law is tested over as many points, but not from far away
         let from = self.points.iter().position(|point| point.0 > WINDOW * time)?;
@@ -64,7 +64,7 @@ impl Periods {
         // p - p0 = c exp(-rate T): ln|dp/dT| is linear in T
         let rate = exponent(last)?;
         let remaining = slope / rate;
-        (remaining.abs() < NEAR * (1.0 + parameter.abs())).then(|| Connection {
+        (remaining.abs() < NEAR * (unit + parameter.abs())).then(|| Connection {
             parameter: parameter + remaining,
             remaining: remaining.abs(),
             error: AGREE * remaining.abs() + f64::EPSILON * parameter.abs(),

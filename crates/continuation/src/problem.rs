@@ -96,6 +96,11 @@ pub(super) trait Problem: Equations {
     /// The size of the largest shape.
     fn size(&self, x: &[f64]) -> f64;
 
+    /// The unit of levels.
+    fn rate(&self) -> f64 {
+        1.0
+    }
+
     /// The place of the time among the unknowns, for orbits.
     fn time(&self) -> Option<usize> {
         None

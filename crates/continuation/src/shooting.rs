@@ -5,10 +5,14 @@ use super::point::Obstruction;
 use super::problem::Failure;
 use super::variation::{Variation, slope_at};
 use motiform_analysis::implicit_flow;
+use motiform_analysis::linear::norm;
 use motiform_analysis::periodic::Flow;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Equivariant, Integration, Outcome, Request, Semilinear, VectorField, Watch};
+
+/// A shape that grows by this factor has left every bound.
+const UNBOUND: f64 = 1e6;
 
 /// What the flow over one part of an orbit gives.
 pub(super) struct Segment {
@@ -76,9 +80,10 @@ pub(super) fn segments<'x>(
 fn read(neighbours: &Neighbours, end: &[f64], dim: usize) -> Segment {
     let (shape, vectors) = end.split_at(dim);
     let (tangents, by_parameter) = vectors.split_at(dim * dim);
+    let tangents = tangents.iter().map(|x| x / neighbours.length).collect();
     let mut slope = vec![0.0; dim];
     VectorField::<f64>::eval(neighbours.body.as_ref(), 0.0, shape, &mut slope);
-    Segment { end: shape.to_vec(), slope, tangents: tangents.to_vec(), by_parameter: by_parameter.to_vec() }
+    Segment { end: shape.to_vec(), slope, tangents, by_parameter: by_parameter.to_vec() }
 }
 
 /// The same by the implicit method, whose steps do not shorten with the stiff parts of vectors.
@@ -154,7 +159,9 @@ fn arrive(
     flow: &Flow,
     watch: &dyn Watch,
 ) -> Result<(), Failure> {
-    let request = Request { max_steps: flow.max_steps, watched, watch, ..Request::until(end, dim) };
+    let escape_norm = UNBOUND * norm(&orbit.state()[..watched]).max(1.0);
+    let request =
+        Request { max_steps: flow.max_steps, watched, watch, escape_norm, ..Request::until(end, dim) };
     let outcome = drive(orbit, &request, &mut ())
         .map_err(|error| Failure::from(motiform_analysis::Error::from(error)))?;
     if outcome.is_complete() { Ok(()) } else { Err(failure(outcome)) }

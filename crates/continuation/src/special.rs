@@ -76,6 +76,9 @@ impl Broken {
 pub struct Hopf {
     /// Imaginary part of the critical eigenvalues (rad per model time).
     pub frequency: f64,
+    /// The part of `2 pi / frequency` after which the oscillation is back but for a rotation: below 1 where it breaks rotations of the shape.
+    #[serde(default = "whole")]
+    pub part: f64,
     /// The first Lyapunov coefficient, for a critical vector of length 1: below 0 the orbits that begin are stable (supercritical),
     /// above 0 unstable (subcritical).
     ///
@@ -83,11 +86,16 @@ pub struct Hopf {
     pub first_lyapunov: NormalForm,
 }
 
+/// Of results that do not name the part.
+const fn whole() -> f64 {
+    1.0
+}
+
 impl Hopf {
-    /// Period of the oscillation that begins.
+    /// Period of the relative periodic orbits that begin: rotations are divided out.
     #[must_use]
     pub fn period(&self) -> f64 {
-        std::f64::consts::TAU / self.frequency
+        std::f64::consts::TAU / self.frequency * self.part
     }
 
     /// Whether the orbits that begin are stable within the directions that are critical; `None` where the coefficient's error does not say so.

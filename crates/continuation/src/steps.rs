@@ -1,6 +1,7 @@
 //! Steps along a branch.
 
-use super::correct::{correct, normal, product};
+use super::correct::{TIGHT, correct, normal, product};
+use super::levels::Level;
 use super::place::{Before, Place, place};
 use super::point::{End, Obstruction};
 use super::problem::{Failure, Problem};
@@ -19,6 +20,9 @@ const NEAR: f64 = 0.1;
 
 /// Solutions that differ by more than this, in tolerances of Newton's method, are of different branches.
 const SAME: f64 = 30.0;
+
+/// Ratios of two sizes that are about the same.
+const ABOUT: std::ops::RangeInclusive<f64> = 0.3..=3.0;
 
 /// Steps as short as this, in shortest ones, are taken as they are.
 const FINE: f64 = 100.0;
@@ -62,7 +66,8 @@ impl<P: Problem> Tracer<P> {
         if first > ASTRAY * length {
             return Err(Failure::Obstructed(Obstruction::Newton));
         }
-        let new = place(&self.problem, found, &row, old.arclength + length)?;
+        let mut new = place(&self.problem, found, &row, old.arclength + length)?;
+        self.keep_unclear_signs(&mut new);
         if product(&weights, &old.tangent, &new.tangent) < STRAIGHT {
             return Err(Failure::Obstructed(Obstruction::Newton));
         }
@@ -73,6 +78,19 @@ impl<P: Problem> Tracer<P> {
             return Err(Failure::Obstructed(Obstruction::Newton));
         }
         Ok((new, first))
+    }
+
+    /// Gives growths within their error the signs that they have at the present place: they change where they are clear again. (Towards a motion of more symmetry growths vanish as
+    /// powers of the distance, and have the same signs beyond.)
+    fn keep_unclear_signs(&self, new: &mut Place<P::Local>) {
+        // levels are those of the last but one solution of Newton's method
+        let noise = self.problem.noise(&new.levels) * (self.settings.tolerance / TIGHT).max(1.0);
+        for (levels, old) in new.levels.iter_mut().zip(&self.place.levels) {
+            if levels.len() == old.len() {
+                let unclear = levels.iter_mut().zip(old).filter(|(level, _)| level.growth.abs() <= noise);
+                unclear.for_each(|(level, old)| level.growth = level.growth.abs().copysign(old.growth));
+            }
+        }
     }
 
     /// Whether a real level of deviations that keep the symmetry is so small that another branch may be near. (Of equilibria: long orbits are not known well enough for
@@ -92,9 +110,16 @@ impl<P: Problem> Tracer<P> {
         near(&self.place) || near(new)
     }
 
-    /// Whether the step back from `new` finds the present place. Where branches cross at a small angle, a step may lead from one to the other, whose directions
-    /// are the same to within the correction of a step; the step back then stays on the other one.
+    /// Whether the step back from `new` finds the present place, however it is guessed. Where branches cross at a small angle, a step may lead from one to the other, whose directions are the
+    /// same to within the correction of a step; the step back then stays on the other one. Where the branches are closer than the bend of the step, the guess that
+    /// has it may find the present place from either, and the one along the tangent alone decides.
     fn leads_back(&self, new: &Place<P::Local>, length: f64, watch: &dyn Watch) -> bool {
+        self.finds_back(new, 0.5 * length, watch)
+            && (!self.rebounds(new, length) || self.finds_back(new, 0.0, watch))
+    }
+
+    /// The same from the tangent at `new`, with this much of its turn on the step.
+    fn finds_back(&self, new: &Place<P::Local>, bend: f64, watch: &dyn Watch) -> bool {
         let old = &self.place;
         let weights = self.problem.weights(&old.x);
         let row = normal(&new.tangent, &weights);
@@ -103,10 +128,11 @@ impl<P: Problem> Tracer<P> {
             .x
             .iter()
             .zip(new.tangent.iter().zip(&old.tangent))
-            .map(|(x, (t, before))| x - length * t + 0.5 * length * (t - before / turned))
+            .map(|(x, (t, before))| x + bend * (t - before / turned))
             .collect();
         let apart = |x: &[f64]| old.x.iter().zip(x).map(|(a, b)| a - b).collect::<Vec<f64>>();
-        let along = product(&weights, &new.tangent, &apart(&guess));
+        let along =
+            product(&weights, &new.tangent, &apart(&guess)) / product(&weights, &new.tangent, &new.tangent); // its length is 1 in the units of its own place
         guess.iter_mut().zip(&new.tangent).for_each(|(x, t)| *x += along * t);
         match correct(&self.problem, guess, &row, self.settings.tolerance, watch) {
             Ok(found) => {
@@ -115,6 +141,24 @@ impl<P: Problem> Tracer<P> {
             }
             Err(_) => true,
         }
+    }
+
+    /// Whether a real level that keeps the symmetry has the sign at `new` that it has at the present place, and about the size with which it would be beyond 0 if it went on as on the step
+    /// before: two branches that cross have levels of opposite signs.
+    fn rebounds(&self, new: &Place<P::Local>, length: f64) -> bool {
+        let Some(before) = &self.before else { return false };
+        let first = |levels: &'_ [Vec<Level>]| levels.first().cloned().unwrap_or_default();
+        let all = [&before.levels, &self.place.levels, &new.levels].map(|levels| first(levels));
+        let [was, now, then] = &all;
+        let real = |rank: usize| all.iter().all(|levels| levels[rank].angle == 0.0);
+        let turns = |rank: usize| {
+            let [was, now, then] = [was, now, then].map(|levels| levels[rank].growth);
+            let expected = now + (now - was) * length / before.length;
+            now * then > 0.0 && ABOUT.contains(&(-expected / then))
+        };
+        was.len() == now.len()
+            && now.len() == then.len()
+            && (0..now.len()).any(|rank| real(rank) && turns(rank))
     }
 
     /// The place expected after `length`: the tangent turns on as it did on the last step. (A cubic through the last two places would
@@ -162,6 +206,7 @@ impl<P: Problem> Tracer<P> {
         }
         let moved: Vec<f64> = new.x.iter().zip(&old.x).map(|(a, b)| a - b).collect();
         new.arclength = old.arclength + product(&weights, &old.tangent, &moved);
+        self.keep_unclear_signs(&mut new);
         Ok(new)
     }
 }

@@ -6,25 +6,23 @@ use super::classes::Classes;
 use super::correct::{crossing, product, scaled};
 use super::equilibria::Equilibria;
 use super::family::{Bodies, Family};
-use super::hopf::critical_pair;
 use super::leaving::leaving;
 use super::orbits::Orbits;
+use super::oscillation::Oscillation;
 use super::point::{Motion, Point};
 use super::problem::{Equations, Problem};
 use super::settings::Settings;
 use super::special::Special;
 use super::tangents::tangents;
 use super::tracer::Tracer;
-use motiform_analysis::linear::{add, dot, norm};
+use super::units::Units;
+use motiform_analysis::linear::{add, norm};
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_dynamics::{Equivariant, Watch};
 use std::f64::consts::TAU;
 
 /// Nodes of the orbits that begin at a Hopf bifurcation.
 const NODES: usize = 8;
-
-/// Largest error of the modulus of a rotation's eigenvalue.
-const TURNED: f64 = 1e-4;
 
 /// The branches that begin or cross at a special point, each with its legs: one where it begins, two where it crosses; none at a fold, a
 /// continuum or a torus, nor where the special point is unresolved.
@@ -211,15 +209,17 @@ fn orbits<'f>(
     settings: &Settings,
 ) -> Orbits<'f> {
     let size = nodes.iter().map(|node| norm(node)).fold(0.0, f64::max);
+    let units = Units::of(body);
     Orbits {
         bodies: Bodies::One(family),
-        flow: settings.flow,
+        flow: units.flow(settings.flow),
         classes: Classes::of(body, &[]),
         dim: body.dim(),
         parts: nodes.len(),
         mirrored,
         turns: body.symmetry().rotations && !mirrored,
-        size: if size > 1e-6 { size } else { 1.0 },
+        size: units.size(size),
+        length: units.length,
         widths: vec![settings.width()],
     }
 }
@@ -234,8 +234,7 @@ fn unknowns(problem: &Orbits<'_>, nodes: &[Vec<f64>], (time, angle, parameter): 
     x
 }
 
-/// The orbits that begin at a Hopf bifurcation. Where the oscillation swings a shape from one side of its mirror axis to the other,
-/// half the period brings its mirror image; where it breaks rotations of the shape, a part of the period brings it turned.
+/// The orbits that begin at a Hopf bifurcation, over the part of the period after which they are back but for a rotation or the mirror.
 fn begin<'f>(
     family: &'f dyn Family,
     (point, start, frequency): (&Point, &RelativeEquilibrium, f64),
@@ -245,16 +244,9 @@ fn begin<'f>(
     let parameter = point.parameter;
     let body = family.at(parameter)?;
     let body = body.as_ref();
-    let (mut re, mut im) = critical_pair(body, &start.shape, frequency).ok_or_else(|| nothing(parameter))?;
-    let mut shape = start.shape.clone();
-    let mirrored = is_odd(body, &shape, &re);
-    if let (true, Some(axis)) = (mirrored, Classes::of(body, &[&shape]).axis) {
-        for vector in [&mut shape, &mut re, &mut im] {
-            body.rotate(-0.5 * axis, vector);
-        }
-    }
-    let (part, turned) =
-        if mirrored { (0.5, 0.0) } else { turned_part(body, &start.shape, (&re, &im)).unwrap_or((1.0, 0.0)) };
+    let oscillation =
+        Oscillation::of(body, &start.shape, frequency).ok_or_else(|| nothing(parameter))?.upright(body);
+    let Oscillation { shape, re, im, mirrored, part, turned } = oscillation;
     let time = TAU / frequency * part;
     let (mut nodes, mut swings) = (Vec::new(), Vec::new());
     for i in 0..NODES {
@@ -274,33 +266,4 @@ fn begin<'f>(
     direction.resize(x.len(), 0.0);
     let direction = scaled(direction, &problem.weights(&x)).ok_or_else(|| nothing(parameter))?;
     Ok(Branch::orbits(symmetric(follow(problem, &Begin::at(point, &x, &direction), settings, watch)?), watch))
-}
-
-/// The least part of the period after which an oscillation `Re(q e^(i w t))` about a shape with `n` rotations is back but for one of them, and its angle:
-/// `R(2 pi / n) q = e^(i phi) q`, so that the rotation number `k` is a shift of time by `k phi / w`. `None` where the oscillation keeps the rotations.
-fn turned_part(body: &dyn Equivariant, shape: &[f64], (re, im): (&[f64], &[f64])) -> Option<(f64, f64)> {
-    let classes = Classes::of(body, &[shape]);
-    if classes.folds < 2 || classes.circle || !body.symmetry().rotations {
-        return None;
-    }
-    let angle = TAU / classes.folds as f64;
-    let (mut re_turned, mut im_turned) = (re.to_vec(), im.to_vec());
-    body.rotate(angle, &mut re_turned);
-    body.rotate(angle, &mut im_turned);
-    let size = dot(re, re) + dot(im, im);
-    let cos = (dot(re, &re_turned) + dot(im, &im_turned)) / size;
-    let sin = (dot(re, &im_turned) - dot(im, &re_turned)) / size;
-    if (libm::hypot(cos, sin) - 1.0).abs() > TURNED {
-        return None; // several pairs are critical
-    }
-    let shift = (sin.atan2(cos) / angle).round().rem_euclid(classes.folds as f64) as usize; // phi in units of the angle
-    let parts = (1..classes.folds).map(|k| (k * shift % classes.folds, k)).filter(|part| part.0 > 0);
-    parts.min().map(|(part, k)| (part as f64 / classes.folds as f64, k as f64 * angle))
-}
-
-/// Whether a shape has a mirror axis and the deviation is odd under it.
-fn is_odd(body: &dyn Equivariant, shape: &[f64], deviation: &[f64]) -> bool {
-    let classes = Classes::of(body, &[shape]);
-    let even = |basis: &Vec<Vec<f64>>| basis.iter().map(|v| dot(v, deviation).abs()).fold(0.0, f64::max);
-    classes.axis.is_some() && even(&classes.bases[0]) < 1e-6 * norm(deviation)
 }

@@ -16,14 +16,14 @@ impl<'n> Variation<'n> {
         Self { tangent: Tangent::new(body, body.dim() + neighbours.sides.len()), neighbours }
     }
 
-    /// The state at the start of a part: the shape, the unit vectors and 0.
+    /// The state at the start of a part: the shape, the unit vectors in the unit of shapes, and 0: errors of all of them are controlled alike.
     pub(super) fn start(&self, shape: &[f64], out: &mut Vec<f64>) {
         let dim = shape.len();
         out.clear();
         out.resize(dim * (dim + 1 + self.neighbours.sides.len()), 0.0);
         out[..dim].copy_from_slice(shape);
         for i in 0..dim {
-            out[dim * (1 + i) + i] = 1.0;
+            out[dim * (1 + i) + i] = self.neighbours.length;
         }
     }
 

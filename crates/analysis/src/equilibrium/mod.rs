@@ -133,7 +133,7 @@ pub fn neutral_direction<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> Ve
     let mut spin = vec![0.0; shape.len()];
     body.spin(shape, &mut spin);
     let size = norm(&spin);
-    if size <= 1e-10 || size <= 1e-12 * norm(shape) {
+    if size <= 1e-12 * norm(shape) {
         return Vec::new();
     }
     spin.iter_mut().for_each(|x| *x /= size);

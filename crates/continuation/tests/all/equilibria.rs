@@ -111,7 +111,9 @@ fn the_first_lyapunov_coefficient_of_normal_forms_is_exact() {
         let family = move |p: f64| -> Body { Ok(Box::new(Driven { p, c, d })) };
         let (points, _) = branch(&family, -0.5, &[0.0, 0.0, 0.0], &Settings::over(-0.5, 0.5));
         let point = only(&points);
-        let Some(Special::Hopf(Hopf { frequency, first_lyapunov })) = point.special else { unreachable!() };
+        let Some(Special::Hopf(Hopf { frequency, first_lyapunov, .. })) = point.special else {
+            unreachable!()
+        };
         near(point.parameter, 0.0, 1e-9);
         near(frequency, 3.0, 1e-9);
         near(first_lyapunov.coefficient().unwrap().value, 2.0 * (c + d) / 3.0, 1e-9);

@@ -1,0 +1,95 @@
+//! The units that equations have of themselves.
+
+use motiform_analysis::equilibrium::balances;
+use motiform_analysis::linear::norm;
+use motiform_analysis::periodic::Flow;
+use motiform_dynamics::{Equivariant, StepControl, VectorField};
+
+/// Rays along which sizes are looked for.
+const RAYS: usize = 2;
+
+/// A shape of no more than this part of the unit is no size.
+const NOTHING: f64 = 1e-6;
+
+/// What bounds and steps count in where the motion itself has no size: at rest, and for turning rates.
+///
+/// Each is a power of 1000, as prefixes of units are: equations of ordinary size have the units 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Units {
+    /// The size of shapes at which terms of the equations balance.
+    pub(super) length: f64,
+    /// The rates at which shapes of that size change, as parts of them.
+    pub(super) rate: f64,
+}
+
+impl Units {
+    /// The units of a field: along rays on which modes decay with the third power of their number, the median of the sizes at which terms balance, and the rate there.
+    pub(super) fn of(body: &dyn Equivariant) -> Self {
+        let rays = rays(body);
+        let sizes = balances(body, &rays);
+        let length = sizes.get(sizes.len() / 2).copied().unwrap_or(1.0);
+        let rate = rays.iter().map(|ray| rate(body, ray, length)).fold(0.0, f64::max);
+        Self { length: prefix(length), rate: prefix(rate) }
+    }
+
+    /// A flow whose absolute tolerance is that of shapes of the unit's size.
+    pub(super) fn flow(self, flow: Flow) -> Flow {
+        let control = match flow.control {
+            StepControl::Adaptive { rtol, atol } => StepControl::Adaptive { rtol, atol: atol * self.length },
+            fixed => fixed,
+        };
+        Flow { control, ..flow }
+    }
+
+    /// The size of a shape, or that of the equations for one that is as good as nothing.
+    pub(super) fn size(self, shape: f64) -> f64 {
+        if shape > NOTHING * self.length { shape } else { self.length }
+    }
+}
+
+/// The power of 1000 closest to a number; 1 for what is none.
+pub(super) fn prefix(x: f64) -> f64 {
+    if x > 0.0 && x.is_finite() { libm::pow(1000.0, (libm::log10(x) / 3.0).round()) } else { 1.0 }
+}
+
+/// Directions of length 1 in general position.
+fn rays(body: &dyn Equivariant) -> Vec<Vec<f64>> {
+    let dim = body.dim();
+    let (mut unit, mut spin) = (vec![0.0; dim], vec![0.0; dim]);
+    let mut part = |i: usize, ray: usize| {
+        unit[i] = 1.0;
+        body.spin(&unit, &mut spin);
+        unit[i] = 0.0;
+        let number = 1.0 + norm(&spin);
+        libm::cos((1.0 + (i + ray * dim) as f64) * 2.4) / (number * number * number) // no two of these parts are alike
+    };
+    let ray = |ray: usize| {
+        let mut direction: Vec<f64> = (0..dim).map(|i| part(i, ray)).collect();
+        let length = norm(&direction);
+        direction.iter_mut().for_each(|x| *x /= length);
+        direction
+    };
+    (0..RAYS).map(ray).collect()
+}
+
+/// `sum_i |f_i w_i| / sum_i t w_i^2` at the shape `t w`.
+fn rate(body: &dyn Equivariant, ray: &[f64], t: f64) -> f64 {
+    let shape: Vec<f64> = ray.iter().map(|w| t * w).collect();
+    let mut rate = vec![0.0; shape.len()];
+    VectorField::<f64>::eval(body, 0.0, &shape, &mut rate);
+    rate.iter().zip(ray).map(|(f, w)| (f * w).abs()).sum::<f64>() / t
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_closest_power_of_1000() {
+        for (x, expected) in
+            [(1.0, 1.0), (31.0, 1.0), (32.0, 1e3), (0.04, 1.0), (0.03, 1e-3), (1e6, 1e6), (0.0, 1.0)]
+        {
+            assert_eq!(prefix(x), expected, "{x}");
+        }
+    }
+}
