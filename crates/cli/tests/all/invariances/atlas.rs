@@ -29,10 +29,10 @@ fn the_atlas_of_the_cell_is_the_same_from_everywhere() {
     assert_eq!(lengths.len(), expected.len(), "{first:?}");
     assert!(lengths.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{first:?}");
     let others = [
-        "--set length=12.6 --from circular --along length=6:15",
+        "--set length=12.6 --motion circular --along length=6:15",
         "--set length=14.95 --seed 3 --along length=6:15 --branch-step 0.01",
         "--set length=6.1 --along length=5.9:15.3 --branch-step 0.035",
-        "--set length=9 --from straight --along length=6:15.1 --first-step 0.002 --seed 5",
+        "--set length=9 --motion straight --along length=6:15.1 --first-step 0.002 --seed 5",
     ];
     for arguments in others.into_iter().step_by(if super::all() { 1 } else { 3 }) {
         let other = atlas(arguments);
