@@ -39,7 +39,7 @@ fn a_short_run_has_too_few_events_and_says_so() {
 fn bad_input_names_the_remedy() {
     let folder = Folder::new();
     for (words, told) in [
-        ("lifetimes tensor --preset fig4", "--along"),
+        ("lifetimes tensor --preset fig4", "--axis"),
         ("lifetimes tensor --preset fig4 --axis kappa9=0.1:0.2:3", "kappa9"),
         ("lifetimes tensor --preset fig4 --axis kappa2=0.1:0.2", "NAME=LOW:HIGH:COUNT"),
         ("lifetimes tensor --preset fig4 --axis kappa2=0.1 --until 0", "give a model time above 0"),
