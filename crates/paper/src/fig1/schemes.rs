@@ -29,18 +29,20 @@ struct Seen {
 pub(super) fn claim_of(context: &Context<'_>) -> Result<Claim, Error> {
     let steps = [1e-3, 1e-4];
     let places = &PLACES[..context.choose(10, 5)];
-    let (mut agree, mut off, mut said) = (0, [0.0, 0.0], Vec::new());
-    for &(kappa2, gamma) in places {
+    let (mut agree, mut all, mut off, mut said) = (0, 0, [0.0, 0.0], Vec::new());
+    for (place, &(kappa2, gamma)) in places.iter().enumerate() {
+        // a period of small steps, with tangent vectors, takes long
+        let both = place < context.choose(10, 3);
         let reference = seen(context, kappa2, gamma, None)?;
         let expected = Reduced::PAPER.expected(kappa2, gamma);
-        for (step, off) in steps.into_iter().zip(&mut off) {
+        for (step, off) in steps.into_iter().zip(&mut off).take(if both { 2 } else { 1 }) {
+            all += 1;
             let euler = seen(context, kappa2, gamma, Some(step))?;
             agree += usize::from(euler.regime == reference.regime && expected.allows(euler.regime.name()));
             *off = f64::max(*off, apart(&euler, &reference));
         }
         said.push(format!("{} at ({kappa2}, {gamma})", reference.regime));
     }
-    let all = steps.len() * places.len();
     let finds = format!(
         "{agree} of {all} Euler runs show the motion of dop853: {}; the speeds (mean, least, largest) differ by at most {:.1e} of \
          the speed with Δ*t* = 10^{{-3}} and {:.1e} with 10^{{-4}}",
@@ -50,7 +52,7 @@ pub(super) fn claim_of(context: &Context<'_>) -> Result<Claim, Error> {
     );
     let how = "the same initial state, named by the classifier where Euler's scheme with steps 10^{-3} and 10^{-4} takes it, and where dop853 \
                with relative tolerance 10^{-10} does: the same motion, one that the formulas give; speeds within 1 % but for the rectangular \
-               motion, whose rests depend on round-off";
+               motion, whose rests depend on round-off (quick: the smaller step at steady motions only)";
     let says = "The simple Euler scheme has been employed with the time increment Δ*t* = 10^{-3}. We have checked the numerical \
                 accuracy by using Δ*t* = 10^{-4}.";
     Ok(claim(&[88, 89], says, finds, how, agree == all && off.iter().all(|&off| off < 0.01)))
