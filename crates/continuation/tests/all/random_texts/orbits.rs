@@ -17,6 +17,9 @@ const PARTS: usize = 3;
 /// Largest multiplier up to which single shooting is trusted, and the longest time.
 const LIMITS: [f64; 2] = [1e4, 60.0];
 
+/// Part by which the period of the first orbit differs from that at its Hopf bifurcation; one that is over a rotation's part of it differs by a factor.
+const BEGINS: f64 = 0.25;
+
 /// A special point: its kind and its parameter.
 type Event = (&'static str, f64);
 
@@ -205,6 +208,15 @@ pub(super) fn all(seed: u64, text: &Text, most: usize) -> Tally {
                 text.modes.len(),
                 point.parameter
             );
+            if let (Some(Special::Hopf(hopf)), Some(first)) = (point.special, points.first()) {
+                let period = first.motion.orbit().map_or(f64::NAN, motiform_analysis::PeriodicOrbit::period);
+                let off = (period / hopf.period() - 1.0).abs();
+                assert!(
+                    off < BEGINS,
+                    "{head}: the orbits begin with the period {period}, not {}",
+                    hopf.period()
+                );
+            }
             for complaint in &mut tally.complaints {
                 *complaint = format!("{head}: {complaint}; ends {:?}", branch.end());
                 eprintln!("{complaint}");
