@@ -249,7 +249,7 @@ mod tests {
 
     #[test]
     fn edges_between_the_same_motions_are_pieces_by_place() {
-        let grid = grid(&["ccss", "ccss", "cxss", "cccc"]);
+        let grid = grid(&["ccss", "ccss", "ccss", "cccx"]);
         let labels = grid.labels();
         let all = edges(&grid, &labels);
         let found = pieces(&grid, &labels, &all);

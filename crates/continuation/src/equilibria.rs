@@ -139,6 +139,11 @@ impl Problem for Equilibria<'_> {
         TIGHT * sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
     }
 
+    fn unclear(&self, _levels: &[Vec<Level>], tolerance: f64) -> f64 {
+        // slow rates change by the unit of rates over the size of a shape; fast modes, whose rates are millions of it, have no part in them
+        tolerance.max(TIGHT) * self.units.rate
+    }
+
     fn classify(&self, x: &[f64], critical: Level, class: usize) -> Special {
         let Ok(local) = self.local(x, &()) else { return Special::BranchPoint };
         if critical.angle != 0.0 {

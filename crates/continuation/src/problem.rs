@@ -1,5 +1,6 @@
 //! The equations of a branch, as its tracer sees them.
 
+use super::correct::TIGHT;
 use super::homoclinic::Saddle;
 use super::levels::Level;
 use super::normal_form::{NormalForm, Order};
@@ -75,6 +76,11 @@ pub(super) trait Problem: Equations {
 
     /// The error of the levels that are closest to 0.
     fn noise(&self, levels: &[Vec<Level>]) -> f64;
+
+    /// Below this the growth of a level is within the error of a solution that is known to `tolerance`.
+    fn unclear(&self, levels: &[Vec<Level>], tolerance: f64) -> f64 {
+        self.noise(levels) * (tolerance / TIGHT).max(1.0)
+    }
 
     /// What happens where a level of class `class` vanishes, and the branch does not turn back.
     fn classify(&self, x: &[f64], critical: Level, class: usize) -> Special;

@@ -1,6 +1,6 @@
 //! Steps along a branch.
 
-use super::correct::{TIGHT, correct, normal, product};
+use super::correct::{correct, normal, product};
 use super::levels::Level;
 use super::place::{Before, Place, place};
 use super::point::{End, Obstruction};
@@ -84,7 +84,7 @@ impl<P: Problem> Tracer<P> {
     /// powers of the distance, and have the same signs beyond.)
     fn keep_unclear_signs(&self, new: &mut Place<P::Local>) {
         // levels are those of the last but one solution of Newton's method
-        let noise = self.problem.noise(&new.levels) * (self.settings.tolerance / TIGHT).max(1.0);
+        let noise = self.problem.unclear(&new.levels, self.settings.tolerance);
         for (levels, old) in new.levels.iter_mut().zip(&self.place.levels) {
             if levels.len() == old.len() {
                 let unclear = levels.iter_mut().zip(old).filter(|(level, _)| level.growth.abs() <= noise);

@@ -37,7 +37,7 @@ const APART: f64 = 2.0;
 impl Verdict {
     /// This verdict with its resolution: what Newton's method finds from `shape` on this motion, given in the representation of `finer`, a
     /// model of the same body in which `parameter` has this value. Undetermined where it is another motion there, or none. Chaos and tori are run on there for
-    /// a while ([`Verdict::averaged`]).
+    /// a while.
     ///
     /// # Errors
     /// What the numerics refuse.

@@ -1,6 +1,6 @@
 //! `motiform atlas`: regions, and the bifurcations that bound them.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
 use crate::common;
 
