@@ -74,8 +74,14 @@ def read_masks(
     frames (``mask007.tif``). In a folder, ``res_track.txt`` or ``man_track.txt`` of the Cell Tracking Challenge says which cells
     come from which. The outline of a cell is the contour at half level around its largest part; y points down.
     """
-    units = {"time_unit": time_unit, "length_unit": length_unit}
-    return read(path, interval=interval, pixel_size=pixel_size, format="masks", **units)
+    return read(
+        path,
+        interval=interval,
+        pixel_size=pixel_size,
+        time_unit=time_unit,
+        length_unit=length_unit,
+        format="masks",
+    )
 
 
 def from_arrays(
