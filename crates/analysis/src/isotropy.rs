@@ -18,6 +18,10 @@ pub struct Isotropy {
 }
 
 impl Isotropy {
+    /// The part of its size up to which a shape that Newton's method found, or one of an orbit that it found, counts as equal to its image. Where the
+    /// error of the shape is known, that error decides instead ([`SteadyMotion`](crate::SteadyMotion)).
+    pub const SAME: f64 = 1e-6;
+
     /// The isotropy of `shape`, where an image counts as equal up to `tolerance` of the shape's size.
     ///
     /// # Checked by  tests/all/isotropy.rs: pure modes, bodies with an axis in any direction, the circle, general shapes

@@ -250,11 +250,8 @@ fn nothing(what: &'static str, leg: &Leg) -> Refused {
 /// The same motion turned so that its mirror axis, if it has one, is that of the plane.
 fn upright(body: &dyn Equivariant, start: &RelativeEquilibrium) -> RelativeEquilibrium {
     let mut turned = start.clone();
-    if let Some(axis) = Isotropy::of(body, &start.shape, SYMMETRIC).mirror {
+    if let Some(axis) = Isotropy::of(body, &start.shape, Isotropy::SAME).mirror {
         body.rotate(-0.5 * axis, &mut turned.shape);
     }
     turned
 }
-
-/// A shape that differs from its image by less than this part of its size is symmetric.
-const SYMMETRIC: f64 = 1e-8;

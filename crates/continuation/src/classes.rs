@@ -4,10 +4,7 @@ use motiform_analysis::linear::{add, apply, basis, complement, dot, norm};
 use motiform_analysis::{Isotropy, mean_over_rotations};
 use motiform_dynamics::Equivariant;
 
-/// A shape counts as equal to its image up to this part of its size; turning points of branches are located far closer.
-pub(super) const SAME: f64 = 1e-6;
-
-/// The same at a turning point, which Newton's method places less well across the branch than along it.
+/// The part of its size up to which a shape counts as equal to its image at a turning point, which Newton's method places less well across the branch than along it.
 pub(super) const GAINED: f64 = 1e-4;
 
 /// What all shapes of a branch have in common.
@@ -26,7 +23,7 @@ pub(super) struct Classes {
 impl Classes {
     /// The symmetry of the shapes `nodes`: that of all of them.
     pub(super) fn of<B: Equivariant + ?Sized>(body: &B, nodes: &[&[f64]]) -> Self {
-        Self::within(body, nodes, SAME)
+        Self::within(body, nodes, Isotropy::SAME)
     }
 
     /// The same, with images that differ by up to the part `same` of a shape.

@@ -1,7 +1,7 @@
 //! Where and why a branch ends.
 
 use super::certificate::TestFunction;
-use super::classes::{self, GAINED};
+use super::classes::GAINED;
 use super::copies::same_motion;
 use super::homoclinic::Connection;
 use super::levels::CLEAR;
@@ -14,6 +14,7 @@ use super::problem::Problem;
 use super::special::Special;
 use super::tracer::Tracer;
 use super::units::prefix;
+use motiform_analysis::Isotropy;
 use motiform_analysis::linear::dot;
 use motiform_dynamics::Watch;
 
@@ -104,7 +105,7 @@ impl<P: Problem> Tracer<P> {
     pub(super) fn meets(&self, length: f64, changes: &mut Changes<P::Local>) -> Option<End> {
         let gains = |(place, (at, special)): (usize, &(Place<P::Local>, Special))| {
             // where the parameter does not turn back the place is found by itself, and as well as any other
-            let same = if turns(*special) { GAINED } else { classes::SAME };
+            let same = if turns(*special) { GAINED } else { Isotropy::SAME };
             self.problem.gains(&at.x, &at.local, same).map(|gained| (place, gained))
         };
         let mut all = changes.found.iter().enumerate().filter_map(gains);

@@ -50,6 +50,7 @@ pub(super) fn locate<P: Problem>(
         }
     }
     without_folds(&mut changes.found);
+    name_folds(problem, &mut changes.found);
     Ok(changes)
 }
 
@@ -172,6 +173,17 @@ fn without_folds<L>(found: &mut Vec<(Place<L>, Special)>) {
         let nearest = points.map(|one| one.0).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
         if let Some(nearest) = nearest {
             found.remove(nearest);
+        }
+    }
+}
+
+/// Where a level vanishes and the equations leave one direction only, no branches cross: that direction leaves the parameter as it is, and the branch
+/// turns back. (Along a canard the slope is smaller than its error over most of the branch: there the level shows the fold, and the sign of the slope
+/// may not.)
+fn name_folds<P: Problem>(problem: &P, found: &mut [(Place<P::Local>, Special)]) {
+    for (at, special) in found.iter_mut().filter(|one| one.1 == Special::BranchPoint) {
+        if second(problem, at).is_some_and(|(second, next)| second > NEARLY * next) {
+            *special = Special::Fold;
         }
     }
 }

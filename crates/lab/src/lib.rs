@@ -23,4 +23,5 @@ pub mod samples;
 pub mod scan;
 pub mod section;
 pub mod simulate;
+mod varying;
 pub mod verify;

@@ -74,7 +74,7 @@ impl RelativeEquilibrium {
         let mut shape = self.shape.clone();
         heard(&mut shape);
         let neutral = neutral_direction(body, &shape);
-        let isotropy = Isotropy::of(body, &shape, 1e-6);
+        let isotropy = Isotropy::of(body, &shape, Isotropy::SAME);
         let folds = isotropy.folds;
         let mean = |x: &[f64]| {
             let mut sum = vec![0.0; dim];

@@ -28,9 +28,6 @@ const TRIES: usize = 2;
 /// so every period up to a sixteenth of the look is found.
 const EFFORT: f64 = 0.25;
 
-/// A shape of a periodic orbit that differs from its image by less than this part of its size is symmetric.
-pub(super) const SYMMETRIC: f64 = 1e-6;
-
 /// Moments of a period at which the symmetry is looked at.
 const MOMENTS: usize = 8;
 
@@ -203,7 +200,7 @@ fn unmirrored<B: Equivariant + ?Sized>(
     settings: &Settings,
     watch: &dyn Watch,
 ) -> (PeriodicOrbit, Recurrence) {
-    let axis = Isotropy::of(body, &orbit.shape, SYMMETRIC).mirror;
+    let axis = Isotropy::of(body, &orbit.shape, Isotropy::SAME).mirror;
     let Some(axis) = axis.filter(|_| orbit.mirrored) else { return (orbit, recurrence) };
     // M u = R(-axis) u, so R(angle) M u = R(angle - axis) u
     let angle = wrap(orbit.angle - axis);
@@ -223,11 +220,11 @@ pub(super) fn symmetry_of<B: Equivariant + ?Sized>(
     watch: &dyn Watch,
 ) -> Result<Isotropy, motiform_dynamics::Error> {
     let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape)?;
-    let mut all = Isotropy::of(body, &orbit.shape, SYMMETRIC);
+    let mut all = Isotropy::of(body, &orbit.shape, Isotropy::SAME);
     for moment in 1..MOMENTS {
         let t = orbit.time * moment as f64 / MOMENTS as f64;
         drive(flow.as_mut(), &Request { watch, ..settings.request(t, body.dim()) }, &mut ())?;
-        let here = Isotropy::of(body, flow.state(), SYMMETRIC);
+        let here = Isotropy::of(body, flow.state(), Isotropy::SAME);
         all.mirror = all.mirror.filter(|_| here.mirror.is_some());
         all.circle &= here.circle;
         all.folds = if all.folds == here.folds { all.folds } else { 1 };

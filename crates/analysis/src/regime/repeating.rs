@@ -4,7 +4,6 @@ use super::course::Direction;
 use super::form::Form;
 use super::motion::Path;
 use super::period::Period;
-use super::recurrence::SYMMETRIC;
 use super::settings::Settings;
 use super::verdict::{Regime, Spread};
 use super::words::{NO_TURN, SAMPLES};
@@ -71,7 +70,7 @@ pub fn repeating<B: Equivariant + ?Sized>(
 
 /// The symmetry that every node has.
 fn symmetry<B: Equivariant + ?Sized>(body: &B, nodes: &[Vec<f64>]) -> Isotropy {
-    let all = nodes.iter().map(|node| Isotropy::of(body, node, SYMMETRIC));
+    let all = nodes.iter().map(|node| Isotropy::of(body, node, Isotropy::SAME));
     let common = |a: Isotropy, b: Isotropy| Isotropy {
         mirror: a.mirror.filter(|_| b.mirror.is_some()),
         circle: a.circle && b.circle,

@@ -2,14 +2,12 @@
 
 use super::body::Body;
 use super::words;
+use crate::varying::varies;
 use motiform_figures::palette::CATEGORIES;
 use motiform_figures::{Curve, Panel, SeriesFigure};
 
 /// An observable below this throughout is not drawn but mentioned.
 const NEGLIGIBLE: f64 = 1e-9;
-
-/// A measure that varies by less than this fraction of itself is steady.
-const STEADY: f64 = 1e-6;
 
 pub(super) fn figure(body: &Body<'_>) -> SeriesFigure {
     let mut notes = Vec::new();
@@ -47,11 +45,10 @@ pub(super) fn figure(body: &Body<'_>) -> SeriesFigure {
 fn measures(body: &Body<'_>, panels: &mut Vec<Panel>, notes: &mut Vec<String>) {
     for measure in body.model.measures() {
         let shown = &body.column(measure.name)[body.rows()];
-        let defined = shown.iter().filter(|x| !x.is_nan());
-        let (low, high) = defined.fold((f64::MAX, f64::MIN), |(low, high), &x| (low.min(x), high.max(x)));
-        if high - low > STEADY * high.abs().max(1e-6) {
+        let high = shown.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        if varies(shown.iter().copied(), 1.0) {
             panels.push(panel(body, measure.name, measure.symbol, 2 + panels.len()));
-        } else if low == 0.0 && high == 0.0 {
+        } else if shown.iter().all(|x| x.is_nan() || *x == 0.0) {
             notes.push(format!("The {} is 0 throughout.", measure.symbol));
         } else if high > 1e-9 {
             notes.push(format!("The {} stays at {}.", measure.symbol, words::number(high)));

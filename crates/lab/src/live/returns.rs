@@ -2,21 +2,18 @@
 
 use super::Record;
 use crate::recorder::Centre;
+use crate::varying::varies;
 use motiform_dynamics::Model;
 use motiform_dynamics::model::velocity;
 use motiform_study::study::ReturnMapSettings;
 use motiform_study::table::Table;
-
-/// Maxima are accepted if the speed varies by more than this fraction of its size; smaller variations are rounding errors.
-const VARIES: f64 = 1e-7;
 
 /// The maxima of the speed, in order: each is the vertex of the parabola through three samples, so its error is of order
 /// `dt^4`. None if the speed does not vary.
 #[must_use]
 pub fn maxima_of_speed(record: &Record) -> Vec<f64> {
     let speeds: Vec<f64> = record.rows().map(|row| row.read[0]).collect();
-    let (low, high) = speeds.iter().fold((f64::MAX, 0.0_f64), |(low, high), &v| (low.min(v), high.max(v)));
-    if speeds.is_empty() || high - low <= VARIES * high {
+    if !varies(speeds.iter().copied(), 0.0) {
         return Vec::new();
     }
     let vertex = |three: &[f64]| {

@@ -1,15 +1,12 @@
 //! Power spectra of a recorded motion.
 
 use super::{Record, Row};
+use crate::varying::varies;
 use motiform_analysis::welch;
 use motiform_dynamics::Model;
 
 /// Fewest samples that a spectrum is made of, and the longest segment.
 const SAMPLES: (usize, usize) = (256, 2048);
-
-/// A quantity that varies by less than this fraction of its size, or by less than that fraction of the largest one, is steady: its spectrum
-/// would be that of round-off, or of the rest of a decay.
-const VARIES: (f64, f64) = (1e-7, 1e-12);
 
 /// Power spectra of the speed and of the model's observables, except steady ones.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,14 +44,9 @@ pub fn spectra(record: &Record, model: &dyn Model, dt: f64) -> Spectra {
         let Ok(spectrum) = welch(&values, dt, segment) else { continue };
         all.segments = spectrum.segments;
         all.frequencies = spectrum.frequencies[1..].to_vec();
-        if varies(&values, largest) {
+        if varies(values, largest) {
             all.curves.push((name, symbol, spectrum.power[1..].to_vec()));
         }
     }
     all
-}
-
-fn varies(values: &[f64], largest: f64) -> bool {
-    let (low, high) = values.iter().fold((f64::MAX, f64::MIN), |(low, high), &x| (low.min(x), high.max(x)));
-    high - low > (VARIES.0 * high.abs().max(low.abs())).max(VARIES.1 * largest)
 }

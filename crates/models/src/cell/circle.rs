@@ -25,9 +25,9 @@ impl Circle {
     /// Points that resolve `exp(i theta)` for a boundary of `modes` modes, with waves up to `order`.
     pub(super) fn new(modes: usize, order: usize) -> Self {
         let points = (4 * modes).next_power_of_two().clamp(128, MAX_POINTS);
-        let wave = |row: usize, point: usize| {
-            libm::sincos(std::f64::consts::TAU * ((row * point) % points) as f64 / points as f64)
-        };
+        let turn: Vec<(f64, f64)> =
+            (0..points).map(|j| libm::sincos(std::f64::consts::TAU * j as f64 / points as f64)).collect();
+        let wave = |row: usize, point: usize| turn[(row * point) % points];
         let rows = (0..=order).flat_map(|row| (0..points).map(move |point| (row, point)));
         let (sines, cosines) = rows.map(|(row, point)| wave(row, point)).unzip();
         let across = |pick: fn((f64, f64)) -> f64| {

@@ -44,8 +44,8 @@ impl Cell {
         let area = 0.5 * self.parameters.length * curve.sum(|m, [x, y]| m * k * (x * x + y * y));
         let fine = curve.points(2 * self.circle.points());
         let centre = centroid(&fine);
-        let speed = |j: usize| curve.tangent(k, self.parameters.length * j as f64 / fine.len() as f64);
-        let length = (0..fine.len()).map(speed).sum::<f64>() * self.parameters.length / fine.len() as f64;
+        let speeds = curve.tangents(k, self.parameters.length, fine.len());
+        let length = speeds.sum::<f64>() * self.parameters.length / fine.len() as f64;
         let drawn: Vec<[f64; 2]> =
             curve.points(points).iter().map(|p| [p[0] - centre[0], p[1] - centre[1]]).collect();
         Ok(Boundary {
@@ -91,27 +91,52 @@ impl Curve {
 
     /// `points` points at equal arc length.
     fn points(&self, points: usize) -> Vec<[f64; 2]> {
-        (0..points).map(|j| self.at(TAU * j as f64 / points as f64, |_| 1.0)).collect()
+        self.at((0..points).map(|j| TAU * j as f64 / points as f64), |_| 1.0)
     }
 
-    /// `sum_m factor(m) X_m exp(i m angle)`.
-    fn at(&self, angle: f64, factor: impl Fn(f64) -> f64) -> [f64; 2] {
-        let (sin, cos) = libm::sincos(angle);
-        let (mut s, mut c) = libm::sincos(-angle * self.half as f64);
-        let mut sum = [0.0; 2];
-        for (i, x) in self.modes.iter().enumerate() {
+    /// `sum_m factor(m) X_m exp(i m angle)` at each of the angles. They advance together from mode to mode: a sum never waits for another one.
+    fn at(&self, angles: impl Iterator<Item = f64>, factor: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+        let mut waves: Vec<Wave> = angles.map(|angle| Wave::new(angle, self.half)).collect();
+        for (i, &[x, y]) in self.modes.iter().enumerate() {
             let f = factor(i as f64 - self.half as f64);
-            sum[0] += f * (x[0] * c - x[1] * s);
-            sum[1] += f * (x[0] * s + x[1] * c);
-            (s, c) = (s * cos + c * sin, c * cos - s * sin);
+            waves.iter_mut().for_each(|wave| wave.add(f, x, y));
         }
-        sum
+        waves.iter().map(|wave| wave.sum).collect()
     }
 
-    /// `|dX/ds|` at arc length `s`.
-    fn tangent(&self, k: f64, s: f64) -> f64 {
-        let [x, y] = self.at(k * s, |m| k * m);
-        libm::hypot(x, y)
+    /// `|dX/ds|` at `points` points at equal arc length.
+    fn tangents(&self, k: f64, length: f64, points: usize) -> impl Iterator<Item = f64> {
+        let angles = (0..points).map(|j| k * (length * j as f64 / points as f64));
+        self.at(angles, |m| k * m).into_iter().map(|[x, y]| libm::hypot(x, y))
+    }
+}
+
+/// The sum over modes at one angle, up to a mode.
+struct Wave {
+    /// `exp(i angle)`, real part first.
+    turn: [f64; 2],
+    /// `exp(i m angle)` of the next mode.
+    phase: [f64; 2],
+    sum: [f64; 2],
+}
+
+impl Wave {
+    /// Before the mode `-half`.
+    fn new(angle: f64, half: usize) -> Self {
+        let wave = |angle| {
+            let (sin, cos) = libm::sincos(angle);
+            [cos, sin]
+        };
+        Self { turn: wave(angle), phase: wave(-angle * half as f64), sum: [0.0; 2] }
+    }
+
+    /// Adds `f (x + i y) exp(i m angle)`, and goes on to the next mode.
+    #[inline(always)]
+    fn add(&mut self, f: f64, x: f64, y: f64) {
+        let ([cos, sin], [c, s]) = (self.turn, self.phase);
+        self.sum[0] += f * (x * c - y * s);
+        self.sum[1] += f * (x * s + y * c);
+        self.phase = [c * cos - s * sin, s * cos + c * sin];
     }
 }
 

@@ -190,3 +190,18 @@ fn lists_of_special_points_do_not_depend_on_ranges_steps_and_starts() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
+
+/// Along a canard the slope of the branch is smaller than its error: from this start its sign shows one of the two folds only, and a multiplier of 1 the
+/// other one.
+#[test]
+fn a_fold_of_a_canard_that_the_slope_does_not_show_is_a_fold() {
+    let folder = Folder::new();
+    texts(&folder);
+    let subject = SUBJECTS.iter().find(|subject| subject.along == "I").expect("FitzHugh and Nagumo");
+    let found = subject.list(&folder, &subject.command(9));
+    let kinds: Vec<&str> = found.iter().map(|one| one.kind.as_str()).collect();
+    assert_eq!(kinds, subject.kinds);
+    for (fold, place) in found.iter().zip([0.324_178_522_503, 1.425_821_477_496]) {
+        assert!((fold.place - place).abs() < 1e-9, "{fold:?}");
+    }
+}
