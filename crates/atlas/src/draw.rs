@@ -5,7 +5,7 @@ use crate::folder::AtlasFolder;
 use motiform_branching::curves::codimension_2;
 use motiform_branching::draw::{curve_mark, curve_stretches, marks_together};
 use motiform_figures::{Cell, CurveMap, MapEnd, PhaseDiagram};
-use motiform_lab::draw::{FigureFormat, Picture, add_with_numbers, symbol, words};
+use motiform_lab::draw::{FigureFormat, Picture, files, symbol, words};
 use motiform_study::Error;
 
 /// Draws `atlas`: as SVG and PNG, with its numbers as CSV.
@@ -13,9 +13,7 @@ use motiform_study::Error;
 /// # Errors
 /// An unknown model, or numbers that no axis can hold.
 pub fn draw_atlas(folder: &AtlasFolder, format: &FigureFormat) -> Result<Vec<Picture>, Error> {
-    let mut pictures = Vec::new();
-    add_with_numbers(&mut pictures, "atlas", &mut atlas_map(folder)?, format)?;
-    Ok(pictures)
+    files(vec![("atlas", Box::new(atlas_map(folder)?))], true, format)
 }
 
 /// The map.

@@ -107,7 +107,7 @@ impl CurveMap {
     /// Draws the figure for a width.
     ///
     /// # Errors   a range or a number that is not finite, or what a [`PhaseDiagram`] refuses
-    pub fn svg_in(&self, room: Room) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<Svg> {
         let points = self.curves.iter().flat_map(|curve| &curve.points).flatten();
         let places = self.marks.iter().map(|mark| mark.at).chain(self.ends.iter().map(|end| end.at));
         check_finite("value of a curve", points.copied().chain(places.flatten()))?;

@@ -81,7 +81,7 @@ impl PhaseDiagram {
     ///
     /// # Errors   no cell or no x, a number that is not finite, centres that do not increase, a cell at no centre or at
     /// that of an earlier one, or shares that do not add up to 1
-    pub fn svg_in(&self, room: Room) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<Svg> {
         check_finite("boundary line value", self.lines.iter().flat_map(|l| &l.points).flatten().copied())?;
         let strip = self.y.len() < 2;
         let cells = Cells::new(&self.x, if strip { &[] } else { &self.y }, &self.cells)?;
@@ -163,7 +163,7 @@ impl PhaseDiagram {
         let mut entries: Vec<_> = present.map(|(_, mark)| Entry::new(look.key(*mark), mark.name)).collect();
         if let (Some([one, other]), true) = (cells.first_pair(), look != Look::Strip) {
             let stripes = Mark::Stripes(look.ground(&REGIMES[one]), look.ground(&REGIMES[other]));
-            entries.push(Entry::new(stripes, "more than one motion, stripes by share"));
+            entries.push(Entry::new(stripes, "stripes: several motions"));
         }
         entries.extend(self.line_entries());
         entries

@@ -1,6 +1,6 @@
 //! The body along its path: the rows that are shown, and the size of the outlines.
 
-use motiform_dynamics::{Model, Outline};
+use motiform_dynamics::{Model, Outcome, Outline};
 use motiform_models::ModelInfo;
 use motiform_study::table::Table;
 use motiform_study::{Dataset, Error};
@@ -12,6 +12,8 @@ pub(super) struct Body<'d> {
     pub(super) info: &'static ModelInfo,
     pub(super) model: Box<dyn Model>,
     rows: Range<usize>,
+    /// Whether the last rows before a blow-up are left out.
+    cut: bool,
     /// Undeformed radius R0 (model length).
     pub(super) radius: f64,
     /// Ratio of the drawn size of an outline to its true size relative to the path.
@@ -20,6 +22,9 @@ pub(super) struct Body<'d> {
 
 /// Approximate size of an undeformed outline relative to the longer side of the path.
 const TARGET: f64 = 0.032;
+
+/// A shape this many times as large as usual leaves the scale of the figures of a run that blows up.
+const LARGE: f64 = 10.0;
 
 /// If R0 is chosen automatically, the deformation is at most about this fraction of the radius.
 const DEFORMATION: f64 = 0.45;
@@ -30,7 +35,10 @@ impl<'d> Body<'d> {
         let info = plan.info()?;
         let model = plan.body()?;
         let rows = window(&dataset.trajectory, plan.figure.from, plan.figure.to);
-        let mut body = Self { dataset, info, model, rows, radius: 1.0, scale: 1.0 };
+        let mut body = Self { dataset, info, model, rows, cut: false, radius: 1.0, scale: 1.0 };
+        if matches!(dataset.manifest.outcome.outcome, Outcome::Escaped { singular: true, .. }) {
+            body.leave_out_blow_up();
+        }
         body.radius = match body.model.radius() {
             Some(fixed) => fixed,
             None if plan.figure.radius > 0.0 => plan.figure.radius,
@@ -38,6 +46,23 @@ impl<'d> Body<'d> {
         };
         body.scale = if plan.figure.scale > 0.0 { plan.figure.scale } else { body.readable_scale(TARGET) };
         Ok(body)
+    }
+
+    /// Leaves out what comes after the shape is so large that nothing before would be seen beside it.
+    fn leave_out_blow_up(&mut self) {
+        let size = |row: usize| self.model.deformation(&self.shape(row));
+        let mut usual: Vec<f64> = self.rows().map(size).collect();
+        usual.sort_by(f64::total_cmp);
+        let Some(&median) = usual.get(usual.len() / 2) else { return };
+        let end = self.rows().find(|&row| size(row) > LARGE * median).unwrap_or(self.rows.end);
+        let end = end.max(self.rows.start + 2).min(self.rows.end);
+        self.cut = end < self.rows.end;
+        self.rows.end = end;
+    }
+
+    /// Whether the last rows before a blow-up are left out.
+    pub(super) fn cut(&self) -> bool {
+        self.cut
     }
 
     /// The rows that are shown.

@@ -14,7 +14,7 @@ const STEADY: f64 = 1e-6;
 pub(super) fn figure(body: &Body<'_>) -> SeriesFigure {
     let mut notes = Vec::new();
     let mut panels = vec![panel(body, "speed", "speed |***v***|", 0)];
-    let turning = panel(body, "turning_rate", "turning rate (rad/time)", 1);
+    let turning = panel(body, "turning_rate", "turning rate", 1);
     if turning.curves[0].values.iter().any(Option::is_none) {
         notes.push(if body.dataset.manifest.plan.computation.noise.is_some() {
             "The turning rate is undefined at rest, and where noise leaves the velocity no derivative."

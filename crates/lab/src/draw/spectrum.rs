@@ -30,7 +30,7 @@ pub(super) fn figure(body: &Body<'_>) -> Option<SpectrumFigure> {
     Some(SpectrumFigure {
         title: format!("{}: power spectrum", body.dataset.title()),
         caption: vec![words::parameters(body), method],
-        y_label: "power spectral density (length^2 × time)".to_owned(),
+        y_label: "power spectral density".to_owned(),
         frequencies: first.frequencies.clone(),
         curves: curves.collect(),
         ..SpectrumFigure::default()

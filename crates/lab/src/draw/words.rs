@@ -4,7 +4,7 @@ use super::body::Body;
 use motiform_dynamics::Outcome;
 use motiform_models::ModelInfo;
 use motiform_study::Ties;
-use motiform_study::plan::{Control, Named, NoiseSettings};
+use motiform_study::plan::{Named, NoiseSettings};
 use motiform_study::titles::capital;
 pub use motiform_study::titles::number;
 
@@ -30,14 +30,13 @@ pub fn named(info: &ModelInfo, values: &Named, varied: &[&str], ties: &Ties) -> 
         .collect();
     let given = set.len() + specs.iter().filter(|spec| varied.contains(&spec.name)).count();
     let others = if given < specs.len() { format!("; all other parameters{SPACE}0") } else { String::new() };
-    format!("{} model: {}{others}.", capital(info.name), set.join(", "))
+    format!("{} model, in model units: {}{others}.", capital(info.name), set.join(", "))
 }
 
-/// How it was computed, and how the run ended if it did not complete.
+/// What of a run is not seen: its noise, its transient, and how it ended if it did not complete.
 pub(super) fn method(body: &Body<'_>) -> String {
     let manifest = &body.dataset.manifest;
     let c = &manifest.plan.computation;
-    let (title, control) = (stepper(&c.stepper), control(c.control));
     let early = manifest.outcome.during.is_some();
     let transient = match c.transient {
         length if early => {
@@ -58,7 +57,7 @@ pub(super) fn method(body: &Body<'_>) -> String {
         other => format!(" The run ended early: {other}."),
     };
     let end = end.replace("*t** =", "*t*\\* =");
-    format!("Computed by {title}, {control}.{noise}{transient}{end}")
+    format!("{noise}{transient}{end}{}", before_blow_up(body)).trim_start().to_owned()
 }
 
 /// The noise, its amplitudes and seed.
@@ -77,21 +76,14 @@ fn noise(noise: NoiseSettings, velocities: usize, seed: u64) -> String {
     format!(" White noise of amplitude {of}, seed {seed}.")
 }
 
-/// The name of a stepper, without the kind of its control.
-#[must_use]
-pub fn stepper(name: &str) -> &str {
-    let title = motiform_dynamics::steppers::Method::find(name).map_or(name, |method| method.title());
-    [", fixed step", ", adaptive"].iter().find_map(|kind| title.find(kind)).map_or(title, |at| &title[..at])
-}
-
-/// `tolerances 10^-9 (relative) and 10^-12`, or the step.
-#[must_use]
-pub fn control(control: Control) -> String {
-    match control {
-        Control::Adaptive { rtol, atol } => {
-            format!("relative tolerance {}, absolute {}", number(rtol), number(atol))
-        }
-        Control::Fixed { step } => format!("step {}", number(step)),
+/// Where the figures of a run that blows up end.
+fn before_blow_up(body: &Body<'_>) -> String {
+    match body.cut() {
+        true => format!(
+            " Shown to *t*{SPACE}={SPACE}{}, before the shape leaves the scale.",
+            number(body.time(body.rows().end - 1))
+        ),
+        false => String::new(),
     }
 }
 
