@@ -2,6 +2,7 @@
 
 use crate::boundary::connection_words;
 use crate::folder::AtlasFolder;
+use crate::inset::insets;
 use motiform_branching::curves::codimension_2;
 use motiform_branching::draw::{curve_mark, curve_stretches, marks_together};
 use motiform_figures::{Cell, CurveMap, MapEnd, PhaseDiagram};
@@ -37,6 +38,7 @@ pub fn atlas_map(folder: &AtlasFolder) -> Result<CurveMap, Error> {
         y,
         under: Some(cells(folder)),
         named: true,
+        insets: insets(folder)?,
         curves: stretches.collect(),
         ends: ends.map(|end| MapEnd { label: connection_words(end.kind).to_owned(), at: end.at }).collect(),
         marks: marks_together(bounding.map(curve_mark), [x, y]),
@@ -68,7 +70,7 @@ fn caption(folder: &AtlasFolder) -> Result<Vec<String>, Error> {
     Ok(vec![
         words::named(plan.info()?, &c.parameters, &varied, &c.ties),
         format!(
-            "Motions of {} initial {} each ({}, seed {}) in {} of {} cells; the others lie between cells with the same motions. Stability limits: {curves} curves by pseudo-arclength continuation.",
+            "Motions of {} initial {} each ({}, seed {}) in {} of {} cells; the others lie between cells with the same motions. Stability limits: {curves} curves by pseudo-arclength continuation. Below the names of wide regions: paths of the motions, not to one scale.",
             c.samples,
             if c.samples == 1 { "state" } else { "states" },
             c.random.words(),

@@ -17,7 +17,7 @@ use super::svg::Svg;
 const WIDTH: f64 = 600.0;
 const HEIGHT: f64 = 360.0;
 /// How far unstable motions widen the axis, in ranges of what is seen.
-const BEYOND: f64 = 3.0;
+const BEYOND: f64 = 2.0;
 
 /// A part of a branch over which neither motion nor stability changes.
 #[derive(Debug, Clone, PartialEq)]
@@ -148,10 +148,7 @@ impl BranchDiagram {
         let all = self.places(false)?;
         let Some(seen) = self.places(true).filter(|seen| seen.span() > 0.0) else { return Some(all) };
         let far = BEYOND * seen.span();
-        let cut = |end: f64, near: f64| {
-            if (end - near).abs() > far { near + (end - near).signum() * seen.span() } else { end }
-        };
-        Some(Range { min: cut(all.min, seen.min), max: cut(all.max, seen.max) })
+        Some(Range { min: all.min.max(seen.min - far), max: all.max.min(seen.max + far) })
     }
 
     fn scale(&self) -> Result<Scale> {

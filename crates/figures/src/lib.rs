@@ -80,7 +80,7 @@ pub use line_style::LineStyle;
 pub use marks::{REGIMES, RegimeMark, regime_mark};
 pub use panels::Panels;
 pub use path::{OutlineStamp, PathFigure, PathPoint, SectionLine};
-pub use phase_diagram::{BoundaryLine, Cell, PhaseDiagram};
+pub use phase_diagram::{BoundaryLine, Cell, MapInset, PhaseDiagram};
 pub use place_map::{MapPlace, PlaceMap};
 pub use portable::{DEFAULT_SCALE, RASTER, pdf, png};
 pub use return_map::ReturnMapFigure;

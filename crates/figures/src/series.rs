@@ -76,12 +76,14 @@ impl SeriesFigure {
     pub fn svg_in(&self, room: Room) -> Result<Svg> {
         self.check()?;
         let margin = |rows: &[Row]| rows.iter().map(|row| row.axes.left_margin()).fold(0.0, f64::max);
+        // lower panels may have labels of more lines
+        let beside = |rows: &[Row]| margin(rows) + 16.0 + 2.0 * MARGIN;
         let own = self.rows([WIDTH, HEIGHT]);
-        let beside = margin(&own) + 16.0 + 2.0 * MARGIN;
-        let [width, height] = room.frame([WIDTH, HEIGHT], beside);
         let between: f64 = own.iter().skip(1).map(|row| row.legend.height() + GAP).sum();
-        let panel_height =
-            if room.height().is_some() { (height - between) / own.len() as f64 } else { height };
+        let share = |height: f64| room.height().map_or(height, |_| (height - between) / own.len() as f64);
+        let first = room.frame([WIDTH, HEIGHT], beside(&own));
+        let [width, height] = room.frame([WIDTH, HEIGHT], beside(&self.rows([first[0], share(first[1])])));
+        let panel_height = share(height);
         let rows = self.rows([width, panel_height]);
         let margin = margin(&rows);
         let (left, inner) = (MARGIN + margin, margin + width + 16.0);

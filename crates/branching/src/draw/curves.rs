@@ -43,6 +43,7 @@ pub fn curve_map(plan: &CurvePlan, found: &Curves, over: Option<&ScanFolder>) ->
         y,
         under: under.map(|found| found.1),
         named: false,
+        insets: Vec::new(),
         curves: in_order.flat_map(curve_stretches).collect(),
         ends: Vec::new(),
         marks: marks_together(found.curves.iter().flat_map(codimension_2).map(curve_mark), [x, y]),

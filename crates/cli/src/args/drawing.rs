@@ -25,6 +25,9 @@ pub(crate) struct DrawingOptions {
     /// Draw to this time
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) to: Option<f64>,
+    /// Axes in physical units: what a unit of length and one of time are, such as 20um,1min (docs/units.md)
+    #[arg(long, value_name = "LENGTH,TIME")]
+    pub(crate) units: Option<String>,
     /// Also write the animation in this format (needs ffmpeg); give it twice for both
     #[arg(long, value_name = "FORMAT", conflicts_with = "no_animation")]
     pub(crate) film: Vec<FilmFormat>,
@@ -64,6 +67,7 @@ impl DrawingOptions {
             ("--outlines", self.outlines.is_some()),
             ("--from", self.from.is_some()),
             ("--to", self.to.is_some()),
+            ("--units", self.units.is_some()),
             ("--film", !self.film.is_empty()),
         ];
         given.into_iter().find(|(_, given)| *given).map(|(name, _)| name)

@@ -202,6 +202,9 @@ pub(crate) fn apply(options: &DrawingOptions, settings: &mut FigureSettings) {
     settings.from = options.from.unwrap_or(settings.from);
     settings.to = options.to.unwrap_or(settings.to);
     settings.animation &= !options.no_animation;
+    if let Some(units) = &options.units {
+        settings.units.clone_from(units);
+    }
 }
 
 /// Says that a long run is not drawn from all of its rows.

@@ -6,9 +6,10 @@ use motiform_figures::palette::{BLUE, CATEGORIES, VERMILION};
 use motiform_figures::{
     BandCurve, BandFigure, BandPoint, BoundaryLine, BranchDiagram, BranchDots, BranchMark, BranchPart, Cell,
     Curve, CurveMap, CurveStyle, ErrorBarFigure, ErrorBarSeries, ExpectedLine, Figure, Glyph, Interval,
-    LineStyle, MapCurve, MapEnd, MapMark, MapPlace, Measured, OutlineStamp, Panel, Panels, PathFigure,
-    PathPoint, PhaseDiagram, PlaceMap, ReturnMapFigure, SectionLine, SeriesFigure, SpaceTimeFigure,
-    SpectrumCurve, SpectrumFigure, SurvivalCurve, SurvivalFigure, SurvivalStep, TrackPanel, TrackPanels,
+    LineStyle, MapCurve, MapEnd, MapInset, MapMark, MapPlace, Measured, OutlineStamp, Panel, Panels,
+    PathFigure, PathPoint, PhaseDiagram, PlaceMap, ReturnMapFigure, SectionLine, SeriesFigure,
+    SpaceTimeFigure, SpectrumCurve, SpectrumFigure, SurvivalCurve, SurvivalFigure, SurvivalStep, TrackPanel,
+    TrackPanels,
 };
 
 /// A figure and its name.
@@ -268,6 +269,9 @@ fn curves(under: Option<PhaseDiagram>, named: bool) -> CurveMap {
         bounds,
         points: axis(-1.5, 1.5, 90).into_iter().map(|x| [x, f(x)]).collect(),
     };
+    let shown =
+        under.as_ref().map_or([0.0, 0.0], |under| [under.x[under.x.len() - 3], under.y[under.y.len() / 2]]);
+    let zigzag = axis(0.0, 12.0, 80).into_iter().map(|t| [t, 2.0 * t.sin()]).collect();
     CurveMap {
         title: "Curves of bifurcations".into(),
         caption: words(),
@@ -277,6 +281,7 @@ fn curves(under: Option<PhaseDiagram>, named: bool) -> CurveMap {
         y: [0.0, 1.0],
         under,
         named,
+        insets: vec![MapInset { cell: shown, paths: vec![zigzag] }],
         curves: vec![
             curve("Hopf, supercritical", CurveStyle::Line(LineStyle::Solid), true, |x| 0.5 + 0.3 * x),
             curve("Hopf, subcritical", CurveStyle::Line(LineStyle::LongDashed), true, |x| 0.7 - 0.2 * x * x),

@@ -1,6 +1,7 @@
 //! Phase diagrams: regimes over one or two parameters.
 
 mod cells;
+mod inset;
 mod labels;
 mod mosaic;
 mod names;
@@ -21,6 +22,7 @@ use super::palette::{Colour, WHITE};
 use super::room::Room;
 use super::svg::Svg;
 use cells::Cells;
+pub use inset::MapInset;
 
 /// Most cells a side that get markers.
 const TILES: usize = 40;
@@ -125,10 +127,10 @@ impl PhaseDiagram {
         drawn
     }
 
-    /// Writes the names of wide regions into the frame of another figure; the places that they take.
-    pub(crate) fn draw_names(&self, svg: &mut Svg, scale: &Scale) -> Result<Vec<Rect>> {
+    /// Writes the names of wide regions into the frame of another figure, with their paths; the places that they take.
+    pub(crate) fn draw_names(&self, svg: &mut Svg, scale: &Scale, insets: &[MapInset]) -> Result<Vec<Rect>> {
         let cells = Cells::new(&self.x, &self.y, &self.cells)?;
-        Ok(names::draw(svg, scale, &cells))
+        Ok(names::draw(svg, scale, &cells, insets))
     }
 
     /// What the cells cover, across and upwards.
