@@ -159,11 +159,14 @@ pub(super) mod tests {
         seen(colour, [[1.256, -0.077, -0.179], [-0.078, 0.931, 0.148], [0.005, 0.691, 0.304]])
     }
 
+    /// What becomes of a colour in an eye.
+    type Sight = fn(Colour) -> [f64; 3];
+
     /// How far apart two colours are in sRGB for each kind of sight, with the least distance that it needs: normal, deuteranope, protanope,
     /// and tritanope, one in ten thousand, for whom blue and bluish green of Okabe and Ito are close.
     pub(crate) fn distances(a: Colour, b: Colour) -> [(f64, f64); 4] {
         let plain = |c: Colour| [c.0, c.1, c.2].map(f64::from);
-        let kinds: [(fn(Colour) -> [f64; 3], f64); 4] =
+        let kinds: [(Sight, f64); 4] =
             [(plain, 48.0), (deuteranope, 48.0), (protanope, 48.0), (tritanope, 30.0)];
         kinds.map(|(seen, least)| {
             let [a, b] = [seen(a), seen(b)].map(|c| c.map(|part| part.clamp(0.0, 255.0)));
