@@ -2,10 +2,11 @@
 
 use crate::boundary::connection_words;
 use crate::folder::AtlasFolder;
+use crate::inset::insets;
 use motiform_branching::curves::codimension_2;
 use motiform_branching::draw::{curve_mark, curve_stretches, marks_together};
 use motiform_figures::{Cell, CurveMap, MapEnd, PhaseDiagram};
-use motiform_lab::draw::{FigureFormat, Picture, add_with_numbers, symbol, words};
+use motiform_lab::draw::{FigureFormat, Picture, files, symbol, words};
 use motiform_study::Error;
 
 /// Draws `atlas`: as SVG and PNG, with its numbers as CSV.
@@ -13,9 +14,7 @@ use motiform_study::Error;
 /// # Errors
 /// An unknown model, or numbers that no axis can hold.
 pub fn draw_atlas(folder: &AtlasFolder, format: &FigureFormat) -> Result<Vec<Picture>, Error> {
-    let mut pictures = Vec::new();
-    add_with_numbers(&mut pictures, "atlas", &mut atlas_map(folder)?, format)?;
-    Ok(pictures)
+    files(vec![("atlas", Box::new(atlas_map(folder)?))], true, format)
 }
 
 /// The map.
@@ -39,6 +38,7 @@ pub fn atlas_map(folder: &AtlasFolder) -> Result<CurveMap, Error> {
         y,
         under: Some(cells(folder)),
         named: true,
+        insets: insets(folder)?,
         curves: stretches.collect(),
         ends: ends.map(|end| MapEnd { label: connection_words(end.kind).to_owned(), at: end.at }).collect(),
         marks: marks_together(bounding.map(curve_mark), [x, y]),
@@ -70,7 +70,7 @@ fn caption(folder: &AtlasFolder) -> Result<Vec<String>, Error> {
     Ok(vec![
         words::named(plan.info()?, &c.parameters, &varied, &c.ties),
         format!(
-            "Motions of {} initial {} each ({}, seed {}) in {} of {} cells; the others lie between cells with the same motions. Stability limits: {curves} curves by pseudo-arclength continuation.",
+            "Motions of {} initial {} each ({}, seed {}) in {} of {} cells; the others lie between cells with the same motions. Stability limits: {curves} curves by pseudo-arclength continuation. Below the names of wide regions: paths of the motions, not to one scale.",
             c.samples,
             if c.samples == 1 { "state" } else { "states" },
             c.random.words(),

@@ -11,6 +11,7 @@ mod boundary;
 mod draw;
 mod folder;
 mod grid;
+mod inset;
 mod line;
 mod page;
 mod plan;

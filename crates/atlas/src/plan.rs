@@ -134,6 +134,26 @@ impl AtlasPlan {
         [0, 1].map(|side| along(&self.computation.scan.axes[side]))
     }
 
+    /// A run from an initial state of a cell.
+    ///
+    /// # Errors
+    /// Parameters that the model refuses.
+    pub(crate) fn start(
+        &self,
+        scan: &ScanPlan,
+        (cell, sample): (usize, usize),
+    ) -> Result<Computation, Error> {
+        let model = scan.model_of(cell)?;
+        let mut state = vec![0.0; model.coordinates().len()];
+        model.decode(&scan.start(cell, sample, model.as_ref())?, &mut state);
+        let names = self.info()?.parameters().iter().map(|spec| spec.name.to_owned());
+        let parameters = Named(names.zip(scan.parameters_of(cell)?).collect());
+        let coordinates = model.coordinates().iter().map(|one| one.name.to_owned()).zip(state);
+        let place = ["x", "y"].map(|name| (name.to_owned(), 0.0));
+        let initial = Named(coordinates.chain(place).collect());
+        Ok(Computation { parameters, initial, ..self.computation.start.clone() })
+    }
+
     /// The branches along a side of the plane that begin with the motion of an initial state of a cell, and the curves through their special points.
     ///
     /// # Errors
@@ -145,16 +165,7 @@ impl AtlasPlan {
         side: usize,
     ) -> Result<CurvePlan, Error> {
         let c = &self.computation;
-        let info = self.info()?;
-        let model = scan.model_of(cell)?;
-        let mut state = vec![0.0; model.coordinates().len()];
-        model.decode(&scan.start(cell, sample, model.as_ref())?, &mut state);
-        let names = info.parameters().iter().map(|spec| spec.name.to_owned());
-        let parameters = Named(names.zip(scan.parameters_of(cell)?).collect());
-        let coordinates = model.coordinates().iter().map(|one| one.name.to_owned()).zip(state);
-        let place = ["x", "y"].map(|name| (name.to_owned(), 0.0));
-        let start =
-            Computation { parameters, initial: Named(coordinates.chain(place).collect()), ..c.start.clone() };
+        let start = self.start(scan, (cell, sample))?;
         let branches = BranchComputation {
             format: BRANCH_FORMAT,
             along: window(&c.scan.axes[side], scan.axis_values(cell)[side]),

@@ -29,6 +29,8 @@ pub struct Observable {
     pub symbol: &'static str,
     /// Its meaning, with its formula.
     pub meaning: &'static str,
+    /// Its unit is this power of a length.
+    pub length: i8,
 }
 
 /// The drawn boundary of a body, centred on the origin.

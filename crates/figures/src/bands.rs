@@ -70,7 +70,7 @@ impl BandFigure {
     /// Draws the figure for a width.
     ///
     /// # Errors   nothing that has a place on the axes, or a number that is not finite
-    pub fn svg_in(&self, room: Room) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<Svg> {
         let values = self.curves.iter().flat_map(|c| &c.points).flat_map(|p| [p.x, p.y, p.low, p.high]);
         check_finite("value of a curve (x, y, ends of the band in turn)", values)?;
         check_finite("expected line value", self.lines.iter().flat_map(|l| &l.points).flatten().copied())?;

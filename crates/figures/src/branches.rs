@@ -16,6 +16,8 @@ use super::svg::Svg;
 
 const WIDTH: f64 = 600.0;
 const HEIGHT: f64 = 360.0;
+/// How far unstable motions widen the axis, in ranges of what is seen.
+const BEYOND: f64 = 2.0;
 
 /// A part of a branch over which neither motion nor stability changes.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,7 +81,7 @@ impl BranchDiagram {
     /// Draws the figure for a width.
     ///
     /// # Errors   no point, a number that is not finite, or a range that does not rise
-    pub fn svg_in(&self, room: Room) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<Svg> {
         let values = self.parts.iter().flat_map(|part| &part.points).flatten();
         let marks = self.marks.iter().flat_map(|mark| &mark.at);
         let dots = self.dots.iter().flat_map(|dots| &dots.points).flatten();
@@ -131,12 +133,27 @@ impl BranchDiagram {
         entries
     }
 
-    fn scale(&self) -> Result<Scale> {
-        let shown = |p: &&Point| self.x[0] <= p[0] && p[0] <= self.x[1];
-        let points = self.parts.iter().flat_map(|part| &part.points);
-        let points = points.chain(self.dots.iter().flat_map(|dots| &dots.points)).filter(shown);
+    /// The places of values within the range of the parameter: of stable motions, marks and samples, or of everything.
+    fn places(&self, seen: bool) -> Option<Range> {
         let kind = self.kinds()[1];
-        let range = kind.range(points.filter_map(|p| kind.place(p[1])), 0.06);
+        let parts = self.parts.iter().filter(|part| part.stable || !seen).flat_map(|part| &part.points);
+        let points = parts.chain(self.dots.iter().flat_map(|dots| &dots.points));
+        let points = points.chain(self.marks.iter().filter(|_| seen).map(|mark| &mark.at));
+        let shown = points.filter(|p| self.x[0] <= p[0] && p[0] <= self.x[1]);
+        Range::of(shown.filter_map(|p| kind.place(p[1])))
+    }
+
+    /// The values in sight: an unstable motion whose values are far from those of all others leaves the frame, or it would squeeze them.
+    fn values(&self) -> Option<Range> {
+        let all = self.places(false)?;
+        let Some(seen) = self.places(true).filter(|seen| seen.span() > 0.0) else { return Some(all) };
+        let far = BEYOND * seen.span();
+        Some(Range { min: all.min.max(seen.min - far), max: all.max.min(seen.max + far) })
+    }
+
+    fn scale(&self) -> Result<Scale> {
+        let kind = self.kinds()[1];
+        let range = self.values().and_then(|values| kind.range([values.min, values.max], 0.06));
         let (Some(y), Some(x)) = (range, Range::of(self.x)) else {
             return Err(FigureError::Empty { what: "list of points within the range" });
         };

@@ -12,7 +12,7 @@ use super::legend::{Entry, Mark};
 use super::line_style::LineStyle;
 use super::paint::Paint;
 use super::palette::{INK, WHITE};
-use super::phase_diagram::PhaseDiagram;
+use super::phase_diagram::{MapInset, PhaseDiagram};
 use super::room::Room;
 use super::svg::{Anchor, Svg};
 use super::text::Label;
@@ -95,6 +95,8 @@ pub struct CurveMap {
     pub under: Option<PhaseDiagram>,
     /// Whether wide regions have their names in them.
     pub named: bool,
+    /// Paths below the names of regions that have room for them.
+    pub insets: Vec<MapInset>,
     /// The curves.
     pub curves: Vec<MapCurve>,
     /// Ends of motions.
@@ -107,10 +109,12 @@ impl CurveMap {
     /// Draws the figure for a width.
     ///
     /// # Errors   a range or a number that is not finite, or what a [`PhaseDiagram`] refuses
-    pub fn svg_in(&self, room: Room) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<Svg> {
         let points = self.curves.iter().flat_map(|curve| &curve.points).flatten();
         let places = self.marks.iter().map(|mark| mark.at).chain(self.ends.iter().map(|end| end.at));
         check_finite("value of a curve", points.copied().chain(places.flatten()))?;
+        let paths = self.insets.iter().flat_map(|inset| &inset.paths).flatten().flatten();
+        check_finite("coordinate of a path", paths.copied())?;
         check_finite("end of a range", self.x.into_iter().chain(self.y))?;
         let beneath = self.under.as_ref().map(PhaseDiagram::ranges).transpose()?;
         let range = |own: [f64; 2], side: usize| {
@@ -150,7 +154,7 @@ impl CurveMap {
             (frame.x..=frame.right()).contains(&x) && (frame.y..=frame.bottom()).contains(&y)
         };
         let mut taken: Vec<Rect> = match &self.under {
-            Some(under) if self.named => under.draw_names(svg, scale)?,
+            Some(under) if self.named => under.draw_names(svg, scale, &self.insets)?,
             _ => Vec::new(),
         };
         for end in self.ends.iter().filter(|end| inside(end.at)) {

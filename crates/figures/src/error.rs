@@ -64,6 +64,18 @@ pub enum FigureError {
         /// Number of values.
         got: usize,
     },
+    /// A panel that is wider than its place.
+    #[error(
+        "panel {panel} needs {needed:.0} mm on paper and has {given:.0} mm; give the figure more width, or fewer columns"
+    )]
+    Narrow {
+        /// Its letter.
+        panel: String,
+        /// The width that it needs.
+        needed: f64,
+        /// The width that it has.
+        given: f64,
+    },
     /// A width that cannot be read.
     #[error("{text:?} is not a width: write it with a unit (mm, cm, in, px), such as 86mm or 1200px")]
     Width {

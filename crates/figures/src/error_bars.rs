@@ -90,7 +90,7 @@ impl ErrorBarFigure {
     /// Draws the figure for a width.
     ///
     /// # Errors   nothing that has a place on the axes, a number that is not finite, or a negative error
-    pub fn svg_in(&self, room: Room) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<Svg> {
         self.check()?;
         let caption = self.caption();
         let sheet = Framed {

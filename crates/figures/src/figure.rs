@@ -2,15 +2,16 @@
 
 use super::error::Result;
 use super::room::Room;
+use super::svg::Svg;
 use super::text::Label;
 use std::fmt::Write as _;
 
 /// A static figure: its texts, its drawing, and the plotted numbers.
 pub trait Figure {
-    /// Draws the sheet for a width, as self-contained SVG text.
+    /// Draws the sheet for a width.
     ///
     /// # Errors   those of the figure's own `svg_in`
-    fn sheet(&self, room: Room) -> Result<String>;
+    fn sheet(&self, room: Room) -> Result<Svg>;
 
     /// The plotted data, as a CSV table with a header line: numbers in full precision, labels without markup.
     fn data(&self) -> String;
@@ -22,7 +23,7 @@ pub trait Figure {
     ///
     /// # Errors   those of [`Figure::sheet`]
     fn drawn(&self) -> Result<Drawn> {
-        Ok(Drawn { svg: self.sheet(Room::OWN)?, data: self.data() })
+        Ok(Drawn { svg: self.sheet(Room::OWN)?.finish(), data: self.data(), caption: None })
     }
 }
 
@@ -33,6 +34,8 @@ pub struct Drawn {
     pub svg: String,
     /// A CSV table with a header line.
     pub data: String,
+    /// Title and caption as plain text, where the picture leaves them to the text around it.
+    pub caption: Option<String>,
 }
 
 /// A CSV table under construction.
@@ -81,12 +84,12 @@ macro_rules! figure {
             ///
             /// # Errors   those of `svg_in`
             pub fn svg(&self) -> $crate::Result<String> {
-                self.svg_in($crate::Room::OWN)
+                Ok(self.svg_in($crate::Room::OWN)?.finish())
             }
         }
 
         impl $crate::figure::Figure for $type {
-            fn sheet(&self, room: $crate::Room) -> $crate::Result<String> {
+            fn sheet(&self, room: $crate::Room) -> $crate::Result<$crate::svg::Svg> {
                 self.svg_in(room)
             }
 

@@ -42,16 +42,16 @@ struct Begun {
 }
 
 impl Begun {
-    fn finish(mut self) -> String {
+    fn finish(mut self) -> Svg {
         self.axes.draw(&mut self.svg);
         self.caption.draw(&mut self.svg, [MARGIN, self.foot]);
-        self.svg.finish()
+        self.svg
     }
 }
 
 impl Framed<'_> {
     /// Draws the sheet; `data` draws between grid and axes.
-    pub(super) fn svg<E>(self, data: impl FnOnce(&mut Svg, &Scale) -> Result<(), E>) -> Result<String, E> {
+    pub(super) fn svg<E>(self, data: impl FnOnce(&mut Svg, &Scale) -> Result<(), E>) -> Result<Svg, E> {
         let mut begun = self.begin();
         data(&mut begun.svg, &begun.axes.scale)?;
         Ok(begun.finish())
@@ -75,7 +75,8 @@ impl Framed<'_> {
             inner.max(key_left - MARGIN + legend.width()) + 2.0 * MARGIN,
             foot + caption.height() + MARGIN - 6.0,
         ];
-        let mut svg = Svg::new(sheet[0].ceil(), sheet[1].ceil());
+        let mut svg = Svg::in_room(self.room, sheet[0].ceil(), sheet[1].ceil());
+        svg.frame(axes.scale.frame);
         title.draw(&mut svg, [MARGIN, MARGIN]);
         legend.draw(&mut svg, [key_left, key]);
         if self.grid {

@@ -154,6 +154,50 @@ pub(super) mod tests {
         seen(colour, [[0.152, 1.053, -0.205], [0.115, 0.786, 0.099], [-0.004, -0.048, 1.052]])
     }
 
+    /// As a tritanope sees it, from the same source.
+    pub(crate) fn tritanope(colour: Colour) -> [f64; 3] {
+        seen(colour, [[1.256, -0.077, -0.179], [-0.078, 0.931, 0.148], [0.005, 0.691, 0.304]])
+    }
+
+    /// What becomes of a colour in an eye.
+    type Sight = fn(Colour) -> [f64; 3];
+
+    /// How far apart two colours are in sRGB for each kind of sight, with the least distance that it needs: normal, deuteranope, protanope,
+    /// and tritanope, one in ten thousand, for whom blue and bluish green of Okabe and Ito are close.
+    pub(crate) fn distances(a: Colour, b: Colour) -> [(f64, f64); 4] {
+        let plain = |c: Colour| [c.0, c.1, c.2].map(f64::from);
+        let kinds: [(Sight, f64); 4] =
+            [(plain, 48.0), (deuteranope, 48.0), (protanope, 48.0), (tritanope, 30.0)];
+        kinds.map(|(seen, least)| {
+            let [a, b] = [seen(a), seen(b)].map(|c| c.map(|part| part.clamp(0.0, 255.0)));
+            (a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt(), least)
+        })
+    }
+
+    #[test]
+    fn curves_stay_apart_for_colour_blind_readers() {
+        for (i, a) in CATEGORIES.into_iter().enumerate() {
+            for b in CATEGORIES.into_iter().skip(i + 1).chain([WHITE, INK]) {
+                assert!(
+                    distances(a, b).iter().all(|(apart, least)| apart > least),
+                    "{a}, {b}: {:?}",
+                    distances(a, b)
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn time_runs_one_way_for_colour_blind_readers() {
+        for seen in [deuteranope, protanope, tritanope] {
+            let all: Vec<f64> = (0..=20)
+                .map(|i| seen(time_colour(f64::from(i) / 20.0)))
+                .map(|[r, g, b]| 0.2126 * r + 0.7152 * g + 0.0722 * b)
+                .collect();
+            assert!(all.windows(2).all(|w| w[0] < w[1]) && all[20] - all[0] > 100.0, "{all:?}");
+        }
+    }
+
     fn seen(Colour(r, g, b): Colour, rows: [[f64; 3]; 3]) -> [f64; 3] {
         rows.map(|m: [f64; 3]| m[0] * f64::from(r) + m[1] * f64::from(g) + m[2] * f64::from(b))
     }
@@ -166,9 +210,8 @@ pub(super) mod tests {
             assert!((luminance(of(i)) - luminance(of(-i))).abs() < 12.0, "{i}");
         }
         for i in 4..=20 {
-            let (plus, minus) = (deuteranope(of(i)), deuteranope(of(-i)));
-            let distance = plus.iter().zip(minus).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
-            assert!(distance > 30.0, "{i}: {distance}");
+            let distances = distances(of(i), of(-i));
+            assert!(distances.iter().all(|(apart, _)| *apart > 30.0), "{i}: {distances:?}");
         }
         assert_eq!((of(0), of(-99)), (Colour(246, 246, 246), of(-20)));
     }

@@ -64,7 +64,7 @@ impl PlaceMap {
     /// Draws the figure for a width. All places are in sight; regions and clouds are cut off at the frame.
     ///
     /// # Errors   no place, a number that is not finite, or what a [`PhaseDiagram`] refuses
-    pub fn svg_in(&self, room: Room) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<Svg> {
         let all = || {
             self.places.iter().flat_map(|p| [p.at].into_iter().chain(p.region.clone()).chain(p.cloud.clone()))
         };

@@ -48,7 +48,7 @@ impl ReturnMapFigure {
     /// Draws the figure for a width.
     ///
     /// # Errors   there is no point, or a number is not finite
-    pub fn svg_in(&self, room: Room) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<Svg> {
         check_finite("return map value", self.points.iter().flatten().copied())?;
         let range = Range::of(self.points.iter().flatten().copied());
         let range = range.ok_or(FigureError::Empty { what: "return map" })?.padded(0.05);

@@ -1,5 +1,7 @@
 //! The width that a sheet is laid out for.
 
+use super::geometry::Point;
+
 /// The narrowest frame, in units of the drawing.
 const NARROWEST: f64 = 90.0;
 
@@ -11,16 +13,42 @@ const FLATTEST: f64 = 0.62;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Room {
     width: Option<f64>,
+    /// Height of the frame, where a row of panels has one.
+    height: Option<f64>,
+    /// Where the sheet lies on a larger one.
+    corner: Point,
+    /// The number of the panel, from 0.
+    panel: usize,
 }
 
 impl Room {
     /// The default width of each figure.
-    pub const OWN: Self = Self { width: None };
+    pub const OWN: Self = Self { width: None, height: None, corner: [0.0; 2], panel: 0 };
 
     /// A sheet of this width.
     #[must_use]
     pub const fn of(width: f64) -> Self {
-        Self { width: Some(width) }
+        Self { width: Some(width), ..Self::OWN }
+    }
+
+    /// A panel of a larger sheet: its number, width, the height of its frame and its upper left corner.
+    pub(crate) const fn panel(panel: usize, width: f64, height: Option<f64>, corner: Point) -> Self {
+        Self { width: Some(width), height, corner, panel }
+    }
+
+    /// The height of the frame, if one is asked for.
+    pub(crate) const fn height(self) -> Option<f64> {
+        self.height
+    }
+
+    /// Where the sheet lies on a larger one.
+    pub(crate) const fn corner(self) -> Point {
+        self.corner
+    }
+
+    /// From where on the names inside a sheet count, so that no two panels share one.
+    pub(crate) const fn ids(self) -> u32 {
+        1000 * self.panel as u32
     }
 
     /// The width, if one is asked for.
@@ -30,11 +58,11 @@ impl Room {
     }
 
     /// Width and height of a frame whose default size is `[w, h]`, where labels and margins take `beside` units of the width. A narrower frame
-    /// keeps the aspect ratio, but its height is at least .62 of its width, or `h` where that is less.
+    /// keeps the aspect ratio, but its height is at least .62 of its width, or `h` where that is less. A panel has the height of its row.
     pub(crate) fn frame(self, [w, h]: [f64; 2], beside: f64) -> [f64; 2] {
         let Some(width) = self.width else { return [w, h] };
         let wide = (width - beside).floor().max(NARROWEST);
-        [wide, (h * wide / w).max(h.min(FLATTEST * wide)).round()]
+        [wide, self.height.unwrap_or_else(|| (h * wide / w).max(h.min(FLATTEST * wide)).round())]
     }
 
     /// How many of `most` marks have room side by side in a frame whose default width is `w`.

@@ -60,7 +60,7 @@ impl Default for SeriesFigure {
     fn default() -> Self {
         Self {
             title: String::new(),
-            time_label: "*t* (model time)".to_owned(),
+            time_label: "*t*".to_owned(),
             times: Vec::new(),
             panels: Vec::new(),
             notes: Vec::new(),
@@ -73,11 +73,17 @@ impl SeriesFigure {
     /// Draws the figure for a width.
     ///
     /// # Errors   no time or panel, a number that is not finite, times that decrease, or a curve of another length
-    pub fn svg_in(&self, room: Room) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<Svg> {
         self.check()?;
         let margin = |rows: &[Row]| rows.iter().map(|row| row.axes.left_margin()).fold(0.0, f64::max);
-        let beside = margin(&self.rows([WIDTH, HEIGHT])) + 16.0 + 2.0 * MARGIN;
-        let [width, panel_height] = room.frame([WIDTH, HEIGHT], beside);
+        // lower panels may have labels of more lines
+        let beside = |rows: &[Row]| margin(rows) + 16.0 + 2.0 * MARGIN;
+        let own = self.rows([WIDTH, HEIGHT]);
+        let between: f64 = own.iter().skip(1).map(|row| row.legend.height() + GAP).sum();
+        let share = |height: f64| room.height().map_or(height, |_| (height - between) / own.len() as f64);
+        let first = room.frame([WIDTH, HEIGHT], beside(&own));
+        let [width, height] = room.frame([WIDTH, HEIGHT], beside(&self.rows([first[0], share(first[1])])));
+        let panel_height = share(height);
         let rows = self.rows([width, panel_height]);
         let margin = margin(&rows);
         let (left, inner) = (MARGIN + margin, margin + width + 16.0);
@@ -86,17 +92,19 @@ impl SeriesFigure {
         let mut y = MARGIN + title.height() + 4.0;
         let height: f64 = rows.iter().map(|row| row.legend.height() + panel_height + GAP).sum();
         let foot = y + height - GAP + BELOW + 8.0;
-        let mut svg = Svg::new((inner + 2.0 * MARGIN).ceil(), (foot + text.height() + MARGIN - 6.0).ceil());
+        let mut svg =
+            Svg::in_room(room, (inner + 2.0 * MARGIN).ceil(), (foot + text.height() + MARGIN - 6.0).ceil());
         title.draw(&mut svg, [MARGIN, MARGIN]);
         for (mut row, panel) in rows.into_iter().zip(&self.panels) {
             row.legend.draw(&mut svg, [left, y]);
             y += row.legend.height();
             (row.axes.scale.frame.x, row.axes.scale.frame.y) = (left, y);
+            svg.frame(row.axes.scale.frame);
             self.draw_panel(&mut svg, panel, &row.axes, margin);
             y += panel_height + GAP;
         }
         text.draw(&mut svg, [MARGIN, foot]);
-        Ok(svg.finish())
+        Ok(svg)
     }
 
     /// The panels with frames of a size.

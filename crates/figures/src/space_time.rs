@@ -56,9 +56,9 @@ impl Default for SpaceTimeFigure {
         Self {
             title: String::new(),
             caption: Vec::new(),
-            x_label: "*t* (model time)".to_owned(),
-            y_label: "*s* (model length)".to_owned(),
-            value_label: "*φ* (model length)".to_owned(),
+            x_label: "*t*".to_owned(),
+            y_label: "*s*".to_owned(),
+            value_label: "*φ*".to_owned(),
             times: (0.0, 1.0),
             places: (0.0, 1.0),
             columns: 0,
@@ -72,7 +72,7 @@ impl SpaceTimeFigure {
     /// Draws the figure for a width.
     ///
     /// # Errors   no value, a number that is not finite, a range that runs backwards, or not `columns` x `rows` values
-    pub fn svg_in(&self, room: Room) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<Svg> {
         self.check()?;
         let cells = self.cells();
         let limit = cells.largest();
@@ -89,13 +89,14 @@ impl SpaceTimeFigure {
         axes.scale.frame.y = MARGIN + title.height() + 4.0;
         let (frame, foot) = (axes.scale.frame, axes.scale.frame.bottom() + BELOW + 8.0);
         let height = foot + caption.height() + MARGIN - 6.0;
-        let mut svg = Svg::new((inner + 2.0 * MARGIN).ceil(), height.ceil());
+        let mut svg = Svg::in_room(room, (inner + 2.0 * MARGIN).ceil(), height.ceil());
+        svg.frame(frame);
         title.draw(&mut svg, [MARGIN, MARGIN]);
         svg.image(frame, &cells.png(limit)?);
         axes.draw(&mut svg);
         bar.draw(&mut svg, [frame.right() + GAP, frame.y]);
         caption.draw(&mut svg, [MARGIN, foot]);
-        Ok(svg.finish())
+        Ok(svg)
     }
 
     fn axes(&self, [w, h]: [f64; 2]) -> Axes {

@@ -12,6 +12,8 @@ use super::room::Room;
 use super::simplify::{envelope, simplify};
 use super::svg::Svg;
 
+/// Most decades of power in sight: what lies lower is the round-off of what was recorded.
+const DECADES: f64 = 12.0;
 const WIDTH: f64 = 560.0;
 const HEIGHT: f64 = 300.0;
 
@@ -51,7 +53,7 @@ impl Default for SpectrumFigure {
         Self {
             title: String::new(),
             caption: Vec::new(),
-            x_label: "frequency (cycles per model time)".to_owned(),
+            x_label: "frequency".to_owned(),
             y_label: "power spectral density".to_owned(),
             frequencies: Vec::new(),
             curves: Vec::new(),
@@ -63,7 +65,7 @@ impl SpectrumFigure {
     /// Draws the figure for a width.
     ///
     /// # Errors   nothing above 0, a number that is not finite, frequencies that decrease, or a curve of another length
-    pub fn svg_in(&self, room: Room) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<Svg> {
         self.check()?;
         let sheet = Framed {
             title: &self.title,
@@ -97,6 +99,7 @@ impl SpectrumFigure {
         let (Some(x), Some(y)) = (range(0), range(1)) else {
             return Err(FigureError::Empty { what: "spectrum above 0" });
         };
+        let y = Range { min: y.min.max(y.max - DECADES), max: y.max };
         let y = y.with_span(y.span() * 1.1);
         let frame = Rect { x: 0.0, y: 0.0, w: WIDTH, h: HEIGHT };
         Ok(Scale { frame, x: x.with_span(x.span().max(1.0)), y: y.with_span(y.span().max(1.0)) })

@@ -4,11 +4,23 @@ use super::error::{FigureError, Result, check_range};
 use super::figure::{Drawn, Figure};
 use super::portable::DEFAULT_SCALE;
 use super::room::Room;
+use super::text::Label;
 use std::str::FromStr;
+
+/// Where a figure is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Medium {
+    /// In a column of a journal, 86 mm wide: title and caption are left to the text.
+    Journal,
+    /// On a slide of 1920 pixels, with its title: the caption is left to the speaker.
+    Slide,
+}
 
 /// Title, caption and width of figures.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Style {
+    /// Where they are shown; what is given beside it has the last word.
+    pub medium: Option<Medium>,
     /// Title in place of the figure's own (markup; an empty one leaves the line out).
     pub title: Option<String>,
     /// Leaves the caption out.
@@ -30,6 +42,9 @@ pub enum Width {
 
 /// Units of a drawing per point on paper: its text of 12 units has 8 pt.
 const PER_POINT: f64 = 1.5;
+
+/// Width of a column of a journal in millimetres.
+const COLUMN: f64 = 86.0;
 
 /// Units across a slide of 960 pt: text of 12 units has 18 pt.
 const SLIDE: f64 = 640.0;
@@ -77,25 +92,43 @@ impl Style {
     ///
     /// # Errors   those of the figure
     pub fn draw(&self, figure: &mut dyn Figure) -> Result<Drawn> {
+        let left = self.words(figure);
+        let width = self.width();
+        let (svg, data) = (figure.sheet(width.map_or(Room::OWN, Width::room))?.finish(), figure.data());
+        let svg = width.map_or_else(|| svg.clone(), |width| resized(&svg, width));
+        Ok(Drawn { svg, data, caption: left })
+    }
+
+    /// Title and caption as they are drawn; the text of both, if a medium leaves them out.
+    fn words(&self, figure: &mut dyn Figure) -> Option<String> {
         let (title, caption) = figure.words();
-        if let Some(given) = &self.title {
-            title.clone_from(given);
+        let plain = |markup: &String| Label::parse(markup).terminal();
+        let left = [&*title].into_iter().chain(&*caption).filter(|words| !words.is_empty()).map(plain);
+        let left = self.medium.map(|_| left.collect::<Vec<_>>().join("\n") + "\n");
+        match (&self.title, self.medium) {
+            (Some(given), _) => title.clone_from(given),
+            (None, Some(Medium::Journal)) => title.clear(),
+            _ => {}
         }
-        if self.no_caption {
+        if self.no_caption || left.is_some() {
             caption.clear();
         }
-        let room = self.width.map_or(Room::OWN, Width::room);
-        let (svg, data) = (figure.sheet(room)?, figure.data());
-        Ok(match self.width {
-            Some(width) => Drawn { svg: resized(&svg, width), data },
-            None => Drawn { svg, data },
-        })
+        left
+    }
+
+    /// The width that is asked for, or that of the medium.
+    fn width(&self) -> Option<Width> {
+        let own = self.medium.map(|medium| match medium {
+            Medium::Journal => Width::Millimetres(COLUMN),
+            Medium::Slide => Width::Slide,
+        });
+        self.width.or(own)
     }
 
     /// Pixels of a PNG per unit of the SVG.
     #[must_use]
     pub fn png_scale(&self) -> f64 {
-        match self.width {
+        match self.width() {
             None => DEFAULT_SCALE,
             Some(Width::Millimetres(_)) => 300.0 / 96.0, // a unit is 1/96 inch
             Some(Width::Pixels(_) | Width::Slide) => 1.0,
@@ -149,8 +182,12 @@ mod tests {
 
     #[test]
     fn words_are_replaced_and_the_sheet_has_the_width() {
-        let style =
-            Style { title: Some("Another".into()), no_caption: true, width: Some(Width::Millimetres(86.0)) };
+        let style = Style {
+            title: Some("Another".into()),
+            no_caption: true,
+            width: Some(Width::Millimetres(86.0)),
+            ..Style::default()
+        };
         let drawn = style.draw(&mut figure()).expect("a figure");
         assert!(drawn.svg.contains(">Another<") && !drawn.svg.contains("Own"), "{}", drawn.svg);
         assert!(drawn.svg.contains(" width=\"86mm\""));

@@ -66,7 +66,7 @@ impl Default for SurvivalFigure {
         Self {
             title: String::new(),
             caption: Vec::new(),
-            x_label: "*t* (model time)".to_owned(),
+            x_label: "*t*".to_owned(),
             y_label: "share that lasts longer".to_owned(),
             curves: Vec::new(),
             lines: Vec::new(),
@@ -80,7 +80,7 @@ impl SurvivalFigure {
     /// Draws the figure for a width.
     ///
     /// # Errors   no share above 0, a number that is not finite, or times that decrease
-    pub fn svg_in(&self, room: Room) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<Svg> {
         self.check()?;
         let curves = || self.curves.iter().zip(CATEGORIES.into_iter().cycle());
         let keys = curves().map(|(curve, colour)| Entry::new(Mark::Band(colour), &curve.label));

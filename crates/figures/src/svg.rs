@@ -9,6 +9,7 @@ use super::fonts::{self, Face};
 use super::geometry::{Point, Rect};
 use super::paint::Paint;
 use super::palette::INK;
+use super::room::Room;
 use super::text::Label;
 
 /// A number rounded to 0.01, without trailing zeros and without "-0".
@@ -61,6 +62,10 @@ pub enum Anchor {
 pub struct Svg {
     width: f64,
     height: f64,
+    /// Where its upper left corner lies on a larger sheet.
+    corner: Point,
+    /// The box around the frames of its axes.
+    frame: Option<Rect>,
     body: String,
     ids: u32,
 }
@@ -70,7 +75,44 @@ impl Svg {
     /// An empty white sheet.
     #[must_use]
     pub fn new(width: f64, height: f64) -> Self {
-        Self { width, height, body: String::new(), ids: 0 }
+        Self::in_room(Room::OWN, width, height)
+    }
+
+    /// An empty sheet that lies where its room does.
+    pub(crate) fn in_room(room: Room, width: f64, height: f64) -> Self {
+        Self { width, height, corner: room.corner(), frame: None, body: String::new(), ids: room.ids() }
+    }
+
+    /// Width and height.
+    pub(crate) fn size(&self) -> [f64; 2] {
+        [self.width, self.height]
+    }
+
+    /// Remembers the frame of axes.
+    pub(crate) fn frame(&mut self, own: Rect) {
+        self.frame = Some(self.frame.map_or(own, |other| {
+            let (x, y) = (own.x.min(other.x), own.y.min(other.y));
+            let (right, bottom) = (own.right().max(other.right()), own.bottom().max(other.bottom()));
+            Rect { x, y, w: right - x, h: bottom - y }
+        }));
+    }
+
+    /// The box around the frames of all axes; the whole sheet if there are none.
+    pub(crate) fn framed(&self) -> Rect {
+        self.frame.unwrap_or(Rect { x: 0.0, y: 0.0, w: self.width, h: self.height })
+    }
+
+    /// Puts another sheet onto this one, where its room said.
+    pub(crate) fn include(&mut self, other: &Self) {
+        self.body += &other.body;
+    }
+
+    fn place(&self, at: Point) -> [Num; 2] {
+        [Num(at[0] + self.corner[0]), Num(at[1] + self.corner[1])]
+    }
+
+    fn boxed(&self, Rect { x, y, w, h }: Rect) -> Box {
+        Box(Rect { x: x + self.corner[0], y: y + self.corner[1], w, h })
     }
 
     /// A polyline, or a polygon if `closed`. Fewer than two points draw nothing.
@@ -81,7 +123,8 @@ impl Svg {
         self.body.push_str("<path d=\"");
         for (i, p) in points.iter().enumerate() {
             let command = if i == 0 { 'M' } else { 'L' };
-            let _ = write!(self.body, "{command}{} {}", Num(p[0]), Num(p[1]));
+            let [x, y] = self.place(*p);
+            let _ = write!(self.body, "{command}{x} {y}");
         }
         let _ = writeln!(self.body, "{}\"{paint}/>", if closed { "Z" } else { "" });
     }
@@ -98,37 +141,38 @@ impl Svg {
         }
         self.body.push_str("<path d=\"");
         for [a, b] in lines {
-            let _ = write!(self.body, "M{} {}L{} {}", Num(a[0]), Num(a[1]), Num(b[0]), Num(b[1]));
+            let ([x, y], [u, v]) = (self.place(*a), self.place(*b));
+            let _ = write!(self.body, "M{x} {y}L{u} {v}");
         }
         let _ = writeln!(self.body, "\"{paint}/>");
     }
 
     /// A disc or circle.
     pub fn circle(&mut self, centre: Point, radius: f64, paint: &Paint) {
-        let [x, y] = centre.map(Num);
+        let [x, y] = self.place(centre);
         let _ = writeln!(self.body, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{}\"{paint}/>", Num(radius));
     }
 
     /// An upright rectangle.
     pub fn rect(&mut self, rect: Rect, paint: &Paint) {
-        let _ = writeln!(self.body, "<rect {}{paint}/>", Box(rect));
+        let place = self.boxed(rect);
+        let _ = writeln!(self.body, "<rect {place}{paint}/>");
     }
 
     /// A PNG picture stretched over a rectangle, its pixels as sharp boxes.
     pub fn image(&mut self, rect: Rect, png: &[u8]) {
-        let data = BASE64.encode(png);
+        let (data, place) = (BASE64.encode(png), self.boxed(rect));
         let _ = writeln!(
             self.body,
-            "<image {} preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" \
-             href=\"data:image/png;base64,{data}\"/>",
-            Box(rect)
+            "<image {place} preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" \
+             href=\"data:image/png;base64,{data}\"/>"
         );
     }
 
     /// Draws with everything outside `rect` cut off.
     pub fn clipped(&mut self, rect: Rect, draw: impl FnOnce(&mut Self)) {
-        let id = self.id();
-        let _ = write!(self.body, "<clipPath id=\"i{id}\"><rect {}/></clipPath>", Box(rect));
+        let (id, place) = (self.id(), self.boxed(rect));
+        let _ = write!(self.body, "<clipPath id=\"i{id}\"><rect {place}/></clipPath>");
         let _ = writeln!(self.body, "<g clip-path=\"url(#i{id})\">");
         draw(self);
         self.body.push_str("</g>\n");
@@ -136,13 +180,13 @@ impl Svg {
 
     /// A label with its baseline at `at`; `size` in pixels.
     pub fn text(&mut self, at: Point, size: f64, anchor: Anchor, label: &Label) {
-        let [x, y] = at.map(Num);
+        let [x, y] = self.place(at);
         self.write_text(&format!("x=\"{x}\" y=\"{y}\""), size, anchor, label);
     }
 
     /// A label that reads upward, baseline at `at`.
     pub fn upward_text(&mut self, at: Point, size: f64, anchor: Anchor, label: &Label) {
-        let [x, y] = at.map(Num);
+        let [x, y] = self.place(at);
         self.write_text(&format!("transform=\"translate({x} {y}) rotate(-90)\""), size, anchor, label);
     }
 

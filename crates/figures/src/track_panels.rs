@@ -54,7 +54,7 @@ impl TrackPanels {
     /// Draws the figure for a width.
     ///
     /// # Errors   no panel, a panel without a point, a number that is not finite
-    pub fn svg_in(&self, room: Room) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<Svg> {
         check_finite("coordinate of a track", self.panels.iter().flat_map(TrackPanel::points).flatten())?;
         let boxes: Option<Vec<[Range; 2]>> = self.panels.iter().map(TrackPanel::ranges).collect();
         let boxes = boxes.filter(|boxes| !boxes.is_empty()).ok_or(FigureError::Empty { what: "track" })?;
@@ -71,18 +71,20 @@ impl TrackPanels {
         let top = MARGIN + title.height();
         let foot = top + rows as f64 * (HEAD + h + GAP);
         let height = foot + FOOT + caption.height() + MARGIN;
-        let mut svg = Svg::new((inner + 2.0 * MARGIN).ceil(), height.ceil());
+        let mut svg = Svg::in_room(room, (inner + 2.0 * MARGIN).ceil(), height.ceil());
         title.draw(&mut svg, [MARGIN, MARGIN]);
         for (number, (panel, ranges)) in self.panels.iter().zip(&boxes).enumerate() {
             let (row, column) = (number / columns, number % columns);
             let x = MARGIN + column as f64 * (w + GAP);
             let y = top + row as f64 * (HEAD + h + GAP);
             svg.text([x, y + 14.0], WORDS, Anchor::Start, &Label::parse(&panel.name));
-            panel.draw(&mut svg, Rect { x, y: y + HEAD, w, h }, ranges, pixels);
+            let frame = Rect { x, y: y + HEAD, w, h };
+            svg.frame(frame);
+            panel.draw(&mut svg, frame, ranges, pixels);
         }
         self.draw_bar(&mut svg, [MARGIN, foot + 10.0], pixels, w);
         caption.draw(&mut svg, [MARGIN, foot + FOOT]);
-        Ok(svg.finish())
+        Ok(svg)
     }
 
     /// Panels beside one another: half as many where they are wide, one where they are very wide.

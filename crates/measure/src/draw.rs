@@ -5,7 +5,7 @@ mod displacement;
 
 use crate::{Measurement, Result};
 use motiform_figures::Figure;
-use motiform_lab::draw::{FigureFormat, Picture, add, parameters};
+use motiform_lab::draw::{FigureFormat, Picture, files, parameters};
 use motiform_statistics::Errors;
 
 /// Draws `msd`, `exponent`, `autocorrelations`, `speed`, `turning`, `spectra` and `first-passage` as SVG and PNG (and PDF if requested), as
@@ -14,7 +14,7 @@ use motiform_statistics::Errors;
 /// # Errors
 /// Numbers that do not fit on an axis.
 pub fn draw(measurement: &Measurement, format: &FigureFormat) -> Result<Vec<Picture>> {
-    let figures: [(&str, Option<Box<dyn Figure>>); 7] = [
+    let figures: [(&'static str, Option<Box<dyn Figure>>); 7] = [
         ("msd", displacement::displacements(measurement)?),
         ("exponent", displacement::exponents(measurement)?),
         ("autocorrelations", curves::autocorrelations(measurement)?),
@@ -23,12 +23,8 @@ pub fn draw(measurement: &Measurement, format: &FigureFormat) -> Result<Vec<Pict
         ("spectra", curves::spectra(measurement)?),
         ("first-passage", displacement::passages(measurement)?),
     ];
-    let mut pictures = Vec::new();
-    for (name, figure) in figures {
-        let Some(mut figure) = figure else { continue };
-        add(&mut pictures, name, figure.as_mut(), format)?;
-    }
-    Ok(pictures)
+    let there = figures.into_iter().filter_map(|(name, figure)| Some((name, figure?)));
+    Ok(files(there.collect(), false, format)?)
 }
 
 /// The caption: parameters, noise, bodies, and what the bands or bars (`marks`) are; then `more`.

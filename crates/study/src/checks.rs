@@ -1,10 +1,10 @@
 //! Checks of the numbers of a study.
 
-use crate::Error;
 use crate::named::Named;
 use crate::plan::{Control, LONGEST};
 use crate::scan::Axis;
 use crate::study::{DisplaySettings, FigureSettings};
+use crate::{Error, Units};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Model, Obstacle, Semilinear};
 use motiform_models::ModelInfo;
@@ -97,7 +97,7 @@ pub fn check_figure(figure: &FigureSettings) -> Result<(), Error> {
         let value = figure.outlines.to_string();
         return Err(Error::Setting { key: "figure.outlines", value, remedy: "give at most 2000" });
     }
-    Ok(())
+    Units::parse(&figure.units).map(|_| ())
 }
 
 /// Checks the display of a body.

@@ -31,6 +31,7 @@ pub mod table;
 mod ties;
 pub mod titles;
 mod toml_reader;
+mod units;
 
 pub use branches::BranchPlan;
 pub use curves::CurvePlan;
@@ -45,3 +46,4 @@ pub use scan::ScanPlan;
 pub use stride::{Stride, Towards};
 pub use study::Study;
 pub use ties::Ties;
+pub use units::{Dimension, Units};

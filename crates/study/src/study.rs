@@ -105,6 +105,9 @@ settings! {
         pub to: f64,
         /// Draw the animation.
         pub animation: bool,
+        /// What a unit of length and one of time are in the laboratory, for axes in these: "20um,1min"; nothing: model units.
+        #[serde(skip_serializing_if = "String::is_empty")]
+        pub units: String,
     }
 }
 

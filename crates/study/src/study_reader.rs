@@ -231,6 +231,7 @@ fn read_figure(figure: &mut FigureSettings, mut table: Table<'_>) -> Result<(), 
     table.number("from", &mut figure.from)?;
     table.number("to", &mut figure.to)?;
     table.switch("animation", &mut figure.animation)?;
+    figure.units = table.text("units")?.unwrap_or_default();
     table.finish()
 }
 

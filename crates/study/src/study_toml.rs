@@ -175,8 +175,15 @@ mod tests {
             steady: true,
         };
         study.return_map = Some(ReturnMapSettings { y: 1.0, x_min: -2.0, x_max: 3.5, centre: true });
-        study.figure =
-            FigureSettings { radius: 1.0, scale: 2.0, outlines: 3, from: 4.0, to: 5.0, animation: false };
+        study.figure = FigureSettings {
+            radius: 1.0,
+            scale: 2.0,
+            outlines: 3,
+            from: 4.0,
+            to: 5.0,
+            animation: false,
+            units: "20um,1min".to_owned(),
+        };
         study.display = DisplaySettings {
             sample: 0.1 + 0.2,
             speed: 7.0,

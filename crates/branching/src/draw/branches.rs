@@ -6,7 +6,7 @@ use crate::sweep::{SweepPoint, Sweeps};
 use crate::{Branches, Followed, Origin, Sample, is_stable};
 use motiform_continuation::{End, Special};
 use motiform_figures::{BranchDiagram, BranchDots, BranchMark, BranchPart, Glyph};
-use motiform_lab::draw::{FigureFormat, Picture, add_with_numbers, words};
+use motiform_lab::draw::{Figures, words};
 use motiform_study::plan::Named;
 use motiform_study::{BranchPlan, Error};
 
@@ -33,10 +33,10 @@ impl Ordinate {
     fn label(self) -> &'static str {
         match self {
             Self::Speed => "mean speed",
-            Self::TurningRate | Self::SignedTurningRate => "mean turning rate (rad/time)",
+            Self::TurningRate | Self::SignedTurningRate => "mean turning rate",
             Self::Size => "largest size |*u*| of the shape",
             Self::NetRotation | Self::SignedNetRotation => "net rotation per period (rad)",
-            Self::Period => "period (time)",
+            Self::Period => "period",
         }
     }
 
@@ -76,26 +76,19 @@ impl Ordinate {
     }
 }
 
-/// Draws `branches` (the diagram) and, where motions repeat, `period`: as SVG and PNG, with their numbers as CSV. Branches without
-/// points give no pictures.
+/// `branches` (the diagram) and, where motions repeat, `period`; nothing for branches without points.
 ///
 /// # Errors
 /// An unknown model, or numbers that no axis can hold.
-pub fn draw_branches(
-    plan: &BranchPlan,
-    found: &Branches,
-    ordinate: Ordinate,
-    format: &FigureFormat,
-) -> Result<Vec<Picture>, Error> {
-    let mut pictures = Vec::new();
+pub fn branch_figures(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Result<Figures, Error> {
+    let mut all: Figures = Vec::new();
     for (name, ordinate) in [("branches", ordinate), ("period", Ordinate::Period)] {
-        let mut figure = diagram(plan, found, ordinate)?;
-        if figure.parts.is_empty() {
-            continue;
+        let figure = diagram(plan, found, ordinate)?;
+        if !figure.parts.is_empty() {
+            all.push((name, Box::new(figure)));
         }
-        add_with_numbers(&mut pictures, name, &mut figure, format)?;
     }
-    Ok(pictures)
+    Ok(all)
 }
 
 /// The diagram of branches.
@@ -211,11 +204,20 @@ fn birth(found: &Branches, origin: Origin, ordinate: Ordinate) -> Option<[f64; 2
     let Origin::Special { branch, leg, point } = origin else { return None };
     let sample = &found.branches[branch].legs[leg].samples[point];
     let value = match (ordinate, sample.point.special?) {
-        (Ordinate::Period, Special::Hopf(hopf)) => hopf.period(),
         (Ordinate::Period, Special::PeriodDoubling) => 2.0 * sample.reading.period?,
-        _ => ordinate.read(sample)?,
+        (_, special) => begun(sample, special, ordinate).or_else(|| ordinate.read(sample))?,
     };
     Some([sample.point.parameter, value])
+}
+
+/// The period of the orbits that begin at a Hopf point.
+fn begun(sample: &Sample, special: Special, ordinate: Ordinate) -> Option<f64> {
+    match special {
+        Special::Hopf(hopf) if ordinate == Ordinate::Period && sample.reading.period.is_none() => {
+            Some(hopf.period())
+        }
+        _ => None,
+    }
 }
 
 /// The parts of a branch, each with its stability and motion.
@@ -260,7 +262,11 @@ fn marks(followed: &Followed, ordinate: Ordinate) -> Vec<BranchMark> {
     let mut all = Vec::new();
     for leg in &followed.legs {
         for sample in &leg.samples {
-            let Some((special, y)) = sample.point.special.zip(ordinate.read(sample)) else { continue };
+            let Some(special) = sample.point.special else { continue };
+            // at a Hopf point of a steady motion the orbit that begins has a period
+            let Some(y) = begun(sample, special, ordinate).or_else(|| ordinate.read(sample)) else {
+                continue;
+            };
             let (label, glyph) = mark(special);
             all.push(BranchMark { label: label.to_owned(), glyph, at: [sample.point.parameter, y] });
         }

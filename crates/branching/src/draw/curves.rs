@@ -3,7 +3,7 @@
 use crate::curves::{CurveSample, Curves, FollowedCurve, codimension_2};
 use motiform_continuation::{Degenerate, Special};
 use motiform_figures::{CurveMap, CurveStyle, LineStyle, MapCurve, MapMark, PhaseDiagram};
-use motiform_lab::draw::{FigureFormat, Picture, add_with_numbers, phase_diagram, symbol, words};
+use motiform_lab::draw::{Figures, phase_diagram, symbol, words};
 use motiform_lab::scan::{CellSummary, ScanFolder, cells};
 use motiform_study::branches::Along;
 use motiform_study::curves::CurveKind;
@@ -13,29 +13,22 @@ use motiform_study::{CurvePlan, Error, ScanPlan};
 /// Distance up to which marks are at one place, as a part of the ranges: less than a pixel.
 const SAME_PLACE: f64 = 1e-3;
 
-/// Draws `curves`: as SVG and PNG, with its numbers as CSV. Without any curve there is no picture.
+/// `curves`; nothing without any curve.
 ///
 /// # Errors
 /// [`Error::Plane`] for a scan of another plane or of other parameters, [`Error::Unreadable`], an unknown model, or numbers that no
 /// axis can hold.
-pub fn draw_curves(
-    plan: &CurvePlan,
-    found: &Curves,
-    over: Option<&ScanFolder>,
-    format: &FigureFormat,
-) -> Result<Vec<Picture>, Error> {
+pub fn curve_figures(plan: &CurvePlan, found: &Curves, over: Option<&ScanFolder>) -> Result<Figures, Error> {
     if found.curves.iter().all(|curve| curve.legs.is_empty()) {
         return Ok(Vec::new());
     }
-    let mut pictures = Vec::new();
-    add_with_numbers(&mut pictures, "curves", &mut curve_map(plan, found, over)?, format)?;
-    Ok(pictures)
+    Ok(vec![("curves", Box::new(curve_map(plan, found, over)?))])
 }
 
 /// The map of curves.
 ///
 /// # Errors
-/// As [`draw_curves`].
+/// As [`curve_figures`].
 pub fn curve_map(plan: &CurvePlan, found: &Curves, over: Option<&ScanFolder>) -> Result<CurveMap, Error> {
     let (info, sides) = (plan.info()?, &plan.computation.plane);
     let [x, y] = sides.each_ref().map(|side| [side.from, side.to]);
@@ -50,6 +43,7 @@ pub fn curve_map(plan: &CurvePlan, found: &Curves, over: Option<&ScanFolder>) ->
         y,
         under: under.map(|found| found.1),
         named: false,
+        insets: Vec::new(),
         curves: in_order.flat_map(curve_stretches).collect(),
         ends: Vec::new(),
         marks: marks_together(found.curves.iter().flat_map(codimension_2).map(curve_mark), [x, y]),

@@ -3,5 +3,5 @@
 mod branches;
 mod curves;
 
-pub use branches::{Ordinate, diagram as branch_diagram, draw_branches};
-pub use curves::{check_scan, curve_map, curve_mark, curve_stretches, draw_curves, marks_together};
+pub use branches::{Ordinate, branch_figures, diagram as branch_diagram};
+pub use curves::{check_scan, curve_figures, curve_map, curve_mark, curve_stretches, marks_together};

@@ -2,7 +2,7 @@
 
 use super::{number, whole};
 use clap::{Args, ValueEnum};
-use motiform_figures::{Style, Width};
+use motiform_figures::{Medium, Style, Width};
 use motiform_lab::draw::FigureFormat;
 
 #[derive(Args)]
@@ -25,6 +25,9 @@ pub(crate) struct DrawingOptions {
     /// Draw to this time
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) to: Option<f64>,
+    /// Axes in physical units: what a unit of length and one of time are, such as 20um,1min (docs/units.md)
+    #[arg(long, value_name = "LENGTH,TIME")]
+    pub(crate) units: Option<String>,
     /// Also write the animation in this format (needs ffmpeg); give it twice for both
     #[arg(long, value_name = "FORMAT", conflicts_with = "no_animation")]
     pub(crate) film: Vec<FilmFormat>,
@@ -41,6 +44,10 @@ pub(crate) struct StyleOptions {
     /// Omit the captions
     #[arg(long)]
     pub(crate) no_caption: bool,
+    /// Where the figures are shown: journal (86 mm wide, title and caption beside them as NAME.txt) or slide (1920 pixels, its caption
+    /// as NAME.txt); other options of figures have the last word
+    #[arg(long = "style", value_name = "STYLE", value_enum)]
+    pub(crate) medium: Option<ShownIn>,
     /// Width of the figures: 86mm or 3.4in (laid out for it, with text of 8 pt), slide (1920 pixels, with text of 18 pt), or
     /// 1200px (scaled) (default: as drawn, about 170 mm)
     #[arg(long, value_name = "WIDTH", value_parser = width)]
@@ -60,6 +67,7 @@ impl DrawingOptions {
             ("--outlines", self.outlines.is_some()),
             ("--from", self.from.is_some()),
             ("--to", self.to.is_some()),
+            ("--units", self.units.is_some()),
             ("--film", !self.film.is_empty()),
         ];
         given.into_iter().find(|(_, given)| *given).map(|(name, _)| name)
@@ -69,9 +77,23 @@ impl DrawingOptions {
 impl StyleOptions {
     /// How the figures become files.
     pub(crate) fn format(&self) -> FigureFormat {
-        let style = Style { title: self.title.clone(), no_caption: self.no_caption, width: self.width };
+        let medium = self.medium.map(|shown| match shown {
+            ShownIn::Journal => Medium::Journal,
+            ShownIn::Slide => Medium::Slide,
+        });
+        let style =
+            Style { medium, title: self.title.clone(), no_caption: self.no_caption, width: self.width };
         FigureFormat { pdf: self.pdf, style }
     }
+}
+
+/// Where figures are shown.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ShownIn {
+    /// In a column of a journal
+    Journal,
+    /// On a slide
+    Slide,
 }
 
 /// Video formats.

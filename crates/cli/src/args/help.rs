@@ -199,7 +199,9 @@ Examples:
   motiform figure tensor-fig5a --scale 2 --to 80 --out again      other outlines, a shorter time
   motiform figure tensor-fig5a-branches --width 86mm --no-caption --out paper
                                                                   a figure as wide as a column
-  motiform figure tensor-fig1-scan --width slide --title 'Motions of a domain'";
+  motiform figure tensor-fig1-scan --style slide --title 'Motions of a domain'
+  motiform figure tensor-fig5a tensor-fig5a:series tensor-fig1-scan --panels 3x1 --width 178mm --pdf --out paper
+                                                                  panels (a), (b), (c) of one figure";
 
 pub(super) const NEW_HELP: &str = "\
 Examples:

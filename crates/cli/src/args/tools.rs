@@ -36,7 +36,7 @@ pub(crate) struct CheckOptions {
 
 #[derive(Args)]
 pub(crate) struct FigureOptions {
-    /// Folders written by `motiform simulate`, `scan`, `continue` or `atlas`
+    /// Folders written by `motiform simulate`, `scan`, `continue` or `atlas`; as a panel also one figure of a folder, such as DIR:series
     #[arg(value_name = "DIR", required = true)]
     pub(crate) datasets: Vec<PathBuf>,
     /// Draw figures again that were edited since; the edited ones are kept as NAME.edited.svg. With --out: replace earlier figures there
@@ -45,11 +45,20 @@ pub(crate) struct FigureOptions {
     /// Write the figures into this folder; those of the result stay as they are
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// One figure of panels (a), (b), ... with aligned axes: the first figure of each folder, in rows from the left
+    #[arg(long, value_name = "COLUMNSxROWS", value_parser = grid, requires = "out")]
+    pub(crate) panels: Option<[usize; 2]>,
     /// What a diagram of branches shows against the parameter
     #[arg(long, value_name = "NAME", value_enum)]
     pub(crate) observable: Option<Observable>,
     #[command(flatten)]
     pub(crate) drawing: DrawingOptions,
+}
+
+fn grid(text: &str) -> Result<[usize; 2], String> {
+    let number = |text: &str| text.trim().parse().ok().filter(|count| (1..=9).contains(count));
+    let sides = text.split_once(['x', '×']).and_then(|(a, b)| Some([number(a)?, number(b)?]));
+    sides.ok_or_else(|| format!("{text:?} is not COLUMNSxROWS: write it like 2x2, each from 1 to 9"))
 }
 
 #[derive(Args)]

@@ -56,6 +56,7 @@ const MEANINGS: &[(&str, &str)] = &[
     ("out", "where the result is written"),
     ("outlines", "number of outlines along the path"),
     ("over", "the scan beneath the curves"),
+    ("panels", "one figure of panels with letters"),
     ("pdf", "also write PDF figures"),
     ("perturb", "size of the deviations that replace zeros of a given start"),
     ("pixel-size", "length of a pixel"),
@@ -80,6 +81,7 @@ const MEANINGS: &[(&str, &str)] = &[
     ("steady", "follow steady motions alone"),
     ("step", "fixed step"),
     ("stepper", "the numerical method"),
+    ("style", "where the figures are shown"),
     ("sweep", "values of the parameter at which motions are simulated, upwards and downwards"),
     ("t-end", "model time to record, or to average over"),
     ("threads", "number of threads; does not affect the results"),
@@ -92,6 +94,7 @@ const MEANINGS: &[(&str, &str)] = &[
     ("token", "the secret part of the explorer's address"),
     ("tolerance", "tolerance of Newton's method on a branch"),
     ("transient", "model time to leave out at the beginning"),
+    ("units", "physical units of the axes"),
     ("until", "longest model time for which an orbit is followed"),
     ("width", "width of the figures"),
     ("write-outlines", "also write the outlines, for other programs"),
@@ -156,6 +159,38 @@ fn an_option_means_one_thing() {
     }
     let unused: Vec<&&str> = known.keys().filter(|name| !options.contains_key(**name)).collect();
     assert!(unused.is_empty(), "no command has {unused:?}");
+}
+
+/// The options of every figure.
+const OF_FIGURES: [&str; 5] = ["style", "width", "title", "no-caption", "pdf"];
+
+/// Commands that draw, but pages for a browser, which lay themselves out for its window; their figures are saved from there.
+const OF_PAGES: [&str; 4] = ["observe", "fit", "reproduce", "explore"];
+
+/// Commands that have nothing to draw.
+const WITHOUT_FIGURES: [&str; 11] = [
+    "models",
+    "merge",
+    "classify",
+    "lyapunov",
+    "equilibria",
+    "section",
+    "new",
+    "doctor",
+    "check",
+    "verify",
+    "completions",
+];
+
+#[test]
+fn every_command_that_draws_has_the_options_of_figures() {
+    for command in Arguments::command().get_subcommands() {
+        let name = command.get_name();
+        let has = |option: &&&str| command.get_arguments().any(|known| known.get_long() == Some(option));
+        let draws = !OF_PAGES.contains(&name) && !WITHOUT_FIGURES.contains(&name);
+        let count = OF_FIGURES.iter().filter(has).count();
+        assert_eq!(count, if draws { OF_FIGURES.len() } else { 0 }, "{name}");
+    }
 }
 
 #[test]

@@ -4,14 +4,14 @@ use crate::args::ContinueOptions;
 use crate::commands::{curves, subject};
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
-use motiform_branching::draw::draw_branches;
+use motiform_branching::draw::branch_figures;
 use motiform_branching::starts::StartPoint;
 use motiform_branching::{
     BranchEnd, BranchFolder, Coefficient, Followed, SpecialEntry, default_folder, follow_kept, stated,
     stretches, summary,
 };
 use motiform_files::{Folder, Journal, Opening};
-use motiform_lab::draw::Picture;
+use motiform_lab::draw::{self, Figures, Picture};
 use motiform_study::branches::{Along, BranchSettings, origin};
 use motiform_study::curves::{CurveKind, Plane};
 use motiform_study::study::FollowSettings;
@@ -39,7 +39,7 @@ fn branches(options: &ContinueOptions, plan: BranchPlan) -> anyhow::Result<End> 
     let (files, found) = or_abandon(files, found)?;
     let folder = BranchFolder { plan, found };
     let ordinate = options.observable.ordinate();
-    let drawn = || draw_branches(&folder.plan, &folder.found, ordinate, &options.style.format());
+    let drawn = || branch_figures(&folder.plan, &folder.found, ordinate);
     let (written, undrawn) = write(options, files, drawn, |pictures, to| folder.write(pictures, to))?;
     print(&if options.json {
         serde_json::to_string(&summary(&folder.plan, &folder.found))?
@@ -141,11 +141,16 @@ pub(super) fn or_abandon<T>(
 pub(super) fn write(
     options: &ContinueOptions,
     files: Option<Folder>,
-    draw: impl FnOnce() -> Result<Vec<Picture>, Error>,
+    draw: impl FnOnce() -> Result<Figures, Error>,
     write: impl FnOnce(&[Picture], &Folder) -> Result<(), Error>,
 ) -> Result<(Option<String>, Option<Error>), Error> {
     let Some(files) = files else { return Ok((None, None)) };
-    let drawn = if options.no_figures { Ok(Vec::new()) } else { draw() };
+    let format = options.style.format();
+    let drawn = if options.no_figures {
+        Ok(Vec::new())
+    } else {
+        draw().and_then(|all| draw::files(all, true, &format))
+    };
     let (pictures, undrawn) = match drawn {
         Ok(pictures) => (pictures, None),
         Err(error @ Error::Figure(_)) => (Vec::new(), Some(error)),
@@ -171,7 +176,7 @@ pub(super) fn end(undrawn: Option<Error>, complete: bool) -> anyhow::Result<End>
 fn text(folder: &BranchFolder, written: Option<&str>) -> anyhow::Result<String> {
     let BranchFolder { plan, found } = folder;
     let along = &plan.computation.along;
-    let mut text = format!("{}, {}..{}\n", plain(&plan.title()), along.from, along.to);
+    let mut text = format!("{}, {} = {}..{}\n", plain(&plan.title()), along.name, along.from, along.to);
     for (number, followed) in found.branches.iter().enumerate() {
         branch(&mut text, folder, (number, followed))?;
     }

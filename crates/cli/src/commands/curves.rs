@@ -8,7 +8,7 @@ use motiform_branching::curves::{
     CurveFolder, FollowedCurve, codimension_2, curve_ends, curve_summary, default_curve_folder,
     follow_curves_kept, not_found,
 };
-use motiform_branching::draw::{check_scan, draw_curves};
+use motiform_branching::draw::{check_scan, curve_figures};
 use motiform_lab::scan::ScanFolder;
 use motiform_study::CurvePlan;
 use std::fmt::Write;
@@ -26,7 +26,7 @@ pub(crate) fn run(options: &ContinueOptions, plan: &CurvePlan) -> anyhow::Result
     watch.finish();
     let (files, found) = or_abandon(files, found)?;
     let folder = CurveFolder { plan: plan.clone(), found };
-    let drawn = || draw_curves(&folder.plan, &folder.found, over.as_ref(), &options.style.format());
+    let drawn = || curve_figures(&folder.plan, &folder.found, over.as_ref());
     let (written, undrawn) = write(options, files, drawn, |pictures, to| folder.write(pictures, to))?;
     if folder.found.complete && folder.found.curves.is_empty() {
         warn(

@@ -3,12 +3,13 @@
 use super::film;
 use crate::args::{DrawingOptions, FigureOptions, Observable};
 use crate::output::{End, print, warn};
-use motiform_atlas::{AtlasFolder, draw_atlas};
+use motiform_atlas::{AtlasFolder, atlas_map};
 use motiform_branching::BranchFolder;
 use motiform_branching::curves::CurveFolder;
-use motiform_branching::draw::{draw_branches, draw_curves};
+use motiform_branching::draw::{branch_figures, curve_figures};
+use motiform_figures::{Figure, Panels};
 use motiform_files::{Folder, Kind, Opening, kind_of, read_dataset_by};
-use motiform_lab::draw::{Picture, draw, draw_scan};
+use motiform_lab::draw::{Figures, Picture, dataset_figures, draw, files, scan_figures};
 use motiform_lab::long::read_shown;
 use motiform_lab::scan::ScanFolder;
 use motiform_study::study::FigureSettings;
@@ -17,13 +18,17 @@ use std::path::Path;
 
 pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
     film::check(&options.drawing.film)?;
+    if let (Some(grid), Some(out)) = (options.panels, &options.out) {
+        return apart(&panels(grid, options)?, out, options.force).map(|()| End::Done);
+    }
     let mut end = End::Done;
     if let (Some(out), true) = (&options.out, options.datasets.len() > 1) {
-        let remedy = "its figures would have the same names: draw one folder at a time";
+        let remedy = "its figures would have the same names: draw one folder at a time, or all as --panels of one figure";
         return Err(Error::Setting { key: "--out", value: out.display().to_string(), remedy }.into());
     }
     for path in &options.datasets {
-        let pictures = drawn(path, options)?;
+        check(kind_of(path), options)?;
+        let pictures = Content::read(path, options)?.pictures(options)?;
         if let Some(out) = &options.out {
             apart(&pictures, out, options.force)?;
             continue;
@@ -72,39 +77,119 @@ fn refuse(given: Option<&'static str>, remedy: &'static str) -> Result<(), Error
     given.map_or(Ok(()), |key| Err(Error::Setting { key, value: "given".to_owned(), remedy }))
 }
 
-/// The pictures of a folder, whatever is in it.
-fn drawn(path: &Path, options: &FigureOptions) -> anyhow::Result<Vec<Picture>> {
-    let (kind, format) = (kind_of(path), options.drawing.style.format());
+/// Refuses the options that the figures of a kind of folder do not have.
+fn check(kind: Option<Kind>, options: &FigureOptions) -> Result<(), Error> {
     if kind != Some(Kind::Branches) {
         let given = options.observable.map(|_| "--observable");
         refuse(given, "only diagrams of branches have it: leave it out")?;
     }
-    if matches!(kind, Some(Kind::Scan | Kind::Branches | Kind::Curves | Kind::Atlas)) {
+    if has_no_body(kind) {
         refuse(options.drawing.of_bodies(), "only figures of a body have it: leave it out")?;
     }
-    match kind {
-        Some(Kind::Scan) => Ok(draw_scan(&ScanFolder::read(path)?, &format)?),
-        Some(Kind::Branches) => {
-            let BranchFolder { plan, found } = BranchFolder::read(path)?;
-            let ordinate = options.observable.unwrap_or(Observable::Speed).ordinate();
-            Ok(draw_branches(&plan, &found, ordinate, &format)?)
-        }
-        Some(Kind::Curves) => {
-            let CurveFolder { plan, found } = CurveFolder::read(path)?;
-            Ok(draw_curves(&plan, &found, None, &format)?)
-        }
-        Some(Kind::Atlas) => Ok(draw_atlas(&AtlasFolder::read(path)?, &format)?),
-        _ => {
-            let dataset = read_dataset_by(path, &|manifest, path| {
+    Ok(())
+}
+
+fn has_no_body(kind: Option<Kind>) -> bool {
+    matches!(kind, Some(Kind::Scan | Kind::Branches | Kind::Curves | Kind::Atlas))
+}
+
+/// Figures of several folders as panels of one.
+fn panels([columns, rows]: [usize; 2], options: &FigureOptions) -> anyhow::Result<Vec<Picture>> {
+    if options.datasets.len() > columns * rows {
+        let value = format!("{columns}x{rows}");
+        let remedy = "there are more folders than panels: write COLUMNSxROWS with room for all";
+        return Err(Error::Setting { key: "--panels", value, remedy }.into());
+    }
+    refuse(
+        (!options.drawing.film.is_empty()).then_some("--film"),
+        "a figure of panels does not move: leave it out",
+    )?;
+    let sources: Vec<(&Path, Option<&str>)> = options.datasets.iter().map(|path| source(path)).collect();
+    // an option that one of the panels has is no mistake
+    let kinds = || sources.iter().map(|(path, _)| kind_of(path));
+    let one = kinds().find(|kind| check(*kind, options).is_ok()).or_else(|| kinds().next());
+    check(one.flatten(), options)?;
+    let figures = sources.iter().map(|(path, name)| chosen(path, *name, options));
+    let panels = Panels::new(columns, figures.collect::<anyhow::Result<_>>()?);
+    Ok(files(vec![("panels", Box::new(panels))], true, &options.drawing.style.format())?)
+}
+
+/// A folder, and after a colon the name of one of its figures.
+fn source(path: &Path) -> (&Path, Option<&str>) {
+    let split = path.to_str().filter(|_| !path.exists()).and_then(|text| text.rsplit_once(':'));
+    split.map_or((path, None), |(folder, name)| (Path::new(folder), Some(name)))
+}
+
+/// A figure of a folder by its name, or the first one.
+fn chosen(path: &Path, name: Option<&str>, options: &FigureOptions) -> anyhow::Result<Box<dyn Figure>> {
+    let mut all = Content::read(path, options)?.figures()?;
+    let names: Vec<&str> = all.iter().map(|one| one.0.trim_start_matches('_')).collect();
+    let place = match name {
+        Some(name) => names.iter().position(|known| *known == name.trim_start_matches('_')),
+        None => (!names.is_empty()).then_some(0),
+    };
+    match place {
+        Some(place) => Ok(all.swap_remove(place).1),
+        None if names.is_empty() => anyhow::bail!("{}: it has no figure: leave it out", path.display()),
+        None => anyhow::bail!(
+            "{}:{}: there is no such figure; it has {}",
+            path.display(),
+            name.unwrap_or_default(),
+            names.join(", ")
+        ),
+    }
+}
+
+/// What a folder has to draw.
+enum Content {
+    /// Figures, and whether their numbers are files, too.
+    Figures(Figures, bool),
+    /// A body, which moves.
+    Body(Box<Dataset>),
+}
+
+impl Content {
+    /// The content of a folder, whatever is in it.
+    fn read(path: &Path, options: &FigureOptions) -> anyhow::Result<Self> {
+        Ok(match kind_of(path) {
+            Some(Kind::Scan) => Self::Figures(scan_figures(&ScanFolder::read(path)?)?, false),
+            Some(Kind::Branches) => {
+                let BranchFolder { plan, found } = BranchFolder::read(path)?;
+                let ordinate = options.observable.unwrap_or(Observable::Speed).ordinate();
+                Self::Figures(branch_figures(&plan, &found, ordinate)?, true)
+            }
+            Some(Kind::Curves) => {
+                let CurveFolder { plan, found } = CurveFolder::read(path)?;
+                Self::Figures(curve_figures(&plan, &found, None)?, true)
+            }
+            Some(Kind::Atlas) => {
+                Self::Figures(vec![("atlas", Box::new(atlas_map(&AtlasFolder::read(path)?)?))], true)
+            }
+            _ => Self::Body(Box::new(read_dataset_by(path, &|manifest, path| {
                 apply(&options.drawing, &mut manifest.plan.figure);
                 plan::check_figure(&manifest.plan.figure)?;
                 let (trajectory, stride) = read_shown(manifest, path)?;
                 note_stride(stride);
                 Ok(trajectory)
-            })?;
-            let mut stills = pictures(&dataset, &options.drawing)?;
-            stills.extend(film::convert(&stills, &options.drawing.film)?);
-            Ok(stills)
+            })?)),
+        })
+    }
+
+    fn pictures(self, options: &FigureOptions) -> anyhow::Result<Vec<Picture>> {
+        match self {
+            Self::Figures(all, numbers) => Ok(files(all, numbers, &options.drawing.style.format())?),
+            Self::Body(dataset) => {
+                let mut stills = pictures(&dataset, &options.drawing)?;
+                stills.extend(film::convert(&stills, &options.drawing.film)?);
+                Ok(stills)
+            }
+        }
+    }
+
+    fn figures(self) -> Result<Figures, Error> {
+        match self {
+            Self::Figures(all, _) => Ok(all),
+            Self::Body(dataset) => dataset_figures(&dataset),
         }
     }
 }
@@ -117,6 +202,9 @@ pub(crate) fn apply(options: &DrawingOptions, settings: &mut FigureSettings) {
     settings.from = options.from.unwrap_or(settings.from);
     settings.to = options.to.unwrap_or(settings.to);
     settings.animation &= !options.no_animation;
+    if let Some(units) = &options.units {
+        settings.units.clone_from(units);
+    }
 }
 
 /// Says that a long run is not drawn from all of its rows.

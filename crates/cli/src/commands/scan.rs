@@ -4,7 +4,7 @@ use crate::args::ScanOptions;
 use crate::commands::subject;
 use crate::output::{End, print, warn};
 use crate::progress::Progress;
-use motiform_lab::draw::draw_scan;
+use motiform_lab::draw::{files, scan_figures};
 use motiform_lab::scan::{Axis, Classify, Opening, Scan, ScanFolder, Shard, Totals, default_folder};
 use motiform_study::{Error, ScanPlan, Study};
 use serde_json::json;
@@ -26,7 +26,7 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
     watch.finish();
     let ended = ended?;
     if !options.no_figures {
-        let pictures = draw_scan(scan.folder(), &options.style.format())?;
+        let pictures = files(scan_figures(scan.folder())?, false, &options.style.format())?;
         scan.draw(pictures.iter().map(|picture| (picture.name.as_str(), picture.bytes.as_slice())))?;
     }
     scan.notes().iter().for_each(|note| warn(note));

@@ -18,7 +18,7 @@ fn figures_take_a_title_and_a_width() {
     let done = folder.run("figure run --no-animation --title Another --no-caption --width 86mm");
     assert_eq!((done.code, done.stderr.as_str()), (Some(0), ""));
     let other = fs::read_to_string(folder.path("run/path.svg")).unwrap();
-    assert!(own.contains(">Computed by") && !other.contains(">Computed by"), "the caption is left out");
+    assert!(own.contains("in model units") && !other.contains("in model units"), "the caption is left out");
     assert!(!own.contains(">Another<") && other.contains(">Another<"));
     assert!(other.contains(" width=\"86mm\" height=\""));
     assert_eq!(fs::read(folder.path("run/trajectory.parquet")).unwrap(), data);
@@ -54,6 +54,73 @@ fn every_figure_takes_the_options_of_style() {
     }
     let done = folder.run("figure b s --out both").expect(2);
     assert!(done.stderr.contains("one folder at a time"), "{}", done.stderr);
+}
+
+/// A style for a journal leaves title and caption to the text, one for a slide the caption; what is given has the last word.
+#[test]
+fn styles_are_for_a_medium() {
+    let folder = Folder::new();
+    folder.run(&format!("{RUN} --no-animation --style journal")).expect(0);
+    let read = |name: &str| fs::read_to_string(folder.path(name)).unwrap();
+    let svg = read("run/path.svg");
+    assert!(svg.contains(" width=\"86mm\"") && !svg.contains("in model units") && !svg.contains(">Zigzag"));
+    let words = read("run/path.txt");
+    assert!(words.starts_with("Zigzag motion\n") && words.contains("in model units"), "{words}");
+    folder.run("figure run --no-animation --style slide --out slide").expect(0);
+    let svg = read("slide/path.svg");
+    assert!(
+        svg.contains(" width=\"1920\"") && svg.contains(">Zigzag motion<") && !svg.contains("in model units")
+    );
+    folder.run("figure run --no-animation --style journal --width 120mm --title Mine --out mine").expect(0);
+    let svg = read("mine/path.svg");
+    assert!(svg.contains(" width=\"120mm\"") && svg.contains(">Mine<"));
+}
+
+/// Several results as one figure, each panel with its letter.
+#[test]
+fn panels_are_one_figure() {
+    let folder = Folder::new();
+    folder.run(&format!("{RUN} --no-animation")).expect(0);
+    folder
+        .run("scan tensor --preset fig1 --axis kappa2=0.1:0.2:3 --axis gamma=0.1:0.2:3 --out s --no-figures")
+        .expect(0);
+    folder.run("figure run run:series s --panels 3x1 --width 250mm --pdf --out all").expect(0);
+    let svg = fs::read_to_string(folder.path("all/panels.svg")).unwrap();
+    assert!(svg.contains(" width=\"250mm\"") && !svg.contains(">(d)<"));
+    for words in
+        [">(a)<", ">(b)<", ">(c)<", "(a) Zigzag motion.", "(c) Motions of the tensor model.", ">turning"]
+    {
+        assert!(svg.contains(words), "{words}");
+    }
+    assert!(fs::read(folder.path("all/panels.pdf")).unwrap().starts_with(b"%PDF"));
+    assert!(fs::read_to_string(folder.path("all/panels.csv")).unwrap().contains("# (c)\nregime or line,"));
+    for (words, why) in [
+        ("run s --panels 1x1 --out no", "--panels"),
+        ("run:speed s --panels 2x1 --out no", "it has path, series"),
+        ("run s --panels 2x1", "--out"),
+        ("run s --panels two --out no", "COLUMNSxROWS"),
+        ("run s --panels 2x1 --width 50mm --out no", "fewer columns"),
+        ("s s --panels 2x1 --to 5 --out no", "--to"),
+    ] {
+        let done = folder.run(&format!("figure {words}"));
+        assert!(done.code != Some(0) && done.stderr.contains(why), "{words}: {}", done.stderr);
+        assert!(!folder.path("no/panels.svg").exists(), "{words}");
+    }
+}
+
+/// A study that says what its units are has axes in these.
+#[test]
+fn axes_are_physical_where_units_are_given() {
+    let folder = Folder::new();
+    folder.run(&format!("{RUN} --no-animation --units 20um,2min")).expect(0);
+    folder.run("figure run --no-animation --units 1um,1s --out other").expect(0);
+    let read = |name: &str| fs::read_to_string(folder.path(name)).unwrap();
+    let (path, series) = (read("run/path.svg"), read("run/series.svg"));
+    assert!(path.contains("> (µm)<") && path.contains("unit of length 20 µm, of time 2 min"), "{path}");
+    assert!(!path.contains("in model units") && read("other/path.svg").contains("of time 1 s"));
+    assert!(series.contains(">turning rate (1/min)<") && series.contains("| (µm/min)<"), "{series}");
+    let done = folder.run("figure run --no-animation --units 20,2 --out no").expect(2);
+    assert!(done.stderr.contains("20um,1min"), "{}", done.stderr);
 }
 
 /// An ffmpeg that writes what it read: `-i FROM` comes before the last word, the file to be written.

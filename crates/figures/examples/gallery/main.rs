@@ -1,16 +1,18 @@
-//! Draws every kind of figure from data of a small formula, extreme shapes included, to look at.
+//! Draws every kind of figure from data of a small formula, extreme shapes included, to look at; each kind also in a column of 86 mm and on a slide.
 //!
 //! `cargo run --release -p motiform-figures --example gallery -- FOLDER`
 
 mod diagrams;
+mod kinds;
 
 use std::f64::consts::TAU;
 use std::path::Path;
 
 use motiform_figures::palette::{BLUE, CATEGORIES, GREEN, VERMILION};
 use motiform_figures::{
-    Animation, Camera, Curve, DEFAULT_SCALE, Frame, OutlineStamp, Panel, PathFigure, PathPoint,
-    ReturnMapFigure, SectionLine, SeriesFigure, SpaceTimeFigure, SpectrumCurve, SpectrumFigure, png,
+    Animation, Camera, Curve, DEFAULT_SCALE, Frame, Medium, OutlineStamp, Panel, PathFigure, PathPoint,
+    ReturnMapFigure, SectionLine, SeriesFigure, SpaceTimeFigure, SpectrumCurve, SpectrumFigure, Style, Width,
+    png,
 };
 
 /// Drawing may fail, writing may fail: an example just says which.
@@ -30,7 +32,21 @@ fn main() -> Outcome {
     fields(folder)?;
     spectra(folder)?;
     diagrams::draw(folder)?;
+    sizes(folder)?;
     films(folder)
+}
+
+/// Every kind at the sizes of its reference pictures.
+fn sizes(folder: &Path) -> Outcome {
+    let column = Style { width: Some(Width::Millimetres(86.0)), ..Style::default() };
+    let slide = Style { medium: Some(Medium::Slide), ..Style::default() };
+    for (size, style) in [("86mm", column), ("slide", slide)] {
+        for (name, mut figure) in kinds::kinds() {
+            let svg = style.draw(figure.as_mut())?.svg;
+            std::fs::write(folder.join(format!("{name}-{size}.png")), png(&svg, style.png_scale(), &[])?)?;
+        }
+    }
+    Ok(())
 }
 
 fn save(folder: &Path, name: &str, svg: &str) -> Outcome {

@@ -67,8 +67,8 @@ impl Default for Animation {
             size: 480,
             fps: 25.0,
             camera: Camera::Auto,
-            x_label: "*x* (model length)".to_owned(),
-            y_label: "*y* (model length)".to_owned(),
+            x_label: "*x*".to_owned(),
+            y_label: "*y*".to_owned(),
             unit: "model length".to_owned(),
             note: String::new(),
         }

@@ -62,7 +62,7 @@ impl Layout {
         let range =
             |i: usize| Range::of(figure.places().map(|p| p[i])).unwrap_or(Range { min: 0.0, max: 0.0 });
         let (x, y) = with_equal_padding(range(0), range(1));
-        let (w, h) = frame_size(x, y, wide, room);
+        let (w, h) = room.height().map_or_else(|| frame_size(x, y, wide, room), |height| (wide, height));
         let scale = Scale::equal(Rect { x: 0.0, y: 0.0, w, h }, x, y);
         let axes = Axes::new(scale, Some(&figure.x_label), &figure.y_label);
         let left = MARGIN + axes.left_margin();
@@ -103,9 +103,10 @@ impl Layout {
     }
 
     /// Draws the sheet.
-    pub(super) fn draw(&self, figure: &PathFigure) -> String {
-        let mut svg = Svg::new(self.width.ceil(), self.height.ceil());
+    pub(super) fn draw(&self, figure: &PathFigure, room: Room) -> Svg {
+        let mut svg = Svg::in_room(room, self.width.ceil(), self.height.ceil());
         let frame = self.axes.scale.frame;
+        svg.frame(frame);
         self.title.draw(&mut svg, [MARGIN, MARGIN]);
         self.axes.draw_grid(&mut svg);
         svg.clipped(frame, |svg| figure.draw_data(svg, &self.axes.scale));
@@ -119,7 +120,7 @@ impl Layout {
         let key = if self.beside { [column, below_bar] } else { [self.key, frame.bottom() + BELOW] };
         self.legend.draw(&mut svg, key);
         self.caption.draw(&mut svg, [MARGIN, self.caption_top()]);
-        svg.finish()
+        svg
     }
 }
 

@@ -7,6 +7,7 @@ use super::error::{FigureError, Result, check_finite};
 use super::figure::{Csv, figure};
 use super::geometry::Point;
 use super::room::Room;
+use super::svg::Svg;
 
 /// A position at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,8 +73,8 @@ impl Default for PathFigure {
         Self {
             title: String::new(),
             caption: Vec::new(),
-            x_label: "*x* (model length)".to_owned(),
-            y_label: "*y* (model length)".to_owned(),
+            x_label: "*x*".to_owned(),
+            y_label: "*y*".to_owned(),
             time_label: "*t*".to_owned(),
             segments: Vec::new(),
             outlines: Vec::new(),
@@ -86,9 +87,9 @@ impl PathFigure {
     /// Draws the figure for a width.
     ///
     /// # Errors   neither path nor outline has a point, or a number is not finite
-    pub fn svg_in(&self, room: Room) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<Svg> {
         self.check()?;
-        Ok(layout::Layout::of(self, room).draw(self))
+        Ok(layout::Layout::of(self, room).draw(self, room))
     }
 
     fn points(&self) -> impl Iterator<Item = &PathPoint> {

@@ -67,6 +67,11 @@ impl Cells {
         [self.y.edges[row], self.y.edges[row + 1]]
     }
 
+    /// The number of the cell with a centre.
+    pub(super) fn number(&self, [x, y]: [f64; 2]) -> Option<usize> {
+        Some(self.y.find(y)? * self.x.centres.len() + self.x.find(x)?)
+    }
+
     /// What was found in a cell.
     pub(super) fn at(&self, column: usize, row: usize) -> Option<&Shares> {
         self.places[row * self.x.centres.len() + column].as_ref()

@@ -1,6 +1,7 @@
 //! Phase diagrams: regimes over one or two parameters.
 
 mod cells;
+mod inset;
 mod labels;
 mod mosaic;
 mod names;
@@ -21,6 +22,7 @@ use super::palette::{Colour, WHITE};
 use super::room::Room;
 use super::svg::Svg;
 use cells::Cells;
+pub use inset::MapInset;
 
 /// Most cells a side that get markers.
 const TILES: usize = 40;
@@ -81,7 +83,7 @@ impl PhaseDiagram {
     ///
     /// # Errors   no cell or no x, a number that is not finite, centres that do not increase, a cell at no centre or at
     /// that of an earlier one, or shares that do not add up to 1
-    pub fn svg_in(&self, room: Room) -> Result<String> {
+    pub fn svg_in(&self, room: Room) -> Result<Svg> {
         check_finite("boundary line value", self.lines.iter().flat_map(|l| &l.points).flatten().copied())?;
         let strip = self.y.len() < 2;
         let cells = Cells::new(&self.x, if strip { &[] } else { &self.y }, &self.cells)?;
@@ -125,10 +127,10 @@ impl PhaseDiagram {
         drawn
     }
 
-    /// Writes the names of wide regions into the frame of another figure; the places that they take.
-    pub(crate) fn draw_names(&self, svg: &mut Svg, scale: &Scale) -> Result<Vec<Rect>> {
+    /// Writes the names of wide regions into the frame of another figure, with their paths; the places that they take.
+    pub(crate) fn draw_names(&self, svg: &mut Svg, scale: &Scale, insets: &[MapInset]) -> Result<Vec<Rect>> {
         let cells = Cells::new(&self.x, &self.y, &self.cells)?;
-        Ok(names::draw(svg, scale, &cells))
+        Ok(names::draw(svg, scale, &cells, insets))
     }
 
     /// What the cells cover, across and upwards.
@@ -163,7 +165,7 @@ impl PhaseDiagram {
         let mut entries: Vec<_> = present.map(|(_, mark)| Entry::new(look.key(*mark), mark.name)).collect();
         if let (Some([one, other]), true) = (cells.first_pair(), look != Look::Strip) {
             let stripes = Mark::Stripes(look.ground(&REGIMES[one]), look.ground(&REGIMES[other]));
-            entries.push(Entry::new(stripes, "more than one motion, stripes by share"));
+            entries.push(Entry::new(stripes, "stripes: several motions"));
         }
         entries.extend(self.line_entries());
         entries

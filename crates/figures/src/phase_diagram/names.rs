@@ -5,6 +5,7 @@ use super::super::marks::REGIMES;
 use super::super::svg::Anchor;
 use super::super::text::Label;
 use super::cells::Cells;
+use super::inset::{self, MapInset};
 use super::{Paint, Scale, Svg, WHITE};
 
 /// Size of the letters, in pixels.
@@ -12,6 +13,9 @@ const SIZE: f64 = 12.0;
 
 /// Room around a name, in pixels.
 const ROOM: f64 = 5.0;
+
+/// Opacity of the ground of names and paths.
+const GROUND: f64 = 0.8;
 
 /// Room for a marker where there is none for a name, in pixels.
 const MARKER: f64 = 18.0;
@@ -26,8 +30,8 @@ struct Run {
     to: usize,
 }
 
-/// Writes the names of the regions that have room for them; the places that they take.
-pub(super) fn draw(svg: &mut Svg, scale: &Scale, cells: &Cells) -> Vec<Rect> {
+/// Writes the names of the regions that have room for them, and below a name the paths of its motions; the places that they take.
+pub(super) fn draw(svg: &mut Svg, scale: &Scale, cells: &Cells, insets: &[MapInset]) -> Vec<Rect> {
     let mut taken = Vec::new();
     for (motions, region) in regions(cells) {
         let words: Vec<&str> = motions.iter().map(|rank| REGIMES[*rank].name).collect();
@@ -36,11 +40,24 @@ pub(super) fn draw(svg: &mut Svg, scale: &Scale, cells: &Cells) -> Vec<Rect> {
         if motions.len() > MOST {
             continue;
         }
-        if let Some(place) = place(scale, cells, &region, size) {
-            let ground = Rect { x: place.x + 2.0, y: place.y + 2.0, w: place.w - 4.0, h: place.h - 4.0 };
-            svg.rect(ground, &Paint::fill(WHITE).opacity(0.8));
-            let at = [place.x + 0.5 * place.w, place.y + 0.5 * place.h + 0.36 * SIZE];
-            svg.text(at, SIZE, Anchor::Middle, &label);
+        let own = |inset: &&MapInset| {
+            cells.number(inset.cell).is_some_and(|cell| region.binary_search(&cell).is_ok())
+        };
+        let paths = insets.iter().find(own).map_or(&[][..], |inset| &inset.paths);
+        let below =
+            [inset::SIZE[0] * paths.len() as f64, if paths.is_empty() { 0.0 } else { inset::SIZE[1] }];
+        if let Some(whole) = place(scale, cells, &region, [size[0].max(below[0]), size[1] + below[1]]) {
+            name(svg, Rect { h: size[1], ..whole }, &label);
+            let left = whole.x + 0.5 * (whole.w - below[0]);
+            for (number, path) in paths.iter().enumerate() {
+                let [w, h] = inset::SIZE;
+                let place = Rect { x: left + w * number as f64, y: whole.y + size[1], w, h };
+                svg.rect(place, &Paint::fill(WHITE).opacity(GROUND));
+                inset::draw(svg, place, path);
+            }
+            taken.push(whole);
+        } else if let Some(place) = place(scale, cells, &region, size) {
+            name(svg, place, &label);
             taken.push(place);
         } else if let ([rank], Some(place)) = (&motions[..], place(scale, cells, &region, [MARKER; 2])) {
             let at = [place.x + 0.5 * place.w, place.y + 0.5 * place.h];
@@ -50,6 +67,15 @@ pub(super) fn draw(svg: &mut Svg, scale: &Scale, cells: &Cells) -> Vec<Rect> {
         }
     }
     taken
+}
+
+/// A name on a pale ground.
+fn name(svg: &mut Svg, place: Rect, label: &Label) {
+    let w = label.width(SIZE) + 2.0 * ROOM - 4.0;
+    let ground = Rect { x: place.x + 0.5 * (place.w - w), y: place.y + 2.0, w, h: place.h - 4.0 };
+    svg.rect(ground, &Paint::fill(WHITE).opacity(GROUND));
+    let at = [place.x + 0.5 * place.w, place.y + 0.5 * place.h + 0.36 * SIZE];
+    svg.text(at, SIZE, Anchor::Middle, label);
 }
 
 /// The place in a region with the most room around a name of this size; `None` if it fits nowhere.
@@ -164,8 +190,13 @@ mod tests {
         let frame = Rect { x: 0.0, y: 0.0, w: 400.0, h: 300.0 };
         let range = Range { min: -0.5, max: 19.5 };
         let mut svg = Svg::new(400.0, 300.0);
-        let taken = draw(&mut svg, &Scale { frame, x: range, y: range }, &cells);
+        let taken = draw(&mut svg, &Scale { frame, x: range, y: range }, &cells, &[]);
         let [marker, name] = &taken[..] else { panic!("{taken:?}") };
+        let path = (0..50).map(|i| [f64::from(i), f64::from(i % 9)]).collect();
+        let inset = MapInset { cell: [10.0, 10.0], paths: vec![path] };
+        let with = draw(&mut svg, &Scale { frame, x: range, y: range }, &cells, &[inset]);
+        assert!(with[0] == *marker && with[1].h > name.h + 30.0, "{with:?}");
+        assert!(with[1].x >= 40.0 && with[1].right() <= 400.0, "{with:?}");
         assert!(marker.x >= 0.0 && marker.right() <= 40.0, "{marker:?}");
         assert!(
             name.x >= 40.0 && name.right() <= 400.0 && name.y > 50.0 && name.bottom() < 250.0,

@@ -1,9 +1,10 @@
 //! The body along its path: the rows that are shown, and the size of the outlines.
 
-use motiform_dynamics::{Model, Outline};
+use motiform_dynamics::{Model, Outcome, Outline};
 use motiform_models::ModelInfo;
 use motiform_study::table::Table;
-use motiform_study::{Dataset, Error};
+use motiform_study::titles::number;
+use motiform_study::{Dataset, Dimension, Error, Units};
 use std::ops::Range;
 
 /// A dataset with its model, and the choices that all figures share.
@@ -12,14 +13,26 @@ pub(super) struct Body<'d> {
     pub(super) info: &'static ModelInfo,
     pub(super) model: Box<dyn Model>,
     rows: Range<usize>,
+    /// Whether the last rows before a blow-up are left out.
+    cut: bool,
+    /// Physical units, if the study has them.
+    units: Option<Units>,
     /// Undeformed radius R0 (model length).
     pub(super) radius: f64,
     /// Ratio of the drawn size of an outline to its true size relative to the path.
     pub(super) scale: f64,
 }
 
+/// The dimension of a length, a time, and a rate.
+pub(super) const LENGTH: Dimension = [1, 0];
+pub(super) const TIME: Dimension = [0, 1];
+pub(super) const RATE: Dimension = [0, -1];
+
 /// Approximate size of an undeformed outline relative to the longer side of the path.
 const TARGET: f64 = 0.032;
+
+/// A shape this many times as large as usual leaves the scale of the figures of a run that blows up.
+const LARGE: f64 = 10.0;
 
 /// If R0 is chosen automatically, the deformation is at most about this fraction of the radius.
 const DEFORMATION: f64 = 0.45;
@@ -30,7 +43,19 @@ impl<'d> Body<'d> {
         let info = plan.info()?;
         let model = plan.body()?;
         let rows = window(&dataset.trajectory, plan.figure.from, plan.figure.to);
-        let mut body = Self { dataset, info, model, rows, radius: 1.0, scale: 1.0 };
+        let mut body = Self {
+            dataset,
+            info,
+            model,
+            rows,
+            cut: false,
+            units: Units::parse(&plan.figure.units)?,
+            radius: 1.0,
+            scale: 1.0,
+        };
+        if matches!(dataset.manifest.outcome.outcome, Outcome::Escaped { singular: true, .. }) {
+            body.leave_out_blow_up();
+        }
         body.radius = match body.model.radius() {
             Some(fixed) => fixed,
             None if plan.figure.radius > 0.0 => plan.figure.radius,
@@ -38,6 +63,23 @@ impl<'d> Body<'d> {
         };
         body.scale = if plan.figure.scale > 0.0 { plan.figure.scale } else { body.readable_scale(TARGET) };
         Ok(body)
+    }
+
+    /// Leaves out what comes after the shape is so large that nothing before would be seen beside it.
+    fn leave_out_blow_up(&mut self) {
+        let size = |row: usize| self.model.deformation(&self.shape(row));
+        let mut usual: Vec<f64> = self.rows().map(size).collect();
+        usual.sort_by(f64::total_cmp);
+        let Some(&median) = usual.get(usual.len() / 2) else { return };
+        let end = self.rows().find(|&row| size(row) > LARGE * median).unwrap_or(self.rows.end);
+        let end = end.max(self.rows.start + 2).min(self.rows.end);
+        self.cut = end < self.rows.end;
+        self.rows.end = end;
+    }
+
+    /// Whether the last rows before a blow-up are left out.
+    pub(super) fn cut(&self) -> bool {
+        self.cut
     }
 
     /// The rows that are shown.
@@ -49,12 +91,43 @@ impl<'d> Body<'d> {
         self.dataset.trajectory.get(name).unwrap_or(&[])
     }
 
-    pub(super) fn time(&self, row: usize) -> f64 {
-        self.column("t")[row]
+    /// The factor from model units to those of the figures.
+    pub(super) fn factor(&self, dimension: Dimension) -> f64 {
+        self.units.as_ref().map_or(1.0, |units| units.factor(dimension))
     }
 
+    /// A label with its unit, which model units have not.
+    pub(super) fn label(&self, quantity: &str, dimension: Dimension) -> String {
+        let unit = self.units.as_ref().filter(|_| dimension != [0, 0]);
+        unit.map_or_else(|| quantity.to_owned(), |units| format!("{quantity} ({})", units.name(dimension)))
+    }
+
+    /// A value in model units as words with its unit; `plain` stands for it where that is of the model.
+    pub(super) fn words(&self, value: f64, dimension: Dimension, plain: &str) -> String {
+        let shown = number(value * self.factor(dimension));
+        self.units
+            .as_ref()
+            .map_or_else(|| format!("{shown}{plain}"), |units| format!("{shown} {}", units.name(dimension)))
+    }
+
+    /// The name of a unit.
+    pub(super) fn words_of(&self, dimension: Dimension) -> String {
+        self.units.as_ref().map_or_else(|| "model length".to_owned(), |units| units.name(dimension))
+    }
+
+    /// Whether figures have physical units.
+    pub(super) fn is_physical(&self) -> bool {
+        self.units.is_some()
+    }
+
+    /// A time in the units of the figures.
+    pub(super) fn time(&self, row: usize) -> f64 {
+        self.column("t")[row] * self.factor(TIME)
+    }
+
+    /// A position in the units of the figures.
     pub(super) fn position(&self, row: usize) -> [f64; 2] {
-        [self.column("x")[row], self.column("y")[row]]
+        [self.column("x")[row], self.column("y")[row]].map(|x| x * self.factor(LENGTH))
     }
 
     /// The shape at a row.
@@ -70,6 +143,7 @@ impl<'d> Body<'d> {
         let [x, y] = self.position(row);
         match self.model.outline(&self.shape(row), self.radius, points) {
             Outline::Curve(curve) => {
+                let scale = scale * self.factor(LENGTH);
                 Some(curve.iter().map(|p| [x + scale * p[0], y + scale * p[1]]).collect())
             }
             Outline::NotACurve { .. } | Outline::NotClosed { .. } => None,

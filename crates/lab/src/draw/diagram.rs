@@ -1,6 +1,6 @@
 //! Scans: phase diagrams, and the largest exponent along one axis.
 
-use super::{FigureFormat, Picture, add, words};
+use super::{Figures, words};
 use crate::scan::{Axis, CellSummary, ScanFolder, cells};
 use motiform_analysis::regime::Regime;
 use motiform_figures::{
@@ -15,24 +15,20 @@ use motiform_study::{Error, ScanPlan};
 /// Points of an analytic line.
 const POINTS: usize = 600;
 
-/// Draws the figures of a scan: `_diagram`, and with one axis `_exponent` if exponents are known (as SVG and PNG, and
-/// PDF if requested). Because of the underscore, readers of all parts as one table ignore them. A scan
-/// without any computed cell gives no pictures.
+/// The figures of a scan: `_diagram`, and with one axis `_exponent` if exponents are known. Because of the underscore, readers of all parts
+/// as one table ignore them. A scan without any computed cell has none.
 ///
 /// # Errors
 /// [`Error::Unreadable`], an unknown model, or numbers that do not fit on an axis.
-pub fn draw_scan(folder: &ScanFolder, format: &FigureFormat) -> Result<Vec<Picture>, Error> {
+pub fn scan_figures(folder: &ScanFolder) -> Result<Figures, Error> {
     let plan = folder.plan();
     let cells: Vec<CellSummary> = cells(folder)?.into_iter().flatten().collect();
-    let mut pictures = Vec::new();
-    if cells.is_empty() {
-        return Ok(pictures);
+    let mut all: Figures = Vec::new();
+    if !cells.is_empty() {
+        all.push(("_diagram", Box::new(phase_diagram(plan, &cells)?)));
+        all.extend(exponents(plan, &cells)?.map(|figure| ("_exponent", Box::new(figure) as _)));
     }
-    add(&mut pictures, "_diagram", &mut phase_diagram(plan, &cells)?, format)?;
-    if let Some(mut figure) = exponents(plan, &cells)? {
-        add(&mut pictures, "_exponent", &mut figure, format)?;
-    }
-    Ok(pictures)
+    Ok(all)
 }
 
 /// The phase diagram of a scan over one or two axes, with the analytic lines if the model is the paper's reduced one.
@@ -84,7 +80,7 @@ pub fn exponents(plan: &ScanPlan, cells: &[CellSummary]) -> Result<Option<ErrorB
         title: format!("{}: largest Lyapunov exponent", plan.title),
         caption,
         x_label: symbol(info, &axis.name),
-        y_label: "*λ*_1 (1/time)".to_owned(),
+        y_label: "*λ*_1".to_owned(),
         series,
         zero_line: true,
         ..ErrorBarFigure::default()
@@ -122,16 +118,21 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary]) -> Vec<Stri
         (samples, false) => format!("{samples} initial states each, {given} and random ones, {random}"),
         (samples, true) => format!("{samples} random initial states each, {random}"),
     };
-    let method = format!("Computed by {}, {}.", words::stepper(&c.stepper), words::control(c.control));
     let varied: Vec<&str> = c.axes.iter().map(|axis| axis.name.as_str()).collect();
-    vec![words::named(info, &c.parameters, &varied, &c.ties), format!("{computed}, {states}. {method}")]
+    vec![words::named(info, &c.parameters, &varied, &c.ties), format!("{computed}, {states}.")]
 }
 
 /// Notation of a parameter in figures, or of a coordinate of the start.
 #[must_use]
 pub fn symbol(info: &ModelInfo, name: &str) -> String {
     let spec = info.parameters().iter().find(|spec| spec.name == name);
-    spec.map_or_else(|| format!("{name} at the start"), |spec| spec.symbol.to_owned())
+    spec.map_or_else(|| format!("initial {}", coordinate(name)), |spec| spec.symbol.to_owned())
+}
+
+/// Notation of a coordinate: *v*_1, *s*_{12}.
+fn coordinate(name: &str) -> String {
+    let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    format!("*{letters}*_{{{}}}", &name[letters.len()..])
 }
 
 /// Cell centres in the order of an axis.

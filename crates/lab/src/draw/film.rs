@@ -1,6 +1,6 @@
 //! The animation of the body.
 
-use super::body::Body;
+use super::body::{Body, LENGTH};
 use super::{path, words};
 use motiform_figures::{Animation, Camera, Frame};
 
@@ -38,8 +38,11 @@ pub(super) fn animation(body: &Body<'_>) -> Animation {
         camera,
         note: match body.model.radius() {
             Some(_) => size,
-            None => format!("*R*_0 = {}, {size}", words::number(body.radius)),
+            None => format!("*R*_0 = {}, {size}", body.words(body.radius, LENGTH, "")),
         },
+        x_label: body.label("*x*", LENGTH),
+        y_label: body.label("*y*", LENGTH),
+        unit: body.words_of(LENGTH),
         ..Animation::default()
     }
 }

@@ -1,7 +1,7 @@
 //! Mean lives of chaos against a parameter, with the laws that were fitted.
 
 use super::diagram::symbol;
-use super::{FigureFormat, Picture, add, words};
+use super::{FigureFormat, Picture, files, words};
 use crate::lifetimes::{LifeAt, Lifetimes};
 use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, Interval, LineStyle, Measured};
 use motiform_models::ModelInfo;
@@ -19,11 +19,9 @@ pub fn draw_lifetimes(
     found: &Lifetimes,
     format: &FigureFormat,
 ) -> Result<Vec<Picture>, Error> {
-    let mut pictures = Vec::new();
-    if found.values.iter().any(|at| at.life.watched > 0.0) {
-        add(&mut pictures, "mean-life", &mut figure(plan, found)?, format)?;
-    }
-    Ok(pictures)
+    let watched = found.values.iter().any(|at| at.life.watched > 0.0);
+    let figure = watched.then(|| figure(plan, found)).transpose()?;
+    files(figure.map(|figure| ("mean-life", Box::new(figure) as _)).into_iter().collect(), false, format)
 }
 
 /// Mean lives with their 95 % intervals on a logarithmic axis, and both laws.
@@ -43,7 +41,7 @@ pub fn figure(plan: &ScanPlan, found: &Lifetimes) -> Result<ErrorBarFigure, Erro
         title: format!("{}: mean life of chaos", plan.title),
         caption: caption(plan, found, info),
         x_label: symbol(info, &found.parameter),
-        y_label: "mean life (model time)".to_owned(),
+        y_label: "mean life".to_owned(),
         series: vec![ErrorBarSeries {
             label: String::new(),
             points: watched().filter_map(point).collect(),
@@ -90,6 +88,5 @@ fn caption(plan: &ScanPlan, found: &Lifetimes, info: &ModelInfo) -> Vec<String> 
             c.seed,
             words::number(found.until)
         ),
-        format!("Computed by {}, {}.", words::stepper(&c.stepper), words::control(c.control)),
     ]
 }

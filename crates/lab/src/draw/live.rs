@@ -26,7 +26,7 @@ pub fn spectrum(plan: &Plan, spectra: &Spectra) -> Result<Option<String>, Error>
     let figure = SpectrumFigure {
         title: format!("{}: power spectrum", plan.title()),
         caption: vec![parameters(plan)?, method],
-        y_label: "power spectral density (value^2 × time)".to_owned(),
+        y_label: "power spectral density".to_owned(),
         frequencies: spectra.frequencies.clone(),
         curves: curves.collect(),
         ..SpectrumFigure::default()
@@ -76,8 +76,8 @@ pub fn exponents(plan: &Plan, history: &[(f64, Vec<Estimate>)]) -> Result<Option
             "Exponents of the motion from the state at the last change, without noise. Bars: 95 % confidence intervals."
                 .to_owned(),
         ],
-        x_label: "averaging time (model time)".to_owned(),
-        y_label: "Lyapunov exponent (inverse model time)".to_owned(),
+        x_label: "averaging time".to_owned(),
+        y_label: "Lyapunov exponent".to_owned(),
         series: (0..count).map(series).filter(|series| !series.points.is_empty()).collect(),
         zero_line: true,
         ..ErrorBarFigure::default()

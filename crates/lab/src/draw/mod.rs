@@ -14,7 +14,7 @@ pub mod words;
 
 use body::Body;
 pub use body::radius_for;
-pub use diagram::{boundary_lines, draw_scan, exponents, phase_diagram, symbol};
+pub use diagram::{boundary_lines, exponents, phase_diagram, scan_figures, symbol};
 use motiform_figures::{Drawn, Figure, FigureError, Style, png};
 use motiform_study::{Dataset, Error, Plan, Ties};
 
@@ -76,7 +76,7 @@ pub fn draw(dataset: &Dataset, format: &FigureFormat) -> Result<Vec<Picture>, Er
     let (film, stills) = std::thread::scope(|scope| {
         let film =
             scope.spawn(|| animated.then(|| film::animation(&body).apng()).transpose().map_err(undrawable));
-        let stills = stills(&body, format);
+        let stills = files(figures(&body), false, format);
         (film.join(), stills)
     });
     let mut pictures = stills?;
@@ -85,12 +85,13 @@ pub fn draw(dataset: &Dataset, format: &FigureFormat) -> Result<Vec<Picture>, Er
     Ok(pictures)
 }
 
-fn stills(body: &Body<'_>, format: &FigureFormat) -> Result<Vec<Picture>, Error> {
-    let mut pictures = Vec::new();
-    for (name, mut figure) in figures(body) {
-        add(&mut pictures, name, figure.as_mut(), format)?;
-    }
-    Ok(pictures)
+/// The still figures of a dataset. None with fewer than two rows.
+///
+/// # Errors
+/// An unknown model.
+pub fn dataset_figures(dataset: &Dataset) -> Result<Figures, Error> {
+    let body = Body::new(dataset)?;
+    Ok(if body.rows().len() < 2 { Vec::new() } else { figures(&body) })
 }
 
 /// The still figures of a dataset with their data, by name: the contents of the files of [`draw`]. None with fewer than two rows.
@@ -98,11 +99,7 @@ fn stills(body: &Body<'_>, format: &FigureFormat) -> Result<Vec<Picture>, Error>
 /// # Errors
 /// As [`draw`].
 pub fn drawn(dataset: &Dataset) -> Result<Vec<(&'static str, Drawn)>, Error> {
-    let body = Body::new(dataset)?;
-    if body.rows().len() < 2 {
-        return Ok(Vec::new());
-    }
-    figures(&body).into_iter().map(|(name, figure)| Ok((name, sheet(figure.as_ref())?))).collect()
+    dataset_figures(dataset)?.into_iter().map(|(name, figure)| Ok((name, sheet(figure.as_ref())?))).collect()
 }
 
 /// One still figure of a dataset as SVG: `path` or `series`; `None` for other names, and with fewer than two rows.
@@ -130,8 +127,8 @@ pub fn film(dataset: &Dataset) -> Result<Option<Vec<u8>>, Error> {
     Ok(if body.rows().len() < 2 { None } else { Some(film::animation(&body).apng().map_err(undrawable)?) })
 }
 
-fn figures(body: &Body<'_>) -> Vec<(&'static str, Box<dyn Figure>)> {
-    let mut all: Vec<(&'static str, Box<dyn Figure>)> =
+fn figures(body: &Body<'_>) -> Figures {
+    let mut all: Figures =
         vec![("path", Box::new(path::figure(body))), ("series", Box::new(series::figure(body)))];
     all.extend(return_map::figure(body).map(|figure| ("return-map", Box::new(figure) as _)));
     all.extend(space_time::figure(body).map(|figure| ("phi", Box::new(figure) as _)));
@@ -139,37 +136,31 @@ fn figures(body: &Body<'_>) -> Vec<(&'static str, Box<dyn Figure>)> {
     all
 }
 
-/// Adds a figure as SVG and PNG, and as PDF if requested; its numbers as CSV are returned.
+/// Figures with their names, which are those of their files.
+pub type Figures = Vec<(&'static str, Box<dyn Figure>)>;
+
+/// Draws figures as SVG and PNG, and as PDF if requested; with `numbers` what they show as CSV, too. A style that leaves out captions leaves
+/// them as text.
 ///
 /// # Errors
 /// [`Error::Figure`]: numbers that do not fit on an axis.
-pub fn add(
-    pictures: &mut Vec<Picture>,
-    name: &str,
-    figure: &mut dyn Figure,
-    format: &FigureFormat,
-) -> Result<String, Error> {
-    let Drawn { svg, data } = format.style.draw(figure).map_err(undrawable)?;
-    let mut push = |ending: &str, bytes| pictures.push(Picture { name: format!("{name}.{ending}"), bytes });
-    push("svg", svg.clone().into_bytes());
-    push("png", png(&svg, format.style.png_scale(), &[]).map_err(undrawable)?);
-    if format.pdf {
-        push("pdf", motiform_figures::pdf(&svg).map_err(undrawable)?);
+pub fn files(figures: Figures, numbers: bool, format: &FigureFormat) -> Result<Vec<Picture>, Error> {
+    let mut pictures = Vec::new();
+    for (name, mut figure) in figures {
+        let Drawn { svg, data, caption } = format.style.draw(figure.as_mut()).map_err(undrawable)?;
+        let mut push =
+            |ending: &str, bytes| pictures.push(Picture { name: format!("{name}.{ending}"), bytes });
+        let dots = png(&svg, format.style.png_scale(), &[]).map_err(undrawable)?;
+        let page = format.pdf.then(|| motiform_figures::pdf(&svg).map_err(undrawable)).transpose()?;
+        push("svg", svg.into_bytes());
+        push("png", dots);
+        page.into_iter().for_each(|page| push("pdf", page));
+        if numbers {
+            push("csv", data.into_bytes());
+        }
+        if let Some(caption) = caption {
+            push("txt", caption.into_bytes());
+        }
     }
-    Ok(data)
-}
-
-/// [`add`] with the numbers as a file, too.
-///
-/// # Errors
-/// As [`add`].
-pub fn add_with_numbers(
-    pictures: &mut Vec<Picture>,
-    name: &str,
-    figure: &mut dyn Figure,
-    format: &FigureFormat,
-) -> Result<(), Error> {
-    let numbers = add(pictures, name, figure, format)?;
-    pictures.push(Picture { name: format!("{name}.csv"), bytes: numbers.into_bytes() });
-    Ok(())
+    Ok(pictures)
 }

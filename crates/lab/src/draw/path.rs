@@ -1,6 +1,6 @@
 //! The path with the body drawn along it.
 
-use super::body::Body;
+use super::body::{Body, LENGTH, TIME};
 use super::words;
 use motiform_figures::{OutlineStamp, PathFigure, PathPoint, SectionLine};
 
@@ -12,7 +12,8 @@ const SPACING_RADII: f64 = 3.2;
 
 pub(super) fn figure(body: &Body<'_>) -> PathFigure {
     let (stamps, missing) = outlines(body);
-    let mut caption = vec![words::parameters(body), words::method(body), words::outlines(body)];
+    let mut caption = words::about(body);
+    caption.push(words::outlines(body));
     if missing > 0 {
         caption.push(format!("{missing} outlines are left out: the shape is no closed curve there."));
     }
@@ -23,7 +24,9 @@ pub(super) fn figure(body: &Body<'_>) -> PathFigure {
         segments: vec![points(body)],
         outlines: stamps,
         section: section(body),
-        ..PathFigure::default()
+        x_label: body.label("*x*", LENGTH),
+        y_label: body.label("*y*", LENGTH),
+        time_label: body.label("*t*", TIME),
     }
 }
 
@@ -53,23 +56,29 @@ fn count(body: &Body<'_>) -> usize {
     if wanted > 0 {
         return usize::try_from(wanted).unwrap_or(usize::MAX);
     }
-    let drawn = body.scale * body.radius;
+    let drawn = body.scale * body.radius * body.factor(LENGTH);
     (body.length() / (SPACING_RADII * drawn)).clamp(2.0, 32.0) as usize
 }
 
 fn section(body: &Body<'_>) -> Option<SectionLine> {
     let map = body.dataset.manifest.plan.computation.return_map.as_ref()?;
-    let shown = body.time(body.rows().start)..=body.time(body.rows().end - 1);
+    let all = body.column("t");
+    let shown = all[body.rows().start]..=all[body.rows().end - 1];
+    let length = body.factor(LENGTH);
     let crossings = body.dataset.crossings.as_ref()?;
     let (times, xs) = (crossings.get("t")?, crossings.get("x")?);
-    let points: Vec<[f64; 2]> =
-        times.iter().zip(xs).filter(|(t, _)| shown.contains(t)).map(|(_, &x)| [x, map.y]).collect();
+    let points: Vec<[f64; 2]> = times
+        .iter()
+        .zip(xs)
+        .filter(|(t, _)| shown.contains(t))
+        .map(|(_, &x)| [x * length, map.y * length])
+        .collect();
     let extent = body.extent();
     let left = map.x_min.max(-extent);
     let right = map.x_max.min(extent);
     Some(SectionLine {
-        from: [left, map.y],
-        to: [right, map.y],
+        from: [left * length, map.y * length],
+        to: [right * length, map.y * length],
         label: "section".to_owned(),
         crossings: points,
     })

@@ -1,6 +1,6 @@
 //! The boundary's field against time and arc length.
 
-use super::body::Body;
+use super::body::{Body, LENGTH, TIME};
 use super::words;
 use motiform_figures::SpaceTimeFigure;
 
@@ -17,17 +17,21 @@ pub(super) fn figure(body: &Body<'_>) -> Option<SpaceTimeFigure> {
     if profiles.len() != rows.len() || rows.len() < 2 {
         return None;
     }
+    let length = body.factor(LENGTH);
     let places = (0..PLACES).rev(); // the first row of a picture is its top
-    let values = places.flat_map(|place| profiles.iter().map(move |profile| profile[place])).collect();
+    let values =
+        places.flat_map(|place| profiles.iter().map(move |profile| profile[place] * length)).collect();
     let last = *rows.last()?;
     Some(SpaceTimeFigure {
         title: format!("{}: *φ*(*s*, *t*)", body.dataset.title()),
-        caption: vec![words::parameters(body), words::method(body)],
+        caption: words::about(body),
         times: (body.time(rows[0]), body.time(last)),
-        places: (0.0, body.arc_length()),
+        places: (0.0, body.arc_length() * length),
         columns: rows.len(),
         rows: PLACES,
         values,
-        ..SpaceTimeFigure::default()
+        x_label: body.label("*t*", TIME),
+        y_label: body.label("*s*", LENGTH),
+        value_label: body.label("*φ*", LENGTH),
     })
 }

@@ -1,13 +1,17 @@
 //! Power spectra of the deformation modes.
 
-use super::body::Body;
+use super::body::{Body, RATE};
 use super::words;
 use motiform_analysis::{Spectrum, welch};
 use motiform_figures::palette::CATEGORIES;
 use motiform_figures::{SpectrumCurve, SpectrumFigure};
+use motiform_study::Dimension;
 
 /// Modes whose spectra are drawn.
 const MODES: usize = 4;
+
+/// The dimension of a spectral density of lengths.
+const DENSITY: Dimension = [2, 1];
 
 /// Minimum number of samples for a spectrum.
 const FEWEST: usize = 256;
@@ -21,7 +25,7 @@ pub(super) fn figure(body: &Body<'_>) -> Option<SpectrumFigure> {
     let curves = spectra.iter().enumerate().map(|(index, spectrum)| SpectrumCurve {
         label: format!("mode {}", index + 1),
         colour: CATEGORIES[index % CATEGORIES.len()],
-        power: spectrum.power.clone(),
+        power: spectrum.power.iter().map(|power| power * body.factor(DENSITY)).collect(),
     });
     let method = format!(
         "Welch's method: {} segments, Hann window, half overlapping; each curve is the sum over the two components of a mode.",
@@ -30,10 +34,10 @@ pub(super) fn figure(body: &Body<'_>) -> Option<SpectrumFigure> {
     Some(SpectrumFigure {
         title: format!("{}: power spectrum", body.dataset.title()),
         caption: vec![words::parameters(body), method],
-        y_label: "power spectral density (length^2 × time)".to_owned(),
-        frequencies: first.frequencies.clone(),
+        x_label: body.label("frequency", RATE),
+        y_label: body.label("power spectral density", DENSITY),
+        frequencies: first.frequencies.iter().map(|frequency| frequency * body.factor(RATE)).collect(),
         curves: curves.collect(),
-        ..SpectrumFigure::default()
     })
 }
 

@@ -1,25 +1,43 @@
 //! Captions: the parameter set, the method, the scale of the drawing. All of it comes from the manifest.
 
-use super::body::Body;
+use super::body::{Body, LENGTH, TIME};
 use motiform_dynamics::Outcome;
 use motiform_models::ModelInfo;
 use motiform_study::Ties;
-use motiform_study::plan::{Control, Named, NoiseSettings};
+use motiform_study::plan::{Named, NoiseSettings};
 use motiform_study::titles::capital;
 pub use motiform_study::titles::number;
 
 /// A non-breaking space.
 const SPACE: char = '\u{a0}';
 
-/// `Tensor model: γ = 1, κ_2 = 0.9, ...; all others 0.`
-pub(super) fn parameters(body: &Body<'_>) -> String {
-    named(body.info, &body.dataset.manifest.plan.computation.parameters, &[], &Ties::default())
+/// The captions of most figures: parameters and what is not seen.
+pub(super) fn about(body: &Body<'_>) -> Vec<String> {
+    [parameters(body), method(body)].into_iter().filter(|words| !words.is_empty()).collect()
 }
+
+/// `Tensor model, in model units: γ = 1, κ_2 = 0.9, ...; all others 0.`
+pub(super) fn parameters(body: &Body<'_>) -> String {
+    let values = &body.dataset.manifest.plan.computation.parameters;
+    let units = match body.is_physical() {
+        true => {
+            format!(", unit of length {}, of time {}", body.words(1.0, LENGTH, ""), body.words(1.0, TIME, ""))
+        }
+        false => MODEL_UNITS.to_owned(),
+    };
+    sentence(body.info, values, (&[], &Ties::default()), &units)
+}
+
+const MODEL_UNITS: &str = ", in model units";
 
 /// The values of a model that are not 0, and the expressions of those that follow from others, as a sentence; `varied` are those that the
 /// figure shows.
 #[must_use]
 pub fn named(info: &ModelInfo, values: &Named, varied: &[&str], ties: &Ties) -> String {
+    sentence(info, values, (varied, ties), MODEL_UNITS)
+}
+
+fn sentence(info: &ModelInfo, values: &Named, (varied, ties): (&[&str], &Ties), units: &str) -> String {
     let specs = info.parameters();
     let value = |name| values.get(name).filter(|&value| value != 0.0).map(number);
     let set: Vec<String> = specs
@@ -30,35 +48,41 @@ pub fn named(info: &ModelInfo, values: &Named, varied: &[&str], ties: &Ties) -> 
         .collect();
     let given = set.len() + specs.iter().filter(|spec| varied.contains(&spec.name)).count();
     let others = if given < specs.len() { format!("; all other parameters{SPACE}0") } else { String::new() };
-    format!("{} model: {}{others}.", capital(info.name), set.join(", "))
+    format!("{} model{units}: {}{others}.", capital(info.name), set.join(", "))
 }
 
-/// How it was computed, and how the run ended if it did not complete.
+/// What of a run is not seen: its noise, its transient, and how it ended if it did not complete.
 pub(super) fn method(body: &Body<'_>) -> String {
     let manifest = &body.dataset.manifest;
     let c = &manifest.plan.computation;
-    let (title, control) = (stepper(&c.stepper), control(c.control));
     let early = manifest.outcome.during.is_some();
     let transient = match c.transient {
         length if early => {
             format!(
-                " The run did not survive its transient of {} time units: shown is its end.",
-                number(length)
+                " The run did not survive its transient of {}: shown is its end.",
+                body.words(length, TIME, " time units")
             )
         }
-        length if length > 0.0 => format!(" The first {} time units are not shown.", number(length)),
+        length if length > 0.0 => {
+            format!(" The first {} are not shown.", body.words(length, TIME, " time units"))
+        }
         _ => String::new(),
     };
     let noise = c.noise.map_or_else(String::new, |noise| self::noise(noise, body.model.velocities(), c.seed));
     let end = match manifest.outcome.outcome {
         Outcome::Completed { .. } => String::new(),
         Outcome::Escaped { t, singular: true, .. } => {
-            format!(" The solution blows up at *t** = {}.", number(t))
+            format!(" The solution blows up at *t** = {}.", body.words(t, TIME, ""))
         }
         other => format!(" The run ended early: {other}."),
     };
     let end = end.replace("*t** =", "*t*\\* =");
-    format!("Computed by {title}, {control}.{noise}{transient}{end}")
+    let noise = if body.is_physical() && !noise.is_empty() {
+        format!("{noise} (Noise is in model units.)")
+    } else {
+        noise
+    };
+    format!("{noise}{transient}{end}{}", before_blow_up(body)).trim_start().to_owned()
 }
 
 /// The noise, its amplitudes and seed.
@@ -77,21 +101,14 @@ fn noise(noise: NoiseSettings, velocities: usize, seed: u64) -> String {
     format!(" White noise of amplitude {of}, seed {seed}.")
 }
 
-/// The name of a stepper, without the kind of its control.
-#[must_use]
-pub fn stepper(name: &str) -> &str {
-    let title = motiform_dynamics::steppers::Method::find(name).map_or(name, |method| method.title());
-    [", fixed step", ", adaptive"].iter().find_map(|kind| title.find(kind)).map_or(title, |at| &title[..at])
-}
-
-/// `tolerances 10^-9 (relative) and 10^-12`, or the step.
-#[must_use]
-pub fn control(control: Control) -> String {
-    match control {
-        Control::Adaptive { rtol, atol } => {
-            format!("relative tolerance {}, absolute {}", number(rtol), number(atol))
-        }
-        Control::Fixed { step } => format!("step {}", number(step)),
+/// Where the figures of a run that blows up end.
+fn before_blow_up(body: &Body<'_>) -> String {
+    match body.cut() {
+        true => format!(
+            " Shown to *t*{SPACE}={SPACE}{}, before the shape leaves the scale.",
+            body.words(body.column("t")[body.rows().end - 1], TIME, "")
+        ),
+        false => String::new(),
     }
 }
 
@@ -105,7 +122,7 @@ pub(super) fn outlines(body: &Body<'_>) -> String {
     if body.model.radius().is_some() {
         return format!("Outlines: the closed boundary, {size}.");
     }
-    let radius = number(body.radius);
+    let radius = body.words(body.radius, LENGTH, "");
     format!("Outlines: *R*_0{SPACE}={SPACE}{radius}, {size}; the deformation itself is not exaggerated.")
 }
 
@@ -114,7 +131,7 @@ pub(super) fn section(body: &Body<'_>) -> Option<String> {
     let manifest = &body.dataset.manifest;
     let map = manifest.plan.computation.return_map.as_ref()?;
     let ends = if map.x_min > -1e300 || map.x_max < 1e300 {
-        format!(", {} < *x* < {}", number(map.x_min), number(map.x_max))
+        format!(", {} < *x* < {}", body.words(map.x_min, LENGTH, ""), body.words(map.x_max, LENGTH, ""))
     } else {
         String::new()
     };
@@ -123,5 +140,8 @@ pub(super) fn section(body: &Body<'_>) -> Option<String> {
     } else {
         ""
     };
-    Some(format!("Section: the segment *y* = {}{ends}, crossed in either direction.{centre}", number(map.y)))
+    Some(format!(
+        "Section: the segment *y* = {}{ends}, crossed in either direction.{centre}",
+        body.words(map.y, LENGTH, "")
+    ))
 }

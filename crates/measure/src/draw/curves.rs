@@ -54,7 +54,7 @@ pub(super) fn autocorrelations(measurement: &Measurement) -> Result<Option<Box<d
     Ok(drawn(BandFigure {
         title: title(measurement, "autocorrelations"),
         caption: caption(measurement, "bands", &[])?,
-        x_label: "lag *τ* (model time)".to_owned(),
+        x_label: "lag *τ*".to_owned(),
         y_label: "*C*(*τ*)/*C*(0)".to_owned(),
         curves: varying.iter().take(CURVES).map(curve).collect(),
         zero_line: true,
@@ -119,7 +119,7 @@ pub(super) fn speeds(measurement: &Measurement) -> Result<Option<Box<dyn Figure>
     Ok(drawn(BandFigure {
         title: title(measurement, "distribution of the speed"),
         caption: caption(measurement, "bands", &[&worth])?,
-        x_label: "speed |***v***| (model length per model time)".to_owned(),
+        x_label: "speed |***v***|".to_owned(),
         y_label: "probability density".to_owned(),
         curves: vec![BandCurve { label: "measured".to_owned(), points: stairs(speeds, 1.0) }],
         zero_line: true,
@@ -173,8 +173,8 @@ pub(super) fn spectra(measurement: &Measurement) -> Result<Option<Box<dyn Figure
     Ok(drawn(BandFigure {
         title: title(measurement, "power spectra"),
         caption,
-        x_label: "frequency (cycles per model time)".to_owned(),
-        y_label: "power spectral density (unit^2 × time)".to_owned(),
+        x_label: "frequency".to_owned(),
+        y_label: "power spectral density".to_owned(),
         curves: found.iter().map(curve).filter(|curve| !curve.points.is_empty()).take(CURVES).collect(),
         logarithmic_x: true,
         logarithmic_y: true,

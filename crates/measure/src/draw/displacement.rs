@@ -45,8 +45,8 @@ pub(super) fn displacements(measurement: &Measurement) -> Result<Option<Box<dyn 
     let figure = ErrorBarFigure {
         title: title(measurement, "mean-square displacement"),
         caption: caption(measurement, "bars", &note.iter().map(String::as_str).collect::<Vec<_>>())?,
-        x_label: "lag *τ* (model time)".to_owned(),
-        y_label: "⟨|***r***(*t*+*τ*) − ***r***(*t*)|^2⟩ (model length^2)".to_owned(),
+        x_label: "lag *τ*".to_owned(),
+        y_label: "⟨|***r***(*t*+*τ*) − ***r***(*t*)|^2⟩".to_owned(),
         lines,
         intervals: intervals.collect(),
         series: vec![measured(shown.iter().map(|p| (p.x, p.y)))],
@@ -138,7 +138,7 @@ pub(super) fn exponents(measurement: &Measurement) -> Result<Option<Box<dyn Figu
     let figure = BandFigure {
         title: title(measurement, "exponent of the mean-square displacement"),
         caption: caption(measurement, "bands", &[])?,
-        x_label: "lag *τ* (model time)".to_owned(),
+        x_label: "lag *τ*".to_owned(),
         y_label: "d ln MSD / d ln *τ*".to_owned(),
         lines,
         curves: vec![BandCurve { label: "measured".to_owned(), points }],
@@ -176,8 +176,8 @@ pub(super) fn passages(measurement: &Measurement) -> Result<Option<Box<dyn Figur
     let figure = ErrorBarFigure {
         title: title(measurement, "mean first-passage time out of a disc"),
         caption: caption(measurement, "bars", &more)?,
-        x_label: "radius *r* (model length)".to_owned(),
-        y_label: "mean first-passage time (model time)".to_owned(),
+        x_label: "radius *r*".to_owned(),
+        y_label: "mean first-passage time".to_owned(),
         series: vec![measured(known.iter().map(|(x, m)| (*x, m.value)))],
         intervals: known.iter().filter_map(interval).collect(),
         lines,

@@ -129,6 +129,7 @@ impl Known {
                 name: lasting(format!("z{n}_abs")),
                 symbol: lasting(format!("|*z*_{n}|")),
                 meaning: lasting(format!("size of the amplitude z{n}")),
+                length: 1,
             }
         };
         let observed: Vec<usize> = others().collect();

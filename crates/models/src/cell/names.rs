@@ -26,23 +26,46 @@ pub(super) const MEASURES: [Observable; 4] = [
         name: "length",
         symbol: "length",
         meaning: "length of the closed boundary, from its tangents",
+        length: 1,
     },
-    Observable { name: "area", symbol: "area", meaning: "area inside the closed boundary" },
+    Observable { name: "area", symbol: "area", meaning: "area inside the closed boundary", length: 2 },
     Observable {
         name: "closure_residual",
         symbol: "closure residual",
         meaning: "|int n ds| / L that closing the boundary left",
+        length: 0,
     },
     Observable {
         name: "self_intersecting",
         symbol: "number of self-intersecting outlines",
         meaning: "1 where the closed boundary crosses itself, else 0",
+        length: 0,
     },
 ];
 
 pub(super) const OBSERVABLES: [Observable; 4] = [
-    Observable { name: "mode1", symbol: "2|*φ*_1|", meaning: "amplitude of mode 1 of phi, 2 |phi_1|" },
-    Observable { name: "mode2", symbol: "2|*φ*_2|", meaning: "amplitude of mode 2 of phi, 2 |phi_2|" },
-    Observable { name: "mode3", symbol: "2|*φ*_3|", meaning: "amplitude of mode 3 of phi, 2 |phi_3|" },
-    Observable { name: "mode4", symbol: "2|*φ*_4|", meaning: "amplitude of mode 4 of phi, 2 |phi_4|" },
+    Observable {
+        name: "mode1",
+        symbol: "2|*φ*_1|",
+        meaning: "amplitude of mode 1 of phi, 2 |phi_1|",
+        length: 1,
+    },
+    Observable {
+        name: "mode2",
+        symbol: "2|*φ*_2|",
+        meaning: "amplitude of mode 2 of phi, 2 |phi_2|",
+        length: 1,
+    },
+    Observable {
+        name: "mode3",
+        symbol: "2|*φ*_3|",
+        meaning: "amplitude of mode 3 of phi, 2 |phi_3|",
+        length: 1,
+    },
+    Observable {
+        name: "mode4",
+        symbol: "2|*φ*_4|",
+        meaning: "amplitude of mode 4 of phi, 2 |phi_4|",
+        length: 1,
+    },
 ];

@@ -125,11 +125,13 @@ const OBSERVABLES: [Observable; 2] = [
         name: "s_norm",
         symbol: "|*S*|",
         meaning: "size of the elliptic deformation, sqrt(S_ij S_ij)",
+        length: 1,
     },
     Observable {
         name: "u_norm",
         symbol: "|*U*|",
         meaning: "size of the three-fold deformation, sqrt(U_ijk U_ijk)",
+        length: 1,
     },
 ];
 

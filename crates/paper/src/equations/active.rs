@@ -238,7 +238,7 @@ fn picture(bounded: &[Ran], active: &[Ran]) -> Result<Drawn, Error> {
         joined: true,
     };
     let figure = ErrorBarFigure {
-        x_label: "*t* (model time)".to_owned(),
+        x_label: "*t*".to_owned(),
         y_label: "potential per length".to_owned(),
         series: vec![
             series(&bounded[2], format!("*g*_4 = 1 with quartic potential, *L* = {}", bounded[2].length)),

@@ -137,7 +137,7 @@ impl Rests {
                 self.time
             )],
             x_label: "amplitude of the noise *η*".to_owned(),
-            y_label: "mean rest (time)".to_owned(),
+            y_label: "mean rest".to_owned(),
             series: vec![ErrorBarSeries {
                 label: "measured".to_owned(),
                 points: self.runs.iter().map(point).collect(),

@@ -211,7 +211,7 @@ fn picture(approach: &Approach, c: f64) -> Result<ReportFigure, Error> {
              balance of the equations, nothing fitted.",
             approach.t_star
         )],
-        x_label: "*t*\\* − *t* (model time)".to_owned(),
+        x_label: "*t*\\* − *t*".to_owned(),
         y_label: "size of the modes".to_owned(),
         series: series.collect(),
         lines: vec![

@@ -93,7 +93,7 @@ fn picture(runs: &[Run], saddles: &[Left], span: f64) -> Result<motiform_report:
              chaotic saddle (growth before the escape, over many runs)."
         )],
         x_label: "κ_2".to_owned(),
-        y_label: "λ_1 (1/time)".to_owned(),
+        y_label: "*λ*_1".to_owned(),
         series,
         lines: vec![ExpectedLine {
             label: "paper: positive below".to_owned(),

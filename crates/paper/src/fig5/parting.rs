@@ -128,7 +128,7 @@ fn picture(all: &[Vec<f64>], lambda: Estimate) -> Result<Drawn, Error> {
     let figure = ErrorBarFigure {
         title: "The growth of a difference of 10^{-8}".to_owned(),
         caption: vec![format!("Mean over {} pairs of starts on the motion, 95 % errors.", all.len())],
-        x_label: "*t* (model time)".to_owned(),
+        x_label: "*t*".to_owned(),
         y_label: "mean of ln(distance)".to_owned(),
         series: vec![ErrorBarSeries { label: "distance of the shapes".to_owned(), points, joined: false }],
         lines: vec![ExpectedLine {

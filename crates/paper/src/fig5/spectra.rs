@@ -61,7 +61,7 @@ fn picture(zigzag: &Spectrum, chaos: &Spectrum) -> Result<Drawn, Error> {
             chaos.segments,
             SEGMENT as f64 * DT
         )],
-        y_label: "power spectral density (speed^2 × time)".to_owned(),
+        y_label: "power spectral density of the speed".to_owned(),
         frequencies: zigzag.frequencies.clone(),
         curves: vec![curve(0, "(a) zigzag", zigzag), curve(1, "(b) chaos", chaos)],
         ..SpectrumFigure::default()

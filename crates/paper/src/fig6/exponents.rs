@@ -43,7 +43,7 @@ impl Exponents {
                 self.span
             )],
             x_label: "length *L*".to_owned(),
-            y_label: "*λ*_1 (inverse model time)".to_owned(),
+            y_label: "*λ*_1".to_owned(),
             series: vec![ErrorBarSeries {
                 label: String::new(),
                 points: self.found.iter().map(point).collect(),

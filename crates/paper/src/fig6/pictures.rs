@@ -77,7 +77,7 @@ fn speeds(lengths: &Lengths) -> Result<Drawn, Error> {
     };
     let figure = ErrorBarFigure {
         x_label: "length *L*".to_owned(),
-        y_label: "mean speed (model length per model time)".to_owned(),
+        y_label: "mean speed".to_owned(),
         series: MOVING.into_iter().map(series).filter(|series| !series.points.is_empty()).collect(),
         logarithmic_y: true,
         ..ErrorBarFigure::default()

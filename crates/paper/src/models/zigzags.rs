@@ -84,7 +84,7 @@ impl Zigzags {
         };
         let figure = ErrorBarFigure {
             x_label: "mode *n*".to_owned(),
-            y_label: "mean |*φ_n*| (model length)".to_owned(),
+            y_label: "mean |*φ_n*|".to_owned(),
             series: self.cells.iter().map(series).collect(),
             ..ErrorBarFigure::default()
         };

@@ -1,0 +1,8 @@
+//! Tests of what readers of figures see.
+
+#![allow(clippy::expect_used, reason = "a test may fail")]
+
+#[path = "../../examples/gallery/kinds.rs"]
+mod kinds;
+mod references;
+mod sizes;
