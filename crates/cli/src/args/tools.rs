@@ -36,7 +36,7 @@ pub(crate) struct CheckOptions {
 
 #[derive(Args)]
 pub(crate) struct FigureOptions {
-    /// Folders written by `motiform simulate`, `scan`, `continue` or `atlas`
+    /// Folders written by `motiform simulate`, `scan`, `continue` or `atlas` (those of other commands are drawn once)
     #[arg(value_name = "DIR", required = true)]
     pub(crate) datasets: Vec<PathBuf>,
     /// Draw figures again that were edited since; the edited ones are kept as NAME.edited.svg. With --out: replace earlier figures there

@@ -94,6 +94,17 @@ fn drawn(path: &Path, options: &FigureOptions) -> anyhow::Result<Vec<Picture>> {
             Ok(draw_curves(&plan, &found, None, &format)?)
         }
         Some(Kind::Atlas) => Ok(draw_atlas(&AtlasFolder::read(path)?, &format)?),
+        Some(
+            Kind::Statistics
+            | Kind::Lifetimes
+            | Kind::Observations
+            | Kind::Fits
+            | Kind::Report
+            | Kind::Figures,
+        ) => {
+            let remedy = "figures of such a folder are not drawn again: give the command that wrote it the options of figures, with --force";
+            Err(Error::Setting { key: "DIR", value: path.display().to_string(), remedy }.into())
+        }
         _ => {
             let dataset = read_dataset_by(path, &|manifest, path| {
                 apply(&options.drawing, &mut manifest.plan.figure);
