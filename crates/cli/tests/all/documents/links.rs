@@ -28,14 +28,14 @@ fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     found
 }
 
-/// The text without blocks of code.
+/// The text without code, in blocks or in a line.
 fn prose(text: &str) -> String {
     let mut fenced = false;
     let mut kept = String::new();
     for line in text.lines() {
         fenced ^= line.starts_with("```");
         if !(fenced || line.starts_with("```")) {
-            kept += line;
+            kept.extend(line.split('`').step_by(2));
             kept.push('\n');
         }
     }

@@ -97,7 +97,7 @@ fn blocks(text: &str) -> Vec<Block> {
                             Some(Block { before: before.clone(), language: Some(language), lines: vec![] });
                     }
                     (None, Some(lines)) => {
-                        open = Some(Block { before: before.clone(), language: None, lines })
+                        open = Some(Block { before: before.clone(), language: None, lines });
                     }
                     (None, None) if !line.trim().is_empty() => before = line.to_owned(),
                     (None, None) => {}
