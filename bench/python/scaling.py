@@ -1,4 +1,4 @@
-"""What a scan costs, and what follows for large ones: `python bench/python/scaling.py [--page docs/scaling.md]`.
+"""What a scan costs, and what follows for large ones: `python bench/python/scaling.py [--page docs/records/scaling.md]`.
 
 Measures seconds per cell, bytes per row, memory and the overhead of executors; asserts that the results are right, and
 never a time. Prints the tables, and with `--page` puts them into the page between its two marks.

@@ -1,5 +1,6 @@
 //! Development tasks: `cargo xtask test`, `cargo xtask deny`.
 
+mod book;
 mod browser;
 mod build_cost;
 mod dist;
@@ -26,6 +27,9 @@ usage: cargo xtask COMMAND
   firefox  all tests of the page in Firefox
   web      the page without a server: the WebAssembly module (needs `rustup target add wasm32-unknown-unknown`), the folder
            docs/site for any static host, and the page as one file, target/motiform.html; none of them is committed
+  book     the book: docs/ as pages for a browser, in target/book; a broken link is an error
+  documents  every command of README.md and docs/, also those that take minutes, and the pictures that they make, compared
+  pictures the same, and the pictures of README.md and docs/ are written again
   python   the Python package: builds it into target/python and runs its tests there
   dist     a wheel, a stripped program and the page without a server, with checksums, in target/dist; the wheel is installed and tried
            where no cargo is
@@ -37,7 +41,7 @@ usage: cargo xtask COMMAND
   build-cost [--runs N] [--write]: a build from an empty cargo folder to the first picture, beside `cargo install ripgrep`, compared
            with budgets.toml; --write renews the table in CONTRIBUTING.md. Needs a quiet machine: six minutes for each run
   mutants  [K/N] [OPTION..]: changes the mathematics in small ways, every N-th possible one from the K-th (0/100), and asks
-           the tests to notice; see docs/mutants.md (needs `cargo install --locked cargo-mutants`)
+           the tests to notice; see docs/records/mutants.md (needs `cargo install --locked cargo-mutants`)
   deny     licences, advisories and sources of the dependencies (needs `cargo install --locked cargo-deny`)";
 
 /// Lints and documentation are checked with all features enabled, so that optional parts are tested too.
@@ -76,6 +80,9 @@ fn run() -> Result<()> {
         Some("firefox") => explorer::test_in_firefox(),
         Some("python") => python::test(),
         Some("web") => web::run(),
+        Some("book") => book::build(),
+        Some("documents") => book::documents(),
+        Some("pictures") => book::pictures(),
         Some("mutants") => mutants::run(&std::env::args().skip(2).collect::<Vec<_>>()),
         Some("dist") => dist::run(),
         Some("emulated") => emulated::run(),
@@ -89,7 +96,8 @@ fn run() -> Result<()> {
 fn everything() -> Result<()> {
     STEPS.iter().try_for_each(|(name, arguments)| cargo(name, arguments))?;
     explorer::test_built()?; // the tests have built the program
-    python::test()
+    python::test()?;
+    book::build() // in the environment of the Python tests
 }
 
 fn help() -> Result<()> {

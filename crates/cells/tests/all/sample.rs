@@ -1,6 +1,6 @@
-//! The sample recording of the documentation: synthetic cells in TrackMate's format. `MOTIFORM_UPDATE=1 cargo test --release -p motiform-cells sample::` writes it.
+//! The sample recordings in `examples/`: synthetic cells in TrackMate's format, and one as a table. `MOTIFORM_UPDATE=1 cargo test --release -p motiform-cells sample::` writes them.
 
-use super::bodies::{outlines, preset};
+use super::bodies::{RADIUS, outlines, preset};
 use super::recordings::{Shape, Walker};
 use motiform_analysis::regime::Regime;
 use motiform_cells::{Sample, observe};
@@ -11,8 +11,40 @@ use std::path::PathBuf;
 
 const FRAMES: usize = 100;
 
-fn path() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/sample-cells.xml")
+fn path(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(name)
+}
+
+/// Compares a recording with that of its generator, or writes it.
+fn kept(name: &str, made: &str) {
+    if std::env::var_os("MOTIFORM_UPDATE").is_some() {
+        std::fs::write(path(name), made).expect("examples can be written");
+    }
+    let stored = std::fs::read_to_string(path(name)).expect("an example");
+    assert!(stored == made, "examples/{name} is not that of this test: MOTIFORM_UPDATE=1 writes it");
+}
+
+/// A chaotic cell (preset fig5b with noise) as a table: 5 um for the unit of length, 10 s for that of time, a frame every 5 s.
+fn crawling() -> String {
+    let study = preset("fig5b", 0.01, (0.5, 300));
+    let mut text = "cell,frame,time [s],x [um],y [um]\n".to_owned();
+    for outline in outlines(&study, RADIUS, 0.01) {
+        for [x, y] in outline.points.iter().step_by(2).map(|point| point.map(|x| 5.0 * x + 100.0)) {
+            _ = writeln!(text, "1,{},{},{x:.2},{y:.2}", outline.frame, 5 * outline.frame);
+        }
+    }
+    text
+}
+
+/// The recording that the documents fit is that of its generator, and is read with its units.
+#[test]
+fn the_recording_for_fits_is_read_with_its_units() {
+    kept("crawling.csv", &crawling());
+    let sample = Sample::read(&[path("crawling.csv")], &Options::default(), &ModeOptions::default())
+        .expect("a sound file");
+    assert_eq!((sample.tracks.length_unit.as_str(), sample.tracks.time_unit.as_str()), ("um", "s"));
+    let [cell] = &sample.tracks.cells[..] else { panic!("{} cells", sample.tracks.cells.len()) };
+    assert_eq!((cell.frames.len(), cell.frames[1].t), (300, 5.0));
 }
 
 /// A cell that circles by the equations, a random walker whose shape fluctuates by itself and of which every tenth frame is missing, and a rod.
@@ -75,12 +107,9 @@ fn trackmate(cells: &[Vec<Outline>]) -> String {
 #[test]
 fn the_sample_recording_is_observed() {
     let made = trackmate(&cells());
-    if std::env::var_os("MOTIFORM_UPDATE").is_some() {
-        std::fs::write(path(), &made).expect("docs can be written");
-    }
-    let stored = std::fs::read_to_string(path()).expect("docs/sample-cells.xml");
-    assert!(stored == made, "docs/sample-cells.xml is not that of this test: MOTIFORM_UPDATE=1 writes it");
-    let sample = Sample::read(&[path()], &Options::default(), &ModeOptions::default()).expect("a sound file");
+    kept("cells.xml", &made);
+    let sample = Sample::read(&[path("cells.xml")], &Options::default(), &ModeOptions::default())
+        .expect("a sound file");
     assert_eq!((sample.tracks.length_unit.as_str(), sample.tracks.time_unit.as_str()), ("um", "s"));
     let found: Vec<_> = sample.cells.iter().map(observe).collect();
     assert_eq!(found.len(), 3);

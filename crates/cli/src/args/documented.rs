@@ -1,15 +1,15 @@
 //! Every command that the documents show is one that the command line takes.
 
 use super::Arguments;
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The pages of the repository that show commands.
 fn pages() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let docs =
-        fs::read_dir(root.join("docs")).expect("documents").map(|entry| entry.expect("an entry").path());
+    let entries = |folder| fs::read_dir(root.join(folder)).expect("documents");
+    let docs = entries("docs").chain(entries("docs/records")).map(|entry| entry.expect("an entry").path());
     docs.filter(|path| path.extension().is_some_and(|end| end == "md"))
         .chain([root.join("README.md")])
         .collect()
@@ -66,4 +66,13 @@ fn the_commands_of_the_documents_are_understood() {
     }
     assert!(count > 60, "{count} commands found");
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Where a help text ends, a page goes on. (That the pages are there is tested with the links of the documents.)
+#[test]
+fn every_help_text_names_a_page() {
+    for mut command in Arguments::command().get_subcommands().cloned() {
+        let help = command.render_long_help().to_string();
+        assert!(help.contains("docs/"), "motiform {} --help", command.get_name());
+    }
 }

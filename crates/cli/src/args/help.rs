@@ -10,7 +10,9 @@ Start here:
   motiform models tensor                        its equations, parameters and presets
 
 Exit codes: 0 success; 1 finished, but some result is not as requested (a run escaped, a motion is undecided); \
-2 invalid input, or a file that cannot be written; 130 interrupted (results computed so far are kept).";
+2 invalid input, or a file that cannot be written; 130 interrupted (results computed so far are kept).
+
+The book: docs/README.md, with a tutorial; docs/options.md has every option.";
 
 pub(super) const SIMULATE_HELP: &str = "\
 Examples:
@@ -34,7 +36,9 @@ The output folder contains
   trajectory.parquet   time, position, shape, speed, turning rate
   path, series         figures, as .svg and .png; motion.png is the animation
   crossings.parquet    and the figure return-map, for studies with a return map
-  fields.h5            phi(s, t) and outlines, and the figures phi and spectrum, for the cell";
+  fields.h5            phi(s, t) and outlines, and the figures phi and spectrum, for the cell
+
+More: docs/recipes.md; the noise: docs/regimes.md; units: docs/units.md.";
 
 pub(super) const SCAN_HELP: &str = "\
 Examples:
@@ -49,7 +53,9 @@ The output folder contains
   part-*.parquet       one row per cell and initial state; pandas.read_parquet(DIR) reads them all
   _diagram             the phase diagram, as .svg and .png; with one axis also _exponent, if exponents are known
 --resume continues a scan that was interrupted or killed. The results do not depend on the number of threads, \
-shards or interruptions. Exit code 1: some cells are undetermined.";
+shards or interruptions. Exit code 1: some cells are undetermined.
+
+More: docs/recipes.md; many nodes: docs/clusters.md.";
 
 pub(super) const CLASSIFY_HELP: &str = "\
 Examples:
@@ -68,7 +74,9 @@ Regimes, by the dynamics of the shape with rotations divided out:
   blow-up                          the shape grows without bound in finite time
   undetermined                     the evidence is inconclusive; the output states what is missing (exit code 1)
 The transient of a preset is ignored: the motion is integrated for longer and longer until the evidence is conclusive.
---samples M reports the shares of the motions with 95 % intervals, what was sampled (--random), and how many starts blow up.";
+--samples M reports the shares of the motions with 95 % intervals, what was sampled (--random), and how many starts blow up.
+
+More: docs/regimes.md.";
 
 pub(super) const CONTINUE_HELP: &str = "\
 Examples:
@@ -99,7 +107,9 @@ The output folder holds
   summary.json         what --json prints
   branches, period     the diagram and the periods against the parameter, as .svg, .png and .csv
   manifest.json        plan, hash, version; branches.json: from where --resume goes on
-Ctrl-C keeps what was followed. The numbers do not depend on interruptions.";
+Ctrl-C keeps what was followed. The numbers do not depend on interruptions.
+
+More: docs/continuation.md.";
 
 pub(super) const ATLAS_HELP: &str = "\
 Examples:
@@ -121,7 +131,9 @@ The output folder contains
   cells.parquet        a row per cell and motion; curves.parquet: a row per point of a curve
   summary.json         what --json prints
   manifest.json        plan, hash, version; atlas.json: from where `motiform figure` draws
-Ctrl-C and kills keep finished cells and lines: --resume goes on, and the numbers are the same. Exit code 1: some cells are undetermined.";
+Ctrl-C and kills keep finished cells and lines: --resume goes on, and the numbers are the same. Exit code 1: some cells are undetermined.
+
+More: docs/atlas.md.";
 
 pub(super) const EQUILIBRIA_HELP: &str = "\
 Examples:
@@ -133,7 +145,9 @@ from sizes about those at which terms of the equations balance (a tenth of the s
 symmetric shapes and from shapes between known ones, until half as many searches as --starts for each unknown (1.5 as many for the cell) in turn \
 find nothing. Nothing proves that these are all.
 share: of the random starts that lead there; 'deflated' and 'mirrored' (the mirror image of another one) are those that no start led to. \
-unstable: number of growing directions; 0 is stable. Mirror images are listed apart.";
+unstable: number of growing directions; 0 is stable. Mirror images are listed apart.
+
+More: docs/continuation.md.";
 
 pub(super) const SECTION_HELP: &str = "\
 Examples:
@@ -141,7 +155,9 @@ Examples:
   motiform section tensor --preset fig5b --at s12=0 --crossings either --t-end 2000 > crossings.csv
   motiform section tensor --preset fig5a --at y=1 --json
 
-Crossings are located to round-off. A table (CSV) goes to standard output; each crossing has the time t, the place x, y, all coordinates of the shape, and rising (1 or 0).";
+Crossings are located to round-off. A table (CSV) goes to standard output; each crossing has the time t, the place x, y, all coordinates of the shape, and rising (1 or 0).
+
+More: docs/recipes.md.";
 
 pub(super) const REPRODUCE_HELP: &str = "\
 Examples:
@@ -151,7 +167,9 @@ Examples:
 The output folder contains report.html (figures, parameters, and for each claim: the statement of the paper, our result, how it was \
 decided, and the reason for any difference), its figures (figure-3b.svg and .png for Fig. 3(b) of the paper, figure-3.1.svg for what is added \
 to Fig. 3, .csv with their numbers), and the underlying scans. The page is written again after each chapter. After Ctrl-C or a kill the same command \
-goes on with the finished chapters. Exit code 1: a claim failed; one that differs or is not judged is no failure.";
+goes on with the finished chapters. Exit code 1: a claim failed; one that differs or is not judged is no failure.
+
+More: docs/recipes.md.";
 
 pub(super) const VERIFY_HELP: &str = "\
 Examples:
@@ -167,7 +185,9 @@ addition, of
   branches, curves     the hash of their plan; points are not computed again
   other results        nothing: their numbers are not computed again
 
-Files that motiform did not write are listed, and are no fault. Exit code 0: intact; 1: not intact.";
+Files that motiform did not write are listed, and are no fault. Exit code 0: intact; 1: not intact.
+
+More: docs/recipes.md.";
 
 pub(super) const LYAPUNOV_HELP: &str = "\
 Examples:
@@ -178,7 +198,9 @@ Examples:
 
 Errors are half widths of 95 % confidence intervals. The exponents that must be zero (those of the flow direction and \
 the rotations) are a self-check. If an average is too short, no error is given and this is reported (exit code 1). A run that escapes has no \
-exponents: use --saddle for the exponent of the chaotic saddle.";
+exponents: use --saddle for the exponent of the chaotic saddle.
+
+More: docs/regimes.md.";
 
 #[cfg(feature = "explorer")]
 pub(super) const EXPLORE_HELP: &str = "\
@@ -192,7 +214,9 @@ The page shows a map of motions over two parameters (click on it), the moving bo
 and Lyapunov exponents, and a slider for every parameter. The server is for this machine only: it listens on \
 127.0.0.1, its address contains a secret, and a page can neither read nor write files. \
 Over ssh: ssh -L 7373:127.0.0.1:7373 HOST. The same page without a server, for any static host and as one \
-file: motiform.html of a release, or `cargo xtask web` in the sources.";
+file: motiform.html of a release, or `cargo xtask web` in the sources.
+
+More: docs/explorer.md.";
 
 pub(super) const FIGURE_HELP: &str = "\
 Examples:
@@ -201,11 +225,15 @@ Examples:
                                                                   a figure as wide as a column
   motiform figure tensor-fig1-scan --style slide --title 'Motions of a domain'
   motiform figure tensor-fig5a tensor-fig5a:series tensor-fig1-scan --panels 3x1 --width 178mm --pdf --out paper
-                                                                  panels (a), (b), (c) of one figure";
+                                                                  panels (a), (b), (c) of one figure
+
+More: docs/gallery.md.";
 
 pub(super) const NEW_HELP: &str = "\
 Examples:
   motiform new mine.toml                    a study: parameters, start, run, map, branch
   motiform new mine.toml --equations        equations of your own
 
-Every command that takes the name of a model takes the file, too: motiform simulate mine.toml";
+Every command that takes the name of a model takes the file, too: motiform simulate mine.toml
+
+More: docs/tutorial.md; equations: docs/equations.md.";

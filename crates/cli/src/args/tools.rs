@@ -36,7 +36,8 @@ pub(crate) struct CheckOptions {
 
 #[derive(Args)]
 pub(crate) struct FigureOptions {
-    /// Folders written by `motiform simulate`, `scan`, `continue` or `atlas`; as a panel also one figure of a folder, such as DIR:series
+    /// Folders written by `motiform simulate`, `scan`, `continue` or `atlas` (those of other commands are drawn once); as a panel also one
+    /// figure of a folder, such as DIR:series
     #[arg(value_name = "DIR", required = true)]
     pub(crate) datasets: Vec<PathBuf>,
     /// Draw figures again that were edited since; the edited ones are kept as NAME.edited.svg. With --out: replace earlier figures there

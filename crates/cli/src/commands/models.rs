@@ -1,6 +1,7 @@
 //! `motiform models`.
 
 use crate::args::ModelsOptions;
+use crate::commands::subject::find_preset;
 use crate::output::{End, print};
 use motiform_dynamics::model::Coordinate;
 use motiform_models::amplitudes::{Definition, Equations, NAME, tensor_form, terms};
@@ -23,10 +24,10 @@ pub(crate) fn run(options: &ModelsOptions) -> anyhow::Result<End> {
     Ok(End::Done)
 }
 
-/// A model of the registry, or that of a study file or of a preset with equations of its own.
+/// A model of the registry, or that of a study file or of a preset.
 fn info(subject: &str) -> anyhow::Result<&'static ModelInfo> {
-    if presets::EXTENSIONS.iter().any(|preset| preset.name == subject) {
-        return Ok(presets::find_any(subject, NAME)?.info()?);
+    if let Some(preset) = find_preset(subject) {
+        return Ok(presets::find_any(preset.name, preset.model)?.info()?);
     }
     let path = Path::new(subject);
     if path.extension().is_some_and(|extension| extension == "toml") {

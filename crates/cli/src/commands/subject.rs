@@ -107,7 +107,7 @@ fn of_preset(name: &str) -> Result<Study, Error> {
 }
 
 /// The preset of this name, whatever its model.
-fn find_preset(name: &str) -> Option<&'static Preset> {
+pub(crate) fn find_preset(name: &str) -> Option<&'static Preset> {
     presets::PRESETS.iter().chain(presets::EXTENSIONS).find(|preset| preset.name == name)
 }
 

@@ -25,7 +25,7 @@ fn digest(bytes: &[u8]) -> u64 {
 fn outputs(line: &str) -> String {
     let folder = Folder::new();
     folder.write("cells.csv", &crate::fits::outlines(1));
-    folder.write("sample-cells.xml", include_str!("../../../../docs/sample-cells.xml"));
+    folder.write("cells.xml", include_str!("../../../../examples/cells.xml"));
     let before = tree(&folder.path(""));
     let mut text = format!("{line}\n");
     for words in line.split(" && ") {

@@ -13,6 +13,7 @@ mod common;
 mod continuation;
 mod contract;
 mod curves;
+mod documents;
 mod drawing;
 mod equations;
 mod explore;

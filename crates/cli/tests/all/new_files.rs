@@ -29,3 +29,13 @@ fn doctor_says_what_is_there() {
     let text = Folder::new().run("doctor").expect(0).stdout;
     assert!(text.contains("motions named a second") && text.contains("ffmpeg"), "{text}");
 }
+
+#[test]
+fn models_takes_a_preset_and_figure_says_what_it_cannot_draw() {
+    let folder = Folder::new();
+    let of_preset = folder.run("models fig5a").expect(0).stdout;
+    assert_eq!(of_preset, folder.run("models tensor").expect(0).stdout);
+    folder.run("statistics tensor --preset fig5a --bodies 8 --t-end 20 --transient 0 --noise 0.1 --out many");
+    let done = folder.run("figure many").expect(2);
+    assert!(done.stderr.contains("many") && done.stderr.contains("not drawn again"), "{}", done.stderr);
+}

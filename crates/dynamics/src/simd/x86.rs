@@ -1,7 +1,7 @@
 //! AVX-512 and AVX2.
 //!
 //! Why: over plain arrays of eight numbers the compiler keeps no kernel of this size in vector registers. One fixed RK4
-//! step of the full tensor model, eight lanes: 320 to 570 ns over arrays, 46 to 54 ns over these registers (docs/lanes.md).
+//! step of the full tensor model, eight lanes: 320 to 570 ns over arrays, 46 to 54 ns over these registers (docs/records/lanes.md).
 //! The crate that offers safe registers uses AVX-512 only from Ice Lake on; what is used here is older (F, DQ, VL).
 //!
 //! Why it is sound: the instructions are called only through [`Zmm`] and [`Ymm`], both private to this module, which

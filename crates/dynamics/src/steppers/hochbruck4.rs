@@ -10,7 +10,7 @@ fn a52(p: &PhiValues) -> f64 {
 /// Order 4 on stiff problems too: five stages meet the conditions for a stiff nonlinearity, four cannot.
 ///
 /// The error is estimated as in [`super::KROGSTAD4`]: in the embedded method of order 3 the slope at the end takes the place of the fourth
-/// stage's, both of which lie at `t + h`. On the active cell see docs/convolution.md.
+/// stage's, both of which lie at `t + h`. On the active cell see docs/records/convolution.md.
 ///
 /// Source: Hochbruck and Ostermann (2005), SIAM J. Numer. Anal. 43, 1069, eq. (5.19); the embedded pair: Whalen, Brio, Moloney (2015),
 /// J. Comput. Phys. 280, 579.

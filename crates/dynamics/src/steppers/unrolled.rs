@@ -2,7 +2,7 @@
 //!
 //! The same sums in the same order as [`super::runge_kutta`], so the same bits. All is written out by the compiler, which
 //! knows the table. Slopes stay in memory and are read where they are needed, some components at a time: left to itself the
-//! compiler keeps them in registers, runs out of these and moves them to and fro (docs/lanes.md).
+//! compiler keeps them in registers, runs out of these and moves them to and fro (docs/records/lanes.md).
 
 use super::DOP853;
 use super::tableau::{ErrorEstimate, Tableau, Term};

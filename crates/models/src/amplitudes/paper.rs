@@ -1,7 +1,7 @@
 //! The list of products of the paper's terms, known when the program is compiled.
 //!
 //! Equations with exactly these terms and real coefficients, whatever their names and values, are evaluated by it: the same operations in the same order, without a
-//! list that is read (docs/lanes.md has what it gains).
+//! list that is read (docs/records/lanes.md has what it gains).
 
 use super::program::{Group, List, Operand, Program, Sum};
 use std::ops::Range;

@@ -74,7 +74,7 @@ fn saturated_amplitudes() {
 /// Steps of `dt` and `dt/2` agree, and 21 modes (64 points) agree with 42 (128 points).
 ///
 /// The shortest waves have `h k^6 >> 1`, so the orders are the stiff ones, between 2 and 3 (Hochbruck and Ostermann 2005,
-/// SIAM J. Numer. Anal. 43, 1069; hochbruck4 too: the nonlinearity has five derivatives of the six, docs/convolution.md), and not the 4 of `dynamics/tests/all/exponential.rs`; the errors are small all the same.
+/// SIAM J. Numer. Anal. 43, 1069; hochbruck4 too: the nonlinearity has five derivatives of the six, docs/records/convolution.md), and not the 4 of `dynamics/tests/all/exponential.rs`; the errors are small all the same.
 #[test]
 fn orbits_converge_in_time_and_space() {
     let fine = cell(21.6, 42.0);

@@ -87,6 +87,8 @@ class Model(Described):
             if `escape_norm` or `max_steps` is given, because an early end is then expected) or ``"raise"`` (``RuntimeError``).
 
         Settings that are not given are those of the model or the preset. Ctrl-C raises :class:`Interrupted` with the shorter trajectory.
+
+        More: docs/recipes.md, units in docs/units.md.
         """
         given = {
             "t_end": t_end, "transient": transient, "dt_out": dt_out, "random": random, "seed": seed, "noise": noise,
@@ -118,6 +120,8 @@ class Model(Described):
 
         The flow preserves exact symmetries, so coordinates that `initial` leaves at zero get random values within `perturb` times its
         largest value (1e-6 if not given; 0 keeps the exact start).
+
+        More: docs/regimes.md.
         """
         study = with_given(self._study, initial, {"random": random, "perturb": perturb, "seed": seed})
         with Bar(progress, budget or self.info.budget, "model time") as bar:
@@ -138,6 +142,8 @@ class Model(Described):
 
         The initial states are random (after the one in `initial`, if given): without `random` they have all directions and
         log-uniform sizes from a hundredth of the model's typical size to the full size.
+
+        More: docs/regimes.md.
         """
         study = with_given(self._study, initial, {"random": random, "seed": seed})
         with Bar(progress, 100.0, "%") as bar:
@@ -156,7 +162,10 @@ class Model(Described):
         on_end: OnEnd = "warn",
         progress: Progress = None,
     ) -> Exponents:
-        """The `count` largest Lyapunov exponents (by default at most 6), with errors, averaged over `t_end`."""
+        """The `count` largest Lyapunov exponents (by default at most 6), with errors, averaged over `t_end`.
+
+        More: docs/regimes.md.
+        """
         study = with_given(self._study, initial, {"random": random, "seed": seed})
         count = min(6, len(study.coordinates())) if count is None else count
         with Bar(progress, 100.0, "%") as bar:
@@ -167,7 +176,10 @@ class Model(Described):
 
     def equilibria(self, *, starts: int = 200, seed: int | None = None, progress: Progress = None) -> list[Equilibrium]:
         """The steady motions (at rest, straight, circular) that Newton's method finds from the circle and from random
-        shapes, and deflation beside them, the most stable first. The list may be incomplete; more `starts` may find more."""
+        shapes, and deflation beside them, the most stable first. The list may be incomplete; more `starts` may find more.
+
+        More: docs/continuation.md.
+        """
         study = with_given(self._study, None, {"seed": seed})
         with Bar(progress, starts, "starts") as bar:
             raw = json.loads(_motiform.equilibria(study, starts, bar.callable()))
@@ -206,6 +218,8 @@ class Model(Described):
         its last state. `direction` says to which sides the start is followed. `branch_step` (0.02) and `first_step` (0.005) are the longest
         and the first step, as parts of the range; Newton's method has converged with a step below `tolerance` (1e-9). With `steady` the
         orbits that begin at Hopf points are not followed.
+
+        More: docs/continuation.md.
         """
         study = with_given(self._study, initial, {"seed": seed})
         name, low, high = range_of("along", along)
@@ -251,6 +265,8 @@ class Model(Described):
         Body k is :meth:`simulate` with the seed ``seed + k``: another random start, and other noise. Those that do not complete are
         left out. `radii` are those of discs that bodies leave; `threshold` is that of the residence times: a quantity (``"speed"``, a mode), or
         one with a value. An interruption raises :class:`Interrupted` with the statistics of the bodies that are finished.
+
+        More: docs/statistics.md.
         """
         if t_end is not None and dt_out is None:
             dt_out = 0.0  # that of a preset is for its own time
@@ -290,6 +306,8 @@ class Model(Described):
 
         `kinds`: hopf, fold, pitchfork, symmetry-breaking, period-doubling, torus. `along` and `across` are parameters with their
         ranges; the branches are followed as by :meth:`branches` along the first one.
+
+        More: docs/continuation.md.
         """
         study = with_given(self._study, initial, {"seed": seed})
         names = [kinds] if isinstance(kinds, str) else list(kinds)
@@ -317,7 +335,10 @@ class Model(Described):
         on_end: OnEnd = "warn",
         progress: Progress = None,
     ) -> Crossings:
-        """The crossings of the orbit with ``coordinate = value``, located to round-off."""
+        """The crossings of the orbit with ``coordinate = value``, located to round-off.
+
+        More: docs/python.md.
+        """
         study = with_given(self._study, initial, {"t_end": t_end, "transient": transient, "seed": seed})
         with Bar(progress, lambda: span(study), "model time") as bar:
             found = _motiform.section(study, coordinate, value, direction, bar.callable())

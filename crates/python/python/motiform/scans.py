@@ -81,6 +81,8 @@ def scan(
 
     The result has the same bits for any threads, workers, interruptions and resumes. Ctrl-C raises :class:`Interrupted` with the
     rows computed so far.
+
+    More: docs/python.md, docs/clusters.md.
     """
     made = None if axes is None else [(name, _axis(name, values)) for name, values in axes.items()]
     study = model._study if random is None else model._study.with_(None, None, {"random": random})

@@ -2,7 +2,7 @@
 //!
 //! A motion is asked for twice: as it is, and after a change that leaves the motion itself as it was (the seed, the tolerance, the number of
 //! modes, a rotation, a reflection, units, silent modes, equations as text, another command). The names must be the same, and the
-//! numbers within their stated errors. Every push runs a sample; `cargo xtask invariances` runs all and writes docs/invariances.md.
+//! numbers within their stated errors. Every push runs a sample; `cargo xtask invariances` runs all and writes docs/records/invariances.md.
 
 mod atlas;
 mod branches;
@@ -120,7 +120,7 @@ fn answers_do_not_depend_on_what_cannot_matter() {
     let text = report(&cases);
     println!("{text}");
     if all() && !named {
-        std::fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/invariances.md"), &text)
+        std::fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/records/invariances.md"), &text)
             .expect("it is writable");
     }
     let wrong = cases.iter().filter(|case| matches!(case.judged, Judged::Contradiction(_))).count();

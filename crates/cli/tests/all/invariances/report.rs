@@ -1,4 +1,4 @@
-//! The table of docs/invariances.md.
+//! The table of docs/records/invariances.md.
 
 use super::Case;
 use super::judge::Judged;
