@@ -1,6 +1,7 @@
 //! The 0-1 test for chaos.
 
 use crate::{Error, Result, checks};
+use motiform_dynamics::order::ascending;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::f64::consts::PI;
@@ -52,7 +53,7 @@ pub fn zero_one(samples: &[f64], seed: u64) -> Result<ZeroOne> {
         let k = correlation(&displacements(samples, c));
         growth.push(k.ok_or_else(|| checks::overflow(samples))?);
     }
-    growth.sort_by(f64::total_cmp);
+    ascending(&mut growth);
     let middle = |at: usize| 0.5 * (growth[at - 1] + growth[at]);
     Ok(ZeroOne { k: middle(50), lower: middle(25), upper: middle(75) })
 }

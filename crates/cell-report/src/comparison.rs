@@ -6,7 +6,7 @@ use crate::outlines::{observed, track};
 use motiform_cells::Units;
 use motiform_cells::{Agreement, Axis, Comparison, Kind, Prediction};
 use motiform_figures::{BandCurve, BandFigure, BandPoint, TrackPanels};
-use motiform_lab::draw::{FigureFormat, Picture, add, sheet};
+use motiform_lab::draw::{FigureFormat, Picture, files, sheet};
 use motiform_report::{Cell, ReportFigure, Section, Table};
 use motiform_study::Error;
 
@@ -47,12 +47,11 @@ pub(crate) fn section(case: &Case<'_>, prediction: &Prediction, units: &Units) -
 
 /// The observed cell beside simulated ones as files, `paths-NAME`: for a slide or a page. None without simulated cells.
 pub(crate) fn pictures(case: &Case<'_>, name: &str, units: &Units) -> Result<Vec<Picture>, Error> {
-    let mut pictures = Vec::new();
-    if let Some(prediction) = case.prediction().filter(|prediction| !prediction.is_unstable()) {
-        let mut paths = side_by_side(case, prediction, units);
-        add(&mut pictures, &format!("paths-{name}"), &mut paths, &FigureFormat::default())?;
-    }
-    Ok(pictures)
+    let Some(prediction) = case.prediction().filter(|prediction| !prediction.is_unstable()) else {
+        return Ok(Vec::new());
+    };
+    let paths = side_by_side(case, prediction, units);
+    files(vec![(format!("paths-{name}"), Box::new(paths))], false, &FigureFormat::default())
 }
 
 fn side_by_side(case: &Case<'_>, prediction: &Prediction, units: &Units) -> TrackPanels {

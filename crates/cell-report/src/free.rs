@@ -4,6 +4,7 @@ use crate::Case;
 use crate::motion::points;
 use crate::numbers::{answer, plain};
 use motiform_cells::{Numbers, Row, Units};
+use motiform_dynamics::order::ascending;
 use motiform_figures::palette::INK;
 use motiform_figures::{BandCurve, BandFigure, Curve, Panel, SeriesFigure};
 use motiform_lab::draw::sheet;
@@ -67,7 +68,7 @@ pub(crate) fn value(numbers: &Numbers, key: &str) -> String {
 /// Speed to the next frame, area and aspect ratio, `None` where the outline is not seen or frames are missing.
 fn series(frames: &[FrameModes], units: &Units) -> SeriesFigure {
     let mut gaps: Vec<f64> = frames.windows(2).map(|pair| pair[1].t - pair[0].t).collect();
-    gaps.sort_unstable_by(f64::total_cmp);
+    ascending(&mut gaps);
     let usual = gaps.get(gaps.len() / 2).copied().unwrap_or(0.0);
     let (mut times, mut rows): (Vec<f64>, Vec<[Option<f64>; 3]>) = (Vec::new(), Vec::new());
     for (k, frame) in frames.iter().enumerate() {

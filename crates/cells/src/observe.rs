@@ -17,6 +17,7 @@ use crate::{CellTrack, Numbers, numbers};
 use measures::Measures;
 use motiform_analysis::regime::Regime;
 use motiform_analysis::symmetry::wrap;
+use motiform_dynamics::order::ascending;
 use motiform_statistics::{Walk, four_digits, with_error};
 use repeats::Repeats;
 use serde::Serialize;
@@ -136,7 +137,7 @@ fn resampled(
 pub fn population_statistics(found: &[Observation]) -> Option<(usize, MotionStatistics)> {
     let all: Vec<_> = found.iter().filter_map(|one| Some(&one.measures.as_ref()?.series)).collect();
     let mut intervals: Vec<f64> = all.iter().map(|series| series.dt).collect();
-    intervals.sort_by(f64::total_cmp);
+    ascending(&mut intervals);
     let usual = *intervals.get(intervals.len() / 2)?;
     let alike = || all.iter().copied().filter(|series| (series.dt / usual - 1.0).abs() < 1e-3);
     Some((alike().count(), statistics::of_records(alike())?))

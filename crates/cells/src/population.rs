@@ -3,6 +3,7 @@
 use crate::{CellFit, Fitted, Observation};
 use motiform_analysis::Share;
 use motiform_dynamics::Normal;
+use motiform_dynamics::order::ascending;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -112,7 +113,7 @@ fn mean(values: &[f64]) -> f64 {
 /// The median: the mean of the middle two of an even number.
 fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
+    ascending(&mut sorted);
     let middle = sorted.len() / 2;
     if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) }
 }
@@ -145,7 +146,7 @@ fn intervals(values: &[f64]) -> [Option<[f64; 2]>; 2] {
     let wider = (n as f64 / (n - 1) as f64).sqrt();
     let [means, medians] = found;
     [(means, mean(values)), (medians, median(values))].map(|(mut resampled, value)| {
-        resampled.sort_by(f64::total_cmp);
+        ascending(&mut resampled);
         let low = (0.025 * RESAMPLES as f64) as usize;
         Some([resampled[low], resampled[RESAMPLES - 1 - low]].map(|end| value + wider * (end - value)))
     })

@@ -7,6 +7,7 @@ use super::plane::Plane;
 use motiform_analysis::{PeriodicOrbit, Regime};
 use motiform_branching::{Branches, Followed};
 use motiform_continuation::{CurvePoint, Degenerate, Motion, Point, Settings, Special, WholeCurve};
+use motiform_dynamics::order::ascending;
 use motiform_figures::{BoundaryLine, LineStyle};
 use motiform_report::Claim;
 use motiform_study::Error;
@@ -231,7 +232,7 @@ fn at_height(line: &[[f64; 2]], height: f64) -> Vec<f64> {
         ((y > height) != (v > height)).then(|| x + (height - y) / (v - y) * (u - x))
     };
     let mut all: Vec<f64> = line.windows(2).filter_map(crossing).collect();
-    all.sort_by(f64::total_cmp);
+    ascending(&mut all);
     all
 }
 

@@ -16,6 +16,7 @@ use super::units::Units;
 use motiform_analysis::RelativeEquilibrium;
 use motiform_analysis::equilibrium::{modes, neutral_direction, rounding};
 use motiform_analysis::linear::{add, apply, eigenvalues, norm, restrict};
+use motiform_dynamics::order::ascending;
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField, Watch, model};
 use nalgebra::DMatrix;
@@ -135,7 +136,7 @@ impl Problem for Equilibria<'_> {
         // that of the solutions, as rates change by their own size over a shape's; fast modes have no part in the slow ones: of the slow half
         let mut sizes: Vec<f64> =
             levels.iter().flatten().map(|level| level.growth.hypot(level.angle)).collect();
-        sizes.sort_by(f64::total_cmp);
+        ascending(&mut sizes);
         TIGHT * sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
     }
 

@@ -2,6 +2,7 @@
 
 use super::normal_form::{Coefficient, NormalForm, Order, Undetermined};
 use motiform_analysis::linear::{add, apply, dot, solve};
+use motiform_dynamics::order::ascending;
 use nalgebra::DMatrix;
 
 /// A size, and its error.
@@ -176,7 +177,7 @@ fn scales(matrix: &DMatrix<f64>) -> Vec<f64> {
     let mut sizes = vec![0.0_f64; rows];
     matrix.iter().enumerate().for_each(|(k, value)| sizes[k % rows] = sizes[k % rows].max(value.abs()));
     let mut sorted = sizes.clone();
-    sorted.sort_by(f64::total_cmp);
+    ascending(&mut sorted);
     let least =
         sorted.windows(2).take(DIRECTIONS).filter(|pair| pair[0] < ZERO * pair[1]).map(|pair| pair[1]);
     let least = least.fold(0.0, f64::max);

@@ -7,6 +7,7 @@ use super::point::{End, Obstruction};
 use super::problem::{Failure, Problem};
 use super::tracer::Tracer;
 use motiform_dynamics::Watch;
+use motiform_dynamics::order::ascending;
 
 /// Length of the first correction that the step is chosen for: the second is about its square. The first grows with the third power of
 /// the step.
@@ -103,7 +104,7 @@ impl<P: Problem> Tracer<P> {
             let Some(levels) = place.levels.first() else { return false };
             let mut sizes: Vec<f64> =
                 levels.iter().map(|level| libm::hypot(level.growth, level.angle)).collect();
-            sizes.sort_by(f64::total_cmp);
+            ascending(&mut sizes);
             let typical = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
             levels.iter().any(|level| level.angle == 0.0 && level.growth.abs() < NEAR * typical)
         };

@@ -25,6 +25,7 @@ pub mod noise;
 mod noise_steps;
 mod noisy_orbit;
 pub mod orbit;
+pub mod order;
 mod outcome;
 pub mod scalar;
 pub mod section;

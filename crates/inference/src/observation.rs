@@ -1,6 +1,7 @@
 //! Observed tracks of shape modes.
 
 use crate::{Error, MOST_MODES, Result};
+use motiform_dynamics::order::ascending;
 use nalgebra::{Cholesky, DMatrix};
 use serde::{Deserialize, Serialize};
 
@@ -44,7 +45,7 @@ impl Track {
     #[must_use]
     pub fn interval(&self) -> f64 {
         let mut gaps: Vec<f64> = self.0.windows(2).map(|pair| pair[1].t - pair[0].t).collect();
-        gaps.sort_by(f64::total_cmp);
+        ascending(&mut gaps);
         gaps.get(gaps.len() / 2).copied().unwrap_or(0.0)
     }
 

@@ -14,6 +14,7 @@ use crate::filter::Frame;
 use crate::identifiability::unbounded;
 use crate::{Fit, Result, StageVelocity, Track, observation, stage_velocities};
 use motiform_dynamics::Complex;
+use motiform_dynamics::order::ascending;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
@@ -200,7 +201,7 @@ fn carried(tracks: &[Track], fit: &Fit) -> Result<Option<Warning>> {
 fn errors_differ(fit: &Fit) -> Option<Warning> {
     let positive = fit.coefficients.iter().filter(|c| c.estimate.error > 0.0);
     let mut ratios: Vec<f64> = positive.map(|c| c.estimate.robust / c.estimate.error).collect();
-    ratios.sort_by(f64::total_cmp);
+    ascending(&mut ratios);
     let ratio = *ratios.get(ratios.len() / 2)?;
     (ratio > ERRORS_DIFFER).then_some(Warning::ErrorsDiffer { ratio })
 }
@@ -234,7 +235,7 @@ fn fastest<const SHAPE: usize>(tracks: &[Track], fit: &Fit) -> f64 {
             rates.push(eigenvalues.iter().map(|z| libm::hypot(z.re, z.im)).fold(0.0, f64::max));
         }
     }
-    rates.sort_by(f64::total_cmp);
+    ascending(&mut rates);
     rates.get(rates.len() / 2).copied().unwrap_or(0.0) / fit.scales.time
 }
 

@@ -1,6 +1,7 @@
 //! Sizes at which the terms of the equations balance.
 
 use crate::linear::norm;
+use motiform_dynamics::order::ascending;
 use motiform_dynamics::{Equivariant, VectorField};
 
 /// Powers of 2 between which sizes are looked at.
@@ -20,7 +21,7 @@ const WHOLE: f64 = 0.1;
 pub fn balances<B: Equivariant + ?Sized>(body: &B, directions: &[Vec<f64>]) -> Vec<f64> {
     let mut sizes: Vec<f64> =
         directions.iter().filter(|ray| norm(ray) > 0.0).flat_map(|ray| along(body, ray)).collect();
-    sizes.sort_by(f64::total_cmp);
+    ascending(&mut sizes);
     sizes
 }
 

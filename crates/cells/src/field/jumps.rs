@@ -1,6 +1,7 @@
 //! Jumps of the stage.
 
 use super::grid::Grid;
+use motiform_dynamics::order::ascending;
 use motiform_tracks::modes::{CellModes, Flag};
 use serde::Serialize;
 
@@ -81,6 +82,6 @@ fn is_flagged(cells: &[CellModes], frame: i64) -> bool {
 }
 
 fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_unstable_by(f64::total_cmp);
+    ascending(&mut values);
     values.get(values.len() / 2).copied()
 }

@@ -1,5 +1,6 @@
 //! Centroids of the frames that are seen, in pieces between stage jumps.
 
+use motiform_dynamics::order::ascending;
 use motiform_inference::Fix;
 use motiform_tracks::modes::{CellModes, Flag, FrameModes};
 
@@ -39,6 +40,6 @@ impl Places {
 
 fn interval(frames: &[FrameModes]) -> f64 {
     let mut gaps: Vec<f64> = frames.windows(2).map(|pair| pair[1].t - pair[0].t).collect();
-    gaps.sort_unstable_by(f64::total_cmp);
+    ascending(&mut gaps);
     gaps.get(gaps.len() / 2).copied().unwrap_or(0.0)
 }

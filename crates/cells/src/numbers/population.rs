@@ -4,6 +4,7 @@ use super::displacement;
 use super::places::Places;
 use super::rows::Dimension;
 use crate::{AtLag, Observation, OverCells, over_cells};
+use motiform_dynamics::order::ascending;
 use serde::Serialize;
 
 /// A number over cells.
@@ -60,7 +61,7 @@ pub fn population_numbers(found: &[Observation]) -> PopulationNumbers {
 fn usual(found: &[Observation]) -> Vec<&Places> {
     let all = || found.iter().map(|one| &one.numbers.places).filter(|places| places.interval > 0.0);
     let mut intervals: Vec<f64> = all().map(|places| places.interval).collect();
-    intervals.sort_unstable_by(f64::total_cmp);
+    ascending(&mut intervals);
     let Some(usual) = intervals.get(intervals.len() / 2).copied() else { return Vec::new() };
     all().filter(|places| (places.interval / usual - 1.0).abs() < 1e-3).collect()
 }

@@ -1,5 +1,6 @@
 //! A curve among simulated ones: a rank test over all its points together.
 
+use motiform_dynamics::order::ascending;
 use serde::{Deserialize, Serialize};
 
 /// A statistic differs below the first p-value, is doubtful below the second.
@@ -101,7 +102,7 @@ impl Envelope {
 fn quantiles(curves: &[&[f64]], points: usize, share: f64) -> Vec<f64> {
     let at = |k: usize| {
         let mut values: Vec<f64> = curves.iter().map(|curve| curve[k]).collect();
-        values.sort_by(f64::total_cmp);
+        ascending(&mut values);
         let place = share * (values.len() - 1) as f64;
         let (below, part) = (place.floor() as usize, place.fract());
         let above = (below + 1).min(values.len() - 1);

@@ -5,6 +5,7 @@
 
 use super::record::Record;
 use crate::observe::step_of;
+use motiform_dynamics::order::ascending;
 use motiform_inference::Track;
 use serde::{Deserialize, Serialize};
 
@@ -183,7 +184,7 @@ impl Asked {
 }
 
 fn quantiles(kind: Kind, mut samples: Vec<f64>) -> Statistic {
-    samples.sort_by(f64::total_cmp);
+    ascending(&mut samples);
     let quantile = |share: &f64| {
         let place = (share / 100.0 * samples.len() as f64) as usize;
         samples.get(place.min(samples.len().saturating_sub(1))).copied().unwrap_or(f64::NAN)

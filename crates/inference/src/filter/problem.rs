@@ -3,6 +3,7 @@
 use super::{LONGEST_GAP, LONGEST_STRIDE};
 use crate::field::{Field, Part};
 use motiform_dynamics::Complex;
+use motiform_dynamics::order::ascending;
 
 /// Parameters of the noise: see [`Theta::logs`].
 pub(crate) const NOISES: usize = 4;
@@ -119,7 +120,7 @@ impl Problem {
         let mut stretches: Vec<Vec<Frame>> = Vec::new();
         let mut last = f64::NEG_INFINITY;
         let mut steps: Vec<f64> = frames.windows(2).map(|pair| pair[1].t - pair[0].t).collect();
-        steps.sort_by(f64::total_cmp);
+        ascending(&mut steps);
         let usual = steps.get(steps.len() / 2).copied().unwrap_or(0.0);
         let longest = Self::longest_gap(usual);
         for frame in frames {

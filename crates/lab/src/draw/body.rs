@@ -1,5 +1,6 @@
 //! The body along its path: the rows that are shown, and the size of the outlines.
 
+use motiform_dynamics::order::ascending;
 use motiform_dynamics::{Model, Outcome, Outline};
 use motiform_models::ModelInfo;
 use motiform_study::table::Table;
@@ -69,7 +70,7 @@ impl<'d> Body<'d> {
     fn leave_out_blow_up(&mut self) {
         let size = |row: usize| self.model.deformation(&self.shape(row));
         let mut usual: Vec<f64> = self.rows().map(size).collect();
-        usual.sort_by(f64::total_cmp);
+        ascending(&mut usual);
         let Some(&median) = usual.get(usual.len() / 2) else { return };
         let end = self.rows().find(|&row| size(row) > LARGE * median).unwrap_or(self.rows.end);
         let end = end.max(self.rows.start + 2).min(self.rows.end);

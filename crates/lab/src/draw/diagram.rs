@@ -3,6 +3,7 @@
 use super::{Figures, words};
 use crate::scan::{Axis, CellSummary, ScanFolder, cells};
 use motiform_analysis::regime::Regime;
+use motiform_dynamics::order::ascending;
 use motiform_figures::{
     BoundaryLine, Cell, ErrorBarFigure, ErrorBarSeries, LineStyle, Measured, PhaseDiagram,
 };
@@ -138,7 +139,7 @@ fn coordinate(name: &str) -> String {
 /// Cell centres in the order of an axis.
 fn sorted(values: &[f64]) -> Vec<f64> {
     let mut values = values.to_vec();
-    values.sort_by(f64::total_cmp);
+    ascending(&mut values);
     values
 }
 

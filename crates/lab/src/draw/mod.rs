@@ -144,7 +144,11 @@ pub type Figures = Vec<(&'static str, Box<dyn Figure>)>;
 ///
 /// # Errors
 /// [`Error::Figure`]: numbers that do not fit on an axis.
-pub fn files(figures: Figures, numbers: bool, format: &FigureFormat) -> Result<Vec<Picture>, Error> {
+pub fn files<N: std::fmt::Display>(
+    figures: Vec<(N, Box<dyn Figure>)>,
+    numbers: bool,
+    format: &FigureFormat,
+) -> Result<Vec<Picture>, Error> {
     let mut pictures = Vec::new();
     for (name, mut figure) in figures {
         let Drawn { svg, data, caption } = format.style.draw(figure.as_mut()).map_err(undrawable)?;

@@ -6,6 +6,7 @@ use crate::analyse;
 use motiform_analysis::{Lyapunov, Regime, Share, Stay, Verdict, escape_limits};
 use motiform_dynamics::Watch;
 use motiform_dynamics::drive::drive;
+use motiform_dynamics::order::ascending;
 use motiform_dynamics::{Outcome, Request, StopOnly};
 use motiform_kernels::Kernel;
 use motiform_study::{Error, Plan};
@@ -114,7 +115,7 @@ impl Escapes {
         }
         let lost = stays.iter().filter(|stay| stay.escaped);
         let mut times: Vec<f64> = lost.clone().map(|stay| stay.time).chain(gone.iter().copied()).collect();
-        times.sort_by(f64::total_cmp);
+        ascending(&mut times);
         Some(Self {
             at_once: gone.len(),
             followed: stays.len(),

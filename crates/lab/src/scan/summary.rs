@@ -2,6 +2,7 @@
 
 use super::{NUMBERS, PartError, Row, ScanFolder, read_part};
 use motiform_analysis::regime::Regime;
+use motiform_dynamics::order::ascending;
 use motiform_study::Error;
 
 /// The total results of a scan, in memory that does not grow with the cells.
@@ -160,7 +161,7 @@ fn motions(rows: &[Row]) -> Vec<Motion> {
 /// The median of the numbers that are defined; NaN if none is.
 fn median(numbers: impl Iterator<Item = f64>) -> f64 {
     let mut defined: Vec<f64> = numbers.filter(|number| !number.is_nan()).collect();
-    defined.sort_by(f64::total_cmp);
+    ascending(&mut defined);
     let middle = defined.len() / 2;
     match defined.len() {
         0 => f64::NAN,

@@ -2,6 +2,7 @@
 
 use super::super::context::Context;
 use motiform_dynamics::drive::drive;
+use motiform_dynamics::order::ascending;
 use motiform_dynamics::{Outcome, Request, Sink};
 use motiform_study::{Error, Plan, Study};
 
@@ -73,7 +74,7 @@ impl Approach {
             .filter(|(t, _)| close(self.t_star - t))
             .map(|(t, sizes)| of(self.t_star - t, *sizes))
             .collect();
-        values.sort_by(f64::total_cmp);
+        ascending(&mut values);
         values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
     }
 

@@ -6,6 +6,7 @@ use super::figure;
 use super::places::{Extent, agreement, places};
 use motiform_analysis::Regime;
 use motiform_chapter::curves::{Curves, Place};
+use motiform_dynamics::order::ascending;
 use motiform_figures::PhaseDiagram;
 use motiform_lab::draw::{phase_diagram, sheet};
 use motiform_lab::scan::Axis;
@@ -204,7 +205,7 @@ fn chaos(places: &[Place]) -> Claim {
 /// Chaos in other rows, which the text does not name: how far it reaches in each.
 fn wedge(places: &[Place]) -> Option<Claim> {
     let mut rows: Vec<f64> = places.iter().map(|place| place.kappa3).collect();
-    rows.sort_by(f64::total_cmp);
+    ascending(&mut rows);
     rows.dedup();
     let end = |row: &f64| {
         let extent =

@@ -9,6 +9,7 @@ use super::tracks::Track;
 use motiform_analysis::Regime;
 use motiform_analysis::symmetry::wrap;
 use motiform_dynamics::Shape;
+use motiform_dynamics::order::ascending;
 use motiform_report::{Cell as Field, Claim, Table};
 use motiform_study::{Dataset, Error};
 
@@ -245,7 +246,7 @@ fn kinds(velocities: &[[f64; 2]]) -> Vec<f64> {
     let mut turns: Vec<f64> =
         peaks.windows(2).map(|pair| wrap(heading(pair[1]) - heading(pair[0])).to_degrees().abs()).collect();
     turns.retain(|turn| *turn > ALIKE); // a leg may have two maxima
-    turns.sort_by(f64::total_cmp);
+    ascending(&mut turns);
     let alike = turns.chunk_by(|a, b| b - a < ALIKE);
     alike.map(|group| group.iter().sum::<f64>() / group.len() as f64).collect()
 }

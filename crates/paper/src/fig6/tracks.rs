@@ -5,6 +5,7 @@ use super::super::fig5::drawings;
 use super::boundary::Boundary;
 use super::lengths::modes_for;
 use motiform_analysis::{Verdict, welch};
+use motiform_dynamics::order::ascending;
 use motiform_report::ReportFigure;
 use motiform_study::{Dataset, Error, Study};
 
@@ -56,7 +57,7 @@ impl Track {
     /// The sizes of the turns from leg to leg, in degrees, smallest first, equal ones (to a degree) once.
     pub(super) fn turns(&self) -> Vec<f64> {
         let mut turns: Vec<f64> = self.verdict.legs.iter().map(|turn| turn.to_degrees().abs()).collect();
-        turns.sort_by(f64::total_cmp);
+        ascending(&mut turns);
         turns.dedup_by(|a, b| (*a - *b).abs() < 1.0);
         turns
     }

@@ -4,6 +4,7 @@ use super::super::claims::{claim, differs};
 use super::super::context::Context;
 use super::super::fig6::Track;
 use motiform_analysis::{Regime, Verdict};
+use motiform_dynamics::order::ascending;
 use motiform_figures::{ErrorBarFigure, ErrorBarSeries, Measured};
 use motiform_lab::draw::sheet;
 use motiform_report::{Claim, ReportFigure};
@@ -95,7 +96,7 @@ impl Zigzags {
 
 fn turns(verdict: &Verdict) -> Vec<f64> {
     let mut turns: Vec<f64> = verdict.legs.iter().map(|turn| turn.to_degrees().abs()).collect();
-    turns.sort_by(f64::total_cmp);
+    ascending(&mut turns);
     turns.dedup_by(|a, b| (*a - *b).abs() < 1.0);
     turns
 }

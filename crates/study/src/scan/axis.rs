@@ -1,6 +1,7 @@
 //! An axis of a scan: a parameter, or a coordinate of the start, and the values it takes.
 
 use crate::Error;
+use motiform_dynamics::order::ascending;
 use motiform_models::spelling::ascii;
 use motiform_models::{ModelInfo, parameters};
 use serde::{Deserialize, Serialize};
@@ -73,7 +74,7 @@ impl Axis {
             return Err(wrong(format!("{value} is not finite: give finite numbers")));
         }
         let mut sorted = self.values.clone();
-        sorted.sort_by(f64::total_cmp);
+        ascending(&mut sorted);
         match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
             Some(twice) => Err(wrong(format!("the value {} occurs twice: give different values", twice[0]))),
             None => Ok(()),

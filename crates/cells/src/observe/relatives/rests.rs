@@ -3,6 +3,7 @@
 use super::super::measures::{Measures, Series};
 use super::Finding;
 use motiform_analysis::{Rests, rests};
+use motiform_dynamics::order::ascending;
 use motiform_inference::Observation;
 use serde::Serialize;
 
@@ -77,11 +78,11 @@ fn displacements(series: &Series, lag: usize) -> Vec<f64> {
 /// The 95 % quantile.
 fn fast(sizes: &[f64]) -> f64 {
     let mut sorted = sizes.to_vec();
-    sorted.sort_by(f64::total_cmp);
+    ascending(&mut sorted);
     sorted[(0.95 * (sorted.len() - 1) as f64) as usize]
 }
 
 pub(super) fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
+    ascending(&mut values);
     values.get(values.len() / 2).copied()
 }

@@ -3,6 +3,7 @@
 use super::super::measures::Series;
 use super::{along_and_across, middles};
 use motiform_analysis::{Spectrum, welch};
+use motiform_dynamics::order::ascending;
 use serde::Serialize;
 
 /// A peak is this many times the median power from half its frequency to twice.
@@ -63,7 +64,7 @@ fn peak(spectrum: &Spectrum, k: usize, total: f64) -> Option<SpectralPeak> {
         return None;
     }
     let mut near = power[(k / 2).max(1)..(2 * k + 1).min(power.len())].to_vec();
-    near.sort_by(f64::total_cmp);
+    ascending(&mut near);
     let prominence = power[k] / near[near.len() / 2];
     let broad = near.len() > 4; // with fewer, the peak is its own background
     let [left, middle, right] =

@@ -1,5 +1,6 @@
 //! The real roots of a cubic.
 
+use motiform_dynamics::order::ascending;
 use std::f64::consts::TAU;
 
 /// Real roots of `x^3 + p x + q`, increasing: Cardano's where there is one, Viete's where there are three, each polished by
@@ -23,7 +24,7 @@ pub(super) fn real_roots(p: f64, q: f64) -> Vec<f64> {
             }
         }
     }
-    roots.sort_by(f64::total_cmp);
+    ascending(&mut roots);
     roots.dedup();
     roots
 }
