@@ -45,13 +45,13 @@ fn the_legend_names_what_is_present() {
     for mut diagram in [diagram(4, 3), diagram(64, 3)] {
         diagram.lines = vec![BoundaryLine { label: "Hopf".into(), style: LineStyle::Dashed, points: vec![] }];
         let svg = text(&diagram);
-        for word in ["zigzag", "circular", "straight", "more than one motion", "Hopf"] {
+        for word in ["zigzag", "circular", "straight", "several motions", "Hopf"] {
             assert!(svg.contains(word), "{word}");
         }
         assert!(!svg.contains("chaotic") && !svg.contains("undetermined"));
         diagram.cells[0].shares = vec![("breathing".into(), 1.0)];
         let svg = text(&diagram);
-        assert!(svg.contains("undetermined") && !svg.contains("more than one motion"));
+        assert!(svg.contains("undetermined") && !svg.contains("several motions"));
     }
 }
 

@@ -2,7 +2,6 @@
 
 use crate::survival::{Duration, MeanTime, mean_time};
 use crate::{Quantity, Tracks};
-use motiform_dynamics::order::ascending;
 use serde::Serialize;
 
 /// How long a quantity stays on one side of a threshold.
@@ -53,7 +52,7 @@ pub fn residence(tracks: &Tracks, quantity: &Quantity, threshold: Option<f64>) -
 
 fn median(sizes: &[Vec<f64>]) -> f64 {
     let mut all: Vec<f64> = sizes.iter().flatten().copied().filter(|x| !x.is_nan()).collect();
-    ascending(&mut all);
+    all.sort_by(f64::total_cmp);
     all[all.len() / 2]
 }
 

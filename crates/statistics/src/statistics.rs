@@ -8,7 +8,6 @@ use crate::{
     Quantity, Residence, Result, Seen, Track, Tracks, Turning, Walk, first_passages, histogram,
     local_exponent, mean_square, persistent_walk, power_spectrum, radii, residence, turning_angles,
 };
-use motiform_dynamics::order::ascending;
 
 /// Bins of the speed.
 const BINS: usize = 40;
@@ -112,7 +111,7 @@ fn discs(settings: &Settings, displacement: &MeanSquare) -> Result<Vec<f64>> {
         return Ok(radii(displacement));
     }
     let mut given = settings.radii.clone();
-    ascending(&mut given);
+    given.sort_by(f64::total_cmp);
     match given.iter().find(|radius| !(**radius > 0.0 && radius.is_finite())) {
         Some(&value) => Err(crate::Error::Setting { key: "radius", value, remedy: "give a radius above 0" }),
         None => Ok(given),

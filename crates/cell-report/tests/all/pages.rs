@@ -117,13 +117,19 @@ fn a_fitted_cell_has_its_motion_place_and_simulations_and_what_is_missing_is_sai
     let cells: Vec<&CellTrack> = sample.cells.iter().collect();
     let options = FitOptions { simulations: 39, draws: 20, drift: false, ..FitOptions::default() };
     let fits: Vec<CellFit> = fit_cells(&cells, &options, 2, &()).unwrap().into_iter().flatten().collect();
-    let files = drawn(&sample, &fits);
-    let names: Vec<&str> = files.iter().map(|file| file.0.as_str()).collect();
+    let (pages, pictures): (Vec<File>, Vec<File>) =
+        drawn(&sample, &fits).into_iter().partition(|file| file.0.ends_with(".html"));
+    let names = |files: &[File]| files.iter().map(|file| file.0.clone()).collect::<Vec<_>>();
     let expected =
         ["report.html", "report-cell-a-_1.html", "report-cell-few----b-.html", "report-cell-none.html"];
-    assert_eq!(names, expected);
-    check(&files);
-    let page = |k: usize| std::str::from_utf8(&files[k].1).unwrap();
+    assert_eq!(names(&pages), expected);
+    assert_eq!(
+        names(&pictures),
+        ["paths-cell-a-_1.png", "paths-cell-a-_1.svg"],
+        "of the fit that was simulated"
+    );
+    check(&pages);
+    let page = |k: usize| std::str::from_utf8(&pages[k].1).unwrap();
     assert!(page(0).contains("speed (µm/s)") && page(0).contains("aspect ratio"));
     for words in [
         "Cell a*_1: chaotic",
