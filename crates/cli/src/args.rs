@@ -115,7 +115,7 @@ pub(crate) enum Command {
     /// Check a result: digests of its files, the hash of its plan, and a sample of rows computed again and compared bit by bit
     #[command(after_help = VERIFY_HELP)]
     Verify(VerifyOptions),
-    /// Redraw the figures of datasets, scans, branches and curves, without computing
+    /// Redraw the figures of a result, without computing it again
     #[command(after_help = FIGURE_HELP)]
     Figure(FigureOptions),
     /// Print shell completions

@@ -77,8 +77,9 @@ fn add<P: Problem>(
         nearly_crosses(problem, &at, bracket.test).then(|| at_crossing(problem, step, &at, watch)).flatten();
     let at = crossing.unwrap_or(at);
     let special = kind(problem, &at, bracket.test);
-    let mut at = if special == Special::BranchPoint { solved(problem, step, at, watch) } else { at };
-    if special == Special::BranchPoint && !matches!(bracket.test, Test::Slope) {
+    let crosses = special == Special::BranchPoint && !is_alone(problem, &at);
+    let mut at = if crosses { solved(problem, step, at, watch) } else { at };
+    if crosses && !matches!(bracket.test, Test::Slope) {
         keep_course(problem, step, &mut at);
     }
     let certificate = certified(problem, step, bracket.test, &at, watch)
@@ -182,7 +183,7 @@ fn without_folds<L>(found: &mut Vec<(Place<L>, Special)>) {
 /// may not.)
 fn name_folds<P: Problem>(problem: &P, found: &mut [(Place<P::Local>, Special)]) {
     for (at, special) in found.iter_mut().filter(|one| one.1 == Special::BranchPoint) {
-        if second(problem, at).is_some_and(|(second, next)| second > NEARLY * next) {
+        if is_alone(problem, at) {
             *special = Special::Fold;
         }
     }
@@ -210,6 +211,11 @@ fn second<P: Problem>(problem: &P, at: &Place<P::Local>) -> Option<(f64, f64)> {
 
 /// Where the second part is smaller than this part of the next one, two branches may cross nearby.
 const NEARLY: f64 = 1e-3;
+
+/// Whether the equations leave one direction only, and clearly so: no other branch crosses here.
+fn is_alone<P: Problem>(problem: &P, at: &Place<P::Local>) -> bool {
+    second(problem, at).is_some_and(|(second, next)| second > NEARLY * next)
+}
 
 /// Whether the place where a branch turns back may be beside a crossing. Solutions are exact to about the tolerance of the equations, but next to a
 /// crossing, at a distance s, the slope is known up to the tolerance divided by s: the place where it vanishes is off by the root of the tolerance.

@@ -11,6 +11,10 @@ const POINTS: usize = 4;
 /// A state is recorded when its ratio is below this multiple of the last recorded one.
 const SPACING: f64 = 0.8;
 
+/// Exponents from one recorded state to the next that differ by more than this part of the largest one follow no law. In a stiff approach the slope of a fast
+/// variable has a large error, and the ratio is that of this error.
+const APART: f64 = 0.3;
+
 /// Follows `r = N / N'` along a run, with `N` the Euclidean norm.
 #[derive(Clone, Debug, Default)]
 pub struct GrowthLaw {
@@ -49,15 +53,18 @@ impl GrowthLaw {
 
     /// The singularity implied by the recorded states, if their growth is faster than exponential.
     ///
-    /// `None` for fewer than two of them, and for exponents outside 0.05..20 (slower growth shows as a ratio that
+    /// `None` for fewer than two of them, where their exponents differ, and for exponents outside 0.05..20 (slower growth shows as a ratio that
     /// hardly shrinks).
     #[must_use]
     pub fn singularity(&self) -> Option<Singularity> {
         let points = &self.points[..self.count];
-        let [.., before, last] = points else { return None };
-        let exponent = (last.1 - before.1) / (before.0 - last.0);
+        let exponents = points.windows(2).map(|pair| (pair[1].1 - pair[0].1) / (pair[0].0 - pair[1].0));
+        let extremes = |(low, high): (f64, f64), q: f64| (low.min(q), high.max(q));
+        let (low, high) = exponents.clone().fold((f64::INFINITY, 0.0), extremes);
+        let exponent = exponents.last()?;
         let t = extrapolate_to_zero(points);
-        ((0.05..20.0).contains(&exponent) && t.is_finite()).then_some(Singularity { t, exponent })
+        let lawful = high - low <= APART * high;
+        (lawful && (0.05..20.0).contains(&exponent) && t.is_finite()).then_some(Singularity { t, exponent })
     }
 }
 

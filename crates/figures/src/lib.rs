@@ -60,8 +60,6 @@ mod tests;
 mod tests_of_measurements;
 #[cfg(test)]
 mod tests_of_phase_diagrams;
-#[cfg(test)]
-mod tests_of_widths;
 mod text;
 pub mod ticks;
 mod track_panels;

@@ -5,6 +5,7 @@ use super::error::{FigureError, Result};
 use super::figure::Figure;
 use super::geometry::{Point, Rect};
 use super::room::Room;
+use super::style::PER_POINT;
 use super::svg::Svg;
 
 /// Width of a panel where the sheet has no width, in pixels.
@@ -13,7 +14,7 @@ const MARGIN: f64 = 14.0;
 /// Room above a panel for its letter, beside its legend, in pixels.
 const LETTER: f64 = 17.0;
 /// Millimetres on paper in a unit of a drawing.
-const MILLIMETRES: f64 = 25.4 / 72.0 / 1.5;
+const MILLIMETRES: f64 = 25.4 / 72.0 / PER_POINT;
 /// What widths of sheets are rounded up by, at most.
 const ROUNDED: f64 = 4.0;
 /// How often the panels are laid out until their frames are aligned.

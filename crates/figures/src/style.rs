@@ -19,7 +19,7 @@ pub enum Medium {
 /// Title, caption and width of figures.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Style {
-    /// Where they are shown; what is given beside it has the last word.
+    /// Where they are shown. It sets the width, the title and the caption that are not given below.
     pub medium: Option<Medium>,
     /// Title in place of the figure's own (markup; an empty one leaves the line out).
     pub title: Option<String>,
@@ -41,7 +41,7 @@ pub enum Width {
 }
 
 /// Units of a drawing per point on paper: its text of 12 units has 8 pt.
-const PER_POINT: f64 = 1.5;
+pub(crate) const PER_POINT: f64 = 1.5;
 
 /// Width of a column of a journal in millimetres.
 const COLUMN: f64 = 86.0;

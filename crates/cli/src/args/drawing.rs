@@ -45,7 +45,7 @@ pub(crate) struct StyleOptions {
     #[arg(long)]
     pub(crate) no_caption: bool,
     /// Where the figures are shown: journal (86 mm wide, title and caption beside them as NAME.txt) or slide (1920 pixels, its caption
-    /// as NAME.txt); other options of figures have the last word
+    /// as NAME.txt); --width, --title and --no-caption change it
     #[arg(long = "style", value_name = "STYLE", value_enum)]
     pub(crate) medium: Option<ShownIn>,
     /// Width of the figures: 86mm or 3.4in (laid out for it, with text of 8 pt), slide (1920 pixels, with text of 18 pt), or

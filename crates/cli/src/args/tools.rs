@@ -56,10 +56,16 @@ pub(crate) struct FigureOptions {
     pub(crate) drawing: DrawingOptions,
 }
 
+/// Most panels of a figure: one for each letter.
+const LETTERS: usize = 26;
+
 fn grid(text: &str) -> Result<[usize; 2], String> {
-    let number = |text: &str| text.trim().parse().ok().filter(|count| (1..=9).contains(count));
+    let number = |text: &str| text.trim().parse().ok().filter(|count| (1..=LETTERS).contains(count));
     let sides = text.split_once(['x', '×']).and_then(|(a, b)| Some([number(a)?, number(b)?]));
-    sides.ok_or_else(|| format!("{text:?} is not COLUMNSxROWS: write it like 2x2, each from 1 to 9"))
+    let lettered = sides.filter(|[columns, rows]| columns * rows <= LETTERS);
+    lettered.ok_or_else(|| {
+        format!("{text:?} is not COLUMNSxROWS: write it like 2x2, with at most {LETTERS} panels, (a) to (z)")
+    })
 }
 
 #[derive(Args)]

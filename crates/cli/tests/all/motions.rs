@@ -177,3 +177,18 @@ fn short_averages_have_no_error() {
     let said = folder.run(words).expect(1).stdout;
     assert!(said.contains("(no error)") && said.contains("too short"), "{said}");
 }
+
+/// Far out this body grows by a factor of e in each 1/30 of a time, and its velocity follows a million times faster. The slopes of such an approach
+/// have large errors, and a law through them once gave singularities at 15.95 to 17.55, depending on the tolerance.
+#[test]
+fn a_blow_up_without_a_singularity_has_one_time() {
+    let escape = |rtol: &str| {
+        let words =
+            "tensor --preset fig4 --set a2=0.2 --set b3=0 --set d3=0 --set kappa2=-0.2 --set kappa3=-0.2";
+        let found = classified(&format!("{words} --rtol {rtol}"));
+        assert_eq!(found["regime"], "blow-up");
+        assert!(!found["why"].as_str().unwrap().contains("singularity"), "{found}");
+        found["escape_time"].as_f64().unwrap()
+    };
+    assert!((escape("1e-8") - escape("1e-10")).abs() < 1e-3);
+}

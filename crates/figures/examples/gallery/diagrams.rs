@@ -1,10 +1,9 @@
-//! Phase diagrams, error bars, survival curves.
+//! Phase diagrams and error bars.
 
 use std::path::Path;
 
 use motiform_figures::{
-    BoundaryLine, Cell, ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured, PhaseDiagram,
-    REGIMES, SurvivalCurve, SurvivalFigure, SurvivalStep,
+    BoundaryLine, Cell, ErrorBarFigure, ErrorBarSeries, LineStyle, Measured, PhaseDiagram, REGIMES,
 };
 
 use super::{Outcome, noise, save};
@@ -16,9 +15,7 @@ pub(super) fn draw(folder: &Path) -> Outcome {
     save(folder, "strip_130", &strip(130).svg()?)?;
     save(folder, "strip_12", &strip(12).svg()?)?;
     save(folder, "exponent", &exponent().svg()?)?;
-    save(folder, "exponent_many", &exponent_many().svg()?)?;
-    save(folder, "rest_time", &rest_time().svg()?)?;
-    save(folder, "survival", &survival().svg()?)
+    save(folder, "exponent_many", &exponent_many().svg()?)
 }
 
 fn axis(from: f64, to: f64, count: usize) -> Vec<f64> {
@@ -122,58 +119,4 @@ fn exponent_many() -> ErrorBarFigure {
     figure.series = (0..6).map(line).collect();
     figure.title = "All markers, small numbers".into();
     figure
-}
-
-fn rest_time() -> ErrorBarFigure {
-    let value = |i: usize| {
-        let sigma = 10f64.powf(-8.0 + 0.5 * i as f64);
-        let mean = 40.0 - 3.1 * sigma.ln() + 4.0 * (noise(i) - 0.5);
-        (sigma, mean, 3.0)
-    };
-    ErrorBarFigure {
-        title: "Mean rest time against noise amplitude".into(),
-        caption: vec!["200 runs each; error bars: standard error of the mean.".into()],
-        x_label: "noise amplitude *σ* (model length per model time^{1/2})".into(),
-        y_label: "mean rest time (model time)".into(),
-        series: vec![ErrorBarSeries {
-            label: "runs".into(),
-            points: measured((0..14).map(value)),
-            joined: false,
-        }],
-        lines: vec![ExpectedLine {
-            label: "expected slope -1/*λ*_u, *λ*_u = 0.32".into(),
-            style: LineStyle::Dashed,
-            points: vec![[1e-9, 40.0 + 3.1 * 9.0 * 10f64.ln()], [1.0, 40.0]],
-        }],
-        logarithmic_x: true,
-        ..ErrorBarFigure::default()
-    }
-}
-
-fn survival() -> SurvivalFigure {
-    let curve = |label: &str, count: usize, mean: f64| {
-        let step = |i: usize| {
-            let share = (count - i) as f64 / count as f64;
-            let error = 1.96 * (share * (1.0 - share) / count as f64).sqrt();
-            SurvivalStep { t: -mean * share.ln(), share, low: share - error, high: (share + error).min(1.0) }
-        };
-        let last = SurvivalStep { t: mean * (count as f64).ln() + mean, share: 0.0, low: 0.0, high: 0.0 };
-        SurvivalCurve {
-            label: label.into(),
-            steps: (0..count).map(step).chain([last]).collect(),
-            end: mean * (count as f64).ln() + mean,
-        }
-    };
-    SurvivalFigure {
-        title: "How long runs last".into(),
-        caption: vec!["200 and 40 runs; bands: 95 %.".into()],
-        x_label: "*t* (1000 model times)".into(),
-        curves: vec![curve("*κ*_2 = 0.9", 200, 1.3), curve("*κ*_2 = 0.95", 40, 2.9)],
-        lines: vec![ExpectedLine {
-            label: "exponential law, mean 1.3".into(),
-            style: LineStyle::Dashed,
-            points: vec![[0.0, 1.0], [13.0, (-10f64).exp()]],
-        }],
-        ..SurvivalFigure::default()
-    }
 }

@@ -11,8 +11,7 @@ use std::path::Path;
 use motiform_figures::palette::{BLUE, CATEGORIES, GREEN, VERMILION};
 use motiform_figures::{
     Animation, Camera, Curve, DEFAULT_SCALE, Frame, Medium, OutlineStamp, Panel, PathFigure, PathPoint,
-    ReturnMapFigure, SectionLine, SeriesFigure, SpaceTimeFigure, SpectrumCurve, SpectrumFigure, Style, Width,
-    png,
+    SectionLine, SeriesFigure, SpaceTimeFigure, SpectrumCurve, SpectrumFigure, Style, Width, png,
 };
 
 /// Drawing may fail, writing may fail: an example just says which.
@@ -27,8 +26,7 @@ fn main() -> Outcome {
     std::fs::create_dir_all(folder)?;
     paths(folder)?;
     save(folder, "series", &series().svg()?)?;
-    save(folder, "return_map_dense", &return_map(20_000).svg()?)?;
-    save(folder, "return_map_sparse", &return_map(60).svg()?)?;
+    save(folder, "return_map_dense", &kinds::return_map(20_000).svg()?)?;
     fields(folder)?;
     spectra(folder)?;
     diagrams::draw(folder)?;
@@ -266,19 +264,4 @@ fn spectra(folder: &Path) -> Outcome {
         save(folder, name, &figure.svg()?)?;
     }
     Ok(())
-}
-
-fn return_map(count: usize) -> ReturnMapFigure {
-    let mut x = 0.3;
-    let mut step = || {
-        let old = x;
-        x = 3.9 * x * (1.0 - x);
-        [6.0 * old - 3.0, 6.0 * x - 3.0]
-    };
-    ReturnMapFigure {
-        title: "Return map of the section *y* = 3".into(),
-        caption: vec!["Crossings upward with |*x*| < 3; *κ*_2 = 0.5, *κ*_3 = 0.1.".into()],
-        points: (0..count).map(|_| step()).collect(),
-        ..ReturnMapFigure::default()
-    }
 }

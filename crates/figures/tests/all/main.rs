@@ -2,7 +2,7 @@
 
 #![allow(clippy::expect_used, reason = "a test may fail")]
 
-#[path = "../../examples/gallery/kinds.rs"]
+#[path = "../../examples/gallery/kinds/mod.rs"]
 mod kinds;
 mod references;
 mod sizes;

@@ -54,7 +54,7 @@ impl<'d> Body<'d> {
             radius: 1.0,
             scale: 1.0,
         };
-        if matches!(dataset.manifest.outcome.outcome, Outcome::Escaped { singular: true, .. }) {
+        if matches!(dataset.manifest.outcome.outcome, Outcome::Escaped { .. }) {
             body.leave_out_blow_up();
         }
         body.radius = match body.model.radius() {
@@ -66,7 +66,7 @@ impl<'d> Body<'d> {
         Ok(body)
     }
 
-    /// Leaves out what comes after the shape is so large that nothing before would be seen beside it.
+    /// Ends the rows that are shown where the shape is ten times its median size: beside later rows the motion before would not be visible.
     fn leave_out_blow_up(&mut self) {
         let size = |row: usize| self.model.deformation(&self.shape(row));
         let mut usual: Vec<f64> = self.rows().map(size).collect();
