@@ -140,6 +140,11 @@ impl Axes {
         self.tick_label_width() + TICK_LENGTH + 12.0 + LINE * self.y_label.len() as f64
     }
 
+    /// Length of the longest line of the y label, along the axis: a lower frame leaves it no room.
+    pub(crate) fn label_length(&self) -> f64 {
+        self.y_label.iter().map(|line| line.width(LABEL_SIZE)).fold(0.0, f64::max)
+    }
+
     /// The same axes with the frame moved to a left edge.
     #[must_use]
     pub fn moved_to(mut self, x: f64) -> Self {

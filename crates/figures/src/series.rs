@@ -82,8 +82,11 @@ impl SeriesFigure {
         let between: f64 = own.iter().skip(1).map(|row| row.legend.height() + GAP).sum();
         let share = |height: f64| room.height().map_or(height, |_| (height - between) / own.len() as f64);
         let first = room.frame([WIDTH, HEIGHT], beside(&own));
-        let [width, height] = room.frame([WIDTH, HEIGHT], beside(&self.rows([first[0], share(first[1])])));
-        let panel_height = share(height);
+        let tight = self.rows([first[0], share(first[1])]);
+        let [width, height] = room.frame([WIDTH, HEIGHT], beside(&tight));
+        // labels have been broken into lines as far as they can be
+        let longest = tight.iter().map(|row| row.axes.label_length()).fold(0.0, f64::max);
+        let panel_height = room.height().map_or(height, |_| share(height).max(longest));
         let rows = self.rows([width, panel_height]);
         let margin = margin(&rows);
         let (left, inner) = (MARGIN + margin, margin + width + 16.0);
